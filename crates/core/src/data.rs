@@ -1,0 +1,113 @@
+//! `Data`: the state, the inputs and everything computed from them. The struct comes from the field table.
+
+use crate::fields::data_fields;
+use crate::model::define;
+use crate::{Model, reflect};
+
+macro_rules! define_data {
+    ($($rows:tt)*) => { define! {
+        /// State, inputs and results of a simulation, field by field as MuJoCo's `mjData`.
+        #[allow(non_snake_case)] // MuJoCo's names: M, qLD
+        Data {
+            /// Detected contacts of the last position stage.
+            pub contact: Vec<Contact>,
+            /// Warnings since the last reset, by [`Warning`].
+            pub warning: [WarningStat; Warning::COUNT],
+        }
+        $($rows)*
+    } };
+}
+data_fields!(define_data);
+
+/// A detected contact.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Contact {
+    /// Distance of the nearest points, m; negative is penetration.
+    pub dist: f64,
+    /// Midpoint between the two surfaces, m, world.
+    pub pos: [f64; 3],
+    /// Rows: the normal from geom 1 to geom 2 and two tangents, world.
+    pub frame: [f64; 9],
+    /// Distance at which the contact starts to push, m.
+    pub includemargin: f64,
+    /// Friction: two sliding, spinning, two rolling.
+    pub friction: [f64; 5],
+    /// Time constant and damping ratio, or -stiffness and -damping.
+    pub solref: [f64; 2],
+    /// Impedance.
+    pub solimp: [f64; 5],
+    /// Regularized friction coefficient of the cone.
+    pub mu: f64,
+    /// Dimension of the contact space: 1 or 3.
+    pub dim: usize,
+    /// The geom with the smaller type.
+    pub geom1: usize,
+    /// The other geom.
+    pub geom2: usize,
+    /// 0 included, 1 in the gap, 3 no degree of freedom affected.
+    pub exclude: u8,
+    /// First row in the constraint arrays, `None` when not included.
+    pub efc_address: Option<usize>,
+}
+
+/// Warnings of the simulation, in MuJoCo's order (mjtWarning).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)] // `text` says what each means
+pub enum Warning {
+    Inertia,
+    ContactFull,
+    ConstraintFull,
+    BadQpos,
+    BadQvel,
+    BadQacc,
+    BadCtrl,
+}
+
+impl Warning {
+    /// Number of kinds.
+    pub const COUNT: usize = 7;
+    /// All kinds, in order.
+    pub const ALL: [Warning; Warning::COUNT] = [
+        Warning::Inertia,
+        Warning::ContactFull,
+        Warning::ConstraintFull,
+        Warning::BadQpos,
+        Warning::BadQvel,
+        Warning::BadQacc,
+        Warning::BadCtrl,
+    ];
+
+    /// Short name: MuJoCo's, without the prefix and in lower case.
+    pub fn name(self) -> &'static str {
+        match self {
+            Warning::Inertia => "inertia",
+            Warning::ContactFull => "contactfull",
+            Warning::ConstraintFull => "cnstrfull",
+            Warning::BadQpos => "badqpos",
+            Warning::BadQvel => "badqvel",
+            Warning::BadQacc => "badqacc",
+            Warning::BadCtrl => "badctrl",
+        }
+    }
+}
+
+/// How often a warning was raised.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WarningStat {
+    /// Number of times since the last reset.
+    pub number: usize,
+    /// The index that caused it last: a coordinate or a degree of freedom.
+    pub lastinfo: usize,
+    /// Time of the first occurrence, s, before any automatic reset.
+    pub first_time: f64,
+}
+
+impl Data {
+    /// Data for a model, at the default configuration. Nothing is computed yet: call `mj_forward`.
+    pub fn new(m: &Model) -> Data {
+        let mut d = Data::default();
+        reflect::allocate_data(m, &mut d);
+        crate::reset::reset_data(m, &mut d);
+        d
+    }
+}

@@ -1,0 +1,223 @@
+//! `Model`: what does not change while a simulation runs. The structs come from the field table.
+
+use crate::fields::{model_fields, option_fields, statistic_fields};
+
+macro_rules! define {
+    ($(#[$meta:meta])* $struct:ident { $($extra:tt)* }
+     $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, Default, PartialEq)]
+        pub struct $struct {
+            $(#[doc = $doc] pub $name: $ty,)*
+            $($extra)*
+        }
+    };
+}
+pub(crate) use define;
+
+macro_rules! define_model {
+    ($($rows:tt)*) => { define! {
+        /// A compiled model: sizes, constants, options and names, field by field as MuJoCo's `mjModel`.
+        #[allow(non_snake_case)] // MuJoCo's names: dof_M0, M_rowadr, nC
+        Model {
+            /// Options of the simulation.
+            pub opt: Options,
+            /// Statistics.
+            pub stat: Statistic,
+            /// Names of the objects.
+            pub names: Names,
+        }
+        $($rows)*
+    } };
+}
+macro_rules! define_options {
+    ($($rows:tt)*) => { define! {
+        /// Options of the simulation, `model.opt`. The default is all zeros: see `Options::mujoco`.
+        Options {}
+        $($rows)*
+    } };
+}
+macro_rules! define_statistic {
+    ($($rows:tt)*) => { define! {
+        /// Statistics of the model, `model.stat`.
+        Statistic {}
+        $($rows)*
+    } };
+}
+model_fields!(define_model);
+option_fields!(define_options);
+statistic_fields!(define_statistic);
+
+impl Options {
+    /// MuJoCo 3.14.0's defaults.
+    pub fn mujoco() -> Options {
+        Options {
+            timestep: 0.002,
+            impratio: 1.0,
+            tolerance: 1e-8,
+            ls_tolerance: 0.01,
+            gravity: [0.0, 0.0, -9.81],
+            o_margin: 0.0,
+            o_solref: [0.02, 1.0],
+            o_solimp: [0.9, 0.95, 0.001, 0.5, 2.0],
+            o_friction: [1.0, 1.0, 0.005, 0.0001, 0.0001],
+            integrator: integrator::EULER,
+            cone: 0,
+            solver: 2,
+            iterations: 100,
+            ls_iterations: 50,
+            disableflags: 0,
+            enableflags: 0,
+        }
+    }
+
+    /// Whether a part of the simulation is switched off; `bit` is one of [`disable`].
+    pub fn disabled(&self, bit: i32) -> bool {
+        self.disableflags & bit != 0
+    }
+
+    /// Whether an optional part is switched on; `bit` is one of [`enable`].
+    pub fn enabled(&self, bit: i32) -> bool {
+        self.enableflags & bit != 0
+    }
+}
+
+/// Values of `opt.integrator`.
+pub mod integrator {
+    /// Semi-implicit Euler, implicit in joint damping.
+    pub const EULER: i32 = 0;
+    /// Runge-Kutta of fourth order.
+    pub const RK4: i32 = 1;
+}
+
+/// Bits of `opt.disableflags` (mjtDisableBit).
+#[allow(missing_docs)] // each is named after the part that it switches off
+pub mod disable {
+    pub const CONSTRAINT: i32 = 1;
+    pub const EQUALITY: i32 = 1 << 1;
+    pub const FRICTIONLOSS: i32 = 1 << 2;
+    pub const LIMIT: i32 = 1 << 3;
+    pub const CONTACT: i32 = 1 << 4;
+    pub const SPRING: i32 = 1 << 5;
+    pub const DAMPER: i32 = 1 << 6;
+    pub const GRAVITY: i32 = 1 << 7;
+    pub const CLAMPCTRL: i32 = 1 << 8;
+    pub const WARMSTART: i32 = 1 << 9;
+    pub const FILTERPARENT: i32 = 1 << 10;
+    pub const ACTUATION: i32 = 1 << 11;
+    pub const REFSAFE: i32 = 1 << 12;
+    pub const SENSOR: i32 = 1 << 13;
+    pub const MIDPHASE: i32 = 1 << 14;
+    pub const EULERDAMP: i32 = 1 << 15;
+    pub const AUTORESET: i32 = 1 << 16;
+    pub const NATIVECCD: i32 = 1 << 17;
+    pub const ISLAND: i32 = 1 << 18;
+    pub const MULTICCD: i32 = 1 << 19;
+}
+
+/// Bits of `opt.enableflags` (mjtEnableBit).
+#[allow(missing_docs)] // each is named after the part that it switches on
+pub mod enable {
+    pub const OVERRIDE: i32 = 1;
+    pub const ENERGY: i32 = 1 << 1;
+    pub const FWDINV: i32 = 1 << 2;
+    pub const INVDISCRETE: i32 = 1 << 3;
+    pub const SLEEP: i32 = 1 << 4;
+    pub const DIAGEXACT: i32 = 1 << 5;
+}
+
+/// Values of `jnt_type`.
+#[allow(missing_docs)] // the joint types
+pub mod joint {
+    pub const FREE: i32 = 0;
+    pub const BALL: i32 = 1;
+    pub const SLIDE: i32 = 2;
+    pub const HINGE: i32 = 3;
+
+    /// Number of coordinates of a joint of this type.
+    pub fn nq(kind: i32) -> usize {
+        match kind {
+            FREE => 7,
+            BALL => 4,
+            _ => 1,
+        }
+    }
+
+    /// Number of degrees of freedom of a joint of this type.
+    pub fn nv(kind: i32) -> usize {
+        match kind {
+            FREE => 6,
+            BALL => 3,
+            _ => 1,
+        }
+    }
+}
+
+/// Values of `geom_type`.
+#[allow(missing_docs)] // the geom types
+pub mod geom {
+    pub const PLANE: i32 = 0;
+    pub const SPHERE: i32 = 2;
+}
+
+/// Kinds of named objects, with MuJoCo's numbers (mjtObj).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)] // the object kinds
+pub enum Obj {
+    Body = 1,
+    XBody = 2,
+    Joint = 3,
+    Dof = 4,
+    Geom = 5,
+    Site = 6,
+    Camera = 7,
+    Light = 8,
+    Tendon = 18,
+    Actuator = 19,
+    Sensor = 20,
+    Key = 24,
+}
+
+/// Names by object kind, in id order; an object without a name has the empty string.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[allow(missing_docs)] // one list per object kind
+pub struct Names {
+    pub model: String,
+    pub body: Vec<String>,
+    pub joint: Vec<String>,
+    pub geom: Vec<String>,
+    pub site: Vec<String>,
+    pub camera: Vec<String>,
+    pub light: Vec<String>,
+    pub tendon: Vec<String>,
+    pub actuator: Vec<String>,
+    pub sensor: Vec<String>,
+    pub key: Vec<String>,
+}
+
+impl Names {
+    /// All names of one kind.
+    pub fn of(&self, kind: Obj) -> &[String] {
+        match kind {
+            Obj::Body | Obj::XBody => &self.body,
+            Obj::Joint => &self.joint,
+            Obj::Dof => &[],
+            Obj::Geom => &self.geom,
+            Obj::Site => &self.site,
+            Obj::Camera => &self.camera,
+            Obj::Light => &self.light,
+            Obj::Tendon => &self.tendon,
+            Obj::Actuator => &self.actuator,
+            Obj::Sensor => &self.sensor,
+            Obj::Key => &self.key,
+        }
+    }
+
+    /// The id of a named object (`mj_name2id`), `None` when there is no such name.
+    pub fn id(&self, kind: Obj, name: &str) -> Option<usize> {
+        if name.is_empty() {
+            return None;
+        }
+        self.of(kind).iter().position(|n| n == name)
+    }
+}
