@@ -1,8 +1,11 @@
 //! `Data`: the state, the inputs and everything computed from them. The struct comes from the field table.
 
 use crate::fields::data_fields;
+use crate::constraint::{Islands, Jacobian, Scratch};
+use crate::math::Vec3;
 use crate::model::define;
-use crate::{Model, reflect};
+use crate::plan::{Demand, Plan};
+use crate::{Model, collision, pipeline, reset};
 
 macro_rules! define_data {
     ($($rows:tt)*) => { define! {
@@ -13,6 +16,10 @@ macro_rules! define_data {
             pub contact: Vec<Contact>,
             /// Warnings since the last reset, by [`Warning`].
             pub warning: [WarningStat; Warning::COUNT],
+            /// Which stages run; see `set_plan`.
+            pub(crate) plan: Plan,
+            /// Intermediate results that are nobody's business, kept so that steps do not allocate.
+            pub(crate) work: Work,
         }
         $($rows)*
     } };
@@ -102,12 +109,76 @@ pub struct WarningStat {
     pub first_time: f64,
 }
 
+/// Intermediate results of the stages.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Work {
+    /// Pairs of geoms to test.
+    pub(crate) pairs: Vec<collision::Pair>,
+    /// Jacobian of the constraints.
+    pub(crate) jac: Jacobian,
+    /// Columns and linear velocities of one contact's Jacobian.
+    pub(crate) cols: Vec<u32>,
+    pub(crate) lin: Vec<Vec3>,
+    pub(crate) islands: Islands,
+    pub(crate) solver: Scratch,
+    /// Spatial accelerations and forces of bodies.
+    pub(crate) cacc: Vec<f64>,
+    pub(crate) cfrc: Vec<f64>,
+    /// M v.
+    pub(crate) mv: Vec<f64>,
+    /// Factorization of M + h B, and the acceleration it gives.
+    pub(crate) ld: Vec<f64>,
+    pub(crate) diag_inv: Vec<f64>,
+    pub(crate) qacc: Vec<f64>,
+    pub(crate) rk: RungeKutta,
+}
+
+/// What a Runge–Kutta step keeps between its stages.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct RungeKutta {
+    /// The state and acceleration at the start of the step.
+    pub(crate) qpos: Vec<f64>,
+    pub(crate) qvel: Vec<f64>,
+    pub(crate) warmstart: Vec<f64>,
+    /// Weighted sums of the stages' slopes, and the velocity of one stage.
+    pub(crate) dpos: Vec<f64>,
+    pub(crate) dvel: Vec<f64>,
+    pub(crate) slope: Vec<f64>,
+}
+
 impl Data {
-    /// Data for a model, at the default configuration. Nothing is computed yet: call `mj_forward`.
+    /// Data for a model, at the default configuration. Nothing is computed yet: call `forward`.
+    ///
+    /// The plan allows any field to be read or written at any time: see `Data::planned` for less work.
     pub fn new(m: &Model) -> Data {
-        let mut d = Data::default();
-        reflect::allocate_data(m, &mut d);
-        crate::reset::reset_data(m, &mut d);
+        Data::planned(m, Plan::new(m, &Demand::ANY))
+    }
+
+    /// Data that computes only what a plan keeps.
+    pub fn planned(m: &Model, plan: Plan) -> Data {
+        let mut d = Data::unplanned(m);
+        pipeline::set_plan(m, &mut d, plan);
         d
+    }
+
+    /// Data with the full pipeline and no collision pairs.
+    pub(crate) fn unplanned(m: &Model) -> Data {
+        let mut d = Data { plan: Plan::full(), ..Data::default() };
+        let w = &mut d.work;
+        w.cacc = vec![0.0; 6 * m.nbody];
+        w.cfrc = vec![0.0; 6 * m.nbody];
+        w.ld = vec![0.0; m.nC];
+        w.rk.qpos = vec![0.0; m.nq];
+        let rk = &mut w.rk;
+        for v in [&mut w.mv, &mut w.diag_inv, &mut w.qacc, &mut rk.qvel, &mut rk.warmstart, &mut rk.dpos, &mut rk.dvel, &mut rk.slope] {
+            *v = vec![0.0; m.nv];
+        }
+        reset::reset_data(m, &mut d);
+        d
+    }
+
+    /// The plan that decides what is computed.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
     }
 }

@@ -86,6 +86,10 @@ macro_rules! model_fields {
         dof_invweight0: Vec<f64>, [nv], Derived, SetConst, "1/kg or 1/(kg m^2)", "diagonal of the inverse inertia at qpos0";
         dof_M0: Vec<f64>, [nv], Derived, SetConst, "kg or kg m^2", "diagonal of the mass matrix at qpos0";
 
+        // Kinematic trees: their degrees of freedom are contiguous.
+        tree_dofadr: Vec<i32>, [ntree], Structure, SetConst, "", "first degree of freedom of the tree";
+        tree_dofnum: Vec<i32>, [ntree], Structure, SetConst, "", "number of degrees of freedom of the tree";
+
         // Pattern of the mass matrix: lower triangle by rows, ancestors first, the diagonal last.
         M_rownnz: Vec<i32>, [nv], Structure, Compile, "", "number of non-zeros of each row of the mass matrix";
         M_rowadr: Vec<i32>, [nv], Structure, Compile, "", "address of each row of the mass matrix";

@@ -1,14 +1,52 @@
 //! A rigid-body engine with MuJoCo 3.14.0's semantics. It knows nothing of labs or expressions.
+//!
+//! ```
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let model = labspec_core::mjcf::compile(
+//!     "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='0.05'/></body></worldbody></mujoco>",
+//! )
+//! .map_err(|errors| errors[0].message.clone())?;
+//! let mut data = labspec_core::Data::new(&model);
+//! for _ in 0..100 {
+//!     labspec_core::step(&model, &mut data);
+//! }
+//! assert!((data.time - 0.2).abs() < 1e-12);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Where things live: `mjcf` reads models, `fields` is the one table of what exists, `pipeline` is the order
+//! of the stages, and every stage is a module of its own.
 #![forbid(unsafe_code)]
 
+mod collision;
+mod com;
+mod constraint;
 mod data;
+mod energy;
 mod fields;
+mod integrate;
+mod jacobian;
+mod kinematics;
+mod mass;
+pub mod math;
+pub mod mjcf;
 mod model;
+mod passive;
+mod pipeline;
+pub mod plan;
 pub mod reflect;
+mod reset;
+mod rne;
+pub mod sensor;
+mod setconst;
 
+pub use collision::{can_collide, contact_force};
 pub use data::{Contact, Data, Warning, WarningStat};
+pub use integrate::integrate_pos;
+pub use mass::full_m;
 pub use model::{Model, Names, Obj, Options, Statistic, disable, enable, geom, integrator, joint};
-
-mod reset {
-    pub(crate) fn reset_data(_m: &crate::Model, _d: &mut crate::Data) {}
-}
+pub use pipeline::{forward, set_plan, step};
+pub use plan::{Demand, Plan};
+pub use reset::{reset_data, reset_data_keyframe};
+pub use setconst::set_const;

@@ -202,8 +202,8 @@ trait Cell {
     const ELEM: Elem;
     fn view(&self) -> View<'_>;
     fn view_mut(&mut self) -> ViewMut<'_>;
-    /// Gives an array `n` zero elements; a scalar or a fixed array is left as it is.
-    fn allocate(&mut self, _n: usize) {}
+    /// Gives an array `n` zero elements, and numbers of fixed shape the value zero. Sizes stay as they are.
+    fn allocate(&mut self, n: usize);
 }
 
 macro_rules! cells {
@@ -212,6 +212,7 @@ macro_rules! cells {
             const ELEM: Elem = Elem::$variant;
             fn view(&self) -> View<'_> { View::$variant(std::slice::from_ref(self)) }
             fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(std::slice::from_mut(self)) }
+            fn allocate(&mut self, _: usize) { *self = <$t>::default(); }
         }
         impl Cell for Vec<$t> {
             const ELEM: Elem = Elem::$variant;
@@ -226,6 +227,7 @@ macro_rules! cells {
             const ELEM: Elem = Elem::$variant;
             fn view(&self) -> View<'_> { View::$variant(self) }
             fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(self) }
+            fn allocate(&mut self, _: usize) { *self = [<$t>::default(); N]; }
         }
     )* };
 }
@@ -239,6 +241,7 @@ impl Cell for usize {
     fn view_mut(&mut self) -> ViewMut<'_> {
         ViewMut::Fixed
     }
+    fn allocate(&mut self, _: usize) {}
 }
 
 macro_rules! reflect {
@@ -367,7 +370,8 @@ pub(crate) fn allocate_model(m: &mut Model) {
     }
 }
 
-/// Gives every array of the data the length that its shape says, filled with zeros.
+/// Gives every array of the data the length that its shape says, filled with zeros; time and the like become
+/// zero, too. Allocates only the first time.
 pub(crate) fn allocate_data(m: &Model, d: &mut Data) {
     for i in 0..DATA_COUNT {
         let n = length(m, FieldId((DATA_AT + i) as u16));

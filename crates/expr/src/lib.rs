@@ -1,1 +1,57 @@
-//! placeholder
+//! The accessor language of lessons: text in, typed program out.
+//!
+//! A lesson writes the side-effect-limited core of JavaScript: `data.qpos[2]`, `model.opt.timestep = 0.02`,
+//! `ctx.peak = Math.max(ctx.peak || 0, data.qvel[2])`. This crate parses such a text, resolves every name
+//! against the [`Schema`] of a host, checks indexes, kinds and signatures, and compiles it to a [`Program`]
+//! that runs against a [`Host`] without looking at a string again. It knows nothing of physics: what exists,
+//! what may be written and what a function does is the host's to say.
+//!
+//! | stage | module | result |
+//! |---|---|---|
+//! | text to tokens | `lex` (nom) | tokens with byte spans |
+//! | tokens to tree | `parse` | [`ast`], always, with the mistakes beside it |
+//! | tree to meaning | `bind` | typed tree of `ir`, every name resolved |
+//! | meaning to code | `lower` | [`Program`]: flat operations on registers |
+//! | running | `vm` | a [`Value`], or a [`RuntimeError`] |
+//!
+//! Values are JavaScript's to the last bit: see [`Value`] and the `math` module. Parsing and compiling never
+//! fail: they return what was understood and a list of [`Diagnostic`]s.
+
+pub mod ast;
+pub mod code;
+
+mod bind;
+mod diagnostic;
+mod effects;
+mod globals;
+mod ir;
+mod lex;
+mod lower;
+mod math;
+mod number;
+mod operators;
+mod parse;
+mod print;
+mod program;
+mod schema;
+mod suggest;
+mod value;
+mod vm;
+
+#[cfg(test)]
+mod mock;
+#[cfg(test)]
+mod tests;
+
+pub use bind::{Compiled, Compiler};
+pub use diagnostic::{Diagnostic, Fix, Parsed, Severity, Span};
+pub use effects::{Access, Effects};
+pub use globals::{Globals, ProgramId};
+pub use parse::{MAX_DEPTH, MAX_SOURCE, parse_expression, parse_statements};
+pub use print::{print, print_statements};
+pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
+pub use schema::{
+    CollectionId, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Param, Schema, Touch, Type,
+};
+pub use suggest::closest;
+pub use value::Value;

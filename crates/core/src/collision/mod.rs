@@ -1,0 +1,86 @@
+//! Collision detection: which geoms touch, where, and with which contact parameters.
+
+mod filter;
+mod params;
+mod primitive;
+
+pub use filter::can_collide;
+pub(crate) use filter::Pair;
+pub(crate) use filter::candidate_pairs;
+
+use crate::math::*;
+use crate::{Contact, Data, Model, geom};
+
+/// What a pair function knows of one touching point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Touch {
+    /// Distance of the surfaces, negative when they overlap, m.
+    pub(crate) dist: f64,
+    /// Midpoint between the surfaces, m, world.
+    pub(crate) pos: Vec3,
+    /// Unit normal from geom 1 to geom 2, world.
+    pub(crate) normal: Vec3,
+}
+
+/// `contact`, `ncon`: tests the candidate pairs of the plan in their order.
+#[inline(never)]
+pub(crate) fn collide(m: &Model, d: &mut Data) {
+    d.contact.clear();
+    let pairs = std::mem::take(&mut d.work.pairs);
+    for &pair in &pairs {
+        if can_collide(m, pair.geom1 as usize, pair.geom2 as usize) {
+            narrow(m, d, pair);
+        }
+    }
+    d.work.pairs = pairs;
+    d.ncon = d.contact.len();
+}
+
+/// No contacts: they are switched off.
+pub(crate) fn none(d: &mut Data) {
+    d.contact.clear();
+    d.ncon = 0;
+}
+
+/// The exact test of one pair.
+fn narrow(m: &Model, d: &mut Data, pair: Pair) {
+    let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
+    let reach = params::reach(m, g1, g2);
+    let touch = match (m.geom_type[g1], m.geom_type[g2]) {
+        (geom::PLANE, geom::SPHERE) => primitive::plane_sphere(m, d, g1, g2, reach),
+        (geom::SPHERE, geom::SPHERE) => primitive::sphere_sphere(m, d, g1, g2, reach),
+        _ => None,
+    };
+    if let Some(t) = touch {
+        let contact = params::contact(m, g1, g2, t);
+        d.contact.push(contact);
+    }
+}
+
+/// Normal and two tangents as rows. The tangents start from the world's y axis, or z when the normal is
+/// near y.
+pub(crate) fn frame(normal: Vec3) -> Mat3 {
+    let seed = if normal[1] < 0.5 && normal[1] > -0.5 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    let (t1, _) = normalize(add_scaled(seed, normal, -dot(seed, normal)));
+    let t2 = cross(normal, t1);
+    [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
+}
+
+/// Force and torque of a contact in the contact's frame: normal, two tangents, then three torques
+/// (`mj_contactForce`), N and N m. Zero when the contact has no constraint.
+pub fn contact_force(m: &Model, d: &Data, contact: &Contact) -> [f64; 6] {
+    let mut out = [0.0; 6];
+    let Some(row) = contact.efc_address else { return out };
+    if contact.dim == 1 {
+        out[0] = d.efc_force[row];
+        return out;
+    }
+    debug_assert_eq!(m.opt.cone, 0);
+    // Pyramid: each edge pushes along n ± μ t.
+    for k in 0..contact.dim - 1 {
+        let (plus, minus) = (d.efc_force[row + 2 * k], d.efc_force[row + 2 * k + 1]);
+        out[0] += plus + minus;
+        out[1 + k] = (plus - minus) * contact.friction[k];
+    }
+    out
+}

@@ -1,0 +1,77 @@
+//! Contact parameters from those of two geoms: priority, mixing, margin.
+
+use super::{Touch, frame};
+use crate::math::*;
+use crate::{Contact, Model, enable};
+
+/// Smallest friction coefficient of a contact.
+const MINMU: f64 = 1e-5;
+
+/// Distance up to which a contact of the pair is detected, m.
+#[inline]
+pub(super) fn reach(m: &Model, g1: usize, g2: usize) -> f64 {
+    margin(m, g1, g2) + m.geom_gap[g1] + m.geom_gap[g2]
+}
+
+#[inline]
+fn margin(m: &Model, g1: usize, g2: usize) -> f64 {
+    if m.opt.enabled(enable::OVERRIDE) { m.opt.o_margin } else { m.geom_margin[g1] + m.geom_margin[g2] }
+}
+
+/// A contact of the pair at `touch`.
+///
+/// The geom of higher priority decides alone. At equal priority condim and friction are the larger of the
+/// two, solref and solimp their mean weighted by `solmix` (the smaller solref when one is in the direct,
+/// negative format).
+pub(super) fn contact(m: &Model, g1: usize, g2: usize, touch: Touch) -> Contact {
+    let (solref, solimp) = (rows::<2>(&m.geom_solref), rows::<5>(&m.geom_solimp));
+    let friction3 = rows::<3>(&m.geom_friction);
+    let (p1, p2) = (m.geom_priority[g1], m.geom_priority[g2]);
+    let (dim, slide_spin_roll, mut reference, mut impedance);
+    if p1 != p2 {
+        let g = if p1 > p2 { g1 } else { g2 };
+        (dim, slide_spin_roll, reference, impedance) = (m.geom_condim[g], friction3[g], solref[g], solimp[g]);
+    } else {
+        dim = m.geom_condim[g1].max(m.geom_condim[g2]);
+        slide_spin_roll = std::array::from_fn(|i| friction3[g1][i].max(friction3[g2][i]));
+        let mix = mix(m.geom_solmix[g1], m.geom_solmix[g2]);
+        let blend = |a: f64, b: f64| mix * a + (1.0 - mix) * b;
+        reference = if solref[g1][0] > 0.0 && solref[g2][0] > 0.0 {
+            std::array::from_fn(|i| blend(solref[g1][i], solref[g2][i]))
+        } else {
+            std::array::from_fn(|i| solref[g1][i].min(solref[g2][i]))
+        };
+        impedance = std::array::from_fn(|i| blend(solimp[g1][i], solimp[g2][i]));
+    }
+    let [slide, spin, roll] = slide_spin_roll;
+    let mut friction = [slide, slide, spin, roll, roll];
+    if m.opt.enabled(enable::OVERRIDE) {
+        (friction, reference, impedance) = (m.opt.o_friction, m.opt.o_solref, m.opt.o_solimp);
+    }
+    let includemargin = margin(m, g1, g2);
+    Contact {
+        dist: touch.dist,
+        pos: touch.pos,
+        frame: frame(touch.normal),
+        includemargin,
+        friction: friction.map(|f| f.max(MINMU)),
+        solref: reference,
+        solimp: impedance,
+        mu: 0.0,
+        // Anything but frictionless slides until torsional and rolling friction exist.
+        dim: if dim <= 1 { 1 } else { 3 },
+        geom1: g1,
+        geom2: g2,
+        exclude: u8::from(touch.dist >= includemargin),
+        efc_address: None,
+    }
+}
+
+/// Weight of the first of two `solmix`.
+fn mix(a: f64, b: f64) -> f64 {
+    match (a >= MINVAL, b >= MINVAL) {
+        (true, true) => a / (a + b),
+        (false, false) => 0.5,
+        (first, _) => f64::from(u8::from(first)),
+    }
+}

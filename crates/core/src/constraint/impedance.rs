@@ -1,0 +1,124 @@
+//! From `solref` and `solimp` to the stiffness, damping and impedance of a constraint.
+//!
+//! The formulas are those of the documentation, "Computation: Constraint model, Parameters".
+
+use crate::math::MINVAL;
+use crate::{Model, disable};
+
+/// Stiffness K (1/s²), damping B (1/s), impedance I, at the current violation.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kbi {
+    pub(super) k: f64,
+    pub(super) b: f64,
+    pub(super) imp: f64,
+    /// Derivative of the impedance with respect to the violation.
+    pub(super) slope: f64,
+}
+
+const MINIMP: f64 = 1e-4;
+const MAXIMP: f64 = 0.9999;
+
+/// Parameters of a row at violation `r` = position - margin.
+pub(super) fn kbi(m: &Model, solref: [f64; 2], solimp: [f64; 5], r: f64) -> Kbi {
+    let solref = safe_solref(m, solref);
+    let dmin = solimp[0].clamp(MINIMP, MAXIMP);
+    let dmax = solimp[1].clamp(MINIMP, MAXIMP);
+    let (imp, slope) = impedance([dmin, dmax, solimp[2], solimp[3], solimp[4]], r);
+    let (k, b) = if solref[0] > 0.0 {
+        // Time constant and damping ratio of the mass-spring-damper that the constraint behaves like.
+        let [timeconst, dampratio] = solref;
+        (
+            1.0 / (dmax * dmax * timeconst * timeconst * dampratio * dampratio).max(MINVAL),
+            2.0 / (dmax * timeconst).max(MINVAL),
+        )
+    } else {
+        (-solref[0] / (dmax * dmax).max(MINVAL), -solref[1] / dmax.max(MINVAL))
+    };
+    Kbi { k, b, imp, slope }
+}
+
+/// Mixed signs are an error of the model: the default replaces them. A time constant below two steps would
+/// be integrated unstably: `refsafe` raises it.
+fn safe_solref(m: &Model, solref: [f64; 2]) -> [f64; 2] {
+    let [a, b] = if (solref[0] > 0.0) != (solref[1] > 0.0) { [0.02, 1.0] } else { solref };
+    if a > 0.0 && !m.opt.disabled(disable::REFSAFE) { [a.max(2.0 * m.opt.timestep), b] } else { [a, b] }
+}
+
+/// d(r) and its slope: a sigmoid from d0 at r = 0 to dwidth at |r| = width, whose midpoint and power the
+/// author may choose.
+fn impedance([d0, dwidth, width, midpoint, power]: [f64; 5], r: f64) -> (f64, f64) {
+    let (width, midpoint, power) = (width.max(0.0), midpoint.clamp(MINIMP, MAXIMP), power.max(1.0));
+    if d0 == dwidth || width <= MINVAL {
+        return (0.5 * (d0 + dwidth), 0.0);
+    }
+    let x = r.abs() / width;
+    if x >= 1.0 || x <= 0.0 {
+        return (if x >= 1.0 { dwidth } else { d0 }, 0.0);
+    }
+    let (y, dy) = if power == 1.0 {
+        (x, 1.0)
+    } else if x <= midpoint {
+        let a = 1.0 / pow(midpoint, power - 1.0);
+        (a * pow(x, power), power * a * pow(x, power - 1.0))
+    } else {
+        let b = 1.0 / pow(1.0 - midpoint, power - 1.0);
+        (1.0 - b * pow(1.0 - x, power), power * b * pow(1.0 - x, power - 1.0))
+    };
+    let sign = if r < 0.0 { -1.0 } else { 1.0 };
+    (d0 + y * (dwidth - d0), dy * sign * (dwidth - d0) / width)
+}
+
+/// x^p, with plain products for the exponents that nearly every model has.
+#[inline]
+fn pow(x: f64, p: f64) -> f64 {
+    if p == 1.0 {
+        x
+    } else if p == 2.0 {
+        x * x
+    } else {
+        libm::pow(x, p)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn impedance_is_continuous_and_monotone() {
+        for power in [1.0, 1.5, 2.0, 3.0, 6.0] {
+            let at = |r: f64| impedance([0.1, 0.9, 0.002, 0.3, power], r).0;
+            let mut last = at(0.0);
+            for i in 1..=4000 {
+                let now = at(-1e-6 * f64::from(i));
+                assert!(now >= last && now - last < 0.01, "power {power}, step {i}: {last} then {now}");
+                last = now;
+            }
+            assert_eq!(last, 0.9);
+        }
+    }
+
+    #[test]
+    fn slope_is_the_derivative() {
+        for power in [1.0, 2.0, 3.5] {
+            for r in [-1.7e-3, -0.4e-3, 0.3e-3, 1.2e-3] {
+                let f = |r: f64| impedance([0.2, 0.95, 0.002, 0.5, power], r);
+                let h = 1e-9;
+                let numeric = (f(r + h).0 - f(r - h).0) / (2.0 * h);
+                assert!((numeric - f(r).1).abs() < 1e-4 * numeric.abs(), "{numeric} {:?}", f(r));
+            }
+        }
+    }
+
+    #[test]
+    fn mixed_signs_fall_back_to_the_default() {
+        let mut m = Model::default();
+        m.opt.timestep = 0.002;
+        assert_eq!(safe_solref(&m, [0.1, -1.0]), [0.02, 1.0]);
+        assert_eq!(safe_solref(&m, [-5.0, -1.0]), [-5.0, -1.0]);
+        m.opt.timestep = 0.02;
+        assert_eq!(safe_solref(&m, [0.02, 1.0]), [0.04, 1.0]);
+        m.opt.disableflags = disable::REFSAFE;
+        assert_eq!(safe_solref(&m, [0.02, 1.0]), [0.02, 1.0]);
+    }
+}

@@ -1,0 +1,348 @@
+//! Vectors, quaternions, rotation matrices and spatial algebra on plain arrays.
+//!
+//! Conventions: quaternions are `w x y z`, matrices row-major, spatial vectors angular part first
+//! (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2). `rows` looks at a flat array as rows.
+
+/// Floor of every guarded denominator.
+pub const MINVAL: f64 = 1e-15;
+
+/// 3-vector.
+pub type Vec3 = [f64; 3];
+/// Quaternion, `w x y z`.
+pub type Quat = [f64; 4];
+/// Rotation matrix, row-major.
+pub type Mat3 = [f64; 9];
+/// Spatial vector: angular, then linear.
+pub type Spatial = [f64; 6];
+/// Rigid-body inertia about a point: `Ixx Iyy Izz Ixy Ixz Iyz, m·dx m·dy m·dz, m`.
+pub type Inertia = [f64; 10];
+
+/// A flat array as rows of `N`.
+#[inline(always)]
+pub fn rows<const N: usize>(a: &[f64]) -> &[[f64; N]] {
+    a.as_chunks().0
+}
+
+/// A flat array as mutable rows of `N`.
+#[inline(always)]
+pub fn rows_mut<const N: usize>(a: &mut [f64]) -> &mut [[f64; N]] {
+    a.as_chunks_mut().0
+}
+
+/// The unit quaternion.
+pub const IDENTITY: Quat = [1.0, 0.0, 0.0, 0.0];
+/// The unit matrix.
+pub const EYE: Mat3 = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+
+/// a + b
+#[inline(always)]
+pub fn add<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
+    let mut r = a;
+    for i in 0..N {
+        r[i] += b[i];
+    }
+    r
+}
+
+/// a - b
+#[inline(always)]
+pub fn sub<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
+    let mut r = a;
+    for i in 0..N {
+        r[i] -= b[i];
+    }
+    r
+}
+
+/// s a
+#[inline(always)]
+pub fn scale<const N: usize>(a: [f64; N], s: f64) -> [f64; N] {
+    let mut r = a;
+    for x in &mut r {
+        *x *= s;
+    }
+    r
+}
+
+/// a + s b
+#[inline(always)]
+pub fn add_scaled<const N: usize>(a: [f64; N], b: [f64; N], s: f64) -> [f64; N] {
+    let mut r = a;
+    for i in 0..N {
+        r[i] += s * b[i];
+    }
+    r
+}
+
+/// a · b
+#[inline(always)]
+pub fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
+    let mut s = a[0] * b[0];
+    for i in 1..N {
+        s += a[i] * b[i];
+    }
+    s
+}
+
+/// a · b of two slices of the same length, in two interleaved sums.
+#[inline(always)]
+pub fn dot_slice(a: &[f64], b: &[f64]) -> f64 {
+    let ((a2, a1), (b2, b1)) = (a.as_chunks::<2>(), b.as_chunks::<2>());
+    let mut s = [0.0; 2];
+    for (x, y) in a2.iter().zip(b2) {
+        s[0] += x[0] * y[0];
+        s[1] += x[1] * y[1];
+    }
+    match (a1, b1) {
+        ([x], [y]) => s[0] + s[1] + x * y,
+        _ => s[0] + s[1],
+    }
+}
+
+/// a × b
+#[inline(always)]
+pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// |a|
+#[inline(always)]
+pub fn norm(a: Vec3) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// a / |a| and |a|; a vector shorter than [`MINVAL`] becomes the x axis.
+#[inline]
+pub fn normalize(a: Vec3) -> (Vec3, f64) {
+    let n = norm(a);
+    if n < MINVAL { ([1.0, 0.0, 0.0], n) } else { (scale(a, 1.0 / n), n) }
+}
+
+/// The unit quaternion nearest to q. A zero quaternion becomes the identity; one whose norm is 1 to
+/// rounding is returned as it is, bit for bit.
+#[inline]
+pub fn quat_normalize(q: Quat) -> Quat {
+    let n = dot(q, q).sqrt();
+    if n < MINVAL {
+        IDENTITY
+    } else if (n - 1.0).abs() > MINVAL {
+        scale(q, 1.0 / n)
+    } else {
+        q
+    }
+}
+
+/// Hamilton product.
+#[inline]
+pub fn quat_mul(a: Quat, b: Quat) -> Quat {
+    [
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    ]
+}
+
+/// The inverse rotation.
+#[inline]
+pub fn quat_conj(q: Quat) -> Quat {
+    [q[0], -q[1], -q[2], -q[3]]
+}
+
+/// Rotation by `angle` (rad) about the unit vector `axis`.
+#[inline]
+pub fn quat_axis_angle(axis: Vec3, angle: f64) -> Quat {
+    if angle == 0.0 {
+        return IDENTITY;
+    }
+    let (s, c) = libm::sincos(0.5 * angle);
+    [c, axis[0] * s, axis[1] * s, axis[2] * s]
+}
+
+/// v rotated by q: v + 2 w (u × v) + 2 u × (u × v).
+#[inline]
+pub fn rotate(v: Vec3, q: Quat) -> Vec3 {
+    if q == IDENTITY {
+        return v;
+    }
+    let u = [q[1], q[2], q[3]];
+    let t = cross(u, v);
+    let w = q[0];
+    let t = [w * v[0] + t[0], w * v[1] + t[1], w * v[2] + t[2]];
+    let c = cross(u, t);
+    [v[0] + 2.0 * c[0], v[1] + 2.0 * c[1], v[2] + 2.0 * c[2]]
+}
+
+/// The rotation matrix of a unit quaternion.
+#[inline]
+pub fn quat_to_mat(q: Quat) -> Mat3 {
+    if q == IDENTITY {
+        return EYE;
+    }
+    let [w, x, y, z] = q;
+    let (ww, xx, yy, zz) = (w * w, x * x, y * y, z * z);
+    let (wx, wy, wz, xy, xz, yz) = (w * x, w * y, w * z, x * y, x * z, y * z);
+    [
+        ww + xx - yy - zz,
+        2.0 * (xy - wz),
+        2.0 * (xz + wy),
+        2.0 * (xy + wz),
+        ww - xx + yy - zz,
+        2.0 * (yz - wx),
+        2.0 * (xz - wy),
+        2.0 * (yz + wx),
+        ww - xx - yy + zz,
+    ]
+}
+
+/// The rotation vector (axis times angle, rad, angle in (-π, π]) of a unit quaternion.
+#[inline]
+pub fn quat_to_vel(q: Quat) -> Vec3 {
+    let (axis, s) = normalize([q[1], q[2], q[3]]);
+    let mut angle = 2.0 * libm::atan2(s, q[0]);
+    if angle > std::f64::consts::PI {
+        angle -= 2.0 * std::f64::consts::PI;
+    }
+    scale(axis, angle)
+}
+
+/// q rotated for a time h by the angular velocity w, given in the rotating frame (rad/s).
+#[inline]
+pub fn quat_integrate(q: Quat, w: Vec3, h: f64) -> Quat {
+    let (axis, speed) = normalize(w);
+    quat_mul(quat_normalize(q), quat_axis_angle(axis, h * speed))
+}
+
+/// m v
+#[inline(always)]
+pub fn mat_mul_vec(m: &Mat3, v: Vec3) -> Vec3 {
+    [
+        m[0] * v[0] + m[1] * v[1] + m[2] * v[2],
+        m[3] * v[0] + m[4] * v[1] + m[5] * v[2],
+        m[6] * v[0] + m[7] * v[1] + m[8] * v[2],
+    ]
+}
+
+/// mᵀ v
+#[inline(always)]
+pub fn mat_t_mul_vec(m: &Mat3, v: Vec3) -> Vec3 {
+    [
+        m[0] * v[0] + m[3] * v[1] + m[6] * v[2],
+        m[1] * v[0] + m[4] * v[1] + m[7] * v[2],
+        m[2] * v[0] + m[5] * v[1] + m[8] * v[2],
+    ]
+}
+
+/// Column `i` of a matrix.
+#[inline(always)]
+pub fn column(m: &Mat3, i: usize) -> Vec3 {
+    [m[i], m[3 + i], m[6 + i]]
+}
+
+/// The angular part.
+#[inline(always)]
+pub fn angular(s: &Spatial) -> Vec3 {
+    [s[0], s[1], s[2]]
+}
+
+/// The linear part.
+#[inline(always)]
+pub fn linear(s: &Spatial) -> Vec3 {
+    [s[3], s[4], s[5]]
+}
+
+/// v × m for motions: the derivative of the motion m carried by the motion v.
+#[inline]
+pub fn cross_motion(v: &Spatial, m: &Spatial) -> Spatial {
+    let w = cross(angular(v), angular(m));
+    let l = add(cross(angular(v), linear(m)), cross(linear(v), angular(m)));
+    [w[0], w[1], w[2], l[0], l[1], l[2]]
+}
+
+/// v ×* f for forces: the derivative of the momentum f carried by the motion v.
+#[inline]
+pub fn cross_force(v: &Spatial, f: &Spatial) -> Spatial {
+    let t = add(cross(angular(v), angular(f)), cross(linear(v), linear(f)));
+    let l = cross(angular(v), linear(f));
+    [t[0], t[1], t[2], l[0], l[1], l[2]]
+}
+
+/// Inertia about a point, in world axes, of a body with principal moments `moments` along the columns of
+/// `axes`, mass `mass` and centre of mass at `d` from the point: R diag(I) Rᵀ + m (|d|² 1 - d dᵀ).
+#[inline]
+pub fn inertia_about(moments: Vec3, axes: &Mat3, d: Vec3, mass: f64) -> Inertia {
+    // t = diag(I) Rᵀ, one row per world axis.
+    let t = |i: usize| [axes[3 * i] * moments[0], axes[3 * i + 1] * moments[1], axes[3 * i + 2] * moments[2]];
+    let r = |i: usize| [axes[3 * i], axes[3 * i + 1], axes[3 * i + 2]];
+    let (t0, t1, t2) = (t(0), t(1), t(2));
+    [
+        dot(r(0), t0) + mass * (d[1] * d[1] + d[2] * d[2]),
+        dot(r(1), t1) + mass * (d[0] * d[0] + d[2] * d[2]),
+        dot(r(2), t2) + mass * (d[0] * d[0] + d[1] * d[1]),
+        dot(r(0), t1) - mass * d[0] * d[1],
+        dot(r(0), t2) - mass * d[0] * d[2],
+        dot(r(1), t2) - mass * d[1] * d[2],
+        mass * d[0],
+        mass * d[1],
+        mass * d[2],
+        mass,
+    ]
+}
+
+/// Momentum of the motion v of a body with inertia i, both about the same point.
+#[inline]
+pub fn inertia_mul(i: &Inertia, v: &Spatial) -> Spatial {
+    [
+        i[0] * v[0] + i[3] * v[1] + i[4] * v[2] - i[8] * v[4] + i[7] * v[5],
+        i[3] * v[0] + i[1] * v[1] + i[5] * v[2] + i[8] * v[3] - i[6] * v[5],
+        i[4] * v[0] + i[5] * v[1] + i[2] * v[2] - i[7] * v[3] + i[6] * v[4],
+        i[8] * v[1] - i[7] * v[2] + i[9] * v[3],
+        i[6] * v[2] - i[8] * v[0] + i[9] * v[4],
+        i[7] * v[0] - i[6] * v[1] + i[9] * v[5],
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn unit_quat() -> impl Strategy<Value = Quat> {
+        prop::array::uniform4(-1.0f64..1.0)
+            .prop_filter("not short", |q| dot(*q, *q) > 0.01)
+            .prop_map(quat_normalize)
+    }
+
+    fn close(a: &[f64], b: &[f64]) -> bool {
+        a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-12 * (1.0 + x.abs()))
+    }
+
+    proptest! {
+        #[test]
+        fn rotating_by_quaternion_and_by_matrix_agree(q in unit_quat(), v in prop::array::uniform3(-2.0f64..2.0)) {
+            prop_assert!(close(&rotate(v, q), &mat_mul_vec(&quat_to_mat(q), v)));
+            prop_assert!(close(&mat_t_mul_vec(&quat_to_mat(q), rotate(v, q)), &v));
+        }
+
+        #[test]
+        fn product_of_quaternions_is_composition(a in unit_quat(), b in unit_quat(), v in prop::array::uniform3(-2.0f64..2.0)) {
+            prop_assert!(close(&rotate(v, quat_mul(a, b)), &rotate(rotate(v, b), a)));
+        }
+
+        #[test]
+        fn integration_inverts_the_rotation_vector(q in unit_quat(), w in prop::array::uniform3(-1.0f64..1.0)) {
+            let r = quat_to_vel(quat_mul(quat_conj(q), quat_integrate(q, w, 1.0)));
+            prop_assert!(close(&r, &w));
+        }
+
+        #[test]
+        fn momentum_is_power_dual(m in prop::array::uniform3(0.1f64..2.0), q in unit_quat(), d in prop::array::uniform3(-1.0f64..1.0),
+                                  mass in 0.1f64..5.0, a in prop::array::uniform6(-1.0f64..1.0), b in prop::array::uniform6(-1.0f64..1.0)) {
+            // Symmetry of the inertia, and the derivative of a scalar product is zero: (v×a)·f + a·(v×*f) = 0.
+            let i = inertia_about(m, &quat_to_mat(q), d, mass);
+            prop_assert!((dot(a, inertia_mul(&i, &b)) - dot(b, inertia_mul(&i, &a))).abs() < 1e-12);
+            let f = inertia_mul(&i, &b);
+            prop_assert!((dot(cross_motion(&b, &a), f) + dot(a, cross_force(&b, &f))).abs() < 1e-11);
+        }
+    }
+}

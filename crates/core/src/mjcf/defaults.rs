@@ -1,0 +1,175 @@
+//! Default classes: what `<default class="…">` says about an element, and an element's own attributes over it.
+//!
+//! One rule for all: a class starts as its parent, and every attribute overlays what stands below it. A list
+//! overlays number by number from the front, so `friction="0.5"` keeps the class's other two coefficients.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use super::tree::{Node, Tree};
+use super::values::Value;
+
+/// The forms of an orientation that override a quaternion, and each other.
+pub(crate) const ALTERNATIVES: [&str; 4] = ["euler", "axisangle", "xyaxes", "zaxis"];
+
+/// The attributes that hold for an element: its own over those of its class.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Props {
+    values: BTreeMap<&'static str, (Value, Range<usize>)>,
+}
+
+impl Props {
+    /// The attributes of an element alone, for elements without defaults.
+    pub fn own(node: &Node) -> Props {
+        let mut props = Props::default();
+        props.overlay(node);
+        props
+    }
+
+    /// Puts the attributes of an element over these.
+    pub fn overlay(&mut self, node: &Node) {
+        for a in &node.attributes {
+            if ALTERNATIVES.contains(&a.attr.name) {
+                self.values.retain(|name, _| !ALTERNATIVES.contains(name));
+            }
+            let below = self.values.get(a.attr.name).map(|(v, _)| v);
+            let value = match (below, &a.value) {
+                (Some(Value::Reals(below)), Value::Reals(over)) => Value::Reals(overlaid(below, over)),
+                (_, over) => over.clone(),
+            };
+            self.values.insert(a.attr.name, (value, a.span.clone()));
+        }
+    }
+
+    /// Whether the attribute is there, right or wrong.
+    pub fn has(&self, name: &str) -> bool {
+        self.values.contains_key(name)
+    }
+
+    /// Bytes of the attribute's value, in the element or in a class.
+    pub fn span(&self, name: &str) -> Option<Range<usize>> {
+        self.values.get(name).map(|(_, span)| span.clone())
+    }
+
+    /// Numbers of a list: as many as are given.
+    pub fn list(&self, name: &str) -> Option<&[f64]> {
+        match self.values.get(name) {
+            Some((Value::Reals(list), _)) => Some(list),
+            _ => None,
+        }
+    }
+
+    /// A number.
+    pub fn real(&self, name: &str) -> Option<f64> {
+        self.list(name)?.first().copied()
+    }
+
+    /// `N` numbers; those that are not given are taken from `default`.
+    pub fn reals<const N: usize>(&self, name: &str, default: [f64; N]) -> [f64; N] {
+        let mut all = default;
+        for (x, &given) in all.iter_mut().zip(self.list(name).unwrap_or(&[])) {
+            *x = given;
+        }
+        all
+    }
+
+    /// An integer.
+    pub fn int(&self, name: &str) -> Option<i32> {
+        self.ints(name)?.first().copied()
+    }
+
+    /// Integers.
+    pub fn ints(&self, name: &str) -> Option<&[i32]> {
+        match self.values.get(name) {
+            Some((Value::Ints(list), _)) => Some(list),
+            _ => None,
+        }
+    }
+
+    /// MuJoCo's number of a keyword.
+    pub fn word(&self, name: &str) -> Option<i32> {
+        match self.values.get(name) {
+            Some((Value::Word(n), _)) => Some(*n),
+            _ => None,
+        }
+    }
+
+    /// A text, `None` when it is absent or empty.
+    pub fn text(&self, name: &str) -> Option<&str> {
+        match self.values.get(name) {
+            Some((Value::Text(text), _)) if !text.is_empty() => Some(text),
+            _ => None,
+        }
+    }
+}
+
+/// `over` laid over `below` from the front.
+fn overlaid(below: &[f64], over: &[f64]) -> Vec<f64> {
+    over.iter().chain(below.iter().skip(over.len())).copied().collect()
+}
+
+/// A class: what it says about each kind of element, its parents included.
+#[derive(Debug, Default)]
+struct Class {
+    entries: BTreeMap<&'static str, Props>,
+}
+
+/// All default classes of a model.
+#[derive(Debug)]
+pub(crate) struct Classes {
+    list: Vec<Class>,
+    names: BTreeMap<String, usize>,
+    main: usize,
+}
+
+impl Classes {
+    /// Reads all `default` sections.
+    ///
+    /// A later section at the top level continues the class `main`; classes that were made before keep what
+    /// they copied from it, as in MuJoCo.
+    pub fn read(tree: &Tree) -> Classes {
+        let mut classes = Classes { list: vec![Class::default()], names: BTreeMap::new(), main: 0 };
+        let mut of_node: BTreeMap<usize, usize> = BTreeMap::new();
+        for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
+            let nested_in = node.parent.and_then(|p| of_node.get(&p)).copied();
+            let mut entries = classes.list.get(nested_in.unwrap_or(classes.main)).map_or_else(BTreeMap::new, |c| c.entries.clone());
+            for (_, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
+                entries.entry(entry.element.name).or_default().overlay(entry);
+            }
+            let index = classes.list.len();
+            classes.list.push(Class { entries });
+            of_node.insert(i, index);
+            match (nested_in, node.text("class")) {
+                (None, _) => classes.main = index,
+                (Some(_), Some(name)) => {
+                    classes.names.entry(name.to_string()).or_insert(index);
+                }
+                (Some(_), None) => {}
+            }
+        }
+        let main = classes.main;
+        classes.names.insert("main".into(), main);
+        classes
+    }
+
+    /// The index of a class, `None` when there is no class of this name.
+    pub fn find(&self, name: &str) -> Option<usize> {
+        self.names.get(name).copied()
+    }
+
+    /// All names.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.names.keys().map(String::as_str)
+    }
+
+    /// The attributes that hold for an element: its own over those of its class, which is its `class`, else
+    /// the nearest `childclass` of the bodies around it, else `main`.
+    pub fn props(&self, node: &Node, childclass: Option<usize>) -> Props {
+        let own = node.text("class").and_then(|name| self.find(name));
+        let class = own.or(childclass).unwrap_or(self.main);
+        let entry = self.list.get(class).and_then(|c| c.entries.get(node.element.name));
+        let mut props = entry.cloned().unwrap_or_default();
+        props.overlay(node);
+        props
+    }
+}

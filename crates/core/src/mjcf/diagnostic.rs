@@ -1,0 +1,273 @@
+//! What is wrong with a model, and where: diagnostics with a stable code, a place in the XML, the reason and
+//! the next step. A [`Report`] collects them, so that an author with three mistakes sees three.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::PathBuf;
+
+/// More findings than this are not listed: the first mistakes explain the rest.
+const MAX_DIAGNOSTICS: usize = 100;
+
+/// One finding in an MJCF file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MjcfDiagnostic {
+    /// Stable code, one of [`code`].
+    pub code: &'static str,
+    /// Bytes of the XML text.
+    pub span: Range<usize>,
+    /// Line of the start of `span`, from 1.
+    pub line: usize,
+    /// Column of the start of `span`, from 1, in characters.
+    pub column: usize,
+    /// What is wrong.
+    pub message: String,
+    /// Why it matters.
+    pub why: Option<String>,
+    /// What to write instead.
+    pub help: Option<String>,
+}
+
+impl MjcfDiagnostic {
+    /// Adds the reason why it matters.
+    pub(crate) fn why(&mut self, why: impl Into<String>) -> &mut Self {
+        self.why = Some(why.into());
+        self
+    }
+
+    /// Adds what to write instead.
+    pub(crate) fn help(&mut self, help: impl Into<String>) -> &mut Self {
+        self.help = Some(help.into());
+        self
+    }
+}
+
+impl fmt::Display for MjcfDiagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}: error[{}]: {}", self.line, self.column, self.code, self.message)?;
+        if let Some(why) = &self.why {
+            write!(f, "\n  why: {why}")?;
+        }
+        if let Some(help) = &self.help {
+            write!(f, "\n  help: {help}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for MjcfDiagnostic {}
+
+/// Why a model file could not be compiled.
+#[derive(Debug)]
+pub enum MjcfFileError {
+    /// The file could not be read.
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        error: std::io::Error,
+    },
+    /// The file is larger than [`super::MAX_TEXT`].
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file is not UTF-8 text.
+    NotUtf8 {
+        /// The file.
+        path: PathBuf,
+        /// The first byte that is not UTF-8.
+        offset: usize,
+    },
+    /// The model has mistakes.
+    Model {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        diagnostics: Vec<MjcfDiagnostic>,
+    },
+}
+
+impl fmt::Display for MjcfFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            MjcfFileError::Io { path, error } => write!(f, "cannot read {}: {error}", path.display()),
+            MjcfFileError::TooLarge { path } => {
+                write!(f, "{} is larger than {} MB, the limit for a model", path.display(), super::MAX_TEXT >> 20)
+            }
+            MjcfFileError::NotUtf8 { path, offset } => {
+                write!(f, "{} is not UTF-8 text: byte {offset} does not belong to a character", path.display())
+            }
+            MjcfFileError::Model { path, diagnostics } => {
+                for (i, d) in diagnostics.iter().enumerate() {
+                    let separator = if i == 0 { "" } else { "\n" };
+                    write!(f, "{separator}{}:{d}", path.display())?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl std::error::Error for MjcfFileError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            MjcfFileError::Io { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+}
+
+/// The codes of [`MjcfDiagnostic`]: stable names, one for each kind of mistake.
+#[allow(missing_docs)] // the text of each is its documentation
+pub mod code {
+    pub const XML: &str = "mjcf-xml";
+    pub const LIMIT: &str = "mjcf-limit";
+    pub const TEXT: &str = "mjcf-text";
+    pub const UNKNOWN_ELEMENT: &str = "mjcf-unknown-element";
+    pub const MISPLACED_ELEMENT: &str = "mjcf-misplaced-element";
+    pub const REPEATED_ELEMENT: &str = "mjcf-repeated-element";
+    pub const UNKNOWN_ATTRIBUTE: &str = "mjcf-unknown-attribute";
+    pub const MISSING_ATTRIBUTE: &str = "mjcf-missing-attribute";
+    pub const CONFLICT: &str = "mjcf-conflicting-attributes";
+    pub const NOT_SUPPORTED: &str = "mjcf-not-supported";
+    pub const NUMBER: &str = "mjcf-number";
+    pub const COUNT: &str = "mjcf-count";
+    pub const KEYWORD: &str = "mjcf-keyword";
+    pub const VALUE: &str = "mjcf-value";
+    pub const DUPLICATE_NAME: &str = "mjcf-duplicate-name";
+    pub const UNKNOWN_NAME: &str = "mjcf-unknown-name";
+    pub const UNKNOWN_CLASS: &str = "mjcf-unknown-class";
+    pub const ORIENTATION: &str = "mjcf-orientation";
+    pub const JOINT: &str = "mjcf-joint";
+    pub const MOCAP: &str = "mjcf-mocap";
+    pub const GEOM: &str = "mjcf-geom";
+    pub const INERTIA: &str = "mjcf-inertia";
+    pub const SENSOR: &str = "mjcf-sensor";
+    pub const KEYFRAME: &str = "mjcf-keyframe";
+}
+
+/// Collects findings about one text.
+pub(crate) struct Report<'a> {
+    text: &'a str,
+    list: Vec<MjcfDiagnostic>,
+    /// Something was left out because it is not supported: names that it would define are missing, and
+    /// saying so again would only repeat the first message.
+    pub incomplete: bool,
+}
+
+impl<'a> Report<'a> {
+    pub fn new(text: &'a str) -> Report<'a> {
+        Report { text, list: Vec::new(), incomplete: false }
+    }
+
+    /// Adds an error at a range of bytes.
+    pub fn error(&mut self, code: &'static str, span: Range<usize>, message: impl Into<String>) -> &mut MjcfDiagnostic {
+        if self.list.len() > MAX_DIAGNOSTICS {
+            self.list.truncate(MAX_DIAGNOSTICS + 1);
+            self.list.pop();
+        }
+        let d = MjcfDiagnostic { code, span, line: 0, column: 0, message: message.into(), why: None, help: None };
+        let at = self.list.len();
+        self.list.push(d);
+        &mut self.list[at] // just pushed
+    }
+
+    /// Whether nothing is wrong so far.
+    pub fn is_clean(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The findings in the order of the text, each with its line and column.
+    pub fn finish(mut self) -> Vec<MjcfDiagnostic> {
+        self.list.truncate(MAX_DIAGNOSTICS);
+        self.list.sort_by_key(|d| (d.span.start, d.span.end));
+        let (mut at, mut line, mut column) = (0, 1, 1);
+        for d in &mut self.list {
+            let start = d.span.start.min(self.text.len());
+            for c in self.text.get(at..start).unwrap_or("").chars() {
+                if c == '\n' {
+                    line += 1;
+                    column = 1;
+                } else {
+                    column += 1;
+                }
+            }
+            at = start;
+            (d.line, d.column) = (line, column);
+        }
+        self.list
+    }
+}
+
+/// A name as it is shown in a message: quoted, and cut when an author wrote a very long one.
+pub(crate) fn shown(name: &str) -> String {
+    const LONGEST: usize = 60;
+    if name.chars().count() <= LONGEST {
+        return format!("`{name}`");
+    }
+    let cut: String = name.chars().take(LONGEST).collect();
+    format!("`{cut}…`")
+}
+
+/// The candidate that is closest to a misspelt name, when one is close enough to be meant.
+pub(crate) fn closest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    const LONGEST: usize = 64;
+    const MOST: usize = 2000;
+    if name.is_empty() || name.len() > LONGEST {
+        return None;
+    }
+    let limit = (name.chars().count() / 3).clamp(1, 3);
+    candidates
+        .into_iter()
+        .take(MOST)
+        .filter(|c| !c.is_empty() && c.len() <= LONGEST)
+        .map(|c| (distance(&name.to_lowercase(), &c.to_lowercase()), c))
+        .filter(|&(d, _)| d <= limit)
+        .min_by_key(|&(d, _)| d)
+        .map(|(_, c)| c)
+}
+
+/// Edit distance with swaps of neighbours counted once (optimal string alignment).
+fn distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let width = b.len() + 1;
+    let mut d = vec![0; (a.len() + 1) * width];
+    for i in 0..=a.len() {
+        for j in 0..=b.len() {
+            let at = i * width + j;
+            if i == 0 || j == 0 {
+                d[at] = i + j;
+                continue;
+            }
+            let change = usize::from(a[i - 1] != b[j - 1]);
+            d[at] = (d[at - width] + 1).min(d[at - 1] + 1).min(d[at - width - 1] + change);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                d[at] = d[at].min(d[at - 2 * width - 2] + 1);
+            }
+        }
+    }
+    d[a.len() * width + b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn suggestions_are_close_and_swaps_count_once() {
+        assert_eq!(closest("frcition", ["friction", "frictionloss"]), Some("friction"));
+        assert_eq!(closest("Size", ["size", "pos"]), Some("size"));
+        assert_eq!(closest("banana", ["size", "pos"]), None);
+        assert_eq!(distance("", "abc"), 3);
+    }
+
+    #[test]
+    fn lines_and_columns_count_characters() {
+        let text = "äö\nxyz";
+        let mut r = Report::new(text);
+        r.error(code::XML, 7..8, "z");
+        r.error(code::XML, 2..4, "ö");
+        let places: Vec<_> = r.finish().iter().map(|d| (d.line, d.column)).collect();
+        assert_eq!(places, [(1, 2), (2, 3)]);
+    }
+}

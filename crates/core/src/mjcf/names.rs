@@ -1,0 +1,127 @@
+//! Names: unique among objects of one kind, and every reference leads to an object.
+
+use std::collections::BTreeMap;
+
+use super::defaults::Classes;
+use super::diagnostic::{Report, closest, code, shown};
+use super::schema::Kind;
+use super::tree::Tree;
+use super::values::Value;
+
+/// Named elements by kind and name.
+#[derive(Debug, Default)]
+pub(crate) struct NameTable<'t> {
+    nodes: BTreeMap<&'static str, BTreeMap<&'t str, usize>>,
+}
+
+/// The world body's name, and its place in the table: it is no element.
+pub(crate) const WORLD: &str = "world";
+const WORLD_NODE: usize = 0;
+
+impl<'t> NameTable<'t> {
+    /// Collects all names and reports those that are taken twice.
+    pub fn read(tree: &'t Tree, report: &mut Report) -> NameTable<'t> {
+        let mut table = NameTable::default();
+        table.nodes.entry("body").or_default().insert(WORLD, WORLD_NODE);
+        for (i, node) in tree.nodes.iter().enumerate() {
+            for a in &node.attributes {
+                let (Kind::Name(kind), Value::Text(name)) = (a.attr.kind, &a.value) else { continue };
+                if name.is_empty() {
+                    continue;
+                }
+                let taken = table.nodes.entry(kind).or_default().insert(name, i);
+                if taken.is_some() {
+                    report
+                        .error(code::DUPLICATE_NAME, a.span.clone(), format!("a second {kind} is named {}", shown(name)))
+                        .why("expressions and sensors find an object by its name, so it must be unique")
+                        .help(match name.as_str() {
+                            WORLD if kind == "body" => "`world` is the name of the world body".to_string(),
+                            _ => format!("give one {kind} another name"),
+                        });
+                }
+            }
+        }
+        table
+    }
+
+    /// The element of this kind and name.
+    pub fn find(&self, kind: &str, name: &str) -> Option<usize> {
+        self.nodes.get(kind)?.get(name).copied()
+    }
+
+    /// All names of a kind.
+    pub fn of(&self, kind: &str) -> impl Iterator<Item = &'t str> {
+        self.nodes.get(kind).into_iter().flat_map(|names| names.keys().copied())
+    }
+
+    /// Reports a name that no object of the kind has.
+    pub fn unknown(&self, kind: &str, name: &str, span: std::ops::Range<usize>, report: &mut Report) {
+        if report.incomplete {
+            return; // it may be the name of something that was left out
+        }
+        let error = report.error(code::UNKNOWN_NAME, span, format!("there is no {kind} named {}", shown(name)));
+        match closest(name, self.of(kind)) {
+            Some(near) => error.help(format!("did you mean `{near}`?")),
+            None if self.of(kind).next().is_none() => error.help(format!("no {kind} of this model has a name")),
+            None => error,
+        };
+    }
+}
+
+/// Checks that references and classes exist.
+pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes, report: &mut Report) {
+    let mut defined: BTreeMap<&str, usize> = BTreeMap::new();
+    for node in &tree.nodes {
+        let is_default = node.element.name == "default";
+        if is_default {
+            check_class(tree, node, &mut defined, report);
+        }
+        for a in &node.attributes {
+            let Value::Text(name) = &a.value else { continue };
+            match a.attr.kind {
+                Kind::Ref(kind) if !name.is_empty() && names.find(kind, name).is_none() => {
+                    names.unknown(kind, name, a.span.clone(), report);
+                }
+                Kind::Class if !is_default && classes.find(name).is_none() => {
+                    let error = report.error(
+                        code::UNKNOWN_CLASS,
+                        a.span.clone(),
+                        format!("there is no default class named {}", shown(name)),
+                    );
+                    match closest(name, classes.names()) {
+                        Some(near) => error.help(format!("did you mean `{near}`?")),
+                        None => error.help(format!("define it: `<default><default class=\"{name}\"> … `")),
+                    };
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// A nested class needs a name of its own; the outer one is `main`.
+fn check_class<'t>(
+    tree: &'t Tree, node: &'t super::tree::Node, defined: &mut BTreeMap<&'t str, usize>, report: &mut Report,
+) {
+    let nested = node.parent.and_then(|p| tree.nodes.get(p)).is_some_and(|p| p.element.name == "default");
+    let span = node.attribute("class").map_or(node.span.clone(), |a| a.span.clone());
+    match (nested, node.text("class")) {
+        (true, None) => {
+            report
+                .error(code::MISSING_ATTRIBUTE, span, "a nested default has no class name")
+                .why("elements choose a class by its name")
+                .help("write `<default class=\"…\">`");
+        }
+        (true, Some(name)) if name == "main" || defined.insert(name, 0).is_some() => {
+            report
+                .error(code::DUPLICATE_NAME, span, format!("the default class {} is defined twice", shown(name)))
+                .help("give one of them another name");
+        }
+        (false, Some(name)) if name != "main" => {
+            report
+                .error(code::UNKNOWN_CLASS, span, format!("the outer default class is called {}, not `main`", shown(name)))
+                .help(format!("nest it: `<default><default class=\"{name}\"> … </default></default>`"));
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,99 @@
+//! `actuator`, and its elements as they stand in `default`. All are refused for now.
+
+use super::{AUTO, Attr, Element, FLAG, INT, Kind, LIST, REAL, TEXT, attributes, reals, rest, upto};
+
+const COMMON: &[Attr] = attributes! {
+    INT => group nsample;
+    TEXT => interp;
+    REAL => delay;
+    LIST => user;
+};
+const FORCE: &[Attr] = attributes! { AUTO => forcelimited; reals(2) => forcerange; };
+const CONTROL: &[Attr] = attributes! { AUTO => ctrllimited; reals(2) => ctrlrange; };
+const RANGE: &[Attr] = attributes! { reals(2) => ctrlrange; };
+const ACTIVATION: &[Attr] = attributes! { AUTO => actlimited; reals(2) => actrange; };
+const JOINTLIKE: &[Attr] = attributes! {
+    upto(6) => gear;
+    REAL => cranklength armature;
+    upto(3) => damping;
+};
+const GENERAL: &[Attr] = attributes! {
+    INT => actdim;
+    FLAG => actearly;
+    TEXT => dyntype;
+    upto(10) => dynprm;
+};
+const GAIN: &[Attr] = attributes! { TEXT => gaintype biastype input; upto(10) => gainprm biasprm; reals(2) => ffrange velrange; };
+const SERVO: &[Attr] = attributes! { REAL => kp kv dampratio; };
+const INHERIT: &[Attr] = attributes! { REAL => inheritrange; };
+const INPUT: &[Attr] = attributes! { TEXT => input; };
+const PID: &[Attr] = attributes! { REAL => ki imax slewmax; reals(2) => ffrange posrange velrange; };
+const KV: &[Attr] = attributes! { REAL => kv; };
+const CYLINDER: &[Attr] = attributes! { REAL => timeconst area diameter; upto(3) => bias; };
+const MUSCLE: &[Attr] = attributes! {
+    upto(2) => timeconst;
+    reals(2) => range;
+    REAL => force scale lmin lmax vmax fpmax fvmax;
+};
+const GRIP: &[Attr] = attributes! { REAL => gain; };
+const MOTOR_DC: &[Attr] = attributes! {
+    upto(10) => motorconst resistance nominal saturation inductance cogging controller thermal lugre;
+    TEXT => input;
+};
+const TIMECONST: &[Attr] = attributes! { REAL => timeconst; };
+
+/// What an actuator has beyond its entry in `default`: its name and what it acts on.
+const NAMED: &[Attr] = attributes! { Kind::Name("actuator") => name; Kind::Class => class; };
+const TRANSMISSION: &[Attr] = attributes! {
+    Kind::Ref("joint") => joint jointinparent;
+    Kind::Ref("tendon") => tendon;
+    Kind::Ref("site") => site slidersite cranksite;
+    reals(2) => lengthrange;
+};
+const REFSITE: &[Attr] = attributes! { Kind::Ref("site") => refsite; };
+const BODY: &[Attr] = attributes! { Kind::Ref("body") => body; };
+const ORIENTATION_TARGET: &[Attr] = attributes! { Kind::Ref("joint") => joint; Kind::Ref("site") => site; };
+
+macro_rules! actuators {
+    ($($id:ident $name:literal [$($group:ident),*] [$($place:expr),*];)*) => {
+        /// The actuators themselves.
+        mod place {
+            use super::*;
+            $(pub(super) static $id: Element = Element::new($name, &[NAMED, COMMON, $($group,)* $($place),*]).refused();)*
+        }
+        /// Their entries in `default`.
+        mod defaults {
+            use super::*;
+            $(pub(super) static $id: Element = Element::new($name, &[COMMON, $($group),*]).status(super::super::MOOT).once();)*
+        }
+        pub(super) static ACTUATOR: Element =
+            Element::new("actuator", &[]).children(&[$(&place::$id,)* &PLUGIN]);
+        pub(super) const DEFAULTS: [&Element; 12] = [$(&defaults::$id),*];
+    };
+}
+
+const TAUSMOOTH: &[Attr] = attributes! { REAL => tausmooth; };
+
+actuators! {
+    A_GENERAL "general" [FORCE, CONTROL, ACTIVATION, JOINTLIKE, GENERAL, GAIN] [TRANSMISSION, REFSITE, BODY];
+    A_MOTOR "motor" [FORCE, CONTROL, JOINTLIKE] [TRANSMISSION, REFSITE];
+    A_POSITION "position" [FORCE, CONTROL, JOINTLIKE, SERVO, INHERIT, TIMECONST] [TRANSMISSION, REFSITE];
+    A_VELOCITY "velocity" [FORCE, CONTROL, JOINTLIKE, KV] [TRANSMISSION, REFSITE];
+    A_INTVELOCITY "intvelocity" [FORCE, CONTROL, ACTIVATION, JOINTLIKE, SERVO, INHERIT] [TRANSMISSION, REFSITE];
+    A_ORIENTATION "orientation" [FORCE, RANGE, SERVO, INPUT] [ORIENTATION_TARGET, REFSITE];
+    A_PID "pid" [FORCE, CONTROL, JOINTLIKE, SERVO, INHERIT, INPUT, PID] [TRANSMISSION, REFSITE];
+    A_DAMPER "damper" [FORCE, RANGE, JOINTLIKE, KV] [TRANSMISSION, REFSITE];
+    A_CYLINDER "cylinder" [FORCE, CONTROL, JOINTLIKE, CYLINDER] [TRANSMISSION, REFSITE];
+    A_MUSCLE "muscle" [FORCE, CONTROL, JOINTLIKE, MUSCLE] [TRANSMISSION, REFSITE, TAUSMOOTH];
+    A_ADHESION "adhesion" [FORCE, RANGE, GRIP] [BODY];
+    A_DCMOTOR "dcmotor" [CONTROL, JOINTLIKE, MOTOR_DC] [TRANSMISSION, REFSITE];
+}
+
+static PLUGIN: Element = Element::new(
+    "plugin",
+    &[NAMED, COMMON, FORCE, CONTROL, ACTIVATION, JOINTLIKE, GENERAL, TRANSMISSION, attributes! {
+        TEXT => plugin instance;
+    }],
+)
+.children(&[&rest::CONFIG])
+.refused();

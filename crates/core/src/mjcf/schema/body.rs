@@ -1,0 +1,240 @@
+//! `worldbody` and what bodies hold: joints, inertias, geoms, sites, cameras, lights.
+
+use super::Status::{Ignored, Only};
+use super::{
+    AUTO, Attr, Element, FLAG, INT, Kind, LIST, LOOK, MOOT, ORIENTATION, REAL, TEXT, USER, Word,
+    attributes, not_yet, reals, rest, upto, word,
+};
+use crate::model::{geom, joint};
+
+const GEOM_SHAPES: &[Word] = &[
+    word("plane", geom::PLANE),
+    not_yet("hfield", 1),
+    word("sphere", geom::SPHERE),
+    not_yet("capsule", 3),
+    not_yet("ellipsoid", 4),
+    not_yet("cylinder", 5),
+    not_yet("box", 6),
+    not_yet("mesh", 7),
+    not_yet("sdf", 8),
+];
+const SITE_SHAPES: &[Word] =
+    &[word("sphere", 2), word("capsule", 3), word("ellipsoid", 4), word("cylinder", 5), word("box", 6)];
+
+const POS: &[Attr] = attributes! { reals(3) => pos; };
+const CLASS: &[Attr] = attributes! { Kind::Class => class; };
+
+static BODY_CHILDREN: [&Element; 15] = [
+    &BODY,
+    &FRAME,
+    &REPLICATE,
+    &INERTIAL,
+    &JOINT,
+    &FREEJOINT,
+    &GEOM,
+    &SITE,
+    &CAMERA,
+    &LIGHT,
+    &ATTACH,
+    &rest::PLUGIN,
+    &rest::COMPOSITE,
+    &rest::FLEXCOMP,
+    &rest::INCLUDE,
+];
+
+/// The world: a body without frame, joints and inertia.
+pub(super) static WORLDBODY: Element = Element::new("worldbody", &[]).children(&[
+    &BODY,
+    &FRAME,
+    &REPLICATE,
+    &GEOM,
+    &SITE,
+    &CAMERA,
+    &LIGHT,
+    &ATTACH,
+    &rest::COMPOSITE,
+    &rest::FLEXCOMP,
+    &rest::INCLUDE,
+]);
+
+pub(super) static BODY: Element = Element::new(
+    "body",
+    &[
+        attributes! { Kind::Name("body") => name; Kind::Class => childclass; },
+        POS,
+        ORIENTATION,
+        attributes! {
+            FLAG => mocap;
+            Kind::Words(&[word("auto", 1), word("false", 0)]) => simple;
+            REAL => gravcomp [Only("0")];
+            Kind::Words(&[word("auto", 0), word("never", 1), word("allowed", 2), word("init", 3)]) => sleep
+                [Ignored("for sleeping, which is refused")];
+            LIST => user [USER];
+        },
+    ],
+)
+.children(&BODY_CHILDREN);
+
+static FRAME: Element =
+    Element::new("frame", &[attributes! { TEXT => name; Kind::Class => childclass; }, POS, ORIENTATION])
+        .children(&BODY_CHILDREN)
+        .refused();
+
+static REPLICATE: Element = Element::new(
+    "replicate",
+    &[attributes! {
+        INT => count;
+        TEXT => sep;
+        reals(3) => offset euler;
+    }],
+)
+.children(&BODY_CHILDREN)
+.refused();
+
+static ATTACH: Element = Element::new(
+    "attach",
+    &[attributes! { TEXT => prefix frame; Kind::Ref("model") => model; Kind::Ref("body") => body; }],
+)
+.refused();
+
+static INERTIAL: Element = Element::new(
+    "inertial",
+    &[
+        POS,
+        ORIENTATION,
+        attributes! {
+            REAL => mass;
+            reals(3) => diaginertia;
+            reals(6) => fullinertia;
+        },
+    ],
+)
+.once();
+
+/// A joint, without its name and class.
+pub(super) const JOINT_ATTRS: &[Attr] = attributes! {
+    Kind::Words(&[
+        word("free", joint::FREE), word("ball", joint::BALL), word("slide", joint::SLIDE),
+        word("hinge", joint::HINGE),
+    ]) => type;
+    reals(3) => pos axis;
+    AUTO => limited;
+    reals(2) => range;
+    REAL => margin armature ref springref;
+    upto(3) => stiffness damping;
+    upto(2) => solreflimit;
+    upto(5) => solimplimit;
+    REAL => frictionloss [Only("0")];
+    reals(2) => springdamper [Only("0 0")];
+    upto(2) => solreffriction [MOOT];
+    upto(5) => solimpfriction [MOOT];
+    AUTO => actuatorfrclimited [MOOT];
+    reals(2) => actuatorfrcrange [MOOT];
+    FLAG => actuatorgravcomp [MOOT];
+    INT => group [LOOK];
+    LIST => user [USER];
+};
+static JOINT: Element =
+    Element::new("joint", &[attributes! { Kind::Name("joint") => name; }, CLASS, JOINT_ATTRS]);
+static FREEJOINT: Element = Element::new(
+    "freejoint",
+    &[attributes! {
+        Kind::Name("joint") => name;
+        Kind::Words(&[word("false", 0), not_yet("true", 1), word("auto", 2)]) => align;
+        INT => group [LOOK];
+    }],
+);
+
+/// A geom, without its name and class.
+pub(super) const GEOM_ATTRS: &[Attr] = attributes! {
+    Kind::Words(GEOM_SHAPES) => type;
+    reals(3) => pos;
+    reals(4) => quat axisangle;
+    reals(3) => euler zaxis;
+    reals(6) => xyaxes;
+    upto(3) => size friction;
+    INT => contype conaffinity condim group priority;
+    REAL => mass density solmix margin gap;
+    upto(2) => solref;
+    upto(5) => solimp;
+    reals(4) => rgba;
+    Kind::Ref("material") => material;
+    FLAG => shellinertia [Only("false")];
+    REAL => adhesion [Only("0")];
+    upto(6) => surfacevel [Only("0 0 0 0 0 0")];
+    reals(6) => fromto [super::Status::Unsupported];
+    Kind::Ref("mesh") => mesh [super::Status::Unsupported];
+    Kind::Ref("hfield") => hfield [super::Status::Unsupported];
+    REAL => fitscale [MOOT];
+    Kind::Words(&[word("none", 0), word("ellipsoid", 1)]) => fluidshape
+        [Ignored("for air and water, which are refused")];
+    upto(5) => fluidcoef [Ignored("for air and water, which are refused")];
+    LIST => user [USER];
+};
+static GEOM: Element = Element::new("geom", &[attributes! { Kind::Name("geom") => name; }, CLASS, GEOM_ATTRS])
+    .children(&[&rest::PLUGIN]);
+
+/// A site, without its name and class.
+pub(super) const SITE_ATTRS: &[Attr] = attributes! {
+    Kind::Words(SITE_SHAPES) => type;
+    reals(3) => pos;
+    reals(4) => quat axisangle;
+    reals(3) => euler zaxis;
+    reals(6) => xyaxes;
+    upto(3) => size;
+    reals(4) => rgba [LOOK];
+    Kind::Ref("material") => material [LOOK];
+    INT => group [LOOK];
+    reals(6) => fromto [super::Status::Unsupported];
+    Kind::Ref("mesh") => mesh [super::Status::Unsupported];
+    LIST => user [USER];
+};
+static SITE: Element =
+    Element::new("site", &[attributes! { Kind::Name("site") => name; }, CLASS, SITE_ATTRS]);
+
+const TRACKING: Kind = Kind::Words(&[
+    word("fixed", 0),
+    word("track", 1),
+    word("trackcom", 2),
+    word("targetbody", 3),
+    word("targetbodycom", 4),
+]);
+
+/// A camera, without its name, class and target.
+pub(super) const CAMERA_ATTRS: &[Attr] = attributes! {
+    reals(3) => pos euler zaxis [LOOK];
+    reals(4) => quat axisangle [LOOK];
+    reals(6) => xyaxes [LOOK];
+    TRACKING => mode [LOOK];
+    Kind::Words(&[word("perspective", 0), word("orthographic", 1)]) => projection [LOOK];
+    REAL => fovy ipd [LOOK];
+    Kind::Ints(2, 2) => resolution [LOOK];
+    TEXT => output [LOOK];
+    reals(2) => focal focalpixel principal principalpixel sensorsize [LOOK];
+    LIST => user [LOOK];
+};
+static CAMERA: Element = Element::new(
+    "camera",
+    &[attributes! { Kind::Name("camera") => name; Kind::Ref("body") => target; }, CLASS, CAMERA_ATTRS],
+);
+
+/// A light, without its name, class, target and texture.
+pub(super) const LIGHT_ATTRS: &[Attr] = attributes! {
+    reals(3) => pos dir ambient diffuse specular attenuation [LOOK];
+    FLAG => active castshadow directional [LOOK];
+    REAL => bulbradius cutoff exponent intensity range softness [LOOK];
+    TRACKING => mode [LOOK];
+    Kind::Words(&[word("spot", 0), word("directional", 1), word("point", 2), word("image", 3)]) => type [LOOK];
+};
+static LIGHT: Element = Element::new(
+    "light",
+    &[
+        attributes! {
+            Kind::Name("light") => name;
+            Kind::Ref("body") => target;
+            Kind::Ref("texture") => texture;
+        },
+        CLASS,
+        LIGHT_ATTRS,
+    ],
+);

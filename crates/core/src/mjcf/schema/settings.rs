@@ -1,0 +1,103 @@
+//! `compiler`, `option`, `size`, `statistic`.
+
+use super::Status::{Ignored, Only};
+use super::{Element, FLAG, INT, INTS, Kind, MOOT, REAL, TEXT, attributes, not_yet, reals, upto, word};
+use crate::model::integrator;
+
+const FILES: super::Status = Ignored("where files are looked for; no file is read yet");
+
+pub(super) static COMPILER: Element = Element::new(
+    "compiler",
+    &[attributes! {
+        FLAG => autolimits balanceinertia;
+        REAL => boundmass boundinertia;
+        Kind::Words(&[word("radian", 0), word("degree", 1)]) => angle;
+        TEXT => eulerseq;
+        Kind::Words(&[word("false", 0), word("true", 1), word("auto", 2)]) => inertiafromgeom;
+        Kind::Ints(2, 2) => inertiagrouprange;
+        Kind::Words(&[word("local", 0), not_yet("global", 1)]) => coordinate;
+        REAL => settotalmass [Only("-1")];
+        FLAG => alignfree discardvisual fusestatic [Only("false")];
+        FLAG => fitaabb [MOOT];
+        TEXT => assetdir meshdir texturedir [FILES];
+        FLAG => strippath [FILES];
+        Kind::Words(&[word("warning", 0), word("merge", 1), word("error", 2)]) => conflict [MOOT];
+        FLAG => saveinertial usethread [Ignored("for MuJoCo's own compiler and writer")];
+    }],
+)
+.children(&[&LENGTHRANGE]);
+
+static LENGTHRANGE: Element = Element::new(
+    "lengthrange",
+    &[attributes! {
+        Kind::Words(&[word("none", 0), word("muscle", 1), word("muscleuser", 2), word("all", 3)]) => mode;
+        FLAG => useexisting uselimit;
+        REAL => accel maxforce timeconst timestep inttotal interval tolrange;
+    }],
+)
+.status(MOOT)
+.once();
+
+pub(super) static OPTION: Element = Element::new(
+    "option",
+    &[attributes! {
+        REAL => timestep impratio tolerance ls_tolerance o_margin;
+        reals(3) => gravity;
+        upto(2) => o_solref;
+        upto(5) => o_solimp o_friction;
+        Kind::Words(&[
+            word("Euler", integrator::EULER), word("RK4", integrator::RK4), not_yet("implicit", 2),
+            not_yet("implicitfast", 3), not_yet("discrete", 4),
+        ]) => integrator;
+        Kind::Words(&[word("pyramidal", 0), not_yet("elliptic", 1)]) => cone;
+        Kind::Words(&[not_yet("PGS", 0), not_yet("CG", 1), word("Newton", 2)]) => solver;
+        INT => iterations ls_iterations;
+        Kind::Words(&[word("dense", 0), word("sparse", 1), word("auto", 2)]) => jacobian
+            [Ignored("how matrices are stored")];
+        reals(3) => wind [Only("0 0 0")];
+        reals(3) => magnetic [Ignored("read by magnetometers, which are refused")];
+        REAL => density viscosity [Only("0")];
+        INT => noslip_iterations [Only("0")];
+        REAL => noslip_tolerance [Ignored("for the no-slip solver, which is refused")];
+        REAL => ccd_tolerance [Ignored("for convex collisions, which are refused")];
+        INT => ccd_iterations [Ignored("for convex collisions, which are refused")];
+        REAL => sleep_tolerance [Ignored("for sleeping, which is refused")];
+        INT => sdf_iterations sdf_initpoints [Ignored("for signed distance fields, which are refused")];
+        INTS => actuatorgroupdisable [MOOT];
+    }],
+)
+.children(&[&FLAGS]);
+
+const SWITCH: Kind = Kind::Words(&[word("disable", 0), word("enable", 1)]);
+
+static FLAGS: Element = Element::new(
+    "flag",
+    &[attributes! {
+        SWITCH => constraint equality frictionloss limit contact spring damper gravity clampctrl warmstart
+            filterparent actuation refsafe sensor midphase eulerdamp autoreset nativeccd island multiccd;
+        SWITCH => override energy fwdinv invdiscrete;
+        SWITCH => sleep diagexact ipc [Only("disable")];
+    }],
+)
+.once();
+
+const MEMORY: super::Status = Ignored("memory grows as needed");
+
+pub(super) static SIZE: Element = Element::new(
+    "size",
+    &[attributes! {
+        INT => nkey;
+        TEXT => memory [MEMORY];
+        INT => njmax nconmax nstack [MEMORY];
+        INT => nuserdata nuser_body nuser_jnt nuser_geom nuser_site nuser_cam nuser_tendon nuser_actuator
+            nuser_sensor [super::USER];
+    }],
+);
+
+pub(super) static STATISTIC: Element = Element::new(
+    "statistic",
+    &[attributes! {
+        REAL => meaninertia meanmass meansize extent;
+        reals(3) => center;
+    }],
+);

@@ -1,0 +1,236 @@
+//! `mj_step` and `mj_forward`: the order of the stages, each a call to the module that holds its formula.
+
+use crate::plan::{Exact, Plan};
+use crate::reflect::Stage;
+use crate::{Data, Model, Warning, collision, com, constraint, disable, enable, energy, integrate, integrator, kinematics};
+use crate::math::{dot, rows};
+use crate::{jacobian, mass, passive, reset, rne, sensor};
+
+/// What a caller can leave out of a forward pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Skip(u8);
+
+impl Skip {
+    pub(crate) const NOTHING: Skip = Skip(0);
+    /// Sensors and energy: Runge–Kutta stages between steps do not show.
+    pub(crate) const SENSORS: Skip = Skip(1);
+}
+
+/// Advances the simulation by one step (`mj_step`).
+///
+/// A bad number in the state resets the data first; one in the acceleration resets it and the same step
+/// then starts from there (`warning` says which and when).
+pub fn step(m: &Model, d: &mut Data) {
+    check_state(m, d);
+    forward_skip(m, d, Skip::NOTHING);
+    check_acceleration(m, d);
+    match m.opt.integrator {
+        integrator::RK4 => integrate::rk4(m, d),
+        _ => integrate::euler(m, d),
+    }
+}
+
+/// Computes everything that follows from the state, without advancing time (`mj_forward`).
+pub fn forward(m: &Model, d: &mut Data) {
+    forward_skip(m, d, Skip::NOTHING);
+}
+
+pub(crate) fn forward_skip(m: &Model, d: &mut Data, skip: Skip) {
+    let show = skip == Skip::NOTHING;
+    position(m, d);
+    if show {
+        read_position(m, d);
+    }
+    velocity(m, d);
+    if show {
+        read_velocity(m, d);
+    }
+    acceleration(m, d);
+    constraints(m, d);
+    if show && d.plan.keeps(Stage::Sensors) {
+        sensor::acceleration_stage(m, d);
+    }
+}
+
+/// What depends on `qpos` alone.
+pub(crate) fn position(m: &Model, d: &mut Data) {
+    if d.plan.keeps(Stage::Kinematics) {
+        kinematics::bodies(m, d);
+    }
+    if d.plan.keeps(Stage::GeomPoses) {
+        kinematics::geoms(m, d);
+    }
+    if d.plan.keeps(Stage::SitePoses) {
+        kinematics::sites(m, d);
+    }
+    if d.plan.keeps(Stage::ComPos) {
+        com::com_pos(m, d);
+    }
+    if d.plan.keeps(Stage::MassMatrix) {
+        mass::composite_inertia(m, d, true);
+    }
+    if d.plan.keeps(Stage::Factor) {
+        d.qLD.copy_from_slice(&d.M);
+        if let Some(dof) = mass::factor(m, &mut d.qLD, &mut d.qLDiagInv) {
+            warn(d, Warning::Inertia, dof);
+        }
+    }
+    if d.plan.keeps(Stage::Collision) {
+        if m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(disable::CONTACT) {
+            collision::none(d);
+        } else {
+            collision::collide(m, d);
+        }
+    }
+    if d.plan.keeps(Stage::Constraint) {
+        constraint::make(m, d);
+    }
+}
+
+/// What depends on `qvel` as well.
+pub(crate) fn velocity(m: &Model, d: &mut Data) {
+    if d.plan.keeps(Stage::ComVel) {
+        com::com_vel(m, d);
+    }
+    if d.plan.keeps(Stage::Passive) {
+        passive::passive(m, d);
+    }
+    if d.plan.keeps(Stage::Reference) {
+        constraint::reference(d);
+    }
+    if d.plan.keeps(Stage::Bias) {
+        rne::bias(m, d, d.plan.some_general);
+    }
+}
+
+/// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`.
+#[inline(never)]
+pub(crate) fn acceleration(m: &Model, d: &mut Data) {
+    for i in 0..m.nv {
+        d.qfrc_smooth[i] = d.qfrc_passive[i] - d.qfrc_bias[i] + d.qfrc_applied[i] + d.qfrc_actuator[i];
+    }
+    if d.plan.applied_forces {
+        applied_forces(m, d);
+    }
+    d.qacc_smooth.copy_from_slice(&d.qfrc_smooth);
+    match d.plan.mass {
+        Exact::Diagonal => {
+            for i in 0..m.nv {
+                d.qacc_smooth[i] *= d.qLDiagInv[i];
+            }
+        }
+        Exact::General => mass::solve(m, &d.qLD, &d.qLDiagInv, &mut d.qacc_smooth, 0..m.nv),
+    }
+}
+
+/// Adds Jᵀ f for the force and torque applied at each body's centre of mass.
+fn applied_forces(m: &Model, d: &mut Data) {
+    for b in 1..m.nbody {
+        let f = rows::<6>(&d.xfrc_applied)[b];
+        if f == [0.0; 6] {
+            continue;
+        }
+        let (force, torque) = ([f[0], f[1], f[2]], [f[3], f[4], f[5]]);
+        let point = rows::<3>(&d.xipos)[b];
+        let mut k = jacobian::last_dof(m, b);
+        while k >= 0 {
+            let (turn, move_) = jacobian::dof_motion(m, d, k as usize, point);
+            d.qfrc_smooth[k as usize] += dot(move_, force) + dot(turn, torque);
+            k = m.dof_parentid[k as usize];
+        }
+    }
+}
+
+/// `qacc` and constraint forces.
+pub(crate) fn constraints(m: &Model, d: &mut Data) {
+    if d.plan.keeps(Stage::Solve) {
+        constraint::solve(m, d);
+    } else {
+        d.qacc.copy_from_slice(&d.qacc_smooth);
+    }
+}
+
+/// Sensors and energy of the position stage.
+fn read_position(m: &Model, d: &mut Data) {
+    if d.plan.keeps(Stage::Sensors) {
+        sensor::position_stage(m, d);
+    }
+    if d.plan.keeps(Stage::Energy) {
+        if m.opt.enabled(enable::ENERGY) {
+            energy::potential(m, d);
+        } else {
+            d.energy = [0.0; 2];
+        }
+    }
+}
+
+/// Sensors and energy of the velocity stage.
+fn read_velocity(m: &Model, d: &mut Data) {
+    if d.plan.keeps(Stage::Sensors) {
+        sensor::velocity_stage(m, d);
+    }
+    if d.plan.keeps(Stage::Energy) && m.opt.enabled(enable::ENERGY) {
+        energy::kinetic(m, d);
+    }
+}
+
+/// A number that no simulation means: NaN, or larger than 1e10.
+#[inline(always)]
+fn bad(x: f64) -> bool {
+    !(x.abs() <= 1e10)
+}
+
+fn first_bad(v: &[f64]) -> Option<usize> {
+    // One pass without branches per element; the index is looked for only when there is one.
+    if v.iter().fold(false, |any, &x| any | bad(x)) { v.iter().position(|&x| bad(x)) } else { None }
+}
+
+fn warn(d: &mut Data, warning: Warning, info: usize) {
+    let time = d.time;
+    let stat = &mut d.warning[warning as usize];
+    if stat.number == 0 {
+        stat.first_time = time;
+    }
+    stat.number += 1;
+    stat.lastinfo = info;
+}
+
+/// Warns, and resets unless that is switched off. The warning survives the reset.
+fn reset_after(m: &Model, d: &mut Data, warning: Warning, info: usize) -> bool {
+    warn(d, warning, info);
+    if m.opt.disabled(disable::AUTORESET) {
+        return false;
+    }
+    let stat = d.warning[warning as usize];
+    reset::reset_data(m, d);
+    d.warning[warning as usize] = crate::WarningStat { number: 1, ..stat };
+    true
+}
+
+#[inline(never)]
+fn check_state(m: &Model, d: &mut Data) {
+    if let Some(i) = first_bad(&d.qpos) {
+        reset_after(m, d, Warning::BadQpos, i);
+    }
+    if let Some(i) = first_bad(&d.qvel) {
+        reset_after(m, d, Warning::BadQvel, i);
+    }
+}
+
+fn check_acceleration(m: &Model, d: &mut Data) {
+    if let Some(i) = first_bad(&d.qacc)
+        && reset_after(m, d, Warning::BadQacc, i)
+    {
+        forward(m, d);
+    }
+}
+
+/// Replaces the plan, which decides what the next forward pass computes.
+pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
+    d.work.pairs.clear();
+    if plan.keeps(Stage::Collision) {
+        d.work.pairs = collision::candidate_pairs(m, |a, b| plan.contact_bits_may_change || collision::can_collide(m, a, b));
+    }
+    d.plan = plan;
+    reset::clear_left_out(m, d);
+}

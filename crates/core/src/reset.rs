@@ -1,0 +1,46 @@
+//! Resets, and the counts that follow from them.
+
+use crate::math::*;
+use crate::{Data, Model, Warning, WarningStat, kinematics, mass, plan, reflect};
+
+/// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
+/// what was written to it.
+pub fn reset_data(m: &Model, d: &mut Data) {
+    reflect::allocate_data(m, d);
+    (d.ncon, d.nefc, d.nisland, d.solver_niter) = (0, 0, 0, 0);
+    d.contact.clear();
+    d.warning = [WarningStat::default(); Warning::COUNT];
+    kinematics::world(d);
+    d.qpos.copy_from_slice(&m.qpos0);
+    for b in 0..m.nbody {
+        let id = m.body_mocapid[b];
+        if id >= 0 {
+            rows_mut::<3>(&mut d.mocap_pos)[id as usize] = rows::<3>(&m.body_pos)[b];
+            rows_mut::<4>(&mut d.mocap_quat)[id as usize] = rows::<4>(&m.body_quat)[b];
+        }
+    }
+    clear_left_out(m, d);
+}
+
+/// Back to keyframe `key` (`mj_resetDataKeyframe`); one that does not exist resets to the default.
+pub fn reset_data_keyframe(m: &Model, d: &mut Data, key: usize) {
+    reset_data(m, d);
+    if key >= m.nkey {
+        return;
+    }
+    let row = |a: &[f64], n: usize, out: &mut [f64]| out.copy_from_slice(&a[key * n..(key + 1) * n]);
+    d.time = m.key_time[key];
+    row(&m.key_qpos, m.nq, &mut d.qpos);
+    row(&m.key_qvel, m.nv, &mut d.qvel);
+    row(&m.key_act, m.na, &mut d.act);
+    row(&m.key_mpos, 3 * m.nmocap, &mut d.mocap_pos);
+    row(&m.key_mquat, 4 * m.nmocap, &mut d.mocap_quat);
+    row(&m.key_ctrl, m.nu, &mut d.ctrl);
+}
+
+/// Gives the fields of stages that the plan leaves out the values that those stages would find.
+pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
+    if d.plan.mass == plan::Exact::Diagonal {
+        mass::constant_mass(m, d);
+    }
+}

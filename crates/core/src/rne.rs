@@ -1,0 +1,75 @@
+//! `qfrc_bias`: gravity, Coriolis and centrifugal force.
+
+use crate::math::*;
+use crate::{Data, Model, disable, joint};
+
+/// `qfrc_bias`. Trees take recursive Newton–Euler; a simple body, alone in its tree with its inertia along
+/// its own axes, takes the closed form.
+#[inline(never)]
+pub(crate) fn bias(m: &Model, d: &mut Data, some_general: bool) {
+    let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
+    if some_general {
+        newton_euler(m, d, gravity);
+    }
+    for j in 0..m.njnt {
+        if m.body_simple[m.jnt_bodyid[j] as usize] > 0 {
+            simple(m, d, j, gravity);
+        }
+    }
+}
+
+/// One joint of a simple body: weight along translations, ω × I ω for rotations in the body's frame. A
+/// hinge turns about a principal axis and feels nothing.
+#[inline(always)]
+fn simple(m: &Model, d: &mut Data, j: usize, gravity: Vec3) {
+    let body = m.jnt_bodyid[j] as usize;
+    let mass = m.body_mass[body];
+    let k = m.jnt_dofadr[j] as usize;
+    let kind = m.jnt_type[j];
+    match kind {
+        joint::SLIDE => d.qfrc_bias[k] = -mass * dot(gravity, rows::<3>(&d.xaxis)[j]),
+        joint::HINGE => d.qfrc_bias[k] = 0.0,
+        _ => {
+            let n = if kind == joint::FREE { 3 } else { 0 };
+            let v = &d.qvel[k + n..k + n + 3];
+            let w = [v[0], v[1], v[2]];
+            let inertia = rows::<3>(&m.body_inertia)[body];
+            let torque = cross(w, [inertia[0] * w[0], inertia[1] * w[1], inertia[2] * w[2]]);
+            let out = &mut d.qfrc_bias[k..k + n + 3];
+            if kind == joint::FREE {
+                out[..3].copy_from_slice(&scale(gravity, -mass));
+            }
+            out[n..].copy_from_slice(&torque);
+        }
+    }
+}
+
+/// The force for zero acceleration (Featherstone 2008, section 5.3). Gravity enters as an upward
+/// acceleration of the world.
+fn newton_euler(m: &Model, d: &mut Data, gravity: Vec3) {
+    let cdof = rows::<6>(&d.cdof);
+    let cdof_dot = rows::<6>(&d.cdof_dot);
+    let (cinert, cvel) = (rows::<10>(&d.cinert), rows::<6>(&d.cvel));
+    let cacc = rows_mut::<6>(&mut d.work.cacc);
+    let cfrc = rows_mut::<6>(&mut d.work.cfrc);
+
+    cacc[0] = [0.0, 0.0, 0.0, -gravity[0], -gravity[1], -gravity[2]];
+    cfrc[0] = [0.0; 6];
+    for i in 1..m.nbody {
+        let mut a = [0.0; 6];
+        let first = m.body_dofadr[i];
+        for k in first as usize..(first + m.body_dofnum[i]) as usize {
+            a = add_scaled(a, cdof_dot[k], d.qvel[k]);
+        }
+        cacc[i] = add(cacc[m.body_parentid[i] as usize], a);
+        let momentum = inertia_mul(&cinert[i], &cvel[i]);
+        cfrc[i] = add(inertia_mul(&cinert[i], &cacc[i]), cross_force(&cvel[i], &momentum));
+    }
+    for i in (1..m.nbody).rev() {
+        let parent = m.body_parentid[i] as usize;
+        cfrc[parent] = add(cfrc[parent], cfrc[i]);
+    }
+    for k in 0..m.nv {
+        d.qfrc_bias[k] = dot(cdof[k], cfrc[m.dof_bodyid[k] as usize]);
+    }
+}

@@ -1,0 +1,215 @@
+//! `mj_setConst`: constants of the model that follow from others, at the default configuration.
+
+use crate::kinematics::sameframe;
+use crate::math::*;
+use crate::plan::Plan;
+use crate::{Data, Model, com, jacobian, joint, kinematics, mass, pipeline};
+
+/// Recomputes what follows from masses, inertias and poses (`mj_setConst`).
+///
+/// Uses `d` as scratch, with a visible effect: on return `qpos` is the configuration `qpos_spring`
+/// (normally `qpos0`), with positions computed there, while `qvel`, `time`, `act` and `ctrl` are untouched. A
+/// call in mid-flight therefore puts bodies back where they started and keeps their speed.
+pub fn set_const(m: &mut Model, d: &mut Data) {
+    let plan = std::mem::replace(&mut d.plan, Plan::full());
+    subtree_mass(m);
+    same_frames(m);
+    trees(m);
+
+    d.qpos.copy_from_slice(&m.qpos0);
+    positions(m, d);
+    mass::composite_inertia(m, d, false);
+    d.qLD.copy_from_slice(&d.M);
+    mass::factor(m, &mut d.qLD, &mut d.qLDiagInv);
+    for i in 0..m.nv {
+        m.dof_M0[i] = d.M[(m.M_rowadr[i] + m.M_rownnz[i] - 1) as usize];
+    }
+    inverse_weights(m, d);
+    statistics(m, d);
+
+    d.qpos.copy_from_slice(&m.qpos_spring);
+    positions(m, d);
+    pipeline::set_plan(m, d, plan);
+}
+
+/// The same for a model that has no data yet.
+pub(crate) fn set_const0(m: &mut Model) {
+    let mut d = Data::unplanned(m);
+    set_const(m, &mut d);
+}
+
+fn positions(m: &Model, d: &mut Data) {
+    kinematics::bodies(m, d);
+    kinematics::geoms(m, d);
+    kinematics::sites(m, d);
+    com::com_pos(m, d);
+}
+
+fn subtree_mass(m: &mut Model) {
+    m.body_subtreemass.copy_from_slice(&m.body_mass);
+    for i in (1..m.nbody).rev() {
+        let parent = m.body_parentid[i] as usize;
+        m.body_subtreemass[parent] += m.body_subtreemass[i];
+    }
+}
+
+/// Where the degrees of freedom of each tree are.
+fn trees(m: &mut Model) {
+    m.tree_dofnum.fill(0);
+    for k in (0..m.nv).rev() {
+        let t = m.dof_treeid[k] as usize;
+        m.tree_dofadr[t] = k as i32;
+        m.tree_dofnum[t] += 1;
+    }
+}
+
+/// Which inertial frames, geoms and sites coincide with their body's frames: their poses are then copied.
+fn same_frames(m: &mut Model) {
+    let (ipos, iquat) = (rows::<3>(&m.body_ipos), rows::<4>(&m.body_iquat));
+    for b in 0..m.nbody {
+        m.body_sameframe[b] = match (ipos[b] == [0.0; 3], iquat[b] == IDENTITY) {
+            (true, true) => sameframe::BODY,
+            (false, true) => sameframe::BODYROT,
+            _ => sameframe::NONE,
+        };
+    }
+    let relation = |b: usize, pos: Vec3, quat: Quat| {
+        if quat == IDENTITY {
+            if pos == [0.0; 3] { sameframe::BODY } else { sameframe::BODYROT }
+        } else if quat == iquat[b] {
+            if pos == ipos[b] { sameframe::INERTIA } else { sameframe::INERTIAROT }
+        } else {
+            sameframe::NONE
+        }
+    };
+    let (pos, quat) = (rows::<3>(&m.geom_pos), rows::<4>(&m.geom_quat));
+    for g in 0..m.ngeom {
+        m.geom_sameframe[g] = relation(m.geom_bodyid[g] as usize, pos[g], quat[g]);
+    }
+    let (pos, quat) = (rows::<3>(&m.site_pos), rows::<4>(&m.site_quat));
+    for s in 0..m.nsite {
+        m.site_sameframe[s] = relation(m.site_bodyid[s] as usize, pos[s], quat[s]);
+    }
+}
+
+/// `body_invweight0` and `dof_invweight0`: how much a unit force accelerates what it acts on, on average.
+///
+/// For a body the mean diagonal of J M⁻¹ Jᵀ at its centre of mass, for translation and for rotation; for a
+/// degree of freedom that of M⁻¹, averaged over each group of a joint.
+fn inverse_weights(m: &mut Model, d: &Data) {
+    let cdof = rows::<6>(&d.cdof);
+    let (xipos, com) = (rows::<3>(&d.xipos), rows::<3>(&d.subtree_com));
+    let mut x = vec![0.0; m.nv];
+    let mut row = vec![0.0; m.nv];
+    for b in 0..m.nbody {
+        let last = jacobian::last_dof(m, b);
+        if last < 0 || b == 0 {
+            rows_mut::<2>(&mut m.body_invweight0)[b] = [0.0; 2];
+            continue;
+        }
+        if m.body_simple[b] == 2 {
+            rows_mut::<2>(&mut m.body_invweight0)[b] = [1.0 / m.body_mass[b].max(MINVAL), 0.0];
+            continue;
+        }
+        let arm = sub(xipos[b], com[m.body_rootid[b] as usize]);
+        let mut diag = [0.0; 6];
+        for (axis, out) in diag.iter_mut().enumerate() {
+            row.fill(0.0);
+            let mut k = last;
+            while k >= 0 {
+                let c = &cdof[k as usize];
+                let v = add(linear(c), cross(angular(c), arm));
+                row[k as usize] = if axis < 3 { v[axis] } else { c[axis - 3] };
+                k = m.dof_parentid[k as usize];
+            }
+            x.copy_from_slice(&row);
+            mass::solve(m, &d.qLD, &d.qLDiagInv, &mut x, 0..m.nv);
+            *out = dot_slice(&row, &x);
+        }
+        let mean = |i: usize| (diag[i] + diag[i + 1] + diag[i + 2]) / 3.0;
+        rows_mut::<2>(&mut m.body_invweight0)[b] = [mean(0), mean(3)];
+    }
+
+    for j in 0..m.njnt {
+        let (first, n) = (m.jnt_dofadr[j] as usize, joint::nv(m.jnt_type[j]));
+        for k in first..first + n {
+            x.fill(0.0);
+            x[k] = 1.0;
+            mass::solve(m, &d.qLD, &d.qLDiagInv, &mut x, 0..m.nv);
+            m.dof_invweight0[k] = x[k];
+        }
+        for group in m.dof_invweight0[first..first + n].chunks_mut(3) {
+            let mean = group.iter().sum::<f64>() / group.len() as f64;
+            group.fill(mean);
+        }
+        if m.body_simple[m.jnt_bodyid[j] as usize] == 2 {
+            m.dof_invweight0[first] = 1.0 / m.body_mass[m.jnt_bodyid[j] as usize].max(MINVAL);
+        }
+    }
+}
+
+/// `stat`: means over bodies, and a box around everything that has a place.
+fn statistics(m: &mut Model, d: &Data) {
+    let moving = (m.nbody.max(2) - 1) as f64;
+    m.stat.meanmass = m.body_mass.iter().skip(1).sum::<f64>() / moving;
+    if m.nv > 0 {
+        m.stat.meaninertia = m.dof_M0.iter().sum::<f64>() / m.nv as f64;
+    } else {
+        m.stat.meaninertia = 1.0;
+    }
+
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    let mut include = |p: Vec3, r: f64| {
+        for i in 0..3 {
+            low[i] = low[i].min(p[i] - r);
+            high[i] = high[i].max(p[i] + r);
+        }
+    };
+    for b in 1..m.nbody {
+        include(rows::<3>(&d.xpos)[b], 0.0);
+        include(rows::<3>(&d.xipos)[b], 0.0);
+    }
+    for j in 0..m.njnt {
+        include(rows::<3>(&d.xanchor)[j], 0.0);
+    }
+    for s in 0..m.nsite {
+        include(rows::<3>(&d.site_xpos)[s], 0.0);
+    }
+    for g in 0..m.ngeom {
+        if m.geom_rbound[g] > 0.0 {
+            include(rows::<3>(&d.geom_xpos)[g], m.geom_rbound[g]);
+        }
+    }
+    let sizes: Vec3 = std::array::from_fn(|i| high[i] - low[i]);
+    if sizes[0].is_finite() {
+        m.stat.center = std::array::from_fn(|i| 0.5 * (low[i] + high[i]));
+        m.stat.extent = sizes[0].max(sizes[1]).max(sizes[2]).max(1e-5);
+    } else {
+        m.stat.center = [0.0; 3];
+        m.stat.extent = 1.0;
+    }
+    m.stat.meansize = mean_body_size(m, d).unwrap_or(m.stat.extent);
+}
+
+/// Mean over bodies of the farthest reach of their geoms and joints from the centre of mass.
+fn mean_body_size(m: &Model, d: &Data) -> Option<f64> {
+    let xipos = rows::<3>(&d.xipos);
+    let mut size = vec![0.0f64; m.nbody];
+    for j in 0..m.njnt {
+        let b = m.jnt_bodyid[j] as usize;
+        size[b] = size[b].max(norm(sub(rows::<3>(&d.xanchor)[j], xipos[b])));
+    }
+    for g in 0..m.ngeom {
+        let b = m.geom_bodyid[g] as usize;
+        if m.geom_rbound[g] > 0.0 {
+            size[b] = size[b].max(norm(sub(rows::<3>(&d.geom_xpos)[g], xipos[b])) + m.geom_rbound[g]);
+        }
+    }
+    let (mut sum, mut n) = (0.0, 0);
+    for &s in size.iter().skip(1).filter(|&&s| s > 0.0) {
+        sum += s;
+        n += 1;
+    }
+    (n > 0).then(|| sum / f64::from(n))
+}

@@ -1,0 +1,95 @@
+//! What a program touches: known before it runs, and all that plans and lints need.
+
+use crate::schema::{FieldKey, FunctionId, Touch};
+
+/// Elements of a field that a program reads or writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Access {
+    /// The field.
+    pub field: FieldKey,
+    /// First element, counted from the start of the whole field.
+    pub first: usize,
+    /// Number of elements; `None` for all from `first` on.
+    pub count: Option<usize>,
+}
+
+/// The effects of one program. Lists are in order of first use, without repetition. What the arguments of an
+/// aggregate touch is in the effects of those programs, see [`crate::Aggregate`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Effects {
+    /// What it may read; a computed index reads the whole view.
+    pub reads: Vec<Access>,
+    /// What it may write.
+    pub writes: Vec<Access>,
+    /// Functions of the host that it may call, aggregates not included.
+    pub calls: Vec<FunctionId>,
+    /// Slots of `ctx` variables that it may read.
+    pub ctx_reads: Vec<u32>,
+    /// Slots of `ctx` variables that it may store.
+    pub ctx_writes: Vec<u32>,
+    /// It calls a function that may read everything.
+    pub reads_everything: bool,
+    /// It calls a function that may write everything.
+    pub writes_everything: bool,
+    /// It uses `value`.
+    pub uses_value: bool,
+    /// It holds aggregates.
+    pub aggregates: bool,
+    /// A run may end in a [`crate::RuntimeError`].
+    pub can_throw: bool,
+}
+
+impl Effects {
+    /// Whether every run gives the same value and changes nothing.
+    pub fn constant(&self) -> bool {
+        let reads = self.reads_everything || self.uses_value || self.aggregates || !self.ctx_reads.is_empty();
+        !reads && self.reads.is_empty() && self.calls.is_empty() && self.pure()
+    }
+
+    /// Whether a run changes nothing.
+    pub fn pure(&self) -> bool {
+        self.writes.is_empty() && self.ctx_writes.is_empty() && !self.writes_everything
+    }
+
+    pub(crate) fn read(&mut self, access: Access) {
+        add(&mut self.reads, access);
+    }
+
+    pub(crate) fn write(&mut self, access: Access) {
+        add(&mut self.writes, access);
+        self.can_throw = true;
+    }
+
+    pub(crate) fn call(&mut self, function: FunctionId, reads: &Touch, writes: &Touch) {
+        add(&mut self.calls, function);
+        self.can_throw = true;
+        touch(reads, &mut self.reads, &mut self.reads_everything);
+        touch(writes, &mut self.writes, &mut self.writes_everything);
+    }
+
+    pub(crate) fn read_global(&mut self, slot: u32) {
+        add(&mut self.ctx_reads, slot);
+    }
+
+    pub(crate) fn write_global(&mut self, slot: u32) {
+        add(&mut self.ctx_writes, slot);
+    }
+}
+
+fn add<T: PartialEq>(list: &mut Vec<T>, item: T) {
+    if !list.contains(&item) {
+        list.push(item);
+    }
+}
+
+fn touch(touch: &Touch, list: &mut Vec<Access>, everything: &mut bool) {
+    match touch {
+        Touch::Nothing => {}
+        Touch::Everything => *everything = true,
+        Touch::Fields(fields) => {
+            for &field in fields {
+                add(list, Access { field, first: 0, count: None });
+            }
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! The `Math` object and the global number functions, as ECMAScript defines them ("Function Properties of the
+//! Math Object"). Transcendental functions come from `libm`, so that every platform gives the same bits.
+
+/// A function of `Math`, or one of the global functions on numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Function(u8);
+
+/// Name, smallest and largest number of arguments that make sense, and the function of all arguments.
+struct Row {
+    name: &'static str,
+    least: usize,
+    most: Option<usize>,
+    apply: Apply,
+}
+
+/// How a function takes its arguments.
+#[derive(Clone, Copy)]
+enum Apply {
+    One(fn(f64) -> f64),
+    Two(fn(f64, f64) -> f64),
+    Many(fn(&[f64]) -> f64),
+}
+
+const fn one(name: &'static str, f: fn(f64) -> f64) -> Row {
+    Row { name, least: 1, most: Some(1), apply: Apply::One(f) }
+}
+
+const fn two(name: &'static str, f: fn(f64, f64) -> f64) -> Row {
+    Row { name, least: 2, most: Some(2), apply: Apply::Two(f) }
+}
+
+const fn many(name: &'static str, f: fn(&[f64]) -> f64) -> Row {
+    Row { name, least: 0, most: None, apply: Apply::Many(f) }
+}
+
+const MATH: &[Row] = &[
+    one("abs", f64::abs),
+    one("acos", libm::acos),
+    one("acosh", libm::acosh),
+    one("asin", libm::asin),
+    one("asinh", libm::asinh),
+    one("atan", libm::atan),
+    two("atan2", libm::atan2),
+    one("atanh", libm::atanh),
+    one("cbrt", libm::cbrt),
+    one("ceil", f64::ceil),
+    one("clz32", |x| f64::from((crate::number::to_int32(x) as u32).leading_zeros())),
+    one("cos", libm::cos),
+    one("cosh", libm::cosh),
+    one("exp", libm::exp),
+    one("expm1", libm::expm1),
+    one("floor", f64::floor),
+    one("fround", |x| f64::from(x as f32)),
+    many("hypot", hypot),
+    two("imul", |a, b| f64::from(crate::number::to_int32(a).wrapping_mul(crate::number::to_int32(b)))),
+    one("log", libm::log),
+    one("log10", libm::log10),
+    one("log1p", libm::log1p),
+    one("log2", libm::log2),
+    many("max", max),
+    many("min", min),
+    two("pow", pow),
+    one("round", round),
+    one("sign", sign),
+    one("sin", libm::sin),
+    one("sinh", libm::sinh),
+    one("sqrt", f64::sqrt),
+    one("tan", libm::tan),
+    one("tanh", libm::tanh),
+    one("trunc", f64::trunc),
+    // Global functions, which give `true` or `false`.
+    one("isFinite", |x| f64::from(u8::from(x.is_finite()))),
+    one("isNaN", |x| f64::from(u8::from(x.is_nan()))),
+];
+
+/// How many rows at the end of [`MATH`] are global names instead of members of `Math`.
+const GLOBALS: usize = 2;
+
+/// Constants of `Math`.
+const CONSTANTS: &[(&str, f64)] = &[
+    ("E", std::f64::consts::E),
+    ("LN10", std::f64::consts::LN_10),
+    ("LN2", std::f64::consts::LN_2),
+    ("LOG10E", std::f64::consts::LOG10_E),
+    ("LOG2E", std::f64::consts::LOG2_E),
+    ("PI", std::f64::consts::PI),
+    ("SQRT1_2", std::f64::consts::FRAC_1_SQRT_2),
+    ("SQRT2", std::f64::consts::SQRT_2),
+];
+
+/// The function `Math.name`.
+pub(crate) fn function(name: &str) -> Option<Function> {
+    let members = MATH.len() - GLOBALS;
+    MATH.iter().take(members).position(|row| row.name == name).map(|i| Function(i as u8))
+}
+
+/// The global function `name`.
+pub(crate) fn global(name: &str) -> Option<Function> {
+    let members = MATH.len() - GLOBALS;
+    MATH.iter().skip(members).position(|row| row.name == name).map(|i| Function((members + i) as u8))
+}
+
+/// The constant `Math.name`.
+pub(crate) fn constant(name: &str) -> Option<f64> {
+    CONSTANTS.iter().find(|(n, _)| *n == name).map(|(_, x)| *x)
+}
+
+/// All members of `Math`.
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
+    let members = MATH.len() - GLOBALS;
+    MATH.iter().take(members).map(|row| row.name).chain(CONSTANTS.iter().map(|(name, _)| *name))
+}
+
+impl Function {
+    fn row(self) -> &'static Row {
+        &MATH[usize::from(self.0)]
+    }
+
+    /// How it is written, with `Math.` when it belongs there.
+    pub(crate) fn path(self) -> String {
+        let name = self.row().name;
+        if self.gives_boolean() { name.into() } else { format!("Math.{name}") }
+    }
+
+    /// Whether the result is `true` or `false`.
+    pub(crate) fn gives_boolean(self) -> bool {
+        usize::from(self.0) >= MATH.len() - GLOBALS
+    }
+
+    /// Smallest and largest number of arguments that make sense.
+    pub(crate) fn arity(self) -> (usize, Option<usize>) {
+        (self.row().least, self.row().most)
+    }
+
+    /// The value; a missing argument is `undefined`, so NaN.
+    #[inline]
+    pub(crate) fn apply(self, args: &[f64]) -> f64 {
+        let arg = |i: usize| args.get(i).copied().unwrap_or(f64::NAN);
+        match self.row().apply {
+            Apply::One(f) => f(arg(0)),
+            Apply::Two(f) => f(arg(0), arg(1)),
+            Apply::Many(f) => f(args),
+        }
+    }
+}
+
+/// `**` and `Math.pow`: IEEE's pow, except that a NaN exponent and (±1) ** ±Infinity give NaN.
+pub(crate) fn pow(base: f64, exponent: f64) -> f64 {
+    if exponent.is_nan() || (exponent.is_infinite() && base.abs() == 1.0) {
+        return f64::NAN;
+    }
+    libm::pow(base, exponent)
+}
+
+/// The nearest whole number, ties towards +Infinity; keeps the sign of zero.
+fn round(x: f64) -> f64 {
+    let below = x.floor();
+    // Not floor(x + 0.5): that sum rounds 0.49999999999999994 up.
+    let nearest = if x - below >= 0.5 { below + 1.0 } else { below };
+    nearest.copysign(x)
+}
+
+fn sign(x: f64) -> f64 {
+    if x.is_nan() || x == 0.0 { x } else { 1f64.copysign(x) }
+}
+
+/// The largest; NaN when any is NaN; 0 is larger than -0.
+fn max(args: &[f64]) -> f64 {
+    args.iter().fold(f64::NEG_INFINITY, |a, &b| match a.partial_cmp(&b) {
+        None => f64::NAN,
+        Some(std::cmp::Ordering::Less) => b,
+        Some(std::cmp::Ordering::Equal) if a.is_sign_negative() => b,
+        _ => a,
+    })
+}
+
+/// The smallest; NaN when any is NaN; -0 is smaller than 0.
+fn min(args: &[f64]) -> f64 {
+    args.iter().fold(f64::INFINITY, |a, &b| match a.partial_cmp(&b) {
+        None => f64::NAN,
+        Some(std::cmp::Ordering::Greater) => b,
+        Some(std::cmp::Ordering::Equal) if b.is_sign_negative() => b,
+        _ => a,
+    })
+}
+
+/// The root of the sum of squares, scaled by the largest against overflow and summed with Kahan's
+/// compensation, as engines do. An infinite argument wins over NaN.
+fn hypot(args: &[f64]) -> f64 {
+    if args.iter().any(|x| x.is_infinite()) {
+        return f64::INFINITY;
+    }
+    let largest = args.iter().fold(0.0, |m: f64, x| if m >= x.abs() { m } else { x.abs() });
+    if largest == 0.0 {
+        return 0.0;
+    }
+    let (mut sum, mut compensation) = (0.0, 0.0);
+    for x in args {
+        let scaled = x / largest;
+        let term = scaled * scaled - compensation;
+        let next = sum + term;
+        compensation = (next - sum) - term;
+        sum = next;
+    }
+    sum.sqrt() * largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn call(name: &str, args: &[f64]) -> f64 {
+        function(name).unwrap().apply(args)
+    }
+
+    /// The same double: equal bits, or both NaN.
+    fn same(a: f64, b: f64) -> bool {
+        a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
+    }
+
+    #[test]
+    fn corners_of_the_standard() {
+        const NAN: f64 = f64::NAN;
+        const INF: f64 = f64::INFINITY;
+        for (name, args, result) in [
+            ("round", &[-2.5][..], -2.0),
+            ("round", &[2.5], 3.0),
+            ("round", &[-0.5], -0.0),
+            ("round", &[-0.2], -0.0),
+            ("round", &[0.49999999999999994], 0.0),
+            ("round", &[4503599627370497.0], 4503599627370497.0),
+            ("round", &[-INF], -INF),
+            ("round", &[NAN], NAN),
+            ("max", &[], -INF),
+            ("min", &[], INF),
+            ("max", &[NAN, 1.0], NAN),
+            ("max", &[1.0, NAN], NAN),
+            ("max", &[-0.0, 0.0], 0.0),
+            ("max", &[0.0, -0.0], 0.0),
+            ("min", &[0.0, -0.0], -0.0),
+            ("min", &[-0.0, 0.0], -0.0),
+            ("sign", &[-0.0], -0.0),
+            ("sign", &[-7.0], -1.0),
+            ("sign", &[NAN], NAN),
+            ("pow", &[1.0, NAN], NAN),
+            ("pow", &[-1.0, INF], NAN),
+            ("pow", &[NAN, 0.0], 1.0),
+            ("hypot", &[], 0.0),
+            ("hypot", &[3.0, 4.0], 5.0),
+            ("hypot", &[NAN, -INF], INF),
+            ("hypot", &[NAN, 1.0], NAN),
+            ("hypot", &[NAN, 0.0], NAN),
+            ("hypot", &[1e300, 1e300], 1.4142135623730952e300),
+            ("hypot", &[-0.0], 0.0),
+            ("atan2", &[0.0, -0.0], std::f64::consts::PI),
+            ("fround", &[5.5], 5.5),
+            ("fround", &[5.05], 5.050000190734863),
+            ("trunc", &[-0.9], -0.0),
+            ("cbrt", &[27.0], 3.0),
+            ("log2", &[8.0], 3.0),
+            ("expm1", &[0.0], 0.0),
+            ("clz32", &[1.0], 31.0),
+            ("imul", &[4294967295.0, 5.0], -5.0),
+            ("abs", &[], NAN),
+        ] {
+            let got = call(name, args);
+            assert!(same(got, result), "Math.{name}({args:?}) = {got}, not {result}");
+        }
+    }
+
+    #[test]
+    fn every_name_is_found() {
+        assert!(names().all(|n| function(n).is_some() || constant(n).is_some()));
+        assert!(function("isNaN").is_none() && global("isNaN").is_some());
+    }
+}

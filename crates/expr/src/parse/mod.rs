@@ -1,0 +1,267 @@
+//! Tokens to tree. The grammar is JavaScript's for the part of the language that lessons use; operators are
+//! read by binding power (Pratt, "Top down operator precedence", 1973).
+//!
+//! One mistake does not hide the next: a mistake between brackets or commas is skipped to the bracket or
+//! comma, any other to the end of its statement, and reading goes on from there.
+
+mod expr;
+mod refuse;
+mod stmt;
+
+use crate::ast::{Expr, ExprKind, Stmt};
+use crate::code;
+use crate::diagnostic::{Diagnostic, Parsed, Span};
+use crate::lex::{self, Tok, Token};
+
+/// Longest source text, in bytes. Real lessons stay below 2,000.
+pub const MAX_SOURCE: usize = 32 * 1024;
+
+/// Deepest nesting of an expression: brackets, signs and chains like `a + b + c + …` each count one.
+pub const MAX_DEPTH: usize = 128;
+
+/// Findings reported for one text.
+const MAX_DIAGNOSTICS: usize = 40;
+
+/// Reads one expression. Never fails: what cannot be read becomes [`ExprKind::Error`] and a finding.
+pub fn parse_expression(source: &str) -> Parsed<Expr> {
+    let mut parser = Parser::new(source);
+    let tree = parser.whole_expression();
+    Parsed { tree, diagnostics: in_order(parser.diagnostics) }
+}
+
+/// Reads statements separated by semicolons or line ends. Never fails, see [`parse_expression`].
+pub fn parse_statements(source: &str) -> Parsed<Vec<Stmt>> {
+    let mut parser = Parser::new(source);
+    let tree = parser.statements();
+    Parsed { tree, diagnostics: in_order(parser.diagnostics) }
+}
+
+/// Findings in source order, and not more than anyone reads.
+pub(crate) fn in_order(mut found: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    found.sort_by_key(|d| d.span);
+    if found.len() > MAX_DIAGNOSTICS {
+        found.truncate(MAX_DIAGNOSTICS);
+        let span = found.last().map_or(Span::default(), |d| d.span.after());
+        found.push(
+            Diagnostic::error(code::TOO_MANY_ERRORS, span, format!("more than {MAX_DIAGNOSTICS} mistakes: the rest is not shown"))
+                .help("repair the first ones; the others may follow from them"),
+        );
+    }
+    found
+}
+
+/// The marker of a mistake that has been reported; carried up to where reading can go on.
+#[derive(Debug)]
+struct Reported;
+
+type Attempt<T> = Result<T, Reported>;
+
+/// The reader: a place in the tokens, and what was found.
+struct Parser<'s> {
+    source: &'s str,
+    tokens: Vec<Token>,
+    at: usize,
+    depth: usize,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl<'s> Parser<'s> {
+    fn new(source: &'s str) -> Parser<'s> {
+        let mut diagnostics = Vec::new();
+        let tokens = if source.len() > MAX_SOURCE {
+            let message = format!("the text has {} bytes, the language reads at most {MAX_SOURCE}", source.len());
+            diagnostics.push(
+                Diagnostic::error(code::TOO_LONG, Span::default(), message)
+                    .help("split it: into several controls, or a `setup` and a `controller`"),
+            );
+            vec![Token { kind: Tok::Bad, span: Span::default(), newline: false }]
+        } else {
+            lex::tokens(source, &mut diagnostics)
+        };
+        Parser { source, tokens, at: 0, depth: 0, diagnostics }
+    }
+
+    fn peek(&self) -> &Tok {
+        self.peek_at(0)
+    }
+
+    /// The token `n` places ahead; [`Tok::End`] behind the last.
+    fn peek_at(&self, n: usize) -> &Tok {
+        self.tokens.get(self.at + n).map_or(&Tok::End, |t| &t.kind)
+    }
+
+    /// The place of the next token.
+    fn span(&self) -> Span {
+        self.tokens.get(self.at).map_or(Span::new(self.source.len(), self.source.len()), |t| t.span)
+    }
+
+    /// The place of the token before.
+    fn last_span(&self) -> Span {
+        self.at.checked_sub(1).and_then(|i| self.tokens.get(i)).map_or(Span::default(), |t| t.span)
+    }
+
+    /// Whether a line ends before the next token.
+    fn newline(&self) -> bool {
+        self.tokens.get(self.at).is_none_or(|t| t.newline)
+    }
+
+    fn ended(&self) -> bool {
+        *self.peek() == Tok::End
+    }
+
+    fn bump(&mut self) -> Span {
+        let span = self.span();
+        self.at += 1;
+        span
+    }
+
+    fn is(&self, symbol: &str) -> bool {
+        matches!(self.peek(), Tok::Symbol(s) if *s == symbol)
+    }
+
+    fn is_word(&self, word: &str) -> bool {
+        matches!(self.peek(), Tok::Word(w) if w == word)
+    }
+
+    /// Takes the symbol if it is next.
+    fn eat(&mut self, symbol: &str) -> Option<Span> {
+        self.is(symbol).then(|| self.bump())
+    }
+
+    /// Reports and gives up this part.
+    fn refuse<T>(&mut self, report: Diagnostic) -> Attempt<T> {
+        self.diagnostics.push(report);
+        Err(Reported)
+    }
+
+    /// The next token as an author sees it.
+    fn shown(&self) -> String {
+        match self.peek() {
+            Tok::End => "the end of the text".into(),
+            Tok::Template => "a template literal".into(),
+            _ => format!("`{}`", self.span().text(self.source)),
+        }
+    }
+
+    /// Skips to one of `stops` at this level of brackets; `false`, without moving past it, when the statement
+    /// or the surrounding bracket ends first.
+    fn skip_to(&mut self, stops: &[&str]) -> bool {
+        loop {
+            match *self.peek() {
+                Tok::Symbol(s) if stops.contains(&s) => return true,
+                Tok::End | Tok::Symbol(";" | ")" | "]" | "}") => return false,
+                _ => self.skip_group(),
+            }
+        }
+    }
+
+    /// Skips one token, or a whole bracket with what is in it.
+    fn skip_group(&mut self) {
+        let mut open = 0usize;
+        loop {
+            match *self.peek() {
+                Tok::End => return,
+                Tok::Symbol("(" | "[" | "{") => open += 1,
+                Tok::Symbol(")" | "]" | "}") => open = open.saturating_sub(1),
+                _ => {}
+            }
+            self.bump();
+            if open == 0 {
+                return;
+            }
+        }
+    }
+
+    /// The whole text as one expression.
+    fn whole_expression(&mut self) -> Expr {
+        let nothing = Expr { kind: ExprKind::Error, span: self.span() };
+        if self.ended() {
+            let report = Diagnostic::error(code::EMPTY, self.span(), "there is nothing to evaluate")
+                .help("write an expression, as `data.time`");
+            self.diagnostics.push(report);
+            return nothing;
+        }
+        if let Some(report) = self.statement_keyword() {
+            self.diagnostics.push(report);
+            return nothing;
+        }
+        let Ok(expr) = self.assignment() else { return nothing };
+        if !self.ended() {
+            let report = self.trailing(&expr);
+            self.diagnostics.extend(report);
+        }
+        expr
+    }
+
+    /// What is wrong with a text that goes on behind its expression.
+    fn trailing(&mut self, expr: &Expr) -> Option<Diagnostic> {
+        let span = self.span();
+        if !self.is(";") {
+            return self.unexpected_behind(expr.span);
+        }
+        self.bump();
+        let report = Diagnostic::error(code::EXPRESSION_ONLY, span, "an expression does not end with `;`");
+        Some(if self.ended() {
+            report.why("this text is one value, not a list of statements").help("remove the `;`").fix(span, "")
+        } else {
+            report
+                .why("only one value is read here; a second statement has no place")
+                .help("keep the expression that gives the value; statements belong into `setup`, `controller`, `apply` or `run`")
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn codes(source: &str) -> Vec<&'static str> {
+        parse_statements(source).diagnostics.iter().map(|d| d.code).collect()
+    }
+
+    #[test]
+    fn several_mistakes_are_all_found() {
+        let source = "data.qpos[0] = * 2; x = (1 + ]; const = 3\nf(1, *, 2, /); ok = 1";
+        let found = codes(source);
+        assert!(found.len() >= 5, "{found:?}");
+        let parsed = parse_statements(source);
+        assert!(matches!(parsed.tree.last().map(|s| &s.kind), Some(crate::ast::StmtKind::Expr(_))));
+    }
+
+    #[test]
+    fn depth_is_limited_without_using_the_stack() {
+        let n = 5000;
+        for source in [
+            "(".repeat(n),
+            "[".repeat(n),
+            "f(".repeat(n),
+            "-".repeat(n),
+            "- ".repeat(n) + "1",
+            "!".repeat(n) + "1",
+            "a?".repeat(n),
+            "a=".repeat(n) + "1",
+            "1+".repeat(n) + "1",
+            "2**".repeat(n) + "1",
+            "a".to_owned() + &".b".repeat(n),
+            "a".to_owned() + &"[0]".repeat(n),
+            "a".to_owned() + &"()".repeat(n),
+            "(".repeat(n) + "1" + &")".repeat(n),
+            "a[".repeat(n) + "1" + &"]".repeat(n),
+        ] {
+            assert!(codes(&source).contains(&code::TOO_DEEP), "{}", &source[..10]);
+        }
+    }
+
+    #[test]
+    fn many_mistakes_are_cut_short() {
+        let found = codes(&"] ;".repeat(2000));
+        assert_eq!(found.len(), MAX_DIAGNOSTICS + 1);
+        assert_eq!(found.last(), Some(&code::TOO_MANY_ERRORS));
+    }
+
+    #[test]
+    fn long_texts_are_refused() {
+        assert_eq!(codes(&" ".repeat(MAX_SOURCE + 1)), [code::TOO_LONG]);
+        assert_eq!(parse_expression(&" ".repeat(MAX_SOURCE + 1)).diagnostics.len(), 1);
+    }
+}

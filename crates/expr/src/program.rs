@@ -1,0 +1,210 @@
+//! What a host needs to run programs: itself as a [`Host`], a [`Context`] to run in, and the compiled [`Program`].
+
+use std::fmt;
+
+use crate::code;
+use crate::diagnostic::Span;
+use crate::effects::Effects;
+use crate::schema::{FieldKey, FunctionId, Type};
+use crate::value::Value;
+use crate::vm::{self, Code};
+
+/// The host while a program runs. Indexes count from the start of the whole field, as [`crate::Field::first`].
+pub trait Host {
+    /// Element `index`; `None` past the end.
+    fn get(&self, field: FieldKey, index: usize) -> Option<f64>;
+
+    /// Stores an element that exists.
+    ///
+    /// # Errors
+    /// The host refuses: the text becomes the message of a [`RuntimeError`].
+    fn set(&mut self, field: FieldKey, index: usize, value: f64) -> Result<(), String>;
+
+    /// Number of elements of the whole field, now.
+    fn len(&self, field: FieldKey) -> usize;
+
+    /// Calls a function. Arguments for [`crate::Param::Object`] are not passed; parameters that were left out
+    /// make the list shorter.
+    ///
+    /// # Errors
+    /// The call fails: the text becomes the message of a [`RuntimeError`].
+    fn call(&mut self, function: FunctionId, args: &[Value]) -> Result<Value, String>;
+}
+
+/// Why a run ended early.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RuntimeError {
+    /// Stable name, one of [`crate::code::ALL`].
+    pub code: &'static str,
+    /// The part of the program that failed.
+    pub span: Span,
+    /// What happened.
+    pub message: String,
+}
+
+impl fmt::Display for RuntimeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for RuntimeError {}
+
+/// What happened that JavaScript passes over in silence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventKind {
+    /// An element that does not exist was read: it is `undefined`.
+    ReadPastEnd,
+    /// An element that does not exist was assigned: nothing happened.
+    StorePastEnd,
+}
+
+/// Something noteworthy of the last run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RuntimeEvent {
+    /// What.
+    pub kind: EventKind,
+    /// The part of the program.
+    pub span: Span,
+    /// The field.
+    pub field: FieldKey,
+    /// The index as written, in the view; may be negative, fractional or NaN.
+    pub index: f64,
+    /// How many elements the view had.
+    pub len: usize,
+}
+
+impl RuntimeEvent {
+    /// Stable name, one of [`crate::code::ALL`].
+    pub fn code(&self) -> &'static str {
+        match self.kind {
+            EventKind::ReadPastEnd => code::READ_PAST_END,
+            EventKind::StorePastEnd => code::STORE_PAST_END,
+        }
+    }
+}
+
+impl fmt::Display for RuntimeEvent {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let index = crate::number::to_text(self.index);
+        let outcome = match self.kind {
+            EventKind::ReadPastEnd => "was read: the value is `undefined`",
+            EventKind::StorePastEnd => "was assigned: nothing was stored",
+        };
+        let count = match self.len {
+            0 => "there are none now".to_owned(),
+            1 => "there is one element now, index 0".to_owned(),
+            n => format!("there are {n} elements now, indexes 0 to {}", n - 1),
+        };
+        write!(f, "element {index} {outcome}; {count}")
+    }
+}
+
+/// Where programs run: the `ctx` variables, the results of aggregates and room for computing. One for all
+/// programs of a lab; a numeric program allocates nothing once the room has grown.
+#[derive(Clone, Debug, Default)]
+pub struct Context {
+    pub(crate) globals: Vec<Value>,
+    pub(crate) aggregates: Vec<f64>,
+    pub(crate) numbers: Vec<f64>,
+    pub(crate) values: Vec<Value>,
+    pub(crate) events: Vec<RuntimeEvent>,
+}
+
+/// Events kept of one run.
+const MAX_EVENTS: usize = 16;
+
+impl Context {
+    /// All variables `undefined`.
+    pub fn new() -> Context {
+        Context::default()
+    }
+
+    /// A `ctx` variable.
+    pub fn get(&self, slot: u32) -> &Value {
+        self.globals.get(slot as usize).unwrap_or(&Value::Undefined)
+    }
+
+    /// Stores a `ctx` variable.
+    pub fn set(&mut self, slot: u32, value: Value) {
+        let i = slot as usize;
+        if self.globals.len() <= i {
+            self.globals.resize(i + 1, Value::Undefined);
+        }
+        self.globals[i] = value;
+    }
+
+    /// Stores the result of an aggregate for the next runs.
+    pub fn set_aggregate(&mut self, slot: usize, value: f64) {
+        if self.aggregates.len() <= slot {
+            self.aggregates.resize(slot + 1, f64::NAN);
+        }
+        self.aggregates[slot] = value;
+    }
+
+    /// What happened in the last run, one event for each place in the program.
+    pub fn events(&self) -> &[RuntimeEvent] {
+        &self.events
+    }
+
+    pub(crate) fn note(&mut self, event: RuntimeEvent) {
+        let known = self.events.iter().any(|e| e.span == event.span && e.kind == event.kind);
+        if !known && self.events.len() < MAX_EVENTS {
+            self.events.push(event);
+        }
+    }
+}
+
+/// The call of an aggregate function in a program: `first(contact('a', 'b'))`, `max(x)`. The host runs `args` over
+/// many samples, stores what it makes of them with [`Context::set_aggregate`], then runs the program.
+#[derive(Clone, Debug)]
+pub struct Aggregate {
+    /// Which function.
+    pub function: FunctionId,
+    /// Its arguments, each a program. They may hold aggregates of their own.
+    pub args: Vec<Program>,
+    /// Where the result goes; no two aggregates of one source text share a slot.
+    pub slot: usize,
+    /// Where the call stands.
+    pub span: Span,
+}
+
+/// A compiled text.
+#[derive(Clone, Debug)]
+pub struct Program {
+    pub(crate) code: Code,
+    pub(crate) effects: Effects,
+    pub(crate) result: Type,
+    pub(crate) aggregates: Vec<Aggregate>,
+}
+
+impl Program {
+    /// What it touches.
+    pub fn effects(&self) -> &Effects {
+        &self.effects
+    }
+
+    /// The type of its value; [`Type::Void`] for statements.
+    pub fn result_type(&self) -> Type {
+        self.result
+    }
+
+    /// The aggregates whose results it needs before it runs.
+    pub fn aggregates(&self) -> &[Aggregate] {
+        &self.aggregates
+    }
+
+    /// Runs it once. `value` is what the control gives, if any. Statements give `undefined`.
+    ///
+    /// # Errors
+    /// A function of the host fails, the host refuses to store a value, or a string grows beyond its limit.
+    /// What was stored before stays stored, as in JavaScript.
+    pub fn run(
+        &self,
+        host: &mut dyn Host,
+        context: &mut Context,
+        value: Option<&Value>,
+    ) -> Result<Value, RuntimeError> {
+        vm::run(&self.code, host, context, value)
+    }
+}

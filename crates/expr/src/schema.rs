@@ -1,0 +1,229 @@
+//! What a host offers at compile time: roots, their members, fields with shape and kind, named objects,
+//! functions with signature and effects. The numbers in the ids are the host's own; this crate only hands
+//! them back.
+
+use crate::value::Value;
+
+/// An object with members: `model`, `model.opt`, the joint `"hinge"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ObjectId(pub u32);
+
+/// Named objects of one sort: what `data.joint(…)` chooses from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct CollectionId(pub u32);
+
+/// A function of the host.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct FunctionId(pub u32);
+
+/// An array or number of the host.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct FieldKey(pub u32);
+
+/// What a name stands for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Entry {
+    /// Something with members.
+    Object(ObjectId),
+    /// Numbers.
+    Field(Field),
+    /// Called with a literal name, gives an object.
+    Collection(CollectionId),
+    /// A function.
+    Function(FunctionId),
+    /// A fixed value.
+    Constant(Value),
+}
+
+/// Numbers of the host: a whole array, or the part of it that belongs to one named object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// Which array.
+    pub key: FieldKey,
+    /// How an author writes it, for messages: `data.qpos`, `data.joint("a").qpos`.
+    pub path: String,
+    /// Element of the array at which this view starts.
+    pub first: usize,
+    /// Dimensions, outermost first; empty for one number, `None` for one that changes while running.
+    pub shape: Vec<Option<usize>>,
+    /// What it is, and so what assigning means.
+    pub kind: FieldKind,
+    /// Unit, empty when it has none.
+    pub unit: String,
+    /// One line of documentation.
+    pub doc: String,
+    /// Whose index it is, as the start of a sentence on its size: `the model has 14 coordinates`. May be empty.
+    pub owner: String,
+}
+
+impl Field {
+    /// Number of elements of the view; `None` when it changes while running.
+    pub fn len(&self) -> Option<usize> {
+        self.shape.iter().try_fold(1usize, |n, dim| n.checked_mul((*dim)?))
+    }
+
+    /// Whether it is known to have no elements.
+    pub fn is_empty(&self) -> bool {
+        self.len() == Some(0)
+    }
+
+    /// Whether it is one number rather than an array.
+    pub fn is_scalar(&self) -> bool {
+        self.shape.is_empty()
+    }
+}
+
+/// What a field is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FieldKind {
+    /// Evolves while running; may be set.
+    State,
+    /// Set from outside.
+    Input,
+    /// A parameter.
+    Constant,
+    /// A parameter that others are computed from.
+    Inertial,
+    /// Computed: assigning has no lasting effect, so it is refused.
+    Derived {
+        /// What computes it, as the object of "computed by": `the kinematics stage`.
+        by: String,
+    },
+    /// Size, type or address: cannot be assigned.
+    Structure,
+}
+
+/// What a function of the host touches.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Touch {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// These fields.
+    Fields(Vec<FieldKey>),
+    /// Possibly everything.
+    Everything,
+}
+
+/// Signature, effects and documentation of a function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FunctionInfo {
+    /// How an author writes it: `mj.mj_setConst`.
+    pub name: String,
+    /// Parameters in order.
+    pub params: Vec<Param>,
+    /// How many trailing parameters may be left out.
+    pub optional: usize,
+    /// All arguments may be left out, and the bare name as a statement is a call.
+    pub implied: bool,
+    /// Type of the result.
+    pub returns: Type,
+    /// The arguments are sub-programs that the host evaluates over many samples, see [`crate::Aggregate`].
+    pub aggregate: bool,
+    /// What it reads.
+    pub reads: Touch,
+    /// What it writes.
+    pub writes: Touch,
+    /// One line of documentation.
+    pub doc: String,
+}
+
+/// What a parameter takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Param {
+    /// A number; passed as [`Value::Number`].
+    Number,
+    /// Text; passed as [`Value::String`].
+    Text,
+    /// Anything, converted to true or false.
+    Boolean,
+    /// Any value, as it is.
+    Any,
+    /// Exactly this object, checked when compiling. **Not passed** at run time.
+    Object(ObjectId),
+    /// A literal string that names a member of the collection; passed as the number of its [`ObjectId`].
+    Name(CollectionId),
+    /// A sub-program; only of aggregate functions.
+    Lazy,
+}
+
+/// What is known of a value before running.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Type {
+    /// A double.
+    Number,
+    /// `true` or `false`
+    Boolean,
+    /// Text.
+    String,
+    /// `null`
+    Null,
+    /// `undefined`
+    Undefined,
+    /// Known only while running.
+    Any,
+    /// Nothing: the function is called for its effect.
+    Void,
+}
+
+impl Type {
+    /// The type of a value that is one or the other.
+    pub fn or(self, other: Type) -> Type {
+        if self == other { self } else { Type::Any }
+    }
+
+    /// In words, with an article.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Type::Number => "a number",
+            Type::Boolean => "a boolean (true or false)",
+            Type::String => "a string",
+            Type::Null => "null",
+            Type::Undefined => "undefined",
+            Type::Any => "a value of any type",
+            Type::Void => "nothing",
+        }
+    }
+}
+
+/// Names to things, at compile time. Lists are for suggestions and should have a stable order.
+pub trait Schema {
+    /// What a name at the start of an expression stands for. `Math`, `NaN`, `Infinity`, `undefined`, `isNaN`,
+    /// `isFinite`, `value` and `ctx` belong to the language and are not asked for.
+    fn root(&self, name: &str) -> Option<Entry>;
+
+    /// All such names.
+    fn root_names(&self) -> Vec<String>;
+
+    /// What `object.name` stands for.
+    fn member(&self, object: ObjectId, name: &str) -> Option<Entry>;
+
+    /// All members of an object.
+    fn member_names(&self, object: ObjectId) -> Vec<String>;
+
+    /// How to call an object in a message: `model.opt`, `the joint "light_free"`.
+    fn describe(&self, object: ObjectId) -> String;
+
+    /// The object of this name.
+    fn lookup(&self, collection: CollectionId, name: &str) -> Option<ObjectId>;
+
+    /// All names of a collection.
+    fn names(&self, collection: CollectionId) -> Vec<String>;
+
+    /// What one of its objects is called: `joint`.
+    fn noun(&self, collection: CollectionId) -> &str;
+
+    /// Signature and effects of a function.
+    fn function(&self, function: FunctionId) -> FunctionInfo;
+
+    /// A remark of the host on a member that does not exist: what people who write it usually mean.
+    fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
+        let _ = (object, name);
+        None
+    }
+
+    /// What an author writes to have derived fields computed again, as `mj_forward`.
+    fn refresh(&self) -> Option<String> {
+        None
+    }
+}

@@ -1,0 +1,396 @@
+//! Reads typed values out of JSON objects and collects what is wrong instead of stopping at the first mistake.
+
+use super::{Json, Member, Node};
+use crate::finding::{Finding, Severity};
+use crate::lint::rules::keys::{MISSING_KEY, UNKNOWN_KEY, WRONG_TYPE};
+use crate::source::Text;
+use std::ops::Range;
+
+/// A number and its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Number {
+    /// The number; finite.
+    pub value: f64,
+    /// Bytes of the file.
+    pub span: Range<usize>,
+}
+
+/// A value that a control can take.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Scalar {
+    /// A number.
+    Number(Number),
+    /// A text.
+    Text(Text),
+    /// A truth value and its place.
+    Bool(bool, Range<usize>),
+}
+
+impl Scalar {
+    /// Bytes of the file.
+    pub fn span(&self) -> Range<usize> {
+        match self {
+            Scalar::Number(n) => n.span.clone(),
+            Scalar::Text(t) => t.span(),
+            Scalar::Bool(_, span) => span.clone(),
+        }
+    }
+
+    /// The number, if it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Scalar::Number(n) => Some(n.value),
+            _ => None,
+        }
+    }
+
+    /// Whether two values are the same, wherever they stand.
+    pub fn same(&self, other: &Scalar) -> bool {
+        match (self, other) {
+            (Scalar::Number(a), Scalar::Number(b)) => a.value == b.value,
+            (Scalar::Text(a), Scalar::Text(b)) => a.value == b.value,
+            (Scalar::Bool(a, _), Scalar::Bool(b, _)) => a == b,
+            _ => false,
+        }
+    }
+
+    /// As it stands in JSON.
+    pub fn show(&self) -> String {
+        match self {
+            Scalar::Number(n) => n.value.to_string(),
+            Scalar::Text(t) => format!("{:?}", t.value),
+            Scalar::Bool(b, _) => b.to_string(),
+        }
+    }
+}
+
+/// The keys of one object, read one by one. Every key that is asked for is a known key; [`Fields::finish`]
+/// reports the others.
+pub struct Fields<'n, 'f> {
+    /// What the object is, with its article: "a slider".
+    what: &'static str,
+    members: &'n [Member],
+    span: Range<usize>,
+    known: Vec<&'static str>,
+    /// Where findings go.
+    pub findings: &'f mut Vec<Finding>,
+}
+
+impl<'n, 'f> Fields<'n, 'f> {
+    /// Opens an object; anything else is a finding and `None`.
+    pub fn open(node: &'n Node, what: &'static str, findings: &'f mut Vec<Finding>) -> Option<Fields<'n, 'f>> {
+        match &node.json {
+            Json::Object(members) => {
+                Some(Fields { what, members, span: node.span.clone(), known: Vec::new(), findings })
+            }
+            _ => {
+                wrong(findings, node, what, "an object { … }");
+                None
+            }
+        }
+    }
+
+    /// Bytes of the object, brackets included.
+    pub fn span(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
+    /// Says more exactly what the object is, once its keys have told.
+    pub fn rename(&mut self, what: &'static str) {
+        self.what = what;
+    }
+
+    /// The value of a key. Of two equal keys the last one counts, as in `JSON.parse`.
+    pub fn node(&mut self, key: &'static str) -> Option<&'n Node> {
+        if !self.known.contains(&key) {
+            self.known.push(key);
+        }
+        self.members.iter().rev().find(|m| m.key.value == key).map(|m| &m.value)
+    }
+
+    /// Whether the object has this key.
+    pub fn has(&self, key: &str) -> bool {
+        self.members.iter().any(|m| m.key.value == key)
+    }
+
+    /// A key that must be there.
+    fn need(&mut self, key: &'static str, why: &str) -> Option<&'n Node> {
+        let node = self.node(key);
+        if node.is_none() {
+            self.missing(key, why, Severity::Error);
+        }
+        node
+    }
+
+    /// Reports that a key is missing, at the opening bracket of the object.
+    pub fn missing(&mut self, key: &str, why: &str, severity: Severity) {
+        let open = self.span.start..self.span.end.min(self.span.start + 1);
+        // A misspelt key is reported as missing only by its right name.
+        let typo = nearest(key, self.members.iter().map(|m| m.key.value.as_str()).filter(|k| *k != key));
+        let help = match typo.filter(|typo| !self.known.contains(typo)) {
+            Some(typo) => format!("is `{typo}` meant to be `{key}`?"),
+            None => format!("add \"{key}\": …"),
+        };
+        self.findings.push(
+            Finding::new(&MISSING_KEY, open, format!("{} needs `{key}`", self.what))
+                .severity(severity)
+                .why(why)
+                .help(help),
+        );
+    }
+
+    /// A text.
+    pub fn text(&mut self, key: &'static str) -> Option<Text> {
+        let node = self.node(key)?;
+        text(node, key, self.findings)
+    }
+
+    /// A text that must be there.
+    pub fn need_text(&mut self, key: &'static str, why: &str) -> Option<Text> {
+        let node = self.need(key, why)?;
+        text(node, key, self.findings)
+    }
+
+    /// A number.
+    pub fn number(&mut self, key: &'static str) -> Option<Number> {
+        let node = self.node(key)?;
+        number(node, key, self.findings)
+    }
+
+    /// A number that must be there.
+    pub fn need_number(&mut self, key: &'static str, why: &str) -> Option<Number> {
+        let node = self.need(key, why)?;
+        number(node, key, self.findings)
+    }
+
+    /// A whole number; its sign and range are for the rules.
+    pub fn whole(&mut self, key: &'static str) -> Option<Number> {
+        let node = self.node(key)?;
+        whole(node, key, self.findings)
+    }
+
+    /// A whole number that must be there.
+    pub fn need_whole(&mut self, key: &'static str, why: &str) -> Option<Number> {
+        let node = self.need(key, why)?;
+        whole(node, key, self.findings)
+    }
+
+    /// A truth value; absent or wrong means `false`.
+    pub fn flag(&mut self, key: &'static str) -> bool {
+        let Some(node) = self.node(key) else { return false };
+        match node.json {
+            Json::Bool(b) => b,
+            _ => {
+                wrong_key(self.findings, node, key, "true or false, without quotes");
+                false
+            }
+        }
+    }
+
+    /// A number, text or truth value that must be there.
+    pub fn need_scalar(&mut self, key: &'static str, why: &str) -> Option<Scalar> {
+        let node = self.need(key, why)?;
+        scalar(node, key, self.findings)
+    }
+
+    /// The items of a list; absent or wrong means none.
+    pub fn list(&mut self, key: &'static str) -> &'n [Node] {
+        let Some(node) = self.node(key) else { return &[] };
+        match &node.json {
+            Json::Array(items) => items,
+            _ => {
+                wrong_key(self.findings, node, key, "a list [ … ]");
+                &[]
+            }
+        }
+    }
+
+    /// The items of a list that must be there.
+    pub fn need_list(&mut self, key: &'static str, why: &str) -> Option<&'n [Node]> {
+        self.need(key, why)?;
+        Some(self.list(key))
+    }
+
+    /// The members of an object of free keys; absent or wrong means none.
+    pub fn map(&mut self, key: &'static str) -> &'n [Member] {
+        let Some(node) = self.node(key) else { return &[] };
+        match &node.json {
+            Json::Object(members) => members,
+            _ => {
+                wrong_key(self.findings, node, key, "an object { … }");
+                &[]
+            }
+        }
+    }
+
+    /// Reports every key that nobody asked for.
+    pub fn finish(self) {
+        for member in self.members {
+            let key = member.key.as_str();
+            if self.known.contains(&key) {
+                continue;
+            }
+            let finding = Finding::new(
+                &UNKNOWN_KEY,
+                member.key.span(),
+                format!("{} has no key `{}`", self.what, shorten(key)),
+            );
+            self.findings.push(match nearest(key, self.known.iter().copied()) {
+                Some(right) => finding.help(format!("did you mean `{right}`?")).fix(member.key.span(), right),
+                None => finding.help(format!("its keys are {}", self.known.join(", "))),
+            });
+        }
+    }
+}
+
+/// A text, or a finding.
+pub fn text(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Text> {
+    match &node.json {
+        Json::Text(text) => Some(text.clone()),
+        _ => {
+            wrong_key(findings, node, what, "a text in double quotes");
+            None
+        }
+    }
+}
+
+/// A number, or a finding.
+pub fn number(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Number> {
+    match &node.json {
+        Json::Number(value) => Some(Number { value: *value, span: node.span.clone() }),
+        _ => {
+            wrong_key(findings, node, what, "a number, without quotes");
+            None
+        }
+    }
+}
+
+fn whole(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Number> {
+    let number = number(node, what, findings)?;
+    if number.value.fract() == 0.0 {
+        return Some(number);
+    }
+    findings.push(
+        Finding::new(&WRONG_TYPE, node.span.clone(), format!("`{what}` is a whole number, not {}", number.value))
+            .help(format!("write {}", number.value.round())),
+    );
+    None
+}
+
+/// A number, a text or a truth value, or a finding.
+pub fn scalar(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Scalar> {
+    match &node.json {
+        Json::Number(value) => Some(Scalar::Number(Number { value: *value, span: node.span.clone() })),
+        Json::Text(text) => Some(Scalar::Text(text.clone())),
+        Json::Bool(b) => Some(Scalar::Bool(*b, node.span.clone())),
+        _ => {
+            wrong_key(findings, node, what, "a number, a text or true/false");
+            None
+        }
+    }
+}
+
+/// Reads every item of a list, leaving out those that are wrong.
+pub fn collect<T>(
+    items: &[Node],
+    findings: &mut Vec<Finding>,
+    read: impl Fn(&Node, &mut Vec<Finding>) -> Option<T>,
+) -> Vec<T> {
+    items.iter().filter_map(|item| read(item, findings)).collect()
+}
+
+fn wrong_key(findings: &mut Vec<Finding>, node: &Node, key: &str, expected: &str) {
+    wrong(findings, node, &format!("`{key}`"), expected);
+}
+
+fn wrong(findings: &mut Vec<Finding>, node: &Node, what: &str, expected: &str) {
+    let finding = Finding::new(
+        &WRONG_TYPE,
+        node.span.clone(),
+        format!("{what} must be {expected}; this is {}", node.describe()),
+    );
+    // "5" for 5 is the common case, and it has one repair.
+    findings.push(match &node.json {
+        Json::Text(text) if expected.starts_with("a number") && text.value.trim().parse::<f64>().is_ok_and(f64::is_finite) => {
+            let bare = text.value.trim().to_string();
+            finding.help(format!("write {bare} without the quotes")).fix(node.span.clone(), bare)
+        }
+        Json::Number(_) if expected.starts_with("a text") => finding.help("put quotes around it"),
+        _ => finding.help(format!("write {expected}")),
+    });
+}
+
+/// A key as it may be shown: a hostile one can be long.
+pub(crate) fn shorten(text: &str) -> String {
+    let mut short: String = text.chars().take(60).collect();
+    if short.len() < text.len() {
+        short.push('…');
+    }
+    short
+}
+
+/// The candidate that a misspelt word most likely means, if one is near enough.
+///
+/// Distance is the number of letters to change, insert, delete or swap with a neighbour (optimal string
+/// alignment), ignoring case; a third of the letters may differ. A word that begins another one of at least
+/// three letters counts as near too (`expression` for `expr`).
+pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    let lower = |s: &str| s.chars().flat_map(char::to_lowercase).take(65).collect::<Vec<char>>();
+    let wanted = lower(word);
+    if wanted.is_empty() || wanted.len() > 64 {
+        return None;
+    }
+    let mut best: Option<(usize, &str)> = None;
+    for candidate in candidates {
+        let other = lower(candidate);
+        let allowed = (wanted.len().max(other.len()) / 3).max(1);
+        let distance = if wanted == other {
+            0
+        } else if other.len().min(wanted.len()) < 2 {
+            continue;
+        } else if wanted.len().min(other.len()) >= 3 && (wanted.starts_with(&other) || other.starts_with(&wanted)) {
+            1
+        } else {
+            distance(&wanted, &other)
+        };
+        if distance <= allowed && best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}
+
+/// Optimal string alignment distance, row by row.
+fn distance(a: &[char], b: &[char]) -> usize {
+    let mut before: Vec<usize> = Vec::new();
+    let mut last: Vec<usize> = (0..=b.len()).collect();
+    for i in 0..a.len() {
+        let mut row = vec![i + 1];
+        for j in 0..b.len() {
+            let same = usize::from(a[i] != b[j]);
+            let mut least = (last[j] + same).min(last[j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                least = least.min(before[j - 1] + 1);
+            }
+            row.push(least);
+        }
+        before = std::mem::replace(&mut last, row);
+    }
+    last[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_words_are_found_and_far_ones_are_not() {
+        let keys = ["label", "expr", "digits", "stopAt", "setup"];
+        assert_eq!(nearest("lable", keys), Some("label"));
+        assert_eq!(nearest("stopat", keys), Some("stopAt"));
+        assert_eq!(nearest("expression", keys), Some("expr"));
+        assert_eq!(nearest("colour", keys), None);
+        assert_eq!(nearest("", keys), None);
+        assert_eq!(nearest(&"x".repeat(1000), keys), None);
+    }
+}

@@ -1,0 +1,165 @@
+//! Files and places in them.
+//!
+//! A lesson reaches the checks through several layers: the file, the body of a fence (without the `> ` of a
+//! quote), a JSON string without its escapes, an expression in it. Every layer keeps a [`SourceMap`] back to
+//! the layer below; composed, they turn a byte of an expression into a line and column of the lesson.
+
+mod map;
+
+pub use map::{Piece, SourceMap};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The largest file that is read, in bytes. Lessons are tens of kilobytes.
+pub const MAX_FILE: u64 = 16 << 20;
+
+/// A file as the author sees it.
+#[derive(Clone, Debug)]
+pub struct SourceFile {
+    path: Arc<str>,
+    text: Arc<str>,
+    /// Byte offset of the first byte of every line.
+    line_starts: Vec<usize>,
+}
+
+/// A line and a column, both counted from 1; columns count characters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Position {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+}
+
+impl SourceFile {
+    /// A file with this display path and text. No file system is touched.
+    pub fn new(path: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> SourceFile {
+        let text = text.into();
+        let line_starts =
+            std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i.saturating_add(1))).collect();
+        SourceFile { path: path.into(), text, line_starts }
+    }
+
+    /// Reads a file of at most [`MAX_FILE`] bytes of UTF-8.
+    ///
+    /// # Errors
+    /// A sentence for the author: the file cannot be read, is too large, or is not UTF-8 (and where).
+    pub fn read(path: &Path) -> Result<SourceFile, String> {
+        use std::io::Read;
+        let shown = path.display();
+        let cannot = |e: std::io::Error| format!("cannot read {shown}: {e}");
+        let file = std::fs::File::open(path).map_err(cannot)?;
+        // Not a regular file (a pipe, a device): its end may never come.
+        if !file.metadata().map_err(cannot)?.is_file() {
+            return Err(format!("{shown} is not a file"));
+        }
+        let mut bytes = Vec::new();
+        file.take(MAX_FILE + 1).read_to_end(&mut bytes).map_err(cannot)?;
+        if bytes.len() as u64 > MAX_FILE {
+            return Err(format!("{shown} is larger than {} MB, the limit for a lesson", MAX_FILE >> 20));
+        }
+        let text = String::from_utf8(bytes).map_err(|e| {
+            let good = e.utf8_error().valid_up_to();
+            let line = 1 + e.as_bytes().iter().take(good).filter(|&&b| b == b'\n').count();
+            format!("{shown}, line {line}: not UTF-8; save the file with the encoding UTF-8")
+        })?;
+        Ok(SourceFile::new(shown.to_string(), text))
+    }
+
+    /// The path as it is shown to people.
+    pub fn path(&self) -> &Arc<str> {
+        &self.path
+    }
+
+    /// The text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The bytes of a span as text; empty when the span is not a span of this file.
+    pub fn slice(&self, span: Range<usize>) -> &str {
+        self.text.get(span).unwrap_or("")
+    }
+
+    /// Line and column of a byte offset; an offset behind the end is the end.
+    pub fn position(&self, offset: usize) -> Position {
+        let offset = self.floor(offset);
+        let line = self.line_starts.partition_point(|&start| start <= offset).max(1);
+        let start = self.line_starts.get(line - 1).copied().unwrap_or(0);
+        Position { line, column: self.slice(start..offset).chars().count() + 1 }
+    }
+
+    /// The bytes of a line (from 1), without its line break; `None` behind the last line.
+    pub fn line_span(&self, line: usize) -> Option<Range<usize>> {
+        let start = *self.line_starts.get(line.checked_sub(1)?)?;
+        let end = self.line_starts.get(line).map_or(self.text.len(), |next| next.saturating_sub(1));
+        let text = self.slice(start..end);
+        Some(start..start + text.strip_suffix('\r').unwrap_or(text).len())
+    }
+
+    /// The nearest character boundary at or before an offset.
+    pub fn floor(&self, offset: usize) -> usize {
+        let mut offset = offset.min(self.text.len());
+        while !self.text.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        offset
+    }
+}
+
+/// A piece of text that was taken out of a file, with the way back: code, HTML, a label.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Text {
+    /// The text itself, decoded.
+    pub value: String,
+    /// From bytes of `value` to bytes of the file.
+    pub map: SourceMap,
+}
+
+impl Text {
+    /// The bytes of the file that this text was read from (for a JSON string: without its quotes).
+    pub fn span(&self) -> Range<usize> {
+        self.map.span(0..self.value.len())
+    }
+
+    /// The bytes of the file behind a byte range of `value`.
+    pub fn span_of(&self, range: Range<usize>) -> Range<usize> {
+        self.map.span(range)
+    }
+
+    /// The text as a string slice.
+    pub fn as_str(&self) -> &str {
+        &self.value
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_characters() {
+        let file = SourceFile::new("a.md", "α β\r\nx“y”\n");
+        assert_eq!(file.position(0), Position { line: 1, column: 1 });
+        assert_eq!(file.position(3), Position { line: 1, column: 3 });
+        let y = file.text().find('y').unwrap();
+        assert_eq!(file.position(y), Position { line: 2, column: 3 });
+        assert_eq!(file.position(y + 2), Position { line: 2, column: 4 }, "inside a character: its start");
+        assert_eq!(file.position(9999), Position { line: 3, column: 1 });
+        assert_eq!(file.slice(file.line_span(1).unwrap()), "α β");
+        assert_eq!(file.slice(file.line_span(2).unwrap()), "x“y”");
+        assert_eq!(file.line_span(4), None);
+        assert_eq!(file.line_span(0), None);
+    }
+
+    #[test]
+    fn a_file_that_is_not_text_is_refused_with_its_line() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bad.md");
+        std::fs::write(&path, b"one\ntwo \xff").unwrap();
+        assert!(SourceFile::read(&path).unwrap_err().contains("line 2: not UTF-8"));
+        assert!(SourceFile::read(folder.path()).unwrap_err().contains("not a file"));
+        assert!(SourceFile::read(&folder.path().join("none.md")).is_err());
+    }
+}

@@ -1,0 +1,194 @@
+//! Sliders, selects and buttons.
+
+use crate::finding::Finding;
+use crate::json::{Fields, Json, Node, Number, Scalar, read};
+use crate::lint::rules::control::SELECT_OPTIONS;
+use crate::lint::rules::keys::WRONG_TYPE;
+use crate::source::Text;
+use std::ops::Range;
+
+/// A control of a lab.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Control {
+    /// Bytes of the file.
+    pub span: Range<usize>,
+    /// Its label, by which runs address it.
+    pub label: Text,
+    /// What kind it is.
+    pub kind: ControlKind,
+}
+
+/// The three kinds of controls.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ControlKind {
+    /// A number between two ends.
+    Slider {
+        /// Unit, for display.
+        unit: Option<Text>,
+        /// Lower end.
+        min: Number,
+        /// Upper end.
+        max: Number,
+        /// Step; `None` means a hundredth of the range, see [`Control::step`].
+        step: Option<Number>,
+        /// Start value.
+        value: Number,
+        /// Decimals shown; `None` means 3.
+        digits: Option<Number>,
+        /// What a change does.
+        action: Action,
+    },
+    /// One of several values.
+    Select {
+        /// The choices.
+        options: Vec<Choice>,
+        /// The start value.
+        value: Scalar,
+        /// What a change does.
+        action: Action,
+    },
+    /// Statements at a press.
+    Button {
+        /// The statements.
+        run: Text,
+    },
+}
+
+/// What the change of a slider or a select does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Action {
+    /// An assignable expression that gets the value.
+    pub set: Option<Text>,
+    /// Statements that see the value as `value`.
+    pub apply: Option<Text>,
+    /// The value is stored as `ctx.<param>`.
+    pub param: Option<Text>,
+    /// Apply again after every reset.
+    pub init: bool,
+    /// Reset the simulation after a change.
+    pub reset: bool,
+}
+
+/// A choice of a select.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// Shown text.
+    pub text: Text,
+    /// The value.
+    pub value: Scalar,
+}
+
+impl Control {
+    /// What a change does; `None` for a button.
+    pub fn action(&self) -> Option<&Action> {
+        match &self.kind {
+            ControlKind::Slider { action, .. } | ControlKind::Select { action, .. } => Some(action),
+            ControlKind::Button { .. } => None,
+        }
+    }
+
+    /// Step of a slider, by default a hundredth of its range.
+    pub fn step(&self) -> Option<f64> {
+        match &self.kind {
+            ControlKind::Slider { min, max, step, .. } => {
+                Some(step.as_ref().map_or((max.value - min.value) / 100.0, |s| s.value))
+            }
+            _ => None,
+        }
+    }
+
+    /// Decimals that a slider shows.
+    pub fn digits(&self) -> Option<u32> {
+        match &self.kind {
+            ControlKind::Slider { digits, .. } => Some(decimals(digits.as_ref())),
+            _ => None,
+        }
+    }
+}
+
+/// Decimals to show: 3 unless stated, and never more than the rule on `digits` allows.
+pub(super) fn decimals(digits: Option<&Number>) -> u32 {
+    digits.map_or(3, |d| d.value.clamp(0.0, f64::from(crate::lint::rules::ranges::MAX_DIGITS)) as u32)
+}
+
+/// Reads a control.
+pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Control> {
+    let mut fields = Fields::open(node, "a control", findings)?;
+    let kind = fields.text("type");
+    let control = match kind.as_ref().map(Text::as_str) {
+        None => slider(&mut fields),
+        Some("select") => select(&mut fields),
+        Some("button") => button(&mut fields),
+        Some("slider") => slider(&mut fields),
+        Some(other) => {
+            let span = kind.as_ref().map_or(node.span.clone(), Text::span);
+            let finding = Finding::new(&WRONG_TYPE, span.clone(), format!("there is no control of type `{}`", read::shorten(other)));
+            fields.findings.push(match read::nearest(other, ["slider", "select", "button"]) {
+                Some(right) => finding.help(format!("did you mean `{right}`?")).fix(span, right),
+                None => finding.help("write \"select\" or \"button\"; without `type` it is a slider"),
+            });
+            // Its other keys cannot be judged.
+            return None;
+        }
+    };
+    fields.finish();
+    let (label, kind) = control?;
+    Some(Control { span: node.span.clone(), label, kind })
+}
+
+const LABEL: &str = "the label is what the student reads, and how runs address the control";
+
+fn slider(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
+    fields.rename("a slider");
+    let label = fields.need_text("label", LABEL);
+    let unit = fields.text("unit");
+    let min = fields.need_number("min", "a slider needs two ends");
+    let max = fields.need_number("max", "a slider needs two ends");
+    let step = fields.number("step");
+    let value = fields.need_number("value", "without it the slider starts as NaN, and NaN is what gets assigned");
+    let digits = fields.whole("digits");
+    let action = action(fields);
+    Some((label?, ControlKind::Slider { unit, min: min?, max: max?, step, value: value?, digits, action }))
+}
+
+fn select(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
+    fields.rename("a select");
+    let label = fields.need_text("label", LABEL);
+    let options = fields.need_list("options", "a select offers a list of [text, value] pairs");
+    let options = options.map(|nodes| nodes.iter().filter_map(|n| choice(n, fields.findings)).collect());
+    let value = fields.need_scalar("value", "without it the select starts with no value");
+    let action = action(fields);
+    Some((label?, ControlKind::Select { options: options?, value: value?, action }))
+}
+
+fn choice(node: &Node, findings: &mut Vec<Finding>) -> Option<Choice> {
+    if let Json::Array(pair) = &node.json
+        && let [text, value] = pair.as_slice()
+    {
+        let text = read::text(text, "the text of an option", findings);
+        let value = read::scalar(value, "the value of an option", findings);
+        return Some(Choice { text: text?, value: value? });
+    }
+    findings.push(
+        Finding::new(&SELECT_OPTIONS, node.span.clone(), "an option of a select is a pair [text, value]")
+            .help("write [\"RK4\", 1]"),
+    );
+    None
+}
+
+fn button(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
+    fields.rename("a button");
+    let label = fields.need_text("label", LABEL);
+    let run = fields.need_text("run", "without statements the button does nothing");
+    Some((label?, ControlKind::Button { run: run? }))
+}
+
+fn action(fields: &mut Fields<'_, '_>) -> Action {
+    Action {
+        set: fields.text("set"),
+        apply: fields.text("apply"),
+        param: fields.text("param"),
+        init: fields.flag("init"),
+        reset: fields.flag("reset"),
+    }
+}

@@ -1,0 +1,206 @@
+//! The lab object.
+
+use super::{Control, Plot, Readout, Verify, control, plot, verify};
+use crate::finding::Finding;
+use crate::json::{Fields, Json, Node, Number, read};
+use crate::lint::rules::keys::WRONG_TYPE;
+use crate::source::Text;
+use std::ops::Range;
+
+/// What can be drawn over the scene: keys of `overlays`, items of `toggles`.
+pub const OVERLAYS: [&str; 8] = ["frames", "joints", "contacts", "forces", "com", "sites", "cameras", "shadows"];
+
+/// A lab: a scene, what a student can change, and what is shown of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lab {
+    /// Bytes of the file, braces included.
+    pub span: Range<usize>,
+    /// Name of a model of the lesson's model folder. A checked lab has exactly one of `model` and `xml`.
+    pub model: Option<Text>,
+    /// MJCF given inline.
+    pub xml: Option<Text>,
+    /// Keyframe to start from and to return to.
+    pub key: Option<Number>,
+    /// Shown title.
+    pub title: Option<Text>,
+    /// Shown kind; `None` means "Lab".
+    pub kind: Option<Text>,
+    /// Shown note, HTML.
+    pub note: Option<Text>,
+    /// Pixels; `None` means 300.
+    pub height: Option<Number>,
+    /// Layout: docked beside the text.
+    pub dock: bool,
+    /// Starts playing.
+    pub autoplay: bool,
+    /// The view.
+    pub camera: Camera,
+    /// Overlays drawn at the start, with their places.
+    pub overlays: Vec<(Text, bool)>,
+    /// Overlays that get a checkbox.
+    pub toggles: Vec<Text>,
+    /// Metres per newton for drawn forces; `None` means 0.02.
+    pub force_scale: Option<Number>,
+    /// A site whose path is drawn.
+    pub trail: Option<Text>,
+    /// Playback speeds; empty means 0.1, 0.25, 1, 4.
+    pub speeds: Vec<Number>,
+    /// Seconds; the run pauses once time reaches it.
+    pub stop_at: Option<Number>,
+    /// Statements after load and after every reset.
+    pub setup: Option<Text>,
+    /// Statements before every step.
+    pub controller: Option<Text>,
+    /// Sliders, selects and buttons.
+    pub controls: Vec<Control>,
+    /// Plots.
+    pub plots: Vec<Plot>,
+    /// Readouts.
+    pub readouts: Vec<Readout>,
+    /// What the lesson claims about this lab.
+    pub verify: Option<Verify>,
+}
+
+/// The view of a lab.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// Degrees; -55 by default.
+    pub azimuth: f64,
+    /// Degrees; 25 by default.
+    pub elevation: f64,
+    /// Metres; `None` means 1.9 times the extent of the model.
+    pub distance: Option<f64>,
+    /// Metres; `None` means the centre of the model.
+    pub target: Option<[f64; 3]>,
+}
+
+impl Default for Camera {
+    fn default() -> Camera {
+        Camera { azimuth: -55.0, elevation: 25.0, distance: None, target: None }
+    }
+}
+
+/// Where the scene of a lab comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scene<'a> {
+    /// A named model of the model folder.
+    Model(&'a Text),
+    /// MJCF in the lab itself.
+    Xml(&'a Text),
+}
+
+impl Lab {
+    /// The scene; `None` when the lab states none or two, which is an error already reported.
+    pub fn scene(&self) -> Option<Scene<'_>> {
+        match (&self.model, &self.xml) {
+            (Some(model), None) => Some(Scene::Model(model)),
+            (None, Some(xml)) => Some(Scene::Xml(xml)),
+            _ => None,
+        }
+    }
+
+    /// Title, or a text that stands for it.
+    pub fn title(&self) -> &str {
+        self.title.as_ref().map_or("", Text::as_str)
+    }
+
+    /// The control with this label.
+    pub fn control(&self, label: &str) -> Option<&Control> {
+        self.controls.iter().find(|c| c.label.value == label)
+    }
+
+    /// All traces, in order of plots.
+    pub fn traces(&self) -> impl Iterator<Item = &super::Trace> {
+        self.plots.iter().flat_map(|p| &p.traces)
+    }
+
+    /// Every text that is code (statements and expressions), in the order of the lab format's table.
+    pub fn code(&self) -> Vec<&Text> {
+        let mut all: Vec<&Text> = [&self.setup, &self.controller].into_iter().flatten().collect();
+        for control in &self.controls {
+            if let super::ControlKind::Button { run } = &control.kind {
+                all.push(run);
+            }
+            if let Some(action) = control.action() {
+                all.extend([&action.set, &action.apply].into_iter().flatten());
+            }
+        }
+        all.extend(self.traces().map(|t| &t.expr));
+        all.extend(self.readouts.iter().map(|r| &r.expr));
+        all
+    }
+}
+
+/// Reads a lab.
+pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Lab> {
+    let mut fields = Fields::open(node, "a lab", findings)?;
+    let f = &mut fields;
+    let lab = Lab {
+        span: f.span(),
+        model: f.text("model"),
+        xml: f.text("xml"),
+        key: f.whole("key"),
+        title: f.text("title"),
+        kind: f.text("kind"),
+        note: f.text("note"),
+        height: f.number("height"),
+        dock: f.flag("dock"),
+        autoplay: f.flag("autoplay"),
+        camera: f.node("camera").and_then(|n| camera(n, f.findings)).unwrap_or_default(),
+        overlays: overlays(f),
+        toggles: f.list("toggles").iter().filter_map(|n| read::text(n, "a toggle", f.findings)).collect(),
+        force_scale: f.number("forceScale"),
+        trail: f.text("trail"),
+        speeds: f.list("speeds").iter().filter_map(|n| read::number(n, "a speed", f.findings)).collect(),
+        stop_at: f.number("stopAt"),
+        setup: f.text("setup"),
+        controller: f.text("controller"),
+        controls: f.list("controls").iter().filter_map(|n| control::read(n, f.findings)).collect(),
+        plots: f.list("plots").iter().filter_map(|n| plot::read(n, f.findings)).collect(),
+        readouts: f.list("readouts").iter().filter_map(|n| plot::readout(n, f.findings)).collect(),
+        verify: f.node("verify").and_then(|n| verify::read(n, f.findings)),
+    };
+    fields.finish();
+    Some(lab)
+}
+
+fn camera(node: &Node, findings: &mut Vec<Finding>) -> Option<Camera> {
+    let mut fields = Fields::open(node, "a camera", findings)?;
+    let standard = Camera::default();
+    let camera = Camera {
+        azimuth: fields.number("azimuth").map_or(standard.azimuth, |n| n.value),
+        elevation: fields.number("elevation").map_or(standard.elevation, |n| n.value),
+        distance: fields.number("distance").map(|n| n.value),
+        target: fields.node("target").and_then(|n| point(n, fields.findings)),
+    };
+    fields.finish();
+    Some(camera)
+}
+
+/// Three numbers.
+fn point(node: &Node, findings: &mut Vec<Finding>) -> Option<[f64; 3]> {
+    if let Json::Array(items) = &node.json
+        && let [Json::Number(x), Json::Number(y), Json::Number(z)] = items.iter().map(|n| &n.json).collect::<Vec<_>>()[..]
+    {
+        return Some([*x, *y, *z]);
+    }
+    findings.push(
+        Finding::new(&WRONG_TYPE, node.span.clone(), "`target` must be three numbers, in metres")
+            .help("write \"target\": [0, 0, 0.5]"),
+    );
+    None
+}
+
+fn overlays(fields: &mut Fields<'_, '_>) -> Vec<(Text, bool)> {
+    let mut all = Vec::new();
+    for member in fields.map("overlays") {
+        match member.value.json {
+            Json::Bool(on) => all.push((member.key.clone(), on)),
+            _ => fields.findings.push(
+                Finding::new(&WRONG_TYPE, member.value.span.clone(), "an overlay is switched by true or false")
+                    .help("write true or false, without quotes"),
+            ),
+        }
+    }
+    all
+}

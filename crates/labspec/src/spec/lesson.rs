@@ -1,0 +1,308 @@
+//! A lesson: what its fences hold, in order, and how labs are addressed.
+
+use super::{Lab, Quiz, VerifyLab, lab, quiz};
+use crate::finding::{self, Finding};
+use crate::json::{self, Json, Node};
+use crate::lint::rules::fence::{LIMIT, UNKNOWN_SPEC, WRONG_FENCE};
+use crate::lint::{self, ModelFolder};
+use crate::markdown::{self, Block, BlockKind};
+use crate::source::{MAX_FILE, SourceFile, SourceMap, Text};
+use std::ops::Range;
+
+/// Most findings that are kept per file. Whoever has more fixes the first ones first.
+pub const MAX_FINDINGS: usize = 1000;
+
+/// A lesson, or a stand-alone JSON file, with everything that was found wrong in its structure.
+#[derive(Clone, Debug)]
+pub struct Lesson {
+    /// The file.
+    pub file: SourceFile,
+    /// The labs, in order: `#1`, `#2`, …
+    pub labs: Vec<LabEntry>,
+    /// The quizzes, in order.
+    pub quizzes: Vec<Quiz>,
+    /// Blocks of widgets that are not ours to run.
+    pub widgets: Vec<Widget>,
+    /// What is wrong, in order.
+    pub findings: Vec<Finding>,
+}
+
+/// A lab of a lesson.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabEntry {
+    /// Its number, from 1. A lab that could not be read keeps its number.
+    pub number: usize,
+    /// Bytes of the fence, or of the object in a JSON file.
+    pub span: Range<usize>,
+    /// The lab; `None` when its JSON is broken, which is reported.
+    pub lab: Option<Lab>,
+}
+
+/// A block of another widget.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Widget {
+    /// The widget's name.
+    pub name: String,
+    /// Bytes of the fence.
+    pub span: Range<usize>,
+    /// The model it names.
+    pub model: Option<Text>,
+}
+
+/// The address of a lab within a lesson, written `#2` or `#quiz-id.1`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LabAddress {
+    /// A lab by its number, from 1.
+    Lab(usize),
+    /// The `sim` of a question, from 1.
+    Sim {
+        /// Id of the quiz.
+        quiz: String,
+        /// Number of the question, from 1.
+        question: usize,
+    },
+}
+
+impl LabAddress {
+    /// Reads `#2`, `#quiz-id.1`; ids may hold dots themselves. `None` when it is neither.
+    pub fn parse(text: &str) -> Option<LabAddress> {
+        let name = text.strip_prefix('#')?;
+        let number = |digits: &str| digits.parse::<usize>().ok().filter(|&n| n > 0 && digits.len() < 8);
+        if let Some(n) = number(name) {
+            return Some(LabAddress::Lab(n));
+        }
+        let (quiz, question) = name.rsplit_once('.')?;
+        Some(LabAddress::Sim { quiz: quiz.to_string(), question: number(question)? })
+            .filter(|_| !quiz.is_empty())
+    }
+}
+
+impl std::fmt::Display for LabAddress {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            LabAddress::Lab(n) => write!(f, "#{n}"),
+            LabAddress::Sim { quiz, question } => write!(f, "#{quiz}.{question}"),
+        }
+    }
+}
+
+impl Lesson {
+    /// The lab at an address.
+    pub fn lab(&self, address: &LabAddress) -> Option<&Lab> {
+        match address {
+            LabAddress::Lab(n) => self.labs.get(n.checked_sub(1)?)?.lab.as_ref(),
+            LabAddress::Sim { quiz, question } => {
+                let quiz = self.quizzes.iter().find(|q| q.id.as_ref().is_some_and(|id| id.value == *quiz))?;
+                quiz.questions.get(question.checked_sub(1)?)?.as_ref()?.sim()
+            }
+        }
+    }
+
+    /// Every lab that has an address: labs in order, then the sims of the questions.
+    pub fn addressed(&self) -> Vec<(LabAddress, &Lab)> {
+        let mut all: Vec<_> =
+            self.labs.iter().filter_map(|e| Some((LabAddress::Lab(e.number), e.lab.as_ref()?))).collect();
+        for quiz in &self.quizzes {
+            let id = quiz.id.as_ref().map_or("", Text::as_str);
+            for (number, question) in quiz.numbered() {
+                if let Some(sim) = question.sim() {
+                    all.push((LabAddress::Sim { quiz: id.to_string(), question: number }, sim));
+                }
+            }
+        }
+        all
+    }
+
+    /// Every lab there is, those written inside `verify` objects included.
+    pub fn all_labs(&self) -> Vec<&Lab> {
+        let mut open: Vec<&Lab> = self.addressed().into_iter().map(|(_, lab)| lab).collect();
+        let questions = self.quizzes.iter().flat_map(|q| q.numbered());
+        open.extend(questions.filter_map(|(_, q)| inline(q.verify.as_ref()?.lab.as_ref())));
+        let mut all = Vec::new();
+        // An inline lab may carry a verify object with another inline lab; JSON depth bounds the chain.
+        while let Some(lab) = open.pop() {
+            open.extend(lab.verify.as_ref().and_then(|v| inline(v.lab.as_ref())));
+            all.push(lab);
+        }
+        all
+    }
+
+    /// Whether anything is an error.
+    pub fn has_errors(&self) -> bool {
+        self.findings.iter().any(|f| f.severity == finding::Severity::Error)
+    }
+}
+
+fn inline(lab: Option<&VerifyLab>) -> Option<&Lab> {
+    match lab {
+        Some(VerifyLab::Inline(lab)) => Some(lab),
+        _ => None,
+    }
+}
+
+/// Reads a lesson (Markdown) or, when the path ends in `.json`, a lab, a quiz or a list of them, and checks its
+/// structure. Nothing is run; this never fails, findings say what is wrong.
+pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
+    let mut lesson =
+        Lesson { file, labs: Vec::new(), quizzes: Vec::new(), widgets: Vec::new(), findings: Vec::new() };
+    if lesson.file.text().len() as u64 > MAX_FILE {
+        let limit = MAX_FILE >> 20;
+        lesson.findings.push(Finding::new(&LIMIT, 0..0, format!("this file is larger than {limit} MB")));
+    } else if lesson.file.path().to_ascii_lowercase().ends_with(".json") {
+        json_file(&mut lesson);
+    } else {
+        markdown_file(&mut lesson, models);
+    }
+    let mut findings = std::mem::take(&mut lesson.findings);
+    lint::check(&lesson, models, &mut findings);
+    lesson.findings = findings.into_iter().map(|f| f.at(&lesson.file)).collect();
+    finding::sort(&mut lesson.findings);
+    if lesson.findings.len() > MAX_FINDINGS {
+        let more = lesson.findings.len() - MAX_FINDINGS;
+        lesson.findings.truncate(MAX_FINDINGS);
+        let end = lesson.file.text().len();
+        lesson.findings.push(
+            Finding::new(&LIMIT, end..end, format!("{more} more findings are not shown"))
+                .help("fix the first ones, then check again")
+                .at(&lesson.file),
+        );
+    }
+    lesson
+}
+
+fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
+    let scan = markdown::scan(&lesson.file);
+    lesson.findings.extend(scan.findings);
+    for block in &scan.blocks {
+        match &block.kind {
+            BlockKind::Lab(widget) if widget == "simlab" => {
+                let node = body(block, &mut lesson.findings);
+                if let Some(node) = &node
+                    && node.get("questions").is_some()
+                {
+                    lesson.findings.push(
+                        Finding::new(&WRONG_FENCE, block.info.clone(), "this fence says `lab`, but it holds a quiz")
+                            .help("write ```quiz"),
+                    );
+                    lesson.quizzes.extend(quiz::read(node, &mut lesson.findings));
+                    continue;
+                }
+                let lab = node.and_then(|node| lab::read(&node, &mut lesson.findings));
+                push_lab(lesson, block.span.clone(), lab);
+            }
+            BlockKind::Lab(widget) => {
+                let node = body(block, &mut lesson.findings);
+                let model = node.as_ref().and_then(|n| match &n.get("model")?.json {
+                    Json::Text(text) => Some(text.clone()),
+                    _ => None,
+                });
+                if let Some(model) = &model {
+                    lesson.findings.extend(lint::rules::model::missing(model, models));
+                }
+                lesson.widgets.push(Widget { name: widget.clone(), span: block.span.clone(), model });
+            }
+            BlockKind::Quiz => {
+                let Some(node) = body(block, &mut lesson.findings) else { continue };
+                if node.get("questions").is_none() && looks_like_lab(&node) {
+                    lesson.findings.push(
+                        Finding::new(&WRONG_FENCE, block.info.clone(), "this fence says `quiz`, but it holds a lab")
+                            .help("write ```lab simlab"),
+                    );
+                    let lab = lab::read(&node, &mut lesson.findings);
+                    push_lab(lesson, block.span.clone(), lab);
+                    continue;
+                }
+                lesson.quizzes.extend(quiz::read(&node, &mut lesson.findings));
+            }
+            BlockKind::Code { .. } => {}
+        }
+    }
+}
+
+/// The JSON of a block.
+fn body(block: &Block, findings: &mut Vec<Finding>) -> Option<Node> {
+    if block.body.value.trim().is_empty() {
+        findings.push(
+            Finding::new(&json_rules::SYNTAX, block.info.clone(), "this fence is empty")
+                .help("write one JSON object between the two ``` lines: { … }"),
+        );
+        return None;
+    }
+    read_json(&block.body.value, &block.body.map, findings)
+}
+
+use crate::lint::rules::json as json_rules;
+
+/// Parses JSON after repairing typographic quotes; positions stay those of the file.
+fn read_json(text: &str, map: &SourceMap, findings: &mut Vec<Finding>) -> Option<Node> {
+    let (node, said) = match markdown::repair_quotes(text, map) {
+        Some(repaired) => {
+            findings.push(repaired.finding);
+            json::parse(&repaired.text, &repaired.map)
+        }
+        None => json::parse(text, map),
+    };
+    findings.extend(said);
+    node
+}
+
+fn push_lab(lesson: &mut Lesson, span: Range<usize>, lab: Option<Lab>) {
+    let number = lesson.labs.len() + 1;
+    lesson.labs.push(LabEntry { number, span, lab });
+}
+
+fn looks_like_lab(node: &Node) -> bool {
+    ["model", "xml", "controls", "plots", "readouts"].iter().any(|key| node.get(key).is_some())
+}
+
+/// A lab, a quiz, or a list of them, told apart by their keys.
+fn json_file(lesson: &mut Lesson) {
+    let text = lesson.file.text();
+    // A byte order mark is no part of JSON, and editors hide it.
+    let start = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+    let map = SourceMap::verbatim(start..text.len());
+    let Some(node) = read_json(text.get(start..).unwrap_or(""), &map, &mut lesson.findings) else { return };
+    match &node.json {
+        Json::Array(items) => items.iter().for_each(|item| json_item(lesson, item)),
+        _ => json_item(lesson, &node),
+    }
+}
+
+fn json_item(lesson: &mut Lesson, node: &Node) {
+    if node.get("questions").is_some() {
+        lesson.quizzes.extend(quiz::read(node, &mut lesson.findings));
+    } else if looks_like_lab(node) {
+        let lab = lab::read(node, &mut lesson.findings);
+        push_lab(lesson, node.span.clone(), lab);
+    } else {
+        let open = node.span.start..node.span.end.min(node.span.start + 1);
+        lesson.findings.push(
+            Finding::new(&UNKNOWN_SPEC, open, "neither a lab nor a quiz")
+                .help("a lab has a `model` or an `xml`; a quiz has `questions`"),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn addresses_read_what_they_print() {
+        for (text, address) in [
+            ("#2", Some(LabAddress::Lab(2))),
+            ("#0.1-predict.2", Some(LabAddress::Sim { quiz: "0.1-predict".into(), question: 2 })),
+            ("#0", None),
+            ("2", None),
+            ("#quiz", None),
+            ("#.1", None),
+            ("#quiz.0", None),
+            ("#99999999999999999999", None),
+        ] {
+            assert_eq!(LabAddress::parse(text), address, "{text}");
+            if let Some(address) = address {
+                assert_eq!(address.to_string(), text);
+            }
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! Labs, quizzes and lessons as typed values.
+//!
+//! Every key has its type and default from the lab format; every string that is code or HTML is a
+//! [`Text`](crate::source::Text), so that a place inside it is a place of the lesson. Reading never fails: what is wrong is
+//! a finding, and what is right is still there for the other checks.
+
+mod control;
+mod lab;
+mod lesson;
+mod plot;
+mod quiz;
+mod verify;
+
+pub use control::{Action, Choice, Control, ControlKind};
+pub use lab::{Camera, Lab, OVERLAYS, Scene};
+pub use lesson::{LabAddress, LabEntry, Lesson, Widget, load_lesson};
+pub use plot::{Plot, Readout, RefLine, Trace};
+pub use quiz::{ChoiceStyle, Question, QuestionKind, Quiz};
+pub use verify::{Run, Said, Verify, VerifyLab};

@@ -1,0 +1,130 @@
+//! Plots, their traces and reference lines, and readouts.
+
+use crate::finding::Finding;
+use crate::json::{Fields, Node, Number};
+use crate::source::Text;
+use std::ops::Range;
+
+/// A plot over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plot {
+    /// Bytes of the file.
+    pub span: Range<usize>,
+    /// Label of the vertical axis.
+    pub ylabel: Option<Text>,
+    /// Label of the horizontal axis; `None` means "time (s)".
+    pub xlabel: Option<Text>,
+    /// Seconds shown; `None` means 5.
+    pub window: Option<Number>,
+    /// Lower end of the vertical axis; `None` follows the data.
+    pub ymin: Option<Number>,
+    /// Upper end of the vertical axis; `None` follows the data.
+    pub ymax: Option<Number>,
+    /// Pixels; `None` means 140.
+    pub height: Option<Number>,
+    /// Horizontal lines.
+    pub ref_lines: Vec<RefLine>,
+    /// The curves.
+    pub traces: Vec<Trace>,
+}
+
+/// A horizontal line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RefLine {
+    /// Its height, in the unit of the axis.
+    pub y: Number,
+    /// Shown text.
+    pub label: Option<Text>,
+}
+
+/// A curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trace {
+    /// Bytes of the file.
+    pub span: Range<usize>,
+    /// Its name in the legend and in written tables.
+    pub label: Text,
+    /// Expression, evaluated at every sample.
+    pub expr: Text,
+    /// Drawn dashed.
+    pub dash: bool,
+}
+
+/// A value shown as text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Readout {
+    /// Bytes of the file.
+    pub span: Range<usize>,
+    /// Its name.
+    pub label: Text,
+    /// Expression; a number, a text or a truth value.
+    pub expr: Text,
+    /// Decimals; `None` means 3.
+    pub digits: Option<Number>,
+}
+
+impl Plot {
+    /// Seconds shown.
+    pub fn window(&self) -> f64 {
+        self.window.as_ref().map_or(5.0, |w| w.value)
+    }
+
+    /// Label of the horizontal axis.
+    pub fn xlabel(&self) -> &str {
+        self.xlabel.as_ref().map_or("time (s)", Text::as_str)
+    }
+}
+
+impl Readout {
+    /// Decimals to print with.
+    pub fn digits(&self) -> u32 {
+        super::control::decimals(self.digits.as_ref())
+    }
+}
+
+/// Reads a plot.
+pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Plot> {
+    let mut fields = Fields::open(node, "a plot", findings)?;
+    let plot = Plot {
+        span: fields.span(),
+        ylabel: fields.text("ylabel"),
+        xlabel: fields.text("xlabel"),
+        window: fields.number("window"),
+        ymin: fields.number("ymin"),
+        ymax: fields.number("ymax"),
+        height: fields.number("height"),
+        ref_lines: fields.list("refLines").iter().filter_map(|n| ref_line(n, fields.findings)).collect(),
+        traces: fields.list("traces").iter().filter_map(|n| trace(n, fields.findings)).collect(),
+    };
+    fields.finish();
+    Some(plot)
+}
+
+fn ref_line(node: &Node, findings: &mut Vec<Finding>) -> Option<RefLine> {
+    let mut fields = Fields::open(node, "a reference line", findings)?;
+    let y = fields.need_number("y", "it is the height of the line");
+    let label = fields.text("label");
+    fields.finish();
+    Some(RefLine { y: y?, label })
+}
+
+fn trace(node: &Node, findings: &mut Vec<Finding>) -> Option<Trace> {
+    let mut fields = Fields::open(node, "a trace", findings)?;
+    let label = fields.need_text("label", "the legend and the written table name the curve by it");
+    let expr = fields.need_text("expr", "it is the expression that is drawn");
+    let dash = fields.flag("dash");
+    let span = fields.span();
+    fields.finish();
+    Some(Trace { span, label: label?, expr: expr?, dash })
+}
+
+/// Reads a readout.
+pub(super) fn readout(node: &Node, findings: &mut Vec<Finding>) -> Option<Readout> {
+    let mut fields = Fields::open(node, "a readout", findings)?;
+    let label = fields.need_text("label", "a number without a name tells nothing");
+    let expr = fields.need_text("expr", "it is the expression that is shown");
+    let digits = fields.whole("digits");
+    let span = fields.span();
+    fields.finish();
+    Some(Readout { span, label: label?, expr: expr?, digits })
+}

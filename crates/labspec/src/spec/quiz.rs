@@ -1,0 +1,209 @@
+//! The quiz object and its kinds of questions.
+
+use super::{Lab, Verify, lab, verify};
+use crate::finding::{Finding, Severity};
+use crate::json::{Fields, Node, Number, read};
+use crate::lint::rules::keys::WRONG_TYPE;
+use crate::source::Text;
+use std::ops::Range;
+
+/// A quiz.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quiz {
+    /// Bytes of the file, braces included.
+    pub span: Range<usize>,
+    /// Its id, unique in a course: answers are stored under it.
+    pub id: Option<Text>,
+    /// Shown title; `None` means "Knowledge check".
+    pub title: Option<Text>,
+    /// The questions. One that could not be understood is `None`, so that the numbers of the others stay.
+    pub questions: Vec<Option<Question>>,
+}
+
+/// A question.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// Bytes of the file, braces included.
+    pub span: Range<usize>,
+    /// The question, HTML.
+    pub q: Text,
+    /// Shown after the answer, HTML.
+    pub explain: Option<Text>,
+    /// Shown label.
+    pub label: Option<Text>,
+    /// What is asked.
+    pub kind: QuestionKind,
+    /// What a machine can check about the answer.
+    pub verify: Option<Verify>,
+}
+
+/// How a question is answered.
+#[derive(Clone, Debug, PartialEq)]
+pub enum QuestionKind {
+    /// One of several options.
+    Choice {
+        /// Which of the three kinds.
+        style: ChoiceStyle,
+        /// The options, HTML, in the order shown.
+        options: Vec<Text>,
+        /// Index of the right option, from 0.
+        answer: Option<Number>,
+        /// The lab that is shown after the student has committed (`predict`).
+        sim: Option<Box<Lab>>,
+    },
+    /// A number.
+    Numeric {
+        /// The right answer.
+        answer: Option<Number>,
+        /// How far an answer may be off; `None` means 2 % of the answer.
+        tol: Option<Number>,
+        /// Unit, for display.
+        unit: Option<Text>,
+    },
+    /// A text or a program, not graded.
+    Open {
+        /// `code` rather than `open`.
+        code: bool,
+        /// The reference answer, HTML.
+        reference: Option<Text>,
+    },
+}
+
+/// The kinds of questions with options.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChoiceStyle {
+    /// `mcq`
+    Mcq,
+    /// `debug`
+    Debug,
+    /// `predict`
+    Predict,
+}
+
+impl Question {
+    /// The lab of a `predict` question.
+    pub fn sim(&self) -> Option<&Lab> {
+        match &self.kind {
+            QuestionKind::Choice { sim, .. } => sim.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// Right answer and tolerance of a numeric question.
+    pub fn numeric(&self) -> Option<(f64, f64)> {
+        match &self.kind {
+            QuestionKind::Numeric { answer: Some(answer), tol, .. } => {
+                Some((answer.value, tol.as_ref().map_or(0.02 * answer.value.abs(), |t| t.value)))
+            }
+            _ => None,
+        }
+    }
+
+    /// Index of the right option, when it is one of the options.
+    pub fn right_option(&self) -> Option<usize> {
+        match &self.kind {
+            QuestionKind::Choice { answer: Some(answer), options, .. } => {
+                (0..options.len()).find(|&i| i as f64 == answer.value)
+            }
+            _ => None,
+        }
+    }
+
+    /// Every text of the question that is HTML.
+    pub fn html(&self) -> Vec<&Text> {
+        let mut all = vec![&self.q];
+        match &self.kind {
+            QuestionKind::Choice { options, .. } => all.extend(options),
+            QuestionKind::Open { reference, .. } => all.extend(reference),
+            QuestionKind::Numeric { .. } => {}
+        }
+        all.extend(&self.explain);
+        all
+    }
+}
+
+impl Quiz {
+    /// The questions that were understood, with their numbers from 1.
+    pub fn numbered(&self) -> impl Iterator<Item = (usize, &Question)> {
+        self.questions.iter().enumerate().filter_map(|(i, q)| q.as_ref().map(|q| (i + 1, q)))
+    }
+}
+
+/// Reads a quiz.
+pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Quiz> {
+    let mut fields = Fields::open(node, "a quiz", findings)?;
+    let id = fields.need_text("id", "the page stores a student's answers under the id of the quiz");
+    let title = fields.text("title");
+    let questions = fields.need_list("questions", "a quiz is a list of questions");
+    let questions = questions.unwrap_or_default().iter().map(|n| question(n, fields.findings)).collect();
+    let span = fields.span();
+    fields.finish();
+    Some(Quiz { span, id, title, questions })
+}
+
+const KINDS: [&str; 6] = ["mcq", "debug", "predict", "numeric", "open", "code"];
+
+fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
+    let mut fields = Fields::open(node, "a question", findings)?;
+    let kind = fields.text("kind");
+    let q = fields.need_text("q", "it is the text of the question");
+    let explain = fields.text("explain");
+    let label = fields.text("label");
+    let asked = match kind.as_ref().map_or("mcq", Text::as_str) {
+        "mcq" => choice(&mut fields, ChoiceStyle::Mcq),
+        "debug" => choice(&mut fields, ChoiceStyle::Debug),
+        "predict" => choice(&mut fields, ChoiceStyle::Predict),
+        "numeric" => numeric(&mut fields),
+        word @ ("open" | "code") => {
+            fields.rename("an open question");
+            QuestionKind::Open { code: word == "code", reference: fields.text("reference") }
+        }
+        other => {
+            let span = kind.as_ref().map_or(node.span.clone(), Text::span);
+            let finding =
+                Finding::new(&WRONG_TYPE, span.clone(), format!("there is no question of kind `{}`", read::shorten(other)));
+            fields.findings.push(match read::nearest(other, KINDS) {
+                Some(right) => finding.help(format!("did you mean `{right}`?")).fix(span, right),
+                None => finding.help(format!("the kinds are {}", KINDS.join(", "))),
+            });
+            return None;
+        }
+    };
+    let verify = fields.node("verify").and_then(|n| verify::read(n, fields.findings));
+    let span = fields.span();
+    fields.finish();
+    Some(Question { span, q: q?, explain, label, kind: asked, verify })
+}
+
+fn choice(fields: &mut Fields<'_, '_>, style: ChoiceStyle) -> QuestionKind {
+    let options = fields.need_list("options", "the student chooses one of them");
+    let options =
+        options.unwrap_or_default().iter().filter_map(|n| read::text(n, "an option", fields.findings)).collect();
+    let answer = fields.need_whole("answer", "it is the index of the right option, from 0");
+    let mut sim = None;
+    match style {
+        ChoiceStyle::Mcq => fields.rename("a question of kind mcq"),
+        ChoiceStyle::Debug => fields.rename("a question of kind debug"),
+        ChoiceStyle::Predict => {
+            fields.rename("a question of kind predict");
+            match fields.node("sim") {
+                Some(node) => sim = lab::read(node, fields.findings).map(Box::new),
+                None => fields.missing(
+                    "sim",
+                    "a prediction is followed by the simulation that settles it; without one, use kind mcq",
+                    Severity::Warning,
+                ),
+            }
+        }
+    }
+    QuestionKind::Choice { style, options, answer, sim }
+}
+
+fn numeric(fields: &mut Fields<'_, '_>) -> QuestionKind {
+    fields.rename("a question of kind numeric");
+    QuestionKind::Numeric {
+        answer: fields.need_number("answer", "without it no answer is right"),
+        tol: fields.number("tol"),
+        unit: fields.text("unit"),
+    }
+}

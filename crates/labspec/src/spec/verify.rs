@@ -1,0 +1,169 @@
+//! The `verify` object of a question or a lab: what a machine can check about the text.
+//!
+//! Here it is only read; expressions stay texts with their places.
+
+use super::{Lab, LabAddress, lab};
+use crate::finding::Finding;
+use crate::json::{Fields, Json, Member, Node, Number, Scalar, read};
+use crate::lint::rules::keys::WRONG_TYPE;
+use crate::source::Text;
+use std::ops::Range;
+
+/// Runs, measures over them, and what must hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verify {
+    /// Bytes of the file, braces included.
+    pub span: Range<usize>,
+    /// The lab that runs; `None` means the question's `sim`, or the lab that carries this object.
+    pub lab: Option<VerifyLab>,
+    /// The runs. Empty means one run of the lab as it stands.
+    pub runs: Vec<Run>,
+    /// Measures: name and expression, taken in every run.
+    pub measure: Vec<(Text, Text)>,
+    /// One condition per option of the question.
+    pub options: Vec<Text>,
+    /// The value of a numeric answer.
+    pub value: Option<Text>,
+    /// Numbers quoted in the text, each with the expression it must equal as printed.
+    pub says: Vec<Said>,
+    /// Label or name of a trace, and the closed form it must follow.
+    pub exact: Vec<(Text, Text)>,
+}
+
+/// The lab of a [`Verify`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum VerifyLab {
+    /// Written out.
+    Inline(Box<Lab>),
+    /// Another lab of the lesson: `#2`, `#quiz-id.1`.
+    Reference(Text, LabAddress),
+}
+
+/// A named run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Its name, which measures are read by: `name.measure`.
+    pub name: Text,
+    /// Control labels and the values they are set to before the run.
+    pub set: Vec<(Text, Scalar)>,
+    /// Button labels and the times (s) of their presses.
+    pub press: Vec<(Text, Number)>,
+    /// Further statements, after the lab's own setup.
+    pub setup: Option<Text>,
+    /// Length in seconds.
+    pub until: Option<Number>,
+    /// Length in steps.
+    pub steps: Option<Number>,
+    /// Relative tolerance of comparisons with this run, instead of the general one.
+    pub tol: Option<Number>,
+}
+
+/// A number quoted in the text and where it comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Said {
+    /// The quoted text, such as `0.442 s`.
+    pub quote: Text,
+    /// The expression whose value it states.
+    pub expr: Text,
+}
+
+/// Reads a `verify` object.
+pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Verify> {
+    let mut fields = Fields::open(node, "a verify object", findings)?;
+    let f = &mut fields;
+    let verify = Verify {
+        span: f.span(),
+        lab: f.node("lab").and_then(|n| which(n, f.findings)),
+        runs: f.map("runs").iter().filter_map(|m| run(m, f.findings)).collect(),
+        measure: expressions(f, "measure"),
+        options: f.list("options").iter().filter_map(|n| read::text(n, "a condition", f.findings)).collect(),
+        value: f.text("value"),
+        says: f.list("says").iter().filter_map(|n| said(n, f.findings)).collect(),
+        exact: expressions(f, "exact"),
+    };
+    fields.finish();
+    Some(verify)
+}
+
+fn which(node: &Node, findings: &mut Vec<Finding>) -> Option<VerifyLab> {
+    match &node.json {
+        Json::Text(text) => match LabAddress::parse(&text.value) {
+            Some(address) => Some(VerifyLab::Reference(text.clone(), address)),
+            None => {
+                findings.push(
+                    Finding::new(&WRONG_TYPE, text.span(), format!("`{}` is not a place of a lab", read::shorten(&text.value)))
+                        .help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object"),
+                );
+                None
+            }
+        },
+        Json::Object(_) => lab::read(node, findings).map(|l| VerifyLab::Inline(Box::new(l))),
+        _ => {
+            findings.push(
+                Finding::new(&WRONG_TYPE, node.span.clone(), format!("`lab` must be a text or a lab object; this is {}", node.describe()))
+                    .help("write \"#2\" for the second lab of the lesson, or a lab object"),
+            );
+            None
+        }
+    }
+}
+
+fn run(member: &Member, findings: &mut Vec<Finding>) -> Option<Run> {
+    let mut fields = Fields::open(&member.value, "a run", findings)?;
+    let f = &mut fields;
+    let run = Run {
+        name: member.key.clone(),
+        set: f
+            .map("set")
+            .iter()
+            .filter_map(|m| Some((m.key.clone(), read::scalar(&m.value, "the value of a control", f.findings)?)))
+            .collect(),
+        press: f.list("press").iter().filter_map(|n| press(n, f.findings)).collect(),
+        setup: f.text("setup"),
+        until: f.number("until"),
+        steps: f.whole("steps"),
+        tol: f.number("tol"),
+    };
+    fields.finish();
+    Some(run)
+}
+
+fn press(node: &Node, findings: &mut Vec<Finding>) -> Option<(Text, Number)> {
+    if let Json::Array(pair) = &node.json
+        && let [label, time] = pair.as_slice()
+    {
+        let label = read::text(label, "the label of a button", findings);
+        let time = read::number(time, "the time of a press", findings);
+        return Some((label?, time?));
+    }
+    findings.push(
+        Finding::new(&WRONG_TYPE, node.span.clone(), "a press is a pair [label, time]")
+            .help("write [\"Drop\", 0.5]: the button's label and the time in seconds"),
+    );
+    None
+}
+
+fn said(node: &Node, findings: &mut Vec<Finding>) -> Option<Said> {
+    if let Json::Array(pair) = &node.json
+        && let [quote, expr] = pair.as_slice()
+    {
+        let quote = read::text(quote, "a quoted number", findings);
+        let expr = read::text(expr, "the expression of a quoted number", findings);
+        return Some(Said { quote: quote?, expr: expr? });
+    }
+    findings.push(
+        Finding::new(&WRONG_TYPE, node.span.clone(), "what the text says is a pair [quote, expression]")
+            .help("write [\"0.442 s\", \"fine.touch\"]"),
+    );
+    None
+}
+
+fn expressions(fields: &mut Fields<'_, '_>, key: &'static str) -> Vec<(Text, Text)> {
+    let mut all = Vec::new();
+    for member in fields.map(key) {
+        if let Some(text) = read::text(&member.value, &read::shorten(&member.key.value), fields.findings) {
+            all.push((member.key.clone(), text));
+        }
+    }
+    all
+}
