@@ -113,12 +113,12 @@ pub struct WarningStat {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Work {
     /// Pairs of geoms to test.
-    pub(crate) pairs: Vec<collision::Pair>,
+    pub(crate) pairs: collision::Pairs,
     /// Jacobian of the constraints.
     pub(crate) jac: Jacobian,
-    /// Columns and linear velocities of one contact's Jacobian.
+    /// Columns of one contact's Jacobian, and their values along its frame.
     pub(crate) cols: Vec<u32>,
-    pub(crate) lin: Vec<Vec3>,
+    pub(crate) along: Vec<Vec3>,
     pub(crate) islands: Islands,
     pub(crate) solver: Scratch,
     /// Spatial accelerations and forces of bodies.

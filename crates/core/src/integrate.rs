@@ -52,8 +52,8 @@ pub(crate) fn euler(m: &Model, d: &mut Data) {
             d.qvel[i] += h * d.work.qacc[i];
         }
     } else {
-        for i in 0..m.nv {
-            d.qvel[i] += h * d.qacc[i];
+        for (v, a) in d.qvel.iter_mut().zip(&d.qacc) {
+            *v += h * a;
         }
     }
     integrate_pos(m, &mut d.qpos, &d.qvel, h);

@@ -6,6 +6,7 @@
 
 use crate::math::*;
 use crate::{Data, Model};
+use std::ops::Range;
 
 /// `crb` and `M`. The diagonal of simple bodies is constant: with `constant` it is taken from `dof_M0`.
 pub(crate) fn composite_inertia(m: &Model, d: &mut Data, constant: bool) {
@@ -73,7 +74,14 @@ pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64]) -> Option<
 
 /// x ← M⁻¹ x for the degrees of freedom `dofs` (ascending, whole trees).
 #[inline]
-pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs: impl DoubleEndedIterator<Item = usize> + Clone) {
+pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs: Range<usize>) {
+    if m.nC == m.nv {
+        // A diagonal matrix.
+        for (x, inv) in x[dofs.clone()].iter_mut().zip(&diag_inv[dofs]) {
+            *x *= inv;
+        }
+        return;
+    }
     let row = |i: usize| {
         let start = m.M_rowadr[i] as usize;
         start..start + m.M_rownnz[i] as usize - 1
@@ -95,7 +103,14 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
 
 /// out ← M v for the degrees of freedom `dofs` (ascending, whole trees).
 #[inline]
-pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: impl Iterator<Item = usize>) {
+pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Range<usize>) {
+    if m.nC == m.nv {
+        // A diagonal matrix.
+        for ((out, mass), v) in out[dofs.clone()].iter_mut().zip(&mass[dofs.clone()]).zip(&v[dofs]) {
+            *out = mass * v;
+        }
+        return;
+    }
     for i in dofs {
         let start = m.M_rowadr[i] as usize;
         let diag = start + m.M_rownnz[i] as usize - 1;

@@ -210,7 +210,8 @@ pub fn quat_to_vel(q: Quat) -> Vec3 {
 #[inline]
 pub fn quat_integrate(q: Quat, w: Vec3, h: f64) -> Quat {
     let (axis, speed) = normalize(w);
-    quat_mul(quat_normalize(q), quat_axis_angle(axis, h * speed))
+    let angle = h * speed;
+    if angle == 0.0 { quat_normalize(q) } else { quat_mul(quat_normalize(q), quat_axis_angle(axis, angle)) }
 }
 
 /// m v

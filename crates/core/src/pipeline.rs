@@ -106,8 +106,10 @@ pub(crate) fn velocity(m: &Model, d: &mut Data) {
 /// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`.
 #[inline(never)]
 pub(crate) fn acceleration(m: &Model, d: &mut Data) {
-    for i in 0..m.nv {
-        d.qfrc_smooth[i] = d.qfrc_passive[i] - d.qfrc_bias[i] + d.qfrc_applied[i] + d.qfrc_actuator[i];
+    let internal = d.qfrc_passive.iter().zip(&d.qfrc_bias);
+    let external = d.qfrc_applied.iter().zip(&d.qfrc_actuator);
+    for (f, ((passive, bias), (applied, actuator))) in d.qfrc_smooth.iter_mut().zip(internal.zip(external)) {
+        *f = passive - bias + applied + actuator;
     }
     if d.plan.applied_forces {
         applied_forces(m, d);
@@ -115,8 +117,8 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     d.qacc_smooth.copy_from_slice(&d.qfrc_smooth);
     match d.plan.mass {
         Exact::Diagonal => {
-            for i in 0..m.nv {
-                d.qacc_smooth[i] *= d.qLDiagInv[i];
+            for (a, inv) in d.qacc_smooth.iter_mut().zip(&d.qLDiagInv) {
+                *a *= inv;
             }
         }
         Exact::General => mass::solve(m, &d.qLD, &d.qLDiagInv, &mut d.qacc_smooth, 0..m.nv),
@@ -181,8 +183,7 @@ fn bad(x: f64) -> bool {
 }
 
 fn first_bad(v: &[f64]) -> Option<usize> {
-    // One pass without branches per element; the index is looked for only when there is one.
-    if v.iter().fold(false, |any, &x| any | bad(x)) { v.iter().position(|&x| bad(x)) } else { None }
+    v.iter().position(|&x| bad(x))
 }
 
 fn warn(d: &mut Data, warning: Warning, info: usize) {
@@ -227,10 +228,11 @@ fn check_acceleration(m: &Model, d: &mut Data) {
 
 /// Replaces the plan, which decides what the next forward pass computes.
 pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
-    d.work.pairs.clear();
-    if plan.keeps(Stage::Collision) {
-        d.work.pairs = collision::candidate_pairs(m, |a, b| plan.contact_bits_may_change || collision::can_collide(m, a, b));
-    }
+    d.work.pairs = if plan.keeps(Stage::Collision) {
+        collision::pairs(m, plan.contact_bits_may_change, plan.contact_params_may_change)
+    } else {
+        collision::Pairs::default()
+    };
     d.plan = plan;
     reset::clear_left_out(m, d);
 }

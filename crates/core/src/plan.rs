@@ -53,11 +53,12 @@ pub struct Plan {
     /// Whether forces applied to bodies are looked at.
     pub(crate) applied_forces: bool,
     pub(crate) contact_bits_may_change: bool,
+    pub(crate) contact_params_may_change: bool,
 }
 
 impl Default for Plan {
     fn default() -> Self {
-        Plan { decisions: Vec::new(), kept: 0, mass: Exact::General, some_general: true, applied_forces: true, contact_bits_may_change: true }
+        Plan { decisions: Vec::new(), kept: 0, mass: Exact::General, some_general: true, applied_forces: true, contact_bits_may_change: true, contact_params_may_change: true }
     }
 }
 
@@ -90,6 +91,7 @@ impl Plan {
         // Decided from the model and what is written, in the order of their dependence.
         let bits_change = asked.writes(Object::Model, &["geom_contype", "geom_conaffinity", "geom_bodyid"]);
         plan.contact_bits_may_change = bits_change;
+        plan.contact_params_may_change = asked.writes(Object::Model, &CONTACT_PARAMS) || asked.writes(Object::Option, &OVERRIDES);
         let contacts = asked.contacts(bits_change);
         let limits = asked.limits();
         let springs = asked.springs();
@@ -171,6 +173,11 @@ const STAGES: [Stage; 16] = [
     Stage::Sensors,
     Stage::Energy,
 ];
+
+/// What the parameters of a contact are mixed from.
+const CONTACT_PARAMS: [&str; 8] =
+    ["geom_condim", "geom_priority", "geom_solmix", "geom_solref", "geom_solimp", "geom_friction", "geom_margin", "geom_gap"];
+const OVERRIDES: [&str; 5] = ["o_margin", "o_solref", "o_solimp", "o_friction", "enableflags"];
 
 /// Questions to the model and the demand. `Ok` is the reason to keep a stage, `Err` the reason to leave it out.
 struct Asked<'a> {

@@ -7,6 +7,14 @@ const LONGEST: usize = 64;
 /// edits (insert, delete, replace, swap neighbours), or one that holds the word as one of its parts
 /// (`mass` for `body_mass`). Of equals the first wins.
 pub fn closest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    ranked(written, candidates).map(|(_, candidate)| candidate)
+}
+
+/// The same with its distance, for comparing the best of several lists.
+pub(crate) fn ranked<'a>(
+    written: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<(usize, &'a str)> {
     if written.is_empty() || written.len() > LONGEST {
         return None;
     }
@@ -16,7 +24,7 @@ pub fn closest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>)
         let cost = cost(written, c);
         (cost <= 10 * allowed).then_some((cost, c))
     });
-    scored.min_by_key(|(cost, _)| *cost).map(|(_, c)| c)
+    scored.min_by_key(|(cost, _)| *cost)
 }
 
 /// How far the candidate is from what was written, in tenths of an edit.

@@ -1,1 +1,18 @@
-//! placeholder
+//! Checks that physics lessons tell the truth.
+//!
+//! A lesson (Markdown with labs and quizzes as JSON in fences) goes in; findings with places come out.
+//!
+//! * [`source`]: files, places, and maps from derived text back to the file
+//! * [`markdown`]: fences, also damaged ones
+//! * [`json`]: JSON with a place for every value
+//! * [`spec`]: labs, quizzes and lessons as typed values; [`spec::load_lesson`] is the way in
+//! * [`lint`]: the table of rules and the checks of structure
+//! * [`finding`], [`report`]: what is wrong, and how it is shown to people and programs
+
+pub mod finding;
+pub mod json;
+pub mod lint;
+pub mod markdown;
+pub mod report;
+pub mod source;
+pub mod spec;

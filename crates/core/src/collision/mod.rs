@@ -5,8 +5,9 @@ mod params;
 mod primitive;
 
 pub use filter::can_collide;
-pub(crate) use filter::Pair;
+use filter::Pair;
 pub(crate) use filter::candidate_pairs;
+use params::Params;
 
 use crate::math::*;
 use crate::{Contact, Data, Model, geom};
@@ -22,17 +23,43 @@ pub(crate) struct Touch {
     pub(crate) normal: Vec3,
 }
 
-/// `contact`, `ncon`: tests the candidate pairs of the plan in their order.
+/// The pairs that a plan tests, with their contact parameters when nothing can change these.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Pairs {
+    pairs: Vec<Pair>,
+    params: Vec<Params>,
+}
+
+/// Most pairs whose parameters are kept: beyond, memory costs more than mixing them again.
+const MAX_KEPT: usize = 4096;
+
+/// Finds the pairs that may touch: all that pass the filters when contact bits may be written later,
+/// otherwise those that the bits admit now.
+pub(crate) fn pairs(m: &Model, bits_may_change: bool, params_may_change: bool) -> Pairs {
+    let pairs = candidate_pairs(m, |a, b| bits_may_change || can_collide(m, a, b));
+    let keep = !params_may_change && pairs.len() <= MAX_KEPT;
+    let params = if keep { pairs.iter().map(|p| params::params(m, p.geom1 as usize, p.geom2 as usize)).collect() } else { Vec::new() };
+    Pairs { pairs, params }
+}
+
+/// `contact`, `ncon`: tests the pairs of the plan in their order.
 #[inline(never)]
 pub(crate) fn collide(m: &Model, d: &mut Data) {
     d.contact.clear();
-    let pairs = std::mem::take(&mut d.work.pairs);
-    for &pair in &pairs {
-        if can_collide(m, pair.geom1 as usize, pair.geom2 as usize) {
-            narrow(m, d, pair);
+    let list = std::mem::take(&mut d.work.pairs);
+    if list.params.is_empty() {
+        for pair in &list.pairs {
+            let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
+            if can_collide(m, g1, g2) {
+                narrow(m, d, g1, g2, &params::params(m, g1, g2));
+            }
+        }
+    } else {
+        for (pair, params) in list.pairs.iter().zip(&list.params) {
+            narrow(m, d, pair.geom1 as usize, pair.geom2 as usize, params);
         }
     }
-    d.work.pairs = pairs;
+    d.work.pairs = list;
     d.ncon = d.contact.len();
 }
 
@@ -43,17 +70,15 @@ pub(crate) fn none(d: &mut Data) {
 }
 
 /// The exact test of one pair.
-fn narrow(m: &Model, d: &mut Data, pair: Pair) {
-    let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
-    let reach = params::reach(m, g1, g2);
+#[inline]
+fn narrow(m: &Model, d: &mut Data, g1: usize, g2: usize, params: &Params) {
     let touch = match (m.geom_type[g1], m.geom_type[g2]) {
-        (geom::PLANE, geom::SPHERE) => primitive::plane_sphere(m, d, g1, g2, reach),
-        (geom::SPHERE, geom::SPHERE) => primitive::sphere_sphere(m, d, g1, g2, reach),
+        (geom::PLANE, geom::SPHERE) => primitive::plane_sphere(m, d, g1, g2, params.reach),
+        (geom::SPHERE, geom::SPHERE) => primitive::sphere_sphere(m, d, g1, g2, params.reach),
         _ => None,
     };
     if let Some(t) = touch {
-        let contact = params::contact(m, g1, g2, t);
-        d.contact.push(contact);
+        d.contact.push(params::contact(params, g1, g2, t));
     }
 }
 

@@ -7,23 +7,23 @@ use crate::{Contact, Model, enable};
 /// Smallest friction coefficient of a contact.
 const MINMU: f64 = 1e-5;
 
-/// Distance up to which a contact of the pair is detected, m.
-#[inline]
-pub(super) fn reach(m: &Model, g1: usize, g2: usize) -> f64 {
-    margin(m, g1, g2) + m.geom_gap[g1] + m.geom_gap[g2]
+/// What the two geoms of a pair make of a contact, wherever it is.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Params {
+    /// Distance up to which a contact is detected, m.
+    pub(super) reach: f64,
+    /// Distance at which it starts to push, m.
+    margin: f64,
+    friction: [f64; 5],
+    solref: [f64; 2],
+    solimp: [f64; 5],
+    dim: usize,
 }
 
-#[inline]
-fn margin(m: &Model, g1: usize, g2: usize) -> f64 {
-    if m.opt.enabled(enable::OVERRIDE) { m.opt.o_margin } else { m.geom_margin[g1] + m.geom_margin[g2] }
-}
-
-/// A contact of the pair at `touch`.
-///
 /// The geom of higher priority decides alone. At equal priority condim and friction are the larger of the
 /// two, solref and solimp their mean weighted by `solmix` (the smaller solref when one is in the direct,
 /// negative format).
-pub(super) fn contact(m: &Model, g1: usize, g2: usize, touch: Touch) -> Contact {
+pub(super) fn params(m: &Model, g1: usize, g2: usize) -> Params {
     let (solref, solimp) = (rows::<2>(&m.geom_solref), rows::<5>(&m.geom_solimp));
     let friction3 = rows::<3>(&m.geom_friction);
     let (p1, p2) = (m.geom_priority[g1], m.geom_priority[g2]);
@@ -45,24 +45,38 @@ pub(super) fn contact(m: &Model, g1: usize, g2: usize, touch: Touch) -> Contact 
     }
     let [slide, spin, roll] = slide_spin_roll;
     let mut friction = [slide, slide, spin, roll, roll];
+    let mut margin = m.geom_margin[g1] + m.geom_margin[g2];
     if m.opt.enabled(enable::OVERRIDE) {
         (friction, reference, impedance) = (m.opt.o_friction, m.opt.o_solref, m.opt.o_solimp);
+        margin = m.opt.o_margin;
     }
-    let includemargin = margin(m, g1, g2);
+    Params {
+        reach: margin + m.geom_gap[g1] + m.geom_gap[g2],
+        margin,
+        friction: friction.map(|f| f.max(MINMU)),
+        solref: reference,
+        solimp: impedance,
+        // Anything but frictionless slides until torsional and rolling friction exist.
+        dim: if dim <= 1 { 1 } else { 3 },
+    }
+}
+
+/// A contact of the pair at `touch`.
+#[inline(always)]
+pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: Touch) -> Contact {
     Contact {
         dist: touch.dist,
         pos: touch.pos,
         frame: frame(touch.normal),
-        includemargin,
-        friction: friction.map(|f| f.max(MINMU)),
-        solref: reference,
-        solimp: impedance,
+        includemargin: p.margin,
+        friction: p.friction,
+        solref: p.solref,
+        solimp: p.solimp,
         mu: 0.0,
-        // Anything but frictionless slides until torsional and rolling friction exist.
-        dim: if dim <= 1 { 1 } else { 3 },
+        dim: p.dim,
         geom1: g1,
         geom2: g2,
-        exclude: u8::from(touch.dist >= includemargin),
+        exclude: u8::from(touch.dist >= p.margin),
         efc_address: None,
     }
 }

@@ -3,6 +3,9 @@
 //! Values are stored column by column within a block, so that products run along the rows: four rows of a
 //! frictional contact fill vector registers.
 
+use crate::math::dot;
+use std::ops::Range;
+
 /// The rows of one constraint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Block {
@@ -20,9 +23,21 @@ pub(super) struct Block {
 impl Block {
     /// Its rows, as indices of the `efc_*` arrays.
     #[inline(always)]
-    pub(super) fn rows(&self) -> std::ops::Range<usize> {
+    pub(super) fn rows(&self) -> Range<usize> {
         self.row as usize..(self.row + self.nrow) as usize
     }
+}
+
+/// Degrees of freedom of a free body: against the static world it is the commonest block, worth its own
+/// unrolled loops.
+const FREE: usize = 6;
+
+/// The range of the columns when there is no gap between them: one body's, as a rule.
+#[inline(always)]
+fn contiguous(columns: &[u32]) -> Option<Range<usize>> {
+    let (&first, &last) = (columns.first()?, columns.last()?);
+    let range = first as usize..last as usize + 1;
+    (range.len() == columns.len()).then_some(range)
 }
 
 /// All blocks, in row order.
@@ -40,20 +55,16 @@ impl Jacobian {
         self.columns.clear();
     }
 
-    /// Appends a block of R rows: one value per row for each column.
+    /// Appends a block of R rows: its columns in descending order, and one value per row for each.
     #[inline(always)]
-    pub(super) fn push<const R: usize>(&mut self, row: usize, columns: &[u32], mut value: impl FnMut(usize) -> [f64; R]) {
-        self.blocks.push(Block {
-            row: row as u32,
-            nrow: R as u32,
-            adr: self.values.len() as u32,
-            col: self.columns.len() as u32,
-            ncol: columns.len() as u32,
-        });
-        self.columns.extend_from_slice(columns);
-        self.values.reserve(R * columns.len());
-        for c in 0..columns.len() {
-            self.values.extend_from_slice(&value(c));
+    pub(super) fn push<const R: usize>(&mut self, row: usize, descending: &[u32], mut value: impl FnMut(usize) -> [f64; R]) {
+        let n = descending.len();
+        let (adr, col) = (self.values.len(), self.columns.len());
+        self.blocks.push(Block { row: row as u32, nrow: R as u32, adr: adr as u32, col: col as u32, ncol: n as u32 });
+        self.columns.extend(descending.iter().rev());
+        self.values.resize(adr + R * n, 0.0);
+        for (c, v) in self.values[adr..].as_chunks_mut::<R>().0.iter_mut().rev().enumerate() {
+            *v = value(c);
         }
     }
 
@@ -68,9 +79,17 @@ impl Jacobian {
         &self.values[b.adr as usize..(b.adr + b.nrow * b.ncol) as usize]
     }
 
+    /// out ← J x, all rows.
+    #[inline]
+    pub(super) fn mul(&self, x: &[f64], out: &mut [f64]) {
+        for b in &self.blocks {
+            self.mul_block(b, x, out);
+        }
+    }
+
     /// out ← J x for the rows of a block.
     #[inline(always)]
-    pub(super) fn mul(&self, b: &Block, x: &[f64], out: &mut [f64]) {
+    pub(super) fn mul_block(&self, b: &Block, x: &[f64], out: &mut [f64]) {
         match b.nrow {
             1 => self.mul_rows::<1>(b, x, out),
             _ => self.mul_rows::<4>(b, x, out),
@@ -80,33 +99,58 @@ impl Jacobian {
     #[inline(always)]
     fn mul_rows<const R: usize>(&self, b: &Block, x: &[f64], out: &mut [f64]) {
         let mut sum = [0.0; R];
-        for (&c, v) in self.columns(b).iter().zip(self.values(b).as_chunks::<R>().0) {
-            let x = x[c as usize];
+        let mut accumulate = |v: &[f64; R], x: f64| {
             for r in 0..R {
                 sum[r] += v[r] * x;
             }
-        }
-        out[b.rows()].copy_from_slice(&sum);
-    }
-
-    /// out ← out + Jᵀ f for the rows of a block.
-    #[inline(always)]
-    pub(super) fn add_transposed(&self, b: &Block, f: &[f64], out: &mut [f64]) {
-        match b.nrow {
-            1 => self.add_transposed_rows::<1>(b, f, out),
-            _ => self.add_transposed_rows::<4>(b, f, out),
-        }
-    }
-
-    #[inline(always)]
-    fn add_transposed_rows<const R: usize>(&self, b: &Block, f: &[f64], out: &mut [f64]) {
-        let Some(f) = f[b.rows()].first_chunk::<R>() else { return };
-        for (&c, v) in self.columns(b).iter().zip(self.values(b).as_chunks::<R>().0) {
-            let mut sum = v[0] * f[0];
-            for r in 1..R {
-                sum += v[r] * f[r];
+        };
+        let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
+        match contiguous(cols) {
+            Some(range) => match (vals.first_chunk::<FREE>(), x[range.clone()].first_chunk::<FREE>()) {
+                (Some(v), Some(x)) if range.len() == FREE => {
+                    for c in 0..FREE {
+                        accumulate(&v[c], x[c]);
+                    }
+                }
+                _ => {
+                    for (v, &x) in vals.iter().zip(&x[range]) {
+                        accumulate(v, x);
+                    }
+                }
+            },
+            None => {
+                for (v, &c) in vals.iter().zip(cols) {
+                    accumulate(v, x[c as usize]);
+                }
             }
-            out[c as usize] += sum;
+        }
+        if let Some(out) = out[b.rows()].first_chunk_mut::<R>() {
+            *out = sum;
+        }
+    }
+
+    /// out ← out + Jᵀ f for the R rows of a block.
+    #[inline(always)]
+    pub(super) fn add_transposed<const R: usize>(&self, b: &Block, f: &[f64; R], out: &mut [f64]) {
+        let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
+        match contiguous(cols) {
+            Some(range) => match (vals.first_chunk::<FREE>(), out[range.clone()].first_chunk_mut::<FREE>()) {
+                (Some(v), Some(out)) if range.len() == FREE => {
+                    for c in 0..FREE {
+                        out[c] += dot(v[c], *f);
+                    }
+                }
+                _ => {
+                    for (v, out) in vals.iter().zip(&mut out[range]) {
+                        *out += dot(*v, *f);
+                    }
+                }
+            },
+            None => {
+                for (v, &c) in vals.iter().zip(cols) {
+                    out[c as usize] += dot(*v, *f);
+                }
+            }
         }
     }
 

@@ -99,8 +99,9 @@ fn joint_limits(m: &Model, d: &mut Data) {
 
 fn limit_row(m: &Model, d: &mut Data, j: usize, dist: f64, jac: &[f64]) {
     let (dof, margin) = (m.jnt_dofadr[j] as usize, m.jnt_margin[j]);
-    let columns = [dof as u32, dof as u32 + 1, dof as u32 + 2];
-    d.work.jac.push::<1>(d.efc_type.len(), &columns[..jac.len()], |c| [jac[c]]);
+    let (n, last) = (jac.len(), dof + jac.len() - 1);
+    let columns: [u32; 3] = std::array::from_fn(|c| last.saturating_sub(c) as u32);
+    d.work.jac.push::<1>(d.efc_type.len(), &columns[..n], |c| [jac[n - 1 - c]]);
     let kbi = kbi(m, rows::<2>(&m.jnt_solref)[j], rows::<5>(&m.jnt_solimp)[j], dist - margin);
     let r = regularization(kbi.imp, m.dof_invweight0[dof]);
     push::<1>(d, &Shared { kind: kind::LIMIT_JOINT, id: j, pos: dist, margin, kbi, r });
@@ -110,43 +111,41 @@ fn limit_row(m: &Model, d: &mut Data, j: usize, dist: f64, jac: &[f64]) {
 fn contacts(m: &Model, d: &mut Data) {
     let mut list = std::mem::take(&mut d.contact);
     let mut cols = std::mem::take(&mut d.work.cols);
-    let mut lin = std::mem::take(&mut d.work.lin);
+    let mut along = std::mem::take(&mut d.work.along);
     for (id, c) in list.iter_mut().enumerate() {
         c.efc_address = None;
         if c.exclude != 0 {
             continue;
         }
         let (b1, b2) = (m.geom_bodyid[c.geom1] as usize, m.geom_bodyid[c.geom2] as usize);
-        jacobian::point_difference(m, d, b1, b2, c.pos, &mut cols, &mut lin);
+        jacobian::point_difference(m, d, [b1, b2], c.pos, &c.frame, &mut cols, &mut along);
         if cols.is_empty() {
             c.exclude = 3;
             continue;
         }
         c.efc_address = Some(d.efc_type.len());
         let translation = m.body_invweight0[2 * b1] + m.body_invweight0[2 * b2];
-        contact_rows(m, d, id, c, translation, &cols, &lin);
+        contact_rows(m, d, id, c, translation, &cols, &along);
     }
     d.contact = list;
     d.work.cols = cols;
-    d.work.lin = lin;
+    d.work.along = along;
 }
 
 #[inline(always)]
-fn contact_rows(m: &Model, d: &mut Data, id: usize, c: &mut Contact, translation: f64, cols: &[u32], lin: &[Vec3]) {
-    let axis = |i: usize| [c.frame[3 * i], c.frame[3 * i + 1], c.frame[3 * i + 2]];
-    let (normal, row, mu) = (axis(0), d.efc_type.len(), c.friction[0]);
+fn contact_rows(m: &Model, d: &mut Data, id: usize, c: &mut Contact, translation: f64, cols: &[u32], along: &[Vec3]) {
+    let (row, mu, mu2) = (d.efc_type.len(), c.friction[0], c.friction[1]);
     let kbi = kbi(m, c.solref, c.solimp, c.dist - c.includemargin);
     let shared = |kind: i32, r: f64| Shared { kind, id, pos: c.dist, margin: c.includemargin, kbi, r };
     if c.dim == 1 {
-        d.work.jac.push::<1>(row, cols, |k| [dot(normal, lin[k])]);
+        d.work.jac.push::<1>(row, cols, |k| [along[k][0]]);
         push::<1>(d, &shared(kind::CONTACT_FRICTIONLESS, regularization(kbi.imp, translation)));
         c.mu = mu;
         return;
     }
-    let (t1, t2, mu2) = (axis(1), axis(2), c.friction[1]);
     d.work.jac.push::<4>(row, cols, |k| {
-        let (n, s1, s2) = (dot(normal, lin[k]), mu * dot(t1, lin[k]), mu2 * dot(t2, lin[k]));
-        [n + s1, n - s1, n + s2, n - s2]
+        let [n, t1, t2] = along[k];
+        [n + mu * t1, n - mu * t1, n + mu2 * t2, n - mu2 * t2]
     });
     // Every edge is as soft as the friction cone is: R = 2 μ² R(edge 0), with μ = μ1 / √impratio.
     let r0 = regularization(kbi.imp, translation + mu * mu * translation);
@@ -158,9 +157,7 @@ fn contact_rows(m: &Model, d: &mut Data, id: usize, c: &mut Contact, translation
 /// `efc_vel` = J v and `efc_aref` = -B J v - K d r: the acceleration of a damped spring on the violation.
 #[inline(never)]
 pub(crate) fn reference(d: &mut Data) {
-    for b in &d.work.jac.blocks {
-        d.work.jac.mul(b, &d.qvel, &mut d.efc_vel);
-    }
+    d.work.jac.mul(&d.qvel, &mut d.efc_vel);
     let rows = d.efc_pos.iter().zip(&d.efc_margin).zip(rows::<4>(&d.efc_KBIP)).zip(&d.efc_vel);
     for (aref, (((pos, margin), [k, b, imp, _]), vel)) in d.efc_aref.iter_mut().zip(rows) {
         *aref = -b * vel - k * imp * (pos - margin);

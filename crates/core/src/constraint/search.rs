@@ -17,7 +17,8 @@ pub(super) struct Point {
 impl Point {
     /// Where Newton's method goes from here.
     fn newton(&self) -> f64 {
-        self.alpha - self.slope / self.curvature
+        // M is positive definite, but a search direction may be so short that its square underflows.
+        self.alpha - self.slope / self.curvature.max(f64::MIN_POSITIVE)
     }
 }
 

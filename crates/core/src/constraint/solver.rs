@@ -4,10 +4,10 @@
 //! s(x) = ½ D x² for x < 0, else 0: a constraint pushes, it never pulls. The cost is convex and piecewise
 //! quadratic, so the method ends after finitely many steps (Todorov 2014; Nocedal and Wright 2006, ch. 3).
 
-use super::island;
+use super::island::{self, Islands};
 use super::jacobian::Block;
 use super::search::{Point, minimize};
-use crate::math::{MINVAL, dot_slice};
+use crate::math::{MINVAL, dot, dot_slice};
 use crate::{Data, Model, disable, mass};
 use std::ops::Range;
 
@@ -56,9 +56,7 @@ pub(crate) fn solve(m: &Model, d: &mut Data) {
 
     let islands = std::mem::take(&mut d.work.islands);
     for i in 0..d.nisland {
-        let trees = &islands.trees[islands.tree_start[i] as usize..islands.tree_start[i + 1] as usize];
-        let blocks = &islands.blocks[islands.block_start[i] as usize..islands.block_start[i + 1] as usize];
-        Problem { m, d, s: &mut s, trees, blocks }.newton();
+        Problem { m, d, s: &mut s, islands: &islands, island: i }.newton();
     }
     d.work.islands = islands;
     d.work.solver = s;
@@ -71,9 +69,7 @@ fn warm_start(m: &Model, d: &mut Data, s: &mut Scratch) {
     let (jac, aref) = (&d.work.jac, &d.efc_aref);
     let residual = |x: &[f64], out: &mut [f64]| -> f64 {
         let mut cost = 0.0;
-        for b in &jac.blocks {
-            jac.mul(b, x, out);
-        }
+        jac.mul(x, out);
         for ((x, aref), w) in out.iter_mut().zip(aref).zip(&d.efc_D) {
             *x -= aref;
             let pushed = x.min(0.0);
@@ -89,25 +85,28 @@ fn warm_start(m: &Model, d: &mut Data, s: &mut Scratch) {
     let mut warm = residual(&d.qacc_warmstart, &mut s.jv);
     // Gauss cost of the warm start; that of the unconstrained acceleration is zero.
     mass::mul(m, &d.M, &d.qacc_warmstart, &mut s.step, 0..m.nv);
-    for k in 0..m.nv {
-        warm += 0.5 * (s.step[k] - d.qfrc_smooth[k]) * (d.qacc_warmstart[k] - d.qacc_smooth[k]);
+    let forces = s.step.iter().zip(&d.qfrc_smooth);
+    let accelerations = d.qacc_warmstart.iter().zip(&d.qacc_smooth);
+    for ((ma, f), (a, a0)) in forces.zip(accelerations) {
+        warm += 0.5 * (ma - f) * (a - a0);
     }
     if warm > smooth {
         return;
     }
     std::mem::swap(&mut s.jar, &mut s.jv);
     std::mem::swap(&mut s.ma, &mut s.step);
-    let islands = &d.work.islands;
-    for &t in &islands.trees[..islands.tree_start[d.nisland] as usize] {
-        let dofs = tree_dofs(m, t);
-        d.qacc[dofs.clone()].copy_from_slice(&d.qacc_warmstart[dofs]);
+    for i in 0..d.nisland {
+        for t in d.work.islands.trees.of(i) {
+            let dofs = tree_dofs(m, t);
+            d.qacc[dofs.clone()].copy_from_slice(&d.qacc_warmstart[dofs]);
+        }
     }
 }
 
 #[inline(always)]
-fn tree_dofs(m: &Model, tree: u32) -> Range<usize> {
-    let first = m.tree_dofadr[tree as usize] as usize;
-    first..first + m.tree_dofnum[tree as usize] as usize
+fn tree_dofs(m: &Model, tree: usize) -> Range<usize> {
+    let first = m.tree_dofadr[tree] as usize;
+    first..first + m.tree_dofnum[tree] as usize
 }
 
 /// One island: its trees and constraints.
@@ -115,11 +114,11 @@ struct Problem<'a> {
     m: &'a Model,
     d: &'a mut Data,
     s: &'a mut Scratch,
-    trees: &'a [u32],
-    blocks: &'a [u32],
+    islands: &'a Islands,
+    island: usize,
 }
 
-impl Problem<'_> {
+impl<'a> Problem<'a> {
     #[inline(never)]
     fn newton(&mut self) {
         let tol = self.m.opt.tolerance;
@@ -155,14 +154,17 @@ impl Problem<'_> {
         }
     }
 
+    /// The degrees of freedom of each tree.
     #[inline(always)]
-    fn dofs(&self) -> impl Iterator<Item = Range<usize>> + use<'_> {
-        self.trees.iter().map(|&t| tree_dofs(self.m, t))
+    fn dofs(&self) -> impl Iterator<Item = Range<usize>> + Clone + use<'a> {
+        let m = self.m;
+        self.islands.trees.of(self.island).map(move |t| tree_dofs(m, t))
     }
 
+    /// The constraints, by their place in the Jacobian's blocks.
     #[inline(always)]
-    fn block(&self, b: u32) -> Block {
-        self.d.work.jac.blocks[b as usize]
+    fn blocks(&self) -> impl Iterator<Item = usize> + Clone + use<'a> {
+        self.islands.blocks.of(self.island)
     }
 
     /// Makes costs and gradients comparable between scenes of any mass.
@@ -181,40 +183,50 @@ impl Problem<'_> {
     /// Forces and gradient at the current acceleration; returns the cost and the norm of the gradient.
     fn update(&mut self) -> (f64, f64) {
         let mut cost = 0.0;
-        for &t in self.trees {
-            self.d.qfrc_constraint[tree_dofs(self.m, t)].fill(0.0);
+        for dofs in self.dofs() {
+            self.d.qfrc_constraint[dofs].fill(0.0);
         }
-        for &b in self.blocks {
-            let b = self.block(b);
-            let (d, s) = (&mut *self.d, &mut *self.s);
-            let rows = b.rows();
-            let each = s.jar[rows.clone()].iter().zip(&d.efc_D[rows.clone()]);
-            let out = d.efc_force[rows.clone()].iter_mut().zip(&mut s.weight[rows]);
-            for ((&x, &w), (force, weight)) in each.zip(out) {
-                *weight = if x < 0.0 { w } else { 0.0 };
-                *force = if x < 0.0 { -w * x } else { 0.0 };
-                cost -= 0.5 * *force * x;
-            }
-            d.work.jac.add_transposed(&b, &d.efc_force, &mut d.qfrc_constraint);
+        for b in self.blocks() {
+            let b = self.d.work.jac.blocks[b];
+            cost += match b.nrow {
+                1 => self.push_block::<1>(&b),
+                _ => self.push_block::<4>(&b),
+            };
         }
         let mut square = 0.0;
-        for &t in self.trees {
-            for k in tree_dofs(self.m, t) {
-                let (d, s) = (&*self.d, &mut *self.s);
-                let residual = s.ma[k] - d.qfrc_smooth[k];
-                cost += 0.5 * residual * (d.qacc[k] - d.qacc_smooth[k]);
-                let g = residual - d.qfrc_constraint[k];
-                square += g * g;
-                s.grad[k] = g;
+        for dofs in self.dofs() {
+            let (d, s) = (&*self.d, &mut *self.s);
+            let ma = s.ma[dofs.clone()].iter().zip(&d.qfrc_smooth[dofs.clone()]);
+            let a = d.qacc[dofs.clone()].iter().zip(&d.qacc_smooth[dofs.clone()]);
+            let grad = s.grad[dofs.clone()].iter_mut().zip(&d.qfrc_constraint[dofs]);
+            for (((ma, smooth), (a, a0)), (g, constraint)) in ma.zip(a).zip(grad) {
+                let residual = ma - smooth;
+                cost += 0.5 * residual * (a - a0);
+                *g = residual - constraint;
+                square += *g * *g;
             }
         }
         (cost, square.sqrt())
     }
 
+    /// Forces of one constraint; returns its cost.
+    #[inline(always)]
+    fn push_block<const R: usize>(&mut self, b: &Block) -> f64 {
+        let (d, s) = (&mut *self.d, &*self.s);
+        let rows = b.rows();
+        let (Some(x), Some(w)) = (s.jar[rows.clone()].first_chunk::<R>(), d.efc_D[rows.clone()].first_chunk::<R>()) else {
+            return 0.0;
+        };
+        let pushed: [f64; R] = std::array::from_fn(|r| if x[r] < 0.0 { x[r] } else { 0.0 });
+        let force: [f64; R] = std::array::from_fn(|r| -w[r] * pushed[r]);
+        d.efc_force[rows].copy_from_slice(&force);
+        d.work.jac.add_transposed(b, &force, &mut d.qfrc_constraint);
+        -0.5 * dot(force, pushed)
+    }
+
     /// ½ gᵀ M⁻¹ g.
     fn decrement_by_mass(&mut self) -> f64 {
-        for &t in self.trees {
-            let dofs = tree_dofs(self.m, t);
+        for dofs in self.dofs() {
             self.s.step[dofs.clone()].copy_from_slice(&self.s.grad[dofs.clone()]);
             mass::solve(self.m, &self.d.qLD, &self.d.qLDiagInv, &mut self.s.step, dofs);
         }
@@ -228,55 +240,52 @@ impl Problem<'_> {
 
     fn number_dofs(&mut self) {
         let mut n = 0;
-        for &t in self.trees {
-            for k in tree_dofs(self.m, t) {
-                self.s.local[k] = n;
-                n += 1;
-            }
+        for k in self.dofs().flatten() {
+            self.s.local[k] = n;
+            n += 1;
         }
     }
 
     /// step ← H⁻¹ g with H = M + Jᵀ D J over the rows that push; search ← -step.
     fn newton_direction(&mut self) {
+        let (dofs, blocks) = (self.dofs(), self.blocks());
         let (m, d, s) = (self.m, &*self.d, &mut *self.s);
-        let n = self.trees.iter().map(|&t| m.tree_dofnum[t as usize] as usize).sum();
+        let n = dofs.clone().map(|r| r.len()).sum();
         s.hessian.clear();
         s.hessian.resize(n * n, 0.0);
         s.rhs.clear();
-        for &t in self.trees {
-            for k in tree_dofs(m, t) {
-                let row = s.local[k] as usize * n;
-                for a in m.M_rowadr[k] as usize..(m.M_rowadr[k] + m.M_rownnz[k]) as usize {
-                    s.hessian[row + s.local[m.M_colind[a] as usize] as usize] = d.M[a];
-                }
-                s.rhs.push(s.grad[k]);
+        for k in dofs.clone().flatten() {
+            let row = s.local[k] as usize * n;
+            for a in m.M_rowadr[k] as usize..(m.M_rowadr[k] + m.M_rownnz[k]) as usize {
+                s.hessian[row + s.local[m.M_colind[a] as usize] as usize] = d.M[a];
             }
+            s.rhs.push(s.grad[k]);
         }
-        for &b in self.blocks {
-            let b = d.work.jac.blocks[b as usize];
+        for b in blocks {
+            let b = &d.work.jac.blocks[b];
+            for r in b.rows() {
+                s.weight[r] = if s.jar[r] < 0.0 { d.efc_D[r] } else { 0.0 };
+            }
             if s.weight[b.rows()].iter().any(|&w| w > 0.0) {
-                d.work.jac.add_gram(&b, &s.weight, &s.local, &mut s.hessian, n);
+                d.work.jac.add_gram(b, &s.weight, &s.local, &mut s.hessian, n);
             }
         }
         cholesky(&mut s.hessian, n);
         cholesky_solve(&s.hessian, n, &mut s.rhs);
-        let mut i = 0;
-        for &t in self.trees {
-            for k in tree_dofs(m, t) {
-                s.step[k] = s.rhs[i];
-                s.search[k] = -s.rhs[i];
-                i += 1;
-            }
+        for (k, &x) in dofs.flatten().zip(&s.rhs) {
+            s.step[k] = x;
+            s.search[k] = -x;
         }
     }
 
     /// The best step along `search`.
     fn line_search(&mut self, scale: f64) -> f64 {
+        let (dofs, blocks) = (self.dofs(), self.blocks());
         let (m, d, s) = (self.m, &*self.d, &mut *self.s);
         let (mut length, mut linear, mut quadratic) = (0.0, 0.0, 0.0);
-        for &t in self.trees {
-            mass::mul(m, &d.M, &s.search, &mut s.mv, tree_dofs(m, t));
-            for k in tree_dofs(m, t) {
+        for dofs in dofs {
+            mass::mul(m, &d.M, &s.search, &mut s.mv, dofs.clone());
+            for k in dofs {
                 length += s.search[k] * s.search[k];
                 linear += s.search[k] * (s.ma[k] - d.qfrc_smooth[k]);
                 quadratic += 0.5 * s.search[k] * s.mv[k];
@@ -286,12 +295,10 @@ impl Problem<'_> {
         if length < MINVAL {
             return 0.0;
         }
-        for &b in self.blocks {
-            let b = &d.work.jac.blocks[b as usize];
-            d.work.jac.mul(b, &s.search, &mut s.jv);
+        for b in blocks.clone() {
+            d.work.jac.mul_block(&d.work.jac.blocks[b], &s.search, &mut s.jv);
         }
         let gtol = m.opt.tolerance * m.opt.ls_tolerance * length / scale;
-        let rows = |b: &u32| d.work.jac.blocks[*b as usize].rows();
         minimize(gtol, m.opt.ls_iterations.max(0) as usize, |alpha| {
             let mut p = Point {
                 alpha,
@@ -299,31 +306,32 @@ impl Problem<'_> {
                 slope: linear + 2.0 * alpha * quadratic,
                 curvature: 2.0 * quadratic,
             };
-            for r in self.blocks.iter().flat_map(rows) {
+            for r in blocks.clone().flat_map(|b| d.work.jac.blocks[b].rows()) {
                 let (start, v, w) = (s.jar[r], s.jv[r], d.efc_D[r]);
-                let (before, now) = (start.min(0.0), (start + alpha * v).min(0.0));
-                p.cost += 0.5 * w * (now * now - before * before);
-                p.slope += w * now * v;
-                p.curvature += if now < 0.0 { w * v * v } else { 0.0 };
+                let now = start + alpha * v;
+                if now < 0.0 {
+                    p.slope += w * now * v;
+                    p.curvature += w * v * v;
+                }
+                // The difference of squares, without squaring first: near the minimum it is all rounding.
+                let (before, after) = (start.min(0.0), now.min(0.0));
+                let change = if before < 0.0 && after < 0.0 { alpha * v } else { after - before };
+                p.cost += 0.5 * w * change * (after + before);
             }
-            p.curvature = p.curvature.max(MINVAL);
             p
         })
     }
 
     /// a ← a + α search.
     fn advance(&mut self, alpha: f64) {
+        let (dofs, blocks) = (self.dofs(), self.blocks());
         let (d, s) = (&mut *self.d, &mut *self.s);
-        for &t in self.trees {
-            for k in tree_dofs(self.m, t) {
-                d.qacc[k] += alpha * s.search[k];
-                s.ma[k] += alpha * s.mv[k];
-            }
+        for k in dofs.flatten() {
+            d.qacc[k] += alpha * s.search[k];
+            s.ma[k] += alpha * s.mv[k];
         }
-        for &b in self.blocks {
-            for r in d.work.jac.blocks[b as usize].rows() {
-                s.jar[r] += alpha * s.jv[r];
-            }
+        for r in blocks.flat_map(|b| d.work.jac.blocks[b].rows()) {
+            s.jar[r] += alpha * s.jv[r];
         }
     }
 }

@@ -6,8 +6,13 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::tree::{Node, Tree};
+use super::diagnostic::{Report, code};
+use super::schema::{Kind, Status};
+use super::tree::{Attribute, Node, Tree};
 use super::values::Value;
+
+/// A class copies its parent, so their number is bounded.
+const MAX_CLASSES: usize = 2000;
 
 /// The forms of an orientation that override a quaternion, and each other.
 pub(crate) const ALTERNATIVES: [&str; 4] = ["euler", "axisangle", "xyaxes", "zaxis"];
@@ -20,15 +25,19 @@ pub(crate) struct Props {
 
 impl Props {
     /// The attributes of an element alone, for elements without defaults.
-    pub fn own(node: &Node) -> Props {
+    pub(crate) fn own(node: &Node) -> Props {
         let mut props = Props::default();
         props.overlay(node);
         props
     }
 
-    /// Puts the attributes of an element over these.
-    pub fn overlay(&mut self, node: &Node) {
-        for a in &node.attributes {
+    /// Puts the attributes of an element over these. Names stay with their element.
+    pub(crate) fn overlay(&mut self, node: &Node) {
+        let read = |a: &&Attribute| {
+            a.attr.status == Status::Supported
+                && !matches!(a.attr.kind, Kind::Name(_) | Kind::Ref(_) | Kind::Class)
+        };
+        for a in node.attributes.iter().filter(read) {
             if ALTERNATIVES.contains(&a.attr.name) {
                 self.values.retain(|name, _| !ALTERNATIVES.contains(name));
             }
@@ -42,17 +51,17 @@ impl Props {
     }
 
     /// Whether the attribute is there, right or wrong.
-    pub fn has(&self, name: &str) -> bool {
+    pub(crate) fn has(&self, name: &str) -> bool {
         self.values.contains_key(name)
     }
 
     /// Bytes of the attribute's value, in the element or in a class.
-    pub fn span(&self, name: &str) -> Option<Range<usize>> {
+    pub(crate) fn span(&self, name: &str) -> Option<Range<usize>> {
         self.values.get(name).map(|(_, span)| span.clone())
     }
 
     /// Numbers of a list: as many as are given.
-    pub fn list(&self, name: &str) -> Option<&[f64]> {
+    pub(crate) fn list(&self, name: &str) -> Option<&[f64]> {
         match self.values.get(name) {
             Some((Value::Reals(list), _)) => Some(list),
             _ => None,
@@ -60,12 +69,12 @@ impl Props {
     }
 
     /// A number.
-    pub fn real(&self, name: &str) -> Option<f64> {
+    pub(crate) fn real(&self, name: &str) -> Option<f64> {
         self.list(name)?.first().copied()
     }
 
     /// `N` numbers; those that are not given are taken from `default`.
-    pub fn reals<const N: usize>(&self, name: &str, default: [f64; N]) -> [f64; N] {
+    pub(crate) fn reals<const N: usize>(&self, name: &str, default: [f64; N]) -> [f64; N] {
         let mut all = default;
         for (x, &given) in all.iter_mut().zip(self.list(name).unwrap_or(&[])) {
             *x = given;
@@ -74,12 +83,12 @@ impl Props {
     }
 
     /// An integer.
-    pub fn int(&self, name: &str) -> Option<i32> {
+    pub(crate) fn int(&self, name: &str) -> Option<i32> {
         self.ints(name)?.first().copied()
     }
 
     /// Integers.
-    pub fn ints(&self, name: &str) -> Option<&[i32]> {
+    pub(crate) fn ints(&self, name: &str) -> Option<&[i32]> {
         match self.values.get(name) {
             Some((Value::Ints(list), _)) => Some(list),
             _ => None,
@@ -87,7 +96,7 @@ impl Props {
     }
 
     /// MuJoCo's number of a keyword.
-    pub fn word(&self, name: &str) -> Option<i32> {
+    pub(crate) fn word(&self, name: &str) -> Option<i32> {
         match self.values.get(name) {
             Some((Value::Word(n), _)) => Some(*n),
             _ => None,
@@ -95,7 +104,7 @@ impl Props {
     }
 
     /// A text, `None` when it is absent or empty.
-    pub fn text(&self, name: &str) -> Option<&str> {
+    pub(crate) fn text(&self, name: &str) -> Option<&str> {
         match self.values.get(name) {
             Some((Value::Text(text), _)) if !text.is_empty() => Some(text),
             _ => None,
@@ -127,16 +136,24 @@ impl Classes {
     ///
     /// A later section at the top level continues the class `main`; classes that were made before keep what
     /// they copied from it, as in MuJoCo.
-    pub fn read(tree: &Tree) -> Classes {
+    pub(crate) fn read(tree: &Tree, report: &mut Report) -> Classes {
         let mut classes = Classes { list: vec![Class::default()], names: BTreeMap::new(), main: 0 };
         let mut of_node: BTreeMap<usize, usize> = BTreeMap::new();
         for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
             let nested_in = node.parent.and_then(|p| of_node.get(&p)).copied();
-            let mut entries = classes.list.get(nested_in.unwrap_or(classes.main)).map_or_else(BTreeMap::new, |c| c.entries.clone());
+            let mut entries = classes
+                .list
+                .get(nested_in.unwrap_or(classes.main))
+                .map_or_else(BTreeMap::new, |c| c.entries.clone());
             for (_, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
                 entries.entry(entry.element.name).or_default().overlay(entry);
             }
             let index = classes.list.len();
+            if index > MAX_CLASSES {
+                let message = format!("the model has more than {MAX_CLASSES} default classes");
+                report.error(code::LIMIT, node.span.clone(), message);
+                break;
+            }
             classes.list.push(Class { entries });
             of_node.insert(i, index);
             match (nested_in, node.text("class")) {
@@ -153,18 +170,18 @@ impl Classes {
     }
 
     /// The index of a class, `None` when there is no class of this name.
-    pub fn find(&self, name: &str) -> Option<usize> {
+    pub(crate) fn find(&self, name: &str) -> Option<usize> {
         self.names.get(name).copied()
     }
 
     /// All names.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.names.keys().map(String::as_str)
     }
 
     /// The attributes that hold for an element: its own over those of its class, which is its `class`, else
     /// the nearest `childclass` of the bodies around it, else `main`.
-    pub fn props(&self, node: &Node, childclass: Option<usize>) -> Props {
+    pub(crate) fn props(&self, node: &Node, childclass: Option<usize>) -> Props {
         let own = node.text("class").and_then(|name| self.find(name));
         let class = own.or(childclass).unwrap_or(self.main);
         let entry = self.list.get(class).and_then(|c| c.entries.get(node.element.name));

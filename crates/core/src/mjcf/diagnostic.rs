@@ -92,10 +92,19 @@ impl fmt::Display for MjcfFileError {
         match self {
             MjcfFileError::Io { path, error } => write!(f, "cannot read {}: {error}", path.display()),
             MjcfFileError::TooLarge { path } => {
-                write!(f, "{} is larger than {} MB, the limit for a model", path.display(), super::MAX_TEXT >> 20)
+                write!(
+                    f,
+                    "{} is larger than {} MB, the limit for a model",
+                    path.display(),
+                    super::MAX_TEXT >> 20
+                )
             }
             MjcfFileError::NotUtf8 { path, offset } => {
-                write!(f, "{} is not UTF-8 text: byte {offset} does not belong to a character", path.display())
+                write!(
+                    f,
+                    "{} is not UTF-8 text: byte {offset} does not belong to a character",
+                    path.display()
+                )
             }
             MjcfFileError::Model { path, diagnostics } => {
                 for (i, d) in diagnostics.iter().enumerate() {
@@ -152,33 +161,39 @@ pub(crate) struct Report<'a> {
     list: Vec<MjcfDiagnostic>,
     /// Something was left out because it is not supported: names that it would define are missing, and
     /// saying so again would only repeat the first message.
-    pub incomplete: bool,
+    pub(crate) incomplete: bool,
 }
 
 impl<'a> Report<'a> {
-    pub fn new(text: &'a str) -> Report<'a> {
+    pub(crate) fn new(text: &'a str) -> Report<'a> {
         Report { text, list: Vec::new(), incomplete: false }
     }
 
     /// Adds an error at a range of bytes.
-    pub fn error(&mut self, code: &'static str, span: Range<usize>, message: impl Into<String>) -> &mut MjcfDiagnostic {
+    pub(crate) fn error(
+        &mut self,
+        code: &'static str,
+        span: Range<usize>,
+        message: impl Into<String>,
+    ) -> &mut MjcfDiagnostic {
         if self.list.len() > MAX_DIAGNOSTICS {
             self.list.truncate(MAX_DIAGNOSTICS + 1);
             self.list.pop();
         }
-        let d = MjcfDiagnostic { code, span, line: 0, column: 0, message: message.into(), why: None, help: None };
+        let d =
+            MjcfDiagnostic { code, span, line: 0, column: 0, message: message.into(), why: None, help: None };
         let at = self.list.len();
         self.list.push(d);
         &mut self.list[at] // just pushed
     }
 
     /// Whether nothing is wrong so far.
-    pub fn is_clean(&self) -> bool {
+    pub(crate) fn is_clean(&self) -> bool {
         self.list.is_empty()
     }
 
     /// The findings in the order of the text, each with its line and column.
-    pub fn finish(mut self) -> Vec<MjcfDiagnostic> {
+    pub(crate) fn finish(mut self) -> Vec<MjcfDiagnostic> {
         self.list.truncate(MAX_DIAGNOSTICS);
         self.list.sort_by_key(|d| (d.span.start, d.span.end));
         let (mut at, mut line, mut column) = (0, 1, 1);

@@ -20,7 +20,7 @@ const WORLD_NODE: usize = 0;
 
 impl<'t> NameTable<'t> {
     /// Collects all names and reports those that are taken twice.
-    pub fn read(tree: &'t Tree, report: &mut Report) -> NameTable<'t> {
+    pub(crate) fn read(tree: &'t Tree, report: &mut Report) -> NameTable<'t> {
         let mut table = NameTable::default();
         table.nodes.entry("body").or_default().insert(WORLD, WORLD_NODE);
         for (i, node) in tree.nodes.iter().enumerate() {
@@ -32,7 +32,11 @@ impl<'t> NameTable<'t> {
                 let taken = table.nodes.entry(kind).or_default().insert(name, i);
                 if taken.is_some() {
                     report
-                        .error(code::DUPLICATE_NAME, a.span.clone(), format!("a second {kind} is named {}", shown(name)))
+                        .error(
+                            code::DUPLICATE_NAME,
+                            a.span.clone(),
+                            format!("a second {kind} is named {}", shown(name)),
+                        )
                         .why("expressions and sensors find an object by its name, so it must be unique")
                         .help(match name.as_str() {
                             WORLD if kind == "body" => "`world` is the name of the world body".to_string(),
@@ -45,24 +49,27 @@ impl<'t> NameTable<'t> {
     }
 
     /// The element of this kind and name.
-    pub fn find(&self, kind: &str, name: &str) -> Option<usize> {
+    pub(crate) fn find(&self, kind: &str, name: &str) -> Option<usize> {
         self.nodes.get(kind)?.get(name).copied()
     }
 
     /// All names of a kind.
-    pub fn of(&self, kind: &str) -> impl Iterator<Item = &'t str> {
+    pub(crate) fn of(&self, kind: &str) -> impl Iterator<Item = &'t str> {
         self.nodes.get(kind).into_iter().flat_map(|names| names.keys().copied())
     }
 
     /// Reports a name that no object of the kind has.
-    pub fn unknown(&self, kind: &str, name: &str, span: std::ops::Range<usize>, report: &mut Report) {
+    pub(crate) fn unknown(&self, kind: &str, name: &str, span: std::ops::Range<usize>, report: &mut Report) {
         if report.incomplete {
             return; // it may be the name of something that was left out
         }
-        let error = report.error(code::UNKNOWN_NAME, span, format!("there is no {kind} named {}", shown(name)));
+        let error =
+            report.error(code::UNKNOWN_NAME, span, format!("there is no {kind} named {}", shown(name)));
         match closest(name, self.of(kind)) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
-            None if self.of(kind).next().is_none() => error.help(format!("no {kind} of this model has a name")),
+            None if self.of(kind).next().is_none() => {
+                error.help(format!("no {kind} of this model has a name"))
+            }
             None => error,
         };
     }
@@ -101,7 +108,10 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
 
 /// A nested class needs a name of its own; the outer one is `main`.
 fn check_class<'t>(
-    tree: &'t Tree, node: &'t super::tree::Node, defined: &mut BTreeMap<&'t str, usize>, report: &mut Report,
+    tree: &'t Tree,
+    node: &'t super::tree::Node,
+    defined: &mut BTreeMap<&'t str, usize>,
+    report: &mut Report,
 ) {
     let nested = node.parent.and_then(|p| tree.nodes.get(p)).is_some_and(|p| p.element.name == "default");
     let span = node.attribute("class").map_or(node.span.clone(), |a| a.span.clone());
@@ -114,12 +124,20 @@ fn check_class<'t>(
         }
         (true, Some(name)) if name == "main" || defined.insert(name, 0).is_some() => {
             report
-                .error(code::DUPLICATE_NAME, span, format!("the default class {} is defined twice", shown(name)))
+                .error(
+                    code::DUPLICATE_NAME,
+                    span,
+                    format!("the default class {} is defined twice", shown(name)),
+                )
                 .help("give one of them another name");
         }
         (false, Some(name)) if name != "main" => {
             report
-                .error(code::UNKNOWN_CLASS, span, format!("the outer default class is called {}, not `main`", shown(name)))
+                .error(
+                    code::UNKNOWN_CLASS,
+                    span,
+                    format!("the outer default class is called {}, not `main`", shown(name)),
+                )
                 .help(format!("nest it: `<default><default class=\"{name}\"> … </default></default>`"));
         }
         _ => {}

@@ -9,7 +9,11 @@ use super::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_ELEMENTS, MAX_TEXT};
 /// Checks the limits; `false` after reporting the first that is exceeded.
 pub(crate) fn within_limits(text: &str, report: &mut Report) -> bool {
     if text.len() > MAX_TEXT {
-        report.error(code::LIMIT, 0..0, format!("the model has {} bytes, at most {MAX_TEXT} are read", text.len()));
+        report.error(
+            code::LIMIT,
+            0..0,
+            format!("the model has {} bytes, at most {MAX_TEXT} are read", text.len()),
+        );
         return false;
     }
     let bytes = text.as_bytes();
@@ -24,7 +28,11 @@ pub(crate) fn within_limits(text: &str, report: &mut Report) -> bool {
             after(bytes, open + 2, b"?>")
         } else if rest.starts_with(b"<!") {
             report
-                .error(code::XML, open..open + 2, "a document type or entity is declared, which a model has no use for")
+                .error(
+                    code::XML,
+                    open..open + 2,
+                    "a document type or entity is declared, which a model has no use for",
+                )
                 .why("entities could make a small file expand without bound")
                 .help("remove the `<!…>` declaration");
             return false;
@@ -36,7 +44,11 @@ pub(crate) fn within_limits(text: &str, report: &mut Report) -> bool {
             elements += 1;
             let name = open..open + 1;
             if tag.attributes > MAX_ATTRIBUTES {
-                report.error(code::LIMIT, name, format!("an element has more than {MAX_ATTRIBUTES} attributes"));
+                report.error(
+                    code::LIMIT,
+                    name,
+                    format!("an element has more than {MAX_ATTRIBUTES} attributes"),
+                );
                 return false;
             }
             if !tag.closed {

@@ -202,7 +202,7 @@ const ORIENTATION: &[Attr] = attributes! {
 };
 
 /// The root of the table: the element `mujoco`.
-pub static ROOT: Element = Element::new("mujoco", &[attributes! { TEXT => model; }]).children(&[
+pub(crate) static ROOT: Element = Element::new("mujoco", &[attributes! { TEXT => model; }]).children(&[
     &settings::COMPILER,
     &settings::OPTION,
     &settings::SIZE,

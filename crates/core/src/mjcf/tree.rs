@@ -13,31 +13,31 @@ use super::values::{self, Value};
 /// An attribute of an element.
 #[derive(Debug)]
 pub(crate) struct Attribute {
-    pub attr: &'static Attr,
-    pub value: Value,
+    pub(crate) attr: &'static Attr,
+    pub(crate) value: Value,
     /// Bytes of the value, without quotes.
-    pub span: Range<usize>,
+    pub(crate) span: Range<usize>,
 }
 
 /// An element.
 #[derive(Debug)]
 pub(crate) struct Node {
-    pub element: &'static Element,
-    pub parent: Option<usize>,
+    pub(crate) element: &'static Element,
+    pub(crate) parent: Option<usize>,
     /// Bytes of the name in the start tag.
-    pub span: Range<usize>,
-    pub attributes: Vec<Attribute>,
-    pub children: Vec<usize>,
+    pub(crate) span: Range<usize>,
+    pub(crate) attributes: Vec<Attribute>,
+    pub(crate) children: Vec<usize>,
 }
 
 impl Node {
     /// The attribute of this name.
-    pub fn attribute(&self, name: &str) -> Option<&Attribute> {
+    pub(crate) fn attribute(&self, name: &str) -> Option<&Attribute> {
         self.attributes.iter().find(|a| a.attr.name == name)
     }
 
     /// The text of an attribute; `None` when it is absent or empty.
-    pub fn text(&self, name: &str) -> Option<&str> {
+    pub(crate) fn text(&self, name: &str) -> Option<&str> {
         match &self.attribute(name)?.value {
             Value::Text(text) if !text.is_empty() => Some(text),
             _ => None,
@@ -45,7 +45,7 @@ impl Node {
     }
 
     /// The element in a message: its name in the XML, and its own name if it has one.
-    pub fn shown(&self) -> String {
+    pub(crate) fn shown(&self) -> String {
         match self.text("name") {
             Some(name) => format!("{} {}", self.element.name, shown(name)),
             None => self.element.name.to_string(),
@@ -56,18 +56,18 @@ impl Node {
 /// All elements in document order; the first is the root.
 #[derive(Debug, Default)]
 pub(crate) struct Tree {
-    pub nodes: Vec<Node>,
+    pub(crate) nodes: Vec<Node>,
 }
 
 impl Tree {
     /// The elements of this name directly below a node, with their indices.
-    pub fn children<'t>(&'t self, of: usize) -> impl Iterator<Item = (usize, &'t Node)> {
+    pub(crate) fn children<'t>(&'t self, of: usize) -> impl Iterator<Item = (usize, &'t Node)> {
         let list = self.nodes.get(of).map_or(&[][..], |n| &n.children);
         list.iter().filter_map(|&i| self.nodes.get(i).map(|n| (i, n)))
     }
 
     /// The elements of all sections of this name (`worldbody` may stand several times).
-    pub fn sections<'t>(&'t self, name: &'t str) -> impl Iterator<Item = (usize, &'t Node)> {
+    pub(crate) fn sections<'t>(&'t self, name: &'t str) -> impl Iterator<Item = (usize, &'t Node)> {
         self.children(0).filter(move |(_, n)| n.element.name == name)
     }
 }
@@ -86,7 +86,11 @@ pub(crate) fn parse(text: &str, report: &mut Report) -> Option<Tree> {
     if root.tag_name().name() != ROOT.name {
         let found = shown(root.tag_name().name());
         report
-            .error(code::UNKNOWN_ELEMENT, name_span(&root), format!("the root element is {found}, not `mujoco`"))
+            .error(
+                code::UNKNOWN_ELEMENT,
+                name_span(&root),
+                format!("the root element is {found}, not `mujoco`"),
+            )
             .help("a model is written as `<mujoco> … </mujoco>`");
         return None;
     }
@@ -101,7 +105,8 @@ pub(crate) fn parse(text: &str, report: &mut Report) -> Option<Tree> {
         let attributes = attributes(text, &xml, element, report);
         tree.nodes.push(Node { element, parent, span: name_span(&xml), attributes, children: Vec::new() });
 
-        let below: Vec<_> = children(&xml, element, report).into_iter().map(|(x, e)| (x, e, Some(index))).collect();
+        let below: Vec<_> =
+            children(&xml, element, report).into_iter().map(|(x, e)| (x, e, Some(index))).collect();
         stack.extend(below.into_iter().rev());
     }
     Some(tree)
@@ -117,7 +122,9 @@ fn name_span(xml: &Xml) -> Range<usize> {
 
 /// The child elements that the schema knows and accepts.
 fn children<'a, 'i>(
-    xml: &Xml<'a, 'i>, element: &'static Element, report: &mut Report,
+    xml: &Xml<'a, 'i>,
+    element: &'static Element,
+    report: &mut Report,
 ) -> Vec<(Xml<'a, 'i>, &'static Element)> {
     let mut list: Vec<(Xml<'a, 'i>, &'static Element)> = Vec::new();
     let mut seen: Vec<&'static str> = Vec::new();
@@ -126,7 +133,11 @@ fn children<'a, 'i>(
             let stray = child.text().unwrap_or("").trim();
             if !stray.is_empty() {
                 report
-                    .error(code::TEXT, child.range(), format!("text between the elements of `{}`", element.name))
+                    .error(
+                        code::TEXT,
+                        child.range(),
+                        format!("text between the elements of `{}`", element.name),
+                    )
                     .why("a model is made of elements and attributes only, this text would be lost")
                     .help("write it as a comment, <!-- … -->, or complete the tag it was part of");
             }
@@ -137,7 +148,11 @@ fn children<'a, 'i>(
         let name = child.tag_name().name();
         let span = name_span(&child);
         if child.tag_name().namespace().is_some() {
-            report.error(code::UNKNOWN_ELEMENT, span, format!("the element {} is in an XML namespace", shown(name)));
+            report.error(
+                code::UNKNOWN_ELEMENT,
+                span,
+                format!("the element {} is in an XML namespace", shown(name)),
+            );
             continue;
         }
         let Some(known) = element.child(name) else {
@@ -153,7 +168,11 @@ fn children<'a, 'i>(
         }
         if known.once && seen.contains(&known.name) {
             report
-                .error(code::REPEATED_ELEMENT, span, format!("a second `{name}` in the same `{}`", element.name))
+                .error(
+                    code::REPEATED_ELEMENT,
+                    span,
+                    format!("a second `{name}` in the same `{}`", element.name),
+                )
                 .help("merge its attributes into the first");
             continue;
         }
@@ -209,7 +228,8 @@ fn attributes(text: &str, xml: &Xml, element: &'static Element, report: &mut Rep
                     Some(at) if exact => span.start + at.start..span.start + at.end,
                     _ => span.clone(),
                 };
-                let error = report.error(p.code, at, format!("`{}` of {} {}", attr.name, element.name, p.message));
+                let error =
+                    report.error(p.code, at, format!("`{}` of {} {}", attr.name, element.name, p.message));
                 if let Some(help) = p.help {
                     error.help(help);
                 }

@@ -24,12 +24,12 @@ pub(crate) enum Value {
 /// What is wrong with a value.
 #[derive(Debug)]
 pub(crate) struct Problem {
-    pub code: &'static str,
+    pub(crate) code: &'static str,
     /// Bytes of the value's text; all of it when `None`.
-    pub at: Option<Range<usize>>,
+    pub(crate) at: Option<Range<usize>>,
     /// Continues a sentence that begins with the attribute's name: "`size` of geom …".
-    pub message: String,
-    pub help: Option<String>,
+    pub(crate) message: String,
+    pub(crate) help: Option<String>,
 }
 
 impl Problem {
@@ -59,11 +59,13 @@ fn keyword(words: &[Word], text: &str) -> Result<Value, Problem> {
         if word.supported {
             return Ok(Value::Word(word.value));
         }
-        let mut problem = Problem::new(code::NOT_SUPPORTED, format!("is {}, which is not supported yet", shown(text)));
+        let mut problem =
+            Problem::new(code::NOT_SUPPORTED, format!("is {}, which is not supported yet", shown(text)));
         problem.help = Some(format!("supported: {}", listed(words)));
         return Err(problem);
     }
-    let mut problem = Problem::new(code::KEYWORD, format!("is {}, which is not a keyword of it", shown(text)));
+    let mut problem =
+        Problem::new(code::KEYWORD, format!("is {}, which is not a keyword of it", shown(text)));
     problem.help = Some(match closest(text.trim(), words.iter().filter(|w| w.supported).map(|w| w.text)) {
         Some(word) => format!("did you mean `{word}`?"),
         None => format!("write one of: {}", listed(words)),
@@ -125,7 +127,8 @@ fn integer(word: &str) -> Result<i32, Problem> {
 }
 
 fn not_a_number(word: &str, noun: &str) -> Problem {
-    let mut problem = Problem::new(code::NUMBER, format!("has {}, which is not {} {noun}", shown(word), article(noun)));
+    let mut problem =
+        Problem::new(code::NUMBER, format!("has {}, which is not {} {noun}", shown(word), article(noun)));
     if word.contains(',') {
         problem.help = Some("separate numbers by spaces and write decimals with a point".into());
     }

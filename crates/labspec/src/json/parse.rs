@@ -250,11 +250,12 @@ fn explain(text: &str, error: &ParseError) -> Finding {
             .help("write \"key\": value"),
         Kind::ExpectedObjectValue => at(span, "the value of this key is missing".into())
             .help("write a value after the colon"),
-        Kind::NonFiniteNumbersNotAllowed | Kind::UnexpectedWord if is_not_finite(&word) => {
+        Kind::NonFiniteNumbersNotAllowed | Kind::UnexpectedWord | Kind::UnexpectedToken if is_not_finite(&word) => {
             at(on_word, format!("`{word}` is not a number that JSON knows"))
                 .help("leave the key out, or compute the value in an expression (a text in quotes)")
         }
-        Kind::UnexpectedWord if matches!(word.to_ascii_lowercase().as_str(), "true" | "false" | "null" | "none") => {
+        Kind::UnexpectedWord | Kind::UnexpectedToken
+            if matches!(word.to_ascii_lowercase().as_str(), "true" | "false" | "null" | "none") => {
             let right = if word.eq_ignore_ascii_case("none") { "null".into() } else { word.to_ascii_lowercase() };
             at(on_word.clone(), format!("`{word}` is written `{right}` in JSON"))
                 .help(format!("write {right}"))

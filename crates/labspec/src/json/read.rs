@@ -244,7 +244,7 @@ impl<'n, 'f> Fields<'n, 'f> {
 }
 
 /// A text, or a finding.
-pub fn text(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Text> {
+pub(crate) fn text(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Text> {
     match &node.json {
         Json::Text(text) => Some(text.clone()),
         _ => {
@@ -255,7 +255,7 @@ pub fn text(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Text
 }
 
 /// A number, or a finding.
-pub fn number(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Number> {
+pub(crate) fn number(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Number> {
     match &node.json {
         Json::Number(value) => Some(Number { value: *value, span: node.span.clone() }),
         _ => {
@@ -278,7 +278,7 @@ fn whole(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Number>
 }
 
 /// A number, a text or a truth value, or a finding.
-pub fn scalar(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Scalar> {
+pub(crate) fn scalar(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Scalar> {
     match &node.json {
         Json::Number(value) => Some(Scalar::Number(Number { value: *value, span: node.span.clone() })),
         Json::Text(text) => Some(Scalar::Text(text.clone())),
@@ -288,15 +288,6 @@ pub fn scalar(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Sc
             None
         }
     }
-}
-
-/// Reads every item of a list, leaving out those that are wrong.
-pub fn collect<T>(
-    items: &[Node],
-    findings: &mut Vec<Finding>,
-    read: impl Fn(&Node, &mut Vec<Finding>) -> Option<T>,
-) -> Vec<T> {
-    items.iter().filter_map(|item| read(item, findings)).collect()
 }
 
 fn wrong_key(findings: &mut Vec<Finding>, node: &Node, key: &str, expected: &str) {

@@ -37,13 +37,23 @@ pub enum Example {
     Lab(&'static str),
     /// The JSON of a quiz.
     Quiz(&'static str),
+    /// A stand-alone JSON file.
+    Json(&'static str),
+    /// A lesson that says the same thing very often.
+    Repeated(&'static str, usize),
 }
 
 impl Example {
-    /// The example as a lesson.
-    pub fn lesson(&self) -> String {
+    /// The example as a file: its name and its text.
+    pub fn file(&self) -> (&'static str, String) {
+        let name = if matches!(self, Example::Json(_)) { "example.json" } else { "example.md" };
+        (name, self.text())
+    }
+
+    fn text(&self) -> String {
         match self {
-            Example::Lesson(text) => (*text).to_string(),
+            Example::Lesson(text) | Example::Json(text) => (*text).to_string(),
+            Example::Repeated(text, times) => text.repeat(*times),
             Example::Lab(json) => format!("```lab simlab\n{json}\n```\n"),
             Example::Quiz(json) => format!("```quiz\n{json}\n```\n"),
         }
@@ -68,8 +78,12 @@ pub fn explain(code: &str) -> Option<String> {
         text.push_str(&format!("\n{}\n", sentence(rule.why)));
     }
     for (title, example) in [("Wrong", rule.bad), ("Right", rule.good)] {
-        let lesson = example.lesson();
-        text.push_str(&format!("\n## {title}\n\n````markdown\n{}\n````\n", lesson.trim_end()));
+        let (language, shown) = match example {
+            Example::Repeated(text, times) => ("markdown", format!("{}\n… and so on, {times} times", text.trim_end())),
+            Example::Json(_) => ("json", example.text()),
+            _ => ("markdown", example.text()),
+        };
+        text.push_str(&format!("\n## {title}\n\n````{language}\n{}\n````\n", shown.trim_end()));
     }
     Some(text)
 }
@@ -114,7 +128,8 @@ mod tests {
 
     fn fired(example: &Example) -> Vec<&'static str> {
         let models = ModelFolder::with_names(["ball", "pendulum"]);
-        load_lesson(SourceFile::new("example.md", example.lesson()), &models).findings.iter().map(|f| f.code).collect()
+        let (name, text) = example.file();
+        load_lesson(SourceFile::new(name, text), &models).findings.iter().map(|f| f.code).collect()
     }
 
     #[test]

@@ -122,7 +122,8 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Control> 
         Some("slider") => slider(&mut fields),
         Some(other) => {
             let span = kind.as_ref().map_or(node.span.clone(), Text::span);
-            let finding = Finding::new(&WRONG_TYPE, span.clone(), format!("there is no control of type `{}`", read::shorten(other)));
+            let finding = Finding::new(&WRONG_TYPE, span.clone(), format!("there is no control of type `{}`", read::shorten(other)))
+                .why("the page knows sliders, selects and buttons; it shows nothing for anything else");
             fields.findings.push(match read::nearest(other, ["slider", "select", "button"]) {
                 Some(right) => finding.help(format!("did you mean `{right}`?")).fix(span, right),
                 None => finding.help("write \"select\" or \"button\"; without `type` it is a slider"),

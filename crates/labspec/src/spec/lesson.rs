@@ -3,6 +3,7 @@
 use super::{Lab, Quiz, VerifyLab, lab, quiz};
 use crate::finding::{self, Finding};
 use crate::json::{self, Json, Node};
+use crate::lint::rules::json as json_rules;
 use crate::lint::rules::fence::{LIMIT, UNKNOWN_SPEC, WRONG_FENCE};
 use crate::lint::{self, ModelFolder};
 use crate::markdown::{self, Block, BlockKind};
@@ -230,8 +231,6 @@ fn body(block: &Block, findings: &mut Vec<Finding>) -> Option<Node> {
     }
     read_json(&block.body.value, &block.body.map, findings)
 }
-
-use crate::lint::rules::json as json_rules;
 
 /// Parses JSON after repairing typographic quotes; positions stay those of the file.
 fn read_json(text: &str, map: &SourceMap, findings: &mut Vec<Finding>) -> Option<Node> {

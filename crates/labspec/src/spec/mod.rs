@@ -13,7 +13,7 @@ mod verify;
 
 pub use control::{Action, Choice, Control, ControlKind};
 pub use lab::{Camera, Lab, OVERLAYS, Scene};
-pub use lesson::{LabAddress, LabEntry, Lesson, Widget, load_lesson};
+pub use lesson::{LabAddress, LabEntry, Lesson, MAX_FINDINGS, Widget, load_lesson};
 pub use plot::{Plot, Readout, RefLine, Trace};
 pub use quiz::{ChoiceStyle, Question, QuestionKind, Quiz};
 pub use verify::{Run, Said, Verify, VerifyLab};

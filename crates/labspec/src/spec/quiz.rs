@@ -161,7 +161,8 @@ fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
         other => {
             let span = kind.as_ref().map_or(node.span.clone(), Text::span);
             let finding =
-                Finding::new(&WRONG_TYPE, span.clone(), format!("there is no question of kind `{}`", read::shorten(other)));
+                Finding::new(&WRONG_TYPE, span.clone(), format!("there is no question of kind `{}`", read::shorten(other)))
+                    .why("the page does not know how to ask it, nor how to grade it");
             fields.findings.push(match read::nearest(other, KINDS) {
                 Some(right) => finding.help(format!("did you mean `{right}`?")).fix(span, right),
                 None => finding.help(format!("the kinds are {}", KINDS.join(", "))),

@@ -47,12 +47,13 @@ const NAMED: &[Attr] = attributes! { Kind::Name("actuator") => name; Kind::Class
 const TRANSMISSION: &[Attr] = attributes! {
     Kind::Ref("joint") => joint jointinparent;
     Kind::Ref("tendon") => tendon;
-    Kind::Ref("site") => site slidersite cranksite;
+    Kind::Ref("site") => slidersite cranksite;
     reals(2) => lengthrange;
 };
+const SITE: &[Attr] = attributes! { Kind::Ref("site") => site; };
 const REFSITE: &[Attr] = attributes! { Kind::Ref("site") => refsite; };
 const BODY: &[Attr] = attributes! { Kind::Ref("body") => body; };
-const ORIENTATION_TARGET: &[Attr] = attributes! { Kind::Ref("joint") => joint; Kind::Ref("site") => site; };
+const JOINT: &[Attr] = attributes! { Kind::Ref("joint") => joint; };
 
 macro_rules! actuators {
     ($($id:ident $name:literal [$($group:ident),*] [$($place:expr),*];)*) => {
@@ -75,25 +76,35 @@ macro_rules! actuators {
 const TAUSMOOTH: &[Attr] = attributes! { REAL => tausmooth; };
 
 actuators! {
-    A_GENERAL "general" [FORCE, CONTROL, ACTIVATION, JOINTLIKE, GENERAL, GAIN] [TRANSMISSION, REFSITE, BODY];
-    A_MOTOR "motor" [FORCE, CONTROL, JOINTLIKE] [TRANSMISSION, REFSITE];
-    A_POSITION "position" [FORCE, CONTROL, JOINTLIKE, SERVO, INHERIT, TIMECONST] [TRANSMISSION, REFSITE];
-    A_VELOCITY "velocity" [FORCE, CONTROL, JOINTLIKE, KV] [TRANSMISSION, REFSITE];
-    A_INTVELOCITY "intvelocity" [FORCE, CONTROL, ACTIVATION, JOINTLIKE, SERVO, INHERIT] [TRANSMISSION, REFSITE];
-    A_ORIENTATION "orientation" [FORCE, RANGE, SERVO, INPUT] [ORIENTATION_TARGET, REFSITE];
-    A_PID "pid" [FORCE, CONTROL, JOINTLIKE, SERVO, INHERIT, INPUT, PID] [TRANSMISSION, REFSITE];
-    A_DAMPER "damper" [FORCE, RANGE, JOINTLIKE, KV] [TRANSMISSION, REFSITE];
-    A_CYLINDER "cylinder" [FORCE, CONTROL, JOINTLIKE, CYLINDER] [TRANSMISSION, REFSITE];
-    A_MUSCLE "muscle" [FORCE, CONTROL, JOINTLIKE, MUSCLE] [TRANSMISSION, REFSITE, TAUSMOOTH];
+    A_GENERAL "general" [FORCE, CONTROL, ACTIVATION, JOINTLIKE, GENERAL, GAIN] [TRANSMISSION, SITE, REFSITE, BODY];
+    A_MOTOR "motor" [FORCE, CONTROL, JOINTLIKE] [TRANSMISSION, SITE, REFSITE];
+    A_POSITION "position" [FORCE, CONTROL, JOINTLIKE, SERVO, INHERIT, TIMECONST] [TRANSMISSION, SITE, REFSITE];
+    A_VELOCITY "velocity" [FORCE, CONTROL, JOINTLIKE, KV] [TRANSMISSION, SITE, REFSITE];
+    A_INTVELOCITY "intvelocity" [FORCE, CONTROL, ACTIVATION, JOINTLIKE, SERVO, INHERIT] [TRANSMISSION, SITE, REFSITE];
+    A_ORIENTATION "orientation" [FORCE, RANGE, SERVO, INPUT] [JOINT, SITE, REFSITE];
+    A_PID "pid" [FORCE, CONTROL, JOINTLIKE, SERVO, INHERIT, INPUT, PID] [TRANSMISSION, SITE, REFSITE];
+    A_DAMPER "damper" [FORCE, RANGE, JOINTLIKE, KV] [TRANSMISSION, SITE, REFSITE];
+    A_CYLINDER "cylinder" [FORCE, CONTROL, JOINTLIKE, CYLINDER] [TRANSMISSION, SITE, REFSITE];
+    A_MUSCLE "muscle" [FORCE, CONTROL, JOINTLIKE, MUSCLE] [TRANSMISSION, TAUSMOOTH];
     A_ADHESION "adhesion" [FORCE, RANGE, GRIP] [BODY];
-    A_DCMOTOR "dcmotor" [CONTROL, JOINTLIKE, MOTOR_DC] [TRANSMISSION, REFSITE];
+    A_DCMOTOR "dcmotor" [CONTROL, JOINTLIKE, MOTOR_DC] [TRANSMISSION, SITE, REFSITE];
 }
 
 static PLUGIN: Element = Element::new(
     "plugin",
-    &[NAMED, COMMON, FORCE, CONTROL, ACTIVATION, JOINTLIKE, GENERAL, TRANSMISSION, attributes! {
-        TEXT => plugin instance;
-    }],
+    &[
+        NAMED,
+        COMMON,
+        FORCE,
+        CONTROL,
+        ACTIVATION,
+        JOINTLIKE,
+        GENERAL,
+        TRANSMISSION,
+        attributes! {
+            TEXT => plugin instance;
+        },
+    ],
 )
 .children(&[&rest::CONFIG])
 .refused();

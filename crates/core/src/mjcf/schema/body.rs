@@ -2,8 +2,8 @@
 
 use super::Status::{Ignored, Only};
 use super::{
-    AUTO, Attr, Element, FLAG, INT, Kind, LIST, LOOK, MOOT, ORIENTATION, REAL, TEXT, USER, Word,
-    attributes, not_yet, reals, rest, upto, word,
+    AUTO, Attr, Element, FLAG, INT, Kind, LIST, LOOK, MOOT, ORIENTATION, REAL, TEXT, USER, Word, attributes,
+    not_yet, reals, rest, upto, word,
 };
 use crate::model::{geom, joint};
 
@@ -171,8 +171,9 @@ pub(super) const GEOM_ATTRS: &[Attr] = attributes! {
     upto(5) => fluidcoef [Ignored("for air and water, which are refused")];
     LIST => user [USER];
 };
-static GEOM: Element = Element::new("geom", &[attributes! { Kind::Name("geom") => name; }, CLASS, GEOM_ATTRS])
-    .children(&[&rest::PLUGIN]);
+static GEOM: Element =
+    Element::new("geom", &[attributes! { Kind::Name("geom") => name; }, CLASS, GEOM_ATTRS])
+        .children(&[&rest::PLUGIN]);
 
 /// A site, without its name and class.
 pub(super) const SITE_ATTRS: &[Attr] = attributes! {

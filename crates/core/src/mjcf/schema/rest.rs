@@ -2,8 +2,8 @@
 //! equality constraints, deformable bodies, plugins, includes.
 
 use super::{
-    AUTO, Attr, Element, FLAG, INT, INTS, Kind, LIST, LOOK, MOOT, REAL, TEXT, USER, actuator, attributes, body,
-    reals, scene, upto,
+    AUTO, Attr, Element, FLAG, INT, INTS, Kind, LIST, LOOK, MOOT, REAL, TEXT, USER, actuator, attributes,
+    body, reals, scene, upto,
 };
 
 /// An entry of `default`: what its class says about one kind of element.
@@ -17,8 +17,29 @@ pub(super) static DEFAULT: Element =
 static DEFAULT_CHILDREN: [&Element; 23] = {
     let [a, b, c, d, e, f, g, h, i, j, k, l] = actuator::DEFAULTS;
     [
-        &DEFAULT, &D_JOINT, &D_GEOM, &D_SITE, &D_CAMERA, &D_LIGHT, &D_MATERIAL, &D_MESH, &D_PAIR, &D_EQUALITY,
-        &D_TENDON, a, b, c, d, e, f, g, h, i, j, k, l,
+        &DEFAULT,
+        &D_JOINT,
+        &D_GEOM,
+        &D_SITE,
+        &D_CAMERA,
+        &D_LIGHT,
+        &D_MATERIAL,
+        &D_MESH,
+        &D_PAIR,
+        &D_EQUALITY,
+        &D_TENDON,
+        a,
+        b,
+        c,
+        d,
+        e,
+        f,
+        g,
+        h,
+        i,
+        j,
+        k,
+        l,
     ]
 };
 
@@ -43,10 +64,12 @@ static KEY: Element = Element::new(
     }],
 );
 
-pub(super) static CUSTOM: Element = Element::new("custom", &[]).children(&[&NUMERIC, &TEXT_DATA, &TUPLE]).status(USER);
+pub(super) static CUSTOM: Element =
+    Element::new("custom", &[]).children(&[&NUMERIC, &TEXT_DATA, &TUPLE]).status(USER);
 static NUMERIC: Element =
     Element::new("numeric", &[attributes! { Kind::Name("numeric") => name; LIST => data; INT => size; }]);
-static TEXT_DATA: Element = Element::new("text", &[attributes! { Kind::Name("text") => name; TEXT => data; }]);
+static TEXT_DATA: Element =
+    Element::new("text", &[attributes! { Kind::Name("text") => name; TEXT => data; }]);
 static TUPLE: Element =
     Element::new("tuple", &[attributes! { Kind::Name("tuple") => name; }]).children(&[&TUPLE_ELEMENT]);
 static TUPLE_ELEMENT: Element =
@@ -54,7 +77,8 @@ static TUPLE_ELEMENT: Element =
 
 pub(super) static INCLUDE: Element = Element::new("include", &[attributes! { TEXT => file; }]).refused();
 
-pub(super) static EXTENSION: Element = Element::new("extension", &[]).children(&[&EXTENSION_PLUGIN]).refused();
+pub(super) static EXTENSION: Element =
+    Element::new("extension", &[]).children(&[&EXTENSION_PLUGIN]).refused();
 static EXTENSION_PLUGIN: Element =
     Element::new("plugin", &[attributes! { TEXT => plugin; }]).children(&[&INSTANCE]);
 static INSTANCE: Element = Element::new("instance", &[attributes! { TEXT => name; }]).children(&[&CONFIG]);
@@ -83,9 +107,11 @@ static PAIR: Element = Element::new(
     ],
 )
 .refused();
-static EXCLUDE: Element =
-    Element::new("exclude", &[attributes! { Kind::Name("exclude") => name; Kind::Ref("body") => body1 body2; }])
-        .refused();
+static EXCLUDE: Element = Element::new(
+    "exclude",
+    &[attributes! { Kind::Name("exclude") => name; Kind::Ref("body") => body1 body2; }],
+)
+.refused();
 
 const TENDON_ATTRS: &[Attr] = attributes! {
     INT => group;
@@ -163,20 +189,25 @@ const NO_ADHESION: &[Attr] = attributes! {
 };
 static FLEXCONTACT: Element = Element::new("contact", &[NO_ADHESION, FLEX_CONTACT]).once();
 static FLEXEDGE: Element = Element::new("edge", &[attributes! { REAL => stiffness damping; }]).once();
-static COMPEDGE: Element = Element::new("edge", &[attributes! {
-    TEXT => equality;
-    upto(2) => solref;
-    upto(5) => solimp;
-    REAL => stiffness damping;
-}])
+static COMPEDGE: Element = Element::new(
+    "edge",
+    &[attributes! {
+        TEXT => equality;
+        upto(2) => solref;
+        upto(5) => solimp;
+        REAL => stiffness damping;
+    }],
+)
 .once();
-static ELASTICITY: Element = Element::new("elasticity", &[attributes! {
-    REAL => young poisson damping thickness;
-    TEXT => elastic2d;
-}])
+static ELASTICITY: Element = Element::new(
+    "elasticity",
+    &[attributes! {
+        REAL => young poisson damping thickness;
+        TEXT => elastic2d;
+    }],
+)
 .once();
-static PIN: Element =
-    Element::new("pin", &[attributes! { INTS => id range grid gridrange; }]);
+static PIN: Element = Element::new("pin", &[attributes! { INTS => id range grid gridrange; }]);
 
 const FLEX_COMMON: &[Attr] = attributes! {
     TEXT => name dof;
@@ -225,38 +256,57 @@ pub(super) static COMPOSITE: Element = Element::new(
 )
 .children(&[&COMP_JOINT, &COMP_SKIN, &COMP_GEOM, &COMP_SITE, &PLUGIN])
 .refused();
-static COMP_JOINT: Element = Element::new("joint", &[attributes! {
-    TEXT => kind type;
-    INT => group;
-    reals(3) => axis;
-    AUTO => limited;
-    reals(2) => range;
-    REAL => margin armature frictionloss;
-    upto(3) => stiffness damping;
-    upto(2) => solreflimit solreffriction solreffix;
-    upto(5) => solimplimit solimpfriction solimpfix;
-}]);
-static COMP_SKIN: Element = Element::new("skin", &[RGBA, attributes! {
-    FLAG => texcoord;
-    Kind::Ref("material") => material;
-    INT => group subgrid;
-    REAL => inflate;
-}])
+static COMP_JOINT: Element = Element::new(
+    "joint",
+    &[attributes! {
+        TEXT => kind type;
+        INT => group;
+        reals(3) => axis;
+        AUTO => limited;
+        reals(2) => range;
+        REAL => margin armature frictionloss;
+        upto(3) => stiffness damping;
+        upto(2) => solreflimit solreffriction solreffix;
+        upto(5) => solimplimit solimpfriction solimpfix;
+    }],
+);
+static COMP_SKIN: Element = Element::new(
+    "skin",
+    &[
+        RGBA,
+        attributes! {
+            FLAG => texcoord;
+            Kind::Ref("material") => material;
+            INT => group subgrid;
+            REAL => inflate;
+        },
+    ],
+)
 .once();
-static COMP_GEOM: Element = Element::new("geom", &[RGBA, CONTACT_ATTRS, attributes! {
-    TEXT => type;
-    upto(3) => size friction;
-    INT => contype conaffinity group priority;
-    REAL => mass density solmix;
-    upto(6) => surfacevel;
-    Kind::Ref("material") => material;
-}])
+static COMP_GEOM: Element = Element::new(
+    "geom",
+    &[
+        RGBA,
+        CONTACT_ATTRS,
+        attributes! {
+            TEXT => type;
+            upto(3) => size friction;
+            INT => contype conaffinity group priority;
+            REAL => mass density solmix;
+            upto(6) => surfacevel;
+            Kind::Ref("material") => material;
+        },
+    ],
+)
 .once();
-static COMP_SITE: Element = Element::new("site", &[attributes! {
-    upto(3) => size;
-    INT => group;
-    TEXT => mesh;
-    Kind::Ref("material") => material;
-    reals(4) => rgba [LOOK];
-}])
+static COMP_SITE: Element = Element::new(
+    "site",
+    &[attributes! {
+        upto(3) => size;
+        INT => group;
+        TEXT => mesh;
+        Kind::Ref("material") => material;
+        reals(4) => rgba [LOOK];
+    }],
+)
 .once();

@@ -1,8 +1,6 @@
 //! `visual` and `asset`: what the scene looks like, and meshes.
 
-use super::{
-    Element, FLAG, INT, INTS, Kind, LIST, LOOK, REAL, TEXT, attributes, reals, upto, word,
-};
+use super::{Element, FLAG, INT, INTS, Kind, LIST, LOOK, REAL, TEXT, attributes, reals, upto, word};
 
 /// A section of `visual` with these attributes.
 const fn look(name: &'static str, attributes: &'static [&'static [super::Attr]]) -> Element {
@@ -12,31 +10,49 @@ const fn look(name: &'static str, attributes: &'static [&'static [super::Attr]])
 pub(super) static VISUAL: Element =
     Element::new("visual", &[]).status(LOOK).children(&[&GLOBAL, &QUALITY, &HEADLIGHT, &MAP, &SCALE, &RGBA]);
 
-static GLOBAL: Element = look("global", &[attributes! {
-    REAL => fovy ipd azimuth elevation linewidth glow realtime;
-    INT => cameraid offwidth offheight;
-    FLAG => orthographic ellipsoidinertia bvactive;
-}]);
-static QUALITY: Element = look("quality", &[attributes! {
-    INT => shadowsize offsamples numslices numstacks numquads;
-}]);
-static HEADLIGHT: Element = look("headlight", &[attributes! {
-    reals(3) => ambient diffuse specular;
-    INT => active;
-}]);
-static MAP: Element = look("map", &[attributes! {
-    REAL => stiffness stiffnessrot force torque alpha fogstart fogend znear zfar haze shadowclip shadowscale
-        actuatortendon;
-}]);
-static SCALE: Element = look("scale", &[attributes! {
-    REAL => forcewidth contactwidth contactheight connect com camera light selectpoint jointlength jointwidth
-        actuatorlength actuatorwidth framelength framewidth constraint slidercrank frustum;
-}]);
-static RGBA: Element = look("rgba", &[attributes! {
-    reals(4) => fog haze force inertia joint actuator actuatornegative actuatorpositive com camera light
-        selectpoint connect contactpoint contactforce contactfriction contacttorque contactgap rangefinder
-        constraint slidercrank crankbroken frustum bv bvactive;
-}]);
+static GLOBAL: Element = look(
+    "global",
+    &[attributes! {
+        REAL => fovy ipd azimuth elevation linewidth glow realtime;
+        INT => cameraid offwidth offheight;
+        FLAG => orthographic ellipsoidinertia bvactive;
+    }],
+);
+static QUALITY: Element = look(
+    "quality",
+    &[attributes! {
+        INT => shadowsize offsamples numslices numstacks numquads;
+    }],
+);
+static HEADLIGHT: Element = look(
+    "headlight",
+    &[attributes! {
+        reals(3) => ambient diffuse specular;
+        INT => active;
+    }],
+);
+static MAP: Element = look(
+    "map",
+    &[attributes! {
+        REAL => stiffness stiffnessrot force torque alpha fogstart fogend znear zfar haze shadowclip shadowscale
+            actuatortendon;
+    }],
+);
+static SCALE: Element = look(
+    "scale",
+    &[attributes! {
+        REAL => forcewidth contactwidth contactheight connect com camera light selectpoint jointlength jointwidth
+            actuatorlength actuatorwidth framelength framewidth constraint slidercrank frustum;
+    }],
+);
+static RGBA: Element = look(
+    "rgba",
+    &[attributes! {
+        reals(4) => fog haze force inertia joint actuator actuatornegative actuatorpositive com camera light
+            selectpoint connect contactpoint contactforce contactfriction contacttorque contactgap rangefinder
+            constraint slidercrank crankbroken frustum bv bvactive;
+    }],
+);
 
 pub(super) static ASSET: Element =
     Element::new("asset", &[]).children(&[&TEXTURE, &MATERIAL, &MESH, &HFIELD, &SKIN, &MODEL]);
@@ -72,11 +88,8 @@ pub(super) static MATERIAL: Element = Element::new(
     &[attributes! { Kind::Name("material") => name; Kind::Class => class; }, MATERIAL_ATTRS],
 )
 .children(&[&LAYER]);
-pub(super) static LAYER: Element = Element::new(
-    "layer",
-    &[attributes! { TEXT => role; Kind::Ref("texture") => texture; }],
-)
-.status(LOOK);
+pub(super) static LAYER: Element =
+    Element::new("layer", &[attributes! { TEXT => role; Kind::Ref("texture") => texture; }]).status(LOOK);
 
 /// A mesh, without its name, class and data.
 pub(super) const MESH_ATTRS: &[super::Attr] = attributes! {
@@ -140,4 +153,5 @@ static BONE: Element = Element::new(
     }],
 );
 static MODEL: Element =
-    Element::new("model", &[attributes! { Kind::Name("model") => name; TEXT => file content_type; }]).refused();
+    Element::new("model", &[attributes! { Kind::Name("model") => name; TEXT => file content_type; }])
+        .refused();

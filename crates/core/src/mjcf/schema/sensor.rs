@@ -104,28 +104,38 @@ sensors! {
 
 static TACTILE: Element = sensor(
     "tactile",
-    &[COMMON, TIMING, attributes! {
-        REAL => cutoff;
-        Kind::Ref("geom") => geom;
-        Kind::Ref("mesh") => mesh;
-    }],
+    &[
+        COMMON,
+        TIMING,
+        attributes! {
+            REAL => cutoff;
+            Kind::Ref("geom") => geom;
+            Kind::Ref("mesh") => mesh;
+        },
+    ],
 )
 .refused();
 static USER_SENSOR: Element = sensor(
     "user",
-    &[COMMON, VALUES, attributes! {
-        TEXT => objtype objname datatype needstage;
-        INT => dim;
-    }],
+    &[
+        COMMON,
+        VALUES,
+        attributes! {
+            TEXT => objtype objname datatype needstage;
+            INT => dim;
+        },
+    ],
 )
 .refused();
 static PLUGIN: Element = sensor(
     "plugin",
-    &[COMMON, attributes! {
-        REAL => cutoff;
-        TEXT => plugin instance objtype objname reftype refname;
-    }],
+    &[
+        COMMON,
+        attributes! {
+            REAL => cutoff;
+            TEXT => plugin instance objtype objname reftype refname;
+        },
+    ],
 )
 .children(&[&rest::CONFIG])
 .refused();
-

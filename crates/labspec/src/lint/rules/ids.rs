@@ -68,7 +68,6 @@ fn duplicate(id: &Text) -> Finding {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::lint::{ModelFolder, check_course};
     use crate::source::SourceFile;
     use crate::spec::load_lesson;

@@ -1,7 +1,6 @@
 //! Questions that cannot be answered.
 
 use super::plot::repeated;
-use super::ranges::positive;
 use crate::finding::{Finding, Severity};
 use crate::lint::{Example, Rule};
 use crate::spec::{Question, QuestionKind, Quiz};
@@ -56,8 +55,18 @@ pub static ZERO_TOLERANCE: Rule = Rule {
     good: Example::Quiz(r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "Drift in mm?", "answer": 0, "tol": 0.01}]}"#),
 };
 
+/// A tolerance that no typed number can meet.
+pub static TOLERANCE: Rule = Rule {
+    code: "impossible-tolerance",
+    severity: Severity::Error,
+    summary: "the tolerance of a numeric question is negative, or 0 for an answer that is no whole number",
+    why: "an answer is right when it is off by no more than `tol`; a count may be asked exactly, a measured number may not",
+    bad: Example::Quiz(r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": 0}]}"#),
+    good: Example::Quiz(r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How many steps?", "answer": 250, "tol": 0}]}"#),
+};
+
 pub(in crate::lint) const RULES: &[&Rule] =
-    &[&EMPTY_QUIZ, &FEW_OPTIONS, &ANSWER_RANGE, &DUPLICATE_OPTION, &ZERO_TOLERANCE];
+    &[&EMPTY_QUIZ, &FEW_OPTIONS, &ANSWER_RANGE, &DUPLICATE_OPTION, &ZERO_TOLERANCE, &TOLERANCE];
 
 pub(in crate::lint) fn check(quiz: &Quiz, findings: &mut Vec<Finding>) {
     if quiz.questions.is_empty() {
@@ -107,7 +116,13 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
                         .help("add \"tol\": how far an answer may be off, in its unit"),
                 );
             }
-            positive("tol", tol.as_ref(), "how far an answer may be off, in its unit", findings);
+            let whole = answer.value.fract() == 0.0;
+            if let Some(tol) = tol.as_ref().filter(|t| t.value < 0.0 || (t.value == 0.0 && !whole)) {
+                findings.push(
+                    Finding::new(&TOLERANCE, tol.span.clone(), format!("no answer can be within {} of {}", tol.value, answer.value))
+                        .help("write how far an answer may be off, in its unit; leave `tol` out for 2 %"),
+                );
+            }
         }
         _ => {}
     }

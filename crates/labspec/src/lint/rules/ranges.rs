@@ -12,8 +12,8 @@ pub const MAX_DIGITS: u32 = 17;
 pub static NOT_POSITIVE: Rule = Rule {
     code: "not-positive",
     severity: Severity::Error,
-    summary: "a time, size, tolerance or speed is zero or negative",
-    why: "a lab that stops at time 0 never runs, and a plot of width 0 shows nothing",
+    summary: "a time, size or speed is zero or negative",
+    why: "with nothing left to run or to draw, the lab shows nothing",
     bad: Example::Lab(r#"{"model": "ball", "stopAt": 0}"#),
     good: Example::Lab(r#"{"model": "ball", "stopAt": 1.5}"#),
 };

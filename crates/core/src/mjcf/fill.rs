@@ -1,0 +1,264 @@
+//! Specifications to the arrays of [`Model`].
+
+use super::layout::{Layout, Pattern};
+use super::spec::{BodySpec, GeomSpec, Inertia, JointSpec, KeySpec, SensorSpec, SiteSpec};
+use crate::math::{IDENTITY, MINVAL, quat_normalize, rows_mut};
+use crate::{Model, Names, joint, reflect};
+
+/// The sizes that a keyframe depends on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sizes {
+    pub(crate) nq: usize,
+    pub(crate) nv: usize,
+    pub(crate) nmocap: usize,
+}
+
+/// Everything that goes into a model.
+pub(crate) struct Parts<'a> {
+    pub(crate) bodies: &'a [BodySpec],
+    pub(crate) inertias: &'a [Inertia],
+    pub(crate) layout: &'a Layout,
+    pub(crate) simple: &'a [i32],
+    pub(crate) pattern: Pattern,
+    pub(crate) sensors: &'a [SensorSpec],
+    pub(crate) keys: &'a [KeySpec],
+}
+
+/// Fills the model. Options, statistics and what `mj_setConst` computes are not touched.
+pub(crate) fn model(m: &mut Model, parts: Parts) {
+    let Parts { bodies: list, inertias, layout, simple, pattern, sensors: sensor_list, keys: key_list } =
+        parts;
+    let joints: Vec<(usize, &JointSpec)> = members(list, |b| &b.joints);
+    let geoms: Vec<(usize, &GeomSpec)> = members(list, |b| &b.geoms);
+    let sites: Vec<(usize, &SiteSpec)> = members(list, |b| &b.sites);
+
+    m.nq = layout.nq;
+    m.nv = layout.dofs.len();
+    m.nbody = list.len();
+    m.ntree = layout.ntree;
+    m.njnt = joints.len();
+    m.ngeom = geoms.len();
+    m.nsite = sites.len();
+    m.ncam = list.iter().map(|b| b.cameras.len()).sum();
+    m.nlight = list.iter().map(|b| b.lights.len()).sum();
+    m.nmocap = layout.nmocap;
+    m.nsensor = sensor_list.len();
+    m.nsensordata = sensor_list.iter().map(|s| s.dim as usize).sum();
+    m.nkey = key_list.len();
+    m.nC = pattern.colind.len();
+    reflect::allocate_model(m);
+
+    bodies(m, list, inertias, layout, simple);
+    joints_and_dofs(m, list, &joints, layout, simple);
+    (m.M_rownnz, m.M_rowadr, m.M_colind) = (pattern.rownnz, pattern.rowadr, pattern.colind);
+    fill_geoms(m, &geoms);
+    fill_sites(m, &sites);
+    fill_sensors(m, sensor_list);
+    fill_keys(m, list, key_list);
+
+    let names = |of: &mut dyn Iterator<Item = &String>| of.cloned().collect::<Vec<String>>();
+    m.names = Names {
+        model: std::mem::take(&mut m.names.model),
+        body: names(&mut list.iter().map(|b| &b.name)),
+        joint: names(&mut joints.iter().map(|(_, j)| &j.name)),
+        geom: names(&mut geoms.iter().map(|(_, g)| &g.name)),
+        site: names(&mut sites.iter().map(|(_, s)| &s.name)),
+        camera: names(&mut list.iter().flat_map(|b| &b.cameras)),
+        light: names(&mut list.iter().flat_map(|b| &b.lights)),
+        sensor: names(&mut sensor_list.iter().map(|s| &s.name)),
+        key: names(&mut key_list.iter().map(|k| &k.name)),
+        ..Names::default()
+    };
+}
+
+/// The members of all bodies in id order, each with its body.
+fn members<T>(list: &[BodySpec], of: impl Fn(&BodySpec) -> &Vec<T>) -> Vec<(usize, &T)> {
+    list.iter().enumerate().flat_map(|(i, b)| of(b).iter().map(move |x| (i, x))).collect()
+}
+
+/// Numbers of each object, one after the other.
+fn flat<T, const N: usize>(list: impl IntoIterator<Item = T>, of: impl Fn(T) -> [f64; N]) -> Vec<f64> {
+    list.into_iter().flat_map(of).collect()
+}
+
+/// One integer of each object.
+fn ints<T>(list: impl IntoIterator<Item = T>, of: impl FnMut(T) -> i32) -> Vec<i32> {
+    list.into_iter().map(of).collect()
+}
+
+/// First address and count of the members of each body: -1 where there are none.
+fn addresses(list: &[BodySpec], count: impl Fn(&BodySpec) -> usize) -> (Vec<i32>, Vec<i32>) {
+    let mut next = 0;
+    let mut address = |b| {
+        let n = count(b);
+        let at = if n == 0 { -1 } else { next as i32 };
+        next += n;
+        (at, n as i32)
+    };
+    list.iter().map(&mut address).unzip()
+}
+
+fn bodies(m: &mut Model, list: &[BodySpec], inertias: &[Inertia], layout: &Layout, simple: &[i32]) {
+    m.body_parentid = ints(list, |b| b.parent as i32);
+    m.body_rootid = ints(&layout.root, |&i| i as i32);
+    m.body_weldid = ints(&layout.weld, |&i| i as i32);
+    m.body_mocapid = layout.mocap.clone();
+    m.body_treeid = layout.body_tree.clone();
+    (m.body_jntadr, m.body_jntnum) = addresses(list, |b| b.joints.len());
+    (m.body_geomadr, m.body_geomnum) = addresses(list, |b| b.geoms.len());
+    m.body_dofnum = ints(&layout.body_dofs, |&(_, n)| n as i32);
+    m.body_dofadr = ints(&layout.body_dofs, |&(at, n)| if n == 0 { -1 } else { at as i32 });
+    m.body_simple = simple.to_vec();
+    m.body_pos = flat(list, |b| b.pos);
+    m.body_quat = flat(list, |b| b.quat);
+    m.body_ipos = flat(inertias, |i| i.pos);
+    m.body_iquat = flat(inertias, |i| i.quat);
+    m.body_mass = flat(inertias, |i| [i.mass]);
+    m.body_inertia = flat(inertias, |i| i.moments);
+}
+
+fn joints_and_dofs(
+    m: &mut Model,
+    list: &[BodySpec],
+    joints: &[(usize, &JointSpec)],
+    layout: &Layout,
+    simple: &[i32],
+) {
+    let (mut qpos, mut dof) = (0, 0);
+    m.jnt_qposadr.clear();
+    m.jnt_dofadr.clear();
+    m.qpos0.clear();
+    m.qpos_spring.clear();
+    for &(body, j) in joints {
+        m.jnt_qposadr.push(qpos as i32);
+        m.jnt_dofadr.push(dof as i32);
+        qpos += joint::nq(j.kind);
+        dof += joint::nv(j.kind);
+        match (j.kind, list.get(body)) {
+            (joint::FREE, Some(b)) => {
+                for q in [&mut m.qpos0, &mut m.qpos_spring] {
+                    q.extend(b.pos);
+                    q.extend(b.quat);
+                }
+            }
+            (joint::BALL, _) => {
+                m.qpos0.extend(IDENTITY);
+                m.qpos_spring.extend(IDENTITY);
+            }
+            _ => {
+                m.qpos0.push(j.reference);
+                m.qpos_spring.push(j.springref);
+            }
+        }
+    }
+    m.jnt_type = ints(joints, |(_, j)| j.kind);
+    m.jnt_bodyid = ints(joints, |&(b, _)| b as i32);
+    m.jnt_limited = joints.iter().map(|(_, j)| j.limited).collect();
+    m.jnt_solref = flat(joints, |(_, j)| j.solref);
+    m.jnt_solimp = flat(joints, |(_, j)| j.solimp);
+    m.jnt_pos = flat(joints, |(_, j)| j.pos);
+    m.jnt_axis = flat(joints, |(_, j)| j.axis);
+    m.jnt_stiffness = flat(joints, |(_, j)| [j.stiffness]);
+    m.jnt_range = flat(joints, |(_, j)| j.range);
+    m.jnt_margin = flat(joints, |(_, j)| [j.margin]);
+
+    let dofs = &layout.dofs;
+    m.dof_bodyid = ints(dofs, |d| d.body as i32);
+    m.dof_jntid = ints(dofs, |d| d.joint as i32);
+    m.dof_parentid = ints(dofs, |d| d.parent.map_or(-1, |p| p as i32));
+    m.dof_treeid = ints(dofs, |d| d.tree as i32);
+    let of_joint =
+        |d: &super::layout::Dof, f: fn(&JointSpec) -> f64| joints.get(d.joint).map_or(0.0, |(_, j)| f(j));
+    m.dof_armature = flat(dofs, |d| [of_joint(d, |j| j.armature)]);
+    // Counted from the end: a simple degree of freedom continues the run that follows it.
+    let mut run = 0;
+    let mut simplenum = ints(dofs.iter().rev(), |d| {
+        run = if simple.get(d.body).is_some_and(|&s| s != 0) { run + 1 } else { 0 };
+        run
+    });
+    simplenum.reverse();
+    m.dof_simplenum = simplenum;
+    m.dof_damping = flat(dofs, |d| [of_joint(d, |j| j.damping)]);
+}
+
+fn fill_geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)]) {
+    m.geom_type = ints(geoms, |(_, g)| g.kind);
+    m.geom_contype = ints(geoms, |(_, g)| g.contype);
+    m.geom_conaffinity = ints(geoms, |(_, g)| g.conaffinity);
+    m.geom_condim = ints(geoms, |(_, g)| g.condim);
+    m.geom_bodyid = ints(geoms, |&(b, _)| b as i32);
+    m.geom_group = ints(geoms, |(_, g)| g.group);
+    m.geom_priority = ints(geoms, |(_, g)| g.priority);
+    m.geom_solmix = flat(geoms, |(_, g)| [g.solmix]);
+    m.geom_solref = flat(geoms, |(_, g)| g.solref);
+    m.geom_solimp = flat(geoms, |(_, g)| g.solimp);
+    m.geom_size = flat(geoms, |(_, g)| g.size);
+    m.geom_rbound = flat(geoms, |(_, g)| [g.rbound]);
+    m.geom_pos = flat(geoms, |(_, g)| g.pos);
+    m.geom_quat = flat(geoms, |(_, g)| g.quat);
+    m.geom_friction = flat(geoms, |(_, g)| g.friction);
+    m.geom_margin = flat(geoms, |(_, g)| [g.margin]);
+    m.geom_gap = flat(geoms, |(_, g)| [g.gap]);
+    m.geom_rgba = flat(geoms, |(_, g)| g.rgba);
+}
+
+fn fill_sites(m: &mut Model, sites: &[(usize, &SiteSpec)]) {
+    m.site_bodyid = ints(sites, |&(b, _)| b as i32);
+    m.site_size = flat(sites, |(_, s)| s.size);
+    m.site_pos = flat(sites, |(_, s)| s.pos);
+    m.site_quat = flat(sites, |(_, s)| s.quat);
+}
+
+fn fill_sensors(m: &mut Model, sensors: &[SensorSpec]) {
+    let mut next = 0;
+    m.sensor_adr = ints(sensors, |_| 0);
+    for (adr, s) in m.sensor_adr.iter_mut().zip(sensors) {
+        *adr = next;
+        next += s.dim;
+    }
+    m.sensor_type = ints(sensors, |s| s.kind);
+    m.sensor_objtype = ints(sensors, |s| s.objtype);
+    m.sensor_objid = ints(sensors, |s| s.objid);
+    m.sensor_dim = ints(sensors, |s| s.dim);
+    m.sensor_cutoff = flat(sensors, |s| [s.cutoff]);
+    m.sensor_noise = flat(sensors, |s| [s.noise]);
+}
+
+/// Keyframes: what is not given is taken from the reference configuration; quaternions are normalized.
+fn fill_keys(m: &mut Model, bodies: &[BodySpec], keys: &[KeySpec]) {
+    let mocap: Vec<&BodySpec> = bodies.iter().filter(|b| b.mocap).collect();
+    let (mpos0, mquat0) = (flat(mocap.iter().copied(), |b| b.pos), flat(mocap.iter().copied(), |b| b.quat));
+    m.key_time = flat(keys, |k| [k.time]);
+    let of = |given: fn(&KeySpec) -> &Option<Vec<f64>>, rest: &[f64]| -> Vec<f64> {
+        keys.iter().flat_map(|k| given(k).as_deref().unwrap_or(rest)).copied().collect()
+    };
+    m.key_qpos = of(|k| &k.qpos, &m.qpos0);
+    m.key_qvel = of(|k| &k.qvel, &vec![0.0; m.nv]);
+    m.key_mpos = of(|k| &k.mpos, &mpos0);
+    m.key_mquat = of(|k| &k.mquat, &mquat0);
+
+    for q in rows_mut::<4>(&mut m.key_mquat) {
+        // A zero quaternion stays as it is: it is normalized where the mocap body is placed.
+        if q.iter().any(|x| x.abs() > MINVAL) {
+            *q = quat_normalize(*q);
+        }
+    }
+    let quats: Vec<usize> = m
+        .jnt_type
+        .iter()
+        .zip(&m.jnt_qposadr)
+        .filter_map(|(&kind, &adr)| match kind {
+            joint::FREE => Some(adr as usize + 3),
+            joint::BALL => Some(adr as usize),
+            _ => None,
+        })
+        .collect();
+    let nq = m.nq;
+    for key in m.key_qpos.chunks_exact_mut(nq.max(1)) {
+        for &at in &quats {
+            if let Some(q) = key.get_mut(at..at + 4).and_then(|q| <&mut [f64; 4]>::try_from(q).ok()) {
+                *q = quat_normalize(*q);
+            }
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! Ids and addresses: which body moves with which, kinematic trees, the chain of each degree of freedom, and
+//! the pattern of the mass matrix.
+
+use super::diagnostic::{Report, code};
+use super::inertia::shown;
+use super::spec::{BodySpec, Inertia};
+use crate::joint;
+use crate::math::IDENTITY;
+
+/// More entries than this in the mass matrix are refused: a long chain with very many branches.
+const MAX_MATRIX: usize = 20_000_000;
+
+/// Structure of the tree, by body and by degree of freedom.
+#[derive(Debug, Default)]
+pub(crate) struct Layout {
+    pub(crate) root: Vec<usize>,
+    pub(crate) weld: Vec<usize>,
+    /// Kinematic tree of the body, -1 if it cannot move.
+    pub(crate) body_tree: Vec<i32>,
+    pub(crate) mocap: Vec<i32>,
+    pub(crate) nmocap: usize,
+    /// Body, joint, parent and tree of each degree of freedom.
+    pub(crate) dofs: Vec<Dof>,
+    /// First degree of freedom of the body, and how many.
+    pub(crate) body_dofs: Vec<(usize, usize)>,
+    pub(crate) ntree: usize,
+    pub(crate) nq: usize,
+}
+
+/// A degree of freedom.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Dof {
+    pub(crate) body: usize,
+    pub(crate) joint: usize,
+    pub(crate) parent: Option<usize>,
+    pub(crate) tree: usize,
+}
+
+/// Numbers everything. Bodies stand parents first.
+pub(crate) fn number(bodies: &[BodySpec]) -> Layout {
+    let mut l = Layout::default();
+    // The last degree of freedom on the way from the root to each body, the body's own included.
+    let mut last: Vec<Option<usize>> = Vec::with_capacity(bodies.len());
+    let mut joints = 0;
+    for (i, body) in bodies.iter().enumerate() {
+        let parent_root = l.root.get(body.parent).copied().unwrap_or(0);
+        l.root.push(if parent_root == 0 { i } else { parent_root });
+        let fixed = body.joints.is_empty() && !body.mocap;
+        let parent_weld = l.weld.get(body.parent).copied().unwrap_or(0);
+        l.weld.push(if fixed && i > 0 { parent_weld } else { i });
+        l.mocap.push(if body.mocap { l.nmocap as i32 } else { -1 });
+        l.nmocap += usize::from(body.mocap);
+
+        let mut chain = last.get(body.parent).copied().flatten();
+        let first = l.dofs.len();
+        for j in &body.joints {
+            for _ in 0..joint::nv(j.kind) {
+                let tree = match chain.and_then(|c| l.dofs.get(c)) {
+                    Some(parent) => parent.tree,
+                    None => {
+                        l.ntree += 1;
+                        l.ntree - 1
+                    }
+                };
+                l.dofs.push(Dof { body: i, joint: joints, parent: chain, tree });
+                chain = Some(l.dofs.len() - 1);
+            }
+            l.nq += joint::nq(j.kind);
+            joints += 1;
+        }
+        l.body_dofs.push((first, l.dofs.len() - first));
+        l.body_tree.push(chain.and_then(|c| l.dofs.get(c)).map_or(-1, |d| d.tree as i32));
+        last.push(chain);
+    }
+    l
+}
+
+/// Reports joints and mocap bodies where they cannot be.
+pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
+    for (i, body) in bodies.iter().enumerate().skip(1) {
+        check_joints(body, report);
+        if body.mocap && (body.parent != 0 || !body.joints.is_empty()) {
+            let what = if body.parent == 0 { "has joints" } else { "is not a child of the world" };
+            report
+                .error(code::MOCAP, body.span.clone(), format!("{} is a mocap body but {what}", shown(body)))
+                .why("a mocap body is placed from outside: `data.mocap_pos` is its position in the world")
+                .help("make it a child of `worldbody` without joints");
+        }
+        let moves = layout.body_tree.get(i).is_some_and(|&t| t >= 0);
+        for g in body.geoms.iter().filter(|g| g.only_static && moves) {
+            report
+                .error(
+                    code::GEOM,
+                    g.span.clone(),
+                    format!("a plane stands in {}, which can move", shown(body)),
+                )
+                .why("a plane is infinite and has no mass")
+                .help("put it into `worldbody`, or use another shape");
+        }
+    }
+}
+
+fn check_joints(body: &BodySpec, report: &mut Report) {
+    let mut dofs = 0;
+    let mut after_ball = false;
+    for j in &body.joints {
+        let rotates = matches!(j.kind, joint::BALL | joint::HINGE);
+        if j.kind == joint::FREE && body.parent != 0 {
+            report
+                .error(
+                    code::JOINT,
+                    j.span.clone(),
+                    format!("a free joint in {}, which is not a child of the world", shown(body)),
+                )
+                .why("a free joint gives the pose in the world, whatever the parent does")
+                .help("move the body to `worldbody`, or use ball and slide joints");
+        }
+        if after_ball && rotates {
+            report
+                .error(
+                    code::JOINT,
+                    j.span.clone(),
+                    format!("a rotation after the ball joint of {}", shown(body)),
+                )
+                .why("a ball joint already turns about every axis")
+                .help("remove the joint, or put it into a body of its own");
+        }
+        after_ball |= j.kind == joint::BALL;
+        let before = dofs;
+        dofs += joint::nv(j.kind);
+        if before <= 6 && dofs > 6 {
+            report
+                .error(
+                    code::JOINT,
+                    j.span.clone(),
+                    format!("with this joint {} has more than 6 degrees of freedom", shown(body)),
+                )
+                .why("a rigid body has six: three translations and three rotations")
+                .help("remove a joint; a free joint stands alone");
+        }
+    }
+}
+
+/// Whether the mass matrix of a body is diagonal whatever its configuration: 0 no, 1 yes, 2 yes and it only
+/// slides. Then its rows of the pattern hold the diagonal alone.
+pub(crate) fn simple(bodies: &[BodySpec], inertias: &[Inertia], layout: &Layout) -> Vec<i32> {
+    let mut leaf = vec![true; bodies.len()];
+    for body in bodies.iter().skip(1) {
+        if let Some(l) = leaf.get_mut(body.parent) {
+            *l = false;
+        }
+    }
+    let still = |i: usize| layout.body_tree.get(i).is_some_and(|&t| t < 0);
+    let simple = |(i, (body, inertia)): (usize, (&BodySpec, &Inertia))| {
+        if i == 0 {
+            return 1; // by convention
+        }
+        let centred = inertia.pos == [0.0; 3] && inertia.quat == IDENTITY;
+        if !body.simple || !centred || !still(body.parent) || leaf.get(i) != Some(&true) {
+            return 0;
+        }
+        let mut turned = false;
+        for j in &body.joints {
+            let along_one_axis = j.axis.iter().filter(|&&x| x != 0.0).count() == 1;
+            if turned || j.pos != [0.0; 3] || !along_one_axis {
+                return 0;
+            }
+            turned = j.kind != joint::SLIDE;
+        }
+        if turned || body.joints.is_empty() { 1 } else { 2 }
+    };
+    bodies.iter().zip(inertias).enumerate().map(simple).collect()
+}
+
+/// The pattern of the lower triangle of the mass matrix, row by row.
+#[derive(Debug, Default)]
+pub(crate) struct Pattern {
+    pub(crate) rownnz: Vec<i32>,
+    pub(crate) rowadr: Vec<i32>,
+    pub(crate) colind: Vec<i32>,
+}
+
+/// Row i holds the degrees of freedom on the way from the root to i, ascending, i last; only i itself for a
+/// simple body. `None` after reporting that it is too large.
+pub(crate) fn pattern(layout: &Layout, simple: &[i32], report: &mut Report) -> Option<Pattern> {
+    let mut p = Pattern::default();
+    for (i, dof) in layout.dofs.iter().enumerate() {
+        let start = p.colind.len();
+        p.rowadr.push(start as i32);
+        p.colind.push(i as i32);
+        let mut up = if simple.get(dof.body).is_some_and(|&s| s != 0) { None } else { dof.parent };
+        while let Some(j) = up {
+            p.colind.push(j as i32);
+            up = layout.dofs.get(j).and_then(|d| d.parent);
+        }
+        if let Some(row) = p.colind.get_mut(start..) {
+            row.reverse();
+        }
+        p.rownnz.push((p.colind.len() - start) as i32);
+        if p.colind.len() > MAX_MATRIX {
+            report.error(code::LIMIT, 0..0, format!("the mass matrix has more than {MAX_MATRIX} entries"));
+            return None;
+        }
+    }
+    Some(p)
+}

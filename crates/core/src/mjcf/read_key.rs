@@ -1,0 +1,67 @@
+//! Keyframes: states to start from.
+
+use super::defaults::Props;
+use super::diagnostic::{Report, code};
+use super::fill::Sizes;
+use super::read_body::name;
+use super::spec::KeySpec;
+use super::tree::{Node, Tree};
+
+/// More numbers than this in all keyframes together are refused.
+const MAX_NUMBERS: usize = 20_000_000;
+
+/// All keyframes in the order of the text, at least `min` of them.
+pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) -> Vec<KeySpec> {
+    let given: Vec<&Node> = tree
+        .sections("keyframe")
+        .flat_map(|(section, _)| tree.children(section))
+        .map(|(_, node)| node)
+        .collect();
+    let numbers = 1 + sizes.nq + sizes.nv + 7 * sizes.nmocap;
+    if given.len().max(min).saturating_mul(numbers) > MAX_NUMBERS {
+        let span = given.first().map_or(0..0, |n| n.span.clone());
+        report.error(code::LIMIT, span, format!("the keyframes hold more than {MAX_NUMBERS} numbers"));
+        return Vec::new();
+    }
+    let mut list: Vec<KeySpec> = given.into_iter().map(|node| key(node, sizes, report)).collect();
+    while list.len() < min {
+        list.push(KeySpec {
+            name: String::new(),
+            time: 0.0,
+            qpos: None,
+            qvel: None,
+            mpos: None,
+            mquat: None,
+        });
+    }
+    list
+}
+
+fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
+    let p = Props::own(node);
+    let mut list = |name: &str, n: usize, what: String| {
+        let given = p.list(name)?;
+        if given.len() != n {
+            let message =
+                format!("`{name}` of {} has {} numbers, the model needs {n}", node.shown(), given.len());
+            report.error(code::KEYFRAME, p.span(name).unwrap_or(0..0), message).why(what);
+            return None;
+        }
+        Some(given.to_vec())
+    };
+    let state = |what: &str, free: usize, ball: usize| {
+        format!("{what}: {free} for a free joint, {ball} for a ball joint, one for a slide or hinge joint")
+    };
+    let key = KeySpec {
+        name: name(node),
+        time: p.real("time").unwrap_or(0.0),
+        qpos: list("qpos", sizes.nq, state("one coordinate after the other", 7, 4)),
+        qvel: list("qvel", sizes.nv, state("one velocity after the other", 6, 3)),
+        mpos: list("mpos", 3 * sizes.nmocap, "three for each mocap body".into()),
+        mquat: list("mquat", 4 * sizes.nmocap, "four for each mocap body".into()),
+    };
+    for name in ["act", "ctrl"] {
+        list(name, 0, "the model has no actuators".into());
+    }
+    key
+}

@@ -1,0 +1,252 @@
+//! `compiler`, `option`, `statistic` and `size`: what holds for the whole model.
+
+use super::defaults::Props;
+use super::diagnostic::{Report, code, shown};
+use super::tree::Tree;
+use super::values::Value;
+use crate::model::{Options, Statistic, disable, enable};
+
+/// All sections of one name, later ones over earlier ones.
+fn section(tree: &Tree, name: &str) -> Props {
+    let mut props = Props::default();
+    for (_, node) in tree.sections(name) {
+        props.overlay(node);
+    }
+    props
+}
+
+/// A number that must satisfy a condition; reports it otherwise.
+pub(crate) fn checked(
+    props: &Props,
+    name: &str,
+    owner: &str,
+    test: impl Fn(f64) -> bool,
+    must: &str,
+    report: &mut Report,
+) -> Option<f64> {
+    let x = props.real(name)?;
+    if !test(x) {
+        let span = props.span(name).unwrap_or(0..0);
+        report.error(code::VALUE, span, format!("`{name}` of {owner} is {x}, it must be {must}"));
+    }
+    Some(x)
+}
+
+/// Whether a geom's mass counts, by `inertiafromgeom`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum InertiaFromGeom {
+    Never,
+    Always,
+    /// Only where no `inertial` is given.
+    Auto,
+}
+
+/// What `compiler` says.
+#[derive(Clone, Debug)]
+pub(crate) struct Compiler {
+    pub(crate) degrees: bool,
+    pub(crate) autolimits: bool,
+    /// Axes of `euler`: number of the axis, and whether it is fixed (upper case) or turns with the frame.
+    pub(crate) eulerseq: [(usize, bool); 3],
+    pub(crate) inertiafromgeom: InertiaFromGeom,
+    pub(crate) inertiagrouprange: [i32; 2],
+    pub(crate) boundmass: f64,
+    pub(crate) boundinertia: f64,
+    pub(crate) balanceinertia: bool,
+}
+
+impl Compiler {
+    /// Reads the section.
+    pub(crate) fn read(tree: &Tree, report: &mut Report) -> Compiler {
+        let p = section(tree, "compiler");
+        let groups = p.ints("inertiagrouprange").unwrap_or(&[0, 5]);
+        Compiler {
+            degrees: p.word("angle") != Some(0),
+            autolimits: p.word("autolimits") != Some(0),
+            eulerseq: eulerseq(&p, report),
+            inertiafromgeom: match p.word("inertiafromgeom") {
+                Some(0) => InertiaFromGeom::Never,
+                Some(1) => InertiaFromGeom::Always,
+                _ => InertiaFromGeom::Auto,
+            },
+            inertiagrouprange: [groups.first().copied().unwrap_or(0), groups.get(1).copied().unwrap_or(5)],
+            boundmass: checked(&p, "boundmass", "compiler", |x| x >= 0.0, "zero or more", report)
+                .unwrap_or(0.0),
+            boundinertia: checked(&p, "boundinertia", "compiler", |x| x >= 0.0, "zero or more", report)
+                .unwrap_or(0.0),
+            balanceinertia: p.word("balanceinertia") == Some(1),
+        }
+    }
+
+    /// An angle of the file in radians.
+    pub(crate) fn angle(&self, x: f64) -> f64 {
+        if self.degrees { x * std::f64::consts::PI / 180.0 } else { x }
+    }
+}
+
+fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
+    let text = p.text("eulerseq").unwrap_or("xyz");
+    let axes: Vec<_> = text
+        .chars()
+        .filter_map(|c| Some(("xyz".find(c.to_ascii_lowercase())?, c.is_ascii_uppercase())))
+        .collect();
+    match <[_; 3]>::try_from(axes) {
+        Ok(axes) if text.chars().count() == 3 => axes,
+        _ => {
+            report
+                .error(
+                    code::VALUE,
+                    p.span("eulerseq").unwrap_or(0..0),
+                    format!("`eulerseq` is {}", shown(text)),
+                )
+                .help(
+                    "write three letters of x, y, z (axes that turn with the frame) or X, Y, Z (fixed axes)",
+                );
+            [(0, false), (1, false), (2, false)]
+        }
+    }
+}
+
+/// `option`, with MuJoCo's defaults for what is not given.
+pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
+    let p = section(tree, "option");
+    let d = Options::mujoco();
+    let mut positive = |name: &str, default: f64| {
+        checked(&p, name, "option", |x| x > 0.0, "larger than zero", report).unwrap_or(default)
+    };
+    let (timestep, impratio) = (positive("timestep", d.timestep), positive("impratio", d.impratio));
+    let mut from_zero = |name: &str, default: f64| {
+        checked(&p, name, "option", |x| x >= 0.0, "zero or more", report).unwrap_or(default)
+    };
+    let (tolerance, ls_tolerance) =
+        (from_zero("tolerance", d.tolerance), from_zero("ls_tolerance", d.ls_tolerance));
+    let mut count = |name: &str, default: i32| {
+        let n = p.int(name).unwrap_or(default);
+        if n < 0 {
+            let span = p.span(name).unwrap_or(0..0);
+            report.error(code::VALUE, span, format!("`{name}` of option is {n}, it must be zero or more"));
+        }
+        n
+    };
+    let (iterations, ls_iterations) =
+        (count("iterations", d.iterations), count("ls_iterations", d.ls_iterations));
+    let (disableflags, enableflags) = flags(tree);
+    Options {
+        timestep,
+        impratio,
+        tolerance,
+        ls_tolerance,
+        gravity: p.reals("gravity", d.gravity),
+        o_margin: p.real("o_margin").unwrap_or(d.o_margin),
+        o_solref: p.reals("o_solref", d.o_solref),
+        o_solimp: p.reals("o_solimp", d.o_solimp),
+        o_friction: p.reals("o_friction", d.o_friction),
+        integrator: p.word("integrator").unwrap_or(d.integrator),
+        cone: p.word("cone").unwrap_or(d.cone),
+        solver: p.word("solver").unwrap_or(d.solver),
+        iterations,
+        ls_iterations,
+        disableflags,
+        enableflags,
+    }
+}
+
+/// What is on unless a flag disables it, and what is off unless a flag enables it.
+const DISABLE: [(&str, i32); 20] = [
+    ("constraint", disable::CONSTRAINT),
+    ("equality", disable::EQUALITY),
+    ("frictionloss", disable::FRICTIONLOSS),
+    ("limit", disable::LIMIT),
+    ("contact", disable::CONTACT),
+    ("spring", disable::SPRING),
+    ("damper", disable::DAMPER),
+    ("gravity", disable::GRAVITY),
+    ("clampctrl", disable::CLAMPCTRL),
+    ("warmstart", disable::WARMSTART),
+    ("filterparent", disable::FILTERPARENT),
+    ("actuation", disable::ACTUATION),
+    ("refsafe", disable::REFSAFE),
+    ("sensor", disable::SENSOR),
+    ("midphase", disable::MIDPHASE),
+    ("eulerdamp", disable::EULERDAMP),
+    ("autoreset", disable::AUTORESET),
+    ("nativeccd", disable::NATIVECCD),
+    ("island", disable::ISLAND),
+    ("multiccd", disable::MULTICCD),
+];
+const ENABLE: [(&str, i32); 4] = [
+    ("override", enable::OVERRIDE),
+    ("energy", enable::ENERGY),
+    ("fwdinv", enable::FWDINV),
+    ("invdiscrete", enable::INVDISCRETE),
+];
+
+/// `option/flag` as bits: disabled, enabled.
+fn flags(tree: &Tree) -> (i32, i32) {
+    let mut p = Props::default();
+    for (i, _) in tree.sections("option") {
+        for (_, flag) in tree.children(i) {
+            p.overlay(flag);
+        }
+    }
+    let bits = |table: &[(&str, i32)], set: i32| {
+        table.iter().filter(|(name, _)| p.word(name) == Some(set)).fold(0, |all, (_, bit)| all | bit)
+    };
+    (bits(&DISABLE, 0), bits(&ENABLE, 1))
+}
+
+/// What `statistic` says, over what is computed.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct StatisticOverride {
+    meaninertia: Option<f64>,
+    meanmass: Option<f64>,
+    meansize: Option<f64>,
+    extent: Option<f64>,
+    center: Option<[f64; 3]>,
+}
+
+impl StatisticOverride {
+    /// Reads the section.
+    pub(crate) fn read(tree: &Tree, report: &mut Report) -> StatisticOverride {
+        let p = section(tree, "statistic");
+        let mut positive =
+            |name: &str| checked(&p, name, "statistic", |x| x > 0.0, "larger than zero", report);
+        StatisticOverride {
+            meaninertia: positive("meaninertia"),
+            meanmass: positive("meanmass"),
+            meansize: positive("meansize"),
+            extent: positive("extent"),
+            center: p.has("center").then(|| p.reals("center", [0.0; 3])),
+        }
+    }
+
+    /// Replaces what was computed by what is given.
+    pub(crate) fn apply(&self, stat: &mut Statistic) {
+        let set = |to: &mut f64, from: Option<f64>| *to = from.unwrap_or(*to);
+        set(&mut stat.meaninertia, self.meaninertia);
+        set(&mut stat.meanmass, self.meanmass);
+        set(&mut stat.meansize, self.meansize);
+        set(&mut stat.extent, self.extent);
+        stat.center = self.center.unwrap_or(stat.center);
+    }
+}
+
+/// The smallest number of keyframes, `size nkey`.
+pub(crate) fn min_keys(tree: &Tree, report: &mut Report) -> usize {
+    let p = section(tree, "size");
+    let n = p.int("nkey").unwrap_or(0);
+    usize::try_from(n).unwrap_or_else(|_| {
+        let span = p.span("nkey").unwrap_or(0..0);
+        report.error(code::VALUE, span, format!("`nkey` of size is {n}, it must be zero or more"));
+        0
+    })
+}
+
+/// The model's name.
+pub(crate) fn model_name(tree: &Tree) -> String {
+    let root = tree.nodes.first().and_then(|n| n.attribute("model"));
+    match root.map(|a| &a.value) {
+        Some(Value::Text(name)) => name.clone(),
+        _ => "MuJoCo Model".to_string(),
+    }
+}

@@ -1,0 +1,10 @@
+//! Tests of the compiler as a whole.
+
+mod golden;
+mod hostile;
+mod mistakes;
+
+/// A model with this in its world.
+pub(crate) fn world(inside: &str) -> String {
+    format!("<mujoco><worldbody>{inside}</worldbody></mujoco>")
+}

@@ -1,0 +1,111 @@
+//! Every field of the compiled model against what MuJoCo 3.14.0 compiles: `golden/record.py` recorded it.
+
+use crate::reflect::{self, Object, View};
+use crate::{Data, Model, mjcf};
+
+/// Checks every recorded field of a model; quaternions and what depends on them to rounding.
+fn check(name: &str, xml: &str, recorded: &str) {
+    let m = match mjcf::compile(xml) {
+        Ok(m) => m,
+        Err(list) => {
+            panic!("{name}: {}", list.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
+        }
+    };
+    let d = Data::default();
+    let mut wrong = Vec::new();
+    for line in recorded.lines() {
+        let mut words = line.split(' ');
+        let path = words.next().unwrap_or("");
+        let want: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
+        let (object, field) = path.split_once('.').unwrap();
+        let object = match object {
+            "model" => Object::Model,
+            "opt" => Object::Option,
+            _ => Object::Statistic,
+        };
+        let Some(id) = reflect::field(object, field) else { continue };
+        let got = view(&m, &d, id);
+        let scale = want.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+        let tolerance = match field {
+            // MuJoCo keeps colours in single precision.
+            "geom_rgba" => 1e-7,
+            _ => 1e-11 * scale,
+        };
+        let same = got.len() == want.len() && got.iter().zip(&want).all(|(a, b)| (a - b).abs() <= tolerance);
+        if !same {
+            wrong.push(format!("{path}\n   want {want:?}\n   got  {got:?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{name}:\n{}", wrong.join("\n"));
+}
+
+fn view(m: &Model, d: &Data, id: reflect::FieldId) -> Vec<f64> {
+    let view: View = reflect::view(m, d, id);
+    (0..view.len()).filter_map(|i| view.get(i)).collect()
+}
+
+macro_rules! golden {
+    ($($name:ident)*) => { $(
+        #[test]
+        fn $name() {
+            check(
+                stringify!($name),
+                include_str!(concat!("../golden/", stringify!($name), ".xml")),
+                include_str!(concat!("../golden/", stringify!($name), ".txt")),
+            );
+        }
+    )* };
+}
+golden! {
+    chain classes defaults_of_everything extrinsic free_bodies inertia inertia_options orientations sections
+    sensors_and_keys simple_bodies trees
+}
+
+/// The schema has exactly the elements and attributes that the library prints.
+#[test]
+fn schema_names() {
+    use std::collections::BTreeMap;
+    // Elements that the library expands before it checks the schema.
+    const EXPANDED: [&str; 3] = ["include", "frame", "replicate"];
+    let mut ours: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    for row in mjcf::schema_rows() {
+        if row.path.split('/').any(|e| EXPANDED.contains(&e))
+            || row.path.starts_with("mujoco/worldbody/body/")
+        {
+            continue;
+        }
+        let names = ours.entry(row.path).or_default();
+        names.extend(row.attribute.map(|a| a.name));
+    }
+    let mut wrong = Vec::new();
+    let mut theirs = BTreeMap::new();
+    for line in include_str!("../golden/schema.txt").lines() {
+        let mut words = line.split(' ');
+        // Their world and bodies are one entry; ours are two.
+        let path = words.next().unwrap_or("").replace("(world)body", "worldbody");
+        let mut names: Vec<&str> = words.filter(|w| !w.is_empty()).collect();
+        let in_body = path.strip_prefix("mujoco/worldbody/").is_some_and(|rest| {
+            matches!(rest.split('/').next(), Some("inertial" | "joint" | "freejoint" | "plugin"))
+        });
+        if path == "mujoco/worldbody" {
+            theirs.insert("mujoco/worldbody/body".to_string(), std::mem::take(&mut names));
+        }
+        if !in_body {
+            theirs.insert(path, names);
+        }
+    }
+    for (path, names) in &mut ours {
+        names.sort_unstable();
+        match theirs.remove(path) {
+            Some(want) if want == *names => {}
+            Some(want) => wrong.push(format!(
+                "{path}: missing {:?}, extra {:?}",
+                want.iter().filter(|w| !names.contains(w)).collect::<Vec<_>>(),
+                names.iter().filter(|n| !want.contains(n)).collect::<Vec<_>>()
+            )),
+            None => wrong.push(format!("{path}: not in MuJoCo's schema")),
+        }
+    }
+    wrong.extend(theirs.keys().map(|path| format!("{path}: not in our schema")));
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}

@@ -1,0 +1,73 @@
+//! Texts made to break the compiler: it must answer with diagnostics, quickly, and never panic.
+
+use super::world;
+use crate::mjcf::{MAX_DEPTH, code, compile};
+
+fn first_code(xml: &str) -> Option<&'static str> {
+    compile(xml).err().and_then(|list| list.first().map(|d| d.code))
+}
+
+#[test]
+fn deep_nesting_is_refused_and_what_is_allowed_compiles() {
+    let nested = |n: usize| {
+        let open = "<body pos='0 0 1'><joint/><geom size='0.1'/>".repeat(n);
+        world(&format!("{open}{}", "</body>".repeat(n)))
+    };
+    assert_eq!(compile(&nested(300)).map(|m| m.nv), Ok(300));
+    assert_eq!(first_code(&nested(MAX_DEPTH + 1)), Some(code::LIMIT));
+    assert_eq!(first_code(&"<mujoco>".repeat(1_000_000)), Some(code::LIMIT));
+}
+
+#[test]
+fn memory_cannot_be_asked_for() {
+    let keys = "<mujoco><size nkey='2147483647'/><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>";
+    assert_eq!(first_code(keys), Some(code::LIMIT));
+    let classes = format!("<mujoco><default>{}</default></mujoco>", "<default class='a'/>".repeat(5000));
+    assert!(compile(&classes).is_err());
+    let chain = "<body><joint type='slide'/><geom size='1'/>".repeat(900);
+    let leaves = "<body><joint type='slide'/><geom size='1'/></body>".repeat(40_000);
+    assert_eq!(first_code(&world(&format!("{chain}{leaves}{}", "</body>".repeat(900)))), Some(code::LIMIT));
+}
+
+#[test]
+fn extreme_numbers_do_not_pass_as_models() {
+    for inside in [
+        "<body><joint/><geom size='1e200'/></body>",
+        "<body><joint/><geom size='1e-200'/></body>",
+        "<body><joint/><inertial pos='0 0 0' mass='1' fullinertia='1e308 1e308 1e308 1e308 1e308 1e308'/></body>",
+        "<body quat='1e-320 0 0 0'/>",
+        "<body><joint axis='1e308 1e308 1e308'/><geom size='1'/></body>",
+    ] {
+        assert!(compile(&world(inside)).is_err(), "{inside}");
+    }
+    for inside in ["<body quat='1e300 1e300 0 0'/>", "<body zaxis='1e300 0 0'/>", "<body euler='1e300 0 0'/>"]
+    {
+        let m = compile(&world(inside)).unwrap();
+        let norm: f64 = m.body_quat[4..8].iter().map(|x| x * x).sum();
+        assert!((norm - 1.0).abs() < 1e-12, "{inside}: {norm}");
+    }
+}
+
+/// A good model with a piece cut out, doubled or replaced at every place: no panic.
+#[test]
+fn mutations_never_panic() {
+    let good = include_str!("../golden/sensors_and_keys.xml");
+    let other = include_str!("../golden/classes.xml");
+    for text in [good, other] {
+        for i in (0..text.len()).filter(|&i| text.is_char_boundary(i)) {
+            let (a, b) = text.split_at(i);
+            let _ = compile(a);
+            let skip = b.char_indices().nth(1).map_or(b.len(), |(n, _)| n);
+            let _ = compile(&format!("{a}{}", &b[skip..]));
+            let _ = compile(&format!("{a}\"{b}"));
+            let _ = compile(&format!("{a}9{b}"));
+        }
+    }
+}
+
+#[test]
+fn at_most_a_hundred_findings_in_the_order_of_the_text() {
+    let list = compile(&world(&"<geom sise='1'/>\n".repeat(500))).unwrap_err();
+    assert_eq!(list.len(), 100);
+    assert!(list.windows(2).all(|w| w[0].span.start <= w[1].span.start));
+}

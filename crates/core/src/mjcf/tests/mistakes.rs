@@ -1,0 +1,129 @@
+//! Wrong models and what an author reads about them.
+
+use super::world;
+use crate::mjcf::compile;
+
+/// Each finding with the line it is about, the place underlined.
+fn explained(xml: &str) -> String {
+    let Err(list) = compile(xml) else { return "no finding\n".into() };
+    let mut out = String::new();
+    for d in list {
+        let line = xml.lines().nth(d.line - 1).unwrap_or("");
+        let width =
+            xml.get(d.span.clone()).map_or(1, |s| s.lines().next().unwrap_or("").chars().count().max(1));
+        out += &format!("{line}\n{}{}\n{d}\n\n", " ".repeat(d.column - 1), "^".repeat(width));
+    }
+    out
+}
+
+macro_rules! mistakes {
+    ($($name:ident: $xml:expr;)*) => { $(
+        #[test]
+        fn $name() {
+            insta::with_settings!({ snapshot_path => "../snapshots", prepend_module_to_snapshot => false, omit_expression => true }, {
+                insta::assert_snapshot!(stringify!($name), explained(&$xml));
+            });
+        }
+    )* };
+}
+
+/// Sections before the world.
+fn before(sections: &str) -> String {
+    format!("<mujoco>{sections}<worldbody/></mujoco>")
+}
+
+/// A moving body, then what follows the world.
+fn after(sections: &str) -> String {
+    format!(
+        "<mujoco><worldbody><body name=\"b\"><freejoint name=\"j\"/><geom size=\"0.1\"/></body></worldbody>\n{sections}</mujoco>"
+    )
+}
+
+mistakes! {
+    // XML
+    xml_wrong_close: "<mujoco>\n  <worldbody>\n    <body>\n  </worldbody>\n</mujoco>";
+    xml_unclosed: "<mujoco>\n  <worldbody>\n";
+    xml_attribute_twice: world("<geom size=\"1\" size=\"2\"/>");
+    xml_quote_missing: world("\n<geom size=\"1 name=\"a\"/>");
+    xml_comment: "<mujoco><!-- a -- b --></mujoco>";
+    xml_ampersand: before("<custom><text name=\"a\" data=\"x & y\"/></custom>");
+    xml_doctype: "<!DOCTYPE mujoco [<!ENTITY a \"b\">]>\n<mujoco/>";
+    xml_empty: "";
+    xml_not_a_model: "<robot name=\"urdf\"/>";
+    // Names of the language
+    element_misspelt: world("\n<boddy/>");
+    element_misplaced: "<mujoco>\n<worldbody/>\n<geom size=\"1\"/>\n</mujoco>";
+    element_not_supported: after("<actuator><motor joint=\"j\"/></actuator>");
+    element_twice: before("<option><flag/><flag/></option>");
+    attribute_misspelt: world("<geom size=\"1\" fricton=\"1\"/>");
+    attribute_of_world: "<mujoco><worldbody name=\"w\"/></mujoco>";
+    attribute_not_supported: world("<body><joint frictionloss=\"0.1\"/><geom size=\"1\"/></body>");
+    geom_type_not_supported: world("<geom type=\"capsule\" size=\"1 1\"/>");
+    keyword_misspelt: before("<option integrator=\"euler\"/>");
+    integrator_not_supported: before("<option integrator=\"implicitfast\"/>");
+    flag_not_supported: before("<option><flag sleep=\"enable\"/></option>");
+    option_not_supported: before("<option density=\"1.2\"/>");
+    boolean: world("<body mocap=\"True\"/>");
+    stray_text: world("\n  geom size=\"1\"/>");
+    // Numbers
+    number_comma: world("<geom size=\"1\" pos=\"0,0,1\"/>");
+    number_word: world("<geom size=\"1\" pos=\"0 0 up\"/>");
+    number_nan: world("<geom size=\"nan\"/>");
+    number_too_large: world("<geom size=\"1e999\"/>");
+    number_missing: world("<geom size=\"1\" pos=\"0 1\"/>");
+    number_extra: world("<geom size=\"1\" friction=\"1 2 3 4\"/>");
+    integer_fraction: world("<geom size=\"1\" contype=\"1.5\"/>");
+    integer_too_large: world("<geom size=\"1\" contype=\"4294967295\"/>");
+    timestep_zero: before("<option timestep=\"0\"/>");
+    iterations_negative: before("<option iterations=\"-1\"/>");
+    statistic_negative: before("<statistic extent=\"-1\"/>");
+    eulerseq: before("<compiler eulerseq=\"xyw\"/>");
+    // Names of objects
+    name_twice: world("\n<geom name=\"a\" size=\"1\"/>\n<geom name=\"a\" size=\"1\"/>");
+    name_world: world("<body name=\"world\"/>");
+    material_unknown: "<mujoco><asset><material name=\"wood\"/></asset>\n<worldbody><geom size=\"1\" material=\"wod\"/></worldbody></mujoco>";
+    class_unknown: "<mujoco><default><default class=\"visual\"/></default>\n<worldbody><geom size=\"1\" class=\"visaul\"/></worldbody></mujoco>";
+    class_without_name: before("<default><default/></default>");
+    class_twice: before("<default><default class=\"a\"/><default class=\"a\"/></default>");
+    class_outer_renamed: before("<default class=\"a\"/>");
+    // Frames
+    orientation_twice: world("<body quat=\"1 0 0 0\" euler=\"0 0 90\"/>");
+    orientation_zero: world("<body quat=\"0 0 0 0\"/>");
+    orientation_parallel: world("<body xyaxes=\"1 0 0 2 0 0\"/>");
+    // Joints
+    joint_axis_zero: world("<body><joint axis=\"0 0 0\"/><geom size=\"1\"/></body>");
+    joint_range_reversed: world("<body><joint name=\"hinge\" range=\"30 -30\"/><geom size=\"1\"/></body>");
+    joint_range_missing: world("<body><joint limited=\"true\"/><geom size=\"1\"/></body>");
+    joint_ball_range: world("<body><joint type=\"ball\" range=\"-30 30\"/><geom size=\"1\"/></body>");
+    joint_range_unused: "<mujoco><compiler autolimits=\"false\"/><worldbody><body>\n<joint range=\"0 1\"/><geom size=\"1\"/></body></worldbody></mujoco>";
+    joint_free_nested: world("<body name=\"outer\"><body name=\"inner\"><freejoint/><geom size=\"1\"/></body></body>");
+    joint_after_ball: world("<body><joint type=\"ball\"/><joint/><geom size=\"1\"/></body>");
+    joint_too_many: world("<body><freejoint/><joint/><geom size=\"1\"/></body>");
+    joint_nonlinear: world("<body><joint damping=\"1 2\"/><geom size=\"1\"/></body>");
+    joint_in_world: world("<joint/>");
+    // Bodies and geoms
+    body_without_mass: world("<body name=\"ghost\">\n<joint/><geom size=\"1\" mass=\"0\"/></body>");
+    body_without_inertia: world("<body><joint/><inertial pos=\"0 0 0\" mass=\"1\"/></body>");
+    inertial_without_mass: world("<body><joint/><inertial pos=\"0 0 0\" diaginertia=\"1 1 1\"/></body>");
+    inertial_triangle: world("<body><joint/><inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 3\"/></body>");
+    inertial_full: world("<body><joint/><inertial pos=\"0 0 0\" mass=\"1\" fullinertia=\"1 1 1 2 0 0\"/></body>");
+    mocap_nested: world("<body name=\"arm\"><body name=\"hand\" mocap=\"true\"/></body>");
+    mocap_joint: world("<body name=\"hand\" mocap=\"true\"><joint/><geom size=\"1\"/></body>");
+    sphere_without_size: world("<geom name=\"ball\"/>");
+    sphere_negative: world("<geom name=\"ball\" size=\"-0.1\"/>");
+    plane_one_size: world("<geom name=\"floor\" type=\"plane\" size=\"1\"/>");
+    plane_moving: world("<body name=\"raft\"><joint/><geom size=\"1\"/>\n<geom type=\"plane\" size=\"1 1 1\"/></body>");
+    mass_negative: world("<body><geom size=\"1\" mass=\"-2\"/></body>");
+    condim: world("<geom size=\"1\" condim=\"2\"/><geom size=\"1\" condim=\"4\"/>");
+    // Sensors and keyframes
+    sensor_unknown_joint: after("<sensor><jointpos joint=\"jj\"/></sensor>");
+    sensor_wrong_joint: after("<sensor><jointpos joint=\"j\"/></sensor>");
+    sensor_without_object: after("<sensor><framepos objtype=\"body\"/></sensor>");
+    sensor_unknown_body: after("<sensor><framepos objtype=\"body\" objname=\"c\"/></sensor>");
+    sensor_reference: after("<sensor><framepos objtype=\"body\" objname=\"b\" reftype=\"body\" refname=\"b\"/></sensor>");
+    sensor_cutoff: after("<sensor><framequat objtype=\"body\" objname=\"b\" cutoff=\"1\"/></sensor>");
+    key_short: after("<keyframe><key name=\"k\" qpos=\"0 0 1\"/></keyframe>");
+    key_control: after("<keyframe><key ctrl=\"1\"/></keyframe>");
+    // Several at once, in the order of the text
+    many: "<mujoco>\n  <option timestep=\"0.002s\" gravitiy=\"0 0 -1\"/>\n  <worldbody>\n    <body name=\"a\">\n      <joint type=\"hing\"/>\n      <geom size=\"-1\"/>\n    </body>\n    <body name=\"a\"/>\n  </worldbody>\n</mujoco>";
+}

@@ -1,0 +1,305 @@
+//! Elements: indexes of fields, `ctx['name']`, named objects, and what is said of arrays used whole.
+
+use super::name::{list, quoted, view_of};
+use super::{Attempt, Binder, Reported, Thing};
+use crate::ast::{Expr, ExprKind};
+use crate::code;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::effects::Access;
+use crate::ir::{Index, Ir, Kind, View};
+use crate::number;
+use crate::schema::{CollectionId, Field, ObjectId, Type};
+use crate::suggest::closest;
+use crate::value::Value;
+
+impl Binder<'_> {
+    /// `object[index]`, read.
+    pub(super) fn element(&mut self, object: &Expr, index: &Expr, span: Span) -> Attempt<Thing> {
+        let thing = self.thing(object);
+        if let Ok(Thing::Globals) = thing {
+            let name = self.global_name(index)?;
+            return self.global(&name, span).map(Thing::Value);
+        }
+        let checked = match thing {
+            Ok(Thing::Field(field)) => self.index(&field, index, span).map(|i| (field, i)),
+            Ok(other) => {
+                let report = self.not_indexable(&other, object, index, span);
+                self.refuse(report)
+            }
+            Err(Reported) => {
+                // The index may hold a mistake of its own.
+                let _ = self.value(index);
+                Err(Reported)
+            }
+        };
+        let (field, index) = checked?;
+        Ok(Thing::Value(self.load(&field, index, span)))
+    }
+
+    /// An element of a field, read.
+    pub(super) fn load(&mut self, field: &Field, index: Index, span: Span) -> Ir {
+        let view = view_of(field);
+        self.read(view, Some(&index));
+        // An index that is known to exist gives a number, any other a number or `undefined`.
+        let certain = matches!(index, Index::At(_)) && view.count.is_some();
+        let ty = if certain { Type::Number } else { Type::Any };
+        Ir::new(Kind::Load(view, index), ty, span)
+    }
+
+    /// Notes that elements are read; without an index, all of the view.
+    pub(super) fn read(&mut self, view: View, index: Option<&Index>) {
+        self.effects.read(access(view, index));
+    }
+
+    /// Notes that elements are written.
+    pub(super) fn write(&mut self, view: View, index: Option<&Index>) {
+        self.effects.write(access(view, index));
+    }
+
+    /// The name in `ctx['name']`.
+    pub(super) fn global_name(&mut self, index: &Expr) -> Attempt<String> {
+        let known = match &index.kind {
+            ExprKind::String(name) => Some(name.clone()),
+            ExprKind::Number(x) => Some(number::to_text(*x)),
+            _ => None,
+        };
+        if let Some(name) = known {
+            return Ok(name);
+        }
+        self.value(index)?;
+        self.refuse(
+            Diagnostic::error(code::COMPUTED_NAME, index.span, "a computed name of a `ctx` variable is not supported yet")
+                .why("variables are found before the run, so that a misspelt one can be reported")
+                .help("write the name itself, as `ctx.q1` or `ctx['q1']`"),
+        )
+    }
+
+    /// The index of an element of a field, checked as far as it is known.
+    pub(super) fn index(&mut self, field: &Field, index: &Expr, span: Span) -> Attempt<Index> {
+        let ir = self.value(index)?;
+        if field.is_scalar() {
+            let object = Span::new(span.start, index.span.start);
+            let object = self.text(object).trim_end().trim_end_matches('[').to_owned();
+            return self.refuse(
+                Diagnostic::error(code::NOT_INDEXABLE, span, format!("`{}` is one number, not an array", field.path))
+                    .why("an index chooses an element of an array; of a number it gives `undefined`")
+                    .help(format!("write `{object}`"))
+                    .fix(span, object),
+            );
+        }
+        match (ir.known(), ir.ty) {
+            (Some(Value::Number(x)), _) => {
+                let at = self.known_index(field, *x, index.span)?;
+                Ok(Index::At(at))
+            }
+            (None, Type::Number | Type::Any) => Ok(Index::Computed(Box::new(ir))),
+            (_, ty) => {
+                let mut report = Diagnostic::error(code::INDEX_KIND, index.span, format!("the index is {}, not a number", ty.describe()))
+                    .why(format!("the elements of `{}` are numbered{}", field.path, range(field)));
+                report = match ir.known() {
+                    Some(Value::String(_)) => report.help("for an object by its name, write `data.joint(\"name\")` or its like"),
+                    _ => report.help("write a whole number"),
+                };
+                self.refuse(report)
+            }
+        }
+    }
+
+    /// Checks an index whose value is known.
+    fn known_index(&mut self, field: &Field, x: f64, span: Span) -> Attempt<usize> {
+        let shown = number::to_text(x);
+        if x < 0.0 {
+            let mut report = Diagnostic::error(code::INDEX_NEGATIVE, span, format!("index {shown} is below zero"))
+                .why("indexes start at 0; JavaScript gives `undefined` here, it does not count from the end");
+            report = match field.len() {
+                Some(n) if n as f64 + x >= 0.0 && x.fract() == 0.0 => {
+                    report.help(format!("the last elements count from the end as `{}[{}]`", field.path, n as f64 + x))
+                }
+                _ => report.help(format!("indexes of `{}` are{}", field.path, range(field))),
+            };
+            return self.refuse(report);
+        }
+        if x.fract() != 0.0 || !x.is_finite() {
+            return self.refuse(
+                Diagnostic::error(code::INDEX_FRACTION, span, format!("index {shown} is not a whole number"))
+                    .why("there is no element between two elements; JavaScript gives `undefined` here")
+                    .help("round it, as `Math.floor(x)`, or write the whole number"),
+            );
+        }
+        // Whole numbers beyond usize become usize::MAX, which is out of every range.
+        let at = x as usize;
+        if field.len().is_some_and(|n| at >= n) {
+            let report = out_of_range(field, &shown, span);
+            return self.refuse(report);
+        }
+        Ok(at)
+    }
+
+    fn not_indexable(&self, thing: &Thing, object: &Expr, index: &Expr, span: Span) -> Diagnostic {
+        let text = self.text(object.span);
+        let error = |message: String| Diagnostic::error(code::NOT_INDEXABLE, span, message);
+        let name = match &index.kind {
+            ExprKind::String(name) => Some(name.as_str()),
+            _ => None,
+        };
+        match (thing, name) {
+            (Thing::Collection(id), _) => self.collection_needs_call(*id, object.span, name.map(|n| (n, span))),
+            (Thing::Object(_) | Thing::Math, Some(name)) => error(format!("members of `{text}` are not chosen in brackets"))
+                .why("names are resolved before the run, so they are written with a point")
+                .help(format!("write `{text}.{name}`"))
+                .fix(span, format!("{text}.{name}")),
+            (Thing::Object(id), None) => {
+                error(format!("{} is not an array", quoted(&self.schema.describe(*id)))).help("choose a field first, with a point")
+            }
+            (Thing::Value(ir), _) if matches!(ir.kind, Kind::Load(..)) => error(format!("`{text}` is already one number"))
+                .why("arrays are flat: one index chooses one number, and rows follow each other")
+                .help("write one index, as `data.xpos[3 * i + k]` for row i, column k"),
+            (Thing::Value(_), _) => error(format!("`{text}` is a single value, not an array")).help("remove the index"),
+            (Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..), _) => self.not_called(object.span),
+            _ => error(format!("`{text}` is not an array")).help("choose a field with a point, as `data.qpos`"),
+        }
+    }
+
+    /// The finding for a whole array where one number must stand.
+    pub(super) fn whole_array(&self, field: &Field, span: Span) -> Diagnostic {
+        let text = self.text(span);
+        let report = Diagnostic::error(code::WHOLE_ARRAY, span, format!("`{}` is an array, not one number", field.path));
+        match field.len() {
+            Some(1) => report
+                .why("even an array of one element is not its element")
+                .help(format!("write `{text}[0]`"))
+                .fix(span.after(), "[0]"),
+            Some(n) => report
+                .why(format!("{}a computation needs one of them", owner(field, n)))
+                .help(format!("choose an element, as `{text}[0]`")),
+            None => report
+                .why("its length changes while running, and a computation needs one element")
+                .help(format!("choose an element, as `{text}[0]`")),
+        }
+    }
+
+    /// The finding for `data.joint` that is not called with a name.
+    pub(super) fn collection_needs_call(&self, id: CollectionId, object: Span, name: Option<(&str, Span)>) -> Diagnostic {
+        let (text, noun) = (self.text(object), self.schema.noun(id));
+        let report = Diagnostic::error(code::NOT_A_VALUE, object, format!("`{text}` needs the name of a {noun}"));
+        let names = self.schema.names(id);
+        match name {
+            Some((name, span)) if names.iter().any(|n| n == name) => {
+                let meant = format!("{text}(\"{name}\")");
+                Diagnostic { span, ..report }.help(format!("write `{meant}`")).fix(span, meant)
+            }
+            _ => match names.first() {
+                Some(first) => report.help(format!("write `{text}(\"{first}\")`")),
+                None => report.why(format!("no {noun} has a name here")).help(format!("name the {noun} in the model")),
+            },
+        }
+    }
+
+    /// `data.joint("name")`
+    pub(super) fn named(&mut self, id: CollectionId, callee: Span, args: &[Expr], span: Span) -> Attempt<ObjectId> {
+        let noun = self.schema.noun(id).to_owned();
+        let [arg] = args else {
+            let message = format!("`{}` takes the name of one {noun}, not {} arguments", self.text(callee), args.len());
+            return self.refuse(
+                Diagnostic::error(code::ARGUMENT_COUNT, span, message).help(format!("write `{}(\"…\")`", self.text(callee))),
+            );
+        };
+        self.object_name(id, arg)
+    }
+
+    /// The object that a literal name means.
+    pub(super) fn object_name(&mut self, id: CollectionId, arg: &Expr) -> Attempt<ObjectId> {
+        let noun = self.schema.noun(id).to_owned();
+        let names = self.schema.names(id);
+        let ExprKind::String(name) = &arg.kind else {
+            let shown = if names.is_empty() { String::new() } else { format!("; the names are {}", list(&names)) };
+            if let ExprKind::Number(_) = arg.kind {
+                return self.refuse(
+                    Diagnostic::error(code::ARGUMENT_TYPE, arg.span, format!("a {noun} is chosen by its name, not by a number"))
+                        .why("numbers of objects change when the model changes")
+                        .help(format!("write the name in quotes{shown}")),
+                );
+            }
+            if let ExprKind::Name(word) = &arg.kind
+                && names.contains(word)
+                && !self.locals.iter().any(|l| l.name == *word)
+            {
+                return self.refuse(
+                    Diagnostic::error(code::COMPUTED_NAME, arg.span, format!("the name of a {noun} stands in quotes"))
+                        .why("without quotes it is the name of a variable")
+                        .help(format!("write `\"{word}\"`"))
+                        .fix(arg.span, format!("\"{word}\"")),
+                );
+            }
+            let bound = self.value(arg);
+            bound?;
+            return self.refuse(
+                Diagnostic::error(code::COMPUTED_NAME, arg.span, format!("the name of a {noun} must be written out, not computed"))
+                    .why("names are resolved before the run, so that a misspelt one is found at once")
+                    .help(format!("write the name in quotes{shown}")),
+            );
+        };
+        if let Some(object) = self.schema.lookup(id, name) {
+            return Ok(object);
+        }
+        let report = Diagnostic::error(code::UNKNOWN_OBJECT, arg.span, format!("there is no {noun} named \"{name}\""));
+        let report = match closest(name, names.iter().map(String::as_str)) {
+            Some(meant) => report.help(format!("did you mean \"{meant}\"?")).fix(arg.span, format!("\"{meant}\"")),
+            None if names.is_empty() => report
+                .why(format!("no {noun} has a name here"))
+                .help(format!("give the {noun} a name in the model")),
+            None => report.why(format!("the names are {}", list(&names))).help("use one of them"),
+        };
+        self.refuse(report)
+    }
+}
+
+/// What an access touches, in elements of the whole field.
+fn access(view: View, index: Option<&Index>) -> Access {
+    let (first, count) = match index {
+        Some(Index::At(i)) => (view.first.saturating_add(*i), Some(1)),
+        _ => (view.first, view.count),
+    };
+    Access { field: view.field, first, count }
+}
+
+/// ` 0 to 13`, for the end of a sentence on indexes.
+fn range(field: &Field) -> String {
+    match field.len() {
+        Some(0) => ", but there are none".into(),
+        Some(1) => " 0 only".into(),
+        Some(n) => format!(" 0 to {}", n - 1),
+        None => " from 0 on".into(),
+    }
+}
+
+/// `the model has 14 coordinates; `, or the size when the host says nothing.
+fn owner(field: &Field, n: usize) -> String {
+    if field.owner.is_empty() { format!("it has {n} elements; ") } else { format!("{}; ", field.owner) }
+}
+
+/// The finding for an index past the end.
+pub(super) fn out_of_range(field: &Field, shown: &str, span: Span) -> Diagnostic {
+    let n = field.len().unwrap_or(0);
+    let what = if field.is_empty() {
+        format!("`{}` has no elements", field.path)
+    } else {
+        format!("index {shown} is past the end of `{}`", field.path)
+    };
+    let report = Diagnostic::error(code::INDEX_RANGE, span, what);
+    let shape = if field.shape.len() > 1 && n > 0 { format!("{n} numbers, {} in each row", row(field)) } else { format!("{n} elements") };
+    let why = match (field.owner.is_empty(), n) {
+        (true, _) => format!("it has {shape}"),
+        (false, _) if field.shape.len() > 1 => format!("{}: {shape}", field.owner),
+        (false, _) => field.owner.clone(),
+    };
+    match n {
+        0 => report.why(why).help("check the model: what you want to read is not in it"),
+        _ => report.why(format!("{why}, and reading past them gives `undefined`")).help(format!("indexes are{}", range(field))),
+    }
+}
+
+/// Numbers in a row of a field with several dimensions.
+fn row(field: &Field) -> usize {
+    field.shape.iter().skip(1).map(|n| n.unwrap_or(1)).product()
+}

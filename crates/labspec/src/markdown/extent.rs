@@ -1,0 +1,106 @@
+//! How far a JSON value reaches, in text that may be damaged: brackets are counted outside of strings, and
+//! strings may be quoted typographically.
+
+/// What opens or closes a string.
+pub(super) fn is_quote(c: char) -> bool {
+    c == '"' || is_typographic(c)
+}
+
+/// Quotes that word processors write.
+pub(crate) fn is_typographic(c: char) -> bool {
+    matches!(c, '“' | '”' | '„' | '‟' | '‘' | '’' | '‚' | '‛')
+}
+
+/// Single ones close single ones only, so that an apostrophe does not end a text.
+fn is_single(c: char) -> bool {
+    matches!(c, '‘' | '’' | '‚' | '‛')
+}
+
+/// Where the string ends whose quote stands at `open`: the bytes of its closing quote, which are empty at a
+/// line break or at the end of the text (JSON strings do not cross lines).
+pub(super) fn string_end(text: &str, open: usize) -> std::ops::Range<usize> {
+    let opening = text.get(open..).and_then(|t| t.chars().next()).unwrap_or('"');
+    let mut at = open + opening.len_utf8();
+    while let Some(c) = text.get(at..).and_then(|t| t.chars().next()) {
+        let next = at + c.len_utf8();
+        match c {
+            '\n' => return at..at,
+            '\\' => {
+                at = next + text.get(next..).and_then(|t| t.chars().next()).map_or(0, char::len_utf8);
+                continue;
+            }
+            '"' if opening == '"' => return at..next,
+            // Inside typographic quotes other quotes may stand; the closing one has JSON behind it.
+            _ if opening != '"'
+                && is_quote(c)
+                && is_single(c) == is_single(opening)
+                && json_follows(text.get(next..).unwrap_or("")) =>
+            {
+                return at..next;
+            }
+            _ => {}
+        }
+        at = next;
+    }
+    text.len()..text.len()
+}
+
+/// Whether this is how JSON goes on behind a string.
+fn json_follows(rest: &str) -> bool {
+    // What matters stands within a few characters; a long run of spaces must not be walked again and again.
+    let mut chars = rest.chars().take(200).skip_while(|c| c.is_whitespace());
+    match chars.next() {
+        None | Some(':' | ']' | '}') => true,
+        Some(',') => {
+            let after: String = chars.skip_while(|c| c.is_whitespace()).take(5).collect();
+            after.is_empty()
+                || after.starts_with(|c: char| is_quote(c) || matches!(c, '{' | '[' | '-' | '0'..='9'))
+                || ["true", "false", "null"].iter().any(|word| after.starts_with(word))
+        }
+        _ => false,
+    }
+}
+
+/// The end of the object or list that `text` begins with (after spaces); `None` when it has no end.
+pub(super) fn json_end(text: &str) -> Option<usize> {
+    let mut at = text.len() - text.trim_start().len();
+    let mut depth = 0usize;
+    loop {
+        let c = text.get(at..)?.chars().next()?;
+        match c {
+            '{' | '[' => depth += 1,
+            '}' | ']' => depth = depth.checked_sub(1)?,
+            _ if is_quote(c) => {
+                at = string_end(text, at).end.max(at + c.len_utf8());
+                continue;
+            }
+            _ if depth == 0 => return None,
+            _ => {}
+        }
+        at += c.len_utf8();
+        if depth == 0 {
+            return Some(at);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_end_is_found_behind_strings() {
+        for (text, json) in [
+            (r#" {"a": "}"} rest"#, r#" {"a": "}"}"#),
+            (r#"{"a": "\"}"} rest"#, r#"{"a": "\"}"}"#),
+            ("{“a”: “x } “quoted”, then }”} rest”", "{“a”: “x } “quoted”, then }”}"),
+            ("{\"a\": \"open\n} rest", "{\"a\": \"open\n}"),
+            ("[1, {\"b\": [2]}] x", "[1, {\"b\": [2]}]"),
+        ] {
+            assert_eq!(json_end(text).map(|end| &text[..end]), Some(json));
+        }
+        for text in ["", "x", "{", "}", "{\"a\": [}"] {
+            assert!(json_end(text).is_none() || text == "{\"a\": [}", "{text}");
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Labs and quizzes that stand in the text without a fence that Markdown sees.
+
+use super::fence::opener;
+use super::{Block, BlockKind, Scan, extent, line_start};
+use crate::lint::rules::fence;
+use crate::source::{SourceMap, Text};
+use std::ops::Range;
+
+/// Most bytes that one loose object may have.
+const MAX_OBJECT: usize = 256 << 10;
+/// Most lines of a file that are tried.
+const MAX_TRIES: usize = 200;
+
+/// A JSON object that begins a line and has the keys of a lab or a quiz.
+pub(super) struct Bare {
+    /// Start of its line.
+    pub(super) line: usize,
+    /// The object.
+    pub(super) object: Range<usize>,
+    is_quiz: bool,
+}
+
+/// All such objects of a text.
+pub(super) fn bare_json(text: &str) -> impl Iterator<Item = Bare> {
+    let mut line = 0;
+    let mut tries = 0;
+    let mut behind = 0;
+    text.split_inclusive('\n').filter_map(move |content| {
+        let start = line;
+        line += content.len();
+        let at = start + content.len() - content.trim_start().len();
+        let after = text.get(at..)?.strip_prefix('{')?.trim_start();
+        if at < behind || tries >= MAX_TRIES || !after.starts_with(extent::is_quote) {
+            return None;
+        }
+        tries += 1;
+        let limit = ceil(text, at.saturating_add(MAX_OBJECT));
+        let object = at..at + extent::json_end(text.get(at..limit)?)?;
+        let json = text.get(object.clone())?;
+        let has = |key: &str| {
+            json.match_indices(key).any(|(i, _)| {
+                let before = json.get(..i).and_then(|b| b.chars().next_back());
+                let after = json.get(i + key.len()..).and_then(|a| a.chars().next());
+                before.is_some_and(extent::is_quote) && after.is_some_and(extent::is_quote)
+            })
+        };
+        let is_quiz = has("questions");
+        let is_lab = (has("model") || has("xml")) && ["controls", "plots", "readouts", "camera"].into_iter().any(has);
+        if !is_quiz && !is_lab {
+            return None;
+        }
+        behind = object.end;
+        Some(Bare { line: start, object, is_quiz })
+    })
+}
+
+/// The nearest character boundary at or behind an offset.
+fn ceil(text: &str, mut at: usize) -> usize {
+    while at < text.len() && !text.is_char_boundary(at) {
+        at += 1;
+    }
+    at.min(text.len())
+}
+
+/// Finds what stands outside of all code, and adds it as blocks with their damage.
+pub(super) fn find(text: &str, scan: &mut Scan) {
+    let mut code = std::mem::take(&mut scan.code);
+    code.sort_by_key(|r| r.start);
+    let mut from = 0;
+    let mut prose = Vec::new();
+    for range in &code {
+        // A block begins behind its indentation; the line is what counts.
+        let start = line_start(text, range.start);
+        if start > from {
+            prose.push(from..start);
+        }
+        from = from.max(range.end);
+    }
+    prose.push(from..text.len());
+    for range in prose {
+        let Some(part) = text.get(range.clone()) else { continue };
+        let unseen = unseen_fences(part, range.start, text, scan);
+        for bare in bare_json(part) {
+            let object = bare.object.start + range.start..bare.object.end + range.start;
+            if unseen.iter().any(|seen| seen.start <= object.start && object.start < seen.end) {
+                continue;
+            }
+            let kind = if bare.is_quiz { BlockKind::Quiz } else { BlockKind::Lab("simlab".into()) };
+            scan.findings.push(fence::missing(&object, &kind));
+            let head = object.start..object.start + 1;
+            scan.blocks.push(loose_block(text, kind, object.clone(), head, object));
+        }
+    }
+}
+
+/// Opening lines of labs and quizzes that Markdown does not take for fences, such as those with a backtick.
+fn unseen_fences(part: &str, offset: usize, text: &str, scan: &mut Scan) -> Vec<Range<usize>> {
+    let mut found: Vec<Range<usize>> = Vec::new();
+    let mut at = offset;
+    for line in part.split_inclusive('\n').take(1 << 20) {
+        let start = at;
+        at += line.len();
+        if !line.trim_start().starts_with("```") || found.len() >= MAX_TRIES || found.last().is_some_and(|f| start < f.end) {
+            continue;
+        }
+        let Some(open) = opener(text, start) else { continue };
+        let kind = open.kind();
+        if matches!(kind, BlockKind::Code { .. }) {
+            continue;
+        }
+        let from = open.rest.as_ref().map_or(at, |rest| rest.start);
+        let limit = ceil(text, from.saturating_add(MAX_OBJECT));
+        let Some(after) = text.get(from..limit) else { continue };
+        let object = match extent::json_end(after) {
+            Some(end) => from + after.len() - after.trim_start().len()..from + end,
+            None => from..from,
+        };
+        scan.findings.push(fence::unseen(&open));
+        let span = open.line.start..object.end.max(open.line.end);
+        found.push(span.clone());
+        if !object.is_empty() {
+            scan.blocks.push(loose_block(text, kind, span, open.head, object));
+        }
+    }
+    found
+}
+
+fn loose_block(text: &str, kind: BlockKind, span: Range<usize>, info: Range<usize>, object: Range<usize>) -> Block {
+    let value = text.get(object.clone()).unwrap_or("").to_string();
+    Block { kind, span, info, body: Text { value, map: SourceMap::verbatim(object) } }
+}

@@ -1,0 +1,255 @@
+//! Fences of a Markdown lesson, with exact places, from files as authors really send them.
+//!
+//! CommonMark (through pulldown-cmark) decides what a fence is. Then every block is looked at for damage that
+//! text editors, chat windows and converters do: closing lines that are lost, so that a fence swallows the
+//! rest of the file; JSON or a listing on the opening line; typographic quotes. Damage is reported where it is,
+//! and reading goes on behind it, so that one lost line does not hide ten mistakes.
+
+mod extent;
+mod fence;
+mod loose;
+mod quotes;
+
+pub(crate) use extent::is_typographic;
+pub(crate) use fence::Opener;
+pub use quotes::{Repaired, repair_quotes};
+
+use crate::finding::Finding;
+use crate::lint::rules;
+use crate::source::{SourceFile, SourceMap, Text};
+use fence::opener;
+use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag, TagEnd};
+use std::ops::Range;
+
+/// Most blocks in a lesson.
+pub const MAX_BLOCKS: usize = 2000;
+/// Most bytes that are read again after damage. Every damaged fence means one more pass over what follows it.
+const MAX_REREAD: usize = 256 << 20;
+
+/// What a fence holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum BlockKind {
+    /// A lab, with the name of its widget; ours is `simlab`.
+    Lab(String),
+    /// A quiz.
+    Quiz,
+    /// A listing.
+    Code {
+        /// First word of the info string, such as `python`.
+        language: String,
+        /// The file of the course that is shown, from `file=PATH`.
+        file: Option<String>,
+    },
+}
+
+/// A fence.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// What it holds.
+    pub kind: BlockKind,
+    /// Bytes of the file, fence lines included.
+    pub span: Range<usize>,
+    /// Bytes of the opening line, up to where JSON or a listing begins on it.
+    pub info: Range<usize>,
+    /// What stands inside, without the prefixes of quotes and lists.
+    pub body: Text,
+}
+
+/// The blocks of a lesson in order, and what is wrong with them.
+#[derive(Clone, Debug, Default)]
+pub struct Scan {
+    /// The blocks.
+    pub blocks: Vec<Block>,
+    /// Damage, and markup that a browser would swallow.
+    pub findings: Vec<Finding>,
+    /// Every stretch that is code and therefore not prose.
+    code: Vec<Range<usize>>,
+}
+
+/// Finds all fences of a lesson.
+pub fn scan(file: &SourceFile) -> Scan {
+    let text = file.text();
+    let mut scan = Scan::default();
+    let (mut from, mut read) = (0, 0);
+    loop {
+        read += text.len() - from;
+        if scan.blocks.len() >= MAX_BLOCKS || read > MAX_REREAD + text.len() {
+            scan.findings.push(
+                Finding::new(&rules::fence::LIMIT, from..from, "from here on, nothing is checked")
+                    .why(format!("the lesson has more than {MAX_BLOCKS} fences, or too many damaged ones"))
+                    .help("split the lesson, or repair the first fences and check again"),
+            );
+            break;
+        }
+        match pass(text, from, &mut scan) {
+            Some(resume) if resume > from => from = resume,
+            _ => break,
+        }
+    }
+    loose::find(text, &mut scan);
+    scan.blocks.sort_by_key(|b| b.span.start);
+    scan
+}
+
+/// One pass from `from`. Returns where to go on reading, if a damaged fence had to be cut off.
+fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
+    let mut raw: Option<(Range<usize>, Text)> = None;
+    for (event, range) in Parser::new(text.get(from..)?).into_offset_iter() {
+        let range = range.start + from..range.end + from;
+        match event {
+            Event::Start(Tag::CodeBlock(CodeBlockKind::Indented)) => scan.code.push(range),
+            Event::Start(Tag::CodeBlock(CodeBlockKind::Fenced(_))) => {
+                raw = Some((range, Text { value: String::new(), map: SourceMap::default() }));
+            }
+            Event::Text(part) => {
+                if let Some((_, body)) = &mut raw {
+                    append(text, body, &part, range);
+                }
+            }
+            Event::End(TagEnd::CodeBlock) => {
+                if let Some((span, body)) = raw.take() {
+                    let resume = block(text, span, body, scan);
+                    if resume.is_some() || scan.blocks.len() >= MAX_BLOCKS {
+                        return resume.or(Some(range.end.max(from + 1)));
+                    }
+                }
+            }
+            Event::Html(_) | Event::InlineHtml(_) => {
+                scan.findings.extend(rules::html::in_markdown(text, range));
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Adds a piece of a block: the bytes of the file, or what the Markdown parser made of them (tabs, line ends).
+fn append(text: &str, body: &mut Text, part: &str, range: Range<usize>) {
+    body.value.push_str(part);
+    if text.get(range.clone()) == Some(part) {
+        body.map.push_verbatim(range);
+    } else {
+        body.map.push_whole(part.len(), range);
+    }
+}
+
+/// Takes in a fence. Returns where to go on reading when it had to be cut off.
+fn block(text: &str, span: Range<usize>, body: Text, scan: &mut Scan) -> Option<usize> {
+    let Some(open) = opener(text, span.start) else {
+        scan.code.push(span);
+        return None;
+    };
+    let closed = fence::is_closed(text, &span, &open);
+    let kind = open.kind();
+    let body = with_first_line(text, &open, body);
+    let cut = match &kind {
+        BlockKind::Code { .. } => fence::cut_listing(&body.value, &open, closed),
+        _ => fence::cut_json(&body.value, &open, closed),
+    };
+    let mut body = body;
+    let mut span = span;
+    if let Some(first) = open.rest.clone() {
+        scan.findings.push(rules::fence::text_on_line(text, &open, first, &kind));
+    }
+    let mut resume = None;
+    if let Some(cut) = cut {
+        let end = body.map.span(0..cut.end).end;
+        resume = cut.resume.map(|at| line_start(text, body.map.span(at..at).start));
+        scan.findings.push(rules::fence::unclosed(text, &open, end, resume, &kind));
+        span.end = resume.unwrap_or(span.end);
+        body.value.truncate(cut.end);
+        body.map = SourceMap::verbatim(0..cut.end).then(&body.map);
+    } else if !closed {
+        let end = body.map.span(0..body.value.trim_end().len()).end.max(open.line.end);
+        scan.findings.push(rules::fence::unclosed(text, &open, end, None, &kind));
+    }
+    if let BlockKind::Code { language, .. } = &kind {
+        rules::listing::check(language, &body, closed && resume.is_none(), &mut scan.findings);
+    }
+    scan.code.push(span.clone());
+    scan.blocks.push(Block { kind, span, info: open.head, body });
+    resume
+}
+
+/// The body with the text that stands on the opening line in front of it, if there is any.
+fn with_first_line(text: &str, open: &Opener, body: Text) -> Text {
+    let Some(rest) = open.rest.clone() else { return body };
+    let mut whole = Text { value: String::new(), map: SourceMap::default() };
+    append(text, &mut whole, text.get(rest.clone()).unwrap_or(""), rest.clone());
+    append(text, &mut whole, "\n", rest.end..(rest.end + 1).min(text.len()));
+    whole.value.push_str(&body.value);
+    for piece in body.map.pieces() {
+        if piece.verbatim {
+            whole.map.push_verbatim(piece.origin.clone());
+        } else {
+            whole.map.push_whole(piece.derived.len(), piece.origin.clone());
+        }
+    }
+    whole
+}
+
+/// The start of the line that a byte stands on.
+fn line_start(text: &str, at: usize) -> usize {
+    text.get(..at).and_then(|before| before.rfind('\n')).map_or(0, |newline| newline + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scanned(text: &str) -> Scan {
+        scan(&SourceFile::new("t.md", text))
+    }
+
+    fn codes(scan: &Scan) -> Vec<&'static str> {
+        scan.findings.iter().map(|f| f.code).collect()
+    }
+
+    #[test]
+    fn fences_in_quotes_and_lists_lose_their_prefixes_and_keep_their_places() {
+        let text = "> ```lab simlab\n> {\"model\":\n>  \"ball\"}\n> ```\n\n1. x\n\n   ```quiz\n   {\"id\": 1}\n   ```\r\n";
+        let scan = scanned(text);
+        assert_eq!(codes(&scan), Vec::<&str>::new());
+        assert_eq!(scan.blocks[0].body.value, "{\"model\":\n \"ball\"}\n");
+        let at = scan.blocks[0].body.value.find("ball").unwrap();
+        assert_eq!(&text[scan.blocks[0].body.span_of(at..at + 4)], "ball");
+        assert_eq!(scan.blocks[1].body.value.trim(), "{\"id\": 1}");
+        assert_eq!(&text[scan.blocks[1].body.span_of(0..9)], "{\"id\": 1}");
+    }
+
+    #[test]
+    fn a_longer_fence_that_shows_a_fence_is_no_damage() {
+        let scan = scanned("````markdown\n```lab simlab\n{}\n```\n````\n\n~~~\n```quiz\n~~~\n");
+        assert_eq!(codes(&scan), Vec::<&str>::new());
+        assert_eq!(scan.blocks.len(), 2);
+    }
+
+    #[test]
+    fn a_lost_closing_line_hides_nothing() {
+        let scan = scanned("```lab simlab\n{\"model\": \"a\"}\nSome prose.\n\n```quiz\n{\"id\": \"q\"}\n```\n\n```lab\n{}\n```\n");
+        assert_eq!(codes(&scan), ["fence-unclosed"]);
+        let kinds: Vec<_> = scan.blocks.iter().map(|b| b.kind.clone()).collect();
+        let lab = BlockKind::Lab("simlab".into());
+        assert_eq!(kinds, [lab.clone(), BlockKind::Quiz, lab]);
+        assert_eq!(scan.blocks[0].body.value.trim(), "{\"model\": \"a\"}");
+    }
+
+    #[test]
+    fn prose_swallowed_by_a_lab_is_cut_off_at_the_end_of_its_object() {
+        let scan = scanned("```lab\n{\"model\": \"a\"}\nSome prose.\n\n```\ncode\n```\n");
+        assert_eq!(codes(&scan)[0], "fence-unclosed");
+        assert_eq!(scan.blocks[0].body.value.trim(), "{\"model\": \"a\"}");
+        assert_eq!(scan.blocks[1].body.value, "code\n");
+    }
+
+    #[test]
+    fn hostile_texts_are_survived() {
+        let many = "```lab {\n".repeat(3000);
+        let scan = scanned(&many);
+        assert!(scan.blocks.len() <= MAX_BLOCKS);
+        assert!(codes(&scan).contains(&"lesson-limit"));
+        for text in ["```", "```lab", "```lab {", "```quiz\n\u{feff}", "> ```lab\n```", "{\"", "{“", "```lab `x` {}", "\u{feff}```lab\n{}\n```"] {
+            scanned(text);
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Findings for people: code, place, the line with a mark under it, why, and what to do.
+//!
+//! Lines of lessons can be kilobytes long, so a window around each mark is shown; the place above it is the true
+//! one. Drawn by annotate-snippets, in the manner of rustc.
+
+use super::file_of;
+use crate::finding::{Finding, Severity};
+use crate::source::SourceFile;
+use annotate_snippets::{AnnotationKind, Element, Level, Origin, Renderer, Snippet, normalize_untrusted_str};
+use std::ops::Range;
+
+/// Characters shown on each side of a mark, and most characters of the mark itself.
+const CONTEXT: usize = 48;
+/// Most characters of a line that is shown whole.
+const WHOLE: usize = 110;
+
+/// All findings, one after another, each followed by an empty line. Colours are escape sequences of terminals.
+pub fn human(findings: &[Finding], files: &[&SourceFile], colour: bool) -> String {
+    let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+    let renderer = renderer.term_width(WHOLE + 40);
+    let mut text = String::new();
+    for finding in findings {
+        text.push_str(&one(finding, files, &renderer));
+        text.push_str("\n\n");
+    }
+    text
+}
+
+fn one(finding: &Finding, files: &[&SourceFile], renderer: &Renderer) -> String {
+    let level = match finding.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+        Severity::Note => Level::NOTE,
+    };
+    let mut group = level.primary_title(normalize_untrusted_str(&finding.message)).id(finding.code).elements(place(
+        files,
+        &finding.path,
+        &finding.span,
+        AnnotationKind::Primary,
+        None,
+    ));
+    for related in &finding.related {
+        let label = normalize_untrusted_str(&related.label);
+        group = group.elements(place(files, &related.path, &related.span, AnnotationKind::Context, Some(label)));
+    }
+    if let Some(why) = &finding.why {
+        group = group.element(Level::NOTE.with_name("why").message(normalize_untrusted_str(why)));
+    }
+    if let Some(help) = &finding.help {
+        group = group.element(Level::HELP.message(normalize_untrusted_str(help)));
+    }
+    let drawn = renderer.render(&[group]);
+    drawn.lines().filter(|line| !is_nameless(line)).collect::<Vec<_>>().join("\n")
+}
+
+/// Whether this is the line that announces a snippet without a path: the place stands above it already, because
+/// a snippet that is cut out of a long line does not know its own column.
+fn is_nameless(line: &str) -> bool {
+    let mut shown = String::new();
+    let mut in_escape = false;
+    for c in line.chars() {
+        match c {
+            '\u{1b}' => in_escape = true,
+            'm' if in_escape => in_escape = false,
+            _ if in_escape => {}
+            _ => shown.push(c),
+        }
+    }
+    shown.trim() == ":::"
+}
+
+/// The place of a span, and a window of its line.
+fn place<'a>(
+    files: &[&SourceFile],
+    path: &str,
+    span: &Range<usize>,
+    kind: AnnotationKind,
+    label: Option<String>,
+) -> Vec<Element<'a>> {
+    let Some(file) = file_of(files, path) else {
+        return vec![Origin::path(path.to_string()).into()];
+    };
+    let position = file.position(span.start);
+    let origin = Origin::path(path.to_string()).line(position.line).char_column(position.column);
+    let line = file.line_span(position.line).unwrap_or(0..0);
+    let (text, mark) = window(file.slice(line.clone()), &(file.floor(span.start)..file.floor(span.end)), line.start);
+    let mark = kind.span(mark);
+    let mark = match label {
+        Some(label) => mark.label(label),
+        None => mark,
+    };
+    vec![origin.into(), Snippet::source(text).line_start(position.line).annotation(mark).into()]
+}
+
+/// A stretch of a line around a span of the file, with … where it was cut, and the span within it. A span that
+/// reaches beyond the line ends with it.
+fn window(line: &str, span: &Range<usize>, line_start: usize) -> (String, Range<usize>) {
+    let start = span.start.saturating_sub(line_start).min(line.len());
+    let end = span.end.saturating_sub(line_start).clamp(start, line.len());
+    let (before, inside) = (line.get(..start).unwrap_or(""), line.get(start..end).unwrap_or(""));
+    let after = line.get(end..).unwrap_or("");
+    if line.chars().take(WHOLE + 1).count() <= WHOLE {
+        return (line.to_string(), start..end);
+    }
+    let left: Vec<char> = before.chars().rev().take(CONTEXT).collect();
+    let mut text = String::new();
+    if left.iter().map(|c| c.len_utf8()).sum::<usize>() < before.len() {
+        text.push('…');
+    }
+    text.extend(left.iter().rev());
+    let from = text.len();
+    let shown: String = inside.chars().take(CONTEXT).collect();
+    text.push_str(&shown);
+    let to = text.len();
+    if shown.len() == inside.len() {
+        let right: String = after.chars().take(CONTEXT).collect();
+        text.push_str(&right);
+        if right.len() < after.len() {
+            text.push('…');
+        }
+    } else {
+        text.push('…');
+    }
+    (text, from..to)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lint::rules::keys::UNKNOWN_KEY;
+
+    #[test]
+    fn long_lines_are_shortened_around_the_mark() {
+        let text = format!("first\n{}\"exprr\"{}\n", "ä ".repeat(1000), " tail".repeat(1000));
+        let file = SourceFile::new("long.md", text.as_str());
+        let at = text.find("exprr").unwrap();
+        let finding = Finding::new(&UNKNOWN_KEY, at..at + 5, "no key `exprr`").help("did you mean `expr`?").at(&file);
+        let shown = human(&[finding], &[&file], false);
+        assert!(shown.lines().all(|l| l.chars().count() < 130), "{shown}");
+        insta::assert_snapshot!(shown);
+    }
+
+    #[test]
+    fn spans_over_lines_and_behind_the_end_are_survived() {
+        let file = SourceFile::new("a.md", "one\ntwo");
+        for span in [0..7, 2..5, 7..7, 90..100, 3..3] {
+            let finding = Finding::new(&UNKNOWN_KEY, span, "x").at(&file);
+            assert!(human(&[finding], &[&file], true).contains("unknown-key"));
+        }
+        let empty = SourceFile::new("e.md", "");
+        assert!(human(&[Finding::new(&UNKNOWN_KEY, 0..0, "x\u{1b}[2J").at(&empty)], &[&empty], false).contains("e.md:1:1"));
+    }
+}

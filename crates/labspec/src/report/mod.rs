@@ -1,0 +1,49 @@
+//! Findings for people and for programs.
+
+mod human;
+mod machine;
+
+pub use human::human;
+pub use machine::json;
+
+use crate::finding::{Finding, Severity};
+use crate::source::SourceFile;
+
+/// How many findings of each severity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// Errors.
+    pub errors: usize,
+    /// Warnings.
+    pub warnings: usize,
+    /// Notes.
+    pub notes: usize,
+}
+
+impl Summary {
+    /// Counts findings.
+    pub fn of(findings: &[Finding]) -> Summary {
+        let count = |severity| findings.iter().filter(|f| f.severity == severity).count();
+        Summary { errors: count(Severity::Error), warnings: count(Severity::Warning), notes: count(Severity::Note) }
+    }
+}
+
+impl std::fmt::Display for Summary {
+    /// `2 errors, 1 warning`; `nothing to complain about` when there is nothing.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let parts: Vec<String> = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")]
+            .into_iter()
+            .filter(|(n, _)| *n > 0)
+            .map(|(n, word)| format!("{n} {word}{}", if n == 1 { "" } else { "s" }))
+            .collect();
+        match parts.is_empty() {
+            true => f.write_str("nothing to complain about"),
+            false => f.write_str(&parts.join(", ")),
+        }
+    }
+}
+
+/// The file of a path, among those that were read.
+fn file_of<'a>(files: &[&'a SourceFile], path: &str) -> Option<&'a SourceFile> {
+    files.iter().copied().find(|f| &**f.path() == path)
+}
