@@ -1,6 +1,9 @@
 //! What an author reads about a damaged or wrong lesson: every file of `tests/lessons` against its snapshot, and
 //! the real lessons beside the repository, where they are.
 
+// A test that cannot read its own inputs has to fail.
+#![allow(clippy::unwrap_used)]
+
 use labspec::finding::Finding;
 use labspec::lint::ModelFolder;
 use labspec::source::SourceFile;
@@ -38,7 +41,8 @@ fn sorted(folder: &Path) -> Vec<PathBuf> {
 fn every_wrong_lesson_reads_as_its_snapshot() {
     let models = ModelFolder::with_names(["ball", "incline", "pendulum"]);
     for path in sorted(&workspace().join("tests/lessons")) {
-        let Some(name) = path.file_name().and_then(|n| n.to_str()).filter(|n| n.ends_with(".md") || n.ends_with(".json"))
+        let Some(name) =
+            path.file_name().and_then(|n| n.to_str()).filter(|n| n.ends_with(".md") || n.ends_with(".json"))
         else {
             continue;
         };
@@ -76,7 +80,9 @@ fn places(lesson: &Lesson) -> Vec<(&'static str, usize, usize)> {
 
 #[test]
 fn the_intact_lesson_has_no_error() {
-    let (Some(path), Some(models)) = (beside("lesson-0.1/lesson-0.1.md"), beside("corpus/models")) else { return };
+    let (Some(path), Some(models)) = (beside("lesson-0.1/lesson-0.1.md"), beside("corpus/models")) else {
+        return;
+    };
     let models = ModelFolder::open(&models).unwrap();
     let lesson = load(&path, "lesson-0.1.md", &models);
     assert!(!lesson.has_errors(), "{}", report::human(&lesson.findings, &[&lesson.file], false));
@@ -89,7 +95,10 @@ fn the_intact_lesson_has_no_error() {
 
 #[test]
 fn the_damaged_lesson_shows_every_damage() {
-    let (Some(path), Some(models)) = (beside("lesson-0.1/lesson-0.1.damaged.md"), beside("corpus/models")) else { return };
+    let (Some(path), Some(models)) = (beside("lesson-0.1/lesson-0.1.damaged.md"), beside("corpus/models"))
+    else {
+        return;
+    };
     let models = ModelFolder::open(&models).unwrap();
     let lesson = load(&path, "lesson-0.1.damaged.md", &models);
     // Behind all the damage, everything is still there and checked.
@@ -98,27 +107,27 @@ fn the_damaged_lesson_shows_every_damage() {
     assert_eq!(lesson.quizzes.len(), 2);
     assert_eq!(lesson.labs[0].lab.as_ref().unwrap().controls.len(), 3);
     let expected = [
-        ("unescaped-element", 5, 281),   // the<option>element
-        ("fence-unclosed", 7, 1),        // the first lab
-        ("fence-line", 7, 15),           // its JSON on the line of the fence
-        ("typographic-quote", 7, 16),    // and quoted “so”
-        ("fence-unclosed", 9, 1),        // the first quiz
-        ("unescaped-element", 14, 285),  // <code><option></code>
-        ("fence-unclosed", 33, 1),       // the first listing
-        ("fence-line", 33, 43),          // its docstring on the line of the fence
-        ("typographic-quote", 33, 43),   // quotes on four of its lines
+        ("unescaped-element", 5, 281),    // the<option>element
+        ("fence-unclosed", 7, 1),         // the first lab
+        ("fence-line", 7, 15),            // its JSON on the line of the fence
+        ("typographic-quote", 7, 16),     // and quoted “so”
+        ("fence-unclosed", 9, 1),         // the first quiz
+        ("unescaped-element", 14, 285),   // <code><option></code>
+        ("fence-unclosed", 33, 1),        // the first listing
+        ("fence-line", 33, 43),           // its docstring on the line of the fence
+        ("typographic-quote", 33, 43),    // quotes on four of its lines
         ("listing-line-breaks", 39, 122), // def …: a = … b = …
-        ("listing-underscores", 40, 1),  // if name == “main”
-        ("fence-unclosed", 50, 1),       // the second lab
-        ("fence-unclosed", 63, 1),       // the second listing
+        ("listing-underscores", 40, 1),   // if name == “main”
+        ("fence-unclosed", 50, 1),        // the second lab
+        ("fence-unclosed", 63, 1),        // the second listing
         ("fence-line", 63, 43),
         ("typographic-quote", 63, 43),
         ("listing-line-breaks", 70, 88),
-        ("listing-indentation", 72, 1),  // for …: without an indented line
+        ("listing-indentation", 72, 1), // for …: without an indented line
         ("listing-indentation", 74, 1),
         ("listing-underscores", 76, 1),
-        ("fence-unclosed", 78, 1),       // the output
-        ("fence-missing", 101, 1),       // the last quiz has no fence at all
+        ("fence-unclosed", 78, 1), // the output
+        ("fence-missing", 101, 1), // the last quiz has no fence at all
     ];
     assert_eq!(places(&lesson), expected, "{}", report::human(&lesson.findings, &[&lesson.file], false));
 }

@@ -128,7 +128,9 @@ fn unset_report(name: &str, span: Span, known: &[&str]) -> Diagnostic {
         .why("it is `undefined` in every run, and a computation with it gives NaN");
     match closest(name, known.iter().copied()) {
         Some(meant) => report.help(format!("did you mean `ctx.{meant}`?")).fix(span, format!("ctx.{meant}")),
-        None => report.help(format!("store it first, as `ctx.{name} = 0` in `setup`, or give a control `\"param\": \"{name}\"`")),
+        None => report.help(format!(
+            "store it first, as `ctx.{name} = 0` in `setup`, or give a control `\"param\": \"{name}\"`"
+        )),
     }
 }
 

@@ -121,7 +121,9 @@ impl Ir {
 
     pub(crate) fn bit_not(operand: Ir, span: Span) -> Ir {
         match operand.known() {
-            Some(value) => Ir::constant(Value::Number(f64::from(!crate::number::to_int32(value.to_number()))), span),
+            Some(value) => {
+                Ir::constant(Value::Number(f64::from(!crate::number::to_int32(value.to_number()))), span)
+            }
             None => Ir::new(Kind::BitNot(Box::new(operand)), Type::Number, span),
         }
     }

@@ -51,7 +51,8 @@ pub use parse::{MAX_DEPTH, MAX_SOURCE, parse_expression, parse_statements};
 pub use print::{print, print_statements};
 pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
 pub use schema::{
-    CollectionId, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Param, Schema, Touch, Type,
+    CollectionId, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Param, Schema,
+    Touch, Type,
 };
 pub use suggest::closest;
 pub use value::Value;

@@ -145,7 +145,9 @@ impl Lowering {
                 let first = self.row(args);
                 self.unary(span, |dst| Op::Math(dst, function, first, count))
             }
-            Kind::Store(place, op, value) if is_plain(place, *op, value) => self.store(place, *op, value, span),
+            Kind::Store(place, op, value) if is_plain(place, *op, value) => {
+                self.store(place, *op, value, span)
+            }
             Kind::Input | Kind::Call(..) | Kind::Store(..) | Kind::Fill(..) | Kind::StoreAll(..) => {
                 let value = self.value(ir);
                 self.unary(span, |dst| Op::ToNumber(dst, value))
@@ -382,7 +384,13 @@ impl Lowering {
         dst
     }
 
-    fn choice(&mut self, test: &Ir, span: Span, then: impl FnOnce(&mut Self), otherwise: impl FnOnce(&mut Self)) {
+    fn choice(
+        &mut self,
+        test: &Ir,
+        span: Span,
+        then: impl FnOnce(&mut Self),
+        otherwise: impl FnOnce(&mut Self),
+    ) {
         let test = self.truth(test);
         let skip = self.jump(Op::JumpIf(false, test, 0), span);
         then(self);
@@ -429,7 +437,14 @@ impl Lowering {
     }
 
     /// Stores in a field. The index is computed before the value, and once.
-    fn store_element(&mut self, view: View, index: &Index, op: Option<BinaryOp>, value: &Ir, span: Span) -> Num {
+    fn store_element(
+        &mut self,
+        view: View,
+        index: &Index,
+        op: Option<BinaryOp>,
+        value: &Ir,
+        span: Span,
+    ) -> Num {
         if let (Index::At(i), Some(_)) = (index, view.count) {
             let at = view.first + i;
             let old = op.map(|_| self.unary(span, |dst| Op::Load(dst, view.field, at)));

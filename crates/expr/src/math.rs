@@ -190,7 +190,10 @@ fn hypot(args: &[f64]) -> f64 {
     if args.iter().any(|x| x.is_infinite()) {
         return f64::INFINITY;
     }
-    let largest = args.iter().fold(0.0, |m: f64, x| if m >= x.abs() { m } else { x.abs() });
+    if args.iter().any(|x| x.is_nan()) {
+        return f64::NAN;
+    }
+    let largest = args.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     if largest == 0.0 {
         return 0.0;
     }

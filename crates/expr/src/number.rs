@@ -141,7 +141,8 @@ mod tests {
         ] {
             assert_eq!(from_text(text), x, "{text:?}");
         }
-        for text in ["inf", "nan", "1,5", "--1", "-0x10", "1_000", "12px", ".", "e5", "0x", "+-3", "infinity"] {
+        for text in ["inf", "nan", "1,5", "--1", "-0x10", "1_000", "12px", ".", "e5", "0x", "+-3", "infinity"]
+        {
             assert!(from_text(text).is_nan(), "{text:?}");
         }
     }

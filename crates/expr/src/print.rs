@@ -159,7 +159,10 @@ fn write_list(open: char, items: &[Expr], close: char, out: &mut String) {
 
 /// Whether the text of an operand starts with `+` or `-`.
 fn starts_with_sign(expr: &Expr) -> bool {
-    matches!(&expr.kind, ExprKind::Unary { op: UnaryOp::Minus | UnaryOp::Plus, .. } | ExprKind::Update { prefix: true, .. })
+    matches!(
+        &expr.kind,
+        ExprKind::Unary { op: UnaryOp::Minus | UnaryOp::Plus, .. } | ExprKind::Update { prefix: true, .. }
+    )
 }
 
 /// A literal never holds a sign; an infinite one is written so that it is read as infinite again.

@@ -32,7 +32,9 @@ fn cost(written: &str, candidate: &str) -> usize {
     if written.eq_ignore_ascii_case(candidate) {
         return 1;
     }
-    let parts = |s: &str| s.split(['_', '/', '.']).filter(|p| !p.is_empty()).map(str::to_lowercase).collect::<Vec<_>>();
+    let parts = |s: &str| {
+        s.split(['_', '/', '.']).filter(|p| !p.is_empty()).map(str::to_lowercase).collect::<Vec<_>>()
+    };
     let (a, mut b) = (parts(written), parts(candidate));
     b.sort_unstable();
     let mut sorted = a.clone();

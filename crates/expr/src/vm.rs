@@ -285,7 +285,14 @@ impl Machine<'_> {
         found
     }
 
-    fn store(&mut self, field: FieldKey, index: usize, x: f64, code: &Code, at: usize) -> Result<(), RuntimeError> {
+    fn store(
+        &mut self,
+        field: FieldKey,
+        index: usize,
+        x: f64,
+        code: &Code,
+        at: usize,
+    ) -> Result<(), RuntimeError> {
         self.host.set(field, index, x).map_err(|message| failure(code::HOST_STORE, code, at, message))
     }
 

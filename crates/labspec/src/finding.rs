@@ -116,12 +116,16 @@ impl Finding {
         self
     }
 
-    /// States the file of the finding and of those places that do not name another one.
+    /// States the file of the finding and of those places that do not name another one, and widens spans that
+    /// begin or end inside of a character.
     pub fn at(mut self, file: &SourceFile) -> Finding {
-        for place in &mut self.related {
-            if place.path.is_empty() {
-                place.path = file.path().clone();
-            }
+        for place in self.related.iter_mut().filter(|place| place.path.is_empty()) {
+            place.path = file.path().clone();
+            place.span = file.snap(&place.span);
+        }
+        self.span = file.snap(&self.span);
+        if let Some(fix) = &mut self.fix {
+            fix.span = file.snap(&fix.span);
         }
         self.path = file.path().clone();
         self
@@ -140,7 +144,8 @@ pub fn sort(findings: &mut Vec<Finding>) {
             &b.message,
         ))
     });
-    findings.dedup_by(|a, b| a.code == b.code && a.path == b.path && a.span == b.span && a.message == b.message);
+    findings
+        .dedup_by(|a, b| a.code == b.code && a.path == b.path && a.span == b.span && a.message == b.message);
 }
 
 #[cfg(test)]

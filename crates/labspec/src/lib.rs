@@ -16,3 +16,7 @@ pub mod markdown;
 pub mod report;
 pub mod source;
 pub mod spec;
+pub mod bind;
+pub mod check;
+pub mod run;
+pub mod verify;

@@ -177,8 +177,7 @@ impl<'a> Report<'a> {
         message: impl Into<String>,
     ) -> &mut MjcfDiagnostic {
         if self.list.len() > MAX_DIAGNOSTICS {
-            self.list.truncate(MAX_DIAGNOSTICS + 1);
-            self.list.pop();
+            self.list.pop(); // one beyond the limit stands for all that follow
         }
         let d =
             MjcfDiagnostic { code, span, line: 0, column: 0, message: message.into(), why: None, help: None };
@@ -192,13 +191,20 @@ impl<'a> Report<'a> {
         self.list.is_empty()
     }
 
+    /// Whether more findings would not be listed: looking for them, and for suggestions, can stop.
+    pub(crate) fn is_full(&self) -> bool {
+        self.list.len() > MAX_DIAGNOSTICS
+    }
+
     /// The findings in the order of the text, each with its line and column.
     pub(crate) fn finish(mut self) -> Vec<MjcfDiagnostic> {
         self.list.truncate(MAX_DIAGNOSTICS);
         self.list.sort_by_key(|d| (d.span.start, d.span.end));
         let (mut at, mut line, mut column) = (0, 1, 1);
         for d in &mut self.list {
-            let start = d.span.start.min(self.text.len());
+            // A span that was computed on decoded text may end inside a character.
+            let start = boundary(self.text, d.span.start);
+            d.span = start..boundary(self.text, d.span.end).max(start);
             for c in self.text.get(at..start).unwrap_or("").chars() {
                 if c == '\n' {
                     line += 1;
@@ -214,6 +220,11 @@ impl<'a> Report<'a> {
     }
 }
 
+/// The start of the character that holds a byte; the end of the text for a byte beyond it.
+fn boundary(text: &str, byte: usize) -> usize {
+    (0..=byte.min(text.len())).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0)
+}
+
 /// A name as it is shown in a message: quoted, and cut when an author wrote a very long one.
 pub(crate) fn shown(name: &str) -> String {
     const LONGEST: usize = 60;
@@ -226,8 +237,8 @@ pub(crate) fn shown(name: &str) -> String {
 
 /// The candidate that is closest to a misspelt name, when one is close enough to be meant.
 pub(crate) fn closest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
-    const LONGEST: usize = 64;
-    const MOST: usize = 2000;
+    const LONGEST: usize = 40;
+    const MOST: usize = 500;
     if name.is_empty() || name.len() > LONGEST {
         return None;
     }

@@ -30,7 +30,10 @@ fn body_inertia(body: &BodySpec, compiler: &Compiler) -> Inertia {
         InertiaFromGeom::Auto if body.inertial.is_some() => None,
         InertiaFromGeom::Auto => of_geoms(&body.geoms, compiler),
     };
-    from_geoms.or_else(|| body.inertial.clone()).unwrap_or(NONE)
+    // Without mass the inertial frame means nothing. MuJoCo stores the body's frame there, in the parent's
+    // frame like `body_pos`; `xipos` shows it, so it is kept.
+    let massless = Inertia { pos: body.pos, quat: body.quat, ..NONE };
+    from_geoms.or_else(|| body.inertial.clone()).unwrap_or(massless)
 }
 
 /// The inertia of the geoms that have mass, `None` if there are none.
@@ -136,7 +139,7 @@ fn check_triangle(body: &BodySpec, inertia: &mut Inertia, compiler: &Compiler, r
     report
         .error(
             code::INERTIA,
-            body.span.clone(),
+            body.inertial_span.clone().unwrap_or(body.span.clone()),
             format!("the principal moments of inertia of {} are {a}, {b}, {c}", shown(body)),
         )
         .why("no moment can be larger than the sum of the other two: no body has such an inertia")

@@ -5,7 +5,7 @@ use super::diagnostic::{Report, code};
 use super::inertia::shown;
 use super::spec::{BodySpec, Inertia};
 use crate::joint;
-use crate::math::IDENTITY;
+use crate::math::{Quat, Vec3};
 
 /// More entries than this in the mass matrix are refused: a long chain with very many branches.
 const MAX_MATRIX: usize = 20_000_000;
@@ -141,28 +141,43 @@ fn check_joints(body: &BodySpec, report: &mut Report) {
     }
 }
 
+/// Frames closer than this, number by number, count as the same (measured on the library).
+const SAME_FRAME: f64 = 1e-6;
+/// A component of a unit axis smaller than this counts as zero (measured on the library).
+const SAME_AXIS: f64 = 1e-14;
+
+fn is_origin(pos: Vec3) -> bool {
+    pos.iter().all(|x| x.abs() < SAME_FRAME)
+}
+
+/// Whether q turns nothing; q and -q are the same rotation.
+fn is_unturned([w, x, y, z]: Quat) -> bool {
+    (w.abs() - 1.0).abs() < SAME_FRAME && is_origin([x, y, z])
+}
+
 /// Whether the mass matrix of a body is diagonal whatever its configuration: 0 no, 1 yes, 2 yes and it only
 /// slides. Then its rows of the pattern hold the diagonal alone.
-pub(crate) fn simple(bodies: &[BodySpec], inertias: &[Inertia], layout: &Layout) -> Vec<i32> {
+pub(crate) fn simple(bodies: &[BodySpec], inertias: &[Inertia]) -> Vec<i32> {
     let mut leaf = vec![true; bodies.len()];
     for body in bodies.iter().skip(1) {
         if let Some(l) = leaf.get_mut(body.parent) {
             *l = false;
         }
     }
-    let still = |i: usize| layout.body_tree.get(i).is_some_and(|&t| t < 0);
+    // The world, or a body fixed to it directly.
+    let base = |i: usize| i == 0 || bodies.get(i).is_some_and(|b| b.parent == 0 && b.joints.is_empty());
     let simple = |(i, (body, inertia)): (usize, (&BodySpec, &Inertia))| {
         if i == 0 {
             return 1; // by convention
         }
-        let centred = inertia.pos == [0.0; 3] && inertia.quat == IDENTITY;
-        if !body.simple || !centred || !still(body.parent) || leaf.get(i) != Some(&true) {
+        let centred = is_origin(inertia.pos) && is_unturned(inertia.quat);
+        if !body.simple || !centred || !base(body.parent) || leaf.get(i) != Some(&true) {
             return 0;
         }
         let mut turned = false;
         for j in &body.joints {
-            let along_one_axis = j.axis.iter().filter(|&&x| x != 0.0).count() == 1;
-            if turned || j.pos != [0.0; 3] || !along_one_axis {
+            let along_one_axis = j.axis.iter().filter(|x| x.abs() > SAME_AXIS).count() == 1;
+            if turned || !is_origin(j.pos) || !along_one_axis {
                 return 0;
             }
             turned = j.kind != joint::SLIDE;

@@ -113,7 +113,7 @@ fn build(xml: &str, report: &mut Report) -> Option<Model> {
     if !report.is_clean() {
         return None;
     }
-    let simple = layout::simple(&bodies, &inertias, &layout);
+    let simple = layout::simple(&bodies, &inertias);
     let pattern = layout::pattern(&layout, &simple, report)?;
 
     let mut m = Model { opt: options, ..Model::default() };

@@ -83,6 +83,9 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
         if is_default {
             check_class(tree, node, &mut defined, report);
         }
+        if report.is_full() {
+            return;
+        }
         for a in &node.attributes {
             let Value::Text(name) = &a.value else { continue };
             match a.attr.kind {

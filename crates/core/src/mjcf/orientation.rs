@@ -70,7 +70,7 @@ fn quaternion(q: Quat) -> Result<Quat, String> {
     if largest < 1e-15 {
         return Err("the quaternion is zero".into());
     }
-    Ok(if largest > 1e100 || largest < 1e-100 { q.map(|x| x / largest) } else { q })
+    Ok(if largest > 1e100 { q.map(|x| x / largest) } else { q })
 }
 
 /// Rotations about three axes in turn.

@@ -67,6 +67,7 @@ fn empty(node: usize, span: std::ops::Range<usize>, name: String, parent: usize)
         mocap: false,
         simple: true,
         inertial: None,
+        inertial_span: None,
         joints: Vec::new(),
         geoms: Vec::new(),
         sites: Vec::new(),
@@ -95,7 +96,10 @@ pub(crate) fn name(node: &Node) -> String {
 /// Something that stands in a body.
 fn member(cx: &mut Context, i: usize, node: &Node, body: &mut BodySpec) {
     match node.element.name {
-        "inertial" => body.inertial = inertial(cx, node),
+        "inertial" => {
+            body.inertial = inertial(cx, node);
+            body.inertial_span = Some(node.span.clone());
+        }
         "joint" | "freejoint" => body.joints.push(read_joint::joint(cx, i, node, body.childclass)),
         "geom" => body.geoms.extend(read_geom::geom(cx, i, node, body.childclass)),
         "site" => body.sites.push(site(cx, i, node, body.childclass)),

@@ -42,8 +42,10 @@ fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
     let mut list = |name: &str, n: usize, what: String| {
         let given = p.list(name)?;
         if given.len() != n {
+            let plural = if given.len() == 1 { "" } else { "s" };
+            let owner = node.shown();
             let message =
-                format!("`{name}` of {} has {} numbers, the model needs {n}", node.shown(), given.len());
+                format!("`{name}` of {owner} has {} number{plural}, the model needs {n}", given.len());
             report.error(code::KEYFRAME, p.span(name).unwrap_or(0..0), message).why(what);
             return None;
         }

@@ -98,6 +98,9 @@ pub(crate) fn sensors(tree: &Tree, names: &NameTable, ids: &Ids, report: &mut Re
     let mut list = Vec::new();
     for (section, _) in tree.sections("sensor") {
         for (_, node) in tree.children(section) {
+            if report.is_full() {
+                return list;
+            }
             if let Some(row) = SENSORS.iter().find(|r| r.name == node.element.name) {
                 list.extend(sensor(row, node, names, ids, report));
             }

@@ -51,6 +51,16 @@ pub(crate) fn within_limits(text: &str, report: &mut Report) -> bool {
                 );
                 return false;
             }
+            if let Some(at) = tag.namespace {
+                report
+                    .error(
+                        code::XML,
+                        at..at + 5,
+                        "an XML namespace is declared, which a model has no use for",
+                    )
+                    .help("remove the `xmlns` attribute");
+                return false;
+            }
             if !tag.closed {
                 depth += 1;
             }
@@ -74,11 +84,13 @@ struct Tag {
     end: usize,
     attributes: usize,
     closed: bool,
+    /// Where a namespace is declared.
+    namespace: Option<usize>,
 }
 
 /// A start tag from its name on: to the `>` outside of quotes.
 fn tag(bytes: &[u8], start: usize) -> Tag {
-    let (mut quote, mut attributes, mut last) = (None, 0, b'<');
+    let (mut quote, mut attributes, mut last, mut namespace) = (None, 0, b'<', None);
     for (i, &b) in bytes.iter().enumerate().skip(start) {
         match quote {
             Some(q) if b == q => quote = None,
@@ -86,13 +98,18 @@ fn tag(bytes: &[u8], start: usize) -> Tag {
             None => match b {
                 b'"' | b'\'' => quote = Some(b),
                 b'=' => attributes += 1,
-                b'>' => return Tag { end: i + 1, attributes, closed: last == b'/' },
+                b'>' => return Tag { end: i + 1, attributes, closed: last == b'/', namespace },
+                b'x' if last.is_ascii_whitespace()
+                    && bytes.get(i..).is_some_and(|b| b.starts_with(b"xmlns")) =>
+                {
+                    namespace = namespace.or(Some(i));
+                }
                 _ => {}
             },
         }
         last = b;
     }
-    Tag { end: bytes.len(), attributes, closed: true }
+    Tag { end: bytes.len(), attributes, closed: true, namespace }
 }
 
 fn find(bytes: &[u8], from: usize, what: &[u8]) -> Option<usize> {
@@ -121,5 +138,6 @@ mod tests {
         assert_eq!(code_of(&format!("<a {}/>", "x='' ".repeat(MAX_ATTRIBUTES + 1))), Some(code::LIMIT));
         assert_eq!(code_of("<!DOCTYPE x [<!ENTITY a 'b'>]><a/>"), Some(code::XML));
         assert_eq!(code_of("<a b='"), None);
+        assert_eq!(code_of("<a  xmlns:b='c'/>"), Some(code::XML));
     }
 }

@@ -257,15 +257,21 @@ pub fn schema_rows() -> Vec<SchemaRow> {
     rows
 }
 
-/// Where else an element of this name may stand: the names of its possible parents.
+/// Where else an element of this name may stand: the names of its possible parents. Places that are refused
+/// are named only when there is no other.
 pub(crate) fn parents_of(name: &str) -> Vec<&'static str> {
-    let mut parents: Vec<&'static str> = Vec::new();
+    let mut parents: [Vec<&'static str>; 2] = Default::default();
     let mut seen: Vec<&'static Element> = vec![&ROOT];
     let mut at = 0;
     while let Some(&element) = seen.get(at) {
         at += 1;
-        if element.child(name).is_some() && !parents.contains(&element.name) {
-            parents.push(element.name);
+        if let Some(child) = element.child(name) {
+            let refused = [element.status, child.status].contains(&Status::Unsupported);
+            let [open, closed] = &mut parents;
+            let list = if refused { closed } else { open };
+            if !list.contains(&element.name) {
+                list.push(element.name);
+            }
         }
         for child in element.children {
             if !seen.iter().any(|s| std::ptr::eq(*s, *child)) {
@@ -273,5 +279,6 @@ pub(crate) fn parents_of(name: &str) -> Vec<&'static str> {
             }
         }
     }
-    parents
+    let [open, closed] = parents;
+    if open.is_empty() { closed } else { open }
 }

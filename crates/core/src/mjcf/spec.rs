@@ -8,7 +8,7 @@ use crate::math::{Quat, Vec3};
 /// A body and what it holds. The first body of a model is the world.
 #[derive(Debug)]
 pub(crate) struct BodySpec {
-    /// The element; `None` for the world.
+    /// The element; the root for the world.
     pub(crate) node: usize,
     pub(crate) span: Range<usize>,
     pub(crate) name: String,
@@ -21,6 +21,8 @@ pub(crate) struct BodySpec {
     /// Whether the simple form of its mass matrix may be used.
     pub(crate) simple: bool,
     pub(crate) inertial: Option<Inertia>,
+    /// Where the inertia is written.
+    pub(crate) inertial_span: Option<Range<usize>>,
     pub(crate) joints: Vec<JointSpec>,
     pub(crate) geoms: Vec<GeomSpec>,
     pub(crate) sites: Vec<SiteSpec>,

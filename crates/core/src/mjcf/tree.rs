@@ -61,7 +61,7 @@ pub(crate) struct Tree {
 
 impl Tree {
     /// The elements of this name directly below a node, with their indices.
-    pub(crate) fn children<'t>(&'t self, of: usize) -> impl Iterator<Item = (usize, &'t Node)> {
+    pub(crate) fn children(&self, of: usize) -> impl Iterator<Item = (usize, &Node)> {
         let list = self.nodes.get(of).map_or(&[][..], |n| &n.children);
         list.iter().filter_map(|&i| self.nodes.get(i).map(|n| (i, n)))
     }
@@ -98,6 +98,9 @@ pub(crate) fn parse(text: &str, report: &mut Report) -> Option<Tree> {
     let mut tree = Tree::default();
     let mut stack = vec![(root, &ROOT, None)];
     while let Some((xml, element, parent)) = stack.pop() {
+        if report.is_full() {
+            return None;
+        }
         let index = tree.nodes.len();
         if let Some(node) = parent.and_then(|p: usize| tree.nodes.get_mut(p)) {
             node.children.push(index);
@@ -130,17 +133,10 @@ fn children<'a, 'i>(
     let mut seen: Vec<&'static str> = Vec::new();
     for child in xml.children() {
         if child.is_text() {
-            let stray = child.text().unwrap_or("").trim();
-            if !stray.is_empty() {
-                report
-                    .error(
-                        code::TEXT,
-                        child.range(),
-                        format!("text between the elements of `{}`", element.name),
-                    )
-                    .why("a model is made of elements and attributes only, this text would be lost")
-                    .help("write it as a comment, <!-- … -->, or complete the tag it was part of");
-            }
+            stray_text(&child, element, report);
+        }
+        if report.is_full() {
+            break;
         }
         if !child.is_element() {
             continue;
@@ -184,6 +180,18 @@ fn children<'a, 'i>(
     list
 }
 
+/// Text between elements, where only elements have a meaning.
+fn stray_text(xml: &Xml, element: &Element, report: &mut Report) {
+    let text = xml.text().unwrap_or("");
+    let Some(first) = text.trim().lines().next() else { return };
+    let start = xml.range().start + (text.len() - text.trim_start().len());
+    let end = (start + first.trim_end().len()).min(xml.range().end);
+    report
+        .error(code::TEXT, start..end, format!("text between the elements of `{}`", element.name))
+        .why("a model is made of elements and attributes only, this text would be lost")
+        .help("write it as a comment, <!-- … -->, or complete the tag it was part of");
+}
+
 fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, report: &mut Report) {
     report.incomplete = true;
     let places = parents_of(name);
@@ -207,21 +215,22 @@ fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, re
 /// The attributes that the schema knows, with their values read.
 fn attributes(text: &str, xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<Attribute> {
     let mut list = Vec::new();
+    // Attributes that are refused, and whether a keyword already is: a capsule's `fromto` needs no finding of
+    // its own when the capsule has one.
+    let (mut refused, mut refused_word) = (Vec::new(), false);
     for a in xml.attributes() {
         let Some(attr) = element.attribute(a.name()).filter(|_| a.namespace().is_none()) else {
             unknown_attribute(a.name(), a.range_qname(), element, report);
             continue;
         };
         let span = a.range_value();
-        let problem = |report: &mut Report, at: Range<usize>, code, message: String| {
-            report.error(code, at, format!("`{}` of {} {message}", attr.name, element.name));
-        };
         let value = match (attr.status, values::parse(attr.kind, a.value())) {
             (Status::Unsupported, _) => {
-                problem(report, a.range_qname(), code::NOT_SUPPORTED, "is not supported yet".into());
+                refused.push((attr.name, a.range_qname()));
                 Value::Bad
             }
             (_, Err(p)) => {
+                refused_word |= p.code == code::NOT_SUPPORTED;
                 // Inside the value only when the text was not changed by character references.
                 let exact = text.get(span.clone()) == Some(a.value());
                 let at = match p.at {
@@ -249,6 +258,11 @@ fn attributes(text: &str, xml: &Xml, element: &'static Element, report: &mut Rep
             (_, Ok(value)) => value,
         };
         list.push(Attribute { attr, value, span });
+    }
+    for (name, span) in refused.into_iter().filter(|_| !refused_word) {
+        report
+            .error(code::NOT_SUPPORTED, span, format!("`{name}` of {} is not supported yet", element.name))
+            .why("ignoring it would change what the model computes");
     }
     list
 }
@@ -301,6 +315,10 @@ fn explain(text: &str, error: &Error, report: &mut Report) {
         Error::UnknownEntityReference(..) | Error::MalformedEntityReference(_) => (
             "a `&` that does not begin `&amp;`, `&lt;`, `&gt;`, `&quot;` or `&apos;`".into(),
             "write `&amp;` for the character itself".into(),
+        ),
+        Error::InvalidChar2("a whitespace", ..) => (
+            "the value of an attribute ends here, but text follows it".into(),
+            "close the quotes of the value before it, or put a space between two attributes".into(),
         ),
         Error::InvalidComment(_) => {
             ("`--` inside a comment".into(), "a comment may not hold two hyphens in a row".into())

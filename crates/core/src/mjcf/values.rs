@@ -65,7 +65,7 @@ fn keyword(words: &[Word], text: &str) -> Result<Value, Problem> {
         return Err(problem);
     }
     let mut problem =
-        Problem::new(code::KEYWORD, format!("is {}, which is not a keyword of it", shown(text)));
+        Problem::new(code::KEYWORD, format!("is {}, which is not one of its keywords", shown(text)));
     problem.help = Some(match closest(text.trim(), words.iter().filter(|w| w.supported).map(|w| w.text)) {
         Some(word) => format!("did you mean `{word}`?"),
         None => format!("write one of: {}", listed(words)),

@@ -68,9 +68,13 @@ impl Binder<'_> {
         }
         self.value(index)?;
         self.refuse(
-            Diagnostic::error(code::COMPUTED_NAME, index.span, "a computed name of a `ctx` variable is not supported yet")
-                .why("variables are found before the run, so that a misspelt one can be reported")
-                .help("write the name itself, as `ctx.q1` or `ctx['q1']`"),
+            Diagnostic::error(
+                code::COMPUTED_NAME,
+                index.span,
+                "a computed name of a `ctx` variable is not supported yet",
+            )
+            .why("variables are found before the run, so that a misspelt one can be reported")
+            .help("write the name itself, as `ctx.q1` or `ctx['q1']`"),
         )
     }
 
@@ -81,10 +85,14 @@ impl Binder<'_> {
             let object = Span::new(span.start, index.span.start);
             let object = self.text(object).trim_end().trim_end_matches('[').to_owned();
             return self.refuse(
-                Diagnostic::error(code::NOT_INDEXABLE, span, format!("`{}` is one number, not an array", field.path))
-                    .why("an index chooses an element of an array; of a number it gives `undefined`")
-                    .help(format!("write `{object}`"))
-                    .fix(span, object),
+                Diagnostic::error(
+                    code::NOT_INDEXABLE,
+                    span,
+                    format!("`{}` is one number, not an array", field.path),
+                )
+                .why("an index chooses an element of an array; of a number it gives `undefined`")
+                .help(format!("write `{object}`"))
+                .fix(span, object),
             );
         }
         match (ir.known(), ir.ty) {
@@ -94,10 +102,20 @@ impl Binder<'_> {
             }
             (None, Type::Number | Type::Any) => Ok(Index::Computed(Box::new(ir))),
             (_, ty) => {
-                let mut report = Diagnostic::error(code::INDEX_KIND, index.span, format!("the index is {}, not a number", ty.describe()))
-                    .why(format!("the elements of `{}` are numbered{}", field.path, range(field)));
+                let mut report = Diagnostic::error(
+                    code::INDEX_KIND,
+                    index.span,
+                    format!("the index is {}, not a number", ty.describe()),
+                )
+                .why(format!(
+                    "the elements of `{}` are numbered{}",
+                    field.path,
+                    range(field)
+                ));
                 report = match ir.known() {
-                    Some(Value::String(_)) => report.help("for an object by its name, write `data.joint(\"name\")` or its like"),
+                    Some(Value::String(_)) => {
+                        report.help("for an object by its name, write `data.joint(\"name\")` or its like")
+                    }
                     _ => report.help("write a whole number"),
                 };
                 self.refuse(report)
@@ -109,11 +127,13 @@ impl Binder<'_> {
     fn known_index(&mut self, field: &Field, x: f64, span: Span) -> Attempt<usize> {
         let shown = number::to_text(x);
         if x < 0.0 {
-            let mut report = Diagnostic::error(code::INDEX_NEGATIVE, span, format!("index {shown} is below zero"))
-                .why("indexes start at 0; JavaScript gives `undefined` here, it does not count from the end");
+            let mut report =
+                Diagnostic::error(code::INDEX_NEGATIVE, span, format!("index {shown} is below zero")).why(
+                    "indexes start at 0; JavaScript gives `undefined` here, it does not count from the end",
+                );
             report = match field.len() {
                 Some(n) if n as f64 + x >= 0.0 && x.fract() == 0.0 => {
-                    report.help(format!("the last elements count from the end as `{}[{}]`", field.path, n as f64 + x))
+                    report.help(format!("to count from the end, write `{}[{}]`", field.path, n as f64 + x))
                 }
                 _ => report.help(format!("indexes of `{}` are{}", field.path, range(field))),
             };
@@ -143,27 +163,44 @@ impl Binder<'_> {
             _ => None,
         };
         match (thing, name) {
-            (Thing::Collection(id), _) => self.collection_needs_call(*id, object.span, name.map(|n| (n, span))),
-            (Thing::Object(_) | Thing::Math, Some(name)) => error(format!("members of `{text}` are not chosen in brackets"))
-                .why("names are resolved before the run, so they are written with a point")
-                .help(format!("write `{text}.{name}`"))
-                .fix(span, format!("{text}.{name}")),
-            (Thing::Object(id), None) => {
-                error(format!("{} is not an array", quoted(&self.schema.describe(*id)))).help("choose a field first, with a point")
+            (Thing::Collection(id), _) => {
+                self.collection_needs_call(*id, object.span, name.map(|n| (n, span)))
             }
-            (Thing::Value(ir), _) if matches!(ir.kind, Kind::Load(..)) => error(format!("`{text}` is already one number"))
-                .why("arrays are flat: one index chooses one number, and rows follow each other")
-                .help("write one index, as `data.xpos[3 * i + k]` for row i, column k"),
-            (Thing::Value(_), _) => error(format!("`{text}` is a single value, not an array")).help("remove the index"),
-            (Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..), _) => self.not_called(object.span),
-            _ => error(format!("`{text}` is not an array")).help("choose a field with a point, as `data.qpos`"),
+            (Thing::Object(_) | Thing::Math, Some(name)) => {
+                error(format!("members of `{text}` are not chosen in brackets"))
+                    .why("names are resolved before the run, so they are written with a point")
+                    .help(format!("write `{text}.{name}`"))
+                    .fix(span, format!("{text}.{name}"))
+            }
+            (Thing::Object(id), None) => {
+                error(format!("{} is not an array", quoted(&self.schema.describe(*id))))
+                    .help("choose a field first, with a point")
+            }
+            (Thing::Value(ir), _) if matches!(ir.kind, Kind::Load(..)) => {
+                error(format!("`{text}` is already one number"))
+                    .why("arrays are flat: one index chooses one number, and rows follow each other")
+                    .help("write one index, as `data.xpos[3 * i + k]` for row i, column k")
+            }
+            (Thing::Value(_), _) => {
+                error(format!("`{text}` is a single value, not an array")).help("remove the index")
+            }
+            (Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..), _) => {
+                self.not_called(thing, object.span)
+            }
+            _ => {
+                error(format!("`{text}` is not an array")).help("choose a field with a point, as `data.qpos`")
+            }
         }
     }
 
     /// The finding for a whole array where one number must stand.
     pub(super) fn whole_array(&self, field: &Field, span: Span) -> Diagnostic {
         let text = self.text(span);
-        let report = Diagnostic::error(code::WHOLE_ARRAY, span, format!("`{}` is an array, not one number", field.path));
+        let report = Diagnostic::error(
+            code::WHOLE_ARRAY,
+            span,
+            format!("`{}` is an array, not one number", field.path),
+        );
         match field.len() {
             Some(1) => report
                 .why("even an array of one element is not its element")
@@ -179,9 +216,15 @@ impl Binder<'_> {
     }
 
     /// The finding for `data.joint` that is not called with a name.
-    pub(super) fn collection_needs_call(&self, id: CollectionId, object: Span, name: Option<(&str, Span)>) -> Diagnostic {
+    pub(super) fn collection_needs_call(
+        &self,
+        id: CollectionId,
+        object: Span,
+        name: Option<(&str, Span)>,
+    ) -> Diagnostic {
         let (text, noun) = (self.text(object), self.schema.noun(id));
-        let report = Diagnostic::error(code::NOT_A_VALUE, object, format!("`{text}` needs the name of a {noun}"));
+        let report =
+            Diagnostic::error(code::NOT_A_VALUE, object, format!("`{text}` needs the name of a {noun}"));
         let names = self.schema.names(id);
         match name {
             Some((name, span)) if names.iter().any(|n| n == name) => {
@@ -190,18 +233,28 @@ impl Binder<'_> {
             }
             _ => match names.first() {
                 Some(first) => report.help(format!("write `{text}(\"{first}\")`")),
-                None => report.why(format!("no {noun} has a name here")).help(format!("name the {noun} in the model")),
+                None => report
+                    .why(format!("no {noun} has a name here"))
+                    .help(format!("name the {noun} in the model")),
             },
         }
     }
 
     /// `data.joint("name")`
-    pub(super) fn named(&mut self, id: CollectionId, callee: Span, args: &[Expr], span: Span) -> Attempt<ObjectId> {
+    pub(super) fn named(
+        &mut self,
+        id: CollectionId,
+        callee: Span,
+        args: &[Expr],
+        span: Span,
+    ) -> Attempt<ObjectId> {
         let noun = self.schema.noun(id).to_owned();
         let [arg] = args else {
-            let message = format!("`{}` takes the name of one {noun}, not {} arguments", self.text(callee), args.len());
+            let message =
+                format!("`{}` takes the name of one {noun}, not {} arguments", self.text(callee), args.len());
             return self.refuse(
-                Diagnostic::error(code::ARGUMENT_COUNT, span, message).help(format!("write `{}(\"…\")`", self.text(callee))),
+                Diagnostic::error(code::ARGUMENT_COUNT, span, message)
+                    .help(format!("write `{}(\"…\")`", self.text(callee))),
             );
         };
         self.object_name(id, arg)
@@ -212,12 +265,17 @@ impl Binder<'_> {
         let noun = self.schema.noun(id).to_owned();
         let names = self.schema.names(id);
         let ExprKind::String(name) = &arg.kind else {
-            let shown = if names.is_empty() { String::new() } else { format!("; the names are {}", list(&names)) };
+            let shown =
+                if names.is_empty() { String::new() } else { format!("; the names are {}", list(&names)) };
             if let ExprKind::Number(_) = arg.kind {
                 return self.refuse(
-                    Diagnostic::error(code::ARGUMENT_TYPE, arg.span, format!("a {noun} is chosen by its name, not by a number"))
-                        .why("numbers of objects change when the model changes")
-                        .help(format!("write the name in quotes{shown}")),
+                    Diagnostic::error(
+                        code::ARGUMENT_TYPE,
+                        arg.span,
+                        format!("a {noun} is chosen by its name, not by a number"),
+                    )
+                    .why("numbers of objects change when the model changes")
+                    .help(format!("write the name in quotes{shown}")),
                 );
             }
             if let ExprKind::Name(word) = &arg.kind
@@ -225,26 +283,37 @@ impl Binder<'_> {
                 && !self.locals.iter().any(|l| l.name == *word)
             {
                 return self.refuse(
-                    Diagnostic::error(code::COMPUTED_NAME, arg.span, format!("the name of a {noun} stands in quotes"))
-                        .why("without quotes it is the name of a variable")
-                        .help(format!("write `\"{word}\"`"))
-                        .fix(arg.span, format!("\"{word}\"")),
+                    Diagnostic::error(
+                        code::COMPUTED_NAME,
+                        arg.span,
+                        format!("the name of a {noun} stands in quotes"),
+                    )
+                    .why("without quotes it is the name of a variable")
+                    .help(format!("write `\"{word}\"`"))
+                    .fix(arg.span, format!("\"{word}\"")),
                 );
             }
             let bound = self.value(arg);
             bound?;
             return self.refuse(
-                Diagnostic::error(code::COMPUTED_NAME, arg.span, format!("the name of a {noun} must be written out, not computed"))
-                    .why("names are resolved before the run, so that a misspelt one is found at once")
-                    .help(format!("write the name in quotes{shown}")),
+                Diagnostic::error(
+                    code::COMPUTED_NAME,
+                    arg.span,
+                    format!("the name of a {noun} must be written out, not computed"),
+                )
+                .why("names are resolved before the run, so that a misspelt one is found at once")
+                .help(format!("write the name in quotes{shown}")),
             );
         };
         if let Some(object) = self.schema.lookup(id, name) {
             return Ok(object);
         }
-        let report = Diagnostic::error(code::UNKNOWN_OBJECT, arg.span, format!("there is no {noun} named \"{name}\""));
+        let report =
+            Diagnostic::error(code::UNKNOWN_OBJECT, arg.span, format!("there is no {noun} named \"{name}\""));
         let report = match closest(name, names.iter().map(String::as_str)) {
-            Some(meant) => report.help(format!("did you mean \"{meant}\"?")).fix(arg.span, format!("\"{meant}\"")),
+            Some(meant) => {
+                report.help(format!("did you mean \"{meant}\"?")).fix(arg.span, format!("\"{meant}\""))
+            }
             None if names.is_empty() => report
                 .why(format!("no {noun} has a name here"))
                 .help(format!("give the {noun} a name in the model")),
@@ -287,15 +356,21 @@ pub(super) fn out_of_range(field: &Field, shown: &str, span: Span) -> Diagnostic
         format!("index {shown} is past the end of `{}`", field.path)
     };
     let report = Diagnostic::error(code::INDEX_RANGE, span, what);
-    let shape = if field.shape.len() > 1 && n > 0 { format!("{n} numbers, {} in each row", row(field)) } else { format!("{n} elements") };
+    let shape = if field.shape.len() > 1 && n > 0 {
+        format!("{n} numbers, {} in each row", row(field))
+    } else {
+        format!("{n} elements")
+    };
     let why = match (field.owner.is_empty(), n) {
         (true, _) => format!("it has {shape}"),
         (false, _) if field.shape.len() > 1 => format!("{}: {shape}", field.owner),
         (false, _) => field.owner.clone(),
     };
     match n {
-        0 => report.why(why).help("check the model: what you want to read is not in it"),
-        _ => report.why(format!("{why}, and reading past them gives `undefined`")).help(format!("indexes are{}", range(field))),
+        0 => report.why(why).help("add to the model what you want to use, or use another field"),
+        _ => report
+            .why(format!("{why}, and reading past them gives `undefined`"))
+            .help(format!("indexes are{}", range(field))),
     }
 }
 

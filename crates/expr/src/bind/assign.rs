@@ -19,7 +19,13 @@ impl Binder<'_> {
     }
 
     /// `target = value` or `target op= value` as a statement; its value may be assigned further.
-    pub(super) fn assign(&mut self, target: &Expr, op: Option<BinaryOp>, value: &Expr, span: Span) -> Attempt<Ir> {
+    pub(super) fn assign(
+        &mut self,
+        target: &Expr,
+        op: Option<BinaryOp>,
+        value: &Expr,
+        span: Span,
+    ) -> Attempt<Ir> {
         let place = self.place(target, op.is_some());
         let value = match &value.kind {
             ExprKind::Assign { target, op, value, .. } => self.assign(target, *op, value, span),
@@ -45,14 +51,20 @@ impl Binder<'_> {
     pub(super) fn update(&mut self, target: &Expr, increment: bool, span: Span) -> Attempt<Ir> {
         let place = self.place(target, true)?;
         let step = Ir::constant(Value::Number(if increment { -1.0 } else { 1.0 }), span);
-        Ok(Ir::new(Kind::Store(Box::new(place), Some(BinaryOp::Subtract), Box::new(step)), Type::Number, span))
+        Ok(Ir::new(
+            Kind::Store(Box::new(place), Some(BinaryOp::Subtract), Box::new(step)),
+            Type::Number,
+            span,
+        ))
     }
 
     /// What can be assigned to. `reads`: a compound assignment also reads it.
     fn place(&mut self, target: &Expr, reads: bool) -> Attempt<Place> {
         match &target.kind {
             ExprKind::Name(name) => self.named_place(name, target.span, reads),
-            ExprKind::Member { object, name } if self.is_globals(object) => self.global_place(&name.text, target.span, reads),
+            ExprKind::Member { object, name } if self.is_globals(object) => {
+                self.global_place(&name.text, target.span, reads)
+            }
             ExprKind::Index { object, index } if self.is_globals(object) => {
                 let name = self.global_name(index)?;
                 self.global_place(&name, target.span, reads)
@@ -121,8 +133,12 @@ impl Binder<'_> {
                 ),
                 Meaning::Slot(slot, _) => Ok(Place::Local(slot)),
                 Meaning::Alias(_) => self.refuse(
-                    Diagnostic::error(code::NOT_ASSIGNABLE, span, format!("`{name}` stands for a part of the simulation"))
-                        .help("assign one of its elements or fields, or use another name"),
+                    Diagnostic::error(
+                        code::NOT_ASSIGNABLE,
+                        span,
+                        format!("`{name}` stands for a part of the simulation"),
+                    )
+                    .help("assign one of its elements or fields, or use another name"),
                 ),
             };
         }
@@ -131,10 +147,15 @@ impl Binder<'_> {
             return self.refuse(report);
         }
         if is_language(name) {
-            let report = Diagnostic::error(code::NOT_ASSIGNABLE, span, format!("`{name}` cannot be assigned"));
+            let report =
+                Diagnostic::error(code::NOT_ASSIGNABLE, span, format!("`{name}` cannot be assigned"));
             return self.refuse(match name {
-                "ctx" => report.why("it holds the variables of the lab").help("assign a variable, as `ctx.peak = 0`"),
-                "value" => report.why("it is what the control gives").help("use another name, as `const x = value / 2`"),
+                "ctx" => report
+                    .why("it holds the variables of the lab")
+                    .help("assign a variable, as `ctx.peak = 0`"),
+                "value" => report
+                    .why("it is what the control gives")
+                    .help("use another name, as `const x = value / 2`"),
                 _ => report.why("it means the same everywhere").help("use another name"),
             });
         }
@@ -145,14 +166,20 @@ impl Binder<'_> {
 
     fn undeclared(&self, name: &str, span: Span) -> Diagnostic {
         if self.declared_later.iter().any(|n| n == name) {
-            return Diagnostic::error(code::USED_TOO_EARLY, span, format!("`{name}` is assigned before its declaration"))
-                .help(format!("move the declaration of `{name}` up"));
+            return Diagnostic::error(
+                code::USED_TOO_EARLY,
+                span,
+                format!("`{name}` is assigned before its declaration"),
+            )
+            .help(format!("move the declaration of `{name}` up"));
         }
         let report = Diagnostic::error(code::UNKNOWN_NAME, span, format!("`{name}` is not declared"))
             .why("an assignment without a declaration would make a variable of the whole page");
         match self.closest_root(name) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(span, meant),
-            None => report.help(format!("write `const {name} = …` for this text only, or `ctx.{name} = …` to keep it in the lab")),
+            None => report.help(format!(
+                "write `const {name} = …` for this text only, or `ctx.{name} = …` to keep it in the lab"
+            )),
         }
     }
 
@@ -180,18 +207,21 @@ impl Binder<'_> {
 
     fn not_a_place(&self, target: &Expr) -> Diagnostic {
         let text = self.text(target.span);
-        let report = Diagnostic::error(code::NOT_ASSIGNABLE, target.span, format!("`{text}` cannot hold a value"));
+        let report =
+            Diagnostic::error(code::NOT_ASSIGNABLE, target.span, format!("`{text}` cannot hold a value"));
         match &target.kind {
-            ExprKind::Number(_) | ExprKind::String(_) | ExprKind::Boolean(_) | ExprKind::Null => {
-                report.why("it is a fixed value").help("write the field on the left of `=` and the value on the right")
-            }
-            ExprKind::Call { .. } => report.why("a call gives a value; it is not a place to store one").help("assign a field or a `ctx` variable"),
-            ExprKind::Logical { .. } | ExprKind::Conditional { .. } => {
-                report.why("`=` binds less tightly than what stands before it").help("to compare, write `===`; to assign, put the assignment into a statement of its own")
-            }
-            ExprKind::Binary { .. } | ExprKind::Unary { .. } => {
-                report.why("it is a computation").help("write the field on the left of `=` and the computation on the right")
-            }
+            ExprKind::Number(_) | ExprKind::String(_) | ExprKind::Boolean(_) | ExprKind::Null => report
+                .why("it is a fixed value")
+                .help("write the field on the left of `=` and the value on the right"),
+            ExprKind::Call { .. } => report
+                .why("a call gives a value; it is not a place to store one")
+                .help("assign a field or a `ctx` variable"),
+            ExprKind::Logical { .. } | ExprKind::Conditional { .. } => report
+                .why("`=` binds less tightly than what stands before it")
+                .help("to compare, write `===`; to assign, put the assignment into a statement of its own"),
+            ExprKind::Binary { .. } | ExprKind::Unary { .. } => report
+                .why("it is a computation")
+                .help("write the field on the left of `=` and the computation on the right"),
             _ => report.help("assign a field, as `data.qpos[0]`, or a variable of the lab, as `ctx.peak`"),
         }
     }
@@ -201,16 +231,27 @@ impl Binder<'_> {
         match &field.kind {
             FieldKind::State | FieldKind::Input | FieldKind::Constant | FieldKind::Inertial => Ok(()),
             FieldKind::Structure => self.refuse(
-                Diagnostic::error(code::ASSIGN_STRUCTURE, span, format!("`{}` is fixed when the model is compiled", field.path))
-                    .why(format!("it is {}; the engine finds its way in memory by it", doc(field)))
-                    .help("change the model itself"),
+                Diagnostic::error(
+                    code::ASSIGN_STRUCTURE,
+                    span,
+                    format!("`{}` is fixed when the model is compiled", field.path),
+                )
+                .why(format!("it is {}; the engine finds its way in memory by it", doc(field)))
+                .help("change the model itself"),
             ),
             FieldKind::Derived { by } => {
-                let computed = if by.is_empty() { "computed".to_owned() } else { format!("computed by {by}") };
-                let report = Diagnostic::error(code::ASSIGN_DERIVED, span, format!("`{}` is {computed}; it cannot be set", field.path))
-                    .why("whatever is stored there is overwritten by the next computation");
+                let computed =
+                    if by.is_empty() { "computed".to_owned() } else { format!("computed by {by}") };
+                let report = Diagnostic::error(
+                    code::ASSIGN_DERIVED,
+                    span,
+                    format!("`{}` is {computed}; it cannot be set", field.path),
+                )
+                .why("whatever is stored there is overwritten by the next computation");
                 self.refuse(match self.schema.refresh() {
-                    Some(refresh) => report.help(format!("set the state that it follows from, then call `{refresh}`")),
+                    Some(refresh) => {
+                        report.help(format!("set the state that it follows from, then call `{refresh}`"))
+                    }
                     None => report.help("set what it is computed from"),
                 })
             }
@@ -228,14 +269,25 @@ impl Binder<'_> {
         if value.ty != Type::String {
             return;
         }
-        let report = Diagnostic::warning(code::STRING_AS_NUMBER, value.span, "a string is stored where a number belongs");
+        let report = Diagnostic::warning(
+            code::STRING_AS_NUMBER,
+            value.span,
+            "a string is stored where a number belongs",
+        );
         let report = match value.known().map(Value::to_number) {
-            Some(x) if x.is_nan() => report.why("JavaScript stores NaN, and the simulation breaks").help("write the number"),
+            Some(x) if x.is_nan() => {
+                report.why("JavaScript stores NaN, and the simulation breaks").help("write the number")
+            }
             Some(x) => {
                 let meant = crate::number::to_text(x);
-                report.why("JavaScript stores the number in it").help(format!("write `{meant}`")).fix(value.span, meant)
+                report
+                    .why("JavaScript stores the number in it")
+                    .help(format!("write `{meant}`"))
+                    .fix(value.span, meant)
             }
-            None => report.why("JavaScript stores the number in it, or NaN when there is none").help("write `+text` if that is meant"),
+            None => report
+                .why("JavaScript stores the number in it, or NaN when there is none")
+                .help("write `+text` if that is meant"),
         };
         self.report(report);
     }

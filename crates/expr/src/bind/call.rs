@@ -46,7 +46,7 @@ impl Binder<'_> {
                 report.code = code::UNKNOWN_FUNCTION;
                 report.message = report.message.replace("unknown name", "unknown function");
                 if report.fix.is_none() {
-                    report.help = Some("functions of one's own are not supported yet; see the list of functions".into());
+                    report.help = Some("functions of one's own are not supported yet; write the expression where it is needed".into());
                 }
             }
         }
@@ -56,11 +56,7 @@ impl Binder<'_> {
     /// Looks for mistakes in arguments that will not be used.
     fn only_check(&mut self, args: &[Expr]) {
         for arg in args {
-            let before = self.diagnostics.len();
-            if self.thing(arg).is_ok() {
-                continue;
-            }
-            debug_assert!(self.diagnostics.len() >= before);
+            let _ = self.thing(arg);
         }
     }
 
@@ -72,21 +68,32 @@ impl Binder<'_> {
             Thing::Object(_) | Thing::Math | Thing::Globals => "an object",
             _ => "a value",
         };
-        let report = Diagnostic::error(code::NOT_CALLABLE, span, format!("`{text}` is {what}, not a function"));
+        let report =
+            Diagnostic::error(code::NOT_CALLABLE, span, format!("`{text}` is {what}, not a function"));
         match thing {
-            Thing::Field(field) if !field.is_scalar() => {
-                report.why("round brackets call a function").help(format!("elements are chosen with square brackets, as `{text}[0]`"))
-            }
-            _ => report.why("brackets behind a name call a function").help("if a product is meant, write `*` before the bracket"),
+            Thing::Field(field) if !field.is_scalar() => report
+                .why("round brackets call a function")
+                .help(format!("elements are chosen with square brackets, as `{text}[0]`")),
+            _ => report
+                .why("brackets behind a name call a function")
+                .help("if a product is meant, write `*` before the bracket"),
         }
     }
 
     /// The finding for a function that is named but not called.
-    pub(super) fn not_called(&self, span: Span) -> Diagnostic {
+    pub(super) fn not_called(&self, thing: &Thing, span: Span) -> Diagnostic {
         let text = self.text(span);
+        let call = match thing {
+            Thing::Function(id) => {
+                let signature = self.signature(&self.schema.function(*id));
+                let arguments = signature.split_once('(').map_or(")", |(_, rest)| rest);
+                format!("{text}({arguments}")
+            }
+            _ => format!("{text}(…)"),
+        };
         Diagnostic::error(code::NOT_CALLED, span, format!("`{text}` is a function, but it is not called"))
             .why("without arguments in brackets nothing happens, and a function is not a value here")
-            .help(format!("write `{text}(…)`"))
+            .help(format!("write `{call}`"))
     }
 
     fn math_call(&mut self, function: math::Function, args: &[Expr], span: Span) -> Attempt<Ir> {
@@ -115,9 +122,12 @@ impl Binder<'_> {
             let first = args.get(most).map_or(span, |a| a.span);
             let last = args.last().map_or(span, |a| a.span);
             let message = format!("`{path}` takes {}, this is ignored", count(most, "argument"));
-            let report = Diagnostic::warning(code::ARGUMENT_COUNT, first.to(last), message).why("JavaScript computes without it");
+            let report = Diagnostic::warning(code::ARGUMENT_COUNT, first.to(last), message)
+                .why("JavaScript computes without it");
             self.report(if path == "Math.round" {
-                report.help("to round to decimals, write `Math.round(100 * x) / 100`, or set `digits` of the readout")
+                report.help(
+                    "to round to decimals, write `Math.round(100 * x) / 100`, or set `digits` of the readout",
+                )
             } else {
                 report.help("remove it")
             });
@@ -129,15 +139,25 @@ impl Binder<'_> {
     fn expect_argument(&mut self, ir: &Ir, path: &str) {
         if ir.ty == Type::String {
             self.report(
-                Diagnostic::warning(code::STRING_AS_NUMBER, ir.span, format!("`{path}` needs a number, this is a string"))
-                    .why("JavaScript reads the number in it, or gives NaN when there is none")
-                    .help("write the number"),
+                Diagnostic::warning(
+                    code::STRING_AS_NUMBER,
+                    ir.span,
+                    format!("`{path}` needs a number, this is a string"),
+                )
+                .why("JavaScript reads the number in it, or gives NaN when there is none")
+                .help("write the number"),
             );
         }
     }
 
     /// A call of a function of the host.
-    pub(super) fn host_call(&mut self, id: FunctionId, args: &[Expr], callee: Span, span: Span) -> Attempt<Ir> {
+    pub(super) fn host_call(
+        &mut self,
+        id: FunctionId,
+        args: &[Expr],
+        callee: Span,
+        span: Span,
+    ) -> Attempt<Ir> {
         let info = self.schema.function(id);
         if info.aggregate {
             return self.aggregate(id, &info, args, span);
@@ -152,6 +172,10 @@ impl Binder<'_> {
         let mut passed = Vec::new();
         let mut failed = false;
         for (i, (param, arg)) in info.params.iter().zip(args).enumerate() {
+            // `f(data, model)` is one mistake, not two.
+            if failed && matches!(param, Param::Object(_)) {
+                continue;
+            }
             match self.argument(&info, i, *param, arg) {
                 Ok(ir) => passed.extend(ir),
                 Err(Reported) => failed = true,
@@ -167,10 +191,15 @@ impl Binder<'_> {
     fn wrong_count(&self, info: &FunctionInfo, args: &[Expr], callee: Span, span: Span) -> Diagnostic {
         let signature = self.signature(info);
         let n = info.params.len();
-        let wanted = if info.optional > 0 { format!("{} to {}", n.saturating_sub(info.optional), count(n, "argument")) } else { count(n, "argument") };
+        let wanted = if info.optional > 0 {
+            format!("{} to {}", n.saturating_sub(info.optional), count(n, "argument"))
+        } else {
+            count(n, "argument")
+        };
         let message = format!("`{}` takes {wanted}, not {}", info.name, args.len());
         let report = Diagnostic::error(code::ARGUMENT_COUNT, span, message).why(info.doc.clone());
-        let only_objects = !info.params.is_empty() && info.params.iter().all(|p| matches!(p, Param::Object(_)));
+        let only_objects =
+            !info.params.is_empty() && info.params.iter().all(|p| matches!(p, Param::Object(_)));
         if only_objects {
             let arguments = signature.split_once('(').map_or("", |(_, rest)| rest);
             let meant = format!("{}({arguments}", self.text(callee));
@@ -205,8 +234,7 @@ impl Binder<'_> {
                 self.refuse(
                     Diagnostic::error(code::ARGUMENT_TYPE, span, message)
                         .why("there is only one model and one data in a lab, and they stand in this order")
-                        .help(format!("write `{}`", self.signature(info)))
-                        .fix(span, object),
+                        .help(format!("write `{}`", self.signature(info))),
                 )
             }
             Param::Name(collection) => {
@@ -236,7 +264,8 @@ impl Binder<'_> {
     }
 
     fn wrong_type<T>(&mut self, info: &FunctionInfo, i: usize, ir: &Ir, wanted: &str) -> Attempt<T> {
-        let message = format!("argument {} of `{}` must be {wanted}, not {}", i + 1, info.name, ir.ty.describe());
+        let message =
+            format!("argument {} of `{}` must be {wanted}, not {}", i + 1, info.name, ir.ty.describe());
         let report = Diagnostic::error(code::ARGUMENT_TYPE, ir.span, message).why(info.doc.clone());
         let known = ir.known().map(|v| (v.type_of(), v.to_number()));
         self.refuse(match known {
@@ -271,7 +300,12 @@ impl Binder<'_> {
             self.locals = locals;
             match bound {
                 Ok(Some(ir)) => {
-                    programs.push(Program { code: lower::expression(&ir), effects, result: ir.ty, aggregates });
+                    programs.push(Program {
+                        code: lower::expression(&ir),
+                        effects,
+                        result: ir.ty,
+                        aggregates,
+                    });
                 }
                 Ok(None) => {}
                 Err(Reported) => failed = true,
@@ -315,8 +349,12 @@ impl Binder<'_> {
                     Method::Set => ("set", ".set([0, 0, 1], 0)"),
                 };
                 return self.refuse(
-                    Diagnostic::error(code::ARGUMENT_COUNT, span, format!("`.{name}` does not take {}", count(args.len(), "argument")))
-                        .help(format!("write `{}{example}`", field.path)),
+                    Diagnostic::error(
+                        code::ARGUMENT_COUNT,
+                        span,
+                        format!("`.{name}` does not take {}", count(args.len(), "argument")),
+                    )
+                    .help(format!("write `{}{example}`", field.path)),
                 );
             }
         };
@@ -330,9 +368,13 @@ impl Binder<'_> {
         match ir.known() {
             Some(Value::Number(x)) if *x >= 0.0 && x.fract() == 0.0 => Ok(*x as usize),
             _ => self.refuse(
-                Diagnostic::error(code::ARGUMENT_TYPE, offset.span, "the second argument of `.set` must be a whole number, written out")
-                    .why("it is the index of the first element that is stored")
-                    .help("write the number, as `.set([0, 0, 1], 7)`, or assign the elements one by one"),
+                Diagnostic::error(
+                    code::ARGUMENT_TYPE,
+                    offset.span,
+                    "the second argument of `.set` must be a whole number, written out",
+                )
+                .why("it is the index of the first element that is stored")
+                .help("write the number, as `.set([0, 0, 1], 7)`, or assign the elements one by one"),
             ),
         }
     }
@@ -341,8 +383,12 @@ impl Binder<'_> {
     fn items(&mut self, items: &Expr) -> Attempt<Vec<Ir>> {
         let ExprKind::Array(items) = &items.kind else {
             return self.refuse(
-                Diagnostic::error(code::ARGUMENT_TYPE, items.span, "`.set` needs its numbers in square brackets")
-                    .help("write `.set([0, 0, 1], 0)`; to store one number in all elements, write `.fill(0)`"),
+                Diagnostic::error(
+                    code::ARGUMENT_TYPE,
+                    items.span,
+                    "`.set` needs its numbers in square brackets",
+                )
+                .help("write `.set([0, 0, 1], 0)`; to store one number in all elements, write `.fill(0)`"),
             );
         };
         let bound: Vec<Attempt<Ir>> = items.iter().map(|item| self.value(item)).collect();
@@ -357,9 +403,21 @@ impl Binder<'_> {
         let end = offset.saturating_add(items.len());
         let Some(n) = field.len().filter(|n| end > *n) else { return Ok(()) };
         self.refuse(
-            Diagnostic::error(code::INDEX_RANGE, span, format!("{} from index {offset} on do not fit into `{}`", count(items.len(), "number"), field.path))
-                .why(if field.owner.is_empty() { format!("it has {}", count(n, "element")) } else { field.owner.clone() })
-                .help(format!("store at most {} from there", count(n.saturating_sub(offset), "number"))),
+            Diagnostic::error(
+                code::INDEX_RANGE,
+                span,
+                format!(
+                    "{} from index {offset} on do not fit into `{}`",
+                    count(items.len(), "number"),
+                    field.path
+                ),
+            )
+            .why(if field.owner.is_empty() {
+                format!("it has {}", count(n, "element"))
+            } else {
+                field.owner.clone()
+            })
+            .help(format!("store at most {} from there", count(n.saturating_sub(offset), "number"))),
         )
     }
 

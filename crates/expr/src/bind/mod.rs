@@ -10,7 +10,7 @@ mod value;
 
 use std::collections::BTreeSet;
 
-use crate::ast::{Expr, Stmt};
+use crate::ast::Stmt;
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::effects::Effects;
@@ -50,7 +50,7 @@ impl<'s> Compiler<'s> {
     pub fn expression(&mut self, source: &str) -> Compiled {
         let parsed = parse_expression(source);
         self.compile(source, parsed.diagnostics, Mode::Expression, |binder| {
-            let ir = binder.result(&parsed.tree)?;
+            let ir = binder.value(&parsed.tree)?;
             Ok((lower::expression(&ir), ir.ty))
         })
     }
@@ -202,15 +202,6 @@ impl Binder<'_> {
     /// The source of a part.
     fn text(&self, span: Span) -> &str {
         span.text(self.source)
-    }
-
-    /// The whole text as one value.
-    fn result(&mut self, expr: &Expr) -> Attempt<Ir> {
-        let ir = self.value(expr)?;
-        if ir.ty == Type::Void {
-            return self.refuse(no_result(expr.span, self.source));
-        }
-        Ok(ir)
     }
 
     fn statements(&mut self, statements: &[Stmt]) -> Vec<Step> {

@@ -16,7 +16,16 @@ const LANGUAGE: [&str; 7] = ["Math", "NaN", "Infinity", "undefined", "isNaN", "i
 /// Objects of a browser or of Node that a lesson does not have, and why.
 const GLOBALS: &[(&[&str], &str, &str)] = &[
     (
-        &["window", "document", "globalThis", "self", "global", "localStorage", "sessionStorage", "navigator"],
+        &[
+            "window",
+            "document",
+            "globalThis",
+            "self",
+            "global",
+            "localStorage",
+            "sessionStorage",
+            "navigator",
+        ],
         "a lesson runs without a page: in a browser, on a command line, in a notebook",
         "use the names of the lab: `model`, `data`, `ctx`",
     ),
@@ -37,14 +46,28 @@ const GLOBALS: &[(&[&str], &str, &str)] = &[
         "use the time of the simulation, `data.time`",
     ),
     (
-        &["Promise", "Symbol", "Reflect", "Proxy", "Object", "Array", "RegExp", "Map", "Set", "JSON", "Intl", "arguments"],
+        &[
+            "Promise",
+            "Symbol",
+            "Reflect",
+            "Proxy",
+            "Object",
+            "Array",
+            "RegExp",
+            "Map",
+            "Set",
+            "JSON",
+            "Intl",
+            "arguments",
+        ],
         "a lesson works on numbers of the simulation; it has no objects of its own",
         "keep numbers in variables of the lab, as `ctx.peak`",
     ),
 ];
 
 /// Members through which JavaScript reaches the machinery behind a value.
-pub(super) const MACHINERY: [&str; 5] = ["constructor", "prototype", "__proto__", "hasOwnProperty", "toString"];
+pub(super) const MACHINERY: [&str; 5] =
+    ["constructor", "prototype", "__proto__", "hasOwnProperty", "toString"];
 
 impl Binder<'_> {
     /// What a part of the source stands for.
@@ -85,9 +108,13 @@ impl Binder<'_> {
 
     fn unknown_root(&self, name: &str, span: Span) -> Diagnostic {
         if self.declared_later.iter().any(|n| n == name) {
-            return Diagnostic::error(code::USED_TOO_EARLY, span, format!("`{name}` is used before its declaration"))
-                .why("statements run from top to bottom: here the name has no value yet")
-                .help(format!("move the declaration of `{name}` up"));
+            return Diagnostic::error(
+                code::USED_TOO_EARLY,
+                span,
+                format!("`{name}` is used before its declaration"),
+            )
+            .why("statements run from top to bottom: here the name has no value yet")
+            .help(format!("move the declaration of `{name}` up"));
         }
         if name == "value" {
             return Diagnostic::error(code::NO_VALUE_HERE, span, "there is no `value` here")
@@ -95,9 +122,13 @@ impl Binder<'_> {
                 .help("give the control a `param` and read it as `ctx.<param>`");
         }
         if let Some((_, why, help)) = GLOBALS.iter().find(|(names, _, _)| names.contains(&name)) {
-            return Diagnostic::error(code::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
-                .why(*why)
-                .help(*help);
+            return Diagnostic::error(
+                code::NOT_IN_LANGUAGE,
+                span,
+                format!("`{name}` is not in this language"),
+            )
+            .why(*why)
+            .help(*help);
         }
         let report = Diagnostic::error(code::UNKNOWN_NAME, span, format!("unknown name `{name}`"));
         match self.meant_by_root(name) {
@@ -105,9 +136,9 @@ impl Binder<'_> {
             None => {
                 let mut known = self.schema.root_names();
                 known.extend(["ctx".to_owned(), "Math".to_owned()]);
-                report
-                    .why(format!("the names here are {}", list(&known)))
-                    .help(format!("to keep a number of your own, write `ctx.{name} = …` or `const {name} = …`"))
+                report.why(format!("the names here are {}", list(&known))).help(format!(
+                    "to keep a number of your own, write `ctx.{name} = …` or `const {name} = …`"
+                ))
             }
         }
     }
@@ -184,8 +215,8 @@ impl Binder<'_> {
                 let report = self.collection_needs_call(id, object.span, Some((&name.text, span)));
                 self.refuse(report)
             }
-            Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..) => {
-                let report = self.not_called(object.span);
+            thing @ (Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..)) => {
+                let report = self.not_called(&thing, object.span);
                 self.refuse(report)
             }
             Thing::Value(_) => {
@@ -214,9 +245,13 @@ impl Binder<'_> {
         if MACHINERY.contains(&name.text.as_str()) {
             return machinery(&name.text, name.span);
         }
-        Diagnostic::error(code::NOT_SUPPORTED, name.span, format!("`.{}` of a single value is not supported yet", name.text))
-            .why("a value here is a number, a boolean or a string, and has no members")
-            .help("write a field of an object, as `data.qpos`")
+        Diagnostic::error(
+            code::NOT_SUPPORTED,
+            name.span,
+            format!("`.{}` of a single value is not supported yet", name.text),
+        )
+        .why("a value here is a number, a boolean or a string, and has no members")
+        .help("write a field of an object, as `data.qpos`")
     }
 
     fn math_member(&mut self, name: &Name, span: Span) -> Attempt<Thing> {
@@ -233,10 +268,13 @@ impl Binder<'_> {
                     .help("use a fixed sequence, as `Math.sin(1000 * data.time)`, or a control"),
             );
         }
-        let report = Diagnostic::error(code::UNKNOWN_FUNCTION, name.span, format!("`Math` has no `{}`", name.text));
+        let report =
+            Diagnostic::error(code::UNKNOWN_FUNCTION, name.span, format!("`Math` has no `{}`", name.text));
         let report = match closest(&name.text, math::names()) {
             Some(meant) => report.help(format!("did you mean `Math.{meant}`?")).fix(name.span, meant),
-            None => report.why("`Math` has the functions and constants of JavaScript").help("see the list of functions"),
+            None => report
+                .why("`Math` has the functions and constants of JavaScript")
+                .help("write it with `+ - * / % **` and the functions there are"),
         };
         self.refuse(report)
     }
@@ -256,7 +294,10 @@ impl Binder<'_> {
             "fill" if array => Ok(Thing::Method(Method::Fill, field)),
             "set" if array => Ok(Thing::Method(Method::Set, field)),
             text if MACHINERY.contains(&text) => self.refuse(machinery(text, name.span)),
-            "map" | "reduce" | "slice" | "join" | "forEach" | "filter" | "some" | "every" | "at" | "indexOf" if array => {
+            "map" | "reduce" | "slice" | "join" | "forEach" | "filter" | "some" | "every" | "at"
+            | "indexOf"
+                if array =>
+            {
                 let message = format!("the method `{}` is not supported yet", name.text);
                 self.refuse(
                     Diagnostic::error(code::NOT_SUPPORTED, name.span, message)
@@ -264,8 +305,12 @@ impl Binder<'_> {
                 )
             }
             text if array => {
-                let report = Diagnostic::error(code::UNKNOWN_FIELD, name.span, format!("`{}` has no member `{text}`", field.path))
-                    .why("it is an array of numbers: its elements are chosen by index");
+                let report = Diagnostic::error(
+                    code::UNKNOWN_FIELD,
+                    name.span,
+                    format!("`{}` has no member `{text}`", field.path),
+                )
+                .why("it is an array of numbers: its elements are chosen by index");
                 let report = match text {
                     "x" | "y" | "z" if field.len() == Some(3) => {
                         let index = ["x", "y", "z"].iter().position(|n| *n == text).unwrap_or(0);
@@ -277,10 +322,14 @@ impl Binder<'_> {
                 self.refuse(report)
             }
             text => {
-                let report = Diagnostic::error(code::UNKNOWN_FIELD, name.span, format!("`{}` has no member `{text}`", field.path))
-                    .why("it is one number")
-                    .help(format!("remove `.{text}`"))
-                    .fix(Span::new(object.end, name.span.end), "");
+                let report = Diagnostic::error(
+                    code::UNKNOWN_FIELD,
+                    name.span,
+                    format!("`{}` has no member `{text}`", field.path),
+                )
+                .why("it is one number")
+                .help(format!("remove `.{text}`"))
+                .fix(Span::new(object.end, name.span.end), "");
                 self.refuse(report)
             }
         }
@@ -291,7 +340,11 @@ impl Binder<'_> {
         if MACHINERY.contains(&name.text.as_str()) {
             return machinery(&name.text, name.span);
         }
-        let report = Diagnostic::error(code::UNKNOWN_FIELD, name.span, format!("{} has no field `{}`", quoted(&object), name.text));
+        let report = Diagnostic::error(
+            code::UNKNOWN_FIELD,
+            name.span,
+            format!("{} has no field `{}`", quoted(&object), name.text),
+        );
         if let Some(hint) = self.schema.hint(id, &name.text) {
             return report.help(hint);
         }
@@ -301,9 +354,11 @@ impl Binder<'_> {
         match (here, elsewhere) {
             // The right name on the wrong object is nearer than another name on this one.
             (here, Some((cost, path))) if here.is_none_or(|(c, _)| cost < c) => {
-                let holder = path.rsplit_once('.').map_or("", |(holder, _)| holder);
+                let (holder, meant) = path.rsplit_once('.').unwrap_or(("", &path));
+                let how =
+                    if meant == name.text { "a field of this name" } else { "a field with a name like it" };
                 report
-                    .why(format!("a field of this name belongs to `{holder}`"))
+                    .why(format!("`{holder}` has {how}"))
                     .help(format!("did you mean `{path}`?"))
                     .fix(span, path)
             }

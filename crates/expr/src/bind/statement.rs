@@ -51,20 +51,21 @@ impl Binder<'_> {
     /// An expression as a statement; nothing to run when it has no effect.
     fn effect(&mut self, expr: &Expr) -> Attempt<Option<Ir>> {
         match &expr.kind {
-            ExprKind::Assign { target, op, value, .. } => self.assign(target, *op, value, expr.span).map(Some),
-            ExprKind::Update { target, increment, .. } => self.update(target, *increment, expr.span).map(Some),
+            ExprKind::Assign { target, op, value, .. } => {
+                self.assign(target, *op, value, expr.span).map(Some)
+            }
+            ExprKind::Update { target, increment, .. } => {
+                self.update(target, *increment, expr.span).map(Some)
+            }
             ExprKind::Call { .. } | ExprKind::Name(_) | ExprKind::Member { .. } => {
                 let ir = match self.thing(expr)? {
                     // The bare name of a function whose arguments are implied.
-                    Thing::Function(id) if self.schema.function(id).implied => self.host_call(id, &[], expr.span, expr.span)?,
-                    Thing::Function(id) => {
-                        let info = self.schema.function(id);
-                        let report = self.not_called(expr.span).why(info.doc);
-                        return self.refuse(report);
+                    Thing::Function(id) if self.schema.function(id).implied => {
+                        self.host_call(id, &[], expr.span, expr.span)?
                     }
                     Thing::Value(ir) if acts(&ir) => ir,
-                    Thing::MathFunction(_) | Thing::Method(..) => {
-                        let report = self.not_called(expr.span);
+                    thing @ (Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..)) => {
+                        let report = self.not_called(&thing, expr.span);
                         return self.refuse(report);
                     }
                     _ => {
@@ -74,9 +75,25 @@ impl Binder<'_> {
                 };
                 Ok(Some(ir))
             }
+            // `test && call()` and `test ? call() : call()`: the last parts are statements of their own.
+            ExprKind::Logical { op, left, right } => {
+                let (test, act) = (self.value(left), self.effect(right));
+                let test = test?;
+                Ok(act?.map(|act| Ir::logical(*op, test, act, expr.span)))
+            }
+            ExprKind::Conditional { test, then, otherwise } => {
+                let (test, then, otherwise) = (self.value(test), self.effect(then), self.effect(otherwise));
+                let (test, then, otherwise) = (test?, then?, otherwise?);
+                let nothing = || Ir::constant(Value::Undefined, expr.span);
+                if then.is_none() && otherwise.is_none() {
+                    return Ok(None);
+                }
+                let (then, otherwise) = (then.unwrap_or_else(nothing), otherwise.unwrap_or_else(nothing));
+                Ok(Some(Ir::choice(test, then, otherwise, expr.span)))
+            }
             _ => {
                 let ir = self.value(expr)?;
-                // `test && call()` acts, if only sometimes.
+                // A call in the middle of a computation acts all the same.
                 if acts(&ir) {
                     return Ok(Some(ir));
                 }
@@ -117,11 +134,19 @@ impl Binder<'_> {
         }
         let taken = self.locals.iter().any(|l| l.name == *name);
         if taken || is_language(name) || self.schema.root(name).is_some() {
-            let why = if taken { "it is declared above" } else { "it already means something in every text of a lab" };
+            let why = if taken {
+                "it is declared above"
+            } else {
+                "it already means something in every text of a lab"
+            };
             self.report(
                 Diagnostic::error(code::NAME_TAKEN, span, format!("`{name}` cannot be declared here"))
                     .why(format!("{why}; JavaScript refuses a second declaration"))
-                    .help(if taken { "assign it without `const` or `let`, or choose another name" } else { "choose another name" }),
+                    .help(if taken {
+                        "assign it without `const` or `let`, or choose another name"
+                    } else {
+                        "choose another name"
+                    }),
             );
             return;
         }
@@ -143,17 +168,21 @@ impl Binder<'_> {
         }
         let thing = match self.thing(value)? {
             Thing::Field(field) if !field.is_scalar() => Thing::Field(field),
-            Thing::Value(_) | Thing::Field(_) => {
-                let ir = self.value(value)?;
+            single @ (Thing::Value(_) | Thing::Field(_)) => {
+                let ir = self.value_of(single, value.span)?;
                 return Ok(self.declared_value(name, ir, steps));
             }
             other => other,
         };
         if !constant && self.reassigned.contains(name) {
             return self.refuse(
-                Diagnostic::error(code::NOT_A_VALUE, value.span, format!("`{}` is not a value that `{name}` can hold and change", self.text(value.span)))
-                    .why("a name for a part of the simulation means that part for good")
-                    .help(format!("declare it with `const {name}`, and use another name for the number")),
+                Diagnostic::error(
+                    code::NOT_A_VALUE,
+                    value.span,
+                    format!("`{}` is not a value that `{name}` can hold and change", self.text(value.span)),
+                )
+                .why("a name for a part of the simulation means that part for good")
+                .help(format!("declare it with `const {name}`, and use another name for the number")),
             );
         }
         Ok(Meaning::Alias(thing))
@@ -196,4 +225,3 @@ fn assigned_names(expr: &Expr, names: &mut BTreeSet<String>) {
         names.insert(name.clone());
     }
 }
-

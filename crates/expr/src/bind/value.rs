@@ -12,23 +12,20 @@ use crate::value::Value;
 impl Binder<'_> {
     /// A part of the source as a value.
     pub(super) fn value(&mut self, expr: &Expr) -> Attempt<Ir> {
-        let ir = match self.thing(expr)? {
-            Thing::Value(ir) => ir,
-            Thing::Field(field) if field.is_scalar() => self.load(&field, Index::At(0), expr.span),
-            Thing::Field(field) => {
-                let report = self.whole_array(&field, expr.span);
-                return self.refuse(report);
-            }
-            other => {
-                let report = self.not_a_value(&other, expr.span);
-                return self.refuse(report);
-            }
+        let thing = self.thing(expr)?;
+        self.value_of(thing, expr.span)
+    }
+
+    /// The value that a thing is.
+    pub(super) fn value_of(&mut self, thing: Thing, span: Span) -> Attempt<Ir> {
+        let report = match thing {
+            Thing::Value(ir) if ir.ty == Type::Void => no_result(span, self.source),
+            Thing::Value(ir) => return Ok(ir),
+            Thing::Field(field) if field.is_scalar() => return Ok(self.load(&field, Index::At(0), span)),
+            Thing::Field(field) => self.whole_array(&field, span),
+            other => self.not_a_value(&other, span),
         };
-        if ir.ty == Type::Void {
-            let report = no_result(expr.span, self.source);
-            return self.refuse(report);
-        }
-        Ok(ir)
+        self.refuse(report)
     }
 
     fn not_a_value(&self, thing: &Thing, span: Span) -> Diagnostic {
@@ -36,13 +33,19 @@ impl Binder<'_> {
         let error = |message: String| Diagnostic::error(code::NOT_A_VALUE, span, message);
         match thing {
             Thing::Collection(id) => self.collection_needs_call(*id, span, None),
-            Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..) => self.not_called(span),
-            Thing::Math => error("`Math` is not a value".into()).help("write one of its functions, as `Math.sqrt(x)`"),
-            Thing::Globals => error("`ctx` is not a value".into()).help("write one of its variables, as `ctx.peak`"),
+            Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..) => self.not_called(thing, span),
+            Thing::Math => {
+                error("`Math` is not a value".into()).help("write one of its functions, as `Math.sqrt(x)`")
+            }
+            Thing::Globals => {
+                error("`ctx` is not a value".into()).help("write one of its variables, as `ctx.peak`")
+            }
             Thing::Object(id) => {
                 let report = error(format!("{} is not a value", quoted(&self.schema.describe(*id))));
                 match self.schema.member_names(*id).first() {
-                    Some(first) => report.why("it is an object with fields").help(format!("write one of them, as `{text}.{first}`")),
+                    Some(first) => report
+                        .why("it is an object with fields")
+                        .help(format!("write one of them, as `{text}.{first}`")),
                     None => report,
                 }
             }
@@ -85,10 +88,15 @@ impl Binder<'_> {
             }
             ExprKind::Update { increment, .. } => {
                 let symbol = if *increment { "++" } else { "--" };
-                let inside = Diagnostic::error(code::ASSIGN_INSIDE, span, format!("`{symbol}` inside an expression"));
+                let inside =
+                    Diagnostic::error(code::ASSIGN_INSIDE, span, format!("`{symbol}` inside an expression"));
                 let report = match self.mode {
-                    Mode::Statements => inside.why("a change hidden in an expression is easily missed").help("write it as a statement of its own"),
-                    _ => inside.why("this text only reads a value").help("change the variable in `controller`"),
+                    Mode::Statements => inside
+                        .why("a change hidden in an expression is easily missed")
+                        .help("write it as a statement of its own"),
+                    _ => {
+                        inside.why("this text only reads a value").help("change the variable in `controller`")
+                    }
                 };
                 self.refuse(report)
             }
@@ -106,15 +114,26 @@ impl Binder<'_> {
 
     fn assignment_inside(&self, op: Option<BinaryOp>, op_span: Span, span: Span) -> Diagnostic {
         if self.mode == Mode::Expression && op.is_some() {
-            return Diagnostic::error(code::EXPRESSION_ONLY, op_span, "an assignment where only a value is read")
-                .why("this text is an expression: it gives a value and changes nothing")
-                .help("assign in `controller`, `apply` or `run`, and show the variable here");
+            return Diagnostic::error(
+                code::EXPRESSION_ONLY,
+                op_span,
+                "an assignment where only a value is read",
+            )
+            .why("this text is an expression: it gives a value and changes nothing")
+            .help("assign in `controller`, `apply` or `run`, and show the variable here");
         }
         let symbol = self.text(op_span);
-        let report = Diagnostic::error(code::ASSIGN_INSIDE, op_span, format!("`{symbol}` assigns; it does not compare"));
+        let report = Diagnostic::error(
+            code::ASSIGN_INSIDE,
+            op_span,
+            format!("`{symbol}` assigns; it does not compare"),
+        );
         let report = match self.mode {
-            Mode::Statements => report.why("inside an expression the value would be changed where a test was probably meant"),
-            _ => report.why(format!("this text only reads a value, and `{}` would change one", self.text(span))),
+            Mode::Statements => {
+                report.why("inside an expression the value would be changed where a test was probably meant")
+            }
+            _ => report
+                .why(format!("this text only reads a value, and `{}` would change one", self.text(span))),
         };
         match op {
             None => report.help("write `===` to compare").fix(op_span, "==="),
@@ -164,14 +183,23 @@ impl Binder<'_> {
         if ir.ty != Type::String {
             return;
         }
-        let report = Diagnostic::warning(code::STRING_AS_NUMBER, ir.span, format!("`{symbol}` needs a number, this is a string"));
+        let report = Diagnostic::warning(
+            code::STRING_AS_NUMBER,
+            ir.span,
+            format!("`{symbol}` needs a number, this is a string"),
+        );
         let report = match ir.known().map(Value::to_number) {
             Some(x) if x.is_nan() => report.why("JavaScript turns it into NaN").help("write the number"),
             Some(x) => {
                 let meant = crate::number::to_text(x);
-                report.why("JavaScript reads the number in it").help(format!("write `{meant}`")).fix(ir.span, meant)
+                report
+                    .why("JavaScript reads the number in it")
+                    .help(format!("write `{meant}`"))
+                    .fix(ir.span, meant)
             }
-            None => report.why("JavaScript reads the number in it, or gives NaN when there is none").help("write `+text` if that is meant"),
+            None => report
+                .why("JavaScript reads the number in it, or gives NaN when there is none")
+                .help("write `+text` if that is meant"),
         };
         self.report(report);
     }
@@ -186,8 +214,9 @@ impl Binder<'_> {
         let negated = matches!(op, BinaryOp::NotEqual | BinaryOp::StrictNotEqual);
         let result = if negated { "true" } else { "false" };
         let meant = format!("{}isNaN({other})", if negated { "!" } else { "" });
-        let report = Diagnostic::warning(code::COMPARE_NAN, span, format!("this comparison is always {result}"))
-            .why("NaN is not equal to anything, not even to itself, and neither smaller nor larger");
+        let report =
+            Diagnostic::warning(code::COMPARE_NAN, span, format!("this comparison is always {result}"))
+                .why("NaN is not equal to anything, not even to itself, and neither smaller nor larger");
         self.report(match op.power() {
             8 => report.help(format!("write `{meant}`")).fix(span, meant),
             _ => report.help("compare with a number"),
@@ -199,7 +228,9 @@ impl Binder<'_> {
         let ExprKind::Binary { op: inner, right: middle, left: first } = &left.kind else { return };
         let orders = |op: BinaryOp| op.power() == 9;
         // In `(a < b) < c` the parenthesis says that it is meant.
-        let enclosed = left.span.start < first.span.start && self.text(left.span).starts_with('(') && left.span.end > middle.span.end;
+        let enclosed = left.span.start < first.span.start
+            && self.text(left.span).starts_with('(')
+            && left.span.end > middle.span.end;
         if !(orders(op) && orders(*inner)) || enclosed {
             return;
         }
@@ -208,7 +239,10 @@ impl Binder<'_> {
         let meant = format!("{} && {middle} {last}", self.text(left.span));
         self.report(
             Diagnostic::warning(code::CHAINED_COMPARISON, span, "comparisons do not chain")
-                .why(format!("`{}` is true or false, and that is what is compared next, as 1 or 0", self.text(left.span)))
+                .why(format!(
+                    "`{}` is true or false, and that is what is compared next, as 1 or 0",
+                    self.text(left.span)
+                ))
                 .help(format!("write `{meant}`"))
                 .fix(span, meant),
         );

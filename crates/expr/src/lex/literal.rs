@@ -38,7 +38,10 @@ fn prefixed(input: &str) -> IResult<&str, &str> {
 /// `1`, `1.5`, `.5`, `5.`, `1e-3`
 fn decimal(input: &str) -> IResult<&str, &str> {
     let fraction = (char('.'), take_while(is_digit));
-    let mantissa = alt((recognize((take_while1(is_digit), opt(fraction))), recognize((char('.'), take_while1(is_digit)))));
+    let mantissa = alt((
+        recognize((take_while1(is_digit), opt(fraction))),
+        recognize((char('.'), take_while1(is_digit))),
+    ));
     let exponent = (one_of("eE"), opt(one_of("+-")), take_while1(is_digit));
     recognize((mantissa, opt(exponent))).parse(input)
 }
@@ -76,7 +79,11 @@ fn check(text: &str, tail: &str, span: Span) -> Result<f64, Diagnostic> {
     let second = text.chars().nth(1).unwrap_or('.');
     if text.starts_with('0') && (second.is_ascii_digit() || second == '_') {
         let trimmed = text.trim_start_matches(['0', '_']);
-        let meant = if trimmed.starts_with(|c: char| c.is_ascii_digit()) { trimmed.into() } else { format!("0{trimmed}") };
+        let meant = if trimmed.starts_with(|c: char| c.is_ascii_digit()) {
+            trimmed.into()
+        } else {
+            format!("0{trimmed}")
+        };
         return Err(bad(format!("`{text}` starts with a zero too many"))
             .why("JavaScript refuses it, or reads it in base 8")
             .help(format!("write `{meant}`"))
@@ -217,9 +224,15 @@ mod tests {
 
     #[test]
     fn numbers() {
-        for (source, value) in
-            [("1_000.5", 1000.5), (".5e1", 5.0), ("5.", 5.0), ("0x_ff", f64::NAN), ("0xff", 255.0), ("0B11", 3.0), ("1e400", f64::INFINITY)]
-        {
+        for (source, value) in [
+            ("1_000.5", 1000.5),
+            (".5e1", 5.0),
+            ("5.", 5.0),
+            ("0x_ff", f64::NAN),
+            ("0xff", 255.0),
+            ("0B11", 3.0),
+            ("1e400", f64::INFINITY),
+        ] {
             let (kind, found) = read(source);
             if value.is_nan() {
                 assert_eq!(found.len(), 1, "{source}");

@@ -37,9 +37,10 @@ pub(crate) enum Tok {
 
 /// All symbols, longer ones before their beginnings.
 const SYMBOLS: &[&str] = &[
-    ">>>=", "===", "!==", "**=", "<<=", ">>=", ">>>", "...", "&&=", "||=", "??=", "=>", "==", "!=", "<=", ">=", "&&",
-    "||", "??", "?.", "++", "--", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "<<", ">>", "**", "{", "}", "(", ")",
-    "[", "]", ";", ",", "<", ">", "+", "-", "*", "/", "%", "&", "|", "^", "!", "~", "?", ":", "=", ".", "@", "#",
+    ">>>=", "===", "!==", "**=", "<<=", ">>=", ">>>", "...", "&&=", "||=", "??=", "=>", "==", "!=", "<=",
+    ">=", "&&", "||", "??", "?.", "++", "--", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "<<", ">>",
+    "**", "{", "}", "(", ")", "[", "]", ";", ",", "<", ">", "+", "-", "*", "/", "%", "&", "|", "^", "!", "~",
+    "?", ":", "=", ".", "@", "#",
 ];
 
 /// All tokens of a text, the last one [`Tok::End`].
@@ -134,6 +135,16 @@ fn token<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Diagnostic>) -> (&
     if let Ok((behind, text)) = symbol(input) {
         return (behind, Tok::Symbol(text));
     }
+    if let Some((behind, text)) = typographic(input) {
+        let span = Span::new(at, at + input.len() - behind.len());
+        diagnostics.push(
+            Diagnostic::error(code::BAD_CHARACTER, span, "typographic quotes do not make a string")
+                .why("word processors put them in place of the plain ones")
+                .help("write `\"` or `'`")
+                .fix(span, format!("\"{text}\"")),
+        );
+        return (behind, Tok::Text(text.to_owned()));
+    }
     let behind = input.get(first.len_utf8()..).unwrap_or("");
     let span = Span::new(at, at + first.len_utf8());
     diagnostics.push(bad_character(first, span));
@@ -164,6 +175,18 @@ fn symbol(input: &str) -> IResult<&str, &'static str> {
         return Ok((behind, text));
     }
     Err(nom::Err::Error(nom::error::Error::new(input, nom::error::ErrorKind::Tag)))
+}
+
+fn is_typographic(c: char) -> bool {
+    matches!(c, '“' | '”' | '„' | '‘' | '’' | '‚' | '«' | '»')
+}
+
+/// The text between two typographic quotes, and what is behind them.
+fn typographic(input: &str) -> Option<(&str, &str)> {
+    let inner = input.strip_prefix(is_typographic)?;
+    let end = inner.find(|c| is_typographic(c) || is_line_end(c) || matches!(c, '"' | '\\'))?;
+    let (text, closing) = inner.split_at(end);
+    Some((closing.strip_prefix(is_typographic)?, text))
 }
 
 /// What people mean by signs that word processors and formula editors write.
@@ -197,11 +220,11 @@ fn bad_character(c: char, span: Span) -> Diagnostic {
             .fix(span, text);
     }
     match c {
-        '“' | '”' | '„' | '‘' | '’' | '«' | '»' => report
-            .why("typographic quotes do not start a string")
-            .help("write `\"` or `'`"),
-        '²' => report.why("superscripts are not operators").help("write `** 2`").fix(span, "**2"),
-        '³' => report.why("superscripts are not operators").help("write `** 3`").fix(span, "**3"),
+        c if is_typographic(c) => {
+            report.why("typographic quotes do not make a string").help("write `\"` or `'`")
+        }
+        '²' => report.why("superscripts are not operators").help("write `** 2`").fix(span, " ** 2"),
+        '³' => report.why("superscripts are not operators").help("write `** 3`").fix(span, " ** 3"),
         '√' => report.why("signs of mathematics are not operators").help("write `Math.sqrt(…)`"),
         '°' => report
             .why("angles have no unit sign; functions of `Math` take radians")
@@ -238,13 +261,7 @@ mod tests {
     fn a_question_mark_before_a_decimal_is_a_choice() {
         assert_eq!(
             kinds("a?.5:1"),
-            [
-                Tok::Word("a".into()),
-                Tok::Symbol("?"),
-                Tok::Number(0.5),
-                Tok::Symbol(":"),
-                Tok::Number(1.0)
-            ]
+            [Tok::Word("a".into()), Tok::Symbol("?"), Tok::Number(0.5), Tok::Symbol(":"), Tok::Number(1.0)]
         );
     }
 

@@ -118,7 +118,7 @@ impl Parser<'_> {
                 self.node(ExprKind::Member { object, name }, span, left.height)
             }
             "[" => {
-                let (index, closer) = self.enclosed(opener, "]", "an index")?;
+                let (index, closer) = self.enclosed(opener, "]", CHOICE)?;
                 let height = left.height.max(index.height);
                 self.node(ExprKind::Index { object, index: Box::new(index.expr) }, start.to(closer), height)
             }
@@ -156,16 +156,23 @@ impl Parser<'_> {
 
     fn binary(&mut self, left: Node, operator: Infix, binds: u8) -> Attempt<Node> {
         let power = matches!(operator, Infix::Binary(BinaryOp::Power));
-        if let (true, false, ExprKind::Unary { op, operand }) = (power, left.closed, &left.expr.kind) {
-            let (sign, base) = (op.symbol(), operand.span.text(self.source));
-            let report = Diagnostic::error(code::AMBIGUOUS_POWER, left.expr.span, format!("a `{sign}` directly before a power"))
-                .why("it could mean the power of the negative or the negative of the power; JavaScript refuses it")
-                .help(format!("write `({sign}{base}) ** …` or `{sign}({base} ** …)`"));
-            self.diagnostics.push(report); // and read on, as if it were the first
-        }
         self.bump();
         // `**` groups from the right, all others from the left.
         let right = self.expression(if power { binds } else { binds + 1 })?;
+        if let (true, false, ExprKind::Unary { op, operand }) = (power, left.closed, &left.expr.kind) {
+            let (sign, base) = (op.symbol(), operand.span.text(self.source));
+            let exponent = right.expr.span.text(self.source);
+            let report = Diagnostic::error(
+                code::AMBIGUOUS_POWER,
+                left.expr.span,
+                format!("a `{sign}` directly before a power"),
+            )
+            .why(
+                "it could mean the power of the negative or the negative of the power; JavaScript refuses it",
+            )
+            .help(format!("write `{sign}({base} ** {exponent})` or `({sign}{base}) ** {exponent}`"));
+            self.diagnostics.push(report); // and read on, as if it were the second
+        }
         let span = left.expr.span.to(right.expr.span);
         let height = left.height.max(right.height);
         let (left, right) = (Box::new(left.expr), Box::new(right.expr));
@@ -229,7 +236,9 @@ impl Parser<'_> {
 
     fn prefix_symbol(&mut self, symbol: &'static str) -> Attempt<Node> {
         let span = self.span();
-        let sign = [UnaryOp::Minus, UnaryOp::Plus, UnaryOp::Not, UnaryOp::BitNot].into_iter().find(|op| op.symbol() == symbol);
+        let sign = [UnaryOp::Minus, UnaryOp::Plus, UnaryOp::Not, UnaryOp::BitNot]
+            .into_iter()
+            .find(|op| op.symbol() == symbol);
         if let Some(op) = sign {
             self.bump();
             let operand = self.expression(SIGN)?;
@@ -251,7 +260,9 @@ impl Parser<'_> {
                 let (items, height, closer) = self.list(opener, "]")?;
                 self.node(ExprKind::Array(items), opener.to(closer), height)
             }
-            _ => match refuse::symbol(symbol, span).filter(|_| !matches!(symbol, "=>" | "?." | "??" | "??=" | "&&=" | "||=")) {
+            _ => match refuse::symbol(symbol, span)
+                .filter(|_| !matches!(symbol, "=>" | "?." | "??" | "??=" | "&&=" | "||="))
+            {
                 Some(report) => self.refuse(report),
                 None => self.expected_value(),
             },
@@ -266,7 +277,7 @@ impl Parser<'_> {
             return Err(Reported);
         }
         let opener = self.bump();
-        let (inner, closer) = self.enclosed(opener, ")", "an expression")?;
+        let (inner, closer) = self.enclosed(opener, ")", ASSIGNMENT)?;
         let span = opener.to(closer);
         Ok(Node { expr: Expr { span, ..inner.expr }, closed: true, height: inner.height })
     }
@@ -282,15 +293,21 @@ impl Parser<'_> {
     }
 
     /// One expression and its closing bracket; a mistake inside is skipped to the bracket.
-    fn enclosed(&mut self, opener: Span, closer: &str, what: &str) -> Attempt<(Node, Span)> {
+    fn enclosed(&mut self, opener: Span, closer: &str, power: u8) -> Attempt<(Node, Span)> {
         if self.is(closer) {
             let span = opener.to(self.bump());
-            let report = Diagnostic::error(code::UNEXPECTED, span, format!("{what} is missing between the brackets"))
-                .help(if closer == "]" { "write the index, as `[0]`" } else { "write the expression, or remove the brackets" });
+            let what = if closer == "]" { "an index" } else { "an expression" };
+            let report =
+                Diagnostic::error(code::UNEXPECTED, span, format!("{what} is missing between the brackets"))
+                    .help(if closer == "]" {
+                        "write the index, as `[0]`"
+                    } else {
+                        "write the expression, or remove the brackets"
+                    });
             self.diagnostics.push(report);
             return Ok((error_node(span), span));
         }
-        let inner = match self.expression(ASSIGNMENT) {
+        let inner = match self.expression(power) {
             Ok(inner) => inner,
             Err(Reported) => {
                 let span = self.span();
@@ -339,7 +356,8 @@ impl Parser<'_> {
 
     /// The finding when something else stands where a bracket must close.
     fn unclosed(&mut self, opener: Span, closer: &str, before: Span) -> Option<Diagnostic> {
-        let ends = self.ended() || matches!(self.peek(), Tok::Symbol(";" | ")" | "]" | "}"));
+        // An index holds no assignment, so `=` shows that its bracket should have been closed.
+        let ends = self.ended() || matches!(self.peek(), Tok::Symbol(";" | ")" | "]" | "}" | "="));
         if !ends {
             return self.unexpected_behind(before);
         }
@@ -363,7 +381,9 @@ impl Parser<'_> {
         }
         report = match self.peek() {
             // `a = == b`, `a * * b`: two operators in a row.
-            Tok::Symbol(symbol) if infix(symbol).is_some() => report.help(format!("remove one of the operators, or write the value between `{before}` and `{symbol}`")),
+            Tok::Symbol(symbol) if infix(symbol).is_some() => report.help(format!(
+                "remove one of the operators, or write the value between `{before}` and `{symbol}`"
+            )),
             _ => report.help("write a number, a name such as `data.time`, or an expression in parentheses"),
         };
         self.refuse(report)
@@ -392,7 +412,9 @@ mod tests {
         match &e.kind {
             Unary { op, operand } => format!("({}{})", op.symbol(), explicit(operand)),
             Binary { op, left, right } => format!("({} {} {})", explicit(left), op.symbol(), explicit(right)),
-            Logical { op, left, right } => format!("({} {} {})", explicit(left), op.symbol(), explicit(right)),
+            Logical { op, left, right } => {
+                format!("({} {} {})", explicit(left), op.symbol(), explicit(right))
+            }
             Conditional { test, then, otherwise } => {
                 format!("({} ? {} : {})", explicit(test), explicit(then), explicit(otherwise))
             }
@@ -438,7 +460,14 @@ mod tests {
 
     #[test]
     fn lines_end_statements_where_javascript_ends_them() {
-        for (source, count) in [("a = 1\nb = 2", 2), ("a = 1 +\n2", 1), ("a\n.b = 3", 1), ("a = b\n++c", 2), (";;a = 1;", 1), ("", 0)] {
+        for (source, count) in [
+            ("a = 1\nb = 2", 2),
+            ("a = 1 +\n2", 1),
+            ("a\n.b = 3", 1),
+            ("a = b\n++c", 2),
+            (";;a = 1;", 1),
+            ("", 0),
+        ] {
             let parsed = parse_statements(source);
             assert!(parsed.diagnostics.is_empty(), "{source}: {:?}", parsed.diagnostics);
             assert_eq!(parsed.tree.len(), count, "{source:?}");

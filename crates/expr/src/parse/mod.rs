@@ -43,8 +43,12 @@ pub(crate) fn in_order(mut found: Vec<Diagnostic>) -> Vec<Diagnostic> {
         found.truncate(MAX_DIAGNOSTICS);
         let span = found.last().map_or(Span::default(), |d| d.span.after());
         found.push(
-            Diagnostic::error(code::TOO_MANY_ERRORS, span, format!("more than {MAX_DIAGNOSTICS} mistakes: the rest is not shown"))
-                .help("repair the first ones; the others may follow from them"),
+            Diagnostic::error(
+                code::TOO_MANY_ERRORS,
+                span,
+                format!("more than {MAX_DIAGNOSTICS} mistakes: the rest is not shown"),
+            )
+            .help("repair the first ones; the others may follow from them"),
         );
     }
     found
@@ -69,7 +73,8 @@ impl<'s> Parser<'s> {
     fn new(source: &'s str) -> Parser<'s> {
         let mut diagnostics = Vec::new();
         let tokens = if source.len() > MAX_SOURCE {
-            let message = format!("the text has {} bytes, the language reads at most {MAX_SOURCE}", source.len());
+            let message =
+                format!("the text has {} bytes, the language reads at most {MAX_SOURCE}", source.len());
             diagnostics.push(
                 Diagnostic::error(code::TOO_LONG, Span::default(), message)
                     .help("split it: into several controls, or a `setup` and a `controller`"),
@@ -90,9 +95,10 @@ impl<'s> Parser<'s> {
         self.tokens.get(self.at + n).map_or(&Tok::End, |t| &t.kind)
     }
 
-    /// The place of the next token.
+    /// The place of the next token; the end of the text is where its last token ends.
     fn span(&self) -> Span {
-        self.tokens.get(self.at).map_or(Span::new(self.source.len(), self.source.len()), |t| t.span)
+        let next = self.tokens.get(self.at).filter(|t| t.kind != Tok::End);
+        next.map_or(self.last_span().after(), |t| t.span)
     }
 
     /// The place of the token before.
@@ -202,7 +208,10 @@ impl<'s> Parser<'s> {
         self.bump();
         let report = Diagnostic::error(code::EXPRESSION_ONLY, span, "an expression does not end with `;`");
         Some(if self.ended() {
-            report.why("this text is one value, not a list of statements").help("remove the `;`").fix(span, "")
+            report
+                .why("this text is one value, not a list of statements")
+                .help("remove the `;`")
+                .fix(span, "")
         } else {
             report
                 .why("only one value is read here; a second statement has no place")

@@ -6,7 +6,9 @@ use crate::diagnostic::{Diagnostic, Span};
 
 /// On purpose.
 fn never(span: Span, name: &str, why: &str, help: &str) -> Diagnostic {
-    Diagnostic::error(code::NOT_IN_LANGUAGE, span, format!("{name} are not in this language")).why(why).help(help)
+    Diagnostic::error(code::NOT_IN_LANGUAGE, span, format!("{name} are not in this language"))
+        .why(why)
+        .help(help)
 }
 
 /// Not yet.
@@ -15,7 +17,8 @@ fn not_yet(span: Span, name: &str, help: &str) -> Diagnostic {
 }
 
 const NO_OBJECTS: &str = "a lesson works on numbers of the simulation; it has no objects of its own";
-const NO_TIME: &str = "every text runs to its end between two steps of the simulation; nothing is ever waited for";
+const NO_TIME: &str =
+    "every text runs to its end between two steps of the simulation; nothing is ever waited for";
 const NO_EXCEPTIONS: &str = "mistakes are found before the run, so there is nothing to catch";
 const STORE_HELP: &str = "keep numbers in variables of the lab, as `ctx.peak`";
 
@@ -24,10 +27,17 @@ pub(super) fn word(word: &str, span: Span) -> Option<Diagnostic> {
     let name = format!("`{word}`");
     let statements = format!("`{word}` statements");
     Some(match word {
-        "this" | "super" => never(span, &format!("{name} references"), NO_OBJECTS, "name the thing itself, as `data` or `ctx`"),
+        "this" | "super" => never(
+            span,
+            &format!("{name} references"),
+            NO_OBJECTS,
+            "name the thing itself, as `data` or `ctx`",
+        ),
         "class" | "extends" | "enum" | "interface" => never(span, "classes", NO_OBJECTS, STORE_HELP),
         "new" => never(span, "objects made with `new`", NO_OBJECTS, STORE_HELP),
-        "async" | "await" | "yield" => never(span, &format!("{name} and waiting"), NO_TIME, "test `data.time` in the controller instead"),
+        "async" | "await" | "yield" => {
+            never(span, &format!("{name} and waiting"), NO_TIME, "test `data.time` in the controller instead")
+        }
         "try" | "catch" | "finally" | "throw" => {
             never(span, "exceptions", NO_EXCEPTIONS, "test for the case itself, with `? :`")
         }
@@ -43,14 +53,27 @@ pub(super) fn word(word: &str, span: Span) -> Option<Diagnostic> {
             never(span, &format!("{name} tests"), NO_OBJECTS, "compare with a value, as `ctx.start == null`")
         }
         "with" => never(span, &statements, "names must mean the same everywhere", "write the names in full"),
-        "debugger" => never(span, "`debugger` statements", "a lesson is not run in a debugger", "show the value in a readout"),
-        "if" | "else" => not_yet(span, &statements, "choose a value with `test ? a : b`, as `data.ctrl[0] = data.time > 1 ? 5 : 0`"),
+        "debugger" => never(
+            span,
+            "`debugger` statements",
+            "a lesson is not run in a debugger",
+            "show the value in a readout",
+        ),
+        "if" | "else" => not_yet(
+            span,
+            &statements,
+            "choose a value with `test ? a : b`, as `data.ctrl[0] = data.time > 1 ? 5 : 0`",
+        ),
         "for" | "while" | "do" => not_yet(span, "loops", "write the statements out, one for each index"),
-        "switch" | "case" | "default" => not_yet(span, "`switch` statements", "choose a value with `test ? a : b`"),
+        "switch" | "case" | "default" => {
+            not_yet(span, "`switch` statements", "choose a value with `test ? a : b`")
+        }
         "break" | "continue" => not_yet(span, "loops", "write the statements out"),
         "return" => not_yet(span, "`return` statements", "write the value itself, or store it in `ctx`"),
         "function" => not_yet(span, "functions of one's own", "write the expression where it is needed"),
-        "typeof" => not_yet(span, "`typeof` tests", "compare with `null` or `undefined`, as `ctx.start == null`"),
+        "typeof" => {
+            not_yet(span, "`typeof` tests", "compare with `null` or `undefined`, as `ctx.start == null`")
+        }
         "var" | "const" | "let" | "true" | "false" | "null" => return None,
         _ => return None,
     })
@@ -64,7 +87,9 @@ pub(super) fn symbol(text: &str, span: Span) -> Option<Diagnostic> {
         "?." => not_yet(span, "optional members", "write `.`: names are checked before the run"),
         "??" | "??=" => not_yet(span, "`??` defaults", "write `x == null ? y : x`"),
         "&&=" | "||=" => not_yet(span, "logical assignments", "write `x = x || y`"),
-        "{" => not_yet(span, "object literals and blocks", "store the parts one by one, as `ctx.a` and `ctx.b`"),
+        "{" => {
+            not_yet(span, "object literals and blocks", "store the parts one by one, as `ctx.a` and `ctx.b`")
+        }
         "/" | "/=" => never(
             span,
             "regular expressions",

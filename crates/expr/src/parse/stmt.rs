@@ -151,24 +151,36 @@ impl Parser<'_> {
             Tok::Symbol("{" | "[") => return self.refuse(refuse::pattern(span)),
             Tok::Bad => return Err(Reported),
             _ => {
-                let report = Diagnostic::error(code::UNEXPECTED, span, format!("expected a name, found {}", self.shown()))
-                    .why(format!("`{}` declares a name", opener.text(self.source)))
-                    .help("write `const angle = data.qpos[0]`");
+                let report = Diagnostic::error(
+                    code::UNEXPECTED,
+                    span,
+                    format!("expected a name, found {}", self.shown()),
+                )
+                .why(format!("`{}` declares a name", opener.text(self.source)))
+                .help("write `const angle = data.qpos[0]`");
                 return self.refuse(report);
             }
         };
         let reserved = matches!(text.as_str(), "true" | "false" | "null" | "const" | "let" | "var");
         if reserved || refuse::word(&text, span).is_some() {
-            let report = Diagnostic::error(code::NAME_TAKEN, span, format!("`{text}` is a word of the language, not a name"))
-                .help("choose another name");
+            let report = Diagnostic::error(
+                code::NAME_TAKEN,
+                span,
+                format!("`{text}` is a word of the language, not a name"),
+            )
+            .help("choose another name");
             return self.refuse(report);
         }
         self.bump();
         let value = if self.eat("=").is_some() { Some(self.assignment()?) } else { None };
         if constant && value.is_none() {
-            let report = Diagnostic::error(code::UNEXPECTED, span, format!("`{text}` is declared with `const` but gets no value"))
-                .why("a `const` name never changes, so it needs its value at once")
-                .help(format!("write `const {text} = …`, or `let {text}` when it gets its value later"));
+            let report = Diagnostic::error(
+                code::UNEXPECTED,
+                span,
+                format!("`{text}` is declared with `const` but gets no value"),
+            )
+            .why("a `const` name never changes, so it needs its value at once")
+            .help(format!("write `const {text} = …`, or `let {text}` when it gets its value later"));
             return self.refuse(report);
         }
         Ok(Declarator { name: Name { text, span }, value })
@@ -190,7 +202,14 @@ impl Parser<'_> {
         let shown = self.shown();
         match self.peek() {
             Tok::Bad => None,
-            Tok::Symbol(",") => Some(refuse::comma(span, self.decimal_comma())),
+            Tok::Symbol(",") => {
+                let decimal = self.decimal_comma();
+                if let Some((number, _)) = &decimal {
+                    // `02` behind the comma is not a number of its own.
+                    self.diagnostics.retain(|d| d.span.start < number.start || d.span.end > number.end);
+                }
+                Some(refuse::comma(span, decimal))
+            }
             Tok::Symbol(closer @ (")" | "]" | "}")) => Some(
                 Diagnostic::error(code::UNEXPECTED, span, format!("`{closer}` closes nothing"))
                     .why("no bracket is open here")
@@ -201,10 +220,13 @@ impl Parser<'_> {
                 Diagnostic::error(code::UNEXPECTED, span, "`:` without a `?` before it")
                     .help("a choice is written `test ? a : b`"),
             ),
-            Tok::Symbol(text) if refuse::symbol(text, span).is_some() && *text != "/" => refuse::symbol(text, span),
-            Tok::Symbol(text) => {
-                Some(Diagnostic::error(code::UNEXPECTED, span, format!("`{text}` has no place here")).help("remove it"))
+            Tok::Symbol(text) if refuse::symbol(text, span).is_some() && *text != "/" => {
+                refuse::symbol(text, span)
             }
+            Tok::Symbol(text) => Some(
+                Diagnostic::error(code::UNEXPECTED, span, format!("`{text}` has no place here"))
+                    .help("remove it"),
+            ),
             Tok::Template => Some(refuse::template(span)),
             Tok::Word(word) if matches!(word.as_str(), "in" | "instanceof") => refuse::word(word, span),
             _ => {

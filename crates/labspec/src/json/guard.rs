@@ -22,8 +22,12 @@ pub(super) fn check(text: &str) -> Option<Finding> {
                 depth += 1;
                 if depth > MAX_DEPTH {
                     return Some(
-                        Finding::new(&LIMIT, at..at + 1, format!("more than {MAX_DEPTH} brackets inside each other"))
-                            .help("a lab needs about eight; look for a bracket that is not closed"),
+                        Finding::new(
+                            &LIMIT,
+                            at..at + 1,
+                            format!("more than {MAX_DEPTH} brackets inside each other"),
+                        )
+                        .help("a lab needs about eight; look for a bracket that is not closed"),
                     );
                 }
             }
@@ -32,8 +36,12 @@ pub(super) fn check(text: &str) -> Option<Finding> {
                 values += 1;
                 if values > MAX_VALUES {
                     return Some(
-                        Finding::new(&LIMIT, at..at + 1, format!("more than {MAX_VALUES} values in one JSON text"))
-                            .help("split it into several labs"),
+                        Finding::new(
+                            &LIMIT,
+                            at..at + 1,
+                            format!("more than {MAX_VALUES} values in one JSON text"),
+                        )
+                        .help("split it into several labs"),
                     );
                 }
             }
@@ -50,9 +58,15 @@ pub(super) fn check(text: &str) -> Option<Finding> {
             _ if c.is_whitespace() || c.is_control() || c == '\u{feff}' => {
                 let end = at + c.len_utf8();
                 return Some(
-                    Finding::new(&SYNTAX, at..end, format!("an invisible character (U+{:04X}) between values", c as u32))
-                        .help("delete it and type an ordinary space; it often comes from copying out of a web page")
-                        .fix(at..end, " "),
+                    Finding::new(
+                        &SYNTAX,
+                        at..end,
+                        format!("an invisible character (U+{:04X}) between values", c as u32),
+                    )
+                    .help(
+                        "delete it and type an ordinary space; it often comes from copying out of a web page",
+                    )
+                    .fix(at..end, " "),
                 );
             }
             _ => {}
@@ -62,7 +76,8 @@ pub(super) fn check(text: &str) -> Option<Finding> {
 }
 
 fn comment(span: std::ops::Range<usize>) -> Finding {
-    Finding::new(&SYNTAX, span, "JSON has no comments").help("delete it, or say it in the text around the fence")
+    Finding::new(&SYNTAX, span, "JSON has no comments")
+        .help("delete it, or say it in the text around the fence")
 }
 
 /// Walks over a string whose opening quote stands at `open`.

@@ -1,11 +1,12 @@
 //! From JSON text to a tree whose every node knows its place in the author's file.
 
+use super::explain::{explain, missing_comma};
 use super::{guard, strings};
 use crate::finding::Finding;
 use crate::lint::rules::json::{DUPLICATE_KEY, SYNTAX};
 use crate::source::{SourceMap, Text};
 use jsonc_parser::ast;
-use jsonc_parser::errors::{ParseError, ParseErrorKind as Kind};
+use jsonc_parser::errors::ParseError;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -89,7 +90,8 @@ fn strict(text: &str) -> Result<Option<ast::Value<'_>>, ParseError> {
         allow_non_finite_numbers: false,
         allow_extended_string_escapes: false,
     };
-    jsonc_parser::parse_to_ast(text, &jsonc_parser::CollectOptions::default(), &options).map(|parsed| parsed.value)
+    jsonc_parser::parse_to_ast(text, &jsonc_parser::CollectOptions::default(), &options)
+        .map(|parsed| parsed.value)
 }
 
 struct Builder<'a> {
@@ -170,9 +172,13 @@ impl Builder<'_> {
             let key = self.string(&name.range)?;
             if let Some(first) = seen.insert(key.value.clone(), key.span()) {
                 self.findings.push(
-                    Finding::new(&DUPLICATE_KEY, key.span(), format!("`{}` is written twice in one object", key.value))
-                        .related(first, "the first one, which is ignored")
-                        .help("keep one of the two"),
+                    Finding::new(
+                        &DUPLICATE_KEY,
+                        key.span(),
+                        format!("`{}` is written twice in one object", key.value),
+                    )
+                    .related(first, "the first one, which is ignored")
+                    .help("keep one of the two"),
                 );
             }
             members.push(Member { key, value: self.node(&property.value)? });
@@ -185,13 +191,21 @@ impl Builder<'_> {
         let inside = range.start + 1..range.end.saturating_sub(1);
         match self.text.get(inside.clone()).and_then(strings::decode) {
             Some((value, map)) => {
-                let map = if map.derived_len() == 0 { SourceMap::point(inside.start) } else { map.shifted(inside.start) };
+                let map = if map.derived_len() == 0 {
+                    SourceMap::point(inside.start)
+                } else {
+                    map.shifted(inside.start)
+                };
                 Some(Text { value, map: map.then(self.below) })
             }
             None => {
                 self.fail(
-                    Finding::new(&SYNTAX, range.start..range.end, "a `\\u` escape in this text is not a character")
-                        .help("write the character itself: JSON is UTF-8"),
+                    Finding::new(
+                        &SYNTAX,
+                        range.start..range.end,
+                        "a `\\u` escape in this text is not a character",
+                    )
+                    .help("write the character itself: JSON is UTF-8"),
                 );
                 None
             }
@@ -208,94 +222,6 @@ impl Builder<'_> {
         self.fail(missing_comma(self.text, end));
         None
     }
-}
-
-fn missing_comma(text: &str, at: usize) -> Finding {
-    let at = text.get(..at).map_or(at, |before| before.trim_end().len());
-    Finding::new(&SYNTAX, at..at, "a comma is missing here")
-        .help("write `,` between two items of a list or two keys of an object")
-        .fix(at..at, ",")
-}
-
-/// The parser's error in plain words. Spans are bytes of `text`.
-fn explain(text: &str, error: &ParseError) -> Finding {
-    let range = error.range();
-    let span = range.start.min(text.len())..range.end.clamp(range.start, text.len().max(range.start)).min(text.len());
-    let found = text.get(span.clone()).unwrap_or("").trim();
-    let word: String = text
-        .get(span.start..)
-        .unwrap_or("")
-        .chars()
-        .take_while(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '+'))
-        .take(40)
-        .collect();
-    let on_word = span.start..span.start + word.len().max(found.len().min(1));
-    let at = |span: Range<usize>, message: String| Finding::new(&SYNTAX, span, message);
-    match error.kind() {
-        Kind::ExpectedComma => missing_comma(text, span.start),
-        Kind::TrailingCommasNotAllowed => at(span.clone(), "a comma before a closing bracket".into())
-            .help("delete this comma; JSON wants commas only between items")
-            .fix(span, ""),
-        Kind::UnexpectedComma => at(span.clone(), "a comma without a value before it".into())
-            .help("delete this comma, or write the value that is missing"),
-        Kind::CommentsNotAllowed | Kind::UnterminatedCommentBlock => at(span, "JSON has no comments".into())
-            .help("delete it, or say it in the text around the fence"),
-        Kind::SingleQuotedStringsNotAllowed => at(span, "a single quote where JSON needs a double quote".into())
-            .help("write \"…\" around keys and texts; single quotes are fine inside a text"),
-        Kind::ExpectedStringObjectProperty => at(on_word, format!("the key `{word}` has no quotes"))
-            .help(format!("write \"{word}\"")),
-        Kind::UnexpectedTokenInObject => at(span, "here a key should begin, or the object end with `}`".into())
-            .help("a key is a text in double quotes, then a colon: \"label\": …"),
-        Kind::ExpectedColonAfterObjectKey => at(span, "a colon is missing after this key".into())
-            .help("write \"key\": value"),
-        Kind::ExpectedObjectValue => at(span, "the value of this key is missing".into())
-            .help("write a value after the colon"),
-        Kind::NonFiniteNumbersNotAllowed | Kind::UnexpectedWord | Kind::UnexpectedToken if is_not_finite(&word) => {
-            at(on_word, format!("`{word}` is not a number that JSON knows"))
-                .help("leave the key out, or compute the value in an expression (a text in quotes)")
-        }
-        Kind::UnexpectedWord | Kind::UnexpectedToken
-            if matches!(word.to_ascii_lowercase().as_str(), "true" | "false" | "null" | "none") => {
-            let right = if word.eq_ignore_ascii_case("none") { "null".into() } else { word.to_ascii_lowercase() };
-            at(on_word.clone(), format!("`{word}` is written `{right}` in JSON"))
-                .help(format!("write {right}"))
-                .fix(on_word, right)
-        }
-        Kind::UnexpectedWord | Kind::UnexpectedToken if !word.is_empty() => {
-            at(on_word, format!("`{word}` is neither a number nor a text in quotes"))
-                .help(format!("write \"{word}\" if it is a text"))
-        }
-        Kind::HexadecimalNumbersNotAllowed
-        | Kind::UnaryPlusNumbersNotAllowed
-        | Kind::BareDecimalPointNumbersNotAllowed
-        | Kind::ExpectedDigit
-        | Kind::ExpectedDigitFollowingNegativeSign
-        | Kind::ExpectedPlusMinusOrDigitInNumberLiteral => {
-            at(on_word, format!("`{word}` is not a number as JSON writes it"))
-                .help("digits before and after the point, no plus sign in front: 0.5, -2, 1e-3")
-        }
-        Kind::UnterminatedObject => at(opening(&span), "this object is never closed".into())
-            .help("a `}` is missing, perhaps after an inner object"),
-        Kind::UnterminatedArray => at(opening(&span), "this list is never closed".into())
-            .help("a `]` is missing, perhaps after an inner list"),
-        Kind::UnexpectedCloseBrace => at(span, "a `}` that closes nothing here".into())
-            .help("delete it, or look for a `[` that is still open"),
-        Kind::UnexpectedCloseBracket => at(span, "a `]` that closes nothing here".into())
-            .help("delete it, or look for a `{` that is still open"),
-        Kind::MultipleRootJsonValues => at(span, "text after the end of the JSON value".into())
-            .why("one fence holds one object; what follows is read by nobody")
-            .help("delete it, move it behind the closing ```, or look for a bracket that closes too early"),
-        _ => at(span, format!("this is not JSON: {}", error.kind())).help("compare with the lines around it"),
-    }
-}
-
-/// The opening bracket of a span that runs to the end of the text.
-fn opening(span: &Range<usize>) -> Range<usize> {
-    span.start..span.end.min(span.start + 1)
-}
-
-fn is_not_finite(word: &str) -> bool {
-    matches!(word.trim_start_matches(['-', '+']), "NaN" | "Infinity" | "nan" | "inf")
 }
 
 #[cfg(test)]
@@ -387,9 +313,52 @@ mod tests {
     /// Fragments that make JSON and nearly-JSON often.
     fn nearly_json() -> impl Strategy<Value = String> {
         let piece = prop::sample::select(vec![
-            "{", "}", "[", "]", ",", ":", "\"a\"", "\"b\\n\"", "\"\\u00e9\"", "\"\\ud83d\"", "1", "-2.5", "1e5", "01", "-", "+1",
-            ".5", "5.", "0x1", "1e", "1e999", "true", "null", "nul", "falsee", "NaN", " ", "\n", "\u{b}", "\u{a0}", "'a'", "a",
-            "\"", "\\", "//x\n", "/**/", "“", "\"\t\"", "\u{feff}", "\"é\u{7f}\"", "{}", "[]", "{\"a\":1}", "[1,2]", "\"a\":", ",\"a\":",
+            "{",
+            "}",
+            "[",
+            "]",
+            ",",
+            ":",
+            "\"a\"",
+            "\"b\\n\"",
+            "\"\\u00e9\"",
+            "\"\\ud83d\"",
+            "1",
+            "-2.5",
+            "1e5",
+            "01",
+            "-",
+            "+1",
+            ".5",
+            "5.",
+            "0x1",
+            "1e",
+            "1e999",
+            "true",
+            "null",
+            "nul",
+            "falsee",
+            "NaN",
+            " ",
+            "\n",
+            "\u{b}",
+            "\u{a0}",
+            "'a'",
+            "a",
+            "\"",
+            "\\",
+            "//x\n",
+            "/**/",
+            "“",
+            "\"\t\"",
+            "\u{feff}",
+            "\"é\u{7f}\"",
+            "{}",
+            "[]",
+            "{\"a\":1}",
+            "[1,2]",
+            "\"a\":",
+            ",\"a\":",
         ]);
         prop::collection::vec(piece, 0..9).prop_map(|pieces| pieces.concat())
     }

@@ -1,6 +1,6 @@
 //! Reads typed values out of JSON objects and collects what is wrong instead of stopping at the first mistake.
 
-use super::{Json, Member, Node};
+use super::{Json, Member, Node, nearest};
 use crate::finding::{Finding, Severity};
 use crate::lint::rules::keys::{MISSING_KEY, UNKNOWN_KEY, WRONG_TYPE};
 use crate::source::Text;
@@ -72,17 +72,27 @@ pub struct Fields<'n, 'f> {
     members: &'n [Member],
     span: Range<usize>,
     known: Vec<&'static str>,
+    missing: Vec<(&'static str, Finding)>,
     /// Where findings go.
     pub findings: &'f mut Vec<Finding>,
 }
 
 impl<'n, 'f> Fields<'n, 'f> {
     /// Opens an object; anything else is a finding and `None`.
-    pub fn open(node: &'n Node, what: &'static str, findings: &'f mut Vec<Finding>) -> Option<Fields<'n, 'f>> {
+    pub fn open(
+        node: &'n Node,
+        what: &'static str,
+        findings: &'f mut Vec<Finding>,
+    ) -> Option<Fields<'n, 'f>> {
         match &node.json {
-            Json::Object(members) => {
-                Some(Fields { what, members, span: node.span.clone(), known: Vec::new(), findings })
-            }
+            Json::Object(members) => Some(Fields {
+                what,
+                members,
+                span: node.span.clone(),
+                known: Vec::new(),
+                missing: Vec::new(),
+                findings,
+            }),
             _ => {
                 wrong(findings, node, what, "an object { … }");
                 None
@@ -123,20 +133,10 @@ impl<'n, 'f> Fields<'n, 'f> {
     }
 
     /// Reports that a key is missing, at the opening bracket of the object.
-    pub fn missing(&mut self, key: &str, why: &str, severity: Severity) {
+    pub fn missing(&mut self, key: &'static str, why: &str, severity: Severity) {
         let open = self.span.start..self.span.end.min(self.span.start + 1);
-        // A misspelt key is reported as missing only by its right name.
-        let typo = nearest(key, self.members.iter().map(|m| m.key.value.as_str()).filter(|k| *k != key));
-        let help = match typo.filter(|typo| !self.known.contains(typo)) {
-            Some(typo) => format!("is `{typo}` meant to be `{key}`?"),
-            None => format!("add \"{key}\": …"),
-        };
-        self.findings.push(
-            Finding::new(&MISSING_KEY, open, format!("{} needs `{key}`", self.what))
-                .severity(severity)
-                .why(why)
-                .help(help),
-        );
+        let finding = Finding::new(&MISSING_KEY, open, format!("{} needs `{key}`", self.what));
+        self.missing.push((key, finding.severity(severity).why(why).help(format!("add \"{key}\": …"))));
     }
 
     /// A text.
@@ -223,8 +223,9 @@ impl<'n, 'f> Fields<'n, 'f> {
         }
     }
 
-    /// Reports every key that nobody asked for.
+    /// Reports every key that nobody asked for, and those that are missing unless they are only misspelt.
     pub fn finish(self) {
+        let (mut misspelt, mut reported) = (Vec::new(), 0);
         for member in self.members {
             let key = member.key.as_str();
             if self.known.contains(&key) {
@@ -235,11 +236,19 @@ impl<'n, 'f> Fields<'n, 'f> {
                 member.key.span(),
                 format!("{} has no key `{}`", self.what, shorten(key)),
             );
-            self.findings.push(match nearest(key, self.known.iter().copied()) {
-                Some(right) => finding.help(format!("did you mean `{right}`?")).fix(member.key.span(), right),
+            // Suggestions for the first ones only: a hostile object can have thousands.
+            let known = self.known.iter().copied().take(if reported < 20 { usize::MAX } else { 0 });
+            reported += 1;
+            self.findings.push(match nearest(key, known) {
+                Some(right) => {
+                    misspelt.push(right);
+                    finding.help(format!("did you mean `{right}`?")).fix(member.key.span(), right)
+                }
                 None => finding.help(format!("its keys are {}", self.known.join(", "))),
             });
         }
+        let missing = self.missing.into_iter().filter(|(key, _)| !misspelt.contains(key));
+        self.findings.extend(missing.map(|(_, finding)| finding));
     }
 }
 
@@ -271,8 +280,12 @@ fn whole(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Option<Number>
         return Some(number);
     }
     findings.push(
-        Finding::new(&WRONG_TYPE, node.span.clone(), format!("`{what}` is a whole number, not {}", number.value))
-            .help(format!("write {}", number.value.round())),
+        Finding::new(
+            &WRONG_TYPE,
+            node.span.clone(),
+            format!("`{what}` is a whole number, not {}", number.value),
+        )
+        .help("write a number without a point"),
     );
     None
 }
@@ -302,7 +315,10 @@ fn wrong(findings: &mut Vec<Finding>, node: &Node, what: &str, expected: &str) {
     );
     // "5" for 5 is the common case, and it has one repair.
     findings.push(match &node.json {
-        Json::Text(text) if expected.starts_with("a number") && text.value.trim().parse::<f64>().is_ok_and(f64::is_finite) => {
+        Json::Text(text)
+            if expected.starts_with("a number")
+                && text.value.trim().parse::<f64>().is_ok_and(f64::is_finite) =>
+        {
             let bare = text.value.trim().to_string();
             finding.help(format!("write {bare} without the quotes")).fix(node.span.clone(), bare)
         }
@@ -318,70 +334,4 @@ pub(crate) fn shorten(text: &str) -> String {
         short.push('…');
     }
     short
-}
-
-/// The candidate that a misspelt word most likely means, if one is near enough.
-///
-/// Distance is the number of letters to change, insert, delete or swap with a neighbour (optimal string
-/// alignment), ignoring case; a third of the letters may differ. A word that begins another one of at least
-/// three letters counts as near too (`expression` for `expr`).
-pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
-    let lower = |s: &str| s.chars().flat_map(char::to_lowercase).take(65).collect::<Vec<char>>();
-    let wanted = lower(word);
-    if wanted.is_empty() || wanted.len() > 64 {
-        return None;
-    }
-    let mut best: Option<(usize, &str)> = None;
-    for candidate in candidates {
-        let other = lower(candidate);
-        let allowed = (wanted.len().max(other.len()) / 3).max(1);
-        let distance = if wanted == other {
-            0
-        } else if other.len().min(wanted.len()) < 2 {
-            continue;
-        } else if wanted.len().min(other.len()) >= 3 && (wanted.starts_with(&other) || other.starts_with(&wanted)) {
-            1
-        } else {
-            distance(&wanted, &other)
-        };
-        if distance <= allowed && best.is_none_or(|(least, _)| distance < least) {
-            best = Some((distance, candidate));
-        }
-    }
-    best.map(|(_, candidate)| candidate)
-}
-
-/// Optimal string alignment distance, row by row.
-fn distance(a: &[char], b: &[char]) -> usize {
-    let mut before: Vec<usize> = Vec::new();
-    let mut last: Vec<usize> = (0..=b.len()).collect();
-    for i in 0..a.len() {
-        let mut row = vec![i + 1];
-        for j in 0..b.len() {
-            let same = usize::from(a[i] != b[j]);
-            let mut least = (last[j] + same).min(last[j + 1] + 1).min(row[j] + 1);
-            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
-                least = least.min(before[j - 1] + 1);
-            }
-            row.push(least);
-        }
-        before = std::mem::replace(&mut last, row);
-    }
-    last[b.len()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn near_words_are_found_and_far_ones_are_not() {
-        let keys = ["label", "expr", "digits", "stopAt", "setup"];
-        assert_eq!(nearest("lable", keys), Some("label"));
-        assert_eq!(nearest("stopat", keys), Some("stopAt"));
-        assert_eq!(nearest("expression", keys), Some("expr"));
-        assert_eq!(nearest("colour", keys), None);
-        assert_eq!(nearest("", keys), None);
-        assert_eq!(nearest(&"x".repeat(1000), keys), None);
-    }
 }

@@ -79,7 +79,9 @@ pub fn explain(code: &str) -> Option<String> {
     }
     for (title, example) in [("Wrong", rule.bad), ("Right", rule.good)] {
         let (language, shown) = match example {
-            Example::Repeated(text, times) => ("markdown", format!("{}\n… and so on, {times} times", text.trim_end())),
+            Example::Repeated(text, times) => {
+                ("markdown", format!("{}\n… and so on, {times} times", text.trim_end()))
+            }
             Example::Json(_) => ("json", example.text()),
             _ => ("markdown", example.text()),
         };
@@ -104,11 +106,13 @@ pub(crate) fn check(lesson: &Lesson, models: &ModelFolder, findings: &mut Vec<Fi
         rules::control::check(lab, findings);
         rules::plot::check(lab, findings);
         rules::html::check_lab(lab, findings);
+        rules::latex::check_lab(lab, findings);
         rules::quotes::check_lab(lab, findings);
     }
     for quiz in &lesson.quizzes {
         rules::quiz::check(quiz, findings);
         rules::html::check_quiz(quiz, findings);
+        rules::latex::check_quiz(quiz, findings);
     }
     rules::verify::check(lesson, findings);
     rules::ids::within(lesson, findings);

@@ -1,6 +1,7 @@
 //! One fence: its opening line, whether it is closed, and where a damaged one really ends.
 
 use super::{BlockKind, extent};
+use crate::json::nearest;
 use std::ops::Range;
 
 /// The opening line of a fence.
@@ -71,7 +72,8 @@ fn belongs_below(info: &str) -> Option<usize> {
     while let Some(word) = info.get(at..).and_then(|rest| rest.split_whitespace().next()) {
         let begin = at + info.get(at..)?.find(word)?;
         let key = word.split('=').next().unwrap_or("");
-        let is_name = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.' | ':'));
+        let is_name = !key.is_empty()
+            && key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.' | ':'));
         let is_attribute = (is_name && word.contains('=') && !word.ends_with('=')) || word.starts_with('{');
         if !is_attribute {
             candidate = candidate.or(Some(begin));
@@ -82,6 +84,21 @@ fn belongs_below(info: &str) -> Option<usize> {
     // One or two plain words after the language are common (`title`, `numbered`); a listing has more. Behind the
     // name of a file, nothing but a listing is left.
     candidate.filter(|_| plain >= if info.contains("file=") { 2 } else { 3 })
+}
+
+/// The kind that a misspelt fence was meant to have, and how it is written.
+pub(super) fn meant(kind: &BlockKind, body: &str) -> Option<(&'static str, BlockKind)> {
+    let lab = ("lab simlab", BlockKind::Lab("simlab".into()));
+    match kind {
+        BlockKind::Lab(widget) if widget != "simlab" => nearest(widget, ["simlab"]).map(|_| lab),
+        BlockKind::Code { language, .. } => match nearest(language, ["lab", "quiz", "simlab"])? {
+            // A language of a similar name is none of our business, unless it holds what we know.
+            _ if super::loose::bare_json(body).next().is_none() => None,
+            "quiz" => Some(("quiz", BlockKind::Quiz)),
+            _ => Some(lab),
+        },
+        _ => None,
+    }
 }
 
 /// Whether the last line of a block closes it.
@@ -107,7 +124,10 @@ fn inner_opener(body: &str, open: &Opener, any_word: bool) -> Option<usize> {
         if let Some(inner) = opener(line, 0)
             && inner.mark == open.mark
             && inner.count >= open.count
-            && inner.words.first().is_some_and(|w| any_word || w.starts_with(|c: char| c.is_ascii_alphabetic()))
+            && inner
+                .words
+                .first()
+                .is_some_and(|w| any_word || w.starts_with(|c: char| c.is_ascii_alphabetic()))
             && line.len() - line.trim_start().len() <= 3
             && at > 0
         {

@@ -9,7 +9,7 @@ use std::ops::Range;
 /// Most bytes that one loose object may have.
 const MAX_OBJECT: usize = 256 << 10;
 /// Most lines of a file that are tried.
-const MAX_TRIES: usize = 200;
+const MAX_TRIES: usize = 50;
 
 /// A JSON object that begins a line and has the keys of a lab or a quiz.
 pub(super) struct Bare {
@@ -45,7 +45,8 @@ pub(super) fn bare_json(text: &str) -> impl Iterator<Item = Bare> {
             })
         };
         let is_quiz = has("questions");
-        let is_lab = (has("model") || has("xml")) && ["controls", "plots", "readouts", "camera"].into_iter().any(has);
+        let is_lab =
+            (has("model") || has("xml")) && ["controls", "plots", "readouts", "camera"].into_iter().any(has);
         if !is_quiz && !is_lab {
             return None;
         }
@@ -79,12 +80,8 @@ pub(super) fn find(text: &str, scan: &mut Scan) {
     prose.push(from..text.len());
     for range in prose {
         let Some(part) = text.get(range.clone()) else { continue };
-        let unseen = unseen_fences(part, range.start, text, scan);
         for bare in bare_json(part) {
             let object = bare.object.start + range.start..bare.object.end + range.start;
-            if unseen.iter().any(|seen| seen.start <= object.start && object.start < seen.end) {
-                continue;
-            }
             let kind = if bare.is_quiz { BlockKind::Quiz } else { BlockKind::Lab("simlab".into()) };
             scan.findings.push(fence::missing(&object, &kind));
             let head = object.start..object.start + 1;
@@ -93,14 +90,14 @@ pub(super) fn find(text: &str, scan: &mut Scan) {
     }
 }
 
-/// Opening lines of labs and quizzes that Markdown does not take for fences, such as those with a backtick.
-fn unseen_fences(part: &str, offset: usize, text: &str, scan: &mut Scan) -> Vec<Range<usize>> {
-    let mut found: Vec<Range<usize>> = Vec::new();
-    let mut at = offset;
-    for line in part.split_inclusive('\n').take(1 << 20) {
+/// The first opening line of a lab or a quiz within a paragraph or within HTML, where Markdown does not see it:
+/// takes its object in and returns where to go on reading.
+pub(super) fn unseen_fence(text: &str, within: Range<usize>, scan: &mut Scan) -> Option<usize> {
+    let mut at = within.start;
+    for line in text.get(within)?.split_inclusive('\n') {
         let start = at;
         at += line.len();
-        if !line.trim_start().starts_with("```") || found.len() >= MAX_TRIES || found.last().is_some_and(|f| start < f.end) {
+        if !line.trim_start().starts_with("```") {
             continue;
         }
         let Some(open) = opener(text, start) else { continue };
@@ -108,24 +105,32 @@ fn unseen_fences(part: &str, offset: usize, text: &str, scan: &mut Scan) -> Vec<
         if matches!(kind, BlockKind::Code { .. }) {
             continue;
         }
-        let from = open.rest.as_ref().map_or(at, |rest| rest.start);
-        let limit = ceil(text, from.saturating_add(MAX_OBJECT));
-        let Some(after) = text.get(from..limit) else { continue };
-        let object = match extent::json_end(after) {
-            Some(end) => from + after.len() - after.trim_start().len()..from + end,
-            None => from..from,
-        };
         scan.findings.push(fence::unseen(&open));
-        let span = open.line.start..object.end.max(open.line.end);
-        found.push(span.clone());
-        if !object.is_empty() {
-            scan.blocks.push(loose_block(text, kind, span, open.head, object));
+        let from = open.rest.as_ref().map_or(at, |rest| rest.start);
+        let after = text.get(from..ceil(text, from.saturating_add(MAX_OBJECT)))?;
+        let Some(end) = extent::json_end(after).map(|end| from + end) else { return Some(at) };
+        let object = from + after.len() - after.trim_start().len()..end;
+        // The line that was meant to close it would now open a fence.
+        let mut resume = text.get(end..)?.find('\n').map_or(text.len(), |i| end + i + 1);
+        let next = text.get(resume..)?.split_inclusive('\n').next().unwrap_or("");
+        if next.trim() == open.closing() {
+            resume += next.len();
         }
+        let span = open.line.start..resume;
+        scan.code.push(span.clone());
+        scan.blocks.push(loose_block(text, kind, span, open.head, object));
+        return Some(resume);
     }
-    found
+    None
 }
 
-fn loose_block(text: &str, kind: BlockKind, span: Range<usize>, info: Range<usize>, object: Range<usize>) -> Block {
+fn loose_block(
+    text: &str,
+    kind: BlockKind,
+    span: Range<usize>,
+    info: Range<usize>,
+    object: Range<usize>,
+) -> Block {
     let value = text.get(object.clone()).unwrap_or("").to_string();
     Block { kind, span, info, body: Text { value, map: SourceMap::verbatim(object) } }
 }

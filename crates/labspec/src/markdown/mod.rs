@@ -24,7 +24,7 @@ use std::ops::Range;
 /// Most blocks in a lesson.
 pub const MAX_BLOCKS: usize = 2000;
 /// Most bytes that are read again after damage. Every damaged fence means one more pass over what follows it.
-const MAX_REREAD: usize = 256 << 20;
+const MAX_REREAD: usize = 64 << 20;
 
 /// What a fence holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -110,8 +110,13 @@ fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
                 if let Some((span, body)) = raw.take() {
                     let resume = block(text, span, body, scan);
                     if resume.is_some() || scan.blocks.len() >= MAX_BLOCKS {
-                        return resume.or(Some(range.end.max(from + 1)));
+                        return resume.or(Some(range.end));
                     }
+                }
+            }
+            Event::Start(Tag::Paragraph | Tag::HtmlBlock) => {
+                if let Some(resume) = loose::unseen_fence(text, range, scan) {
+                    return Some(resume);
                 }
             }
             Event::Html(_) | Event::InlineHtml(_) => {
@@ -140,8 +145,12 @@ fn block(text: &str, span: Range<usize>, body: Text, scan: &mut Scan) -> Option<
         return None;
     };
     let closed = fence::is_closed(text, &span, &open);
-    let kind = open.kind();
     let body = with_first_line(text, &open, body);
+    let mut kind = open.kind();
+    if let Some((right, meant)) = fence::meant(&kind, &body.value) {
+        scan.findings.push(rules::fence::misspelt(&open, right));
+        kind = meant;
+    }
     let cut = match &kind {
         BlockKind::Code { .. } => fence::cut_listing(&body.value, &open, closed),
         _ => fence::cut_json(&body.value, &open, closed),
@@ -226,7 +235,9 @@ mod tests {
 
     #[test]
     fn a_lost_closing_line_hides_nothing() {
-        let scan = scanned("```lab simlab\n{\"model\": \"a\"}\nSome prose.\n\n```quiz\n{\"id\": \"q\"}\n```\n\n```lab\n{}\n```\n");
+        let scan = scanned(
+            "```lab simlab\n{\"model\": \"a\"}\nSome prose.\n\n```quiz\n{\"id\": \"q\"}\n```\n\n```lab\n{}\n```\n",
+        );
         assert_eq!(codes(&scan), ["fence-unclosed"]);
         let kinds: Vec<_> = scan.blocks.iter().map(|b| b.kind.clone()).collect();
         let lab = BlockKind::Lab("simlab".into());
@@ -248,7 +259,17 @@ mod tests {
         let scan = scanned(&many);
         assert!(scan.blocks.len() <= MAX_BLOCKS);
         assert!(codes(&scan).contains(&"lesson-limit"));
-        for text in ["```", "```lab", "```lab {", "```quiz\n\u{feff}", "> ```lab\n```", "{\"", "{“", "```lab `x` {}", "\u{feff}```lab\n{}\n```"] {
+        for text in [
+            "```",
+            "```lab",
+            "```lab {",
+            "```quiz\n\u{feff}",
+            "> ```lab\n```",
+            "{\"",
+            "{“",
+            "```lab `x` {}",
+            "\u{feff}```lab\n{}\n```",
+        ] {
             scanned(text);
         }
     }

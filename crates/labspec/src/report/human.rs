@@ -32,16 +32,14 @@ fn one(finding: &Finding, files: &[&SourceFile], renderer: &Renderer) -> String 
         Severity::Warning => Level::WARNING,
         Severity::Note => Level::NOTE,
     };
-    let mut group = level.primary_title(normalize_untrusted_str(&finding.message)).id(finding.code).elements(place(
-        files,
-        &finding.path,
-        &finding.span,
-        AnnotationKind::Primary,
-        None,
-    ));
+    let mut group = level
+        .primary_title(normalize_untrusted_str(&finding.message))
+        .id(finding.code)
+        .elements(place(files, &finding.path, &finding.span, AnnotationKind::Primary, None));
     for related in &finding.related {
         let label = normalize_untrusted_str(&related.label);
-        group = group.elements(place(files, &related.path, &related.span, AnnotationKind::Context, Some(label)));
+        group =
+            group.elements(place(files, &related.path, &related.span, AnnotationKind::Context, Some(label)));
     }
     if let Some(why) = &finding.why {
         group = group.element(Level::NOTE.with_name("why").message(normalize_untrusted_str(why)));
@@ -83,7 +81,8 @@ fn place<'a>(
     let position = file.position(span.start);
     let origin = Origin::path(path.to_string()).line(position.line).char_column(position.column);
     let line = file.line_span(position.line).unwrap_or(0..0);
-    let (text, mark) = window(file.slice(line.clone()), &(file.floor(span.start)..file.floor(span.end)), line.start);
+    let (text, mark) =
+        window(file.slice(line.clone()), &(file.floor(span.start)..file.floor(span.end)), line.start);
     let mark = kind.span(mark);
     let mark = match label {
         Some(label) => mark.label(label),
@@ -134,7 +133,8 @@ mod tests {
         let text = format!("first\n{}\"exprr\"{}\n", "ä ".repeat(1000), " tail".repeat(1000));
         let file = SourceFile::new("long.md", text.as_str());
         let at = text.find("exprr").unwrap();
-        let finding = Finding::new(&UNKNOWN_KEY, at..at + 5, "no key `exprr`").help("did you mean `expr`?").at(&file);
+        let finding =
+            Finding::new(&UNKNOWN_KEY, at..at + 5, "no key `exprr`").help("did you mean `expr`?").at(&file);
         let shown = human(&[finding], &[&file], false);
         assert!(shown.lines().all(|l| l.chars().count() < 130), "{shown}");
         insta::assert_snapshot!(shown);
@@ -148,6 +148,9 @@ mod tests {
             assert!(human(&[finding], &[&file], true).contains("unknown-key"));
         }
         let empty = SourceFile::new("e.md", "");
-        assert!(human(&[Finding::new(&UNKNOWN_KEY, 0..0, "x\u{1b}[2J").at(&empty)], &[&empty], false).contains("e.md:1:1"));
+        assert!(
+            human(&[Finding::new(&UNKNOWN_KEY, 0..0, "x\u{1b}[2J").at(&empty)], &[&empty], false)
+                .contains("e.md:1:1")
+        );
     }
 }

@@ -24,7 +24,11 @@ impl Summary {
     /// Counts findings.
     pub fn of(findings: &[Finding]) -> Summary {
         let count = |severity| findings.iter().filter(|f| f.severity == severity).count();
-        Summary { errors: count(Severity::Error), warnings: count(Severity::Warning), notes: count(Severity::Note) }
+        Summary {
+            errors: count(Severity::Error),
+            warnings: count(Severity::Warning),
+            notes: count(Severity::Note),
+        }
     }
 }
 

@@ -182,7 +182,11 @@ mod tests {
         let (mut map, mut at) = (SourceMap::default(), 0);
         for &(len, gap, origin) in parts {
             let stretch = at + gap..at + gap + origin;
-            if len == origin { map.push_verbatim(stretch) } else { map.push_whole(len, stretch) }
+            if len == origin {
+                map.push_verbatim(stretch)
+            } else {
+                map.push_whole(len, stretch)
+            }
             at += gap + origin;
         }
         map

@@ -98,6 +98,16 @@ impl SourceFile {
         Some(start..start + text.strip_suffix('\r').unwrap_or(text).len())
     }
 
+    /// A span widened to whole characters and cut at the end of the file.
+    pub fn snap(&self, span: &Range<usize>) -> Range<usize> {
+        let start = self.floor(span.start);
+        let mut end = span.end.clamp(start, self.text.len());
+        while !self.text.is_char_boundary(end) {
+            end += 1;
+        }
+        start..end
+    }
+
     /// The nearest character boundary at or before an offset.
     pub fn floor(&self, offset: usize) -> usize {
         let mut offset = offset.min(self.text.len());

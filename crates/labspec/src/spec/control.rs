@@ -122,9 +122,13 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Control> 
         Some("slider") => slider(&mut fields),
         Some(other) => {
             let span = kind.as_ref().map_or(node.span.clone(), Text::span);
-            let finding = Finding::new(&WRONG_TYPE, span.clone(), format!("there is no control of type `{}`", read::shorten(other)))
-                .why("the page knows sliders, selects and buttons; it shows nothing for anything else");
-            fields.findings.push(match read::nearest(other, ["slider", "select", "button"]) {
+            let finding = Finding::new(
+                &WRONG_TYPE,
+                span.clone(),
+                format!("there is no control of type `{}`", read::shorten(other)),
+            )
+            .why("the page knows sliders, selects and buttons; it shows nothing for anything else");
+            fields.findings.push(match crate::json::nearest(other, ["slider", "select", "button"]) {
                 Some(right) => finding.help(format!("did you mean `{right}`?")).fix(span, right),
                 None => finding.help("write \"select\" or \"button\"; without `type` it is a slider"),
             });
@@ -146,7 +150,8 @@ fn slider(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
     let min = fields.need_number("min", "a slider needs two ends");
     let max = fields.need_number("max", "a slider needs two ends");
     let step = fields.number("step");
-    let value = fields.need_number("value", "without it the slider starts as NaN, and NaN is what gets assigned");
+    let value =
+        fields.need_number("value", "without it the slider starts as NaN, and NaN is what gets assigned");
     let digits = fields.whole("digits");
     let action = action(fields);
     Some((label?, ControlKind::Slider { unit, min: min?, max: max?, step, value: value?, digits, action }))
@@ -156,7 +161,12 @@ fn select(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
     fields.rename("a select");
     let label = fields.need_text("label", LABEL);
     let options = fields.need_list("options", "a select offers a list of [text, value] pairs");
-    let options = options.map(|nodes| nodes.iter().filter_map(|n| choice(n, fields.findings)).collect());
+    if options.is_some_and(<[Node]>::is_empty) {
+        fields.findings.push(crate::lint::rules::control::nothing_offered(fields.span()));
+    }
+    // A broken option has been reported; without it, the start value cannot be judged.
+    let options = options.map(|nodes| nodes.iter().map(|n| choice(n, fields.findings)).collect::<Vec<_>>());
+    let options: Option<Vec<Choice>> = options.and_then(|all| all.into_iter().collect());
     let value = fields.need_scalar("value", "without it the select starts with no value");
     let action = action(fields);
     Some((label?, ControlKind::Select { options: options?, value: value?, action }))

@@ -8,7 +8,8 @@ use crate::source::Text;
 use std::ops::Range;
 
 /// What can be drawn over the scene: keys of `overlays`, items of `toggles`.
-pub const OVERLAYS: [&str; 8] = ["frames", "joints", "contacts", "forces", "com", "sites", "cameras", "shadows"];
+pub const OVERLAYS: [&str; 8] =
+    ["frames", "joints", "contacts", "forces", "com", "sites", "cameras", "shadows"];
 
 /// A lab: a scene, what a student can change, and what is shown of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -180,7 +181,8 @@ fn camera(node: &Node, findings: &mut Vec<Finding>) -> Option<Camera> {
 /// Three numbers.
 fn point(node: &Node, findings: &mut Vec<Finding>) -> Option<[f64; 3]> {
     if let Json::Array(items) = &node.json
-        && let [Json::Number(x), Json::Number(y), Json::Number(z)] = items.iter().map(|n| &n.json).collect::<Vec<_>>()[..]
+        && let [Json::Number(x), Json::Number(y), Json::Number(z)] =
+            items.iter().map(|n| &n.json).collect::<Vec<_>>()[..]
     {
         return Some([*x, *y, *z]);
     }
@@ -197,8 +199,12 @@ fn overlays(fields: &mut Fields<'_, '_>) -> Vec<(Text, bool)> {
         match member.value.json {
             Json::Bool(on) => all.push((member.key.clone(), on)),
             _ => fields.findings.push(
-                Finding::new(&WRONG_TYPE, member.value.span.clone(), "an overlay is switched by true or false")
-                    .help("write true or false, without quotes"),
+                Finding::new(
+                    &WRONG_TYPE,
+                    member.value.span.clone(),
+                    "an overlay is switched by true or false",
+                )
+                .help("write true or false, without quotes"),
             ),
         }
     }

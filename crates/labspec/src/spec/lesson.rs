@@ -3,8 +3,8 @@
 use super::{Lab, Quiz, VerifyLab, lab, quiz};
 use crate::finding::{self, Finding};
 use crate::json::{self, Json, Node};
-use crate::lint::rules::json as json_rules;
 use crate::lint::rules::fence::{LIMIT, UNKNOWN_SPEC, WRONG_FENCE};
+use crate::lint::rules::json as json_rules;
 use crate::lint::{self, ModelFolder};
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::{MAX_FILE, SourceFile, SourceMap, Text};
@@ -175,6 +175,10 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
     let scan = markdown::scan(&lesson.file);
     lesson.findings.extend(scan.findings);
     for block in &scan.blocks {
+        // More than anybody reads: what follows would be cut off anyway.
+        if lesson.findings.len() > 10 * MAX_FINDINGS {
+            break;
+        }
         match &block.kind {
             BlockKind::Lab(widget) if widget == "simlab" => {
                 let node = body(block, &mut lesson.findings);
@@ -182,8 +186,12 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
                     && node.get("questions").is_some()
                 {
                     lesson.findings.push(
-                        Finding::new(&WRONG_FENCE, block.info.clone(), "this fence says `lab`, but it holds a quiz")
-                            .help("write ```quiz"),
+                        Finding::new(
+                            &WRONG_FENCE,
+                            block.info.clone(),
+                            "this fence says `lab`, but it holds a quiz",
+                        )
+                        .help("write ```quiz"),
                     );
                     lesson.quizzes.extend(quiz::read(node, &mut lesson.findings));
                     continue;
@@ -206,8 +214,12 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
                 let Some(node) = body(block, &mut lesson.findings) else { continue };
                 if node.get("questions").is_none() && looks_like_lab(&node) {
                     lesson.findings.push(
-                        Finding::new(&WRONG_FENCE, block.info.clone(), "this fence says `quiz`, but it holds a lab")
-                            .help("write ```lab simlab"),
+                        Finding::new(
+                            &WRONG_FENCE,
+                            block.info.clone(),
+                            "this fence says `quiz`, but it holds a lab",
+                        )
+                        .help("write ```lab simlab"),
                     );
                     let lab = lab::read(&node, &mut lesson.findings);
                     push_lab(lesson, block.span.clone(), lab);
@@ -285,6 +297,110 @@ fn json_item(lesson: &mut Lesson, node: &Node) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+
+    /// Lessons put together from what breaks them.
+    fn hostile() -> impl Strategy<Value = String> {
+        let piece = prop::sample::select(vec![
+            "```lab simlab\n",
+            "```lab simlab ",
+            "```quiz\n",
+            "```\n",
+            "````\n",
+            "~~~\n",
+            "```python file=a.py ",
+            "> ",
+            "- ",
+            "    ",
+            "\n",
+            "\n\n",
+            "{",
+            "}",
+            "[",
+            "]",
+            "\"model\"",
+            ": ",
+            ", ",
+            "\"ball\"",
+            "“",
+            "”",
+            "‘",
+            "’",
+            "\"questions\": [",
+            "\"controls\": [{",
+            "\"label\": \"a\"",
+            "\"options\": [\"a\", \"b\"]",
+            "\"answer\": 7",
+            "\"verify\": {\"lab\": \"#1\"}",
+            "<option>",
+            "<div>\n",
+            "`x`",
+            "def f(): a = 1 b = 2\n",
+            "if name == “main”:\n",
+            "\\tau",
+            "\u{feff}",
+            "\r\n",
+            "é😀",
+            "\t",
+            "-1",
+            "0",
+            "1e999",
+            "true",
+            "null",
+            "{\"model\": \"ball\", \"readouts\": [{\"label\": \"t\", \"expr\": \"‘\"}]}\n",
+            "{\"id\": \"q\", \"questions\": []}\n",
+        ]);
+        prop::collection::vec(piece, 0..24).prop_map(|pieces| pieces.concat())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+        /// No lesson is a panic; every place is a place of the file; reports can be drawn.
+        #[test]
+        fn hostile_lessons_are_survived(text in hostile(), json in any::<bool>()) {
+            let name = if json { "h.json" } else { "h.md" };
+            let lesson = load_lesson(SourceFile::new(name, text.as_str()), &ModelFolder::with_names(["ball"]));
+            for finding in &lesson.findings {
+                let places = finding.related.iter().map(|p| &p.span).chain(finding.fix.as_ref().map(|f| &f.span));
+                for span in places.chain([&finding.span]) {
+                    prop_assert!(text.get(span.clone()).is_some(), "{:?} of {:?}", finding, text);
+                }
+            }
+            crate::report::human(&lesson.findings, &[&lesson.file], false);
+            crate::report::json(&lesson.findings, &[&lesson.file]);
+        }
+    }
+
+    #[test]
+    fn a_place_inside_a_character_is_widened() {
+        let lesson = load_lesson(SourceFile::new("h.json", "“\"model\""), &ModelFolder::unknown());
+        assert!(lesson.findings.iter().all(|f| lesson.file.text().get(f.span.clone()).is_some()));
+    }
+
+    /// Inputs that make careless checkers slow.
+    #[test]
+    fn large_lessons_take_a_moment() {
+        let wide = |item: &str, n: usize| item.repeat(n);
+        let lab = |inside: String| format!("```lab simlab\n{{\"model\": \"ball\", {inside}}}\n```\n");
+        for text in [
+            wide("```lab {\n", 20_000),
+            wide("{\"questions\" ", 20_000),
+            wide("```lab `x` {}\n\n", 20_000),
+            wide("“", 300_000),
+            wide("<option ", 100_000),
+            lab((0..9_000).map(|i| format!("\"stopAtt{i}\": 1")).collect::<Vec<_>>().join(", ")),
+            lab(format!("\"note\": \"{}\"", wide("$\\n", 300_000))),
+            format!("```python\n{}", wide("‘x’ “y”\n", 50_000)),
+        ] {
+            let start = std::time::Instant::now();
+            let lesson =
+                load_lesson(SourceFile::new("large.md", text.as_str()), &ModelFolder::with_names(["ball"]));
+            assert!(lesson.findings.len() <= MAX_FINDINGS + 1);
+            let head: String = text.chars().take(30).collect();
+            println!("{:.3} s, {} findings: {head}", start.elapsed().as_secs_f64(), lesson.findings.len());
+            assert!(start.elapsed().as_secs() < 20, "{head}");
+        }
+    }
 
     #[test]
     fn addresses_read_what_they_print() {

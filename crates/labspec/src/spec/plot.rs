@@ -2,6 +2,7 @@
 
 use crate::finding::Finding;
 use crate::json::{Fields, Node, Number};
+use crate::lint::rules::plot::empty;
 use crate::source::Text;
 use std::ops::Range;
 
@@ -85,6 +86,10 @@ impl Readout {
 /// Reads a plot.
 pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Plot> {
     let mut fields = Fields::open(node, "a plot", findings)?;
+    let nodes = fields.list("traces");
+    if nodes.is_empty() {
+        fields.findings.push(empty(fields.span()));
+    }
     let plot = Plot {
         span: fields.span(),
         ylabel: fields.text("ylabel"),
@@ -94,7 +99,7 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Plot> {
         ymax: fields.number("ymax"),
         height: fields.number("height"),
         ref_lines: fields.list("refLines").iter().filter_map(|n| ref_line(n, fields.findings)).collect(),
-        traces: fields.list("traces").iter().filter_map(|n| trace(n, fields.findings)).collect(),
+        traces: nodes.iter().filter_map(|n| trace(n, fields.findings)).collect(),
     };
     fields.finish();
     Some(plot)

@@ -153,17 +153,20 @@ fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
         "mcq" => choice(&mut fields, ChoiceStyle::Mcq),
         "debug" => choice(&mut fields, ChoiceStyle::Debug),
         "predict" => choice(&mut fields, ChoiceStyle::Predict),
-        "numeric" => numeric(&mut fields),
+        "numeric" => Some(numeric(&mut fields)),
         word @ ("open" | "code") => {
             fields.rename("an open question");
-            QuestionKind::Open { code: word == "code", reference: fields.text("reference") }
+            Some(QuestionKind::Open { code: word == "code", reference: fields.text("reference") })
         }
         other => {
             let span = kind.as_ref().map_or(node.span.clone(), Text::span);
-            let finding =
-                Finding::new(&WRONG_TYPE, span.clone(), format!("there is no question of kind `{}`", read::shorten(other)))
-                    .why("the page does not know how to ask it, nor how to grade it");
-            fields.findings.push(match read::nearest(other, KINDS) {
+            let finding = Finding::new(
+                &WRONG_TYPE,
+                span.clone(),
+                format!("there is no question of kind `{}`", read::shorten(other)),
+            )
+            .why("the page does not know how to ask it, nor how to grade it");
+            fields.findings.push(match crate::json::nearest(other, KINDS) {
                 Some(right) => finding.help(format!("did you mean `{right}`?")).fix(span, right),
                 None => finding.help(format!("the kinds are {}", KINDS.join(", "))),
             });
@@ -173,13 +176,15 @@ fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
     let verify = fields.node("verify").and_then(|n| verify::read(n, fields.findings));
     let span = fields.span();
     fields.finish();
-    Some(Question { span, q: q?, explain, label, kind: asked, verify })
+    Some(Question { span, q: q?, explain, label, kind: asked?, verify })
 }
 
-fn choice(fields: &mut Fields<'_, '_>, style: ChoiceStyle) -> QuestionKind {
+/// `None` when an option is broken, which is reported: without it, indexes mean nothing.
+fn choice(fields: &mut Fields<'_, '_>, style: ChoiceStyle) -> Option<QuestionKind> {
     let options = fields.need_list("options", "the student chooses one of them");
-    let options =
-        options.unwrap_or_default().iter().filter_map(|n| read::text(n, "an option", fields.findings)).collect();
+    let options: Option<Vec<Option<Text>>> =
+        options.map(|nodes| nodes.iter().map(|n| read::text(n, "an option", fields.findings)).collect());
+    let options: Option<Vec<Text>> = options.and_then(|all| all.into_iter().collect());
     let answer = fields.need_whole("answer", "it is the index of the right option, from 0");
     let mut sim = None;
     match style {
@@ -197,7 +202,7 @@ fn choice(fields: &mut Fields<'_, '_>, style: ChoiceStyle) -> QuestionKind {
             }
         }
     }
-    QuestionKind::Choice { style, options, answer, sim }
+    Some(QuestionKind::Choice { style, options: options?, answer, sim })
 }
 
 fn numeric(fields: &mut Fields<'_, '_>) -> QuestionKind {

@@ -6,6 +6,7 @@ use super::{Lab, LabAddress, lab};
 use crate::finding::Finding;
 use crate::json::{Fields, Json, Member, Node, Number, Scalar, read};
 use crate::lint::rules::keys::WRONG_TYPE;
+use crate::lint::rules::verify::claims_nothing;
 use crate::source::Text;
 use std::ops::Range;
 
@@ -37,6 +38,8 @@ pub enum VerifyLab {
     Inline(Box<Lab>),
     /// Another lab of the lesson: `#2`, `#quiz-id.1`.
     Reference(Text, LabAddress),
+    /// Something that is no lab, which is reported.
+    Broken,
 }
 
 /// A named run.
@@ -71,9 +74,12 @@ pub struct Said {
 pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Verify> {
     let mut fields = Fields::open(node, "a verify object", findings)?;
     let f = &mut fields;
+    if !["options", "value", "says", "exact"].iter().any(|key| f.has(key)) {
+        f.findings.push(claims_nothing(f.span()));
+    }
     let verify = Verify {
         span: f.span(),
-        lab: f.node("lab").and_then(|n| which(n, f.findings)),
+        lab: f.node("lab").map(|n| which(n, f.findings).unwrap_or(VerifyLab::Broken)),
         runs: f.map("runs").iter().filter_map(|m| run(m, f.findings)).collect(),
         measure: expressions(f, "measure"),
         options: f.list("options").iter().filter_map(|n| read::text(n, "a condition", f.findings)).collect(),
@@ -100,8 +106,12 @@ fn which(node: &Node, findings: &mut Vec<Finding>) -> Option<VerifyLab> {
         Json::Object(_) => lab::read(node, findings).map(|l| VerifyLab::Inline(Box::new(l))),
         _ => {
             findings.push(
-                Finding::new(&WRONG_TYPE, node.span.clone(), format!("`lab` must be a text or a lab object; this is {}", node.describe()))
-                    .help("write \"#2\" for the second lab of the lesson, or a lab object"),
+                Finding::new(
+                    &WRONG_TYPE,
+                    node.span.clone(),
+                    format!("`lab` must be a text or a lab object; this is {}", node.describe()),
+                )
+                .help("write \"#2\" for the second lab of the lesson, or a lab object"),
             );
             None
         }
@@ -116,7 +126,9 @@ fn run(member: &Member, findings: &mut Vec<Finding>) -> Option<Run> {
         set: f
             .map("set")
             .iter()
-            .filter_map(|m| Some((m.key.clone(), read::scalar(&m.value, "the value of a control", f.findings)?)))
+            .filter_map(|m| {
+                Some((m.key.clone(), read::scalar(&m.value, "the value of a control", f.findings)?))
+            })
             .collect(),
         press: f.list("press").iter().filter_map(|n| press(n, f.findings)).collect(),
         setup: f.text("setup"),

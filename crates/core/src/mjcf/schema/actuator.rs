@@ -101,6 +101,7 @@ static PLUGIN: Element = Element::new(
         JOINTLIKE,
         GENERAL,
         TRANSMISSION,
+        SITE,
         attributes! {
             TEXT => plugin instance;
         },

@@ -18,6 +18,10 @@ fn check(name: &str, xml: &str, recorded: &str) {
         let path = words.next().unwrap_or("");
         let want: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
         let (object, field) = path.split_once('.').unwrap();
+        // Statistics that the model does not give are computed by `mj_setConst` and tested there.
+        if object == "stat" && !xml.contains(&format!("{field}=")) {
+            continue;
+        }
         let object = match object {
             "model" => Object::Model,
             "opt" => Object::Option,
@@ -57,7 +61,7 @@ macro_rules! golden {
     )* };
 }
 golden! {
-    chain classes defaults_of_everything extrinsic free_bodies inertia inertia_options orientations sections
+    chain classes defaults_of_everything extrinsic free_bodies inertia inertia_options near_frames orientations sections
     sensors_and_keys simple_bodies trees
 }
 

@@ -48,6 +48,45 @@ fn extreme_numbers_do_not_pass_as_models() {
     }
 }
 
+/// Suggestions cost more than the mistakes they are about: they must not be made for every one of them.
+#[test]
+fn many_mistakes_cost_no_more_than_a_hundred() {
+    let name = "n".repeat(34);
+    let named: String = (0..2000).map(|i| format!("<material name='{name}{i}'/>")).collect();
+    let geoms = format!("<geom size='1' material='{}m'/>", "n".repeat(36)).repeat(50_000);
+    let sensors = "<framepos objtype='body' objname='nobody'/>".repeat(50_000);
+    let xml = format!(
+        "<mujoco><asset>{named}</asset><worldbody>{geoms}</worldbody><sensor>{sensors}</sensor></mujoco>"
+    );
+    assert_eq!(compile(&xml).err().map(|list| list.len()), Some(100));
+    let unknown = "<geometry sizes='1'/>".repeat(100_000);
+    assert_eq!(compile(&world(&unknown)).err().map(|list| list.len()), Some(100));
+}
+
+#[test]
+fn spans_are_slices_of_the_text() {
+    for xml in
+        ["<mujoco>&#9;é€é&#9;&#9;é</mujoco>", "<mujoco><xml:éé€/></mujoco>", "<mujoco xml:éé€='1'/>", "<é€/>"]
+    {
+        let list = compile(xml).unwrap_err();
+        assert!(list.iter().all(|d| xml.get(d.span.clone()).is_some()), "{list:?}");
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_say_why() {
+    use crate::mjcf::{MjcfFileError, compile_file};
+    let golden = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/mjcf/golden");
+    assert!(compile_file(&golden.join("chain.xml")).is_ok());
+    assert!(matches!(compile_file(&golden.join("none.xml")), Err(MjcfFileError::Io { .. })));
+    assert!(matches!(compile_file(&golden), Err(MjcfFileError::Io { .. })));
+    let text = match compile_file(&golden.join("chain.txt")) {
+        Err(e @ MjcfFileError::Model { .. }) => e.to_string(),
+        other => panic!("{other:?}"),
+    };
+    assert!(text.contains("chain.txt:1:1: error[mjcf-xml]"), "{text}");
+}
+
 /// A good model with a piece cut out, doubled or replaced at every place: no panic.
 #[test]
 fn mutations_never_panic() {
@@ -56,7 +95,9 @@ fn mutations_never_panic() {
     for text in [good, other] {
         for i in (0..text.len()).filter(|&i| text.is_char_boundary(i)) {
             let (a, b) = text.split_at(i);
-            let _ = compile(a);
+            for d in compile(a).err().unwrap_or_default() {
+                assert!(a.get(d.span.clone()).is_some(), "{d}");
+            }
             let skip = b.char_indices().nth(1).map_or(b.len(), |(n, _)| n);
             let _ = compile(&format!("{a}{}", &b[skip..]));
             let _ = compile(&format!("{a}\"{b}"));

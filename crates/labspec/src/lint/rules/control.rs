@@ -1,6 +1,6 @@
 //! Sliders, selects and buttons that cannot do what they promise.
 
-use super::plot::repeated;
+use super::plot::{DISTINCT, repeated};
 use crate::finding::{Finding, Severity};
 use crate::lint::{Example, Rule};
 use crate::spec::{ControlKind, Lab};
@@ -81,7 +81,9 @@ pub static NO_EFFECT: Rule = Rule {
     severity: Severity::Error,
     summary: "a slider or select has none of `set`, `apply` and `param`",
     why: "it moves, but nothing in the lab changes",
-    bad: Example::Lab(r#"{"model": "ball", "controls": [{"label": "mass", "min": 1, "max": 5, "value": 1}]}"#),
+    bad: Example::Lab(
+        r#"{"model": "ball", "controls": [{"label": "mass", "min": 1, "max": 5, "value": 1}]}"#,
+    ),
     good: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "mass", "set": "model.body_mass[1]", "min": 1, "max": 5, "value": 1}]}"#,
     ),
@@ -101,8 +103,21 @@ pub static DUPLICATE_CONTROL: Rule = Rule {
     ),
 };
 
-pub(in crate::lint) const RULES: &[&Rule] =
-    &[&EMPTY_RANGE, &SLIDER_VALUE, &SLIDER_STEP, &SELECT_VALUE, &SELECT_OPTIONS, &NO_EFFECT, &DUPLICATE_CONTROL];
+pub(in crate::lint) const RULES: &[&Rule] = &[
+    &EMPTY_RANGE,
+    &SLIDER_VALUE,
+    &SLIDER_STEP,
+    &SELECT_VALUE,
+    &SELECT_OPTIONS,
+    &NO_EFFECT,
+    &DUPLICATE_CONTROL,
+];
+
+/// A select without options, found while it is read.
+pub(crate) fn nothing_offered(span: std::ops::Range<usize>) -> Finding {
+    Finding::new(&SELECT_OPTIONS, span.start..span.start + 1, "this select offers nothing")
+        .help("write \"options\": [[\"Euler\", 0], [\"RK4\", 1]]")
+}
 
 pub(in crate::lint) fn check(lab: &Lab, findings: &mut Vec<Finding>) {
     for control in &lab.controls {
@@ -110,9 +125,17 @@ pub(in crate::lint) fn check(lab: &Lab, findings: &mut Vec<Finding>) {
             ControlKind::Slider { min, max, step, value, .. } => {
                 if min.value >= max.value {
                     findings.push(
-                        Finding::new(&EMPTY_RANGE, max.span.clone(), format!("`max` is {}, not above `min`, which is {}", max.value, min.value))
-                            .related(min.span.clone(), "the lower end")
-                            .help(if min.value > max.value { "swap the two ends" } else { "make `max` larger than `min`" }),
+                        Finding::new(
+                            &EMPTY_RANGE,
+                            max.span.clone(),
+                            format!("`max` is {}, not above `min`, which is {}", max.value, min.value),
+                        )
+                        .related(min.span.clone(), "the lower end")
+                        .help(if min.value > max.value {
+                            "swap the two ends"
+                        } else {
+                            "make `max` larger than `min`"
+                        }),
                     );
                     continue;
                 }
@@ -122,34 +145,44 @@ pub(in crate::lint) fn check(lab: &Lab, findings: &mut Vec<Finding>) {
                         Finding::new(
                             &SLIDER_VALUE,
                             value.span.clone(),
-                            format!("the start value {} is not between {} and {}", value.value, min.value, max.value),
+                            format!(
+                                "the start value {} is not between {} and {}",
+                                value.value, min.value, max.value
+                            ),
                         )
                         .related(end.span.clone(), "the nearest end")
                         .help("change the value, or widen the range so that it holds the value"),
                     );
                 }
-                if let Some(step) = step.as_ref().filter(|s| s.value <= 0.0 || s.value > max.value - min.value) {
+                if let Some(step) =
+                    step.as_ref().filter(|s| s.value <= 0.0 || s.value > max.value - min.value)
+                {
                     findings.push(
                         Finding::new(
                             &SLIDER_STEP,
                             step.span.clone(),
-                            format!("a step of {} in a range from {} to {}", step.value, min.value, max.value),
+                            format!(
+                                "a step of {} in a range from {} to {}",
+                                step.value, min.value, max.value
+                            ),
                         )
-                        .help(format!("leave `step` out for a hundredth of the range, {}", (max.value - min.value) / 100.0)),
+                        .help(format!(
+                            "leave `step` out for a hundredth of the range, {}",
+                            (max.value - min.value) / 100.0
+                        )),
                     );
                 }
             }
             ControlKind::Select { options, value, .. } => {
-                if options.is_empty() {
-                    findings.push(
-                        Finding::new(&SELECT_OPTIONS, control.label.span(), "this select offers nothing")
-                            .help("write \"options\": [[\"Euler\", 0], [\"RK4\", 1]]"),
-                    );
-                } else if !options.iter().any(|o| o.value.same(value)) {
+                if !options.is_empty() && !options.iter().any(|o| o.value.same(value)) {
                     let all: Vec<String> = options.iter().take(8).map(|o| o.value.show()).collect();
                     findings.push(
-                        Finding::new(&SELECT_VALUE, value.span(), format!("{} is none of the options", value.show()))
-                            .help(format!("write one of their values: {}", all.join(", "))),
+                        Finding::new(
+                            &SELECT_VALUE,
+                            value.span(),
+                            format!("{} is none of the options", value.show()),
+                        )
+                        .help(format!("write one of their values: {}", all.join(", "))),
                     );
                 }
             }
@@ -167,5 +200,5 @@ pub(in crate::lint) fn check(lab: &Lab, findings: &mut Vec<Finding>) {
         }
     }
     let labels = lab.controls.iter().map(|c| &c.label);
-    repeated(&DUPLICATE_CONTROL, "controls have the label", labels, findings);
+    repeated(&DUPLICATE_CONTROL, "controls have the label", DISTINCT, labels, findings);
 }

@@ -55,8 +55,22 @@ pub static WRONG_FENCE: Rule = Rule {
     severity: Severity::Error,
     summary: "a fence says `lab` but holds a quiz, or the other way round",
     why: "the page reads it as what the fence says and shows an empty block",
-    bad: Example::Lesson("```lab simlab\n{\"id\": \"fall\", \"questions\": [{\"kind\": \"open\", \"q\": \"Why?\"}]}\n```\n"),
-    good: Example::Lesson("```quiz\n{\"id\": \"fall\", \"questions\": [{\"kind\": \"open\", \"q\": \"Why?\"}]}\n```\n"),
+    bad: Example::Lesson(
+        "```lab simlab\n{\"id\": \"fall\", \"questions\": [{\"kind\": \"open\", \"q\": \"Why?\"}]}\n```\n",
+    ),
+    good: Example::Lesson(
+        "```quiz\n{\"id\": \"fall\", \"questions\": [{\"kind\": \"open\", \"q\": \"Why?\"}]}\n```\n",
+    ),
+};
+
+/// A fence whose kind is misspelt.
+pub static MISSPELT: Rule = Rule {
+    code: "fence-name",
+    severity: Severity::Error,
+    summary: "the kind of a fence is misspelt",
+    why: "the page shows the JSON as a listing, or finds no such widget",
+    bad: Example::Lesson("```Lab simlab\n{\"model\": \"ball\", \"plots\": []}\n```\n"),
+    good: Example::Lesson("```lab simlab\n{\"model\": \"ball\", \"plots\": []}\n```\n"),
 };
 
 /// A JSON file that holds neither a lab nor a quiz.
@@ -80,7 +94,7 @@ pub static LIMIT: Rule = Rule {
 };
 
 pub(in crate::lint) const RULES: &[&Rule] =
-    &[&UNCLOSED, &ON_LINE, &MISSING, &UNSEEN, &WRONG_FENCE, &UNKNOWN_SPEC, &LIMIT];
+    &[&UNCLOSED, &ON_LINE, &MISSING, &UNSEEN, &WRONG_FENCE, &MISSPELT, &UNKNOWN_SPEC, &LIMIT];
 
 /// A fence without its closing line: `end` is where its content ends, `resume` where the lesson goes on.
 pub(crate) fn unclosed(
@@ -97,7 +111,10 @@ pub(crate) fn unclosed(
             let finding = match resume {
                 Some(at) => {
                     let line = text.get(at..).and_then(|t| t.lines().next()).unwrap_or("");
-                    finding.related(at..at + line.trim_end().len(), "it runs into this line, which begins something else")
+                    finding.related(
+                        at..at + line.trim_end().len(),
+                        "it runs into this line, which begins something else",
+                    )
                 }
                 None => finding.why("everything to the end of the file counts as code"),
             };
@@ -111,6 +128,13 @@ pub(crate) fn unclosed(
             .help(format!("put a line {closing} below that place"))
             .fix(end..end, format!("\n{closing}")),
     }
+}
+
+/// A fence that was meant to be another kind.
+pub(crate) fn misspelt(open: &Opener, right: &str) -> Finding {
+    Finding::new(&MISSPELT, open.head.clone(), "the kind of this fence is misspelt")
+        .help(format!("write {}{right}", open.closing()))
+        .fix(open.head.clone(), format!("{}{right}", open.closing()))
 }
 
 /// Content on the opening line, beginning at `rest`.

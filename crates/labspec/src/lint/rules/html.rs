@@ -21,12 +21,70 @@ pub(in crate::lint) const RULES: &[&Rule] = &[&UNESCAPED];
 /// Elements of MJCF that no lesson means as HTML (XML reference of MuJoCo 3). Elements that HTML or SVG
 /// fragments really use (`text`, `image`, `frame`, `filter`, `layer`) are left out.
 const ELEMENTS: [&str; 64] = [
-    "accelerometer", "actuator", "adhesion", "asset", "attach", "body", "camera", "compiler",
-    "composite", "connect", "contact", "custom", "cylinder", "default", "deformable", "equality", "exclude", "extension",
-    "fixed", "flag", "flex", "flexcomp", "force", "framepos", "framequat", "freejoint", "general", "geom", "global", "gyro",
-    "headlight", "hfield", "include", "inertial", "intvelocity", "joint", "jointpos", "jointvel", "key", "keyframe", "light",
-    "material", "mesh", "motor", "mujoco", "muscle", "numeric", "option", "pair", "plugin", "position", "quality",
-    "replicate", "sensor", "site", "size", "skin", "spatial", "statistic", "tendon", "texture", "touch", "velocity", "weld",
+    "accelerometer",
+    "actuator",
+    "adhesion",
+    "asset",
+    "attach",
+    "body",
+    "camera",
+    "compiler",
+    "composite",
+    "connect",
+    "contact",
+    "custom",
+    "cylinder",
+    "default",
+    "deformable",
+    "equality",
+    "exclude",
+    "extension",
+    "fixed",
+    "flag",
+    "flex",
+    "flexcomp",
+    "force",
+    "framepos",
+    "framequat",
+    "freejoint",
+    "general",
+    "geom",
+    "global",
+    "gyro",
+    "headlight",
+    "hfield",
+    "include",
+    "inertial",
+    "intvelocity",
+    "joint",
+    "jointpos",
+    "jointvel",
+    "key",
+    "keyframe",
+    "light",
+    "material",
+    "mesh",
+    "motor",
+    "mujoco",
+    "muscle",
+    "numeric",
+    "option",
+    "pair",
+    "plugin",
+    "position",
+    "quality",
+    "replicate",
+    "sensor",
+    "site",
+    "size",
+    "skin",
+    "spatial",
+    "statistic",
+    "tendon",
+    "texture",
+    "touch",
+    "velocity",
+    "weld",
 ];
 const WORLD: &str = "worldbody";
 
@@ -106,8 +164,12 @@ mod tests {
 
     #[test]
     fn model_elements_are_told_from_html() {
-        let names = |html| tags(html).into_iter().map(|(range, _)| html[range].to_string()).collect::<Vec<_>>();
-        assert_eq!(names("in <code><option></code>, <geom size=\"1\"/> and <b>bold</b>"), ["<option>", "<geom size=\"1\"/>"]);
+        let names =
+            |html| tags(html).into_iter().map(|(range, _)| html[range].to_string()).collect::<Vec<_>>();
+        assert_eq!(
+            names("in <code><option></code>, <geom size=\"1\"/> and <b>bold</b>"),
+            ["<option>", "<geom size=\"1\"/>"]
+        );
         assert_eq!(names("</worldbody> &lt;option&gt; 1 <geom"), ["</worldbody>"]);
         assert!(names("<select><option>a</option></select> a<body> b").len() == 1);
         assert!(names("x <key2> < option >").is_empty());

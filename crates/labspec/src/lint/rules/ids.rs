@@ -27,7 +27,9 @@ pub(in crate::lint) fn within(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let mut first: HashMap<&str, &Text> = HashMap::new();
     for id in lesson.quizzes.iter().filter_map(|q| q.id.as_ref()) {
         match first.get(id.as_str()) {
-            Some(before) => findings.push(duplicate(id).related(before.span(), "the first quiz with this id")),
+            Some(before) => {
+                findings.push(duplicate(id).related(before.span(), "the first quiz with this id"))
+            }
             None => {
                 first.insert(id.as_str(), id);
             }

@@ -9,7 +9,9 @@ pub static UNKNOWN_KEY: Rule = Rule {
     severity: Severity::Error,
     summary: "an object has a key that the format does not know",
     why: "the page ignores it, so what it should do does not happen",
-    bad: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "t", "exp": "data.time", "expr": "data.time"}]}"#),
+    bad: Example::Lab(
+        r#"{"model": "ball", "readouts": [{"label": "t", "exp": "data.time", "expr": "data.time"}]}"#,
+    ),
     good: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time"}]}"#),
 };
 

@@ -91,7 +91,8 @@ struct Scan {
 
 impl Scan {
     fn of(code: &str, language: Language) -> Scan {
-        let mut scan = Scan { bare: String::with_capacity(code.len()), quotes: Vec::new(), continued: Vec::new() };
+        let mut scan =
+            Scan { bare: String::with_capacity(code.len()), quotes: Vec::new(), continued: Vec::new() };
         let mut inside: Option<&str> = None;
         let mut depth = 0i64;
         let mut at = 0;
@@ -165,12 +166,15 @@ fn opens(rest: &str, language: Language) -> Option<(&'static str, &'static str)>
 
 fn typographic(body: &Text, scan: &Scan, findings: &mut Vec<Finding>) {
     let Some(first) = scan.quotes.first() else { return };
-    let line = |at: usize| scan.bare.get(..at).map_or(0, |before| before.matches('\n').count());
-    let mut lines: Vec<(usize, &Range<usize>)> = Vec::new();
-    for quote in scan.quotes.iter().take(2000) {
-        let n = line(quote.start);
-        if lines.last().is_none_or(|(last, _)| *last != n) {
-            lines.push((n, quote));
+    // The first quote of every line.
+    let mut lines: Vec<&Range<usize>> = Vec::new();
+    for quote in &scan.quotes {
+        let same = lines
+            .last()
+            .and_then(|last| scan.bare.get(last.start..quote.start))
+            .is_some_and(|b| !b.contains('\n'));
+        if !same {
+            lines.push(quote);
         }
     }
     let on = if lines.len() > 1 { format!(", on {} lines", lines.len()) } else { String::new() };
@@ -180,8 +184,8 @@ fn typographic(body: &Text, scan: &Scan, findings: &mut Vec<Finding>) {
         format!("typographic quotes in a listing{on}"),
     )
     .help("write \" for “ and ”, and ' for ‘ and ’");
-    for (_, quote) in lines.iter().skip(1).take(7) {
-        finding = finding.related(body.span_of((*quote).clone()), "and on this line");
+    for &quote in lines.iter().skip(1).take(7) {
+        finding = finding.related(body.span_of(quote.clone()), "and on this line");
     }
     findings.push(finding);
 }
@@ -200,8 +204,12 @@ fn python(body: &Text, code: &str, scan: &Scan, findings: &mut Vec<Finding>) {
         if words.starts_with("if name == \"main\"") || words.starts_with("if name == 'main'") {
             let end = content.start + "if name".len();
             findings.push(
-                Finding::new(&UNDERSCORES, body.span_of(content.start..end), "the underscores of `__name__` are gone")
-                    .help("write if __name__ == \"__main__\":"),
+                Finding::new(
+                    &UNDERSCORES,
+                    body.span_of(content.start..end),
+                    "the underscores of `__name__` are gone",
+                )
+                .help("write if __name__ == \"__main__\":"),
             );
         }
         if bare.trim().is_empty() || scan.continued.binary_search(&start).is_ok() {

@@ -6,6 +6,7 @@ pub mod html;
 pub mod ids;
 pub mod json;
 pub mod keys;
+pub mod latex;
 pub mod listing;
 pub mod model;
 pub mod plot;
@@ -22,6 +23,7 @@ pub(super) const FAMILIES: &[&[&Rule]] = &[
     quotes::RULES,
     listing::RULES,
     html::RULES,
+    latex::RULES,
     json::RULES,
     keys::RULES,
     model::RULES,

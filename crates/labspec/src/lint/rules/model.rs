@@ -13,7 +13,9 @@ pub static ONE_MODEL: Rule = Rule {
     summary: "a lab names no model, or has both `model` and `xml`",
     why: "a lab simulates exactly one model",
     bad: Example::Lab(r#"{"title": "Falling", "readouts": [{"label": "t", "expr": "data.time"}]}"#),
-    good: Example::Lab(r#"{"title": "Falling", "model": "ball", "readouts": [{"label": "t", "expr": "data.time"}]}"#),
+    good: Example::Lab(
+        r#"{"title": "Falling", "model": "ball", "readouts": [{"label": "t", "expr": "data.time"}]}"#,
+    ),
 };
 
 /// A model that the folder does not have.
@@ -48,8 +50,9 @@ pub(in crate::lint) fn check(lab: &Lab, models: &ModelFolder, findings: &mut Vec
                 .help("delete one of the two"),
         ),
         (None, ..) => findings.push(
-            Finding::new(&ONE_MODEL, lab.span.start..lab.span.start + 1, "this lab has no model")
-                .help("add \"model\": \"NAME\" for a model of the folder, or \"xml\": \"<mujoco>…</mujoco>\""),
+            Finding::new(&ONE_MODEL, lab.span.start..lab.span.start + 1, "this lab has no model").help(
+                "add \"model\": \"NAME\" for a model of the folder, or \"xml\": \"<mujoco>…</mujoco>\"",
+            ),
         ),
     }
 }
@@ -57,14 +60,21 @@ pub(in crate::lint) fn check(lab: &Lab, models: &ModelFolder, findings: &mut Vec
 /// What is wrong with the name of a model.
 pub(crate) fn missing(name: &Text, models: &ModelFolder) -> Option<Finding> {
     let text = name.as_str();
-    if text.contains(['/', '\\', '\0']) || text.contains("..") || text.ends_with(".xml") || text.trim().is_empty() {
+    if text.contains(['/', '\\', '\0'])
+        || text.contains("..")
+        || text.ends_with(".xml")
+        || text.trim().is_empty()
+    {
         let stem = text.rsplit(['/', '\\']).next().unwrap_or("");
         let stem = stem.strip_suffix(".xml").unwrap_or(stem);
-        let finding = Finding::new(&MODEL_NAME, name.span(), format!("`{}` is not the name of a model", shorten(text)));
+        let finding =
+            Finding::new(&MODEL_NAME, name.span(), format!("`{}` is not the name of a model", shorten(text)));
         return Some(if stem.is_empty() || stem.contains("..") {
             finding.help("write the file's name without folder and extension")
         } else {
-            finding.help(format!("write the file's name without folder and extension: {}", shorten(stem))).fix(name.span(), stem)
+            finding
+                .help(format!("write the file's name without folder and extension: {}", shorten(stem)))
+                .fix(name.span(), stem)
         });
     }
     let names = models.names()?;

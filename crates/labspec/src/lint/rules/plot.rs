@@ -50,32 +50,52 @@ pub static DUPLICATE_READOUT: Rule = Rule {
 
 pub(in crate::lint) const RULES: &[&Rule] = &[&EMPTY_PLOT, &DUPLICATE_TRACE, &DUPLICATE_READOUT];
 
+/// A plot without traces, found while it is read.
+pub(crate) fn empty(plot: std::ops::Range<usize>) -> Finding {
+    Finding::new(&EMPTY_PLOT, plot.start..plot.start + 1, "this plot has no traces")
+        .help("add \"traces\": [{\"label\": \"height (m)\", \"expr\": \"data.qpos[2]\"}]")
+}
+
+/// What to do about labels that repeat.
+pub(super) const DISTINCT: &str = "say in the label what makes it different";
+
 pub(in crate::lint) fn check(lab: &Lab, findings: &mut Vec<Finding>) {
     for plot in &lab.plots {
-        if plot.traces.is_empty() {
-            findings.push(
-                Finding::new(&EMPTY_PLOT, plot.span.start..plot.span.start + 1, "this plot has no traces")
-                    .help("add \"traces\": [{\"label\": \"height (m)\", \"expr\": \"data.qpos[2]\"}]"),
-            );
-        }
         if let (Some(min), Some(max)) = (&plot.ymin, &plot.ymax)
             && min.value >= max.value
         {
             findings.push(
-                Finding::new(&EMPTY_RANGE, max.span.clone(), format!("`ymax` is {}, not above `ymin`, which is {}", max.value, min.value))
-                    .related(min.span.clone(), "the lower end")
-                    .help("swap the two, or leave both out: the axis then follows the data"),
+                Finding::new(
+                    &EMPTY_RANGE,
+                    max.span.clone(),
+                    format!("`ymax` is {}, not above `ymin`, which is {}", max.value, min.value),
+                )
+                .related(min.span.clone(), "the lower end")
+                .help("swap the two, or leave both out: the axis then follows the data"),
             );
         }
-        repeated(&DUPLICATE_TRACE, "traces of this plot have the label", plot.traces.iter().map(|t| &t.label), findings);
+        repeated(
+            &DUPLICATE_TRACE,
+            "traces of this plot have the label",
+            DISTINCT,
+            plot.traces.iter().map(|t| &t.label),
+            findings,
+        );
     }
-    repeated(&DUPLICATE_READOUT, "readouts have the label", lab.readouts.iter().map(|r| &r.label), findings);
+    repeated(
+        &DUPLICATE_READOUT,
+        "readouts have the label",
+        DISTINCT,
+        lab.readouts.iter().map(|r| &r.label),
+        findings,
+    );
 }
 
 /// Reports every text that stood there before.
 pub(super) fn repeated<'a>(
     rule: &Rule,
     what: &str,
+    help: &str,
     texts: impl Iterator<Item = &'a Text>,
     findings: &mut Vec<Finding>,
 ) {
@@ -85,7 +105,7 @@ pub(super) fn repeated<'a>(
             Some(before) => findings.push(
                 Finding::new(rule, text.span(), format!("two {what} `{}`", shorten(text.as_str())))
                     .related(before.span(), "the first one")
-                    .help("say in the label what makes it different"),
+                    .help(help),
             ),
             None => {
                 first.insert(text.as_str(), text);

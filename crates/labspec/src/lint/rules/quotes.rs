@@ -28,9 +28,13 @@ pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
                 (None, _) if is_typographic(c) => {
                     let span = code.span_of(at..at + c.len_utf8());
                     findings.push(
-                        Finding::new(&TYPOGRAPHIC, span.clone(), format!("the typographic quote {c} in an expression"))
-                            .help("write ' around names: data.body('ball')")
-                            .fix(span, "'"),
+                        Finding::new(
+                            &TYPOGRAPHIC,
+                            span.clone(),
+                            format!("the typographic quote {c} in an expression"),
+                        )
+                        .help("write ' around names: data.body('ball')")
+                        .fix(span, "'"),
                     );
                     // One is enough to find the others.
                     break;

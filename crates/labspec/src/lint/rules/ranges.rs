@@ -24,8 +24,12 @@ pub static DIGITS: Rule = Rule {
     severity: Severity::Error,
     summary: "`digits` is not between 0 and 17",
     why: "a number has 17 significant digits at most; a negative count makes the page throw",
-    bad: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time", "digits": -1}]}"#),
-    good: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time", "digits": 1}]}"#),
+    bad: Example::Lab(
+        r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time", "digits": -1}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time", "digits": 1}]}"#,
+    ),
 };
 
 /// A negative keyframe.
@@ -54,7 +58,9 @@ pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     positive("stopAt", lab.stop_at.as_ref(), "the time in seconds at which the lab pauses", findings);
     positive("height", lab.height.as_ref(), "pixels", findings);
     positive("forceScale", lab.force_scale.as_ref(), "metres per newton", findings);
-    lab.speeds.iter().for_each(|s| positive("a speed", Some(s), "how many times as fast as reality", findings));
+    lab.speeds
+        .iter()
+        .for_each(|s| positive("speeds", Some(s), "how many times as fast as reality", findings));
     for plot in &lab.plots {
         positive("window", plot.window.as_ref(), "seconds", findings);
         positive("height", plot.height.as_ref(), "pixels", findings);
@@ -67,8 +73,12 @@ pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     lab.readouts.iter().for_each(|r| digits(r.digits.as_ref(), findings));
     if let Some(key) = lab.key.as_ref().filter(|k| k.value < 0.0) {
         findings.push(
-            Finding::new(&KEYFRAME, key.span.clone(), format!("`key` is {}, but keyframes are counted from 0", key.value))
-                .help("write 0 for the first keyframe, or leave `key` out"),
+            Finding::new(
+                &KEYFRAME,
+                key.span.clone(),
+                format!("`key` is {}, but keyframes are counted from 0", key.value),
+            )
+            .help("write 0 for the first keyframe, or leave `key` out"),
         );
     }
     let toggles = lab.toggles.iter();
@@ -76,8 +86,11 @@ pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
         if OVERLAYS.contains(&name.as_str()) {
             continue;
         }
-        let finding =
-            Finding::new(&UNKNOWN_OVERLAY, name.span(), format!("`{}` cannot be drawn", shorten(name.as_str())));
+        let finding = Finding::new(
+            &UNKNOWN_OVERLAY,
+            name.span(),
+            format!("`{}` cannot be drawn", shorten(name.as_str())),
+        );
         findings.push(match nearest(name.as_str(), OVERLAYS) {
             Some(right) => finding.help(format!("did you mean `{right}`?")).fix(name.span(), right),
             None => finding.help(format!("what can be drawn: {}", OVERLAYS.join(", "))),
@@ -89,8 +102,12 @@ pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
 pub(super) fn positive(name: &str, number: Option<&Number>, means: &str, findings: &mut Vec<Finding>) {
     if let Some(number) = number.filter(|n| n.value <= 0.0) {
         findings.push(
-            Finding::new(&NOT_POSITIVE, number.span.clone(), format!("`{name}` is {}, but it must be positive", number.value))
-                .help(format!("it means: {means}")),
+            Finding::new(
+                &NOT_POSITIVE,
+                number.span.clone(),
+                format!("`{name}` is {}, but it must be positive", number.value),
+            )
+            .help(format!("it means: {means}")),
         );
     }
 }
@@ -98,8 +115,12 @@ pub(super) fn positive(name: &str, number: Option<&Number>, means: &str, finding
 fn digits(number: Option<&Number>, findings: &mut Vec<Finding>) {
     if let Some(n) = number.filter(|n| !(0.0..=f64::from(MAX_DIGITS)).contains(&n.value)) {
         findings.push(
-            Finding::new(&DIGITS, n.span.clone(), format!("`digits` is {}, not between 0 and {MAX_DIGITS}", n.value))
-                .help("it is the number of decimals; leave it out for 3"),
+            Finding::new(
+                &DIGITS,
+                n.span.clone(),
+                format!("`digits` is {}, not between 0 and {MAX_DIGITS}", n.value),
+            )
+            .help("it is the number of decimals; leave it out for 3"),
         );
     }
 }

@@ -1,0 +1,245 @@
+//! Everything a lab computes, bound to its model: statements and expressions as programs, and what they need.
+
+use super::names::{ModelNames, Scope};
+use super::scene::finding;
+use crate::finding::{Finding, Fix, Severity};
+use crate::json::Scalar;
+use crate::source::Text;
+use crate::spec::{Action, Control, ControlKind, Lab};
+use labspec_core::reflect::{FieldId, FieldSet, Kind, Object};
+use labspec_core::{Demand, Model};
+use labspec_expr::{self as expr, Compiled, Compiler, Effects, Globals, Program, ProgramId, Type, Value};
+
+/// A text and the program it was compiled to.
+#[derive(Clone, Debug)]
+pub struct Bound {
+    /// The text, with its place.
+    pub text: Text,
+    /// Its meaning.
+    pub program: Program,
+}
+
+/// A trace or a readout.
+#[derive(Clone, Debug)]
+pub struct Probe {
+    /// Column name: `plot/0/label` or `readout/label`.
+    pub name: String,
+    /// `None` when the expression has mistakes, which are reported.
+    pub bound: Option<Bound>,
+}
+
+/// What a slider or a select does.
+#[derive(Clone, Debug)]
+pub struct ActionProgram {
+    /// The `ctx` variable that gets the value.
+    pub param: Option<u32>,
+    /// The statements.
+    pub run: Option<Bound>,
+    /// Apply again after every reset.
+    pub init: bool,
+    /// Reset after a change.
+    pub reset: bool,
+}
+
+/// A control, ready to be moved.
+#[derive(Clone, Debug)]
+pub enum ControlProgram {
+    /// A slider or a select, with its start value.
+    Change(Value, ActionProgram),
+    /// A button.
+    Press(Option<Bound>),
+}
+
+/// All programs of a lab.
+#[derive(Clone, Debug)]
+pub struct Programs {
+    /// After load and after every reset.
+    pub setup: Option<Bound>,
+    /// Before every step.
+    pub controller: Option<Bound>,
+    /// Label and program of each control, in order.
+    pub controls: Vec<(String, ControlProgram)>,
+    /// Traces, then readouts.
+    pub probes: Vec<Probe>,
+    /// The `ctx` variables.
+    pub globals: Globals,
+    /// What all of them read and write.
+    pub demand: Demand,
+}
+
+impl Programs {
+    /// Compiles a lab's texts against its model. What is wrong goes to `findings`, with places in the lesson.
+    pub fn compile(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) -> Programs {
+        let names = ModelNames { model, scope: Scope::Lab };
+        let mut globals = Globals::new();
+        let mut texts: Vec<(ProgramId, Text)> = Vec::new();
+        let mut work = Work { names: &names, globals: &mut globals, texts: &mut texts, findings };
+
+        let setup = lab.setup.as_ref().and_then(|t| work.statements(t, None));
+        let controls = lab.controls.iter().map(|c| (c.label.value.clone(), work.control(c))).collect();
+        let controller = lab.controller.as_ref().and_then(|t| work.statements(t, None));
+        let mut probes = Vec::new();
+        for (i, plot) in lab.plots.iter().enumerate() {
+            for trace in &plot.traces {
+                probes.push(Probe { name: format!("plot/{i}/{}", trace.label.value), bound: work.expression(&trace.expr) });
+            }
+        }
+        for readout in &lab.readouts {
+            probes.push(Probe { name: format!("readout/{}", readout.label.value), bound: work.expression(&readout.expr) });
+        }
+        for (id, d) in globals.unset() {
+            if let Some((_, text)) = texts.iter().find(|(t, _)| *t == id) {
+                findings.push(to_finding(&d, text));
+            }
+        }
+        let demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        let mut programs = Programs { setup, controller, controls, probes, globals, demand };
+        let mut demand = programs.demand;
+        for bound in programs.bound() {
+            include(bound.program.effects(), &mut demand);
+        }
+        programs.demand = demand;
+        programs
+    }
+
+    /// Every program with its text.
+    pub fn bound(&self) -> impl Iterator<Item = &Bound> {
+        let controls = self.controls.iter().filter_map(|(_, c)| match c {
+            ControlProgram::Change(_, action) => action.run.as_ref(),
+            ControlProgram::Press(run) => run.as_ref(),
+        });
+        let probes = self.probes.iter().filter_map(|p| p.bound.as_ref());
+        self.setup.iter().chain(&self.controller).chain(controls).chain(probes)
+    }
+
+    /// What the control with this label touches.
+    pub(crate) fn effects_of(&self, label: &str) -> Option<&Effects> {
+        match self.control(label)?.1 {
+            ControlProgram::Change(_, action) => Some(action.run.as_ref()?.program.effects()),
+            ControlProgram::Press(run) => Some(run.as_ref()?.program.effects()),
+        }
+    }
+
+    /// The control with this label, and its place in the list.
+    pub fn control(&self, label: &str) -> Option<(usize, &ControlProgram)> {
+        self.controls.iter().enumerate().find(|(_, (l, _))| l == label).map(|(i, (_, c))| (i, c))
+    }
+}
+
+/// Adds what a program touches to a demand.
+pub(crate) fn include(effects: &Effects, demand: &mut Demand) {
+    if effects.reads_everything {
+        demand.reads = FieldSet::ALL;
+    }
+    if effects.writes_everything {
+        demand.writes = FieldSet::ALL;
+    }
+    for access in &effects.reads {
+        demand.reads.insert(FieldId(access.field.0 as u16));
+    }
+    for access in &effects.writes {
+        let field = FieldId(access.field.0 as u16);
+        // What a function recomputes is not set by hand: derived fields do not change a plan.
+        if field.info().kind != Kind::Derived {
+            demand.writes.insert(field);
+        }
+    }
+}
+
+/// The work on one lab.
+struct Work<'a> {
+    names: &'a ModelNames<'a>,
+    globals: &'a mut Globals,
+    texts: &'a mut Vec<(ProgramId, Text)>,
+    findings: &'a mut Vec<Finding>,
+}
+
+impl Work<'_> {
+    fn statements(&mut self, text: &Text, value: Option<Type>) -> Option<Bound> {
+        let compiled = self.compiler(value).statements(&text.value);
+        self.keep(text, compiled)
+    }
+
+    fn expression(&mut self, text: &Text) -> Option<Bound> {
+        let compiled = self.compiler(None).expression(&text.value);
+        self.keep(text, compiled)
+    }
+
+    fn compiler(&mut self, value: Option<Type>) -> Compiler<'_> {
+        let mut compiler = Compiler::new(self.names, self.globals);
+        compiler.value = value;
+        compiler
+    }
+
+    fn keep(&mut self, text: &Text, compiled: Compiled) -> Option<Bound> {
+        self.findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
+        self.texts.push((compiled.id, text.clone()));
+        compiled.program.map(|program| Bound { text: text.clone(), program })
+    }
+
+    fn control(&mut self, control: &Control) -> ControlProgram {
+        match &control.kind {
+            ControlKind::Button { run } => ControlProgram::Press(self.statements(run, None)),
+            ControlKind::Slider { value, action, .. } => {
+                let action = self.action(control, action, Type::Number);
+                ControlProgram::Change(Value::Number(value.value), action)
+            }
+            ControlKind::Select { options, value, action } => {
+                let numbers = options.iter().all(|o| matches!(o.value, Scalar::Number(_)));
+                let action = self.action(control, action, if numbers { Type::Number } else { Type::Any });
+                ControlProgram::Change(scalar(value), action)
+            }
+        }
+    }
+
+    fn action(&mut self, control: &Control, action: &Action, given: Type) -> ActionProgram {
+        let param = action.param.as_ref().map(|p| self.globals.define(&p.value));
+        let set = action.set.as_ref().and_then(|t| {
+            let compiled = self.compiler(Some(given)).assignment(&t.value);
+            self.keep(t, compiled)
+        });
+        let apply = action.apply.as_ref().and_then(|t| self.statements(t, Some(given)));
+        if let (Some(text), Some(bound)) = (&action.apply, &apply)
+            && !bound.program.effects().uses_value
+        {
+            self.findings.push(
+                warning("value-unused", text.span(), "these statements never use `value`")
+                    .why(format!("moving \"{}\" changes nothing: the chosen value is called `value`", control.label.value))
+                    .help("write `value` where the chosen value belongs"),
+            );
+        }
+        // The page evaluates `set` and looks at `apply` only without it.
+        ActionProgram { param, run: set.or(apply), init: action.init, reset: action.reset }
+    }
+}
+
+/// The value that a control gives.
+pub(crate) fn scalar(value: &Scalar) -> Value {
+    match value {
+        Scalar::Number(n) => Value::Number(n.value),
+        Scalar::Text(t) => Value::String(t.value.as_str().into()),
+        Scalar::Bool(b, _) => Value::Boolean(*b),
+    }
+}
+
+pub(crate) fn warning(code: &'static str, span: std::ops::Range<usize>, message: impl Into<String>) -> Finding {
+    finding(code, span, message).severity(Severity::Warning)
+}
+
+/// A diagnostic of the language, at its place in the lesson.
+pub fn to_finding(d: &expr::Diagnostic, text: &Text) -> Finding {
+    let span = |s: expr::Span| text.span_of(s.start..s.end);
+    Finding {
+        severity: if d.severity == expr::Severity::Error { Severity::Error } else { Severity::Warning },
+        why: d.why.clone(),
+        help: d.help.clone(),
+        fix: d.fix.as_ref().map(|f| Fix { span: span(f.span), text: f.text.clone() }),
+        ..finding(d.code, span(d.span), d.message.clone())
+    }
+}
+
+/// Whether a program writes a field of this kind, and the first such field.
+pub(crate) fn writes_kind(bound: &Bound, object: Object, kinds: &[Kind]) -> Option<FieldId> {
+    let fields = bound.program.effects().writes.iter().map(|a| FieldId(a.field.0 as u16));
+    fields.into_iter().find(|f| f.info().object == object && kinds.contains(&f.info().kind))
+}

@@ -1,0 +1,96 @@
+//! Numbers that stand for objects and collections in the language: small, dense, and decoded without a table.
+
+use labspec_core::Obj;
+use labspec_core::reflect::Object;
+use labspec_expr::{CollectionId, ObjectId};
+
+/// `model` or `data`: which fields a named object shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Model,
+    Data,
+}
+
+/// Something with members.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Thing {
+    /// `model`, `model.opt`, `model.stat`, `data`.
+    Struct(Object),
+    /// `mj`, `sim`, `lib`: the number of its name in [`super::functions::OBJECTS`].
+    Functions(usize),
+    /// `data.joint("hinge")`: one object of the model.
+    Named(Side, Obj, usize),
+}
+
+/// Kinds of objects with names, and what they are called in the language.
+pub(super) const KINDS: [(Obj, &str); 5] =
+    [(Obj::Body, "body"), (Obj::Joint, "joint"), (Obj::Geom, "geom"), (Obj::Site, "site"), (Obj::Sensor, "sensor")];
+
+const STRUCTS: [Object; 4] = [Object::Model, Object::Option, Object::Statistic, Object::Data];
+const FUNCTIONS: u32 = 0x100;
+const NAMED: u32 = 1 << 31;
+const DATA_SIDE: u32 = 1 << 30;
+const INDEX: u32 = (1 << 24) - 1;
+
+/// The id of an object.
+pub(super) fn encode(thing: Thing) -> ObjectId {
+    ObjectId(match thing {
+        Thing::Struct(object) => STRUCTS.iter().position(|&s| s == object).unwrap_or(0) as u32,
+        Thing::Functions(i) => FUNCTIONS + i as u32,
+        Thing::Named(side, kind, index) => {
+            let kind = KINDS.iter().position(|&(k, _)| k == kind).unwrap_or(0) as u32;
+            let side = if side == Side::Data { DATA_SIDE } else { 0 };
+            NAMED | side | kind << 24 | (index as u32 & INDEX)
+        }
+    })
+}
+
+/// The object of an id; `None` for a number that no object has.
+pub(super) fn decode(ObjectId(id): ObjectId) -> Option<Thing> {
+    if id & NAMED != 0 {
+        let side = if id & DATA_SIDE != 0 { Side::Data } else { Side::Model };
+        let (kind, _) = *KINDS.get((id >> 24 & 0x3f) as usize)?;
+        return Some(Thing::Named(side, kind, (id & INDEX) as usize));
+    }
+    if id >= FUNCTIONS {
+        return Some(Thing::Functions((id - FUNCTIONS) as usize));
+    }
+    STRUCTS.get(id as usize).map(|&s| Thing::Struct(s))
+}
+
+/// The index of the object whose id a function gets as a number.
+pub(super) fn index_of(number: f64) -> usize {
+    (number as u32 & INDEX) as usize
+}
+
+/// The collection of all objects of a kind.
+pub(super) fn collection(side: Side, kind: Obj) -> CollectionId {
+    let kind = KINDS.iter().position(|&(k, _)| k == kind).unwrap_or(0) as u32;
+    CollectionId(kind << 1 | u32::from(side == Side::Data))
+}
+
+/// Side, kind and noun of a collection.
+pub(super) fn of_collection(CollectionId(id): CollectionId) -> Option<(Side, Obj, &'static str)> {
+    let (kind, noun) = *KINDS.get((id >> 1) as usize)?;
+    Some((if id & 1 == 1 { Side::Data } else { Side::Model }, kind, noun))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_decode_to_what_was_encoded() {
+        for (i, &(kind, _)) in KINDS.iter().enumerate() {
+            for side in [Side::Model, Side::Data] {
+                let thing = Thing::Named(side, kind, 1000 * i + 7);
+                assert_eq!(decode(encode(thing)), Some(thing));
+                assert_eq!(index_of(f64::from(encode(thing).0)), 1000 * i + 7);
+                assert_eq!(of_collection(collection(side, kind)).map(|(s, k, _)| (s, k)), Some((side, kind)));
+            }
+        }
+        for thing in [Thing::Struct(Object::Data), Thing::Struct(Object::Option), Thing::Functions(2)] {
+            assert_eq!(decode(encode(thing)), Some(thing));
+        }
+    }
+}

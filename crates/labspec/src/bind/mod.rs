@@ -1,0 +1,17 @@
+//! Where the language meets the engine: names to fields of the table, programs to a running world.
+//!
+//! [`names`] answers the language's questions at compile time from the engine's field table, [`World`] answers
+//! them at run time, [`functions`] is the one table of functions, and [`Programs`] holds everything that a lab
+//! computes, bound to its model.
+
+mod compile;
+pub mod functions;
+mod handle;
+mod names;
+pub mod scene;
+mod world;
+
+pub use compile::{ActionProgram, Bound, ControlProgram, Probe, Programs, to_finding};
+pub(crate) use compile::{include, scalar, warning, writes_kind};
+pub use names::{ModelNames, Scope};
+pub use world::World;

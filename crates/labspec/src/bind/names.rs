@@ -1,0 +1,317 @@
+//! What names mean: the language's [`Schema`] over the engine's field table and one model.
+
+use super::functions::{self, OBJECTS, Place};
+use super::handle::{self, KINDS, Side, Thing};
+use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
+use labspec_core::{Model, Obj, joint};
+use labspec_expr::{CollectionId, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Schema, Value};
+
+/// Where a program stands: decides which functions exist.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// In a lab: what the page knows.
+    Lab,
+    /// In a measure of `verify`: also aggregates over a run.
+    Measure,
+}
+
+/// The names of a model, for the compiler of the language.
+#[derive(Clone, Copy, Debug)]
+pub struct ModelNames<'m> {
+    /// The model.
+    pub model: &'m Model,
+    /// Where the program stands.
+    pub scope: Scope,
+}
+
+impl ModelNames<'_> {
+    fn functions(&self) -> impl Iterator<Item = (usize, &'static functions::Function)> {
+        let measure = self.scope == Scope::Measure;
+        functions::TABLE.iter().enumerate().filter(move |(_, f)| measure || f.place == Place::Everywhere)
+    }
+
+    /// A function by its holder and name.
+    fn function_of(&self, object: &str, name: &str) -> Option<Entry> {
+        let found = self.functions().find(|(_, f)| f.object == object && f.name == name);
+        found.map(|(i, _)| Entry::Function(FunctionId(i as u32)))
+    }
+
+    /// A whole field.
+    fn whole(&self, f: FieldId, path: String) -> Field {
+        let shape = reflect::shape(self.model, f);
+        let owner = owner(f, &shape);
+        field(f, path, 0, shape, owner)
+    }
+
+    /// The fields of one object, with the name that they have there.
+    fn rows(&self, side: Side, kind: Obj, index: usize) -> impl Iterator<Item = (String, FieldId, usize, usize)> + '_ {
+        let objects = match side {
+            Side::Model => Object::Model,
+            Side::Data => Object::Data,
+        };
+        reflect::fields().filter(move |f| f.info().object == objects).filter_map(move |f| {
+            let (first, count) = self.row(f, kind, index)?;
+            Some((short_name(f.info().name).to_string(), f, first, count))
+        })
+    }
+
+    /// First element and number of elements of a field that belong to one object.
+    fn row(&self, f: FieldId, kind: Obj, index: usize) -> Option<(usize, usize)> {
+        let m = self.model;
+        let shape = reflect::shape(m, f);
+        let width: usize = shape.iter().skip(1).try_fold(1usize, |n, d| Some(n * (*d)?))?;
+        let at = |v: &[i32]| v.get(index).map(|&x| x as usize);
+        let (first, count) = match (kind, *f.info().shape.first()?) {
+            (Obj::Body, "nbody") | (Obj::Joint, "njnt") | (Obj::Geom, "ngeom") | (Obj::Site, "nsite") => (index, 1),
+            (Obj::Sensor, "nsensor") => (index, 1),
+            (Obj::Sensor, "nsensordata") => (at(&m.sensor_adr)?, at(&m.sensor_dim)?),
+            (Obj::Joint, "nq") => (at(&m.jnt_qposadr)?, joint::nq(*m.jnt_type.get(index)?)),
+            (Obj::Joint, "nv") => (at(&m.jnt_dofadr)?, joint::nv(*m.jnt_type.get(index)?)),
+            _ => return None,
+        };
+        Some((first * width, count * width))
+    }
+
+    fn named_member(&self, side: Side, kind: Obj, index: usize, name: &str) -> Option<Entry> {
+        match name {
+            "id" => return Some(Entry::Constant(Value::Number(index as f64))),
+            "name" => return Some(Entry::Constant(Value::String(self.model.names.of(kind).get(index)?.as_str().into()))),
+            _ => {}
+        }
+        // `data.sensor("x").data`, as in MuJoCo's bindings.
+        let wanted = if kind == Obj::Sensor && name == "data" { "sensordata" } else { name };
+        let (_, f, first, count) = self.rows(side, kind, index).find(|(short, f, ..)| short == wanted || f.info().name == wanted)?;
+        let holder = self.describe(handle::encode(Thing::Named(side, kind, index)));
+        let path = format!("{}.{name}", self.path(side, kind, index));
+        Some(Entry::Field(field(f, path, first, vec![Some(count)], format!("{holder} has {count} of these"))))
+    }
+
+    /// How an author writes an object: `data.joint("hinge")`.
+    fn path(&self, side: Side, kind: Obj, index: usize) -> String {
+        let holder = if side == Side::Data { "data" } else { "model" };
+        let name = self.model.names.of(kind).get(index).map_or("", String::as_str);
+        format!("{holder}.{}(\"{name}\")", noun(kind))
+    }
+
+    fn struct_fields(object: Object) -> impl Iterator<Item = FieldId> {
+        reflect::fields().filter(move |f| f.info().object == object)
+    }
+}
+
+/// The name of a field in a named object: without the prefix that says what it belongs to.
+fn short_name(name: &str) -> &str {
+    ["body_", "jnt_", "dof_", "geom_", "site_", "sensor_"].iter().find_map(|p| name.strip_prefix(p)).unwrap_or(name)
+}
+
+fn noun(kind: Obj) -> &'static str {
+    KINDS.iter().find(|(k, _)| *k == kind).map_or("object", |(_, noun)| noun)
+}
+
+fn field(f: FieldId, path: String, first: usize, shape: Vec<Option<usize>>, owner: String) -> Field {
+    let info = f.info();
+    let kind = match info.kind {
+        Kind::Structure => FieldKind::Structure,
+        Kind::State => FieldKind::State,
+        Kind::Input => FieldKind::Input,
+        Kind::Constant => FieldKind::Constant,
+        Kind::Inertial => FieldKind::Inertial,
+        Kind::Derived => FieldKind::Derived { by: stage_phrase(info.stage).into() },
+    };
+    Field { key: FieldKey(u32::from(f.0)), path, first, shape, kind, unit: info.unit.into(), doc: info.doc.into(), owner }
+}
+
+/// What computes a field, as the object of "computed by".
+fn stage_phrase(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Compile => "the model compiler",
+        Stage::SetConst => "mj_setConst",
+        Stage::User => "nothing",
+        Stage::Kinematics | Stage::GeomPoses | Stage::SitePoses => "forward kinematics, inside mj_step and mj_forward",
+        Stage::ComPos | Stage::ComVel => "the centre-of-mass stage, inside mj_step and mj_forward",
+        Stage::MassMatrix | Stage::Factor => "the mass-matrix stage, inside mj_step and mj_forward",
+        Stage::Collision => "collision detection, inside mj_step and mj_forward",
+        Stage::Constraint | Stage::Reference => "the constraint stage, inside mj_step and mj_forward",
+        Stage::Passive => "the passive-force stage, inside mj_step and mj_forward",
+        Stage::Bias => "recursive Newton–Euler, inside mj_step and mj_forward",
+        Stage::Acceleration => "the acceleration stage, inside mj_step and mj_forward",
+        Stage::Solve => "the constraint solver, inside mj_step and mj_forward",
+        Stage::Sensors => "the sensor stage, inside mj_step and mj_forward",
+        Stage::Energy => "the energy stage, inside mj_step and mj_forward",
+    }
+}
+
+/// Whose index it is, in a sentence.
+fn owner(f: FieldId, shape: &[Option<usize>]) -> String {
+    let info = f.info();
+    let Some(Some(count)) = shape.first() else { return String::new() };
+    let things = match info.shape.first().copied().unwrap_or("") {
+        "nq" => "coordinates (nq)",
+        "nv" => "degrees of freedom (nv)",
+        "nu" => "controls (nu)",
+        "na" => "activations (na)",
+        "nbody" => "bodies (nbody, the world is body 0)",
+        "njnt" => "joints (njnt)",
+        "ngeom" => "geoms (ngeom)",
+        "nsite" => "sites (nsite)",
+        "nmocap" => "mocap bodies (nmocap)",
+        "nkey" => "keyframes (nkey)",
+        "nsensor" => "sensors (nsensor)",
+        "nsensordata" => "sensor values (nsensordata)",
+        "ntendon" => "tendons (ntendon)",
+        "neq" => "equality constraints (neq)",
+        _ => return String::new(),
+    };
+    let each: usize = shape.iter().skip(1).map(|d| d.unwrap_or(1)).product();
+    let width = if shape.len() > 1 { format!(" with {each} numbers each") } else { String::new() };
+    format!("the model has {count} {things}{width}")
+}
+
+impl Schema for ModelNames<'_> {
+    fn root(&self, name: &str) -> Option<Entry> {
+        match name {
+            "model" => Some(Entry::Object(handle::encode(Thing::Struct(Object::Model)))),
+            "data" => Some(Entry::Object(handle::encode(Thing::Struct(Object::Data)))),
+            // The shorthand of the lab format.
+            "mj_setConst" => self.function_of("mj", name),
+            _ => match OBJECTS.iter().position(|o| *o == name) {
+                Some(i) => Some(Entry::Object(handle::encode(Thing::Functions(i)))),
+                None => self.function_of("", name),
+            },
+        }
+    }
+
+    fn root_names(&self) -> Vec<String> {
+        let own = self.functions().filter(|(_, f)| f.object.is_empty()).map(|(_, f)| f.name);
+        ["model", "data"].into_iter().chain(OBJECTS).chain(["mj_setConst"]).chain(own).map(String::from).collect()
+    }
+
+    fn member(&self, object: ObjectId, name: &str) -> Option<Entry> {
+        match handle::decode(object)? {
+            Thing::Struct(of) => {
+                if of == Object::Model {
+                    match name {
+                        "opt" => return Some(Entry::Object(handle::encode(Thing::Struct(Object::Option)))),
+                        "stat" => return Some(Entry::Object(handle::encode(Thing::Struct(Object::Statistic)))),
+                        _ => {}
+                    }
+                }
+                let side = match of {
+                    Object::Model => Some(Side::Model),
+                    Object::Data => Some(Side::Data),
+                    _ => None,
+                };
+                if let (Some(side), Some((kind, _))) = (side, KINDS.iter().find(|(_, noun)| *noun == name)) {
+                    return Some(Entry::Collection(handle::collection(side, *kind)));
+                }
+                let f = reflect::field(of, name)?;
+                Some(Entry::Field(self.whole(f, format!("{}.{name}", self.describe(object)))))
+            }
+            Thing::Functions(i) => {
+                let holder = OBJECTS.get(i)?;
+                match (*holder, name) {
+                    ("sim", "time") => reflect::field(Object::Data, "time").map(|f| Entry::Field(self.whole(f, "sim.time".into()))),
+                    ("sim", "timestep") => {
+                        reflect::field(Object::Option, "timestep").map(|f| Entry::Field(self.whole(f, "sim.timestep".into())))
+                    }
+                    _ => self.function_of(holder, name),
+                }
+            }
+            Thing::Named(side, kind, index) => self.named_member(side, kind, index, name),
+        }
+    }
+
+    fn member_names(&self, object: ObjectId) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        match handle::decode(object) {
+            Some(Thing::Struct(of)) => {
+                names.extend(Self::struct_fields(of).map(|f| f.info().name.to_string()));
+                if of == Object::Model {
+                    names.extend(["opt".into(), "stat".into()]);
+                }
+                if matches!(of, Object::Model | Object::Data) {
+                    names.extend(KINDS.iter().map(|(_, noun)| noun.to_string()));
+                }
+            }
+            Some(Thing::Functions(i)) => {
+                let holder = OBJECTS.get(i).copied().unwrap_or("");
+                names.extend(self.functions().filter(|(_, f)| f.object == holder).map(|(_, f)| f.name.to_string()));
+                if holder == "sim" {
+                    names.extend(["time".into(), "timestep".into()]);
+                }
+            }
+            Some(Thing::Named(side, kind, index)) => {
+                names.extend(["id".into(), "name".into()]);
+                names.extend(self.rows(side, kind, index).map(|(short, ..)| short));
+            }
+            None => {}
+        }
+        names
+    }
+
+    fn describe(&self, object: ObjectId) -> String {
+        match handle::decode(object) {
+            Some(Thing::Struct(Object::Model)) => "model".into(),
+            Some(Thing::Struct(Object::Option)) => "model.opt".into(),
+            Some(Thing::Struct(Object::Statistic)) => "model.stat".into(),
+            Some(Thing::Struct(Object::Data)) => "data".into(),
+            Some(Thing::Functions(i)) => OBJECTS.get(i).copied().unwrap_or("").into(),
+            Some(Thing::Named(_, kind, index)) => {
+                let name = self.model.names.of(kind).get(index).map_or("", String::as_str);
+                format!("the {} \"{name}\"", noun(kind))
+            }
+            None => String::new(),
+        }
+    }
+
+    fn lookup(&self, collection: CollectionId, name: &str) -> Option<ObjectId> {
+        let (side, kind, _) = handle::of_collection(collection)?;
+        self.model.names.id(kind, name).map(|i| handle::encode(Thing::Named(side, kind, i)))
+    }
+
+    fn names(&self, collection: CollectionId) -> Vec<String> {
+        let Some((_, kind, _)) = handle::of_collection(collection) else { return Vec::new() };
+        self.model.names.of(kind).iter().filter(|n| !n.is_empty()).cloned().collect()
+    }
+
+    fn noun(&self, collection: CollectionId) -> &str {
+        handle::of_collection(collection).map_or("object", |(_, _, noun)| noun)
+    }
+
+    fn function(&self, FunctionId(i): FunctionId) -> FunctionInfo {
+        functions::TABLE.get(i as usize).or(functions::TABLE.first()).map(functions::info).unwrap_or_else(|| unreachable_info())
+    }
+
+    fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
+        let here = match handle::decode(object)? {
+            Thing::Struct(of) => of,
+            Thing::Functions(_) if name.starts_with("mj_") => {
+                return Some(format!("`{name}` is a function of MuJoCo that labspec does not offer yet"));
+            }
+            _ => return None,
+        };
+        let elsewhere = [Object::Model, Object::Option, Object::Data, Object::Statistic]
+            .into_iter()
+            .find(|&of| of != here && reflect::field(of, name).is_some())?;
+        let holder = self.describe(handle::encode(Thing::Struct(elsewhere)));
+        Some(format!("`{name}` belongs to {holder}: write `{holder}.{name}`"))
+    }
+
+    fn refresh(&self) -> Option<String> {
+        Some("mj.mj_forward(model, data)".into())
+    }
+}
+
+/// Of no function: the table is never empty.
+fn unreachable_info() -> FunctionInfo {
+    FunctionInfo {
+        name: String::new(),
+        params: Vec::new(),
+        optional: 0,
+        implied: false,
+        returns: labspec_expr::Type::Void,
+        aggregate: false,
+        reads: labspec_expr::Touch::Nothing,
+        writes: labspec_expr::Touch::Nothing,
+        doc: String::new(),
+    }
+}

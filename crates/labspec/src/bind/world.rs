@@ -1,0 +1,56 @@
+//! The engine as the language's host: fields are read and written by id and flat index.
+
+use super::functions;
+use labspec_core::reflect::{self, FieldId};
+use labspec_core::{Data, Model, integrator};
+use labspec_expr::{FieldKey, FunctionId, Host, Value};
+
+/// A model and its data, while a lab runs.
+#[derive(Clone, Debug)]
+pub struct World {
+    /// The model; controls write to it.
+    pub model: Model,
+    /// The state and what follows from it.
+    pub data: Data,
+}
+
+impl Host for World {
+    fn get(&self, FieldKey(f): FieldKey, index: usize) -> Option<f64> {
+        reflect::view(&self.model, &self.data, FieldId(f as u16)).get(index)
+    }
+
+    fn set(&mut self, FieldKey(f): FieldKey, index: usize, value: f64) -> Result<(), String> {
+        let field = FieldId(f as u16);
+        check(field, value)?;
+        reflect::view_mut(&mut self.model, &mut self.data, field).set(index, value);
+        Ok(())
+    }
+
+    fn len(&self, FieldKey(f): FieldKey) -> usize {
+        reflect::view(&self.model, &self.data, FieldId(f as u16)).len()
+    }
+
+    fn call(&mut self, FunctionId(f): FunctionId, args: &[Value]) -> Result<Value, String> {
+        match functions::TABLE.get(f as usize) {
+            Some(function) => (function.run)(self, args),
+            None => Err("there is no such function".into()),
+        }
+    }
+}
+
+/// Values that the engine has no meaning for are refused, not ignored.
+fn check(field: FieldId, value: f64) -> Result<(), String> {
+    let is = |allowed: &[i32]| allowed.iter().any(|&a| f64::from(a) == value);
+    match field.info().name {
+        "timestep" if !(value > 0.0 && value.is_finite()) => {
+            Err(format!("the timestep must be greater than 0, not {value}"))
+        }
+        "integrator" if !is(&[integrator::EULER, integrator::RK4]) => {
+            Err(format!("integrator {value} is not supported yet: 0 is Euler, 1 is RK4"))
+        }
+        "cone" if !is(&[0]) => Err(format!("friction cone {value} is not supported yet: 0 is pyramidal")),
+        "solver" if !is(&[2]) => Err(format!("solver {value} is not supported yet: 2 is Newton")),
+        "geom_condim" if !is(&[1, 3]) => Err(format!("condim {value} is not supported yet: 1 is frictionless, 3 slides")),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,136 @@
+//! Running a lab without a page: the exact order of events, sampled into a table.
+
+mod session;
+mod table;
+
+pub use session::{Numerics, Session, Trouble};
+pub use table::{Cell, Table};
+
+use crate::bind::{ControlProgram, Programs};
+use crate::spec::Lab;
+use labspec_core::Model;
+use labspec_expr::Value;
+
+/// What is done to a lab while it runs.
+#[derive(Clone, Debug, Default)]
+pub struct RunOptions {
+    /// Length in seconds; without it and `steps`, the lab's `stopAt`, or 2 s.
+    pub until: Option<f64>,
+    /// Length in steps.
+    pub steps: Option<usize>,
+    /// A row after every so many steps.
+    pub every: usize,
+    /// Controls by label, and the values they are set to before the first step.
+    pub set: Vec<(String, Value)>,
+    /// Buttons by label, and the times in s of their presses.
+    pub press: Vec<(String, f64)>,
+}
+
+/// Most steps of one run: a lesson is minutes long at most, a mistyped length is for ever.
+pub const MAX_STEPS: usize = 20_000_000;
+/// Most cells of a table.
+const MAX_CELLS: usize = 50_000_000;
+/// Length of a run when nothing states one, s.
+const DEFAULT_LENGTH: f64 = 2.0;
+
+/// Why a run did not start.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RunError(pub String);
+
+impl std::fmt::Display for RunError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for RunError {}
+
+/// Sets the controls of the options, by label.
+///
+/// # Errors
+/// There is no such control, or it is a button.
+pub fn set_controls(session: &mut Session<'_>, programs: &Programs, set: &[(String, Value)]) -> Result<(), RunError> {
+    for (label, value) in set {
+        match programs.control(label) {
+            Some((i, ControlProgram::Change(..))) => session.set_control(i, value.clone()),
+            Some(_) => return Err(RunError(format!("\"{label}\" is a button: press it instead of setting it"))),
+            None => return Err(unknown(label, programs)),
+        }
+    }
+    Ok(())
+}
+
+/// The buttons of the options with their times, in order of time.
+///
+/// # Errors
+/// There is no such control, or it is not a button.
+pub fn presses(programs: &Programs, press: &[(String, f64)]) -> Result<Vec<(usize, f64)>, RunError> {
+    let mut list = Vec::new();
+    for (label, time) in press {
+        match programs.control(label) {
+            Some((i, ControlProgram::Press(_))) => list.push((i, *time)),
+            Some(_) => return Err(RunError(format!("\"{label}\" is not a button: set it instead of pressing it"))),
+            None => return Err(unknown(label, programs)),
+        }
+    }
+    list.sort_by(|a, b| a.1.total_cmp(&b.1));
+    Ok(list)
+}
+
+fn unknown(label: &str, programs: &Programs) -> RunError {
+    let labels: Vec<&str> = programs.controls.iter().map(|(l, _)| l.as_str()).collect();
+    let known = match labels.as_slice() {
+        [] => "this lab has no controls".to_string(),
+        all => format!("the controls are: \"{}\"", all.join("\", \"")),
+    };
+    let hint = crate::json::nearest(label, labels).map_or(String::new(), |l| format!("; did you mean \"{l}\"?"));
+    RunError(format!("there is no control \"{label}\"{hint} ({known})"))
+}
+
+/// Number of steps that a length comes to.
+///
+/// # Errors
+/// More than [`MAX_STEPS`].
+pub fn count_steps(lab: &Lab, until: Option<f64>, steps: Option<usize>, timestep: f64) -> Result<usize, RunError> {
+    let length = until.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(DEFAULT_LENGTH);
+    // JavaScript's Math.round, as the page's own clock would count.
+    let count = steps.map_or((length / timestep + 0.5).floor(), |n| n as f64);
+    if !(0.0..=MAX_STEPS as f64).contains(&count) {
+        return Err(RunError(format!(
+            "a run of {length} s at a timestep of {timestep} s would take {count} steps; the limit is {MAX_STEPS}"
+        )));
+    }
+    Ok(count as usize)
+}
+
+/// Runs a lab and samples every trace and readout: at the start, then after every `every` steps and after the
+/// last.
+///
+/// # Errors
+/// A control that does not exist, or a run that is too long.
+pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
+    let key = lab.key.as_ref().map(|k| k.value.max(0.0) as usize);
+    let mut session = Session::start(programs, model, key, &programs.demand);
+    set_controls(&mut session, programs, &options.set)?;
+    let presses = presses(programs, &options.press)?;
+    let timestep = session.world.model.opt.timestep;
+    let steps = count_steps(lab, options.until, options.steps, timestep)?;
+    let every = options.every.max(1);
+    if steps / every * (programs.probes.len() + 1) > MAX_CELLS {
+        return Err(RunError(format!("{steps} steps give too large a table; sample less often with --every")));
+    }
+
+    let mut table = Table::new(timestep, programs.probes.iter().map(|p| p.name.clone()));
+    let mut pending = presses.as_slice();
+    session.press_due(&mut pending);
+    table.push(session.sample());
+    for i in 1..=steps {
+        session.press_due(&mut pending);
+        session.step();
+        if i % every == 0 || i == steps {
+            table.push(session.sample());
+        }
+    }
+    table.finish(&session);
+    Ok(table)
+}

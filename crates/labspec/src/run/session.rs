@@ -1,0 +1,251 @@
+//! One run of a lab: the order of events of the lab format, step by step.
+
+use super::table::Cell;
+use crate::bind::{ActionProgram, ControlProgram, Programs, World};
+use crate::source::Text;
+use labspec_core::{self as core, Data, Demand, Model, Plan, Warning, WarningStat};
+use labspec_expr::{Context, EventKind, Program, Value};
+
+/// Something that went wrong in a program while the lab ran; JavaScript would have thrown, or said nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trouble {
+    /// Stable code.
+    pub code: &'static str,
+    /// The text and the bytes of it that failed.
+    pub text: Text,
+    /// Bytes of `text`.
+    pub span: std::ops::Range<usize>,
+    /// What happened.
+    pub message: String,
+    /// Simulated time of the first occurrence, s.
+    pub time: f64,
+}
+
+/// A change of the numerics that a lesson does not mention, to see whether its answers depend on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Numerics {
+    /// The timestep is multiplied by this.
+    pub timestep: f64,
+    /// The constraint problem is solved to rounding.
+    pub tight: bool,
+}
+
+impl Numerics {
+    /// As the lesson states it.
+    pub const NOMINAL: Numerics = Numerics { timestep: 1.0, tight: false };
+}
+
+/// A running lab.
+#[derive(Debug)]
+pub struct Session<'p> {
+    /// The model and its data.
+    pub world: World,
+    /// The `ctx` variables.
+    pub context: Context,
+    /// What went wrong, the first time for each place.
+    pub troubles: Vec<Trouble>,
+    /// Warnings of the engine, also those of before a reset.
+    pub warnings: [WarningStat; Warning::COUNT],
+    programs: &'p Programs,
+    key: Option<usize>,
+    /// The current value of each control.
+    values: Vec<Value>,
+}
+
+impl<'p> Session<'p> {
+    /// Loads the lab: steps 1 to 3 of the order of events.
+    pub fn start(programs: &'p Programs, model: &Model, key: Option<usize>, demand: &Demand) -> Session<'p> {
+        let data = Data::planned(model, Plan::new(model, demand));
+        Session::start_with(programs, model, key, data)
+    }
+
+    /// The same with data whose plan is already decided.
+    pub fn start_with(programs: &'p Programs, model: &Model, key: Option<usize>, data: Data) -> Session<'p> {
+        let values = programs.controls.iter().map(|(_, c)| match c {
+            ControlProgram::Change(value, _) => value.clone(),
+            ControlProgram::Press(_) => Value::Undefined,
+        });
+        let mut session = Session {
+            world: World { model: model.clone(), data },
+            context: Context::new(),
+            troubles: Vec::new(),
+            warnings: [WarningStat::default(); Warning::COUNT],
+            values: values.collect(),
+            programs,
+            key,
+        };
+        session.forward();
+        if session.key.is_some() {
+            session.reset_data();
+        }
+        for i in 0..programs.controls.len() {
+            if let ControlProgram::Change(value, _) = &programs.controls[i].1 {
+                session.apply(i, value.clone());
+            }
+        }
+        session.after_reset();
+        session
+    }
+
+    /// A control changes: step 5.
+    pub fn set_control(&mut self, index: usize, value: Value) {
+        let Some((_, ControlProgram::Change(_, action))) = self.programs.controls.get(index) else { return };
+        self.apply(index, value);
+        if action.reset {
+            self.reset();
+        } else {
+            self.forward();
+        }
+    }
+
+    /// A button is pressed.
+    pub fn press(&mut self, index: usize) {
+        if let Some((_, ControlProgram::Press(Some(bound)))) = self.programs.controls.get(index) {
+            self.execute(&bound.program, &bound.text, None);
+            self.forward();
+        }
+    }
+
+    /// Presses every button whose time has come, and drops it from the list.
+    pub fn press_due(&mut self, pending: &mut &[(usize, f64)]) {
+        while let Some(&(button, time)) = pending.first()
+            && self.world.data.time >= time - 1e-12
+        {
+            *pending = &pending[1..];
+            self.press(button);
+        }
+    }
+
+    /// Back to the start: step 6. The model and `ctx` keep what was written to them.
+    pub fn reset(&mut self) {
+        self.reset_data();
+        self.after_reset();
+    }
+
+    /// The controller, then one step of the engine.
+    pub fn step(&mut self) {
+        if let Some(bound) = &self.programs.controller {
+            self.execute(&bound.program, &bound.text, None);
+        }
+        core::step(&self.world.model, &mut self.world.data);
+        self.note_warnings();
+    }
+
+    /// Time and every probe. What throws is nothing, as on the page.
+    pub fn sample(&mut self) -> Vec<Cell> {
+        let mut row = Vec::with_capacity(self.programs.probes.len() + 1);
+        row.push(Cell::Number(self.world.data.time));
+        for probe in &self.programs.probes {
+            let value = probe.bound.as_ref().and_then(|b| self.evaluate(&b.program, &b.text));
+            row.push(value.map_or(Cell::Nothing, Cell::from));
+        }
+        row
+    }
+
+    /// The value of an expression now; `None` when it throws.
+    pub fn evaluate(&mut self, program: &Program, text: &Text) -> Option<Value> {
+        match program.run(&mut self.world, &mut self.context, None) {
+            Ok(value) => Some(value),
+            Err(e) => {
+                self.note(e.code, text, e.span.start..e.span.end, e.message);
+                None
+            }
+        }
+    }
+
+    /// Runs statements, then `mj_forward`: what a question adds to the setup of its lab.
+    pub fn run_statements(&mut self, program: &Program, text: &Text) {
+        self.execute(program, text, None);
+        self.forward();
+    }
+
+    /// Changes the numerics. What the lesson states itself is left alone: `mentioned` says that it states the
+    /// timestep.
+    pub fn perturb(&mut self, numerics: Numerics, mentioned: bool) {
+        let opt = &mut self.world.model.opt;
+        if !mentioned {
+            opt.timestep *= numerics.timestep;
+        }
+        if numerics.tight {
+            (opt.tolerance, opt.ls_tolerance, opt.iterations, opt.ls_iterations) = (0.0, 1e-10, 200, 100);
+        }
+    }
+
+    fn forward(&mut self) {
+        core::forward(&self.world.model, &mut self.world.data);
+    }
+
+    fn reset_data(&mut self) {
+        match self.key {
+            Some(key) if key < self.world.model.nkey => core::reset_data_keyframe(&self.world.model, &mut self.world.data, key),
+            _ => core::reset_data(&self.world.model, &mut self.world.data),
+        }
+        self.forward();
+    }
+
+    /// Step 3: setup, the `init` controls, forward.
+    fn after_reset(&mut self) {
+        let programs = self.programs;
+        if let Some(bound) = &programs.setup {
+            self.execute(&bound.program, &bound.text, None);
+        }
+        for i in 0..programs.controls.len() {
+            if let ControlProgram::Change(_, action) = &programs.controls[i].1
+                && action.init
+            {
+                let value = self.values[i].clone();
+                self.run_action(action, &value);
+            }
+        }
+        self.forward();
+    }
+
+    /// Stores the value of a control and does what it says.
+    fn apply(&mut self, index: usize, value: Value) {
+        let programs = self.programs;
+        if let Some((_, ControlProgram::Change(_, action))) = programs.controls.get(index) {
+            self.values[index] = value.clone();
+            if let Some(slot) = action.param {
+                self.context.set(slot, value.clone());
+            }
+            self.run_action(action, &value);
+        }
+    }
+
+    fn run_action(&mut self, action: &ActionProgram, value: &Value) {
+        if let Some(bound) = &action.run {
+            self.execute(&bound.program, &bound.text, Some(value));
+        }
+    }
+
+    fn execute(&mut self, program: &Program, text: &Text, value: Option<&Value>) {
+        let result = program.run(&mut self.world, &mut self.context, value);
+        if let Err(e) = result {
+            self.note(e.code, text, e.span.start..e.span.end, e.message);
+        }
+        // Reading past the end gives `undefined`, which a lesson may mean; a lost store it cannot.
+        let lost = self.context.events().iter().find(|e| e.kind == EventKind::StorePastEnd).copied();
+        if let Some(event) = lost {
+            self.note(event.code(), text, event.span.start..event.span.end, event.to_string());
+        }
+        self.note_warnings();
+    }
+
+    fn note(&mut self, code: &'static str, text: &Text, span: std::ops::Range<usize>, message: String) {
+        let known = |t: &Trouble| t.code == code && t.span == span && t.text == *text;
+        if !self.troubles.iter().any(known) {
+            let time = self.world.data.time;
+            self.troubles.push(Trouble { code, text: text.clone(), span, message, time });
+        }
+    }
+
+    /// Keeps warnings over resets of the data: the engine's own counters start again.
+    fn note_warnings(&mut self) {
+        for (kept, now) in self.warnings.iter_mut().zip(&self.world.data.warning) {
+            if now.number > 0 && kept.number == 0 {
+                *kept = *now;
+            }
+            kept.number = kept.number.max(now.number);
+        }
+    }
+}

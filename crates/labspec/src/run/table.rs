@@ -1,0 +1,178 @@
+//! The samples of a run, and their written forms.
+
+use super::Session;
+use labspec_core::Warning;
+use labspec_expr::Value;
+use serde_json::{Value as Json, json};
+use std::fmt::Write;
+
+/// One sampled value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// A number, possibly not finite.
+    Number(f64),
+    /// A text.
+    Text(String),
+    /// A truth value.
+    Bool(bool),
+    /// `undefined`, `null`, or an expression that threw.
+    Nothing,
+}
+
+impl From<Value> for Cell {
+    fn from(value: Value) -> Cell {
+        match value {
+            Value::Number(x) => Cell::Number(x),
+            Value::Boolean(b) => Cell::Bool(b),
+            Value::String(s) => Cell::Text(s.to_string()),
+            Value::Undefined | Value::Null => Cell::Nothing,
+        }
+    }
+}
+
+impl Cell {
+    /// The number to draw; NaN for what is none.
+    pub fn number(&self) -> f64 {
+        match self {
+            Cell::Number(x) => *x,
+            Cell::Bool(b) => f64::from(u8::from(*b)),
+            _ => f64::NAN,
+        }
+    }
+
+    fn json(&self) -> Json {
+        match self {
+            Cell::Number(x) if x.is_finite() => json!(x),
+            Cell::Number(x) => json!(Value::Number(*x).to_string()),
+            Cell::Text(t) => json!(t),
+            Cell::Bool(b) => json!(b),
+            Cell::Nothing => Json::Null,
+        }
+    }
+
+    fn csv(&self) -> String {
+        match self {
+            Cell::Number(x) => Value::Number(*x).to_string(),
+            Cell::Text(t) => quoted(t),
+            Cell::Bool(b) => b.to_string(),
+            Cell::Nothing => String::new(),
+        }
+    }
+
+    /// As the page prints it with so many decimals.
+    pub fn shown(&self, digits: u32) -> String {
+        match self {
+            Cell::Number(x) => shown(*x, digits),
+            Cell::Text(t) => t.clone(),
+            Cell::Bool(b) => b.to_string(),
+            Cell::Nothing => "nan".into(),
+        }
+    }
+}
+
+/// A number as the page prints it: fixed decimals, exponential when small or large.
+pub fn shown(x: f64, digits: u32) -> String {
+    if x.is_nan() {
+        return "nan".into();
+    }
+    if x.is_infinite() {
+        return if x > 0.0 { "inf" } else { "-inf" }.into();
+    }
+    let magnitude = x.abs();
+    if magnitude != 0.0 && !(1e-3..1e5).contains(&magnitude) {
+        let text = format!("{x:.2e}");
+        // JavaScript writes the sign of the exponent.
+        return if text.contains("e-") { text } else { text.replace('e', "e+") };
+    }
+    format!("{x:.*}", digits as usize)
+}
+
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.into() }
+}
+
+/// Rows of samples: time, then every trace, then every readout.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// Length of a step, s.
+    pub timestep: f64,
+    /// Names of the columns; the first is `time`.
+    pub columns: Vec<String>,
+    /// The samples.
+    pub rows: Vec<Vec<Cell>>,
+    /// Warnings of the engine since the last reset: name and number.
+    pub warnings: Vec<(&'static str, usize)>,
+    /// What threw.
+    pub errors: Vec<String>,
+}
+
+impl Table {
+    pub(super) fn new(timestep: f64, probes: impl Iterator<Item = String>) -> Table {
+        let columns = std::iter::once("time".to_string()).chain(probes).collect();
+        Table { timestep, columns, rows: Vec::new(), warnings: Vec::new(), errors: Vec::new() }
+    }
+
+    pub(super) fn push(&mut self, row: Vec<Cell>) {
+        self.rows.push(row);
+    }
+
+    pub(super) fn finish(&mut self, session: &Session<'_>) {
+        let raised = Warning::ALL.iter().zip(&session.world.data.warning).filter(|(_, s)| s.number > 0);
+        self.warnings = raised.map(|(w, s)| (w.name(), s.number)).collect();
+        self.errors = session.troubles.iter().map(|t| format!("{}: {}", t.text.value, t.message)).collect();
+    }
+
+    /// The points of a column over time.
+    pub fn series(&self, column: usize) -> Vec<(f64, f64)> {
+        let at = |row: &[Cell], i: usize| row.get(i).map_or(f64::NAN, Cell::number);
+        self.rows.iter().map(|row| (at(row, 0), at(row, column))).collect()
+    }
+
+    /// The layout of the reference runner: columns, rows, warnings, errors.
+    pub fn json(&self) -> Json {
+        let rows: Vec<Json> = self.rows.iter().map(|row| row.iter().map(Cell::json).collect()).collect();
+        let warnings: serde_json::Map<String, Json> =
+            self.warnings.iter().map(|(name, n)| (name.to_string(), json!(n))).collect();
+        json!({
+            "version": concat!("labspec ", env!("CARGO_PKG_VERSION")),
+            "timestep": self.timestep,
+            "columns": self.columns,
+            "rows": rows,
+            "warnings": warnings,
+            "errors": self.errors,
+        })
+    }
+
+    /// Comma-separated values with a header.
+    pub fn csv(&self) -> String {
+        let mut text: String = self.columns.iter().map(|c| quoted(c)).collect::<Vec<_>>().join(",");
+        text.push('\n');
+        for row in &self.rows {
+            let cells: Vec<String> = row.iter().map(Cell::csv).collect();
+            let _ = writeln!(text, "{}", cells.join(","));
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_print_as_the_page_prints_them() {
+        let cases = [
+            (0.0, 3, "0.000"),
+            (0.36718, 2, "0.37"),
+            (0.0005, 3, "5.00e-4"),
+            (123456.0, 1, "1.23e+5"),
+            (99999.0, 0, "99999"),
+            (-0.001, 3, "-0.001"),
+            (f64::NAN, 3, "nan"),
+            (f64::NEG_INFINITY, 3, "-inf"),
+        ];
+        for (x, digits, text) in cases {
+            assert_eq!(shown(x, digits), text);
+        }
+    }
+}
