@@ -67,17 +67,17 @@ fn trees(m: &mut Model) {
 fn same_frames(m: &mut Model) {
     let (ipos, iquat) = (rows::<3>(&m.body_ipos), rows::<4>(&m.body_iquat));
     for b in 0..m.nbody {
-        m.body_sameframe[b] = match (ipos[b] == [0.0; 3], iquat[b] == IDENTITY) {
+        m.body_sameframe[b] = match (same(ipos[b], [0.0; 3]), same_rotation(iquat[b], IDENTITY)) {
             (true, true) => sameframe::BODY,
             (false, true) => sameframe::BODYROT,
             _ => sameframe::NONE,
         };
     }
     let relation = |b: usize, pos: Vec3, quat: Quat| {
-        if quat == IDENTITY {
-            if pos == [0.0; 3] { sameframe::BODY } else { sameframe::BODYROT }
-        } else if quat == iquat[b] {
-            if pos == ipos[b] { sameframe::INERTIA } else { sameframe::INERTIAROT }
+        if same_rotation(quat, IDENTITY) {
+            if same(pos, [0.0; 3]) { sameframe::BODY } else { sameframe::BODYROT }
+        } else if same_rotation(quat, iquat[b]) {
+            if same(pos, ipos[b]) { sameframe::INERTIA } else { sameframe::INERTIAROT }
         } else {
             sameframe::NONE
         }
@@ -92,6 +92,18 @@ fn same_frames(m: &mut Model) {
     }
 }
 
+/// Frames that differ by less than this, number by number, are one (measured on MuJoCo 3.14.0).
+const SAME: f64 = 1e-6;
+
+fn same<const N: usize>(a: [f64; N], b: [f64; N]) -> bool {
+    a.iter().zip(b).all(|(x, y)| (x - y).abs() < SAME)
+}
+
+/// q and -q are the same rotation.
+fn same_rotation(a: Quat, b: Quat) -> bool {
+    same(a, b) || same(a, scale(b, -1.0))
+}
+
 /// `body_invweight0` and `dof_invweight0`: how much a unit force accelerates what it acts on, on average.
 ///
 /// For a body the mean diagonal of J M⁻¹ Jᵀ at its centre of mass, for translation and for rotation; for a
@@ -101,6 +113,12 @@ fn inverse_weights(m: &mut Model, d: &Data) {
     let (xipos, com) = (rows::<3>(&d.xipos), rows::<3>(&d.subtree_com));
     let mut x = vec![0.0; m.nv];
     let mut row = vec![0.0; m.nv];
+    // Trees do not couple: each solve stays within one.
+    let tree = |m: &Model, dof: usize| {
+        let t = m.dof_treeid[dof] as usize;
+        let first = m.tree_dofadr[t] as usize;
+        first..first + m.tree_dofnum[t] as usize
+    };
     for b in 0..m.nbody {
         let last = jacobian::last_dof(m, b);
         if last < 0 || b == 0 {
@@ -111,10 +129,11 @@ fn inverse_weights(m: &mut Model, d: &Data) {
             rows_mut::<2>(&mut m.body_invweight0)[b] = [1.0 / m.body_mass[b].max(MINVAL), 0.0];
             continue;
         }
+        let dofs = tree(m, last as usize);
         let arm = sub(xipos[b], com[m.body_rootid[b] as usize]);
         let mut diag = [0.0; 6];
         for (axis, out) in diag.iter_mut().enumerate() {
-            row.fill(0.0);
+            row[dofs.clone()].fill(0.0);
             let mut k = last;
             while k >= 0 {
                 let c = &cdof[k as usize];
@@ -122,9 +141,9 @@ fn inverse_weights(m: &mut Model, d: &Data) {
                 row[k as usize] = if axis < 3 { v[axis] } else { c[axis - 3] };
                 k = m.dof_parentid[k as usize];
             }
-            x.copy_from_slice(&row);
-            mass::solve(m, &d.qLD, &d.qLDiagInv, &mut x, 0..m.nv);
-            *out = dot_slice(&row, &x);
+            x[dofs.clone()].copy_from_slice(&row[dofs.clone()]);
+            mass::solve(m, &d.qLD, &d.qLDiagInv, &mut x, dofs.clone());
+            *out = dot_slice(&row[dofs.clone()], &x[dofs.clone()]);
         }
         let mean = |i: usize| (diag[i] + diag[i + 1] + diag[i + 2]) / 3.0;
         rows_mut::<2>(&mut m.body_invweight0)[b] = [mean(0), mean(3)];
@@ -133,9 +152,10 @@ fn inverse_weights(m: &mut Model, d: &Data) {
     for j in 0..m.njnt {
         let (first, n) = (m.jnt_dofadr[j] as usize, joint::nv(m.jnt_type[j]));
         for k in first..first + n {
-            x.fill(0.0);
+            let dofs = tree(m, k);
+            x[dofs.clone()].fill(0.0);
             x[k] = 1.0;
-            mass::solve(m, &d.qLD, &d.qLDiagInv, &mut x, 0..m.nv);
+            mass::solve(m, &d.qLD, &d.qLDiagInv, &mut x, dofs);
             m.dof_invweight0[k] = x[k];
         }
         for group in m.dof_invweight0[first..first + n].chunks_mut(3) {
@@ -206,10 +226,7 @@ fn mean_body_size(m: &Model, d: &Data) -> Option<f64> {
             size[b] = size[b].max(norm(sub(rows::<3>(&d.geom_xpos)[g], xipos[b])) + m.geom_rbound[g]);
         }
     }
-    let (mut sum, mut n) = (0.0, 0);
-    for &s in size.iter().skip(1).filter(|&&s| s > 0.0) {
-        sum += s;
-        n += 1;
-    }
-    (n > 0).then(|| sum / f64::from(n))
+    // A body with nothing in it counts as a point.
+    let sum: f64 = size.iter().skip(1).map(|s| s.max(1e-5)).sum();
+    (m.nbody > 1).then(|| sum / (m.nbody - 1) as f64)
 }

@@ -20,3 +20,7 @@ pub mod bind;
 pub mod check;
 pub mod run;
 pub mod verify;
+pub mod cli;
+pub mod precision;
+pub mod rules;
+pub mod svg;

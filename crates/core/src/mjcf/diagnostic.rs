@@ -126,33 +126,41 @@ impl std::error::Error for MjcfFileError {
     }
 }
 
-/// The codes of [`MjcfDiagnostic`]: stable names, one for each kind of mistake.
-#[allow(missing_docs)] // the text of each is its documentation
+/// Stable codes of the findings.
 pub mod code {
-    pub const XML: &str = "mjcf-xml";
-    pub const LIMIT: &str = "mjcf-limit";
-    pub const TEXT: &str = "mjcf-text";
-    pub const UNKNOWN_ELEMENT: &str = "mjcf-unknown-element";
-    pub const MISPLACED_ELEMENT: &str = "mjcf-misplaced-element";
-    pub const REPEATED_ELEMENT: &str = "mjcf-repeated-element";
-    pub const UNKNOWN_ATTRIBUTE: &str = "mjcf-unknown-attribute";
-    pub const MISSING_ATTRIBUTE: &str = "mjcf-missing-attribute";
-    pub const CONFLICT: &str = "mjcf-conflicting-attributes";
-    pub const NOT_SUPPORTED: &str = "mjcf-not-supported";
-    pub const NUMBER: &str = "mjcf-number";
-    pub const COUNT: &str = "mjcf-count";
-    pub const KEYWORD: &str = "mjcf-keyword";
-    pub const VALUE: &str = "mjcf-value";
-    pub const DUPLICATE_NAME: &str = "mjcf-duplicate-name";
-    pub const UNKNOWN_NAME: &str = "mjcf-unknown-name";
-    pub const UNKNOWN_CLASS: &str = "mjcf-unknown-class";
-    pub const ORIENTATION: &str = "mjcf-orientation";
-    pub const JOINT: &str = "mjcf-joint";
-    pub const MOCAP: &str = "mjcf-mocap";
-    pub const GEOM: &str = "mjcf-geom";
-    pub const INERTIA: &str = "mjcf-inertia";
-    pub const SENSOR: &str = "mjcf-sensor";
-    pub const KEYFRAME: &str = "mjcf-keyframe";
+    macro_rules! codes {
+        ($($name:ident = $code:literal, $doc:literal;)*) => {
+            $(#[doc = $doc] pub const $name: &str = $code;)*
+            /// All codes, each with what it means.
+            pub const ALL: &[(&str, &str)] = &[$(($code, $doc)),*];
+        };
+    }
+    codes! {
+        XML = "mjcf-xml", "The text is not well-formed XML.";
+        LIMIT = "mjcf-limit", "The model is larger or more deeply nested than the limits allow.";
+        TEXT = "mjcf-text", "There is text where only elements belong.";
+        UNKNOWN_ELEMENT = "mjcf-unknown-element", "MJCF has no such element.";
+        MISPLACED_ELEMENT = "mjcf-misplaced-element", "The element does not belong here.";
+        REPEATED_ELEMENT = "mjcf-repeated-element", "The element may stand only once.";
+        UNKNOWN_ATTRIBUTE = "mjcf-unknown-attribute", "The element has no such attribute.";
+        MISSING_ATTRIBUTE = "mjcf-missing-attribute", "The element needs an attribute that is missing.";
+        CONFLICT = "mjcf-conflicting-attributes", "Two attributes say different things.";
+        NOT_SUPPORTED = "mjcf-not-supported", "The element, attribute or value is MJCF, but labspec does not support it yet.";
+        NUMBER = "mjcf-number", "The value is not a number, or not a finite one.";
+        COUNT = "mjcf-count", "There are too many or too few numbers.";
+        KEYWORD = "mjcf-keyword", "The value is none of the keywords.";
+        VALUE = "mjcf-value", "The value is out of its range.";
+        DUPLICATE_NAME = "mjcf-duplicate-name", "Two objects of one kind have the same name.";
+        UNKNOWN_NAME = "mjcf-unknown-name", "The name belongs to no object.";
+        UNKNOWN_CLASS = "mjcf-unknown-class", "There is no such default class.";
+        ORIENTATION = "mjcf-orientation", "The orientation is given twice, or has no direction.";
+        JOINT = "mjcf-joint", "The joints of a body do not fit together.";
+        MOCAP = "mjcf-mocap", "A mocap body must be a child of the world without joints.";
+        GEOM = "mjcf-geom", "The geom lacks a size, or may not be here.";
+        INERTIA = "mjcf-inertia", "A moving body has no mass or an impossible inertia.";
+        SENSOR = "mjcf-sensor", "The sensor cannot measure that object.";
+        KEYFRAME = "mjcf-keyframe", "The keyframe does not fit the model.";
+    }
 }
 
 /// Collects findings about one text.

@@ -180,16 +180,19 @@ fn children<'a, 'i>(
     list
 }
 
-/// Text between elements, where only elements have a meaning.
+/// Text between elements means nothing and is passed over, unless it looks like a tag without its `<`.
 fn stray_text(xml: &Xml, element: &Element, report: &mut Report) {
     let text = xml.text().unwrap_or("");
     let Some(first) = text.trim().lines().next() else { return };
+    if !text.contains(['=', '>']) {
+        return;
+    }
     let start = xml.range().start + (text.len() - text.trim_start().len());
     let end = (start + first.trim_end().len()).min(xml.range().end);
     report
         .error(code::TEXT, start..end, format!("text between the elements of `{}`", element.name))
-        .why("a model is made of elements and attributes only, this text would be lost")
-        .help("write it as a comment, <!-- … -->, or complete the tag it was part of");
+        .why("it looks like a tag, but without its `<` it would be passed over")
+        .help("begin the tag with `<`, or write the text as a comment, <!-- … -->");
 }
 
 fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, report: &mut Report) {

@@ -4,7 +4,7 @@ mod session;
 mod table;
 
 pub use session::{Numerics, Session, Trouble};
-pub use table::{Cell, Table};
+pub use table::{Cell, Table, shown};
 
 use crate::bind::{ControlProgram, Programs};
 use crate::spec::Lab;

@@ -91,6 +91,35 @@ pub enum Scene<'a> {
 }
 
 impl Lab {
+    /// A lab that shows nothing of a model: what remains when only the model is of interest.
+    pub fn of_model(name: Text) -> Lab {
+        Lab {
+            span: 0..0,
+            model: Some(name),
+            xml: None,
+            key: None,
+            title: None,
+            kind: None,
+            note: None,
+            height: None,
+            dock: false,
+            autoplay: false,
+            camera: Camera::default(),
+            overlays: Vec::new(),
+            toggles: Vec::new(),
+            force_scale: None,
+            trail: None,
+            speeds: Vec::new(),
+            stop_at: None,
+            setup: None,
+            controller: None,
+            controls: Vec::new(),
+            plots: Vec::new(),
+            readouts: Vec::new(),
+            verify: None,
+        }
+    }
+
     /// The scene; `None` when the lab states none or two, which is an error already reported.
     pub fn scene(&self) -> Option<Scene<'_>> {
         match (&self.model, &self.xml) {

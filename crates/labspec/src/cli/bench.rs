@@ -1,0 +1,75 @@
+//! `labspec bench`: the cost of a step, as JSON. This is also what an instruction counter runs.
+
+use super::{Failure, ModelOptions, Outcome, print, target};
+use crate::run::Session;
+use labspec_core::reflect::FieldSet;
+use labspec_core::{Data, Demand, Plan};
+use serde_json::json;
+use std::time::Instant;
+
+/// Arguments of `bench`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    /// MODEL.xml, or a lab as for `run`
+    lab: String,
+    #[command(flatten)]
+    models: ModelOptions,
+    /// Steps of each repetition
+    #[arg(long, value_name = "N", default_value_t = 20_000)]
+    steps: usize,
+    /// Steps before the first repetition
+    #[arg(long, value_name = "N", default_value_t = 1_000)]
+    warm: usize,
+    /// Repetitions
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    repeat: usize,
+    /// Compute every field in every step, read or not. Without it a model alone is planned for its state,
+    /// a lab for what it reads
+    #[arg(long)]
+    full: bool,
+    /// Start every repetition again from the reset state, so that it is the same flight or fall
+    #[arg(long)]
+    reset: bool,
+}
+
+pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
+    let target = target::open(&a.lab, &a.models)?;
+    let demand = if a.full { Demand { reads: FieldSet::ALL, ..target.programs.demand } } else { target.programs.demand };
+    let plan = Plan::new(&target.model, &demand);
+    let data = Data::planned(&target.model, plan);
+    let key = target.lab.key.as_ref().map(|k| k.value.max(0.0) as usize);
+    let mut session = Session::start_with(&target.programs, &target.model, key, data);
+    let steps = a.steps.clamp(1, crate::run::MAX_STEPS);
+    advance(&mut session, a.warm.min(crate::run::MAX_STEPS));
+    let start = session.world.data.clone();
+    let mut nanoseconds = Vec::new();
+    for _ in 0..a.repeat.clamp(1, 1000) {
+        if a.reset {
+            session.world.data.clone_from(&start);
+        }
+        let clock = Instant::now();
+        advance(&mut session, steps);
+        nanoseconds.push(clock.elapsed().as_nanos() as f64 / steps as f64);
+    }
+    nanoseconds.sort_by(f64::total_cmp);
+    let d = &session.world.data;
+    let value = json!({
+        "min_ns": nanoseconds.first(),
+        "median_ns": nanoseconds.get(nanoseconds.len() / 2),
+        "steps": steps,
+        "nv": target.model.nv,
+        "ncon": d.ncon,
+        "nefc": d.nefc,
+        "time": d.time,
+    });
+    print(&format!("{value}\n"))?;
+    Ok(Outcome::Clean)
+}
+
+/// Whole steps of the lab, controller included. Not inlined, so that a profiler can count from here.
+#[inline(never)]
+fn advance(session: &mut Session<'_>, steps: usize) {
+    for _ in 0..steps {
+        session.step();
+    }
+}

@@ -1,0 +1,87 @@
+//! `labspec precision`.
+
+use super::{Failure, ModelOptions, Outcome, print, target, write_file};
+use crate::precision::{Report, Truth, compare};
+use crate::verify::significant;
+use clap::ValueEnum;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Arguments of `precision`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    /// LAB.json, LESSON.md#2, or LESSON.md#quiz-id.1
+    lab: String,
+    #[command(flatten)]
+    models: ModelOptions,
+    /// Length in seconds [default: the lab's stopAt, or 2]
+    #[arg(long, value_name = "S")]
+    until: Option<f64>,
+    /// How to print
+    #[arg(long, value_enum, default_value = "human")]
+    format: Format,
+    /// Write the chart of the first trace
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Format {
+    Human,
+    Json,
+}
+
+pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
+    let target = target::open(&a.lab, &a.models)?;
+    let mut findings = Vec::new();
+    let report = compare(&target.lab, &target.model, &target.programs, a.until, &mut findings).map_err(|e| e.0)?;
+    if let Some(f) = findings.first() {
+        return Err(format!("a closed form has a mistake: {}; `labspec check` shows where", f.message));
+    }
+    if let Some(file) = &a.svg {
+        write_file(file, &report.chart(0, target.lab.title()))?;
+    }
+    match a.format {
+        Format::Human => print(&table(&report))?,
+        Format::Json => print(&format!("{}\n", serde_json::to_string_pretty(&value(&report)).map_err(|e| e.to_string())?))?,
+    }
+    let diverged = report.rows.iter().any(|r| r.diverged);
+    Ok(if diverged { Outcome::Findings } else { Outcome::Clean })
+}
+
+fn table(report: &Report) -> String {
+    let mut text = String::new();
+    for (i, trace) in report.traces.iter().enumerate() {
+        let against = match report.truth.get(i) {
+            Some(Truth::ClosedForm) => "the closed form".to_string(),
+            _ => format!("RK4 with tiny steps (itself off by about {})", significant(report.uncertainty[i])),
+        };
+        let _ = writeln!(text, "{trace}: largest error over {} s against {against}", significant(report.length));
+        let _ = writeln!(text, "  integrator   timestep        error   order   µs per s");
+        for r in &report.rows {
+            let order = r.orders[i].map_or("–".to_string(), |o| format!("{o:.2}"));
+            let error = if r.diverged { "diverged".to_string() } else { format!("{:.3e}", r.errors[i]) };
+            let h = format!("{} ms", significant(1e3 * r.timestep));
+            let _ = writeln!(text, "  {:<10} {h:>10} {error:>12} {order:>7} {:>10.0}", r.integrator, r.cost);
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn value(report: &Report) -> Value {
+    let rows: Vec<Value> = report
+        .rows
+        .iter()
+        .map(|r| {
+            json!({
+                "integrator": r.integrator, "timestep": r.timestep, "errors": r.errors, "orders": r.orders,
+                "us_per_second": r.cost, "diverged": r.diverged,
+            })
+        })
+        .collect();
+    let truth: Vec<&str> =
+        report.truth.iter().map(|t| if *t == Truth::ClosedForm { "closed form" } else { "tiny steps" }).collect();
+    json!({"traces": report.traces, "truth": truth, "uncertainty": report.uncertainty, "length": report.length, "rows": rows})
+}

@@ -1,0 +1,159 @@
+//! `labspec record`: our engine's numbers in the layout of a recording of MuJoCo, for the same states.
+
+use super::{Failure, Outcome, print, target};
+use labspec_core::reflect::{self, Object, View};
+use labspec_core::{self as core, Data, Demand, Model, Plan, Warning};
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+
+/// Arguments of `record`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    /// MODEL.xml
+    model: PathBuf,
+    /// A recording whose states are used
+    #[arg(long, value_name = "ORACLE.json")]
+    states: PathBuf,
+    /// Steps of the trajectory
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    steps: usize,
+    /// A row after every M steps
+    #[arg(long, value_name = "M", default_value_t = 10)]
+    every: usize,
+    /// Solve the constraint problem to rounding
+    #[arg(long)]
+    tight: bool,
+    /// Set an option of the model: timestep=0.001, "gravity=0 0 -1"
+    #[arg(long, value_name = "K=V")]
+    option: Vec<String>,
+}
+
+/// What is recorded of each state besides the arrays that the recording names.
+const STATE: [&str; 6] = ["qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_quat"];
+
+pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
+    let mut m = target::load_model(&a.model)?;
+    let mut scratch = Data::new(&m);
+    for option in &a.option {
+        set_option(&mut m, &mut scratch, option)?;
+    }
+    if a.tight {
+        (m.opt.tolerance, m.opt.ls_tolerance, m.opt.iterations, m.opt.ls_iterations) = (0.0, 1e-10, 200, 100);
+    }
+    let text = std::fs::read_to_string(&a.states).map_err(|e| format!("cannot read {}: {e}", a.states.display()))?;
+    let oracle: Value = serde_json::from_str(&text).map_err(|e| format!("{} is not JSON: {e}", a.states.display()))?;
+    let mut d = Data::planned(&m, Plan::new(&m, &Demand::OBSERVE));
+
+    let model = names(&oracle["model"], |name| field(&m, &d, Object::Model, name));
+    let mut forward = Vec::new();
+    for state in oracle["forward"].as_array().into_iter().flatten() {
+        start(&m, &mut d);
+        for name in STATE {
+            set_array(&mut m, &mut d, name, &state[name])?;
+        }
+        core::forward(&m, &mut d);
+        let mut row = names(state, |name| match name {
+            "contact" => Some(contacts(&d)),
+            "M" => Some(numbers(&core::full_m(&m, &d))),
+            _ => field(&m, &d, Object::Data, name),
+        });
+        for name in STATE {
+            row.insert(name.into(), state[name].clone());
+        }
+        forward.push(Value::Object(row));
+    }
+
+    start(&m, &mut d);
+    let mut trajectory = Vec::new();
+    let every = a.every.max(1);
+    for i in 0..=a.steps {
+        if i % every == 0 {
+            trajectory.push(json!({
+                "time": d.time, "qpos": numbers(&d.qpos), "qvel": numbers(&d.qvel), "act": numbers(&d.act),
+                "ncon": d.ncon, "nefc": d.nefc,
+            }));
+        }
+        if i < a.steps {
+            core::step(&m, &mut d);
+        }
+    }
+    let warnings: Map<String, Value> = Warning::ALL
+        .iter()
+        .zip(&d.warning)
+        .filter(|(_, s)| s.number > 0)
+        .map(|(w, s)| (w.name().to_string(), json!(s.number)))
+        .collect();
+    let value = json!({
+        "version": concat!("labspec ", env!("CARGO_PKG_VERSION")),
+        "sizes": names(&oracle["sizes"], |name| reflect::size(&m, name).map(|n| json!(n))),
+        "names": {}, "model": model, "forward": forward, "trajectory": trajectory, "warnings": warnings,
+    });
+    print(&format!("{value}\n"))?;
+    Ok(Outcome::Clean)
+}
+
+fn start(m: &Model, d: &mut Data) {
+    if m.nkey > 0 { core::reset_data_keyframe(m, d, 0) } else { core::reset_data(m, d) }
+}
+
+/// The entries of a recorded object that we know.
+fn names(recorded: &Value, value: impl Fn(&str) -> Option<Value>) -> Map<String, Value> {
+    let keys = recorded.as_object().into_iter().flat_map(|o| o.keys());
+    keys.filter_map(|k| Some((k.clone(), value(k)?))).collect()
+}
+
+fn field(m: &Model, d: &Data, object: Object, name: &str) -> Option<Value> {
+    let f = reflect::field(object, name)?;
+    let view = reflect::view(m, d, f);
+    // Arrays as lists, counts as numbers.
+    Some(match view {
+        View::Size(n) => json!(n),
+        _ => numbers(&(0..view.len()).filter_map(|i| view.get(i)).collect::<Vec<_>>()),
+    })
+}
+
+fn numbers(values: &[f64]) -> Value {
+    values.iter().map(|&x| if x.is_finite() { json!(x) } else { Value::Null }).collect()
+}
+
+fn contacts(d: &Data) -> Value {
+    let mut rows: Vec<_> = d.contact.iter().collect();
+    rows.sort_by(|a, b| {
+        let place = |c: &core::Contact| c.pos.map(|x| (x * 1e6).round());
+        (a.geom1, a.geom2).cmp(&(b.geom1, b.geom2)).then(place(a).partial_cmp(&place(b)).unwrap_or(std::cmp::Ordering::Equal))
+    });
+    rows.iter()
+        .map(|c| {
+            json!({
+                "geom1": c.geom1, "geom2": c.geom2, "dist": c.dist, "pos": numbers(&c.pos), "frame": numbers(&c.frame),
+                "friction": numbers(&c.friction), "dim": c.dim, "solref": numbers(&c.solref), "solimp": numbers(&c.solimp),
+            })
+        })
+        .collect()
+}
+
+/// Writes a recorded array into the data.
+fn set_array(m: &mut Model, d: &mut Data, name: &str, values: &Value) -> Result<(), Failure> {
+    let Some(f) = reflect::field(Object::Data, name) else { return Ok(()) };
+    let expected = reflect::view(m, d, f).len();
+    let list = values.as_array().map_or(&[][..], Vec::as_slice);
+    if list.len() != expected {
+        return Err(format!("the recording has {} numbers for {name}, the model {expected}: is it of another model?", list.len()));
+    }
+    for (i, v) in list.iter().enumerate() {
+        reflect::view_mut(m, d, f).set(i, v.as_f64().unwrap_or(f64::NAN));
+    }
+    Ok(())
+}
+
+fn set_option(m: &mut Model, d: &mut Data, text: &str) -> Result<(), Failure> {
+    let (name, values) = text.split_once('=').ok_or_else(|| format!("--option {text}: write NAME=VALUE"))?;
+    let f = reflect::field(Object::Option, name).ok_or_else(|| format!("--option {text}: model.opt has no field `{name}`"))?;
+    for (i, value) in values.split_whitespace().enumerate() {
+        let x = value.parse::<f64>().map_err(|_| format!("--option {text}: `{value}` is not a number"))?;
+        if !reflect::view_mut(m, d, f).set(i, x) {
+            return Err(format!("--option {text}: too many numbers"));
+        }
+    }
+    Ok(())
+}

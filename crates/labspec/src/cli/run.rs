@@ -1,0 +1,178 @@
+//! `labspec run`.
+
+use super::{Failure, ModelOptions, Outcome, print, target, write_file};
+use crate::run::{self, Cell, RunOptions, Table, shown};
+use crate::spec::{Lab, Plot};
+use crate::svg::{Chart, Series, line_chart};
+use clap::ValueEnum;
+use labspec_expr::Value;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `run`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    /// LAB.json, LESSON.md#2 (its second lab), LESSON.md#quiz-id.1 (a question's sim), or MODEL.xml
+    lab: String,
+    #[command(flatten)]
+    models: ModelOptions,
+    /// Length in seconds [default: the lab's stopAt, or 2]
+    #[arg(long, value_name = "S")]
+    until: Option<f64>,
+    /// Length in steps
+    #[arg(long, value_name = "N", conflicts_with = "until")]
+    steps: Option<usize>,
+    /// Sample after every K steps
+    #[arg(long, value_name = "K", default_value_t = 1)]
+    every: usize,
+    /// Set a control before the run
+    #[arg(long, value_name = "LABEL=VALUE")]
+    set: Vec<String>,
+    /// Press a button at a time in seconds
+    #[arg(long, value_name = "LABEL@TIME")]
+    press: Vec<String>,
+    /// What to print
+    #[arg(long, value_enum, default_value = "human")]
+    format: Format,
+    /// Write all samples as comma-separated values
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write all samples as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write the plots; further plots go to FILE-2.svg, FILE-3.svg, …
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Format {
+    /// Readouts at the end of the run
+    Human,
+    /// All samples as JSON
+    Json,
+    /// All samples as comma-separated values
+    Csv,
+}
+
+pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
+    let target = target::open(&a.lab, &a.models)?;
+    let options = RunOptions {
+        until: a.until,
+        steps: a.steps,
+        every: a.every,
+        set: a.set.iter().map(|s| assignment(s)).collect::<Result<_, _>>()?,
+        press: a.press.iter().map(|s| press(s)).collect::<Result<_, _>>()?,
+    };
+    let table = run::run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
+    if let Some(file) = &a.csv {
+        write_file(file, &table.csv())?;
+    }
+    if let Some(file) = &a.json {
+        write_file(file, &format!("{}\n", table.json()))?;
+    }
+    if let Some(file) = &a.svg {
+        write_plots(&target.lab, &table, file)?;
+    }
+    match a.format {
+        Format::Human => print(&readouts(&target.lab, &table))?,
+        Format::Json => print(&format!("{}\n", table.json()))?,
+        Format::Csv => print(&table.csv())?,
+    }
+    Ok(if table.errors.is_empty() && table.warnings.is_empty() { Outcome::Clean } else { Outcome::Findings })
+}
+
+/// `LABEL=VALUE`; the label may hold equals signs, the value not.
+fn assignment(text: &str) -> Result<(String, Value), Failure> {
+    let (label, value) = text.rsplit_once('=').ok_or_else(|| format!("--set {text}: write LABEL=VALUE"))?;
+    let value = match value.trim() {
+        "true" => Value::Boolean(true),
+        "false" => Value::Boolean(false),
+        other => other.parse::<f64>().map_or_else(|_| Value::String(other.into()), Value::Number),
+    };
+    Ok((label.to_string(), value))
+}
+
+/// `LABEL@TIME`, or a label alone for the start.
+fn press(text: &str) -> Result<(String, f64), Failure> {
+    match text.rsplit_once('@') {
+        None => Ok((text.to_string(), 0.0)),
+        Some((label, time)) => match time.trim().parse::<f64>() {
+            Ok(t) if t >= 0.0 => Ok((label.to_string(), t)),
+            _ => Err(format!("--press {text}: `{time}` is not a time in seconds; write LABEL@TIME")),
+        },
+    }
+}
+
+/// The end of the run as the page shows it: readouts, traces of labs without readouts, warnings.
+fn readouts(lab: &Lab, table: &Table) -> String {
+    let mut text = String::new();
+    let Some(last) = table.rows.last() else { return text };
+    let time = last.first().map_or(f64::NAN, Cell::number);
+    let title = if lab.title().is_empty() { "the lab" } else { lab.title() };
+    let _ = writeln!(text, "{title}, after {} s ({} samples)", shown(time, 3), table.rows.len());
+    let digits = |name: &str| {
+        let label = name.strip_prefix("readout/")?;
+        lab.readouts.iter().find(|r| r.label.value == label).map(|r| r.digits())
+    };
+    let rows: Vec<(&str, String)> = table
+        .columns
+        .iter()
+        .zip(last)
+        .skip(1)
+        .map(|(name, cell)| {
+            let label = name.strip_prefix("readout/").or_else(|| name.splitn(3, '/').nth(2)).unwrap_or(name);
+            (label, cell.shown(digits(name).unwrap_or(4)))
+        })
+        .collect();
+    let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+    for (label, value) in rows {
+        let _ = writeln!(text, "  {label}{}  {value}", " ".repeat(width - label.chars().count()));
+    }
+    for (name, n) in &table.warnings {
+        let _ = writeln!(text, "warning: {name} ({n} times): the simulation met a bad number and was reset");
+    }
+    for error in &table.errors {
+        let _ = writeln!(text, "error: {error}");
+    }
+    text
+}
+
+fn write_plots(lab: &Lab, table: &Table, file: &Path) -> Result<(), Failure> {
+    if lab.plots.is_empty() {
+        return Err("this lab has no plots to write".into());
+    }
+    for (i, plot) in lab.plots.iter().enumerate() {
+        let name = match i {
+            0 => file.to_path_buf(),
+            _ => {
+                let stem = file.file_stem().and_then(|s| s.to_str()).unwrap_or("plot");
+                file.with_file_name(format!("{stem}-{}.svg", i + 1))
+            }
+        };
+        write_file(&name, &line_chart(&chart(lab, plot, i, table)))?;
+    }
+    Ok(())
+}
+
+/// A plot of the lab with its samples.
+fn chart(lab: &Lab, plot: &Plot, index: usize, table: &Table) -> Chart {
+    let series = plot.traces.iter().filter_map(|trace| {
+        let name = format!("plot/{index}/{}", trace.label.value);
+        let column = table.columns.iter().position(|c| *c == name)?;
+        Some(Series { label: trace.label.value.clone(), dash: trace.dash, points: table.series(column) })
+    });
+    Chart {
+        title: lab.title().to_string(),
+        xlabel: plot.xlabel().to_string(),
+        ylabel: plot.ylabel.as_ref().map_or(String::new(), |t| t.value.clone()),
+        width: 640.0,
+        height: 320.0,
+        xmin: None,
+        xmax: None,
+        ymin: plot.ymin.as_ref().map(|n| n.value),
+        ymax: plot.ymax.as_ref().map(|n| n.value),
+        ref_lines: plot.ref_lines.iter().map(|l| (l.y.value, l.label.as_ref().map(|t| t.value.clone()))).collect(),
+        series: series.collect(),
+    }
+}

@@ -1,0 +1,111 @@
+//! What a command is pointed at: a lab in a file, or a model.
+
+use super::{Failure, ModelOptions};
+use crate::bind::Programs;
+use crate::bind::scene::Models;
+use crate::finding::{Finding, Severity};
+use crate::lint::ModelFolder;
+use crate::report;
+use crate::source::{SourceFile, Text, SourceMap};
+use crate::spec::{Lab, LabAddress, Lesson, load_lesson};
+use labspec_core::Model;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The folder of models for a file.
+pub(super) fn model_folder(options: &ModelOptions, file: &Path) -> Result<ModelFolder, Failure> {
+    match &options.models {
+        Some(folder) => ModelFolder::open(folder)
+            .map_err(|e| format!("cannot read the model folder {}: {e}; state another one with --models", folder.display())),
+        None => Ok(ModelFolder::near(file)),
+    }
+}
+
+/// A lab, ready to run.
+pub(super) struct Target {
+    pub(super) lab: Lab,
+    pub(super) model: Arc<Model>,
+    pub(super) programs: Programs,
+}
+
+/// Opens `LAB.json`, `LESSON.md#2`, `LESSON.md#quiz-id.1` or `MODEL.xml` (a lab without anything else).
+pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<Target, Failure> {
+    let (path, address) = split(argument)?;
+    if path.extension().is_some_and(|e| e == "xml") {
+        return bare_model(&path);
+    }
+    let file = SourceFile::read(&path)?;
+    let folder = model_folder(options, &path)?;
+    let lesson = load_lesson(file, &folder);
+    let lab = choose(&lesson, address.as_ref(), argument)?.clone();
+    let mut models = Models::new(folder);
+    let mut findings: Vec<Finding> = lesson.findings.clone();
+    let model = models.of(&lab, &mut findings);
+    let programs = model.as_ref().map(|m| Programs::compile(&lab, m, &mut findings));
+    let mut findings: Vec<Finding> = findings.into_iter().map(|f| if f.path.is_empty() { f.at(&lesson.file) } else { f }).collect();
+    findings.extend(models.take_findings());
+    // Only what stops this lab matters here: `check` reports everything.
+    findings.retain(|f| f.severity == Severity::Error && (f.path != *lesson.file.path() || within(&lab, f)));
+    match (model, programs) {
+        (Some(model), Some(programs)) if findings.is_empty() => Ok(Target { lab, model, programs }),
+        _ => {
+            let mut files: Vec<&SourceFile> = vec![&lesson.file];
+            files.extend(models.files());
+            let list = report::human(&findings, &files, false);
+            let why = if list.is_empty() { String::new() } else { format!("\n\n{}", list.trim_end()) };
+            Err(format!("the lab {argument} cannot run; `labspec check {}` reports everything{why}", path.display()))
+        }
+    }
+}
+
+fn within(lab: &Lab, f: &Finding) -> bool {
+    lab.span.start <= f.span.start && f.span.end <= lab.span.end
+}
+
+/// Path and address of `LESSON.md#2`. A `#` that belongs to a file name is left alone.
+fn split(argument: &str) -> Result<(PathBuf, Option<LabAddress>), Failure> {
+    if Path::new(argument).exists() {
+        return Ok((PathBuf::from(argument), None));
+    }
+    match argument.split_once('#') {
+        Some((path, address)) => match LabAddress::parse(&format!("#{address}")) {
+            Some(parsed) => Ok((PathBuf::from(path), Some(parsed))),
+            None => Err(format!("`#{address}` is not a place of a lab; write LESSON.md#2 or LESSON.md#quiz-id.1")),
+        },
+        None => Ok((PathBuf::from(argument), None)),
+    }
+}
+
+fn choose<'l>(lesson: &'l Lesson, address: Option<&LabAddress>, argument: &str) -> Result<&'l Lab, Failure> {
+    let known: Vec<String> = lesson.addressed().iter().map(|(a, _)| a.to_string()).collect();
+    match address {
+        Some(address) => lesson.lab(address).ok_or_else(|| match known.as_slice() {
+            [] => format!("{argument}: the file has no lab that can be read; `labspec check` says why"),
+            _ => format!("there is no lab {address} in this file; it has {}", known.join(", ")),
+        }),
+        None => match lesson.addressed().as_slice() {
+            [] => Err(format!("{argument} has no lab that can be read; `labspec check {argument}` says why")),
+            [(_, lab)] => Ok(lab),
+            _ => Err(format!("{argument} has several labs: add one of {} to its name", known.join(", "))),
+        },
+    }
+}
+
+/// A model alone, as a lab that shows nothing.
+fn bare_model(path: &Path) -> Result<Target, Failure> {
+    let model = Arc::new(load_model(path)?);
+    let text = Text { value: String::new(), map: SourceMap::point(0) };
+    let lab = Lab::of_model(text);
+    let programs = Programs::compile(&lab, &model, &mut Vec::new());
+    Ok(Target { lab, model, programs })
+}
+
+/// Compiles a model file.
+pub(super) fn load_model(path: &Path) -> Result<Model, Failure> {
+    let file = SourceFile::read(path)?;
+    labspec_core::mjcf::compile(file.text()).map_err(|list| {
+        let findings: Vec<Finding> =
+            list.iter().map(|d| crate::bind::scene::from_mjcf(d, d.span.clone()).at(&file)).collect();
+        format!("the model {} does not load\n\n{}", path.display(), report::human(&findings, &[&file], false).trim_end())
+    })
+}

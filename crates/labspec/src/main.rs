@@ -1,0 +1,7 @@
+//! The `labspec` program. Exit code 0: clean; 1: findings; 2: could not run.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    labspec::cli::main(std::env::args_os())
+}

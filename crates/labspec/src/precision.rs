@@ -1,0 +1,210 @@
+//! Work and precision: how far each integrator and timestep is from the truth, and what it costs.
+//!
+//! The truth is the closed form that the author gives (`exact` in the lab's `verify`), otherwise the same lab
+//! with a tiny step. Reporting error against cost, not against the step, is the method of Hairer, Nørsett and
+//! Wanner 1993, *Solving Ordinary Differential Equations I*, section II.10.
+
+use crate::bind::{Bound, ModelNames, Programs, Scope, to_finding};
+use crate::finding::Finding;
+use crate::run::{self, RunError, Session};
+use crate::spec::Lab;
+use crate::svg::{Method, MethodPoint, WorkPrecision, work_precision};
+use labspec_core::{Demand, Model, Warning, integrator};
+use labspec_expr::Compiler;
+use std::time::Instant;
+
+/// The integrators that are compared.
+const INTEGRATORS: [(i32, &str); 2] = [(integrator::EULER, "Euler"), (integrator::RK4, "RK4")];
+/// Timesteps, as multiples of the lab's own; each divides the first.
+const STEPS: [f64; 6] = [4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
+/// The reference takes so many steps where the finest run takes one.
+const REFERENCE: usize = 16;
+
+/// What the errors are measured against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Truth {
+    /// The closed form of the author.
+    ClosedForm,
+    /// RK4 with a tiny step.
+    TinySteps,
+}
+
+/// One run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Name of the integrator.
+    pub integrator: &'static str,
+    /// Timestep, s.
+    pub timestep: f64,
+    /// Largest error of each trace over the run, in the trace's own unit.
+    pub errors: Vec<f64>,
+    /// Observed order of each trace: how many times the error halves when the timestep halves.
+    pub orders: Vec<Option<f64>>,
+    /// Run time, microseconds per simulated second.
+    pub cost: f64,
+    /// The engine met a bad number, or a trace ended as one.
+    pub diverged: bool,
+}
+
+/// All runs of a lab.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Labels of the traces that were compared.
+    pub traces: Vec<String>,
+    /// What each was compared with.
+    pub truth: Vec<Truth>,
+    /// How far the reference itself may be off: what halving its step changes. NaN for a closed form.
+    pub uncertainty: Vec<f64>,
+    /// Length of the runs, s.
+    pub length: f64,
+    /// The runs, by integrator, then from large to small steps.
+    pub rows: Vec<Row>,
+}
+
+/// A trace and its closed form.
+struct Target<'a> {
+    label: &'a str,
+    bound: &'a Bound,
+    exact: Option<Bound>,
+}
+
+/// Samples of all traces at the common times; and of the closed forms, NaN without one.
+struct Samples {
+    values: Vec<Vec<f64>>,
+    exact: Vec<Vec<f64>>,
+    diverged: bool,
+    seconds: f64,
+}
+
+/// Runs the lab with every integrator and timestep.
+///
+/// # Errors
+/// The lab has no traces, or the runs would take too many steps. Mistakes in closed forms go to `findings`.
+pub fn compare(lab: &Lab, model: &Model, programs: &Programs, until: Option<f64>, findings: &mut Vec<Finding>) -> Result<Report, RunError> {
+    let targets = targets(lab, model, programs, findings);
+    if targets.is_empty() {
+        return Err(RunError("this lab has no traces to compare; add a plot with a trace".into()));
+    }
+    let own = start(lab, model, programs).world.model.opt.timestep;
+    let coarse = own * STEPS[0];
+    let length = until.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(2.0);
+    // Samples at multiples of the coarsest step, which every run meets exactly.
+    let count = run::count_steps(lab, Some(length), None, coarse)?.max(1);
+    let finest = STEPS.iter().fold(1.0f64, |a, &b| a.min(b)) * own;
+    let per_sample = |h: f64| (coarse / h).round() as usize;
+    if count.saturating_mul(per_sample(finest)).saturating_mul(REFERENCE) > run::MAX_STEPS {
+        return Err(RunError("the runs would take too many steps; shorten them with --until".into()));
+    }
+    let sample = |kind: i32, h: f64| samples(lab, model, programs, &targets, kind, h, per_sample(h), count);
+    let reference = sample(integrator::RK4, finest / REFERENCE as f64);
+    let check = sample(integrator::RK4, 2.0 * finest / REFERENCE as f64);
+
+    let mut rows: Vec<Row> = Vec::new();
+    for (kind, name) in INTEGRATORS {
+        for factor in STEPS {
+            let h = own * factor;
+            let s = sample(kind, h);
+            let truth = |i: usize| if targets[i].exact.is_some() { &s.exact[i] } else { &reference.values[i] };
+            let errors: Vec<f64> = (0..targets.len()).map(|i| largest_difference(&s.values[i], truth(i))).collect();
+            let previous = rows.last().filter(|r| r.integrator == name && !r.diverged);
+            let order = |i: usize| {
+                let p = previous?;
+                let order = (p.errors[i] / errors[i]).log2() / (p.timestep / h).log2();
+                // Below a few units of rounding the error no longer shrinks.
+                (order.is_finite() && errors[i] > 1e-13).then_some(order)
+            };
+            let orders = (0..targets.len()).map(order).collect();
+            let diverged = s.diverged || errors.iter().any(|e| !e.is_finite());
+            let cost = 1e6 * s.seconds / (count as f64 * coarse);
+            rows.push(Row { integrator: name, timestep: h, errors, orders, cost, diverged });
+        }
+    }
+    let uncertainty = |i: usize| if targets[i].exact.is_some() { f64::NAN } else { largest_difference(&check.values[i], &reference.values[i]) };
+    Ok(Report {
+        uncertainty: (0..targets.len()).map(uncertainty).collect(),
+        traces: targets.iter().map(|t| t.label.to_string()).collect(),
+        truth: targets.iter().map(|t| if t.exact.is_some() { Truth::ClosedForm } else { Truth::TinySteps }).collect(),
+        length: count as f64 * coarse,
+        rows,
+    })
+}
+
+/// The traces of a lab; when the author gives closed forms, only those that have one.
+fn targets<'a>(lab: &'a Lab, model: &Model, programs: &'a Programs, findings: &mut Vec<Finding>) -> Vec<Target<'a>> {
+    let names = ModelNames { model, scope: Scope::Lab };
+    let exact = lab.verify.as_ref().map_or(&[][..], |v| &v.exact);
+    let mut all = Vec::new();
+    for (trace, probe) in lab.traces().zip(&programs.probes) {
+        let Some(bound) = &probe.bound else { continue };
+        let closed = exact.iter().find(|(label, _)| label.value == trace.label.value).and_then(|(_, text)| {
+            let mut globals = programs.globals.clone();
+            let compiled = Compiler::new(&names, &mut globals).expression(&text.value);
+            findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
+            compiled.program.map(|program| Bound { text: text.clone(), program })
+        });
+        all.push(Target { label: &trace.label.value, bound, exact: closed });
+    }
+    if all.iter().any(|t| t.exact.is_some()) {
+        all.retain(|t| t.exact.is_some());
+    }
+    all
+}
+
+fn start<'p>(lab: &Lab, model: &Model, programs: &'p Programs) -> Session<'p> {
+    let key = lab.key.as_ref().map(|k| k.value.max(0.0) as usize);
+    Session::start(programs, model, key, &Demand { ..programs.demand })
+}
+
+fn samples(lab: &Lab, model: &Model, programs: &Programs, targets: &[Target<'_>], kind: i32, h: f64, per_sample: usize, count: usize) -> Samples {
+    let mut session = start(lab, model, programs);
+    session.world.model.opt.timestep = h;
+    session.world.model.opt.integrator = kind;
+    let mut s = Samples { values: vec![Vec::new(); targets.len()], exact: vec![Vec::new(); targets.len()], diverged: false, seconds: 0.0 };
+    for _ in 0..count {
+        let clock = Instant::now();
+        for _ in 0..per_sample {
+            session.step();
+        }
+        s.seconds += clock.elapsed().as_secs_f64();
+        for (i, t) in targets.iter().enumerate() {
+            let mut value = |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
+            s.values[i].push(value(t.bound));
+            s.exact[i].push(t.exact.as_ref().map_or(f64::NAN, &mut value));
+        }
+    }
+    s.diverged = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc].iter().any(|&w| session.warnings[w as usize].number > 0);
+    s
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, |m, d| if d.is_nan() { f64::NAN } else { d.max(m) })
+}
+
+impl Report {
+    /// Log-log chart of one trace: error across, cost upwards, one curve per integrator.
+    pub fn chart(&self, trace: usize, title: &str) -> String {
+        let methods = INTEGRATORS.iter().map(|(_, name)| Method {
+            label: name.to_string(),
+            points: self
+                .rows
+                .iter()
+                .filter(|r| r.integrator == *name)
+                .map(|r| MethodPoint {
+                    cost: r.cost,
+                    error: r.errors.get(trace).copied().unwrap_or(f64::NAN),
+                    note: format!("{} ms", crate::verify::significant(1e3 * r.timestep)),
+                    failed: r.diverged,
+                })
+                .collect(),
+        });
+        let label = self.traces.get(trace).map_or("", String::as_str);
+        work_precision(&WorkPrecision {
+            title: title.to_string(),
+            xlabel: format!("largest error of {label}"),
+            ylabel: "µs per simulated second".into(),
+            methods: methods.collect(),
+            width: 640.0,
+            height: 420.0,
+        })
+    }
+}

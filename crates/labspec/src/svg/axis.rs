@@ -1,0 +1,391 @@
+//! Axes: the range shown, round ticks, and their labels, linear and logarithmic.
+//!
+//! Ticks of a linear axis are integers times a power of ten, so that labels are written by moving a decimal point:
+//! exact, and as short as the step allows. Steps are 1, 2 or 5 times a power of ten. What all labels share (a power
+//! of ten, or a value around which a curve varies by little) is taken out of them and stands once beside the axis.
+
+use super::canvas::Label;
+use super::number::{decade, drawable, log10, minus, pow10};
+
+/// One axis.
+#[derive(Clone, Debug)]
+pub(super) struct Axis {
+    scale: Scale,
+    /// The ends, as values or as decimal logarithms.
+    low: f64,
+    high: f64,
+    /// Labelled places.
+    pub(super) ticks: Vec<Tick>,
+    /// Places between them that have a line of the grid, as fractions of the axis.
+    pub(super) minor: Vec<f64>,
+    /// What was taken out of all labels.
+    pub(super) note: Option<Label>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Scale {
+    Linear,
+    Log,
+}
+
+/// A labelled place on an axis.
+#[derive(Clone, Debug)]
+pub(super) struct Tick {
+    /// 0 at the low end, 1 at the high end.
+    pub(super) at: f64,
+    /// Its text.
+    pub(super) label: Label,
+}
+
+/// The ends of a linear axis before they are rounded, and whether each may be moved outwards to a tick.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Range {
+    /// The low end.
+    pub(super) low: f64,
+    /// The high end.
+    pub(super) high: f64,
+    /// Whether the low end may move.
+    pub(super) free_low: bool,
+    /// Whether the high end may move.
+    pub(super) free_high: bool,
+}
+
+impl Axis {
+    /// Where a value is: 0 at the low end, 1 at the high end, beyond both for values outside. `None` if the axis has
+    /// no place for it: not finite, or not positive where the scale is logarithmic.
+    pub(super) fn fraction(&self, value: f64) -> Option<f64> {
+        let at = match self.scale {
+            Scale::Linear => value,
+            Scale::Log => log10(value),
+        };
+        let fraction = (at - self.low) / (self.high - self.low);
+        (drawable(at) && fraction.is_finite()).then_some(fraction)
+    }
+
+    /// The smallest distance between two neighbouring ticks, as a fraction of the axis.
+    pub(super) fn spacing(&self) -> f64 {
+        self.ticks.windows(2).fold(1.0, |least, pair| match pair {
+            [a, b] => (b.at - a.at).min(least),
+            _ => least,
+        })
+    }
+
+    /// The width of the widest label of a tick, in pixels.
+    pub(super) fn widest(&self, size: f64) -> f64 {
+        self.ticks.iter().map(|t| t.label.width(size)).fold(0.0, f64::max)
+    }
+}
+
+/// The range of an axis that shows `data` (its extremes, if there are any) between the wished ends.
+pub(super) fn range(data: Option<(f64, f64)>, low: Option<f64>, high: Option<f64>) -> Range {
+    let (low, high) = (low.filter(|v| drawable(*v)), high.filter(|v| drawable(*v)));
+    let (low, high) = match (low, high) {
+        (Some(a), Some(b)) if a > b => (Some(b), Some(a)),
+        both => both,
+    };
+    let (data_low, data_high) = data.unwrap_or(match (low, high) {
+        (Some(a), None) => (a, a + a.abs().max(1.0)),
+        (None, Some(b)) => (b - b.abs().max(1.0), b),
+        _ => (0.0, 1.0),
+    });
+    let (free_low, free_high) = (low.is_none(), high.is_none());
+    let (mut a, mut b) = (low.unwrap_or(data_low), high.unwrap_or(data_high));
+    if b < a {
+        // All data are beyond the one end that was wished for.
+        if free_high { b = a } else { a = b }
+    }
+    let magnitude = a.abs().max(b.abs());
+    if magnitude < 1e-290 {
+        (a, b) = if free_low { (-1.0, 1.0) } else { (0.0, 1.0) };
+    } else if a == b {
+        let margin = 0.1 * magnitude;
+        (a, b) = if free_low || !free_high { (a - margin, b + margin) } else { (a, b + 2.0 * margin) };
+    } else if b - a < 1e-12 * magnitude {
+        // Closer than doubles can be told apart in a picture.
+        (a, b) = (a - 1e-12 * magnitude, b + 1e-12 * magnitude);
+    }
+    Range { low: a, high: b, free_low, free_high }
+}
+
+/// A linear axis with at most about `count` steps. A free end moves to the next tick if that costs at most `slack`
+/// times the range.
+pub(super) fn linear(range: Range, count: usize, slack: f64) -> Axis {
+    let Range { mut low, mut high, free_low, free_high } = range;
+    let step = Step::over((high - low) / count.max(1) as f64);
+    let room = slack * (high - low);
+    let (below, above) = ((low / step.size() + 1e-9).floor(), (high / step.size() - 1e-9).ceil());
+    if free_low && low - step.value(below) <= room {
+        low = step.value(below);
+    }
+    if free_high && step.value(above) - high <= room {
+        high = step.value(above);
+    }
+    let first = (low / step.size() - 1e-9).ceil() as i64;
+    let last = (high / step.size() + 1e-9).floor() as i64;
+    let integers: Vec<i64> = (first..=last.min(first.saturating_add(100))).map(|i| i * step.mantissa).collect();
+    let (labels, note) = write(&integers, step.exponent);
+    let ticks = integers.iter().zip(labels).map(|(integer, text)| {
+        let at = (decimal(*integer, step.exponent) - low) / (high - low);
+        Tick { at: at.clamp(0.0, 1.0), label: Label::plain(text) }
+    });
+    Axis { scale: Scale::Linear, low, high, ticks: ticks.collect(), minor: Vec::new(), note }
+}
+
+/// The distance between ticks: 1, 2 or 5 times a power of ten.
+#[derive(Clone, Copy)]
+struct Step {
+    mantissa: i64,
+    exponent: i32,
+}
+
+impl Step {
+    /// The smallest step that is not smaller than `least`.
+    fn over(least: f64) -> Step {
+        let (mantissa, exponent) = decade(least);
+        // A range that is a round number of steps must not miss its step by the last bit.
+        match mantissa - 1e-9 {
+            m if m <= 1.0 => Step { mantissa: 1, exponent },
+            m if m <= 2.0 => Step { mantissa: 2, exponent },
+            m if m <= 5.0 => Step { mantissa: 5, exponent },
+            _ => Step { mantissa: 1, exponent: exponent.saturating_add(1) },
+        }
+    }
+
+    fn size(self) -> f64 {
+        decimal(self.mantissa, self.exponent)
+    }
+
+    fn value(self, index: f64) -> f64 {
+        decimal(index as i64 * self.mantissa, self.exponent)
+    }
+}
+
+/// `integer` times 10 to the power `exponent`, rounded once where both are exact.
+fn decimal(integer: i64, exponent: i32) -> f64 {
+    let integer = integer as f64;
+    if exponent < 0 { integer / pow10(-exponent) } else { integer * pow10(exponent) }
+}
+
+/// The labels of ticks at integers times 10 to the power `exponent`, and what was taken out of them.
+fn write(integers: &[i64], exponent: i32) -> (Vec<String>, Option<Label>) {
+    let offset = shared(integers);
+    let left: Vec<i64> = integers.iter().map(|i| i - offset).collect();
+    let most = left.iter().map(|i| i.unsigned_abs()).max().unwrap_or(0);
+    let top = exponent + digits(most) - 1;
+    let power = if most > 0 && (top >= 5 || top <= -4) { top } else { 0 };
+    let labels = left.iter().map(|i| shift(*i, exponent - power)).collect();
+    let around = if offset == 0 { String::new() } else { scientific(offset, exponent) };
+    let note = match (power, offset) {
+        (0, 0) => None,
+        (0, _) => Some(Label::plain(if offset > 0 { format!("+ {around}") } else { around })),
+        _ => {
+            let (sign, size) = if offset < 0 { ("−", around.trim_start_matches('−')) } else { ("+", &*around) };
+            let rest = if offset == 0 { String::new() } else { format!(" {sign} {size}") };
+            Some(Label { text: String::from("×10"), power: minus(&power.to_string()), rest })
+        }
+    };
+    (labels, note)
+}
+
+/// What to subtract from integers that have many digits in common: the roundest number among them, else 0.
+fn shared(integers: &[i64]) -> i64 {
+    let (Some(&low), Some(&high)) = (integers.iter().min(), integers.iter().max()) else { return 0 };
+    let most = digits(low.unsigned_abs().max(high.unsigned_abs()));
+    if low == high || most <= 6 || most - digits((high - low).unsigned_abs()) < 2 {
+        return 0;
+    }
+    (0..=18)
+        .rev()
+        .map(|p| 10i64.pow(p))
+        .find_map(|unit| {
+            let multiple = high.div_euclid(unit) * unit;
+            (multiple >= low && multiple != 0).then_some(multiple)
+        })
+        .unwrap_or(0)
+}
+
+fn digits(integer: u64) -> i32 {
+    integer.checked_ilog10().map_or(1, |d| d as i32 + 1)
+}
+
+/// `integer` times 10 to the power `exponent`, in full. The exponent is small: a larger part was taken out before.
+fn shift(integer: i64, exponent: i32) -> String {
+    if integer == 0 {
+        return String::from("0");
+    }
+    let sign = if integer < 0 { "−" } else { "" };
+    let text = integer.unsigned_abs().to_string();
+    let Ok(zeros) = usize::try_from(exponent) else {
+        let decimals = exponent.unsigned_abs() as usize;
+        let text = format!("{text:0>width$}", width = decimals + 1);
+        let (whole, part) = text.split_at_checked(text.len() - decimals).unwrap_or((&text, ""));
+        return format!("{sign}{whole}.{part}");
+    };
+    format!("{sign}{text}{}", "0".repeat(zeros))
+}
+
+/// A value that was taken out of labels: without trailing zeros, and with an exponent if it is long.
+fn scientific(integer: i64, exponent: i32) -> String {
+    let (mut integer, mut exponent) = (integer, exponent);
+    while integer != 0 && integer % 10 == 0 {
+        (integer, exponent) = (integer / 10, exponent + 1);
+    }
+    let top = exponent + digits(integer.unsigned_abs()) - 1;
+    if (-4..7).contains(&top) {
+        return shift(integer, exponent);
+    }
+    let text = shift(integer, exponent - top);
+    format!("{text}e{}", minus(&top.to_string()))
+}
+
+/// A logarithmic axis that shows positive values between `low` and `high`, with room for about `count` labels.
+/// Its ends are 1, 2 or 5 times powers of ten outside of the data.
+pub(super) fn logarithmic(low: f64, high: f64, count: usize) -> Axis {
+    let (mut low, mut high) = (round(low, -1), round(high, 1));
+    // A single value, or values close to each other, stand in the middle of at least a decade.
+    if log10(high.1) - log10(low.1) < 0.999 {
+        (low, high) = (round(low.1 * 0.6, -1), round(high.1 * 1.7, 1));
+    }
+    let (a, b) = (log10(low.1), log10(high.1));
+    let decades = low.0..=high.0.saturating_add(1);
+    let whole = |m: f64, e: i32| {
+        let at = (log10(m) + f64::from(e) - a) / (b - a);
+        (-1e-9..=1.0 + 1e-9).contains(&at).then_some(at.clamp(0.0, 1.0))
+    };
+    let labelled: Vec<(u8, i32)> = decades.clone().map(|e| (1, e)).filter(|t| whole(1.0, t.1).is_some()).collect();
+    let every = labelled.len().div_ceil(count.max(2)).max(1);
+    let every = [1, 2, 3, 5, 10, 20, 50, 100].into_iter().find(|n| *n >= every).unwrap_or(200);
+    let labelled: Vec<(u8, i32)> = if labelled.len() <= 2 && count >= 5 {
+        decades.clone().flat_map(|e| [(1, e), (2, e), (5, e)]).collect()
+    } else {
+        labelled.into_iter().filter(|t| t.1.rem_euclid(every) == 0).collect()
+    };
+    let plain = low.0 >= -3 && high.0 <= 3;
+    let ticks = labelled.iter().filter_map(|&(m, e)| {
+        let at = whole(f64::from(m), e)?;
+        Some(Tick { at, label: power(m, e, plain) })
+    });
+    let minor = decades.flat_map(|e| {
+        let between = if every > 1 { 1..=1 } else { 2..=9 };
+        between.map(move |m| (f64::from(m), e))
+    });
+    let ticks: Vec<Tick> = ticks.collect();
+    let minor: Vec<f64> = minor
+        .filter_map(|(m, e)| whole(m, e))
+        .filter(|at| ticks.iter().all(|t| (t.at - at).abs() > 1e-9))
+        .collect();
+    // Lines closer than this are a grey area, not a grid.
+    let minor = if minor.len() > 120 { Vec::new() } else { minor };
+    Axis { scale: Scale::Log, low: a, high: b, ticks, minor, note: None }
+}
+
+/// The next 1, 2 or 5 times a power of ten at or beyond a positive value in a direction: its exponent and value.
+fn round(value: f64, direction: i32) -> (i32, f64) {
+    let (m, e) = decade(value);
+    let (m, e) = match (direction > 0, m) {
+        (true, m) if m <= 1.0 => (1, e),
+        (true, m) if m <= 2.0 => (2, e),
+        (true, m) if m <= 5.0 => (5, e),
+        (true, _) => (1, e.saturating_add(1)),
+        (false, m) if m >= 5.0 => (5, e),
+        (false, m) if m >= 2.0 => (2, e),
+        (false, _) => (1, e),
+    };
+    (e, decimal(m, e))
+}
+
+/// The label of a tick of a logarithmic axis.
+fn power(mantissa: u8, exponent: i32, plain: bool) -> Label {
+    if plain {
+        return Label::plain(shift(i64::from(mantissa), exponent));
+    }
+    let text = if mantissa == 1 { String::from("10") } else { format!("{mantissa}×10") };
+    Label { text, power: minus(&exponent.to_string()), rest: String::new() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn labels(low: f64, high: f64, count: usize) -> String {
+        let axis = linear(range(Some((low, high)), None, None), count, 1.0);
+        let ticks: Vec<String> = axis.ticks.iter().map(|t| t.label.text.clone()).collect();
+        let note = axis.note.map_or(String::new(), |n| format!(" | {}^{}{}", n.text, n.power, n.rest));
+        ticks.join(" ") + &note
+    }
+
+    fn powers(low: f64, high: f64, count: usize) -> String {
+        let axis = logarithmic(low, high, count);
+        let ticks = axis.ticks.iter().map(|t| format!("{}^{}", t.label.text, t.label.power));
+        ticks.collect::<Vec<_>>().join(" ").replace("^ ", " ").trim_end_matches('^').to_owned()
+    }
+
+    #[test]
+    fn linear_ticks_are_round_and_short() {
+        assert_eq!(labels(0.0, 1.0, 5), "0 0.2 0.4 0.6 0.8 1.0");
+        assert_eq!(labels(-0.3, 2.9, 6), "−1 0 1 2 3");
+        assert_eq!(labels(0.0, 0.3, 3), "0 0.1 0.2 0.3");
+        assert_eq!(labels(0.0, 0.000_83, 4), "0 2 4 6 8 10 | ×10^−4".replace("8 10", "8 10"));
+        assert_eq!(labels(0.0, 250_000.0, 5), "0 0.5 1.0 1.5 2.0 2.5 | ×10^5");
+        assert_eq!(labels(1200.0, 48_000.0, 5), "0 10000 20000 30000 40000 50000");
+    }
+
+    #[test]
+    fn constant_and_nearly_constant_data() {
+        assert_eq!(labels(5.0, 5.0, 5), "4.4 4.6 4.8 5.0 5.2 5.4 5.6");
+        assert_eq!(labels(0.0, 0.0, 4), "−1.0 −0.5 0 0.5 1.0");
+        assert_eq!(labels(0.981 - 3e-10, 0.981 + 1e-10, 4), "−3 −2 −1 0 1 | ×10^−10 + 0.981");
+        assert_eq!(labels(-0.981, -0.981 + 1e-10, 2), "0 0.5 1.0 | ×10^−10 − 0.981");
+    }
+
+    #[test]
+    fn logarithmic_ticks() {
+        assert_eq!(powers(3e-9, 4e-3, 8), "10^−8 10^−7 10^−6 10^−5 10^−4 10^−3");
+        assert_eq!(powers(12.0, 700.0, 6), "10 100 1000");
+        assert_eq!(powers(3.0, 3.0, 6), "1 2 5");
+        assert_eq!(powers(1e-300, 1e300, 6), "10^−300 10^−200 10^−100 10^0 10^100 10^200 10^300");
+    }
+
+    #[test]
+    fn wishes_for_the_ends() {
+        let both = range(Some((0.0, 9.0)), Some(2.0), Some(1.0));
+        assert_eq!((both.low, both.high, both.free_low, both.free_high), (1.0, 2.0, false, false));
+        let beyond = range(Some((0.0, 1.0)), Some(10.0), None);
+        assert!(beyond.low == 10.0 && beyond.high > 10.0);
+        let broken = range(None, Some(f64::NAN), Some(f64::INFINITY));
+        assert_eq!((broken.low, broken.high), (0.0, 1.0));
+    }
+
+    proptest! {
+        #[test]
+        fn any_range_has_ticks(a in any::<f64>(), b in any::<f64>(), low in any::<Option<f64>>(), count in 1usize..12) {
+            prop_assume!(drawable(a) && drawable(b));
+            let axis = linear(range(Some((a.min(b), a.max(b))), low, None), count, 1.0);
+            prop_assert!(axis.low < axis.high && axis.ticks.len() <= count + 3);
+            prop_assert!(axis.ticks.windows(2).all(|t| t[0].at < t[1].at));
+            prop_assert!(axis.ticks.iter().all(|t| t.label.text.chars().count() < 14));
+        }
+
+        #[test]
+        fn a_free_axis_holds_its_data(a in -1e9..1e9f64, b in -1e9..1e9f64, count in 1usize..12) {
+            let axis = linear(range(Some((a.min(b), a.max(b))), None, None), count, 1.0);
+            for value in [a, b] {
+                let at = axis.fraction(value).unwrap();
+                prop_assert!((-1e-6..=1.0 + 1e-6).contains(&at), "{at}");
+            }
+            prop_assert!(axis.ticks.len() >= 2);
+        }
+
+        #[test]
+        fn a_logarithmic_axis_holds_its_data(a in -290.0..290.0f64, b in -290.0..290.0f64, count in 2usize..12) {
+            let (low, high) = (10f64.powf(a.min(b)), 10f64.powf(a.max(b)));
+            let axis = logarithmic(low, high, count);
+            for value in [low, high] {
+                let at = axis.fraction(value).unwrap();
+                prop_assert!((-1e-9..=1.0 + 1e-9).contains(&at), "{at}");
+            }
+            prop_assert!(!axis.ticks.is_empty() && axis.ticks.len() <= 12);
+        }
+    }
+}

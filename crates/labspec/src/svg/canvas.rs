@@ -1,0 +1,150 @@
+//! The writer of SVG elements.
+//!
+//! Untrusted text enters a picture only through [`Canvas::text`], [`Canvas::label`], [`Canvas::named`] and the title
+//! and description, which all escape. Everything else is numbers and attributes written in this crate.
+
+use super::number::px;
+use super::text::{clean, escape, width};
+
+/// Text with a raised part, such as a power of ten: `×10` `−6` ` + 0.981`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Label {
+    /// What comes first.
+    pub(super) text: String,
+    /// What is raised.
+    pub(super) power: String,
+    /// What follows on the line again.
+    pub(super) rest: String,
+}
+
+impl Label {
+    /// A label without a raised part.
+    pub(super) fn plain(text: impl Into<String>) -> Self {
+        Label { text: text.into(), ..Label::default() }
+    }
+
+    /// Estimated width in pixels.
+    pub(super) fn width(&self, size: f64) -> f64 {
+        width(&self.text, size) + width(&self.power, 0.75 * size) + width(&self.rest, size)
+    }
+}
+
+/// A picture being written.
+pub(super) struct Canvas {
+    out: String,
+    depth: usize,
+}
+
+impl Canvas {
+    /// A white picture with a name and a description for those who cannot see it.
+    pub(super) fn new(size: (f64, f64), title: &str, description: &str) -> Self {
+        let (w, h) = (px(size.0), px(size.1));
+        let mut canvas = Canvas { out: String::new(), depth: 0 };
+        canvas.push(&format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
+             role=\"img\" font-family=\"Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif\">"
+        ));
+        canvas.depth = 1;
+        canvas.push(&format!("<title>{}</title>", escape(&clean(title))));
+        canvas.push(&format!("<desc>{}</desc>", escape(description)));
+        canvas.push(&format!("<rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>"));
+        canvas
+    }
+
+    /// Opens a group whose attributes hold for all that follows until [`Canvas::close`].
+    pub(super) fn open(&mut self, attributes: &str) {
+        self.push(&format!("<g {attributes}>"));
+        self.depth += 1;
+    }
+
+    /// Opens a group with a name, which viewers show when the pointer rests on it.
+    pub(super) fn named(&mut self, attributes: &str, name: &str) {
+        self.open(attributes);
+        if !name.is_empty() {
+            self.push(&format!("<title>{}</title>", escape(&clean(name))));
+        }
+    }
+
+    /// Closes the group that was opened last.
+    pub(super) fn close(&mut self) {
+        self.depth = self.depth.saturating_sub(1).max(1);
+        self.push("</g>");
+    }
+
+    /// A straight line.
+    pub(super) fn line(&mut self, from: (f64, f64), to: (f64, f64)) {
+        self.push(&format!(
+            "<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>",
+            px(from.0),
+            px(from.1),
+            px(to.0),
+            px(to.1)
+        ));
+    }
+
+    /// A filled rectangle between two corners.
+    pub(super) fn area(&mut self, from: (f64, f64), to: (f64, f64), fill: &str) {
+        self.push(&format!(
+            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{fill}\"/>",
+            px(from.0),
+            px(from.1),
+            px((to.0 - from.0).max(0.0)),
+            px((to.1 - from.1).max(0.0))
+        ));
+    }
+
+    /// A path with the given data, written in this crate.
+    pub(super) fn path(&mut self, data: &str) {
+        self.push(&format!("<path d=\"{data}\"/>"));
+    }
+
+    /// A filled disc.
+    pub(super) fn disc(&mut self, at: (f64, f64), radius: f64, fill: &str) {
+        self.push(&format!(
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{fill}\" stroke=\"none\"/>",
+            px(at.0),
+            px(at.1),
+            px(radius)
+        ));
+    }
+
+    /// A line of text. `at` is on its baseline.
+    pub(super) fn text(&mut self, at: (f64, f64), text: &str) {
+        self.label(at, &Label::plain(text));
+    }
+
+    /// A label. `at` is on its baseline.
+    pub(super) fn label(&mut self, at: (f64, f64), label: &Label) {
+        let mut inner = escape(&label.text);
+        if !label.power.is_empty() {
+            inner.push_str(&format!("<tspan dy=\"-4\" font-size=\"75%\">{}</tspan>", escape(&label.power)));
+            if !label.rest.is_empty() {
+                inner.push_str(&format!("<tspan dy=\"4\">{}</tspan>", escape(&label.rest)));
+            }
+        }
+        self.push(&format!("<text x=\"{}\" y=\"{}\">{inner}</text>", px(at.0), px(at.1)));
+    }
+
+    /// The picture.
+    pub(super) fn finish(mut self) -> String {
+        self.depth = 0;
+        self.push("</svg>");
+        self.out
+    }
+
+    fn push(&mut self, element: &str) {
+        self.out.push_str(&"  ".repeat(self.depth));
+        self.out.push_str(element);
+        self.out.push('\n');
+    }
+}
+
+/// How far below the middle of a line of text its baseline is.
+pub(super) fn drop(size: f64) -> f64 {
+    0.35 * size
+}
+
+/// Attributes of text.
+pub(super) fn style(size: f64, fill: &str, anchor: &str) -> String {
+    format!("font-size=\"{}\" fill=\"{fill}\" text-anchor=\"{anchor}\"", px(size))
+}

@@ -1,0 +1,171 @@
+//! The area of a plot: its grid, axes, ticks and labels.
+
+use super::axis::Axis;
+use super::canvas::{Canvas, Label, drop, style};
+use super::curve::Point;
+use super::style::{AXIS, FAINT, GRID, INK, LABEL, SOFT, TICK, TITLE};
+use super::text::{clean, fit, width};
+
+/// A rectangle in pixels; y grows downwards, so `top` is less than `bottom`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) right: f64,
+    pub(super) bottom: f64,
+}
+
+impl Frame {
+    /// Whether a point is inside or on the edge.
+    pub(super) fn holds(&self, point: Point) -> bool {
+        (self.left..=self.right).contains(&point.0) && (self.top..=self.bottom).contains(&point.1)
+    }
+
+    /// Whether two rectangles have an area in common.
+    pub(super) fn overlaps(&self, other: &Frame) -> bool {
+        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
+    }
+
+    /// The place of fractions along both axes.
+    pub(super) fn at(&self, x: f64, y: f64) -> Point {
+        (self.left + x * (self.right - self.left), self.bottom - y * (self.bottom - self.top))
+    }
+
+    /// Its width.
+    pub(super) fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    /// Its height.
+    pub(super) fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+}
+
+/// The words around a plot.
+pub(super) struct Words<'a> {
+    pub(super) title: &'a str,
+    pub(super) xlabel: &'a str,
+    pub(super) ylabel: &'a str,
+}
+
+/// Space between the edge of a picture and what is in it.
+pub(super) const EDGE: f64 = 12.0;
+/// Space between an axis and the labels of its ticks.
+const TO_TICK: f64 = 8.0;
+
+impl Words<'_> {
+    /// Height of the rows above the area: the title, the label of the vertical axis, and half a tick label.
+    pub(super) fn above(&self) -> f64 {
+        let title = if self.title.trim().is_empty() { 0.0 } else { 22.0 };
+        EDGE + title + 18.0
+    }
+
+    /// Height of the rows below the area: the labels of ticks and of the horizontal axis.
+    pub(super) fn below(&self) -> f64 {
+        let label = if self.xlabel.trim().is_empty() { 0.0 } else { 18.0 };
+        20.0 + label + 6.0
+    }
+}
+
+/// Width of the labels of the vertical axis, to the left of the area.
+pub(super) fn margin(y: &Axis) -> f64 {
+    EDGE + y.widest(TICK) + TO_TICK
+}
+
+/// Draws everything but the data. The scales fill `inner`; the horizontal lines and the border are those of `outer`,
+/// which has areas beside the scale if it is wider.
+pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, y: &Axis, words: &Words) {
+    let across = |at: f64| snap(inner.at(0.0, at).1);
+    let along = |at: f64| snap(inner.at(at, 0.0).0);
+
+    canvas.open(&format!("stroke=\"{FAINT}\" shape-rendering=\"crispEdges\""));
+    for at in &y.minor {
+        canvas.line((outer.left, across(*at)), (outer.right, across(*at)));
+    }
+    for at in &x.minor {
+        canvas.line((along(*at), outer.top), (along(*at), outer.bottom));
+    }
+    canvas.close();
+    canvas.open(&format!("stroke=\"{GRID}\" shape-rendering=\"crispEdges\""));
+    for tick in &y.ticks {
+        canvas.line((outer.left, across(tick.at)), (outer.right, across(tick.at)));
+    }
+    for tick in &x.ticks {
+        canvas.line((along(tick.at), outer.top), (along(tick.at), outer.bottom));
+    }
+    canvas.close();
+
+    canvas.open(&format!("stroke=\"{AXIS}\" shape-rendering=\"crispEdges\""));
+    canvas.line((snap(outer.left), outer.top), (snap(outer.left), outer.bottom));
+    canvas.line((outer.left, snap(outer.bottom)), (outer.right, snap(outer.bottom)));
+    for tick in &y.ticks {
+        canvas.line((outer.left - 4.0, across(tick.at)), (outer.left, across(tick.at)));
+    }
+    for tick in &x.ticks {
+        canvas.line((along(tick.at), outer.bottom), (along(tick.at), outer.bottom + 4.0));
+    }
+    canvas.close();
+
+    canvas.open(&style(TICK, SOFT, "end"));
+    for tick in &y.ticks {
+        canvas.label((outer.left - TO_TICK, inner.at(0.0, tick.at).1 + drop(TICK)), &tick.label);
+    }
+    canvas.close();
+    canvas.open(&style(TICK, SOFT, "middle"));
+    for tick in &x.ticks {
+        canvas.label((inner.at(tick.at, 0.0).0, outer.bottom + 17.0), &tick.label);
+    }
+    canvas.close();
+    label(canvas, outer, x, y, words);
+}
+
+/// The title, the label of the vertical axis in a row of its own above it (where it can be read without turning one's
+/// head), and the label of the horizontal axis below.
+fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) {
+    let room = outer.width();
+    let title = fit(&clean(words.title), TITLE, room / 1.08);
+    if !title.is_empty() {
+        canvas.open(&format!("{} font-weight=\"bold\"", style(TITLE, INK, "start")));
+        canvas.text((outer.left, EDGE + TITLE - 2.0), &title);
+        canvas.close();
+    }
+    let taken = y.note.as_ref().map_or(0.0, |note| EDGE + note.width(TICK) + 10.0);
+    let start = outer.left.max(taken);
+    let row = outer.top - 11.0;
+    canvas.open(&style(LABEL, INK, "start"));
+    let ylabel = fit(&clean(words.ylabel), LABEL, outer.right - start);
+    if !ylabel.is_empty() {
+        canvas.text((start, row), &ylabel);
+    }
+    canvas.close();
+    if let Some(note) = &y.note {
+        shared(canvas, note, (EDGE, row), "start");
+    }
+
+    let row = outer.bottom + 35.0;
+    let taken = x.note.as_ref().map_or(0.0, |note| note.width(TICK) + 10.0);
+    let xlabel = fit(&clean(words.xlabel), LABEL, (room - taken).max(room / 2.0));
+    if !xlabel.is_empty() {
+        let wish = outer.left + room / 2.0;
+        let most = outer.right - taken - width(&xlabel, LABEL) / 2.0;
+        canvas.open(&style(LABEL, INK, "middle"));
+        canvas.text((wish.min(most), row), &xlabel);
+        canvas.close();
+    }
+    if let Some(note) = &x.note {
+        shared(canvas, note, (outer.right, row), "end");
+    }
+}
+
+/// What was taken out of the labels of all ticks.
+fn shared(canvas: &mut Canvas, note: &Label, at: Point, anchor: &str) {
+    canvas.open(&style(TICK, SOFT, anchor));
+    canvas.label(at, note);
+    canvas.close();
+}
+
+/// The middle of a pixel, where a line of one pixel is sharp.
+fn snap(at: f64) -> f64 {
+    at.floor() + 0.5
+}

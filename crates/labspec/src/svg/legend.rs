@@ -1,0 +1,111 @@
+//! The legend: to the right of the plot where there is room, else in rows below it. Never on it.
+
+use super::canvas::{Canvas, drop, style};
+use super::frame::{EDGE, Frame};
+use super::style::{INK, LABEL};
+use super::text::{clean, fit, width};
+
+/// How one curve is named.
+pub(super) struct Entry {
+    /// Its name.
+    pub(super) label: String,
+    /// Its place among the curves, which decides its colour and mark.
+    pub(super) index: usize,
+}
+
+/// Width of the sample of a curve, with the space after it.
+const SAMPLE: f64 = 30.0;
+/// Width of the sample itself.
+pub(super) const STROKE: f64 = 22.0;
+/// Height of a row.
+const ROW: f64 = 18.0;
+/// Space between entries of a row.
+const BETWEEN: f64 = 18.0;
+
+/// Where each entry goes.
+pub(super) struct Plan {
+    /// Width to keep free to the right of the plot.
+    pub(super) right: f64,
+    /// Height to keep free below the labels of the horizontal axis.
+    pub(super) below: f64,
+    /// Entries with their place: right of the area's corner, or right of the edge and below the rows of the axis.
+    entries: Vec<(f64, f64, Entry)>,
+    /// The number of curves without an entry, and where that is said.
+    more: Option<(f64, f64, usize)>,
+}
+
+/// Plans the legend of a picture of some width whose plot has some height. `aside` allows the right side.
+pub(super) fn plan(entries: Vec<Entry>, size: f64, height: f64, aside: bool) -> Plan {
+    let entries: Vec<Entry> = entries
+        .into_iter()
+        .map(|e| Entry { label: clean(&e.label), ..e })
+        .filter(|e| !e.label.is_empty())
+        .collect();
+    let widest = entries.iter().map(|e| width(&e.label, LABEL)).fold(0.0, f64::max);
+    if entries.is_empty() {
+        return Plan { right: 0.0, below: 0.0, entries: Vec::new(), more: None };
+    }
+    if aside && SAMPLE + widest <= 0.28 * size && entries.len() as f64 * ROW <= height {
+        let placed = entries.into_iter().enumerate().map(|(i, e)| (16.0, i as f64 * ROW, e));
+        return Plan { right: 16.0 + SAMPLE + widest, below: 0.0, entries: placed.collect(), more: None };
+    }
+    rows(entries, size, height)
+}
+
+fn rows(entries: Vec<Entry>, size: f64, height: f64) -> Plan {
+    let room = size - 2.0 * EDGE;
+    let most = (0.4 * height / ROW).floor().max(1.0);
+    let mut plan = Plan { right: 0.0, below: 0.0, entries: Vec::new(), more: None };
+    let (mut x, mut row) = (0.0, 0.0);
+    let count = entries.len();
+    for (i, entry) in entries.into_iter().enumerate() {
+        let label = fit(&entry.label, LABEL, room - SAMPLE);
+        let wide = SAMPLE + width(&label, LABEL);
+        // The last row keeps room for the number of curves that found none, if any are left.
+        let reserve = if row + 1.0 >= most && i + 1 < count { BETWEEN + 60.0 } else { 0.0 };
+        if x > 0.0 && x + wide + reserve > room {
+            if row + 1.0 >= most {
+                plan.more = Some((x, row * ROW, count - i));
+                break;
+            }
+            (x, row) = (0.0, row + 1.0);
+        }
+        plan.entries.push((x, row * ROW, Entry { label, ..entry }));
+        x += wide + BETWEEN;
+    }
+    plan.below = (row + 1.0) * ROW + 4.0;
+    plan
+}
+
+/// Draws the legend. `below` is the height of the rows of the horizontal axis. `sample` draws the sample of a curve
+/// from a point to the right.
+pub(super) fn draw(
+    canvas: &mut Canvas,
+    plan: &Plan,
+    frame: &Frame,
+    below: f64,
+    sample: impl Fn(&mut Canvas, usize, (f64, f64)),
+) {
+    if plan.entries.is_empty() {
+        return;
+    }
+    // Rows start at the plot if their width allows, which is most often the case.
+    let widest = plan.entries.iter().map(|(x, _, e)| x + SAMPLE + width(&e.label, LABEL)).fold(0.0, f64::max);
+    let left = if widest + 80.0 <= frame.right - frame.left { frame.left } else { EDGE };
+    let corner = if plan.right > 0.0 {
+        (frame.right, frame.top + ROW / 2.0)
+    } else {
+        (left, frame.bottom + below + ROW / 2.0)
+    };
+    for (x, y, entry) in &plan.entries {
+        sample(canvas, entry.index, (corner.0 + x, corner.1 + y));
+    }
+    canvas.open(&style(LABEL, INK, "start"));
+    for (x, y, entry) in &plan.entries {
+        canvas.text((corner.0 + x + SAMPLE, corner.1 + y + drop(LABEL)), &entry.label);
+    }
+    if let Some((x, y, count)) = plan.more {
+        canvas.text((corner.0 + x, corner.1 + y + drop(LABEL)), &format!("… {count} more"));
+    }
+    canvas.close();
+}
