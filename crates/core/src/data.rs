@@ -2,7 +2,7 @@
 
 use crate::fields::data_fields;
 use crate::constraint::{Islands, Jacobian, Scratch};
-use crate::math::Vec3;
+use crate::jacobian::Columns;
 use crate::model::define;
 use crate::plan::{Demand, Plan};
 use crate::{Model, collision, pipeline, reset};
@@ -116,11 +116,11 @@ pub(crate) struct Work {
     pub(crate) pairs: collision::Pairs,
     /// Jacobian of the constraints.
     pub(crate) jac: Jacobian,
-    /// Columns of one contact's Jacobian, and their values along its frame.
-    pub(crate) cols: Vec<u32>,
-    pub(crate) along: Vec<Vec3>,
-    pub(crate) islands: Islands,
-    pub(crate) solver: Scratch,
+    /// Columns of one contact's Jacobian.
+    pub(crate) columns: Columns,
+    /// Taken out while the solver works with them.
+    pub(crate) islands: Option<Box<Islands>>,
+    pub(crate) solver: Option<Box<Scratch>>,
     /// Spatial accelerations and forces of bodies.
     pub(crate) cacc: Vec<f64>,
     pub(crate) cfrc: Vec<f64>,
@@ -167,6 +167,9 @@ impl Data {
         let w = &mut d.work;
         w.cacc = vec![0.0; 6 * m.nbody];
         w.cfrc = vec![0.0; 6 * m.nbody];
+        w.islands = Some(Box::default());
+        w.solver = Some(Box::default());
+        w.columns = Columns::with_room(m.nv);
         w.ld = vec![0.0; m.nC];
         w.rk.qpos = vec![0.0; m.nq];
         let rk = &mut w.rk;

@@ -24,22 +24,51 @@ pub(crate) fn dof_motion(m: &Model, d: &Data, k: usize, point: Vec3) -> (Vec3, V
     (axis, cross(axis, sub(point, rows::<3>(&d.xanchor)[j])))
 }
 
-/// The Jacobian difference of one point fixed to two bodies, J(b2) - J(b1), along the rows of `frame`.
-///
-/// Fills `cols` with the degrees of freedom that move only one of the bodies (those that move both cancel),
-/// descending, and `out` with the velocity of the point along each row for a unit velocity of each.
+/// Columns of a Jacobian along a frame, in descending order of the degrees of freedom. The arrays have room
+/// for every degree of freedom of the model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Columns {
+    dofs: Vec<u32>,
+    values: Vec<Vec3>,
+    len: usize,
+}
+
+impl Columns {
+    pub(crate) fn with_room(nv: usize) -> Columns {
+        Columns { dofs: vec![0; nv], values: vec![[0.0; 3]; nv], len: 0 }
+    }
+
+    /// The degrees of freedom.
+    #[inline(always)]
+    pub(crate) fn dofs(&self) -> &[u32] {
+        &self.dofs[..self.len]
+    }
+
+    /// Velocity of the point along each row of the frame, for a unit velocity of each degree of freedom.
+    #[inline(always)]
+    pub(crate) fn values(&self) -> &[Vec3] {
+        &self.values[..self.len]
+    }
+
+    /// Appends N columns, of which the first belongs to degree of freedom `last`.
+    #[inline(always)]
+    fn push<const N: usize>(&mut self, last: usize, values: [Vec3; N]) {
+        let range = self.len..self.len + N;
+        self.len += N;
+        for (i, k) in self.dofs[range.clone()].iter_mut().enumerate() {
+            *k = (last - i) as u32;
+        }
+        if let Some(to) = self.values[range].first_chunk_mut::<N>() {
+            *to = values;
+        }
+    }
+}
+
+/// The Jacobian difference of one point fixed to two bodies, J(b2) - J(b1), along the rows of `frame`: the
+/// degrees of freedom that move only one of the bodies (those that move both cancel).
 #[inline(always)]
-pub(crate) fn point_difference(
-    m: &Model,
-    d: &Data,
-    bodies: [usize; 2],
-    point: Vec3,
-    frame: &Mat3,
-    cols: &mut Vec<u32>,
-    out: &mut Vec<Vec3>,
-) {
-    cols.clear();
-    out.clear();
+pub(crate) fn point_difference(m: &Model, d: &Data, bodies: [usize; 2], point: Vec3, frame: &Mat3, out: &mut Columns) {
+    out.len = 0;
     let mut last = bodies.map(|b| last_dof(m, b));
     while last[0] != last[1] {
         // The chain that reaches farther down goes one joint up.
@@ -47,39 +76,38 @@ pub(crate) fn point_difference(
         let sign = if side == 1 { 1.0 } else { -1.0 };
         let end = last[side] as usize;
         let j = m.dof_jntid[end] as usize;
-        joint_columns(m, d, j, point, frame, sign, out);
-        let first = m.jnt_dofadr[j] as usize;
-        cols.extend((first..=end).rev().map(|k| k as u32));
-        last[side] = m.dof_parentid[first];
+        joint_columns(m, d, j, end, point, frame, sign, out);
+        last[side] = m.dof_parentid[m.jnt_dofadr[j] as usize];
     }
 }
 
 /// Columns of one joint, the last degree of freedom first. A rotation about `a` moves the point by a × arm,
 /// and (a × arm) · f = a · (arm × f).
 #[inline(always)]
-fn joint_columns(m: &Model, d: &Data, j: usize, point: Vec3, frame: &Mat3, sign: f64, out: &mut Vec<Vec3>) {
+#[allow(clippy::too_many_arguments)] // one formula, called from one place
+fn joint_columns(m: &Model, d: &Data, j: usize, last: usize, point: Vec3, frame: &Mat3, sign: f64, out: &mut Columns) {
     let f: [Vec3; 3] = std::array::from_fn(|r| scale([frame[3 * r], frame[3 * r + 1], frame[3 * r + 2]], sign));
-    let along = |a: Vec3| [dot(a, f[0]), dot(a, f[1]), dot(a, f[2])];
     let kind = m.jnt_type[j];
     if kind == joint::SLIDE {
-        out.push(along(rows::<3>(&d.xaxis)[j]));
+        let a = rows::<3>(&d.xaxis)[j];
+        out.push(last, [[dot(a, f[0]), dot(a, f[1]), dot(a, f[2])]]);
         return;
     }
     let arm = sub(point, rows::<3>(&d.xanchor)[j]);
     let w = [cross(arm, f[0]), cross(arm, f[1]), cross(arm, f[2])];
     if kind == joint::HINGE {
         let a = rows::<3>(&d.xaxis)[j];
-        out.push([dot(a, w[0]), dot(a, w[1]), dot(a, w[2])]);
+        out.push(last, [[dot(a, w[0]), dot(a, w[1]), dot(a, w[2])]]);
         return;
     }
+    // The body's own axes.
     let axes = &rows::<9>(&d.xmat)[m.jnt_bodyid[j] as usize];
-    let turn = w.map(|w| mat_t_mul_vec(axes, w));
-    for i in (0..3).rev() {
-        out.push([turn[0][i], turn[1][i], turn[2][i]]);
-    }
+    let t = w.map(|w| mat_t_mul_vec(axes, w));
+    let turn = |i: usize| [t[0][i], t[1][i], t[2][i]];
+    let shift = |i: usize| [f[0][i], f[1][i], f[2][i]];
     if kind == joint::FREE {
-        for i in (0..3).rev() {
-            out.push([f[0][i], f[1][i], f[2][i]]);
-        }
+        out.push(last, [turn(2), turn(1), turn(0), shift(2), shift(1), shift(0)]);
+    } else {
+        out.push(last, [turn(2), turn(1), turn(0)]);
     }
 }

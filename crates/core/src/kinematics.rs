@@ -104,40 +104,63 @@ pub(crate) fn bodies(m: &Model, d: &mut Data) {
     }
 }
 
-/// The pose of something attached to body `b`, by its `sameframe`.
-#[inline]
-fn attached(d: &Data, b: usize, same: i32, pos: Vec3, quat: Quat) -> (Vec3, Mat3) {
-    let (xpos, xmat) = (rows::<3>(&d.xpos)[b], &rows::<9>(&d.xmat)[b]);
-    match same {
-        sameframe::BODY => return (xpos, *xmat),
-        sameframe::INERTIA => return (rows::<3>(&d.xipos)[b], rows::<9>(&d.ximat)[b]),
-        _ => {}
+/// The poses of bodies that something may be attached to.
+struct Poses<'a> {
+    xpos: &'a [Vec3],
+    xquat: &'a [Quat],
+    xmat: &'a [Mat3],
+    xipos: &'a [Vec3],
+    ximat: &'a [Mat3],
+}
+
+impl Poses<'_> {
+    /// The pose of something attached to body `b`, by its `sameframe`.
+    #[inline(always)]
+    fn attached(&self, b: usize, same: i32, pos: Vec3, quat: Quat, out_pos: &mut Vec3, out_mat: &mut Mat3) {
+        *out_pos = match same {
+            sameframe::BODY => self.xpos[b],
+            sameframe::INERTIA => self.xipos[b],
+            _ => add(mat_mul_vec(&self.xmat[b], pos), self.xpos[b]),
+        };
+        *out_mat = match same {
+            sameframe::BODY | sameframe::BODYROT => self.xmat[b],
+            sameframe::INERTIA | sameframe::INERTIAROT => self.ximat[b],
+            _ => quat_to_mat(quat_mul(self.xquat[b], quat)),
+        };
     }
-    let p = add(mat_mul_vec(xmat, pos), xpos);
-    match same {
-        sameframe::BODYROT => (p, *xmat),
-        sameframe::INERTIAROT => (p, rows::<9>(&d.ximat)[b]),
-        _ => (p, quat_to_mat(quat_mul(rows::<4>(&d.xquat)[b], quat))),
-    }
+}
+
+macro_rules! poses {
+    ($d:ident) => {
+        Poses {
+            xpos: rows(&$d.xpos),
+            xquat: rows(&$d.xquat),
+            xmat: rows(&$d.xmat),
+            xipos: rows(&$d.xipos),
+            ximat: rows(&$d.ximat),
+        }
+    };
 }
 
 /// Poses of geoms: `geom_xpos geom_xmat`.
 #[inline(never)]
 pub(crate) fn geoms(m: &Model, d: &mut Data) {
-    let (pos, quat) = (rows::<3>(&m.geom_pos), rows::<4>(&m.geom_quat));
-    for g in 0..m.ngeom {
-        let (p, r) = attached(d, m.geom_bodyid[g] as usize, m.geom_sameframe[g], pos[g], quat[g]);
-        rows_mut::<3>(&mut d.geom_xpos)[g] = p;
-        rows_mut::<9>(&mut d.geom_xmat)[g] = r;
+    let poses = poses!(d);
+    let out = rows_mut::<3>(&mut d.geom_xpos).iter_mut().zip(rows_mut::<9>(&mut d.geom_xmat));
+    let local = rows::<3>(&m.geom_pos).iter().zip(rows::<4>(&m.geom_quat));
+    let on = m.geom_bodyid.iter().zip(&m.geom_sameframe);
+    for (((&b, &same), (&pos, &quat)), (p, r)) in on.zip(local).zip(out) {
+        poses.attached(b as usize, same, pos, quat, p, r);
     }
 }
 
 /// Poses of sites: `site_xpos site_xmat`.
 pub(crate) fn sites(m: &Model, d: &mut Data) {
-    let (pos, quat) = (rows::<3>(&m.site_pos), rows::<4>(&m.site_quat));
-    for s in 0..m.nsite {
-        let (p, r) = attached(d, m.site_bodyid[s] as usize, m.site_sameframe[s], pos[s], quat[s]);
-        rows_mut::<3>(&mut d.site_xpos)[s] = p;
-        rows_mut::<9>(&mut d.site_xmat)[s] = r;
+    let poses = poses!(d);
+    let out = rows_mut::<3>(&mut d.site_xpos).iter_mut().zip(rows_mut::<9>(&mut d.site_xmat));
+    let local = rows::<3>(&m.site_pos).iter().zip(rows::<4>(&m.site_quat));
+    let on = m.site_bodyid.iter().zip(&m.site_sameframe);
+    for (((&b, &same), (&pos, &quat)), (p, r)) in on.zip(local).zip(out) {
+        poses.attached(b as usize, same, pos, quat, p, r);
     }
 }

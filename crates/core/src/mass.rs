@@ -125,6 +125,15 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
     }
 }
 
+/// Sum of the diagonal of M over the degrees of freedom `dofs`.
+#[inline]
+pub(crate) fn trace(m: &Model, mass: &[f64], dofs: Range<usize>) -> f64 {
+    if m.nC == m.nv {
+        return mass[dofs].iter().sum();
+    }
+    dofs.map(|k| mass[(m.M_rowadr[k] + m.M_rownnz[k] - 1) as usize]).sum()
+}
+
 /// M as a dense symmetric matrix, row-major (`mj_fullM`).
 pub fn full_m(m: &Model, d: &Data) -> Vec<f64> {
     let n = m.nv;

@@ -87,8 +87,8 @@ pub fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
 /// a · b of two slices of the same length, in two interleaved sums.
 #[inline(always)]
 pub fn dot_slice(a: &[f64], b: &[f64]) -> f64 {
-    let ((a2, a1), (b2, b1)) = (a.as_chunks::<2>(), b.as_chunks::<2>());
     let mut s = [0.0; 2];
+    let ((a2, a1), (b2, b1)) = (a.as_chunks::<2>(), b.as_chunks::<2>());
     for (x, y) in a2.iter().zip(b2) {
         s[0] += x[0] * y[0];
         s[1] += x[1] * y[1];

@@ -114,14 +114,16 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     if d.plan.applied_forces {
         applied_forces(m, d);
     }
-    d.qacc_smooth.copy_from_slice(&d.qfrc_smooth);
     match d.plan.mass {
         Exact::Diagonal => {
-            for (a, inv) in d.qacc_smooth.iter_mut().zip(&d.qLDiagInv) {
-                *a *= inv;
+            for ((a, f), inv) in d.qacc_smooth.iter_mut().zip(&d.qfrc_smooth).zip(&d.qLDiagInv) {
+                *a = f * inv;
             }
         }
-        Exact::General => mass::solve(m, &d.qLD, &d.qLDiagInv, &mut d.qacc_smooth, 0..m.nv),
+        Exact::General => {
+            d.qacc_smooth.copy_from_slice(&d.qfrc_smooth);
+            mass::solve(m, &d.qLD, &d.qLDiagInv, &mut d.qacc_smooth, 0..m.nv);
+        }
     }
 }
 

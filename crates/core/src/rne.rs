@@ -26,21 +26,22 @@ fn simple(m: &Model, d: &mut Data, j: usize, gravity: Vec3) {
     let mass = m.body_mass[body];
     let k = m.jnt_dofadr[j] as usize;
     let kind = m.jnt_type[j];
-    match kind {
-        joint::SLIDE => d.qfrc_bias[k] = -mass * dot(gravity, rows::<3>(&d.xaxis)[j]),
-        joint::HINGE => d.qfrc_bias[k] = 0.0,
-        _ => {
-            let n = if kind == joint::FREE { 3 } else { 0 };
-            let v = &d.qvel[k + n..k + n + 3];
-            let w = [v[0], v[1], v[2]];
-            let inertia = rows::<3>(&m.body_inertia)[body];
-            let torque = cross(w, [inertia[0] * w[0], inertia[1] * w[1], inertia[2] * w[2]]);
-            let out = &mut d.qfrc_bias[k..k + n + 3];
-            if kind == joint::FREE {
-                out[..3].copy_from_slice(&scale(gravity, -mass));
-            }
-            out[n..].copy_from_slice(&torque);
-        }
+    if kind == joint::SLIDE || kind == joint::HINGE {
+        let slides = kind == joint::SLIDE;
+        d.qfrc_bias[k] = if slides { -mass * dot(gravity, rows::<3>(&d.xaxis)[j]) } else { 0.0 };
+        return;
+    }
+    let first = if kind == joint::FREE { k + 3 } else { k };
+    let Some(&w) = d.qvel[first..].first_chunk::<3>() else { return };
+    let inertia = rows::<3>(&m.body_inertia)[body];
+    let torque = cross(w, [inertia[0] * w[0], inertia[1] * w[1], inertia[2] * w[2]]);
+    if let Some(out) = d.qfrc_bias[first..].first_chunk_mut::<3>() {
+        *out = torque;
+    }
+    if kind == joint::FREE
+        && let Some(out) = d.qfrc_bias[k..].first_chunk_mut::<3>()
+    {
+        *out = scale(gravity, -mass);
     }
 }
 

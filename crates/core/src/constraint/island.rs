@@ -3,7 +3,7 @@
 //! Connected components by union-find with path halving (Tarjan and van Leeuwen 1984).
 
 use super::jacobian::Jacobian;
-use crate::{Data, Model, disable};
+use crate::{Model, disable};
 
 /// Which constraints and trees belong together.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -16,6 +16,13 @@ pub(crate) struct Islands {
     link: Vec<u32>,
     /// Per tree: its island, or [`NONE`].
     island: Vec<u32>,
+    /// What the lists were made from: the end of each block's columns, all columns, and whether islands are
+    /// switched off.
+    ends: Vec<u32>,
+    columns: Vec<u32>,
+    together: bool,
+    /// Number of islands.
+    count: usize,
 }
 
 /// Several lists of small numbers, each number in at most one of them.
@@ -73,71 +80,65 @@ fn root(link: &mut [u32], mut i: usize) -> usize {
     i
 }
 
-/// Groups the blocks of the Jacobian; `nisland`. Islands are numbered by their first tree.
-pub(super) fn find(m: &Model, d: &mut Data) {
-    let (w, jac) = (&mut d.work.islands, &d.work.jac);
-    let together = m.opt.disabled(disable::ISLAND);
-    let tree_of = |c: u32| m.dof_treeid[c as usize] as usize;
-    w.island.resize(m.ntree, NONE);
-    w.island.fill(if together { 0 } else { NONE });
+impl Islands {
+    /// Groups the blocks of the Jacobian; returns the number of islands, which are numbered by their first
+    /// tree. Nothing is done while the blocks have the columns that they had at the last step.
+    pub(super) fn find(&mut self, m: &Model, jac: &Jacobian) -> usize {
+        let together = m.opt.disabled(disable::ISLAND);
+        if self.together == together && jac.same_columns(&self.ends, &self.columns) {
+            return self.count;
+        }
+        jac.copy_columns(&mut self.ends, &mut self.columns);
+        self.together = together;
+        let tree_of = |c: u32| m.dof_treeid[c as usize] as usize;
+        self.island.resize(m.ntree, NONE);
+        self.island.fill(if together { 0 } else { NONE });
+        self.count = if together { 1 } else { self.number(m, jac) };
 
-    let mut n = 1;
-    if !together {
-        let mut tied = false;
-        for b in &jac.blocks {
-            let cols = jac.columns(b);
-            let (Some(&first), Some(&last)) = (cols.first(), cols.last()) else { continue };
-            let (first, last) = (tree_of(first), tree_of(last));
-            w.island[first] = TOUCHED;
-            w.island[last] = TOUCHED;
-            tied |= first != last;
-        }
-        if tied {
-            tie(m, w, jac);
-        }
-        // A root is the smallest tree of its island, so it is numbered before the others ask.
-        n = 0;
+        self.trees.clear(self.count, m.ntree);
         for t in 0..m.ntree {
-            if w.island[t] == TOUCHED {
-                let r = if tied { root(&mut w.link, t) } else { t };
-                if r == t {
-                    w.island[t] = n;
-                    n += 1;
-                } else {
-                    w.island[t] = w.island[r];
+            if self.island[t] != NONE {
+                self.trees.push(self.island[t] as usize, t);
+            }
+        }
+        self.blocks.clear(self.count, jac.blocks.len());
+        for (i, b) in jac.blocks.iter().enumerate() {
+            if let Some(&c) = jac.columns(b).first() {
+                self.blocks.push(self.island[tree_of(c)] as usize, i);
+            }
+        }
+        self.count
+    }
+
+    /// Gives each touched tree the number of its island; returns how many there are.
+    fn number(&mut self, m: &Model, jac: &Jacobian) -> usize {
+        self.link.clear();
+        self.link.extend(0..m.ntree as u32);
+        for b in &jac.blocks {
+            let mut previous = None;
+            for &c in jac.columns(b) {
+                let t = m.dof_treeid[c as usize] as usize;
+                self.island[t] = TOUCHED;
+                if let Some(p) = previous.replace(t) {
+                    let (a, b) = (root(&mut self.link, p), root(&mut self.link, t));
+                    self.link[a.max(b)] = a.min(b) as u32;
                 }
             }
         }
-    }
-    d.nisland = n as usize;
-    w.trees.clear(d.nisland, m.ntree);
-    for t in 0..m.ntree {
-        if w.island[t] != NONE {
-            w.trees.push(w.island[t] as usize, t);
-        }
-    }
-    w.blocks.clear(d.nisland, jac.blocks.len());
-    for (i, b) in jac.blocks.iter().enumerate() {
-        if let Some(&c) = jac.columns(b).first() {
-            w.blocks.push(w.island[tree_of(c)] as usize, i);
-        }
-    }
-}
-
-/// Joins the trees of each block.
-fn tie(m: &Model, w: &mut Islands, jac: &Jacobian) {
-    w.link.clear();
-    w.link.extend(0..m.ntree as u32);
-    for b in &jac.blocks {
-        let mut previous = None;
-        for &c in jac.columns(b) {
-            let t = m.dof_treeid[c as usize] as usize;
-            w.island[t] = TOUCHED;
-            if let Some(p) = previous.replace(t) {
-                let (a, b) = (root(&mut w.link, p), root(&mut w.link, t));
-                w.link[a.max(b)] = a.min(b) as u32;
+        // A root is the smallest tree of its island, so it is numbered before the others ask.
+        let mut n = 0;
+        for t in 0..m.ntree {
+            if self.island[t] == TOUCHED {
+                let r = root(&mut self.link, t);
+                if r == t {
+                    self.island[t] = n;
+                    n += 1;
+                } else {
+                    self.island[t] = self.island[r];
+                }
             }
         }
+        n as usize
     }
 }
 

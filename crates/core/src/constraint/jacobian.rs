@@ -44,27 +44,37 @@ fn contiguous(columns: &[u32]) -> Option<Range<usize>> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Jacobian {
     pub(super) blocks: Vec<Block>,
+    /// Room that grows and is written over; the blocks say how much of it is used.
     values: Vec<f64>,
     columns: Vec<u32>,
+    used_values: usize,
+    used_columns: usize,
 }
 
 impl Jacobian {
     pub(super) fn clear(&mut self) {
         self.blocks.clear();
-        self.values.clear();
-        self.columns.clear();
+        (self.used_values, self.used_columns) = (0, 0);
     }
 
     /// Appends a block of R rows: its columns in descending order, and one value per row for each.
     #[inline(always)]
-    pub(super) fn push<const R: usize>(&mut self, row: usize, descending: &[u32], mut value: impl FnMut(usize) -> [f64; R]) {
+    pub(super) fn push<const R: usize>(&mut self, row: usize, descending: &[u32], values: impl Iterator<Item = [f64; R]>) {
         let n = descending.len();
-        let (adr, col) = (self.values.len(), self.columns.len());
+        let (adr, col) = (self.used_values, self.used_columns);
+        (self.used_values, self.used_columns) = (adr + R * n, col + n);
+        if self.values.len() < self.used_values {
+            self.values.resize(self.used_values, 0.0);
+        }
+        if self.columns.len() < self.used_columns {
+            self.columns.resize(self.used_columns, 0);
+        }
         self.blocks.push(Block { row: row as u32, nrow: R as u32, adr: adr as u32, col: col as u32, ncol: n as u32 });
-        self.columns.extend(descending.iter().rev());
-        self.values.resize(adr + R * n, 0.0);
-        for (c, v) in self.values[adr..].as_chunks_mut::<R>().0.iter_mut().rev().enumerate() {
-            *v = value(c);
+        for (c, &k) in self.columns[col..col + n].iter_mut().rev().zip(descending) {
+            *c = k;
+        }
+        for (v, value) in self.values[adr..adr + R * n].as_chunks_mut::<R>().0.iter_mut().rev().zip(values) {
+            *v = value;
         }
     }
 
@@ -72,6 +82,21 @@ impl Jacobian {
     #[inline(always)]
     pub(super) fn columns(&self, b: &Block) -> &[u32] {
         &self.columns[b.col as usize..(b.col + b.ncol) as usize]
+    }
+
+    /// Whether the blocks have these columns.
+    #[inline]
+    pub(super) fn same_columns(&self, ends: &[u32], columns: &[u32]) -> bool {
+        ends.len() == self.blocks.len()
+            && *columns == self.columns[..self.used_columns]
+            && self.blocks.iter().zip(ends).all(|(b, &end)| b.col + b.ncol == end)
+    }
+
+    pub(super) fn copy_columns(&self, ends: &mut Vec<u32>, columns: &mut Vec<u32>) {
+        ends.clear();
+        ends.extend(self.blocks.iter().map(|b| b.col + b.ncol));
+        columns.clear();
+        columns.extend_from_slice(&self.columns[..self.used_columns]);
     }
 
     #[inline(always)]
@@ -84,6 +109,15 @@ impl Jacobian {
     pub(super) fn mul(&self, x: &[f64], out: &mut [f64]) {
         for b in &self.blocks {
             self.mul_block(b, x, out);
+        }
+    }
+
+    /// out ← J x - aref, all rows.
+    #[inline]
+    pub(super) fn residual(&self, x: &[f64], aref: &[f64], out: &mut [f64]) {
+        self.mul(x, out);
+        for (x, aref) in out.iter_mut().zip(aref) {
+            *x -= aref;
         }
     }
 

@@ -6,34 +6,37 @@
 use super::impedance::{Kbi, kbi};
 use super::kind;
 use crate::math::*;
-use crate::{Contact, Data, Model, disable, jacobian, joint};
+use crate::jacobian::{self, Columns};
+use crate::{Contact, Data, Model, disable, joint};
 
 /// `efc_*` up to R and D, `nefc`.
 #[inline(never)]
 pub(crate) fn make(m: &Model, d: &mut Data) {
-    clear(d);
-    if !m.opt.disabled(disable::CONSTRAINT) {
-        if !m.opt.disabled(disable::LIMIT) {
-            joint_limits(m, d);
-        }
-        contacts(m, d);
+    d.work.jac.clear();
+    let on = |bit: i32| !m.opt.disabled(disable::CONSTRAINT) && !m.opt.disabled(bit);
+    let limited = if on(disable::LIMIT) { m.jnt_limited.iter().filter(|&&l| l).count() } else { 0 };
+    let touching: usize = d.contact.iter().map(|c| if c.dim == 1 { 1 } else { 4 }).sum();
+    // Room for all that may come; the arrays keep their length from step to step as long as contacts stay.
+    resize(d, 2 * limited + touching);
+    d.nefc = 0;
+    if limited > 0 {
+        joint_limits(m, d);
     }
-    d.nefc = d.efc_type.len();
-    d.efc_vel.resize(d.nefc, 0.0);
-    d.efc_aref.resize(d.nefc, 0.0);
-    d.efc_force.resize(d.nefc, 0.0);
+    contacts(m, d);
+    resize(d, d.nefc);
 }
 
-fn clear(d: &mut Data) {
-    d.efc_type.clear();
-    d.efc_id.clear();
-    d.efc_pos.clear();
-    d.efc_margin.clear();
-    d.efc_diagA.clear();
-    d.efc_KBIP.clear();
-    d.efc_D.clear();
-    d.efc_R.clear();
-    d.work.jac.clear();
+fn resize(d: &mut Data, rows: usize) {
+    if d.efc_type.len() == rows && d.efc_force.len() == rows {
+        return;
+    }
+    d.efc_type.resize(rows, 0);
+    d.efc_id.resize(rows, 0);
+    d.efc_KBIP.resize(4 * rows, 0.0);
+    let floats = [&mut d.efc_pos, &mut d.efc_margin, &mut d.efc_diagA, &mut d.efc_D, &mut d.efc_R];
+    for v in floats.into_iter().chain([&mut d.efc_vel, &mut d.efc_aref, &mut d.efc_force]) {
+        v.resize(rows, 0.0);
+    }
 }
 
 /// What all rows of one constraint share.
@@ -50,14 +53,23 @@ struct Shared {
 #[inline(always)]
 fn push<const R: usize>(d: &mut Data, s: &Shared) {
     let Kbi { k, b, imp, slope } = s.kbi;
-    d.efc_type.extend_from_slice(&[s.kind; R]);
-    d.efc_id.extend_from_slice(&[s.id as i32; R]);
-    d.efc_pos.extend_from_slice(&[s.pos; R]);
-    d.efc_margin.extend_from_slice(&[s.margin; R]);
-    d.efc_KBIP.extend_from_slice([[k, b, imp, slope]; R].as_flattened());
-    d.efc_diagA.extend_from_slice(&[s.r * imp / (1.0 - imp); R]);
-    d.efc_R.extend_from_slice(&[s.r; R]);
-    d.efc_D.extend_from_slice(&[1.0 / s.r; R]);
+    let rows = d.nefc..d.nefc + R;
+    d.nefc = rows.end;
+    put(&mut d.efc_type[rows.clone()], [s.kind; R]);
+    put(&mut d.efc_id[rows.clone()], [s.id as i32; R]);
+    put(&mut d.efc_pos[rows.clone()], [s.pos; R]);
+    put(&mut d.efc_margin[rows.clone()], [s.margin; R]);
+    put(&mut rows_mut::<4>(&mut d.efc_KBIP)[rows.clone()], [[k, b, imp, slope]; R]);
+    put(&mut d.efc_diagA[rows.clone()], [s.r * imp / (1.0 - imp); R]);
+    put(&mut d.efc_R[rows.clone()], [s.r; R]);
+    put(&mut d.efc_D[rows], [1.0 / s.r; R]);
+}
+
+#[inline(always)]
+fn put<T, const R: usize>(to: &mut [T], values: [T; R]) {
+    if let Some(to) = to.first_chunk_mut::<R>() {
+        *to = values;
+    }
 }
 
 /// R = (1 - d)/d A, so that the constraint acts with the fraction d of the force that would hold it rigid.
@@ -101,7 +113,7 @@ fn limit_row(m: &Model, d: &mut Data, j: usize, dist: f64, jac: &[f64]) {
     let (dof, margin) = (m.jnt_dofadr[j] as usize, m.jnt_margin[j]);
     let (n, last) = (jac.len(), dof + jac.len() - 1);
     let columns: [u32; 3] = std::array::from_fn(|c| last.saturating_sub(c) as u32);
-    d.work.jac.push::<1>(d.efc_type.len(), &columns[..n], |c| [jac[n - 1 - c]]);
+    d.work.jac.push::<1>(d.nefc, &columns[..n], jac.iter().rev().map(|&j| [j]));
     let kbi = kbi(m, rows::<2>(&m.jnt_solref)[j], rows::<5>(&m.jnt_solimp)[j], dist - margin);
     let r = regularization(kbi.imp, m.dof_invweight0[dof]);
     push::<1>(d, &Shared { kind: kind::LIMIT_JOINT, id: j, pos: dist, margin, kbi, r });
@@ -110,43 +122,40 @@ fn limit_row(m: &Model, d: &mut Data, j: usize, dist: f64, jac: &[f64]) {
 /// One row along the normal for a frictionless contact; otherwise the edges n ± μ t of the pyramid.
 fn contacts(m: &Model, d: &mut Data) {
     let mut list = std::mem::take(&mut d.contact);
-    let mut cols = std::mem::take(&mut d.work.cols);
-    let mut along = std::mem::take(&mut d.work.along);
+    let mut columns = std::mem::take(&mut d.work.columns);
     for (id, c) in list.iter_mut().enumerate() {
         c.efc_address = None;
         if c.exclude != 0 {
             continue;
         }
         let (b1, b2) = (m.geom_bodyid[c.geom1] as usize, m.geom_bodyid[c.geom2] as usize);
-        jacobian::point_difference(m, d, [b1, b2], c.pos, &c.frame, &mut cols, &mut along);
-        if cols.is_empty() {
+        jacobian::point_difference(m, d, [b1, b2], c.pos, &c.frame, &mut columns);
+        if columns.dofs().is_empty() {
             c.exclude = 3;
             continue;
         }
-        c.efc_address = Some(d.efc_type.len());
+        c.efc_address = Some(d.nefc);
         let translation = m.body_invweight0[2 * b1] + m.body_invweight0[2 * b2];
-        contact_rows(m, d, id, c, translation, &cols, &along);
+        contact_rows(m, d, id, c, translation, &columns);
     }
     d.contact = list;
-    d.work.cols = cols;
-    d.work.along = along;
+    d.work.columns = columns;
 }
 
 #[inline(always)]
-fn contact_rows(m: &Model, d: &mut Data, id: usize, c: &mut Contact, translation: f64, cols: &[u32], along: &[Vec3]) {
-    let (row, mu, mu2) = (d.efc_type.len(), c.friction[0], c.friction[1]);
+fn contact_rows(m: &Model, d: &mut Data, id: usize, c: &mut Contact, translation: f64, columns: &Columns) {
+    let (cols, along) = (columns.dofs(), columns.values());
+    let (row, mu, mu2) = (d.nefc, c.friction[0], c.friction[1]);
     let kbi = kbi(m, c.solref, c.solimp, c.dist - c.includemargin);
     let shared = |kind: i32, r: f64| Shared { kind, id, pos: c.dist, margin: c.includemargin, kbi, r };
     if c.dim == 1 {
-        d.work.jac.push::<1>(row, cols, |k| [along[k][0]]);
+        d.work.jac.push::<1>(row, cols, along.iter().map(|a| [a[0]]));
         push::<1>(d, &shared(kind::CONTACT_FRICTIONLESS, regularization(kbi.imp, translation)));
         c.mu = mu;
         return;
     }
-    d.work.jac.push::<4>(row, cols, |k| {
-        let [n, t1, t2] = along[k];
-        [n + mu * t1, n - mu * t1, n + mu2 * t2, n - mu2 * t2]
-    });
+    let edges = |&[n, t1, t2]: &Vec3| [n + mu * t1, n - mu * t1, n + mu2 * t2, n - mu2 * t2];
+    d.work.jac.push::<4>(row, cols, along.iter().map(edges));
     // Every edge is as soft as the friction cone is: R = 2 μ² R(edge 0), with μ = μ1 / √impratio.
     let r0 = regularization(kbi.imp, translation + mu * mu * translation);
     let mu_reg = mu * (1.0 / m.opt.impratio.max(MINVAL)).sqrt();

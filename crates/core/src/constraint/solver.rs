@@ -4,7 +4,7 @@
 //! s(x) = ½ D x² for x < 0, else 0: a constraint pushes, it never pulls. The cost is convex and piecewise
 //! quadratic, so the method ends after finitely many steps (Todorov 2014; Nocedal and Wright 2006, ch. 3).
 
-use super::island::{self, Islands};
+use super::island::Islands;
 use super::jacobian::Block;
 use super::search::{Point, minimize};
 use crate::math::{MINVAL, dot, dot_slice};
@@ -31,6 +31,18 @@ pub(crate) struct Scratch {
     /// Dense Hessian of the island, lower triangle by rows, and a right-hand side.
     hessian: Vec<f64>,
     rhs: Vec<f64>,
+    /// Where each island stands after the warm start.
+    reached: Vec<Reached>,
+}
+
+/// Where an island stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Reached {
+    cost: f64,
+    /// Norm of the gradient.
+    gradient: f64,
+    /// Certified to be the minimum.
+    minimum: bool,
 }
 
 /// `qacc`, `efc_force`, `qfrc_constraint`, `solver_niter`, from `qacc_smooth` and the rows.
@@ -43,64 +55,83 @@ pub(crate) fn solve(m: &Model, d: &mut Data) {
     if d.nefc == 0 {
         return;
     }
-    island::find(m, d);
-    let mut s = std::mem::take(&mut d.work.solver);
-    for v in [&mut s.ma, &mut s.grad, &mut s.step, &mut s.search, &mut s.mv] {
-        v.resize(m.nv, 0.0);
+    let mut islands = d.work.islands.take().unwrap_or_default();
+    d.nisland = islands.find(m, &d.work.jac);
+    let mut s = d.work.solver.take().unwrap_or_default();
+    s.resize(m.nv, d.nefc);
+    let on_start = !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, &mut s, &islands);
+    if !on_start {
+        for i in 0..d.nisland {
+            let mut problem = Problem { m, d, s: &mut s, islands: &islands, island: i };
+            let from = problem.reached();
+            problem.newton(from);
+        }
     }
-    for v in [&mut s.jar, &mut s.jv, &mut s.weight] {
-        v.resize(d.nefc, 0.0);
-    }
-    s.local.resize(m.nv, 0);
-    warm_start(m, d, &mut s);
-
-    let islands = std::mem::take(&mut d.work.islands);
-    for i in 0..d.nisland {
-        Problem { m, d, s: &mut s, islands: &islands, island: i }.newton();
-    }
-    d.work.islands = islands;
-    d.work.solver = s;
+    d.work.islands = Some(islands);
+    d.work.solver = Some(s);
 }
 
-/// Starts from the last step's acceleration or the unconstrained one, whichever costs less. The choice is
-/// made once for the whole system; what no constraint touches keeps the unconstrained acceleration.
-#[inline(never)]
-fn warm_start(m: &Model, d: &mut Data, s: &mut Scratch) {
-    let (jac, aref) = (&d.work.jac, &d.efc_aref);
-    let residual = |x: &[f64], out: &mut [f64]| -> f64 {
-        let mut cost = 0.0;
-        jac.mul(x, out);
-        for ((x, aref), w) in out.iter_mut().zip(aref).zip(&d.efc_D) {
-            *x -= aref;
-            let pushed = x.min(0.0);
-            cost += 0.5 * w * pushed * pushed;
+impl Scratch {
+    fn resize(&mut self, nv: usize, nefc: usize) {
+        if self.ma.len() != nv {
+            for v in [&mut self.ma, &mut self.grad, &mut self.step, &mut self.search, &mut self.mv] {
+                v.resize(nv, 0.0);
+            }
+            self.local.resize(nv, 0);
         }
-        cost
-    };
-    let smooth = residual(&d.qacc_smooth, &mut s.jar);
-    s.ma.copy_from_slice(&d.qfrc_smooth);
-    if m.opt.disabled(disable::WARMSTART) {
-        return;
+        if self.jar.len() != nefc {
+            for v in [&mut self.jar, &mut self.jv, &mut self.weight] {
+                v.resize(nefc, 0.0);
+            }
+        }
     }
-    let mut warm = residual(&d.qacc_warmstart, &mut s.jv);
-    // Gauss cost of the warm start; that of the unconstrained acceleration is zero.
-    mass::mul(m, &d.M, &d.qacc_warmstart, &mut s.step, 0..m.nv);
-    let forces = s.step.iter().zip(&d.qfrc_smooth);
-    let accelerations = d.qacc_warmstart.iter().zip(&d.qacc_smooth);
-    for ((ma, f), (a, a0)) in forces.zip(accelerations) {
-        warm += 0.5 * (ma - f) * (a - a0);
-    }
-    if warm > smooth {
-        return;
-    }
-    std::mem::swap(&mut s.jar, &mut s.jv);
-    std::mem::swap(&mut s.ma, &mut s.step);
-    for i in 0..d.nisland {
-        for t in d.work.islands.trees.of(i) {
+}
+
+/// Starts from the last step's acceleration, unless the unconstrained one costs less. `true` when all is done:
+/// at rest the last acceleration is still the answer, and the other one need not be looked at. `false` leaves
+/// the unconstrained acceleration for the islands to start from.
+///
+/// The choice is made once for the whole system; what no constraint touches keeps the unconstrained
+/// acceleration.
+#[inline(never)]
+fn warm_start(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) -> bool {
+    d.work.jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
+    mass::mul(m, &d.M, &d.qacc_warmstart, &mut s.ma, 0..m.nv);
+    let mut reached = std::mem::take(&mut s.reached);
+    reached.clear();
+    for island in 0..d.nisland {
+        for t in islands.trees.of(island) {
             let dofs = tree_dofs(m, t);
             d.qacc[dofs.clone()].copy_from_slice(&d.qacc_warmstart[dofs]);
         }
+        reached.push(Problem { m, d, s, islands, island }.reached());
     }
+    let mut done = reached.iter().all(|r| r.minimum);
+    if !done {
+        d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jv);
+        // The unconstrained acceleration has no Gauss cost; the last one has it everywhere.
+        let gauss = |k: usize| 0.5 * (s.ma[k] - d.qfrc_smooth[k]) * (d.qacc_warmstart[k] - d.qacc_smooth[k]);
+        let warm = push_cost(&s.jar, &d.efc_D) + (0..m.nv).map(gauss).sum::<f64>();
+        if warm <= push_cost(&s.jv, &d.efc_D) {
+            for (island, &from) in reached.iter().enumerate() {
+                Problem { m, d, s, islands, island }.newton(from);
+            }
+            done = true;
+        } else {
+            d.qacc.copy_from_slice(&d.qacc_smooth);
+        }
+    }
+    s.reached = reached;
+    if !done {
+        std::mem::swap(&mut s.jar, &mut s.jv);
+        s.ma.copy_from_slice(&d.qfrc_smooth);
+    }
+    done
+}
+
+/// Cost of all rows.
+fn push_cost(jar: &[f64], weight: &[f64]) -> f64 {
+    jar.iter().zip(weight).map(|(&x, &w)| if x < 0.0 { 0.5 * w * x * x } else { 0.0 }).sum()
 }
 
 #[inline(always)]
@@ -119,16 +150,22 @@ struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    #[inline(never)]
-    fn newton(&mut self) {
-        let tol = self.m.opt.tolerance;
-        let scale = self.scale();
-        let (mut cost, mut gradient) = self.update();
+    /// Forces, cost and gradient at the current acceleration, and whether it is already the minimum: the
+    /// decrease that M⁻¹ promises and the gradient are both small.
+    fn reached(&mut self) -> Reached {
+        let (tol, scale) = (self.m.opt.tolerance, self.scale());
+        let (cost, gradient) = self.update();
+        let minimum = scale * gradient < tol && scale * self.decrement_by_mass() < tol;
+        Reached { cost, gradient, minimum }
+    }
 
-        // Already the minimum? The decrease that M⁻¹ promises and the gradient are both small.
-        if scale * gradient < tol && scale * self.decrement_by_mass() < tol {
+    #[inline(never)]
+    fn newton(&mut self, from: Reached) {
+        if from.minimum {
             return;
         }
+        let (tol, scale) = (self.m.opt.tolerance, self.scale());
+        let Reached { mut cost, mut gradient, .. } = from;
         self.number_dofs();
         self.newton_direction();
         if scale * gradient < tol && scale * self.decrement() < tol {
@@ -173,10 +210,7 @@ impl<'a> Problem<'a> {
         if m.opt.disabled(disable::ISLAND) {
             return 1.0 / (m.stat.meaninertia * m.nv.max(1) as f64).max(MINVAL);
         }
-        let mut sum = 0.0;
-        for k in self.dofs().flatten() {
-            sum += self.d.M[(m.M_rowadr[k] + m.M_rownnz[k] - 1) as usize];
-        }
+        let sum: f64 = self.dofs().map(|dofs| mass::trace(m, &self.d.M, dofs)).sum();
         1.0 / sum.max(MINVAL)
     }
 
@@ -326,12 +360,19 @@ impl<'a> Problem<'a> {
     fn advance(&mut self, alpha: f64) {
         let (dofs, blocks) = (self.dofs(), self.blocks());
         let (d, s) = (&mut *self.d, &mut *self.s);
-        for k in dofs.flatten() {
-            d.qacc[k] += alpha * s.search[k];
-            s.ma[k] += alpha * s.mv[k];
+        for k in dofs {
+            for ((a, ma), (step, mstep)) in
+                d.qacc[k.clone()].iter_mut().zip(&mut s.ma[k.clone()]).zip(s.search[k.clone()].iter().zip(&s.mv[k]))
+            {
+                *a += alpha * step;
+                *ma += alpha * mstep;
+            }
         }
-        for r in blocks.flat_map(|b| d.work.jac.blocks[b].rows()) {
-            s.jar[r] += alpha * s.jv[r];
+        for b in blocks {
+            let rows = d.work.jac.blocks[b].rows();
+            for (x, v) in s.jar[rows.clone()].iter_mut().zip(&s.jv[rows]) {
+                *x += alpha * v;
+            }
         }
     }
 }

@@ -40,7 +40,8 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     let key = target.lab.key.as_ref().map(|k| k.value.max(0.0) as usize);
     let mut session = Session::start_with(&target.programs, &target.model, key, data);
     let steps = a.steps.clamp(1, crate::run::MAX_STEPS);
-    advance(&mut session, a.warm.min(crate::run::MAX_STEPS));
+    let lab = !target.programs.probes.is_empty() || target.programs.controller.is_some();
+    advance(&mut session, a.warm.min(crate::run::MAX_STEPS), lab);
     let start = session.world.data.clone();
     let mut nanoseconds = Vec::new();
     for _ in 0..a.repeat.clamp(1, 1000) {
@@ -48,7 +49,7 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
             session.world.data.clone_from(&start);
         }
         let clock = Instant::now();
-        advance(&mut session, steps);
+        advance(&mut session, steps, lab);
         nanoseconds.push(clock.elapsed().as_nanos() as f64 / steps as f64);
     }
     nanoseconds.sort_by(f64::total_cmp);
@@ -66,10 +67,13 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Clean)
 }
 
-/// Whole steps of the lab, controller included. Not inlined, so that a profiler can count from here.
+/// Whole steps: of the engine for a model alone, of the session with its controller for a lab. Not inlined, so
+/// that a profiler can count from here.
 #[inline(never)]
-fn advance(session: &mut Session<'_>, steps: usize) {
-    for _ in 0..steps {
-        session.step();
+fn advance(session: &mut Session<'_>, steps: usize, lab: bool) {
+    if lab {
+        (0..steps).for_each(|_| session.step());
+    } else {
+        (0..steps).for_each(|_| labspec_core::step(&session.world.model, &mut session.world.data));
     }
 }

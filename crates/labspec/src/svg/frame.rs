@@ -23,7 +23,10 @@ impl Frame {
 
     /// Whether two rectangles have an area in common.
     pub(super) fn overlaps(&self, other: &Frame) -> bool {
-        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
+        self.left < other.right
+            && other.left < self.right
+            && self.top < other.bottom
+            && other.top < self.bottom
     }
 
     /// The place of fractions along both axes.
@@ -79,7 +82,7 @@ pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, 
     let across = |at: f64| snap(inner.at(0.0, at).1);
     let along = |at: f64| snap(inner.at(at, 0.0).0);
 
-    canvas.open(&format!("stroke=\"{FAINT}\" shape-rendering=\"crispEdges\""));
+    canvas.open(&format!("stroke=\"{FAINT}\""));
     for at in &y.minor {
         canvas.line((outer.left, across(*at)), (outer.right, across(*at)));
     }
@@ -87,7 +90,7 @@ pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, 
         canvas.line((along(*at), outer.top), (along(*at), outer.bottom));
     }
     canvas.close();
-    canvas.open(&format!("stroke=\"{GRID}\" shape-rendering=\"crispEdges\""));
+    canvas.open(&format!("stroke=\"{GRID}\""));
     for tick in &y.ticks {
         canvas.line((outer.left, across(tick.at)), (outer.right, across(tick.at)));
     }
@@ -96,7 +99,7 @@ pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, 
     }
     canvas.close();
 
-    canvas.open(&format!("stroke=\"{AXIS}\" shape-rendering=\"crispEdges\""));
+    canvas.open(&format!("stroke=\"{AXIS}\""));
     canvas.line((snap(outer.left), outer.top), (snap(outer.left), outer.bottom));
     canvas.line((outer.left, snap(outer.bottom)), (outer.right, snap(outer.bottom)));
     for tick in &y.ticks {
@@ -113,7 +116,7 @@ pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, 
     }
     canvas.close();
     canvas.open(&style(TICK, SOFT, "middle"));
-    for tick in &x.ticks {
+    for tick in x.ticks.iter().filter(|t| t.label != Label::default()) {
         canvas.label((inner.at(tick.at, 0.0).0, outer.bottom + 17.0), &tick.label);
     }
     canvas.close();

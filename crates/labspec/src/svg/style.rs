@@ -5,8 +5,10 @@
 
 /// Colours of curves, in the order in which they are given out.
 const PALETTE: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
-/// Patterns of dashes, in pixels: drawn, left out, …
-const DASHES: [&str; 3] = ["6 4", "10 3 2 3", "2 3"];
+/// Patterns (pixels drawn, left out, …) of curves that are not meant to be dashed, one for each round of the colours.
+const SOLID: [Option<&str>; 3] = [None, Some("10 3 2 3"), Some("2 3")];
+/// Patterns of curves that are meant to be dashed.
+const DASHED: [Option<&str>; 3] = [Some("6 4"), Some("12 5"), Some("4 2")];
 
 /// Titles and labels of axes.
 pub(super) const INK: &str = "#222222";
@@ -14,6 +16,8 @@ pub(super) const INK: &str = "#222222";
 pub(super) const SOFT: &str = "#4d4d4d";
 /// Lines of axes.
 pub(super) const AXIS: &str = "#7f7f7f";
+/// The line of the grid at zero.
+pub(super) const ZERO: &str = "#b5b5b5";
 /// Lines of the grid at ticks.
 pub(super) const GRID: &str = "#e3e3e3";
 /// Lines of the grid between ticks.
@@ -27,6 +31,8 @@ pub(super) const TITLE: f64 = 14.0;
 pub(super) const LABEL: f64 = 12.0;
 /// Font size of ticks, in pixels.
 pub(super) const TICK: f64 = 11.0;
+/// Font size of the raised part of a tick label, in pixels.
+pub(super) const POWER: f64 = 8.5;
 /// Font size of labels at points and lines, in pixels.
 pub(super) const SMALL: f64 = 10.0;
 
@@ -36,11 +42,10 @@ pub(super) fn colour(index: usize) -> &'static str {
 }
 
 /// The dash pattern of the curve with this index; `None` is a solid line. Once all colours are given out, the next
-/// round has another pattern, so that up to 28 curves differ.
+/// round has another pattern, so that 21 curves of each kind differ.
 pub(super) fn dash(index: usize, dashed: bool) -> Option<&'static str> {
-    let round = index / PALETTE.len();
-    let pattern = round + usize::from(dashed);
-    pattern.checked_sub(1).and_then(|p| DASHES.get(p % DASHES.len())).copied()
+    let patterns = if dashed { DASHED } else { SOLID };
+    patterns.get(index / PALETTE.len() % patterns.len()).copied().flatten()
 }
 
 /// A whole picture's width or height in pixels: the wish, if it is a number, within reason.

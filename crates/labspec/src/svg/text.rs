@@ -82,7 +82,10 @@ mod tests {
 
     #[test]
     fn hostile_labels_become_text() {
-        assert_eq!(escape(&clean("<b a='1' b=\"2\">&\u{0}\n</b>")), "&lt;b a=&#39;1&#39; b=&quot;2&quot;&gt;&amp;\u{fffd} &lt;/b&gt;");
+        assert_eq!(
+            escape(&clean("<b a='1' b=\"2\">&\u{0}\n</b>")),
+            "&lt;b a=&#39;1&#39; b=&quot;2&quot;&gt;&amp;\u{fffd} &lt;/b&gt;"
+        );
         assert_eq!(clean("a\u{202e}b"), "a\u{fffd}b");
         assert_eq!(clean(&"x".repeat(1_000_000)).chars().count(), LONGEST + 1);
     }

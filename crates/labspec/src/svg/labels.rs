@@ -1,0 +1,106 @@
+//! Places for labels at points: beside their point, clear of all other points, labels and, above all, curves.
+
+use super::curve::{Point, segment};
+use super::frame::Frame;
+use super::style::SMALL;
+use super::text::width;
+
+/// A label that wants a place.
+pub(super) struct Wish {
+    /// The point that it names.
+    pub(super) point: Point,
+    /// Its text.
+    pub(super) text: String,
+    /// Whether it is served before others. The ends of a curve say most.
+    pub(super) first: bool,
+}
+
+/// Half the size of a mark, with some space.
+const MARK: f64 = 5.5;
+/// Most labels that are tried: the work grows with their number times that of the curves' points.
+const MOST: usize = 300;
+
+/// Baselines of the labels that found a place, in the order of service. A label that finds none is left out.
+pub(super) fn arrange(
+    wishes: Vec<Wish>,
+    marks: &[Point],
+    curves: &[Vec<Point>],
+    frame: &Frame,
+) -> Vec<(Point, String)> {
+    let mut wishes = wishes;
+    wishes.sort_by_key(|wish| !wish.first);
+    wishes.dedup_by(|a, b| a.point == b.point && a.text == b.text);
+    let marks: Vec<Frame> = marks.iter().map(|p| around(*p, MARK - 1.0, MARK - 1.0)).collect();
+    let mut taken: Vec<Frame> = Vec::new();
+    let mut placed = Vec::new();
+    for wish in wishes.into_iter().take(MOST).filter(|w| !w.text.is_empty()) {
+        let free = |room: &Frame| {
+            frame.left <= room.left
+                && room.right <= frame.right
+                && frame.top <= room.top
+                && room.bottom <= frame.bottom
+                && !taken.iter().chain(&marks).any(|other| other.overlaps(room))
+                && !curves.iter().flat_map(|c| c.windows(2)).any(|pair| match pair {
+                    [a, b] => segment(*a, *b, room).is_some(),
+                    _ => false,
+                })
+        };
+        let Some(room) = candidates(&wish).into_iter().find(free) else { continue };
+        taken.push(room);
+        placed.push(((room.left + 1.0, room.bottom - 2.0), wish.text));
+    }
+    placed
+}
+
+/// Rectangles beside the point, the best first: to the sides, above, below, then at the corners.
+fn candidates(wish: &Wish) -> [Frame; 8] {
+    let (w, h) = (width(&wish.text, SMALL) + 2.0, SMALL);
+    let (x, y) = (MARK + w / 2.0, MARK + h / 2.0);
+    let corner = (x - 2.0, y - 2.0);
+    let middles = [
+        (x, 0.0),
+        (-x, 0.0),
+        (0.0, -y),
+        (0.0, y),
+        (corner.0, -corner.1),
+        (-corner.0, -corner.1),
+        (corner.0, corner.1),
+        (-corner.0, corner.1),
+    ];
+    middles.map(|(dx, dy)| around((wish.point.0 + dx, wish.point.1 + dy), w / 2.0, h / 2.0))
+}
+
+fn around(middle: Point, half_width: f64, half_height: f64) -> Frame {
+    Frame {
+        left: middle.0 - half_width,
+        top: middle.1 - half_height,
+        right: middle.0 + half_width,
+        bottom: middle.1 + half_height,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAME: Frame = Frame { left: 0.0, top: 0.0, right: 100.0, bottom: 100.0 };
+
+    fn wish(point: Point) -> Wish {
+        Wish { point, text: String::from("2 ms"), first: false }
+    }
+
+    #[test]
+    fn a_label_avoids_edges_curves_and_labels() {
+        let placed = arrange(vec![wish((50.0, 50.0))], &[], &[], &FRAME);
+        assert!(placed[0].0.0 > 50.0);
+        let at_the_edge = arrange(vec![wish((95.0, 50.0))], &[], &[], &FRAME);
+        assert!(at_the_edge[0].0.0 < 70.0);
+        let curve = vec![(0.0, 50.0), (100.0, 50.0)];
+        let beside_a_curve = arrange(vec![wish((50.0, 50.0))], &[], &[curve], &FRAME);
+        assert!(beside_a_curve[0].0.1 < 46.0);
+        let many = (0..50).map(|_| wish((50.0, 50.0))).collect();
+        assert_eq!(arrange(many, &[], &[], &FRAME).len(), 1);
+        let near = (0..50).map(|i| wish((50.0 + 0.1 * f64::from(i), 50.0))).collect();
+        assert!(arrange(near, &[], &[], &FRAME).len() < 9);
+    }
+}

@@ -1,0 +1,256 @@
+//! Lines over time: the plots of a lab.
+
+use super::axis::{Axis, Range, linear, range};
+use super::canvas::{Canvas, drop, style};
+use super::curve::{Point, path, pieces};
+use super::frame::{EDGE, Frame, Words, draw, margin};
+use super::legend::{self, Entry, STROKE};
+use super::number::{drawable, short};
+use super::style::{AXIS, INK, LABEL, SMALL, SOFT, TICK, ZERO, colour, dash, extent};
+use super::text::{clean, fit, width};
+
+/// One curve.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// Its name in the legend; without one it has no entry.
+    pub label: String,
+    /// Drawn dashed.
+    pub dash: bool,
+    /// Samples (x, y) in the units of the axes, in the order of x. A sample that is not finite breaks the line, and
+    /// so does a step backwards in x.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A plot of curves over time, or over anything else that grows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Chart {
+    /// Shown above the plot; may be empty.
+    pub title: String,
+    /// Name and unit of the horizontal axis.
+    pub xlabel: String,
+    /// Name and unit of the vertical axis.
+    pub ylabel: String,
+    /// Width of the whole picture, pixels.
+    pub width: f64,
+    /// Height of the whole picture, pixels, legend included. At least 160 are used.
+    pub height: f64,
+    /// Lower end of the vertical axis; `None` follows the data.
+    pub ymin: Option<f64>,
+    /// Upper end of the vertical axis; `None` follows the data.
+    pub ymax: Option<f64>,
+    /// Left end of the horizontal axis; `None` follows the data.
+    pub xmin: Option<f64>,
+    /// Right end of the horizontal axis; `None` follows the data.
+    pub xmax: Option<f64>,
+    /// Horizontal lines: their height in the unit of the axis, and what they mean.
+    pub ref_lines: Vec<(f64, Option<String>)>,
+    /// The curves.
+    pub series: Vec<Series>,
+}
+
+/// Draws a plot of lines as a complete SVG document.
+///
+/// Any data give a picture: ranges that are empty, reversed or not finite are replaced by those of the data, and
+/// without data the picture says so. Of many samples per pixel the extremes are kept, so that the size of the result
+/// depends on the width of the picture and not on the number of samples.
+pub fn line_chart(chart: &Chart) -> String {
+    let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 320.0));
+    let words = Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel };
+    let (xs, ys) = ranges(chart);
+
+    let refs: Vec<(f64, String)> = chart
+        .ref_lines
+        .iter()
+        .filter(|(y, _)| drawable(*y))
+        .map(|(y, label)| (*y, fit(&clean(label.as_deref().unwrap_or("")), SMALL, 0.24 * size.0)))
+        .collect();
+    let aside = refs.iter().map(|(_, label)| width(label, SMALL)).fold(0.0, f64::max);
+
+    let (top, below) = (words.above(), words.below());
+    let entries = chart.series.iter().enumerate().map(|(index, s)| Entry { label: s.label.clone(), index });
+    let legend = legend::plan(entries.collect(), size.0, size.1 - top - below, aside == 0.0);
+    let bottom = (size.1 - below - legend.below).max(top + 20.0);
+    let y = linear(ys, steps(bottom - top, 34.0).max(2), 1.0);
+    let left = margin(&y);
+    let beside = if aside > 0.0 { aside + 8.0 } else { legend.right };
+    let (right, x) = horizontal(xs, left, size.0 - EDGE - beside, beside == 0.0);
+    let frame = Frame { left, top, right, bottom };
+
+    let named = if words.title.trim().is_empty() { words.ylabel } else { words.title };
+    let mut canvas =
+        Canvas::new(size, if named.trim().is_empty() { "Plot" } else { named }, &describe(chart));
+    draw(&mut canvas, &frame, &frame, &x, &y, &words);
+    if let Some(zero) = y.fraction(0.0).filter(|at| *at > 0.001 && *at < 0.999) {
+        let at = frame.at(0.0, zero).1.floor() + 0.5;
+        canvas.open(&format!("stroke=\"{ZERO}\""));
+        canvas.line((frame.left, at), (frame.right, at));
+        canvas.close();
+    }
+    references(&mut canvas, &refs, &frame, &y);
+    let found = curves(&mut canvas, &chart.series, &frame, &x, &y);
+    if !found {
+        canvas.open(&style(LABEL, SOFT, "middle"));
+        let middle = frame.at(0.5, 0.5);
+        canvas.text((middle.0, middle.1 + drop(LABEL)), nothing(chart));
+        canvas.close();
+    }
+    legend::draw(&mut canvas, &legend, &frame, below, |canvas, index, at| {
+        let dashed = chart.series.get(index).is_some_and(|s| s.dash);
+        canvas.open(&stroke(index, dashed));
+        canvas.line(at, (at.0 + STROKE, at.1));
+        canvas.close();
+    });
+    canvas.finish()
+}
+
+/// The ranges of both axes. Only samples between wished ends of the horizontal axis count for the vertical one.
+fn ranges(chart: &Chart) -> (Range, Range) {
+    let samples = || chart.series.iter().flat_map(|s| &s.points).filter(|p| drawable(p.0) && drawable(p.1));
+    let x = range(extremes(samples().map(|p| p.0)), chart.xmin, chart.xmax);
+    let inside = |p: &&(f64, f64)| (x.free_low || p.0 >= x.low) && (x.free_high || p.0 <= x.high);
+    let refs = chart.ref_lines.iter().map(|r| r.0).filter(|y| drawable(*y));
+    let y = range(extremes(samples().filter(inside).map(|p| p.1).chain(refs)), chart.ymin, chart.ymax);
+    (x, y)
+}
+
+fn extremes(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    values.fold(None, |found: Option<(f64, f64)>, v| {
+        Some(found.map_or((v, v), |(low, high)| (low.min(v), high.max(v))))
+    })
+}
+
+/// The number of steps of an axis of some length, for steps of at least `least` pixels.
+fn steps(length: f64, least: f64) -> usize {
+    (length / least).clamp(1.0, 10.0) as usize
+}
+
+/// The horizontal axis with as many ticks as have room for their labels, and the right end of the plot, which keeps
+/// half of the last label inside of the picture if nothing else is to the right of it.
+fn horizontal(range: Range, left: f64, limit: f64, alone: bool) -> (f64, Axis) {
+    let build = |count: usize| {
+        let x = linear(range, count, 0.02);
+        let last = x.ticks.last().filter(|t| t.at > 0.9).map_or(0.0, |t| t.label.width(TICK) / 2.0);
+        let right = if alone { limit - (last - EDGE / 2.0).max(4.0) } else { limit - 4.0 };
+        (right.max(left + 40.0), x)
+    };
+    let most = steps(limit - left, 60.0);
+    let fits = |(right, x): &(f64, Axis)| x.spacing() * (right - left) >= x.widest(TICK) + 14.0;
+    (1..=most).rev().map(build).find(fits).unwrap_or_else(|| build(1))
+}
+
+/// Attributes of a curve.
+fn stroke(index: usize, dashed: bool) -> String {
+    let colour = colour(index);
+    let pattern = dash(index, dashed).map(|d| format!(" stroke-dasharray=\"{d}\"")).unwrap_or_default();
+    let cap = if pattern.is_empty() { " stroke-linecap=\"round\"" } else { "" };
+    format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.75\" stroke-linejoin=\"round\"{cap}{pattern}")
+}
+
+/// Draws the curves, solid ones first, so that a dashed prediction stays visible on the curve that it predicts.
+/// False if there is nothing to draw.
+fn curves(canvas: &mut Canvas, series: &[Series], frame: &Frame, x: &Axis, y: &Axis) -> bool {
+    let place = |(sx, sy): (f64, f64)| -> Option<Point> {
+        let finite = drawable(sx) && drawable(sy);
+        finite.then_some(frame.at(x.fraction(sx)?, y.fraction(sy)?))
+    };
+    let mut order: Vec<(usize, &Series)> = series.iter().enumerate().collect();
+    order.sort_by_key(|(_, s)| s.dash);
+    let mut found = false;
+    for (index, series) in order {
+        let pieces = pieces(&series.points, frame, place);
+        let data = path(&pieces);
+        let dots: Vec<Point> =
+            pieces.iter().filter(|p| p.len() == 1).filter_map(|p| p.first().copied()).collect();
+        if data.is_empty() && dots.is_empty() {
+            continue;
+        }
+        found = true;
+        canvas.named(&stroke(index, series.dash), &series.label);
+        if !data.is_empty() {
+            canvas.path(&data);
+        }
+        for dot in dots {
+            canvas.disc(dot, 2.5, colour(index));
+        }
+        canvas.close();
+    }
+    found
+}
+
+/// Draws the horizontal lines, with their labels to the right of the plot where no curve is.
+fn references(canvas: &mut Canvas, refs: &[(f64, String)], frame: &Frame, y: &Axis) {
+    let mut seen: Vec<(f64, &str)> = refs
+        .iter()
+        .filter_map(|(value, label)| Some((y.fraction(*value)?, label.as_str())))
+        .filter(|(at, _)| (0.0..=1.0).contains(at))
+        .map(|(at, label)| (frame.at(0.0, at).1, label))
+        .collect();
+    if seen.is_empty() {
+        return;
+    }
+    canvas.open(&format!("stroke=\"{AXIS}\" stroke-dasharray=\"4 3\""));
+    for (at, _) in &seen {
+        canvas.line((frame.left, *at), (frame.right, *at));
+    }
+    canvas.close();
+    seen.retain(|(_, label)| !label.is_empty());
+    seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+    seen.truncate((frame.height() / (SMALL + 2.0)).max(1.0) as usize);
+    canvas.open(&style(SMALL, INK, "start"));
+    for (at, (_, label)) in apart(&seen.iter().map(|s| s.0).collect::<Vec<_>>(), frame).into_iter().zip(&seen)
+    {
+        canvas.text((frame.right + 6.0, at + drop(SMALL)), label);
+    }
+    canvas.close();
+}
+
+/// Heights in ascending order, moved so that lines of text there do not touch: down from the first on, and up again
+/// from the last on where that left the frame.
+fn apart(heights: &[f64], frame: &Frame) -> Vec<f64> {
+    let row = SMALL + 2.0;
+    let mut least = f64::NEG_INFINITY;
+    let mut moved: Vec<f64> = Vec::with_capacity(heights.len());
+    for at in heights {
+        let at = at.max(least);
+        moved.push(at);
+        least = at + row;
+    }
+    let mut most = frame.bottom;
+    for at in moved.iter_mut().rev() {
+        *at = at.min(most);
+        most = *at - row;
+    }
+    moved
+}
+
+fn nothing(chart: &Chart) -> &'static str {
+    let mut samples = chart.series.iter().flat_map(|s| &s.points);
+    if chart.series.iter().all(|s| s.points.is_empty()) {
+        "no data"
+    } else if samples.any(|p| drawable(p.0) && drawable(p.1)) {
+        "no data in this range"
+    } else {
+        "no finite values"
+    }
+}
+
+/// The picture in words.
+fn describe(chart: &Chart) -> String {
+    let (x, y) = (clean(&chart.xlabel), clean(&chart.ylabel));
+    let over = if x.is_empty() { String::new() } else { format!(" over {x}") };
+    let what = if y.is_empty() { String::from("Lines") } else { format!("Lines of {y}") };
+    let mut text = format!("{what}{over}.");
+    // Every curve would be a page that nobody listens to.
+    for series in chart.series.iter().take(12) {
+        let values = || series.points.iter().filter(|p| drawable(p.0) && drawable(p.1));
+        let label = clean(&series.label);
+        let label = if label.is_empty() { "Unnamed" } else { &label };
+        let Some((low, high)) = extremes(values().map(|p| p.1)) else {
+            text.push_str(&format!(" {label}: no finite values."));
+            continue;
+        };
+        let last = values().next_back().map_or(low, |p| p.1);
+        text.push_str(&format!(" {label}: {} to {}, last {}.", short(low), short(high), short(last)));
+    }
+    text
+}

@@ -1,0 +1,304 @@
+//! Work–precision chart: what accuracy costs.
+//!
+//! Error to the right, cost upwards, both logarithmic, one curve per method over its timesteps (as in Hairer,
+//! Nørsett, Wanner, "Solving Ordinary Differential Equations I", II.4). Lower and further left is better. A method of
+//! order p appears as a straight line of slope -1/p. Runs without a finite error stand in a strip of their own at
+//! the right end, runs without any error in one at the left end: neither has a place on a logarithmic axis.
+
+use super::axis::{Axis, logarithmic};
+use super::canvas::{Canvas, Label, drop, style};
+use super::curve::{Point, path};
+use super::frame::{EDGE, Frame, Words, draw, margin};
+use super::labels::{Wish, arrange};
+use super::legend::{self, Entry, STROKE};
+use super::number::{HUGE, px, short};
+use super::style::{LABEL, SHADE, SMALL, SOFT, TICK, colour, dash, extent};
+use super::text::{clean, fit, width};
+
+/// One curve: a method over its timesteps.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Method {
+    /// Its name in the legend.
+    pub label: String,
+    /// Its runs, in the order of the timestep.
+    pub points: Vec<MethodPoint>,
+}
+
+/// One run of a method.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MethodPoint {
+    /// What it cost, in the unit of the vertical axis. Without a positive finite cost the run is left out.
+    pub cost: f64,
+    /// Its error, in the unit of the horizontal axis; the sign does not matter.
+    pub error: f64,
+    /// Shown beside the point, such as `2 ms`.
+    pub note: String,
+    /// It diverged; `error` is not looked at.
+    pub failed: bool,
+}
+
+/// Cost against error for several methods.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WorkPrecision {
+    /// Shown above the plot; may be empty.
+    pub title: String,
+    /// What the error is, with its unit.
+    pub xlabel: String,
+    /// What the cost is, with its unit.
+    pub ylabel: String,
+    /// The curves.
+    pub methods: Vec<Method>,
+    /// Width of the whole picture, pixels.
+    pub width: f64,
+    /// Height of the whole picture, pixels, legend included. At least 160 are used.
+    pub height: f64,
+}
+
+/// Where a run stands along the horizontal axis.
+#[derive(Clone, Copy, PartialEq)]
+enum Error {
+    Zero,
+    Finite(f64),
+    Diverged,
+}
+
+/// A run that can be drawn.
+struct Run<'a> {
+    error: Error,
+    cost: f64,
+    note: &'a str,
+}
+
+/// The least positive value that is told from zero.
+const TINY: f64 = 1e-300;
+
+/// Draws a work–precision chart as a complete SVG document. Any data give a picture; without runs it says so.
+pub fn work_precision(chart: &WorkPrecision) -> String {
+    let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 420.0));
+    let words = Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel };
+    let methods: Vec<Vec<Run>> = chart.methods.iter().map(|m| runs(&m.points)).collect();
+    let all = || methods.iter().flatten();
+
+    let (top, below) = (words.above(), words.below());
+    let entries = chart.methods.iter().enumerate().map(|(index, m)| Entry { label: m.label.clone(), index });
+    let legend = legend::plan(entries.collect(), size.0, size.1 - top - below, true);
+    let bottom = (size.1 - below - legend.below).max(top + 20.0);
+    let y = axis(all().map(|r| r.cost), |_| 1.5 * TICK / (bottom - top));
+    let left = margin(&y);
+    let right = (size.0 - EDGE - legend.right - 4.0).max(left + 40.0);
+    let outer = Frame { left, top, right, bottom };
+
+    // The strips beside the scale, only if something stands there.
+    let some = |error: Error| all().any(|r| r.error == error);
+    let diverging = methods.iter().filter(|m| m.iter().any(|r| r.error == Error::Diverged)).count();
+    let zero = if some(Error::Zero) { 34.0f64.min(0.15 * outer.width()) } else { 0.0 };
+    let wish = (width(DIVERGED, TICK) + 8.0).max(16.0 + 10.0 * diverging as f64);
+    let failed = if diverging > 0 { wish.min(0.3 * outer.width()) } else { 0.0 };
+    let inner = Frame { left: left + zero, right: right - failed, ..outer };
+    let finite = all().filter_map(|r| if let Error::Finite(e) = r.error { Some(e) } else { None });
+    let mut x = axis(finite, |label| (label.width(TICK) + 10.0) / inner.width().max(1.0));
+    // At the ends, the names of the strips have precedence.
+    let at = |fraction: f64| inner.at(fraction, 0.0).0;
+    let (least, most) = (
+        if zero > 0.0 { (outer.left + inner.left) / 2.0 + 12.0 } else { 0.0 },
+        if failed > 0.0 { (inner.right + outer.right - width(DIVERGED, TICK)) / 2.0 - 8.0 } else { size.0 },
+    );
+    for tick in &mut x.ticks {
+        let (middle, half) = (at(tick.at), tick.label.width(TICK) / 2.0);
+        if middle - half < least || middle + half > most {
+            tick.label = Label::default();
+        }
+    }
+
+    let named = if words.title.trim().is_empty() { "Cost against error" } else { words.title };
+    let mut canvas = Canvas::new(size, named, &describe(chart));
+    if zero > 0.0 {
+        canvas.area((outer.left, top), (inner.left, bottom), SHADE);
+    }
+    if failed > 0.0 {
+        canvas.area((inner.right, top), (outer.right, bottom), SHADE);
+    }
+    draw(&mut canvas, &outer, &inner, &x, &y, &words);
+    canvas.open(&style(TICK, SOFT, "middle"));
+    if zero > 0.0 {
+        canvas.text(((outer.left + inner.left) / 2.0, bottom + 17.0), "0");
+    }
+    if failed > 0.0 {
+        canvas.text(((inner.right + outer.right) / 2.0, bottom + 17.0), DIVERGED);
+    }
+    if all().next().is_none() {
+        let middle = outer.at(0.5, 0.5);
+        canvas.text((middle.0, middle.1 + drop(LABEL)), "no data");
+    }
+    canvas.close();
+
+    let placed = place(&methods, (&outer, &inner), &x, &y, diverging);
+    plot(&mut canvas, chart, &placed, &outer);
+    legend::draw(&mut canvas, &legend, &outer, below, |canvas, index, at| {
+        canvas.open(&stroke(index));
+        canvas.line(at, (at.0 + STROKE, at.1));
+        canvas.close();
+        mark(canvas, index, (at.0 + STROKE / 2.0, at.1));
+    });
+    canvas.finish()
+}
+
+/// The word below the strip of runs without a finite error.
+const DIVERGED: &str = "diverged";
+
+fn runs(points: &[MethodPoint]) -> Vec<Run<'_>> {
+    let drawn = points.iter().filter(|p| (TINY..=HUGE).contains(&p.cost));
+    let run = drawn.map(|p| {
+        let error = match p.error.abs() {
+            _ if p.failed => Error::Diverged,
+            e if e < TINY => Error::Zero,
+            e if e <= HUGE => Error::Finite(e),
+            _ => Error::Diverged,
+        };
+        Run { error, cost: p.cost, note: &p.note }
+    });
+    run.collect()
+}
+
+fn axis(values: impl Iterator<Item = f64>, extent: impl Fn(&Label) -> f64) -> Axis {
+    let (low, high) = values.fold((f64::INFINITY, 0.0f64), |(low, high), v| (low.min(v), high.max(v)));
+    if low <= high { logarithmic(low, high, extent) } else { logarithmic(1.0, 10.0, extent) }
+}
+
+/// A run with its place.
+struct Placed<'a> {
+    error: Error,
+    at: Point,
+    note: &'a str,
+}
+
+/// The places of all runs. Crosses of different methods stand beside each other, in the order of the methods.
+fn place<'a>(
+    methods: &[Vec<Run<'a>>],
+    (outer, inner): (&Frame, &Frame),
+    x: &Axis,
+    y: &Axis,
+    diverging: usize,
+) -> Vec<Vec<Placed<'a>>> {
+    let mut rank = 0;
+    let mut placed = Vec::new();
+    for method in methods {
+        let cross = (f64::from(rank) + 0.5) / diverging.max(1) as f64;
+        if method.iter().any(|r| r.error == Error::Diverged) {
+            rank += 1;
+        }
+        let runs = method.iter().filter_map(|run| {
+            let height = inner.at(0.0, y.fraction(run.cost)?).1;
+            let along = match run.error {
+                Error::Zero => (outer.left + inner.left) / 2.0,
+                Error::Finite(error) => inner.at(x.fraction(error)?, 0.0).0,
+                Error::Diverged => inner.right + cross * (outer.right - inner.right),
+            };
+            Some(Placed { error: run.error, at: (along, height), note: run.note })
+        });
+        placed.push(runs.collect());
+    }
+    placed
+}
+
+/// Draws curves, marks and the labels of points.
+fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], frame: &Frame) {
+    let curves: Vec<Vec<Vec<Point>>> = methods.iter().map(|m| connected(m)).collect();
+    for (index, (method, curve)) in chart.methods.iter().zip(&curves).enumerate() {
+        let data = path(curve);
+        if !data.is_empty() {
+            canvas.named(&stroke(index), &method.label);
+            canvas.path(&data);
+            canvas.close();
+        }
+    }
+    let mut wishes = Vec::new();
+    for (index, method) in methods.iter().enumerate() {
+        for (i, run) in method.iter().enumerate() {
+            if run.error == Error::Diverged {
+                cross(canvas, index, run.at);
+            } else {
+                mark(canvas, index, run.at);
+            }
+            let text = fit(&clean(run.note), SMALL, 0.2 * frame.width());
+            wishes.push(Wish { point: run.at, text, first: i == 0 || i + 1 == method.len() });
+        }
+    }
+    let marks: Vec<Point> = methods.iter().flatten().map(|run| run.at).collect();
+    let lines: Vec<Vec<Point>> = curves.into_iter().flatten().collect();
+    canvas.open(&style(SMALL, SOFT, "start"));
+    for (at, text) in arrange(wishes, &marks, &lines, frame) {
+        canvas.text(at, &text);
+    }
+    canvas.close();
+}
+
+/// Neighbouring runs that have a place on the scale are connected.
+fn connected(method: &[Placed]) -> Vec<Vec<Point>> {
+    let on_scale = |run: &Placed| matches!(run.error, Error::Finite(_));
+    let parts = method.chunk_by(|a, b| on_scale(a) && on_scale(b));
+    parts.filter(|p| p.len() > 1).map(|p| p.iter().map(|run| run.at).collect()).collect()
+}
+
+fn stroke(index: usize) -> String {
+    let pattern = dash(index, false).map(|d| format!(" stroke-dasharray=\"{d}\"")).unwrap_or_default();
+    format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"{pattern}", colour(index))
+}
+
+/// The mark of a run. Its shape goes with the colour, for print without colours.
+fn mark(canvas: &mut Canvas, index: usize, at: Point) {
+    canvas.open(&format!("fill=\"{}\" stroke=\"#ffffff\" stroke-width=\"0.75\"", colour(index)));
+    canvas.path(&shape(index, at));
+    canvas.close();
+}
+
+/// A disc, square, triangle, diamond, or triangle on its tip.
+fn shape(index: usize, (x, y): Point) -> String {
+    let corners: &[Point] = match index % 5 {
+        0 => {
+            let (left, right, y) = (px(x - 3.8), px(x + 3.8), px(y));
+            return format!("M{left},{y}A3.8,3.8 0 1 1 {right},{y}A3.8,3.8 0 1 1 {left},{y}Z");
+        }
+        1 => &[(-3.4, -3.4), (3.4, -3.4), (3.4, 3.4), (-3.4, 3.4)],
+        2 => &[(0.0, -4.6), (4.4, 3.1), (-4.4, 3.1)],
+        3 => &[(0.0, -4.8), (4.8, 0.0), (0.0, 4.8), (-4.8, 0.0)],
+        _ => &[(0.0, 4.6), (4.4, -3.1), (-4.4, -3.1)],
+    };
+    path(&[corners.iter().map(|(dx, dy)| (x + dx, y + dy)).collect()]) + "Z"
+}
+
+/// The mark of a run without a finite error.
+fn cross(canvas: &mut Canvas, index: usize, (x, y): Point) {
+    canvas.open(&format!("fill=\"none\" stroke=\"{}\" stroke-width=\"2\"", colour(index)));
+    let arms = [vec![(x - 3.5, y - 3.5), (x + 3.5, y + 3.5)], vec![(x - 3.5, y + 3.5), (x + 3.5, y - 3.5)]];
+    canvas.path(&path(&arms));
+    canvas.close();
+}
+
+/// The picture in words.
+fn describe(chart: &WorkPrecision) -> String {
+    let mut text =
+        String::from("Cost against error, both on logarithmic axes; lower and further left is better.");
+    for method in chart.methods.iter().take(12) {
+        let label = clean(&method.label);
+        text.push_str(&format!(" {}:", if label.is_empty() { "Unnamed" } else { &label }));
+        let runs = runs(&method.points);
+        if runs.is_empty() {
+            text.push_str(" no data.");
+            continue;
+        }
+        let each = runs.iter().take(12).map(|run| {
+            let error = match run.error {
+                Error::Zero => String::from("no error"),
+                Error::Finite(error) => format!("error {}", short(error)),
+                Error::Diverged => String::from(DIVERGED),
+            };
+            let note = clean(run.note);
+            let note = if note.is_empty() { note } else { format!("{note} ") };
+            format!(" {note}{error} at cost {}", short(run.cost))
+        });
+        text.push_str(&each.collect::<Vec<_>>().join(","));
+        text.push('.');
+    }
+    text
+}
