@@ -24,3 +24,4 @@ pub mod cli;
 pub mod precision;
 pub mod rules;
 pub mod svg;
+pub mod reference;

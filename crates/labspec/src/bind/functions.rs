@@ -38,6 +38,8 @@ pub(super) enum Touches {
     Derived,
     /// The state and inputs.
     State,
+    /// The coordinates.
+    Coordinates,
     /// Contacts and their forces.
     Contacts,
 }
@@ -81,7 +83,7 @@ const OVER_RUN: Function = Function { args: &[Arg::Lazy], place: Place::Measures
 pub(super) static TABLE: &[Function] = &[
     Function {
         name: "mj_setConst",
-        writes: &[Touches::State, Touches::Derived],
+        writes: &[Touches::Coordinates, Touches::Derived],
         doc: "recomputes the constants that follow from masses, inertias and poses; puts qpos back to the start",
         run: |w, _| done(core::set_const(&mut w.model, &mut w.data)),
         ..ENGINE
@@ -273,6 +275,7 @@ fn touch(touches: &[Touches]) -> Touch {
             Touches::Nothing => false,
             Touches::Derived => i.kind == Kind::Derived,
             Touches::State => i.object == Object::Data && matches!(i.kind, Kind::State | Kind::Input),
+            Touches::Coordinates => i.object == Object::Data && i.name == "qpos",
             Touches::Contacts => i.stage == Stage::Collision || i.name == "efc_force",
         }
     };
@@ -286,18 +289,29 @@ pub(crate) fn name(FunctionId(f): FunctionId) -> Option<&'static str> {
     TABLE.get(f as usize).map(|f| f.name)
 }
 
-/// Name, signature and documentation of every function, for the reference.
-pub fn reference() -> Vec<(String, String)> {
+/// A function as the reference shows it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FunctionDoc {
+    /// Name and parameters.
+    pub signature: String,
+    /// One line.
+    pub doc: &'static str,
+    /// Only in the measures of `verify`.
+    pub measure: bool,
+}
+
+/// Every function, in the order of the table.
+pub fn reference() -> Vec<FunctionDoc> {
     let word = |arg: &Arg| match arg {
         Arg::Model => "model",
         Arg::Data => "data",
         Arg::Number => "x",
         Arg::Name(_) => "name",
-        Arg::Lazy => "expr",
+        Arg::Lazy => "expression",
     };
-    let line = |f: &Function| {
+    let one = |f: &Function| {
         let args: Vec<_> = f.args.iter().map(word).collect();
-        (format!("{}({})", path(f), args.join(", ")), f.doc.to_string())
+        FunctionDoc { signature: format!("{}({})", path(f), args.join(", ")), doc: f.doc, measure: f.place == Place::Measures }
     };
-    TABLE.iter().map(line).collect()
+    TABLE.iter().map(one).collect()
 }

@@ -41,6 +41,12 @@ enum Command {
     Record(record::Arguments),
     /// For engineers: time of a step
     Bench(bench::Arguments),
+    /// Write the reference pages
+    #[command(hide = true)]
+    Reference {
+        /// The folder
+        folder: PathBuf,
+    },
 }
 
 /// Where models are.
@@ -99,6 +105,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Explain(a) => explain::explain(a),
         Command::Record(a) => record::record(a),
         Command::Bench(a) => bench::bench(a),
+        Command::Reference { folder } => reference(folder),
     };
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
@@ -108,6 +115,14 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+fn reference(folder: &std::path::Path) -> Result<Outcome, Failure> {
+    std::fs::create_dir_all(folder).map_err(|e| format!("cannot make {}: {e}", folder.display()))?;
+    for (name, text) in crate::reference::pages() {
+        write_file(&folder.join(name), &text)?;
+    }
+    Ok(Outcome::Clean)
 }
 
 /// Prints to standard output. A reader that has gone away (`| head`) ends the program quietly.

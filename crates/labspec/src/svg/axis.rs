@@ -182,7 +182,8 @@ fn write(integers: &[i64], exponent: i32) -> (Vec<String>, Option<Label>) {
         _ => {
             let (sign, size) =
                 if offset < 0 { ("−", around.trim_start_matches('−')) } else { ("+", &*around) };
-            let rest = if offset == 0 { String::new() } else { format!(" {sign} {size}") };
+            // A plain space at the start of a part of a text is dropped by some renderers.
+            let rest = if offset == 0 { String::new() } else { format!("\u{a0}{sign} {size}") };
             Some(Label { text: String::from("×10"), power: minus(&power.to_string()), rest })
         }
     };
@@ -266,7 +267,7 @@ pub(super) fn logarithmic(low: f64, high: f64, extent: impl Fn(&Label) -> f64) -
     let (labelled, others): (Vec<_>, Vec<_>) = whole.into_iter().partition(|(e, _)| e.rem_euclid(every) == 0);
     let mut ticks: Vec<Tick> = labelled.into_iter().map(|(_, t)| t).collect();
     let mut minor: Vec<f64> = others.into_iter().map(|(_, t)| t.at).collect();
-    let between = decades.flat_map(|e| [2, 5, 3, 4, 6, 7, 8, 9].map(|m| (m, e))).filter(|_| b - a <= 12.0);
+    let between = decades.flat_map(|e| [2, 5, 3, 4, 6, 7, 8, 9].map(|m| (m, e))).filter(|_| b - a <= 6.0);
     let few = ticks.len() <= 2;
     for (m, e) in between {
         let Some(tick) = tick(m, e) else { continue };
@@ -339,8 +340,8 @@ mod tests {
     fn constant_and_nearly_constant_data() {
         assert_eq!(labels(5.0, 5.0, 5), "4.4 4.6 4.8 5.0 5.2 5.4 5.6");
         assert_eq!(labels(0.0, 0.0, 4), "−1.0 −0.5 0 0.5 1.0");
-        assert_eq!(labels(0.981 - 3e-10, 0.981 + 1e-10, 4), "−4 −2 0 2 | ×10^−10 + 0.981");
-        assert_eq!(labels(-0.981, -0.981 + 1e-10, 2), "0 1 | ×10^−10 − 0.981");
+        assert_eq!(labels(0.981 - 3e-10, 0.981 + 1e-10, 4), "−4 −2 0 2 | ×10^−10\u{a0}+ 0.981");
+        assert_eq!(labels(-0.981, -0.981 + 1e-10, 2), "0 1 | ×10^−10\u{a0}− 0.981");
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::number::px;
 use super::style::{POWER, TICK};
 use super::text::{clean, escape, width};
 
-/// Text at ticks, perhaps with a raised part, such as a power of ten: `×10` `−6` ` + 0.981`.
+/// Text at ticks, perhaps with a raised part, such as a power of ten: `×10` `−6` `+ 0.981`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Label {
     /// What comes first.

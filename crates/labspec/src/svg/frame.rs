@@ -50,6 +50,8 @@ pub(super) struct Words<'a> {
     pub(super) title: &'a str,
     pub(super) xlabel: &'a str,
     pub(super) ylabel: &'a str,
+    /// Width of the whole picture: what stands above a plot may be wider than the plot.
+    pub(super) width: f64,
 }
 
 /// Space between the edge of a picture and what is in it.
@@ -126,8 +128,9 @@ pub(super) fn draw(canvas: &mut Canvas, outer: &Frame, inner: &Frame, x: &Axis, 
 /// The title, the label of the vertical axis in a row of its own above it (where it can be read without turning one's
 /// head), and the label of the horizontal axis below.
 fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) {
-    let room = outer.width();
-    let title = fit(&clean(words.title), TITLE, room / 1.08);
+    let end = words.width - EDGE;
+    // Bold glyphs are wider by about this factor.
+    let title = fit(&clean(words.title), TITLE, (end - outer.left) / 1.08);
     if !title.is_empty() {
         canvas.open(&format!("{} font-weight=\"bold\"", style(TITLE, INK, "start")));
         canvas.text((outer.left, EDGE + TITLE - 2.0), &title);
@@ -137,7 +140,7 @@ fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) 
     let start = outer.left.max(taken);
     let row = outer.top - 11.0;
     canvas.open(&style(LABEL, INK, "start"));
-    let ylabel = fit(&clean(words.ylabel), LABEL, outer.right - start);
+    let ylabel = fit(&clean(words.ylabel), LABEL, end - start);
     if !ylabel.is_empty() {
         canvas.text((start, row), &ylabel);
     }
@@ -146,7 +149,7 @@ fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) 
         shared(canvas, note, (EDGE, row), "start");
     }
 
-    let row = outer.bottom + 35.0;
+    let (row, room) = (outer.bottom + 35.0, outer.width());
     let taken = x.note.as_ref().map_or(0.0, |note| note.width(TICK) + 10.0);
     let xlabel = fit(&clean(words.xlabel), LABEL, (room - taken).max(room / 2.0));
     if !xlabel.is_empty() {
@@ -165,6 +168,16 @@ fn label(canvas: &mut Canvas, outer: &Frame, x: &Axis, y: &Axis, words: &Words) 
 fn shared(canvas: &mut Canvas, note: &Label, at: Point, anchor: &str) {
     canvas.open(&style(TICK, SOFT, anchor));
     canvas.label(at, note);
+    canvas.close();
+}
+
+/// Says in the middle of the plot why nothing is drawn there.
+pub(super) fn empty(canvas: &mut Canvas, frame: &Frame, why: &str) {
+    let (x, y) = frame.at(0.5, 0.5);
+    let half = width(why, LABEL) / 2.0 + 6.0;
+    canvas.area((x - half, y - LABEL), (x + half, y + LABEL), "#ffffff");
+    canvas.open(&style(LABEL, SOFT, "middle"));
+    canvas.text((x, y + drop(LABEL)), why);
     canvas.close();
 }
 

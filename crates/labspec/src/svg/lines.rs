@@ -3,10 +3,10 @@
 use super::axis::{Axis, Range, linear, range};
 use super::canvas::{Canvas, drop, style};
 use super::curve::{Point, path, pieces};
-use super::frame::{EDGE, Frame, Words, draw, margin};
+use super::frame::{self, EDGE, Frame, Words, draw, margin};
 use super::legend::{self, Entry, STROKE};
 use super::number::{drawable, short};
-use super::style::{AXIS, INK, LABEL, SMALL, SOFT, TICK, ZERO, colour, dash, extent};
+use super::style::{AXIS, INK, SMALL, TICK, ZERO, colour, dash, extent};
 use super::text::{clean, fit, width};
 
 /// One curve.
@@ -55,13 +55,13 @@ pub struct Chart {
 /// depends on the width of the picture and not on the number of samples.
 pub fn line_chart(chart: &Chart) -> String {
     let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 320.0));
-    let words = Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel };
+    let words = Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
     let (xs, ys) = ranges(chart);
 
     let refs: Vec<(f64, String)> = chart
         .ref_lines
         .iter()
-        .filter(|(y, _)| drawable(*y))
+        .filter(|(y, _)| drawable(*y) && (ys.free_low || *y >= ys.low) && (ys.free_high || *y <= ys.high))
         .map(|(y, label)| (*y, fit(&clean(label.as_deref().unwrap_or("")), SMALL, 0.24 * size.0)))
         .collect();
     let aside = refs.iter().map(|(_, label)| width(label, SMALL)).fold(0.0, f64::max);
@@ -89,10 +89,7 @@ pub fn line_chart(chart: &Chart) -> String {
     references(&mut canvas, &refs, &frame, &y);
     let found = curves(&mut canvas, &chart.series, &frame, &x, &y);
     if !found {
-        canvas.open(&style(LABEL, SOFT, "middle"));
-        let middle = frame.at(0.5, 0.5);
-        canvas.text((middle.0, middle.1 + drop(LABEL)), nothing(chart));
-        canvas.close();
+        frame::empty(&mut canvas, &frame, nothing(chart));
     }
     legend::draw(&mut canvas, &legend, &frame, below, |canvas, index, at| {
         let dashed = chart.series.get(index).is_some_and(|s| s.dash);

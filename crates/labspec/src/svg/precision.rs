@@ -6,13 +6,13 @@
 //! the right end, runs without any error in one at the left end: neither has a place on a logarithmic axis.
 
 use super::axis::{Axis, logarithmic};
-use super::canvas::{Canvas, Label, drop, style};
+use super::canvas::{Canvas, Label, style};
 use super::curve::{Point, path};
-use super::frame::{EDGE, Frame, Words, draw, margin};
+use super::frame::{self, EDGE, Frame, Words, draw, margin};
 use super::labels::{Wish, arrange};
 use super::legend::{self, Entry, STROKE};
 use super::number::{HUGE, px, short};
-use super::style::{LABEL, SHADE, SMALL, SOFT, TICK, colour, dash, extent};
+use super::style::{SHADE, SMALL, SOFT, TICK, colour, dash, extent};
 use super::text::{clean, fit, width};
 
 /// One curve: a method over its timesteps.
@@ -75,7 +75,7 @@ const TINY: f64 = 1e-300;
 /// Draws a work–precision chart as a complete SVG document. Any data give a picture; without runs it says so.
 pub fn work_precision(chart: &WorkPrecision) -> String {
     let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 420.0));
-    let words = Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel };
+    let words = Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
     let methods: Vec<Vec<Run>> = chart.methods.iter().map(|m| runs(&m.points)).collect();
     let all = || methods.iter().flatten();
 
@@ -92,7 +92,7 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
     let some = |error: Error| all().any(|r| r.error == error);
     let diverging = methods.iter().filter(|m| m.iter().any(|r| r.error == Error::Diverged)).count();
     let zero = if some(Error::Zero) { 34.0f64.min(0.15 * outer.width()) } else { 0.0 };
-    let wish = (width(DIVERGED, TICK) + 8.0).max(16.0 + 10.0 * diverging as f64);
+    let wish = (width(DIVERGED, TICK) + 8.0).max(16.0 + 22.0 * diverging as f64);
     let failed = if diverging > 0 { wish.min(0.3 * outer.width()) } else { 0.0 };
     let inner = Frame { left: left + zero, right: right - failed, ..outer };
     let finite = all().filter_map(|r| if let Error::Finite(e) = r.error { Some(e) } else { None });
@@ -126,11 +126,10 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
     if failed > 0.0 {
         canvas.text(((inner.right + outer.right) / 2.0, bottom + 17.0), DIVERGED);
     }
-    if all().next().is_none() {
-        let middle = outer.at(0.5, 0.5);
-        canvas.text((middle.0, middle.1 + drop(LABEL)), "no data");
-    }
     canvas.close();
+    if all().next().is_none() {
+        frame::empty(&mut canvas, &outer, "no data");
+    }
 
     let placed = place(&methods, (&outer, &inner), &x, &y, diverging);
     plot(&mut canvas, chart, &placed, &outer);
@@ -227,7 +226,9 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], fra
     let marks: Vec<Point> = methods.iter().flatten().map(|run| run.at).collect();
     let lines: Vec<Vec<Point>> = curves.into_iter().flatten().collect();
     canvas.open(&style(SMALL, SOFT, "start"));
-    for (at, text) in arrange(wishes, &marks, &lines, frame) {
+    // To the right, a label may reach into the space before the legend.
+    let room = Frame { right: frame.right + 8.0, ..*frame };
+    for (at, text) in arrange(wishes, &marks, &lines, &room) {
         canvas.text(at, &text);
     }
     canvas.close();

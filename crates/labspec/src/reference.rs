@@ -1,0 +1,143 @@
+//! The reference pages under `docs/reference`: written from the tables, never by hand.
+//!
+//! `cargo run -p labspec -- reference docs/reference` writes them; a test fails when they are stale.
+
+use crate::bind::functions;
+use crate::{lint, rules};
+use labspec_core::mjcf::{self, Status};
+use labspec_core::reflect::{self, Kind, Object, Stage};
+use std::fmt::Write;
+
+/// File name and text of each page.
+pub fn pages() -> Vec<(&'static str, String)> {
+    vec![
+        ("fields.md", fields()),
+        ("functions.md", function_list()),
+        ("codes.md", codes()),
+        ("compatibility.md", compatibility()),
+    ]
+}
+
+const GENERATED: &str = "<!-- Written from the tables: cargo run -p labspec -- reference docs/reference -->\n";
+
+fn fields() -> String {
+    let mut text = format!(
+        "{GENERATED}\n# Fields\n\nEvery field that an expression can name. Arrays are flat and row-major: `data.xpos[3 * i + 2]` is the height of body `i`. \
+         One object's part is read by name: `data.body(\"ball\").xpos[2]`.\n"
+    );
+    let objects = [
+        (Object::Data, "data", "State, inputs and results."),
+        (Object::Model, "model", "Constants of the model."),
+        (Object::Option, "model.opt", "Options of the simulation."),
+        (Object::Statistic, "model.stat", "Statistics of the model."),
+    ];
+    for (object, name, about) in objects {
+        let _ = write!(text, "\n## `{name}`\n\n{about}\n\n| field | shape | unit | kind | meaning |\n|---|---|---|---|---|\n");
+        for f in reflect::fields().map(|f| f.info()).filter(|f| f.object == object) {
+            let shape = if f.shape.is_empty() { "–".to_string() } else { f.shape.join(" × ") };
+            let unit = if f.unit.is_empty() { "–" } else { f.unit };
+            let _ = writeln!(text, "| `{}` | {shape} | {unit} | {} | {} |", f.name, kind(f.kind, f.stage), f.doc);
+        }
+    }
+    text.push_str(
+        "\nKinds: *state* evolves in time and may be set; *input* is set from outside; *constant* takes effect at the next step; \
+         *inertial* needs `mj_setConst` after a change; *derived* is computed, so setting it is refused; *structure* is fixed.\n",
+    );
+    text
+}
+
+fn kind(kind: Kind, stage: Stage) -> String {
+    match kind {
+        Kind::Structure => "structure".into(),
+        Kind::State => "state".into(),
+        Kind::Input => "input".into(),
+        Kind::Constant => "constant".into(),
+        Kind::Inertial => "inertial".into(),
+        Kind::Derived => format!("derived ({stage:?})"),
+    }
+}
+
+fn function_list() -> String {
+    let mut text = format!("{GENERATED}\n# Functions\n\n`Math` has the functions and constants of JavaScript.\n");
+    for (title, measure) in [("In labs and in measures", false), ("In the measures of `verify` only", true)] {
+        let _ = write!(text, "\n## {title}\n\n| function | meaning |\n|---|---|\n");
+        for f in functions::reference().iter().filter(|f| f.measure == measure) {
+            let _ = writeln!(text, "| `{}` | {} |", f.signature, f.doc);
+        }
+    }
+    text.push_str("\nThe shorthand `mj_setConst`, alone or as `mj_setConst()`, means `mj.mj_setConst(model, data)`.\n");
+    text
+}
+
+fn codes() -> String {
+    let mut text = format!(
+        "{GENERATED}\n# Codes\n\nWhat a finding's code means; `labspec explain CODE` shows the long form, with a wrong and a right example for rules of lessons.\n"
+    );
+    let mut section = |title: &str, list: &mut dyn Iterator<Item = (&'static str, &'static str)>| {
+        let _ = write!(text, "\n## {title}\n\n| code | meaning |\n|---|---|\n");
+        for (code, summary) in list {
+            let _ = writeln!(text, "| `{code}` | {} |", summary.trim_end_matches('.').replace('|', "\\|"));
+        }
+    };
+    section("Lessons, labs and quizzes", &mut lint::all().map(|r| (r.code, r.summary)));
+    section("Runs and verdicts", &mut rules::RUN_RULES.iter().map(|r| (r.0, r.1)));
+    section("Expressions", &mut labspec_expr::code::ALL.iter().copied());
+    section("Models", &mut mjcf::code::ALL.iter().copied());
+    text
+}
+
+fn compatibility() -> String {
+    let mut text = format!(
+        "{GENERATED}\n# Compatibility with MJCF\n\nEvery element and attribute of MuJoCo 3.14.0's format, element by element. *Supported*: it does what MuJoCo does. \
+         *Ignored*: accepted, checked, and without effect on physics. *Partly*: some of its values are refused. \
+         Everything else is refused by name, with its place in the file; nothing is silently left out. \
+         Defaults take the attributes of the elements that they stand for.\n\n| element | what is done |\n|---|---|\n"
+    );
+    let rows = mjcf::schema_rows();
+    for element in rows.iter().filter(|r| r.attribute.is_none() && !r.path.contains("default/")) {
+        let done = match element.status {
+            Status::Unsupported => "**refused**: not supported yet".to_string(),
+            Status::Ignored(what) => format!("ignored: {what}"),
+            _ => attributes(rows.iter().filter(|r| r.path == element.path)),
+        };
+        let _ = writeln!(text, "| `{}` | {done} |", element.path);
+    }
+    text
+}
+
+/// The attributes of one element, grouped by what is done with them.
+fn attributes<'a>(rows: impl Iterator<Item = &'a mjcf::SchemaRow>) -> String {
+    let mut groups: [(&str, Vec<String>); 4] =
+        [("supported", Vec::new()), ("partly", Vec::new()), ("ignored", Vec::new()), ("**refused**", Vec::new())];
+    for row in rows {
+        let Some(attribute) = row.attribute else { continue };
+        let name = format!("`{}`", attribute.name);
+        let refused: Vec<&str> = match attribute.kind {
+            mjcf::Kind::Words(words) => words.iter().filter(|w| !w.supported).map(|w| w.text).collect(),
+            _ => Vec::new(),
+        };
+        let (group, entry) = match row.status {
+            Status::Supported if refused.is_empty() => (0, name),
+            Status::Supported => (1, format!("{name} (not yet {})", refused.join(", "))),
+            Status::Only(value) => (1, format!("{name} (only `{value}`)")),
+            Status::Ignored(_) => (2, name),
+            Status::Unsupported => (3, name),
+        };
+        groups[group].1.push(entry);
+    }
+    let filled: Vec<String> =
+        groups.iter().filter(|(_, names)| !names.is_empty()).map(|(what, names)| format!("{what}: {}", names.join(" "))).collect();
+    if filled.is_empty() { "supported".into() } else { filled.join("; ") }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_pages_are_up_to_date() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference");
+        for (name, text) in super::pages() {
+            let written = std::fs::read_to_string(folder.join(name)).unwrap_or_default();
+            assert!(written == text, "{name} is stale: cargo run -p labspec -- reference docs/reference");
+        }
+    }
+}
