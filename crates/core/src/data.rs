@@ -1,7 +1,7 @@
 //! `Data`: the state, the inputs and everything computed from them. The struct comes from the field table.
 
-use crate::fields::data_fields;
 use crate::constraint::{Islands, Jacobian, Scratch};
+use crate::fields::data_fields;
 use crate::jacobian::Columns;
 use crate::model::define;
 use crate::plan::{Demand, Plan};
@@ -173,7 +173,16 @@ impl Data {
         w.ld = vec![0.0; m.nC];
         w.rk.qpos = vec![0.0; m.nq];
         let rk = &mut w.rk;
-        for v in [&mut w.mv, &mut w.diag_inv, &mut w.qacc, &mut rk.qvel, &mut rk.warmstart, &mut rk.dpos, &mut rk.dvel, &mut rk.slope] {
+        for v in [
+            &mut w.mv,
+            &mut w.diag_inv,
+            &mut w.qacc,
+            &mut rk.qvel,
+            &mut rk.warmstart,
+            &mut rk.dpos,
+            &mut rk.dvel,
+            &mut rk.slope,
+        ] {
             *v = vec![0.0; m.nv];
         }
         reset::reset_data(m, &mut d);

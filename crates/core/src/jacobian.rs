@@ -67,7 +67,14 @@ impl Columns {
 /// The Jacobian difference of one point fixed to two bodies, J(b2) - J(b1), along the rows of `frame`: the
 /// degrees of freedom that move only one of the bodies (those that move both cancel).
 #[inline(always)]
-pub(crate) fn point_difference(m: &Model, d: &Data, bodies: [usize; 2], point: Vec3, frame: &Mat3, out: &mut Columns) {
+pub(crate) fn point_difference(
+    m: &Model,
+    d: &Data,
+    bodies: [usize; 2],
+    point: Vec3,
+    frame: &Mat3,
+    out: &mut Columns,
+) {
     out.len = 0;
     let mut last = bodies.map(|b| last_dof(m, b));
     while last[0] != last[1] {
@@ -85,8 +92,18 @@ pub(crate) fn point_difference(m: &Model, d: &Data, bodies: [usize; 2], point: V
 /// and (a × arm) · f = a · (arm × f).
 #[inline(always)]
 #[allow(clippy::too_many_arguments)] // one formula, called from one place
-fn joint_columns(m: &Model, d: &Data, j: usize, last: usize, point: Vec3, frame: &Mat3, sign: f64, out: &mut Columns) {
-    let f: [Vec3; 3] = std::array::from_fn(|r| scale([frame[3 * r], frame[3 * r + 1], frame[3 * r + 2]], sign));
+fn joint_columns(
+    m: &Model,
+    d: &Data,
+    j: usize,
+    last: usize,
+    point: Vec3,
+    frame: &Mat3,
+    sign: f64,
+    out: &mut Columns,
+) {
+    let f: [Vec3; 3] =
+        std::array::from_fn(|r| scale([frame[3 * r], frame[3 * r + 1], frame[3 * r + 2]], sign));
     let kind = m.jnt_type[j];
     if kind == joint::SLIDE {
         let a = rows::<3>(&d.xaxis)[j];

@@ -21,7 +21,9 @@ pub(crate) mod sameframe {
 
 /// The world's pose, which never changes.
 pub(crate) fn world(d: &mut Data) {
-    if let (Some(q), Some(r), Some(i)) = (d.xquat.first_chunk_mut(), d.xmat.first_chunk_mut(), d.ximat.first_chunk_mut()) {
+    if let (Some(q), Some(r), Some(i)) =
+        (d.xquat.first_chunk_mut(), d.xmat.first_chunk_mut(), d.ximat.first_chunk_mut())
+    {
         (*q, *r, *i) = (IDENTITY, EYE, EYE);
     }
 }

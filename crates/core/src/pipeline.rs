@@ -1,9 +1,12 @@
 //! `mj_step` and `mj_forward`: the order of the stages, each a call to the module that holds its formula.
 
+use crate::math::{dot, rows};
 use crate::plan::{Exact, Plan};
 use crate::reflect::Stage;
-use crate::{Data, Model, Warning, collision, com, constraint, disable, enable, energy, integrate, integrator, kinematics};
-use crate::math::{dot, rows};
+use crate::{
+    Data, Model, Warning, collision, com, constraint, disable, enable, energy, integrate, integrator,
+    kinematics,
+};
 use crate::{jacobian, mass, passive, reset, rne, sensor};
 
 /// What a caller can leave out of a forward pass.
@@ -180,6 +183,7 @@ fn read_velocity(m: &Model, d: &mut Data) {
 
 /// A number that no simulation means: NaN, or larger than 1e10.
 #[inline(always)]
+#[allow(clippy::neg_cmp_op_on_partial_ord)] // one comparison that NaN fails, too: it runs for every number of the state
 fn bad(x: f64) -> bool {
     !(x.abs() <= 1e10)
 }

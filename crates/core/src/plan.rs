@@ -58,7 +58,15 @@ pub struct Plan {
 
 impl Default for Plan {
     fn default() -> Self {
-        Plan { decisions: Vec::new(), kept: 0, mass: Exact::General, some_general: true, applied_forces: true, contact_bits_may_change: true, contact_params_may_change: true }
+        Plan {
+            decisions: Vec::new(),
+            kept: 0,
+            mass: Exact::General,
+            some_general: true,
+            applied_forces: true,
+            contact_bits_may_change: true,
+            contact_params_may_change: true,
+        }
     }
 }
 
@@ -91,7 +99,8 @@ impl Plan {
         // Decided from the model and what is written, in the order of their dependence.
         let bits_change = asked.writes(Object::Model, &["geom_contype", "geom_conaffinity", "geom_bodyid"]);
         plan.contact_bits_may_change = bits_change;
-        plan.contact_params_may_change = asked.writes(Object::Model, &CONTACT_PARAMS) || asked.writes(Object::Option, &OVERRIDES);
+        plan.contact_params_may_change =
+            asked.writes(Object::Model, &CONTACT_PARAMS) || asked.writes(Object::Option, &OVERRIDES);
         let contacts = asked.contacts(bits_change);
         let limits = asked.limits();
         let springs = asked.springs();
@@ -105,17 +114,31 @@ impl Plan {
 
         let dynamics = m.nv > 0;
         let reading = |stage: Stage| asked.reads(stage);
-        let sensed = |stage: Stage| (sensors && asked.sensed(stage)).then(|| "a sensor measures it".to_string());
+        let sensed =
+            |stage: Stage| (sensors && asked.sensed(stage)).then(|| "a sensor measures it".to_string());
         let bias = dynamics.then(|| "gravity and the motion of bodies make forces".to_string());
-        let spatial = moving_mass.clone().ok().map(|_| "forces of a tree are computed about its centre of mass".to_string());
-        let com = spatial.clone().or_else(|| reading(Stage::ComPos)).or_else(|| reading(Stage::ComVel)).or_else(|| reading(Stage::MassMatrix));
-        let slides = m.jnt_type.contains(&joint::SLIDE).then(|| "slide joints act along their axes".to_string());
+        let spatial = moving_mass
+            .clone()
+            .ok()
+            .map(|_| "forces of a tree are computed about its centre of mass".to_string());
+        let com = spatial
+            .clone()
+            .or_else(|| reading(Stage::ComPos))
+            .or_else(|| reading(Stage::ComVel))
+            .or_else(|| reading(Stage::MassMatrix));
+        let slides =
+            m.jnt_type.contains(&joint::SLIDE).then(|| "slide joints act along their axes".to_string());
         let applied = plan.applied_forces.then(|| "forces may be applied to bodies".to_string());
         let poses = com.as_ref().map(|_| "poses of bodies are where every force starts".to_string());
         let poses = poses.or_else(|| contacts.is_ok().then(|| "contacts need poses".to_string()));
-        let poses = poses.or_else(|| sensors.then(|| "sensors need poses".to_string())).or(slides).or(applied);
-        let poses = poses.or_else(|| energy.is_ok().then(|| "potential energy depends on positions".to_string()));
-        let poses = poses.or_else(|| reading(Stage::Kinematics)).or_else(|| reading(Stage::GeomPoses)).or_else(|| reading(Stage::SitePoses));
+        let poses =
+            poses.or_else(|| sensors.then(|| "sensors need poses".to_string())).or(slides).or(applied);
+        let poses =
+            poses.or_else(|| energy.is_ok().then(|| "potential energy depends on positions".to_string()));
+        let poses = poses
+            .or_else(|| reading(Stage::Kinematics))
+            .or_else(|| reading(Stage::GeomPoses))
+            .or_else(|| reading(Stage::SitePoses));
         let mut put = |stage: Stage, yes: Option<String>, no: &str| {
             let keep = yes.is_some();
             plan.decide(stage, keep, yes.unwrap_or_else(|| no.to_string()));
@@ -127,21 +150,43 @@ impl Plan {
             geoms.or_else(|| reading(Stage::GeomPoses)).or_else(|| sensed(Stage::GeomPoses)),
             "no contact is possible and nothing reads a geom's pose",
         );
-        put(Stage::SitePoses, reading(Stage::SitePoses).or_else(|| sensed(Stage::SitePoses)), if m.nsite == 0 { "the model has no sites" } else { "nothing reads a site's pose" });
+        put(
+            Stage::SitePoses,
+            reading(Stage::SitePoses).or_else(|| sensed(Stage::SitePoses)),
+            if m.nsite == 0 { "the model has no sites" } else { "nothing reads a site's pose" },
+        );
         put(Stage::ComPos, com, "every moving body is a simple one: its forces have a closed form");
-        put(Stage::MassMatrix, moving_mass.clone().ok().or_else(|| asked.reads_field("crb")), &moving_mass.clone().err().unwrap_or_default());
+        put(
+            Stage::MassMatrix,
+            moving_mass.clone().ok().or_else(|| asked.reads_field("crb")),
+            &moving_mass.clone().err().unwrap_or_default(),
+        );
         put(Stage::Factor, moving_mass.clone().ok(), &moving_mass.clone().err().unwrap_or_default());
         put(Stage::Collision, contacts.clone().ok(), &contacts.clone().err().unwrap_or_default());
         let why = contacts.clone().ok().or_else(|| limits.clone().ok());
         let no = "no contact and no limit is possible";
         put(Stage::Constraint, why.clone(), no);
-        put(Stage::ComVel, spatial.map(|_| "Coriolis and centrifugal forces need velocities".into()).or_else(|| reading(Stage::ComVel)), "every moving body is a simple one: its forces have a closed form");
+        put(
+            Stage::ComVel,
+            spatial
+                .map(|_| "Coriolis and centrifugal forces need velocities".into())
+                .or_else(|| reading(Stage::ComVel)),
+            "every moving body is a simple one: its forces have a closed form",
+        );
         put(Stage::Passive, springs.clone().ok(), &springs.clone().err().unwrap_or_default());
         put(Stage::Reference, why.clone(), no);
         put(Stage::Bias, bias, "nothing moves");
-        put(Stage::Acceleration, dynamics.then(|| "it is what the integrator needs".to_string()), "nothing moves");
+        put(
+            Stage::Acceleration,
+            dynamics.then(|| "it is what the integrator needs".to_string()),
+            "nothing moves",
+        );
         put(Stage::Solve, constrained.then(|| "constraint forces".to_string()), no);
-        put(Stage::Sensors, sensors.then(|| "sensor values are read".to_string()), if m.nsensor == 0 { "the model has no sensors" } else { "nothing reads sensordata" });
+        put(
+            Stage::Sensors,
+            sensors.then(|| "sensor values are read".to_string()),
+            if m.nsensor == 0 { "the model has no sensors" } else { "nothing reads sensordata" },
+        );
         put(Stage::Energy, energy.clone().ok(), &energy.err().unwrap_or_default());
         plan
     }
@@ -175,8 +220,16 @@ const STAGES: [Stage; 16] = [
 ];
 
 /// What the parameters of a contact are mixed from.
-const CONTACT_PARAMS: [&str; 8] =
-    ["geom_condim", "geom_priority", "geom_solmix", "geom_solref", "geom_solimp", "geom_friction", "geom_margin", "geom_gap"];
+const CONTACT_PARAMS: [&str; 8] = [
+    "geom_condim",
+    "geom_priority",
+    "geom_solmix",
+    "geom_solref",
+    "geom_solimp",
+    "geom_friction",
+    "geom_margin",
+    "geom_gap",
+];
 const OVERRIDES: [&str; 5] = ["o_margin", "o_solref", "o_solimp", "o_friction", "enableflags"];
 
 /// Questions to the model and the demand. `Ok` is the reason to keep a stage, `Err` the reason to leave it out.
@@ -191,13 +244,16 @@ impl Asked<'_> {
         if self.demand.reads == FieldSet::ALL {
             return Some("its results may be read".into());
         }
-        let f = self.demand.reads.iter().find(|f| f.info().object == Object::Data && f.info().stage == stage)?;
+        let f =
+            self.demand.reads.iter().find(|f| f.info().object == Object::Data && f.info().stage == stage)?;
         Some(format!("data.{} is read", f.info().name))
     }
 
     /// Whether one field of the data is read, as a reason.
     fn reads_field(&self, name: &str) -> Option<String> {
-        field(Object::Data, name).filter(|&f| self.demand.reads.contains(f)).map(|_| format!("data.{name} may be read"))
+        field(Object::Data, name)
+            .filter(|&f| self.demand.reads.contains(f))
+            .map(|_| format!("data.{name} may be read"))
     }
 
     fn writes(&self, object: Object, names: &[&str]) -> bool {
@@ -244,7 +300,8 @@ impl Asked<'_> {
         if (0..m.nv).any(|i| m.dof_simplenum[i] == 0) {
             return Ok("the mass matrix depends on the configuration".into());
         }
-        Err("every moving body is a single free or sliding one: its mass matrix is diagonal and constant".into())
+        Err("every moving body is a single free or sliding one: its mass matrix is diagonal and constant"
+            .into())
     }
 
     fn energy(&self) -> Result<String, String> {

@@ -119,7 +119,7 @@ pub struct FieldId(pub u16);
 impl FieldId {
     /// The row of the table.
     pub fn info(self) -> &'static FieldInfo {
-        &FIELDS[self.0 as usize]
+        FIELDS[self.0 as usize]
     }
 }
 
@@ -267,7 +267,6 @@ macro_rules! reflect {
         impl $struct {
             fn cell(&self, id: $ids) -> View<'_> { match id { $($ids::$name => self.$name.view()),* } }
             fn cell_mut(&mut self, id: $ids) -> ViewMut<'_> { match id { $($ids::$name => self.$name.view_mut()),* } }
-            fn allocate(&mut self, id: $ids, n: usize) { match id { $($ids::$name => Cell::allocate(&mut self.$name, n)),* } }
         }
     };
 }
@@ -275,6 +274,20 @@ macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_COUNT, Mod
 macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_COUNT, OptionId, Option, crate::model::Options; $($t)* } } }
 macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_COUNT, StatId, Statistic, crate::model::Statistic; $($t)* } } }
 macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_COUNT, DataId, Data, Data; $($t)* } } }
+/// Arrays get their lengths by field; options and statistics have none.
+macro_rules! allocation {
+    ($ids:ident, $struct:ty; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        impl $struct {
+            fn allocate(&mut self, id: $ids, n: usize) {
+                match id { $($ids::$name => Cell::allocate(&mut self.$name, n)),* }
+            }
+        }
+    };
+}
+macro_rules! allocation_model { ($($t:tt)*) => { allocation! { ModelId, Model; $($t)* } } }
+macro_rules! allocation_data { ($($t:tt)*) => { allocation! { DataId, Data; $($t)* } } }
+model_fields!(allocation_model);
+data_fields!(allocation_data);
 model_fields!(reflect_model);
 option_fields!(reflect_option);
 statistic_fields!(reflect_stat);

@@ -89,7 +89,8 @@ fn write_kind(kind: &ExprKind, out: &mut String) {
         ExprKind::Index { object, index } => {
             write(object, MEMBER, out);
             out.push('[');
-            write(index, ASSIGNMENT, out);
+            // An assignment in an index is read only in parentheses.
+            write(index, CHOICE, out);
             out.push(']');
         }
         ExprKind::Call { callee, args } => {

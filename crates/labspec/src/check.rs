@@ -65,7 +65,8 @@ struct Ready<'l> {
 pub fn check(lesson: Lesson, models: &mut Models, depth: Depth) -> Checked {
     let mut findings = Vec::new();
     let (labs, claims) = {
-        let ready: Vec<Ready<'_>> = lesson.all_labs().into_iter().filter_map(|lab| prepare(lab, models, &mut findings)).collect();
+        let ready: Vec<Ready<'_>> =
+            lesson.all_labs().into_iter().filter_map(|lab| prepare(lab, models, &mut findings)).collect();
         let labs = if depth.labs { run_labs(&lesson, &ready, &mut findings) } else { Vec::new() };
         let claims = if depth.claims { claims(&lesson, &ready, &mut findings) } else { Vec::new() };
         (labs, claims)
@@ -97,7 +98,8 @@ fn prepare<'l>(lab: &'l Lab, models: &mut Models, findings: &mut Vec<Finding>) -
 /// What programs do that a page lets pass in silence.
 fn lint_programs(lab: &Lab, programs: &Programs, findings: &mut Vec<Finding>) {
     for bound in programs.bound() {
-        let calls_set_const = bound.program.effects().calls.iter().any(|&f| functions::name(f) == Some("mj_setConst"));
+        let calls_set_const =
+            bound.program.effects().calls.iter().any(|&f| functions::name(f) == Some("mj_setConst"));
         if let Some(field) = writes_kind(bound, Object::Model, &[Kind::Inertial])
             && !calls_set_const
         {
@@ -115,12 +117,21 @@ fn lint_programs(lab: &Lab, programs: &Programs, findings: &mut Vec<Finding>) {
         if action.init {
             continue;
         }
-        if let Some(field) = writes_kind(bound, Object::Data, &[Kind::State, Kind::Input]).filter(|_| !calls_reset(bound)) {
+        if let Some(field) =
+            writes_kind(bound, Object::Data, &[Kind::State, Kind::Input]).filter(|_| !calls_reset(bound))
+        {
             findings.push(
-                warning("lost-at-reset", bound.text.span(), format!("what \"{label}\" sets is lost at the next reset"))
-                    .why(format!("a reset puts data.{} back, while the control still shows the chosen value", field.info().name))
-                    .help("add \"init\": true, so that it is applied again after every reset")
-                    .related(control.label.span(), "the control"),
+                warning(
+                    "lost-at-reset",
+                    bound.text.span(),
+                    format!("what \"{label}\" sets is lost at the next reset"),
+                )
+                .why(format!(
+                    "a reset puts data.{} back, while the control still shows the chosen value",
+                    field.info().name
+                ))
+                .help("add \"init\": true, so that it is applied again after every reset")
+                .related(control.label.span(), "the control"),
             );
         }
     }
@@ -150,7 +161,8 @@ struct Trial<'a> {
 }
 
 fn try_lab(ready: &Ready<'_>, findings: &mut Vec<Finding>) -> usize {
-    let mut trials = vec![Trial { options: RunOptions::default(), done: "as it stands".into(), control: None }];
+    let mut trials =
+        vec![Trial { options: RunOptions::default(), done: "as it stands".into(), control: None }];
     for control in &ready.lab.controls {
         let label = &control.label.value;
         let mut set = |value: Value| {
@@ -165,7 +177,9 @@ fn try_lab(ready: &Ready<'_>, findings: &mut Vec<Finding>) -> usize {
                 set(Value::Number(min.value));
                 set(Value::Number(max.value));
             }
-            ControlKind::Select { options, .. } => options.iter().for_each(|o| set(crate::bind::scalar(&o.value))),
+            ControlKind::Select { options, .. } => {
+                options.iter().for_each(|o| set(crate::bind::scalar(&o.value)))
+            }
             ControlKind::Button { .. } => trials.push(Trial {
                 done: format!("after \"{label}\" is pressed"),
                 options: RunOptions { press: vec![(label.clone(), PRESS)], ..RunOptions::default() },
@@ -238,13 +252,17 @@ fn trouble(t: &Trouble, done: &str) -> Finding {
 /// A simulation that met a bad number, with time, joint and likely cause.
 fn diverged(session: &Session<'_>, model: &Model, done: &str, place: Range<usize>) -> Option<Finding> {
     let all = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
-    let (warning, stat) = all.iter().map(|&w| (w, session.warnings[w as usize])).find(|(_, s)| s.number > 0)?;
+    let (warning, stat) =
+        all.iter().map(|&w| (w, session.warnings[w as usize])).find(|(_, s)| s.number > 0)?;
     let (what, joint) = match warning {
         Warning::BadQpos => ("position", joint_of(model, stat.lastinfo, &model.jnt_qposadr, joint::nq)),
         Warning::BadQvel => ("velocity", joint_of(model, stat.lastinfo, &model.jnt_dofadr, joint::nv)),
         _ => ("acceleration", joint_of(model, stat.lastinfo, &model.jnt_dofadr, joint::nv)),
     };
-    let message = format!("the simulation breaks {done}: the {what} of {joint} is not a number or above 1e10 at t = {:.4} s", stat.first_time);
+    let message = format!(
+        "the simulation breaks {done}: the {what} of {joint} is not a number or above 1e10 at t = {:.4} s",
+        stat.first_time
+    );
     Some(
         crate::bind::warning("simulation-diverges", place, message)
             .why("MuJoCo then resets the data and goes on from time 0: a student sees the scene jump back without a word")
@@ -281,7 +299,9 @@ fn claims(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> 
         for (number, question) in quiz.numbered() {
             let name = format!("quiz {id}, question {number}");
             match &question.verify {
-                Some(verify) => list.push(claim(name, verify, question.sim(), Some(question), lesson, ready, findings)),
+                Some(verify) => {
+                    list.push(claim(name, verify, question.sim(), Some(question), lesson, ready, findings))
+                }
                 None => list.push(Claim {
                     name,
                     span: question.span.clone(),
@@ -313,6 +333,7 @@ fn claim(
     let target = lab.and_then(|lab| ready.iter().find(|r| std::ptr::eq(r.lab, lab)));
     let bound = target.and_then(|r| BoundVerify::new(verify, r.lab, &r.model, &r.programs, findings));
     let judgement = bound.map(|b| verify::check(&b, verify, question, lesson, findings));
-    let (verdict, measures, quotes) = judgement.map_or((Verdict::Failed, Vec::new(), 0), |j| (j.verdict, j.measures, j.quotes));
+    let (verdict, measures, quotes) =
+        judgement.map_or((Verdict::Failed, Vec::new(), 0), |j| (j.verdict, j.measures, j.quotes));
     Claim { name, span: verify.span.clone(), verdict, measures, quotes }
 }

@@ -9,19 +9,19 @@
 //! * [`lint`]: the table of rules and the checks of structure
 //! * [`finding`], [`report`]: what is wrong, and how it is shown to people and programs
 
+pub mod bind;
+pub mod check;
+pub mod cli;
 pub mod finding;
 pub mod json;
 pub mod lint;
 pub mod markdown;
+pub mod precision;
+pub mod reference;
 pub mod report;
+pub mod rules;
+pub mod run;
 pub mod source;
 pub mod spec;
-pub mod bind;
-pub mod check;
-pub mod run;
-pub mod verify;
-pub mod cli;
-pub mod precision;
-pub mod rules;
 pub mod svg;
-pub mod reference;
+pub mod verify;

@@ -80,7 +80,13 @@ struct Samples {
 ///
 /// # Errors
 /// The lab has no traces, or the runs would take too many steps. Mistakes in closed forms go to `findings`.
-pub fn compare(lab: &Lab, model: &Model, programs: &Programs, until: Option<f64>, findings: &mut Vec<Finding>) -> Result<Report, RunError> {
+pub fn compare(
+    lab: &Lab,
+    model: &Model,
+    programs: &Programs,
+    until: Option<f64>,
+    findings: &mut Vec<Finding>,
+) -> Result<Report, RunError> {
     let targets = targets(lab, model, programs, findings);
     if targets.is_empty() {
         return Err(RunError("this lab has no traces to compare; add a plot with a trace".into()));
@@ -104,8 +110,10 @@ pub fn compare(lab: &Lab, model: &Model, programs: &Programs, until: Option<f64>
         for factor in STEPS {
             let h = own * factor;
             let s = sample(kind, h);
-            let truth = |i: usize| if targets[i].exact.is_some() { &s.exact[i] } else { &reference.values[i] };
-            let errors: Vec<f64> = (0..targets.len()).map(|i| largest_difference(&s.values[i], truth(i))).collect();
+            let truth =
+                |i: usize| if targets[i].exact.is_some() { &s.exact[i] } else { &reference.values[i] };
+            let errors: Vec<f64> =
+                (0..targets.len()).map(|i| largest_difference(&s.values[i], truth(i))).collect();
             let previous = rows.last().filter(|r| r.integrator == name && !r.diverged);
             let order = |i: usize| {
                 let p = previous?;
@@ -119,29 +127,44 @@ pub fn compare(lab: &Lab, model: &Model, programs: &Programs, until: Option<f64>
             rows.push(Row { integrator: name, timestep: h, errors, orders, cost, diverged });
         }
     }
-    let uncertainty = |i: usize| if targets[i].exact.is_some() { f64::NAN } else { largest_difference(&check.values[i], &reference.values[i]) };
+    let uncertainty = |i: usize| {
+        if targets[i].exact.is_some() {
+            f64::NAN
+        } else {
+            largest_difference(&check.values[i], &reference.values[i])
+        }
+    };
     Ok(Report {
         uncertainty: (0..targets.len()).map(uncertainty).collect(),
         traces: targets.iter().map(|t| t.label.to_string()).collect(),
-        truth: targets.iter().map(|t| if t.exact.is_some() { Truth::ClosedForm } else { Truth::TinySteps }).collect(),
+        truth: targets
+            .iter()
+            .map(|t| if t.exact.is_some() { Truth::ClosedForm } else { Truth::TinySteps })
+            .collect(),
         length: count as f64 * coarse,
         rows,
     })
 }
 
 /// The traces of a lab; when the author gives closed forms, only those that have one.
-fn targets<'a>(lab: &'a Lab, model: &Model, programs: &'a Programs, findings: &mut Vec<Finding>) -> Vec<Target<'a>> {
+fn targets<'a>(
+    lab: &'a Lab,
+    model: &Model,
+    programs: &'a Programs,
+    findings: &mut Vec<Finding>,
+) -> Vec<Target<'a>> {
     let names = ModelNames { model, scope: Scope::Lab };
     let exact = lab.verify.as_ref().map_or(&[][..], |v| &v.exact);
     let mut all = Vec::new();
     for (trace, probe) in lab.traces().zip(&programs.probes) {
         let Some(bound) = &probe.bound else { continue };
-        let closed = exact.iter().find(|(label, _)| label.value == trace.label.value).and_then(|(_, text)| {
-            let mut globals = programs.globals.clone();
-            let compiled = Compiler::new(&names, &mut globals).expression(&text.value);
-            findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
-            compiled.program.map(|program| Bound { text: text.clone(), program })
-        });
+        let closed =
+            exact.iter().find(|(label, _)| label.value == trace.label.value).and_then(|(_, text)| {
+                let mut globals = programs.globals.clone();
+                let compiled = Compiler::new(&names, &mut globals).expression(&text.value);
+                findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
+                compiled.program.map(|program| Bound { text: text.clone(), program })
+            });
         all.push(Target { label: &trace.label.value, bound, exact: closed });
     }
     if all.iter().any(|t| t.exact.is_some()) {
@@ -155,11 +178,25 @@ fn start<'p>(lab: &Lab, model: &Model, programs: &'p Programs) -> Session<'p> {
     Session::start(programs, model, key, &Demand { ..programs.demand })
 }
 
-fn samples(lab: &Lab, model: &Model, programs: &Programs, targets: &[Target<'_>], kind: i32, h: f64, per_sample: usize, count: usize) -> Samples {
+fn samples(
+    lab: &Lab,
+    model: &Model,
+    programs: &Programs,
+    targets: &[Target<'_>],
+    kind: i32,
+    h: f64,
+    per_sample: usize,
+    count: usize,
+) -> Samples {
     let mut session = start(lab, model, programs);
     session.world.model.opt.timestep = h;
     session.world.model.opt.integrator = kind;
-    let mut s = Samples { values: vec![Vec::new(); targets.len()], exact: vec![Vec::new(); targets.len()], diverged: false, seconds: 0.0 };
+    let mut s = Samples {
+        values: vec![Vec::new(); targets.len()],
+        exact: vec![Vec::new(); targets.len()],
+        diverged: false,
+        seconds: 0.0,
+    };
     for _ in 0..count {
         let clock = Instant::now();
         for _ in 0..per_sample {
@@ -167,12 +204,15 @@ fn samples(lab: &Lab, model: &Model, programs: &Programs, targets: &[Target<'_>]
         }
         s.seconds += clock.elapsed().as_secs_f64();
         for (i, t) in targets.iter().enumerate() {
-            let mut value = |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
+            let mut value =
+                |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
             s.values[i].push(value(t.bound));
             s.exact[i].push(t.exact.as_ref().map_or(f64::NAN, &mut value));
         }
     }
-    s.diverged = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc].iter().any(|&w| session.warnings[w as usize].number > 0);
+    s.diverged = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc]
+        .iter()
+        .any(|&w| session.warnings[w as usize].number > 0);
     s
 }
 

@@ -18,7 +18,8 @@ pub fn pages() -> Vec<(&'static str, String)> {
     ]
 }
 
-const GENERATED: &str = "<!-- Written from the tables: cargo run -p labspec -- reference docs/reference -->\n";
+const GENERATED: &str =
+    "<!-- Written from the tables: cargo run -p labspec -- reference docs/reference -->\n";
 
 fn fields() -> String {
     let mut text = format!(
@@ -32,11 +33,15 @@ fn fields() -> String {
         (Object::Statistic, "model.stat", "Statistics of the model."),
     ];
     for (object, name, about) in objects {
-        let _ = write!(text, "\n## `{name}`\n\n{about}\n\n| field | shape | unit | kind | meaning |\n|---|---|---|---|---|\n");
+        let _ = write!(
+            text,
+            "\n## `{name}`\n\n{about}\n\n| field | shape | unit | kind | meaning |\n|---|---|---|---|---|\n"
+        );
         for f in reflect::fields().map(|f| f.info()).filter(|f| f.object == object) {
             let shape = if f.shape.is_empty() { "–".to_string() } else { f.shape.join(" × ") };
             let unit = if f.unit.is_empty() { "–" } else { f.unit };
-            let _ = writeln!(text, "| `{}` | {shape} | {unit} | {} | {} |", f.name, kind(f.kind, f.stage), f.doc);
+            let _ =
+                writeln!(text, "| `{}` | {shape} | {unit} | {} | {} |", f.name, kind(f.kind, f.stage), f.doc);
         }
     }
     text.push_str(
@@ -58,14 +63,17 @@ fn kind(kind: Kind, stage: Stage) -> String {
 }
 
 fn function_list() -> String {
-    let mut text = format!("{GENERATED}\n# Functions\n\n`Math` has the functions and constants of JavaScript.\n");
+    let mut text =
+        format!("{GENERATED}\n# Functions\n\n`Math` has the functions and constants of JavaScript.\n");
     for (title, measure) in [("In labs and in measures", false), ("In the measures of `verify` only", true)] {
         let _ = write!(text, "\n## {title}\n\n| function | meaning |\n|---|---|\n");
         for f in functions::reference().iter().filter(|f| f.measure == measure) {
             let _ = writeln!(text, "| `{}` | {} |", f.signature, f.doc);
         }
     }
-    text.push_str("\nThe shorthand `mj_setConst`, alone or as `mj_setConst()`, means `mj.mj_setConst(model, data)`.\n");
+    text.push_str(
+        "\nThe shorthand `mj_setConst`, alone or as `mj_setConst()`, means `mj.mj_setConst(model, data)`.\n",
+    );
     text
 }
 
@@ -107,8 +115,12 @@ fn compatibility() -> String {
 
 /// The attributes of one element, grouped by what is done with them.
 fn attributes<'a>(rows: impl Iterator<Item = &'a mjcf::SchemaRow>) -> String {
-    let mut groups: [(&str, Vec<String>); 4] =
-        [("supported", Vec::new()), ("partly", Vec::new()), ("ignored", Vec::new()), ("**refused**", Vec::new())];
+    let mut groups: [(&str, Vec<String>); 4] = [
+        ("supported", Vec::new()),
+        ("partly", Vec::new()),
+        ("ignored", Vec::new()),
+        ("**refused**", Vec::new()),
+    ];
     for row in rows {
         let Some(attribute) = row.attribute else { continue };
         let name = format!("`{}`", attribute.name);
@@ -125,8 +137,11 @@ fn attributes<'a>(rows: impl Iterator<Item = &'a mjcf::SchemaRow>) -> String {
         };
         groups[group].1.push(entry);
     }
-    let filled: Vec<String> =
-        groups.iter().filter(|(_, names)| !names.is_empty()).map(|(what, names)| format!("{what}: {}", names.join(" "))).collect();
+    let filled: Vec<String> = groups
+        .iter()
+        .filter(|(_, names)| !names.is_empty())
+        .map(|(what, names)| format!("{what}: {}", names.join(" ")))
+        .collect();
     if filled.is_empty() { "supported".into() } else { filled.join("; ") }
 }
 

@@ -5,19 +5,63 @@ use crate::lint;
 
 /// Codes of findings that need a run: code, what is wrong, why it matters.
 pub const RUN_RULES: &[(&str, &str, &str)] = &[
-    ("model-broken", "the model of a lab has mistakes", "The lab cannot run, and its expressions cannot be checked, until the model loads."),
+    (
+        "model-broken",
+        "the model of a lab has mistakes",
+        "The lab cannot run, and its expressions cannot be checked, until the model loads.",
+    ),
     ("model-unreadable", "a model file cannot be read", "The page would show an empty scene."),
-    ("keyframe-missing", "`key` names a keyframe that the model does not have", "The page silently starts from the default configuration."),
+    (
+        "keyframe-missing",
+        "`key` names a keyframe that the model does not have",
+        "The page silently starts from the default configuration.",
+    ),
     ("value-unused", "the statements of a control never use `value`", "Moving the control changes nothing."),
-    ("missing-setconst", "a mass or an inertia is changed without `mj_setConst`", "Constants that follow from it keep the old value, so contacts are as soft as for the old mass."),
-    ("lost-at-reset", "what a control sets in the data is lost at the next reset", "The control still shows its value, but the simulation no longer has it. `\"init\": true` applies it again."),
-    ("simulation-diverges", "the simulation meets a number that is not one, or above 1e10", "MuJoCo resets the data and goes on from time 0: a student sees the scene jump back without a word."),
-    ("run-impossible", "a run cannot be made", "A control that it sets does not exist, or it would take too many steps."),
-    ("answer-refuted", "the simulation refutes the keyed answer", "A student who predicts right is told that they are wrong."),
-    ("answer-ambiguous", "more than one option holds", "A student who chooses the other one is right and is told otherwise."),
-    ("answer-fragile", "the answer holds only for one choice of numerics", "It depends on the timestep or on the solver's tolerance, which the question does not mention."),
-    ("quote-wrong", "a number quoted in the text is not what the simulation gives", "A reader who measures it finds another number."),
-    ("quote-not-found", "a quoted text stands nowhere in the lesson", "The check is about a number that no reader sees."),
+    (
+        "missing-setconst",
+        "a mass or an inertia is changed without `mj_setConst`",
+        "Constants that follow from it keep the old value, so contacts are as soft as for the old mass.",
+    ),
+    (
+        "lost-at-reset",
+        "what a control sets in the data is lost at the next reset",
+        "The control still shows its value, but the simulation no longer has it. `\"init\": true` applies it again.",
+    ),
+    (
+        "simulation-diverges",
+        "the simulation meets a number that is not one, or above 1e10",
+        "MuJoCo resets the data and goes on from time 0: a student sees the scene jump back without a word.",
+    ),
+    (
+        "run-impossible",
+        "a run cannot be made",
+        "A control that it sets does not exist, or it would take too many steps.",
+    ),
+    (
+        "answer-refuted",
+        "the simulation refutes the keyed answer",
+        "A student who predicts right is told that they are wrong.",
+    ),
+    (
+        "answer-ambiguous",
+        "more than one option holds",
+        "A student who chooses the other one is right and is told otherwise.",
+    ),
+    (
+        "answer-fragile",
+        "the answer holds only for one choice of numerics",
+        "It depends on the timestep or on the solver's tolerance, which the question does not mention.",
+    ),
+    (
+        "quote-wrong",
+        "a number quoted in the text is not what the simulation gives",
+        "A reader who measures it finds another number.",
+    ),
+    (
+        "quote-not-found",
+        "a quoted text stands nowhere in the lesson",
+        "The check is about a number that no reader sees.",
+    ),
     ("quote-without-number", "a quote holds no number", "There is nothing to compare."),
 ];
 
@@ -25,7 +69,11 @@ pub const RUN_RULES: &[(&str, &str, &str)] = &[
 pub fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
     let language = labspec_expr::code::ALL.iter().copied();
     let models = labspec_core::mjcf::code::ALL.iter().copied();
-    lint::all().map(|r| (r.code, r.summary)).chain(RUN_RULES.iter().map(|r| (r.0, r.1))).chain(language).chain(models)
+    lint::all()
+        .map(|r| (r.code, r.summary))
+        .chain(RUN_RULES.iter().map(|r| (r.0, r.1)))
+        .chain(language)
+        .chain(models)
 }
 
 /// The explanation of a code that is not a rule of lessons.
@@ -46,7 +94,10 @@ mod tests {
         let mut seen = BTreeMap::new();
         for (code, summary) in super::all() {
             assert!(seen.insert(code, summary).is_none(), "{code} twice");
-            assert!(!summary.is_empty() && code.chars().all(|c| c.is_ascii_lowercase() || c == '-'), "{code}");
+            assert!(
+                !summary.is_empty() && code.chars().all(|c| c.is_ascii_lowercase() || c == '-'),
+                "{code}"
+            );
         }
     }
 }

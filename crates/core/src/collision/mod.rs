@@ -4,8 +4,8 @@ mod filter;
 mod params;
 mod primitive;
 
-pub use filter::can_collide;
 use filter::Pair;
+pub use filter::can_collide;
 pub(crate) use filter::candidate_pairs;
 use params::Params;
 
@@ -38,7 +38,11 @@ const MAX_KEPT: usize = 4096;
 pub(crate) fn pairs(m: &Model, bits_may_change: bool, params_may_change: bool) -> Pairs {
     let pairs = candidate_pairs(m, |a, b| bits_may_change || can_collide(m, a, b));
     let keep = !params_may_change && pairs.len() <= MAX_KEPT;
-    let params = if keep { pairs.iter().map(|p| params::params(m, p.geom1 as usize, p.geom2 as usize)).collect() } else { Vec::new() };
+    let params = if keep {
+        pairs.iter().map(|p| params::params(m, p.geom1 as usize, p.geom2 as usize)).collect()
+    } else {
+        Vec::new()
+    };
     Pairs { pairs, params }
 }
 

@@ -59,7 +59,12 @@ impl Jacobian {
 
     /// Appends a block of R rows: its columns in descending order, and one value per row for each.
     #[inline(always)]
-    pub(super) fn push<const R: usize>(&mut self, row: usize, descending: &[u32], values: impl Iterator<Item = [f64; R]>) {
+    pub(super) fn push<const R: usize>(
+        &mut self,
+        row: usize,
+        descending: &[u32],
+        values: impl Iterator<Item = [f64; R]>,
+    ) {
         let n = descending.len();
         let (adr, col) = (self.used_values, self.used_columns);
         (self.used_values, self.used_columns) = (adr + R * n, col + n);
@@ -69,7 +74,13 @@ impl Jacobian {
         if self.columns.len() < self.used_columns {
             self.columns.resize(self.used_columns, 0);
         }
-        self.blocks.push(Block { row: row as u32, nrow: R as u32, adr: adr as u32, col: col as u32, ncol: n as u32 });
+        self.blocks.push(Block {
+            row: row as u32,
+            nrow: R as u32,
+            adr: adr as u32,
+            col: col as u32,
+            ncol: n as u32,
+        });
         for (c, &k) in self.columns[col..col + n].iter_mut().rev().zip(descending) {
             *c = k;
         }

@@ -5,8 +5,8 @@
 
 use super::impedance::{Kbi, kbi};
 use super::kind;
-use crate::math::*;
 use crate::jacobian::{self, Columns};
+use crate::math::*;
 use crate::{Contact, Data, Model, disable, joint};
 
 /// `efc_*` up to R and D, `nefc`.
@@ -97,7 +97,8 @@ fn joint_limits(m: &Model, d: &mut Data) {
                 }
             }
             joint::BALL => {
-                let turn = quat_to_vel(quat_normalize([d.qpos[q], d.qpos[q + 1], d.qpos[q + 2], d.qpos[q + 3]]));
+                let turn =
+                    quat_to_vel(quat_normalize([d.qpos[q], d.qpos[q + 1], d.qpos[q + 2], d.qpos[q + 3]]));
                 let (axis, angle) = normalize(turn);
                 let dist = range[0].max(range[1]) - angle;
                 if dist < margin {

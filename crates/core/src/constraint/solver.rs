@@ -248,7 +248,9 @@ impl<'a> Problem<'a> {
     fn push_block<const R: usize>(&mut self, b: &Block) -> f64 {
         let (d, s) = (&mut *self.d, &*self.s);
         let rows = b.rows();
-        let (Some(x), Some(w)) = (s.jar[rows.clone()].first_chunk::<R>(), d.efc_D[rows.clone()].first_chunk::<R>()) else {
+        let (Some(x), Some(w)) =
+            (s.jar[rows.clone()].first_chunk::<R>(), d.efc_D[rows.clone()].first_chunk::<R>())
+        else {
             return 0.0;
         };
         let pushed: [f64; R] = std::array::from_fn(|r| if x[r] < 0.0 { x[r] } else { 0.0 });
@@ -273,10 +275,8 @@ impl<'a> Problem<'a> {
     }
 
     fn number_dofs(&mut self) {
-        let mut n = 0;
-        for k in self.dofs().flatten() {
-            self.s.local[k] = n;
-            n += 1;
+        for (i, k) in self.dofs().flatten().enumerate() {
+            self.s.local[k] = i as u32;
         }
     }
 
@@ -361,8 +361,10 @@ impl<'a> Problem<'a> {
         let (dofs, blocks) = (self.dofs(), self.blocks());
         let (d, s) = (&mut *self.d, &mut *self.s);
         for k in dofs {
-            for ((a, ma), (step, mstep)) in
-                d.qacc[k.clone()].iter_mut().zip(&mut s.ma[k.clone()]).zip(s.search[k.clone()].iter().zip(&s.mv[k]))
+            for ((a, ma), (step, mstep)) in d.qacc[k.clone()]
+                .iter_mut()
+                .zip(&mut s.ma[k.clone()])
+                .zip(s.search[k.clone()].iter().zip(&s.mv[k]))
             {
                 *a += alpha * step;
                 *ma += alpha * mstep;

@@ -19,14 +19,10 @@ pub(super) fn number<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Diagno
     let tail_length = behind.find(|c| !is_word_part(c)).unwrap_or(behind.len());
     let (tail, after) = behind.split_at(tail_length);
     let span = Span::new(at, at + text.len() + tail.len());
-    match check(text, tail, span) {
-        Ok(value) => (after, Tok::Number(value)),
-        Err(report) => {
-            diagnostics.push(report);
-            // The digits still stand for a number, so that what follows is understood.
-            (after, Tok::Number(plain(text).unwrap_or(0.0)))
-        }
-    }
+    let value = plain(&text.replace('_', ""));
+    diagnostics.extend(complaint(text, tail, value, span));
+    // Also a bad number stands for a number, so that what follows is understood.
+    (after, Tok::Number(value.unwrap_or(0.0)))
 }
 
 /// `0x1f`, `0b101`, `0o17`; the digits are checked later.
@@ -61,20 +57,24 @@ fn plain(text: &str) -> Option<f64> {
     }
 }
 
-/// The value of a number followed directly by the letters `tail`, or what is wrong with it.
-fn check(text: &str, tail: &str, span: Span) -> Result<f64, Diagnostic> {
+/// What is wrong with a number of this value that is followed directly by the letters `tail`.
+fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<Diagnostic> {
     let bad = |message: String| Diagnostic::error(code::BAD_NUMBER, span, message);
     if tail == "n" {
-        return Err(bad("big integers are not part of the language".into())
-            .why("every number here is a double, as every number of the simulation")
-            .help(format!("write `{text}`"))
-            .fix(span, text));
+        return Some(
+            bad("big integers are not part of the language".into())
+                .why("every number here is a double, as every number of the simulation")
+                .help(format!("write `{text}`"))
+                .fix(span, text),
+        );
     }
     if !tail.is_empty() {
-        return Err(bad(format!("`{text}` runs into `{tail}`"))
-            .why("a product needs its sign, and a name cannot start with a digit")
-            .help(format!("write `{text} * {tail}` for the product"))
-            .fix(span, format!("{text} * {tail}")));
+        return Some(
+            bad(format!("`{text}` runs into `{tail}`"))
+                .why("a product needs its sign, and a name cannot start with a digit")
+                .help(format!("write `{text} * {tail}` for the product"))
+                .fix(span, format!("{text} * {tail}")),
+        );
     }
     let second = text.chars().nth(1).unwrap_or('.');
     if text.starts_with('0') && (second.is_ascii_digit() || second == '_') {
@@ -84,10 +84,12 @@ fn check(text: &str, tail: &str, span: Span) -> Result<f64, Diagnostic> {
         } else {
             format!("0{trimmed}")
         };
-        return Err(bad(format!("`{text}` starts with a zero too many"))
-            .why("JavaScript refuses it, or reads it in base 8")
-            .help(format!("write `{meant}`"))
-            .fix(span, meant));
+        return Some(
+            bad(format!("`{text}` starts with a zero too many"))
+                .why("JavaScript refuses it, or reads it in base 8")
+                .help(format!("write `{meant}`"))
+                .fix(span, meant),
+        );
     }
     // A separator stands between two digits, one at a time.
     let chars: Vec<char> = text.chars().collect();
@@ -95,8 +97,7 @@ fn check(text: &str, tail: &str, span: Span) -> Result<f64, Diagnostic> {
         let digit = |j: Option<usize>| j.and_then(|j| chars.get(j)).is_some_and(char::is_ascii_hexdigit);
         *c == '_' && !(digit(i.checked_sub(1)) && digit(Some(i + 1)))
     });
-    let value = if stray { None } else { plain(&text.replace('_', "")) };
-    value.ok_or_else(|| {
+    (stray || value.is_none()).then(|| {
         bad(format!("`{text}` is not a number"))
             .help("write digits with a point, as `0.002`, or with an exponent, as `2e-3`")
     })

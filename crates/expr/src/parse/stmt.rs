@@ -1,7 +1,7 @@
 //! Statements, automatic semicolons, and where reading goes on after a mistake.
 
 use super::{Attempt, Parser, Reported, refuse};
-use crate::ast::{Declarator, Name, Stmt, StmtKind};
+use crate::ast::{Declarator, Expr, ExprKind, Name, Stmt, StmtKind};
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::lex::Tok;
@@ -57,8 +57,9 @@ impl Parser<'_> {
             let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
             if !declares {
                 self.diagnostics.push(report);
+                let named = self.function_name();
                 self.skip_construct();
-                return Err(Reported);
+                return named.ok_or(Reported);
             }
             return self.declaration();
         }
@@ -124,8 +125,20 @@ impl Parser<'_> {
         }
     }
 
+    /// The declaration that stands for `function name` or `class name`, so that uses of the name are not mistakes
+    /// of their own.
+    fn function_name(&self) -> Option<StmtKind> {
+        let opener = self.is_word("function") || self.is_word("class");
+        let (Tok::Word(text), true) = (self.peek_at(1), opener) else { return None };
+        let span = self.tokens.get(self.at + 1)?.span;
+        let value = Some(Expr { kind: ExprKind::Error, span });
+        let declarators = vec![Declarator { name: Name { text: text.clone(), span }, value }];
+        Some(StmtKind::Declare { constant: true, declarators })
+    }
+
     /// `const a = 1, b = 2`
     fn declaration(&mut self) -> Attempt<StmtKind> {
+        let first = self.at;
         let constant = self.is_word("const");
         if self.is_word("var") {
             let report = refuse::var(self.span());
@@ -134,7 +147,16 @@ impl Parser<'_> {
         let opener = self.bump();
         let mut declarators = Vec::new();
         loop {
-            declarators.push(self.declarator(constant, opener)?);
+            let declarator = self.declarator(constant, opener)?;
+            let failed = matches!(&declarator.value, Some(e) if e.kind == ExprKind::Error);
+            declarators.push(declarator);
+            if failed && !self.is(",") {
+                // The name is kept, so that its uses are not mistakes of their own.
+                if !self.at_boundary(first) {
+                    self.skip_statement(first);
+                }
+                return Ok(StmtKind::Declare { constant, declarators });
+            }
             if self.eat(",").is_none() {
                 break;
             }
@@ -172,7 +194,8 @@ impl Parser<'_> {
             return self.refuse(report);
         }
         self.bump();
-        let value = if self.eat("=").is_some() { Some(self.assignment()?) } else { None };
+        let unread = Expr { kind: ExprKind::Error, span };
+        let value = self.eat("=").map(|_| self.assignment().unwrap_or(unread));
         if constant && value.is_none() {
             let report = Diagnostic::error(
                 code::UNEXPECTED,

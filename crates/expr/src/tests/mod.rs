@@ -1,6 +1,7 @@
 //! Tests of the whole road, from text to value, against a small host.
 
 mod arithmetic;
+mod javascript;
 mod mistakes;
 mod programs;
 mod roundtrip;

@@ -81,11 +81,17 @@ impl Programs {
         let mut probes = Vec::new();
         for (i, plot) in lab.plots.iter().enumerate() {
             for trace in &plot.traces {
-                probes.push(Probe { name: format!("plot/{i}/{}", trace.label.value), bound: work.expression(&trace.expr) });
+                probes.push(Probe {
+                    name: format!("plot/{i}/{}", trace.label.value),
+                    bound: work.expression(&trace.expr),
+                });
             }
         }
         for readout in &lab.readouts {
-            probes.push(Probe { name: format!("readout/{}", readout.label.value), bound: work.expression(&readout.expr) });
+            probes.push(Probe {
+                name: format!("readout/{}", readout.label.value),
+                bound: work.expression(&readout.expr),
+            });
         }
         for (id, d) in globals.unset() {
             if let Some((_, text)) = texts.iter().find(|(t, _)| *t == id) {
@@ -204,7 +210,10 @@ impl Work<'_> {
         {
             self.findings.push(
                 warning("value-unused", text.span(), "these statements never use `value`")
-                    .why(format!("moving \"{}\" changes nothing: the chosen value is called `value`", control.label.value))
+                    .why(format!(
+                        "moving \"{}\" changes nothing: the chosen value is called `value`",
+                        control.label.value
+                    ))
                     .help("write `value` where the chosen value belongs"),
             );
         }
@@ -222,7 +231,11 @@ pub(crate) fn scalar(value: &Scalar) -> Value {
     }
 }
 
-pub(crate) fn warning(code: &'static str, span: std::ops::Range<usize>, message: impl Into<String>) -> Finding {
+pub(crate) fn warning(
+    code: &'static str,
+    span: std::ops::Range<usize>,
+    message: impl Into<String>,
+) -> Finding {
     finding(code, span, message).severity(Severity::Warning)
 }
 

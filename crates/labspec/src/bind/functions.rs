@@ -75,7 +75,8 @@ const ROW: Function = Function {
 };
 
 /// A function of `mj` that takes the model and the data.
-const ENGINE: Function = Function { object: "mj", args: &[Arg::Model, Arg::Data], returns: Type::Void, ..ROW };
+const ENGINE: Function =
+    Function { object: "mj", args: &[Arg::Model, Arg::Data], returns: Type::Void, ..ROW };
 /// A function over all samples of a run; what it makes of them is in [`crate::verify`].
 const OVER_RUN: Function = Function { args: &[Arg::Lazy], place: Place::Measures, aggregate: true, ..ROW };
 
@@ -161,7 +162,8 @@ pub(super) static TABLE: &[Function] = &[
         run: |w, args| {
             let geom = if args.is_empty() { None } else { Some(index(args)?) };
             let touching = |c: &&core::Contact| geom.is_none_or(|g| c.geom1 == g || c.geom2 == g);
-            let forces = w.data.contact.iter().filter(touching).map(|c| core::contact_force(&w.model, &w.data, c)[0]);
+            let forces =
+                w.data.contact.iter().filter(touching).map(|c| core::contact_force(&w.model, &w.data, c)[0]);
             // JavaScript's reduce starts from 0, not from -0.
             Ok(Value::Number(forces.fold(0.0, |sum, f| sum + f)))
         },
@@ -209,7 +211,11 @@ pub(super) static TABLE: &[Function] = &[
         run: |_, args| number(args).map(|x| Value::Number(x.abs())),
         ..ROW
     },
-    Function { name: "first", doc: "time in s of the first sample at which a condition holds; NaN if it never does", ..OVER_RUN },
+    Function {
+        name: "first",
+        doc: "time in s of the first sample at which a condition holds; NaN if it never does",
+        ..OVER_RUN
+    },
     Function {
         name: "at",
         args: &[Arg::Lazy, Arg::Lazy],
@@ -279,8 +285,10 @@ fn touch(touches: &[Touches]) -> Touch {
             Touches::Contacts => i.stage == Stage::Collision || i.name == "efc_force",
         }
     };
-    let fields: Vec<FieldKey> =
-        reflect::fields().filter(|f| touches.iter().any(|t| is(f, t))).map(|f| FieldKey(u32::from(f.0))).collect();
+    let fields: Vec<FieldKey> = reflect::fields()
+        .filter(|f| touches.iter().any(|t| is(f, t)))
+        .map(|f| FieldKey(u32::from(f.0)))
+        .collect();
     if fields.is_empty() { Touch::Nothing } else { Touch::Fields(fields) }
 }
 
@@ -311,7 +319,11 @@ pub fn reference() -> Vec<FunctionDoc> {
     };
     let one = |f: &Function| {
         let args: Vec<_> = f.args.iter().map(word).collect();
-        FunctionDoc { signature: format!("{}({})", path(f), args.join(", ")), doc: f.doc, measure: f.place == Place::Measures }
+        FunctionDoc {
+            signature: format!("{}({})", path(f), args.join(", ")),
+            doc: f.doc,
+            measure: f.place == Place::Measures,
+        }
     };
     TABLE.iter().map(one).collect()
 }

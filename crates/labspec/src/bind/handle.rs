@@ -23,8 +23,13 @@ pub(super) enum Thing {
 }
 
 /// Kinds of objects with names, and what they are called in the language.
-pub(super) const KINDS: [(Obj, &str); 5] =
-    [(Obj::Body, "body"), (Obj::Joint, "joint"), (Obj::Geom, "geom"), (Obj::Site, "site"), (Obj::Sensor, "sensor")];
+pub(super) const KINDS: [(Obj, &str); 5] = [
+    (Obj::Body, "body"),
+    (Obj::Joint, "joint"),
+    (Obj::Geom, "geom"),
+    (Obj::Site, "site"),
+    (Obj::Sensor, "sensor"),
+];
 
 const STRUCTS: [Object; 4] = [Object::Model, Object::Option, Object::Statistic, Object::Data];
 const FUNCTIONS: u32 = 0x100;

@@ -4,7 +4,9 @@ use super::functions::{self, OBJECTS, Place};
 use super::handle::{self, KINDS, Side, Thing};
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_core::{Model, Obj, joint};
-use labspec_expr::{CollectionId, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Schema, Value};
+use labspec_expr::{
+    CollectionId, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Schema, Value,
+};
 
 /// Where a program stands: decides which functions exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +46,12 @@ impl ModelNames<'_> {
     }
 
     /// The fields of one object, with the name that they have there.
-    fn rows(&self, side: Side, kind: Obj, index: usize) -> impl Iterator<Item = (String, FieldId, usize, usize)> + '_ {
+    fn rows(
+        &self,
+        side: Side,
+        kind: Obj,
+        index: usize,
+    ) -> impl Iterator<Item = (String, FieldId, usize, usize)> + '_ {
         let objects = match side {
             Side::Model => Object::Model,
             Side::Data => Object::Data,
@@ -62,7 +69,9 @@ impl ModelNames<'_> {
         let width: usize = shape.iter().skip(1).try_fold(1usize, |n, d| Some(n * (*d)?))?;
         let at = |v: &[i32]| v.get(index).map(|&x| x as usize);
         let (first, count) = match (kind, *f.info().shape.first()?) {
-            (Obj::Body, "nbody") | (Obj::Joint, "njnt") | (Obj::Geom, "ngeom") | (Obj::Site, "nsite") => (index, 1),
+            (Obj::Body, "nbody") | (Obj::Joint, "njnt") | (Obj::Geom, "ngeom") | (Obj::Site, "nsite") => {
+                (index, 1)
+            }
             (Obj::Sensor, "nsensor") => (index, 1),
             (Obj::Sensor, "nsensordata") => (at(&m.sensor_adr)?, at(&m.sensor_dim)?),
             (Obj::Joint, "nq") => (at(&m.jnt_qposadr)?, joint::nq(*m.jnt_type.get(index)?)),
@@ -75,12 +84,17 @@ impl ModelNames<'_> {
     fn named_member(&self, side: Side, kind: Obj, index: usize, name: &str) -> Option<Entry> {
         match name {
             "id" => return Some(Entry::Constant(Value::Number(index as f64))),
-            "name" => return Some(Entry::Constant(Value::String(self.model.names.of(kind).get(index)?.as_str().into()))),
+            "name" => {
+                return Some(Entry::Constant(Value::String(
+                    self.model.names.of(kind).get(index)?.as_str().into(),
+                )));
+            }
             _ => {}
         }
         // `data.sensor("x").data`, as in MuJoCo's bindings.
         let wanted = if kind == Obj::Sensor && name == "data" { "sensordata" } else { name };
-        let (_, f, first, count) = self.rows(side, kind, index).find(|(short, f, ..)| short == wanted || f.info().name == wanted)?;
+        let (_, f, first, count) =
+            self.rows(side, kind, index).find(|(short, f, ..)| short == wanted || f.info().name == wanted)?;
         let holder = self.describe(handle::encode(Thing::Named(side, kind, index)));
         let path = format!("{}.{name}", self.path(side, kind, index));
         Some(Entry::Field(field(f, path, first, vec![Some(count)], format!("{holder} has {count} of these"))))
@@ -100,7 +114,10 @@ impl ModelNames<'_> {
 
 /// The name of a field in a named object: without the prefix that says what it belongs to.
 fn short_name(name: &str) -> &str {
-    ["body_", "jnt_", "dof_", "geom_", "site_", "sensor_"].iter().find_map(|p| name.strip_prefix(p)).unwrap_or(name)
+    ["body_", "jnt_", "dof_", "geom_", "site_", "sensor_"]
+        .iter()
+        .find_map(|p| name.strip_prefix(p))
+        .unwrap_or(name)
 }
 
 fn noun(kind: Obj) -> &'static str {
@@ -117,7 +134,16 @@ fn field(f: FieldId, path: String, first: usize, shape: Vec<Option<usize>>, owne
         Kind::Inertial => FieldKind::Inertial,
         Kind::Derived => FieldKind::Derived { by: stage_phrase(info.stage).into() },
     };
-    Field { key: FieldKey(u32::from(f.0)), path, first, shape, kind, unit: info.unit.into(), doc: info.doc.into(), owner }
+    Field {
+        key: FieldKey(u32::from(f.0)),
+        path,
+        first,
+        shape,
+        kind,
+        unit: info.unit.into(),
+        doc: info.doc.into(),
+        owner,
+    }
 }
 
 /// What computes a field, as the object of "computed by".
@@ -126,7 +152,9 @@ fn stage_phrase(stage: Stage) -> &'static str {
         Stage::Compile => "the model compiler",
         Stage::SetConst => "mj_setConst",
         Stage::User => "nothing",
-        Stage::Kinematics | Stage::GeomPoses | Stage::SitePoses => "forward kinematics, inside mj_step and mj_forward",
+        Stage::Kinematics | Stage::GeomPoses | Stage::SitePoses => {
+            "forward kinematics, inside mj_step and mj_forward"
+        }
         Stage::ComPos | Stage::ComVel => "the centre-of-mass stage, inside mj_step and mj_forward",
         Stage::MassMatrix | Stage::Factor => "the mass-matrix stage, inside mj_step and mj_forward",
         Stage::Collision => "collision detection, inside mj_step and mj_forward",
@@ -182,7 +210,13 @@ impl Schema for ModelNames<'_> {
 
     fn root_names(&self) -> Vec<String> {
         let own = self.functions().filter(|(_, f)| f.object.is_empty()).map(|(_, f)| f.name);
-        ["model", "data"].into_iter().chain(OBJECTS).chain(["mj_setConst"]).chain(own).map(String::from).collect()
+        ["model", "data"]
+            .into_iter()
+            .chain(OBJECTS)
+            .chain(["mj_setConst"])
+            .chain(own)
+            .map(String::from)
+            .collect()
     }
 
     fn member(&self, object: ObjectId, name: &str) -> Option<Entry> {
@@ -191,7 +225,9 @@ impl Schema for ModelNames<'_> {
                 if of == Object::Model {
                     match name {
                         "opt" => return Some(Entry::Object(handle::encode(Thing::Struct(Object::Option)))),
-                        "stat" => return Some(Entry::Object(handle::encode(Thing::Struct(Object::Statistic)))),
+                        "stat" => {
+                            return Some(Entry::Object(handle::encode(Thing::Struct(Object::Statistic))));
+                        }
                         _ => {}
                     }
                 }
@@ -209,10 +245,10 @@ impl Schema for ModelNames<'_> {
             Thing::Functions(i) => {
                 let holder = OBJECTS.get(i)?;
                 match (*holder, name) {
-                    ("sim", "time") => reflect::field(Object::Data, "time").map(|f| Entry::Field(self.whole(f, "sim.time".into()))),
-                    ("sim", "timestep") => {
-                        reflect::field(Object::Option, "timestep").map(|f| Entry::Field(self.whole(f, "sim.timestep".into())))
-                    }
+                    ("sim", "time") => reflect::field(Object::Data, "time")
+                        .map(|f| Entry::Field(self.whole(f, "sim.time".into()))),
+                    ("sim", "timestep") => reflect::field(Object::Option, "timestep")
+                        .map(|f| Entry::Field(self.whole(f, "sim.timestep".into()))),
                     _ => self.function_of(holder, name),
                 }
             }
@@ -234,7 +270,9 @@ impl Schema for ModelNames<'_> {
             }
             Some(Thing::Functions(i)) => {
                 let holder = OBJECTS.get(i).copied().unwrap_or("");
-                names.extend(self.functions().filter(|(_, f)| f.object == holder).map(|(_, f)| f.name.to_string()));
+                names.extend(
+                    self.functions().filter(|(_, f)| f.object == holder).map(|(_, f)| f.name.to_string()),
+                );
                 if holder == "sim" {
                     names.extend(["time".into(), "timestep".into()]);
                 }
@@ -278,7 +316,11 @@ impl Schema for ModelNames<'_> {
     }
 
     fn function(&self, FunctionId(i): FunctionId) -> FunctionInfo {
-        functions::TABLE.get(i as usize).or(functions::TABLE.first()).map(functions::info).unwrap_or_else(|| unreachable_info())
+        functions::TABLE
+            .get(i as usize)
+            .or(functions::TABLE.first())
+            .map(functions::info)
+            .unwrap_or_else(|| unreachable_info())
     }
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {

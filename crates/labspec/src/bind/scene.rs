@@ -97,7 +97,11 @@ impl Models {
 }
 
 /// An error of a code that is not in the table of lesson rules: the model compiler's, the language's, ours.
-pub(crate) fn finding(code: &'static str, span: std::ops::Range<usize>, message: impl Into<String>) -> Finding {
+pub(crate) fn finding(
+    code: &'static str,
+    span: std::ops::Range<usize>,
+    message: impl Into<String>,
+) -> Finding {
     Finding {
         code,
         severity: Severity::Error,

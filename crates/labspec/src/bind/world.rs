@@ -50,7 +50,9 @@ fn check(field: FieldId, value: f64) -> Result<(), String> {
         }
         "cone" if !is(&[0]) => Err(format!("friction cone {value} is not supported yet: 0 is pyramidal")),
         "solver" if !is(&[2]) => Err(format!("solver {value} is not supported yet: 2 is Newton")),
-        "geom_condim" if !is(&[1, 3]) => Err(format!("condim {value} is not supported yet: 1 is frictionless, 3 slides")),
+        "geom_condim" if !is(&[1, 3]) => {
+            Err(format!("condim {value} is not supported yet: 1 is frictionless, 3 slides"))
+        }
         _ => Ok(()),
     }
 }

@@ -34,7 +34,11 @@ pub(super) struct Arguments {
 
 pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
-    let demand = if a.full { Demand { reads: FieldSet::ALL, ..target.programs.demand } } else { target.programs.demand };
+    let demand = if a.full {
+        Demand { reads: FieldSet::ALL, ..target.programs.demand }
+    } else {
+        target.programs.demand
+    };
     let plan = Plan::new(&target.model, &demand);
     let data = Data::planned(&target.model, plan);
     let key = target.lab.key.as_ref().map(|k| k.value.max(0.0) as usize);

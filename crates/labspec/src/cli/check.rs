@@ -116,7 +116,10 @@ fn collect(paths: &[PathBuf]) -> Result<Vec<(PathBuf, bool)>, Failure> {
     }
     if files.is_empty() {
         let names: Vec<String> = paths.iter().map(|p| p.display().to_string()).collect();
-        return Err(format!("no lessons in {}: name .md or .json files, or a folder of them", names.join(", ")));
+        return Err(format!(
+            "no lessons in {}: name .md or .json files, or a folder of them",
+            names.join(", ")
+        ));
     }
     Ok(files)
 }
@@ -129,11 +132,17 @@ fn walk(folder: &Path, files: &mut Vec<(PathBuf, bool)>, depth: usize) -> Result
         return Err(format!("{} is nested more than {MAX_DEPTH} folders deep", folder.display()));
     }
     let cannot = |e: std::io::Error| format!("cannot read {}: {e}", folder.display());
-    let mut entries: Vec<PathBuf> =
-        std::fs::read_dir(folder).map_err(cannot)?.map(|e| e.map(|e| e.path())).collect::<Result<_, _>>().map_err(cannot)?;
+    let mut entries: Vec<PathBuf> = std::fs::read_dir(folder)
+        .map_err(cannot)?
+        .map(|e| e.map(|e| e.path()))
+        .collect::<Result<_, _>>()
+        .map_err(cannot)?;
     entries.sort();
     for path in entries {
-        let hidden = path.file_name().and_then(|n| n.to_str()).is_some_and(|n| n.starts_with('.') || n == "node_modules");
+        let hidden = path
+            .file_name()
+            .and_then(|n| n.to_str())
+            .is_some_and(|n| n.starts_with('.') || n == "node_modules");
         // Links are not followed: they may lead out of the folder, or round in a circle.
         let Ok(meta) = std::fs::symlink_metadata(&path) else { continue };
         if hidden || meta.is_symlink() {
@@ -193,7 +202,14 @@ fn last_line(checked: &[Checked], findings: &[Finding]) -> String {
     if runs > 0 {
         parts.push(plural(runs, "run"));
     }
-    for verdict in [Verdict::Verified, Verdict::Fragile, Verdict::Ambiguous, Verdict::Refuted, Verdict::Failed, Verdict::Unverified] {
+    for verdict in [
+        Verdict::Verified,
+        Verdict::Fragile,
+        Verdict::Ambiguous,
+        Verdict::Refuted,
+        Verdict::Failed,
+        Verdict::Unverified,
+    ] {
         if count(verdict) > 0 {
             parts.push(format!("{} {}", count(verdict), verdict.as_str()));
         }

@@ -13,7 +13,8 @@ pub(super) struct Arguments {
 pub(super) fn explain(a: &Arguments) -> Result<Outcome, Failure> {
     let Some(code) = &a.code else {
         let width = rules::all().map(|(code, _)| code.len()).max().unwrap_or(0);
-        let lines: Vec<String> = rules::all().map(|(code, summary)| format!("{code:<width$}  {summary}\n")).collect();
+        let lines: Vec<String> =
+            rules::all().map(|(code, summary)| format!("{code:<width$}  {summary}\n")).collect();
         print(&lines.concat())?;
         return Ok(Outcome::Clean);
     };
@@ -21,7 +22,8 @@ pub(super) fn explain(a: &Arguments) -> Result<Outcome, Failure> {
     match text {
         Some(text) => print(&text).map(|()| Outcome::Clean),
         None => {
-            let near = json::nearest(code, rules::all().map(|(c, _)| c)).map_or(String::new(), |c| format!("; did you mean `{c}`?"));
+            let near = json::nearest(code, rules::all().map(|(c, _)| c))
+                .map_or(String::new(), |c| format!("; did you mean `{c}`?"));
             Err(format!("there is no code `{code}`{near} `labspec explain` lists all"))
         }
     }

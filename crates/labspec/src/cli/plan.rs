@@ -28,15 +28,24 @@ pub(super) fn plan(a: &Arguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
     let demand = &target.programs.demand;
     let plan = Plan::new(&target.model, demand);
-    let list = |set: &labspec_core::reflect::FieldSet| -> Vec<&'static str> { set.iter().map(|f| f.info().name).collect() };
+    let list = |set: &labspec_core::reflect::FieldSet| -> Vec<&'static str> {
+        set.iter().map(|f| f.info().name).collect()
+    };
     match a.format {
         Format::Human => {
             let mut text = String::new();
-            let names = |names: Vec<&str>| if names.is_empty() { "nothing".to_string() } else { names.join(", ") };
+            let names =
+                |names: Vec<&str>| if names.is_empty() { "nothing".to_string() } else { names.join(", ") };
             let _ = writeln!(text, "reads   {}", names(list(&demand.reads)));
             let _ = writeln!(text, "writes  {}\n", names(list(&demand.writes)));
             for d in plan.decisions() {
-                let _ = writeln!(text, "{}  {:<14} {}", if d.keep { "keep " } else { "leave" }, stage(d.stage), d.reason);
+                let _ = writeln!(
+                    text,
+                    "{}  {:<14} {}",
+                    if d.keep { "keep " } else { "leave" },
+                    stage(d.stage),
+                    d.reason
+                );
             }
             let kept = plan.decisions().iter().filter(|d| d.keep).count();
             let _ = writeln!(text, "\n{kept} of {} stages run in every step", plan.decisions().len());
@@ -48,7 +57,8 @@ pub(super) fn plan(a: &Arguments) -> Result<Outcome, Failure> {
                 .iter()
                 .map(|d| json!({"stage": stage(d.stage), "keep": d.keep, "reason": d.reason}))
                 .collect();
-            let value = json!({"reads": list(&demand.reads), "writes": list(&demand.writes), "stages": stages});
+            let value =
+                json!({"reads": list(&demand.reads), "writes": list(&demand.writes), "stages": stages});
             print(&format!("{}\n", serde_json::to_string_pretty(&value).map_err(|e| e.to_string())?))?;
         }
     }

@@ -35,7 +35,8 @@ enum Format {
 pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
     let mut findings = Vec::new();
-    let report = compare(&target.lab, &target.model, &target.programs, a.until, &mut findings).map_err(|e| e.0)?;
+    let report =
+        compare(&target.lab, &target.model, &target.programs, a.until, &mut findings).map_err(|e| e.0)?;
     if let Some(f) = findings.first() {
         return Err(format!("a closed form has a mistake: {}; `labspec check` shows where", f.message));
     }
@@ -44,7 +45,10 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     }
     match a.format {
         Format::Human => print(&table(&report))?,
-        Format::Json => print(&format!("{}\n", serde_json::to_string_pretty(&value(&report)).map_err(|e| e.to_string())?))?,
+        Format::Json => print(&format!(
+            "{}\n",
+            serde_json::to_string_pretty(&value(&report)).map_err(|e| e.to_string())?
+        ))?,
     }
     let diverged = report.rows.iter().any(|r| r.diverged);
     Ok(if diverged { Outcome::Findings } else { Outcome::Clean })
@@ -57,7 +61,8 @@ fn table(report: &Report) -> String {
             Some(Truth::ClosedForm) => "the closed form".to_string(),
             _ => format!("RK4 with tiny steps (itself off by about {})", significant(report.uncertainty[i])),
         };
-        let _ = writeln!(text, "{trace}: largest error over {} s against {against}", significant(report.length));
+        let _ =
+            writeln!(text, "{trace}: largest error over {} s against {against}", significant(report.length));
         let _ = writeln!(text, "  integrator   timestep        error   order   µs per s");
         for r in &report.rows {
             let order = r.orders[i].map_or("–".to_string(), |o| format!("{o:.2}"));
@@ -81,7 +86,10 @@ fn value(report: &Report) -> Value {
             })
         })
         .collect();
-    let truth: Vec<&str> =
-        report.truth.iter().map(|t| if *t == Truth::ClosedForm { "closed form" } else { "tiny steps" }).collect();
+    let truth: Vec<&str> = report
+        .truth
+        .iter()
+        .map(|t| if *t == Truth::ClosedForm { "closed form" } else { "tiny steps" })
+        .collect();
     json!({"traces": report.traces, "truth": truth, "uncertainty": report.uncertainty, "length": report.length, "rows": rows})
 }

@@ -40,8 +40,10 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
     if a.tight {
         (m.opt.tolerance, m.opt.ls_tolerance, m.opt.iterations, m.opt.ls_iterations) = (0.0, 1e-10, 200, 100);
     }
-    let text = std::fs::read_to_string(&a.states).map_err(|e| format!("cannot read {}: {e}", a.states.display()))?;
-    let oracle: Value = serde_json::from_str(&text).map_err(|e| format!("{} is not JSON: {e}", a.states.display()))?;
+    let text =
+        std::fs::read_to_string(&a.states).map_err(|e| format!("cannot read {}: {e}", a.states.display()))?;
+    let oracle: Value =
+        serde_json::from_str(&text).map_err(|e| format!("{} is not JSON: {e}", a.states.display()))?;
     let mut d = Data::planned(&m, Plan::new(&m, &Demand::OBSERVE));
 
     let model = names(&oracle["model"], |name| field(&m, &d, Object::Model, name));
@@ -120,7 +122,9 @@ fn contacts(d: &Data) -> Value {
     let mut rows: Vec<_> = d.contact.iter().collect();
     rows.sort_by(|a, b| {
         let place = |c: &core::Contact| c.pos.map(|x| (x * 1e6).round());
-        (a.geom1, a.geom2).cmp(&(b.geom1, b.geom2)).then(place(a).partial_cmp(&place(b)).unwrap_or(std::cmp::Ordering::Equal))
+        (a.geom1, a.geom2)
+            .cmp(&(b.geom1, b.geom2))
+            .then(place(a).partial_cmp(&place(b)).unwrap_or(std::cmp::Ordering::Equal))
     });
     rows.iter()
         .map(|c| {
@@ -138,7 +142,10 @@ fn set_array(m: &mut Model, d: &mut Data, name: &str, values: &Value) -> Result<
     let expected = reflect::view(m, d, f).len();
     let list = values.as_array().map_or(&[][..], Vec::as_slice);
     if list.len() != expected {
-        return Err(format!("the recording has {} numbers for {name}, the model {expected}: is it of another model?", list.len()));
+        return Err(format!(
+            "the recording has {} numbers for {name}, the model {expected}: is it of another model?",
+            list.len()
+        ));
     }
     for (i, v) in list.iter().enumerate() {
         reflect::view_mut(m, d, f).set(i, v.as_f64().unwrap_or(f64::NAN));
@@ -148,7 +155,8 @@ fn set_array(m: &mut Model, d: &mut Data, name: &str, values: &Value) -> Result<
 
 fn set_option(m: &mut Model, d: &mut Data, text: &str) -> Result<(), Failure> {
     let (name, values) = text.split_once('=').ok_or_else(|| format!("--option {text}: write NAME=VALUE"))?;
-    let f = reflect::field(Object::Option, name).ok_or_else(|| format!("--option {text}: model.opt has no field `{name}`"))?;
+    let f = reflect::field(Object::Option, name)
+        .ok_or_else(|| format!("--option {text}: model.opt has no field `{name}`"))?;
     for (i, value) in values.split_whitespace().enumerate() {
         let x = value.parse::<f64>().map_err(|_| format!("--option {text}: `{value}` is not a number"))?;
         if !reflect::view_mut(m, d, f).set(i, x) {

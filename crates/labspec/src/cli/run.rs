@@ -172,7 +172,11 @@ fn chart(lab: &Lab, plot: &Plot, index: usize, table: &Table) -> Chart {
         xmax: None,
         ymin: plot.ymin.as_ref().map(|n| n.value),
         ymax: plot.ymax.as_ref().map(|n| n.value),
-        ref_lines: plot.ref_lines.iter().map(|l| (l.y.value, l.label.as_ref().map(|t| t.value.clone()))).collect(),
+        ref_lines: plot
+            .ref_lines
+            .iter()
+            .map(|l| (l.y.value, l.label.as_ref().map(|t| t.value.clone())))
+            .collect(),
         series: series.collect(),
     }
 }

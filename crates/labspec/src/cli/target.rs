@@ -6,7 +6,7 @@ use crate::bind::scene::Models;
 use crate::finding::{Finding, Severity};
 use crate::lint::ModelFolder;
 use crate::report;
-use crate::source::{SourceFile, Text, SourceMap};
+use crate::source::{SourceFile, SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson, load_lesson};
 use labspec_core::Model;
 use std::path::{Path, PathBuf};
@@ -15,8 +15,9 @@ use std::sync::Arc;
 /// The folder of models for a file.
 pub(super) fn model_folder(options: &ModelOptions, file: &Path) -> Result<ModelFolder, Failure> {
     match &options.models {
-        Some(folder) => ModelFolder::open(folder)
-            .map_err(|e| format!("cannot read the model folder {}: {e}; state another one with --models", folder.display())),
+        Some(folder) => ModelFolder::open(folder).map_err(|e| {
+            format!("cannot read the model folder {}: {e}; state another one with --models", folder.display())
+        }),
         None => Ok(ModelFolder::near(file)),
     }
 }
@@ -42,7 +43,8 @@ pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<Target, Fai
     let mut findings: Vec<Finding> = lesson.findings.clone();
     let model = models.of(&lab, &mut findings);
     let programs = model.as_ref().map(|m| Programs::compile(&lab, m, &mut findings));
-    let mut findings: Vec<Finding> = findings.into_iter().map(|f| if f.path.is_empty() { f.at(&lesson.file) } else { f }).collect();
+    let mut findings: Vec<Finding> =
+        findings.into_iter().map(|f| if f.path.is_empty() { f.at(&lesson.file) } else { f }).collect();
     findings.extend(models.take_findings());
     // Only what stops this lab matters here: `check` reports everything.
     findings.retain(|f| f.severity == Severity::Error && (f.path != *lesson.file.path() || within(&lab, f)));
@@ -53,7 +55,10 @@ pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<Target, Fai
             files.extend(models.files());
             let list = report::human(&findings, &files, false);
             let why = if list.is_empty() { String::new() } else { format!("\n\n{}", list.trim_end()) };
-            Err(format!("the lab {argument} cannot run; `labspec check {}` reports everything{why}", path.display()))
+            Err(format!(
+                "the lab {argument} cannot run; `labspec check {}` reports everything{why}",
+                path.display()
+            ))
         }
     }
 }
@@ -70,7 +75,9 @@ fn split(argument: &str) -> Result<(PathBuf, Option<LabAddress>), Failure> {
     match argument.split_once('#') {
         Some((path, address)) => match LabAddress::parse(&format!("#{address}")) {
             Some(parsed) => Ok((PathBuf::from(path), Some(parsed))),
-            None => Err(format!("`#{address}` is not a place of a lab; write LESSON.md#2 or LESSON.md#quiz-id.1")),
+            None => {
+                Err(format!("`#{address}` is not a place of a lab; write LESSON.md#2 or LESSON.md#quiz-id.1"))
+            }
         },
         None => Ok((PathBuf::from(argument), None)),
     }
@@ -106,6 +113,10 @@ pub(super) fn load_model(path: &Path) -> Result<Model, Failure> {
     labspec_core::mjcf::compile(file.text()).map_err(|list| {
         let findings: Vec<Finding> =
             list.iter().map(|d| crate::bind::scene::from_mjcf(d, d.span.clone()).at(&file)).collect();
-        format!("the model {} does not load\n\n{}", path.display(), report::human(&findings, &[&file], false).trim_end())
+        format!(
+            "the model {} does not load\n\n{}",
+            path.display(),
+            report::human(&findings, &[&file], false).trim_end()
+        )
     })
 }

@@ -49,11 +49,17 @@ impl std::error::Error for RunError {}
 ///
 /// # Errors
 /// There is no such control, or it is a button.
-pub fn set_controls(session: &mut Session<'_>, programs: &Programs, set: &[(String, Value)]) -> Result<(), RunError> {
+pub fn set_controls(
+    session: &mut Session<'_>,
+    programs: &Programs,
+    set: &[(String, Value)],
+) -> Result<(), RunError> {
     for (label, value) in set {
         match programs.control(label) {
             Some((i, ControlProgram::Change(..))) => session.set_control(i, value.clone()),
-            Some(_) => return Err(RunError(format!("\"{label}\" is a button: press it instead of setting it"))),
+            Some(_) => {
+                return Err(RunError(format!("\"{label}\" is a button: press it instead of setting it")));
+            }
             None => return Err(unknown(label, programs)),
         }
     }
@@ -69,7 +75,9 @@ pub fn presses(programs: &Programs, press: &[(String, f64)]) -> Result<Vec<(usiz
     for (label, time) in press {
         match programs.control(label) {
             Some((i, ControlProgram::Press(_))) => list.push((i, *time)),
-            Some(_) => return Err(RunError(format!("\"{label}\" is not a button: set it instead of pressing it"))),
+            Some(_) => {
+                return Err(RunError(format!("\"{label}\" is not a button: set it instead of pressing it")));
+            }
             None => return Err(unknown(label, programs)),
         }
     }
@@ -83,7 +91,8 @@ fn unknown(label: &str, programs: &Programs) -> RunError {
         [] => "this lab has no controls".to_string(),
         all => format!("the controls are: \"{}\"", all.join("\", \"")),
     };
-    let hint = crate::json::nearest(label, labels).map_or(String::new(), |l| format!("; did you mean \"{l}\"?"));
+    let hint =
+        crate::json::nearest(label, labels).map_or(String::new(), |l| format!("; did you mean \"{l}\"?"));
     RunError(format!("there is no control \"{label}\"{hint} ({known})"))
 }
 
@@ -91,7 +100,12 @@ fn unknown(label: &str, programs: &Programs) -> RunError {
 ///
 /// # Errors
 /// More than [`MAX_STEPS`].
-pub fn count_steps(lab: &Lab, until: Option<f64>, steps: Option<usize>, timestep: f64) -> Result<usize, RunError> {
+pub fn count_steps(
+    lab: &Lab,
+    until: Option<f64>,
+    steps: Option<usize>,
+    timestep: f64,
+) -> Result<usize, RunError> {
     let length = until.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(DEFAULT_LENGTH);
     // JavaScript's Math.round, as the page's own clock would count.
     let count = steps.map_or((length / timestep + 0.5).floor(), |n| n as f64);
@@ -117,7 +131,9 @@ pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) 
     let steps = count_steps(lab, options.until, options.steps, timestep)?;
     let every = options.every.max(1);
     if steps / every * (programs.probes.len() + 1) > MAX_CELLS {
-        return Err(RunError(format!("{steps} steps give too large a table; sample less often with --every")));
+        return Err(RunError(format!(
+            "{steps} steps give too large a table; sample less often with --every"
+        )));
     }
 
     let mut table = Table::new(timestep, programs.probes.iter().map(|p| p.name.clone()));

@@ -177,7 +177,9 @@ impl<'p> Session<'p> {
 
     fn reset_data(&mut self) {
         match self.key {
-            Some(key) if key < self.world.model.nkey => core::reset_data_keyframe(&self.world.model, &mut self.world.data, key),
+            Some(key) if key < self.world.model.nkey => {
+                core::reset_data_keyframe(&self.world.model, &mut self.world.data, key)
+            }
             _ => core::reset_data(&self.world.model, &mut self.world.data),
         }
         self.forward();

@@ -17,23 +17,25 @@ pub(super) struct Wish {
 
 /// Half the size of a mark, with some space.
 const MARK: f64 = 5.5;
-/// Most labels that are tried: the work grows with their number times that of the curves' points.
+/// Most marks of a chart with labels: the work grows with the square of their number, and more are a cloud anyway.
 const MOST: usize = 300;
 
 /// Baselines of the labels that found a place, in the order of service. A label that finds none is left out.
 pub(super) fn arrange(
-    wishes: Vec<Wish>,
+    mut wishes: Vec<Wish>,
     marks: &[Point],
     curves: &[Vec<Point>],
     frame: &Frame,
 ) -> Vec<(Point, String)> {
-    let mut wishes = wishes;
+    if marks.len() > MOST {
+        return Vec::new();
+    }
     wishes.sort_by_key(|wish| !wish.first);
     wishes.dedup_by(|a, b| a.point == b.point && a.text == b.text);
     let marks: Vec<Frame> = marks.iter().map(|p| around(*p, MARK - 1.0, MARK - 1.0)).collect();
     let mut taken: Vec<Frame> = Vec::new();
     let mut placed = Vec::new();
-    for wish in wishes.into_iter().take(MOST).filter(|w| !w.text.is_empty()) {
+    for wish in wishes.into_iter().filter(|w| !w.text.is_empty()) {
         let free = |room: &Frame| {
             frame.left <= room.left
                 && room.right <= frame.right

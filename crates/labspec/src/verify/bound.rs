@@ -58,7 +58,10 @@ impl<'a> BoundVerify<'a> {
         let in_lab = ModelNames { model, scope: Scope::Lab };
         let mut runs: Vec<BoundRun<'a>> = Vec::new();
         for run in &verify.runs {
-            let setup = run.setup.as_ref().and_then(|t| keep(t, Compiler::new(&in_lab, &mut globals).statements(&t.value)));
+            let setup = run
+                .setup
+                .as_ref()
+                .and_then(|t| keep(t, Compiler::new(&in_lab, &mut globals).statements(&t.value)));
             runs.push(BoundRun { name: &run.name.value, spec: Some(run), setup });
         }
         if runs.is_empty() {
@@ -71,7 +74,15 @@ impl<'a> BoundVerify<'a> {
                 measures.push((name.value.as_str(), m));
             }
         }
-        good.then_some(BoundVerify { lab, model, programs, globals, runs, measures, place: verify.span.clone() })
+        good.then_some(BoundVerify {
+            lab,
+            model,
+            programs,
+            globals,
+            runs,
+            measures,
+            place: verify.span.clone(),
+        })
     }
 
     /// Makes every run and takes every measure. `None` when a run cannot be made.
@@ -87,7 +98,12 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// Whether each condition holds. `None` when one cannot be evaluated.
-    pub(super) fn conditions(&self, outcome: &Outcome, verify: &Verify, findings: &mut Vec<Finding>) -> Option<Vec<bool>> {
+    pub(super) fn conditions(
+        &self,
+        outcome: &Outcome,
+        verify: &Verify,
+        findings: &mut Vec<Finding>,
+    ) -> Option<Vec<bool>> {
         verify.options.iter().map(|text| self.value(outcome, text, findings).map(|v| v.truthy())).collect()
     }
 
@@ -138,7 +154,11 @@ impl<'a> BoundVerify<'a> {
         let mut session = Session::start(self.programs, self.model, key, &demand);
         let place = run.spec.map_or(self.place.clone(), |r| r.name.span());
         let mut refuse = |e: run::RunError| {
-            findings.push(finding("run-impossible", place.clone(), format!("the run `{}` cannot be made: {e}", run.name)));
+            findings.push(finding(
+                "run-impossible",
+                place.clone(),
+                format!("the run `{}` cannot be made: {e}", run.name),
+            ));
         };
         let mut press = Vec::new();
         let (mut until, mut steps) = (None, None);
@@ -154,9 +174,12 @@ impl<'a> BoundVerify<'a> {
             session.run_statements(&setup.program, setup.text);
         }
         session.perturb(numerics, self.states_timestep(run));
-        let count = run::count_steps(self.lab, until, steps, session.world.model.opt.timestep).map_err(&mut refuse).ok()?;
+        let count = run::count_steps(self.lab, until, steps, session.world.model.opt.timestep)
+            .map_err(&mut refuse)
+            .ok()?;
 
-        let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
+        let mut running: Vec<Measure<'_>> =
+            measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
         let mut pending = press.as_slice();
         session.press_due(&mut pending);
         running.iter_mut().for_each(|m| m.sample(&mut session));
@@ -168,7 +191,11 @@ impl<'a> BoundVerify<'a> {
         let values = running.into_iter().map(|m| m.finish(&mut session)).collect();
         for t in &session.troubles {
             let span = t.text.span_of(t.span.clone());
-            findings.push(finding(t.code, span, format!("{} (in the run `{}`, at t = {} s)", t.message, run.name, t.time)));
+            findings.push(finding(
+                t.code,
+                span,
+                format!("{} (in the run `{}`, at t = {} s)", t.message, run.name, t.time),
+            ));
         }
         Some((values, session.warnings.iter().map(|w| w.number).sum()))
     }
@@ -177,7 +204,11 @@ impl<'a> BoundVerify<'a> {
     fn states_timestep(&self, run: &BoundRun<'_>) -> bool {
         let Some(timestep) = reflect::field(Object::Option, "timestep") else { return false };
         let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 == u32::from(timestep.0));
-        let set = run.spec.iter().flat_map(|r| &r.set).filter_map(|(label, _)| self.programs.effects_of(&label.value));
+        let set = run
+            .spec
+            .iter()
+            .flat_map(|r| &r.set)
+            .filter_map(|(label, _)| self.programs.effects_of(&label.value));
         let setups = run.setup.iter().map(|s| s.program.effects());
         let own = self.programs.setup.iter().map(|b| b.program.effects());
         set.chain(setups).chain(own).any(writes)

@@ -58,7 +58,14 @@ impl<'a> Measure<'a> {
     pub(super) fn new(program: &'a Program, text: &'a Text) -> Measure<'a> {
         let start = |a: &'a Aggregate| {
             let how = How::of(a)?;
-            Some(Running { how, args: &a.args, slot: a.slot, result: f64::NAN, done: false, previous: f64::NAN })
+            Some(Running {
+                how,
+                args: &a.args,
+                slot: a.slot,
+                result: f64::NAN,
+                done: false,
+                previous: f64::NAN,
+            })
         };
         Measure { program, text, running: program.aggregates().iter().filter_map(start).collect() }
     }
@@ -67,7 +74,9 @@ impl<'a> Measure<'a> {
     pub(super) fn sample(&mut self, session: &mut Session<'_>) {
         let time = session.world.data.time;
         for r in &mut self.running {
-            let mut value = |i: usize| r.args.get(i).and_then(|p| session.evaluate(p, self.text)).unwrap_or(Value::Undefined);
+            let mut value = |i: usize| {
+                r.args.get(i).and_then(|p| session.evaluate(p, self.text)).unwrap_or(Value::Undefined)
+            };
             match r.how {
                 How::First | How::At | How::Before if r.done => {}
                 How::First => {

@@ -113,21 +113,36 @@ pub struct Judgement {
 }
 
 /// Which options hold, and so whether the keyed one is the only one.
-fn judge_options(bound: &BoundVerify<'_>, holds: &[bool], verify: &Verify, question: &Question, findings: &mut Vec<Finding>) -> Verdict {
-    let (Some(answer), QuestionKind::Choice { options, answer: Some(keyed), .. }) = (question.right_option(), &question.kind) else {
+fn judge_options(
+    bound: &BoundVerify<'_>,
+    holds: &[bool],
+    verify: &Verify,
+    question: &Question,
+    findings: &mut Vec<Finding>,
+) -> Verdict {
+    let (Some(answer), QuestionKind::Choice { options, answer: Some(keyed), .. }) =
+        (question.right_option(), &question.kind)
+    else {
         return Verdict::Failed;
     };
-    let name = |i: usize| format!("{} (\"{}\")", i, options.get(i).map_or(String::new(), |o| shorten(&o.value)));
+    let name =
+        |i: usize| format!("{} (\"{}\")", i, options.get(i).map_or(String::new(), |o| shorten(&o.value)));
     let held: Vec<usize> = (0..holds.len()).filter(|&i| holds[i]).collect();
     let condition = |i: usize| verify.options.get(i).map_or(verify.span.clone(), |c| c.span());
     if !holds.get(answer).copied().unwrap_or(false) {
         let others = held.iter().map(|&i| name(i)).collect::<Vec<_>>().join(", ");
-        let mut f = finding("answer-refuted", keyed.span.clone(), format!("the simulation refutes answer {}", name(answer)))
-            .why("a student who predicts right is told that they are wrong")
-            .related(condition(answer), "this condition does not hold");
+        let mut f = finding(
+            "answer-refuted",
+            keyed.span.clone(),
+            format!("the simulation refutes answer {}", name(answer)),
+        )
+        .why("a student who predicts right is told that they are wrong")
+        .related(condition(answer), "this condition does not hold");
         f = match held.as_slice() {
             [] => f.help("no condition holds: correct the conditions, or the model that they are about"),
-            [one] => f.help(format!("what holds is answer {others}")).fix(keyed.span.clone(), one.to_string()),
+            [one] => {
+                f.help(format!("what holds is answer {others}")).fix(keyed.span.clone(), one.to_string())
+            }
             _ => f.help(format!("what holds is {others}")),
         };
         findings.push(f);
@@ -135,9 +150,13 @@ fn judge_options(bound: &BoundVerify<'_>, holds: &[bool], verify: &Verify, quest
     }
     if held.len() > 1 {
         let others = held.iter().filter(|&&i| i != answer).map(|&i| name(i)).collect::<Vec<_>>().join(", ");
-        let mut f = finding("answer-ambiguous", keyed.span.clone(), format!("besides answer {}, {others} holds too", name(answer)))
-            .why("a student who chooses the other one is right and is told otherwise")
-            .help("word the options, or write their conditions, so that exactly one can hold");
+        let mut f = finding(
+            "answer-ambiguous",
+            keyed.span.clone(),
+            format!("besides answer {}, {others} holds too", name(answer)),
+        )
+        .why("a student who chooses the other one is right and is told otherwise")
+        .help("word the options, or write their conditions, so that exactly one can hold");
         for &i in held.iter().filter(|&&i| i != answer) {
             f = f.related(condition(i), "this condition holds too");
         }
@@ -145,7 +164,9 @@ fn judge_options(bound: &BoundVerify<'_>, holds: &[bool], verify: &Verify, quest
         return Verdict::Ambiguous;
     }
     for (numerics, how) in PERTURBED {
-        let again = bound.outcome(numerics, &mut Vec::new()).and_then(|o| bound.conditions(&o, verify, &mut Vec::new()));
+        let again = bound
+            .outcome(numerics, &mut Vec::new())
+            .and_then(|o| bound.conditions(&o, verify, &mut Vec::new()));
         if again.as_deref() != Some(holds) {
             findings.push(fragile(keyed.span.clone(), how));
             return Verdict::Fragile;
@@ -154,7 +175,13 @@ fn judge_options(bound: &BoundVerify<'_>, holds: &[bool], verify: &Verify, quest
     Verdict::Verified
 }
 
-fn judge_value(bound: &BoundVerify<'_>, computed: f64, verify: &Verify, question: &Question, findings: &mut Vec<Finding>) -> Verdict {
+fn judge_value(
+    bound: &BoundVerify<'_>,
+    computed: f64,
+    verify: &Verify,
+    question: &Question,
+    findings: &mut Vec<Finding>,
+) -> Verdict {
     let (Some((answer, tol)), Some(value), QuestionKind::Numeric { answer: Some(keyed), .. }) =
         (question.numeric(), &verify.value, &question.kind)
     else {
@@ -163,15 +190,24 @@ fn judge_value(bound: &BoundVerify<'_>, computed: f64, verify: &Verify, question
     let right = |x: f64| (x - answer).abs() <= tol;
     if !right(computed) {
         findings.push(
-            finding("answer-refuted", keyed.span.clone(), format!("the answer is {answer}, the simulation gives {}", significant(computed)))
-                .why(format!("they differ by {}, the tolerance is {}", significant((computed - answer).abs()), significant(tol)))
-                .help("correct the answer, or the expression that it is compared with")
-                .related(value.span(), format!("this is {}", significant(computed))),
+            finding(
+                "answer-refuted",
+                keyed.span.clone(),
+                format!("the answer is {answer}, the simulation gives {}", significant(computed)),
+            )
+            .why(format!(
+                "they differ by {}, the tolerance is {}",
+                significant((computed - answer).abs()),
+                significant(tol)
+            ))
+            .help("correct the answer, or the expression that it is compared with")
+            .related(value.span(), format!("this is {}", significant(computed))),
         );
         return Verdict::Refuted;
     }
     for (numerics, how) in PERTURBED {
-        let again = bound.outcome(numerics, &mut Vec::new()).and_then(|o| bound.number(&o, value, &mut Vec::new()));
+        let again =
+            bound.outcome(numerics, &mut Vec::new()).and_then(|o| bound.number(&o, value, &mut Vec::new()));
         if !again.is_some_and(right) {
             findings.push(fragile(keyed.span.clone(), how));
             return Verdict::Fragile;

@@ -62,7 +62,8 @@ pub fn quoted(text: &str) -> Option<Quoted> {
     let mut exponent = 0;
     if matches!(chars.get(i), Some('e' | 'E')) {
         let sign = usize::from(matches!(chars.get(i + 1), Some('-' | '+')));
-        let digits: String = chars.iter().skip(i + 1 + sign).take_while(|c| c.is_ascii_digit()).take(4).collect();
+        let digits: String =
+            chars.iter().skip(i + 1 + sign).take_while(|c| c.is_ascii_digit()).take(4).collect();
         if let Ok(e) = digits.parse::<i32>() {
             exponent = if chars.get(i + 1) == Some(&'-') { -e } else { e };
         }
@@ -74,7 +75,13 @@ pub fn quoted(text: &str) -> Option<Quoted> {
 
 /// Compares a quoted number with what the simulation gives, and looks for it in the text. `false` when it is
 /// wrong.
-pub(super) fn check(said: &Said, computed: f64, question: Option<&Question>, lesson: &Lesson, findings: &mut Vec<Finding>) -> bool {
+pub(super) fn check(
+    said: &Said,
+    computed: f64,
+    question: Option<&Question>,
+    lesson: &Lesson,
+    findings: &mut Vec<Finding>,
+) -> bool {
     let Some(quoted) = quoted(&said.quote.value) else {
         findings.push(
             finding("quote-without-number", said.quote.span(), "there is no number in this quote")
@@ -95,10 +102,14 @@ pub(super) fn check(said: &Said, computed: f64, question: Option<&Question>, les
     }
     let right = quoted.print(computed);
     findings.push(
-        finding("quote-wrong", place.unwrap_or(said.quote.span()), format!("the text says {}, the simulation gives {right}", said.quote.value))
-            .why("a reader who measures it finds another number")
-            .help(format!("write {right}, or correct the expression that it is compared with"))
-            .related(said.expr.span(), format!("this is {}", super::significant(computed))),
+        finding(
+            "quote-wrong",
+            place.unwrap_or(said.quote.span()),
+            format!("the text says {}, the simulation gives {right}", said.quote.value),
+        )
+        .why("a reader who measures it finds another number")
+        .help(format!("write {right}, or correct the expression that it is compared with"))
+        .related(said.expr.span(), format!("this is {}", super::significant(computed))),
     );
     false
 }
@@ -133,7 +144,8 @@ fn position(text: &str, wanted: &str) -> Option<usize> {
         let mut after = text[i + wanted.len()..].chars();
         let (next, second) = (after.next(), after.next());
         let starts = !(wanted.starts_with(numeric) && before.is_some_and(numeric));
-        let goes_on = next.is_some_and(|c| c.is_ascii_digit()) || (next == Some('.') && second.is_some_and(|c| c.is_ascii_digit()));
+        let goes_on = next.is_some_and(|c| c.is_ascii_digit())
+            || (next == Some('.') && second.is_some_and(|c| c.is_ascii_digit()));
         starts && !(wanted.ends_with(numeric) && goes_on)
     })
 }
