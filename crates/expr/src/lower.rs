@@ -250,7 +250,7 @@ impl Lowering {
                 // All values first: an item may read what an earlier one overwrites.
                 let first = self.row(items);
                 for i in 0..items.len() {
-                    let index = self.constant((offset + i) as f64);
+                    let index = self.constant(offset.saturating_add(i) as f64);
                     self.emit(Op::StoreAt(*view, index, Num(first.0 + i as u32)), ir.span);
                 }
             }

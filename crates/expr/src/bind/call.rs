@@ -41,6 +41,7 @@ impl Binder<'_> {
     fn callee(&mut self, callee: &Expr) -> Attempt<Thing> {
         let before = self.diagnostics.len();
         let thing = self.thing(callee);
+        let ExprKind::Name(_) = &callee.kind else { return thing };
         for report in self.diagnostics.iter_mut().skip(before) {
             if report.code == code::UNKNOWN_NAME {
                 report.code = code::UNKNOWN_FUNCTION;

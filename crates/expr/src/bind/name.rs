@@ -6,6 +6,7 @@ use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Ir, Kind, View};
 use crate::math;
+use crate::parse::MAX_DIAGNOSTICS;
 use crate::schema::{Entry, Field, ObjectId, Type};
 use crate::suggest::{closest, ranked};
 use crate::value::Value;
@@ -131,6 +132,9 @@ impl Binder<'_> {
             .help(*help);
         }
         let report = Diagnostic::error(code::UNKNOWN_NAME, span, format!("unknown name `{name}`"));
+        if self.diagnostics.len() > MAX_DIAGNOSTICS {
+            return report; // nobody will read it: not worth a search for what was meant
+        }
         match self.meant_by_root(name) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(span, meant),
             None => {
@@ -345,6 +349,9 @@ impl Binder<'_> {
             name.span,
             format!("{} has no field `{}`", quoted(&object), name.text),
         );
+        if self.diagnostics.len() > MAX_DIAGNOSTICS {
+            return report;
+        }
         if let Some(hint) = self.schema.hint(id, &name.text) {
             return report.help(hint);
         }

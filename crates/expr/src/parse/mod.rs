@@ -20,7 +20,7 @@ pub const MAX_SOURCE: usize = 32 * 1024;
 pub const MAX_DEPTH: usize = 128;
 
 /// Findings reported for one text.
-const MAX_DIAGNOSTICS: usize = 40;
+pub(crate) const MAX_DIAGNOSTICS: usize = 40;
 
 /// Reads one expression. Never fails: what cannot be read becomes [`ExprKind::Error`] and a finding.
 pub fn parse_expression(source: &str) -> Parsed<Expr> {

@@ -166,7 +166,8 @@ mistakes! {
     // Constructs.
     condition_statement: statements("if (data.time > 1) { data.qpos[0] = 1 } else data.qpos[0] = 2; data.qpso[1] = 3");
     loop_statement: statements("for (let i = 0; i < 3; i++) data.qpos[i] = 0; data.tim = 0");
-    arrow: statements("const s = (x) => x * x; ctx.a = 1 +");
+    arrow: statements("const s = (x) => x * x; ctx.a = s(2) +");
+    function: statements("function f(x) { return x } data.qpos[0] = f(2)");
     template: expression("`t = ${data.time}`");
     object_literal: statements("ctx.a = {x: 1}");
     this: expression("this.time");

@@ -224,3 +224,39 @@ fn statements_print_one_a_line() {
         "const a = 1, b = a * (2 + 3);\ndata.qpos[0] += (-a) ** 1;\nlet c;\nmj_setConst;"
     );
 }
+
+#[test]
+fn long_hostile_texts_end_soon() {
+    let started = std::time::Instant::now();
+    let pieces = [
+        "a;",
+        "a,",
+        "qpso+",
+        "f(a,",
+        "data.qpso;",
+        "“",
+        "'",
+        "`",
+        "(a,",
+        "a?",
+        "[",
+        "/*",
+        "ctx.a=",
+        "data.qpos[0]=1;",
+        "if(",
+        "const a=",
+        "let a;",
+        "x=>",
+        "!",
+        "0,5;",
+        "Math.max(1,",
+        "data.joint('a');",
+    ];
+    for piece in pieces {
+        compile_all(&piece.repeat(MAX_SOURCE / piece.len()));
+        let argument = piece.trim_end_matches([';', '+', ',', '(']);
+        compile_all(&format!("Math.max({argument}{})", format!(", {argument}").repeat(500)));
+    }
+    // About a second; a quadratic search somewhere would take minutes.
+    assert!(started.elapsed().as_secs() < 60);
+}

@@ -45,7 +45,7 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     let mut session = Session::start_with(&target.programs, &target.model, key, data);
     let steps = a.steps.clamp(1, crate::run::MAX_STEPS);
     let lab = !target.programs.probes.is_empty() || target.programs.controller.is_some();
-    advance(&mut session, a.warm.min(crate::run::MAX_STEPS), lab);
+    warm_up(&mut session, a.warm.min(crate::run::MAX_STEPS), lab);
     let start = session.world.data.clone();
     let mut nanoseconds = Vec::new();
     for _ in 0..a.repeat.clamp(1, 1000) {
@@ -71,10 +71,21 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Clean)
 }
 
-/// Whole steps: of the engine for a model alone, of the session with its controller for a lab. Not inlined, so
-/// that a profiler can count from here.
+/// Steps that no counter sees.
+#[inline(never)]
+fn warm_up(session: &mut Session<'_>, steps: usize, lab: bool) {
+    run_steps(session, steps, lab);
+}
+
+/// The measured steps. Not inlined, so that a profiler can count from here.
 #[inline(never)]
 fn advance(session: &mut Session<'_>, steps: usize, lab: bool) {
+    run_steps(session, steps, lab);
+}
+
+/// Whole steps: of the engine for a model alone, of the session with its controller for a lab.
+#[inline(always)]
+fn run_steps(session: &mut Session<'_>, steps: usize, lab: bool) {
     if lab {
         (0..steps).for_each(|_| session.step());
     } else {

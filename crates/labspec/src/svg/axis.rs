@@ -182,8 +182,7 @@ fn write(integers: &[i64], exponent: i32) -> (Vec<String>, Option<Label>) {
         _ => {
             let (sign, size) =
                 if offset < 0 { ("−", around.trim_start_matches('−')) } else { ("+", &*around) };
-            // A plain space at the start of a part of a text is dropped by some renderers.
-            let rest = if offset == 0 { String::new() } else { format!("\u{a0}{sign} {size}") };
+            let rest = if offset == 0 { String::new() } else { format!("{sign} {size}") };
             Some(Label { text: String::from("×10"), power: minus(&power.to_string()), rest })
         }
     };
@@ -315,8 +314,8 @@ mod tests {
     fn labels(low: f64, high: f64, count: usize) -> String {
         let axis = linear(range(Some((low, high)), None, None), count, 1.0);
         let ticks: Vec<String> = axis.ticks.iter().map(|t| t.label.text.clone()).collect();
-        let note = axis.note.map_or(String::new(), |n| format!(" | {}^{}{}", n.text, n.power, n.rest));
-        ticks.join(" ") + &note
+        let note = axis.note.map_or(String::new(), |n| format!(" | {}^{} {}", n.text, n.power, n.rest));
+        ticks.join(" ") + note.trim_end()
     }
 
     fn powers(low: f64, high: f64, count: u8) -> String {
@@ -340,8 +339,8 @@ mod tests {
     fn constant_and_nearly_constant_data() {
         assert_eq!(labels(5.0, 5.0, 5), "4.4 4.6 4.8 5.0 5.2 5.4 5.6");
         assert_eq!(labels(0.0, 0.0, 4), "−1.0 −0.5 0 0.5 1.0");
-        assert_eq!(labels(0.981 - 3e-10, 0.981 + 1e-10, 4), "−4 −2 0 2 | ×10^−10\u{a0}+ 0.981");
-        assert_eq!(labels(-0.981, -0.981 + 1e-10, 2), "0 1 | ×10^−10\u{a0}− 0.981");
+        assert_eq!(labels(0.981 - 3e-10, 0.981 + 1e-10, 4), "−4 −2 0 2 | ×10^−10 + 0.981");
+        assert_eq!(labels(-0.981, -0.981 + 1e-10, 2), "0 1 | ×10^−10 − 0.981");
     }
 
     #[test]

@@ -7,6 +7,9 @@ use super::number::px;
 use super::style::{POWER, TICK};
 use super::text::{clean, escape, width};
 
+/// Space after a raised part. A space character there is dropped by some renderers.
+const SPACE: f64 = 3.5;
+
 /// Text at ticks, perhaps with a raised part, such as a power of ten: `×10` `−6` `+ 0.981`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Label {
@@ -26,7 +29,7 @@ impl Label {
 
     /// Estimated width in pixels.
     pub(super) fn width(&self, size: f64) -> f64 {
-        width(&self.text, size) + width(&self.power, POWER) + width(&self.rest, size)
+        width(&self.text, size) + width(&self.power, POWER) + SPACE + width(&self.rest, size)
     }
 }
 
@@ -124,7 +127,7 @@ impl Canvas {
             ));
             if !label.rest.is_empty() {
                 inner.push_str(&format!(
-                    "<tspan dy=\"4\" font-size=\"{TICK}\">{}</tspan>",
+                    "<tspan dx=\"{SPACE}\" dy=\"4\" font-size=\"{TICK}\">{}</tspan>",
                     escape(&label.rest)
                 ));
             }
