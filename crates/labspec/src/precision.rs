@@ -106,10 +106,17 @@ pub fn compare(
     let check = sample(integrator::RK4, 2.0 * finest / REFERENCE as f64);
 
     let uncertainty: Vec<f64> = (0..targets.len())
-        .map(|i| if targets[i].exact.is_some() { f64::NAN } else { largest_difference(&check.values[i], &reference.values[i]) })
+        .map(|i| {
+            if targets[i].exact.is_some() {
+                f64::NAN
+            } else {
+                largest_difference(&check.values[i], &reference.values[i])
+            }
+        })
         .collect();
     let magnitude = |i: usize| reference.values[i].iter().fold(0.0f64, |m, x| m.max(x.abs()));
-    let floor: Vec<f64> = (0..targets.len()).map(|i| (4.0 * uncertainty[i]).max(1e-12 * magnitude(i))).collect();
+    let floor: Vec<f64> =
+        (0..targets.len()).map(|i| (4.0 * uncertainty[i]).max(1e-12 * magnitude(i))).collect();
 
     let mut rows: Vec<Row> = Vec::new();
     for (kind, name) in INTEGRATORS {
@@ -133,13 +140,6 @@ pub fn compare(
             rows.push(Row { integrator: name, timestep: h, errors, orders, cost, diverged });
         }
     }
-    let uncertainty = |i: usize| {
-        if targets[i].exact.is_some() {
-            f64::NAN
-        } else {
-            largest_difference(&check.values[i], &reference.values[i])
-        }
-    };
     Ok(Report {
         uncertainty,
         traces: targets.iter().map(|t| t.label.to_string()).collect(),
