@@ -1,3 +1,5 @@
 //! Tests that cross crates.
 
 mod lessons;
+mod parity;
+mod support;

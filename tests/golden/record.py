@@ -13,7 +13,7 @@ A case is a model, options that differ from the file's, and how it is sampled. I
               and of constraint rows after EVERY step, as run lengths [count, repeats]; warnings
 
 Numbers are written as text, shortest form that reads back to the same bits, because not every JSON reader
-keeps the last bit. Arrays are flat, row-major.
+keeps the last bit. Arrays are flat, row-major; `0*12` is twelve zeros.
 """
 import json
 import pathlib
@@ -71,10 +71,21 @@ MODEL = ("body_parentid body_rootid body_weldid body_mocapid body_mass body_iner
          "geom_margin geom_gap geom_condim geom_contype geom_conaffinity geom_rbound sensor_adr sensor_dim").split()
 
 
+def runs(counts):
+    """Run lengths [value, repeats]."""
+    out = []
+    for c in counts:
+        if out and out[-1][0] == c:
+            out[-1][1] += 1
+        else:
+            out.append([c, 1])
+    return out
+
+
 def text(a):
-    """Numbers as text; an integer without its point."""
-    flat = np.asarray(a, dtype=float).ravel()
-    return " ".join(repr(float(x)).removesuffix(".0") for x in flat)
+    """Numbers as text; an integer without its point, equal neighbours as `0*12`."""
+    words = [repr(float(x)).removesuffix(".0") for x in np.asarray(a, dtype=float).ravel()]
+    return " ".join(w if n == 1 else f"{w}*{n}" for w, n in runs(words))
 
 
 def contacts(d):
@@ -129,16 +140,6 @@ def forward(case):
         row = {f: text(getattr(d, f)) for f in FIELDS if getattr(d, f).size}
         row.update({f: text(getattr(d, f)) for f in ROWS if d.nefc})
         out.append({"state": state, "data": row, "M": text(M), "contact": contacts(d), "nefc": int(d.nefc)})
-    return out
-
-
-def runs(counts):
-    out = []
-    for c in counts:
-        if out and out[-1][0] == c:
-            out[-1][1] += 1
-        else:
-            out.append([c, 1])
     return out
 
 

@@ -1,0 +1,292 @@
+//! Numbers of MuJoCo 3.14.0, recorded by `golden/record.py`, against ours.
+//!
+//! Three things are held against the recording: what the compiler makes of a model, every field after a forward
+//! pass in eight states, and whole trajectories with the number of contacts and constraint rows of every step.
+//! Differences are absolute for numbers up to 1 and relative above, by the largest recorded number of the field:
+//! a force of 1e4 N is not known to 1e-9 N by anyone.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::support::{compile, model_text, numbers, workspace};
+use labspec_core::reflect::{self, FieldId, Object};
+use labspec_core::{self as core, Contact, Data, Model, Warning};
+use serde_json::Value;
+use std::fmt::Write;
+
+/// A recorded case and the tolerance of its trajectory.
+struct Case {
+    name: &'static str,
+    /// Largest difference of `qpos` and `qvel` at any recorded step.
+    trajectory: f64,
+}
+
+const fn case(name: &'static str, trajectory: f64) -> Case {
+    Case { name, trajectory }
+}
+
+/// Rounding alone: the same formulas, summed in another order, over as many steps as recorded.
+const ROUNDING: f64 = 1e-11;
+/// With contacts and limits the library's solver stops when an improvement falls below its tolerance of 1e-8
+/// times the scale of the problem, ours when it is at the solution: what is left between them, over the run.
+const SOLVED: f64 = 1e-9;
+
+const CASES: &[Case] = &[
+    case("free_fall", 0.0),
+    case("ball_drop", SOLVED),
+    case("ball_drop_20ms", SOLVED),
+    case("pendulum", ROUNDING),
+    case("double_pendulum", ROUNDING),
+    case("double_pendulum_rk4", ROUNDING),
+    case("ball_pendulum", ROUNDING),
+    case("springs", ROUNDING),
+    case("limits", SOLVED),
+    case("spin", ROUNDING),
+    case("spin_rk4", ROUNDING),
+    case("collision", SOLVED),
+    case("stack", SOLVED),
+    case("stack_rk4", SOLVED),
+    case("rolling", SOLVED),
+    case("rolling_impratio", SOLVED),
+    case("mocap", SOLVED),
+    case("margin", SOLVED),
+    case("materials", SOLVED),
+    case("mixing", SOLVED),
+    case("override", SOLVED),
+    case("tree", SOLVED),
+    case("tree_rk4", SOLVED),
+    case("everything", SOLVED),
+    case("no_constraint", ROUNDING),
+    case("no_limit", SOLVED),
+    case("no_contact", SOLVED),
+    case("no_spring", SOLVED),
+    case("no_damper", SOLVED),
+    case("no_gravity", SOLVED),
+    case("no_warmstart", SOLVED),
+    case("no_filterparent", SOLVED),
+    case("no_refsafe", SOLVED),
+    case("no_eulerdamp", SOLVED),
+    case("no_island", SOLVED),
+    case("no_passive", SOLVED),
+];
+
+/// One forward pass, with both solvers run to rounding: condition numbers up to 1e4 times the unit of rounding.
+const FORWARD: f64 = 1e-9;
+/// The compiler does no more than a few products and one diagonalization.
+const COMPILED: f64 = 1e-12;
+
+fn recorded(name: &str) -> Value {
+    let path = workspace().join(format!("tests/golden/{name}.json"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    serde_json::from_str(&text).unwrap()
+}
+
+/// The model of a case with its options.
+fn load(case: &Value) -> Model {
+    let mut m = compile(&model_text(case["model"].as_str().unwrap()));
+    let mut scratch = Data::new(&m);
+    for (name, values) in case["options"].as_object().unwrap() {
+        let field = reflect::field(Object::Option, name).unwrap();
+        for (i, x) in numbers(values).into_iter().enumerate() {
+            assert!(reflect::view_mut(&mut m, &mut scratch, field).set(i, x), "{name}[{i}]");
+        }
+    }
+    m
+}
+
+fn start(m: &Model, d: &mut Data) {
+    if m.nkey > 0 { core::reset_data_keyframe(m, d, 0) } else { core::reset_data(m, d) }
+}
+
+fn list(m: &Model, d: &Data, field: FieldId) -> Vec<f64> {
+    let view = reflect::view(m, d, field);
+    (0..view.len()).map(|i| view.get(i).unwrap()).collect()
+}
+
+/// Largest difference, scaled as the file's first lines say; infinite when the lengths differ.
+fn worst(ours: &[f64], theirs: &[f64]) -> f64 {
+    if ours.len() != theirs.len() {
+        return f64::INFINITY;
+    }
+    let scale = theirs.iter().fold(1.0f64, |s, x| s.max(x.abs()));
+    let differences = ours.iter().zip(theirs).map(|(a, b)| ((a - b) / scale).abs());
+    differences.fold(0.0, |worst, d| if d.is_nan() { f64::INFINITY } else { worst.max(d) })
+}
+
+/// Differences above their tolerance, a line each.
+#[derive(Default)]
+struct Report(String);
+
+impl Report {
+    fn compare(&mut self, what: std::fmt::Arguments<'_>, ours: &[f64], theirs: &[f64], tolerance: f64) {
+        let difference = worst(ours, theirs);
+        // Not `difference > tolerance`: that would let NaN pass.
+        if !(difference <= tolerance) {
+            let _ = writeln!(self.0, "{what}: {difference:.2e} > {tolerance:.0e}");
+        }
+    }
+
+    fn finish(self) {
+        assert!(self.0.is_empty(), "differences from MuJoCo 3.14.0:\n{}", self.0);
+    }
+}
+
+/// Inertia tensors about the bodies' frames: principal axes may be listed in any order and sign.
+fn tensors(inertia: &[f64], iquat: &[f64]) -> Vec<f64> {
+    let mut all = Vec::new();
+    for (i, q) in inertia.chunks(3).zip(iquat.chunks(4)) {
+        let r = core::math::quat_to_mat([q[0], q[1], q[2], q[3]]);
+        for a in 0..3 {
+            for b in 0..3 {
+                all.push((0..3).map(|k| r[3 * a + k] * i[k] * r[3 * b + k]).sum());
+            }
+        }
+    }
+    all
+}
+
+#[test]
+fn models_compile_to_the_same_numbers() {
+    let mut report = Report::default();
+    for Case { name, .. } in CASES {
+        let case = recorded(name);
+        let m = load(&case);
+        let d = Data::new(&m);
+        let get = |field: &str| list(&m, &d, reflect::field(Object::Model, field).unwrap());
+        let compiled = case["compiled"].as_object().unwrap();
+        for (field, values) in compiled {
+            if !matches!(field.as_str(), "body_inertia" | "body_iquat") {
+                report.compare(format_args!("{name}: {field}"), &get(field), &numbers(values), COMPILED);
+            }
+        }
+        if let (Some(i), Some(q)) = (compiled.get("body_inertia"), compiled.get("body_iquat")) {
+            let theirs = tensors(&numbers(i), &numbers(q));
+            let ours = tensors(&get("body_inertia"), &get("body_iquat"));
+            report.compare(format_args!("{name}: inertia"), &ours, &theirs, COMPILED);
+        }
+    }
+    report.finish();
+}
+
+/// Everything about a contact, in the order of the recording.
+fn contact(c: &Contact) -> Vec<f64> {
+    let mut all = vec![
+        c.geom1 as f64,
+        c.geom2 as f64,
+        c.dim as f64,
+        f64::from(c.exclude),
+        c.dist,
+        c.includemargin,
+        c.mu,
+    ];
+    all.extend(c.pos.iter().chain(&c.frame).chain(&c.friction).chain(&c.solref).chain(&c.solimp));
+    all
+}
+
+/// Contacts by geoms, then place: each side lists them as its own broad phase finds them.
+fn sorted(contacts: &[Contact]) -> Vec<Vec<f64>> {
+    let mut rows: Vec<&Contact> = contacts.iter().collect();
+    rows.sort_by_key(|c| (c.geom1, c.geom2, c.pos.map(|x| (x * 1e6).round() as i64)));
+    rows.into_iter().map(contact).collect()
+}
+
+#[test]
+fn every_field_after_a_forward_pass_is_the_same() {
+    let mut report = Report::default();
+    for Case { name, .. } in CASES {
+        let case = recorded(name);
+        let mut m = load(&case);
+        (m.opt.tolerance, m.opt.ls_tolerance, m.opt.iterations, m.opt.ls_iterations) = (0.0, 1e-10, 200, 100);
+        let mut d = Data::new(&m);
+        for (k, state) in case["forward"].as_array().unwrap().iter().enumerate() {
+            start(&m, &mut d);
+            for (field, values) in state["state"].as_object().unwrap() {
+                let id = reflect::field(Object::Data, field).unwrap();
+                for (i, x) in numbers(values).into_iter().enumerate() {
+                    assert!(reflect::view_mut(&mut m, &mut d, id).set(i, x), "{name}: {field}[{i}]");
+                }
+            }
+            core::forward(&m, &mut d);
+            for (field, values) in state["data"].as_object().unwrap() {
+                let ours = list(&m, &d, reflect::field(Object::Data, field).unwrap());
+                report.compare(
+                    format_args!("{name}, state {k}: {field}"),
+                    &ours,
+                    &numbers(values),
+                    FORWARD,
+                );
+            }
+            let what = format_args!("{name}, state {k}: M");
+            report.compare(what, &core::full_m(&m, &d), &numbers(&state["M"]), FORWARD);
+            let rows = state["nefc"].as_f64().unwrap();
+            report.compare(format_args!("{name}, state {k}: nefc"), &[d.nefc as f64], &[rows], 0.0);
+            let theirs: Vec<Vec<f64>> = state["contact"].as_array().unwrap().iter().map(numbers).collect();
+            let ours = sorted(&d.contact);
+            if ours.len() != theirs.len() {
+                let _ =
+                    writeln!(report.0, "{name}, state {k}: {} contacts, not {}", ours.len(), theirs.len());
+            }
+            for (i, (a, b)) in ours.iter().zip(&theirs).enumerate() {
+                report.compare(format_args!("{name}, state {k}: contact {i}"), a, b, FORWARD);
+            }
+        }
+    }
+    report.finish();
+}
+
+/// A recorded count of every step, from its run lengths.
+fn counts(recorded: &Value) -> Vec<usize> {
+    let mut all = Vec::new();
+    for run in recorded.as_array().unwrap() {
+        let [count, repeats] = [0, 1].map(|i| run[i].as_u64().unwrap() as usize);
+        all.extend(std::iter::repeat_n(count, repeats));
+    }
+    all
+}
+
+/// Where `record.py` puts the mocap body before a step.
+fn move_mocap(m: &Model, d: &mut Data, step: usize) {
+    if m.nmocap > 0 {
+        let t = step as f64 * m.opt.timestep;
+        d.mocap_pos.copy_from_slice(&[0.05 * t, 0.0, 0.2 + 0.1 * t - 0.2 * t * t]);
+    }
+}
+
+#[test]
+fn trajectories_are_the_same() {
+    let mut report = Report::default();
+    for Case { name, trajectory } in CASES {
+        let case = recorded(name);
+        let m = load(&case);
+        let golden = &case["trajectory"];
+        let [steps, every] = ["steps", "every"].map(|k| golden[k].as_u64().unwrap() as usize);
+        let (ncon, nefc) = (counts(&golden["ncon"]), counts(&golden["nefc"]));
+        let mut rows = golden["rows"].as_array().unwrap().iter();
+        let mut d = Data::new(&m);
+        start(&m, &mut d);
+        let before = report.0.len();
+        for i in 0..=steps {
+            if i % every == 0 {
+                let row = rows.next().unwrap();
+                report.compare(format_args!("{name}: time"), &[d.time], &numbers(&row["time"]), 0.0);
+                let what = format_args!("{name}, step {i}: qpos");
+                report.compare(what, &d.qpos, &numbers(&row["qpos"]), *trajectory);
+                let what = format_args!("{name}, step {i}: qvel");
+                report.compare(what, &d.qvel, &numbers(&row["qvel"]), *trajectory);
+            }
+            if i < steps {
+                move_mocap(&m, &mut d, i);
+                core::step(&m, &mut d);
+                let (ours, theirs) = ([d.ncon as f64, d.nefc as f64], [ncon[i] as f64, nefc[i] as f64]);
+                report.compare(format_args!("{name}, step {i}: ncon, nefc"), &ours, &theirs, 0.0);
+            }
+            // What follows a difference follows from it.
+            if report.0.len() > before {
+                break;
+            }
+        }
+        let raised: usize = d.warning.iter().map(|w| w.number).sum();
+        let recorded: u64 = golden["warnings"].as_object().unwrap().values().filter_map(Value::as_u64).sum();
+        assert_eq!(raised as u64, recorded, "{name}: warnings {:?}", Warning::ALL);
+    }
+    report.finish();
+}

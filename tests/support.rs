@@ -1,0 +1,43 @@
+//! What several modules of tests need: places, models, and the recorded numbers of MuJoCo.
+
+// A test that cannot read its own inputs has to fail.
+#![allow(clippy::unwrap_used)]
+
+use labspec_core::Model;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// The workspace, two folders above the crate that the tests belong to.
+pub(crate) fn workspace() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// A model of `tests/golden/models`, as text.
+pub(crate) fn model_text(name: &str) -> String {
+    std::fs::read_to_string(workspace().join(format!("tests/golden/models/{name}.xml"))).unwrap()
+}
+
+/// A model of `tests/golden/models`.
+pub(crate) fn model(name: &str) -> Model {
+    compile(&model_text(name))
+}
+
+/// Compiles a model that is meant to be right.
+pub(crate) fn compile(xml: &str) -> Model {
+    labspec_core::mjcf::compile(xml).unwrap_or_else(|list| {
+        let text: Vec<String> =
+            list.iter().map(|d| format!("{}:{}: {} {}", d.line, d.column, d.code, d.message)).collect();
+        panic!("the model does not compile:\n{}\n{xml}", text.join("\n"))
+    })
+}
+
+/// The numbers of a recorded array: words between spaces, `0*12` for twelve zeros. Rust reads each to the bit
+/// that was written.
+pub(crate) fn numbers(recorded: &Value) -> Vec<f64> {
+    let mut all = Vec::new();
+    for word in recorded.as_str().unwrap().split_whitespace() {
+        let (x, n) = word.split_once('*').unwrap_or((word, "1"));
+        all.extend(std::iter::repeat_n(x.parse::<f64>().unwrap(), n.parse().unwrap()));
+    }
+    all
+}
