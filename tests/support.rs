@@ -3,6 +3,11 @@
 // A test that cannot read its own inputs has to fail.
 #![allow(clippy::unwrap_used)]
 
+use labspec::bind::scene::Models;
+use labspec::check::{self, Checked, Depth};
+use labspec::lint::ModelFolder;
+use labspec::source::SourceFile;
+use labspec::spec::load_lesson;
 use labspec_core::Model;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -40,4 +45,16 @@ pub(crate) fn numbers(recorded: &Value) -> Vec<f64> {
         all.extend(std::iter::repeat_n(x.parse::<f64>().unwrap(), n.parse().unwrap()));
     }
     all
+}
+
+/// Checks a lesson or a lab given as text, with runs and verdicts; models are inline.
+pub(crate) fn check_text(name: &str, text: &str) -> Checked {
+    let mut models = Models::new(ModelFolder::unknown());
+    let lesson = load_lesson(SourceFile::new(name, text), models.folder());
+    check::check(lesson, &mut models, Depth { labs: true, claims: true })
+}
+
+/// The codes of everything that was found.
+pub(crate) fn codes(checked: &Checked) -> Vec<&'static str> {
+    checked.findings.iter().map(|f| f.code).collect()
 }

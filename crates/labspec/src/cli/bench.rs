@@ -45,7 +45,8 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     let mut session = Session::start_with(&target.programs, &target.model, key, data);
     let steps = a.steps.clamp(1, crate::run::MAX_STEPS);
     let lab = !target.programs.probes.is_empty() || target.programs.controller.is_some();
-    warm_up(&mut session, a.warm.min(crate::run::MAX_STEPS), lab);
+    // Inlined here, so that a counter of `advance` does not see it.
+    run_steps(&mut session, a.warm.min(crate::run::MAX_STEPS), lab);
     let start = session.world.data.clone();
     let mut nanoseconds = Vec::new();
     for _ in 0..a.repeat.clamp(1, 1000) {
@@ -69,12 +70,6 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     });
     print(&format!("{value}\n"))?;
     Ok(Outcome::Clean)
-}
-
-/// Steps that no counter sees.
-#[inline(never)]
-fn warm_up(session: &mut Session<'_>, steps: usize, lab: bool) {
-    run_steps(session, steps, lab);
 }
 
 /// The measured steps. Not inlined, so that a profiler can count from here.
