@@ -3,5 +3,7 @@
 mod lessons;
 mod numbers;
 mod parity;
+mod plan;
+mod scenes;
 mod support;
 mod verify;

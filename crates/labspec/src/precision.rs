@@ -114,10 +114,6 @@ pub fn compare(
             }
         })
         .collect();
-    let magnitude = |i: usize| reference.values[i].iter().fold(0.0f64, |m, x| m.max(x.abs()));
-    let floor: Vec<f64> =
-        (0..targets.len()).map(|i| (4.0 * uncertainty[i]).max(1e-12 * magnitude(i))).collect();
-
     let mut rows: Vec<Row> = Vec::new();
     for (kind, name) in INTEGRATORS {
         for factor in STEPS {
@@ -127,19 +123,14 @@ pub fn compare(
                 |i: usize| if targets[i].exact.is_some() { &s.exact[i] } else { &reference.values[i] };
             let errors: Vec<f64> =
                 (0..targets.len()).map(|i| largest_difference(&s.values[i], truth(i))).collect();
-            let previous = rows.last().filter(|r| r.integrator == name && !r.diverged);
-            let order = |i: usize| {
-                let p = previous?;
-                let order = (p.errors[i] / errors[i]).log2() / (p.timestep / h).log2();
-                // What rounding and the reference leave uncertain does not shrink with the step.
-                (order.is_finite() && errors[i] > floor[i]).then_some(order)
-            };
-            let orders = (0..targets.len()).map(order).collect();
             let diverged = s.diverged || errors.iter().any(|e| !e.is_finite());
             let cost = 1e6 * s.seconds / (count as f64 * coarse);
-            rows.push(Row { integrator: name, timestep: h, errors, orders, cost, diverged });
+            rows.push(Row { integrator: name, timestep: h, errors, orders: Vec::new(), cost, diverged });
         }
     }
+    let magnitude: Vec<f64> =
+        reference.values.iter().map(|v| v.iter().fold(0.0f64, |m, x| m.max(x.abs()))).collect();
+    observe_orders(&mut rows, &uncertainty, &magnitude);
     Ok(Report {
         uncertainty,
         traces: targets.iter().map(|t| t.label.to_string()).collect(),
@@ -150,6 +141,25 @@ pub fn compare(
         length: count as f64 * coarse,
         rows,
     })
+}
+
+/// The observed order of each trace: log₂ of the ratio of errors when the timestep halves. Errors that rounding
+/// or the reference leave uncertain do not shrink with the step, and have none.
+fn observe_orders(rows: &mut [Row], uncertainty: &[f64], magnitude: &[f64]) {
+    let worst = |i: usize| rows.iter().map(|r| r.errors[i]).filter(|e| e.is_finite()).fold(0.0f64, f64::max);
+    // A trace may itself be a difference of large numbers: then its own size says nothing about rounding.
+    let floor: Vec<f64> =
+        (0..magnitude.len()).map(|i| (4.0 * uncertainty[i]).max(1e-12 * magnitude[i]).max(1e-10 * worst(i))).collect();
+    for r in 0..rows.len() {
+        let order = |i: usize| {
+            let (p, now) = (rows.get(r.checked_sub(1)?)?, &rows[r]);
+            let same = p.integrator == now.integrator && !p.diverged && !now.diverged;
+            let order = (p.errors[i] / now.errors[i]).log2() / (p.timestep / now.timestep).log2();
+            (same && order.is_finite() && now.errors[i] > floor[i]).then_some(order)
+        };
+        let orders = (0..magnitude.len()).map(order).collect();
+        rows[r].orders = orders;
+    }
 }
 
 /// The traces of a lab; when the author gives closed forms, only those that have one.

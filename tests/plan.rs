@@ -1,0 +1,274 @@
+//! A plan never changes a number: planned and full runs agree bit for bit on every field that is read, for
+//! random scenes, random demands and random interference; what a plan leaves out is not computed.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::scenes::scene;
+use crate::support::{compile, model, model_text};
+use labspec_core::reflect::{self, FieldId, FieldSet, Object, Stage, View};
+use labspec_core::{self as core, Data, Demand, Model, Plan, enable};
+use proptest::collection::vec;
+use proptest::prelude::*;
+use std::fmt::Write;
+
+/// The fields that programs may write in these tests, each with a value that does something.
+const WRITES: &[(Object, &str, f64)] = &[
+    (Object::Data, "qpos", 0.07),
+    (Object::Data, "qvel", -0.8),
+    (Object::Data, "qfrc_applied", 0.6),
+    (Object::Data, "xfrc_applied", 0.9),
+    (Object::Data, "mocap_pos", -0.15),
+    (Object::Option, "gravity", 3.0),
+    (Object::Option, "timestep", 0.003),
+    (Object::Option, "enableflags", (enable::ENERGY | enable::OVERRIDE) as f64),
+    (Object::Option, "disableflags", core::disable::CONTACT as f64),
+    (Object::Option, "integrator", 1.0),
+    (Object::Option, "impratio", 3.0),
+    (Object::Option, "o_solref", 0.04),
+    (Object::Model, "geom_solref", 0.03),
+    (Object::Model, "geom_solimp", 0.8),
+    (Object::Model, "geom_friction", 0.3),
+    (Object::Model, "geom_condim", 1.0),
+    (Object::Model, "geom_priority", 1.0),
+    (Object::Model, "geom_margin", 0.02),
+    (Object::Model, "geom_gap", 0.01),
+    (Object::Model, "geom_contype", 0.0),
+    (Object::Model, "geom_conaffinity", 3.0),
+    (Object::Model, "geom_size", 0.06),
+    (Object::Model, "geom_pos", 0.02),
+    (Object::Model, "body_pos", 0.1),
+    (Object::Model, "body_mass", 2.5),
+    (Object::Model, "body_inertia", 0.02),
+    (Object::Model, "body_ipos", 0.03),
+    (Object::Model, "dof_damping", 0.4),
+    (Object::Model, "dof_armature", 0.02),
+    (Object::Model, "jnt_stiffness", 2.0),
+    (Object::Model, "jnt_limited", 1.0),
+    (Object::Model, "qpos_spring", 0.2),
+];
+
+/// What happens before a step: one element of a field is written, or constants are recomputed, or all starts
+/// again.
+#[derive(Clone, Debug)]
+enum Event {
+    Write { step: usize, field: usize, element: prop::sample::Index },
+    SetConst { step: usize },
+    Reset { step: usize },
+    Forward { step: usize },
+}
+
+/// Steps of a run.
+const STEPS: usize = 50;
+
+fn event() -> impl Strategy<Value = Event> {
+    let write = (0..STEPS, 0..WRITES.len(), any::<prop::sample::Index>())
+        .prop_map(|(step, field, element)| Event::Write { step, field, element });
+    prop_oneof![
+        6 => write,
+        1 => (0..STEPS).prop_map(|step| Event::SetConst { step }),
+        1 => (0..STEPS).prop_map(|step| Event::Reset { step }),
+        1 => (0..STEPS).prop_map(|step| Event::Forward { step }),
+    ]
+}
+
+fn field(object: Object, name: &str) -> FieldId {
+    reflect::field(object, name).unwrap()
+}
+
+fn apply(event: &Event, now: usize, m: &mut Model, d: &mut Data) {
+    match event {
+        Event::Write { step, field: f, element } if *step == now => {
+            let (object, name, value) = WRITES[*f];
+            let mut view = reflect::view_mut(m, d, field(object, name));
+            let len = match &view {
+                reflect::ViewMut::F64(v) => v.len(),
+                reflect::ViewMut::I32(v) => v.len(),
+                reflect::ViewMut::Bool(v) => v.len(),
+                reflect::ViewMut::Fixed => 0,
+            };
+            if len > 0 {
+                view.set(element.index(len), value);
+            }
+        }
+        Event::SetConst { step } if *step == now => core::set_const(m, d),
+        Event::Reset { step } if *step == now => core::reset_data(m, d),
+        Event::Forward { step } if *step == now => core::forward(m, d),
+        _ => {}
+    }
+}
+
+/// The bits of a field.
+fn bits(m: &Model, d: &Data, f: FieldId) -> Vec<u64> {
+    let view = reflect::view(m, d, f);
+    (0..view.len()).map(|i| view.get(i).unwrap().to_bits()).collect()
+}
+
+/// Runs a scene with a plan and with the full pipeline; the first field that differs, with its step.
+fn difference(m: &Model, demand: &Demand, events: &[Event]) -> Option<String> {
+    let (mut m1, mut m2) = (m.clone(), m.clone());
+    let mut planned = Data::planned(m, Plan::new(m, demand));
+    let mut full = Data::planned(m, Plan::full());
+    for step in 0..STEPS {
+        for event in events {
+            apply(event, step, &mut m1, &mut planned);
+            apply(event, step, &mut m2, &mut full);
+        }
+        core::step(&m1, &mut planned);
+        core::step(&m2, &mut full);
+        for f in demand.reads.iter() {
+            let (a, b) = (bits(&m1, &planned, f), bits(&m2, &full, f));
+            if a != b {
+                let name = f.info().name;
+                let numbers =
+                    |v: &[u64]| v.iter().map(|&x| f64::from_bits(x)).collect::<Vec<_>>();
+                return Some(format!(
+                    "after step {step}, {name}: planned {:?}, full {:?}",
+                    numbers(&a),
+                    numbers(&b)
+                ));
+            }
+        }
+    }
+    None
+}
+
+/// The fields of the data, of which a demand reads some.
+fn data_fields() -> Vec<FieldId> {
+    reflect::fields().filter(|f| f.info().object == Object::Data).collect()
+}
+
+/// What the events write, as a lab's programs would declare it.
+fn writes(events: &[Event]) -> FieldSet {
+    let mut set = FieldSet::EMPTY;
+    for event in events {
+        if let Event::Write { field: f, .. } = event {
+            set.insert(field(WRITES[*f].0, WRITES[*f].1));
+        }
+    }
+    set
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+
+    #[test]
+    fn planned_and_full_runs_agree_on_what_is_read(
+        scene in scene(),
+        reads in vec(any::<prop::sample::Index>(), 0..6),
+        events in vec(event(), 0..6),
+    ) {
+        let m = compile(&scene.xml());
+        let all = data_fields();
+        let mut demand = Demand { reads: FieldSet::EMPTY, writes: writes(&events) };
+        reads.iter().for_each(|i| demand.reads.insert(*i.get(&all)));
+        // The state is what every lab shows, whatever else it reads.
+        for name in ["time", "qpos", "qvel"] {
+            demand.reads.insert(field(Object::Data, name));
+        }
+        let difference = difference(&m, &demand, &events);
+        prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
+    }
+
+    #[test]
+    fn a_plan_that_may_be_asked_anything_is_the_full_run(scene in scene(), events in vec(event(), 0..4)) {
+        let m = compile(&scene.xml());
+        let mut demand = Demand { reads: FieldSet::EMPTY, writes: writes(&events) };
+        data_fields().into_iter().for_each(|f| demand.reads.insert(f));
+        let difference = difference(&m, &demand, &events);
+        prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
+    }
+}
+
+/// A demand that reads these fields of the data and writes nothing.
+fn reading(names: &[&str]) -> Demand {
+    let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    names.iter().for_each(|n| demand.reads.insert(field(Object::Data, n)));
+    demand
+}
+
+/// Fields that a stage may leave to whoever resets the data: they hold their values from there.
+fn untouched(f: FieldId, d: &Data, m: &Model, before: &Data) -> bool {
+    bits(m, d, f) == bits(m, before, f)
+}
+
+#[test]
+fn what_is_left_out_is_not_computed() {
+    let fixed = [
+        ("free_fall", &["qpos"][..]),
+        ("ball_drop", &["qpos"]),
+        ("pendulum", &["qpos"]),
+        ("double_pendulum", &["qpos"]),
+        ("spin", &["qvel"]),
+        ("stack", &["ncon"]),
+        ("everything", &["qpos"]),
+    ];
+    let mut left_out = 0;
+    for (name, reads) in fixed {
+        let m = model(name);
+        let plan = Plan::new(&m, &reading(reads));
+        let mut d = Data::planned(&m, plan.clone());
+        let before = d.clone();
+        for _ in 0..20 {
+            core::step(&m, &mut d);
+        }
+        for decision in plan.decisions().iter().filter(|x| !x.keep) {
+            left_out += 1;
+            assert!(!plan.keeps(decision.stage));
+            for f in data_fields().into_iter().filter(|f| f.info().stage == decision.stage) {
+                // The acceleration stands in for a solver that has nothing to do.
+                if f.info().name != "qacc" {
+                    assert!(untouched(f, &d, &m, &before), "{name}: {:?} wrote {}", decision.stage, f.info().name);
+                }
+            }
+        }
+    }
+    // Free fall alone leaves out all but the sum of forces.
+    assert!(left_out > 30, "{left_out}");
+}
+
+#[test]
+fn the_full_plan_keeps_everything() {
+    let plan = Plan::full();
+    assert!(plan.decisions().iter().all(|d| d.keep && plan.keeps(d.stage)));
+    assert!(!plan.keeps(Stage::Compile) && !plan.keeps(Stage::User));
+}
+
+/// Turning on energy in mid-run needs the poses that it depends on.
+#[test]
+fn a_written_flag_keeps_what_it_may_switch_on() {
+    let m = compile(&model_text("free_fall"));
+    let mut demand = reading(&["energy", "qpos"]);
+    assert!(!Plan::new(&m, &demand).keeps(Stage::Energy));
+    demand.writes.insert(field(Object::Option, "enableflags"));
+    let plan = Plan::new(&m, &demand);
+    assert!(plan.keeps(Stage::Energy) && plan.keeps(Stage::Kinematics));
+    let mut d = Data::planned(&m, plan);
+    let mut m = m;
+    m.opt.enableflags = enable::ENERGY;
+    core::forward(&m, &mut d);
+    let f = field(Object::Data, "energy");
+    assert!(matches!(reflect::view(&m, &d, f), View::F64(&[p, k]) if (p - 9.81).abs() < 1e-12 && k == 0.0));
+}
+
+#[test]
+fn decisions_read_as_reasons() {
+    let mut shown = String::new();
+    for (name, reads) in [
+        ("free_fall", &["qpos"][..]),
+        ("free_fall", &["qpos", "xpos"]),
+        ("ball_drop", &["qpos", "ncon"]),
+        ("ball_drop", &["sensordata"]),
+        ("pendulum", &["qpos", "energy"]),
+        ("mocap", &["xpos"]),
+    ] {
+        let _ = writeln!(shown, "{name}, reading {}", reads.join(", "));
+        for d in Plan::new(&model(name), &reading(reads)).decisions() {
+            let verb = if d.keep { "keep" } else { "leave" };
+            let _ = writeln!(shown, "  {verb:<5} {:<12} {}", format!("{:?}", d.stage), d.reason);
+        }
+        shown.push('\n');
+    }
+    insta::with_settings!({prepend_module_to_snapshot => false, omit_expression => true}, {
+        insta::assert_snapshot!("plan-decisions", shown);
+    });
+}
