@@ -149,8 +149,7 @@ fn resting_depth_and_mass_and_gravity() {
 
 #[test]
 fn a_mass_without_set_const_sinks_deeper() {
-    let mass =
-        json!({"label": "mass", "set": "model.body_mass[2]", "min": 0.01, "max": 5, "step": 0.01, "value": 0.1});
+    let mass = json!({"label": "mass", "set": "model.body_mass[2]", "min": 0.01, "max": 5, "step": 0.01, "value": 0.1});
     let checked = check(
         &model_text("ball_drop"),
         json!([mass]),

@@ -217,12 +217,7 @@ fn every_field_after_a_forward_pass_is_the_same() {
             core::forward(&m, &mut d);
             for (field, values) in state["data"].as_object().unwrap() {
                 let ours = list(&m, &d, reflect::field(Object::Data, field).unwrap());
-                report.compare(
-                    format_args!("{name}, state {k}: {field}"),
-                    &ours,
-                    &numbers(values),
-                    FORWARD,
-                );
+                report.compare(format_args!("{name}, state {k}: {field}"), &ours, &numbers(values), FORWARD);
             }
             let what = format_args!("{name}, state {k}: M");
             report.compare(what, &core::full_m(&m, &d), &numbers(&state["M"]), FORWARD);

@@ -119,8 +119,7 @@ fn difference(m: &Model, demand: &Demand, events: &[Event]) -> Option<String> {
             let (a, b) = (bits(&m1, &planned, f), bits(&m2, &full, f));
             if a != b {
                 let name = f.info().name;
-                let numbers =
-                    |v: &[u64]| v.iter().map(|&x| f64::from_bits(x)).collect::<Vec<_>>();
+                let numbers = |v: &[u64]| v.iter().map(|&x| f64::from_bits(x)).collect::<Vec<_>>();
                 return Some(format!(
                     "after step {step}, {name}: planned {:?}, full {:?}",
                     numbers(&a),
@@ -217,7 +216,12 @@ fn what_is_left_out_is_not_computed() {
             for f in data_fields().into_iter().filter(|f| f.info().stage == decision.stage) {
                 // The acceleration stands in for a solver that has nothing to do.
                 if f.info().name != "qacc" {
-                    assert!(untouched(f, &d, &m, &before), "{name}: {:?} wrote {}", decision.stage, f.info().name);
+                    assert!(
+                        untouched(f, &d, &m, &before),
+                        "{name}: {:?} wrote {}",
+                        decision.stage,
+                        f.info().name
+                    );
                 }
             }
         }

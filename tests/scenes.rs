@@ -168,7 +168,8 @@ impl Scene {
             let mut turns = false;
             for joint in &b.joints {
                 // A ball turns about everything: no other joint of the body may turn, too.
-                let joint = if turns && joint.kind != 1 { &Joint { kind: 1, ..joint.clone() } } else { joint };
+                let joint =
+                    if turns && joint.kind != 1 { &Joint { kind: 1, ..joint.clone() } } else { joint };
                 turns |= joint.kind == 0 || (joint.kind == 2 && b.joints.iter().any(|j| j.kind == 0));
                 joint.write(constraints, text);
             }

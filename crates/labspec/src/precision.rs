@@ -97,11 +97,12 @@ pub fn compare(
     // Samples at multiples of the coarsest step, which every run meets exactly.
     let count = run::count_steps(lab, Some(length), None, coarse)?.max(1);
     let finest = STEPS.iter().fold(1.0f64, |a, &b| a.min(b)) * own;
-    let per_sample = |h: f64| (coarse / h).round() as usize;
-    if count.saturating_mul(per_sample(finest)).saturating_mul(REFERENCE) > run::MAX_STEPS {
+    if count.saturating_mul((coarse / finest).round() as usize).saturating_mul(REFERENCE) > run::MAX_STEPS {
         return Err(RunError("the runs would take too many steps; shorten them with --until".into()));
     }
-    let sample = |kind: i32, h: f64| samples(lab, model, programs, &targets, kind, h, per_sample(h), count);
+    let case = Case { lab, model, programs, targets, interval: coarse, count };
+    let targets = &case.targets;
+    let sample = |kind: i32, h: f64| samples(&case, kind, h);
     let reference = sample(integrator::RK4, finest / REFERENCE as f64);
     let check = sample(integrator::RK4, 2.0 * finest / REFERENCE as f64);
 
@@ -148,8 +149,9 @@ pub fn compare(
 fn observe_orders(rows: &mut [Row], uncertainty: &[f64], magnitude: &[f64]) {
     let worst = |i: usize| rows.iter().map(|r| r.errors[i]).filter(|e| e.is_finite()).fold(0.0f64, f64::max);
     // A trace may itself be a difference of large numbers: then its own size says nothing about rounding.
-    let floor: Vec<f64> =
-        (0..magnitude.len()).map(|i| (4.0 * uncertainty[i]).max(1e-12 * magnitude[i]).max(1e-10 * worst(i))).collect();
+    let floor: Vec<f64> = (0..magnitude.len())
+        .map(|i| (4.0 * uncertainty[i]).max(1e-12 * magnitude[i]).max(1e-10 * worst(i)))
+        .collect();
     for r in 0..rows.len() {
         let order = |i: usize| {
             let (p, now) = (rows.get(r.checked_sub(1)?)?, &rows[r]);
@@ -194,17 +196,21 @@ fn start<'p>(lab: &Lab, model: &Model, programs: &'p Programs) -> Session<'p> {
     Session::start(programs, model, key, &Demand { ..programs.demand })
 }
 
-fn samples(
-    lab: &Lab,
-    model: &Model,
-    programs: &Programs,
-    targets: &[Target<'_>],
-    kind: i32,
-    h: f64,
-    per_sample: usize,
+/// What all runs of a comparison share.
+struct Case<'a> {
+    lab: &'a Lab,
+    model: &'a Model,
+    programs: &'a Programs,
+    targets: Vec<Target<'a>>,
+    /// Time between samples, s, and their number.
+    interval: f64,
     count: usize,
-) -> Samples {
-    let mut session = start(lab, model, programs);
+}
+
+fn samples(case: &Case<'_>, kind: i32, h: f64) -> Samples {
+    let Case { targets, count, .. } = case;
+    let per_sample = (case.interval / h).round() as usize;
+    let mut session = start(case.lab, case.model, case.programs);
     session.world.model.opt.timestep = h;
     session.world.model.opt.integrator = kind;
     let mut s = Samples {
@@ -213,7 +219,7 @@ fn samples(
         diverged: false,
         seconds: 0.0,
     };
-    for _ in 0..count {
+    for _ in 0..*count {
         let clock = Instant::now();
         for _ in 0..per_sample {
             session.step();

@@ -60,7 +60,8 @@ pub(super) struct Function {
     pub(super) run: fn(&mut World, &[Value]) -> Result<Value, String>,
 }
 
-const ROW: Function = Function {
+/// Of no function: what the rows below do not say.
+pub(super) const ROW: Function = Function {
     object: "",
     name: "",
     args: &[],
@@ -71,7 +72,7 @@ const ROW: Function = Function {
     place: Place::Everywhere,
     aggregate: false,
     doc: "",
-    run: |_, _| Ok(Value::Undefined),
+    run: |_, _| NOTHING,
 };
 
 /// A function of `mj` that takes the model and the data.
@@ -86,28 +87,40 @@ pub(super) static TABLE: &[Function] = &[
         name: "mj_setConst",
         writes: &[Touches::Coordinates, Touches::Derived],
         doc: "recomputes the constants that follow from masses, inertias and poses; puts qpos back to the start",
-        run: |w, _| done(core::set_const(&mut w.model, &mut w.data)),
+        run: |w, _| {
+            core::set_const(&mut w.model, &mut w.data);
+            NOTHING
+        },
         ..ENGINE
     },
     Function {
         name: "mj_forward",
         writes: &[Touches::Derived],
         doc: "computes every derived field from the state, without advancing time",
-        run: |w, _| done(core::forward(&w.model, &mut w.data)),
+        run: |w, _| {
+            core::forward(&w.model, &mut w.data);
+            NOTHING
+        },
         ..ENGINE
     },
     Function {
         name: "mj_step",
         writes: &[Touches::State, Touches::Derived],
         doc: "advances the simulation by one step",
-        run: |w, _| done(core::step(&w.model, &mut w.data)),
+        run: |w, _| {
+            core::step(&w.model, &mut w.data);
+            NOTHING
+        },
         ..ENGINE
     },
     Function {
         name: "mj_resetData",
         writes: &[Touches::State, Touches::Derived],
         doc: "puts the data back to the default configuration",
-        run: |w, _| done(core::reset_data(&w.model, &mut w.data)),
+        run: |w, _| {
+            core::reset_data(&w.model, &mut w.data);
+            NOTHING
+        },
         ..ENGINE
     },
     Function {
@@ -120,7 +133,8 @@ pub(super) static TABLE: &[Function] = &[
             if !(key >= 0.0 && key < w.model.nkey as f64) {
                 return Err(format!("there is no keyframe {key}: the model has {}", w.model.nkey));
             }
-            done(core::reset_data_keyframe(&w.model, &mut w.data, key as usize))
+            core::reset_data_keyframe(&w.model, &mut w.data, key as usize);
+            NOTHING
         },
         ..ENGINE
     },
@@ -234,9 +248,8 @@ pub(super) static TABLE: &[Function] = &[
     Function { name: "max", doc: "largest value over the run", ..OVER_RUN },
 ];
 
-fn done(_: ()) -> Result<Value, String> {
-    Ok(Value::Undefined)
-}
+/// The result of a function that gives nothing back.
+const NOTHING: Result<Value, String> = Ok(Value::Undefined);
 
 /// The first argument, the name of an object, as its index.
 fn index(args: &[Value]) -> Result<usize, String> {

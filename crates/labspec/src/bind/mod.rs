@@ -1,6 +1,6 @@
 //! Where the language meets the engine: names to fields of the table, programs to a running world.
 //!
-//! [`names`] answers the language's questions at compile time from the engine's field table, [`World`] answers
+//! [`ModelNames`] answers the language's questions at compile time from the engine's field table, [`World`] answers
 //! them at run time, [`functions`] is the one table of functions, and [`Programs`] holds everything that a lab
 //! computes, bound to its model.
 

@@ -316,11 +316,7 @@ impl Schema for ModelNames<'_> {
     }
 
     fn function(&self, FunctionId(i): FunctionId) -> FunctionInfo {
-        functions::TABLE
-            .get(i as usize)
-            .or(functions::TABLE.first())
-            .map(functions::info)
-            .unwrap_or_else(|| unreachable_info())
+        functions::info(functions::TABLE.get(i as usize).unwrap_or(&functions::ROW))
     }
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
@@ -340,20 +336,5 @@ impl Schema for ModelNames<'_> {
 
     fn refresh(&self) -> Option<String> {
         Some("mj.mj_forward(model, data)".into())
-    }
-}
-
-/// Of no function: the table is never empty.
-fn unreachable_info() -> FunctionInfo {
-    FunctionInfo {
-        name: String::new(),
-        params: Vec::new(),
-        optional: 0,
-        implied: false,
-        returns: labspec_expr::Type::Void,
-        aggregate: false,
-        reads: labspec_expr::Touch::Nothing,
-        writes: labspec_expr::Touch::Nothing,
-        doc: String::new(),
     }
 }
