@@ -1,5 +1,6 @@
 //! Tests that cross crates.
 
+mod allocation;
 mod lessons;
 mod numbers;
 mod parity;

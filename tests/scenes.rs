@@ -42,8 +42,7 @@ pub(crate) struct Body {
 #[derive(Clone)]
 pub(crate) struct Scene {
     bodies: Vec<Body>,
-    /// Something stands on a floor.
-    pub(crate) floor: bool,
+    floor: bool,
     mocap: bool,
     sensors: bool,
     energy: bool,
@@ -113,16 +112,25 @@ impl std::fmt::Debug for Scene {
 impl Scene {
     /// As MJCF.
     pub(crate) fn xml(&self) -> String {
-        self.write(self.floor, true)
+        self.write(true)
     }
 
-    /// The same trees alone: nothing touches, nothing is limited, nothing is lost.
+    /// The trees alone: nothing touches, nothing is limited, nothing is damped; the energy is computed.
     #[allow(dead_code)] // one of the two users of this file has no need of it
-    pub(crate) fn free_of_contacts(&self) -> String {
-        self.write(false, false)
+    pub(crate) fn conservative(&self) -> String {
+        self.write(false)
     }
 
-    fn write(&self, floor: bool, constraints: bool) -> String {
+    /// The trees alone, each floating freely where there is no gravity.
+    #[allow(dead_code)] // as above
+    pub(crate) fn floating(&self) -> String {
+        let mut scene = self.clone();
+        scene.bodies.iter_mut().for_each(|b| b.free = true);
+        scene.write(false).replace("<option", "<option gravity=\"0 0 0\"")
+    }
+
+    /// With all that a scene may have, or without what constrains and damps.
+    fn write(&self, constraints: bool) -> String {
         let mut text = String::from("<mujoco><option");
         if self.rk4 && constraints {
             text.push_str(" integrator=\"RK4\"");
@@ -132,7 +140,7 @@ impl Scene {
             text.push_str("<flag energy=\"enable\"/>");
         }
         text.push_str("</option><worldbody>");
-        if floor {
+        if self.floor && constraints {
             text.push_str("<geom type=\"plane\" size=\"1 1 1\" pos=\"0 0 -0.1\"/>");
         }
         if self.mocap {

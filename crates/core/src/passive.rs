@@ -12,7 +12,10 @@ pub(crate) fn passive(m: &Model, d: &mut Data) {
     }
     if !m.opt.disabled(disable::DAMPER) {
         for i in 0..m.nv {
-            d.qfrc_damper[i] = -m.dof_damping[i] * d.qvel[i];
+            // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.
+            if m.dof_damping[i] != 0.0 {
+                d.qfrc_damper[i] = -m.dof_damping[i] * d.qvel[i];
+            }
         }
     }
     for i in 0..m.nv {

@@ -370,9 +370,10 @@ pub fn size(m: &Model, name: &str) -> Option<usize> {
     }
 }
 
-/// Number of elements of a field that the sizes of the model decide; 0 while a size is not known.
+/// Number of elements of a field that the sizes of the model decide; 0 while a size is not known. Allocates
+/// nothing: a reset in the step loop asks for every array.
 fn length(m: &Model, field: FieldId) -> usize {
-    shape(m, field).into_iter().map(|n| n.unwrap_or(0)).product()
+    field.info().shape.iter().map(|dim| dim.parse().ok().or_else(|| size(m, dim)).unwrap_or(0)).product()
 }
 
 /// Gives every array of the model the length that its shape says, filled with zeros.

@@ -152,7 +152,6 @@ fn contact_rows(m: &Model, d: &mut Data, id: usize, c: &mut Contact, translation
     if c.dim == 1 {
         d.work.jac.push::<1>(row, cols, along.iter().map(|a| [a[0]]));
         push::<1>(d, &shared(kind::CONTACT_FRICTIONLESS, regularization(kbi.imp, translation)));
-        c.mu = mu;
         return;
     }
     let edges = |&[n, t1, t2]: &Vec3| [n + mu * t1, n - mu * t1, n + mu2 * t2, n - mu2 * t2];

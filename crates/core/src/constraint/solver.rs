@@ -59,8 +59,11 @@ pub(crate) fn solve(m: &Model, d: &mut Data) {
     d.nisland = islands.find(m, &d.work.jac);
     let mut s = d.work.solver.take().unwrap_or_default();
     s.resize(m.nv, d.nefc);
-    let on_start = !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, &mut s, &islands);
-    if !on_start {
+    let done = !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, &mut s, &islands);
+    if !done {
+        d.qacc.copy_from_slice(&d.qacc_smooth);
+        s.ma.copy_from_slice(&d.qfrc_smooth);
+        d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jar);
         for i in 0..d.nisland {
             let mut problem = Problem { m, d, s: &mut s, islands: &islands, island: i };
             let from = problem.reached();
@@ -87,9 +90,9 @@ impl Scratch {
     }
 }
 
-/// Starts from the last step's acceleration, unless the unconstrained one costs less. `true` when all is done:
-/// at rest the last acceleration is still the answer, and the other one need not be looked at. `false` leaves
-/// the unconstrained acceleration for the islands to start from.
+/// Starts from the last step's acceleration, and goes on from there unless the unconstrained one costs less.
+/// `true` when the problem is solved: at rest the last acceleration is still the answer, and the other one need
+/// not be looked at.
 ///
 /// The choice is made once for the whole system; what no constraint touches keeps the unconstrained
 /// acceleration.
@@ -117,15 +120,9 @@ fn warm_start(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) -> bo
                 Problem { m, d, s, islands, island }.newton(from);
             }
             done = true;
-        } else {
-            d.qacc.copy_from_slice(&d.qacc_smooth);
         }
     }
     s.reached = reached;
-    if !done {
-        std::mem::swap(&mut s.jar, &mut s.jv);
-        s.ma.copy_from_slice(&d.qfrc_smooth);
-    }
     done
 }
 

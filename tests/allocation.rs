@@ -1,0 +1,172 @@
+//! The step loop does not allocate after warm-up, nor do programs that compute with numbers.
+//!
+//! Warm-up is one run of the same kind: vectors of contacts and constraint rows grow to what the scene needs,
+//! and keep their room over a reset.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::support::{compile, model, model_text};
+use allocation_counter::measure;
+use labspec::bind::{ControlProgram, Programs};
+use labspec::lint::ModelFolder;
+use labspec::run::Session;
+use labspec::source::SourceFile;
+use labspec::spec::load_lesson;
+use labspec_core::reflect::{FieldSet, Object, field};
+use labspec_core::{self as core, Data, Demand, Model, Plan, integrator};
+use labspec_expr::Value;
+use serde_json::json;
+use std::fmt::Write;
+
+/// A demand that reads the coordinates only.
+fn coordinates() -> Demand {
+    let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    demand.reads.insert(field(Object::Data, "qpos").unwrap());
+    demand
+}
+
+/// Steps a model from its start, once to warm up and once to count, with the full pipeline, with a plan for
+/// anything, and with a plan for the coordinates.
+fn allocates_nothing(name: &str, m: &Model, steps: usize) {
+    for plan in [Plan::full(), Plan::new(m, &Demand::ANY), Plan::new(m, &coordinates())] {
+        let mut d = Data::planned(m, plan);
+        let mut contacts = 0;
+        let start =
+            |d: &mut Data| if m.nkey > 0 { core::reset_data_keyframe(m, d, 0) } else { core::reset_data(m, d) };
+        let mut run = |d: &mut Data| {
+            for _ in 0..steps {
+                core::step(m, d);
+                contacts = contacts.max(d.nefc);
+            }
+            core::forward(m, d);
+        };
+        start(&mut d);
+        run(&mut d);
+        start(&mut d);
+        let count = measure(|| run(&mut d));
+        assert_eq!((count.count_total, count.bytes_total), (0, 0), "{name}, {contacts} rows at most");
+    }
+}
+
+#[test]
+fn flight() {
+    allocates_nothing("free fall", &model("free_fall"), 500);
+    allocates_nothing("tumbling", &model("spin"), 500);
+}
+
+/// In flight, at the impact, and at rest.
+#[test]
+fn drop_onto_a_floor() {
+    allocates_nothing("ball drop", &model("ball_drop"), 1500);
+}
+
+/// The first impact of a scene may make room; what follows may not.
+#[test]
+fn rest_after_the_first_impact() {
+    let m = model("ball_drop");
+    let mut d = Data::new(&m);
+    while d.nefc == 0 {
+        core::step(&m, &mut d);
+    }
+    let count = measure(|| (0..1000).for_each(|_| core::step(&m, &mut d)));
+    assert_eq!(count.count_total, 0);
+}
+
+#[test]
+fn limits() {
+    allocates_nothing("limits", &model("limits"), 800);
+    let limited = model_text("double_pendulum").replace("type=\"hinge\"", "type=\"hinge\" range=\"-40 40\"");
+    allocates_nothing("double pendulum with limits", &compile(&limited), 800);
+}
+
+#[test]
+fn thirty_spheres_on_a_plane() {
+    let mut xml = String::from("<mujoco><worldbody><geom type='plane' size='2 2 1'/>");
+    for i in 0..30 {
+        // Columns of three that touch and lean a little: they fall over and roll into each other.
+        let (x, y, z) = (f64::from(i / 3 % 5), f64::from(i / 15), f64::from(i % 3));
+        let [x, y, z] = [0.079 * x, 0.079 * y + 0.01 * z, 0.04 + 0.079 * z];
+        let _ = write!(
+            xml,
+            "<body pos='{x} {y} {z}'><freejoint/><geom size='0.04' mass='0.2' friction='0.6'/></body>"
+        );
+    }
+    xml.push_str("</worldbody></mujoco>");
+    let m = compile(&xml);
+    let mut d = Data::new(&m);
+    let most = (0..300).map(|_| {
+        core::step(&m, &mut d);
+        d.ncon
+    });
+    assert!(most.max().unwrap() >= 40, "the pile is meant to touch");
+    allocates_nothing("thirty spheres", &m, 300);
+}
+
+#[test]
+fn runge_kutta() {
+    for name in ["double_pendulum", "tree", "stack", "mocap"] {
+        let mut m = model(name);
+        m.opt.integrator = integrator::RK4;
+        allocates_nothing(name, &m, 300);
+    }
+}
+
+/// What `reflect::allocate_data` promises: room is made the first time only.
+#[test]
+fn reset() {
+    let m = model("ball_drop");
+    let mut d = Data::new(&m);
+    assert_eq!(measure(|| core::reset_data(&m, &mut d)).count_total, 0);
+}
+
+/// A bad number resets the data inside of a step.
+#[test]
+fn automatic_reset() {
+    let mut m = model("ball_drop");
+    m.opt.gravity[2] = -1e12;
+    allocates_nothing("a simulation that breaks", &m, 50);
+}
+
+#[test]
+fn programs_of_numbers() {
+    let lab = json!({
+        "xml": model_text("ball_drop"),
+        "controller": "data.xfrc_applied[8] = 0.1 * Math.sin(3 * data.time) - 0.2 * data.joint('heavy_free').qvel[2]; ctx.peak = Math.max(ctx.peak || 0, data.qpos[2])",
+        "controls": [{"label": "push", "set": "data.qfrc_applied[2]", "min": -1, "max": 1, "value": 0}],
+        "plots": [{"traces": [
+            {"label": "height", "expr": "1000 * (data.qpos[2] - (1 - 0.5 * 9.81 * data.time ** 2))"},
+            {"label": "peak", "expr": "ctx.peak > 0.5 ? ctx.peak : data.body('heavy').xpos[2]"},
+            {"label": "touching", "expr": "data.ncon > 0 && data.qpos[9] < 0.06"}
+        ]}],
+        "readouts": [{"label": "force", "expr": "lib.normalForce('floor')"}]
+    });
+    let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
+    let lab = lesson.all_labs()[0];
+    let m = compile(&lab.xml.as_ref().unwrap().value);
+    let mut findings = Vec::new();
+    let programs = Programs::compile(lab, &m, &mut findings);
+    assert_eq!(findings, []);
+    let mut session = Session::start(&programs, &m, None, &programs.demand);
+    let run = |session: &mut Session<'_>| {
+        for _ in 0..600 {
+            session.step();
+        }
+    };
+    run(&mut session);
+    session.reset();
+    // The controller and the step.
+    assert_eq!(measure(|| run(&mut session)).count_total, 0, "a step with a controller");
+    // Each trace and readout alone.
+    for probe in &programs.probes {
+        let bound = probe.bound.as_ref().unwrap();
+        session.evaluate(&bound.program, &bound.text);
+        let mut value = None;
+        let count = measure(|| value = session.evaluate(&bound.program, &bound.text));
+        assert!(value.is_some(), "{}", probe.name);
+        assert_eq!(count.count_total, 0, "{}", probe.name);
+    }
+    // A slider's assignment.
+    let (_, ControlProgram::Change(..)) = &programs.controls[0] else { panic!("a slider changes something") };
+    let count = measure(|| session.set_control(0, Value::Number(0.5)));
+    assert_eq!(count.count_total, 0, "a slider");
+}
