@@ -31,8 +31,9 @@ fn allocates_nothing(name: &str, m: &Model, steps: usize) {
     for plan in [Plan::full(), Plan::new(m, &Demand::ANY), Plan::new(m, &coordinates())] {
         let mut d = Data::planned(m, plan);
         let mut contacts = 0;
-        let start =
-            |d: &mut Data| if m.nkey > 0 { core::reset_data_keyframe(m, d, 0) } else { core::reset_data(m, d) };
+        let start = |d: &mut Data| {
+            if m.nkey > 0 { core::reset_data_keyframe(m, d, 0) } else { core::reset_data(m, d) }
+        };
         let mut run = |d: &mut Data| {
             for _ in 0..steps {
                 core::step(m, d);

@@ -1,6 +1,7 @@
 //! Tests that cross crates.
 
 mod allocation;
+mod cli;
 mod lessons;
 mod numbers;
 mod parity;

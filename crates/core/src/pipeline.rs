@@ -235,7 +235,7 @@ fn check_acceleration(m: &Model, d: &mut Data) {
 /// Replaces the plan, which decides what the next forward pass computes.
 pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
     d.work.pairs = if plan.keeps(Stage::Collision) {
-        collision::pairs(m, plan.contact_bits_may_change, plan.contact_params_may_change)
+        collision::pairs(m, plan.pairs_may_change, plan.contact_params_may_change)
     } else {
         collision::Pairs::default()
     };

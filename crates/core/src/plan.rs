@@ -4,8 +4,8 @@
 //! parameter that some program writes is treated as if it had any value. A plan never changes a number: the
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
-use crate::reflect::{FieldSet, Object, Stage, field};
-use crate::{Model, collision, enable, joint};
+use crate::reflect::{FieldId, FieldSet, Object, Stage, field};
+use crate::{Model, Obj, collision, enable, joint};
 
 /// What programs read and write.
 #[derive(Clone, Copy, Debug)]
@@ -50,9 +50,11 @@ pub struct Plan {
     pub(crate) mass: Exact,
     /// Whether some tree is more than one simple body.
     pub(crate) some_general: bool,
+    /// Whether a joint limit can become active.
+    pub(crate) limits: bool,
     /// Whether forces applied to bodies are looked at.
     pub(crate) applied_forces: bool,
-    pub(crate) contact_bits_may_change: bool,
+    pub(crate) pairs_may_change: bool,
     pub(crate) contact_params_may_change: bool,
 }
 
@@ -63,8 +65,9 @@ impl Default for Plan {
             kept: 0,
             mass: Exact::General,
             some_general: true,
+            limits: true,
             applied_forces: true,
-            contact_bits_may_change: true,
+            pairs_may_change: true,
             contact_params_may_change: true,
         }
     }
@@ -92,102 +95,30 @@ impl Plan {
     }
 
     /// The stages that this scene needs.
+    ///
+    /// From the last stage to the first: a stage runs when it is wanted for its own sake, or when a later
+    /// stage that runs uses its results.
     pub fn new(m: &Model, demand: &Demand) -> Plan {
-        let asked = Asked { m, demand };
-        let mut plan = Plan::default();
-
-        // Decided from the model and what is written, in the order of their dependence.
-        let bits_change = asked.writes(Object::Model, &["geom_contype", "geom_conaffinity", "geom_bodyid"]);
-        plan.contact_bits_may_change = bits_change;
-        plan.contact_params_may_change =
-            asked.writes(Object::Model, &CONTACT_PARAMS) || asked.writes(Object::Option, &OVERRIDES);
-        let contacts = asked.contacts(bits_change);
-        let limits = asked.limits();
-        let springs = asked.springs();
-        let moving_mass = asked.general_mass();
-        let energy = asked.energy();
-        let sensors = m.nsensor > 0 && asked.reads(Stage::Sensors).is_some();
-        let constrained = contacts.is_ok() || limits.is_ok();
-        plan.mass = if moving_mass.is_ok() { Exact::General } else { Exact::Diagonal };
-        plan.some_general = moving_mass.is_ok();
-        plan.applied_forces = asked.writes(Object::Data, &["xfrc_applied"]);
-
-        let dynamics = m.nv > 0;
-        let reading = |stage: Stage| asked.reads(stage);
-        let sensed =
-            |stage: Stage| (sensors && asked.sensed(stage)).then(|| "a sensor measures it".to_string());
-        let bias = dynamics.then(|| "gravity and the motion of bodies make forces".to_string());
-        let spatial = moving_mass
-            .clone()
-            .ok()
-            .map(|_| "forces of a tree are computed about its centre of mass".to_string());
-        let com = spatial
-            .clone()
-            .or_else(|| reading(Stage::ComPos))
-            .or_else(|| reading(Stage::ComVel))
-            .or_else(|| reading(Stage::MassMatrix));
-        let slides =
-            m.jnt_type.contains(&joint::SLIDE).then(|| "slide joints act along their axes".to_string());
-        let applied = plan.applied_forces.then(|| "forces may be applied to bodies".to_string());
-        let poses = com.as_ref().map(|_| "poses of bodies are where every force starts".to_string());
-        let poses = poses.or_else(|| contacts.is_ok().then(|| "contacts need poses".to_string()));
-        let poses =
-            poses.or_else(|| sensors.then(|| "sensors need poses".to_string())).or(slides).or(applied);
-        let poses =
-            poses.or_else(|| energy.is_ok().then(|| "potential energy depends on positions".to_string()));
-        let poses = poses
-            .or_else(|| reading(Stage::Kinematics))
-            .or_else(|| reading(Stage::GeomPoses))
-            .or_else(|| reading(Stage::SitePoses));
-        let mut put = |stage: Stage, yes: Option<String>, no: &str| {
-            let keep = yes.is_some();
-            plan.decide(stage, keep, yes.unwrap_or_else(|| no.to_string()));
+        let scene = Scene::new(m, demand);
+        let mut plan = Plan {
+            mass: if scene.general { Exact::General } else { Exact::Diagonal },
+            some_general: scene.general,
+            limits: scene.limited > 0,
+            applied_forces: scene.writes(Object::Data, &["xfrc_applied"]),
+            pairs_may_change: scene.pairs_change,
+            contact_params_may_change: scene.writes(Object::Model, &CONTACT_PARAMS)
+                || scene.writes(Object::Option, &OVERRIDES),
+            ..Plan::default()
         };
-        put(Stage::Kinematics, poses, "bodies fly freely, nothing can touch, and nothing reads a pose");
-        let geoms = contacts.as_ref().ok().map(|_| "contacts need the geoms' poses".to_string());
-        put(
-            Stage::GeomPoses,
-            geoms.or_else(|| reading(Stage::GeomPoses)).or_else(|| sensed(Stage::GeomPoses)),
-            "no contact is possible and nothing reads a geom's pose",
-        );
-        put(
-            Stage::SitePoses,
-            reading(Stage::SitePoses).or_else(|| sensed(Stage::SitePoses)),
-            if m.nsite == 0 { "the model has no sites" } else { "nothing reads a site's pose" },
-        );
-        put(Stage::ComPos, com, "every moving body is a simple one: its forces have a closed form");
-        put(
-            Stage::MassMatrix,
-            moving_mass.clone().ok().or_else(|| asked.reads_field("crb")),
-            &moving_mass.clone().err().unwrap_or_default(),
-        );
-        put(Stage::Factor, moving_mass.clone().ok(), &moving_mass.clone().err().unwrap_or_default());
-        put(Stage::Collision, contacts.clone().ok(), &contacts.clone().err().unwrap_or_default());
-        let why = contacts.clone().ok().or_else(|| limits.clone().ok());
-        let no = "no contact and no limit is possible";
-        put(Stage::Constraint, why.clone(), no);
-        put(
-            Stage::ComVel,
-            spatial
-                .map(|_| "Coriolis and centrifugal forces need velocities".into())
-                .or_else(|| reading(Stage::ComVel)),
-            "every moving body is a simple one: its forces have a closed form",
-        );
-        put(Stage::Passive, springs.clone().ok(), &springs.clone().err().unwrap_or_default());
-        put(Stage::Reference, why.clone(), no);
-        put(Stage::Bias, bias, "nothing moves");
-        put(
-            Stage::Acceleration,
-            dynamics.then(|| "it is what the integrator needs".to_string()),
-            "nothing moves",
-        );
-        put(Stage::Solve, constrained.then(|| "constraint forces".to_string()), no);
-        put(
-            Stage::Sensors,
-            sensors.then(|| "sensor values are read".to_string()),
-            if m.nsensor == 0 { "the model has no sensors" } else { "nothing reads sensordata" },
-        );
-        put(Stage::Energy, energy.clone().ok(), &energy.err().unwrap_or_default());
+        for stage in STAGES.into_iter().rev() {
+            let user = STAGES.into_iter().find(|&later| plan.keeps(later) && scene.uses(later, stage));
+            let why = scene.wants(stage).or_else(|| user.map(|u| format!("the {} stage uses it", name(u))));
+            match why {
+                Some(reason) => plan.decide(stage, true, reason),
+                None => plan.decide(stage, false, scene.leaves_out(stage).into()),
+            }
+        }
+        plan.decisions.reverse();
         plan
     }
 
@@ -232,96 +163,164 @@ const CONTACT_PARAMS: [&str; 8] = [
 ];
 const OVERRIDES: [&str; 5] = ["o_margin", "o_solref", "o_solimp", "o_friction", "enableflags"];
 
-/// Questions to the model and the demand. `Ok` is the reason to keep a stage, `Err` the reason to leave it out.
-struct Asked<'a> {
-    m: &'a Model,
-    demand: &'a Demand,
+/// A stage's name in words.
+fn name(stage: Stage) -> &'static str {
+    match stage {
+        Stage::GeomPoses => "geom-pose",
+        Stage::SitePoses => "site-pose",
+        Stage::ComPos => "centre-of-mass",
+        Stage::MassMatrix => "mass-matrix",
+        Stage::Factor => "factorization",
+        Stage::Collision => "collision",
+        Stage::Constraint => "constraint",
+        Stage::ComVel => "body-velocity",
+        Stage::Passive => "passive-force",
+        Stage::Reference => "reference",
+        Stage::Bias => "bias-force",
+        Stage::Acceleration => "acceleration",
+        Stage::Solve => "solver",
+        Stage::Sensors => "sensor",
+        Stage::Energy => "energy",
+        _ => "kinematics",
+    }
 }
 
-impl Asked<'_> {
+/// What is known of a scene before it runs.
+struct Scene<'a> {
+    m: &'a Model,
+    demand: &'a Demand,
+    /// Some tree is more than one simple body.
+    general: bool,
+    /// Which pairs of geoms may touch can change while it runs.
+    pairs_change: bool,
+    /// Number of pairs of geoms that may touch.
+    pairs: usize,
+    /// Number of joints with limits, or all when limits are switched while it runs.
+    limited: usize,
+    springs: bool,
+    sensors: bool,
+    energy: bool,
+}
+
+impl<'a> Scene<'a> {
+    fn new(m: &'a Model, demand: &'a Demand) -> Scene<'a> {
+        let mut scene = Scene {
+            m,
+            demand,
+            general: (0..m.nv).any(|i| m.dof_simplenum[i] == 0),
+            pairs_change: false,
+            pairs: 0,
+            limited: m.jnt_limited.iter().filter(|&&l| l).count(),
+            springs: m.dof_damping.iter().chain(&m.jnt_stiffness).any(|&x| x != 0.0),
+            sensors: false,
+            energy: m.opt.enabled(enable::ENERGY),
+        };
+        scene.pairs_change = scene.writes(Object::Model, &["geom_contype", "geom_conaffinity"])
+            || scene.writes(Object::Option, &["disableflags"]);
+        scene.pairs = collision::candidate_pairs(m, scene.pairs_change).len();
+        if scene.writes(Object::Model, &["jnt_limited"]) {
+            scene.limited = m.njnt;
+        }
+        scene.springs |= m.nv > 0 && scene.writes(Object::Model, &["dof_damping", "jnt_stiffness"]);
+        scene.sensors = m.nsensor > 0 && scene.reads(Stage::Sensors).is_some();
+        scene.energy |= scene.writes(Object::Option, &["enableflags"]);
+        scene
+    }
+
+    /// Why a stage is wanted for its own sake.
+    fn wants(&self, stage: Stage) -> Option<String> {
+        let m = self.m;
+        let because = |yes: bool, why: &str| yes.then(|| why.to_string());
+        let count = |n: usize, one: &str, many: &str| match n {
+            0 => None,
+            1 => Some(one.to_string()),
+            n => Some(format!("{n} {many}")),
+        };
+        let contacts = || count(self.pairs, "one pair of geoms can touch", "pairs of geoms can touch");
+        let limits = || count(self.limited, "one joint is limited", "joints are limited");
+        match stage {
+            Stage::MassMatrix | Stage::Factor if self.general => {
+                Some("the mass matrix depends on the configuration".into())
+            }
+            // Constant where all bodies are simple: only the composite inertias would be computed.
+            Stage::MassMatrix => because(self.reads_field("crb"), "data.crb is read"),
+            Stage::Factor => None,
+            Stage::Collision => contacts(),
+            Stage::Constraint | Stage::Reference | Stage::Solve => contacts().or_else(limits),
+            Stage::Passive => because(self.springs, "joints have springs or dampers"),
+            Stage::Bias => because(m.nv > 0, "gravity and the motion of bodies make forces"),
+            Stage::Acceleration => because(m.nv > 0, "it is what the integrator needs"),
+            Stage::Sensors => because(self.sensors, "sensor values are read"),
+            Stage::Energy => self.reads(stage).filter(|_| self.energy),
+            _ => self.reads(stage),
+        }
+    }
+
+    /// Whether one stage uses the results of another.
+    fn uses(&self, stage: Stage, of: Stage) -> bool {
+        let m = self.m;
+        match (stage, of) {
+            (Stage::GeomPoses | Stage::SitePoses | Stage::ComPos, Stage::Kinematics) => true,
+            (Stage::MassMatrix | Stage::ComVel, Stage::ComPos) => true,
+            (Stage::Collision, Stage::GeomPoses) => true,
+            (Stage::Constraint, Stage::Kinematics) => self.pairs > 0,
+            (Stage::Bias, Stage::ComVel) => self.general,
+            // A simple body's weight acts along its slides.
+            (Stage::Bias, Stage::Kinematics) => m.jnt_type.contains(&joint::SLIDE),
+            (Stage::Acceleration, Stage::Kinematics) => self.writes(Object::Data, &["xfrc_applied"]),
+            (Stage::Sensors, Stage::Kinematics) => true,
+            (Stage::Sensors, Stage::GeomPoses) => self.sensed(Obj::Geom),
+            (Stage::Sensors, Stage::SitePoses) => self.sensed(Obj::Site),
+            (Stage::Energy, Stage::Kinematics) => true,
+            _ => false,
+        }
+    }
+
+    /// Why a stage is left out.
+    fn leaves_out(&self, stage: Stage) -> &'static str {
+        let m = self.m;
+        match stage {
+            Stage::Kinematics => "bodies fly freely, nothing can touch, and nothing reads a pose",
+            Stage::GeomPoses => "no contact is possible and nothing reads a geom's pose",
+            Stage::SitePoses if m.nsite == 0 => "the model has no sites",
+            Stage::SitePoses => "nothing reads a site's pose",
+            Stage::ComPos | Stage::ComVel => {
+                "every moving body is a simple one: its forces have a closed form"
+            }
+            Stage::MassMatrix | Stage::Factor => {
+                "every moving body is a single free or sliding one: its mass matrix is diagonal and constant"
+            }
+            Stage::Collision if m.ngeom == 0 => "the model has no geoms",
+            Stage::Collision => "no pair of geoms can ever touch",
+            Stage::Constraint | Stage::Reference | Stage::Solve => "no contact and no limit is possible",
+            Stage::Passive => "no joint has a spring or a damper",
+            Stage::Sensors if m.nsensor == 0 => "the model has no sensors",
+            Stage::Sensors => "nothing reads sensordata",
+            Stage::Energy if self.energy => "nothing reads the energy",
+            Stage::Energy => "the energy flag is off",
+            _ => "nothing moves",
+        }
+    }
+
     /// The first field of a stage that is read, as a reason.
     fn reads(&self, stage: Stage) -> Option<String> {
         if self.demand.reads == FieldSet::ALL {
             return Some("its results may be read".into());
         }
-        let f =
-            self.demand.reads.iter().find(|f| f.info().object == Object::Data && f.info().stage == stage)?;
-        Some(format!("data.{} is read", f.info().name))
+        let of_stage = |f: &FieldId| f.info().object == Object::Data && f.info().stage == stage;
+        self.demand.reads.iter().find(of_stage).map(|f| format!("data.{} is read", f.info().name))
     }
 
-    /// Whether one field of the data is read, as a reason.
-    fn reads_field(&self, name: &str) -> Option<String> {
-        field(Object::Data, name)
-            .filter(|&f| self.demand.reads.contains(f))
-            .map(|_| format!("data.{name} may be read"))
+    fn reads_field(&self, name: &str) -> bool {
+        field(Object::Data, name).is_some_and(|f| self.demand.reads.contains(f))
     }
 
     fn writes(&self, object: Object, names: &[&str]) -> bool {
         names.iter().any(|n| field(object, n).is_some_and(|f| self.demand.writes.contains(f)))
     }
 
-    fn contacts(&self, bits_change: bool) -> Result<String, String> {
-        let m = self.m;
-        if m.ngeom == 0 {
-            return Err("the model has no geoms".into());
-        }
-        let pairs = collision::candidate_pairs(m, |a, b| bits_change || collision::can_collide(m, a, b));
-        match pairs.len() {
-            0 => Err("no pair of geoms can ever touch".into()),
-            1 => Ok("one pair of geoms can touch".into()),
-            n => Ok(format!("{n} pairs of geoms can touch")),
-        }
-    }
-
-    fn limits(&self) -> Result<String, String> {
-        if self.m.njnt > 0 && self.writes(Object::Model, &["jnt_limited"]) {
-            return Ok("joint limits are switched while the lab runs".into());
-        }
-        match self.m.jnt_limited.iter().filter(|&&l| l).count() {
-            0 => Err("no joint is limited".into()),
-            1 => Ok("one joint is limited".into()),
-            n => Ok(format!("{n} joints are limited")),
-        }
-    }
-
-    fn springs(&self) -> Result<String, String> {
-        let m = self.m;
-        if m.nv > 0 && self.writes(Object::Model, &["dof_damping", "jnt_stiffness"]) {
-            return Ok("springs or dampers are set while the lab runs".into());
-        }
-        if m.dof_damping.iter().chain(&m.jnt_stiffness).any(|&x| x != 0.0) {
-            return Ok("joints have springs or dampers".into());
-        }
-        Err("no joint has a spring or a damper".into())
-    }
-
-    fn general_mass(&self) -> Result<String, String> {
-        let m = self.m;
-        if (0..m.nv).any(|i| m.dof_simplenum[i] == 0) {
-            return Ok("the mass matrix depends on the configuration".into());
-        }
-        Err("every moving body is a single free or sliding one: its mass matrix is diagonal and constant"
-            .into())
-    }
-
-    fn energy(&self) -> Result<String, String> {
-        let switched = self.writes(Object::Option, &["enableflags"]);
-        if !switched && !self.m.opt.enabled(enable::ENERGY) {
-            return Err("the energy flag is off".into());
-        }
-        match self.reads(Stage::Energy) {
-            Some(why) => Ok(why),
-            None => Err("nothing reads the energy".into()),
-        }
-    }
-
-    /// Whether a sensor measures something that the stage computes.
-    fn sensed(&self, stage: Stage) -> bool {
-        let kind = match stage {
-            Stage::GeomPoses => crate::Obj::Geom,
-            Stage::SitePoses => crate::Obj::Site,
-            _ => return false,
-        };
+    /// Whether a sensor measures an object of this kind.
+    fn sensed(&self, kind: Obj) -> bool {
         self.m.sensor_objtype.contains(&(kind as i32))
     }
 }

@@ -28,22 +28,21 @@ pub(crate) struct Touch {
 pub(crate) struct Pairs {
     pairs: Vec<Pair>,
     params: Vec<Params>,
+    /// Filters are asked at every step, because what they look at may be written.
+    filter: bool,
 }
 
 /// Most pairs whose parameters are kept: beyond, memory costs more than mixing them again.
 const MAX_KEPT: usize = 4096;
 
-/// Finds the pairs that may touch: all that pass the filters when contact bits may be written later,
-/// otherwise those that the bits admit now.
-pub(crate) fn pairs(m: &Model, bits_may_change: bool, params_may_change: bool) -> Pairs {
-    let pairs = candidate_pairs(m, |a, b| bits_may_change || can_collide(m, a, b));
+/// Finds the pairs that may touch: all that can ever, when contact bits and flags may be written later,
+/// otherwise those that they admit now.
+pub(crate) fn pairs(m: &Model, pairs_may_change: bool, params_may_change: bool) -> Pairs {
+    let pairs = candidate_pairs(m, pairs_may_change);
     let keep = !params_may_change && pairs.len() <= MAX_KEPT;
-    let params = if keep {
-        pairs.iter().map(|p| params::params(m, p.geom1 as usize, p.geom2 as usize)).collect()
-    } else {
-        Vec::new()
-    };
-    Pairs { pairs, params }
+    let mix = |p: &Pair| params::params(m, p.geom1 as usize, p.geom2 as usize);
+    let params = if keep { pairs.iter().map(mix).collect() } else { Vec::new() };
+    Pairs { pairs, params, filter: pairs_may_change }
 }
 
 /// `contact`, `ncon`: tests the pairs of the plan in their order.
@@ -51,16 +50,14 @@ pub(crate) fn pairs(m: &Model, bits_may_change: bool, params_may_change: bool) -
 pub(crate) fn collide(m: &Model, d: &mut Data) {
     d.contact.clear();
     let list = std::mem::take(&mut d.work.pairs);
-    if list.params.is_empty() {
-        for pair in &list.pairs {
-            let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
-            if can_collide(m, g1, g2) {
-                narrow(m, d, g1, g2, &params::params(m, g1, g2));
-            }
+    for (i, pair) in list.pairs.iter().enumerate() {
+        let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
+        if list.filter && !filter::admitted(m, g1, g2) {
+            continue;
         }
-    } else {
-        for (pair, params) in list.pairs.iter().zip(&list.params) {
-            narrow(m, d, pair.geom1 as usize, pair.geom2 as usize, params);
+        match list.params.get(i) {
+            Some(params) => narrow(m, d, g1, g2, params),
+            None => narrow(m, d, g1, g2, &params::params(m, g1, g2)),
         }
     }
     d.work.pairs = list;

@@ -14,7 +14,8 @@ use crate::{Contact, Data, Model, disable, joint};
 pub(crate) fn make(m: &Model, d: &mut Data) {
     d.work.jac.clear();
     let on = |bit: i32| !m.opt.disabled(disable::CONSTRAINT) && !m.opt.disabled(bit);
-    let limited = if on(disable::LIMIT) { m.jnt_limited.iter().filter(|&&l| l).count() } else { 0 };
+    let limited =
+        if d.plan.limits && on(disable::LIMIT) { m.jnt_limited.iter().filter(|&&l| l).count() } else { 0 };
     let touching: usize = d.contact.iter().map(|c| if c.dim == 1 { 1 } else { 4 }).sum();
     // Room for all that may come; the arrays keep their length from step to step as long as contacts stay.
     resize(d, 2 * limited + touching);

@@ -57,8 +57,6 @@ pub struct Run {
     pub until: Option<Number>,
     /// Length in steps.
     pub steps: Option<Number>,
-    /// Relative tolerance of comparisons with this run, instead of the general one.
-    pub tol: Option<Number>,
 }
 
 /// A number quoted in the text and where it comes from.
@@ -134,7 +132,6 @@ fn run(member: &Member, findings: &mut Vec<Finding>) -> Option<Run> {
         setup: f.text("setup"),
         until: f.number("until"),
         steps: f.whole("steps"),
-        tol: f.number("tol"),
     };
     fields.finish();
     Some(run)

@@ -160,6 +160,7 @@ impl<'a> BoundVerify<'a> {
                 format!("the run `{}` cannot be made: {e}", run.name),
             ));
         };
+        let stated = self.states_timestep(run);
         let mut press = Vec::new();
         let (mut until, mut steps) = (None, None);
         if let Some(spec) = run.spec {
@@ -168,12 +169,14 @@ impl<'a> BoundVerify<'a> {
             let list: Vec<_> = spec.press.iter().map(|(label, t)| (label.value.clone(), t.value)).collect();
             press = run::presses(self.programs, &list).map_err(&mut refuse).ok()?;
             until = spec.until.as_ref().map(|n| n.value);
-            steps = spec.steps.as_ref().map(|n| (n.value.max(0.0) / numerics.timestep) as usize);
+            // As many steps as reach as far.
+            let shorter = if stated { 1.0 } else { numerics.timestep };
+            steps = spec.steps.as_ref().map(|n| (n.value.max(0.0) / shorter).round() as usize);
         }
         if let Some(setup) = &run.setup {
             session.run_statements(&setup.program, setup.text);
         }
-        session.perturb(numerics, self.states_timestep(run));
+        session.perturb(numerics, stated);
         let count = run::count_steps(self.lab, until, steps, session.world.model.opt.timestep)
             .map_err(&mut refuse)
             .ok()?;

@@ -188,7 +188,6 @@ fn check_one(verify: &Verify, lab: Option<&Lab>, findings: &mut Vec<Finding>) {
     for run in &verify.runs {
         positive("until", run.until.as_ref(), "the length of the run in seconds", findings);
         positive("steps", run.steps.as_ref(), "the length of the run in steps", findings);
-        positive("tol", run.tol.as_ref(), "a tolerance", findings);
         if let (Some(until), Some(steps)) = (&run.until, &run.steps) {
             findings.push(
                 Finding::new(&RUN_LENGTH, steps.span.clone(), "this run has both `until` and `steps`")
