@@ -2,10 +2,12 @@
 
 mod allocation;
 mod cli;
+mod cli_run;
 mod lessons;
 mod numbers;
 mod parity;
 mod plan;
+mod program;
 mod scenes;
 mod support;
 mod verify;

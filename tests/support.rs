@@ -1,7 +1,7 @@
 //! What several modules of tests need: places, models, and the recorded numbers of MuJoCo.
 
 // A test that cannot read its own inputs has to fail.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use labspec::bind::scene::Models;
 use labspec::check::{self, Checked, Depth};

@@ -77,6 +77,7 @@ pub(crate) fn number(bodies: &[BodySpec]) -> Layout {
 
 /// Reports joints and mocap bodies where they cannot be.
 pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
+    within_limits(bodies, layout, report);
     for (i, body) in bodies.iter().enumerate().skip(1) {
         check_joints(body, report);
         if body.mocap && (body.parent != 0 || !body.joints.is_empty()) {
@@ -96,6 +97,21 @@ pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
                 )
                 .why("a plane is infinite and has no mass")
                 .help("put it into `worldbody`, or use another shape");
+        }
+    }
+}
+
+/// Collision tests every pair of geoms, and a pile is solved with a dense matrix: a model far beyond a lesson's
+/// would take memory and hours without a word.
+fn within_limits(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
+    let geoms: usize = bodies.iter().map(|b| b.geoms.len()).sum();
+    let counts = [(layout.dofs.len(), super::MAX_DOFS, "degrees of freedom"), (geoms, super::MAX_GEOMS, "geoms")];
+    for (n, most, what) in counts {
+        if n > most {
+            report
+                .error(code::LIMIT, 0..0, format!("the model has {n} {what}; the limit is {most}"))
+                .why("larger scenes would take minutes for a step")
+                .help("leave out what the lesson does not need");
         }
     }
 }

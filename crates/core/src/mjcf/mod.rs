@@ -45,6 +45,10 @@ pub const MAX_TEXT: usize = 16 << 20;
 pub const MAX_DEPTH: usize = 1000;
 /// Largest number of elements.
 pub const MAX_ELEMENTS: usize = 200_000;
+/// Largest number of degrees of freedom.
+pub const MAX_DOFS: usize = 1500;
+/// Largest number of geoms.
+pub const MAX_GEOMS: usize = 5000;
 /// Largest number of attributes of an element.
 pub const MAX_ATTRIBUTES: usize = 200;
 

@@ -29,7 +29,7 @@ pub struct RunOptions {
 /// Most steps of one run: a lesson is minutes long at most, a mistyped length is for ever.
 pub const MAX_STEPS: usize = 20_000_000;
 /// Most cells of a table.
-const MAX_CELLS: usize = 50_000_000;
+const MAX_CELLS: usize = 10_000_000;
 /// Length of a run when nothing states one, s.
 const DEFAULT_LENGTH: f64 = 2.0;
 

@@ -12,6 +12,9 @@ use labspec_core::reflect::{self, Object};
 use labspec_core::{Demand, Model};
 use labspec_expr::{Compiled, Compiler, Effects, Globals, Program, Value};
 
+/// Most steps of one run of a `verify` object.
+const MAX_VERIFY_STEPS: usize = 2_000_000;
+
 /// A program with the text that it came from.
 #[derive(Debug)]
 struct Named<'a> {
@@ -181,6 +184,12 @@ impl<'a> BoundVerify<'a> {
             .map_err(&mut refuse)
             .ok()?;
 
+        if count > MAX_VERIFY_STEPS {
+            refuse(run::RunError(format!(
+                "it takes {count} steps; a verified run may take {MAX_VERIFY_STEPS}, so that a check ends"
+            )));
+            return None;
+        }
         let mut running: Vec<Measure<'_>> =
             measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
         let mut pending = press.as_slice();
