@@ -105,7 +105,8 @@ pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
 /// would take memory and hours without a word.
 fn within_limits(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     let geoms: usize = bodies.iter().map(|b| b.geoms.len()).sum();
-    let counts = [(layout.dofs.len(), super::MAX_DOFS, "degrees of freedom"), (geoms, super::MAX_GEOMS, "geoms")];
+    let counts =
+        [(layout.dofs.len(), super::MAX_DOFS, "degrees of freedom"), (geoms, super::MAX_GEOMS, "geoms")];
     for (n, most, what) in counts {
         if n > most {
             report
