@@ -8,6 +8,7 @@ mod numbers;
 mod parity;
 mod plan;
 mod program;
+mod readme;
 mod scenes;
 mod support;
 mod verify;

@@ -1,0 +1,55 @@
+//! What the README and the guides show is what the program does.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::support::workspace;
+use std::process::Command;
+
+fn run(arguments: &[&str]) -> String {
+    let program = env!("CARGO_BIN_EXE_labspec");
+    let done = Command::new(program).args(arguments).current_dir(workspace()).output().unwrap();
+    String::from_utf8(done.stdout).unwrap()
+}
+
+fn file(name: &str) -> String {
+    std::fs::read_to_string(workspace().join(name)).unwrap()
+}
+
+#[test]
+fn the_example_lessons_print_what_the_readme_shows() {
+    let shown = run(&["check", "specs/lessons"]);
+    assert!(file("README.md").contains(shown.trim()), "the README shows something else than\n{shown}");
+}
+
+/// The lesson behind the three findings that the README shows.
+const WRONG: &str = r#"```lab simlab
+{"model": "drop",
+ "controls": [{"label": "mass", "apply": "model.body_mass[2] = value", "min": 1, "max": 5, "value": 2}],
+ "plots": [{"ylabel": "height (m)", "traces": [{"label": "cork", "expr": "data.joint('crok').qpos[2]"}]}],
+ "readouts": [{"label": "speed", "expr": "data.qvel[14]"}]}
+```
+"#;
+
+#[test]
+fn the_findings_of_the_readme_are_real() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("wrong.md"), WRONG).unwrap();
+    let done = Command::new(env!("CARGO_BIN_EXE_labspec"))
+        .args(["check", "wrong.md", "--models"])
+        .arg(workspace().join("specs/models"))
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert_eq!(done.status.code(), Some(1));
+    let shown = String::from_utf8(done.stdout).unwrap();
+    let findings = shown.split("\n\nwrong.md\n").next().unwrap();
+    assert!(file("README.md").contains(findings.trim()), "the README shows something else than\n{findings}");
+}
+
+#[test]
+fn the_picture_of_the_readme_is_of_the_lesson() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("bounce.svg");
+    run(&["run", "specs/lessons/02-bounce-and-swing.md#1", "--until", "1.5", "--svg", picture.to_str().unwrap()]);
+    assert!(std::fs::read_to_string(picture).unwrap() == file("docs/pictures/bounce.svg"), "see the README for its command");
+}
