@@ -50,6 +50,16 @@ fn the_findings_of_the_readme_are_real() {
 fn the_picture_of_the_readme_is_of_the_lesson() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("bounce.svg");
-    run(&["run", "specs/lessons/02-bounce-and-swing.md#1", "--until", "1.5", "--svg", picture.to_str().unwrap()]);
-    assert!(std::fs::read_to_string(picture).unwrap() == file("docs/pictures/bounce.svg"), "see the README for its command");
+    run(&[
+        "run",
+        "specs/lessons/02-bounce-and-swing.md#1",
+        "--until",
+        "1.5",
+        "--svg",
+        picture.to_str().unwrap(),
+    ]);
+    assert!(
+        std::fs::read_to_string(picture).unwrap() == file("docs/pictures/bounce.svg"),
+        "see the README for its command"
+    );
 }

@@ -230,7 +230,7 @@ fn shrinks(m: &Model, start: &[f64], invariants: fn(&Model, &Data) -> Vec<f64>) 
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 100, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 100, max_shrink_iters: 300, ..ProptestConfig::default() })]
 
     #[test]
     fn energy_is_conserved_to_the_order_of_the_integrator(scene in scene(), numbers in numbers()) {
@@ -258,13 +258,16 @@ struct Rest {
     friction: Option<f64>,
 }
 
-fn rest() -> impl Strategy<Value = Rest> {
-    let solimp = (0.2..0.9, 0.5..0.98, 2e-4..5e-3, 0.2..0.8, 1.0..4.0);
-    (0.002..0.05, 0.6..1.4, solimp, 0.01..10.0, 0.0005..0.005, prop::option::of(0.2..1.5)).prop_map(
-        |(time, damping, (d0, dw, width, mid, power), mass, timestep, friction)| Rest {
-            time,
+/// Any contact, or one that comes to rest: a contact that answers within a few steps and damps little goes on
+/// bouncing, in MuJoCo as here, because each step applies the force of its beginning.
+fn rest(settles: bool) -> impl Strategy<Value = Rest> {
+    let (steps, damping, end) = if settles { (4.0, 0.8, 0.8) } else { (0.5, 0.3, 0.3) };
+    let solimp = (0.3..1.0, end..0.98, 2e-4..5e-3, 0.2..0.8, 1.0..4.0);
+    (steps..20.0, damping..1.5, solimp, 0.01..10.0, 0.0005..0.005, prop::option::of(0.2..1.5)).prop_map(
+        |(steps, damping, (share, dw, width, mid, power), mass, timestep, friction)| Rest {
+            time: steps * timestep,
             damping,
-            solimp: [d0, dw, width, mid, power],
+            solimp: [share * dw, dw, width, mid, power],
             mass,
             timestep,
             friction,
@@ -320,19 +323,35 @@ impl Rest {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 50, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 50, max_shrink_iters: 300, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_sphere_rests_as_deep_as_the_closed_form_says(rest in rest()) {
-        let m = rest.model();
+    fn a_sphere_rests_as_deep_as_the_closed_form_says(rest in rest(true)) {
+        let mut m = rest.model();
+        // At the default tolerance the solver stops early and the sphere creeps up and down by 1e-9 m/s.
+        (m.opt.tolerance, m.opt.ls_tolerance) = (0.0, 1e-10);
         let mut d = Data::new(&m);
         for _ in 0..20_000 {
             core::step(&m, &mut d);
         }
         let depth = 2.0 - d.qpos[2];
         let expected = rest.depth();
-        // The last motion has died out; what is left is the solver's tolerance, 1e-8 of an acceleration.
-        prop_assert!((depth - expected).abs() <= 1e-8 * expected, "{depth} {expected}");
-        prop_assert!(d.qvel.iter().all(|v| v.abs() < 1e-9));
+        // The last motion has died out; a depth of 1e-5 m is known to 1e-16 of the height of 2 m.
+        prop_assert!((depth - expected).abs() <= 1e-10 * expected + 1e-14, "{depth} {expected}");
+        prop_assert!(d.qvel.iter().all(|v| v.abs() < 1e-12), "{:?}", d.qvel);
+    }
+
+    /// At that depth forces balance, whether or not steps of this length would find it.
+    #[test]
+    fn the_closed_form_is_in_balance(rest in rest(false)) {
+        let mut m = rest.model();
+        (m.opt.tolerance, m.opt.ls_tolerance) = (0.0, 1e-10);
+        let mut d = Data::new(&m);
+        d.qpos[2] = 2.0 - rest.depth();
+        core::forward(&m, &mut d);
+        prop_assert_eq!(d.ncon, 1);
+        // The depth is known to 1e-16 of the radius; the reference acceleration is its product with K d.
+        let stiffness = d.efc_KBIP[0] * d.efc_KBIP[2];
+        prop_assert!(d.qacc[2].abs() <= 1e-9 + 1e-14 * stiffness, "{:?} {stiffness}", d.qacc);
     }
 }

@@ -22,9 +22,9 @@ pub(super) fn explain(a: &Arguments) -> Result<Outcome, Failure> {
     match text {
         Some(text) => print(&text).map(|()| Outcome::Clean),
         None => {
-            let near = json::nearest(code, rules::all().map(|(c, _)| c))
-                .map_or(String::new(), |c| format!("; did you mean `{c}`?"));
-            Err(format!("there is no code `{code}`{near} `labspec explain` lists all"))
+            let near = json::nearest(code, rules::all().map(|(c, _)| c));
+            let near = near.map_or(String::new(), |c| format!("; did you mean `{c}`?"));
+            Err(format!("there is no code `{code}`{near}\n`labspec explain` lists all codes"))
         }
     }
 }
