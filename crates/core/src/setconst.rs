@@ -3,7 +3,7 @@
 use crate::kinematics::sameframe;
 use crate::math::*;
 use crate::plan::Plan;
-use crate::{Data, Model, com, jacobian, joint, kinematics, mass, pipeline};
+use crate::{Data, Model, com, geom, jacobian, joint, kinematics, mass, pipeline};
 
 /// Recomputes what follows from masses, inertias and poses (`mj_setConst`).
 ///
@@ -170,13 +170,10 @@ fn inverse_weights(m: &mut Model, d: &Data) {
 
 /// `stat`: means over bodies, and a box around everything that has a place.
 fn statistics(m: &mut Model, d: &Data) {
-    let moving = (m.nbody.max(2) - 1) as f64;
-    m.stat.meanmass = m.body_mass.iter().skip(1).sum::<f64>() / moving;
-    if m.nv > 0 {
-        m.stat.meaninertia = m.dof_M0.iter().sum::<f64>() / m.nv as f64;
-    } else {
-        m.stat.meaninertia = 1.0;
-    }
+    let bodies = (m.nbody - 1) as f64;
+    m.stat.meanmass = if m.nbody > 1 { m.body_mass.iter().skip(1).sum::<f64>() / bodies } else { 1.0 };
+    m.stat.meaninertia = if m.nv > 0 { m.dof_M0.iter().sum::<f64>() / m.nv as f64 } else { 1.0 };
+    m.stat.meansize = mean_body_size(m, d);
 
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
@@ -197,23 +194,29 @@ fn statistics(m: &mut Model, d: &Data) {
         include(rows::<3>(&d.site_xpos)[s], 0.0);
     }
     for g in 0..m.ngeom {
-        if m.geom_rbound[g] > 0.0 {
-            include(rows::<3>(&d.geom_xpos)[g], m.geom_rbound[g]);
-        }
+        include(rows::<3>(&d.geom_xpos)[g], reach(m, g));
     }
-    let sizes: Vec3 = std::array::from_fn(|i| high[i] - low[i]);
-    if sizes[0].is_finite() {
-        m.stat.center = std::array::from_fn(|i| 0.5 * (low[i] + high[i]));
-        m.stat.extent = sizes[0].max(sizes[1]).max(sizes[2]).max(1e-5);
-    } else {
-        m.stat.center = [0.0; 3];
-        m.stat.extent = 1.0;
-    }
-    m.stat.meansize = mean_body_size(m, d).unwrap_or(m.stat.extent);
+    let side = (0..3).map(|i| high[i] - low[i]).fold(0.0, f64::max);
+    m.stat.center =
+        if low[0].is_finite() { std::array::from_fn(|i| 0.5 * (low[i] + high[i])) } else { [0.0; 3] };
+    m.stat.extent = if side > 0.0 { side.max(2.0 * m.stat.meansize) } else { 2.0 };
 }
 
-/// Mean over bodies of the farthest reach of their geoms and joints from the centre of mass.
-fn mean_body_size(m: &Model, d: &Data) -> Option<f64> {
+/// How far a geom reaches from its centre, m; a plane, which has no end, counts for a tenth of what is drawn.
+fn reach(m: &Model, g: usize) -> f64 {
+    let [x, y, _] = rows::<3>(&m.geom_size)[g];
+    match m.geom_type[g] {
+        geom::PLANE if x > 0.0 || y > 0.0 => 0.1 * x.max(y),
+        geom::PLANE => 0.01,
+        _ => m.geom_rbound[g],
+    }
+}
+
+/// Mean over bodies of the farthest reach of their geoms and joints from the centre of mass, m.
+fn mean_body_size(m: &Model, d: &Data) -> f64 {
+    if m.nbody == 1 {
+        return 0.2;
+    }
     let xipos = rows::<3>(&d.xipos);
     let mut size = vec![0.0f64; m.nbody];
     for j in 0..m.njnt {
@@ -228,5 +231,41 @@ fn mean_body_size(m: &Model, d: &Data) -> Option<f64> {
     }
     // A body with nothing in it counts as a point.
     let sum: f64 = size.iter().skip(1).map(|s| s.max(1e-5)).sum();
-    (m.nbody > 1).then(|| sum / (m.nbody - 1) as f64)
+    sum / (m.nbody - 1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::mjcf::compile;
+
+    /// Scenes, and what MuJoCo 3.14.0 gives for extent, height of the centre, meansize and meanmass.
+    #[test]
+    fn statistics_are_those_of_mujoco() {
+        let ball = "<body pos='0 0 1'><freejoint/><geom size='.1'/></body>";
+        let mass = 4.188790204786391;
+        let cases = [
+            (String::new(), [2.0, 0.0, 0.2, 1.0]),
+            ("<geom size='.05'/>".into(), [0.4, 0.0, 0.2, 1.0]),
+            ("<geom size='.5'/>".into(), [1.0, 0.0, 0.2, 1.0]),
+            ("<geom type='plane' size='1 0 1'/>".into(), [0.4, 0.0, 0.2, 1.0]),
+            ("<site pos='1 0 0'/>".into(), [2.0, 0.0, 0.2, 1.0]),
+            (ball.into(), [0.2, 1.0, 0.1, mass]),
+            (format!("<geom type='plane' size='1 2 3'/>{ball}"), [1.3, 0.45, 0.1, mass]),
+            (format!("<geom type='plane' size='0 0 3'/>{ball}"), [1.11, 0.545, 0.1, mass]),
+            (format!("<geom type='plane' size='1 1 1' pos='5 0 0'/>{ball}"), [5.2, 0.5, 0.1, mass]),
+            (format!("<site size='1' pos='0 0 1'/>{ball}"), [0.2, 1.0, 0.1, mass]),
+            (format!("<body pos='0 0 1'/>{ball}"), [1.1, 1.45, 0.050005, mass / 2.0]),
+            (
+                "<body pos='0 0 1'><joint pos='0 0 .5'/><geom size='.1' pos='.3 0 0'/></body>".into(),
+                [1.16619037896906, 1.2, 0.58309518948453, mass],
+            ),
+        ];
+        for (scene, expected) in cases {
+            let m = compile(&format!("<mujoco><worldbody>{scene}</worldbody></mujoco>")).unwrap();
+            let found = [m.stat.extent, m.stat.center[2], m.stat.meansize, m.stat.meanmass];
+            for (a, b) in found.iter().zip(expected) {
+                assert!((a - b).abs() < 1e-12 * (1.0 + b), "{scene}: {found:?}, not {expected:?}");
+            }
+        }
+    }
 }
