@@ -243,6 +243,10 @@ impl<'p> Session<'p> {
 
     /// Keeps warnings over resets of the data: the engine's own counters start again.
     fn note_warnings(&mut self) {
+        // Asked after every step, and nearly always none.
+        if self.world.data.warning.iter().map(|w| w.number).sum::<usize>() == 0 {
+            return;
+        }
         for (kept, now) in self.warnings.iter_mut().zip(&self.world.data.warning) {
             if now.number > 0 && kept.number == 0 {
                 *kept = *now;
