@@ -59,7 +59,7 @@ pub struct Contact {
 
 /// Warnings of the simulation, in MuJoCo's order (mjtWarning).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)] // `text` says what each means
+#[allow(missing_docs)] // `name` is what MuJoCo calls each
 pub enum Warning {
     Inertia,
     ContactFull,

@@ -1,7 +1,7 @@
 //! `mj_step` and `mj_forward`: the order of the stages, each a call to the module that holds its formula.
 
 use crate::math::{dot, rows};
-use crate::plan::{Exact, Plan};
+use crate::plan::Plan;
 use crate::reflect::Stage;
 use crate::{
     Data, Model, Warning, collision, com, constraint, disable, enable, energy, integrate, integrator,
@@ -50,9 +50,6 @@ pub(crate) fn forward_skip(m: &Model, d: &mut Data, skip: Skip) {
     }
     acceleration(m, d);
     constraints(m, d);
-    if show && d.plan.keeps(Stage::Sensors) {
-        sensor::acceleration_stage(m, d);
-    }
 }
 
 /// What depends on `qpos` alone.
@@ -117,15 +114,12 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     if d.plan.applied_forces {
         applied_forces(m, d);
     }
-    match d.plan.mass {
-        Exact::Diagonal => {
-            for ((a, f), inv) in d.qacc_smooth.iter_mut().zip(&d.qfrc_smooth).zip(&d.qLDiagInv) {
-                *a = f * inv;
-            }
-        }
-        Exact::General => {
-            d.qacc_smooth.copy_from_slice(&d.qfrc_smooth);
-            mass::solve(m, &d.qLD, &d.qLDiagInv, &mut d.qacc_smooth, 0..m.nv);
+    if d.plan.some_general {
+        d.qacc_smooth.copy_from_slice(&d.qfrc_smooth);
+        mass::solve(m, &d.qLD, &d.qLDiagInv, &mut d.qacc_smooth, 0..m.nv);
+    } else {
+        for ((a, f), inv) in d.qacc_smooth.iter_mut().zip(&d.qfrc_smooth).zip(&d.qLDiagInv) {
+            *a = f * inv;
         }
     }
 }

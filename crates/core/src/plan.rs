@@ -23,14 +23,6 @@ impl Demand {
     pub const OBSERVE: Demand = Demand { reads: FieldSet::ALL, writes: FieldSet::EMPTY };
 }
 
-/// How the mass matrix is inverted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Exact {
-    /// All bodies are simple: M is diagonal and constant.
-    Diagonal,
-    General,
-}
-
 /// One line of the plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Decision {
@@ -47,8 +39,7 @@ pub struct Decision {
 pub struct Plan {
     decisions: Vec<Decision>,
     kept: u32,
-    pub(crate) mass: Exact,
-    /// Whether some tree is more than one simple body.
+    /// Whether some tree is more than one simple body; otherwise the mass matrix is diagonal and constant.
     pub(crate) some_general: bool,
     /// Whether a joint limit can become active.
     pub(crate) limits: bool,
@@ -63,7 +54,6 @@ impl Default for Plan {
         Plan {
             decisions: Vec::new(),
             kept: 0,
-            mass: Exact::General,
             some_general: true,
             limits: true,
             applied_forces: true,
@@ -101,7 +91,6 @@ impl Plan {
     pub fn new(m: &Model, demand: &Demand) -> Plan {
         let scene = Scene::new(m, demand);
         let mut plan = Plan {
-            mass: if scene.general { Exact::General } else { Exact::Diagonal },
             some_general: scene.general,
             limits: scene.limited > 0,
             applied_forces: scene.writes(Object::Data, &["xfrc_applied"]),

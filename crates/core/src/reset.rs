@@ -1,7 +1,7 @@
 //! Resets, and the counts that follow from them.
 
 use crate::math::*;
-use crate::{Data, Model, Warning, WarningStat, kinematics, mass, plan, reflect};
+use crate::{Data, Model, Warning, WarningStat, kinematics, mass, reflect};
 
 /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
 /// what was written to it.
@@ -40,7 +40,7 @@ pub fn reset_data_keyframe(m: &Model, d: &mut Data, key: usize) {
 
 /// Gives the fields of stages that the plan leaves out the values that those stages would find.
 pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
-    if d.plan.mass == plan::Exact::Diagonal {
+    if !d.plan.some_general {
         mass::constant_mass(m, d);
     }
 }

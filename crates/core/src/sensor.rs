@@ -57,9 +57,6 @@ pub(crate) fn velocity_stage(m: &Model, d: &mut Data) {
     }
 }
 
-/// Sensors that need accelerations or constraint forces: none of the supported types.
-pub(crate) fn acceleration_stage(_m: &Model, _d: &mut Data) {}
-
 /// Clamps real values to ± cutoff. Quaternions are not clamped.
 fn cutoff(m: &Model, d: &mut Data, s: usize) {
     let c = m.sensor_cutoff[s];

@@ -202,7 +202,7 @@ fn try_lab(ready: &Ready<'_>, findings: &mut Vec<Finding>) -> usize {
 /// Makes one run and reports what broke; `true` when something did.
 fn attempt(ready: &Ready<'_>, trial: &Trial<'_>, findings: &mut Vec<Finding>) -> bool {
     let lab = ready.lab;
-    let key = lab.key.as_ref().map(|k| k.value.max(0.0) as usize);
+    let key = lab.keyframe();
     let mut session = Session::start(&ready.programs, &ready.model, key, &ready.programs.demand);
     let place = trial.control.map_or(lab_place(lab), |c| c.label.span());
     let prepared = run::set_controls(&mut session, &ready.programs, &trial.options.set)

@@ -9,7 +9,7 @@ use crate::finding::Finding;
 use crate::run::{self, RunError, Session};
 use crate::spec::Lab;
 use crate::svg::{Method, MethodPoint, WorkPrecision, work_precision};
-use labspec_core::{Demand, Model, Warning, integrator};
+use labspec_core::{Model, Warning, integrator};
 use labspec_expr::Compiler;
 use std::time::Instant;
 
@@ -192,8 +192,8 @@ fn targets<'a>(
 }
 
 fn start<'p>(lab: &Lab, model: &Model, programs: &'p Programs) -> Session<'p> {
-    let key = lab.key.as_ref().map(|k| k.value.max(0.0) as usize);
-    Session::start(programs, model, key, &Demand { ..programs.demand })
+    let key = lab.keyframe();
+    Session::start(programs, model, key, &programs.demand)
 }
 
 /// What all runs of a comparison share.

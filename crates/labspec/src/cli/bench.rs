@@ -41,7 +41,7 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     };
     let plan = Plan::new(&target.model, &demand);
     let data = Data::planned(&target.model, plan);
-    let key = target.lab.key.as_ref().map(|k| k.value.max(0.0) as usize);
+    let key = target.lab.keyframe();
     let mut session = Session::start_with(&target.programs, &target.model, key, data);
     let steps = a.steps.clamp(1, crate::run::MAX_STEPS);
     let lab = !target.programs.probes.is_empty() || target.programs.controller.is_some();

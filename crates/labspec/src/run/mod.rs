@@ -123,7 +123,7 @@ pub fn count_steps(
 /// # Errors
 /// A control that does not exist, or a run that is too long.
 pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
-    let key = lab.key.as_ref().map(|k| k.value.max(0.0) as usize);
+    let key = lab.keyframe();
     let mut session = Session::start(programs, model, key, &programs.demand);
     set_controls(&mut session, programs, &options.set)?;
     let presses = presses(programs, &options.press)?;

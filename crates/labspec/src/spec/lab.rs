@@ -129,6 +129,11 @@ impl Lab {
         }
     }
 
+    /// Index of the keyframe to start from.
+    pub fn keyframe(&self) -> Option<usize> {
+        self.key.as_ref().map(|k| k.value.max(0.0) as usize)
+    }
+
     /// Title, or a text that stands for it.
     pub fn title(&self) -> &str {
         self.title.as_ref().map_or("", Text::as_str)

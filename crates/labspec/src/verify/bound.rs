@@ -153,7 +153,7 @@ impl<'a> BoundVerify<'a> {
                 include(arg.effects(), &mut demand);
             }
         }
-        let key = self.lab.key.as_ref().map(|k| k.value.max(0.0) as usize);
+        let key = self.lab.keyframe();
         let mut session = Session::start(self.programs, self.model, key, &demand);
         let place = run.spec.map_or(self.place.clone(), |r| r.name.span());
         let mut refuse = |e: run::RunError| {
