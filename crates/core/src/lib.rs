@@ -19,6 +19,8 @@
 //! of the stages, and every stage is a module of its own.
 #![forbid(unsafe_code)]
 
+mod actuation;
+mod camera;
 mod collision;
 mod com;
 mod constraint;
@@ -40,12 +42,17 @@ mod reset;
 mod rne;
 pub mod sensor;
 mod setconst;
+mod tendon;
+mod transmission;
 
 pub use collision::{can_collide, contact_force};
 pub use data::{Contact, Data, Warning, WarningStat};
 pub use integrate::integrate_pos;
 pub use mass::full_m;
-pub use model::{Model, Names, Obj, Options, Statistic, disable, enable, geom, integrator, joint};
+pub use model::{Model, Names, Obj, Options, Statistic};
+pub use model::{
+    biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, trntype, wraptype,
+};
 pub use pipeline::{forward, set_plan, step};
 pub use plan::{Demand, Plan};
 pub use reset::{reset_data, reset_data_keyframe};

@@ -56,18 +56,24 @@ impl Options {
             impratio: 1.0,
             tolerance: 1e-8,
             ls_tolerance: 0.01,
+            noslip_tolerance: 1e-6,
+            ccd_tolerance: 1e-6,
+            sleep_tolerance: 1e-3,
             gravity: [0.0, 0.0, -9.81],
-            o_margin: 0.0,
+            magnetic: [0.0, -0.5, 0.0],
             o_solref: [0.02, 1.0],
             o_solimp: [0.9, 0.95, 0.001, 0.5, 2.0],
             o_friction: [1.0, 1.0, 0.005, 0.0001, 0.0001],
             integrator: integrator::EULER,
-            cone: 0,
+            jacobian: 2,
             solver: 2,
             iterations: 100,
             ls_iterations: 50,
-            disableflags: 0,
-            enableflags: 0,
+            ccd_iterations: 35,
+            sdf_initpoints: 40,
+            sdf_iterations: 10,
+            // The rest is zero: no wind, a vacuum, the pyramidal cone, no flags.
+            ..Options::default()
         }
     }
 
@@ -88,6 +94,12 @@ pub mod integrator {
     pub const EULER: i32 = 0;
     /// Runge-Kutta of fourth order.
     pub const RK4: i32 = 1;
+    /// Implicit in velocity.
+    pub const IMPLICIT: i32 = 2;
+    /// Implicit in velocity, without the derivatives of Coriolis forces.
+    pub const IMPLICITFAST: i32 = 3;
+    /// One constraint problem in the metric of the next step.
+    pub const DISCRETE: i32 = 4;
 }
 
 /// Bits of `opt.disableflags` (mjtDisableBit).
@@ -124,6 +136,7 @@ pub mod enable {
     pub const INVDISCRETE: i32 = 1 << 3;
     pub const SLEEP: i32 = 1 << 4;
     pub const DIAGEXACT: i32 = 1 << 5;
+    pub const IPC: i32 = 1 << 6;
 }
 
 /// Values of `jnt_type`.
@@ -157,62 +170,138 @@ pub mod joint {
 #[allow(missing_docs)] // the geom types
 pub mod geom {
     pub const PLANE: i32 = 0;
+    pub const HFIELD: i32 = 1;
     pub const SPHERE: i32 = 2;
+    pub const CAPSULE: i32 = 3;
+    pub const ELLIPSOID: i32 = 4;
+    pub const CYLINDER: i32 = 5;
+    pub const BOX: i32 = 6;
+    pub const MESH: i32 = 7;
 }
 
-/// Kinds of named objects, with MuJoCo's numbers (mjtObj).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[allow(missing_docs)] // the object kinds
-pub enum Obj {
-    Body = 1,
-    XBody = 2,
-    Joint = 3,
-    Dof = 4,
-    Geom = 5,
-    Site = 6,
-    Camera = 7,
-    Light = 8,
-    Tendon = 18,
-    Actuator = 19,
-    Sensor = 20,
-    Key = 24,
+/// Values of `wrap_type`: what a tendon's path is made of.
+#[allow(missing_docs)] // the kinds of path objects
+pub mod wraptype {
+    pub const JOINT: i32 = 1;
+    pub const PULLEY: i32 = 2;
+    pub const SITE: i32 = 3;
+    pub const SPHERE: i32 = 4;
+    pub const CYLINDER: i32 = 5;
 }
 
-/// Names by object kind, in id order; an object without a name has the empty string.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[allow(missing_docs)] // one list per object kind
-pub struct Names {
-    pub model: String,
-    pub body: Vec<String>,
-    pub joint: Vec<String>,
-    pub geom: Vec<String>,
-    pub site: Vec<String>,
-    pub camera: Vec<String>,
-    pub light: Vec<String>,
-    pub tendon: Vec<String>,
-    pub actuator: Vec<String>,
-    pub sensor: Vec<String>,
-    pub key: Vec<String>,
+/// Values of `actuator_trntype`.
+#[allow(missing_docs)] // the transmissions
+pub mod trntype {
+    pub const JOINT: i32 = 0;
+    pub const JOINTINPARENT: i32 = 1;
+    pub const SLIDERCRANK: i32 = 2;
+    pub const TENDON: i32 = 3;
+    pub const SITE: i32 = 4;
+    pub const BODY: i32 = 5;
+    pub const SO3: i32 = 6;
+}
+
+/// Values of `actuator_dyntype`.
+#[allow(missing_docs)] // the activation dynamics
+pub mod dyntype {
+    pub const NONE: i32 = 0;
+    pub const INTEGRATOR: i32 = 1;
+    pub const FILTER: i32 = 2;
+    pub const FILTEREXACT: i32 = 3;
+    pub const MUSCLE: i32 = 4;
+    pub const DCMOTOR: i32 = 5;
+    pub const PID: i32 = 6;
+}
+
+/// Values of `actuator_gaintype`.
+#[allow(missing_docs)] // the gains
+pub mod gaintype {
+    pub const FIXED: i32 = 0;
+    pub const AFFINE: i32 = 1;
+    pub const MUSCLE: i32 = 2;
+    pub const DCMOTOR: i32 = 3;
+    pub const SO3: i32 = 4;
+    pub const PID: i32 = 5;
+}
+
+/// Values of `actuator_biastype`.
+#[allow(missing_docs)] // the biases
+pub mod biastype {
+    pub const NONE: i32 = 0;
+    pub const AFFINE: i32 = 1;
+    pub const MUSCLE: i32 = 2;
+    pub const DCMOTOR: i32 = 3;
+    pub const SO3: i32 = 4;
+}
+
+/// Values of `eq_type`.
+#[allow(missing_docs)] // the equality constraints
+pub mod eqtype {
+    pub const CONNECT: i32 = 0;
+    pub const WELD: i32 = 1;
+    pub const JOINT: i32 = 2;
+    pub const TENDON: i32 = 3;
+}
+
+/// Object kinds with named objects: kind, MuJoCo's number, the list of names.
+macro_rules! objects {
+    ($($kind:ident = $number:literal, $list:ident;)*) => {
+        /// Kinds of named objects, with MuJoCo's numbers (mjtObj).
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[allow(missing_docs)] // the object kinds
+        pub enum Obj {
+            Body = 1,
+            /// The frame of a body, where `Body` means its inertial frame.
+            XBody = 2,
+            /// A degree of freedom: it has no name.
+            Dof = 4,
+            $($kind = $number,)*
+        }
+
+        /// Names by object kind, in id order; an object without a name has the empty string.
+        #[derive(Clone, Debug, Default, PartialEq)]
+        #[allow(missing_docs)] // one list per object kind
+        pub struct Names {
+            pub model: String,
+            pub body: Vec<String>,
+            $(pub $list: Vec<String>,)*
+        }
+
+        impl Names {
+            /// All names of one kind.
+            pub fn of(&self, kind: Obj) -> &[String] {
+                match kind {
+                    Obj::Body | Obj::XBody => &self.body,
+                    Obj::Dof => &[],
+                    $(Obj::$kind => &self.$list,)*
+                }
+            }
+        }
+    };
+}
+objects! {
+    Joint = 3, joint;
+    Geom = 5, geom;
+    Site = 6, site;
+    Camera = 7, camera;
+    Light = 8, light;
+    Mesh = 10, mesh;
+    HField = 12, hfield;
+    Texture = 13, texture;
+    Material = 14, material;
+    Pair = 15, pair;
+    Exclude = 16, exclude;
+    Equality = 17, equality;
+    Tendon = 18, tendon;
+    Actuator = 19, actuator;
+    Sensor = 20, sensor;
+    Numeric = 21, numeric;
+    Text = 22, text;
+    Tuple = 23, tuple;
+    Key = 24, key;
 }
 
 impl Names {
-    /// All names of one kind.
-    pub fn of(&self, kind: Obj) -> &[String] {
-        match kind {
-            Obj::Body | Obj::XBody => &self.body,
-            Obj::Joint => &self.joint,
-            Obj::Dof => &[],
-            Obj::Geom => &self.geom,
-            Obj::Site => &self.site,
-            Obj::Camera => &self.camera,
-            Obj::Light => &self.light,
-            Obj::Tendon => &self.tendon,
-            Obj::Actuator => &self.actuator,
-            Obj::Sensor => &self.sensor,
-            Obj::Key => &self.key,
-        }
-    }
-
     /// The id of a named object (`mj_name2id`), `None` when there is no such name.
     pub fn id(&self, kind: Obj, name: &str) -> Option<usize> {
         if name.is_empty() {

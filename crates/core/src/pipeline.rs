@@ -4,10 +4,10 @@ use crate::math::{dot, rows};
 use crate::plan::Plan;
 use crate::reflect::Stage;
 use crate::{
-    Data, Model, Warning, collision, com, constraint, disable, enable, energy, integrate, integrator,
-    kinematics,
+    Data, Model, Warning, actuation, camera, collision, com, constraint, disable, enable, energy, integrate,
+    integrator, kinematics,
 };
-use crate::{jacobian, mass, passive, reset, rne, sensor};
+use crate::{jacobian, mass, passive, reset, rne, sensor, tendon, transmission};
 
 /// What a caller can leave out of a forward pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,8 +48,12 @@ pub(crate) fn forward_skip(m: &Model, d: &mut Data, skip: Skip) {
     if show {
         read_velocity(m, d);
     }
+    actuation(m, d);
     acceleration(m, d);
     constraints(m, d);
+    if show {
+        read_acceleration(m, d);
+    }
 }
 
 /// What depends on `qpos` alone.
@@ -66,8 +70,16 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::ComPos) {
         com::com_pos(m, d);
     }
+    if d.plan.keeps(Stage::CameraPoses) {
+        camera::cameras(m, d);
+        camera::lights(m, d);
+    }
+    if d.plan.keeps(Stage::Tendon) {
+        tendon::tendons(m, d);
+    }
     if d.plan.keeps(Stage::MassMatrix) {
         mass::composite_inertia(m, d, true);
+        tendon::armature(m, d);
     }
     if d.plan.keeps(Stage::Factor) {
         d.qLD.copy_from_slice(&d.M);
@@ -85,10 +97,19 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Constraint) {
         constraint::make(m, d);
     }
+    if d.plan.keeps(Stage::Transmission) {
+        transmission::transmissions(m, d);
+    }
 }
 
 /// What depends on `qvel` as well.
 pub(crate) fn velocity(m: &Model, d: &mut Data) {
+    if d.plan.keeps(Stage::TendonVel) {
+        tendon::velocities(m, d);
+    }
+    if d.plan.keeps(Stage::ActuatorVel) {
+        transmission::velocities(m, d);
+    }
     if d.plan.keeps(Stage::ComVel) {
         com::com_vel(m, d);
     }
@@ -100,6 +121,14 @@ pub(crate) fn velocity(m: &Model, d: &mut Data) {
     }
     if d.plan.keeps(Stage::Bias) {
         rne::bias(m, d, d.plan.some_general);
+        tendon::bias(m, d);
+    }
+}
+
+/// Forces of actuators: what depends on `ctrl` and `act` as well.
+pub(crate) fn actuation(m: &Model, d: &mut Data) {
+    if d.plan.keeps(Stage::Actuation) {
+        actuation::actuation(m, d);
     }
 }
 
@@ -172,6 +201,13 @@ fn read_velocity(m: &Model, d: &mut Data) {
     }
     if d.plan.keeps(Stage::Energy) && m.opt.enabled(enable::ENERGY) {
         energy::kinetic(m, d);
+    }
+}
+
+/// Sensors of the acceleration stage.
+fn read_acceleration(m: &Model, d: &mut Data) {
+    if d.plan.keeps(Stage::Sensors) {
+        sensor::acceleration_stage(m, d);
     }
 }
 

@@ -6,6 +6,7 @@
 
 use crate::reflect::{FieldId, FieldSet, Object, Stage, field};
 use crate::{Model, Obj, collision, enable, joint};
+use crate::{trntype, wraptype};
 
 /// What programs read and write.
 #[derive(Clone, Copy, Debug)]
@@ -120,21 +121,29 @@ impl Plan {
 }
 
 /// The stages of a forward pass, in order.
-const STAGES: [Stage; 16] = [
+const STAGES: [Stage; 24] = [
     Stage::Kinematics,
     Stage::GeomPoses,
     Stage::SitePoses,
     Stage::ComPos,
+    Stage::CameraPoses,
+    Stage::Tendon,
     Stage::MassMatrix,
     Stage::Factor,
     Stage::Collision,
     Stage::Constraint,
+    Stage::Transmission,
+    Stage::TendonVel,
+    Stage::ActuatorVel,
     Stage::ComVel,
     Stage::Passive,
     Stage::Reference,
     Stage::Bias,
+    Stage::Actuation,
     Stage::Acceleration,
     Stage::Solve,
+    Stage::SubtreeVel,
+    Stage::RnePost,
     Stage::Sensors,
     Stage::Energy,
 ];
@@ -150,6 +159,27 @@ const CONTACT_PARAMS: [&str; 8] = [
     "geom_margin",
     "geom_gap",
 ];
+/// What makes passive forces of joints and tendons.
+const PASSIVE: [fn(&Model) -> &[f64]; 8] = [
+    |m| &m.dof_damping,
+    |m| &m.dof_dampingpoly,
+    |m| &m.jnt_stiffness,
+    |m| &m.jnt_stiffnesspoly,
+    |m| &m.tendon_stiffness,
+    |m| &m.tendon_stiffnesspoly,
+    |m| &m.tendon_damping,
+    |m| &m.tendon_dampingpoly,
+];
+const PASSIVE_NAMES: [&str; 8] = [
+    "dof_damping",
+    "dof_dampingpoly",
+    "jnt_stiffness",
+    "jnt_stiffnesspoly",
+    "tendon_stiffness",
+    "tendon_stiffnesspoly",
+    "tendon_damping",
+    "tendon_dampingpoly",
+];
 const OVERRIDES: [&str; 5] = ["o_margin", "o_solref", "o_solimp", "o_friction", "enableflags"];
 
 /// A stage's name in words.
@@ -158,6 +188,14 @@ fn name(stage: Stage) -> &'static str {
         Stage::GeomPoses => "geom-pose",
         Stage::SitePoses => "site-pose",
         Stage::ComPos => "centre-of-mass",
+        Stage::CameraPoses => "camera-pose",
+        Stage::Tendon => "tendon",
+        Stage::Transmission => "transmission",
+        Stage::TendonVel => "tendon-velocity",
+        Stage::ActuatorVel => "actuator-velocity",
+        Stage::Actuation => "actuation",
+        Stage::SubtreeVel => "subtree-momentum",
+        Stage::RnePost => "body-force",
         Stage::MassMatrix => "mass-matrix",
         Stage::Factor => "factorization",
         Stage::Collision => "collision",
@@ -187,6 +225,10 @@ struct Scene<'a> {
     /// Number of joints with limits, or all when limits are switched while it runs.
     limited: usize,
     springs: bool,
+    /// Forces on bodies as such: gravity compensation and the medium.
+    body_forces: bool,
+    tendon_armature: bool,
+    actuated: bool,
     sensors: bool,
     energy: bool,
 }
@@ -200,7 +242,12 @@ impl<'a> Scene<'a> {
             pairs_change: false,
             pairs: 0,
             limited: m.jnt_limited.iter().filter(|&&l| l).count(),
-            springs: m.dof_damping.iter().chain(&m.jnt_stiffness).any(|&x| x != 0.0),
+            springs: PASSIVE.iter().any(|of| of(m).iter().any(|&x| x != 0.0)),
+            body_forces: m.body_gravcomp.iter().any(|&x| x != 0.0)
+                || m.opt.density > 0.0
+                || m.opt.viscosity > 0.0,
+            tendon_armature: m.tendon_armature.iter().any(|&x| x != 0.0),
+            actuated: m.nactuator > 0,
             sensors: false,
             energy: m.opt.enabled(enable::ENERGY),
         };
@@ -210,7 +257,11 @@ impl<'a> Scene<'a> {
         if scene.writes(Object::Model, &["jnt_limited"]) {
             scene.limited = m.njnt;
         }
-        scene.springs |= m.nv > 0 && scene.writes(Object::Model, &["dof_damping", "jnt_stiffness"]);
+        scene.body_forces |= scene.writes(Object::Model, &["body_gravcomp"])
+            || scene.writes(Object::Option, &["density", "viscosity"]);
+        scene.springs |= scene.body_forces;
+        scene.springs |= m.nv > 0 && scene.writes(Object::Model, &PASSIVE_NAMES);
+        scene.tendon_armature |= m.ntendon > 0 && scene.writes(Object::Model, &["tendon_armature"]);
         scene.sensors = m.nsensor > 0 && scene.reads(Stage::Sensors).is_some();
         scene.energy |= scene.writes(Object::Option, &["enableflags"]);
         scene
@@ -236,9 +287,11 @@ impl<'a> Scene<'a> {
             Stage::Factor => None,
             Stage::Collision => contacts(),
             Stage::Constraint | Stage::Reference | Stage::Solve => contacts().or_else(limits),
-            Stage::Passive => because(self.springs, "joints have springs or dampers"),
+            Stage::Passive => because(self.springs, "there are passive forces"),
+            Stage::Actuation => because(self.actuated, "actuators make forces"),
             Stage::Bias => because(m.nv > 0, "gravity and the motion of bodies make forces"),
             Stage::Acceleration => because(m.nv > 0, "it is what the integrator needs"),
+            Stage::SubtreeVel | Stage::RnePost => None,
             Stage::Sensors => because(self.sensors, "sensor values are read"),
             Stage::Energy => self.reads(stage).filter(|_| self.energy),
             _ => self.reads(stage),
@@ -251,6 +304,24 @@ impl<'a> Scene<'a> {
         match (stage, of) {
             (Stage::GeomPoses | Stage::SitePoses | Stage::ComPos, Stage::Kinematics) => true,
             (Stage::MassMatrix | Stage::ComVel, Stage::ComPos) => true,
+            (Stage::CameraPoses, Stage::ComPos) => true,
+            (Stage::Tendon, Stage::Kinematics) => true,
+            (Stage::Tendon, Stage::SitePoses) => m.wrap_type.contains(&wraptype::SITE),
+            (Stage::Tendon, Stage::GeomPoses) => m.wrap_type.iter().any(|&t| t > wraptype::SITE),
+            (Stage::TendonVel, Stage::Tendon) => true,
+            (Stage::MassMatrix | Stage::Bias, Stage::Tendon) => self.tendon_armature,
+            (Stage::Passive, Stage::Tendon | Stage::TendonVel) => m.ntendon > 0,
+            (Stage::Passive, Stage::Kinematics | Stage::ComVel) => self.body_forces,
+            (Stage::Passive, Stage::GeomPoses) => self.body_forces,
+            (Stage::Transmission, Stage::Kinematics) => true,
+            (Stage::Transmission, Stage::SitePoses) => {
+                self.transmits(&[trntype::SITE, trntype::SLIDERCRANK, trntype::SO3])
+            }
+            (Stage::Transmission, Stage::Tendon) => self.transmits(&[trntype::TENDON]),
+            (Stage::Transmission, Stage::Constraint) => self.transmits(&[trntype::BODY]),
+            (Stage::ActuatorVel, Stage::Transmission) => true,
+            (Stage::Actuation, Stage::Transmission | Stage::ActuatorVel) => true,
+            (Stage::Actuation, Stage::Passive) => m.jnt_actgravcomp.contains(&true),
             (Stage::Collision, Stage::GeomPoses) => true,
             (Stage::Constraint, Stage::Kinematics) => self.pairs > 0,
             (Stage::Bias, Stage::ComVel) => self.general,
@@ -260,6 +331,7 @@ impl<'a> Scene<'a> {
             (Stage::Sensors, Stage::Kinematics) => true,
             (Stage::Sensors, Stage::GeomPoses) => self.sensed(Obj::Geom),
             (Stage::Sensors, Stage::SitePoses) => self.sensed(Obj::Site),
+            (Stage::Sensors, _) => crate::sensor::needs(m, of),
             (Stage::Energy, Stage::Kinematics) => true,
             _ => false,
         }
@@ -282,7 +354,17 @@ impl<'a> Scene<'a> {
             Stage::Collision if m.ngeom == 0 => "the model has no geoms",
             Stage::Collision => "no pair of geoms can ever touch",
             Stage::Constraint | Stage::Reference | Stage::Solve => "no contact and no limit is possible",
-            Stage::Passive => "no joint has a spring or a damper",
+            Stage::Passive => "no joint or tendon has a spring or a damper, and bodies move in a vacuum",
+            Stage::CameraPoses if m.ncam + m.nlight == 0 => "the model has no cameras and lights",
+            Stage::CameraPoses => "nothing reads the pose of a camera or light",
+            Stage::Tendon | Stage::TendonVel if m.ntendon == 0 => "the model has no tendons",
+            Stage::Tendon | Stage::TendonVel => "nothing uses the tendons",
+            Stage::Transmission | Stage::ActuatorVel | Stage::Actuation if m.nactuator == 0 => {
+                "the model has no actuators"
+            }
+            Stage::Transmission | Stage::ActuatorVel | Stage::Actuation => "actuators are switched off",
+            Stage::SubtreeVel => "no sensor measures the momentum of a subtree",
+            Stage::RnePost => "no sensor measures a force or an acceleration",
             Stage::Sensors if m.nsensor == 0 => "the model has no sensors",
             Stage::Sensors => "nothing reads sensordata",
             Stage::Energy if self.energy => "nothing reads the energy",
@@ -306,6 +388,11 @@ impl<'a> Scene<'a> {
 
     fn writes(&self, object: Object, names: &[&str]) -> bool {
         names.iter().any(|n| field(object, n).is_some_and(|f| self.demand.writes.contains(f)))
+    }
+
+    /// Whether an actuator acts through one of these transmissions.
+    fn transmits(&self, kinds: &[i32]) -> bool {
+        self.m.actuator_trntype.iter().any(|t| kinds.contains(t))
     }
 
     /// Whether a sensor measures an object of this kind.

@@ -52,6 +52,10 @@ pub enum Stage {
     SitePoses,
     /// Centres of mass, inertias and motion axes.
     ComPos,
+    /// Poses of cameras and lights.
+    CameraPoses,
+    /// Lengths and Jacobians of tendons.
+    Tendon,
     /// Mass matrix by composite rigid bodies.
     MassMatrix,
     /// Factorization of the mass matrix.
@@ -60,22 +64,36 @@ pub enum Stage {
     Collision,
     /// Constraint rows.
     Constraint,
+    /// Lengths and moment arms of actuators.
+    Transmission,
+    /// Velocities of tendons.
+    TendonVel,
+    /// Velocities of actuators.
+    ActuatorVel,
     /// Velocities of bodies.
     ComVel,
-    /// Springs and dampers.
+    /// Springs, dampers, gravity compensation, fluid.
     Passive,
     /// Reference accelerations of the constraints.
     Reference,
     /// Gravity, Coriolis and centrifugal force.
     Bias,
+    /// Forces of actuators.
+    Actuation,
     /// Unconstrained acceleration.
     Acceleration,
     /// Constraint forces.
     Solve,
+    /// Momentum of subtrees.
+    SubtreeVel,
+    /// Accelerations of bodies and the forces between them.
+    RnePost,
     /// Sensor values.
     Sensors,
     /// Potential and kinetic energy.
     Energy,
+    /// Inverse dynamics.
+    Inverse,
 }
 
 /// Element type of a field.

@@ -12,6 +12,7 @@ pub fn reset_data(m: &Model, d: &mut Data) {
     d.warning = [WarningStat::default(); Warning::COUNT];
     kinematics::world(d);
     d.qpos.copy_from_slice(&m.qpos0);
+    d.eq_active.copy_from_slice(&m.eq_active0);
     for b in 0..m.nbody {
         let id = m.body_mocapid[b];
         if id >= 0 {

@@ -1,6 +1,7 @@
 //! Sensors, by the stage at which what they measure is known.
 
 use crate::math::*;
+use crate::reflect::Stage;
 use crate::{Data, Model, Obj};
 
 /// Types of sensors (mjtSensor).
@@ -55,6 +56,14 @@ pub(crate) fn velocity_stage(m: &Model, d: &mut Data) {
             cutoff(m, d, s);
         }
     }
+}
+
+/// Sensors of the acceleration stage.
+pub(crate) fn acceleration_stage(_m: &Model, _d: &mut Data) {}
+
+/// Whether some sensor of the model uses the results of a stage.
+pub(crate) fn needs(_m: &Model, _stage: Stage) -> bool {
+    false
 }
 
 /// Clamps real values to ± cutoff. Quaternions are not clamped.

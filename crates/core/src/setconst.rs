@@ -25,6 +25,7 @@ pub fn set_const(m: &mut Model, d: &mut Data) {
         m.dof_M0[i] = d.M[(m.M_rowadr[i] + m.M_rownnz[i] - 1) as usize];
     }
     inverse_weights(m, d);
+    crate::camera::set_const(m, d);
     statistics(m, d);
 
     d.qpos.copy_from_slice(&m.qpos_spring);

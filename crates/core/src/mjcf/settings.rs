@@ -148,6 +148,7 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         ls_iterations,
         disableflags,
         enableflags,
+        ..d
     }
 }
 

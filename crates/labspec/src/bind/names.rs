@@ -152,17 +152,24 @@ fn stage_phrase(stage: Stage) -> &'static str {
         Stage::Compile => "the model compiler",
         Stage::SetConst => "mj_setConst",
         Stage::User => "nothing",
-        Stage::Kinematics | Stage::GeomPoses | Stage::SitePoses => {
+        Stage::Kinematics | Stage::GeomPoses | Stage::SitePoses | Stage::CameraPoses => {
             "forward kinematics, inside mj_step and mj_forward"
         }
         Stage::ComPos | Stage::ComVel => "the centre-of-mass stage, inside mj_step and mj_forward",
         Stage::MassMatrix | Stage::Factor => "the mass-matrix stage, inside mj_step and mj_forward",
+        Stage::Tendon | Stage::TendonVel => "the tendon stage, inside mj_step and mj_forward",
+        Stage::Transmission | Stage::ActuatorVel | Stage::Actuation => {
+            "the actuation stage, inside mj_step and mj_forward"
+        }
         Stage::Collision => "collision detection, inside mj_step and mj_forward",
         Stage::Constraint | Stage::Reference => "the constraint stage, inside mj_step and mj_forward",
         Stage::Passive => "the passive-force stage, inside mj_step and mj_forward",
         Stage::Bias => "recursive Newton–Euler, inside mj_step and mj_forward",
         Stage::Acceleration => "the acceleration stage, inside mj_step and mj_forward",
         Stage::Solve => "the constraint solver, inside mj_step and mj_forward",
+        Stage::SubtreeVel => "mj_subtreeVel, which mj_step and mj_forward call when a sensor needs it",
+        Stage::RnePost => "mj_rnePostConstraint, which mj_step and mj_forward call when a sensor needs it",
+        Stage::Inverse => "mj_inverse",
         Stage::Sensors => "the sensor stage, inside mj_step and mj_forward",
         Stage::Energy => "the energy stage, inside mj_step and mj_forward",
     }
@@ -183,6 +190,13 @@ fn owner(f: FieldId, shape: &[Option<usize>]) -> String {
         "nsite" => "sites (nsite)",
         "nmocap" => "mocap bodies (nmocap)",
         "nkey" => "keyframes (nkey)",
+        "ncam" => "cameras (ncam)",
+        "nlight" => "lights (nlight)",
+        "nactuator" => "actuators (nactuator)",
+        "nout" => "force outputs of actuators (nout)",
+        "nmesh" => "meshes (nmesh)",
+        "nwrap" => "objects on tendon paths (nwrap)",
+        "npair" => "contact pairs (npair)",
         "nsensor" => "sensors (nsensor)",
         "nsensordata" => "sensor values (nsensordata)",
         "ntendon" => "tendons (ntendon)",
