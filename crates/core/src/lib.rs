@@ -29,6 +29,7 @@ mod energy;
 mod fields;
 mod integrate;
 mod jacobian;
+mod kane;
 mod kinematics;
 mod mass;
 pub mod math;

@@ -27,11 +27,35 @@ pub(crate) fn composite_inertia(m: &Model, d: &mut Data, constant: bool) {
         }
         // Momentum of the subtree for a unit velocity of this degree of freedom.
         let momentum = inertia_mul(&crb[m.dof_bodyid[i] as usize], &cdof[i]);
-        for a in m.M_rowadr[i] as usize..end {
-            d.M[a] = dot(cdof[m.M_colind[a] as usize], momentum);
+        let row = m.M_rowadr[i] as usize..end;
+        let columns = &m.M_colind[row.clone()];
+        if columns[0] as usize + columns.len() == i + 1 {
+            // A serial chain: the columns are consecutive.
+            for (out, c) in d.M[row].iter_mut().zip(&cdof[i + 1 - columns.len()..]) {
+                *out = dot_ref(c, &momentum);
+            }
+        } else {
+            for (out, &j) in d.M[row].iter_mut().zip(columns) {
+                *out = dot_ref(&cdof[j as usize], &momentum);
+            }
         }
         d.M[end - 1] += m.dof_armature[i];
     }
+}
+
+/// The constant diagonal of simple bodies in M.
+pub(crate) fn simple_diagonal(m: &Model, d: &mut Data) {
+    for i in 0..m.nv {
+        if m.dof_simplenum[i] > 0 {
+            d.M[m.M_rowadr[i] as usize] = m.dof_M0[i];
+        }
+    }
+}
+
+/// a · b, without copies.
+#[inline(always)]
+fn dot_ref(a: &Spatial, b: &Spatial) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]
 }
 
 /// The diagonal of M as the model knows it, for a scene whose bodies are all simple: M is constant.
@@ -45,31 +69,122 @@ pub(crate) fn constant_mass(m: &Model, d: &mut Data) {
 
 /// Factorizes in place, M = Lᵀ D L with unit L: `ld` holds M and becomes L below the diagonal and D on it,
 /// `diag_inv` becomes 1/D. Returns the first degree of freedom whose D is not positive.
+///
+/// From the last row to the first, each row is eliminated from those of its ancestors. The rows of a serial
+/// chain are taken four at a time, so that an ancestor's row is read and written once for four eliminations;
+/// every element sees the same operations in the same order.
 pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64]) -> Option<usize> {
     let mut bad = None;
-    for k in (0..m.nv).rev() {
-        let start = m.M_rowadr[k] as usize;
-        let diag = start + m.M_rownnz[k] as usize - 1;
-        if ld[diag] < MINVAL {
-            ld[diag] = MINVAL;
-            bad = Some(k);
+    let mut end = m.nv;
+    while end > 0 {
+        let n = chain(m, end);
+        if n == 1 {
+            end -= 1;
+            if eliminate(m, ld, diag_inv, end) {
+                bad = Some(end);
+            }
+            continue;
         }
-        let inv = 1.0 / ld[diag];
-        diag_inv[k] = inv;
-        for a in (start..diag).rev() {
-            // The chain of an ancestor is a prefix of this row's columns.
-            let i = m.M_colind[a] as usize;
-            let row = m.M_rowadr[i] as usize;
-            let factor = ld[a] * inv;
-            for c in 0..m.M_rownnz[i] as usize {
-                ld[row + c] -= factor * ld[start + c];
+        let first = end - n;
+        let (above, block) = ld.split_at_mut(m.M_rowadr[first] as usize);
+        for k in (first..end).rev() {
+            let (before, row) = block.split_at_mut(m.M_rowadr[k] as usize - m.M_rowadr[first] as usize);
+            let diag = m.M_rownnz[k] as usize - 1;
+            if row[diag] < MINVAL {
+                row[diag] = MINVAL;
+                bad = Some(k);
+            }
+            let inv = 1.0 / row[diag];
+            diag_inv[k] = inv;
+            // The other rows of the block; the chain of an ancestor is a prefix of this row's columns.
+            for i in (first..k).rev() {
+                let at = (m.M_rowadr[i] - m.M_rowadr[first]) as usize;
+                let len = m.M_rownnz[i] as usize;
+                let factor = row[len - 1] * inv;
+                subtract(&mut before[at..at + len], &row[..len], factor);
             }
         }
-        for x in &mut ld[start..diag] {
-            *x *= inv;
+        let depth = m.M_rownnz[first] as usize - 1;
+        let ancestors = &m.M_colind[m.M_rowadr[first] as usize..][..depth];
+        let [r0, r1, r2, r3] = four_rows(block, depth + 1);
+        for (a, &i) in ancestors.iter().enumerate().rev() {
+            let target = &mut above[m.M_rowadr[i as usize] as usize..][..a + 1];
+            let inv = &diag_inv[first..first + 4];
+            let factors = [r3[a] * inv[3], r2[a] * inv[2], r1[a] * inv[1], r0[a] * inv[0]];
+            subtract_four(target, [r3, r2, r1, r0], factors);
         }
+        let mut rest = block;
+        for k in first..end {
+            let (row, after) = rest.split_at_mut(m.M_rownnz[k] as usize);
+            for x in row.iter_mut().rev().skip(1) {
+                *x *= diag_inv[k];
+            }
+            rest = after;
+        }
+        end = first;
     }
     bad
+}
+
+/// Eliminates row `k` from those of its ancestors; whether its D is not positive.
+#[inline(always)]
+fn eliminate(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], k: usize) -> bool {
+    let start = m.M_rowadr[k] as usize;
+    let n = m.M_rownnz[k] as usize - 1;
+    let (above, row) = ld.split_at_mut(start);
+    let row = &mut row[..n + 1];
+    let bad = row[n] < MINVAL;
+    if bad {
+        row[n] = MINVAL;
+    }
+    let inv = 1.0 / row[n];
+    diag_inv[k] = inv;
+    let row = &mut row[..n];
+    for a in (0..n).rev() {
+        // The chain of an ancestor is a prefix of this row's columns.
+        let i = m.M_rowadr[m.M_colind[start + a] as usize] as usize;
+        let factor = row[a] * inv;
+        subtract(&mut above[i..i + a + 1], row, factor);
+    }
+    for x in row {
+        *x *= inv;
+    }
+    bad
+}
+
+/// Number of rows that end before `end` and are taken together: four of a serial chain, or one.
+#[inline(always)]
+fn chain(m: &Model, end: usize) -> usize {
+    // Shorter rows are not worth the trouble.
+    if end < 4 || m.M_rownnz[end - 1] < 8 {
+        return 1;
+    }
+    let serial = |k: usize| m.M_rownnz[k] == m.M_rownnz[k - 1] + 1 && m.dof_parentid[k] == k as i32 - 1;
+    if serial(end - 1) && serial(end - 2) && serial(end - 3) { 4 } else { 1 }
+}
+
+/// Four rows that follow each other, the first of `len` numbers and each longer by one; their first `len`.
+#[inline(always)]
+fn four_rows(block: &[f64], len: usize) -> [&[f64]; 4] {
+    [0, len, 2 * len + 1, 3 * len + 3].map(|at| &block[at..at + len])
+}
+
+/// target -= factor row
+#[inline(always)]
+fn subtract(target: &mut [f64], row: &[f64], factor: f64) {
+    for (t, x) in target.iter_mut().zip(row) {
+        *t -= factor * x;
+    }
+}
+
+/// The same for four rows, one after the other. The rows are at least as long as the target.
+#[inline(never)] // as a function of its own the compiler knows that the rows do not overlap
+fn subtract_four(target: &mut [f64], rows: [&[f64]; 4], f: [f64; 4]) {
+    let n = target.len();
+    let [a, b, c, d] = rows.map(|r| &r[..n]);
+    for i in 0..n {
+        target[i] = target[i] - f[0] * a[i] - f[1] * b[i] - f[2] * c[i] - f[3] * d[i];
+    }
 }
 
 /// x ← M⁻¹ x for the degrees of freedom `dofs` (ascending, whole trees).
@@ -82,20 +197,32 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
         }
         return;
     }
+    // The part of a row below the diagonal, and where its columns begin: those of a serial chain are
+    // consecutive.
     let row = |i: usize| {
-        let start = m.M_rowadr[i] as usize;
-        start..start + m.M_rownnz[i] as usize - 1
+        let (start, n) = (m.M_rowadr[i] as usize, m.M_rownnz[i] as usize - 1);
+        (&ld[start..start + n], &m.M_colind[start..start + n], n > 3 && m.M_colind[start] as usize + n == i)
     };
     for i in dofs.clone().rev() {
+        let (values, columns, serial) = row(i);
         let xi = x[i];
-        for a in row(i) {
-            x[m.M_colind[a] as usize] -= ld[a] * xi;
+        if serial {
+            subtract(&mut x[i - values.len()..i], values, xi);
+        } else {
+            for (l, &j) in values.iter().zip(columns) {
+                x[j as usize] -= l * xi;
+            }
         }
     }
     for i in dofs {
+        let (values, columns, serial) = row(i);
         let mut s = x[i] * diag_inv[i];
-        for a in row(i) {
-            s -= ld[a] * x[m.M_colind[a] as usize];
+        if serial {
+            s -= dot_slice(values, &x[i - values.len()..i]);
+        } else {
+            for (l, &j) in values.iter().zip(columns) {
+                s -= l * x[j as usize];
+            }
         }
         x[i] = s;
     }

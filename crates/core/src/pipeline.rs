@@ -5,7 +5,7 @@ use crate::plan::Plan;
 use crate::reflect::Stage;
 use crate::{
     Data, Model, Warning, actuation, camera, collision, com, constraint, disable, enable, energy, integrate,
-    integrator, kinematics,
+    integrator, kane, kinematics,
 };
 use crate::{jacobian, mass, passive, reset, rne, sensor, tendon, transmission};
 
@@ -78,7 +78,12 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
         tendon::tendons(m, d);
     }
     if d.plan.keeps(Stage::MassMatrix) {
-        mass::composite_inertia(m, d, true);
+        if d.plan.composite {
+            mass::composite_inertia(m, d, true);
+        } else {
+            mass::simple_diagonal(m, d);
+        }
+        kane::mass_matrix(m, d);
         tendon::armature(m, d);
     }
     if d.plan.keeps(Stage::Factor) {
@@ -120,7 +125,7 @@ pub(crate) fn velocity(m: &Model, d: &mut Data) {
         constraint::reference(d);
     }
     if d.plan.keeps(Stage::Bias) {
-        rne::bias(m, d, d.plan.some_general);
+        rne::bias(m, d);
         tendon::bias(m, d);
     }
 }
@@ -270,5 +275,6 @@ pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
         collision::Pairs::default()
     };
     d.plan = plan;
+    d.work.chains.load(m);
     reset::clear_left_out(m, d);
 }

@@ -5,7 +5,7 @@
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
 use crate::reflect::{FieldId, FieldSet, Object, Stage, field};
-use crate::{Model, Obj, collision, enable, joint};
+use crate::{Model, Obj, collision, enable, joint, kane};
 use crate::{trntype, wraptype};
 
 /// What programs read and write.
@@ -42,6 +42,12 @@ pub struct Plan {
     kept: u32,
     /// Whether some tree is more than one simple body; otherwise the mass matrix is diagonal and constant.
     pub(crate) some_general: bool,
+    /// Whether composite inertias are computed: some tree is more than a short chain, or they are read.
+    pub(crate) composite: bool,
+    /// Whether forces of bodies are computed by recursion: some tree is more than a short chain.
+    pub(crate) recursion: bool,
+    /// Whether the parameters of short chains may change.
+    pub(crate) chains_may_change: bool,
     /// Whether a joint limit can become active.
     pub(crate) limits: bool,
     /// Whether forces applied to bodies are looked at.
@@ -56,6 +62,9 @@ impl Default for Plan {
             decisions: Vec::new(),
             kept: 0,
             some_general: true,
+            composite: true,
+            recursion: true,
+            chains_may_change: true,
             limits: true,
             applied_forces: true,
             pairs_may_change: true,
@@ -93,6 +102,9 @@ impl Plan {
         let scene = Scene::new(m, demand);
         let mut plan = Plan {
             some_general: scene.general,
+            composite: scene.large || scene.reads_field("crb"),
+            recursion: scene.large,
+            chains_may_change: scene.writes(Object::Model, &kane::FIELDS),
             limits: scene.limited > 0,
             applied_forces: scene.writes(Object::Data, &["xfrc_applied"]),
             pairs_may_change: scene.pairs_change,
@@ -218,6 +230,8 @@ struct Scene<'a> {
     demand: &'a Demand,
     /// Some tree is more than one simple body.
     general: bool,
+    /// Some tree is more than a simple body or a short chain.
+    large: bool,
     /// Which pairs of geoms may touch can change while it runs.
     pairs_change: bool,
     /// Number of pairs of geoms that may touch.
@@ -239,6 +253,7 @@ impl<'a> Scene<'a> {
             m,
             demand,
             general: (0..m.nv).any(|i| m.dof_simplenum[i] == 0),
+            large: (0..m.nv).any(|i| m.dof_simplenum[i] == 0 && !kane::covers(m, i)),
             pairs_change: false,
             pairs: 0,
             limited: m.jnt_limited.iter().filter(|&&l| l).count(),
@@ -303,7 +318,8 @@ impl<'a> Scene<'a> {
         let m = self.m;
         match (stage, of) {
             (Stage::GeomPoses | Stage::SitePoses | Stage::ComPos, Stage::Kinematics) => true,
-            (Stage::MassMatrix | Stage::ComVel, Stage::ComPos) => true,
+            (Stage::ComVel, Stage::ComPos) => true,
+            (Stage::MassMatrix, Stage::ComPos) => self.large || self.reads_field("crb"),
             (Stage::CameraPoses, Stage::ComPos) => true,
             (Stage::Tendon, Stage::Kinematics) => true,
             (Stage::Tendon, Stage::SitePoses) => m.wrap_type.contains(&wraptype::SITE),
@@ -324,7 +340,8 @@ impl<'a> Scene<'a> {
             (Stage::Actuation, Stage::Passive) => m.jnt_actgravcomp.contains(&true),
             (Stage::Collision, Stage::GeomPoses) => true,
             (Stage::Constraint, Stage::Kinematics) => self.pairs > 0,
-            (Stage::Bias, Stage::ComVel) => self.general,
+            (Stage::Bias, Stage::ComVel) => self.large,
+            (Stage::Bias, Stage::Kinematics) if self.large => true,
             // A simple body's weight acts along its slides.
             (Stage::Bias, Stage::Kinematics) => m.jnt_type.contains(&joint::SLIDE),
             (Stage::Acceleration, Stage::Kinematics) => self.writes(Object::Data, &["xfrc_applied"]),
@@ -341,12 +358,12 @@ impl<'a> Scene<'a> {
     fn leaves_out(&self, stage: Stage) -> &'static str {
         let m = self.m;
         match stage {
-            Stage::Kinematics => "bodies fly freely, nothing can touch, and nothing reads a pose",
+            Stage::Kinematics => "nothing can touch and nothing reads a pose",
             Stage::GeomPoses => "no contact is possible and nothing reads a geom's pose",
             Stage::SitePoses if m.nsite == 0 => "the model has no sites",
             Stage::SitePoses => "nothing reads a site's pose",
             Stage::ComPos | Stage::ComVel => {
-                "every moving body is a simple one: its forces have a closed form"
+                "every tree is one simple body or a short chain, whose equations need no composite bodies"
             }
             Stage::MassMatrix | Stage::Factor => {
                 "every moving body is a single free or sliding one: its mass matrix is diagonal and constant"

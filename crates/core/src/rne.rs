@@ -1,16 +1,17 @@
 //! `qfrc_bias`: gravity, Coriolis and centrifugal force.
 
 use crate::math::*;
-use crate::{Data, Model, disable, joint};
+use crate::{Data, Model, disable, joint, kane};
 
-/// `qfrc_bias`. Trees take recursive Newton–Euler; a simple body, alone in its tree with its inertia along
-/// its own axes, takes the closed form.
+/// `qfrc_bias`. Trees take recursive Newton–Euler, short chains a projection; a simple body, alone in its tree
+/// with its inertia along its own axes, takes the closed form.
 #[inline(never)]
-pub(crate) fn bias(m: &Model, d: &mut Data, some_general: bool) {
+pub(crate) fn bias(m: &Model, d: &mut Data) {
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
-    if some_general {
+    if d.plan.recursion {
         newton_euler(m, d, gravity);
     }
+    kane::bias(d, gravity);
     for j in 0..m.njnt {
         if m.body_simple[m.jnt_bodyid[j] as usize] > 0 {
             simple(m, d, j, gravity);
