@@ -5,7 +5,7 @@ use crate::fields::data_fields;
 use crate::jacobian::Columns;
 use crate::model::define;
 use crate::plan::{Demand, Plan};
-use crate::{Model, collision, kane, pipeline, reset};
+use crate::{Model, chain, collision, pipeline, reset};
 
 macro_rules! define_data {
     ($($rows:tt)*) => { define! {
@@ -122,7 +122,7 @@ pub(crate) struct Work {
     pub(crate) islands: Option<Box<Islands>>,
     pub(crate) solver: Option<Box<Scratch>>,
     /// Trees of a few slides and hinges.
-    pub(crate) chains: kane::Chains,
+    pub(crate) chains: chain::Chains,
     /// Spatial accelerations and forces of bodies.
     pub(crate) cacc: Vec<f64>,
     pub(crate) cfrc: Vec<f64>,
@@ -167,7 +167,7 @@ impl Data {
     pub(crate) fn unplanned(m: &Model) -> Data {
         let mut d = Data { plan: Plan::full(), ..Data::default() };
         let w = &mut d.work;
-        w.chains = kane::Chains::new(m);
+        w.chains = chain::Chains::new(m);
         w.cacc = vec![0.0; 6 * m.nbody];
         w.cfrc = vec![0.0; 6 * m.nbody];
         w.islands = Some(Box::default());

@@ -21,6 +21,7 @@
 
 mod actuation;
 mod camera;
+mod chain;
 mod collision;
 mod com;
 mod constraint;
@@ -29,7 +30,6 @@ mod energy;
 mod fields;
 mod integrate;
 mod jacobian;
-mod kane;
 mod kinematics;
 mod mass;
 pub mod math;

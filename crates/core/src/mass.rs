@@ -74,9 +74,20 @@ pub(crate) fn constant_mass(m: &Model, d: &mut Data) {
 /// chain are taken four at a time, so that an ancestor's row is read and written once for four eliminations;
 /// every element sees the same operations in the same order.
 pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64]) -> Option<usize> {
+    if let Some(n) = whole_chain(m) {
+        return factor_root(n, ld, diag_inv);
+    }
     let mut bad = None;
     let mut end = m.nv;
     while end > 0 {
+        if let Some(n) = root_chain(m, end) {
+            let first = end - n;
+            let at = m.M_rowadr[first] as usize;
+            let failed = factor_root(n, &mut ld[at..], &mut diag_inv[first..]);
+            bad = failed.map(|k| first + k).or(bad);
+            end = first;
+            continue;
+        }
         let n = chain(m, end);
         if n == 1 {
             end -= 1;
@@ -124,6 +135,88 @@ pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64]) -> Option<
         end = first;
     }
     bad
+}
+
+/// Length of the serial chain that ends before `end` and begins at the root of a tree, when it is short: its
+/// rows of M are a packed triangle.
+#[inline(always)]
+fn root_chain(m: &Model, end: usize) -> Option<usize> {
+    let n = m.M_rownnz[end - 1] as usize;
+    // Columns ascend: they are consecutive when the first is where consecutive ones would begin.
+    (n <= 3 && m.M_colind[m.M_rowadr[end - 1] as usize] as usize == end - n).then_some(n)
+}
+
+/// Length of the chain when it is all that the model has.
+#[inline(always)]
+fn whole_chain(m: &Model) -> Option<usize> {
+    if m.nv > 3 || m.nv == 0 { None } else { root_chain(m, m.nv).filter(|&n| n == m.nv) }
+}
+
+#[inline(always)]
+fn factor_root(n: usize, ld: &mut [f64], diag_inv: &mut [f64]) -> Option<usize> {
+    match n {
+        1 => factor_small::<1, 1>(ld, diag_inv),
+        2 => factor_small::<2, 3>(ld, diag_inv),
+        _ => factor_small::<3, 6>(ld, diag_inv),
+    }
+}
+
+#[inline(always)]
+fn solve_root(n: usize, ld: &[f64], diag_inv: &[f64], x: &mut [f64]) {
+    match n {
+        1 => solve_small::<1, 1>(ld, diag_inv, x),
+        2 => solve_small::<2, 3>(ld, diag_inv, x),
+        _ => solve_small::<3, 6>(ld, diag_inv, x),
+    }
+}
+
+/// The factorization of a packed triangle of N rows, T numbers.
+#[inline(always)]
+fn factor_small<const N: usize, const T: usize>(ld: &mut [f64], diag_inv: &mut [f64]) -> Option<usize> {
+    let (Some(ld), Some(diag_inv)) = (ld.first_chunk_mut::<T>(), diag_inv.first_chunk_mut::<N>()) else {
+        return None;
+    };
+    let mut bad = None;
+    for k in (0..N).rev() {
+        let row = k * (k + 1) / 2;
+        if ld[row + k] < MINVAL {
+            ld[row + k] = MINVAL;
+            bad = Some(k);
+        }
+        let inv = 1.0 / ld[row + k];
+        diag_inv[k] = inv;
+        for i in (0..k).rev() {
+            let factor = ld[row + i] * inv;
+            for c in 0..=i {
+                ld[i * (i + 1) / 2 + c] -= factor * ld[row + c];
+            }
+        }
+        for c in 0..k {
+            ld[row + c] *= inv;
+        }
+    }
+    bad
+}
+
+/// x ← M⁻¹ x for a packed triangle.
+#[inline(always)]
+fn solve_small<const N: usize, const T: usize>(ld: &[f64], diag_inv: &[f64], x: &mut [f64]) {
+    let (Some(ld), Some(diag_inv), Some(x)) =
+        (ld.first_chunk::<T>(), diag_inv.first_chunk::<N>(), x.first_chunk_mut::<N>())
+    else {
+        return;
+    };
+    for i in (0..N).rev() {
+        for j in 0..i {
+            x[j] -= ld[i * (i + 1) / 2 + j] * x[i];
+        }
+    }
+    for i in 0..N {
+        x[i] *= diag_inv[i];
+        for j in 0..i {
+            x[i] -= ld[i * (i + 1) / 2 + j] * x[j];
+        }
+    }
 }
 
 /// Eliminates row `k` from those of its ancestors; whether its D is not positive.
@@ -199,15 +292,26 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
     }
     // The part of a row below the diagonal, and where its columns begin: those of a serial chain are
     // consecutive.
+    if let Some(n) = whole_chain(m) {
+        solve_root(n, ld, diag_inv, x);
+        return;
+    }
     let row = |i: usize| {
         let (start, n) = (m.M_rowadr[i] as usize, m.M_rownnz[i] as usize - 1);
         (&ld[start..start + n], &m.M_colind[start..start + n], n > 3 && m.M_colind[start] as usize + n == i)
     };
-    for i in dofs.clone().rev() {
-        let (values, columns, serial) = row(i);
-        let xi = x[i];
+    let mut end = dofs.end;
+    while end > dofs.start {
+        if let Some(n) = root_chain(m, end) {
+            end -= n;
+            solve_root(n, &ld[m.M_rowadr[end] as usize..], &diag_inv[end..], &mut x[end..]);
+            continue;
+        }
+        end -= 1;
+        let (values, columns, serial) = row(end);
+        let xi = x[end];
         if serial {
-            subtract(&mut x[i - values.len()..i], values, xi);
+            subtract(&mut x[end - values.len()..end], values, xi);
         } else {
             for (l, &j) in values.iter().zip(columns) {
                 x[j as usize] -= l * xi;
@@ -215,6 +319,9 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
         }
     }
     for i in dofs {
+        if root_chain(m, i + 1).is_some() {
+            continue; // done above
+        }
         let (values, columns, serial) = row(i);
         let mut s = x[i] * diag_inv[i];
         if serial {

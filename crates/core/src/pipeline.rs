@@ -4,8 +4,8 @@ use crate::math::{dot, rows};
 use crate::plan::Plan;
 use crate::reflect::Stage;
 use crate::{
-    Data, Model, Warning, actuation, camera, collision, com, constraint, disable, enable, energy, integrate,
-    integrator, kane, kinematics,
+    Data, Model, Warning, actuation, camera, chain, collision, com, constraint, disable, enable, energy,
+    integrate, integrator, kinematics,
 };
 use crate::{jacobian, mass, passive, reset, rne, sensor, tendon, transmission};
 
@@ -80,10 +80,10 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::MassMatrix) {
         if d.plan.composite {
             mass::composite_inertia(m, d, true);
-        } else {
+        } else if d.plan.simple_bodies {
             mass::simple_diagonal(m, d);
         }
-        kane::mass_matrix(m, d);
+        chain::mass_matrix(m, d);
         tendon::armature(m, d);
     }
     if d.plan.keeps(Stage::Factor) {

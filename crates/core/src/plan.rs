@@ -5,7 +5,7 @@
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
 use crate::reflect::{FieldId, FieldSet, Object, Stage, field};
-use crate::{Model, Obj, collision, enable, joint, kane};
+use crate::{Model, Obj, chain, collision, enable, joint};
 use crate::{trntype, wraptype};
 
 /// What programs read and write.
@@ -46,6 +46,8 @@ pub struct Plan {
     pub(crate) composite: bool,
     /// Whether forces of bodies are computed by recursion: some tree is more than a short chain.
     pub(crate) recursion: bool,
+    /// Whether some body is a simple one.
+    pub(crate) simple_bodies: bool,
     /// Whether the parameters of short chains may change.
     pub(crate) chains_may_change: bool,
     /// Whether a joint limit can become active.
@@ -64,6 +66,7 @@ impl Default for Plan {
             some_general: true,
             composite: true,
             recursion: true,
+            simple_bodies: true,
             chains_may_change: true,
             limits: true,
             applied_forces: true,
@@ -104,7 +107,8 @@ impl Plan {
             some_general: scene.general,
             composite: scene.large || scene.reads_field("crb"),
             recursion: scene.large,
-            chains_may_change: scene.writes(Object::Model, &kane::FIELDS),
+            simple_bodies: m.dof_simplenum.iter().any(|&n| n > 0),
+            chains_may_change: scene.writes(Object::Model, &chain::FIELDS),
             limits: scene.limited > 0,
             applied_forces: scene.writes(Object::Data, &["xfrc_applied"]),
             pairs_may_change: scene.pairs_change,
@@ -253,7 +257,7 @@ impl<'a> Scene<'a> {
             m,
             demand,
             general: (0..m.nv).any(|i| m.dof_simplenum[i] == 0),
-            large: (0..m.nv).any(|i| m.dof_simplenum[i] == 0 && !kane::covers(m, i)),
+            large: (0..m.nv).any(|i| m.dof_simplenum[i] == 0 && !chain::covers(m, i)),
             pairs_change: false,
             pairs: 0,
             limited: m.jnt_limited.iter().filter(|&&l| l).count(),
@@ -343,7 +347,8 @@ impl<'a> Scene<'a> {
             (Stage::Bias, Stage::ComVel) => self.large,
             (Stage::Bias, Stage::Kinematics) if self.large => true,
             // A simple body's weight acts along its slides.
-            (Stage::Bias, Stage::Kinematics) => m.jnt_type.contains(&joint::SLIDE),
+            (Stage::Bias, Stage::Kinematics) => (0..m.njnt)
+                .any(|j| m.jnt_type[j] == joint::SLIDE && m.body_simple[m.jnt_bodyid[j] as usize] > 0),
             (Stage::Acceleration, Stage::Kinematics) => self.writes(Object::Data, &["xfrc_applied"]),
             (Stage::Sensors, Stage::Kinematics) => true,
             (Stage::Sensors, Stage::GeomPoses) => self.sensed(Obj::Geom),

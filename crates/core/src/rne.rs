@@ -1,7 +1,7 @@
 //! `qfrc_bias`: gravity, Coriolis and centrifugal force.
 
 use crate::math::*;
-use crate::{Data, Model, disable, joint, kane};
+use crate::{Data, Model, chain, disable, joint};
 
 /// `qfrc_bias`. Trees take recursive Newton–Euler, short chains a projection; a simple body, alone in its tree
 /// with its inertia along its own axes, takes the closed form.
@@ -11,7 +11,10 @@ pub(crate) fn bias(m: &Model, d: &mut Data) {
     if d.plan.recursion {
         newton_euler(m, d, gravity);
     }
-    kane::bias(d, gravity);
+    chain::bias(d, gravity);
+    if !d.plan.simple_bodies {
+        return;
+    }
     for j in 0..m.njnt {
         if m.body_simple[m.jnt_bodyid[j] as usize] > 0 {
             simple(m, d, j, gravity);
@@ -48,7 +51,7 @@ fn simple(m: &Model, d: &mut Data, j: usize, gravity: Vec3) {
 
 /// The force for zero acceleration (Featherstone 2008, section 5.3). Gravity enters as an upward
 /// acceleration of the world.
-fn newton_euler(m: &Model, d: &mut Data, gravity: Vec3) {
+pub(crate) fn newton_euler(m: &Model, d: &mut Data, gravity: Vec3) {
     let cdof = rows::<6>(&d.cdof);
     let cdof_dot = rows::<6>(&d.cdof_dot);
     let (cinert, cvel) = (rows::<10>(&d.cinert), rows::<6>(&d.cvel));

@@ -9,7 +9,13 @@
 //!
 //! over the links that k moves, where a and α are the accelerations that the velocities alone cause. A link is
 //! what moves with one joint: bodies without joints are part of the link that carries them. Its frame has its
-//! origin at the joint's anchor; turning is expressed in it, where I is constant.
+//! origin at the joint's anchor; turning is expressed in it, where I is constant. A chain that moves in a plane
+//! takes the same equations in two dimensions.
+
+mod planar;
+mod spatial;
+#[cfg(test)]
+mod tests;
 
 use crate::math::*;
 use crate::{Data, Model, jacobian, joint};
@@ -31,36 +37,36 @@ pub(crate) const FIELDS: [&str; 10] = [
     "dof_armature",
 ];
 
-/// The links of all short chains, parents first.
+/// The links of all short chains, chain by chain, each from its root on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Chains {
     links: Vec<Link>,
+    /// Number of links of each chain.
+    lengths: Vec<usize>,
     /// Bodies that are part of a link, or that carry one and cannot move, parents first.
     parts: Vec<Part>,
-    /// Of each link and each degree of freedom that moves it: w_k and u_k.
-    columns: Vec<(Vec3, Vec3)>,
 }
 
 /// What moves with one joint.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Link {
     joint: usize,
-    /// Its degree of freedom, its coordinate, and where its row of M begins.
     dof: usize,
+    /// Its coordinate in qpos.
     coordinate: usize,
+    /// Where its row of M begins.
     row: usize,
-    /// The link that it is attached to.
-    parent: Option<usize>,
-    /// How many links are above it, and where its columns begin.
-    depth: usize,
-    first: usize,
     slides: bool,
     /// Parameters: see `load`.
     fixed: Fixed,
-    /// Where it is.
+    /// Whether the chain moves in a plane, and then the parameters in it.
+    planar: bool,
+    flat: planar::Fixed,
+    swing: planar::Swing,
+    /// Where it is, in space.
     pose: Pose,
-    /// How it moves.
-    motion: Motion,
+    /// w_k and u_k of each degree of freedom that moves it, from the root on.
+    columns: [(Vec3, Vec3); MAX_DOFS],
 }
 
 /// What the model says about a link.
@@ -109,20 +115,22 @@ struct Part {
 }
 
 /// Whether a degree of freedom belongs to a short chain: a tree of at most [`MAX_DOFS`] slides and hinges,
-/// fixed to the world, that is more than one simple body.
+/// one after the other from the world on, that is more than one simple body.
 pub(crate) fn covers(m: &Model, dof: usize) -> bool {
     let tree = m.dof_treeid[dof];
     let of_tree = |k: &usize| m.dof_treeid[*k] == tree;
     // The degrees of freedom of a tree are consecutive.
     let first = (0..dof).rev().take_while(of_tree).take(MAX_DOFS).last().unwrap_or(dof);
     let base = m.body_parentid[m.dof_bodyid[first] as usize] as usize;
-    let mut dofs = 0;
-    m.body_weldid[base] == 0
-        && (first..m.nv).take_while(of_tree).take(MAX_DOFS + 1).all(|k| {
-            dofs += 1;
-            let kind = m.jnt_type[m.dof_jntid[k] as usize];
-            dofs <= MAX_DOFS && m.dof_simplenum[k] == 0 && matches!(kind, joint::SLIDE | joint::HINGE)
-        })
+    let links = |k: usize| {
+        let serial = k == first || m.dof_parentid[k] == k as i32 - 1;
+        let kind = m.jnt_type[m.dof_jntid[k] as usize];
+        serial
+            && k < first + MAX_DOFS
+            && m.dof_simplenum[k] == 0
+            && matches!(kind, joint::SLIDE | joint::HINGE)
+    };
+    m.body_weldid[base] == 0 && (first..m.nv).take_while(of_tree).take(MAX_DOFS + 1).all(links)
 }
 
 impl Chains {
@@ -144,17 +152,15 @@ impl Chains {
             for n in 0..m.body_jntnum[b] as usize {
                 let joint = m.body_jntadr[b] as usize + n;
                 let dof = m.jnt_dofadr[joint] as usize;
-                let depth = link.map_or(0, |l| chains.links[l].depth + 1);
-                let first = chains.columns.len();
-                chains.columns.resize(first + depth + 1, Default::default());
+                match chains.lengths.last_mut() {
+                    Some(length) if link.is_some() => *length += 1,
+                    _ => chains.lengths.push(1),
+                }
                 chains.links.push(Link {
                     joint,
                     dof,
                     coordinate: m.jnt_qposadr[joint] as usize,
                     row: m.M_rowadr[dof] as usize,
-                    parent: link,
-                    depth,
-                    first,
                     slides: m.jnt_type[joint] == joint::SLIDE,
                     ..Link::default()
                 });
@@ -213,138 +219,50 @@ impl Chains {
                 inertia_about(moments[b], &axes, sub(com(part), f.com), m.body_mass[b]);
             f.inertia = add(f.inertia, [xx, yy, zz, xy, xz, yz]);
         }
+        let mut rest = self.links.as_mut_slice();
+        for &n in &self.lengths {
+            let (chain, after) = rest.split_at_mut(n);
+            planar::load(chain);
+            rest = after;
+        }
     }
 }
 
-/// I v
-#[inline(always)]
-fn inertia_turn(i: &[f64; 6], v: Vec3) -> Vec3 {
-    [
-        i[0] * v[0] + i[3] * v[1] + i[4] * v[2],
-        i[3] * v[0] + i[1] * v[1] + i[5] * v[2],
-        i[4] * v[0] + i[5] * v[1] + i[2] * v[2],
-    ]
+/// Calls a function of a chain with its length as a constant, so that its loops are unrolled.
+macro_rules! by_length {
+    ($chains:expr, $function:ident($($argument:expr),*)) => {{
+        let mut rest = $chains.links.as_mut_slice();
+        for &n in &$chains.lengths {
+            let (chain, after) = rest.split_at_mut(n);
+            match (n, chain[0].planar) {
+                (1, true) => planar::$function::<1>(chain, $($argument),*),
+                (2, true) => planar::$function::<2>(chain, $($argument),*),
+                (3, true) => planar::$function::<3>(chain, $($argument),*),
+                (4, true) => planar::$function::<4>(chain, $($argument),*),
+                (5, true) => planar::$function::<5>(chain, $($argument),*),
+                (_, true) => planar::$function::<MAX_DOFS>(chain, $($argument),*),
+                (1, _) => spatial::$function::<1>(chain, $($argument),*),
+                (2, _) => spatial::$function::<2>(chain, $($argument),*),
+                (3, _) => spatial::$function::<3>(chain, $($argument),*),
+                (4, _) => spatial::$function::<4>(chain, $($argument),*),
+                (5, _) => spatial::$function::<5>(chain, $($argument),*),
+                _ => spatial::$function::<MAX_DOFS>(chain, $($argument),*),
+            }
+            rest = after;
+        }
+    }};
 }
 
 /// The rows of M that belong to short chains.
-#[inline(never)]
 pub(crate) fn mass_matrix(m: &Model, d: &mut Data) {
     let chains = &mut d.work.chains;
     if d.plan.chains_may_change {
         chains.load(m);
     }
-    for i in 0..chains.links.len() {
-        let (above, rest) = chains.links.split_at_mut(i);
-        let Some(link) = rest.first_mut() else { return };
-        let parent = link.parent.and_then(|p| above.get(p));
-        link.place(parent.map(|p| &p.pose), d.qpos[link.coordinate]);
-        let (f, pose) = (&link.fixed, &link.pose);
-
-        // From the link's own joint to the root of the tree.
-        let columns = &mut chains.columns[link.first..][..link.depth + 1];
-        let (mut own, mut up) = (true, &*link);
-        for n in (0..columns.len()).rev() {
-            columns[n] = match (up.slides, own) {
-                (true, _) => ([0.0; 3], up.pose.axis),
-                (_, true) => (f.axis, cross(pose.axis, sub(pose.com, pose.anchor))),
-                _ => {
-                    let turn = mat_t_mul_vec(&pose.axes, up.pose.axis);
-                    (turn, cross(up.pose.axis, sub(pose.com, up.pose.anchor)))
-                }
-            };
-            own = false;
-            if let Some(parent) = up.parent {
-                up = &above[parent];
-            }
-        }
-        let row = &mut d.M[link.row..][..link.depth + 1];
-        row.fill(0.0);
-        row[link.depth] = f.armature;
-        let mut up = &*link;
-        for n in (0..columns.len()).rev() {
-            let (turn, shift) = columns[n];
-            let (spin, push) = (inertia_turn(&f.inertia, turn), scale(shift, f.mass));
-            for (out, (w, u)) in d.M[up.row..][..n + 1].iter_mut().zip(columns.iter()) {
-                *out += dot(*w, spin) + dot(*u, push);
-            }
-            if let Some(parent) = up.parent {
-                up = &above[parent];
-            }
-        }
-    }
-}
-
-impl Link {
-    /// The pose for a coordinate of the joint.
-    #[inline(always)]
-    fn place(&mut self, parent: Option<&Pose>, q: f64) {
-        let (f, pose) = (&self.fixed, &mut self.pose);
-        match parent {
-            None => (pose.anchor, pose.axes) = (f.at, f.turn),
-            Some(p) => {
-                pose.anchor = add(mat_mul_vec(&p.axes, f.at), p.anchor);
-                pose.axes = if f.straight { p.axes } else { mat_mul(&p.axes, &f.turn) };
-            }
-        }
-        pose.axis = mat_mul_vec(&pose.axes, f.axis);
-        let displacement = q - f.reference;
-        if self.slides {
-            pose.anchor = add_scaled(pose.anchor, pose.axis, displacement);
-        } else {
-            pose.axes = mat_turn(&pose.axes, f.axis, displacement);
-        }
-        pose.com = add(mat_mul_vec(&pose.axes, f.com), pose.anchor);
-    }
+    by_length!(chains, mass_matrix(&d.qpos, &mut d.M));
 }
 
 /// The bias force of short chains.
-#[inline(never)]
 pub(crate) fn bias(d: &mut Data, gravity: Vec3) {
-    let chains = &mut d.work.chains;
-    // Gravity enters as an upward acceleration of the world.
-    let world = Motion { acceleration: scale(gravity, -1.0), ..Motion::default() };
-    for i in 0..chains.links.len() {
-        let (above, rest) = chains.links.split_at_mut(i);
-        let Some(link) = rest.first_mut() else { return };
-        let (f, pose) = (&link.fixed, &link.pose);
-        let rate = scale(pose.axis, d.qvel[link.dof]);
-        let mut motion = world;
-        if let Some(parent) = link.parent.and_then(|p| above.get(p)) {
-            motion = parent.motion;
-            motion.acceleration = motion.at(sub(pose.anchor, parent.pose.anchor));
-            let extra = cross(motion.velocity, rate);
-            if link.slides {
-                motion.acceleration = add_scaled(motion.acceleration, extra, 2.0);
-            } else {
-                motion.turning = add(motion.turning, extra);
-            }
-        }
-        if !link.slides {
-            motion.velocity = add(motion.velocity, rate);
-        }
-        let force = scale(motion.at(sub(pose.com, pose.anchor)), f.mass);
-        let w = mat_t_mul_vec(&pose.axes, motion.velocity);
-        let turning = inertia_turn(&f.inertia, mat_t_mul_vec(&pose.axes, motion.turning));
-        let torque = add(turning, cross(w, inertia_turn(&f.inertia, w)));
-        link.motion = motion;
-
-        let columns = &chains.columns[link.first..][..link.depth + 1];
-        d.qfrc_bias[link.dof] = 0.0;
-        let mut up = &*link;
-        for (turn, shift) in columns.iter().rev() {
-            d.qfrc_bias[up.dof] += dot(*turn, torque) + dot(*shift, force);
-            if let Some(parent) = up.parent {
-                up = &above[parent];
-            }
-        }
-    }
-}
-
-impl Motion {
-    /// The acceleration of a point at `arm` from the anchor.
-    #[inline(always)]
-    fn at(&self, arm: Vec3) -> Vec3 {
-        let w = self.velocity;
-        add(self.acceleration, add(cross(self.turning, arm), cross(w, cross(w, arm))))
-    }
+    by_length!(d.work.chains, bias(&d.qvel, &mut d.qfrc_bias, gravity));
 }
