@@ -263,7 +263,11 @@ pub(super) fn logarithmic(low: f64, high: f64, extent: impl Fn(&Label) -> f64) -
     // Every decade has a label, or every second, fifth, tenth, …, as many as have room.
     let most = whole.iter().map(|(_, t)| extent(&t.label)).fold(0.0, f64::max) * (b - a);
     let every = [1, 2, 5, 10, 20, 50, 100].into_iter().find(|n| f64::from(*n) >= most).unwrap_or(200);
-    let (labelled, others): (Vec<_>, Vec<_>) = whole.into_iter().partition(|(e, _)| e.rem_euclid(every) == 0);
+    // The few decades of an axis may fall between two multiples: then one in the middle has the label.
+    let multiple = whole.iter().any(|(e, _)| e.rem_euclid(every) == 0);
+    let phase = if multiple { 0 } else { whole.get(whole.len() / 2).map_or(0, |(e, _)| e.rem_euclid(every)) };
+    let (labelled, others): (Vec<_>, Vec<_>) =
+        whole.into_iter().partition(|(e, _)| e.rem_euclid(every) == phase);
     let mut ticks: Vec<Tick> = labelled.into_iter().map(|(_, t)| t).collect();
     let mut minor: Vec<f64> = others.into_iter().map(|(_, t)| t.at).collect();
     let between = decades.flat_map(|e| [2, 5, 3, 4, 6, 7, 8, 9].map(|m| (m, e))).filter(|_| b - a <= 6.0);
