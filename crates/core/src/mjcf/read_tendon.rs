@@ -26,7 +26,7 @@ fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSp
         cx.report
             .error(code::TENDON, span, format!("the actuatorfrcrange of {} excludes zero", node.shown()))
             .why(
-                "forces of actuators are scaled down to the range, and no factor makes them other than zero",
+                "the forces of its actuators are scaled until their sum is in the range, and nothing scales a sum of zero",
             );
     }
     let path = path(cx, refs, i, node);
