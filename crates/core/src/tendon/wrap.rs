@@ -102,11 +102,12 @@ fn outside(q: [Vec2; 2], radius: f64, side: Option<Vec2>) -> Option<Touch> {
     if dot(nearest, nearest) > square && side.is_none_or(|s| dot(s, nearest) >= 0.0) {
         return None;
     }
-    // Tangent points of the two ways round: q r²/|q|² ± the same across, times √(|q|² - r²)/r.
+    // Tangent points of the two ways round: q r²/|q|² ± the same across, times √(|q|² - r²)/r. For ends opposite
+    // each other rounding decides between them, so products are taken in the library's order.
     let tangent = |i: usize, sign: f64| {
-        let across = sign * radius * (squares[i] - square).sqrt();
+        let (r, root) = (sign * radius, (squares[i] - square).sqrt());
         let [x, y] = q[i];
-        [(x * square + across * y) / squares[i], (y * square - across * x) / squares[i]]
+        [(x * square + r * y * root) / squares[i], (y * square - r * x * root) / squares[i]]
     };
     let ways = [1.0, -1.0].map(|sign| [tangent(0, sign), tangent(1, -sign)]);
     let crosses = |t: [Vec2; 2]| intersect([q[0], t[0]], [q[1], t[1]]);
@@ -221,4 +222,56 @@ fn norm2(a: Vec2) -> f64 {
 fn unit(a: Vec2) -> Vec2 {
     let n = norm2(a);
     if n < MINVAL { [1.0, 0.0] } else { scale(a, 1.0 / n) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(x: &[f64]) -> Vec3 {
+        [x[0], x[1], x[2]]
+    }
+
+    fn distance(a: Vec3, b: Vec3) -> f64 {
+        norm(sub(a, b))
+    }
+
+    /// Every recorded case: `golden/record.py` says what a line holds.
+    #[test]
+    fn paths_are_those_of_mujoco() {
+        let mut counts = [0; 3];
+        for line in include_str!("golden/wrap.txt").lines() {
+            let free = line.ends_with("free");
+            let x: Vec<f64> = line.split(' ').filter_map(|w| w.parse().ok()).collect();
+            let mut mat = [0.0; 9];
+            mat.copy_from_slice(&x[5..14]);
+            let shape = Round { pos: point(&x[2..]), mat, radius: x[1], cylinder: x[0] == 5.0 };
+            let (ends, total) = ([point(&x[14..]), point(&x[17..])], x[24]);
+            let arc = around(ends, &shape, (x[20] == 1.0).then(|| point(&x[21..])));
+            let Some(arc) = arc else {
+                assert!(free, "the path is not free: {line}");
+                counts[0] += 1;
+                continue;
+            };
+            assert!(!free, "the path is free: {line}");
+            let length = distance(ends[0], arc.from) + arc.length + distance(arc.to, ends[1]);
+            let touch = [point(&x[25..]), point(&x[28..])];
+            let error = [length - total, distance(arc.from, touch[0]), distance(arc.to, touch[1])];
+            assert!(error.iter().all(|e| e.abs() < 1e-12), "{error:?} in {line}");
+            counts[if arc.length == 0.0 { 2 } else { 1 }] += 1;
+        }
+        // Free, around, touched from inside: all are there.
+        assert!(counts.iter().all(|&n| n > 30), "{counts:?}");
+    }
+
+    /// A path around a shape touches it tangentially, and is never shorter than the straight line.
+    #[test]
+    fn a_string_around_a_cylinder_has_the_closed_form() {
+        let shape = Round { pos: [0.0; 3], mat: EYE, radius: 1.0, cylinder: true };
+        let arc = around([[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]], &shape, Some([0.0, 3.0, 0.0])).unwrap();
+        // Both tangents leave at 60 degrees: a third of a half circle is between them.
+        assert!((arc.length - std::f64::consts::FRAC_PI_3).abs() < 1e-15);
+        assert!(distance(arc.from, [-0.5, 0.75f64.sqrt(), 0.0]) < 1e-15);
+        assert!(distance(arc.to, [0.5, 0.75f64.sqrt(), 0.0]) < 1e-15);
+    }
 }
