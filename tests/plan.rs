@@ -45,6 +45,18 @@ const WRITES: &[(Object, &str, f64)] = &[
     (Object::Model, "jnt_stiffness", 2.0),
     (Object::Model, "jnt_limited", 1.0),
     (Object::Model, "qpos_spring", 0.2),
+    (Object::Model, "jnt_stiffnesspoly", 0.3),
+    (Object::Model, "dof_dampingpoly", 0.2),
+    (Object::Model, "tendon_stiffness", 3.0),
+    (Object::Model, "tendon_damping", 0.5),
+    (Object::Model, "tendon_armature", 0.1),
+    (Object::Model, "tendon_lengthspring", 0.3),
+    (Object::Model, "wrap_prm", 1.5),
+    (Object::Model, "site_pos", 0.05),
+    (Object::Model, "body_gravcomp", 0.7),
+    (Object::Option, "density", 2.0),
+    (Object::Option, "viscosity", 0.1),
+    (Object::Option, "wind", 0.4),
 ];
 
 /// What happens before a step: one element of a field is written, or constants are recomputed, or all starts

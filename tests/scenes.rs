@@ -18,6 +18,8 @@ pub(crate) struct Joint {
     damping: f64,
     stiffness: f64,
     armature: f64,
+    /// Growth of stiffness and damping.
+    growth: (f64, f64),
     /// Half width of the limits, rad or m.
     range: Option<f64>,
 }
@@ -34,14 +36,30 @@ pub(crate) struct Body {
     euler: Triple,
     /// Place, radius and mass.
     spheres: Vec<(Triple, f64, f64)>,
+    gravcomp: f64,
     /// solref, friction, condim, margin, gap.
     material: Option<(f64, f64, f64, bool, f64, f64)>,
+}
+
+/// A tendon.
+#[derive(Clone, Debug)]
+pub(crate) struct Tendon {
+    /// Over joints, where there are any that it can pass.
+    fixed: bool,
+    /// Bodies whose sites it passes, the sphere it goes around on the way there, whether a pulley stands before.
+    path: Vec<(usize, Option<usize>, bool)>,
+    stiffness: (f64, f64),
+    damping: f64,
+    armature: f64,
 }
 
 /// A scene.
 #[derive(Clone)]
 pub(crate) struct Scene {
     bodies: Vec<Body>,
+    tendons: Vec<Tendon>,
+    /// Density of the medium, kg/m^3.
+    density: f64,
     floor: bool,
     mocap: bool,
     sensors: bool,
@@ -62,14 +80,16 @@ fn joint() -> impl Strategy<Value = Joint> {
     let axis = triple(1.0).prop_map(|(x, y, z)| (x, y, z + 2.0));
     let pos = prop_oneof![Just((0.0, 0.0, 0.0)), triple(0.1)];
     let range = prop::option::of(0.05..0.6);
-    (0u8..3, axis, pos, sometimes(0.5), sometimes(5.0), sometimes(0.05), range).prop_map(
-        |(kind, axis, pos, damping, stiffness, armature, range)| Joint {
+    let growth = (sometimes(0.5), sometimes(0.2));
+    (0u8..3, axis, pos, sometimes(0.5), sometimes(5.0), sometimes(0.05), growth, range).prop_map(
+        |(kind, axis, pos, damping, stiffness, armature, growth, range)| Joint {
             kind,
             axis,
             pos,
             damping,
             stiffness,
             armature,
+            growth,
             range,
         },
     )
@@ -83,22 +103,47 @@ fn body() -> impl Strategy<Value = Body> {
     let material =
         prop::option::of((0.005..0.05, 0.1..1.5, 0.0..1.0, any::<bool>(), sometimes(0.01), sometimes(0.01)));
     let euler = prop_oneof![Just((0.0, 0.0, 0.0)), triple(90.0)];
-    (any::<prop::sample::Index>(), any::<bool>(), vec(joint(), 0..3), triple(0.2), euler, spheres, material)
-        .prop_map(|(parent, free, joints, pos, euler, spheres, material)| Body {
+    let place = (triple(0.2), euler);
+    let gravcomp = prop_oneof![3 => Just(0.0), 1 => 0.1..1.5];
+    (any::<prop::sample::Index>(), any::<bool>(), vec(joint(), 0..3), place, spheres, gravcomp, material)
+        .prop_map(|(parent, free, joints, (pos, euler), spheres, gravcomp, material)| Body {
             parent: parent.index(1000),
             free,
             joints,
             pos,
             euler,
             spheres,
+            gravcomp,
             material,
+        })
+}
+
+fn tendon() -> impl Strategy<Value = Tendon> {
+    let stop = (0usize..1000, prop::option::of(0usize..1000), prop::bool::weighted(0.2));
+    (any::<bool>(), vec(stop, 2..5), (sometimes(20.0), sometimes(5.0)), sometimes(2.0), sometimes(0.2))
+        .prop_map(|(fixed, path, stiffness, damping, armature)| Tendon {
+            fixed,
+            path,
+            stiffness,
+            damping,
+            armature,
         })
 }
 
 /// Scenes of one to five bodies.
 pub(crate) fn scene() -> impl Strategy<Value = Scene> {
-    (vec(body(), 1..6), any::<(bool, bool, bool, bool, bool)>()).prop_map(
-        |(bodies, (floor, mocap, sensors, energy, rk4))| Scene { bodies, floor, mocap, sensors, energy, rk4 },
+    let density = prop_oneof![3 => Just(0.0), 1 => 0.1..20.0];
+    (vec(body(), 1..6), vec(tendon(), 0..3), density, any::<(bool, bool, bool, bool, bool)>()).prop_map(
+        |(bodies, tendons, density, (floor, mocap, sensors, energy, rk4))| Scene {
+            bodies,
+            tendons,
+            density,
+            floor,
+            mocap,
+            sensors,
+            energy,
+            rk4,
+        },
     )
 }
 
@@ -135,6 +180,9 @@ impl Scene {
         if self.rk4 && constraints {
             text.push_str(" integrator=\"RK4\"");
         }
+        if self.density > 0.0 && constraints {
+            let _ = write!(text, " density=\"{}\" viscosity=\"0.01\" wind=\"0.5 0 0\"", self.density);
+        }
         text.push('>');
         if self.energy || !constraints {
             text.push_str("<flag energy=\"enable\"/>");
@@ -148,10 +196,18 @@ impl Scene {
                 "<body name=\"hand\" mocap=\"true\" pos=\"0.1 0 -0.3\"><geom size=\"0.1\"/></body>",
             );
         }
+        text.push_str("<site name=\"anchor\" pos=\"0 0 0.5\"/>");
+        // Joints with one coordinate.
+        let mut scalars = Vec::new();
         for i in (0..self.bodies.len()).filter(|&i| self.parent(i).is_none()) {
-            self.body(i, constraints, &mut text);
+            self.body(i, constraints, &mut text, &mut scalars);
         }
         text.push_str("</worldbody>");
+        if constraints {
+            text.push_str("<tendon>");
+            self.tendons.iter().for_each(|t| t.write(self.bodies.len(), &scalars, &mut text));
+            text.push_str("</tendon>");
+        }
         if self.sensors {
             text.push_str("<sensor><clock/><framepos objtype=\"body\" objname=\"b0\"/><framequat objtype=\"geom\" objname=\"g0\"/>");
             text.push_str("<framepos objtype=\"site\" objname=\"s0\"/></sensor>");
@@ -166,20 +222,28 @@ impl Scene {
         (i > 0 && parent % 2 == 1).then(|| parent / 2 % i)
     }
 
-    fn body(&self, i: usize, constraints: bool, text: &mut String) {
+    fn body(&self, i: usize, constraints: bool, text: &mut String, scalars: &mut Vec<String>) {
         let b = &self.bodies[i];
         let place = |(x, y, z): Triple| format!("{x} {y} {z}");
-        let _ = write!(text, "<body name=\"b{i}\" pos=\"{}\" euler=\"{}\">", place(b.pos), place(b.euler));
+        let _ = write!(text, "<body name=\"b{i}\" pos=\"{}\" euler=\"{}\"", place(b.pos), place(b.euler));
+        if b.gravcomp != 0.0 && constraints {
+            let _ = write!(text, " gravcomp=\"{}\"", b.gravcomp);
+        }
+        text.push('>');
         if self.parent(i).is_none() && b.free {
             text.push_str("<freejoint/>");
         } else {
             let mut turns = false;
-            for joint in &b.joints {
+            for (k, joint) in b.joints.iter().enumerate() {
                 // A ball turns about everything: no other joint of the body may turn, too.
                 let joint =
                     if turns && joint.kind != 1 { &Joint { kind: 1, ..joint.clone() } } else { joint };
                 turns |= joint.kind == 0 || (joint.kind == 2 && b.joints.iter().any(|j| j.kind == 0));
-                joint.write(constraints, text);
+                let name = format!("j{i}_{k}");
+                joint.write(&name, constraints, text);
+                if joint.kind % 3 != 0 {
+                    scalars.push(name);
+                }
             }
         }
         for (k, (pos, radius, mass)) in b.spheres.iter().enumerate() {
@@ -200,21 +264,63 @@ impl Scene {
         }
         let _ = write!(text, "<site name=\"s{i}\" pos=\"0 0 0.1\"/>");
         for child in (i + 1..self.bodies.len()).filter(|&c| self.parent(c) == Some(i)) {
-            self.body(child, constraints, text);
+            self.body(child, constraints, text, scalars);
         }
         text.push_str("</body>");
     }
 }
 
+impl Tendon {
+    fn write(&self, bodies: usize, scalars: &[String], text: &mut String) {
+        let (k, growth) = self.stiffness;
+        let laws = format!(
+            "stiffness=\"{k} {growth}\" damping=\"{} {growth}\" springlength=\"0.1 0.4\"",
+            self.damping
+        );
+        if let (true, [first, .., last]) = (self.fixed, scalars) {
+            let _ = write!(text, "<fixed {laws} armature=\"{}\">", self.armature);
+            for (joint, coefficient) in [(first, 1.0), (last, -0.5)] {
+                let _ = write!(text, "<joint joint=\"{joint}\" coef=\"{coefficient}\"/>");
+            }
+            text.push_str("</fixed>");
+            return;
+        }
+        // A tendon with inertia goes straight, and to one body: its inertia does not couple branches of a tree, and
+        // what is left of it need not be positive.
+        let wraps = self.armature == 0.0;
+        let path = if wraps { &self.path[..] } else { &self.path[..1] };
+        let armature = if wraps { String::new() } else { format!(" armature=\"{}\"", self.armature) };
+        let _ = write!(text, "<spatial {laws}{armature}>");
+        for (leg, &(site, around, pulley)) in path.iter().enumerate() {
+            // From the anchor to a body, or on from one body to the next.
+            if pulley || leg == 0 {
+                if pulley {
+                    text.push_str("<pulley divisor=\"2\"/>");
+                }
+                text.push_str("<site site=\"anchor\"/>");
+            }
+            if let (true, Some(body)) = (wraps, around) {
+                let _ = write!(text, "<geom geom=\"g{}\" sidesite=\"s{}\"/>", body % bodies, site % bodies);
+            }
+            let _ = write!(text, "<site site=\"s{}\"/><site site=\"anchor\"/>", site % bodies);
+        }
+        text.push_str("</spatial>");
+    }
+}
+
 impl Joint {
-    fn write(&self, constraints: bool, text: &mut String) {
+    fn write(&self, name: &str, constraints: bool, text: &mut String) {
         let kind = ["ball", "slide", "hinge"][usize::from(self.kind % 3)];
         let (x, y, z) = self.axis;
         let (px, py, pz) = self.pos;
-        let _ = write!(text, "<joint type=\"{kind}\" pos=\"{px} {py} {pz}\" armature=\"{}\"", self.armature);
-        let _ = write!(text, " stiffness=\"{}\"", self.stiffness);
+        let _ = write!(
+            text,
+            "<joint name=\"{name}\" type=\"{kind}\" pos=\"{px} {py} {pz}\" armature=\"{}\"",
+            self.armature
+        );
+        let _ = write!(text, " stiffness=\"{} {}\"", self.stiffness, self.growth.0);
         if constraints {
-            let _ = write!(text, " damping=\"{}\"", self.damping);
+            let _ = write!(text, " damping=\"{} {}\"", self.damping, self.growth.1);
         }
         if kind != "ball" {
             let _ = write!(text, " axis=\"{x} {y} {z}\"");

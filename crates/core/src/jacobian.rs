@@ -24,6 +24,16 @@ pub(crate) fn dof_motion(m: &Model, d: &Data, k: usize, point: Vec3) -> (Vec3, V
     (axis, cross(axis, sub(point, rows::<3>(&d.xanchor)[j])))
 }
 
+/// out += Jᵀ f: the generalized force of a force and a torque on body `b`, the force at `point`.
+pub(crate) fn apply(m: &Model, d: &Data, b: usize, point: Vec3, force: Vec3, torque: Vec3, out: &mut [f64]) {
+    let mut k = last_dof(m, b);
+    while k >= 0 {
+        let (turn, move_) = dof_motion(m, d, k as usize, point);
+        out[k as usize] += dot(move_, force) + dot(turn, torque);
+        k = m.dof_parentid[k as usize];
+    }
+}
+
 /// Columns of a Jacobian along a frame, in descending order of the degrees of freedom. The arrays have room
 /// for every degree of freedom of the model.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -27,6 +27,7 @@ mod com;
 mod constraint;
 mod data;
 mod energy;
+mod equality;
 mod fields;
 mod integrate;
 mod jacobian;

@@ -1,6 +1,6 @@
 //! `mj_step` and `mj_forward`: the order of the stages, each a call to the module that holds its formula.
 
-use crate::math::{dot, rows};
+use crate::math::rows;
 use crate::plan::Plan;
 use crate::reflect::Stage;
 use crate::{
@@ -160,20 +160,14 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
 
 /// Adds Jᵀ f for the force and torque applied at each body's centre of mass.
 fn applied_forces(m: &Model, d: &mut Data) {
+    let mut out = std::mem::take(&mut d.qfrc_smooth);
     for b in 1..m.nbody {
-        let f = rows::<6>(&d.xfrc_applied)[b];
-        if f == [0.0; 6] {
-            continue;
-        }
-        let (force, torque) = ([f[0], f[1], f[2]], [f[3], f[4], f[5]]);
-        let point = rows::<3>(&d.xipos)[b];
-        let mut k = jacobian::last_dof(m, b);
-        while k >= 0 {
-            let (turn, move_) = jacobian::dof_motion(m, d, k as usize, point);
-            d.qfrc_smooth[k as usize] += dot(move_, force) + dot(turn, torque);
-            k = m.dof_parentid[k as usize];
+        let [fx, fy, fz, tx, ty, tz] = rows::<6>(&d.xfrc_applied)[b];
+        if [fx, fy, fz, tx, ty, tz] != [0.0; 6] {
+            jacobian::apply(m, d, b, rows::<3>(&d.xipos)[b], [fx, fy, fz], [tx, ty, tz], &mut out);
         }
     }
+    d.qfrc_smooth = out;
 }
 
 /// `qacc` and constraint forces.

@@ -52,6 +52,8 @@ pub struct Plan {
     pub(crate) chains_may_change: bool,
     /// Whether a joint limit can become active.
     pub(crate) limits: bool,
+    /// Whether bodies feel a medium or gravity compensation.
+    pub(crate) body_forces: bool,
     /// Whether forces applied to bodies are looked at.
     pub(crate) applied_forces: bool,
     pub(crate) pairs_may_change: bool,
@@ -69,6 +71,7 @@ impl Default for Plan {
             simple_bodies: true,
             chains_may_change: true,
             limits: true,
+            body_forces: true,
             applied_forces: true,
             pairs_may_change: true,
             contact_params_may_change: true,
@@ -110,6 +113,7 @@ impl Plan {
             simple_bodies: m.dof_simplenum.iter().any(|&n| n > 0),
             chains_may_change: scene.writes(Object::Model, &chain::FIELDS),
             limits: scene.limited > 0,
+            body_forces: scene.body_forces(),
             applied_forces: scene.writes(Object::Data, &["xfrc_applied"]),
             pairs_may_change: scene.pairs_change,
             contact_params_may_change: scene.writes(Object::Model, &CONTACT_PARAMS)
@@ -175,27 +179,24 @@ const CONTACT_PARAMS: [&str; 8] = [
     "geom_margin",
     "geom_gap",
 ];
-/// What makes passive forces of joints and tendons.
-const PASSIVE: [fn(&Model) -> &[f64]; 8] = [
-    |m| &m.dof_damping,
-    |m| &m.dof_dampingpoly,
-    |m| &m.jnt_stiffness,
-    |m| &m.jnt_stiffnesspoly,
-    |m| &m.tendon_stiffness,
-    |m| &m.tendon_stiffnesspoly,
-    |m| &m.tendon_damping,
-    |m| &m.tendon_dampingpoly,
+/// The names of some fields, and their numbers.
+type Numbers = (&'static str, fn(&Model) -> &[f64]);
+/// What makes passive forces of joints.
+const JOINT_FORCES: [Numbers; 4] = [
+    ("dof_damping", |m| &m.dof_damping),
+    ("dof_dampingpoly", |m| &m.dof_dampingpoly),
+    ("jnt_stiffness", |m| &m.jnt_stiffness),
+    ("jnt_stiffnesspoly", |m| &m.jnt_stiffnesspoly),
 ];
-const PASSIVE_NAMES: [&str; 8] = [
-    "dof_damping",
-    "dof_dampingpoly",
-    "jnt_stiffness",
-    "jnt_stiffnesspoly",
-    "tendon_stiffness",
-    "tendon_stiffnesspoly",
-    "tendon_damping",
-    "tendon_dampingpoly",
+/// What makes passive forces of tendons, springs first.
+const TENDON_FORCES: [Numbers; 4] = [
+    ("tendon_stiffness", |m| &m.tendon_stiffness),
+    ("tendon_stiffnesspoly", |m| &m.tendon_stiffnesspoly),
+    ("tendon_damping", |m| &m.tendon_damping),
+    ("tendon_dampingpoly", |m| &m.tendon_dampingpoly),
 ];
+const TENDON_ARMATURE: Numbers = ("tendon_armature", |m| &m.tendon_armature);
+const GRAVCOMP: Numbers = ("body_gravcomp", |m| &m.body_gravcomp);
 const OVERRIDES: [&str; 5] = ["o_margin", "o_solref", "o_solimp", "o_friction", "enableflags"];
 
 /// A stage's name in words.
@@ -242,9 +243,13 @@ struct Scene<'a> {
     pairs: usize,
     /// Number of joints with limits, or all when limits are switched while it runs.
     limited: usize,
-    springs: bool,
-    /// Forces on bodies as such: gravity compensation and the medium.
-    body_forces: bool,
+    /// Springs and dampers of joints, springs of tendons, dampers of tendons.
+    joint_forces: bool,
+    tendon_springs: bool,
+    tendon_dampers: bool,
+    gravcomp: bool,
+    /// The medium resists.
+    fluid: bool,
     tendon_armature: bool,
     actuated: bool,
     sensors: bool,
@@ -261,11 +266,12 @@ impl<'a> Scene<'a> {
             pairs_change: false,
             pairs: 0,
             limited: m.jnt_limited.iter().filter(|&&l| l).count(),
-            springs: PASSIVE.iter().any(|of| of(m).iter().any(|&x| x != 0.0)),
-            body_forces: m.body_gravcomp.iter().any(|&x| x != 0.0)
-                || m.opt.density > 0.0
-                || m.opt.viscosity > 0.0,
-            tendon_armature: m.tendon_armature.iter().any(|&x| x != 0.0),
+            joint_forces: false,
+            tendon_springs: false,
+            tendon_dampers: false,
+            gravcomp: false,
+            fluid: m.opt.density > 0.0 || m.opt.viscosity > 0.0,
+            tendon_armature: false,
             actuated: m.nactuator > 0,
             sensors: false,
             energy: m.opt.enabled(enable::ENERGY),
@@ -276,14 +282,35 @@ impl<'a> Scene<'a> {
         if scene.writes(Object::Model, &["jnt_limited"]) {
             scene.limited = m.njnt;
         }
-        scene.body_forces |= scene.writes(Object::Model, &["body_gravcomp"])
-            || scene.writes(Object::Option, &["density", "viscosity"]);
-        scene.springs |= scene.body_forces;
-        scene.springs |= m.nv > 0 && scene.writes(Object::Model, &PASSIVE_NAMES);
-        scene.tendon_armature |= m.ntendon > 0 && scene.writes(Object::Model, &["tendon_armature"]);
+        scene.fluid |= scene.writes(Object::Option, &["density", "viscosity"]);
+        scene.gravcomp = scene.some(&[GRAVCOMP]);
+        scene.joint_forces = scene.some(&JOINT_FORCES);
+        scene.tendon_springs = scene.some(&TENDON_FORCES[..2]);
+        scene.tendon_dampers = scene.some(&TENDON_FORCES[2..]);
+        scene.tendon_armature = scene.some(&[TENDON_ARMATURE]);
+        // A tendon's inertia adds to that of simple bodies, too.
+        scene.general |= scene.tendon_armature;
         scene.sensors = m.nsensor > 0 && scene.reads(Stage::Sensors).is_some();
         scene.energy |= scene.writes(Object::Option, &["enableflags"]);
         scene
+    }
+
+    /// Whether one of these numbers is or may become other than zero.
+    fn some(&self, of: &[Numbers]) -> bool {
+        of.iter().any(|(name, numbers)| {
+            let numbers = numbers(self.m);
+            numbers.iter().any(|&x| x != 0.0) || !numbers.is_empty() && self.writes(Object::Model, &[name])
+        })
+    }
+
+    /// Forces on bodies as such.
+    fn body_forces(&self) -> bool {
+        self.gravcomp || self.fluid
+    }
+
+    /// Forces along tendons.
+    fn tendon_forces(&self) -> bool {
+        self.tendon_springs || self.tendon_dampers
     }
 
     /// Why a stage is wanted for its own sake.
@@ -306,7 +333,11 @@ impl<'a> Scene<'a> {
             Stage::Factor => None,
             Stage::Collision => contacts(),
             Stage::Constraint | Stage::Reference | Stage::Solve => contacts().or_else(limits),
-            Stage::Passive => because(self.springs, "there are passive forces"),
+            Stage::Passive if self.joint_forces || self.tendon_forces() => {
+                Some("joints or tendons have springs or dampers".into())
+            }
+            Stage::Passive if self.fluid => Some("bodies move in a medium".into()),
+            Stage::Passive => because(self.gravcomp, "the weight of bodies is compensated"),
             Stage::Actuation => because(self.actuated, "actuators make forces"),
             Stage::Bias => because(m.nv > 0, "gravity and the motion of bodies make forces"),
             Stage::Acceleration => because(m.nv > 0, "it is what the integrator needs"),
@@ -330,9 +361,12 @@ impl<'a> Scene<'a> {
             (Stage::Tendon, Stage::GeomPoses) => m.wrap_type.iter().any(|&t| t > wraptype::SITE),
             (Stage::TendonVel, Stage::Tendon) => true,
             (Stage::MassMatrix | Stage::Bias, Stage::Tendon) => self.tendon_armature,
-            (Stage::Passive, Stage::Tendon | Stage::TendonVel) => m.ntendon > 0,
-            (Stage::Passive, Stage::Kinematics | Stage::ComVel) => self.body_forces,
-            (Stage::Passive, Stage::GeomPoses) => self.body_forces,
+            (Stage::Bias, Stage::ComVel) if self.tendon_armature => true,
+            (Stage::Passive, Stage::Tendon) => self.tendon_forces(),
+            (Stage::Passive, Stage::TendonVel) => self.tendon_dampers,
+            (Stage::Passive, Stage::Kinematics) => self.body_forces(),
+            (Stage::Passive, Stage::ComVel) => self.fluid,
+            (Stage::Passive, Stage::GeomPoses) => self.fluid,
             (Stage::Transmission, Stage::Kinematics) => true,
             (Stage::Transmission, Stage::SitePoses) => {
                 self.transmits(&[trntype::SITE, trntype::SLIDERCRANK, trntype::SO3])
@@ -355,6 +389,7 @@ impl<'a> Scene<'a> {
             (Stage::Sensors, Stage::SitePoses) => self.sensed(Obj::Site),
             (Stage::Sensors, _) => crate::sensor::needs(m, of),
             (Stage::Energy, Stage::Kinematics) => true,
+            (Stage::Energy, Stage::Tendon) => self.tendon_springs,
             _ => false,
         }
     }

@@ -44,4 +44,8 @@ pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
     if !d.plan.some_general {
         mass::constant_mass(m, d);
     }
+    if !d.plan.body_forces {
+        d.qfrc_gravcomp.fill(0.0);
+        d.qfrc_fluid.fill(0.0);
+    }
 }

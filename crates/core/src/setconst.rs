@@ -3,7 +3,7 @@
 use crate::kinematics::sameframe;
 use crate::math::*;
 use crate::plan::Plan;
-use crate::{Data, Model, com, geom, jacobian, joint, kinematics, mass, pipeline};
+use crate::{Data, Model, com, equality, geom, jacobian, joint, kinematics, mass, pipeline, tendon};
 
 /// Recomputes what follows from masses, inertias and poses (`mj_setConst`).
 ///
@@ -15,21 +15,26 @@ pub fn set_const(m: &mut Model, d: &mut Data) {
     subtree_mass(m);
     same_frames(m);
     trees(m);
+    m.ngravcomp = m.body_gravcomp.iter().filter(|&&c| c > 0.0).count();
 
     d.qpos.copy_from_slice(&m.qpos0);
     positions(m, d);
     mass::composite_inertia(m, d, false);
-    d.qLD.copy_from_slice(&d.M);
-    mass::factor(m, &mut d.qLD, &mut d.qLDiagInv);
     for i in 0..m.nv {
         m.dof_M0[i] = d.M[(m.M_rowadr[i] + m.M_rownnz[i] - 1) as usize];
     }
+    tendon::armature(m, d);
+    d.qLD.copy_from_slice(&d.M);
+    mass::factor(m, &mut d.qLD, &mut d.qLDiagInv);
     inverse_weights(m, d);
+    tendon::at_default(m, d);
+    equality::set_const(m, d);
     crate::camera::set_const(m, d);
     statistics(m, d);
 
     d.qpos.copy_from_slice(&m.qpos_spring);
     positions(m, d);
+    tendon::at_rest(m, d);
     pipeline::set_plan(m, d, plan);
 }
 
@@ -44,6 +49,7 @@ fn positions(m: &Model, d: &mut Data) {
     kinematics::geoms(m, d);
     kinematics::sites(m, d);
     com::com_pos(m, d);
+    tendon::tendons(m, d);
 }
 
 fn subtree_mass(m: &mut Model) {
@@ -173,7 +179,7 @@ fn inverse_weights(m: &mut Model, d: &Data) {
 fn statistics(m: &mut Model, d: &Data) {
     let bodies = (m.nbody - 1) as f64;
     m.stat.meanmass = if m.nbody > 1 { m.body_mass.iter().skip(1).sum::<f64>() / bodies } else { 1.0 };
-    m.stat.meaninertia = if m.nv > 0 { m.dof_M0.iter().sum::<f64>() / m.nv as f64 } else { 1.0 };
+    m.stat.meaninertia = if m.nv > 0 { mass::trace(m, &d.M, 0..m.nv) / m.nv as f64 } else { 1.0 };
     m.stat.meansize = mean_body_size(m, d);
 
     let mut low = [f64::INFINITY; 3];

@@ -182,9 +182,14 @@ impl Classes {
     /// The attributes that hold for an element: its own over those of its class, which is its `class`, else
     /// the nearest `childclass` of the bodies around it, else `main`.
     pub(crate) fn props(&self, node: &Node, childclass: Option<usize>) -> Props {
+        self.props_of(node.element.name, node, childclass)
+    }
+
+    /// The same for an element whose defaults stand under another name: all tendons share `tendon`.
+    pub(crate) fn props_of(&self, entry: &str, node: &Node, childclass: Option<usize>) -> Props {
         let own = node.text("class").and_then(|name| self.find(name));
         let class = own.or(childclass).unwrap_or(self.main);
-        let entry = self.list.get(class).and_then(|c| c.entries.get(node.element.name));
+        let entry = self.list.get(class).and_then(|c| c.entries.get(entry));
         let mut props = entry.cloned().unwrap_or_default();
         props.overlay(node);
         props

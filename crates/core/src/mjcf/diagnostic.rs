@@ -158,6 +158,9 @@ pub mod code {
         MOCAP = "mjcf-mocap", "A mocap body must be a child of the world without joints.";
         GEOM = "mjcf-geom", "The geom lacks a size, or may not be here.";
         INERTIA = "mjcf-inertia", "A moving body has no mass or an impossible inertia.";
+        TENDON = "mjcf-tendon", "The path of a tendon is incomplete, or its numbers are out of range.";
+        EQUALITY = "mjcf-equality", "The equality constraint does not say what it ties.";
+        CONTACT = "mjcf-contact", "The contact pair does not say which geoms may touch.";
         SENSOR = "mjcf-sensor", "The sensor cannot measure that object.";
         KEYFRAME = "mjcf-keyframe", "The keyframe does not fit the model.";
     }

@@ -1,7 +1,11 @@
 //! Specifications to the arrays of [`Model`].
 
-use super::layout::{Layout, Pattern};
-use super::spec::{BodySpec, GeomSpec, Inertia, JointSpec, KeySpec, SensorSpec, SiteSpec};
+use super::layout::{Dof, Layout, Pattern};
+use super::spec::{
+    BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, List, PairSpec, SOLIMP,
+    SOLREF, SensorSpec, SiteSpec, TendonSpec,
+};
+use super::{fill_constraint, fill_tendon};
 use crate::math::{IDENTITY, MINVAL, quat_normalize, rows_mut};
 use crate::{Model, Names, joint, reflect};
 
@@ -13,6 +17,14 @@ pub(crate) struct Sizes {
     pub(crate) nmocap: usize,
 }
 
+/// Numbers of user values of each object.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Users {
+    pub(crate) body: usize,
+    pub(crate) joint: usize,
+    pub(crate) tendon: usize,
+}
+
 /// Everything that goes into a model.
 pub(crate) struct Parts<'a> {
     pub(crate) bodies: &'a [BodySpec],
@@ -20,14 +32,19 @@ pub(crate) struct Parts<'a> {
     pub(crate) layout: &'a Layout,
     pub(crate) simple: &'a [i32],
     pub(crate) pattern: Pattern,
+    pub(crate) tendons: &'a [TendonSpec],
+    pub(crate) equalities: &'a [EqualitySpec],
+    pub(crate) pairs: &'a [PairSpec],
+    pub(crate) excludes: &'a [ExcludeSpec],
+    pub(crate) users: Users,
     pub(crate) sensors: &'a [SensorSpec],
     pub(crate) keys: &'a [KeySpec],
 }
 
 /// Fills the model. Options, statistics and what `mj_setConst` computes are not touched.
 pub(crate) fn model(m: &mut Model, parts: Parts) {
-    let Parts { bodies: list, inertias, layout, simple, pattern, sensors: sensor_list, keys: key_list } =
-        parts;
+    let Parts { bodies: list, inertias, layout, simple, sensors: sensor_list, keys: key_list, .. } = parts;
+    let Parts { tendons, equalities, pairs, excludes, users, pattern, .. } = parts;
     let joints: Vec<(usize, &JointSpec)> = members(list, |b| &b.joints);
     let geoms: Vec<(usize, &GeomSpec)> = members(list, |b| &b.geoms);
     let sites: Vec<(usize, &SiteSpec)> = members(list, |b| &b.sites);
@@ -46,6 +63,9 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     m.nsensordata = sensor_list.iter().map(|s| s.dim as usize).sum();
     m.nkey = key_list.len();
     m.nC = pattern.colind.len();
+    fill_tendon::count(m, tendons);
+    (m.neq, m.npair, m.nexclude) = (equalities.len(), pairs.len(), excludes.len());
+    (m.nuser_body, m.nuser_jnt, m.nuser_tendon) = (users.body, users.joint, users.tendon);
     reflect::allocate_model(m);
 
     bodies(m, list, inertias, layout, simple);
@@ -53,6 +73,9 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     (m.M_rownnz, m.M_rowadr, m.M_colind) = (pattern.rownnz, pattern.rowadr, pattern.colind);
     fill_geoms(m, &geoms);
     fill_sites(m, &sites);
+    fill_tendon::tendons(m, tendons);
+    fill_constraint::equalities(m, equalities);
+    fill_constraint::contacts(m, pairs, excludes);
     fill_sensors(m, sensor_list);
     fill_keys(m, list, key_list);
 
@@ -65,6 +88,10 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
         site: names(&mut sites.iter().map(|(_, s)| &s.name)),
         camera: names(&mut list.iter().flat_map(|b| &b.cameras)),
         light: names(&mut list.iter().flat_map(|b| &b.lights)),
+        pair: names(&mut pairs.iter().map(|p| &p.name)),
+        exclude: names(&mut excludes.iter().map(|e| &e.name)),
+        equality: names(&mut equalities.iter().map(|e| &e.name)),
+        tendon: names(&mut tendons.iter().map(|t| &t.name)),
         sensor: names(&mut sensor_list.iter().map(|s| &s.name)),
         key: names(&mut key_list.iter().map(|k| &k.name)),
         ..Names::default()
@@ -77,13 +104,21 @@ fn members<T>(list: &[BodySpec], of: impl Fn(&BodySpec) -> &Vec<T>) -> Vec<(usiz
 }
 
 /// Numbers of each object, one after the other.
-fn flat<T, const N: usize>(list: impl IntoIterator<Item = T>, of: impl Fn(T) -> [f64; N]) -> Vec<f64> {
+pub(super) fn flat<T, const N: usize>(
+    list: impl IntoIterator<Item = T>,
+    of: impl Fn(T) -> [f64; N],
+) -> Vec<f64> {
     list.into_iter().flat_map(of).collect()
 }
 
 /// One integer of each object.
-fn ints<T>(list: impl IntoIterator<Item = T>, of: impl FnMut(T) -> i32) -> Vec<i32> {
+pub(super) fn ints<T>(list: impl IntoIterator<Item = T>, of: impl FnMut(T) -> i32) -> Vec<i32> {
     list.into_iter().map(of).collect()
+}
+
+/// The user values of each object, `width` of them.
+pub(super) fn padded<'l>(lists: impl Iterator<Item = &'l List>, width: usize) -> Vec<f64> {
+    lists.flat_map(|l| l.numbers.iter().copied().chain(std::iter::repeat(0.0)).take(width)).collect()
 }
 
 /// First address and count of the members of each body: -1 where there are none.
@@ -115,6 +150,8 @@ fn bodies(m: &mut Model, list: &[BodySpec], inertias: &[Inertia], layout: &Layou
     m.body_iquat = flat(inertias, |i| i.quat);
     m.body_mass = flat(inertias, |i| [i.mass]);
     m.body_inertia = flat(inertias, |i| i.moments);
+    m.body_gravcomp = flat(list, |b| [b.gravcomp]);
+    m.body_user = padded(list.iter().map(|b| &b.user), m.nuser_body);
 }
 
 fn joints_and_dofs(
@@ -158,7 +195,13 @@ fn joints_and_dofs(
     m.jnt_solimp = flat(joints, |(_, j)| j.solimp);
     m.jnt_pos = flat(joints, |(_, j)| j.pos);
     m.jnt_axis = flat(joints, |(_, j)| j.axis);
-    m.jnt_stiffness = flat(joints, |(_, j)| [j.stiffness]);
+    m.jnt_group = ints(joints, |(_, j)| j.group);
+    m.jnt_actfrclimited = joints.iter().map(|(_, j)| j.actfrclimited).collect();
+    m.jnt_actfrcrange = flat(joints, |(_, j)| j.actfrcrange);
+    m.jnt_actgravcomp = joints.iter().map(|(_, j)| j.actgravcomp).collect();
+    m.jnt_stiffness = flat(joints, |(_, j)| [j.stiffness[0]]);
+    m.jnt_stiffnesspoly = flat(joints, |(_, j)| [j.stiffness[1], j.stiffness[2]]);
+    m.jnt_user = padded(joints.iter().map(|(_, j)| &j.user), m.nuser_jnt);
     m.jnt_range = flat(joints, |(_, j)| j.range);
     m.jnt_margin = flat(joints, |(_, j)| [j.margin]);
 
@@ -167,9 +210,14 @@ fn joints_and_dofs(
     m.dof_jntid = ints(dofs, |d| d.joint as i32);
     m.dof_parentid = ints(dofs, |d| d.parent.map_or(-1, |p| p as i32));
     m.dof_treeid = ints(dofs, |d| d.tree as i32);
-    let of_joint =
-        |d: &super::layout::Dof, f: fn(&JointSpec) -> f64| joints.get(d.joint).map_or(0.0, |(_, j)| f(j));
-    m.dof_armature = flat(dofs, |d| [of_joint(d, |j| j.armature)]);
+    let of_joint = |d: &Dof| joints.get(d.joint).map(|&(_, j)| j);
+    m.dof_armature = flat(dofs, |d| [of_joint(d).map_or(0.0, |j| j.armature)]);
+    m.dof_frictionloss = flat(dofs, |d| [of_joint(d).map_or(0.0, |j| j.frictionloss)]);
+    m.dof_solref = flat(dofs, |d| of_joint(d).map_or(SOLREF, |j| j.solref_friction));
+    m.dof_solimp = flat(dofs, |d| of_joint(d).map_or(SOLIMP, |j| j.solimp_friction));
+    let damping = |d: &Dof| of_joint(d).map_or([0.0; 3], |j| j.damping);
+    m.dof_damping = flat(dofs, |d| [damping(d)[0]]);
+    m.dof_dampingpoly = flat(dofs, |d| [damping(d)[1], damping(d)[2]]);
     // Counted from the end: a simple degree of freedom continues the run that follows it.
     let mut run = 0;
     let mut simplenum = ints(dofs.iter().rev(), |d| {
@@ -178,7 +226,6 @@ fn joints_and_dofs(
     });
     simplenum.reverse();
     m.dof_simplenum = simplenum;
-    m.dof_damping = flat(dofs, |d| [of_joint(d, |j| j.damping)]);
 }
 
 fn fill_geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)]) {
@@ -260,5 +307,18 @@ fn fill_keys(m: &mut Model, bodies: &[BodySpec], keys: &[KeySpec]) {
                 *q = quat_normalize(*q);
             }
         }
+    }
+}
+
+/// Stiffness and damping of joints that are given by a time constant t and a damping ratio r: with the joint's
+/// inertia I at the default configuration, k = I/(t² r²) and b = 2 I/t.
+pub(crate) fn spring_dampers(m: &mut Model, bodies: &[BodySpec]) {
+    let joints = bodies.iter().flat_map(|b| &b.joints);
+    for (j, [time, ratio]) in joints.enumerate().filter_map(|(j, spec)| Some((j, spec.springdamper?))) {
+        let first = m.jnt_dofadr[j] as usize;
+        let dofs = first..first + joint::nv(m.jnt_type[j]);
+        let inertia = dofs.len() as f64 / m.dof_invweight0[dofs.clone()].iter().sum::<f64>().max(MINVAL);
+        m.jnt_stiffness[j] = inertia / (time * time * ratio * ratio).max(MINVAL);
+        m.dof_damping[dofs].fill(2.0 * inertia / time.max(MINVAL));
     }
 }

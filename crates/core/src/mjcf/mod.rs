@@ -11,19 +11,27 @@
 mod defaults;
 mod diagnostic;
 mod fill;
+mod fill_constraint;
+mod fill_tendon;
+mod ids;
 mod inertia;
 mod layout;
+mod limits;
 mod names;
 mod orientation;
 mod read_body;
+mod read_contact;
+mod read_equality;
 mod read_geom;
 mod read_joint;
 mod read_key;
 mod read_sensor;
+mod read_tendon;
 mod scan;
 mod schema;
 mod settings;
 mod shapes;
+mod sleep;
 mod spec;
 #[cfg(test)]
 mod tests;
@@ -103,7 +111,23 @@ fn build(xml: &str, report: &mut Report) -> Option<Model> {
     let bodies = read_body::bodies(&mut cx);
     let layout = layout::number(&bodies);
     layout::check(&bodies, &layout, report);
-    let ids = read_sensor::Ids::number(&tree, &bodies);
+    sleep::check(&bodies, &layout, report);
+    let ids = ids::Ids::number(&tree, &bodies);
+    let refs = ids::References { names: &names, ids: &ids };
+    let mut cx = read_body::Context { tree: &tree, classes: &classes, compiler: &compiler, report };
+    let tendons = read_tendon::tendons(&mut cx, refs);
+    let equalities = read_equality::equalities(&mut cx, refs);
+    let (pairs, excludes) = read_contact::contacts(&mut cx, refs, &bodies);
+    let users = fill::Users {
+        body: settings::user_width(&tree, "nuser_body", bodies.iter().map(|b| &b.user), report),
+        joint: settings::user_width(
+            &tree,
+            "nuser_jnt",
+            bodies.iter().flat_map(|b| &b.joints).map(|j| &j.user),
+            report,
+        ),
+        tendon: settings::user_width(&tree, "nuser_tendon", tendons.iter().map(|t| &t.user), report),
+    };
     let sensors = read_sensor::sensors(&tree, &names, &ids, report);
     if !report.is_clean() {
         return None;
@@ -117,7 +141,8 @@ fn build(xml: &str, report: &mut Report) -> Option<Model> {
     if !report.is_clean() {
         return None;
     }
-    let simple = layout::simple(&bodies, &inertias);
+    let mut simple = layout::simple(&bodies, &inertias);
+    fill_tendon::demote_simple(&mut simple, &bodies, &tendons);
     let pattern = layout::pattern(&layout, &simple, report)?;
 
     let mut m = Model { opt: options, ..Model::default() };
@@ -128,11 +153,19 @@ fn build(xml: &str, report: &mut Report) -> Option<Model> {
         layout: &layout,
         simple: &simple,
         pattern,
+        tendons: &tendons,
+        equalities: &equalities,
+        pairs: &pairs,
+        excludes: &excludes,
+        users,
         sensors: &sensors,
         keys: &keys,
     };
     fill::model(&mut m, parts);
+    fill_tendon::pattern(&mut m, &tendons, report)?;
+    sleep::policies(&mut m, &bodies);
     crate::setconst::set_const0(&mut m);
+    fill::spring_dampers(&mut m, &bodies);
     statistic.apply(&mut m.stat);
     Some(m)
 }

@@ -5,7 +5,7 @@ use super::diagnostic::{Report, code};
 use super::inertia::principal;
 use super::names::WORLD;
 use super::settings::{Compiler, checked};
-use super::spec::{BodySpec, Inertia, SiteSpec};
+use super::spec::{BodySpec, Inertia, List, SiteSpec};
 use super::tree::{Node, Tree};
 use super::{orientation, read_geom, read_joint};
 use crate::math::{IDENTITY, Quat};
@@ -66,6 +66,9 @@ fn empty(node: usize, span: std::ops::Range<usize>, name: String, parent: usize)
         quat: IDENTITY,
         mocap: false,
         simple: true,
+        gravcomp: 0.0,
+        sleep: 0,
+        user: List::default(),
         inertial: None,
         inertial_span: None,
         joints: Vec::new(),
@@ -84,6 +87,9 @@ fn body(cx: &mut Context, i: usize, node: &Node, parent: usize, childclass: Opti
         quat: cx.orientation(&p, node),
         mocap: p.word("mocap") == Some(1),
         simple: p.word("simple") != Some(0),
+        gravcomp: p.real("gravcomp").unwrap_or(0.0),
+        sleep: p.word("sleep").unwrap_or(0),
+        user: List::read(&p, "user"),
         ..empty(i, node.span.clone(), name(node), parent)
     }
 }

@@ -2,8 +2,9 @@
 
 use super::defaults::Props;
 use super::diagnostic::code;
+use super::limits;
 use super::read_body::{Context, name};
-use super::spec::{JointSpec, SOLIMP, SOLREF};
+use super::spec::{JointSpec, List, SOLIMP, SOLREF};
 use super::tree::Node;
 use crate::joint;
 use crate::math::{norm, normalize};
@@ -22,6 +23,7 @@ pub(crate) fn joint(cx: &mut Context, i: usize, node: &Node, childclass: Option<
     let (reference, springref) =
         (angle(p.real("ref").unwrap_or(0.0)), angle(p.real("springref").unwrap_or(0.0)));
     let (limited, range) = limits(cx, &p, node, kind);
+    let (actfrclimited, actfrcrange) = force_limits(cx, &p, node, kind);
     JointSpec {
         node: i,
         span: node.span.clone(),
@@ -32,8 +34,17 @@ pub(crate) fn joint(cx: &mut Context, i: usize, node: &Node, childclass: Option<
         limited,
         range,
         margin: p.real("margin").unwrap_or(0.0),
-        stiffness: linear(cx, &p, node, "stiffness"),
-        damping: linear(cx, &p, node, "damping"),
+        stiffness: p.reals("stiffness", [0.0; 3]),
+        damping: p.reals("damping", [0.0; 3]),
+        springdamper: springdamper(cx, &p, node),
+        frictionloss: p.real("frictionloss").unwrap_or(0.0),
+        solref_friction: p.reals("solreffriction", SOLREF),
+        solimp_friction: p.reals("solimpfriction", SOLIMP),
+        actfrclimited,
+        actfrcrange,
+        actgravcomp: p.word("actuatorgravcomp") == Some(1),
+        group: p.int("group").unwrap_or(0),
+        user: List::read(&p, "user"),
         armature: p.real("armature").unwrap_or(0.0),
         reference,
         springref,
@@ -62,43 +73,15 @@ fn axis(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> [f64; 3] {
 
 /// Whether the joint is limited, and its range with angles in radians.
 fn limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [f64; 2]) {
-    let [lower, upper] = p.reals("range", [0.0; 2]);
     if kind == joint::FREE {
-        return (false, [lower, upper]);
+        return (false, p.reals("range", [0.0; 2]));
     }
-    let span = p.span("range").unwrap_or(node.span.clone());
-    let given = p.has("range") && (lower, upper) != (0.0, 0.0);
-    let limited = match p.word("limited") {
-        Some(0) => false,
-        Some(1) => true,
-        _ if cx.compiler.autolimits => given,
-        _ => {
-            if given {
-                cx.report
-                    .error(
-                        code::JOINT,
-                        span.clone(),
-                        format!("{} has a range, but nothing says that it holds", node.shown()),
-                    )
-                    .why("`autolimits` of compiler is false, so a range alone does not limit the joint")
-                    .help("write `limited=\"true\"`, or `limited=\"false\"`, or remove `autolimits`");
-            }
-            false
-        }
-    };
+    let (limited, [lower, upper]) = limits::read(cx, p, node, &limits::JOINT);
     if !limited {
         return (false, [lower, upper]);
     }
-    if lower >= upper {
-        let message = format!("the range of {} is {lower} to {upper}", node.shown());
-        let error =
-            cx.report.error(code::JOINT, span, message).why("the lower limit must be smaller than the upper");
-        if p.has("range") {
-            error.help(format!("write `range=\"{upper} {lower}\"`, or remove `limited` and `range`"));
-        } else {
-            error.help("write `range=\"LOWER UPPER\"`, or remove `limited`");
-        }
-    } else if kind == joint::BALL && lower != 0.0 {
+    if kind == joint::BALL && lower < upper && lower != 0.0 {
+        let span = p.span("range").unwrap_or(node.span.clone());
         cx.report
             .error(code::JOINT, span, format!("the range of {} begins at {lower}", node.shown()))
             .why("a ball joint's range limits the angle of its rotation, which is never negative")
@@ -108,14 +91,27 @@ fn limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [f64; 2
     (true, [angle(lower), angle(upper)])
 }
 
-/// The linear coefficient of a force law; the quadratic and cubic ones must be zero.
-fn linear(cx: &mut Context, p: &Props, node: &Node, name: &str) -> f64 {
-    let [first, second, third] = p.reals(name, [0.0; 3]);
-    if second != 0.0 || third != 0.0 {
-        let message = format!("`{name}` of {}: a nonlinear law is not supported yet", node.shown());
-        cx.report
-            .error(code::NOT_SUPPORTED, p.span(name).unwrap_or(node.span.clone()), message)
-            .help(format!("give one number: `{name}=\"{first}\"`"));
+/// Whether the force of actuators is limited, and its range: for slides and hinges.
+fn force_limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [f64; 2]) {
+    if matches!(kind, joint::FREE | joint::BALL) {
+        return (false, p.reals("actuatorfrcrange", [0.0; 2]));
     }
-    first
+    limits::read(cx, p, node, &limits::JOINT_FORCE)
+}
+
+/// Time constant and damping ratio that stiffness and damping are computed from, `None` when not given.
+fn springdamper(cx: &mut Context, p: &Props, node: &Node) -> Option<[f64; 2]> {
+    let given = p.reals("springdamper", [0.0; 2]);
+    if given == [0.0; 2] {
+        return None;
+    }
+    if given.iter().any(|&x| x <= 0.0) {
+        let span = p.span("springdamper").unwrap_or(node.span.clone());
+        let message = format!("`springdamper` of {} is {} {}", node.shown(), given[0], given[1]);
+        cx.report
+            .error(code::JOINT, span, message)
+            .why("it gives a time constant (s) and a damping ratio, both larger than zero")
+            .help("write for example `springdamper=\"0.5 1\"`, or give `stiffness` and `damping`");
+    }
+    Some(given)
 }

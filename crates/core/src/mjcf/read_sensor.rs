@@ -2,69 +2,13 @@
 
 use super::defaults::Props;
 use super::diagnostic::{Report, code, shown};
+use super::ids::Ids;
 use super::names::NameTable;
 use super::read_body::name;
 use super::settings::checked;
-use super::spec::{BodySpec, SensorSpec};
+use super::spec::SensorSpec;
 use super::tree::{Node, Tree};
 use crate::{Obj, joint};
-
-/// Ids of elements by their place in the tree.
-pub(crate) struct Ids {
-    by_node: Vec<Option<usize>>,
-    /// Type of each joint.
-    joint_kinds: Vec<i32>,
-}
-
-impl Ids {
-    /// Numbers joints, geoms and sites body by body.
-    pub(crate) fn number(tree: &Tree, bodies: &[BodySpec]) -> Ids {
-        let mut ids = Ids { by_node: vec![None; tree.nodes.len()], joint_kinds: Vec::new() };
-        let (mut geoms, mut sites) = (0, 0);
-        for (i, body) in bodies.iter().enumerate() {
-            ids.set(body.node, i);
-            for j in &body.joints {
-                ids.set(j.node, ids.joint_kinds.len());
-                ids.joint_kinds.push(j.kind);
-            }
-            for g in &body.geoms {
-                ids.set(g.node, geoms);
-                geoms += 1;
-            }
-            for s in &body.sites {
-                ids.set(s.node, sites);
-                sites += 1;
-            }
-        }
-        ids
-    }
-
-    fn set(&mut self, node: usize, id: usize) {
-        if let Some(slot) = self.by_node.get_mut(node) {
-            *slot = Some(id);
-        }
-    }
-
-    /// The id of an object by its name; reported when there is none.
-    fn find(
-        &self,
-        kind: &str,
-        node: &Node,
-        attribute: &str,
-        names: &NameTable,
-        report: &mut Report,
-    ) -> Option<usize> {
-        let name = node.text(attribute)?;
-        match names.find(kind, name) {
-            Some(found) => self.by_node.get(found).copied().flatten(),
-            None => {
-                let span = node.attribute(attribute).map_or(node.span.clone(), |a| a.span.clone());
-                names.unknown(kind, name, span, report);
-                None
-            }
-        }
-    }
-}
 
 /// A sensor that is supported: its keyword, MuJoCo's number (mjtSensor), what it reads, how many values.
 struct Row {
@@ -126,10 +70,9 @@ fn sensor(row: &Row, node: &Node, names: &NameTable, ids: &Ids, report: &mut Rep
         Senses::ScalarJoint | Senses::BallJoint => {
             required(node, "joint", report)?;
             // A name that does not exist is reported by the check of references.
-            let id = node.text("joint").and_then(|name| names.find("joint", name));
-            let id = id.and_then(|n| ids.by_node.get(n).copied().flatten())?;
-            check_joint(row, node, ids.joint_kinds.get(id).copied()?, report);
-            (Obj::Joint as i32, id as i32)
+            let id = ids.find("joint", node.text("joint")?, names)?;
+            check_joint(row, node, ids.joint(id)?.0, report);
+            (Obj::Joint as i32, id)
         }
     };
     Some(SensorSpec { name: name(node), kind: row.kind, objtype, objid, dim: row.dim, cutoff, noise })
@@ -145,7 +88,13 @@ fn frame(p: &Props, node: &Node, names: &NameTable, ids: &Ids, report: &mut Repo
         t if t == Obj::Site as i32 => "site",
         _ => "body",
     };
-    Some((objtype, ids.find(kind, node, "objname", names, report)? as i32))
+    let name = node.text("objname")?;
+    let id = ids.find(kind, name, names);
+    if id.is_none() && names.find(kind, name).is_none() {
+        let span = node.attribute("objname").map_or(node.span.clone(), |a| a.span.clone());
+        names.unknown(kind, name, span, report);
+    }
+    Some((objtype, id?))
 }
 
 fn required(node: &Node, attribute: &str, report: &mut Report) -> Option<()> {

@@ -2,9 +2,13 @@
 
 use super::defaults::Props;
 use super::diagnostic::{Report, code, shown};
+use super::spec::List;
 use super::tree::Tree;
 use super::values::Value;
 use crate::model::{Options, Statistic, disable, enable};
+
+/// More user values of all objects of a kind than this are refused.
+const MAX_USER: usize = 20_000_000;
 
 /// All sections of one name, later ones over earlier ones.
 fn section(tree: &Tree, name: &str) -> Props {
@@ -120,6 +124,7 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     };
     let (tolerance, ls_tolerance) =
         (from_zero("tolerance", d.tolerance), from_zero("ls_tolerance", d.ls_tolerance));
+    let (density, viscosity) = (from_zero("density", 0.0), from_zero("viscosity", 0.0));
     let mut count = |name: &str, default: i32| {
         let n = p.int(name).unwrap_or(default);
         if n < 0 {
@@ -137,6 +142,9 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         tolerance,
         ls_tolerance,
         gravity: p.reals("gravity", d.gravity),
+        wind: p.reals("wind", d.wind),
+        density,
+        viscosity,
         o_margin: p.real("o_margin").unwrap_or(d.o_margin),
         o_solref: p.reals("o_solref", d.o_solref),
         o_solimp: p.reals("o_solimp", d.o_solimp),
@@ -241,6 +249,36 @@ pub(crate) fn min_keys(tree: &Tree, report: &mut Report) -> usize {
         report.error(code::VALUE, span, format!("`nkey` of size is {n}, it must be zero or more"));
         0
     })
+}
+
+/// How many user values each object of a kind has: as many as `size` says, else as the longest list. `lists` has
+/// one for each object.
+pub(crate) fn user_width<'l>(
+    tree: &Tree,
+    size: &str,
+    lists: impl Iterator<Item = &'l List>,
+    report: &mut Report,
+) -> usize {
+    let p = section(tree, "size");
+    let given = p.int(size).and_then(|n| usize::try_from(n).ok());
+    let (mut longest, mut count) = (0, 0);
+    for list in lists {
+        let n = list.numbers.len();
+        (longest, count) = (longest.max(n), count + 1);
+        if let Some(most) = given.filter(|&most| n > most) {
+            let message = format!("`user` has {n} numbers, but `{size}` of size is {most}");
+            report
+                .error(code::COUNT, list.span.clone(), message)
+                .help(format!("remove `{size}`, or write a larger number"));
+        }
+    }
+    let width = given.unwrap_or(longest);
+    if width.saturating_mul(count) > MAX_USER {
+        let span = p.span(size).unwrap_or(0..0);
+        report.error(code::LIMIT, span, format!("the user values are more than {MAX_USER} numbers"));
+        return 0;
+    }
+    width
 }
 
 /// The model's name.

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use super::defaults::Props;
 use crate::math::{Quat, Vec3};
 
 /// A body and what it holds. The first body of a model is the world.
@@ -20,6 +21,11 @@ pub(crate) struct BodySpec {
     pub(crate) mocap: bool,
     /// Whether the simple form of its mass matrix may be used.
     pub(crate) simple: bool,
+    /// Upward force, in weights of the body.
+    pub(crate) gravcomp: f64,
+    /// Whether its tree may sleep: 0 auto, 1 never, 2 allowed, 3 asleep at the start.
+    pub(crate) sleep: i32,
+    pub(crate) user: List,
     pub(crate) inertial: Option<Inertia>,
     /// Where the inertia is written.
     pub(crate) inertial_span: Option<Range<usize>>,
@@ -57,8 +63,22 @@ pub(crate) struct JointSpec {
     pub(crate) limited: bool,
     pub(crate) range: [f64; 2],
     pub(crate) margin: f64,
-    pub(crate) stiffness: f64,
-    pub(crate) damping: f64,
+    /// Linear coefficient, and its growth with displacement.
+    pub(crate) stiffness: [f64; 3],
+    /// Linear coefficient, and its growth with speed.
+    pub(crate) damping: [f64; 3],
+    /// Time constant and damping ratio, from which stiffness and damping follow.
+    pub(crate) springdamper: Option<[f64; 2]>,
+    pub(crate) frictionloss: f64,
+    pub(crate) solref_friction: [f64; 2],
+    pub(crate) solimp_friction: [f64; 5],
+    /// Whether the force of actuators is limited, and its range.
+    pub(crate) actfrclimited: bool,
+    pub(crate) actfrcrange: [f64; 2],
+    /// Gravity compensation is a force of actuators.
+    pub(crate) actgravcomp: bool,
+    pub(crate) group: i32,
+    pub(crate) user: List,
     pub(crate) armature: f64,
     /// Coordinate of the configuration as written.
     pub(crate) reference: f64,
@@ -122,6 +142,102 @@ pub(crate) struct SensorSpec {
     pub(crate) dim: i32,
     pub(crate) cutoff: f64,
     pub(crate) noise: f64,
+}
+
+/// A list of numbers as long as its author likes, with its place.
+#[derive(Debug, Default)]
+pub(crate) struct List {
+    pub(crate) numbers: Vec<f64>,
+    pub(crate) span: Range<usize>,
+}
+
+impl List {
+    /// The numbers of an attribute; none when it is absent.
+    pub(crate) fn read(p: &Props, name: &str) -> List {
+        List { numbers: p.list(name).unwrap_or(&[]).to_vec(), span: p.span(name).unwrap_or(0..0) }
+    }
+}
+
+/// A tendon.
+#[derive(Debug)]
+pub(crate) struct TendonSpec {
+    pub(crate) span: Range<usize>,
+    pub(crate) name: String,
+    pub(crate) path: Vec<WrapSpec>,
+    pub(crate) group: i32,
+    pub(crate) limited: bool,
+    pub(crate) range: [f64; 2],
+    pub(crate) actfrclimited: bool,
+    pub(crate) actfrcrange: [f64; 2],
+    pub(crate) margin: f64,
+    /// Linear coefficient, and its growth with displacement.
+    pub(crate) stiffness: [f64; 3],
+    /// Linear coefficient, and its growth with speed.
+    pub(crate) damping: [f64; 3],
+    pub(crate) armature: f64,
+    pub(crate) frictionloss: f64,
+    /// Lengths between which the spring is relaxed; -1 -1: the length at `qpos_spring`.
+    pub(crate) springlength: [f64; 2],
+    pub(crate) solref_limit: [f64; 2],
+    pub(crate) solimp_limit: [f64; 5],
+    pub(crate) solref_friction: [f64; 2],
+    pub(crate) solimp_friction: [f64; 5],
+    pub(crate) width: f64,
+    pub(crate) rgba: [f64; 4],
+    pub(crate) user: List,
+}
+
+/// An object on a tendon's path.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WrapSpec {
+    /// One of [`crate::wraptype`].
+    pub(crate) kind: i32,
+    /// -1 for a pulley.
+    pub(crate) id: i32,
+    /// Coefficient of a joint, divisor of a pulley, side site of a geom.
+    pub(crate) prm: f64,
+}
+
+/// An equality constraint.
+#[derive(Debug)]
+pub(crate) struct EqualitySpec {
+    pub(crate) name: String,
+    /// One of [`crate::eqtype`].
+    pub(crate) kind: i32,
+    /// mjtObj
+    pub(crate) objtype: i32,
+    pub(crate) obj1: i32,
+    /// -1 for none.
+    pub(crate) obj2: i32,
+    pub(crate) active: bool,
+    pub(crate) solref: [f64; 2],
+    pub(crate) solimp: [f64; 5],
+    pub(crate) data: [f64; 11],
+}
+
+/// A pair of geoms that is tested for contact whatever their types say.
+#[derive(Debug)]
+pub(crate) struct PairSpec {
+    pub(crate) name: String,
+    pub(crate) geoms: [i32; 2],
+    /// Both bodies in one number.
+    pub(crate) signature: i32,
+    pub(crate) condim: i32,
+    pub(crate) friction: [f64; 5],
+    pub(crate) solref: [f64; 2],
+    /// 0 0: as `solref`.
+    pub(crate) solreffriction: [f64; 2],
+    pub(crate) solimp: [f64; 5],
+    pub(crate) margin: f64,
+    pub(crate) gap: f64,
+    pub(crate) adhesion: f64,
+}
+
+/// Two bodies that do not touch.
+#[derive(Debug)]
+pub(crate) struct ExcludeSpec {
+    pub(crate) name: String,
+    pub(crate) signature: i32,
 }
 
 /// A keyframe as written; what is not given is taken from the reference configuration.

@@ -1,6 +1,6 @@
 //! `worldbody` and what bodies hold: joints, inertias, geoms, sites, cameras, lights.
 
-use super::Status::{Ignored, Only};
+use super::Status::Only;
 use super::{
     AUTO, Attr, Element, FLAG, INT, Kind, LIST, LOOK, MOOT, ORIENTATION, REAL, TEXT, USER, Word, attributes,
     not_yet, reals, rest, upto, word,
@@ -66,10 +66,9 @@ pub(super) static BODY: Element = Element::new(
         attributes! {
             FLAG => mocap;
             Kind::Words(&[word("auto", 1), word("false", 0)]) => simple;
-            REAL => gravcomp [Only("0")];
-            Kind::Words(&[word("auto", 0), word("never", 1), word("allowed", 2), word("init", 3)]) => sleep
-                [Ignored("for sleeping, which is refused")];
-            LIST => user [USER];
+            REAL => gravcomp;
+            Kind::Words(&[word("auto", 0), word("never", 1), word("allowed", 2), word("init", 3)]) => sleep;
+            LIST => user;
         },
     ],
 )
@@ -124,15 +123,14 @@ pub(super) const JOINT_ATTRS: &[Attr] = attributes! {
     upto(3) => stiffness damping;
     upto(2) => solreflimit;
     upto(5) => solimplimit;
-    REAL => frictionloss [Only("0")];
-    reals(2) => springdamper [Only("0 0")];
-    upto(2) => solreffriction [MOOT];
-    upto(5) => solimpfriction [MOOT];
-    AUTO => actuatorfrclimited [MOOT];
-    reals(2) => actuatorfrcrange [MOOT];
-    FLAG => actuatorgravcomp [MOOT];
-    INT => group [LOOK];
-    LIST => user [USER];
+    REAL => frictionloss;
+    reals(2) => springdamper actuatorfrcrange;
+    upto(2) => solreffriction;
+    upto(5) => solimpfriction;
+    AUTO => actuatorfrclimited;
+    FLAG => actuatorgravcomp;
+    INT => group;
+    LIST => user;
 };
 static JOINT: Element =
     Element::new("joint", &[attributes! { Kind::Name("joint") => name; }, CLASS, JOINT_ATTRS]);
@@ -141,7 +139,7 @@ static FREEJOINT: Element = Element::new(
     &[attributes! {
         Kind::Name("joint") => name;
         Kind::Words(&[word("false", 0), not_yet("true", 1), word("auto", 2)]) => align;
-        INT => group [LOOK];
+        INT => group;
     }],
 );
 
@@ -166,9 +164,8 @@ pub(super) const GEOM_ATTRS: &[Attr] = attributes! {
     Kind::Ref("mesh") => mesh [super::Status::Unsupported];
     Kind::Ref("hfield") => hfield [super::Status::Unsupported];
     REAL => fitscale [MOOT];
-    Kind::Words(&[word("none", 0), word("ellipsoid", 1)]) => fluidshape
-        [Ignored("for air and water, which are refused")];
-    upto(5) => fluidcoef [Ignored("for air and water, which are refused")];
+    Kind::Words(&[word("none", 0), not_yet("ellipsoid", 1)]) => fluidshape;
+    upto(5) => fluidcoef [MOOT];
     LIST => user [USER];
 };
 static GEOM: Element =

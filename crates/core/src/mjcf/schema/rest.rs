@@ -1,6 +1,7 @@
-//! `default`, `keyframe`, `custom`, and the sections that are refused for now: contact pairs, tendons,
-//! equality constraints, deformable bodies, plugins, includes.
+//! `default`, `keyframe`, `custom`, contact pairs, tendons, equality constraints, and the sections that are
+//! refused for now: deformable bodies, plugins, includes.
 
+use super::Status::{Supported, Unsupported};
 use super::{
     AUTO, Attr, Element, FLAG, INT, INTS, Kind, LIST, LOOK, MOOT, REAL, TEXT, USER, actuator, attributes,
     body, reals, scene, upto,
@@ -50,9 +51,9 @@ static D_CAMERA: Element = entry("camera", &[body::CAMERA_ATTRS]);
 static D_LIGHT: Element = entry("light", &[body::LIGHT_ATTRS]);
 static D_MATERIAL: Element = entry("material", &[scene::MATERIAL_ATTRS]).children(&[&scene::LAYER]);
 static D_MESH: Element = entry("mesh", &[scene::MESH_ATTRS]).status(MOOT);
-static D_PAIR: Element = entry("pair", &[PAIR_ATTRS]).status(MOOT);
-static D_EQUALITY: Element = entry("equality", &[EQUALITY_ATTRS]).status(MOOT);
-static D_TENDON: Element = entry("tendon", &[TENDON_ATTRS, TENDON_DRAWN, TENDON_USER]).status(MOOT);
+static D_PAIR: Element = entry("pair", &[PAIR_ATTRS]);
+static D_EQUALITY: Element = entry("equality", &[EQUALITY_ATTRS]);
+static D_TENDON: Element = entry("tendon", &[TENDON_ATTRS, TENDON_DRAWN, TENDON_USER]);
 
 pub(super) static KEYFRAME: Element = Element::new("keyframe", &[]).children(&[&KEY]);
 static KEY: Element = Element::new(
@@ -105,13 +106,11 @@ static PAIR: Element = Element::new(
         attributes! { Kind::Name("pair") => name; Kind::Class => class; Kind::Ref("geom") => geom1 geom2; },
         PAIR_ATTRS,
     ],
-)
-.refused();
+);
 static EXCLUDE: Element = Element::new(
     "exclude",
     &[attributes! { Kind::Name("exclude") => name; Kind::Ref("body") => body1 body2; }],
-)
-.refused();
+);
 
 const TENDON_ATTRS: &[Attr] = attributes! {
     INT => group;
@@ -123,7 +122,7 @@ const TENDON_ATTRS: &[Attr] = attributes! {
     upto(3) => stiffness damping;
 };
 const TENDON_DRAWN: &[Attr] = attributes! {
-    Kind::Ref("material") => material;
+    Kind::Ref("material") => material [LOOK];
     REAL => width;
     reals(4) => rgba;
 };
@@ -138,14 +137,13 @@ const TENDON_OWN: &[Attr] = attributes! {
 const RGBA: &[Attr] = attributes! { reals(4) => rgba; };
 pub(super) static TENDON: Element = Element::new("tendon", &[]).children(&[&SPATIAL, &FIXED]);
 static SPATIAL: Element = Element::new("spatial", &[TENDON_OWN, TENDON_ATTRS, TENDON_DRAWN, TENDON_USER])
-    .children(&[&WRAP_SITE, &WRAP_GEOM, &WRAP_PULLEY])
-    .refused();
+    .children(&[&WRAP_SITE, &WRAP_GEOM, &WRAP_PULLEY]);
 static WRAP_SITE: Element = Element::new("site", &[attributes! { Kind::Ref("site") => site; }]);
 static WRAP_GEOM: Element =
     Element::new("geom", &[attributes! { Kind::Ref("geom") => geom; Kind::Ref("site") => sidesite; }]);
 static WRAP_PULLEY: Element = Element::new("pulley", &[attributes! { REAL => divisor; }]);
 static FIXED: Element =
-    Element::new("fixed", &[TENDON_OWN, TENDON_ATTRS, TENDON_USER]).children(&[&WRAP_JOINT]).refused();
+    Element::new("fixed", &[TENDON_OWN, TENDON_ATTRS, TENDON_USER]).children(&[&WRAP_JOINT]);
 static WRAP_JOINT: Element =
     Element::new("joint", &[attributes! { Kind::Ref("joint") => joint; REAL => coef; }]);
 
@@ -159,19 +157,20 @@ const TWO_BODIES: &[Attr] = attributes! {
 const FLEX_REF: &[Attr] = attributes! { Kind::Ref("flex") => flex; };
 
 macro_rules! equalities {
-    ($($id:ident $name:literal [$($group:expr),*];)*) => {
-        $(static $id: Element = Element::new($name, &[EQUALITY_OWN, EQUALITY_ATTRS $(, $group)*]).refused();)*
+    ($($id:ident $name:literal [$($group:expr),*] $status:expr;)*) => {
+        $(static $id: Element =
+            Element::new($name, &[EQUALITY_OWN, EQUALITY_ATTRS $(, $group)*]).status($status);)*
         pub(super) static EQUALITY: Element = Element::new("equality", &[]).children(&[$(&$id),*]);
     };
 }
 equalities! {
-    CONNECT "connect" [TWO_BODIES];
-    WELD "weld" [TWO_BODIES, attributes! { reals(7) => relpose; REAL => torquescale; }];
-    EQ_JOINT "joint" [attributes! { Kind::Ref("joint") => joint1 joint2; upto(5) => polycoef; }];
-    EQ_TENDON "tendon" [attributes! { Kind::Ref("tendon") => tendon1 tendon2; upto(5) => polycoef; }];
-    EQ_FLEX "flex" [FLEX_REF];
-    EQ_FLEXVERT "flexvert" [FLEX_REF];
-    EQ_FLEXSTRAIN "flexstrain" [FLEX_REF, attributes! { INT => cell; }];
+    CONNECT "connect" [TWO_BODIES] Supported;
+    WELD "weld" [TWO_BODIES, attributes! { reals(7) => relpose; REAL => torquescale; }] Supported;
+    EQ_JOINT "joint" [attributes! { Kind::Ref("joint") => joint1 joint2; upto(5) => polycoef; }] Supported;
+    EQ_TENDON "tendon" [attributes! { Kind::Ref("tendon") => tendon1 tendon2; upto(5) => polycoef; }] Supported;
+    EQ_FLEX "flex" [FLEX_REF] Unsupported;
+    EQ_FLEXVERT "flexvert" [FLEX_REF] Unsupported;
+    EQ_FLEXSTRAIN "flexstrain" [FLEX_REF, attributes! { INT => cell; }] Unsupported;
 }
 
 const FLEX_CONTACT: &[Attr] = attributes! {

@@ -41,8 +41,8 @@ static LENGTHRANGE: Element = Element::new(
 pub(super) static OPTION: Element = Element::new(
     "option",
     &[attributes! {
-        REAL => timestep impratio tolerance ls_tolerance o_margin;
-        reals(3) => gravity;
+        REAL => timestep impratio tolerance ls_tolerance density viscosity o_margin;
+        reals(3) => gravity wind;
         upto(2) => o_solref;
         upto(5) => o_solimp o_friction;
         Kind::Words(&[
@@ -54,9 +54,7 @@ pub(super) static OPTION: Element = Element::new(
         INT => iterations ls_iterations;
         Kind::Words(&[word("dense", 0), word("sparse", 1), word("auto", 2)]) => jacobian
             [Ignored("how matrices are stored")];
-        reals(3) => wind [Only("0 0 0")];
         reals(3) => magnetic [Ignored("read by magnetometers, which are refused")];
-        REAL => density viscosity [Only("0")];
         INT => noslip_iterations [Only("0")];
         REAL => noslip_tolerance [Ignored("for the no-slip solver, which is refused")];
         REAL => ccd_tolerance [Ignored("for convex collisions, which are refused")];
@@ -89,8 +87,8 @@ pub(super) static SIZE: Element = Element::new(
         INT => nkey;
         TEXT => memory [MEMORY];
         INT => njmax nconmax nstack [MEMORY];
-        INT => nuserdata nuser_body nuser_jnt nuser_geom nuser_site nuser_cam nuser_tendon nuser_actuator
-            nuser_sensor [super::USER];
+        INT => nuser_body nuser_jnt nuser_tendon;
+        INT => nuserdata nuser_geom nuser_site nuser_cam nuser_actuator nuser_sensor [super::USER];
     }],
 );
 

@@ -39,6 +39,13 @@ fn after(sections: &str) -> String {
     )
 }
 
+/// Two sites and two geoms, then what follows the world.
+fn tied(sections: &str) -> String {
+    format!(
+        "<mujoco><worldbody><site name=\"s\"/><geom name=\"floor\" type=\"plane\" size=\"1 1 1\"/><body name=\"b\"><freejoint name=\"j\"/><geom name=\"g\" size=\"0.1\"/><site name=\"t\" pos=\"1 0 0\"/></body></worldbody>\n{sections}</mujoco>"
+    )
+}
+
 mistakes! {
     // XML
     xml_wrong_close: "<mujoco>\n  <worldbody>\n    <body>\n  </worldbody>\n</mujoco>";
@@ -57,12 +64,12 @@ mistakes! {
     element_twice: before("<option><flag/><flag/></option>");
     attribute_misspelt: world("<geom size=\"1\" fricton=\"1\"/>");
     attribute_of_world: "<mujoco><worldbody name=\"w\"/></mujoco>";
-    attribute_not_supported: world("<body><joint frictionloss=\"0.1\"/><geom size=\"1\"/></body>");
+    attribute_not_supported: world("<geom size=\"1\" surfacevel=\"1 0 0\"/>");
     geom_type_not_supported: world("<geom type=\"capsule\" size=\"1 1\"/>");
     keyword_misspelt: before("<option integrator=\"euler\"/>");
     integrator_not_supported: before("<option integrator=\"implicitfast\"/>");
     flag_not_supported: before("<option><flag sleep=\"enable\"/></option>");
-    option_not_supported: before("<option density=\"1.2\"/>");
+    option_not_supported: before("<option noslip_iterations=\"3\"/>");
     boolean: world("<body mocap=\"True\"/>");
     stray_text: world("\n  geom size=\"1\"/>");
     // Numbers
@@ -99,7 +106,10 @@ mistakes! {
     joint_free_nested: world("<body name=\"outer\"><body name=\"inner\"><freejoint/><geom size=\"1\"/></body></body>");
     joint_after_ball: world("<body><joint type=\"ball\"/><joint/><geom size=\"1\"/></body>");
     joint_too_many: world("<body><freejoint/><joint/><geom size=\"1\"/></body>");
-    joint_nonlinear: world("<body><joint damping=\"1 2\"/><geom size=\"1\"/></body>");
+    joint_springdamper: world("<body><joint springdamper=\"1 -1\"/><geom size=\"1\"/></body>");
+    joint_force_range: world("<body><joint actuatorfrcrange=\"1 -1\"/><geom size=\"1\"/></body>");
+    sleep_misplaced: world("<body name=\"arm\"><joint/><geom size=\"1\"/><body name=\"hand\" sleep=\"never\"><joint/><geom size=\"1\"/></body></body>");
+    user_too_long: "<mujoco><size nuser_jnt=\"1\"/><worldbody><body><joint user=\"1 2\"/><geom size=\"1\"/></body></worldbody></mujoco>";
     joint_in_world: world("<joint/>");
     // Bodies and geoms
     body_without_mass: world("<body name=\"ghost\">\n<joint/><geom size=\"1\" mass=\"0\"/></body>");
@@ -124,6 +134,33 @@ mistakes! {
     sensor_cutoff: after("<sensor><framequat objtype=\"body\" objname=\"b\" cutoff=\"1\"/></sensor>");
     key_short: after("<keyframe><key name=\"k\" qpos=\"0 0 1\"/></keyframe>");
     key_control: after("<keyframe><key ctrl=\"1\"/></keyframe>");
+    // Tendons
+    tendon_empty: tied("<tendon><spatial name=\"rope\"/></tendon>");
+    tendon_one_site: tied("<tendon>\n<spatial><site site=\"s\"/></spatial></tendon>");
+    tendon_repeated_site: tied("<tendon>\n<spatial><site site=\"s\"/><site site=\"s\"/></spatial></tendon>");
+    tendon_geom_last: tied("<tendon>\n<spatial><site site=\"s\"/><geom geom=\"g\"/></spatial></tendon>");
+    tendon_two_geoms: tied("<tendon>\n<spatial><site site=\"s\"/><geom geom=\"g\"/><geom geom=\"g\"/><site site=\"t\"/></spatial></tendon>");
+    tendon_wraps_plane: tied("<tendon>\n<spatial><site site=\"s\"/><geom geom=\"floor\"/><site site=\"t\"/></spatial></tendon>");
+    tendon_pulley_last: tied("<tendon>\n<spatial><site site=\"s\"/><site site=\"t\"/><pulley divisor=\"2\"/></spatial></tendon>");
+    tendon_pulley_twice: tied("<tendon>\n<spatial><pulley divisor=\"2\"/><pulley divisor=\"2\"/><site site=\"s\"/><site site=\"t\"/></spatial></tendon>");
+    tendon_pulley_zero: tied("<tendon>\n<spatial><pulley divisor=\"0\"/><site site=\"s\"/><site site=\"t\"/></spatial></tendon>");
+    tendon_pulley_alone: tied("<tendon>\n<spatial><pulley/><site site=\"s\"/><site site=\"t\"/></spatial></tendon>");
+    tendon_free_joint: tied("<tendon>\n<fixed><joint joint=\"j\" coef=\"1\"/></fixed></tendon>");
+    tendon_without_joint: tied("<tendon>\n<fixed><joint coef=\"1\"/></fixed></tendon>");
+    tendon_unknown_site: tied("<tendon>\n<spatial><site site=\"s\"/><site site=\"tt\"/></spatial></tendon>");
+    tendon_range: tied("<tendon>\n<spatial range=\"2 1\" springlength=\"2 1\" actuatorfrcrange=\"1 2\" width=\"0\"><site site=\"s\"/><site site=\"t\"/></spatial></tendon>");
+    tendon_armature_wrapped: tied("<tendon>\n<spatial armature=\"1\"><site site=\"s\"/><geom geom=\"g\"/><site site=\"t\"/></spatial></tendon>");
+    // Equality constraints, contact pairs
+    connect_without_anchor: tied("<equality>\n<connect body1=\"b\"/></equality>");
+    connect_to_itself: tied("<equality>\n<connect body1=\"b\" body2=\"b\" anchor=\"0 0 0\"/></equality>");
+    connect_sites_and_bodies: tied("<equality>\n<connect site1=\"s\" site2=\"t\" anchor=\"0 0 0\"/></equality>");
+    weld_one_site: tied("<equality>\n<weld site1=\"s\"/></equality>");
+    weld_nothing: tied("<equality>\n<weld/></equality>");
+    equality_free_joint: tied("<equality>\n<joint joint1=\"j\"/></equality>");
+    equality_flex: tied("<equality>\n<flex flex=\"f\"/></equality>");
+    pair_one_geom: tied("<contact>\n<pair geom1=\"g\"/></contact>");
+    pair_condim: tied("<contact>\n<pair geom1=\"g\" geom2=\"floor\" condim=\"2\"/></contact>");
+    exclude_one_body: tied("<contact>\n<exclude body1=\"b\"/></contact>");
     // Several at once, in the order of the text
     many: "<mujoco>\n  <option timestep=\"0.002s\" gravitiy=\"0 0 -1\"/>\n  <worldbody>\n    <body name=\"a\">\n      <joint type=\"hing\"/>\n      <geom size=\"-1\"/>\n    </body>\n    <body name=\"a\"/>\n  </worldbody>\n</mujoco>";
 }

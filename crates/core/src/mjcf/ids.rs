@@ -1,0 +1,100 @@
+//! Ids of objects by their elements, and what a reference must know of the object that it names.
+
+use super::diagnostic::{Report, code};
+use super::names::{NameTable, WORLD};
+use super::spec::BodySpec;
+use super::tree::{Node, Tree};
+
+/// Ids of elements by their place in the tree.
+pub(crate) struct Ids {
+    by_node: Vec<Option<i32>>,
+    /// Type of each joint, and whether it has limits.
+    joints: Vec<(i32, bool)>,
+    /// Type of each geom.
+    geoms: Vec<i32>,
+}
+
+impl Ids {
+    /// Numbers joints, geoms and sites body by body, tendons and actuators in the order of the text.
+    pub(crate) fn number(tree: &Tree, bodies: &[BodySpec]) -> Ids {
+        let mut ids = Ids { by_node: vec![None; tree.nodes.len()], joints: Vec::new(), geoms: Vec::new() };
+        let mut sites = 0;
+        for (i, body) in bodies.iter().enumerate() {
+            ids.set(body.node, i);
+            for j in &body.joints {
+                ids.set(j.node, ids.joints.len());
+                ids.joints.push((j.kind, j.limited));
+            }
+            for g in &body.geoms {
+                ids.set(g.node, ids.geoms.len());
+                ids.geoms.push(g.kind);
+            }
+            for s in &body.sites {
+                ids.set(s.node, sites);
+                sites += 1;
+            }
+        }
+        for section in ["tendon", "actuator"] {
+            let nodes = tree.sections(section).flat_map(|(at, _)| tree.children(at));
+            for (i, (node, _)) in nodes.enumerate() {
+                ids.set(node, i);
+            }
+        }
+        ids
+    }
+
+    fn set(&mut self, node: usize, id: usize) {
+        if let Some(slot) = self.by_node.get_mut(node) {
+            *slot = Some(id as i32);
+        }
+    }
+
+    /// The id of the object of this kind and name.
+    pub(crate) fn find(&self, kind: &str, name: &str, names: &NameTable) -> Option<i32> {
+        match kind {
+            "body" if name == WORLD => Some(0),
+            _ => self.by_node.get(names.find(kind, name)?).copied().flatten(),
+        }
+    }
+
+    /// Type of a joint, and whether it has limits.
+    pub(crate) fn joint(&self, id: i32) -> Option<(i32, bool)> {
+        self.joints.get(usize::try_from(id).ok()?).copied()
+    }
+
+    /// Type of a geom.
+    pub(crate) fn geom(&self, id: i32) -> Option<i32> {
+        self.geoms.get(usize::try_from(id).ok()?).copied()
+    }
+}
+
+/// Finds the objects that attributes name.
+#[derive(Clone, Copy)]
+pub(crate) struct References<'a> {
+    pub(crate) names: &'a NameTable<'a>,
+    pub(crate) ids: &'a Ids,
+}
+
+impl References<'_> {
+    /// The object that an attribute names. A name that does not exist is reported by the check of references.
+    pub(crate) fn optional(&self, kind: &str, node: &Node, attribute: &str) -> Option<i32> {
+        self.ids.find(kind, node.text(attribute)?, self.names)
+    }
+
+    /// The same for an attribute that must be there.
+    pub(crate) fn required(
+        &self,
+        kind: &str,
+        node: &Node,
+        attribute: &str,
+        report: &mut Report,
+    ) -> Option<i32> {
+        if node.text(attribute).is_none() {
+            let message = format!("{} has no `{attribute}`", node.shown());
+            report
+                .error(code::MISSING_ATTRIBUTE, node.span.clone(), message)
+                .help(format!("write `{attribute}=\"…\"` with the name of a {kind}"));
+        }
+        self.optional(kind, node, attribute)
+    }
+}

@@ -1,0 +1,100 @@
+//! Forces of the medium on bodies: drag and viscosity, with the medium moving at `opt.wind`.
+//!
+//! A body is a box with the same inertia, unless one of its geoms asks for the ellipsoid model (MuJoCo's
+//! documentation, "Computation: Fluid forces").
+
+use std::f64::consts::PI;
+
+use super::ellipsoid;
+use crate::math::*;
+use crate::{Data, Model, jacobian};
+
+/// Numbers of a geom in `geom_fluid`.
+const FLUID: usize = 12;
+
+/// `qfrc_fluid` (zero before). Whether there is a medium.
+pub(super) fn fluid(m: &Model, d: &mut Data) -> bool {
+    if m.opt.density <= 0.0 && m.opt.viscosity <= 0.0 {
+        return false;
+    }
+    let mut out = std::mem::take(&mut d.qfrc_fluid);
+    for b in 1..m.nbody {
+        if m.body_mass[b] < MINVAL {
+            continue;
+        }
+        let first = m.body_geomadr[b].max(0) as usize;
+        let shapes = &rows::<FLUID>(&m.geom_fluid)[first..first + m.body_geomnum[b] as usize];
+        if shapes.iter().all(|s| s[0] <= 0.0) {
+            let frame = Frame::new(m, d, b, rows::<3>(&d.xipos)[b], rows::<9>(&d.ximat)[b]);
+            frame.apply(m, d, inertia_box(m, b, frame.motion), &mut out);
+            continue;
+        }
+        for (g, shape) in (first..).zip(shapes).filter(|(_, s)| s[0] != 0.0) {
+            let frame = Frame::new(m, d, b, rows::<3>(&d.geom_xpos)[g], rows::<9>(&d.geom_xmat)[g]);
+            let force = ellipsoid::force(m, ellipsoid::semi_axes(m, g), shape, frame.motion);
+            frame.apply(m, d, scale(force, shape[0]), &mut out);
+        }
+    }
+    d.qfrc_fluid = out;
+    true
+}
+
+/// A frame that moves with a body, and its motion through the medium: angular and linear velocity along the
+/// frame's axes.
+struct Frame {
+    body: usize,
+    pos: Vec3,
+    mat: Mat3,
+    motion: Spatial,
+}
+
+impl Frame {
+    fn new(m: &Model, d: &Data, body: usize, pos: Vec3, mat: Mat3) -> Frame {
+        let cvel = &rows::<6>(&d.cvel)[body];
+        let arm = sub(pos, rows::<3>(&d.subtree_com)[m.body_rootid[body] as usize]);
+        let velocity = add(linear(cvel), cross(angular(cvel), arm));
+        let turning = mat_t_mul_vec(&mat, angular(cvel));
+        let moving = mat_t_mul_vec(&mat, sub(velocity, m.opt.wind));
+        Frame { body, pos, mat, motion: spatial(turning, moving) }
+    }
+
+    /// Adds the generalized force of a torque and force along the frame's axes.
+    fn apply(&self, m: &Model, d: &Data, force: Spatial, out: &mut [f64]) {
+        let (torque, force) =
+            (mat_mul_vec(&self.mat, angular(&force)), mat_mul_vec(&self.mat, linear(&force)));
+        jacobian::apply(m, d, self.body, self.pos, force, torque, out);
+    }
+}
+
+/// A spatial vector from its parts.
+pub(super) fn spatial(w: Vec3, v: Vec3) -> Spatial {
+    [w[0], w[1], w[2], v[0], v[1], v[2]]
+}
+
+/// Torque and force on the box that has the inertia of body `b`.
+///
+/// Viscosity acts as on a sphere of diameter D, the box's mean edge: torque π D³ η ω, force 3π D η v. Each pair
+/// of faces has a drag of ½ ρ A |v| v, and a torque against turning of ρ e (e₁⁴ + e₂⁴) |ω| ω / 64.
+fn inertia_box(m: &Model, b: usize, motion: Spatial) -> Spatial {
+    let i = rows::<3>(&m.body_inertia)[b];
+    let mass = m.body_mass[b];
+    let edge = |k: usize| {
+        let sum = i[(k + 1) % 3] + i[(k + 2) % 3] - i[k];
+        (sum.max(MINVAL) / mass * 6.0).sqrt()
+    };
+    let e = [edge(0), edge(1), edge(2)];
+    let (density, viscosity) = (m.opt.density.max(0.0), m.opt.viscosity.max(0.0));
+    let diameter = (e[0] + e[1] + e[2]) / 3.0;
+    let (w, v) = (angular(&motion), linear(&motion));
+    let mut force = spatial(
+        scale(w, -PI * diameter * diameter * diameter * viscosity),
+        scale(v, -3.0 * PI * diameter * viscosity),
+    );
+    let fourth = |x: f64| x * x * x * x;
+    for k in 0..3 {
+        let (e1, e2) = (e[(k + 1) % 3], e[(k + 2) % 3]);
+        force[k] -= density * e[k] * (fourth(e1) + fourth(e2)) * w[k].abs() * w[k] / 64.0;
+        force[3 + k] -= 0.5 * density * e1 * e2 * v[k].abs() * v[k];
+    }
+    force
+}

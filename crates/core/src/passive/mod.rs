@@ -1,0 +1,51 @@
+//! Passive forces: springs and dampers, gravity compensation, the medium.
+
+mod ellipsoid;
+mod fluid;
+mod gravcomp;
+pub(crate) mod spring;
+
+use crate::{Data, Model, disable, joint};
+
+/// `qfrc_spring`, `qfrc_damper`, `qfrc_gravcomp`, `qfrc_fluid`, `qfrc_passive`. With springs and dampers both
+/// switched off there are no passive forces at all.
+pub(crate) fn passive(m: &Model, d: &mut Data) {
+    d.qfrc_spring.fill(0.0);
+    d.qfrc_damper.fill(0.0);
+    let (springs, dampers) = (!m.opt.disabled(disable::SPRING), !m.opt.disabled(disable::DAMPER));
+    if springs {
+        spring::joint_springs(m, d);
+    }
+    if dampers {
+        spring::joint_dampers(m, d);
+    }
+    spring::tendons(m, d, springs, dampers);
+    for ((f, s), b) in d.qfrc_passive.iter_mut().zip(&d.qfrc_spring).zip(&d.qfrc_damper) {
+        *f = s + b;
+    }
+    if d.plan.body_forces {
+        body_forces(m, d, springs || dampers);
+    }
+}
+
+/// Forces on bodies as such.
+fn body_forces(m: &Model, d: &mut Data, on: bool) {
+    d.qfrc_gravcomp.fill(0.0);
+    d.qfrc_fluid.fill(0.0);
+    if on && fluid::fluid(m, d) {
+        for (f, fluid) in d.qfrc_passive.iter_mut().zip(&d.qfrc_fluid) {
+            *f += fluid;
+        }
+    }
+    if on && gravcomp::gravcomp(m, d) {
+        for j in 0..m.njnt {
+            // Otherwise it is a force of actuators.
+            if !m.jnt_actgravcomp[j] {
+                let first = m.jnt_dofadr[j] as usize;
+                for k in first..first + joint::nv(m.jnt_type[j]) {
+                    d.qfrc_passive[k] += d.qfrc_gravcomp[k];
+                }
+            }
+        }
+    }
+}
