@@ -11,21 +11,23 @@ import numpy as np
 
 INTEGRATORS = ("Euler", "RK4", "implicit", "implicitfast", "discrete")
 
-# What of a model is not ours to compute: drawings, search trees, elastic bodies, plugins, name tables, patterns of
-# the library's own sparse algebra, sizes of its memory.
-OTHERS = ("bvh", "oct", "flex", "skin", "tex", "mat", "mesh", "hfield_path", "plugin", "name", "path", "text", "efm0", "map", "B_",
-          "D_", "body_bvh", "body_plugin", "body_contype", "body_conaffinity", "body_margin", "geom_plugin", "actuator_plugin",
-          "sensor_plugin", "dof_Madr", "ten_J_", "vis")
-SIZES = ("nq nv nu na nactuator nout nbody ntree njnt ngeom nsite ncam nlight nmesh nhfield nmocap npair nexclude neq ntendon nwrap "
-         "nsensor nsensordata nkey nC nnumeric nnumericdata ntuple ntupledata nuser_body nuser_jnt nuser_geom nuser_site nuser_cam "
-         "nuser_tendon nuser_actuator nuser_sensor nhistory nuserdata ngravcomp").split()
-MESH = "mesh_vertadr mesh_vertnum mesh_faceadr mesh_facenum mesh_vert mesh_face mesh_scale mesh_pos mesh_quat".split()
+# What of a model is not ours to compute: search trees, elastic bodies, skins, plugins, name tables, pixels, patterns and
+# sizes of the library's own memory.
+OTHERS = ("B_ actuator_plugin body_bvh body_plugin bvh_ dof_Madr efm0_ flex flg_ geom_plugin hfield_pathadr map mesh_bvh "
+          "mesh_extrema mesh_oct mesh_pathadr mesh_poly nB nJf nM name narena nbuffer nbvh nconmax nefm nemax nflex njmax "
+          "nmeshdegmax nmeshpoly nnames noct npaths nplugin npolygonmax nskin ntexdata ntextdata oct_ path plugin sensor_plugin "
+          "signature skin_ tex_ text_").split()
+# Kinds of named objects.
+NAMED = ("body joint geom site camera light mesh hfield texture material pair exclude equality tendon actuator sensor numeric text "
+         "tuple key").split()
 
 # Everything that a forward pass without constraints computes.
 FIELDS = ("xpos xquat xmat xipos ximat xanchor xaxis geom_xpos geom_xmat site_xpos site_xmat cam_xpos cam_xmat light_xpos "
-          "light_xdir subtree_com cdof cinert ten_length ten_wrapadr ten_wrapnum wrap_obj wrap_xpos actuator_length crb M qLD "
-          "qLDiagInv ten_velocity actuator_velocity cvel cdof_dot qfrc_bias qfrc_spring qfrc_damper qfrc_gravcomp qfrc_fluid "
+          "light_xdir subtree_com cdof cinert ten_length ten_J ten_wrapadr ten_wrapnum wrap_obj wrap_xpos actuator_length "
+          "moment_rownnz moment_rowadr moment_colind actuator_moment crb M qLD qLDiagInv ten_velocity actuator_velocity cvel cdof_dot qfrc_bias qfrc_spring qfrc_damper qfrc_gravcomp qfrc_fluid "
           "qfrc_passive actuator_force qfrc_actuator act_dot qfrc_smooth qacc_smooth qfrc_constraint qacc sensordata energy").split()
+# What is computed on request.
+POST = "subtree_linvel subtree_angmom cacc cfrc_int cfrc_ext qfrc_inverse".split()
 # What a state is, and what acts on it.
 STATE = "time qpos qvel act ctrl qfrc_applied xfrc_applied mocap_pos mocap_quat".split()
 
@@ -62,16 +64,25 @@ def constants(m):
     """Every constant that an engine without drawings needs: {"model": .., "opt": .., "stat": .., "single": ..}, the last
     for what the library keeps in single precision."""
     out = {"model": {}, "single": {}}
-    for name in [*SIZES, *(n for n in dir(m) if n[0] != "_" and (n in MESH or not n.startswith(OTHERS)))]:
-        value = getattr(m, name)
-        if name in SIZES:
-            out["model"][name] = text(value)
-        elif isinstance(value, np.ndarray) and value.size:
-            out["single" if value.dtype == np.float32 else "model"][name] = text(value)
-    for part in ("opt", "stat"):
-        owner = getattr(m, part)
-        values = {n: getattr(owner, n) for n in dir(owner) if n[0] != "_"}
-        out[part] = {n: text(v) for n, v in values.items() if isinstance(v, (int, float, np.ndarray))}
+    for part, owner in (("model", m), ("opt", m.opt), ("stat", m.stat)):
+        values = out.setdefault(part, {})
+        for name in dir(owner):
+            value = getattr(owner, name)
+            if name.startswith(("_", *OTHERS)) or not isinstance(value, (int, float, np.ndarray)) or not np.size(value):
+                continue
+            (out["single"] if getattr(value, "dtype", None) == np.float32 else values)[name] = text(value)
+    return out
+
+
+def names(m):
+    """Names of all objects, in the order of their ids."""
+    out = {}
+    for kind in NAMED:
+        code = mujoco.mju_str2Type(kind)
+        count = getattr(m, {"joint": "njnt", "camera": "ncam", "texture": "ntex", "material": "nmat", "equality": "neq",
+                            "actuator": "nactuator"}.get(kind, "n" + kind))
+        if count:
+            out[kind] = [mujoco.mj_id2name(m, code, i) or "" for i in range(count)]
     return out
 
 
@@ -100,15 +111,26 @@ def states(m, d, count, scale, seed):
         if k and k % 2 == 0:
             d.qfrc_applied[:] = rng.normal(size=m.nv)
             d.xfrc_applied[1:] = rng.normal(size=(m.nbody - 1, 6))
-        yield {f: text(getattr(d, f)) for f in STATE if np.size(getattr(d, f))}
+        yield fields(d, STATE)
 
 
-def forward(m, count, scale, seed, fields=FIELDS):
-    """[{"state": {..}, "data": {..}}]: every field after mj_forward."""
+def fields(d, chosen):
+    return {f: text(getattr(d, f)) for f in chosen if np.size(getattr(d, f))}
+
+
+def forward(m, count, scale, seed):
+    """[{"state": {..}, "data": {..}, "post": {..}}]: every field after mj_forward; then what the functions for bodies'
+    forces and momenta compute, and the inverse dynamics of accelerations that anyone can write down."""
     d, out = mujoco.MjData(m), []
     for state in states(m, d, count, scale, seed):
         mujoco.mj_forward(m, d)
-        out.append({"state": state, "data": {f: text(getattr(d, f)) for f in fields if np.size(getattr(d, f))}})
+        row = {"state": state, "data": fields(d, FIELDS)}
+        mujoco.mj_subtreeVel(m, d)
+        mujoco.mj_rnePostConstraint(m, d)
+        bodies = fields(d, POST[:-1])
+        d.qacc[:] = [7 * i % 5 - 2 for i in range(m.nv)]
+        mujoco.mj_inverse(m, d)
+        out.append({**row, "post": {**bodies, **fields(d, POST[-1:])}})
     return out
 
 
@@ -149,11 +171,13 @@ def trajectory(m, integrator, scale, seed, steps=200, every=40):
             "rows": [{n: text(a) for n, a in zip(names, row) if a.size} for row in first]}
 
 
-def record(path, count, scale, seed=2, steps=200, every=40):
+def record(path, count, scale, named=True, seed=2, steps=200, every=40):
     """All that is recorded of a model file, with its constraints switched off."""
     m = mujoco.MjModel.from_xml_path(str(path))
     m.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
     compiled, states = constants(m), forward(m, count, scale, seed)
+    if named:
+        compiled["names"] = names(m)
     paths = {name: trajectory(m, i, scale, seed, steps, every) for i, name in enumerate(INTEGRATORS)}
     return {"mujoco": mujoco.__version__, "compiled": compiled, "forward": states, "trajectories": paths}
 
