@@ -104,9 +104,9 @@ pub(crate) fn examine(model: &Path, recording: &Value) -> Outcome {
 /// The first finding of the compiler, on one line.
 fn reason(error: &MjcfFileError) -> String {
     match error {
-        MjcfFileError::Model { diagnostics, .. } => diagnostics
-            .first()
-            .map_or(String::new(), |d| format!("{}: {}", d.code, d.message)),
+        MjcfFileError::Model { diagnostics, .. } => {
+            diagnostics.first().map_or(String::new(), |d| format!("{}: {}", d.code, d.message))
+        }
         other => other.to_string(),
     }
 }
@@ -140,7 +140,14 @@ fn compiled(m: &Model, recording: &Value) -> Verdict {
         {
             let field = format!("names of {kind} ({:?}, theirs {:?})", ours.get(index), theirs.get(index));
             let number = f64::NAN;
-            found.push(Difference { place: String::new(), field, index, ours: number, theirs: number, scaled: number });
+            found.push(Difference {
+                place: String::new(),
+                field,
+                index,
+                ours: number,
+                theirs: number,
+                scaled: number,
+            });
         }
     }
     Verdict::of(found, worst)
@@ -217,7 +224,11 @@ fn trajectory(m: &Model, start: &Value, recording: &Value) -> Verdict {
         }
         if !found.is_empty() {
             // What follows a difference follows from it.
-            return if apart <= spread[k] { Verdict::Chaotic(apart, spread[k]) } else { Verdict::Differs(found) };
+            return if apart <= spread[k] {
+                Verdict::Chaotic(apart, spread[k])
+            } else {
+                Verdict::Differs(found)
+            };
         }
         worst = worst.max(apart);
     }

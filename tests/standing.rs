@@ -63,7 +63,9 @@ impl Standing {
                 match outcome.as_ref().map(|verdicts| &verdicts[i]) {
                     Ok(Verdict::Same(apart)) if *apart >= same.0 => same = (*apart, name),
                     Ok(Verdict::Chaotic(apart, spread)) => {
-                        println!("{aspect}, {name}: {apart:.1e} from the library, which is {spread:.1e} from itself");
+                        println!(
+                            "{aspect}, {name}: {apart:.1e} from the library, which is {spread:.1e} from itself"
+                        );
                     }
                     _ => {}
                 }
@@ -139,7 +141,9 @@ impl Standing {
                     for (aspect, verdict) in ASPECTS.into_iter().zip(verdicts) {
                         match verdict {
                             Verdict::Same(_) => {}
-                            Verdict::Chaotic(..) => line(aspect, "chaotic", "the library parts from itself as far"),
+                            Verdict::Chaotic(..) => {
+                                line(aspect, "chaotic", "the library parts from itself as far")
+                            }
                             Verdict::Refused(message) => line(aspect, "refused there", message),
                             Verdict::Differs(_) => line(aspect, &verdict.to_string(), ""),
                         }
