@@ -28,7 +28,7 @@ def main():
         for path in sorted((SHARED / folder).glob("*.xml")):
             name = kind + "/" + path.stem
             if not a.models or name in a.models:
-                size = recording.write(a.out / (name + ".json"), recording.record(path, a.states, 0.1, named=False))
+                size = recording.write(a.out / (name + ".json"), recording.record(path, a.states, 0.1, short=True))
                 print(f"{size:8} {name}")
 
 

@@ -9,6 +9,9 @@ import json
 import mujoco
 import numpy as np
 
+# Warnings are recorded; they need no log file and no screen.
+mujoco.set_mju_user_warning(lambda text: None)
+
 INTEGRATORS = ("Euler", "RK4", "implicit", "implicitfast", "discrete")
 
 # What of a model is not ours to compute: search trees, elastic bodies, skins, plugins, name tables, pixels, patterns and
@@ -118,19 +121,25 @@ def fields(d, chosen):
     return {f: text(getattr(d, f)) for f in chosen if np.size(getattr(d, f))}
 
 
-def forward(m, count, scale, seed):
-    """[{"state": {..}, "data": {..}, "post": {..}}]: every field after mj_forward; then what the functions for bodies'
-    forces and momenta compute, and the inverse dynamics of accelerations that anyone can write down."""
+def on_request(m, d):
+    """What the functions for bodies' forces and momenta compute, and the inverse dynamics of accelerations that anyone can
+    write down."""
+    mujoco.mj_subtreeVel(m, d)
+    mujoco.mj_rnePostConstraint(m, d)
+    bodies = fields(d, POST[:-1])
+    d.qacc[:] = [7 * i % 5 - 2 for i in range(m.nv)]
+    mujoco.mj_inverse(m, d)
+    return {**bodies, **fields(d, POST[-1:])}
+
+
+def forward(m, count, scale, seed, short):
+    """[{"state": {..}, "data": {..}, "post": {..}}]: every field after mj_forward; unless `short`, what is computed on
+    request, too."""
     d, out = mujoco.MjData(m), []
     for state in states(m, d, count, scale, seed):
         mujoco.mj_forward(m, d)
         row = {"state": state, "data": fields(d, FIELDS)}
-        mujoco.mj_subtreeVel(m, d)
-        mujoco.mj_rnePostConstraint(m, d)
-        bodies = fields(d, POST[:-1])
-        d.qacc[:] = [7 * i % 5 - 2 for i in range(m.nv)]
-        mujoco.mj_inverse(m, d)
-        out.append({**row, "post": {**bodies, **fields(d, POST[-1:])}})
+        out.append(row if short else {**row, "post": on_request(m, d)})
     return out
 
 
@@ -171,12 +180,13 @@ def trajectory(m, integrator, scale, seed, steps=200, every=40):
             "rows": [{n: text(a) for n, a in zip(names, row) if a.size} for row in first]}
 
 
-def record(path, count, scale, named=True, seed=2, steps=200, every=40):
-    """All that is recorded of a model file, with its constraints switched off."""
+def record(path, count, scale, short=False, seed=2, steps=200, every=40):
+    """All that is recorded of a model file, with its constraints switched off; if `short`, without names and without what is
+    computed on request."""
     m = mujoco.MjModel.from_xml_path(str(path))
     m.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
-    compiled, states = constants(m), forward(m, count, scale, seed)
-    if named:
+    compiled, states = constants(m), forward(m, count, scale, seed, short)
+    if not short:
         compiled["names"] = names(m)
     paths = {name: trajectory(m, i, scale, seed, steps, every) for i, name in enumerate(INTEGRATORS)}
     return {"mujoco": mujoco.__version__, "compiled": compiled, "forward": states, "trajectories": paths}
