@@ -181,16 +181,15 @@ fn obj(kind: &str) -> Option<Obj> {
 }
 
 fn forward(m: &Model, states: &Value) -> Verdict {
-    let mut m = m.clone();
-    let mut d = Data::new(&m);
+    let mut d = Data::new(m);
     let mut found = Vec::new();
     let mut worst: f64 = 0.0;
     for (k, row) in states.as_array().into_iter().flatten().enumerate() {
-        set(&mut m, &mut d, &row["state"]);
-        core::forward(&m, &mut d);
+        set(m, &mut d, &row["state"]);
+        core::forward(m, &mut d);
         for (field, values) in objects(&row["data"]) {
             let Some(id) = reflect::field(Object::Data, field) else { continue };
-            let (ours, theirs) = (list(&m, &d, id), numbers(values));
+            let (ours, theirs) = (list(m, &d, id), numbers(values));
             let (place, scale) = (format!("state {k}"), largest(&theirs).max(1.0));
             worst = worst.max(note(&mut found, &place, field, &ours, &theirs, scale, FORWARD));
         }
@@ -205,20 +204,19 @@ fn trajectory(m: &Model, start: &Value, recording: &Value) -> Verdict {
     if let Some(message) = recording["refused"].as_str() {
         return Verdict::Refused(message.into());
     }
-    let mut m = m.clone();
-    let mut d = Data::new(&m);
-    set(&mut m, &mut d, start);
+    let mut d = Data::new(m);
+    set(m, &mut d, start);
     let every = recording["every"].as_u64().unwrap_or(1);
     let spread = numbers(&recording["spread"]);
     let mut worst: f64 = 0.0;
     for (k, row) in recording["rows"].as_array().into_iter().flatten().enumerate() {
-        (0..every).for_each(|_| core::step(&m, &mut d));
+        (0..every).for_each(|_| core::step(m, &mut d));
         let place = format!("step {}", every * (k as u64 + 1));
         let mut found = Vec::new();
         let mut apart: f64 = 0.0;
         for (field, values) in objects(row) {
             let Some(id) = reflect::field(Object::Data, field) else { continue };
-            let (ours, theirs) = (list(&m, &d, id), numbers(values));
+            let (ours, theirs) = (list(m, &d, id), numbers(values));
             let scale = largest(&theirs).max(1.0);
             apart = apart.max(note(&mut found, &place, field, &ours, &theirs, scale, TRAJECTORY));
         }
@@ -236,13 +234,15 @@ fn trajectory(m: &Model, start: &Value, recording: &Value) -> Verdict {
 }
 
 /// Puts the data into a recorded state.
-fn set(m: &mut Model, d: &mut Data, state: &Value) {
+pub(crate) fn set(m: &Model, d: &mut Data, state: &Value) {
     start(m, d);
+    // Only data are written, but reflection wants both.
+    let mut m = m.clone();
     for (field, values) in objects(state) {
         let Some(id) = reflect::field(Object::Data, field) else { continue };
         for (i, x) in numbers(values).into_iter().enumerate() {
             // A model that was not compiled to the same sizes is told elsewhere.
-            reflect::view_mut(m, d, id).set(i, x);
+            reflect::view_mut(&mut m, d, id).set(i, x);
         }
     }
 }

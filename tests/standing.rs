@@ -9,7 +9,7 @@ use crate::support::workspace;
 use labspec_core::mjcf::code;
 use std::fmt::Write;
 
-/// A difference that is known: model, aspect (`load` or one of [`ASPECTS`]), cause.
+/// A difference that is known: model (`*` for any), aspect (`load` or one of [`ASPECTS`]), cause.
 pub(crate) type Exception = (&'static str, &'static str, &'static str);
 
 /// Models and what became of them.
@@ -25,18 +25,18 @@ impl Standing {
     ///
     /// What is not supported is no failure: the table names it, and shows when it changes.
     pub(crate) fn check(&self, table: Option<&str>, exceptions: &[Exception]) {
-        let cause = |model: &str, aspect: &str| {
-            exceptions.iter().find(|e| e.0 == model && e.1 == aspect).map(|e| e.2)
-        };
+        let covers = |e: &Exception, model: &str, aspect: &str| (e.0 == "*" || e.0 == model) && e.1 == aspect;
+        let cause =
+            |model: &str, aspect: &str| exceptions.iter().find(|e| covers(e, model, aspect)).map(|e| e.2);
         let mut wrong = String::new();
         for (name, aspect, what) in self.failures() {
             if cause(&name, aspect).is_none() {
                 let _ = writeln!(wrong, "{name}, {aspect}: {what}");
             }
         }
-        for (model, aspect, _) in exceptions {
-            if !self.failures().iter().any(|f| f.0 == *model && f.1 == *aspect) {
-                let _ = writeln!(wrong, "{model}, {aspect}: is listed as an exception and is right");
+        for e in exceptions {
+            if !self.failures().iter().any(|f| covers(e, &f.0, f.1)) {
+                let _ = writeln!(wrong, "{}, {}: is listed as an exception and is right", e.0, e.1);
             }
         }
         self.print();

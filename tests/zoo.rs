@@ -1,17 +1,34 @@
 //! The zoo (`specs/models/zoo`, one model a feature) against what MuJoCo 3.14.0 computes for it.
 
-use crate::recorded::{examine, objects};
+use crate::recorded::{examine, list, objects, set};
 use crate::standing::{Exception, Standing};
 use crate::support::{models, recording, workspace};
-use labspec_core::reflect::{self, Object};
+use labspec_core::reflect::{self, FieldSet, Object};
+use labspec_core::{self as core, Data, Demand, Model, Plan, disable, mjcf};
+use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 /// What is known to differ, and why.
-const EXCEPTIONS: &[Exception] = &[];
+const EXCEPTIONS: &[Exception] = &[
+    ("*", "compile", "fields whose compilation is not here yet"),
+    ("*", "implicit", "the integrator is not here yet"),
+    ("*", "implicitfast", "the integrator is not here yet"),
+    ("*", "discrete", "the integrator is not here yet"),
+];
 
 fn folder() -> PathBuf {
     workspace().join("specs/models/zoo")
+}
+
+/// The models that load, each in the second of its recorded states: everything moves.
+pub(crate) fn animals() -> impl Iterator<Item = (String, Model, Value)> {
+    models(&folder()).into_iter().filter_map(|name| {
+        let mut m = mjcf::compile_file(&folder().join(format!("{name}.xml"))).ok()?;
+        m.opt.disableflags |= disable::CONSTRAINT;
+        let state = recording(&format!("zoo/{name}"))["forward"][1]["state"].clone();
+        Some((name, m, state))
+    })
 }
 
 #[test]
@@ -50,4 +67,30 @@ fn the_fields_that_we_lack() {
         }
     }
     assert_eq!(lacking.iter().map(String::as_str).collect::<Vec<_>>(), LACKING);
+}
+
+/// A plan for one field computes that field as the full pipeline does, whichever it is.
+#[test]
+fn a_plan_for_any_field_changes_no_bit_of_it() {
+    let fields: Vec<_> = reflect::fields().filter(|f| f.info().object == Object::Data).collect();
+    let mut wrong = Vec::new();
+    for (name, m, state) in animals() {
+        let run = |plan: Plan| {
+            let mut d = Data::planned(&m, plan);
+            set(&m, &mut d, &state);
+            (0..3).for_each(|_| core::step(&m, &mut d));
+            d
+        };
+        let full = run(Plan::full());
+        for &f in &fields {
+            let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+            demand.reads.insert(f);
+            let planned = run(Plan::new(&m, &demand));
+            let bits = |d: &Data| list(&m, d, f).into_iter().map(f64::to_bits).collect::<Vec<_>>();
+            if bits(&planned) != bits(&full) {
+                wrong.push(format!("{name}: {}", f.info().name));
+            }
+        }
+    }
+    assert_eq!(wrong, [""; 0]);
 }
