@@ -7,7 +7,7 @@
 use crate::support::numbers;
 use labspec_core::mjcf::{self, MjcfFileError};
 use labspec_core::reflect::{self, FieldId, Object};
-use labspec_core::{self as core, Data, Model, Obj, disable};
+use labspec_core::{self as core, Data, Model, Obj, Warning, disable};
 use serde_json::{Map, Value};
 use std::fmt;
 use std::path::Path;
@@ -230,7 +230,22 @@ fn trajectory(m: &Model, start: &Value, recording: &Value) -> Verdict {
         }
         worst = worst.max(apart);
     }
-    Verdict::Same(worst)
+    Verdict::of(warnings(&d, &recording["warnings"]), worst)
+}
+
+/// Warnings that were raised another number of times.
+fn warnings(d: &Data, recording: &Value) -> Vec<Difference> {
+    let count = |w: Warning| {
+        let mut named =
+            objects(recording).filter(|(name, _)| name.to_lowercase() == format!("mjwarn_{}", w.name()));
+        named.find_map(|(_, n)| n.as_f64()).unwrap_or(0.0)
+    };
+    let mut found = Vec::new();
+    for (w, stat) in Warning::ALL.into_iter().zip(&d.warning) {
+        let (ours, theirs) = ([stat.number as f64], [count(w)]);
+        note(&mut found, "the end", &format!("warning {}", w.name()), &ours, &theirs, 1.0, 0.0);
+    }
+    found
 }
 
 /// Puts the data into a recorded state.
