@@ -8,8 +8,10 @@
 use crate::recorded::examine;
 use crate::standing::{Exception, Standing};
 use crate::support::{models, read_json, workspace};
-use std::path::PathBuf;
 use std::process::Command;
+
+/// How many random models are asked for.
+const RANDOM: usize = 100;
 
 /// What is known to differ, and why.
 const EXCEPTIONS: &[Exception] = &[
@@ -23,22 +25,14 @@ const EXCEPTIONS: &[Exception] = &[
 const FOLDERS: [(&str, &str); 3] =
     [("conformance", "conformance/models"), ("corpus", "corpus/models"), ("bench", "bench")];
 
-/// The recordings: those of the repository, or new ones of the library itself in a folder of their own.
-fn recordings() -> (PathBuf, Option<tempfile::TempDir>) {
-    let Some(python) = std::env::var_os("LABSPEC_ORACLE") else {
-        return (workspace().join("tests/golden/conformance"), None);
-    };
+/// Runs one of the recorders with the Python that has the library, if there is one.
+fn ask(recorder: &str, arguments: &[&str]) -> Option<tempfile::TempDir> {
+    let python = std::env::var_os("LABSPEC_ORACLE")?;
     let folder = tempfile::tempdir().unwrap();
-    let script = workspace().join("tests/golden/conformance.py").canonicalize().unwrap();
-    let asked = Command::new(python)
-        .arg(script)
-        .args(["--states", "8", "--out"])
-        .arg(folder.path())
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
+    let script = workspace().join("tests/golden").join(recorder).canonicalize().unwrap();
+    let asked = Command::new(python).arg(script).args(arguments).current_dir(folder.path()).output().unwrap();
     assert!(asked.status.success(), "{}", String::from_utf8_lossy(&asked.stderr));
-    (folder.path().to_path_buf(), Some(folder))
+    Some(folder)
 }
 
 #[test]
@@ -48,7 +42,9 @@ fn every_shared_model_is_as_recorded() {
         println!("skipped: there are no models in {}", shared.display());
         return;
     }
-    let (recordings, fresh) = recordings();
+    let fresh = ask("conformance.py", &["--states", "8", "--out", "."]);
+    let kept = workspace().join("tests/golden/conformance");
+    let recordings = fresh.as_ref().map_or(kept.as_path(), |folder| folder.path());
     let mut standing = Standing::default();
     for (kind, folder) in FOLDERS {
         for name in models(&shared.join(folder)) {
@@ -58,4 +54,21 @@ fn every_shared_model_is_as_recorded() {
         }
     }
     standing.check(if fresh.is_some() { None } else { Some("conformance") }, EXCEPTIONS);
+}
+
+/// Random models that use everything at once. `LABSPEC_SEED` chooses others.
+#[test]
+fn random_models_are_as_the_library_has_them() {
+    let seed = std::env::var("LABSPEC_SEED").unwrap_or_else(|_| "1".into());
+    let arguments = [".", "--count", &RANDOM.to_string(), "--seed", &seed];
+    let Some(folder) = ask("menagerie.py", &arguments) else {
+        println!("skipped: LABSPEC_ORACLE names no Python with mujoco 3.14.0");
+        return;
+    };
+    let mut standing = Standing::default();
+    for name in models(folder.path()) {
+        let at = |ending: &str| folder.path().join(format!("{name}.{ending}"));
+        standing.add(format!("random {name}"), examine(&at("xml"), &read_json(&at("json"))));
+    }
+    standing.check(None, &[]);
 }
