@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::{compile, model, model_text};
+use crate::zoo::animals;
 use allocation_counter::measure;
 use labspec::bind::{ControlProgram, Programs};
 use labspec::lint::ModelFolder;
@@ -109,6 +110,17 @@ fn runge_kutta() {
         let mut m = model(name);
         m.opt.integrator = integrator::RK4;
         allocates_nothing(name, &m, 300);
+    }
+}
+
+#[test]
+fn every_integrator_with_everything_in_the_zoo() {
+    for (name, m, _) in animals() {
+        for id in integrator::EULER..=integrator::DISCRETE {
+            let mut m = m.clone();
+            m.opt.integrator = id;
+            allocates_nothing(&format!("{name}, integrator {id}"), &m, 5);
+        }
     }
 }
 

@@ -3,12 +3,16 @@
 mod allocation;
 mod cli;
 mod cli_run;
+mod conformance;
 mod lessons;
 mod numbers;
 mod parity;
 mod plan;
 mod program;
 mod readme;
+mod recorded;
 mod scenes;
+mod standing;
 mod support;
 mod verify;
+mod zoo;

@@ -7,8 +7,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::support::{compile, model_text, numbers, workspace};
-use labspec_core::reflect::{self, FieldId, Object};
+use crate::recorded::{list, start, worst};
+use crate::support::{compile, model_text, numbers, recording};
+use labspec_core::reflect::{self, Object};
 use labspec_core::{self as core, Contact, Data, Model, Warning};
 use serde_json::Value;
 use std::fmt::Write;
@@ -74,12 +75,6 @@ const FORWARD: f64 = 1e-11;
 /// The compiler does no more than a few products and one diagonalization.
 const COMPILED: f64 = 1e-12;
 
-fn recorded(name: &str) -> Value {
-    let path = workspace().join(format!("tests/golden/{name}.json"));
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    serde_json::from_str(&text).unwrap()
-}
-
 /// The model of a case with its options.
 fn load(case: &Value) -> Model {
     let mut m = compile(&model_text(case["model"].as_str().unwrap()));
@@ -93,32 +88,14 @@ fn load(case: &Value) -> Model {
     m
 }
 
-fn start(m: &Model, d: &mut Data) {
-    if m.nkey > 0 { core::reset_data_keyframe(m, d, 0) } else { core::reset_data(m, d) }
-}
-
-fn list(m: &Model, d: &Data, field: FieldId) -> Vec<f64> {
-    let view = reflect::view(m, d, field);
-    (0..view.len()).map(|i| view.get(i).unwrap()).collect()
-}
-
-/// Largest difference, scaled as the file's first lines say; infinite when the lengths differ or a number is none.
-fn worst(ours: &[f64], theirs: &[f64]) -> f64 {
-    if ours.len() != theirs.len() {
-        return f64::INFINITY;
-    }
-    let scale = theirs.iter().fold(1.0f64, |s, x| s.max(x.abs()));
-    let differences = ours.iter().zip(theirs).map(|(a, b)| ((a - b) / scale).abs());
-    differences.fold(0.0, |worst, d| if d.is_nan() { f64::INFINITY } else { worst.max(d) })
-}
-
 /// Differences above their tolerance, a line each.
 #[derive(Default)]
 struct Report(String);
 
 impl Report {
     fn compare(&mut self, what: std::fmt::Arguments<'_>, ours: &[f64], theirs: &[f64], tolerance: f64) {
-        let difference = worst(ours, theirs);
+        let scale = theirs.iter().fold(1.0f64, |s, x| s.max(x.abs()));
+        let (_, difference) = worst(ours, theirs, scale);
         if difference > tolerance {
             let _ = writeln!(self.0, "{what}: {difference:.2e} > {tolerance:.0e}");
         }
@@ -147,7 +124,7 @@ fn tensors(inertia: &[f64], iquat: &[f64]) -> Vec<f64> {
 fn models_compile_to_the_same_numbers() {
     let mut report = Report::default();
     for Case { name, .. } in CASES {
-        let case = recorded(name);
+        let case = recording(name);
         let m = load(&case);
         let d = Data::new(&m);
         let get = |field: &str| list(&m, &d, reflect::field(Object::Model, field).unwrap());
@@ -201,7 +178,7 @@ fn sorted(contacts: &[Contact]) -> Vec<Vec<f64>> {
 fn every_field_after_a_forward_pass_is_the_same() {
     let mut report = Report::default();
     for Case { name, .. } in CASES {
-        let case = recorded(name);
+        let case = recording(name);
         let mut m = load(&case);
         (m.opt.tolerance, m.opt.ls_tolerance, m.opt.iterations, m.opt.ls_iterations) = (0.0, 1e-10, 200, 100);
         let mut d = Data::new(&m);
@@ -264,7 +241,7 @@ fn move_mocap(m: &Model, d: &mut Data, step: usize) {
 fn trajectories_are_the_same() {
     let mut report = Report::default();
     for Case { name, trajectory } in CASES {
-        let case = recorded(name);
+        let case = recording(name);
         let m = load(&case);
         let golden = &case["trajectory"];
         let [steps, every] = ["steps", "every"].map(|k| golden[k].as_u64().unwrap() as usize);

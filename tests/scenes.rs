@@ -163,18 +163,30 @@ impl Scene {
     /// The trees alone: nothing touches, nothing is limited, nothing is damped; the energy is computed.
     #[allow(dead_code)] // one of the two users of this file has no need of it
     pub(crate) fn conservative(&self) -> String {
+        self.undamped().write(false)
+    }
+
+    /// The trees alone, with springs and dampers: forces are smooth.
+    #[allow(dead_code)] // as above
+    pub(crate) fn smooth(&self) -> String {
         self.write(false)
     }
 
     /// The trees alone, each floating freely where there is no gravity.
     #[allow(dead_code)] // as above
     pub(crate) fn floating(&self) -> String {
-        let mut scene = self.clone();
+        let mut scene = self.undamped();
         scene.bodies.iter_mut().for_each(|b| b.free = true);
         scene.write(false).replace("<option", "<option gravity=\"0 0 0\"")
     }
 
-    /// With all that a scene may have, or without what constrains and damps.
+    fn undamped(&self) -> Scene {
+        let mut scene = self.clone();
+        scene.bodies.iter_mut().flat_map(|b| &mut b.joints).for_each(|j| j.damping = 0.0);
+        scene
+    }
+
+    /// With all that a scene may have, or without what constrains.
     fn write(&self, constraints: bool) -> String {
         let mut text = String::from("<mujoco><option");
         if self.rk4 && constraints {
@@ -319,7 +331,7 @@ impl Joint {
             self.armature
         );
         let _ = write!(text, " stiffness=\"{} {}\"", self.stiffness, self.growth.0);
-        if constraints {
+        if constraints && self.damping > 0.0 {
             let _ = write!(text, " damping=\"{} {}\"", self.damping, self.growth.1);
         }
         if kind != "ball" {

@@ -36,6 +36,25 @@ pub(crate) fn compile(xml: &str) -> Model {
     })
 }
 
+/// A file of `tests/golden`, by its name without the ending.
+pub(crate) fn recording(name: &str) -> Value {
+    read_json(&workspace().join(format!("tests/golden/{name}.json")))
+}
+
+pub(crate) fn read_json(path: &Path) -> Value {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    serde_json::from_str(&text).unwrap()
+}
+
+/// The models (`.xml`) of a folder, by name.
+pub(crate) fn models(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let files = entries.filter_map(|e| e.file_name().into_string().ok());
+    let mut names: Vec<String> = files.filter_map(|f| f.strip_suffix(".xml").map(String::from)).collect();
+    names.sort();
+    names
+}
+
 /// The numbers of a recorded array: words between spaces, `0*12` for twelve zeros. Rust reads each to the bit
 /// that was written.
 pub(crate) fn numbers(recorded: &Value) -> Vec<f64> {

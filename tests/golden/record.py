@@ -12,8 +12,7 @@ A case is a model, options that differ from the file's, and how it is sampled. I
   trajectory  qpos and qvel after every so many steps, with the options as they are; the number of contacts
               and of constraint rows after EVERY step, as run lengths [count, repeats]; warnings
 
-Numbers are written as text, shortest form that reads back to the same bits, because not every JSON reader
-keeps the last bit. Arrays are flat, row-major; `0*12` is twelve zeros.
+Numbers are text, as recording.py writes it.
 """
 import json
 import pathlib
@@ -21,6 +20,8 @@ import sys
 
 import mujoco
 import numpy as np
+
+from recording import runs, start, text
 
 HERE = pathlib.Path(__file__).parent
 D, E = mujoco.mjtDisableBit, mujoco.mjtEnableBit
@@ -75,23 +76,6 @@ MODEL = ("body_parentid body_rootid body_weldid body_mocapid body_mass body_iner
          "geom_margin geom_gap geom_condim geom_contype geom_conaffinity geom_rbound sensor_adr sensor_dim").split()
 
 
-def runs(counts):
-    """Run lengths [value, repeats]."""
-    out = []
-    for c in counts:
-        if out and out[-1][0] == c:
-            out[-1][1] += 1
-        else:
-            out.append([c, 1])
-    return out
-
-
-def text(a):
-    """Numbers as text; an integer without its point, equal neighbours as `0*12`."""
-    words = [repr(float(x)).removesuffix(".0") for x in np.asarray(a, dtype=float).ravel()]
-    return " ".join(w if n == 1 else f"{w}*{n}" for w, n in runs(words))
-
-
 def contacts(d):
     """Contacts in a fixed order: by geoms, then place."""
     rows = [(c.geom1, c.geom2, [round(x, 6) for x in c.pos],
@@ -99,10 +83,6 @@ def contacts(d):
                                   c.solref, c.solimp])))
             for c in d.contact[:d.ncon]]
     return [r[3] for r in sorted(rows, key=lambda r: r[:3])]
-
-
-def start(m, d):
-    mujoco.mj_resetDataKeyframe(m, d, 0) if m.nkey else mujoco.mj_resetData(m, d)
 
 
 def move(m, d, step):

@@ -1,0 +1,98 @@
+//! What a motion keeps: energy, momentum, and the way back.
+
+use crate::definitions::*;
+use crate::scenes::scene;
+use labspec_core::mjcf::compile;
+use labspec_core::{self as core, Data, Model, integrator, joint};
+use proptest::prelude::*;
+
+/// A run of `steps` of length `h` by Runge and Kutta's method from a scattered state.
+fn run(m: &Model, start: &[f64], h: f64, steps: usize) -> (Model, Data, Data) {
+    let mut m = m.clone();
+    (m.opt.timestep, m.opt.integrator) = (h, integrator::RK4);
+    let mut d = Data::new(&m);
+    scatter(&m, &mut d, start);
+    core::forward(&m, &mut d);
+    let before = d.clone();
+    (0..steps).for_each(|_| core::step(&m, &mut d));
+    core::forward(&m, &mut d);
+    (m, before, d)
+}
+
+/// Largest change of an invariant over a short run.
+fn drift(m: &Model, start: &[f64], h: f64, steps: usize, invariants: fn(&Model, &Data) -> Vec<f64>) -> f64 {
+    let (m, before, after) = run(m, start, h, steps);
+    largest_difference(&invariants(&m, &before), &invariants(&m, &after))
+}
+
+/// How far from its start a motion ends that is turned round half-way.
+fn way_back(m: &Model, start: &[f64], h: f64, steps: usize) -> f64 {
+    let (m, before, mut d) = run(m, start, h, steps);
+    d.qvel.iter_mut().for_each(|v| *v = -*v);
+    (0..steps).for_each(|_| core::step(&m, &mut d));
+    d.qvel.iter_mut().for_each(|v| *v = -*v);
+    largest_difference(&before.qpos, &d.qpos).max(largest_difference(&before.qvel, &d.qvel))
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+fn energy(_: &Model, d: &Data) -> Vec<f64> {
+    vec![d.energy[0] + d.energy[1]]
+}
+
+fn all_momentum(m: &Model, d: &Data) -> Vec<f64> {
+    momentum(m, d).to_vec()
+}
+
+/// How much smaller an error must become when the step is halved. Runge and Kutta's method is of fourth order:
+/// 16 times, 12 leaves room for the next order. Rotations in space combine the slopes as if they commuted,
+/// which is right to second order only: 4 times, 3 with room.
+fn gain(m: &Model) -> f64 {
+    let scalar = m.jnt_type.iter().all(|&t| t == joint::HINGE || t == joint::SLIDE);
+    if scalar { 12.0 } else { 3.0 }
+}
+
+/// The error of a run shrinks as the method's order says, or is rounding already. Fast motions, for which the
+/// step is long, are left to shorter steps.
+fn shrinks(m: &Model, error: impl Fn(f64, usize) -> f64) -> Result<(), String> {
+    let rounding = 1e-10;
+    let mut h: f64 = 2e-3;
+    let mut seen = Vec::new();
+    for _ in 0..5 {
+        let steps = (0.032 / h).round() as usize;
+        let (coarse, fine) = (error(h, steps), error(h / 2.0, 2 * steps));
+        if fine <= rounding || fine <= coarse / gain(m) {
+            return Ok(());
+        }
+        seen.push((h, coarse, fine));
+        h /= 2.0;
+    }
+    Err(format!("timestep, error, error with half of it: {seen:?}"))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 100, max_shrink_iters: 300, ..ProptestConfig::default() })]
+
+    #[test]
+    fn energy_is_conserved_to_the_order_of_the_integrator(scene in scene(), numbers in numbers()) {
+        let m = compile(&scene.conservative()).unwrap();
+        let result = shrinks(&m, |h, n| drift(&m, &numbers, h, n, energy));
+        prop_assert!(result.is_ok(), "{result:?}");
+    }
+
+    #[test]
+    fn momentum_of_floating_trees_is_conserved(scene in scene(), numbers in numbers()) {
+        let m = compile(&scene.floating()).unwrap();
+        let result = shrinks(&m, |h, n| drift(&m, &numbers, h, n, all_momentum));
+        prop_assert!(result.is_ok(), "{result:?}");
+    }
+
+    #[test]
+    fn a_motion_without_friction_finds_its_way_back(scene in scene(), numbers in numbers()) {
+        let m = compile(&scene.conservative()).unwrap();
+        let result = shrinks(&m, |h, n| way_back(&m, &numbers, h, n));
+        prop_assert!(result.is_ok(), "{result:?}");
+    }
+}

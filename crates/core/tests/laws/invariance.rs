@@ -1,0 +1,105 @@
+//! Physics does not know where the world's axes are: a world that is turned and moved as a whole, its gravity with it,
+//! moves as before.
+
+use crate::definitions::*;
+use crate::scenes::scene;
+use labspec_core::math::{Quat, Vec3, add, quat_mul, quat_normalize, rotate};
+use labspec_core::mjcf::compile;
+use labspec_core::{self as core, Data, Model, joint};
+use proptest::prelude::*;
+
+/// A rigid motion of the world.
+#[derive(Clone, Copy, Debug)]
+struct Motion {
+    turn: Quat,
+    shift: Vec3,
+}
+
+fn motion() -> impl Strategy<Value = Motion> {
+    let any = || -1.0..1.0f64;
+    ((any(), any(), any(), any()), (any(), any(), any())).prop_map(|((w, x, y, z), (a, b, c))| Motion {
+        turn: quat_normalize([w + 1.5, x, y, z]),
+        shift: [a, b, c],
+    })
+}
+
+impl Motion {
+    /// Moves a pose: position, then orientation.
+    fn pose(&self, pos: &mut [f64], quat: &mut [f64]) {
+        let p = add(rotate([pos[0], pos[1], pos[2]], self.turn), self.shift);
+        pos.copy_from_slice(&p);
+        quat.copy_from_slice(&quat_mul(self.turn, [quat[0], quat[1], quat[2], quat[3]]));
+    }
+
+    fn vector(&self, v: &mut [f64]) {
+        let turned = rotate([v[0], v[1], v[2]], self.turn);
+        v.copy_from_slice(&turned);
+    }
+
+    /// Coordinates: those of free joints are of the world.
+    fn coordinates(&self, m: &Model, qpos: &mut [f64]) {
+        for j in free_joints(m) {
+            let at = m.jnt_qposadr[j] as usize;
+            let (pos, quat) = qpos[at..at + 7].split_at_mut(3);
+            self.pose(pos, quat);
+        }
+    }
+
+    /// Velocities or accelerations: those of free joints' translations are of the world.
+    fn velocities(&self, m: &Model, qvel: &mut [f64]) {
+        for j in free_joints(m) {
+            let at = m.jnt_dofadr[j] as usize;
+            self.vector(&mut qvel[at..at + 3]);
+        }
+    }
+
+    fn model(&self, m: &Model) -> Model {
+        let mut moved = m.clone();
+        for b in (1..m.nbody).filter(|&b| m.body_parentid[b] == 0) {
+            self.pose(&mut moved.body_pos[3 * b..3 * b + 3], &mut moved.body_quat[4 * b..4 * b + 4]);
+        }
+        self.coordinates(m, &mut moved.qpos0);
+        self.coordinates(m, &mut moved.qpos_spring);
+        self.vector(&mut moved.opt.gravity);
+        let mut scratch = Data::new(&moved);
+        core::set_const(&mut moved, &mut scratch);
+        moved
+    }
+}
+
+fn free_joints(m: &Model) -> impl Iterator<Item = usize> + '_ {
+    (0..m.njnt).filter(|&j| m.jnt_type[j] == joint::FREE)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_turned_world_moves_as_before(scene in scene(), numbers in numbers(), motion in motion()) {
+        let m = compile(&scene.smooth()).unwrap();
+        let moved = motion.model(&m);
+        let (mut d, mut e) = (Data::new(&m), Data::new(&moved));
+        scatter(&m, &mut d, &numbers);
+        e.qpos.copy_from_slice(&d.qpos);
+        e.qvel.copy_from_slice(&d.qvel);
+        motion.coordinates(&m, &mut e.qpos);
+        motion.velocities(&m, &mut e.qvel);
+        core::forward(&m, &mut d);
+        core::forward(&moved, &mut e);
+
+        motion.velocities(&m, &mut d.qacc);
+        let scale = d.qacc.iter().fold(1.0f64, |s, a| s.max(a.abs()));
+        for (i, (a, b)) in d.qacc.iter().zip(&e.qacc).enumerate() {
+            prop_assert!((a - b).abs() <= 1e-10 * scale, "{i}: {a} {b}");
+        }
+        prop_assert!((d.energy[1] - e.energy[1]).abs() <= ROUNDING * d.energy[1].max(1.0));
+        for b in (1..m.nbody).filter(|&b| m.body_mocapid[m.body_rootid[b] as usize] < 0) {
+            let pose = |d: &Data| (d.xpos[3 * b..3 * b + 3].to_vec(), d.xquat[4 * b..4 * b + 4].to_vec());
+            let ((mut pos, mut quat), (pos2, quat2)) = (pose(&d), pose(&e));
+            motion.pose(&mut pos, &mut quat);
+            for (a, b) in pos.iter().zip(&pos2).chain(quat.iter().zip(&quat2)) {
+                prop_assert!((a - b).abs() <= ROUNDING, "{a} {b}");
+            }
+        }
+    }
+}

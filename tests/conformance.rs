@@ -1,0 +1,74 @@
+//! The models of `../shared` (conformance, corpus, bench) against what MuJoCo 3.14.0 computes for them.
+//!
+//! The repository keeps two states of each model, in `golden/conformance`. With `LABSPEC_ORACLE` naming a Python that has
+//! mujoco 3.14.0, the library itself is asked for eight.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::recorded::examine;
+use crate::standing::{Exception, Standing};
+use crate::support::{models, read_json, workspace};
+use std::process::Command;
+
+/// How many random models are asked for.
+const RANDOM: usize = 100;
+
+/// What is known to differ, and why.
+const EXCEPTIONS: &[Exception] = &[
+    ("*", "compile", "fields whose compilation is not here yet"),
+    ("*", "forward", "fields whose compilation is not here yet"),
+    ("*", "implicit", "the integrator is not here yet"),
+    ("*", "discrete", "the integrator is not here yet"),
+];
+
+/// Folder of the recordings, and of the models in `../shared`.
+const FOLDERS: [(&str, &str); 3] =
+    [("conformance", "conformance/models"), ("corpus", "corpus/models"), ("bench", "bench")];
+
+/// Runs one of the recorders with the Python that has the library, if there is one.
+fn ask(recorder: &str, arguments: &[&str]) -> Option<tempfile::TempDir> {
+    let python = std::env::var_os("LABSPEC_ORACLE")?;
+    let folder = tempfile::tempdir().unwrap();
+    let script = workspace().join("tests/golden").join(recorder).canonicalize().unwrap();
+    let asked = Command::new(python).arg(script).args(arguments).current_dir(folder.path()).output().unwrap();
+    assert!(asked.status.success(), "{}", String::from_utf8_lossy(&asked.stderr));
+    Some(folder)
+}
+
+#[test]
+fn every_shared_model_is_as_recorded() {
+    let shared = workspace().join("../shared");
+    if !shared.join("conformance").is_dir() {
+        println!("skipped: there are no models in {}", shared.display());
+        return;
+    }
+    let fresh = ask("conformance.py", &["--states", "8", "--out", "."]);
+    let kept = workspace().join("tests/golden/conformance");
+    let recordings = fresh.as_ref().map_or(kept.as_path(), |folder| folder.path());
+    let mut standing = Standing::default();
+    for (kind, folder) in FOLDERS {
+        for name in models(&shared.join(folder)) {
+            let recording = read_json(&recordings.join(kind).join(format!("{name}.json")));
+            let model = shared.join(folder).join(format!("{name}.xml"));
+            standing.add(format!("{kind}/{name}"), examine(&model, &recording));
+        }
+    }
+    standing.check(if fresh.is_some() { None } else { Some("conformance") }, EXCEPTIONS);
+}
+
+/// Random models that use everything at once. `LABSPEC_SEED` chooses others.
+#[test]
+fn random_models_are_as_the_library_has_them() {
+    let seed = std::env::var("LABSPEC_SEED").unwrap_or_else(|_| "1".into());
+    let arguments = [".", "--count", &RANDOM.to_string(), "--seed", &seed];
+    let Some(folder) = ask("menagerie.py", &arguments) else {
+        println!("skipped: LABSPEC_ORACLE names no Python with mujoco 3.14.0");
+        return;
+    };
+    let mut standing = Standing::default();
+    for name in models(folder.path()) {
+        let at = |ending: &str| folder.path().join(format!("{name}.{ending}"));
+        standing.add(format!("random {name}"), examine(&at("xml"), &read_json(&at("json"))));
+    }
+    standing.check(None, &[]);
+}

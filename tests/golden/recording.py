@@ -1,0 +1,199 @@
+"""What the recorders of this folder share: numbers as text, states, the fields of a model, forward passes and
+trajectories of MuJoCo 3.14.0.
+
+Numbers are written as text, shortest form that reads back to the same bits, because not every JSON reader
+keeps the last bit. Arrays are flat, row-major; `0*12` is twelve zeros.
+"""
+import json
+
+import mujoco
+import numpy as np
+
+# Warnings are recorded; they need no log file and no screen.
+mujoco.set_mju_user_warning(lambda text: None)
+
+INTEGRATORS = ("Euler", "RK4", "implicit", "implicitfast", "discrete")
+
+# What of a model is not ours to compute: search trees, elastic bodies, skins, plugins, name tables, pixels, patterns and
+# sizes of the library's own memory.
+OTHERS = ("B_ actuator_plugin body_bvh body_plugin bvh_ dof_Madr efm0_ flex flg_ geom_plugin hfield_pathadr map mesh_bvh "
+          "mesh_extrema mesh_oct mesh_pathadr mesh_poly nB nJf nM name narena nbuffer nbvh nconmax nefm nemax nflex njmax "
+          "nmeshdegmax nmeshpoly nnames noct npaths nplugin npolygonmax nskin ntexdata ntextdata oct_ path plugin sensor_plugin "
+          "signature skin_ tex_ text_").split()
+# Kinds of named objects.
+NAMED = ("body joint geom site camera light mesh hfield texture material pair exclude equality tendon actuator sensor numeric text "
+         "tuple key").split()
+
+# Everything that a forward pass without constraints computes.
+FIELDS = ("xpos xquat xmat xipos ximat xanchor xaxis geom_xpos geom_xmat site_xpos site_xmat cam_xpos cam_xmat light_xpos "
+          "light_xdir subtree_com cdof cinert ten_length ten_J ten_wrapadr ten_wrapnum wrap_obj wrap_xpos actuator_length "
+          "moment_rownnz moment_rowadr moment_colind actuator_moment crb M qLD qLDiagInv ten_velocity actuator_velocity cvel cdof_dot qfrc_bias qfrc_spring qfrc_damper qfrc_gravcomp qfrc_fluid "
+          "qfrc_passive actuator_force qfrc_actuator act_dot qfrc_smooth qacc_smooth qfrc_constraint qacc sensordata energy").split()
+# What is computed on request.
+POST = "subtree_linvel subtree_angmom cacc cfrc_int cfrc_ext qfrc_inverse".split()
+# What a state is, and what acts on it.
+STATE = "time qpos qvel act ctrl qfrc_applied xfrc_applied mocap_pos mocap_quat".split()
+
+
+def runs(values):
+    """Run lengths [value, repeats]."""
+    out = []
+    for v in values:
+        if out and out[-1][0] == v:
+            out[-1][1] += 1
+        else:
+            out.append([v, 1])
+    return out
+
+
+def word(x):
+    """The shortest text of a number: of its own precision, an integer without its point."""
+    return str(x.item() if x.dtype != np.float32 else x).removesuffix(".0")
+
+
+def text(a):
+    """Numbers as text, equal neighbours as `0*12`."""
+    a = np.asarray(a)
+    flat = (a if a.dtype == np.float32 else a.astype(float)).ravel()
+    return " ".join(w if n == 1 else f"{w}*{n}" for w, n in runs(word(x) for x in flat))
+
+
+def start(m, d):
+    """The first keyframe, or the default configuration."""
+    mujoco.mj_resetDataKeyframe(m, d, 0) if m.nkey else mujoco.mj_resetData(m, d)
+
+
+def constants(m):
+    """Every constant that an engine without drawings needs: {"model": .., "opt": .., "stat": .., "single": ..}, the last
+    for what the library keeps in single precision."""
+    out = {"model": {}, "single": {}}
+    for part, owner in (("model", m), ("opt", m.opt), ("stat", m.stat)):
+        values = out.setdefault(part, {})
+        for name in dir(owner):
+            value = getattr(owner, name)
+            if name.startswith(("_", *OTHERS)) or not isinstance(value, (int, float, np.ndarray)) or not np.size(value):
+                continue
+            (out["single"] if getattr(value, "dtype", None) == np.float32 else values)[name] = text(value)
+    return out
+
+
+def names(m):
+    """Names of all objects, in the order of their ids."""
+    out = {}
+    for kind in NAMED:
+        code = mujoco.mju_str2Type(kind)
+        count = getattr(m, {"joint": "njnt", "camera": "ncam", "texture": "ntex", "material": "nmat", "equality": "neq",
+                            "actuator": "nactuator"}.get(kind, "n" + kind))
+        if count:
+            out[kind] = [mujoco.mj_id2name(m, code, i) or "" for i in range(count)]
+    return out
+
+
+def scatter(m, d, rng, scale):
+    """A random state near the present one, with random controls, some of them beyond their range."""
+    mujoco.mj_integratePos(m, d.qpos, rng.normal(size=m.nv) * scale, 1.0)
+    d.qvel[:] = rng.normal(size=m.nv)
+    d.act[:] = rng.uniform(0, 1, size=m.na)
+    limited = m.actuator_ctrllimited.astype(bool) if m.nu == m.nactuator else np.zeros(m.nu, bool)
+    low, high = m.actuator_ctrlrange.T if limited.any() else (np.zeros(m.nu), np.zeros(m.nu))
+    middle, half = np.where(limited, (low + high) / 2, 0.0), np.where(limited, (high - low) / 2, 1.0)
+    d.ctrl[:] = middle + half * rng.uniform(-1.2, 1.2, size=m.nu)
+    d.mocap_pos[:] += rng.normal(size=(m.nmocap, 3)) * scale
+    d.mocap_quat[:] += rng.normal(size=(m.nmocap, 4)) * scale
+
+
+def states(m, d, count, scale, seed):
+    """Puts the data into `count` states, one after the other: the start, then random ones near it, from the third on
+    every other one with applied forces. Yields what was set."""
+    rng = np.random.default_rng(seed)
+    for k in range(count):
+        start(m, d)
+        if k:
+            scatter(m, d, rng, scale)
+            d.time = k / 8
+        if k and k % 2 == 0:
+            d.qfrc_applied[:] = rng.normal(size=m.nv)
+            d.xfrc_applied[1:] = rng.normal(size=(m.nbody - 1, 6))
+        yield fields(d, STATE)
+
+
+def fields(d, chosen):
+    return {f: text(getattr(d, f)) for f in chosen if np.size(getattr(d, f))}
+
+
+def on_request(m, d):
+    """What the functions for bodies' forces and momenta compute, and the inverse dynamics of accelerations that anyone can
+    write down."""
+    mujoco.mj_subtreeVel(m, d)
+    mujoco.mj_rnePostConstraint(m, d)
+    bodies = fields(d, POST[:-1])
+    d.qacc[:] = [7 * i % 5 - 2 for i in range(m.nv)]
+    mujoco.mj_inverse(m, d)
+    return {**bodies, **fields(d, POST[-1:])}
+
+
+def forward(m, count, scale, seed, short):
+    """[{"state": {..}, "data": {..}, "post": {..}}]: every field after mj_forward; unless `short`, what is computed on
+    request, too."""
+    d, out = mujoco.MjData(m), []
+    for state in states(m, d, count, scale, seed):
+        mujoco.mj_forward(m, d)
+        row = {"state": state, "data": fields(d, FIELDS)}
+        out.append(row if short else {**row, "post": on_request(m, d)})
+    return out
+
+
+def rollout(m, d, steps, every):
+    """Rows (qpos, qvel, act, sensordata) after every so many steps, the start left out."""
+    rows = []
+    for i in range(1, steps + 1):
+        mujoco.mj_step(m, d)
+        if i % every == 0:
+            rows.append([d.qpos.copy(), d.qvel.copy(), d.act.copy(), d.sensordata.copy()])
+    return rows
+
+
+def trajectory(m, integrator, scale, seed, steps=200, every=40):
+    """A trajectory from the second of the states. `spread` is how far, in the same rows, the library parts from itself
+    when its start is moved by 1e-14: chaos, beyond which nobody can follow it."""
+    m.opt.integrator = integrator
+    d, all_rows = mujoco.MjData(m), []
+    for k in range(4):
+        list(states(m, d, 2, scale, seed))
+        if k:
+            rng = np.random.default_rng(100 + k)
+            mujoco.mj_integratePos(m, d.qpos, rng.normal(size=m.nv) * 1e-14, 1.0)
+            d.qvel[:] *= 1 + rng.normal(size=m.nv) * 1e-14
+        try:
+            all_rows.append(rollout(m, d, steps, every))
+        except mujoco.FatalError as e:
+            return {"refused": str(e)}
+        if k == 0:
+            warnings = {mujoco.mjtWarning(i).name: int(w.number) for i, w in enumerate(d.warning) if w.number}
+    first, spread = all_rows[0], []
+    for i, row in enumerate(first):
+        scales = [max(1.0, np.abs(a).max(initial=0)) for a in row[:3]]
+        spread.append(max((np.abs(a - b).max(initial=0) / s for other in all_rows[1:] for a, b, s in zip(row, other[i], scales)),
+                          default=0.0))
+    names = ("qpos", "qvel", "act", "sensordata")
+    return {"steps": steps, "every": every, "spread": " ".join(f"{x:.1e}" for x in spread), "warnings": warnings,
+            "rows": [{n: text(a) for n, a in zip(names, row) if a.size} for row in first]}
+
+
+def record(path, count, scale, short=False, seed=2, steps=200, every=40):
+    """All that is recorded of a model file, with its constraints switched off; if `short`, without names and without what is
+    computed on request."""
+    m = mujoco.MjModel.from_xml_path(str(path))
+    m.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
+    compiled, states = constants(m), forward(m, count, scale, seed, short)
+    if not short:
+        compiled["names"] = names(m)
+    paths = {name: trajectory(m, i, scale, seed, steps, every) for i, name in enumerate(INTEGRATORS)}
+    return {"mujoco": mujoco.__version__, "compiled": compiled, "forward": states, "trajectories": paths}
+
+
+def write(path, out):
+    """One field a line, so that a new recording shows what changed."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(out, indent=0) + "\n")
+    return path.stat().st_size

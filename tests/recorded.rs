@@ -1,0 +1,319 @@
+//! Holding a model against its recording (`golden/recording.py`): compiled constants, forward passes and a trajectory
+//! for each integrator, all with constraints switched off on both sides.
+//!
+//! Differences of computed fields are absolute for numbers up to 1 and relative above, by the largest recorded
+//! number of the field: a force of 1e4 N is not known to 1e-10 N by anyone. Constants are relative to their field.
+
+use crate::support::numbers;
+use labspec_core::mjcf::{self, MjcfFileError};
+use labspec_core::reflect::{self, FieldId, Object};
+use labspec_core::{self as core, Data, Model, Obj, Warning, disable};
+use serde_json::{Map, Value};
+use std::fmt;
+use std::path::Path;
+
+/// The compiler does no more than a few products and one diagonalization.
+const COMPILED: f64 = 1e-12;
+/// What is zero on one side may be rounding on the other.
+const COMPILED_ZERO: f64 = 1e-16;
+/// What the library keeps in single precision.
+const SINGLE: f64 = 1e-6;
+/// One forward pass.
+const FORWARD: f64 = 1e-10;
+/// Two hundred steps.
+const TRAJECTORY: f64 = 1e-9;
+
+/// Where we are held against the library, in the order of the recording; the last five are integrators by number.
+pub(crate) const ASPECTS: [&str; 7] =
+    ["compile", "forward", "Euler", "RK4", "implicit", "implicitfast", "discrete"];
+
+/// One number that is not theirs.
+#[derive(Clone, Debug)]
+pub(crate) struct Difference {
+    /// `state 3`, `step 40`; empty for constants.
+    pub(crate) place: String,
+    pub(crate) field: String,
+    pub(crate) index: usize,
+    pub(crate) ours: f64,
+    pub(crate) theirs: f64,
+    pub(crate) scaled: f64,
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Difference { place, field, index, ours, theirs, scaled } = self;
+        let comma = if place.is_empty() { "" } else { ", " };
+        write!(f, "{place}{comma}{field}[{index}]: ours {ours:?}, theirs {theirs:?} ({scaled:.1e})")
+    }
+}
+
+/// How one aspect of a model came out.
+#[derive(Clone, Debug)]
+pub(crate) enum Verdict {
+    /// Within the tolerance; the largest difference.
+    Same(f64),
+    /// Further apart than the tolerance, but no further than the library is from itself when its start moves by 1e-14:
+    /// the difference and the library's own.
+    Chaotic(f64, f64),
+    /// The library itself cannot: its message.
+    Refused(String),
+    /// Numbers beyond the tolerance, the worst of each field.
+    Differs(Vec<Difference>),
+}
+
+impl Verdict {
+    fn of(differences: Vec<Difference>, worst: f64) -> Verdict {
+        if differences.is_empty() { Verdict::Same(worst) } else { Verdict::Differs(differences) }
+    }
+}
+
+/// A word for a table.
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Verdict::Same(_) => f.write_str("ok"),
+            Verdict::Chaotic(..) => f.write_str("chaotic"),
+            Verdict::Refused(_) => f.write_str("refused there"),
+            Verdict::Differs(list) => {
+                let mut fields: Vec<&str> = list.iter().map(|d| d.field.as_str()).collect();
+                fields.dedup();
+                write!(f, "differs: {}", fields[0])?;
+                if fields.len() > 1 { write!(f, " and {} more", fields.len() - 1) } else { Ok(()) }
+            }
+        }
+    }
+}
+
+/// How a model came out: an aspect each, or why it does not load.
+pub(crate) type Outcome = Result<Vec<Verdict>, String>;
+
+/// Loads a model and holds it against its recording.
+pub(crate) fn examine(model: &Path, recording: &Value) -> Outcome {
+    let mut m = mjcf::compile_file(model).map_err(|e| reason(&e))?;
+    m.opt.disableflags |= disable::CONSTRAINT;
+    let mut verdicts = vec![compiled(&m, &recording["compiled"]), forward(&m, &recording["forward"])];
+    for (i, name) in ASPECTS[2..].iter().enumerate() {
+        let mut m = m.clone();
+        m.opt.integrator = i as i32;
+        let start = &recording["forward"][1]["state"];
+        verdicts.push(trajectory(&m, start, &recording["trajectories"][name]));
+    }
+    Ok(verdicts)
+}
+
+/// The first finding of the compiler, on one line.
+fn reason(error: &MjcfFileError) -> String {
+    match error {
+        MjcfFileError::Model { diagnostics, .. } => {
+            diagnostics.first().map_or(String::new(), |d| format!("{}: {}", d.code, d.message))
+        }
+        other => other.to_string(),
+    }
+}
+
+fn compiled(m: &Model, recording: &Value) -> Verdict {
+    let d = Data::new(m);
+    let mut found = Vec::new();
+    let mut worst: f64 = 0.0;
+    let parts = [
+        ("model", Object::Model, COMPILED),
+        ("opt", Object::Option, COMPILED),
+        ("stat", Object::Statistic, COMPILED),
+        ("single", Object::Model, SINGLE),
+    ];
+    for (part, object, tolerance) in parts {
+        for (field, values) in objects(&recording[part]) {
+            let Some(id) = reflect::field(object, field) else { continue };
+            let (ours, theirs) = (list(m, &d, id), numbers(values));
+            if field == "disableflags" {
+                continue;
+            }
+            let scale = largest(&theirs).max(COMPILED_ZERO / tolerance);
+            worst = worst.max(note(&mut found, "", field, &ours, &theirs, scale, tolerance));
+        }
+    }
+    for (kind, theirs) in recording["names"].as_object().into_iter().flatten() {
+        let theirs: Vec<&str> = theirs.as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+        let ours = obj(kind).map_or(&[][..], |o| m.names.of(o));
+        if let Some(index) = (0..ours.len().max(theirs.len()))
+            .find(|&i| ours.get(i).map(String::as_str) != theirs.get(i).copied())
+        {
+            let field = format!("names of {kind} ({:?}, theirs {:?})", ours.get(index), theirs.get(index));
+            let number = f64::NAN;
+            found.push(Difference {
+                place: String::new(),
+                field,
+                index,
+                ours: number,
+                theirs: number,
+                scaled: number,
+            });
+        }
+    }
+    Verdict::of(found, worst)
+}
+
+/// The kind of object that MuJoCo calls by this name.
+fn obj(kind: &str) -> Option<Obj> {
+    Some(match kind {
+        "body" => Obj::Body,
+        "joint" => Obj::Joint,
+        "geom" => Obj::Geom,
+        "site" => Obj::Site,
+        "camera" => Obj::Camera,
+        "light" => Obj::Light,
+        "mesh" => Obj::Mesh,
+        "hfield" => Obj::HField,
+        "texture" => Obj::Texture,
+        "material" => Obj::Material,
+        "pair" => Obj::Pair,
+        "exclude" => Obj::Exclude,
+        "equality" => Obj::Equality,
+        "tendon" => Obj::Tendon,
+        "actuator" => Obj::Actuator,
+        "sensor" => Obj::Sensor,
+        "numeric" => Obj::Numeric,
+        "text" => Obj::Text,
+        "tuple" => Obj::Tuple,
+        "key" => Obj::Key,
+        _ => return None,
+    })
+}
+
+fn forward(m: &Model, states: &Value) -> Verdict {
+    let mut d = Data::new(m);
+    let mut found = Vec::new();
+    let mut worst: f64 = 0.0;
+    for (k, row) in states.as_array().into_iter().flatten().enumerate() {
+        set(m, &mut d, &row["state"]);
+        core::forward(m, &mut d);
+        for (field, values) in objects(&row["data"]) {
+            let Some(id) = reflect::field(Object::Data, field) else { continue };
+            let (ours, theirs) = (list(m, &d, id), numbers(values));
+            let (place, scale) = (format!("state {k}"), largest(&theirs).max(1.0));
+            worst = worst.max(note(&mut found, &place, field, &ours, &theirs, scale, FORWARD));
+        }
+    }
+    // The first state in which a field differs says enough.
+    let mut seen = std::collections::HashSet::new();
+    found.retain(|d: &Difference| seen.insert(d.field.clone()));
+    Verdict::of(found, worst)
+}
+
+fn trajectory(m: &Model, start: &Value, recording: &Value) -> Verdict {
+    if let Some(message) = recording["refused"].as_str() {
+        return Verdict::Refused(message.into());
+    }
+    let mut d = Data::new(m);
+    set(m, &mut d, start);
+    let every = recording["every"].as_u64().unwrap_or(1);
+    let spread = numbers(&recording["spread"]);
+    let mut worst: f64 = 0.0;
+    for (k, row) in recording["rows"].as_array().into_iter().flatten().enumerate() {
+        (0..every).for_each(|_| core::step(m, &mut d));
+        let place = format!("step {}", every * (k as u64 + 1));
+        let mut found = Vec::new();
+        let mut apart: f64 = 0.0;
+        for (field, values) in objects(row) {
+            let Some(id) = reflect::field(Object::Data, field) else { continue };
+            let (ours, theirs) = (list(m, &d, id), numbers(values));
+            let scale = largest(&theirs).max(1.0);
+            apart = apart.max(note(&mut found, &place, field, &ours, &theirs, scale, TRAJECTORY));
+        }
+        if !found.is_empty() {
+            // What follows a difference follows from it.
+            return if apart <= spread[k] {
+                Verdict::Chaotic(apart, spread[k])
+            } else {
+                Verdict::Differs(found)
+            };
+        }
+        worst = worst.max(apart);
+    }
+    Verdict::of(warnings(&d, &recording["warnings"]), worst)
+}
+
+/// Warnings that were raised another number of times.
+fn warnings(d: &Data, recording: &Value) -> Vec<Difference> {
+    let count = |w: Warning| {
+        let mut named =
+            objects(recording).filter(|(name, _)| name.to_lowercase() == format!("mjwarn_{}", w.name()));
+        named.find_map(|(_, n)| n.as_f64()).unwrap_or(0.0)
+    };
+    let mut found = Vec::new();
+    for (w, stat) in Warning::ALL.into_iter().zip(&d.warning) {
+        let (ours, theirs) = ([stat.number as f64], [count(w)]);
+        note(&mut found, "the end", &format!("warning {}", w.name()), &ours, &theirs, 1.0, 0.0);
+    }
+    found
+}
+
+/// Puts the data into a recorded state.
+pub(crate) fn set(m: &Model, d: &mut Data, state: &Value) {
+    start(m, d);
+    // Only data are written, but reflection wants both.
+    let mut m = m.clone();
+    for (field, values) in objects(state) {
+        let Some(id) = reflect::field(Object::Data, field) else { continue };
+        for (i, x) in numbers(values).into_iter().enumerate() {
+            // A model that was not compiled to the same sizes is told elsewhere.
+            reflect::view_mut(&mut m, d, id).set(i, x);
+        }
+    }
+}
+
+/// The first keyframe, or the default configuration.
+pub(crate) fn start(m: &Model, d: &mut Data) {
+    if m.nkey > 0 { core::reset_data_keyframe(m, d, 0) } else { core::reset_data(m, d) }
+}
+
+/// All numbers of a field.
+pub(crate) fn list(m: &Model, d: &Data, field: FieldId) -> Vec<f64> {
+    let view = reflect::view(m, d, field);
+    (0..view.len()).filter_map(|i| view.get(i)).collect()
+}
+
+/// The members of an object, none when it is no object.
+pub(crate) fn objects(value: &Value) -> impl Iterator<Item = (&String, &Value)> {
+    value.as_object().into_iter().flat_map(Map::iter)
+}
+
+fn largest(list: &[f64]) -> f64 {
+    list.iter().fold(0.0, |s, x| s.max(x.abs()))
+}
+
+/// The place of the largest difference and that difference over `scale`; infinite when the lengths differ or a number
+/// is none.
+pub(crate) fn worst(ours: &[f64], theirs: &[f64], scale: f64) -> (usize, f64) {
+    if ours.len() != theirs.len() {
+        return (ours.len().min(theirs.len()), f64::INFINITY);
+    }
+    let mut at = (0, 0.0);
+    for (i, (a, b)) in ours.iter().zip(theirs).enumerate() {
+        let scaled = ((a - b) / scale).abs();
+        let scaled = if scaled.is_nan() && !(a.is_nan() && b.is_nan()) { f64::INFINITY } else { scaled };
+        if scaled > at.1 {
+            at = (i, scaled);
+        }
+    }
+    at
+}
+
+/// Adds the worst difference of a field when it is beyond the tolerance, and returns it.
+fn note(
+    found: &mut Vec<Difference>,
+    place: &str,
+    field: &str,
+    ours: &[f64],
+    theirs: &[f64],
+    scale: f64,
+    tolerance: f64,
+) -> f64 {
+    let (index, scaled) = worst(ours, theirs, scale);
+    if scaled > tolerance {
+        let number = |list: &[f64]| list.get(index).copied().unwrap_or(f64::NAN);
+        let (place, field) = (place.to_string(), field.to_string());
+        found.push(Difference { place, field, index, ours: number(ours), theirs: number(theirs), scaled });
+    }
+    scaled
+}

@@ -1,0 +1,156 @@
+//! How many models are held against MuJoCo and how each came out: the tables `golden/zoo.md` and
+//! `golden/conformance.md`. `LABSPEC_BLESS=1 cargo test` writes them; a test fails when they are stale.
+
+// A test that fails says why.
+#![allow(clippy::panic, clippy::unwrap_used)]
+
+use crate::recorded::{ASPECTS, Outcome, Verdict};
+use crate::support::workspace;
+use labspec_core::mjcf::code;
+use std::fmt::Write;
+
+/// A difference that is known: model (`*` for any), aspect (`load` or one of [`ASPECTS`]), cause.
+pub(crate) type Exception = (&'static str, &'static str, &'static str);
+
+/// Models and what became of them.
+#[derive(Default)]
+pub(crate) struct Standing(Vec<(String, Outcome)>);
+
+impl Standing {
+    pub(crate) fn add(&mut self, name: String, outcome: Outcome) {
+        self.0.push((name, outcome));
+    }
+
+    /// Fails when a model differs that is not excepted, when an exception no longer holds, and when the table is stale.
+    ///
+    /// What is not supported is no failure: the table names it, and shows when it changes.
+    pub(crate) fn check(&self, table: Option<&str>, exceptions: &[Exception]) {
+        let covers = |e: &Exception, model: &str, aspect: &str| (e.0 == "*" || e.0 == model) && e.1 == aspect;
+        let cause =
+            |model: &str, aspect: &str| exceptions.iter().find(|e| covers(e, model, aspect)).map(|e| e.2);
+        let mut wrong = String::new();
+        for (name, aspect, what) in self.failures() {
+            if cause(&name, aspect).is_none() {
+                let _ = writeln!(wrong, "{name}, {aspect}: {what}");
+            }
+        }
+        for e in exceptions {
+            if !self.failures().iter().any(|f| covers(e, &f.0, f.1)) {
+                let _ = writeln!(wrong, "{}, {}: is listed as an exception and is right", e.0, e.1);
+            }
+        }
+        self.print();
+        if let Some(table) = table {
+            let text = self.table(cause);
+            let path = workspace().join(format!("tests/golden/{table}.md"));
+            if std::env::var_os("LABSPEC_BLESS").is_some() {
+                std::fs::write(&path, &text).unwrap();
+            } else if std::fs::read_to_string(&path).unwrap_or_default() != text {
+                let _ = writeln!(
+                    wrong,
+                    "tests/golden/{table}.md is stale: LABSPEC_BLESS=1 cargo test -p labspec {table}"
+                );
+            }
+        }
+        assert!(wrong.is_empty(), "differences from MuJoCo 3.14.0:\n{wrong}");
+    }
+
+    /// The largest differences, for `cargo test -- --nocapture`.
+    fn print(&self) {
+        for (i, aspect) in ASPECTS.into_iter().enumerate() {
+            let mut same = (0.0, "");
+            for (name, outcome) in &self.0 {
+                match outcome.as_ref().map(|verdicts| &verdicts[i]) {
+                    Ok(Verdict::Same(apart)) if *apart >= same.0 => same = (*apart, name),
+                    Ok(Verdict::Chaotic(apart, spread)) => {
+                        println!(
+                            "{aspect}, {name}: {apart:.1e} from the library, which is {spread:.1e} from itself"
+                        );
+                    }
+                    _ => {}
+                }
+            }
+            println!("{aspect}: at most {:.1e} apart ({})", same.0, same.1);
+        }
+    }
+
+    /// Model, aspect and what is wrong with it.
+    fn failures(&self) -> Vec<(String, &'static str, String)> {
+        let mut all = Vec::new();
+        for (name, outcome) in &self.0 {
+            match outcome {
+                Err(reason) if reason.starts_with(code::NOT_SUPPORTED) => {}
+                Err(reason) => all.push((name.clone(), "load", reason.clone())),
+                Ok(verdicts) => {
+                    for (aspect, verdict) in ASPECTS.into_iter().zip(verdicts) {
+                        if let Verdict::Differs(list) = verdict {
+                            let lines: Vec<String> = list.iter().map(|d| format!("\n    {d}")).collect();
+                            all.push((name.clone(), aspect, lines.concat()));
+                        }
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    fn table(&self, cause: impl Fn(&str, &str) -> Option<&'static str>) -> String {
+        let loaded = self.0.iter().filter_map(|(_, o)| o.as_ref().ok());
+        let mut text = String::from(
+            "# Models held against MuJoCo 3.14.0\n\nWritten by `tests/standing.rs`; constraints are switched off on both sides.\n\n",
+        );
+        let _ = writeln!(text, "{} models, {} load.\n", self.0.len(), loaded.clone().count());
+        text.push_str("| aspect | the same | chaotic | refused there | differs |\n|---|---|---|---|---|\n");
+        for (i, aspect) in ASPECTS.into_iter().enumerate() {
+            let mut counts = [0; 4];
+            for verdicts in loaded.clone() {
+                let kind = match &verdicts[i] {
+                    Verdict::Same(_) => 0,
+                    Verdict::Chaotic(..) => 1,
+                    Verdict::Refused(_) => 2,
+                    Verdict::Differs(_) => 3,
+                };
+                counts[kind] += 1;
+            }
+            let [same, chaotic, refused, differs] = counts;
+            let _ = writeln!(text, "| {aspect} | {same} | {chaotic} | {refused} | {differs} |");
+        }
+        text.push_str(
+            "\n*Chaotic*: apart by more than 1e-9, and by less than MuJoCo is from itself when the start moves by 1e-14.\n\
+             All others are in no list below.\n",
+        );
+        let lines = self.exceptional(cause);
+        if !lines.is_empty() {
+            text.push_str("\n| model | aspect | outcome | cause |\n|---|---|---|---|\n");
+            text.push_str(&lines);
+        }
+        text
+    }
+
+    /// A line for everything that is not simply the same.
+    fn exceptional(&self, cause: impl Fn(&str, &str) -> Option<&'static str>) -> String {
+        let mut text = String::new();
+        for (name, outcome) in &self.0 {
+            let mut line = |aspect: &str, outcome: &str, why: &str| {
+                let why = cause(name, aspect).unwrap_or(why);
+                let _ = writeln!(text, "| {name} | {aspect} | {outcome} | {} |", why.replace('|', "\\|"));
+            };
+            match outcome {
+                Err(reason) => line("load", "refused", reason),
+                Ok(verdicts) => {
+                    for (aspect, verdict) in ASPECTS.into_iter().zip(verdicts) {
+                        match verdict {
+                            Verdict::Same(_) => {}
+                            Verdict::Chaotic(..) => {
+                                line(aspect, "chaotic", "the library parts from itself as far")
+                            }
+                            Verdict::Refused(message) => line(aspect, "refused there", message),
+                            Verdict::Differs(_) => line(aspect, &verdict.to_string(), ""),
+                        }
+                    }
+                }
+            }
+        }
+        text
+    }
+}

@@ -1,0 +1,96 @@
+//! The zoo (`specs/models/zoo`, one model a feature) against what MuJoCo 3.14.0 computes for it.
+
+use crate::recorded::{examine, list, objects, set};
+use crate::standing::{Exception, Standing};
+use crate::support::{models, recording, workspace};
+use labspec_core::reflect::{self, FieldSet, Object};
+use labspec_core::{self as core, Data, Demand, Model, Plan, disable, mjcf};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+/// What is known to differ, and why.
+const EXCEPTIONS: &[Exception] = &[
+    ("*", "compile", "fields whose compilation is not here yet"),
+    ("*", "implicit", "the integrator is not here yet"),
+    ("*", "implicitfast", "the integrator is not here yet"),
+    ("*", "discrete", "the integrator is not here yet"),
+];
+
+fn folder() -> PathBuf {
+    workspace().join("specs/models/zoo")
+}
+
+/// The models that load, each in the second of its recorded states: everything moves.
+pub(crate) fn animals() -> impl Iterator<Item = (String, Model, Value)> {
+    models(&folder()).into_iter().filter_map(|name| {
+        let mut m = mjcf::compile_file(&folder().join(format!("{name}.xml"))).ok()?;
+        m.opt.disableflags |= disable::CONSTRAINT;
+        let state = recording(&format!("zoo/{name}"))["forward"][1]["state"].clone();
+        Some((name, m, state))
+    })
+}
+
+#[test]
+fn every_model_of_the_zoo_is_as_recorded() {
+    let mut standing = Standing::default();
+    for name in models(&folder()) {
+        let model = folder().join(format!("{name}.xml"));
+        let outcome = examine(&model, &recording(&format!("zoo/{name}")));
+        standing.add(name, outcome);
+    }
+    standing.check(Some("zoo"), EXCEPTIONS);
+}
+
+/// What the library has and we have not, of all that is recorded.
+const LACKING: &[&str] = &["model.site_dataid"];
+
+#[test]
+fn the_fields_that_we_lack() {
+    let mut lacking = BTreeSet::new();
+    for name in models(&folder()) {
+        let recording = recording(&format!("zoo/{name}"));
+        let first = &recording["forward"][0];
+        let parts = [
+            ("model", Object::Model, &recording["compiled"]["model"]),
+            ("model", Object::Model, &recording["compiled"]["single"]),
+            ("opt", Object::Option, &recording["compiled"]["opt"]),
+            ("stat", Object::Statistic, &recording["compiled"]["stat"]),
+            ("data", Object::Data, &first["state"]),
+            ("data", Object::Data, &first["data"]),
+            ("data", Object::Data, &first["post"]),
+        ];
+        for (part, object, fields) in parts {
+            let names = objects(fields).map(|(name, _)| name);
+            let ours = |name: &&String| reflect::field(object, name).is_none();
+            lacking.extend(names.filter(ours).map(|name| format!("{part}.{name}")));
+        }
+    }
+    assert_eq!(lacking.iter().map(String::as_str).collect::<Vec<_>>(), LACKING);
+}
+
+/// A plan for one field computes that field as the full pipeline does, whichever it is.
+#[test]
+fn a_plan_for_any_field_changes_no_bit_of_it() {
+    let fields: Vec<_> = reflect::fields().filter(|f| f.info().object == Object::Data).collect();
+    let mut wrong = Vec::new();
+    for (name, m, state) in animals() {
+        let run = |plan: Plan| {
+            let mut d = Data::planned(&m, plan);
+            set(&m, &mut d, &state);
+            (0..3).for_each(|_| core::step(&m, &mut d));
+            d
+        };
+        let full = run(Plan::full());
+        for &f in &fields {
+            let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+            demand.reads.insert(f);
+            let planned = run(Plan::new(&m, &demand));
+            let bits = |d: &Data| list(&m, d, f).into_iter().map(f64::to_bits).collect::<Vec<_>>();
+            if bits(&planned) != bits(&full) {
+                wrong.push(format!("{name}: {}", f.info().name));
+            }
+        }
+    }
+    assert_eq!(wrong, [""; 0]);
+}
