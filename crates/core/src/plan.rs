@@ -179,7 +179,7 @@ const CONTACT_PARAMS: [&str; 8] = [
     "geom_margin",
     "geom_gap",
 ];
-/// The names of some fields, and their numbers.
+/// The name of a field, and its numbers.
 type Numbers = (&'static str, fn(&Model) -> &[f64]);
 /// What makes passive forces of joints.
 const JOINT_FORCES: [Numbers; 4] = [
@@ -196,6 +196,8 @@ const TENDON_FORCES: [Numbers; 4] = [
     ("tendon_dampingpoly", |m| &m.tendon_dampingpoly),
 ];
 const TENDON_ARMATURE: Numbers = ("tendon_armature", |m| &m.tendon_armature);
+/// Geoms on which the medium acts one by one.
+const ELLIPSOIDS: Numbers = ("geom_fluid", |m| &m.geom_fluid);
 const GRAVCOMP: Numbers = ("body_gravcomp", |m| &m.body_gravcomp);
 const OVERRIDES: [&str; 5] = ["o_margin", "o_solref", "o_solimp", "o_friction", "enableflags"];
 
@@ -366,7 +368,7 @@ impl<'a> Scene<'a> {
             (Stage::Passive, Stage::TendonVel) => self.tendon_dampers,
             (Stage::Passive, Stage::Kinematics) => self.body_forces(),
             (Stage::Passive, Stage::ComVel) => self.fluid,
-            (Stage::Passive, Stage::GeomPoses) => self.fluid,
+            (Stage::Passive, Stage::GeomPoses) => self.fluid && self.some(&[ELLIPSOIDS]),
             (Stage::Transmission, Stage::Kinematics) => true,
             (Stage::Transmission, Stage::SitePoses) => {
                 self.transmits(&[trntype::SITE, trntype::SLIDERCRANK, trntype::SO3])
