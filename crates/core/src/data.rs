@@ -114,6 +114,8 @@ pub struct WarningStat {
 pub(crate) struct Work {
     /// Pairs of geoms to test.
     pub(crate) pairs: collision::Pairs,
+    /// Contacts of one pair of geoms.
+    pub(crate) narrow: crate::geometry::Narrow,
     /// Jacobian of the constraints.
     pub(crate) jac: Jacobian,
     /// Columns of one contact's Jacobian.

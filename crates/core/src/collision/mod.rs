@@ -92,6 +92,16 @@ pub(crate) fn frame(normal: Vec3) -> Mat3 {
     [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
 }
 
+/// Normal and two tangents as rows, the first tangent along a given direction unless that is short.
+pub(crate) fn frame_along(normal: Vec3, tangent: Vec3) -> Mat3 {
+    if norm(tangent) < 0.5 {
+        return frame(normal);
+    }
+    let (t1, _) = normalize(add_scaled(tangent, normal, -dot(tangent, normal)));
+    let t2 = cross(normal, t1);
+    [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
+}
+
 /// Force and torque of a contact in the contact's frame: normal, two tangents, then three torques
 /// (`mj_contactForce`), N and N m. Zero when the contact has no constraint.
 pub fn contact_force(m: &Model, d: &Data, contact: &Contact) -> [f64; 6] {
