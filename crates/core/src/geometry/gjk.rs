@@ -102,6 +102,10 @@ pub(super) fn gjk(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> Gj
         }
         k += 1;
     }
+    if n == 0 {
+        // Coincident centres.
+        return Gjk { dist: length, witness: Some([a.centre(), b.centre()]), simplex, size: 0 };
+    }
     let on_a = combine(&coef[..n], simplex.iter().map(|v| v.on_a));
     let on_b = combine(&coef[..n], simplex.iter().map(|v| v.on_b));
     Gjk { dist: length, witness: Some([on_a, on_b]), simplex, size: n }

@@ -74,6 +74,8 @@ def place(m, d, g, kind, mesh, scale, pos):
             size = np.array([0, 0, 1.0])
         m.geom_size[g] = size
         m.geom_rbound[g] = rbound(kind, size)
+        if kind != "plane":
+            m.geom_aabb[g] = m.bvh_aabb[m.body_bvhadr[m.geom_bodyid[g]]] = [0, 0, 0] + [m.geom_rbound[g]] * 3
     quat = random_quat()
     unit, mat = quat.copy(), np.zeros(9)
     mujoco.mju_normalize4(unit)
