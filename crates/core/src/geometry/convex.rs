@@ -30,7 +30,13 @@ impl Nearest {
 ///
 /// A sphere is a point, a capsule a segment, with a radius around: as long as these do not overlap, the distance
 /// is theirs less the radii.
-pub(crate) fn nearest(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits, room: &mut Scratch) -> Nearest {
+pub(crate) fn nearest(
+    a: &mut Body,
+    b: &mut Body,
+    cutoff: f64,
+    limits: Limits,
+    room: &mut Scratch,
+) -> Nearest {
     if a.round() || b.round() {
         let radii = [a.radius(), b.radius()];
         (a.core, b.core) = (a.round(), b.round());

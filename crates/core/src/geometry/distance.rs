@@ -27,7 +27,13 @@ pub fn geom_distance(m: &Model, d: &mut Data, geom1: usize, geom2: usize, most: 
 }
 
 /// The distance of two shapes up to `most`.
-pub(super) fn shape_distance(a: &Shape, b: &Shape, most: f64, settings: &Settings, work: &mut Narrow) -> Distance {
+pub(super) fn shape_distance(
+    a: &Shape,
+    b: &Shape,
+    most: f64,
+    settings: &Settings,
+    work: &mut Narrow,
+) -> Distance {
     let mut best = Distance { dist: most, fromto: [[0.0; 3]; 2] };
     let flip = a.kind > b.kind;
     let (first, second) = if flip { (b, a) } else { (a, b) };
@@ -43,7 +49,10 @@ pub(super) fn shape_distance(a: &Shape, b: &Shape, most: f64, settings: &Setting
         if t.dist < best.dist {
             let half = scale(t.normal, 0.5 * t.dist);
             let (on_first, on_second) = (sub(t.pos, half), add(t.pos, half));
-            best = Distance { dist: t.dist, fromto: if flip { [on_second, on_first] } else { [on_first, on_second] } };
+            best = Distance {
+                dist: t.dist,
+                fromto: if flip { [on_second, on_first] } else { [on_first, on_second] },
+            };
         }
     }
     best

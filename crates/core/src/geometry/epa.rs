@@ -69,7 +69,13 @@ pub(super) enum Shallow {
 }
 
 /// The depth of two bodies whose difference holds the origin in or near the simplex that GJK ended with.
-pub(super) fn epa(found: &Gjk, a: &mut Body, b: &mut Body, limits: Limits, p: &mut Scratch) -> Result<Deepest, Shallow> {
+pub(super) fn epa(
+    found: &Gjk,
+    a: &mut Body,
+    b: &mut Body,
+    limits: Limits,
+    p: &mut Scratch,
+) -> Result<Deepest, Shallow> {
     p.clear();
     let s = &found.simplex;
     match found.size {

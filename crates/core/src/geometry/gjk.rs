@@ -113,7 +113,13 @@ pub(super) fn gjk(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> Gj
 
 /// Moves a tetrahedron towards the origin, one corner at a time: whether it came to hold the origin, or `None`
 /// when that cannot be told.
-fn enclose(simplex: &mut [Vertex; 4], a: &mut Body, b: &mut Body, k: &mut usize, most: usize) -> Option<bool> {
+fn enclose(
+    simplex: &mut [Vertex; 4],
+    a: &mut Body,
+    b: &mut Body,
+    k: &mut usize,
+    most: usize,
+) -> Option<bool> {
     let mut v = *simplex;
     // Corners in an order that keeps the orientation.
     let mut at = [0, 1, 2, 3];

@@ -103,7 +103,8 @@ impl Report {
     fn finish(self, print: bool) {
         let mut text = String::new();
         for (name, (cases, wrong, worst, line)) in &self.0 {
-            text += &format!("{name:24} {cases:6} cases, {wrong} beyond the bound, else within {worst:.1e}\n");
+            text +=
+                &format!("{name:24} {cases:6} cases, {wrong} beyond the bound, else within {worst:.1e}\n");
             if *wrong > 0 {
                 text += &format!("    {line}\n");
             }

@@ -13,7 +13,14 @@ const DISTINCT: f64 = 1e-3;
 const ROCK: f64 = 1e-3;
 
 /// Shapes are thicker by half the margin each, so that contacts within the margin are overlaps.
-pub(super) fn convex(a: &Shape, b: &Shape, margin: f64, settings: &Settings, room: &mut Room, out: &mut Vec<Touch>) {
+pub(super) fn convex(
+    a: &Shape,
+    b: &Shape,
+    margin: f64,
+    settings: &Settings,
+    room: &mut Room,
+    out: &mut Vec<Touch>,
+) {
     let flat = |s: &Shape| matches!(s.kind, geom::BOX | geom::MESH);
     if settings.several && margin <= 0.0 && flat(a) && flat(b) {
         polygon::contacts(a, b, margin, settings, room, out);
@@ -43,7 +50,15 @@ pub(super) fn between(dist: f64, on_a: Vec3, on_b: Vec3) -> Touch {
 
 /// Rocks both shapes against each other about the first contact, to and fro about each tangent, and keeps the
 /// contacts that come up elsewhere. Their distance is that of the first.
-fn rock(a: &Shape, b: &Shape, margin: f64, settings: &Settings, room: &mut Room, first: Touch, out: &mut Vec<Touch>) {
+fn rock(
+    a: &Shape,
+    b: &Shape,
+    margin: f64,
+    settings: &Settings,
+    room: &mut Room,
+    first: Touch,
+    out: &mut Vec<Touch>,
+) {
     let start = out.len() - 1;
     let apart = DISTINCT * radius(a).min(radius(b));
     let frame = crate::collision::frame(first.normal);

@@ -115,7 +115,8 @@ fn nearest_feature(axis: &Axis, size: Vec3, far: f64) -> Option<(f64, Feature)> 
     }
     for j in 0..3 {
         for corner in (0..8).filter(|c| c >> j & 1 == 0) {
-            let mut middle: Vec3 = std::array::from_fn(|i| if corner >> i & 1 == 1 { size[i] } else { -size[i] });
+            let mut middle: Vec3 =
+                std::array::from_fn(|i| if corner >> i & 1 == 1 { size[i] } else { -size[i] });
             middle[j] = 0.0;
             let Some(Closest { place, end, t }) = edge_and_axis(axis, size[j], j, middle) else { continue };
             let mut between = add_scaled(sub(middle, axis.centre), axis.half, -t);

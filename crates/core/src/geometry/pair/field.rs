@@ -7,7 +7,14 @@ use crate::geometry::Shape;
 use crate::geometry::convex::{Convex, Room, nearest};
 use crate::math::*;
 
-pub(super) fn field(ground: &Shape, b: &Shape, margin: f64, settings: &Settings, room: &mut Room, out: &mut Vec<Touch>) {
+pub(super) fn field(
+    ground: &Shape,
+    b: &Shape,
+    margin: f64,
+    settings: &Settings,
+    room: &mut Room,
+    out: &mut Vec<Touch>,
+) {
     let field = &ground.field;
     let [sx, sy, top, base] = field.size;
     // The shape in the frame of the field.

@@ -113,10 +113,12 @@ pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Touc
     let normal = plane.axis(2);
     let mesh = &other.mesh;
     let down = scale(mat_t_mul_vec(&other.mat, normal), -1.0);
-    let vertex = |v: usize| mesh.vert.get(v).map(|&local| {
-        let point = other.world(local);
-        touch(normal, dot(sub(point, plane.pos), normal), point)
-    });
+    let vertex = |v: usize| {
+        mesh.vert.get(v).map(|&local| {
+            let point = other.world(local);
+            touch(normal, dot(sub(point, plane.pos), normal), point)
+        })
+    };
     let lowest = match &mesh.hull {
         Some(hull) => climb(mesh, hull, down, 0),
         None => search(mesh, down, None),
