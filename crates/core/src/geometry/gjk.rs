@@ -100,6 +100,7 @@ pub(super) fn gjk(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> Gj
             length = 0.0;
             break;
         }
+        length = norm(x);
         k += 1;
     }
     if n == 0 {

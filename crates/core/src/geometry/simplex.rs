@@ -124,7 +124,9 @@ impl View {
     pub(super) fn of(a: Vec3, b: Vec3, c: Vec3) -> View {
         let [x, y, z] = [[1, 2], [0, 2], [0, 1]].map(|axes| {
             let view = View { axes, whole: 0.0 };
-            View { whole: view.area(a, b, c), ..view }
+            let [i, j] = axes;
+            let whole = b[i] * c[j] - b[j] * c[i] - a[i] * c[j] + a[j] * c[i] + a[i] * b[j] - a[j] * b[i];
+            View { whole, ..view }
         });
         let size = |v: &View| v.whole.abs();
         if size(&x) >= size(&y) && size(&x) >= size(&z) {
