@@ -1,7 +1,7 @@
 //! Distance and penetration of two convex bodies: GJK, and EPA where they overlap.
 
 use super::epa::{self, Deepest, Scratch, Shallow};
-use super::gjk::{Gjk, Limits, gjk};
+use super::gjk::{Gjk, Limits, Vertex, gjk};
 use super::support::Body;
 use crate::math::*;
 
@@ -16,13 +16,31 @@ pub(crate) struct Nearest {
     pub(crate) dist: f64,
     /// A point of each body; when they overlap, the deepest of each in the other. `None` when these are not known.
     pub(crate) witness: Option<[Vec3; 2]>,
-    /// The face of the Minkowski difference that the depth was found on.
-    pub(super) face: Option<epa::Face>,
+    /// The support points that the depth was found between.
+    support: Option<[Vertex; 3]>,
+}
+
+/// The deepest place of two bodies that overlap.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Deep {
+    /// Signed distance, below zero, m.
+    pub(crate) dist: f64,
+    /// The deepest point of each body in the other.
+    pub(crate) witness: [Vec3; 2],
+    /// The support points that it was found between.
+    pub(super) support: [Vertex; 3],
+}
+
+/// Where two bodies overlap most, when they do.
+pub(crate) fn deepest(a: &mut Body, b: &mut Body, limits: Limits, room: &mut Scratch) -> Option<Deep> {
+    let found = nearest(a, b, 0.0, limits, room);
+    let (witness, support) = (found.witness?, found.support?);
+    (found.dist < 0.0).then_some(Deep { dist: found.dist, witness, support })
 }
 
 impl Nearest {
     fn at(dist: f64, witness: Option<[Vec3; 2]>) -> Nearest {
-        Nearest { dist, witness, face: None }
+        Nearest { dist, witness, support: None }
     }
 }
 
@@ -51,8 +69,8 @@ pub(crate) fn nearest(
         return Nearest::at(found.dist, found.witness);
     }
     match epa::epa(&found, a, b, limits, room) {
-        Ok(Deepest { depth, witness, face }) => {
-            Nearest { dist: -depth, witness: Some(witness), face: Some(face) }
+        Ok(Deepest { depth, witness, support }) => {
+            Nearest { dist: -depth, witness: Some(witness), support: Some(support) }
         }
         Err(Shallow::Border) => Nearest::at(0.0, found.witness),
         Err(Shallow::Lost) => Nearest::at(0.0, None),

@@ -18,7 +18,7 @@ const TINY: f64 = MINVAL * MINVAL;
 /// A face of the polytope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Face {
-    pub(super) verts: [u32; 3],
+    verts: [u32; 3],
     /// Neighbours across the edges 01, 12, 20.
     adjacent: [u32; 3],
     /// The origin projected on its plane.
@@ -41,8 +41,8 @@ enum State {
 /// Room of the algorithm, kept between calls so that they do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Scratch {
-    pub(super) verts: Vec<Vertex>,
-    pub(super) faces: Vec<Face>,
+    verts: Vec<Vertex>,
+    faces: Vec<Face>,
     /// Faces that may be the nearest.
     candidates: Vec<u32>,
     /// The border of what the new vertex sees: hidden faces and their edge on it.
@@ -51,10 +51,10 @@ pub(crate) struct Scratch {
     pending: Vec<(u32, u8)>,
 }
 
-/// The nearest face and the points of both bodies there.
+/// The nearest face: its corners, its distance and the points of both bodies there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Deepest {
-    pub(super) face: Face,
+    pub(super) support: [Vertex; 3],
     pub(super) depth: f64,
     pub(super) witness: [Vec3; 2],
 }
@@ -90,7 +90,7 @@ pub(super) fn epa(
     let [u, v, w] = corners.map(|c| c.point);
     let coef = affine(u, v, w, f.foot);
     let on = |of: fn(&Vertex) -> Vec3| super::simplex::combine(&coef, corners.iter().map(of));
-    Ok(Deepest { face: f, depth: f.dist2.sqrt(), witness: [on(|c| c.on_a), on(|c| c.on_b)] })
+    Ok(Deepest { support: corners, depth: f.dist2.sqrt(), witness: [on(|c| c.on_a), on(|c| c.on_b)] })
 }
 
 impl Scratch {

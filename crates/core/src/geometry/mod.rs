@@ -12,6 +12,7 @@ mod inside;
 pub(crate) mod pair;
 mod ray;
 mod shape;
+mod sides;
 mod simplex;
 mod support;
 mod surface;
@@ -22,6 +23,7 @@ pub use distance::{Distance, geom_distance};
 pub use inside::{inside_shape, inside_site};
 pub use ray::{Hit, ray_shape};
 pub use shape::{Field, Hull, Mesh, Shape};
+pub use sides::Sides;
 
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,6 @@
 //! A shape in the world: type, sizes, pose; for meshes and height fields a view of their data.
 
+use super::Sides;
 use crate::math::*;
 use crate::{Data, Model, geom};
 
@@ -29,6 +30,8 @@ pub struct Mesh<'a> {
     pub face: &'a [[i32; 3]],
     /// The convex hull, when it is known.
     pub hull: Option<Hull<'a>>,
+    /// The flat sides of the hull, when contacts may lie on them.
+    pub sides: Option<&'a Sides>,
 }
 
 /// The graph of a convex hull (`mesh_graph`).
@@ -145,6 +148,7 @@ impl<'a> Mesh<'a> {
             vert: &rows::<3>(&m.mesh_vert)[range(&m.mesh_vertadr, &m.mesh_vertnum)],
             face: &m.mesh_face.as_chunks().0[range(&m.mesh_faceadr, &m.mesh_facenum)],
             hull: usize::try_from(m.mesh_graphadr[id]).ok().and_then(|adr| Hull::of(&m.mesh_graph[adr..])),
+            sides: None,
         }
     }
 }

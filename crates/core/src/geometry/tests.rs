@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use super::convex::{Convex, nearest};
 use super::pair::{self, Method, Settings};
-use super::{Field, Hull, Mesh, Narrow, Shape, ray_shape};
+use super::{Field, Hull, Mesh, Narrow, Shape, Sides, ray_shape};
 use crate::math::*;
 use crate::{Model, geom};
 
@@ -18,6 +18,7 @@ struct Assets {
     vert: BTreeMap<String, Vec<Vec3>>,
     face: BTreeMap<String, Vec<[i32; 3]>>,
     graph: BTreeMap<String, Vec<i32>>,
+    sides: BTreeMap<String, Sides>,
     field: Option<(Vec<f64>, Vec<f64>)>,
 }
 
@@ -41,12 +42,23 @@ impl Assets {
                     assets.vert.insert(name.into(), rows::<3>(&floats(rest)).to_vec());
                     assets.face.insert(name.into(), ints(parts[1]).as_chunks().0.to_vec());
                     assets.graph.insert(name.into(), ints(parts[2]));
+                    let sides = Sides::of(&assets.mesh(name));
+                    assets.sides.insert(name.into(), sides);
                 }
                 "field" => assets.field = Some((floats(rest), floats(parts[1]))),
                 _ => break,
             }
         }
         assets
+    }
+
+    fn mesh<'a>(&'a self, name: &str) -> Mesh<'a> {
+        Mesh {
+            vert: &self.vert[name],
+            face: &self.face[name],
+            hull: Hull::of(&self.graph[name]),
+            sides: self.sides.get(name),
+        }
     }
 
     /// The shape that the next words say.
@@ -59,10 +71,7 @@ impl Assets {
         let quat = quat_normalize([take(), take(), take(), take()]);
         let mut shape = Shape::new(kind, size, pos, quat_to_mat(quat));
         match kind {
-            geom::MESH => {
-                let hull = Hull::of(&self.graph[data]);
-                shape.mesh = Mesh { vert: &self.vert[data], face: &self.face[data], hull };
-            }
+            geom::MESH => shape.mesh = self.mesh(data),
             geom::HFIELD => {
                 let (head, samples) = self.field.as_ref().unwrap();
                 let size = [head[2], head[3], head[4], head[5]];

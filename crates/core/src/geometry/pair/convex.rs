@@ -21,9 +21,9 @@ pub(super) fn convex(
     room: &mut Room,
     out: &mut Vec<Touch>,
 ) {
-    let flat = |s: &Shape| matches!(s.kind, geom::BOX | geom::MESH);
+    let flat = |s: &Shape| matches!(s.kind, geom::CYLINDER | geom::BOX | geom::MESH);
     if settings.several && margin <= 0.0 && flat(a) && flat(b) {
-        polygon::contacts(a, b, margin, settings, room, out);
+        polygon::contacts(a, b, settings, room, out);
         return;
     }
     let Some(first) = deepest(a, b, margin, settings, room) else { return };
