@@ -1,6 +1,7 @@
 //! A plane (the half space below it) against everything else. The normal is the plane's.
 
 use super::Touch;
+use super::polygon::{Corners, widest};
 use crate::geometry::Shape;
 use crate::geometry::support::{Body, climb, search};
 use crate::math::*;
@@ -93,11 +94,6 @@ pub(super) fn cuboid(plane: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<T
     out.extend(low.take(4));
 }
 
-/// Most contacts of a plane and a mesh.
-const MESH_CONTACTS: usize = 3;
-/// Corners of a mesh nearer to the lowest one than this, in bounding radii, are not worth a contact.
-const MESH_SPREAD: f64 = 0.3;
-
 /// The lowest point of an ellipsoid.
 pub(super) fn ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let normal = plane.axis(2);
@@ -108,40 +104,42 @@ pub(super) fn ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut
     }
 }
 
-/// The lowest corner, and neighbours of it within the margin.
+/// The corners within the margin of the side that looks most at the plane, of those at the lowest corner: from that
+/// corner on, and of more than four those that span the largest area.
 pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let normal = plane.axis(2);
     let mesh = &other.mesh;
     let down = scale(mat_t_mul_vec(&other.mat, normal), -1.0);
-    let vertex = |v: usize| {
-        mesh.vert.get(v).map(|&local| {
-            let point = other.world(local);
-            touch(normal, dot(sub(point, plane.pos), normal), point)
-        })
+    let at = |v: usize| {
+        let point = other.world(mesh.vert.get(v).copied().unwrap_or_default());
+        touch(normal, dot(sub(point, plane.pos), normal), point)
     };
     let lowest = match &mesh.hull {
-        Some(hull) => climb(mesh, hull, down, 0),
+        Some(hull) => hull.vertex[climb(mesh, hull, down, 0)] as usize,
         None => search(mesh, down, None),
     };
-    let index = mesh.hull.map_or(lowest, |hull| hull.vertex[lowest] as usize);
-    let Some(first) = vertex(index).filter(|t| t.dist <= margin) else { return };
-    out.push(first);
-
-    // Where the mesh is within the margin of the plane, seen from its own frame.
-    let centre = dot(normal, sub(other.pos, plane.pos)) - margin;
-    let apart = MESH_SPREAD * norm(other.size);
-    let mut count = 1;
-    let mut near = |v: usize| {
-        let within = count < MESH_CONTACTS && dot(down, mesh.vert[v]) > centre;
-        if let Some(t) = vertex(v).filter(|_| within)
-            && norm(sub(add_scaled(t.pos, normal, 0.5 * t.dist), first.pos)) >= apart
-        {
-            out.push(t);
-            count += 1;
+    let first = at(lowest);
+    if first.dist > margin {
+        return;
+    }
+    let side = mesh.sides.and_then(|sides| {
+        let here = (0..sides.len()).filter(|&s| sides.vertices(s).contains(&(lowest as u32)));
+        let steeper =
+            |&a: &usize, &b: &usize| dot(sides.normal(a), down).total_cmp(&dot(sides.normal(b), down));
+        here.max_by(steeper).map(|s| sides.vertices(s))
+    });
+    let Some(side) = side else { return out.push(first) };
+    let start = side.iter().position(|&v| v as usize == lowest).unwrap_or(0);
+    let mut near = Corners::new();
+    for k in 0..side.len() {
+        let t = at(side[(start + k) % side.len()] as usize);
+        if t.dist <= margin {
+            near.push(add_scaled(t.pos, normal, 0.5 * t.dist));
         }
-    };
-    match mesh.hull {
-        Some(hull) => hull.neighbours(lowest).for_each(|v| near(hull.vertex[v] as usize)),
-        None => (0..mesh.vert.len()).filter(|&v| v != lowest).for_each(near),
+    }
+    let contact = |p: Vec3| touch(normal, dot(sub(p, plane.pos), normal), p);
+    match near.all() {
+        few if few.len() <= 4 => out.extend(few.iter().map(|&p| contact(p))),
+        many => out.extend(widest(many).map(contact)),
     }
 }

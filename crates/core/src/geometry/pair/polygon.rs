@@ -22,24 +22,24 @@ const CORNERS: usize = 150;
 const RIM: usize = 16;
 
 /// A small list without allocation.
-struct List<T, const N: usize> {
+pub(super) struct List<T, const N: usize> {
     items: [T; N],
     len: usize,
 }
 
 impl<T: Copy + Default, const N: usize> List<T, N> {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         List { items: [T::default(); N], len: 0 }
     }
 
-    fn push(&mut self, item: T) {
+    pub(super) fn push(&mut self, item: T) {
         if let Some(place) = self.items.get_mut(self.len) {
             *place = item;
             self.len += 1;
         }
     }
 
-    fn all(&self) -> &[T] {
+    pub(super) fn all(&self) -> &[T] {
         &self.items[..self.len]
     }
 }
@@ -52,7 +52,7 @@ struct Face {
 }
 
 type Faces = List<Face, 32>;
-type Corners = List<Vec3, CORNERS>;
+pub(super) type Corners = List<Vec3, CORNERS>;
 /// Edges as their two ends.
 type Edges = List<[Vec3; 2], 32>;
 
@@ -102,8 +102,9 @@ fn shared(a: &Shape, b: &Shape, deep: &Deep) -> Option<Shared> {
             }
         }
     }
-    let on_face = |edges: &Edges, faces: &Faces| {
-        for face in faces.all() {
+    // The end of a cylinder takes faces only.
+    let on_face = |edges: &Edges, of: &Support, faces: &Faces| {
+        for face in faces.all().iter().filter(|_| of.shape.kind != geom::CYLINDER) {
             for edge in edges.all() {
                 if dot(normalize(sub(edge[1], edge[0])).0, face.normal).abs() < ALONG {
                     let mut clipped = Corners::new();
@@ -115,12 +116,12 @@ fn shared(a: &Shape, b: &Shape, deep: &Deep) -> Option<Shared> {
         None
     };
     if support_a.dim < 3 && support_a.dim <= support_b.dim {
-        let (face, clipped) = on_face(&support_a.edges(), &faces_b)?;
+        let (face, clipped) = on_face(&support_a.edges(), &support_b, &faces_b)?;
         let (face, normal) = (support_b.corners(face.index), face.normal);
         return Some(Shared { face, normal, clipped, direction: scale(normal, -1.0), first: false });
     }
     if support_b.dim < 3 {
-        let (face, clipped) = on_face(&support_b.edges(), &faces_a)?;
+        let (face, clipped) = on_face(&support_b.edges(), &support_a, &faces_a)?;
         let (face, normal) = (support_a.corners(face.index), face.normal);
         return Some(Shared { face, normal, clipped, direction: normal, first: true });
     }
@@ -191,7 +192,7 @@ fn clip(polygon: &Corners, on: Vec3, inwards: Vec3) -> Corners {
 
 /// Four corners of a convex polygon that span a large area: while the first goes once around, the others move on as
 /// long as the area grows.
-fn widest(polygon: &[Vec3]) -> [Vec3; MOST] {
+pub(super) fn widest(polygon: &[Vec3]) -> [Vec3; MOST] {
     let n = polygon.len();
     // Twice the area, by the diagonals.
     let area = |q: [usize; MOST]| {
@@ -273,7 +274,9 @@ impl<'a> Support<'a> {
             geom::CYLINDER => {
                 let up = dot(s.axis(2), self.outwards) >= 0.0;
                 let normal = scale(s.axis(2), if up { 1.0 } else { -1.0 });
-                out.push(Face { index: usize::from(!up), normal });
+                if self.dim == 3 {
+                    out.push(Face { index: usize::from(!up), normal });
+                }
             }
             _ => {
                 let Some(sides) = s.mesh.sides else { return out };
