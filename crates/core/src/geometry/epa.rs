@@ -79,9 +79,9 @@ pub(super) fn epa(
     p.clear();
     let s = &found.simplex;
     match found.size {
-        2 => p.from_segment(s[0], s[1], a, b),
-        3 => p.from_triangle([s[0], s[1], s[2]], a, b),
-        _ => p.from_tetrahedron(*s, a, b),
+        2 => p.start_segment(s[0], s[1], a, b),
+        3 => p.start_triangle([s[0], s[1], s[2]], a, b),
+        _ => p.start_tetrahedron(*s, a, b),
     }
     .ok_or(Shallow::Border)?;
     let face = p.expand(a, b, limits).ok_or(Shallow::Lost)?;
@@ -147,7 +147,7 @@ impl Scratch {
     }
 
     /// Two triangle pyramids with a common base, around the segment.
-    fn from_segment(&mut self, v1: Vertex, v2: Vertex, a: &mut Body, b: &mut Body) -> Option<()> {
+    fn start_segment(&mut self, v1: Vertex, v2: Vertex, a: &mut Body, b: &mut Body) -> Option<()> {
         let along = sub(v2.point, v1.point);
         let mut least = 0;
         for i in 1..3 {
@@ -189,11 +189,11 @@ impl Scratch {
     fn start_over(&mut self, verts: [u32; 3], a: &mut Body, b: &mut Body) -> Option<()> {
         let corners = verts.map(|v| self.verts[v as usize]);
         self.clear();
-        self.from_triangle(corners, a, b)
+        self.start_triangle(corners, a, b)
     }
 
     /// Two triangle pyramids with a common base.
-    fn from_triangle(&mut self, corners: [Vertex; 3], a: &mut Body, b: &mut Body) -> Option<()> {
+    fn start_triangle(&mut self, corners: [Vertex; 3], a: &mut Body, b: &mut Body) -> Option<()> {
         let [p1, p2, p3] = corners.map(|c| c.point);
         let normal = cross(sub(p2, p1), sub(p3, p1));
         let length = norm(normal);
@@ -224,7 +224,7 @@ impl Scratch {
         Some(())
     }
 
-    fn from_tetrahedron(&mut self, corners: [Vertex; 4], a: &mut Body, b: &mut Body) -> Option<()> {
+    fn start_tetrahedron(&mut self, corners: [Vertex; 4], a: &mut Body, b: &mut Body) -> Option<()> {
         let [i1, i2, i3, i4] = corners.map(|c| self.add_vertex(c));
         let faces = [
             ([i1, i2, i3], [1, 3, 2]),

@@ -2,7 +2,6 @@
 //! reaches down to the base.
 
 use super::{MOST, Settings, Touch};
-use crate::geom;
 use crate::geometry::Shape;
 use crate::geometry::convex::{Convex, Room, nearest};
 use crate::math::*;
@@ -80,5 +79,4 @@ pub(super) fn field(
             }
         }
     }
-    let _ = geom::HFIELD;
 }

@@ -104,8 +104,8 @@ pub(super) fn ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut
     }
 }
 
-/// The corners within the margin of the side that looks most at the plane, of those at the lowest corner: from that
-/// corner on, and of more than four those that span the largest area.
+/// The corners of the side that looks most at the plane, of those at the lowest corner: from that corner on, of more
+/// than four those that span the largest area; of these the ones within the margin and below the centre.
 pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let normal = plane.axis(2);
     let mesh = &other.mesh;
@@ -130,16 +130,20 @@ pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Touc
     });
     let Some(side) = side else { return out.push(first) };
     let start = side.iter().position(|&v| v as usize == lowest).unwrap_or(0);
-    let mut near = Corners::new();
+    let mut corners = Corners::new();
     for k in 0..side.len() {
-        let t = at(side[(start + k) % side.len()] as usize);
-        if t.dist <= margin {
-            near.push(add_scaled(t.pos, normal, 0.5 * t.dist));
-        }
+        let v = side[(start + k) % side.len()] as usize;
+        corners.push(mesh.vert.get(v).copied().unwrap_or_default());
     }
-    let contact = |p: Vec3| touch(normal, dot(sub(p, plane.pos), normal), p);
-    match near.all() {
-        few if few.len() <= 4 => out.extend(few.iter().map(|&p| contact(p))),
-        many => out.extend(widest(many).map(contact)),
+    let mut add = |local: Vec3| {
+        let point = other.world(local);
+        let dist = dot(sub(point, plane.pos), normal);
+        if dist <= margin && dot(down, local) >= 0.0 {
+            out.push(touch(normal, dist, point));
+        }
+    };
+    match corners.all() {
+        few if few.len() <= 4 => few.iter().for_each(|&p| add(p)),
+        many => widest(many).into_iter().for_each(add),
     }
 }

@@ -360,7 +360,7 @@ impl<'a> Support<'a> {
         let s = self.shape;
         match s.kind {
             geom::BOX => {
-                let (axis, side) = (face / 2, if face % 2 == 0 { 1.0 } else { -1.0 });
+                let (axis, side) = (face / 2, if face.is_multiple_of(2) { 1.0 } else { -1.0 });
                 let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
                 for (u, v) in [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)] {
                     let mut p = [0.0; 3];
