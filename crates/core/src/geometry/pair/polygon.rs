@@ -320,11 +320,8 @@ impl<'a> Support<'a> {
         let s = self.shape;
         match (s.kind, self.dim) {
             (geom::CYLINDER, 2) => {
-                let axis = s.axis(2);
-                let [x, y, _] = mat_t_mul_vec(&s.mat, self.outwards);
-                let radial = scale(normalize([x, y, 0.0]).0, s.size[0]);
-                let middle = s.world(radial);
-                out.push([add_scaled(middle, axis, -s.size[1]), add_scaled(middle, axis, s.size[1])]);
+                let [x, y, z] = s.local(self.points[0]);
+                out.push([self.points[0], s.world([x, y, -z])]);
             }
             (geom::CYLINDER, _) => {}
             (_, 2) => out.push([self.points[0], self.points[1]]),
