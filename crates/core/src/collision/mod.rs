@@ -148,3 +148,6 @@ pub fn contact_force(m: &Model, d: &Data, contact: &Contact) -> [f64; 6] {
     }
     out
 }
+
+#[cfg(test)]
+mod tests;

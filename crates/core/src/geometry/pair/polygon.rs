@@ -137,7 +137,7 @@ impl Shared {
         let face = self.face.all();
         for k in 0..face.len() {
             let (p, q) = (face[k], face[(k + 1) % face.len()]);
-            let inwards = cross(self.normal, sub(q, p));
+            let inwards = cross(sub(q, p), self.normal);
             self.clipped = clip(&self.clipped, p, inwards);
         }
         let (normal, origin) = (self.normal, face[0]);
@@ -351,7 +351,7 @@ impl<'a> Support<'a> {
         out
     }
 
-    /// The corners of a face, counterclockwise as seen from outside.
+    /// The corners of a face, clockwise as seen from outside.
     fn corners(&self, face: usize) -> Corners {
         let mut out = Corners::new();
         let s = self.shape;
@@ -359,7 +359,7 @@ impl<'a> Support<'a> {
             geom::BOX => {
                 let (axis, side) = (face / 2, if face.is_multiple_of(2) { 1.0 } else { -1.0 });
                 let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
-                for (u, v) in [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)] {
+                for (u, v) in [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)] {
                     let mut p = [0.0; 3];
                     (p[axis], p[j], p[k]) = (side * s.size[axis], u * side * s.size[j], v * s.size[k]);
                     out.push(s.world(p));
@@ -369,13 +369,13 @@ impl<'a> Support<'a> {
                 let side = if face == 0 { 1.0 } else { -1.0 };
                 for k in 0..RIM {
                     let (sin, cos) =
-                        libm::sincos(side * k as f64 * (2.0 * std::f64::consts::PI / RIM as f64));
+                        libm::sincos(-side * k as f64 * (2.0 * std::f64::consts::PI / RIM as f64));
                     out.push(s.world([s.size[0] * cos, s.size[0] * sin, side * s.size[1]]));
                 }
             }
             _ => {
                 let vertices = s.mesh.sides.map_or(&[][..], |sides| sides.vertices(face));
-                for &v in vertices {
+                for &v in vertices.iter().rev() {
                     out.push(s.world(s.mesh.vert.get(v as usize).copied().unwrap_or_default()));
                 }
             }
