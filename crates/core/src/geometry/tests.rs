@@ -256,3 +256,50 @@ fn distance_is_symmetric() {
         assert!((x - y).abs() < 1e-4 * (1.0 + norm(a.size) + norm(b.size)), "{x} {y}: {line}");
     }
 }
+
+/// No size, pose or direction makes a panic, a hang or an endless list.
+#[test]
+fn hostile_numbers_are_harmless() {
+    let assets = Assets::read(include_str!("golden/pairs.txt"));
+    let odd = [0.0, -1.0, 1e-300, 1e-9, 0.3, 1.0, 1e9, 1e300, f64::INFINITY, f64::NAN];
+    let mut work = Narrow::default();
+    let shape = |kind: usize, k: usize| {
+        let at = |i: usize| odd[(k * (i + 1) + i) % odd.len()];
+        let mat = if k % 3 == 0 { EYE } else { std::array::from_fn(|i| at(i + k)) };
+        let pos = if k % 2 == 0 { [0.0; 3] } else { [at(3), at(4), at(5)] };
+        let mut s = Shape::new(kind as i32, [at(0), at(1), at(2)], pos, mat);
+        if s.kind == geom::MESH {
+            s.mesh = assets.mesh(["wedge", "prism", "stone"][k % 3]);
+        }
+        if s.kind == geom::HFIELD {
+            let (head, samples) = assets.field.as_ref().unwrap();
+            let size = [at(6), at(7), at(8), at(9)];
+            s.field = Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples };
+        }
+        s
+    };
+    for a in 0..8 {
+        for b in a..8 {
+            for k in 0..60 {
+                let (first, second) = (shape(a, k), shape(b, k / 7 + 3 * k));
+                let margin = odd[(k + 3) % odd.len()];
+                super::distance::shape_distance(&first, &second, margin, &settings(), &mut work);
+                ray_shape(&first, second.pos, second.size);
+                super::inside_shape(&first, second.pos);
+                if let Some(method) = pair::method(first.kind, second.kind) {
+                    work.touches.clear();
+                    pair::contacts(
+                        method,
+                        &first,
+                        &second,
+                        margin,
+                        &settings(),
+                        &mut work.room,
+                        &mut work.touches,
+                    );
+                    assert!(work.touches.len() <= pair::MOST);
+                }
+            }
+        }
+    }
+}

@@ -9,6 +9,7 @@ Writes rays.txt and pairs.txt with N cases (default: the few of the repository) 
 where SHAPE is type, data (a name or -), size, position, quaternion.
 """
 
+import functools
 import pathlib
 import sys
 
@@ -27,6 +28,7 @@ FIELD = np.random.default_rng(2).uniform(size=(5, 7)).round(2)
 rng = np.random.default_rng(3)
 
 
+@functools.cache
 def scene(kind1, kind2, mesh):
     """Two free bodies with a geom each; poses and sizes are written later."""
     vertices = " ".join(str(x) for v in MESHES[mesh] for x in v)
