@@ -8,12 +8,23 @@ use super::params;
 use crate::math::*;
 use crate::{Data, Model};
 
-/// The shadow of a geom's bounding sphere on the axis.
+/// A geom's bounding sphere, wide enough for its margin, and its shadow on the axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Shadow {
     low: f64,
     high: f64,
+    centre: Vec3,
+    radius: f64,
     geom: u32,
+}
+
+impl Shadow {
+    #[inline(always)]
+    fn near(&self, other: &Shadow) -> bool {
+        let between = sub(self.centre, other.centre);
+        let reach = self.radius + other.radius;
+        dot(between, between) <= reach * reach
+    }
 }
 
 /// What the broad phase keeps from step to step.
@@ -54,8 +65,9 @@ impl Sweep {
         let axis = widest(&self.shadows, centres);
         for s in &mut self.shadows {
             let g = s.geom as usize;
-            let reach = m.geom_rbound[g] + params::half_reach(m, g);
-            (s.low, s.high) = (centres[g][axis] - reach, centres[g][axis] + reach);
+            s.centre = centres[g];
+            s.radius = m.geom_rbound[g] + params::half_reach(m, g);
+            (s.low, s.high) = (s.centre[axis] - s.radius, s.centre[axis] + s.radius);
         }
         self.shadows.sort_unstable_by(|a, b| a.low.total_cmp(&b.low));
         self.near.clear();
@@ -63,25 +75,21 @@ impl Sweep {
         self.active.clear();
         for &s in &self.shadows {
             self.active.retain(|other| other.high >= s.low);
-            for other in &self.active {
-                self.near.extend(near_pair(m, d, other.geom, s.geom));
-            }
+            let beside = self.active.iter().filter(|other| other.near(&s)).map(|other| other.geom as usize);
+            self.near.extend(beside.filter_map(|g| may_touch(m, g, s.geom as usize)));
             self.active.push(s);
-            for &plane in &self.planes {
-                self.near.extend(near_pair(m, d, plane, s.geom));
-            }
+            let below = self.planes.iter().map(|&plane| plane as usize);
+            let reach =
+                |plane: usize| s.radius - m.geom_rbound[s.geom as usize] + params::half_reach(m, plane);
+            let below = below.filter(|&plane| !far_apart(m, d, plane, s.geom as usize, reach(plane)));
+            self.near.extend(below.filter_map(|plane| may_touch(m, plane, s.geom as usize)));
         }
         self.near.sort_unstable_by_key(|p| p.order(m));
     }
 }
 
-fn near_pair(m: &Model, d: &Data, a: u32, b: u32) -> Option<Pair> {
-    let (a, b) = (a as usize, b as usize);
-    if far_apart(m, d, a, b, params::half_reach(m, a) + params::half_reach(m, b)) {
-        return None;
-    }
-    let (low, high) = (a.min(b), a.max(b));
-    filter::dynamic_pair(m, low, high, false)
+fn may_touch(m: &Model, a: usize, b: usize) -> Option<Pair> {
+    filter::dynamic_pair(m, a.min(b), a.max(b), false)
 }
 
 /// The axis along which centres vary most.

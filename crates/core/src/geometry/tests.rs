@@ -265,8 +265,8 @@ fn hostile_numbers_are_harmless() {
     let mut work = Narrow::default();
     let shape = |kind: usize, k: usize| {
         let at = |i: usize| odd[(k * (i + 1) + i) % odd.len()];
-        let mat = if k % 3 == 0 { EYE } else { std::array::from_fn(|i| at(i + k)) };
-        let pos = if k % 2 == 0 { [0.0; 3] } else { [at(3), at(4), at(5)] };
+        let mat = if k.is_multiple_of(3) { EYE } else { std::array::from_fn(|i| at(i + k)) };
+        let pos = if k.is_multiple_of(2) { [0.0; 3] } else { [at(3), at(4), at(5)] };
         let mut s = Shape::new(kind as i32, [at(0), at(1), at(2)], pos, mat);
         if s.kind == geom::MESH {
             s.mesh = assets.mesh(["wedge", "prism", "stone"][k % 3]);
