@@ -41,8 +41,12 @@ pub struct Contact {
     pub friction: [f64; 5],
     /// Time constant and damping ratio, or -stiffness and -damping.
     pub solref: [f64; 2],
+    /// The same for friction; zero when friction uses `solref`.
+    pub solreffriction: [f64; 2],
     /// Impedance.
     pub solimp: [f64; 5],
+    /// Force with which the contact pulls, N.
+    pub adhesion: f64,
     /// Regularized friction coefficient of the cone.
     pub mu: f64,
     /// Dimension of the contact space: 1 or 3.
@@ -114,6 +118,8 @@ pub struct WarningStat {
 pub(crate) struct Work {
     /// Pairs of geoms to test.
     pub(crate) pairs: collision::Pairs,
+    /// Contacts of one pair of geoms.
+    pub(crate) narrow: crate::geometry::Narrow,
     /// Jacobian of the constraints.
     pub(crate) jac: Jacobian,
     /// Columns of one contact's Jacobian.

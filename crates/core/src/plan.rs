@@ -324,7 +324,12 @@ impl<'a> Scene<'a> {
             1 => Some(one.to_string()),
             n => Some(format!("{n} {many}")),
         };
-        let contacts = || count(self.pairs, "one pair of geoms can touch", "pairs of geoms can touch");
+        let contacts = || match self.pairs {
+            n if n > collision::MOST_LISTED => {
+                Some(format!("more than {} pairs of geoms can touch", collision::MOST_LISTED))
+            }
+            n => count(n, "one pair of geoms can touch", "pairs of geoms can touch"),
+        };
         let limits = || count(self.limited, "one joint is limited", "joints are limited");
         match stage {
             Stage::MassMatrix | Stage::Factor if self.general => {

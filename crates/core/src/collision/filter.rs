@@ -1,5 +1,6 @@
-//! Which pairs of geoms can ever touch, decided once per plan from what cannot change.
+//! Which pairs of geoms may touch, and in which order they are tested.
 
+use crate::geometry::pair;
 use crate::{Model, disable};
 
 /// Two geoms, ordered so that the first has the smaller type.
@@ -7,6 +8,35 @@ use crate::{Model, disable};
 pub(crate) struct Pair {
     pub(crate) geom1: u32,
     pub(crate) geom2: u32,
+    /// The explicit pair that names them, [`Pair::DYNAMIC`] if none.
+    pub(crate) explicit: u32,
+}
+
+impl Pair {
+    /// No explicit pair: bodies, bits and parents decide.
+    pub(crate) const DYNAMIC: u32 = u32::MAX;
+
+    /// Geoms ordered by type; equal types stay as they are. `None` when such types pass through each other.
+    fn of(m: &Model, a: usize, b: usize, explicit: u32) -> Option<Pair> {
+        let (a, b) = if m.geom_type[a] <= m.geom_type[b] { (a, b) } else { (b, a) };
+        pair::method(m.geom_type[a], m.geom_type[b])?;
+        Some(Pair { geom1: a as u32, geom2: b as u32, explicit })
+    }
+
+    /// Pairs are tested by bodies; for the same bodies explicit pairs come first, in their own order, the others by
+    /// geoms: in the order of types, or without the midphase as the bodies have them.
+    pub(super) fn order(&self, m: &Model) -> (i32, i32, u32, u32, u32) {
+        let (g1, g2) = (self.geom1, self.geom2);
+        let (b1, b2) = (m.geom_bodyid[g1 as usize], m.geom_bodyid[g2 as usize]);
+        // Explicit numbers are smaller than DYNAMIC.
+        let by_type = self.explicit == Pair::DYNAMIC && !m.opt.disabled(disable::MIDPHASE);
+        let (first, second) = match self.explicit {
+            Pair::DYNAMIC if by_type => (g1, g2),
+            Pair::DYNAMIC => (g1.min(g2), g1.max(g2)),
+            _ => (0, 0),
+        };
+        (b1.min(b2), b1.max(b2), self.explicit, first, second)
+    }
 }
 
 /// Whether the contact bits of two geoms admit a contact. They may be written while a lab runs.
@@ -19,7 +49,13 @@ pub fn can_collide(m: &Model, g1: usize, g2: usize) -> bool {
 fn bodies_may_touch(m: &Model, b1: usize, b2: usize) -> bool {
     let (w1, w2) = (m.body_weldid[b1] as usize, m.body_weldid[b2] as usize);
     let moves = |w: usize| m.body_dofnum[w] > 0 || m.body_treeid[w] >= 0;
-    w1 != w2 && (moves(w1) || moves(w2))
+    w1 != w2 && (moves(w1) || moves(w2)) && !excluded(m, b1, b2)
+}
+
+/// Whether the model keeps two bodies apart.
+fn excluded(m: &Model, b1: usize, b2: usize) -> bool {
+    let signature = (b1.min(b2) << 16) + b1.max(b2);
+    m.exclude_signature.iter().any(|&s| s as u32 as usize == signature)
 }
 
 /// Whether the parent filter keeps two geoms apart: parent and child overlap on purpose, unless the parent is
@@ -32,33 +68,56 @@ pub(super) fn parent_and_child(m: &Model, g1: usize, g2: usize) -> bool {
     !m.opt.disabled(disable::FILTERPARENT) && ((w1 != 0 && w1 == above(w2)) || (w2 != 0 && w2 == above(w1)))
 }
 
-/// All pairs that can ever touch, in the order of bodies, then geoms. Contact bits and the parent filter count
-/// only when they may not change later.
+/// The explicit pairs that can make contacts, in their order.
+pub(super) fn explicit_pairs(m: &Model) -> impl Iterator<Item = Pair> + '_ {
+    let still = |g: usize| m.body_treeid[m.body_weldid[m.geom_bodyid[g] as usize] as usize] < 0;
+    (0..m.npair).filter_map(move |p| {
+        let (a, b) = (m.pair_geom1[p] as usize, m.pair_geom2[p] as usize);
+        if still(a) && still(b) { None } else { Pair::of(m, a, b, p as u32) }
+    })
+}
+
+/// Two geoms as a pair, when they can ever touch. Contact bits and the parent filter count only when they may not
+/// change later.
+pub(super) fn dynamic_pair(m: &Model, a: usize, b: usize, may_change: bool) -> Option<Pair> {
+    let (ba, bb) = (m.geom_bodyid[a] as usize, m.geom_bodyid[b] as usize);
+    if ba == bb || !(may_change || admitted(m, a, b)) || !bodies_may_touch(m, ba, bb) {
+        return None;
+    }
+    let named = |p: usize| {
+        let (x, y) = (m.pair_geom1[p] as usize, m.pair_geom2[p] as usize);
+        (x, y) == (a, b) || (x, y) == (b, a)
+    };
+    let pair = Pair::of(m, a, b, Pair::DYNAMIC)?;
+    (!(0..m.npair).any(named)).then_some(pair)
+}
+
+/// Most pairs in the list of a scene; scenes with more search for the near ones at every step.
+pub(crate) const MOST_LISTED: usize = 4096;
+
+/// All pairs that can ever touch, in the order in which they are tested. The list ends early when it becomes longer
+/// than [`MOST_LISTED`].
 pub(crate) fn candidate_pairs(m: &Model, may_change: bool) -> Vec<Pair> {
     let geoms = |b: usize| {
         let first = m.body_geomadr[b].max(0) as usize;
         first..first + m.body_geomnum[b] as usize
     };
-    let mut out = Vec::new();
-    for b1 in 0..m.nbody {
-        if m.body_geomnum[b1] == 0 {
-            continue;
-        }
-        for b2 in b1 + 1..m.nbody {
-            if m.body_geomnum[b2] == 0 || !bodies_may_touch(m, b1, b2) {
+    let with_geoms: Vec<usize> = (0..m.nbody).filter(|&b| m.body_geomnum[b] > 0).collect();
+    let mut out: Vec<Pair> = explicit_pairs(m).collect();
+    for (i, &b1) in with_geoms.iter().enumerate() {
+        for &b2 in &with_geoms[i + 1..] {
+            if !bodies_may_touch(m, b1, b2) {
                 continue;
             }
             for g1 in geoms(b1) {
-                for g2 in geoms(b2) {
-                    let (a, b) = if m.geom_type[g1] <= m.geom_type[g2] { (g1, g2) } else { (g2, g1) };
-                    let both_planes = m.geom_type[b] == crate::geom::PLANE;
-                    if !both_planes && (may_change || admitted(m, a, b)) {
-                        out.push(Pair { geom1: a as u32, geom2: b as u32 });
-                    }
-                }
+                out.extend(geoms(b2).filter_map(|g2| dynamic_pair(m, g1, g2, may_change)));
+            }
+            if out.len() > MOST_LISTED {
+                return out;
             }
         }
     }
+    out.sort_by_key(|p| p.order(m));
     out
 }
 

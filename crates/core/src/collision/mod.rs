@@ -3,25 +3,17 @@
 mod filter;
 mod params;
 mod primitive;
+mod sweep;
 
 use filter::Pair;
 pub use filter::can_collide;
-pub(crate) use filter::candidate_pairs;
+pub(crate) use filter::{MOST_LISTED, candidate_pairs};
 use params::Params;
+use sweep::Sweep;
 
+use crate::geometry::{Mesh, Shape, Sides, pair};
 use crate::math::*;
 use crate::{Contact, Data, Model, geom};
-
-/// What a pair function knows of one touching point.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Touch {
-    /// Distance of the surfaces, negative when they overlap, m.
-    pub(crate) dist: f64,
-    /// Midpoint between the surfaces, m, world.
-    pub(crate) pos: Vec3,
-    /// Unit normal from geom 1 to geom 2, world.
-    pub(crate) normal: Vec3,
-}
 
 /// The pairs that a plan tests, with their contact parameters when nothing can change these.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,34 +22,48 @@ pub(crate) struct Pairs {
     params: Vec<Params>,
     /// Filters are asked at every step, because what they look at may be written.
     filter: bool,
+    /// Too many pairs for a list: the near ones are found at every step.
+    sweep: Option<Box<Sweep>>,
+    /// Flat sides of the hull of each mesh.
+    sides: Vec<Sides>,
 }
-
-/// Most pairs whose parameters are kept: beyond, memory costs more than mixing them again.
-const MAX_KEPT: usize = 4096;
 
 /// Finds the pairs that may touch: all that can ever, when contact bits and flags may be written later,
 /// otherwise those that they admit now.
 pub(crate) fn pairs(m: &Model, pairs_may_change: bool, params_may_change: bool) -> Pairs {
     let pairs = candidate_pairs(m, pairs_may_change);
-    let keep = !params_may_change && pairs.len() <= MAX_KEPT;
-    let mix = |p: &Pair| params::params(m, p.geom1 as usize, p.geom2 as usize);
-    let params = if keep { pairs.iter().map(mix).collect() } else { Vec::new() };
-    Pairs { pairs, params, filter: pairs_may_change }
+    if pairs.len() > MOST_LISTED {
+        let sweep = Some(Box::new(Sweep::new(m, pairs_may_change)));
+        return Pairs { sweep, sides: mesh_sides(m), ..Pairs::default() };
+    }
+    let params =
+        if params_may_change { Vec::new() } else { pairs.iter().map(|p| params::params(m, p)).collect() };
+    Pairs { pairs, params, filter: pairs_may_change, sweep: None, sides: mesh_sides(m) }
+}
+
+fn mesh_sides(m: &Model) -> Vec<Sides> {
+    (0..m.nmesh).map(|id| Sides::of(&Mesh::of(m, id))).collect()
 }
 
 /// `contact`, `ncon`: tests the pairs of the plan in their order.
 #[inline(never)]
 pub(crate) fn collide(m: &Model, d: &mut Data) {
     d.contact.clear();
-    let list = std::mem::take(&mut d.work.pairs);
+    let mut list = std::mem::take(&mut d.work.pairs);
+    if let Some(sweep) = &mut list.sweep {
+        sweep.run(m, d);
+        for pair in &sweep.near {
+            narrow(m, d, pair, &params::params(m, pair), &list.sides);
+        }
+    }
     for (i, pair) in list.pairs.iter().enumerate() {
         let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
-        if list.filter && !filter::admitted(m, g1, g2) {
+        if list.filter && pair.explicit == Pair::DYNAMIC && !filter::admitted(m, g1, g2) {
             continue;
         }
         match list.params.get(i) {
-            Some(params) => narrow(m, d, g1, g2, params),
-            None => narrow(m, d, g1, g2, &params::params(m, g1, g2)),
+            Some(params) => narrow(m, d, pair, params, &list.sides),
+            None => narrow(m, d, pair, &params::params(m, pair), &list.sides),
         }
     }
     d.work.pairs = list;
@@ -70,17 +76,39 @@ pub(crate) fn none(d: &mut Data) {
     d.ncon = 0;
 }
 
-/// The exact test of one pair.
+/// The exact test of one pair. Spheres, the commonest, have a short way.
 #[inline]
-fn narrow(m: &Model, d: &mut Data, g1: usize, g2: usize, params: &Params) {
+fn narrow(m: &Model, d: &mut Data, pair: &Pair, params: &Params, sides: &[Sides]) {
+    let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
     let touch = match (m.geom_type[g1], m.geom_type[g2]) {
         (geom::PLANE, geom::SPHERE) => primitive::plane_sphere(m, d, g1, g2, params.reach),
         (geom::SPHERE, geom::SPHERE) => primitive::sphere_sphere(m, d, g1, g2, params.reach),
-        _ => None,
+        _ => return general(m, d, [g1, g2], params, sides),
     };
     if let Some(t) = touch {
-        d.contact.push(params::contact(params, g1, g2, t));
+        d.contact.push(params::contact(params, g1, g2, &t, frame(t.normal)));
     }
+}
+
+/// The exact test of any pair, when their bounds are near.
+#[inline(never)]
+fn general(m: &Model, d: &mut Data, [g1, g2]: [usize; 2], params: &Params, sides: &[Sides]) {
+    if sweep::far_apart(m, d, g1, g2, params.reach) {
+        return;
+    }
+    let Some(method) = pair::method(m.geom_type[g1], m.geom_type[g2]) else { return };
+    let mut work = std::mem::take(&mut d.work.narrow);
+    work.touches.clear();
+    let [a, b] = [g1, g2].map(|g| {
+        let mut shape = Shape::geom(m, d, g);
+        shape.mesh.sides = usize::try_from(m.geom_dataid[g]).ok().and_then(|id| sides.get(id));
+        shape
+    });
+    pair::contacts(method, &a, &b, params.reach, &pair::Settings::of(m), &mut work.room, &mut work.touches);
+    for t in &work.touches {
+        d.contact.push(params::contact(params, g1, g2, t, frame_along(t.normal, t.tangent)));
+    }
+    d.work.narrow = work;
 }
 
 /// Normal and two tangents as rows. The tangents start from the world's y axis, or z when the normal is
@@ -88,6 +116,16 @@ fn narrow(m: &Model, d: &mut Data, g1: usize, g2: usize, params: &Params) {
 pub(crate) fn frame(normal: Vec3) -> Mat3 {
     let seed = if normal[1] < 0.5 && normal[1] > -0.5 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
     let (t1, _) = normalize(add_scaled(seed, normal, -dot(seed, normal)));
+    let t2 = cross(normal, t1);
+    [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
+}
+
+/// Normal and two tangents as rows, the first tangent along a given direction unless that is short.
+pub(crate) fn frame_along(normal: Vec3, tangent: Vec3) -> Mat3 {
+    if norm(tangent) < 0.5 {
+        return frame(normal);
+    }
+    let (t1, _) = normalize(add_scaled(tangent, normal, -dot(tangent, normal)));
     let t2 = cross(normal, t1);
     [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
 }
@@ -110,3 +148,6 @@ pub fn contact_force(m: &Model, d: &Data, contact: &Contact) -> [f64; 6] {
     }
     out
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,7 @@
 //! Contact parameters from those of two geoms: priority, mixing, margin.
 
-use super::{Touch, frame};
+use super::filter::Pair;
+use crate::geometry::pair::Touch;
 use crate::math::*;
 use crate::{Contact, Model, enable};
 
@@ -16,22 +17,77 @@ pub(crate) struct Params {
     margin: f64,
     friction: [f64; 5],
     solref: [f64; 2],
+    /// The same for friction; zero when friction uses `solref`.
+    solreffriction: [f64; 2],
     solimp: [f64; 5],
+    /// Force with which it pulls, N.
+    adhesion: f64,
     dim: usize,
+}
+
+/// The parameters of a pair: its own, or a mix of those of both geoms.
+#[inline]
+pub(super) fn params(m: &Model, pair: &Pair) -> Params {
+    match pair.explicit {
+        Pair::DYNAMIC => mixed(m, pair.geom1 as usize, pair.geom2 as usize),
+        p => explicit(m, p as usize),
+    }
+}
+
+/// Distance from a geom up to which it takes part in contacts: its share of the pair's reach, m.
+#[inline]
+pub(super) fn half_reach(m: &Model, g: usize) -> f64 {
+    let margin = if m.opt.enabled(enable::OVERRIDE) { 0.5 * m.opt.o_margin } else { m.geom_margin[g] };
+    margin + m.geom_gap[g]
+}
+
+fn explicit(m: &Model, p: usize) -> Params {
+    finish(
+        m,
+        m.pair_gap[p],
+        Params {
+            reach: 0.0,
+            margin: m.pair_margin[p],
+            friction: rows::<5>(&m.pair_friction)[p],
+            solref: rows::<2>(&m.pair_solref)[p],
+            solreffriction: rows::<2>(&m.pair_solreffriction)[p],
+            solimp: rows::<5>(&m.pair_solimp)[p],
+            adhesion: m.pair_adhesion[p],
+            dim: m.pair_dim[p].max(1) as usize,
+        },
+    )
+}
+
+/// Applies the overriding options and the limits of all contacts.
+fn finish(m: &Model, gap: f64, p: Params) -> Params {
+    let mut p = p;
+    if m.opt.enabled(enable::OVERRIDE) {
+        (p.friction, p.solref, p.solimp) = (m.opt.o_friction, m.opt.o_solref, m.opt.o_solimp);
+        (p.margin, p.solreffriction) = (m.opt.o_margin, m.opt.o_solref);
+    }
+    Params {
+        reach: p.margin + gap,
+        friction: p.friction.map(|f| f.max(MINMU)),
+        // Anything but frictionless slides until torsional and rolling friction exist.
+        dim: if p.dim <= 1 { 1 } else { 3 },
+        ..p
+    }
 }
 
 /// The geom of higher priority decides alone. At equal priority condim and friction are the larger of the
 /// two, solref and solimp their mean weighted by `solmix` (the smaller solref when one is in the direct,
 /// negative format).
-pub(super) fn params(m: &Model, g1: usize, g2: usize) -> Params {
+fn mixed(m: &Model, g1: usize, g2: usize) -> Params {
     let (solref, solimp) = (rows::<2>(&m.geom_solref), rows::<5>(&m.geom_solimp));
     let friction3 = rows::<3>(&m.geom_friction);
     let (p1, p2) = (m.geom_priority[g1], m.geom_priority[g2]);
-    let (dim, slide_spin_roll, mut reference, mut impedance);
+    let (dim, slide_spin_roll, reference, impedance, adhesion);
     if p1 != p2 {
         let g = if p1 > p2 { g1 } else { g2 };
+        adhesion = m.geom_adhesion[g];
         (dim, slide_spin_roll, reference, impedance) = (m.geom_condim[g], friction3[g], solref[g], solimp[g]);
     } else {
+        adhesion = m.geom_adhesion[g1] + m.geom_adhesion[g2];
         dim = m.geom_condim[g1].max(m.geom_condim[g2]);
         slide_spin_roll = std::array::from_fn(|i| friction3[g1][i].max(friction3[g2][i]));
         let mix = mix(m.geom_solmix[g1], m.geom_solmix[g2]);
@@ -44,34 +100,35 @@ pub(super) fn params(m: &Model, g1: usize, g2: usize) -> Params {
         impedance = std::array::from_fn(|i| blend(solimp[g1][i], solimp[g2][i]));
     }
     let [slide, spin, roll] = slide_spin_roll;
-    let mut friction = [slide, slide, spin, roll, roll];
-    let mut margin = m.geom_margin[g1] + m.geom_margin[g2];
-    if m.opt.enabled(enable::OVERRIDE) {
-        (friction, reference, impedance) = (m.opt.o_friction, m.opt.o_solref, m.opt.o_solimp);
-        margin = m.opt.o_margin;
-    }
-    Params {
-        reach: margin + m.geom_gap[g1] + m.geom_gap[g2],
-        margin,
-        friction: friction.map(|f| f.max(MINMU)),
-        solref: reference,
-        solimp: impedance,
-        // Anything but frictionless slides until torsional and rolling friction exist.
-        dim: if dim <= 1 { 1 } else { 3 },
-    }
+    finish(
+        m,
+        m.geom_gap[g1] + m.geom_gap[g2],
+        Params {
+            reach: 0.0,
+            margin: m.geom_margin[g1] + m.geom_margin[g2],
+            friction: [slide, slide, spin, roll, roll],
+            solref: reference,
+            solreffriction: [0.0; 2],
+            solimp: impedance,
+            adhesion,
+            dim: dim.max(1) as usize,
+        },
+    )
 }
 
 /// A contact of the pair at `touch`.
 #[inline(always)]
-pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: Touch) -> Contact {
+pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &Touch, frame: Mat3) -> Contact {
     Contact {
         dist: touch.dist,
         pos: touch.pos,
-        frame: frame(touch.normal),
+        frame,
         includemargin: p.margin,
         friction: p.friction,
         solref: p.solref,
+        solreffriction: p.solreffriction,
         solimp: p.solimp,
+        adhesion: p.adhesion,
         mu: 0.0,
         dim: p.dim,
         geom1: g1,

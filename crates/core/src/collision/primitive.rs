@@ -1,6 +1,6 @@
-//! Pairs of primitive shapes with closed-form distance.
+//! The short way of the commonest pairs: spheres on planes and on each other, without looking at them as shapes.
 
-use super::Touch;
+use crate::geometry::pair::Touch;
 use crate::math::*;
 use crate::{Data, Model};
 
@@ -16,7 +16,7 @@ pub(super) fn plane_sphere(m: &Model, d: &Data, plane: usize, sphere: usize, rea
     }
     // The point of the sphere below its centre, moved half the way to the plane.
     let pos = add_scaled(pos[sphere], normal, -(radius + 0.5 * dist));
-    Some(Touch { dist, pos, normal })
+    Some(Touch { dist, pos, normal, tangent: [0.0; 3] })
 }
 
 /// Distance of the centres minus both radii. Coincident centres have no direction: the normal is taken
@@ -37,5 +37,5 @@ pub(super) fn sphere_sphere(m: &Model, d: &Data, g1: usize, g2: usize, reach: f6
     }
     let dist = length - r1 - r2;
     let pos = add_scaled(pos[g1], normal, r1 + 0.5 * dist);
-    Some(Touch { dist, pos, normal })
+    Some(Touch { dist, pos, normal, tangent: [0.0; 3] })
 }

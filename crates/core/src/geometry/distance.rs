@@ -1,0 +1,66 @@
+//! Signed distance of two geoms of a model (`mj_geomDistance`).
+
+use super::Shape;
+use super::convex::{Convex, nearest};
+use super::pair::{self, Method, Settings};
+use crate::math::*;
+use crate::{Data, Model, geom};
+
+/// Distance and nearest points of two geoms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distance {
+    /// Signed distance, m, no larger than what was asked for; negative is penetration.
+    pub dist: f64,
+    /// A point on the surface of each geom, m, world; zero when the distance is not smaller than asked.
+    pub fromto: [Vec3; 2],
+}
+
+/// The distance of two geoms up to `most`, with the segment from the first to the second (`mj_geomDistance`).
+///
+/// Shapes with closed forms use those, at their deepest contact; two planes or height fields have no distance.
+pub fn geom_distance(m: &Model, d: &mut Data, geom1: usize, geom2: usize, most: f64) -> Distance {
+    let mut work = std::mem::take(&mut d.work.narrow);
+    let (a, b) = (Shape::geom(m, d, geom1), Shape::geom(m, d, geom2));
+    let distance = shape_distance(&a, &b, most, &Settings::of(m), &mut work);
+    d.work.narrow = work;
+    distance
+}
+
+/// The distance of two shapes up to `most`.
+pub(super) fn shape_distance(
+    a: &Shape,
+    b: &Shape,
+    most: f64,
+    settings: &Settings,
+    work: &mut Narrow,
+) -> Distance {
+    let mut best = Distance { dist: most, fromto: [[0.0; 3]; 2] };
+    let flip = a.kind > b.kind;
+    let (first, second) = if flip { (b, a) } else { (a, b) };
+    let Some(method) = pair::method(first.kind, second.kind) else { return best };
+    if matches!(method, Method::Convex) || first.kind == geom::BOX {
+        let (mut u, mut v) = (Convex::new(a, 0.0), Convex::new(b, 0.0));
+        let found = nearest(&mut u, &mut v, most, settings.effort, &mut work.room);
+        return Distance { dist: found.dist.min(most), fromto: found.witness.unwrap_or_default() };
+    }
+    work.touches.clear();
+    pair::contacts(method, first, second, most, settings, &mut work.room, &mut work.touches);
+    for t in &work.touches {
+        if t.dist < best.dist {
+            let half = scale(t.normal, 0.5 * t.dist);
+            let (on_first, on_second) = (sub(t.pos, half), add(t.pos, half));
+            best = Distance {
+                dist: t.dist,
+                fromto: if flip { [on_second, on_first] } else { [on_first, on_second] },
+            };
+        }
+    }
+    best
+}
+
+/// Room for the contacts of one pair, kept so that steps do not allocate.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Narrow {
+    pub(crate) room: super::convex::Room,
+    pub(crate) touches: Vec<pair::Touch>,
+}

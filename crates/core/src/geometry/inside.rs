@@ -1,0 +1,32 @@
+//! Whether a point is inside a shape; its surface does not count.
+
+use super::Shape;
+use crate::math::*;
+use crate::{Data, Model, geom};
+
+/// Whether a point (world, m) is inside the volume of a site (`mj_insideSite`).
+pub fn inside_site(m: &Model, d: &Data, site: usize, point: Vec3) -> bool {
+    inside_shape(&Shape::site(m, d, site), point)
+}
+
+/// Whether a point (world, m) is inside a primitive shape, or below a plane. Meshes and height fields have no
+/// inside here.
+pub fn inside_shape(shape: &Shape, point: Vec3) -> bool {
+    let [x, y, z] = shape.local(point);
+    let [a, b, c] = shape.size;
+    match shape.kind {
+        geom::PLANE => z < 0.0,
+        geom::SPHERE => {
+            let from_centre = sub(point, shape.pos);
+            dot(from_centre, from_centre) < a * a
+        }
+        geom::CAPSULE => {
+            let above = z - z.clamp(-b.max(0.0), b.max(0.0));
+            x * x + y * y + above * above < a * a
+        }
+        geom::ELLIPSOID => x * x / (a * a) + y * y / (b * b) + z * z / (c * c) < 1.0,
+        geom::CYLINDER => z.abs() < b && x * x + y * y < a * a,
+        geom::BOX => x.abs() < a && y.abs() < b && z.abs() < c,
+        _ => false,
+    }
+}

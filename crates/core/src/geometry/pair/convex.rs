@@ -1,0 +1,96 @@
+//! Two convex shapes by the general algorithm, and further contacts where they lie flat on each other.
+
+use super::polygon;
+use super::{Settings, Touch};
+use crate::geom;
+use crate::geometry::Shape;
+use crate::geometry::convex::{Convex, Room, nearest};
+use crate::math::*;
+
+/// Contacts are new when they are farther from the others than this, in bounding radii.
+const DISTINCT: f64 = 1e-3;
+/// Angle by which shapes are rocked to find the other points they rest on, rad.
+const ROCK: f64 = 1e-3;
+
+/// Shapes are thicker by half the margin each, so that contacts within the margin are overlaps.
+pub(super) fn convex(
+    a: &Shape,
+    b: &Shape,
+    margin: f64,
+    settings: &Settings,
+    room: &mut Room,
+    out: &mut Vec<Touch>,
+) {
+    let flat = |s: &Shape| matches!(s.kind, geom::CYLINDER | geom::BOX | geom::MESH);
+    if settings.several && margin <= 0.0 && flat(a) && flat(b) {
+        polygon::contacts(a, b, settings, room, out);
+        return;
+    }
+    let Some(first) = deepest(a, b, margin, settings, room) else { return };
+    out.push(first);
+    let smooth = |s: &Shape| matches!(s.kind, geom::ELLIPSOID | geom::SPHERE);
+    if settings.several && !smooth(a) && !smooth(b) {
+        rock(a, b, margin, settings, room, first, out);
+    }
+}
+
+/// The deepest point of two shapes.
+fn deepest(a: &Shape, b: &Shape, margin: f64, settings: &Settings, room: &mut Room) -> Option<Touch> {
+    let (mut u, mut v) = (Convex::new(a, margin), Convex::new(b, margin));
+    let found = nearest(&mut u, &mut v, 0.0, settings.effort, room);
+    let [on_a, on_b] = found.witness.filter(|_| found.dist < 0.0)?;
+    Some(between(margin + found.dist, on_a, on_b))
+}
+
+/// A contact of two overlapping shapes from the deepest point of each.
+pub(super) fn between(dist: f64, on_a: Vec3, on_b: Vec3) -> Touch {
+    let normal = normalize(sub(on_a, on_b)).0;
+    Touch { dist, pos: scale(add(on_a, on_b), 0.5), normal, tangent: [0.0; 3] }
+}
+
+/// Rocks both shapes against each other about the first contact, to and fro about each tangent, and keeps the
+/// contacts that come up elsewhere. Their distance is that of the first.
+fn rock(
+    a: &Shape,
+    b: &Shape,
+    margin: f64,
+    settings: &Settings,
+    room: &mut Room,
+    first: Touch,
+    out: &mut Vec<Touch>,
+) {
+    let start = out.len() - 1;
+    let apart = DISTINCT * radius(a).min(radius(b));
+    let frame = crate::collision::frame(first.normal);
+    for axis in [[frame[3], frame[4], frame[5]], [frame[6], frame[7], frame[8]]] {
+        for angle in [-ROCK, ROCK] {
+            let turn = quat_to_mat(quat_axis_angle(axis, angle));
+            let back = std::array::from_fn(|i| turn[3 * (i % 3) + i / 3]);
+            let (a, b) = (turned(a, first.pos, &turn), turned(b, first.pos, &back));
+            let Some(found) = deepest(&a, &b, margin, settings, room) else { continue };
+            if out[start..].iter().all(|t| norm(sub(t.pos, found.pos)) > apart) {
+                out.push(Touch { dist: first.dist, ..found });
+            }
+        }
+    }
+}
+
+/// A shape rotated about a point.
+fn turned<'a>(s: &Shape<'a>, about: Vec3, turn: &Mat3) -> Shape<'a> {
+    let arm = sub(about, s.pos);
+    let shift = sub(mat_mul_vec(turn, arm), arm);
+    let columns = [0, 1, 2].map(|i| mat_mul_vec(turn, s.axis(i)));
+    Shape { pos: sub(s.pos, shift), mat: std::array::from_fn(|i| columns[i % 3][i / 3]), ..*s }
+}
+
+/// The bounding radius of a shape about its frame.
+fn radius(s: &Shape) -> f64 {
+    let [x, y, _] = s.size;
+    match s.kind {
+        geom::SPHERE => x,
+        geom::CAPSULE => x + y,
+        geom::CYLINDER => (x * x + y * y).sqrt(),
+        geom::ELLIPSOID => s.size.into_iter().fold(0.0, f64::max),
+        _ => norm(s.size),
+    }
+}

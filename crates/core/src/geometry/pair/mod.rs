@@ -1,0 +1,107 @@
+//! Contacts of two shapes: closed forms where there are some, the general convex algorithm elsewhere.
+//!
+//! Every function appends its contacts to a list: at most [`MOST`], only those within `margin`, in an order that is
+//! MuJoCo's. The first shape has the smaller type; the normal points from it to the second.
+
+mod box_box;
+mod convex;
+mod cuboid;
+mod field;
+mod plane;
+mod polygon;
+mod round;
+
+use super::Shape;
+use super::convex::{Effort, Room};
+use crate::math::*;
+use crate::{Model, disable, geom};
+
+/// Most contacts of a pair.
+pub(crate) const MOST: usize = 50;
+
+/// A place where two shapes touch.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Touch {
+    /// Distance of the surfaces, negative when they overlap, m.
+    pub(crate) dist: f64,
+    /// Midpoint between the surfaces, m, world.
+    pub(crate) pos: Vec3,
+    /// Unit normal from the first to the second, world.
+    pub(crate) normal: Vec3,
+    /// The first tangent's direction; zero when any will do.
+    pub(crate) tangent: Vec3,
+}
+
+/// What the general algorithm needs besides the shapes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Settings {
+    pub(crate) effort: Effort,
+    /// Whether flat contacts get several points.
+    pub(crate) several: bool,
+}
+
+/// Iterations beyond this cost more than they can give.
+const MOST_ITERATIONS: i32 = 10_000;
+
+impl Settings {
+    pub(crate) fn of(m: &Model) -> Settings {
+        Settings {
+            effort: Effort {
+                tolerance: m.opt.ccd_tolerance,
+                iterations: m.opt.ccd_iterations.clamp(0, MOST_ITERATIONS) as usize,
+            },
+            several: !m.opt.disabled(disable::MULTICCD),
+        }
+    }
+}
+
+/// How a pair of types is tested.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Method {
+    /// A closed form.
+    Direct(fn(&Shape, &Shape, f64, &mut Vec<Touch>)),
+    /// The general algorithm for convex shapes.
+    Convex,
+    /// The general algorithm on every prism of a height field.
+    Field,
+}
+
+/// The method of two types, the smaller first; `None` when such geoms pass through each other.
+pub(crate) fn method(kind1: i32, kind2: i32) -> Option<Method> {
+    use geom::*;
+    Some(match (kind1, kind2) {
+        (PLANE, SPHERE) => Method::Direct(plane::sphere),
+        (PLANE, CAPSULE) => Method::Direct(plane::capsule),
+        (PLANE, ELLIPSOID) => Method::Direct(plane::ellipsoid),
+        (PLANE, MESH) => Method::Direct(plane::mesh),
+        (PLANE, CYLINDER) => Method::Direct(plane::cylinder),
+        (PLANE, BOX) => Method::Direct(plane::cuboid),
+        (HFIELD, SPHERE..) => Method::Field,
+        (SPHERE, SPHERE) => Method::Direct(round::sphere_sphere),
+        (SPHERE, CAPSULE) => Method::Direct(round::sphere_capsule),
+        (SPHERE, CYLINDER) => Method::Direct(round::sphere_cylinder),
+        (SPHERE, BOX) => Method::Direct(cuboid::sphere_box),
+        (CAPSULE, CAPSULE) => Method::Direct(round::capsule_capsule),
+        (CAPSULE, BOX) => Method::Direct(cuboid::capsule_box),
+        (BOX, BOX) => Method::Direct(box_box::box_box),
+        (SPHERE.., SPHERE..) => Method::Convex,
+        _ => return None,
+    })
+}
+
+/// Appends the contacts of two shapes within `margin`.
+pub(crate) fn contacts(
+    method: Method,
+    a: &Shape,
+    b: &Shape,
+    margin: f64,
+    settings: &Settings,
+    room: &mut Room,
+    out: &mut Vec<Touch>,
+) {
+    match method {
+        Method::Direct(test) => test(a, b, margin, out),
+        Method::Convex => convex::convex(a, b, margin, settings, room, out),
+        Method::Field => field::field(a, b, margin, settings, room, out),
+    }
+}

@@ -1,0 +1,149 @@
+//! A plane (the half space below it) against everything else. The normal is the plane's.
+
+use super::Touch;
+use super::polygon::{Corners, widest};
+use crate::geometry::Shape;
+use crate::geometry::support::{Body, climb, search};
+use crate::math::*;
+
+/// A contact at a point of the other shape, moved half the way to the plane.
+#[inline]
+fn touch(normal: Vec3, dist: f64, point: Vec3) -> Touch {
+    Touch { dist, pos: add_scaled(point, normal, -0.5 * dist), normal, tangent: [0.0; 3] }
+}
+
+/// The lowest point of a ball.
+#[inline]
+fn ball(plane: &Shape, centre: Vec3, radius: f64, margin: f64) -> Option<Touch> {
+    let normal = plane.axis(2);
+    let height = dot(sub(centre, plane.pos), normal);
+    if height > margin + radius {
+        return None;
+    }
+    let dist = height - radius;
+    Some(Touch { dist, pos: add_scaled(centre, normal, -0.5 * dist - radius), normal, tangent: [0.0; 3] })
+}
+
+pub(super) fn sphere(plane: &Shape, sphere: &Shape, margin: f64, out: &mut Vec<Touch>) {
+    out.extend(ball(plane, sphere.pos, sphere.size[0], margin));
+}
+
+/// Both ends, with the first tangent along the axis.
+pub(super) fn capsule(plane: &Shape, capsule: &Shape, margin: f64, out: &mut Vec<Touch>) {
+    let axis = capsule.axis(2);
+    let half = scale(axis, capsule.size[1]);
+    for end in [add(capsule.pos, half), sub(capsule.pos, half)] {
+        out.extend(ball(plane, end, capsule.size[0], margin).map(|t| Touch { tangent: axis, ..t }));
+    }
+}
+
+/// The deepest point of the rim, the point above it on the other rim, and two that make an equilateral triangle
+/// with the first.
+pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<Touch>) {
+    let [radius, half, _] = cylinder.size;
+    let normal = plane.axis(2);
+    let mut axis = cylinder.axis(2);
+    let mut slope = dot(normal, axis);
+    if slope > 0.0 {
+        (axis, slope) = (scale(axis, -1.0), -slope);
+    }
+    let height = dot(sub(cylinder.pos, plane.pos), normal);
+
+    // Down the slope of the end: -normal without its part along the axis.
+    let down = sub(scale(axis, slope), normal);
+    let length2 = dot(down, down);
+    let down = if length2 >= MINVAL * MINVAL {
+        scale(down, radius / length2.sqrt())
+    } else {
+        scale(cylinder.axis(0), radius)
+    };
+    let fall = dot(down, normal);
+    let (end, rise) = (scale(axis, half), slope * half);
+
+    let lowest = height + rise + fall;
+    if lowest > margin {
+        return;
+    }
+    out.push(touch(normal, lowest, add(add(cylinder.pos, down), end)));
+    let opposite = height - rise + fall;
+    if opposite <= margin {
+        out.push(touch(normal, opposite, sub(add(cylinder.pos, down), end)));
+    }
+    let behind = height + rise - 0.5 * fall;
+    if behind <= margin {
+        let side = scale(normalize(cross(down, end)).0, radius * 3f64.sqrt() / 2.0);
+        for point in [add(cylinder.pos, side), sub(cylinder.pos, side)] {
+            out.push(touch(normal, behind, add_scaled(add(point, end), down, -0.5)));
+        }
+    }
+}
+
+/// Up to four of the corners that are below the centre.
+pub(super) fn cuboid(plane: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<Touch>) {
+    let normal = plane.axis(2);
+    let height = dot(sub(cuboid.pos, plane.pos), normal);
+    let corner = |i: usize| {
+        let side = |k: usize| if i >> k & 1 == 1 { cuboid.size[k] } else { -cuboid.size[k] };
+        mat_mul_vec(&cuboid.mat, [side(0), side(1), side(2)])
+    };
+    let low = (0..8).map(corner).filter_map(|corner| {
+        let below = dot(normal, corner);
+        (height + below <= margin && below <= 0.0)
+            .then(|| touch(normal, height + below, add(corner, cuboid.pos)))
+    });
+    out.extend(low.take(4));
+}
+
+/// The lowest point of an ellipsoid.
+pub(super) fn ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut Vec<Touch>) {
+    let normal = plane.axis(2);
+    let lowest = Body::new(ellipsoid, 0.0).support(scale(normal, -1.0));
+    let dist = dot(sub(lowest, plane.pos), normal);
+    if dist <= margin {
+        out.push(touch(normal, dist, lowest));
+    }
+}
+
+/// The corners of the side that looks most at the plane, of those at the lowest corner: from that corner on, of more
+/// than four those that span the largest area; of these the ones within the margin and below the centre.
+pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Touch>) {
+    let normal = plane.axis(2);
+    let mesh = &other.mesh;
+    let down = scale(mat_t_mul_vec(&other.mat, normal), -1.0);
+    let at = |v: usize| {
+        let point = other.world(mesh.vert.get(v).copied().unwrap_or_default());
+        touch(normal, dot(sub(point, plane.pos), normal), point)
+    };
+    let lowest = match &mesh.hull {
+        Some(hull) => hull.vertex[climb(mesh, hull, down, 0)] as usize,
+        None => search(mesh, down, None),
+    };
+    let first = at(lowest);
+    if first.dist > margin {
+        return;
+    }
+    let side = mesh.sides.and_then(|sides| {
+        let here = (0..sides.len()).filter(|&s| sides.vertices(s).contains(&(lowest as u32)));
+        let steeper =
+            |&a: &usize, &b: &usize| dot(sides.normal(a), down).total_cmp(&dot(sides.normal(b), down));
+        here.max_by(steeper).map(|s| sides.vertices(s))
+    });
+    let Some(side) = side else { return out.push(first) };
+    let start = side.iter().position(|&v| v as usize == lowest).unwrap_or(0);
+    let mut corners = Corners::new();
+    for k in 0..side.len() {
+        let v = side[(start + k) % side.len()] as usize;
+        corners.push(mesh.vert.get(v).copied().unwrap_or_default());
+    }
+    let mut add = |local: Vec3| {
+        let point = other.world(local);
+        let dist = dot(sub(point, plane.pos), normal);
+        if dist <= margin && dot(down, local) >= 0.0 {
+            out.push(touch(normal, dist, point));
+        }
+    };
+    match corners.all() {
+        few if few.len() <= 4 => few.iter().for_each(|&p| add(p)),
+        many => widest(many).into_iter().for_each(add),
+    }
+}

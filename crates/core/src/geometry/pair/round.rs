@@ -1,0 +1,101 @@
+//! Spheres, capsules and cylinders: each comes down to two balls at the nearest points of their axes.
+
+use super::Touch;
+use crate::geometry::Shape;
+use crate::math::*;
+
+/// Two balls. Coincident centres have no direction: the normal is taken across the z axes of the shapes, or along x
+/// when these are parallel.
+#[inline]
+fn balls(a: &Shape, at_a: Vec3, ra: f64, b: &Shape, at_b: Vec3, rb: f64, margin: f64) -> Option<Touch> {
+    let between = sub(at_b, at_a);
+    let apart2 = dot(between, between);
+    let reach = margin + ra + rb;
+    if apart2 > reach * reach {
+        return None;
+    }
+    let (mut normal, length) = normalize(between);
+    if length < MINVAL {
+        normal = normalize(cross(a.axis(2), b.axis(2))).0;
+    }
+    let dist = apart2.sqrt() - ra - rb;
+    Some(Touch { dist, pos: add(scale(normal, ra + 0.5 * dist), at_a), normal, tangent: [0.0; 3] })
+}
+
+pub(super) fn sphere_sphere(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<Touch>) {
+    out.extend(balls(a, a.pos, a.size[0], b, b.pos, b.size[0], margin));
+}
+
+pub(super) fn sphere_capsule(sphere: &Shape, capsule: &Shape, margin: f64, out: &mut Vec<Touch>) {
+    let axis = capsule.axis(2);
+    let half = capsule.size[1].max(0.0);
+    let along = dot(axis, sub(sphere.pos, capsule.pos)).clamp(-half, half);
+    let nearest = add(scale(axis, along), capsule.pos);
+    out.extend(balls(sphere, sphere.pos, sphere.size[0], capsule, nearest, capsule.size[0], margin));
+}
+
+/// Side, cap or rim, whichever is nearest to the sphere's centre.
+pub(super) fn sphere_cylinder(sphere: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<Touch>) {
+    let [radius, half, _] = cylinder.size;
+    let axis = cylinder.axis(2);
+    let from_centre = sub(sphere.pos, cylinder.pos);
+    let along = dot(axis, from_centre);
+    let on_axis = scale(axis, along);
+    let across = sub(from_centre, on_axis);
+    let across2 = dot(across, across);
+
+    let (mut beside, mut above) = (along.abs() < half, across2 < radius * radius);
+    if beside && above {
+        // The centre is inside: out by the shorter way.
+        let through_cap = half - along.abs() < radius - across2.sqrt();
+        (beside, above) = (!through_cap, through_cap);
+    }
+    let side = if along > 0.0 { 1.0 } else { -1.0 };
+    let r = sphere.size[0];
+    out.extend(if beside {
+        balls(sphere, sphere.pos, r, cylinder, add(on_axis, cylinder.pos), radius, margin)
+    } else if above {
+        let up = scale(axis, side);
+        let cap = add_scaled(cylinder.pos, axis, side * half);
+        let height = dot(sub(sphere.pos, cap), up);
+        let dist = height - r;
+        let pos = add(sphere.pos, scale(up, -0.5 * dist - r));
+        (height <= margin + r).then(|| Touch { dist, pos, normal: scale(up, -1.0), tangent: [0.0; 3] })
+    } else {
+        let out_to_rim = scale(across, radius / across2.sqrt());
+        let rim = add(add(scale(axis, side * half), out_to_rim), cylinder.pos);
+        balls(sphere, sphere.pos, r, cylinder, rim, 0.0, margin)
+    });
+}
+
+/// The nearest points of both axes; of parallel ones up to two pairs, each from an end.
+pub(super) fn capsule_capsule(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<Touch>) {
+    let (half_a, half_b) = (scale(a.axis(2), a.size[1]), scale(b.axis(2), b.size[1]));
+    let between = sub(a.pos, b.pos);
+    // The squared distance of a.pos + x half_a and b.pos + y half_b is least where
+    // [aa -ab; -ab bb] [x; y] = [u; v].
+    let (aa, ab, bb) = (dot(half_a, half_a), -dot(half_a, half_b), dot(half_b, half_b));
+    let (u, v) = (-dot(half_a, between), dot(half_b, between));
+    let det = aa * bb - ab * ab;
+    let clip = |x: f64| x.clamp(-1.0, 1.0);
+    let at = |x: f64, y: f64| {
+        let (on_a, on_b) = (add(scale(half_a, x), a.pos), add(scale(half_b, y), b.pos));
+        balls(a, on_a, a.size[0], b, on_b, b.size[0], margin)
+    };
+    if det.abs() >= MINVAL {
+        let (mut x, mut y) = ((bb * u - ab * v) / det, (aa * v - ab * u) / det);
+        if x.abs() > 1.0 {
+            x = x.signum();
+            y = (v - x * ab) / bb;
+        }
+        if y.abs() > 1.0 {
+            y = y.signum();
+            x = clip((u - y * ab) / aa);
+        }
+        out.extend(at(x, y));
+        return;
+    }
+    let ends_of_a = [1.0, -1.0].map(|x| at(x, clip((v - x * ab) / bb)));
+    let ends_of_b = [1.0, -1.0].map(|y| at(clip((u - y * ab) / aa), y));
+    out.extend(ends_of_a.into_iter().chain(ends_of_b).flatten().take(2));
+}

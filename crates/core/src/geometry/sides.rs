@@ -1,0 +1,118 @@
+//! The flat sides of a convex hull: its triangles, merged where they lie in one plane.
+
+use super::{Hull, Mesh};
+use crate::math::*;
+
+/// Cosine of the angle between triangles above which they are one side.
+const FLAT: f64 = 1.0 - 1e-7;
+
+/// The sides of a hull.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sides {
+    sides: Vec<Side>,
+    vertices: Vec<u32>,
+}
+
+/// A flat side.
+#[derive(Clone, Debug, PartialEq)]
+struct Side {
+    normal: Vec3,
+    first: u32,
+    count: u32,
+}
+
+impl Sides {
+    /// The sides of a mesh with a hull.
+    pub fn of(mesh: &Mesh) -> Sides {
+        mesh.hull.map_or_else(Sides::default, |hull| merge(mesh, &hull))
+    }
+
+    /// Number of sides.
+    pub fn len(&self) -> usize {
+        self.sides.len()
+    }
+
+    /// Whether there are none: the hull is not known.
+    pub fn is_empty(&self) -> bool {
+        self.sides.is_empty()
+    }
+
+    /// Unit normal of a side, outwards, in the frame of the mesh.
+    pub fn normal(&self, side: usize) -> Vec3 {
+        self.sides[side].normal
+    }
+
+    /// Vertices of a side, counterclockwise as seen from outside.
+    pub fn vertices(&self, side: usize) -> &[u32] {
+        let s = &self.sides[side];
+        &self.vertices[s.first as usize..(s.first + s.count) as usize]
+    }
+}
+
+fn merge(mesh: &Mesh, hull: &Hull) -> Sides {
+    let corner = |v: i32| mesh.vert.get(v as usize).copied().unwrap_or_default();
+    let normals: Vec<Vec3> = hull
+        .face
+        .iter()
+        .map(|&[a, b, c]| normalize(cross(sub(corner(b), corner(a)), sub(corner(c), corner(a)))).0)
+        .collect();
+    // Every edge of a triangle, found by its two ends.
+    let mut edges: Vec<(i32, i32, usize)> = Vec::new();
+    for (t, f) in hull.face.iter().enumerate() {
+        edges.extend((0..3).map(|k| (f[k], f[(k + 1) % 3], t)));
+    }
+    edges.sort_unstable();
+    let across = |a: i32, b: i32| {
+        let at = edges.partition_point(|&(x, y, _)| (x, y) < (b, a));
+        edges.get(at).filter(|&&(x, y, _)| (x, y) == (b, a)).map(|e| e.2)
+    };
+    let mut out = Sides::default();
+    let mut side_of = vec![usize::MAX; hull.face.len()];
+    for start in 0..hull.face.len() {
+        if side_of[start] != usize::MAX {
+            continue;
+        }
+        let side = out.sides.len();
+        side_of[start] = side;
+        let mut group = vec![start];
+        let mut next = 0;
+        while let Some(&t) = group.get(next) {
+            next += 1;
+            for k in 0..3 {
+                let f = hull.face[t];
+                if let Some(n) = across(f[k], f[(k + 1) % 3])
+                    && side_of[n] == usize::MAX
+                    && dot(normals[n], normals[start]) > FLAT
+                {
+                    side_of[n] = side;
+                    group.push(n);
+                }
+            }
+        }
+        // The border: edges whose other triangle is in another side, each leading to the next.
+        let mut border: Vec<(i32, i32)> = Vec::new();
+        for &t in &group {
+            let f = hull.face[t];
+            for k in 0..3 {
+                let (a, b) = (f[k], f[(k + 1) % 3]);
+                if across(a, b).is_none_or(|n| side_of[n] != side) {
+                    border.push((a, b));
+                }
+            }
+        }
+        border.sort_unstable();
+        let first = out.vertices.len() as u32;
+        let Some(&(mut at, _)) = border.first() else { continue };
+        for _ in 0..border.len() {
+            out.vertices.push(at as u32);
+            let i = border.partition_point(|&(a, _)| a < at);
+            match border.get(i) {
+                Some(&(a, b)) if a == at => at = b,
+                _ => break,
+            }
+        }
+        let count = out.vertices.len() as u32 - first;
+        out.sides.push(Side { normal: normals[start], first, count });
+    }
+    out
+}

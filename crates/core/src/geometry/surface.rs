@@ -1,0 +1,149 @@
+//! Rays against triangles: meshes and height fields.
+
+use super::ray::{Hit, Ray, box_faces, nearer};
+use super::{Field, Mesh};
+use crate::math::*;
+
+/// A ray with two axes across it, in which triangles are looked at along the ray.
+struct Sight<'a> {
+    ray: &'a Ray,
+    across: [Vec3; 2],
+}
+
+impl Sight<'_> {
+    fn new(ray: &Ray) -> Sight<'_> {
+        let v = ray.along;
+        let [x, y, z] = v.map(f64::abs);
+        // Perpendicular to the largest component, so that it is never along the ray.
+        let start = if x >= y && x >= z {
+            [0.0, 1.0, 1.0]
+        } else if y >= z {
+            [1.0, 0.0, 1.0]
+        } else {
+            [1.0, 1.0, 0.0]
+        };
+        let up = normalize(add_scaled(start, v, -dot(v, start) / dot(v, v))).0;
+        let side = normalize(cross(up, v)).0;
+        Sight { ray, across: [side, up] }
+    }
+
+    /// Distance at which the ray passes a triangle, also behind its start; and (a - c) × (b - c).
+    fn triangle(&self, [a, b, c]: [Vec3; 3]) -> Option<(f64, Vec3)> {
+        let flat = |p: Vec3| self.across.map(|axis| dot(axis, sub(p, self.ray.from)));
+        let (pa, pb, pc) = (flat(a), flat(b), flat(c));
+        // All corners on one side of the ray.
+        for i in 0..2 {
+            let three = [pa[i], pb[i], pc[i]];
+            if three.iter().all(|&x| x > 0.0) || three.iter().all(|&x| x < 0.0) {
+                return None;
+            }
+        }
+        // The ray's point as c + s (a - c) + t (b - c).
+        let (u, w) = (sub(pa, pc), sub(pb, pc));
+        let det = u[0] * w[1] - w[0] * u[1];
+        if det.abs() < MINVAL {
+            return None;
+        }
+        let s = (-w[1] * pc[0] + w[0] * pc[1]) / det;
+        let t = (u[1] * pc[0] - u[0] * pc[1]) / det;
+        if s < 0.0 || t < 0.0 || s + t > 1.0 {
+            return None;
+        }
+        let normal = cross(sub(a, c), sub(b, c));
+        let speed = dot(self.ray.along, normal);
+        if speed.abs() < MINVAL {
+            return None;
+        }
+        Some((-dot(sub(self.ray.from, c), normal) / speed, normal))
+    }
+}
+
+/// The nearest triangle of a mesh; `size` is the box about the origin that holds it.
+pub(super) fn mesh(mesh: &Mesh, size: Vec3, ray: &Ray) -> Option<Hit> {
+    if box_faces(size, ray).as_flattened().iter().all(|&x| x < 0.0) {
+        return None;
+    }
+    let sight = Sight::new(ray);
+    let mut best = None;
+    for face in mesh.face {
+        let corners = face.map(|v| mesh.vert.get(v as usize).copied().unwrap_or_default());
+        if let Some((x, normal)) = sight.triangle(corners) {
+            nearer(&mut best, x, || normalize(normal).0);
+        }
+    }
+    best
+}
+
+/// A height field: the box under it, the triangles of its top, and the walls between the two.
+pub(super) fn field(field: &Field, ray: &Ray) -> Option<Hit> {
+    let [sx, sy, top, base] = field.size;
+    let shifted = |z: f64| Ray { from: sub(ray.from, [0.0, 0.0, z]), ..*ray };
+    let axis = |i: usize, side: usize| {
+        let mut normal = [0.0; 3];
+        normal[i] = if side == 0 { -1.0 } else { 1.0 };
+        normal
+    };
+    let mut best = None;
+    for (i, hits) in box_faces([sx, sy, 0.5 * base], &shifted(-0.5 * base)).iter().enumerate() {
+        for (side, &x) in hits.iter().enumerate() {
+            nearer(&mut best, x, || axis(i, side));
+        }
+    }
+    let all = box_faces([sx, sy, 0.5 * top], &shifted(0.5 * top));
+    let hits = || all.as_flattened().iter().copied().filter(|&x| x >= 0.0);
+    let Some(enter) = hits().reduce(f64::min) else { return best };
+    // The part of the ray in the box of the top; from its start when that is inside.
+    let leave = hits().fold(enter, f64::max);
+    let ends = [if leave > enter { enter } else { 0.0 }, leave].map(|x| ray.at(x));
+    let sight = Sight::new(ray);
+    let (cols, rows) = (cells(ends, sx, 0, field.ncol), cells(ends, sy, 1, field.nrow));
+    for r in rows {
+        for c in cols.clone() {
+            let (low, high) = (field.point(r, c), field.point(r + 1, c + 1));
+            for triangle in [[low, high, field.point(r, c + 1)], [low, high, field.point(r + 1, c)]] {
+                if let Some((x, normal)) = sight.triangle(triangle) {
+                    let up = if normal[2] < 0.0 { -1.0 } else { 1.0 };
+                    nearer(&mut best, x, || scale(normalize(normal).0, up));
+                }
+            }
+        }
+    }
+    for i in 0..2 {
+        for side in 0..2 {
+            let x = all[i][side];
+            if x >= 0.0 && best.is_none_or(|b| x < b.distance) && below_rim(field, ray.at(x), i, side) {
+                best = Some(Hit { distance: x, normal: axis(i, side) });
+            }
+        }
+    }
+    best
+}
+
+/// The cells along axis `i` that a segment passes, and one more on each side.
+fn cells(ends: [Vec3; 2], half: f64, i: usize, samples: usize) -> std::ops::Range<usize> {
+    let step = 2.0 * half / (samples as f64 - 1.0);
+    let [a, b] = ends.map(|p| (p[i] + half) / step);
+    // Casts saturate: a ray from far away cannot leave the grid.
+    let first = (a.min(b).floor() - 1.0).max(0.0) as usize;
+    let last = ((a.max(b).ceil() + 1.0).max(0.0) as usize).min(samples.saturating_sub(1));
+    first..last
+}
+
+/// Whether a point of a side wall is below the edge of the top.
+fn below_rim(field: &Field, on: Vec3, i: usize, side: usize) -> bool {
+    let along = 1 - i;
+    let samples = if along == 1 { field.nrow } else { field.ncol };
+    let y = (on[along] + field.size[along]) / field.step()[along];
+    let cell = y.floor().clamp(0.0, (samples as f64 - 2.0).max(0.0));
+    let height = |k: usize| {
+        let (row, col) = match (i, side) {
+            (0, 0) => (k, 0),
+            (0, _) => (k, field.ncol - 1),
+            (_, 0) => (0, k),
+            (_, _) => (field.nrow - 1, k),
+        };
+        field.data[row * field.ncol + col]
+    };
+    let k = cell as usize;
+    on[2] / field.size[2] < height(k) * (cell + 1.0 - y) + height(k + 1) * (y - cell)
+}

@@ -1,0 +1,305 @@
+//! Rays, distances and contacts against what MuJoCo 3.14.0 finds: `golden/record.py` recorded it.
+//!
+//! `LABSPEC_GEOMETRY` may name a folder with more cases than the repository keeps; then every pair's worst difference
+//! is printed as well.
+
+use std::collections::BTreeMap;
+
+use super::convex::{Convex, nearest};
+use super::pair::{self, Method, Settings};
+use super::{Field, Hull, Mesh, Narrow, Shape, Sides, ray_shape};
+use crate::math::*;
+use crate::{Model, geom};
+
+const KINDS: [&str; 8] = ["plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"];
+
+#[derive(Default)]
+struct Assets {
+    vert: BTreeMap<String, Vec<Vec3>>,
+    face: BTreeMap<String, Vec<[i32; 3]>>,
+    graph: BTreeMap<String, Vec<i32>>,
+    sides: BTreeMap<String, Sides>,
+    field: Option<(Vec<f64>, Vec<f64>)>,
+}
+
+fn floats(text: &str) -> Vec<f64> {
+    text.split_whitespace().map(|w| w.parse().unwrap()).collect()
+}
+
+fn ints(text: &str) -> Vec<i32> {
+    text.split_whitespace().map(|w| w.parse().unwrap()).collect()
+}
+
+impl Assets {
+    fn read(text: &str) -> Assets {
+        let mut assets = Assets::default();
+        for line in text.lines() {
+            let parts: Vec<&str> = line.split('|').collect();
+            let (what, rest) = parts[0].split_once(' ').unwrap();
+            let (name, rest) = rest.split_once(' ').unwrap();
+            match what {
+                "mesh" => {
+                    assets.vert.insert(name.into(), rows::<3>(&floats(rest)).to_vec());
+                    assets.face.insert(name.into(), ints(parts[1]).as_chunks().0.to_vec());
+                    assets.graph.insert(name.into(), ints(parts[2]));
+                    let sides = Sides::of(&assets.mesh(name));
+                    assets.sides.insert(name.into(), sides);
+                }
+                "field" => assets.field = Some((floats(rest), floats(parts[1]))),
+                _ => break,
+            }
+        }
+        assets
+    }
+
+    fn mesh<'a>(&'a self, name: &str) -> Mesh<'a> {
+        Mesh {
+            vert: &self.vert[name],
+            face: &self.face[name],
+            hull: Hull::of(&self.graph[name]),
+            sides: self.sides.get(name),
+        }
+    }
+
+    /// The shape that the next words say.
+    fn shape<'a>(&'a self, words: &mut std::str::SplitWhitespace<'_>) -> Shape<'a> {
+        let kind = KINDS.iter().position(|k| Some(*k) == words.clone().next()).unwrap() as i32;
+        words.next();
+        let data = words.next().unwrap();
+        let mut take = || words.next().unwrap().parse::<f64>().unwrap();
+        let (size, pos) = ([take(), take(), take()], [take(), take(), take()]);
+        let quat = quat_normalize([take(), take(), take(), take()]);
+        let mut shape = Shape::new(kind, size, pos, quat_to_mat(quat));
+        match kind {
+            geom::MESH => shape.mesh = self.mesh(data),
+            geom::HFIELD => {
+                let (head, samples) = self.field.as_ref().unwrap();
+                let size = [head[2], head[3], head[4], head[5]];
+                shape.field = Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples };
+            }
+            _ => {}
+        }
+        shape
+    }
+}
+
+/// The recorded cases: from the folder that the environment names, or those of the repository.
+fn cases(file: &str, ours: &str) -> (String, bool) {
+    match std::env::var("LABSPEC_GEOMETRY") {
+        Ok(folder) => (std::fs::read_to_string(format!("{folder}/{file}")).unwrap(), true),
+        Err(_) => (ours.to_string(), false),
+    }
+}
+
+/// Differences by pair of types: number of cases, those beyond the bound, the largest, an example, and how many may be
+/// beyond the bound.
+#[derive(Default)]
+struct Report(BTreeMap<String, (usize, usize, f64, String, usize)>);
+
+impl Report {
+    fn note(&mut self, name: String, difference: f64, bound: f64, line: &str) {
+        let r = self.0.entry(name).or_default();
+        r.0 += 1;
+        if difference.is_nan() || difference > bound {
+            r.1 += 1;
+            if r.3.is_empty() {
+                r.3 = line.to_string();
+            }
+        } else {
+            r.2 = r.2.max(difference);
+        }
+    }
+
+    /// Where several answers are equally right, rounding chooses: so many cases may differ.
+    fn allow(&mut self, name: &str, most: usize) {
+        self.0.entry(name.to_string()).or_default().4 = most;
+    }
+
+    fn finish(self, print: bool) {
+        let mut text = String::new();
+        for (name, (cases, wrong, worst, line, _)) in &self.0 {
+            text +=
+                &format!("{name:24} {cases:6} cases, {wrong} beyond the bound, else within {worst:.1e}\n");
+            if *wrong > 0 {
+                text += &format!("    {line}\n");
+            }
+        }
+        if print {
+            println!("{text}");
+        }
+        assert!(print || self.0.values().all(|r| r.1 <= r.4), "{text}");
+    }
+}
+
+/// Largest difference of two lists of numbers, infinite when their lengths differ.
+fn difference(a: &[f64], b: &[f64]) -> f64 {
+    if a.len() != b.len() {
+        return f64::INFINITY;
+    }
+    a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, |m, d| if d.is_nan() { d } else { m.max(d) })
+}
+
+/// The contacts of one list in the order of another, each next to the nearest that is left.
+fn in_order_of(want: &[f64], got: &[f64]) -> Vec<f64> {
+    let (want, mut left) = (rows::<10>(want), rows::<10>(got).to_vec());
+    let mut out = Vec::new();
+    for w in want {
+        let far = |g: &[f64; 10]| difference(&g[1..4], &w[1..4]);
+        let Some(k) = (0..left.len()).min_by(|&i, &j| far(&left[i]).total_cmp(&far(&left[j]))) else { break };
+        out.extend(left.remove(k));
+    }
+    out.extend(left.into_iter().flatten());
+    out
+}
+
+#[test]
+fn rays_hit_where_they_do_in_mujoco() {
+    let (text, print) = cases("rays.txt", include_str!("golden/rays.txt"));
+    let assets = Assets::read(&text);
+    let mut report = Report::default();
+    for line in text.lines().filter(|l| l.starts_with("ray ")) {
+        let (given, want) = line.split_once('|').unwrap();
+        let mut words = given.split_whitespace();
+        words.next();
+        let shape = assets.shape(&mut words);
+        let v: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
+        let hit = ray_shape(&shape, [v[0], v[1], v[2]], [v[3], v[4], v[5]]);
+        let got = hit.map_or([-1.0, 0.0, 0.0, 0.0], |h| [h.distance, h.normal[0], h.normal[1], h.normal[2]]);
+        let name = KINDS[shape.kind as usize].to_string();
+        report.note(name, difference(&got, &floats(want)), 1e-10, &format!("{line}\n    got {got:?}"));
+    }
+    report.finish(print);
+}
+
+fn settings() -> Settings {
+    Settings::of(&Model { opt: crate::Options::mujoco(), ..Model::default() })
+}
+
+#[test]
+fn distances_are_those_of_mujoco() {
+    let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
+    let assets = Assets::read(&text);
+    let mut report = Report::default();
+    let mut work = Narrow::default();
+    for line in text.lines().filter(|l| l.starts_with("distance ")) {
+        let (given, want) = line.split_once('|').unwrap();
+        let mut words = given.split_whitespace();
+        words.next();
+        let (a, b) = (assets.shape(&mut words), assets.shape(&mut words));
+        let most: f64 = words.next().unwrap().parse().unwrap();
+        let found = super::distance::shape_distance(&a, &b, most, &settings(), &mut work);
+        let [p, q] = found.fromto;
+        let got = [found.dist, p[0], p[1], p[2], q[0], q[1], q[2]];
+        let want = floats(want);
+        let name = |end| format!("{}-{} {end}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
+        let scale = 1.0 + norm(a.size).min(norm(b.size));
+        let shown = format!("{line}\n    got {got:?}");
+        report.allow(&name("fromto"), 1);
+        report.note(name("dist"), difference(&got[..1], &want[..1]), 1e-10 * scale, &shown);
+        report.note(name("fromto"), difference(&got[1..], &want[1..]), 1e-7 * scale, &shown);
+    }
+    report.finish(print);
+}
+
+#[test]
+fn contacts_are_those_of_mujoco() {
+    let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
+    let assets = Assets::read(&text);
+    let mut report = Report::default();
+    let mut work = Narrow::default();
+    for line in text.lines().filter(|l| l.starts_with("contact ")) {
+        let (given, want) = line.split_once('|').unwrap();
+        let mut words = given.split_whitespace();
+        words.next();
+        let (a, b) = (assets.shape(&mut words), assets.shape(&mut words));
+        let margin: f64 = words.next().unwrap().parse().unwrap();
+        let method = pair::method(a.kind, b.kind).unwrap();
+        work.touches.clear();
+        pair::contacts(method, &a, &b, margin, &settings(), &mut work.room, &mut work.touches);
+        let mut got = Vec::new();
+        for t in &work.touches {
+            got.push(t.dist);
+            got.extend(t.pos);
+            got.extend(&crate::collision::frame_along(t.normal, t.tangent)[..6]);
+        }
+        let want = floats(want);
+        let name = format!("{}-{}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
+        let bound = if matches!(method, Method::Direct(_)) { 1e-10 } else { 1e-7 };
+        if !matches!(method, Method::Direct(_)) {
+            got = in_order_of(&want, &got);
+            report.allow(&name, 1);
+        }
+        let scale = 1.0 + norm(a.size).min(norm(b.size));
+        report.note(name, difference(&got, &want), bound * scale, &format!("{line}\n    got {got:?}"));
+    }
+    report.finish(print);
+}
+
+/// Distances of random convex bodies do not depend on which one is first.
+#[test]
+fn distance_is_symmetric() {
+    let (text, _) = cases("pairs.txt", include_str!("golden/pairs.txt"));
+    let assets = Assets::read(&text);
+    let mut work = Narrow::default();
+    for line in text.lines().filter(|l| l.starts_with("distance ")).take(1000) {
+        let mut words = line.split_whitespace();
+        words.next();
+        let (a, b) = (assets.shape(&mut words), assets.shape(&mut words));
+        if a.kind < geom::SPHERE || b.kind < geom::SPHERE {
+            continue;
+        }
+        let mut there = |a: &Shape, b: &Shape| {
+            let (mut u, mut v) = (Convex::new(a, 0.0), Convex::new(b, 0.0));
+            nearest(&mut u, &mut v, 1e3, settings().effort, &mut work.room).dist
+        };
+        let (x, y) = (there(&a, &b), there(&b, &a));
+        assert!((x - y).abs() < 1e-4 * (1.0 + norm(a.size) + norm(b.size)), "{x} {y}: {line}");
+    }
+}
+
+/// No size, pose or direction makes a panic, a hang or an endless list.
+#[test]
+fn hostile_numbers_are_harmless() {
+    let assets = Assets::read(include_str!("golden/pairs.txt"));
+    let odd = [0.0, -1.0, 1e-300, 1e-9, 0.3, 1.0, 1e9, 1e300, f64::INFINITY, f64::NAN];
+    let mut work = Narrow::default();
+    let shape = |kind: usize, k: usize| {
+        let at = |i: usize| odd[(k * (i + 1) + i) % odd.len()];
+        let mat = if k.is_multiple_of(3) { EYE } else { std::array::from_fn(|i| at(i + k)) };
+        let pos = if k.is_multiple_of(2) { [0.0; 3] } else { [at(3), at(4), at(5)] };
+        let mut s = Shape::new(kind as i32, [at(0), at(1), at(2)], pos, mat);
+        if s.kind == geom::MESH {
+            s.mesh = assets.mesh(["wedge", "prism", "stone"][k % 3]);
+        }
+        if s.kind == geom::HFIELD {
+            let (head, samples) = assets.field.as_ref().unwrap();
+            let size = [at(6), at(7), at(8), at(9)];
+            s.field = Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples };
+        }
+        s
+    };
+    for a in 0..8 {
+        for b in a..8 {
+            for k in 0..60 {
+                let (first, second) = (shape(a, k), shape(b, k / 7 + 3 * k));
+                let margin = odd[(k + 3) % odd.len()];
+                super::distance::shape_distance(&first, &second, margin, &settings(), &mut work);
+                ray_shape(&first, second.pos, second.size);
+                super::inside_shape(&first, second.pos);
+                if let Some(method) = pair::method(first.kind, second.kind) {
+                    work.touches.clear();
+                    pair::contacts(
+                        method,
+                        &first,
+                        &second,
+                        margin,
+                        &settings(),
+                        &mut work.room,
+                        &mut work.touches,
+                    );
+                    assert!(work.touches.len() <= pair::MOST);
+                }
+            }
+        }
+    }
+}
