@@ -5,7 +5,7 @@
 //! the centre of mass of the tree.
 
 use crate::math::*;
-use crate::{Data, Model, collision, disable};
+use crate::{Data, Model, collision, constraint, disable, equality};
 
 /// `cacc`, `cfrc_ext`, `cfrc_int`; needs `qacc` and the forces of constraints.
 ///
@@ -38,7 +38,7 @@ pub fn rne_post_constraint(m: &Model, d: &mut Data) {
     }
 }
 
-/// `cfrc_ext`: forces applied to bodies, and those of contacts.
+/// `cfrc_ext`: forces applied to bodies, and those of equality constraints and contacts.
 fn external(m: &Model, d: &mut Data) {
     let mut cfrc_ext = std::mem::take(&mut d.cfrc_ext);
     let out = rows_mut::<6>(&mut cfrc_ext);
@@ -55,6 +55,18 @@ fn external(m: &Model, d: &mut Data) {
         if *f != [0.0; 6] {
             apply(i, rows::<3>(&d.xipos)[i], [f[0], f[1], f[2]], [f[3], f[4], f[5]]);
         }
+    }
+    // Rows of equality constraints come first.
+    let mut row = 0;
+    while row < d.nefc && d.efc_type[row] == constraint::kind::EQUALITY {
+        let e = d.efc_id[row] as usize;
+        let end = (row + equality::rows_of(m, e)).min(d.nefc);
+        if let Some(ends) = equality::ends(m, d, e) {
+            let (force, torque) = equality::wrench(m, e, &ends, &d.efc_force[row..end]);
+            apply(ends[0].body, ends[0].point, force, torque);
+            apply(ends[1].body, ends[1].point, scale(force, -1.0), scale(torque, -1.0));
+        }
+        row = end;
     }
     for c in d.contact.iter().filter(|c| c.efc_address.is_some()) {
         let f = collision::contact_force(m, d, c);

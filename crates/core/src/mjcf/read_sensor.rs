@@ -173,7 +173,9 @@ impl Context<'_, '_> {
             Senses::Site => self.required("site", "site").map(|id| attached(Obj::Site, id)),
             Senses::Tendon | Senses::LimitedTendon => {
                 let id = self.required("tendon", "tendon")?;
-                if kind.senses == Senses::LimitedTendon && !self.tendons.get(id as usize).is_some_and(|t| t.limited) {
+                if kind.senses == Senses::LimitedTendon
+                    && !self.tendons.get(id as usize).is_some_and(|t| t.limited)
+                {
                     self.has_no_limits("tendon");
                 }
                 Some(attached(Obj::Tendon, id))

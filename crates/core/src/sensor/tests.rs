@@ -121,9 +121,53 @@ macro_rules! golden {
 golden! {
     cameras 1e-12;
     frames 1e-12;
+    limits 1e-10;
+    tendons 1e-12;
     contacts 1e-9;
     delays 1e-12;
     delays_rk4 1e-12;
+}
+
+/// Forces of constraints on bodies, for rows that are put into the data: their sizes, kinds and forces are the
+/// business of the solver.
+#[test]
+fn equality_constraints_act_where_they_hold() {
+    let mut m = compile(include_str!("golden/equality.xml"));
+    let mut d = Data::new(&m);
+    let mut wrong = Vec::new();
+    let mut rows = 0;
+    for line in include_str!("golden/equality.txt").lines() {
+        let (name, want) = parse(line);
+        let int = || want.iter().map(|&x| x as i32).collect::<Vec<_>>();
+        match name {
+            "state" => crate::reset_data(&m, &mut d),
+            "rows.qacc" => {
+                forward(&m, &mut d);
+                d.qacc.copy_from_slice(&want);
+            }
+            "rows.efc_type" => (d.efc_type, d.nefc) = (int(), want.len()),
+            "rows.efc_id" => d.efc_id = int(),
+            "rows.efc_force" => {
+                d.efc_force = want;
+                rows += d.nefc;
+                crate::rne_post_constraint(&m, &mut d);
+                super::evaluate(&m, &mut d, super::When::Acceleration);
+            }
+            "sensordata" | "cacc" | "cfrc_int" | "cfrc_ext" => {
+                let got = numbers(&m, &d, Object::Data, name);
+                let (error, at) = difference(&got, &want);
+                if error > 1e-12 {
+                    wrong.push(format!("{name}[{at}]: {} instead of {}", got[at], want[at]));
+                }
+            }
+            _ if name.starts_with("model.") => {}
+            _ => match reflect::view_mut(&mut m, &mut d, reflect::field(Object::Data, name).unwrap()) {
+                ViewMut::F64(v) => v.copy_from_slice(&want),
+                _ => panic!("{name} has no real numbers"),
+            },
+        }
+    }
+    assert!(rows > 8 * 25 && wrong.is_empty(), "{rows}\n{}", wrong.join("\n"));
 }
 
 #[test]
