@@ -98,7 +98,6 @@ pub(crate) fn wrench(m: &Model, e: usize, ends: &[End; 2], rows: &[f64]) -> (Vec
     let (Some(&force), turn) = (rows.first_chunk::<3>(), rows.get(3..)) else { return ([0.0; 3], [0.0; 3]) };
     let Some(&f) = turn.and_then(|t| t.first_chunk::<3>()) else { return (force, [0.0; 3]) };
     let torquescale = m.eq_data[DATA * e + 10];
-    let [_, x, y, z] =
-        quat_mul(quat_mul(ends[1].quat, [0.0, f[0], f[1], f[2]]), quat_conj(ends[0].quat));
+    let [_, x, y, z] = quat_mul(quat_mul(ends[1].quat, [0.0, f[0], f[1], f[2]]), quat_conj(ends[0].quat));
     (force, scale([x, y, z], 0.5 * torquescale))
 }

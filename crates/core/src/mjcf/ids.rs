@@ -15,6 +15,8 @@ pub(crate) struct Ids {
     joints: Vec<(i32, bool)>,
     /// Type of each geom.
     geoms: Vec<i32>,
+    /// Number of outputs of each actuator.
+    outputs: Vec<i32>,
     cameras: BTreeMap<String, i32>,
     /// Number of pixels of each camera.
     pixels: Vec<usize>,
@@ -27,6 +29,7 @@ impl Ids {
             by_node: vec![None; tree.nodes.len()],
             joints: Vec::new(),
             geoms: Vec::new(),
+            outputs: Vec::new(),
             cameras: BTreeMap::new(),
             pixels: Vec::new(),
         };
@@ -56,8 +59,11 @@ impl Ids {
         }
         for section in ["tendon", "actuator"] {
             let nodes = tree.sections(section).flat_map(|(at, _)| tree.children(at));
-            for (i, (node, _)) in nodes.enumerate() {
-                ids.set(node, i);
+            for (i, (at, node)) in nodes.enumerate() {
+                ids.set(at, i);
+                if section == "actuator" {
+                    ids.outputs.push(if node.element.name == "orientation" { 3 } else { 1 });
+                }
             }
         }
         ids
@@ -81,6 +87,11 @@ impl Ids {
     /// Type of a joint, and whether it has limits.
     pub(crate) fn joint(&self, id: i32) -> Option<(i32, bool)> {
         self.joints.get(usize::try_from(id).ok()?).copied()
+    }
+
+    /// Number of outputs of an actuator: one, or a torque about each axis.
+    pub(crate) fn outputs(&self, id: i32) -> i32 {
+        usize::try_from(id).ok().and_then(|id| self.outputs.get(id)).copied().unwrap_or(1)
     }
 
     /// Number of pixels of a camera; one ray for anything else.

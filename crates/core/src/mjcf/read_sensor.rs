@@ -337,6 +337,7 @@ impl Context<'_, '_> {
                 }
                 Some(([0; 3], dim))
             }
+            Senses::Actuator => Some(([0; 3], self.refs.ids.outputs(objects.objid))),
             _ => Some(([0; 3], kind.dim)),
         }
     }
@@ -395,7 +396,7 @@ impl Context<'_, '_> {
         };
         if dim != needed {
             let message = format!("`dim` of {} is {dim}, its `datatype` has {needed}", self.node.shown());
-            self.error_at("dim", code::CONFLICT, message);
+            self.error_at("dim", code::CONFLICT, message).help(format!("write `dim=\"{needed}\"`"));
         }
         (datatype, self.p.word("needstage").unwrap_or(When::Acceleration as i32))
     }

@@ -66,24 +66,25 @@ pub(super) fn tendon_velocity(m: &Model, d: &mut Data, s: usize, out: &mut [f64]
 pub(super) fn tendon_actuator_force(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
     let pulls =
         |&i: &usize| m.actuator_trntype[i] == trntype::TENDON && m.actuator_trnid[2 * i] == m.sensor_objid[s];
-    put(out, [(0..m.nactuator).filter(pulls).map(|i| d.actuator_force[output(m, i)]).sum()]);
+    put(out, [(0..m.nactuator).filter(pulls).map(|i| d.actuator_force[m.actuator_outadr[i] as usize]).sum()]);
 }
 
 pub(super) fn actuator_length(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
-    put(out, [d.actuator_length[output(m, object(m, s))]]);
+    outputs(m, s, &d.actuator_length, out);
 }
 
 pub(super) fn actuator_velocity(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
-    put(out, [d.actuator_velocity[output(m, object(m, s))]]);
+    outputs(m, s, &d.actuator_velocity, out);
 }
 
 pub(super) fn actuator_force(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
-    put(out, [d.actuator_force[output(m, object(m, s))]]);
+    outputs(m, s, &d.actuator_force, out);
 }
 
-/// The first force output of an actuator.
-fn output(m: &Model, actuator: usize) -> usize {
-    m.actuator_outadr[actuator] as usize
+/// The values of all outputs of the sensed actuator.
+fn outputs(m: &Model, s: usize, of: &[f64], out: &mut [f64]) {
+    let first = m.actuator_outadr[object(m, s)] as usize;
+    out.copy_from_slice(&of[first..first + out.len()]);
 }
 
 /// The first row of the limit of a joint or tendon; `None` while it is not active.

@@ -83,7 +83,7 @@ pub struct Kind {
     pub name: &'static str,
     /// What it can be attached to.
     pub senses: Senses,
-    /// Number of values, 0 when the sensor's own parameters decide.
+    /// Number of values, 0 when the sensed object or the sensor's own parameters decide.
     pub dim: i32,
     /// What the values are.
     pub datatype: Datatype,
@@ -130,9 +130,9 @@ kinds! {
     JOINTVEL "jointvel" ScalarJoint 1 Real Velocity [] measure::joint_velocity;
     TENDONPOS "tendonpos" Tendon 1 Real Position [Tendon] measure::tendon_length;
     TENDONVEL "tendonvel" Tendon 1 Real Velocity [TendonVel] measure::tendon_velocity;
-    ACTUATORPOS "actuatorpos" Actuator 1 Real Position [Transmission] measure::actuator_length;
-    ACTUATORVEL "actuatorvel" Actuator 1 Real Velocity [ActuatorVel] measure::actuator_velocity;
-    ACTUATORFRC "actuatorfrc" Actuator 1 Real Acceleration [Actuation] measure::actuator_force;
+    ACTUATORPOS "actuatorpos" Actuator 0 Real Position [Transmission] measure::actuator_length;
+    ACTUATORVEL "actuatorvel" Actuator 0 Real Velocity [ActuatorVel] measure::actuator_velocity;
+    ACTUATORFRC "actuatorfrc" Actuator 0 Real Acceleration [Actuation] measure::actuator_force;
     JOINTACTFRC "jointactuatorfrc" ScalarJoint 1 Real Acceleration [Actuation] measure::joint_actuator_force;
     TENDONACTFRC "tendonactuatorfrc" Tendon 1 Real Acceleration [Actuation] measure::tendon_actuator_force;
     BALLQUAT "ballquat" BallJoint 4 Quaternion Position [] measure::ball_orientation;
