@@ -5,7 +5,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use crate::support::{compile, model, model_text};
+use crate::support::{compile, model, model_text, workspace};
 use crate::zoo::animals;
 use allocation_counter::measure;
 use labspec::bind::{ControlProgram, Programs};
@@ -47,6 +47,15 @@ fn allocates_nothing(name: &str, m: &Model, steps: usize) {
         start(&mut d);
         let count = measure(|| run(&mut d));
         assert_eq!((count.count_total, count.bytes_total), (0, 0), "{name}, {contacts} rows at most");
+    }
+}
+
+/// The models that hold every kind of sensor.
+#[test]
+fn sensors() {
+    for name in ["frames", "contacts", "cameras", "limits", "delays", "delays_rk4"] {
+        let file = workspace().join(format!("crates/core/src/sensor/golden/{name}.xml"));
+        allocates_nothing(name, &compile(&std::fs::read_to_string(file).unwrap()), 100);
     }
 }
 

@@ -8,6 +8,32 @@ use std::fmt::Write;
 /// Three numbers in a cube around zero.
 type Triple = (f64, f64, f64);
 
+/// Sensors that any scene may have: together they need the results of every stage.
+const SENSORS: [&str; 22] = [
+    "<clock/>",
+    "<framepos objtype='body' objname='b0'/>",
+    "<framequat objtype='geom' objname='g0'/>",
+    "<framepos objtype='site' objname='s0' reftype='geom' refname='g0'/>",
+    "<framelinvel objtype='xbody' objname='b0'/>",
+    "<velocimeter site='s0'/>",
+    "<gyro site='s0' cutoff='0.5'/>",
+    "<accelerometer site='s0'/>",
+    "<framelinacc objtype='geom' objname='g0'/>",
+    "<force site='s0'/>",
+    "<torque site='s0'/>",
+    "<magnetometer site='s0'/>",
+    "<subtreecom body='b0'/>",
+    "<subtreelinvel body='world'/>",
+    "<subtreeangmom body='b0'/>",
+    "<touch site='s0'/>",
+    "<contact data='found force pos normal' num='3' reduce='maxforce'/>",
+    "<contact subtree1='b0' data='force torque' reduce='netforce'/>",
+    "<rangefinder site='s0'/>",
+    "<e_potential/>",
+    "<e_kinetic/>",
+    "<user dim='1'/>",
+];
+
 /// A joint other than a free one.
 #[derive(Clone, Debug)]
 pub(crate) struct Joint {
@@ -62,7 +88,8 @@ pub(crate) struct Scene {
     density: f64,
     floor: bool,
     mocap: bool,
-    sensors: bool,
+    /// Places in `SENSORS`.
+    sensors: Vec<usize>,
     energy: bool,
     rk4: bool,
 }
@@ -133,8 +160,9 @@ fn tendon() -> impl Strategy<Value = Tendon> {
 /// Scenes of one to five bodies.
 pub(crate) fn scene() -> impl Strategy<Value = Scene> {
     let density = prop_oneof![3 => Just(0.0), 1 => 0.1..20.0];
-    (vec(body(), 1..6), vec(tendon(), 0..3), density, any::<(bool, bool, bool, bool, bool)>()).prop_map(
-        |(bodies, tendons, density, (floor, mocap, sensors, energy, rk4))| Scene {
+    let sensors = prop_oneof![Just(vec![]), vec(0..SENSORS.len(), 1..4)];
+    (vec(body(), 1..6), vec(tendon(), 0..3), density, sensors, any::<(bool, bool, bool, bool)>()).prop_map(
+        |(bodies, tendons, density, sensors, (floor, mocap, energy, rk4))| Scene {
             bodies,
             tendons,
             density,
@@ -220,10 +248,9 @@ impl Scene {
             self.tendons.iter().for_each(|t| t.write(self.bodies.len(), &scalars, &mut text));
             text.push_str("</tendon>");
         }
-        if self.sensors {
-            text.push_str("<sensor><clock/><framepos objtype=\"body\" objname=\"b0\"/><framequat objtype=\"geom\" objname=\"g0\"/>");
-            text.push_str("<framepos objtype=\"site\" objname=\"s0\"/></sensor>");
-        }
+        text.push_str("<sensor>");
+        self.sensors.iter().for_each(|&i| text.push_str(SENSORS[i]));
+        text.push_str("</sensor>");
         text.push_str("</mujoco>");
         text
     }

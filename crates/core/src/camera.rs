@@ -86,21 +86,24 @@ fn looking(back: Vec3) -> Mat3 {
     [x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]]
 }
 
-/// Where cameras and lights are at the default configuration, relative to what they may follow.
+/// Where cameras and lights are at the default configuration, relative to what they may follow. The centre of mass
+/// is that of the target's subtree where there is a target.
 pub(crate) fn set_const(m: &mut Model, d: &Data) {
     let (xpos, com, xquat) = (rows::<3>(&d.xpos), rows::<3>(&d.subtree_com), rows::<4>(&d.xquat));
     for c in 0..m.ncam {
         let b = m.cam_bodyid[c] as usize;
         let at = add(rotate(rows::<3>(&m.cam_pos)[c], xquat[b]), xpos[b]);
         rows_mut::<3>(&mut m.cam_pos0)[c] = sub(at, xpos[b]);
-        rows_mut::<3>(&mut m.cam_poscom0)[c] = sub(at, com[b]);
+        rows_mut::<3>(&mut m.cam_poscom0)[c] =
+            sub(at, com[usize::try_from(m.cam_targetbodyid[c]).unwrap_or(b)]);
         rows_mut::<9>(&mut m.cam_mat0)[c] = quat_to_mat(quat_mul(xquat[b], rows::<4>(&m.cam_quat)[c]));
     }
     for l in 0..m.nlight {
         let b = m.light_bodyid[l] as usize;
         let at = add(rotate(rows::<3>(&m.light_pos)[l], xquat[b]), xpos[b]);
         rows_mut::<3>(&mut m.light_pos0)[l] = sub(at, xpos[b]);
-        rows_mut::<3>(&mut m.light_poscom0)[l] = sub(at, com[b]);
+        rows_mut::<3>(&mut m.light_poscom0)[l] =
+            sub(at, com[usize::try_from(m.light_targetbodyid[l]).unwrap_or(b)]);
         rows_mut::<3>(&mut m.light_dir0)[l] = rotate(rows::<3>(&m.light_dir)[l], xquat[b]);
     }
 }

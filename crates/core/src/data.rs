@@ -5,6 +5,7 @@ use crate::fields::data_fields;
 use crate::jacobian::Columns;
 use crate::model::define;
 use crate::plan::{Demand, Plan};
+use crate::sensor::Match;
 use crate::{Model, chain, collision, pipeline, reset};
 
 macro_rules! define_data {
@@ -139,6 +140,8 @@ pub(crate) struct Work {
     pub(crate) diag_inv: Vec<f64>,
     pub(crate) qacc: Vec<f64>,
     pub(crate) rk: RungeKutta,
+    /// Contacts that pass the filter of a sensor.
+    pub(crate) matches: Vec<Match>,
 }
 
 /// What a Runge–Kutta step keeps between its stages.

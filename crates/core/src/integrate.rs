@@ -6,7 +6,7 @@
 use crate::math::*;
 use crate::pipeline::{self, Skip};
 use crate::reflect::Stage;
-use crate::{Data, Model, disable, joint, mass};
+use crate::{Data, Model, disable, joint, mass, sensor};
 
 /// qpos ← qpos advanced for a time `h` with velocity `v` (`mj_integratePos`).
 pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
@@ -28,11 +28,19 @@ pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
     }
 }
 
+/// Keeps the values of this time for delayed sensors.
+fn record(m: &Model, d: &mut Data) {
+    if m.nhistory > 0 && d.plan.keeps(Stage::Sensors) {
+        sensor::record(m, d);
+    }
+}
+
 /// Semi-implicit Euler: v += h a, then q advances with the new v. Joint damping is implicit, so that it is
 /// stable however stiff: (M + h B) a' = M a.
 #[inline(never)]
 pub(crate) fn euler(m: &Model, d: &mut Data) {
     let h = m.opt.timestep;
+    record(m, d);
     let implicit = d.plan.keeps(Stage::Passive)
         && !m.opt.disabled(disable::EULERDAMP)
         && !m.opt.disabled(disable::DAMPER)
@@ -93,6 +101,9 @@ pub(crate) fn rk4(m: &Model, d: &mut Data) {
         }
     }
     d.qpos.copy_from_slice(&w.qpos);
+    d.qvel.copy_from_slice(&w.qvel);
+    d.time = start;
+    record(m, d);
     integrate_pos(m, &mut d.qpos, &w.dpos, h);
     for i in 0..m.nv {
         d.qvel[i] = w.qvel[i] + h * w.dvel[i];

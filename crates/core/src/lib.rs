@@ -30,6 +30,7 @@ mod energy;
 mod equality;
 mod fields;
 pub mod geometry;
+mod history;
 mod integrate;
 mod jacobian;
 mod kinematics;
@@ -37,14 +38,17 @@ mod mass;
 pub mod math;
 pub mod mjcf;
 mod model;
+mod object;
 mod passive;
 mod pipeline;
 pub mod plan;
 pub mod reflect;
 mod reset;
 mod rne;
+mod rne_post;
 pub mod sensor;
 mod setconst;
+mod subtree;
 mod tendon;
 mod transmission;
 
@@ -56,7 +60,10 @@ pub use model::{Model, Names, Obj, Options, Statistic};
 pub use model::{
     biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, trntype, wraptype,
 };
+pub use object::{object_acceleration, object_velocity};
 pub use pipeline::{forward, set_plan, step};
 pub use plan::{Demand, Plan};
 pub use reset::{reset_data, reset_data_keyframe};
+pub use rne_post::rne_post_constraint;
 pub use setconst::set_const;
+pub use subtree::subtree_vel;

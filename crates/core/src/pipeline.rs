@@ -3,11 +3,12 @@
 use crate::math::rows;
 use crate::plan::Plan;
 use crate::reflect::Stage;
+use crate::sensor::When;
 use crate::{
     Data, Model, Warning, actuation, camera, chain, collision, com, constraint, disable, enable, energy,
     integrate, integrator, kinematics,
 };
-use crate::{jacobian, mass, passive, reset, rne, sensor, tendon, transmission};
+use crate::{jacobian, mass, passive, reset, rne, rne_post, sensor, subtree, tendon, transmission};
 
 /// What a caller can leave out of a forward pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -182,12 +183,12 @@ pub(crate) fn constraints(m: &Model, d: &mut Data) {
 /// Sensors and energy of the position stage.
 fn read_position(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Sensors) {
-        sensor::position_stage(m, d);
+        sensor::evaluate(m, d, When::Position);
     }
     if d.plan.keeps(Stage::Energy) {
         if m.opt.enabled(enable::ENERGY) {
             energy::potential(m, d);
-        } else {
+        } else if m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {
             d.energy = [0.0; 2];
         }
     }
@@ -195,8 +196,11 @@ fn read_position(m: &Model, d: &mut Data) {
 
 /// Sensors and energy of the velocity stage.
 fn read_velocity(m: &Model, d: &mut Data) {
+    if measured(m, d, Stage::SubtreeVel) {
+        subtree::subtree_vel(m, d);
+    }
     if d.plan.keeps(Stage::Sensors) {
-        sensor::velocity_stage(m, d);
+        sensor::evaluate(m, d, When::Velocity);
     }
     if d.plan.keeps(Stage::Energy) && m.opt.enabled(enable::ENERGY) {
         energy::kinetic(m, d);
@@ -205,9 +209,18 @@ fn read_velocity(m: &Model, d: &mut Data) {
 
 /// Sensors of the acceleration stage.
 fn read_acceleration(m: &Model, d: &mut Data) {
-    if d.plan.keeps(Stage::Sensors) {
-        sensor::acceleration_stage(m, d);
+    if measured(m, d, Stage::RnePost) {
+        rne_post::rne_post_constraint(m, d);
     }
+    if d.plan.keeps(Stage::Sensors) {
+        sensor::evaluate(m, d, When::Acceleration);
+    }
+}
+
+/// Whether a stage runs that nothing but sensors needs: its fields stay as they are when there is none, or when
+/// sensors are switched off.
+fn measured(m: &Model, d: &Data, stage: Stage) -> bool {
+    d.plan.keeps(stage) && !m.opt.disabled(disable::SENSOR) && sensor::needs(m, stage)
 }
 
 /// A number that no simulation means: NaN, or larger than 1e10.

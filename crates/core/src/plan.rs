@@ -5,7 +5,7 @@
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
 use crate::reflect::{FieldId, FieldSet, Object, Stage, field};
-use crate::{Model, Obj, chain, collision, enable, joint};
+use crate::{Model, chain, collision, enable, joint, sensor};
 use crate::{trntype, wraptype};
 
 /// What programs read and write.
@@ -292,7 +292,8 @@ impl<'a> Scene<'a> {
         scene.tendon_armature = scene.some(&[TENDON_ARMATURE]);
         // A tendon's inertia adds to that of simple bodies, too.
         scene.general |= scene.tendon_armature;
-        scene.sensors = m.nsensor > 0 && scene.reads(Stage::Sensors).is_some();
+        scene.sensors = m.nsensor > 0
+            && (scene.reads(Stage::Sensors).is_some() || m.nhistory > 0 && scene.reads_field("history"));
         scene.energy |= scene.writes(Object::Option, &["enableflags"]);
         scene
     }
@@ -348,9 +349,10 @@ impl<'a> Scene<'a> {
             Stage::Actuation => because(self.actuated, "actuators make forces"),
             Stage::Bias => because(m.nv > 0, "gravity and the motion of bodies make forces"),
             Stage::Acceleration => because(m.nv > 0, "it is what the integrator needs"),
-            Stage::SubtreeVel | Stage::RnePost => None,
+            // Their fields show something only where a sensor asks for it.
+            Stage::SubtreeVel | Stage::RnePost => self.reads(stage).filter(|_| sensor::needs(m, stage)),
             Stage::Sensors => because(self.sensors, "sensor values are read"),
-            Stage::Energy => self.reads(stage).filter(|_| self.energy),
+            Stage::Energy => self.reads(stage).filter(|_| self.energy || sensor::measures_energy(m)),
             _ => self.reads(stage),
         }
     }
@@ -391,10 +393,9 @@ impl<'a> Scene<'a> {
             (Stage::Bias, Stage::Kinematics) => (0..m.njnt)
                 .any(|j| m.jnt_type[j] == joint::SLIDE && m.body_simple[m.jnt_bodyid[j] as usize] > 0),
             (Stage::Acceleration, Stage::Kinematics) => self.writes(Object::Data, &["xfrc_applied"]),
-            (Stage::Sensors, Stage::Kinematics) => true,
-            (Stage::Sensors, Stage::GeomPoses) => self.sensed(Obj::Geom),
-            (Stage::Sensors, Stage::SitePoses) => self.sensed(Obj::Site),
-            (Stage::Sensors, _) => crate::sensor::needs(m, of),
+            (Stage::SubtreeVel | Stage::RnePost, Stage::ComVel) => true,
+            (Stage::Sensors, _) => sensor::needs(m, of),
+            (Stage::Energy, Stage::Sensors) => sensor::measures_energy(m),
             (Stage::Energy, Stage::Kinematics) => true,
             (Stage::Energy, Stage::Tendon) => self.tendon_springs,
             _ => false,
@@ -457,10 +458,5 @@ impl<'a> Scene<'a> {
     /// Whether an actuator acts through one of these transmissions.
     fn transmits(&self, kinds: &[i32]) -> bool {
         self.m.actuator_trntype.iter().any(|t| kinds.contains(t))
-    }
-
-    /// Whether a sensor measures an object of this kind.
-    fn sensed(&self, kind: Obj) -> bool {
-        self.m.sensor_objtype.contains(&(kind as i32))
     }
 }

@@ -1,7 +1,7 @@
 //! Resets, and the counts that follow from them.
 
 use crate::math::*;
-use crate::{Data, Model, Warning, WarningStat, kinematics, mass, reflect};
+use crate::{Data, Model, Warning, WarningStat, kinematics, mass, reflect, sensor};
 
 /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
 /// what was written to it.
@@ -13,6 +13,7 @@ pub fn reset_data(m: &Model, d: &mut Data) {
     kinematics::world(d);
     d.qpos.copy_from_slice(&m.qpos0);
     d.eq_active.copy_from_slice(&m.eq_active0);
+    sensor::reset(m, d);
     for b in 0..m.nbody {
         let id = m.body_mocapid[b];
         if id >= 0 {

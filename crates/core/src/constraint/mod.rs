@@ -18,7 +18,9 @@ pub(crate) use solver::{Scratch, solve};
 
 /// Values of `efc_type` (mjtConstraint).
 pub(crate) mod kind {
+    pub(crate) const EQUALITY: i32 = 0;
     pub(crate) const LIMIT_JOINT: i32 = 3;
+    pub(crate) const LIMIT_TENDON: i32 = 4;
     pub(crate) const CONTACT_FRICTIONLESS: i32 = 5;
     pub(crate) const CONTACT_PYRAMIDAL: i32 = 6;
 }

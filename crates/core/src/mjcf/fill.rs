@@ -23,6 +23,7 @@ pub(crate) struct Users {
     pub(crate) body: usize,
     pub(crate) joint: usize,
     pub(crate) tendon: usize,
+    pub(crate) sensor: usize,
 }
 
 /// Everything that goes into a model.
@@ -61,6 +62,8 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     m.nmocap = layout.nmocap;
     m.nsensor = sensor_list.len();
     m.nsensordata = sensor_list.iter().map(|s| s.dim as usize).sum();
+    m.nuser_sensor = users.sensor;
+    m.nhistory += sensor_list.iter().map(SensorSpec::history).sum::<usize>();
     m.nkey = key_list.len();
     m.nC = pattern.colind.len();
     fill_tendon::count(m, tendons);
@@ -250,6 +253,7 @@ fn fill_geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)]) {
 }
 
 fn fill_sites(m: &mut Model, sites: &[(usize, &SiteSpec)]) {
+    m.site_type = ints(sites, |(_, s)| s.kind);
     m.site_bodyid = ints(sites, |&(b, _)| b as i32);
     m.site_size = flat(sites, |(_, s)| s.size);
     m.site_pos = flat(sites, |(_, s)| s.pos);
@@ -257,18 +261,30 @@ fn fill_sites(m: &mut Model, sites: &[(usize, &SiteSpec)]) {
 }
 
 fn fill_sensors(m: &mut Model, sensors: &[SensorSpec]) {
-    let mut next = 0;
-    m.sensor_adr = ints(sensors, |_| 0);
-    for (adr, s) in m.sensor_adr.iter_mut().zip(sensors) {
-        *adr = next;
+    let (mut next, mut history) = (0, m.nhistory - sensors.iter().map(SensorSpec::history).sum::<usize>());
+    m.sensor_adr.clear();
+    m.sensor_historyadr.clear();
+    for s in sensors {
+        m.sensor_adr.push(next);
         next += s.dim;
+        m.sensor_historyadr.push(if s.history() == 0 { -1 } else { history as i32 });
+        history += s.history();
     }
     m.sensor_type = ints(sensors, |s| s.kind);
-    m.sensor_objtype = ints(sensors, |s| s.objtype);
-    m.sensor_objid = ints(sensors, |s| s.objid);
+    m.sensor_datatype = ints(sensors, |s| s.datatype);
+    m.sensor_needstage = ints(sensors, |s| s.needstage);
+    m.sensor_objtype = ints(sensors, |s| s.objects.objtype);
+    m.sensor_objid = ints(sensors, |s| s.objects.objid);
+    m.sensor_reftype = ints(sensors, |s| s.objects.reftype);
+    m.sensor_refid = ints(sensors, |s| s.objects.refid);
+    m.sensor_intprm = sensors.iter().flat_map(|s| s.intprm).collect();
     m.sensor_dim = ints(sensors, |s| s.dim);
     m.sensor_cutoff = flat(sensors, |s| [s.cutoff]);
     m.sensor_noise = flat(sensors, |s| [s.noise]);
+    m.sensor_history = sensors.iter().flat_map(|s| [s.timing.nsample, s.timing.interp]).collect();
+    m.sensor_delay = flat(sensors, |s| [s.timing.delay]);
+    m.sensor_interval = flat(sensors, |s| s.timing.interval);
+    m.sensor_user = padded(sensors.iter().map(|s| &s.user), m.nuser_sensor);
 }
 
 /// Keyframes: what is not given is taken from the reference configuration; quaternions are normalized.

@@ -2,8 +2,11 @@
 
 use super::diagnostic::{Report, code};
 use super::names::{NameTable, WORLD};
-use super::spec::BodySpec;
+use super::spec::{BodySpec, SensorObjects};
 use super::tree::{Node, Tree};
+use super::values::Value;
+use crate::Obj;
+use std::collections::BTreeMap;
 
 /// Ids of elements by their place in the tree.
 pub(crate) struct Ids {
@@ -12,12 +15,24 @@ pub(crate) struct Ids {
     joints: Vec<(i32, bool)>,
     /// Type of each geom.
     geoms: Vec<i32>,
+    /// Number of outputs of each actuator.
+    outputs: Vec<i32>,
+    cameras: BTreeMap<String, i32>,
+    /// Number of pixels of each camera.
+    pixels: Vec<usize>,
 }
 
 impl Ids {
     /// Numbers joints, geoms and sites body by body, tendons and actuators in the order of the text.
-    pub(crate) fn number(tree: &Tree, bodies: &[BodySpec]) -> Ids {
-        let mut ids = Ids { by_node: vec![None; tree.nodes.len()], joints: Vec::new(), geoms: Vec::new() };
+    pub(crate) fn number(tree: &Tree, names: &NameTable, bodies: &[BodySpec]) -> Ids {
+        let mut ids = Ids {
+            by_node: vec![None; tree.nodes.len()],
+            joints: Vec::new(),
+            geoms: Vec::new(),
+            outputs: Vec::new(),
+            cameras: BTreeMap::new(),
+            pixels: Vec::new(),
+        };
         let mut sites = 0;
         for (i, body) in bodies.iter().enumerate() {
             ids.set(body.node, i);
@@ -34,10 +49,21 @@ impl Ids {
                 sites += 1;
             }
         }
+        for (i, camera) in bodies.iter().flat_map(|b| &b.cameras).enumerate() {
+            ids.cameras.insert(camera.clone(), i as i32);
+            let node = names.find("camera", camera).and_then(|n| tree.nodes.get(n));
+            ids.pixels.push(match node.and_then(|n| n.attribute("resolution")).map(|a| &a.value) {
+                Some(Value::Ints(size)) => size.iter().map(|&n| n.max(0) as usize).product(),
+                _ => 1,
+            });
+        }
         for section in ["tendon", "actuator"] {
             let nodes = tree.sections(section).flat_map(|(at, _)| tree.children(at));
-            for (i, (node, _)) in nodes.enumerate() {
-                ids.set(node, i);
+            for (i, (at, node)) in nodes.enumerate() {
+                ids.set(at, i);
+                if section == "actuator" {
+                    ids.outputs.push(if node.element.name == "orientation" { 3 } else { 1 });
+                }
             }
         }
         ids
@@ -53,6 +79,7 @@ impl Ids {
     pub(crate) fn find(&self, kind: &str, name: &str, names: &NameTable) -> Option<i32> {
         match kind {
             "body" if name == WORLD => Some(0),
+            "camera" => self.cameras.get(name).copied(),
             _ => self.by_node.get(names.find(kind, name)?).copied().flatten(),
         }
     }
@@ -62,9 +89,32 @@ impl Ids {
         self.joints.get(usize::try_from(id).ok()?).copied()
     }
 
+    /// Number of outputs of an actuator: one, or a torque about each axis.
+    pub(crate) fn outputs(&self, id: i32) -> i32 {
+        usize::try_from(id).ok().and_then(|id| self.outputs.get(id)).copied().unwrap_or(1)
+    }
+
+    /// Number of pixels of a camera; one ray for anything else.
+    pub(crate) fn pixels(&self, objects: &SensorObjects) -> usize {
+        match usize::try_from(objects.objid) {
+            Ok(id) if objects.objtype == Obj::Camera as i32 => self.pixels.get(id).copied().unwrap_or(1),
+            _ => 1,
+        }
+    }
+
     /// Type of a geom.
     pub(crate) fn geom(&self, id: i32) -> Option<i32> {
         self.geoms.get(usize::try_from(id).ok()?).copied()
+    }
+}
+
+/// The kind of objects of a type (mjtObj) in the table of names.
+pub(crate) fn keyword(objtype: i32) -> &'static str {
+    match objtype {
+        t if t == Obj::Geom as i32 => "geom",
+        t if t == Obj::Site as i32 => "site",
+        t if t == Obj::Camera as i32 => "camera",
+        _ => "body",
     }
 }
 

@@ -112,12 +112,13 @@ fn build(xml: &str, report: &mut Report) -> Option<Model> {
     let layout = layout::number(&bodies);
     layout::check(&bodies, &layout, report);
     sleep::check(&bodies, &layout, report);
-    let ids = ids::Ids::number(&tree, &bodies);
+    let ids = ids::Ids::number(&tree, &names, &bodies);
     let refs = ids::References { names: &names, ids: &ids };
     let mut cx = read_body::Context { tree: &tree, classes: &classes, compiler: &compiler, report };
     let tendons = read_tendon::tendons(&mut cx, refs);
     let equalities = read_equality::equalities(&mut cx, refs);
     let (pairs, excludes) = read_contact::contacts(&mut cx, refs, &bodies);
+    let sensors = read_sensor::sensors(&tree, refs, &tendons, report);
     let users = fill::Users {
         body: settings::user_width(&tree, "nuser_body", bodies.iter().map(|b| &b.user), report),
         joint: settings::user_width(
@@ -127,8 +128,8 @@ fn build(xml: &str, report: &mut Report) -> Option<Model> {
             report,
         ),
         tendon: settings::user_width(&tree, "nuser_tendon", tendons.iter().map(|t| &t.user), report),
+        sensor: settings::user_width(&tree, "nuser_sensor", sensors.iter().map(|s| &s.user), report),
     };
-    let sensors = read_sensor::sensors(&tree, &names, &ids, report);
     if !report.is_clean() {
         return None;
     }

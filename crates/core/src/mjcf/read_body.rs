@@ -169,7 +169,8 @@ fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> S
     let p = cx.classes.props(node, childclass);
     let size = p.reals("size", [0.005; 3]);
     // Sphere: a radius; capsule, cylinder: and a half length; ellipsoid, box: three half lengths.
-    let needed = match p.word("type").unwrap_or(2) {
+    let kind = p.word("type").unwrap_or(crate::geom::SPHERE);
+    let needed = match kind {
         2 => 1,
         3 | 5 => 2,
         _ => 3,
@@ -181,6 +182,7 @@ fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> S
     SiteSpec {
         node: i,
         name: name(node),
+        kind,
         size,
         pos: p.reals("pos", [0.0; 3]),
         quat: cx.orientation(&p, node),

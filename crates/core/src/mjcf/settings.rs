@@ -145,6 +145,7 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         wind: p.reals("wind", d.wind),
         density,
         viscosity,
+        magnetic: p.reals("magnetic", d.magnetic),
         o_margin: p.real("o_margin").unwrap_or(d.o_margin),
         o_solref: p.reals("o_solref", d.o_solref),
         o_solimp: p.reals("o_solimp", d.o_solimp),

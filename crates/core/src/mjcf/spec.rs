@@ -123,25 +123,78 @@ pub(crate) struct GeomSpec {
 pub(crate) struct SiteSpec {
     pub(crate) node: usize,
     pub(crate) name: String,
+    /// One of [`crate::geom`].
+    pub(crate) kind: i32,
     pub(crate) size: Vec3,
     pub(crate) pos: Vec3,
     pub(crate) quat: Quat,
 }
 
-/// A sensor, its object resolved.
+/// A sensor, its objects resolved.
 #[derive(Debug)]
 pub(crate) struct SensorSpec {
     pub(crate) name: String,
     /// mjtSensor
     pub(crate) kind: i32,
-    /// mjtObj, 0 when it senses nothing in particular.
-    pub(crate) objtype: i32,
-    /// Id of the object, -1 for none.
-    pub(crate) objid: i32,
+    pub(crate) objects: SensorObjects,
+    pub(crate) intprm: [i32; 3],
     /// Number of values.
     pub(crate) dim: i32,
+    /// mjtDataType
+    pub(crate) datatype: i32,
+    /// mjtStage
+    pub(crate) needstage: i32,
     pub(crate) cutoff: f64,
     pub(crate) noise: f64,
+    pub(crate) timing: SensorTiming,
+    pub(crate) user: List,
+}
+
+/// What a sensor is attached to: kinds (mjtObj, 0 for none) and ids (-1 for none).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SensorObjects {
+    pub(crate) objtype: i32,
+    pub(crate) objid: i32,
+    pub(crate) reftype: i32,
+    pub(crate) refid: i32,
+}
+
+impl SensorObjects {
+    /// One object.
+    pub(crate) fn of(objtype: i32, objid: i32) -> SensorObjects {
+        SensorObjects { objtype, objid, reftype: 0, refid: -1 }
+    }
+
+    /// The same with a second object.
+    pub(crate) fn with_reference(self, reftype: i32, refid: i32) -> SensorObjects {
+        SensorObjects { reftype, refid, ..self }
+    }
+}
+
+impl Default for SensorObjects {
+    fn default() -> Self {
+        SensorObjects::of(0, -1)
+    }
+}
+
+/// When a sensor reads, and when its values show.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct SensorTiming {
+    /// Number of values that are kept.
+    pub(crate) nsample: i32,
+    /// 0 hold, 1 linear, 2 cubic.
+    pub(crate) interp: i32,
+    /// s
+    pub(crate) delay: f64,
+    /// Period and phase, s.
+    pub(crate) interval: [f64; 2],
+}
+
+impl SensorSpec {
+    /// Number of values of the buffer of past values.
+    pub(crate) fn history(&self) -> usize {
+        crate::history::size(self.timing.nsample.max(0) as usize, self.dim as usize)
+    }
 }
 
 /// A list of numbers as long as its author likes, with its place.

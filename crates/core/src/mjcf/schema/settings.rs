@@ -42,7 +42,7 @@ pub(super) static OPTION: Element = Element::new(
     "option",
     &[attributes! {
         REAL => timestep impratio tolerance ls_tolerance density viscosity o_margin;
-        reals(3) => gravity wind;
+        reals(3) => gravity wind magnetic;
         upto(2) => o_solref;
         upto(5) => o_solimp o_friction;
         Kind::Words(&[
@@ -54,7 +54,6 @@ pub(super) static OPTION: Element = Element::new(
         INT => iterations ls_iterations;
         Kind::Words(&[word("dense", 0), word("sparse", 1), word("auto", 2)]) => jacobian
             [Ignored("how matrices are stored")];
-        reals(3) => magnetic [Ignored("read by magnetometers, which are refused")];
         INT => noslip_iterations [Only("0")];
         REAL => noslip_tolerance [Ignored("for the no-slip solver, which is refused")];
         REAL => ccd_tolerance [Ignored("for convex collisions, which are refused")];

@@ -1,0 +1,163 @@
+//! Sensors of contacts: touch, and contacts themselves, filtered and reduced.
+
+use super::fields::{self, CONTACT_DATA};
+use super::put;
+use crate::collision::contact_force;
+use crate::geometry::{self, Shape, ray_shape};
+use crate::math::*;
+use crate::{Contact, Data, Model, Obj};
+
+/// The sum of the normal forces on the body of a site, of all contacts whose normal, from the contact into the
+/// other body, meets the volume of the site: it lies around the contact or behind it.
+pub(super) fn touch(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+    let site = m.sensor_objid[s].max(0) as usize;
+    let body = m.site_bodyid[site];
+    let zone = Shape::site(m, d, site);
+    let mut sum = 0.0;
+    for c in d.contact.iter().filter(|c| c.efc_address.is_some()) {
+        let sides = [m.geom_bodyid[c.geom1], m.geom_bodyid[c.geom2]];
+        if !sides.contains(&body) {
+            continue;
+        }
+        let push = contact_force(m, d, c)[0];
+        let sign = if sides[1] == body { -1.0 } else { 1.0 };
+        if push > 0.0 && ray_shape(&zone, c.pos, scale(normal(c), sign)).is_some() {
+            sum += push;
+        }
+    }
+    put(out, [sum]);
+}
+
+fn normal(c: &Contact) -> Vec3 {
+    [c.frame[0], c.frame[1], c.frame[2]]
+}
+
+/// How several contacts become few: the second parameter of a contact sensor.
+mod reduce {
+    /// The smallest distances.
+    pub(super) const MINDIST: i32 = 1;
+    /// The largest forces.
+    pub(super) const MAXFORCE: i32 = 2;
+    /// One force that replaces them all.
+    pub(super) const NETFORCE: i32 = 3;
+}
+
+/// A contact that passes the filter of a sensor.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Match {
+    contact: usize,
+    /// The sensor looks at it from the side of geom 2.
+    flip: bool,
+    /// Smallest first.
+    key: f64,
+}
+
+/// The contacts of a filter, one slot of data fields each, as many as there are slots; zeros where there are no more.
+pub(super) fn contacts(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+    out.fill(0.0);
+    let [mask, reduction] = [m.sensor_intprm[3 * s], m.sensor_intprm[3 * s + 1]];
+    // Scratch that is kept from step to step.
+    let mut list = std::mem::take(&mut d.work.matches);
+    list.clear();
+    for (i, c) in d.contact.iter().enumerate() {
+        let Some(flip) = admitted(m, d, s, c) else { continue };
+        let key = match reduction {
+            reduce::MINDIST => c.dist,
+            reduce::MAXFORCE => {
+                let f = contact_force(m, d, c);
+                -dot([f[0], f[1], f[2]], [f[0], f[1], f[2]])
+            }
+            _ => 0.0,
+        };
+        list.push(Match { contact: i, flip, key });
+    }
+    if reduction == reduce::NETFORCE {
+        net(m, d, &list, mask, out);
+    } else {
+        list.sort_unstable_by(|a, b| a.key.total_cmp(&b.key).then(a.contact.cmp(&b.contact)));
+        let size = fields::size(&CONTACT_DATA, mask).max(1);
+        for (found, out) in list.iter().zip(out.chunks_exact_mut(size)) {
+            single(m, d, found, list.len(), mask, out);
+        }
+    }
+    d.work.matches = list;
+}
+
+/// Whether a contact passes the filter, and if so whether it is seen from the side of geom 2: the first object is to be
+/// on the side that the normal comes from.
+fn admitted(m: &Model, d: &Data, s: usize, c: &Contact) -> Option<bool> {
+    let first = (m.sensor_objtype[s], m.sensor_objid[s]);
+    let second = (m.sensor_reftype[s], m.sensor_refid[s]);
+    if let (kind, Ok(site)) = (first.0, usize::try_from(first.1))
+        && kind == Obj::Site as i32
+        && !geometry::inside_site(m, d, site, c.pos)
+    {
+        return None;
+    }
+    let takes_part = |object, geom| takes_part(m, object, geom);
+    let (first1, first2) = (takes_part(first, c.geom1), takes_part(first, c.geom2));
+    let (second1, second2) = (takes_part(second, c.geom1), takes_part(second, c.geom2));
+    if !(first1 || first2) || !(second1 || second2) {
+        return None;
+    }
+    match (first.0 != 0, second.0 != 0) {
+        (true, true) if first1 && second2 => Some(false),
+        (true, true) => (first2 && second1).then_some(true),
+        (true, false) => Some(!first1),
+        (false, true) => Some(!second2),
+        (false, false) => Some(false),
+    }
+}
+
+/// Whether a geom of a contact is, or belongs to, an object of the filter. No object and a site admit every geom.
+fn takes_part(m: &Model, (kind, id): (i32, i32), geom: usize) -> bool {
+    let body = m.geom_bodyid[geom];
+    match kind {
+        k if k == Obj::Geom as i32 => id == geom as i32,
+        k if k == Obj::Body as i32 => id == body,
+        k if k == Obj::XBody as i32 => {
+            // Parents have smaller numbers.
+            let mut up = body;
+            while up > id {
+                up = m.body_parentid[up as usize];
+            }
+            up == id
+        }
+        _ => true,
+    }
+}
+
+/// Fields of one contact. Seen from the other side its frame turns half around about the second tangent.
+fn single(m: &Model, d: &Data, found: &Match, count: usize, mask: i32, out: &mut [f64]) {
+    let c = &d.contact[found.contact];
+    let f = contact_force(m, d, c);
+    let sign = if found.flip { -1.0 } else { 1.0 };
+    let force = [f[0], f[1], sign * f[2]];
+    let torque = [f[3], f[4], sign * f[5]];
+    let normal = scale(normal(c), sign);
+    let tangent = scale([c.frame[3], c.frame[4], c.frame[5]], sign);
+    fields::write(mask, &[&[count as f64], &force, &torque, &[c.dist], &c.pos, &normal, &tangent], out);
+}
+
+/// One force and torque for all, world, at the mean of their points weighted by force.
+fn net(m: &Model, d: &Data, list: &[Match], mask: i32, out: &mut [f64]) {
+    let wrench = |found: &Match| {
+        let c = &d.contact[found.contact];
+        let f = scale(contact_force(m, d, c), if found.flip { -1.0 } else { 1.0 });
+        let [force, torque] = [[f[0], f[1], f[2]], [f[3], f[4], f[5]]].map(|v| mat_t_mul_vec(&c.frame, v));
+        (c.pos, force, torque)
+    };
+    let (mut point, mut weight) = ([0.0; 3], 0.0);
+    for (pos, force, _) in list.iter().map(wrench) {
+        point = add_scaled(point, pos, norm(force));
+        weight += norm(force);
+    }
+    point = scale(point, 1.0 / weight.max(MINVAL));
+    let (mut force, mut torque) = ([0.0; 3], [0.0; 3]);
+    for (pos, f, t) in list.iter().map(wrench) {
+        force = add(force, f);
+        torque = add(torque, add(t, cross(sub(pos, point), f)));
+    }
+    let (x, y) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    fields::write(mask, &[&[list.len() as f64], &force, &torque, &[0.0], &point, &x, &y], out);
+}

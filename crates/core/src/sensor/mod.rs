@@ -1,0 +1,108 @@
+//! Sensors: `sensordata`, stage by stage as what they measure becomes known.
+//!
+//! What there is to know of a kind of sensor stands in one `table`; the functions that read them are in the
+//! other files, by what they look at. Meanings follow MuJoCo's XML reference, chapter "sensor".
+
+mod contact;
+mod fields;
+mod frame;
+mod measure;
+mod pair;
+mod rays;
+mod table;
+#[cfg(test)]
+mod tests;
+mod timing;
+
+pub(crate) use contact::Match;
+pub(crate) use fields::{CONTACT_DATA, RAY_DATA, size as data_size};
+pub(crate) use timing::{record, reset};
+
+pub use table::{Datatype, KINDS, Kind, Senses, When, kind};
+
+use crate::reflect::Stage;
+use crate::{Data, Model, Obj, disable};
+
+/// The sensors whose values are known at a stage. While sensors are switched off values stay as they are.
+pub(crate) fn evaluate(m: &Model, d: &mut Data, when: When) {
+    if m.opt.disabled(disable::SENSOR) {
+        return;
+    }
+    // Taken out, because reading a sensor uses scratch of the data; nothing is allocated.
+    let mut values = std::mem::take(&mut d.sensordata);
+    for s in 0..m.nsensor {
+        if m.sensor_needstage[s] == when as i32 {
+            let adr = m.sensor_adr[s] as usize;
+            let out = &mut values[adr..adr + m.sensor_dim[s] as usize];
+            if !timing::past(m, d, s, out) {
+                read(m, d, s, out);
+            }
+        }
+    }
+    d.sensordata = values;
+}
+
+/// What sensor `s` measures now, cut off. The cutoff of a segment is that of its length; contacts have none.
+fn read(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+    (table::of(m, s).read)(m, d, s, out);
+    let cutoff = m.sensor_cutoff[s];
+    if cutoff <= 0.0 || matches!(m.sensor_type[s], kind::GEOMFROMTO | kind::CONTACT) {
+        return;
+    }
+    let lowest = match m.sensor_datatype[s] {
+        t if t == Datatype::Real as i32 => -cutoff,
+        t if t == Datatype::Positive as i32 => f64::NEG_INFINITY,
+        _ => return,
+    };
+    for x in out {
+        *x = x.max(lowest).min(cutoff);
+    }
+}
+
+/// Whether some sensor of the model uses the results of a stage.
+pub(crate) fn needs(m: &Model, stage: Stage) -> bool {
+    (0..m.nsensor).any(|s| {
+        table::of(m, s).needs.contains(&stage)
+            || poses(stage, m.sensor_objtype[s])
+            || poses(stage, m.sensor_reftype[s])
+            || m.sensor_type[s] == kind::USER && offers(stage, m.sensor_needstage[s])
+    })
+}
+
+/// Whether a stage computes the frames of a kind of objects.
+fn poses(stage: Stage, objtype: i32) -> bool {
+    let kinds: &[Obj] = match stage {
+        Stage::Kinematics => &[Obj::Body, Obj::XBody],
+        Stage::GeomPoses => &[Obj::Geom],
+        Stage::SitePoses => &[Obj::Site],
+        Stage::CameraPoses => &[Obj::Camera],
+        _ => &[],
+    };
+    kinds.iter().any(|&k| k as i32 == objtype)
+}
+
+/// Whether a stage is run for the sensors of a user, who may look at all that is known then.
+fn offers(stage: Stage, needstage: i32) -> bool {
+    match stage {
+        Stage::SubtreeVel => needstage == When::Velocity as i32,
+        Stage::RnePost => needstage == When::Acceleration as i32,
+        _ => false,
+    }
+}
+
+/// Whether some sensor measures the potential energy, and so computes it while the energy flag is off.
+pub(crate) fn measures_potential(m: &Model) -> bool {
+    m.sensor_type.contains(&kind::E_POTENTIAL)
+}
+
+/// Whether some sensor measures an energy.
+pub(crate) fn measures_energy(m: &Model) -> bool {
+    measures_potential(m) || m.sensor_type.contains(&kind::E_KINETIC)
+}
+
+/// Copies N numbers to the values of a sensor.
+fn put<const N: usize>(out: &mut [f64], value: [f64; N]) {
+    if let Some(to) = out.first_chunk_mut::<N>() {
+        *to = value;
+    }
+}

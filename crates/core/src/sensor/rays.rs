@@ -1,0 +1,108 @@
+//! Sensors along lines of sight: rangefinders, from a site or for every pixel of a camera, and the place of a site
+//! in a camera's image.
+//!
+//! A pinhole camera sees along -z with y up; pixels count from the upper left corner (MuJoCo's documentation,
+//! element "camera").
+
+use super::fields::{self, RAY_DATA};
+use super::put;
+use crate::geometry::{self, RayFilter};
+use crate::math::*;
+use crate::object::{self, Frame};
+use crate::{Data, Model, Obj};
+
+/// A ray: where it starts and its unit direction, world.
+struct Ray {
+    from: Vec3,
+    along: Vec3,
+}
+
+pub(super) fn rangefinder(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+    let Ok(id) = usize::try_from(m.sensor_objid[s]) else { return };
+    let Some(f) = object::frame(m, d, m.sensor_objtype[s], id) else { return };
+    let mask = m.sensor_intprm[3 * s];
+    if m.sensor_objtype[s] != Obj::Camera as i32 {
+        let ray = Ray { from: f.pos, along: column(&f.mat, 2) };
+        return cast(m, d, &ray, &f, false, mask, out);
+    }
+    let camera = Camera::of(m, id);
+    let [width, _] = camera.resolution;
+    let size = fields::size(&RAY_DATA, mask).max(1);
+    for (pixel, out) in out.chunks_exact_mut(size).enumerate() {
+        let (row, col) = (pixel / width.max(1), pixel % width.max(1));
+        cast(m, d, &camera.ray(&f, row, col), &f, true, mask, out);
+    }
+}
+
+/// What a ray from the frame `f` meets: distance -1 and no direction, point and normal where it meets nothing. The
+/// body that the sensor is fixed to is not seen. A camera's depth is along its axis, a site's along the ray.
+fn cast(m: &Model, d: &Data, ray: &Ray, f: &Frame, in_image: bool, mask: i32, out: &mut [f64]) {
+    let filter = RayFilter { exclude_body: Some(f.body), ..RayFilter::default() };
+    let none = [0.0; 3];
+    let (dist, dir, point, normal, depth) = match geometry::ray(m, d, ray.from, ray.along, &filter) {
+        Some(hit) => {
+            let point = add_scaled(ray.from, ray.along, hit.distance);
+            let ahead = -dot(sub(point, f.pos), column(&f.mat, 2));
+            (hit.distance, ray.along, point, hit.normal, if in_image { ahead } else { hit.distance })
+        }
+        None => (-1.0, none, none, none, -1.0),
+    };
+    fields::write(mask, &[&[dist], &dir, &ray.from, &point, &normal, &[depth]], out);
+}
+
+/// The optics of a camera, in pixels.
+struct Camera {
+    resolution: [usize; 2],
+    /// Focal lengths.
+    focal: [f64; 2],
+    /// The point of the image on the optical axis.
+    principal: [f64; 2],
+    /// Side of the square that a camera without perspective sees, m.
+    extent: Option<f64>,
+}
+
+impl Camera {
+    fn of(m: &Model, id: usize) -> Camera {
+        let size = rows::<2>(&m.cam_sensorsize)[id];
+        let [fx, fy, px, py] = rows::<4>(&m.cam_intrinsic)[id];
+        let resolution = [m.cam_resolution[2 * id], m.cam_resolution[2 * id + 1]].map(|n| n.max(0) as usize);
+        let [width, height] = resolution.map(|n| n as f64);
+        // Lengths on the sensor to pixels, in the single precision that MuJoCo stores optics with.
+        let pixels =
+            |length: f64, axis: usize| f64::from(length as f32 / size[axis] as f32 * resolution[axis] as f32);
+        let (focal, principal) = if size[0] != 0.0 && size[1] != 0.0 {
+            ([pixels(fx, 0), pixels(fy, 1)], [pixels(px, 0), pixels(py, 1)])
+        } else {
+            let f = 0.5 / libm::tan(m.cam_fovy[id] * std::f64::consts::PI / 360.0) * height;
+            ([f, f], [width / 2.0, height / 2.0])
+        };
+        Camera { resolution, focal, principal, extent: (m.cam_projection[id] == 1).then_some(m.cam_fovy[id]) }
+    }
+
+    /// The ray through the centre of a pixel, of a camera at `f`.
+    fn ray(&self, f: &Frame, row: usize, col: usize) -> Ray {
+        let (u, v) = (col as f64 + 0.5, row as f64 + 0.5);
+        if let Some(extent) = self.extent {
+            let [width, height] = self.resolution.map(|n| n as f64);
+            let from = [(u / width - 0.5) * extent, (0.5 - v / height) * extent, 0.0];
+            let along = scale(column(&f.mat, 2), -1.0);
+            return Ray { from: add(f.pos, mat_mul_vec(&f.mat, from)), along };
+        }
+        let local = [(u - self.principal[0]) / self.focal[0], -(v - self.principal[1]) / self.focal[1], -1.0];
+        Ray { from: f.pos, along: normalize(mat_mul_vec(&f.mat, local)).0 }
+    }
+}
+
+/// Pixel coordinates of a site: its direction times the focal lengths, from the middle of the image.
+pub(super) fn camera_projection(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+    let (Ok(site), Ok(id)) = (usize::try_from(m.sensor_objid[s]), usize::try_from(m.sensor_refid[s])) else {
+        return;
+    };
+    let Some(f) = object::frame(m, d, Obj::Camera as i32, id) else { return };
+    let camera = Camera::of(m, id);
+    let [x, y, z] = mat_t_mul_vec(&f.mat, sub(rows::<3>(&d.site_xpos)[site], f.pos));
+    // In the plane of the camera there is no image: the pixel is far outside.
+    let depth = if z.abs() < MINVAL { MINVAL.copysign(z) } else { z };
+    let [width, height] = camera.resolution.map(|n| n as f64);
+    put(out, [width / 2.0 - camera.focal[0] * x / depth, height / 2.0 + camera.focal[1] * y / depth]);
+}

@@ -1,0 +1,191 @@
+//! The table of sensors: every kind with its name in MJCF, what it senses, what its values are, when they are
+//! known, which results they need and the function that reads them.
+//!
+//! The compiler, the evaluation, the plan and the schema all come from it. Order and numbers are MuJoCo's
+//! (mjtSensor), meanings those of its XML reference, chapter "sensor".
+
+use super::{contact, frame, measure, pair, rays};
+use crate::reflect::Stage;
+use crate::{Data, Model};
+
+/// What a sensor can be attached to: it decides the attributes in MJCF.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Senses {
+    /// Nothing in particular.
+    Nothing,
+    /// A site.
+    Site,
+    /// A site, or every pixel of a camera; with a list of data fields.
+    Ray,
+    /// A site in the image of a camera.
+    SiteInImage,
+    /// A slide or hinge joint.
+    ScalarJoint,
+    /// A ball joint.
+    BallJoint,
+    /// A joint with limits.
+    LimitedJoint,
+    /// A tendon.
+    Tendon,
+    /// A tendon with limits.
+    LimitedTendon,
+    /// An actuator.
+    Actuator,
+    /// The frame of a body, geom, site or camera.
+    Frame,
+    /// The same, possibly as another frame sees it.
+    RelativeFrame,
+    /// The same, against the volume of a site.
+    FrameInSite,
+    /// A body with its descendants.
+    Subtree,
+    /// Two geoms, or all geoms of a body.
+    Pair,
+    /// Contacts, by the geom, body, subtree or site that takes part; with a list of data fields.
+    Contacts,
+    /// What the user says.
+    User,
+    /// The vertices of a mesh, as taxels. Not supported.
+    Tactile,
+    /// What a plugin says. Not supported.
+    Plugin,
+}
+
+/// What the values of a sensor are, and so how a cutoff acts (mjtDataType).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Datatype {
+    /// Any number: clamped on both sides.
+    Real,
+    /// Zero or more, where negative means nothing: clamped from above.
+    Positive,
+    /// A unit vector: cannot be clamped.
+    Axis,
+    /// A unit quaternion: cannot be clamped.
+    Quaternion,
+}
+
+/// When the values of a sensor are known (mjtStage).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)] // positions, velocities, accelerations and forces
+pub enum When {
+    Position = 1,
+    Velocity = 2,
+    Acceleration = 3,
+}
+
+/// Reads a sensor: model, data, number of the sensor, its values.
+pub(super) type Read = fn(&Model, &mut Data, usize, &mut [f64]);
+
+/// A row of the table.
+#[derive(Debug)]
+pub struct Kind {
+    /// The element in MJCF.
+    pub name: &'static str,
+    /// What it can be attached to.
+    pub senses: Senses,
+    /// Number of values, 0 when the sensed object or the sensor's own parameters decide.
+    pub dim: i32,
+    /// What the values are.
+    pub datatype: Datatype,
+    /// When they are known.
+    pub when: When,
+    /// The results that they are computed from, besides the poses of the sensed objects.
+    pub(super) needs: &'static [Stage],
+    pub(super) read: Read,
+}
+
+macro_rules! kinds {
+    ($($id:ident $name:literal $senses:ident $dim:literal $datatype:ident $when:ident [$($needs:ident)*] $read:expr;)*) => {
+        #[allow(non_camel_case_types, clippy::upper_case_acronyms)] // the names of the constants
+        enum Number { $($id),* }
+        /// Types of sensors, values of `sensor_type` (mjtSensor).
+        #[allow(missing_docs)] // each is named as in MJCF
+        pub mod kind {
+            use super::Number;
+            $(pub const $id: i32 = Number::$id as i32;)*
+        }
+        /// All kinds of sensors, by their number.
+        pub static KINDS: [Kind; [$($name),*].len()] = [$(Kind {
+            name: $name,
+            senses: Senses::$senses,
+            dim: $dim,
+            datatype: Datatype::$datatype,
+            when: When::$when,
+            needs: &[$(Stage::$needs),*],
+            read: $read,
+        }),*];
+    };
+}
+kinds! {
+    TOUCH "touch" Site 1 Positive Acceleration [] contact::touch;
+    ACCELEROMETER "accelerometer" Site 3 Real Acceleration [RnePost] frame::accelerometer;
+    VELOCIMETER "velocimeter" Site 3 Real Velocity [ComVel] frame::velocimeter;
+    GYRO "gyro" Site 3 Real Velocity [ComVel] frame::gyro;
+    FORCE "force" Site 3 Real Acceleration [RnePost] frame::force;
+    TORQUE "torque" Site 3 Real Acceleration [RnePost] frame::torque;
+    MAGNETOMETER "magnetometer" Site 3 Real Position [] frame::magnetometer;
+    RANGEFINDER "rangefinder" Ray 0 Real Position [GeomPoses] rays::rangefinder;
+    CAMPROJECTION "camprojection" SiteInImage 2 Real Position [] rays::camera_projection;
+    JOINTPOS "jointpos" ScalarJoint 1 Real Position [] measure::joint_position;
+    JOINTVEL "jointvel" ScalarJoint 1 Real Velocity [] measure::joint_velocity;
+    TENDONPOS "tendonpos" Tendon 1 Real Position [Tendon] measure::tendon_length;
+    TENDONVEL "tendonvel" Tendon 1 Real Velocity [TendonVel] measure::tendon_velocity;
+    ACTUATORPOS "actuatorpos" Actuator 0 Real Position [Transmission] measure::actuator_length;
+    ACTUATORVEL "actuatorvel" Actuator 0 Real Velocity [ActuatorVel] measure::actuator_velocity;
+    ACTUATORFRC "actuatorfrc" Actuator 0 Real Acceleration [Actuation] measure::actuator_force;
+    JOINTACTFRC "jointactuatorfrc" ScalarJoint 1 Real Acceleration [Actuation] measure::joint_actuator_force;
+    TENDONACTFRC "tendonactuatorfrc" Tendon 1 Real Acceleration [Actuation] measure::tendon_actuator_force;
+    BALLQUAT "ballquat" BallJoint 4 Quaternion Position [] measure::ball_orientation;
+    BALLANGVEL "ballangvel" BallJoint 3 Real Velocity [] measure::ball_velocity;
+    JOINTLIMITPOS "jointlimitpos" LimitedJoint 1 Real Position [] measure::joint_limit_distance;
+    JOINTLIMITVEL "jointlimitvel" LimitedJoint 1 Real Velocity [] measure::joint_limit_velocity;
+    JOINTLIMITFRC "jointlimitfrc" LimitedJoint 1 Real Acceleration [] measure::joint_limit_force;
+    TENDONLIMITPOS "tendonlimitpos" LimitedTendon 1 Real Position [] measure::tendon_limit_distance;
+    TENDONLIMITVEL "tendonlimitvel" LimitedTendon 1 Real Velocity [] measure::tendon_limit_velocity;
+    TENDONLIMITFRC "tendonlimitfrc" LimitedTendon 1 Real Acceleration [] measure::tendon_limit_force;
+    FRAMEPOS "framepos" RelativeFrame 3 Real Position [] frame::position;
+    FRAMEQUAT "framequat" RelativeFrame 4 Quaternion Position [] frame::orientation;
+    FRAMEXAXIS "framexaxis" RelativeFrame 3 Axis Position [] frame::axis::<0>;
+    FRAMEYAXIS "frameyaxis" RelativeFrame 3 Axis Position [] frame::axis::<1>;
+    FRAMEZAXIS "framezaxis" RelativeFrame 3 Axis Position [] frame::axis::<2>;
+    FRAMELINVEL "framelinvel" RelativeFrame 3 Real Velocity [ComVel] frame::linear_velocity;
+    FRAMEANGVEL "frameangvel" RelativeFrame 3 Real Velocity [ComVel] frame::angular_velocity;
+    FRAMELINACC "framelinacc" Frame 3 Real Acceleration [RnePost] frame::linear_acceleration;
+    FRAMEANGACC "frameangacc" Frame 3 Real Acceleration [RnePost] frame::angular_acceleration;
+    SUBTREECOM "subtreecom" Subtree 3 Real Position [ComPos] measure::subtree_com;
+    SUBTREELINVEL "subtreelinvel" Subtree 3 Real Velocity [SubtreeVel] measure::subtree_velocity;
+    SUBTREEANGMOM "subtreeangmom" Subtree 3 Real Velocity [SubtreeVel] measure::subtree_angular_momentum;
+    INSIDESITE "insidesite" FrameInSite 1 Positive Position [] frame::inside_site;
+    GEOMDIST "distance" Pair 1 Real Position [GeomPoses] pair::distance;
+    GEOMNORMAL "normal" Pair 3 Axis Position [GeomPoses] pair::normal;
+    GEOMFROMTO "fromto" Pair 6 Real Position [GeomPoses] pair::from_to;
+    CONTACT "contact" Contacts 0 Real Acceleration [] contact::contacts;
+    E_POTENTIAL "e_potential" Nothing 1 Real Position [Kinematics Tendon] measure::potential_energy;
+    E_KINETIC "e_kinetic" Nothing 1 Real Position [MassMatrix] measure::kinetic_energy;
+    CLOCK "clock" Nothing 1 Real Position [] measure::clock;
+    TACTILE "tactile" Tactile 0 Real Acceleration [] measure::nothing;
+    PLUGIN "plugin" Plugin 0 Real Acceleration [] measure::nothing;
+    USER "user" User 0 Real Acceleration [] measure::nothing;
+}
+
+/// The row of sensor `s`.
+#[inline]
+pub(super) fn of(m: &Model, s: usize) -> &'static Kind {
+    let number = usize::try_from(m.sensor_type[s]).unwrap_or(usize::MAX);
+    KINDS.get(number).unwrap_or(&KINDS[Number::USER as usize])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{KINDS, kind};
+
+    #[test]
+    fn numbers_are_those_of_mujoco() {
+        assert_eq!(KINDS.len(), 49);
+        for (name, number) in [("touch", 0), ("jointpos", 9), ("framepos", 26), ("contact", 42), ("user", 48)]
+        {
+            assert_eq!(KINDS[number].name, name);
+        }
+        assert_eq!((kind::SUBTREECOM, kind::CLOCK, kind::TACTILE), (35, 45, 46));
+    }
+}

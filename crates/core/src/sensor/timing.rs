@@ -1,0 +1,87 @@
+//! Sensors that keep past values: delays, and readings at intervals.
+//!
+//! At the end of a step the value of that time goes into the buffer of the sensor; a delayed sensor shows what
+//! was put there a delay ago, a sensor with a period the last reading. The owner's slot of the buffer holds the time
+//! of the last tick of the period, which readings follow as the steps allow.
+
+use super::table::of;
+use crate::reflect::Stage;
+use crate::{Data, Model, history, integrator, rne_post, subtree};
+
+/// Where the buffer of a sensor is, and how many samples it has; `None` when it keeps none.
+fn buffer(m: &Model, s: usize) -> Option<(std::ops::Range<usize>, usize)> {
+    let n = usize::try_from(m.sensor_history[2 * s]).ok().filter(|&n| n > 0)?;
+    let at = usize::try_from(m.sensor_historyadr[s]).ok()?;
+    Some((at..at + history::size(n, m.sensor_dim[s] as usize), n))
+}
+
+/// Whether a reading is due: the last tick was a period ago.
+fn due(m: &Model, d: &Data, s: usize, at: usize) -> bool {
+    d.history[at] + m.sensor_interval[2 * s] <= d.time
+}
+
+/// Shows a past value; `false` when the sensor shows what it reads now.
+pub(super) fn past(m: &Model, d: &Data, s: usize, out: &mut [f64]) -> bool {
+    let Some((range, n)) = buffer(m, s) else { return false };
+    let delay = m.sensor_delay[s];
+    let waits = m.sensor_interval[2 * s] > 0.0 && !due(m, d, s, range.start);
+    let time = match delay > 0.0 {
+        true => d.time - delay,
+        false if waits => d.time,
+        false => return false,
+    };
+    history::read(&d.history[range], n, out.len(), time, m.sensor_history[2 * s + 1], out);
+    true
+}
+
+/// Puts the values of this time into the buffers, before time advances.
+///
+/// After the stages of a Runge–Kutta step, bodies are where the last stage left them. What is kept then is what
+/// MuJoCo keeps: the state at the start of the step, seen with the poses and forces of the last stage.
+pub(crate) fn record(m: &Model, d: &mut Data) {
+    let delayed = |s: &usize| m.sensor_delay[*s] > 0.0 && m.sensor_history[2 * s] > 0;
+    if m.opt.integrator == integrator::RK4 {
+        let needs = |stage| (0..m.nsensor).filter(delayed).any(|s| of(m, s).needs.contains(&stage));
+        if needs(Stage::SubtreeVel) {
+            subtree::subtree_vel(m, d);
+        }
+        if needs(Stage::RnePost) {
+            rne_post::rne_post_constraint(m, d);
+        }
+    }
+    for s in 0..m.nsensor {
+        let Some((range, n)) = buffer(m, s) else { continue };
+        if m.sensor_interval[2 * s] > 0.0 {
+            if !due(m, d, s, range.start) {
+                continue;
+            }
+            d.history[range.start] += m.sensor_interval[2 * s];
+        }
+        let dim = m.sensor_dim[s] as usize;
+        let mut all = std::mem::take(&mut d.history);
+        let value = history::insert(&mut all[range], n, dim, d.time);
+        if m.sensor_delay[s] > 0.0 {
+            super::read(m, d, s, value);
+        } else {
+            let adr = m.sensor_adr[s] as usize;
+            value.copy_from_slice(&d.sensordata[adr..adr + dim]);
+        }
+        d.history = all;
+    }
+}
+
+/// Zeros at the times before the start at which the sensor would have been read.
+pub(crate) fn reset(m: &Model, d: &mut Data) {
+    let h = m.opt.timestep;
+    for s in 0..m.nsensor {
+        let Some((range, n)) = buffer(m, s) else { continue };
+        let [period, phase] = [m.sensor_interval[2 * s], m.sensor_interval[2 * s + 1]];
+        let buf = &mut d.history[range];
+        if period > 0.0 {
+            let tick = if phase == 0.0 { -period } else { phase };
+            history::init(buf, n, tick, |i| ((tick - (n - 1 - i) as f64 * period) / h).ceil() * h);
+        } else {
+            history::init(buf, n, -h, |i| -((n - i) as f64) * h);
+        }
+    }
+}
