@@ -237,14 +237,16 @@ fn reach(m: &Model, g: usize) -> f64 {
     }
 }
 
-/// How far the geoms and joints of each body reach from its centre of mass, m.
+/// How far the geoms of each body and the joints to its parent and its children reach from its centre of mass, m.
 fn body_sizes(m: &Model, d: &Data) -> Vec<f64> {
     let xipos = rows::<3>(&d.xipos);
     // A body with nothing in it counts as a point.
     let mut size = vec![1e-5f64; m.nbody];
     for j in 0..m.njnt {
         let b = m.jnt_bodyid[j] as usize;
-        size[b] = size[b].max(norm(sub(rows::<3>(&d.xanchor)[j], xipos[b])));
+        for b in [b, m.body_parentid[b] as usize] {
+            size[b] = size[b].max(norm(sub(rows::<3>(&d.xanchor)[j], xipos[b])));
+        }
     }
     for g in 0..m.ngeom {
         let b = m.geom_bodyid[g] as usize;
