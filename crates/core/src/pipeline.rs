@@ -15,7 +15,7 @@ pub(crate) struct Skip(u8);
 
 impl Skip {
     pub(crate) const NOTHING: Skip = Skip(0);
-    /// Sensors and energy: Runge–Kutta stages between steps do not show.
+    /// Sensors: Runge–Kutta stages between steps do not show. The energy is that of the last stage, in MuJoCo as here.
     pub(crate) const SENSORS: Skip = Skip(1);
 }
 
@@ -39,20 +39,22 @@ pub fn forward(m: &Model, d: &mut Data) {
 }
 
 pub(crate) fn forward_skip(m: &Model, d: &mut Data, skip: Skip) {
-    let show = skip == Skip::NOTHING;
+    let sensors = skip == Skip::NOTHING && d.plan.keeps(Stage::Sensors);
     position(m, d);
-    if show {
-        read_position(m, d);
+    if sensors {
+        sensor::position_stage(m, d);
     }
+    potential_energy(m, d);
     velocity(m, d);
-    if show {
-        read_velocity(m, d);
+    if sensors {
+        sensor::velocity_stage(m, d);
     }
+    kinetic_energy(m, d);
     actuation(m, d);
     acceleration(m, d);
     constraints(m, d);
-    if show {
-        read_acceleration(m, d);
+    if sensors {
+        sensor::acceleration_stage(m, d);
     }
 }
 
@@ -179,11 +181,8 @@ pub(crate) fn constraints(m: &Model, d: &mut Data) {
     }
 }
 
-/// Sensors and energy of the position stage.
-fn read_position(m: &Model, d: &mut Data) {
-    if d.plan.keeps(Stage::Sensors) {
-        sensor::position_stage(m, d);
-    }
+/// `energy[0]`, or zeros when the flag is off.
+fn potential_energy(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Energy) {
         if m.opt.enabled(enable::ENERGY) {
             energy::potential(m, d);
@@ -193,20 +192,10 @@ fn read_position(m: &Model, d: &mut Data) {
     }
 }
 
-/// Sensors and energy of the velocity stage.
-fn read_velocity(m: &Model, d: &mut Data) {
-    if d.plan.keeps(Stage::Sensors) {
-        sensor::velocity_stage(m, d);
-    }
+/// `energy[1]`.
+fn kinetic_energy(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Energy) && m.opt.enabled(enable::ENERGY) {
         energy::kinetic(m, d);
-    }
-}
-
-/// Sensors of the acceleration stage.
-fn read_acceleration(m: &Model, d: &mut Data) {
-    if d.plan.keeps(Stage::Sensors) {
-        sensor::acceleration_stage(m, d);
     }
 }
 
