@@ -29,6 +29,8 @@ FIELDS = ("xpos xquat xmat xipos ximat xanchor xaxis geom_xpos geom_xmat site_xp
           "light_xdir subtree_com cdof cinert ten_length ten_J ten_wrapadr ten_wrapnum wrap_obj wrap_xpos actuator_length "
           "moment_rownnz moment_rowadr moment_colind actuator_moment crb M qLD qLDiagInv ten_velocity actuator_velocity cvel cdof_dot qfrc_bias qfrc_spring qfrc_damper qfrc_gravcomp qfrc_fluid "
           "qfrc_passive actuator_force qfrc_actuator act_dot qfrc_smooth qacc_smooth qfrc_constraint qacc sensordata energy").split()
+# What is recorded along a trajectory: the state, and what was computed on the way to it.
+ROW = "qpos qvel act sensordata energy".split()
 # What is computed on request.
 POST = "subtree_linvel subtree_angmom cacc cfrc_int cfrc_ext qfrc_inverse".split()
 # What a state is, and what acts on it.
@@ -144,12 +146,12 @@ def forward(m, count, scale, seed, short):
 
 
 def rollout(m, d, steps, every):
-    """Rows (qpos, qvel, act, sensordata) after every so many steps, the start left out."""
+    """Rows of ROW after every so many steps, the start left out."""
     rows = []
     for i in range(1, steps + 1):
         mujoco.mj_step(m, d)
         if i % every == 0:
-            rows.append([d.qpos.copy(), d.qvel.copy(), d.act.copy(), d.sensordata.copy()])
+            rows.append([getattr(d, f).copy() for f in ROW])
     return rows
 
 
@@ -172,12 +174,10 @@ def trajectory(m, integrator, scale, seed, steps=200, every=40):
             warnings = {mujoco.mjtWarning(i).name: int(w.number) for i, w in enumerate(d.warning) if w.number}
     first, spread = all_rows[0], []
     for i, row in enumerate(first):
-        scales = [max(1.0, np.abs(a).max(initial=0)) for a in row[:3]]
-        spread.append(max((np.abs(a - b).max(initial=0) / s for other in all_rows[1:] for a, b, s in zip(row, other[i], scales)),
-                          default=0.0))
-    names = ("qpos", "qvel", "act", "sensordata")
+        scales = [max(1.0, np.abs(a).max(initial=0)) for a in row]
+        spread.append(max(np.abs(a - b).max(initial=0) / s for other in all_rows[1:] for a, b, s in zip(row, other[i], scales)))
     return {"steps": steps, "every": every, "spread": " ".join(f"{x:.1e}" for x in spread), "warnings": warnings,
-            "rows": [{n: text(a) for n, a in zip(names, row) if a.size} for row in first]}
+            "rows": [{n: text(a) for n, a in zip(ROW, row) if a.size} for row in first]}
 
 
 def record(path, count, scale, short=False, seed=2, steps=200, every=40):

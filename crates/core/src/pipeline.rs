@@ -16,7 +16,7 @@ pub(crate) struct Skip(u8);
 
 impl Skip {
     pub(crate) const NOTHING: Skip = Skip(0);
-    /// Sensors and energy: Runge–Kutta stages between steps do not show.
+    /// Sensors: Runge–Kutta stages between steps do not show. The energy is that of the last stage, in MuJoCo as here.
     pub(crate) const SENSORS: Skip = Skip(1);
 }
 
@@ -43,17 +43,19 @@ pub(crate) fn forward_skip(m: &Model, d: &mut Data, skip: Skip) {
     let show = skip == Skip::NOTHING;
     position(m, d);
     if show {
-        read_position(m, d);
+        read(m, d, When::Position);
     }
+    potential_energy(m, d);
     velocity(m, d);
     if show {
-        read_velocity(m, d);
+        read(m, d, When::Velocity);
     }
+    kinetic_energy(m, d);
     actuation(m, d);
     acceleration(m, d);
     constraints(m, d);
     if show {
-        read_acceleration(m, d);
+        read(m, d, When::Acceleration);
     }
 }
 
@@ -180,40 +182,15 @@ pub(crate) fn constraints(m: &Model, d: &mut Data) {
     }
 }
 
-/// Sensors and energy of the position stage.
-fn read_position(m: &Model, d: &mut Data) {
-    if d.plan.keeps(Stage::Sensors) {
-        sensor::evaluate(m, d, When::Position);
-    }
-    if d.plan.keeps(Stage::Energy) {
-        if m.opt.enabled(enable::ENERGY) {
-            energy::potential(m, d);
-        } else if m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {
-            d.energy = [0.0; 2];
-        }
-    }
-}
-
-/// Sensors and energy of the velocity stage.
-fn read_velocity(m: &Model, d: &mut Data) {
-    if measured(m, d, Stage::SubtreeVel) {
-        subtree::subtree_vel(m, d);
+/// Sensors whose values are known at this point, and what they need.
+fn read(m: &Model, d: &mut Data, when: When) {
+    match when {
+        When::Velocity if measured(m, d, Stage::SubtreeVel) => subtree::subtree_vel(m, d),
+        When::Acceleration if measured(m, d, Stage::RnePost) => rne_post::rne_post_constraint(m, d),
+        _ => {}
     }
     if d.plan.keeps(Stage::Sensors) {
-        sensor::evaluate(m, d, When::Velocity);
-    }
-    if d.plan.keeps(Stage::Energy) && m.opt.enabled(enable::ENERGY) {
-        energy::kinetic(m, d);
-    }
-}
-
-/// Sensors of the acceleration stage.
-fn read_acceleration(m: &Model, d: &mut Data) {
-    if measured(m, d, Stage::RnePost) {
-        rne_post::rne_post_constraint(m, d);
-    }
-    if d.plan.keeps(Stage::Sensors) {
-        sensor::evaluate(m, d, When::Acceleration);
+        sensor::evaluate(m, d, when);
     }
 }
 
@@ -221,6 +198,24 @@ fn read_acceleration(m: &Model, d: &mut Data) {
 /// sensors are switched off.
 fn measured(m: &Model, d: &Data, stage: Stage) -> bool {
     d.plan.keeps(stage) && !m.opt.disabled(disable::SENSOR) && sensor::needs(m, stage)
+}
+
+/// `energy[0]`, or zeros when the flag is off.
+fn potential_energy(m: &Model, d: &mut Data) {
+    if d.plan.keeps(Stage::Energy) {
+        if m.opt.enabled(enable::ENERGY) {
+            energy::potential(m, d);
+        } else {
+            d.energy = [0.0; 2];
+        }
+    }
+}
+
+/// `energy[1]`.
+fn kinetic_energy(m: &Model, d: &mut Data) {
+    if d.plan.keeps(Stage::Energy) && m.opt.enabled(enable::ENERGY) {
+        energy::kinetic(m, d);
+    }
 }
 
 /// A number that no simulation means: NaN, or larger than 1e10.

@@ -60,8 +60,16 @@ fn subtree_mass(m: &mut Model) {
     }
 }
 
-/// Where the degrees of freedom of each tree are.
+/// Where the bodies and the degrees of freedom of each tree are.
 fn trees(m: &mut Model) {
+    m.tree_bodynum.fill(0);
+    for (b, &t) in m.body_treeid.iter().enumerate().rev() {
+        // A body that cannot move is in no tree.
+        if let Ok(t) = usize::try_from(t) {
+            m.tree_bodyadr[t] = b as i32;
+            m.tree_bodynum[t] += 1;
+        }
+    }
     m.tree_dofnum.fill(0);
     for k in (0..m.nv).rev() {
         let t = m.dof_treeid[k] as usize;
@@ -180,7 +188,17 @@ fn statistics(m: &mut Model, d: &Data) {
     let bodies = (m.nbody - 1) as f64;
     m.stat.meanmass = if m.nbody > 1 { m.body_mass.iter().skip(1).sum::<f64>() / bodies } else { 1.0 };
     m.stat.meaninertia = if m.nv > 0 { mass::trace(m, &d.M, 0..m.nv) / m.nv as f64 } else { 1.0 };
-    m.stat.meansize = mean_body_size(m, d);
+    let sizes = body_sizes(m, d);
+    m.stat.meansize = if m.nbody > 1 { sizes.iter().skip(1).sum::<f64>() / bodies } else { 0.2 };
+    for (k, length) in m.dof_length.iter_mut().enumerate() {
+        // The first three of a free joint and a slide have the unit of a length already.
+        let j = m.dof_jntid[k] as usize;
+        let moves = match m.jnt_type[j] {
+            joint::FREE => k < m.jnt_dofadr[j] as usize + 3,
+            kind => kind == joint::SLIDE,
+        };
+        *length = if moves { 1.0 } else { sizes[m.dof_bodyid[k] as usize] };
+    }
 
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
@@ -219,16 +237,16 @@ fn reach(m: &Model, g: usize) -> f64 {
     }
 }
 
-/// Mean over bodies of the farthest reach of their geoms and joints from the centre of mass, m.
-fn mean_body_size(m: &Model, d: &Data) -> f64 {
-    if m.nbody == 1 {
-        return 0.2;
-    }
+/// How far the geoms of each body and the joints to its parent and its children reach from its centre of mass, m.
+fn body_sizes(m: &Model, d: &Data) -> Vec<f64> {
     let xipos = rows::<3>(&d.xipos);
-    let mut size = vec![0.0f64; m.nbody];
+    // A body with nothing in it counts as a point.
+    let mut size = vec![1e-5f64; m.nbody];
     for j in 0..m.njnt {
         let b = m.jnt_bodyid[j] as usize;
-        size[b] = size[b].max(norm(sub(rows::<3>(&d.xanchor)[j], xipos[b])));
+        for b in [b, m.body_parentid[b] as usize] {
+            size[b] = size[b].max(norm(sub(rows::<3>(&d.xanchor)[j], xipos[b])));
+        }
     }
     for g in 0..m.ngeom {
         let b = m.geom_bodyid[g] as usize;
@@ -236,9 +254,7 @@ fn mean_body_size(m: &Model, d: &Data) -> f64 {
             size[b] = size[b].max(norm(sub(rows::<3>(&d.geom_xpos)[g], xipos[b])) + m.geom_rbound[g]);
         }
     }
-    // A body with nothing in it counts as a point.
-    let sum: f64 = size.iter().skip(1).map(|s| s.max(1e-5)).sum();
-    sum / (m.nbody - 1) as f64
+    size
 }
 
 #[cfg(test)]

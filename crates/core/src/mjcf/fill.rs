@@ -75,6 +75,7 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     joints_and_dofs(m, list, &joints, layout, simple);
     (m.M_rownnz, m.M_rowadr, m.M_colind) = (pattern.rownnz, pattern.rowadr, pattern.colind);
     fill_geoms(m, &geoms);
+    bodies_from_geoms(m);
     fill_sites(m, &sites);
     fill_tendon::tendons(m, tendons);
     fill_constraint::equalities(m, equalities);
@@ -250,6 +251,16 @@ fn fill_geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)]) {
     m.geom_margin = flat(geoms, |(_, g)| [g.margin]);
     m.geom_gap = flat(geoms, |(_, g)| [g.gap]);
     m.geom_rgba = flat(geoms, |(_, g)| g.rgba);
+}
+
+/// What a body can touch is what its geoms can touch, as far away as the farthest-reaching of them.
+fn bodies_from_geoms(m: &mut Model) {
+    for (g, &b) in m.geom_bodyid.iter().enumerate() {
+        let b = b as usize;
+        m.body_contype[b] |= m.geom_contype[g];
+        m.body_conaffinity[b] |= m.geom_conaffinity[g];
+        m.body_margin[b] = m.body_margin[b].max(m.geom_margin[g] + m.geom_gap[g]);
+    }
 }
 
 fn fill_sites(m: &mut Model, sites: &[(usize, &SiteSpec)]) {

@@ -13,8 +13,7 @@ pub(crate) fn set_pattern(m: &mut Model, most: usize) -> Option<()> {
     for t in 0..m.ntendon {
         let start = m.ten_J_colind.len();
         let dofs = moving(m, t);
-        let mut trees: Vec<i32> = dofs.iter().map(|&k| m.dof_treeid[k as usize]).collect();
-        trees.dedup(); // degrees of freedom of a tree are consecutive
+        let trees = trees(m, t);
         m.tendon_treenum[t] = trees.len() as i32;
         for (i, slot) in m.tendon_treeid[2 * t..2 * t + 2].iter_mut().enumerate() {
             *slot = trees.get(i).copied().unwrap_or(-1);
@@ -30,20 +29,41 @@ pub(crate) fn set_pattern(m: &mut Model, most: usize) -> Option<()> {
     Some(())
 }
 
+/// The bodies on the path of tendon `t`, in its order: those of its joints, sites and geoms.
+fn bodies(m: &Model, t: usize) -> impl Iterator<Item = usize> + '_ {
+    let first = m.tendon_adr[t] as usize;
+    let body = |w: usize| {
+        let object = m.wrap_objid[w] as usize;
+        match m.wrap_type[w] {
+            wraptype::PULLEY => None,
+            wraptype::JOINT => Some(m.jnt_bodyid[object] as usize),
+            wraptype::SITE => Some(m.site_bodyid[object] as usize),
+            _ => Some(m.geom_bodyid[object] as usize),
+        }
+    };
+    (first..first + m.tendon_num[t] as usize).filter_map(body)
+}
+
+/// The trees that tendon `t` ties together, in the order in which its path meets them.
+fn trees(m: &Model, t: usize) -> Vec<i32> {
+    let mut met = Vec::new();
+    for tree in bodies(m, t).map(|b| m.body_treeid[b]) {
+        if tree >= 0 && !met.contains(&tree) {
+            met.push(tree);
+        }
+    }
+    met
+}
+
 /// The degrees of freedom that move something on the path of tendon `t`, ascending.
 fn moving(m: &Model, t: usize) -> Vec<i32> {
-    let first = m.tendon_adr[t] as usize;
-    let path = first..first + m.tendon_num[t] as usize;
     let mut dofs: Vec<i32> = Vec::new();
     if is_fixed(m, t) {
-        dofs.extend(path.map(|w| m.jnt_dofadr[m.wrap_objid[w] as usize]));
+        let first = m.tendon_adr[t] as usize;
+        let joints = &m.wrap_objid[first..first + m.tendon_num[t] as usize];
+        dofs.extend(joints.iter().map(|&j| m.jnt_dofadr[j as usize]));
     } else {
-        let body = |w: usize| match m.wrap_type[w] {
-            wraptype::PULLEY => None,
-            wraptype::SITE => Some(m.site_bodyid[m.wrap_objid[w] as usize] as usize),
-            _ => Some(m.geom_bodyid[m.wrap_objid[w] as usize] as usize),
-        };
-        let mut bodies: Vec<usize> = path.filter_map(body).collect();
+        let mut bodies: Vec<usize> = bodies(m, t).collect();
         bodies.sort_unstable();
         bodies.dedup();
         for b in bodies {
