@@ -26,6 +26,8 @@ macro_rules! define_model {
             pub stat: Statistic,
             /// Names of the objects.
             pub names: Names,
+            /// Custom texts, in the order of `names.text`.
+            pub texts: Vec<String>,
         }
         $($rows)*
     } };

@@ -34,8 +34,7 @@ impl Props {
     /// Puts the attributes of an element over these. Names stay with their element.
     pub(crate) fn overlay(&mut self, node: &Node) {
         let read = |a: &&Attribute| {
-            a.attr.status == Status::Supported
-                && !matches!(a.attr.kind, Kind::Name(_) | Kind::Ref(_) | Kind::Class)
+            a.attr.status == Status::Supported && !matches!(a.attr.kind, Kind::Name(_) | Kind::Class)
         };
         for a in node.attributes.iter().filter(read) {
             if ALTERNATIVES.contains(&a.attr.name) {

@@ -5,7 +5,7 @@ use super::spec::{
     BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, List, PairSpec, SOLIMP,
     SOLREF, SensorSpec, SiteSpec, TendonSpec,
 };
-use super::{fill_constraint, fill_tendon};
+use super::{fill_constraint, fill_scene, fill_tendon};
 use crate::math::{IDENTITY, MINVAL, quat_normalize, rows_mut};
 use crate::{Model, Names, joint, reflect};
 
@@ -24,6 +24,9 @@ pub(crate) struct Users {
     pub(crate) joint: usize,
     pub(crate) tendon: usize,
     pub(crate) sensor: usize,
+    pub(crate) geom: usize,
+    pub(crate) site: usize,
+    pub(crate) camera: usize,
 }
 
 /// Everything that goes into a model.
@@ -38,6 +41,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) pairs: &'a [PairSpec],
     pub(crate) excludes: &'a [ExcludeSpec],
     pub(crate) users: Users,
+    pub(crate) scene: &'a fill_scene::Scene,
     pub(crate) sensors: &'a [SensorSpec],
     pub(crate) keys: &'a [KeySpec],
 }
@@ -45,7 +49,7 @@ pub(crate) struct Parts<'a> {
 /// Fills the model. Options, statistics and what `mj_setConst` computes are not touched.
 pub(crate) fn model(m: &mut Model, parts: Parts) {
     let Parts { bodies: list, inertias, layout, simple, sensors: sensor_list, keys: key_list, .. } = parts;
-    let Parts { tendons, equalities, pairs, excludes, users, pattern, .. } = parts;
+    let Parts { tendons, equalities, pairs, excludes, users, pattern, scene, .. } = parts;
     let joints: Vec<(usize, &JointSpec)> = members(list, |b| &b.joints);
     let geoms: Vec<(usize, &GeomSpec)> = members(list, |b| &b.geoms);
     let sites: Vec<(usize, &SiteSpec)> = members(list, |b| &b.sites);
@@ -69,14 +73,19 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     fill_tendon::count(m, tendons);
     (m.neq, m.npair, m.nexclude) = (equalities.len(), pairs.len(), excludes.len());
     (m.nuser_body, m.nuser_jnt, m.nuser_tendon) = (users.body, users.joint, users.tendon);
+    (m.nuser_geom, m.nuser_site, m.nuser_cam) = (users.geom, users.site, users.camera);
+    fill_scene::count(m, scene);
     reflect::allocate_model(m);
 
     bodies(m, list, inertias, layout, simple);
     joints_and_dofs(m, list, &joints, layout, simple);
     (m.M_rownnz, m.M_rowadr, m.M_colind) = (pattern.rownnz, pattern.rowadr, pattern.colind);
-    fill_geoms(m, &geoms);
+    fill_scene::geoms(m, &geoms, scene);
     bodies_from_geoms(m);
-    fill_sites(m, &sites);
+    fill_scene::sites(m, &sites, scene);
+    let body_names: Vec<String> = list.iter().map(|b| b.name.clone()).collect();
+    fill_scene::cameras(m, &members(list, |b| &b.cameras), &body_names);
+    fill_scene::lights(m, &members(list, |b| &b.lights), &body_names);
     fill_tendon::tendons(m, tendons);
     fill_constraint::equalities(m, equalities);
     fill_constraint::contacts(m, pairs, excludes);
@@ -90,8 +99,8 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
         joint: names(&mut joints.iter().map(|(_, j)| &j.name)),
         geom: names(&mut geoms.iter().map(|(_, g)| &g.name)),
         site: names(&mut sites.iter().map(|(_, s)| &s.name)),
-        camera: names(&mut list.iter().flat_map(|b| &b.cameras)),
-        light: names(&mut list.iter().flat_map(|b| &b.lights)),
+        camera: names(&mut list.iter().flat_map(|b| &b.cameras).map(|c| &c.name)),
+        light: names(&mut list.iter().flat_map(|b| &b.lights).map(|l| &l.name)),
         pair: names(&mut pairs.iter().map(|p| &p.name)),
         exclude: names(&mut excludes.iter().map(|e| &e.name)),
         equality: names(&mut equalities.iter().map(|e| &e.name)),
@@ -100,6 +109,8 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
         key: names(&mut key_list.iter().map(|k| &k.name)),
         ..Names::default()
     };
+    fill_scene::materials(m, scene);
+    fill_scene::custom(m, scene);
 }
 
 /// The members of all bodies in id order, each with its body.
@@ -232,27 +243,6 @@ fn joints_and_dofs(
     m.dof_simplenum = simplenum;
 }
 
-fn fill_geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)]) {
-    m.geom_type = ints(geoms, |(_, g)| g.kind);
-    m.geom_contype = ints(geoms, |(_, g)| g.contype);
-    m.geom_conaffinity = ints(geoms, |(_, g)| g.conaffinity);
-    m.geom_condim = ints(geoms, |(_, g)| g.condim);
-    m.geom_bodyid = ints(geoms, |&(b, _)| b as i32);
-    m.geom_group = ints(geoms, |(_, g)| g.group);
-    m.geom_priority = ints(geoms, |(_, g)| g.priority);
-    m.geom_solmix = flat(geoms, |(_, g)| [g.solmix]);
-    m.geom_solref = flat(geoms, |(_, g)| g.solref);
-    m.geom_solimp = flat(geoms, |(_, g)| g.solimp);
-    m.geom_size = flat(geoms, |(_, g)| g.size);
-    m.geom_rbound = flat(geoms, |(_, g)| [g.rbound]);
-    m.geom_pos = flat(geoms, |(_, g)| g.pos);
-    m.geom_quat = flat(geoms, |(_, g)| g.quat);
-    m.geom_friction = flat(geoms, |(_, g)| g.friction);
-    m.geom_margin = flat(geoms, |(_, g)| [g.margin]);
-    m.geom_gap = flat(geoms, |(_, g)| [g.gap]);
-    m.geom_rgba = flat(geoms, |(_, g)| g.rgba);
-}
-
 /// What a body can touch is what its geoms can touch, as far away as the farthest-reaching of them.
 fn bodies_from_geoms(m: &mut Model) {
     for (g, &b) in m.geom_bodyid.iter().enumerate() {
@@ -261,14 +251,6 @@ fn bodies_from_geoms(m: &mut Model) {
         m.body_conaffinity[b] |= m.geom_conaffinity[g];
         m.body_margin[b] = m.body_margin[b].max(m.geom_margin[g] + m.geom_gap[g]);
     }
-}
-
-fn fill_sites(m: &mut Model, sites: &[(usize, &SiteSpec)]) {
-    m.site_type = ints(sites, |(_, s)| s.kind);
-    m.site_bodyid = ints(sites, |&(b, _)| b as i32);
-    m.site_size = flat(sites, |(_, s)| s.size);
-    m.site_pos = flat(sites, |(_, s)| s.pos);
-    m.site_quat = flat(sites, |(_, s)| s.quat);
 }
 
 fn fill_sensors(m: &mut Model, sensors: &[SensorSpec]) {

@@ -4,7 +4,6 @@ use super::diagnostic::{Report, code};
 use super::names::{NameTable, WORLD};
 use super::spec::{BodySpec, SensorObjects};
 use super::tree::{Node, Tree};
-use super::values::Value;
 use crate::Obj;
 use std::collections::BTreeMap;
 
@@ -24,7 +23,7 @@ pub(crate) struct Ids {
 
 impl Ids {
     /// Numbers joints, geoms and sites body by body, tendons and actuators in the order of the text.
-    pub(crate) fn number(tree: &Tree, names: &NameTable, bodies: &[BodySpec]) -> Ids {
+    pub(crate) fn number(tree: &Tree, bodies: &[BodySpec]) -> Ids {
         let mut ids = Ids {
             by_node: vec![None; tree.nodes.len()],
             joints: Vec::new(),
@@ -50,12 +49,8 @@ impl Ids {
             }
         }
         for (i, camera) in bodies.iter().flat_map(|b| &b.cameras).enumerate() {
-            ids.cameras.insert(camera.clone(), i as i32);
-            let node = names.find("camera", camera).and_then(|n| tree.nodes.get(n));
-            ids.pixels.push(match node.and_then(|n| n.attribute("resolution")).map(|a| &a.value) {
-                Some(Value::Ints(size)) => size.iter().map(|&n| n.max(0) as usize).product(),
-                _ => 1,
-            });
+            ids.cameras.insert(camera.name.clone(), i as i32);
+            ids.pixels.push(camera.resolution.iter().map(|&n| n.max(0) as usize).product());
         }
         for section in ["tendon", "actuator"] {
             let nodes = tree.sections(section).flat_map(|(at, _)| tree.children(at));

@@ -12,6 +12,7 @@ mod defaults;
 mod diagnostic;
 mod fill;
 mod fill_constraint;
+mod fill_scene;
 mod fill_tendon;
 mod ids;
 mod inertia;
@@ -25,6 +26,7 @@ mod read_equality;
 mod read_geom;
 mod read_joint;
 mod read_key;
+mod read_scene;
 mod read_sensor;
 mod read_tendon;
 mod scan;
@@ -36,6 +38,7 @@ mod spec;
 #[cfg(test)]
 mod tests;
 mod tree;
+mod unsimulated;
 mod values;
 
 use std::io::Read;
@@ -112,12 +115,19 @@ fn build(xml: &str, report: &mut Report) -> Option<Model> {
     let layout = layout::number(&bodies);
     layout::check(&bodies, &layout, report);
     sleep::check(&bodies, &layout, report);
-    let ids = ids::Ids::number(&tree, &names, &bodies);
+    let ids = ids::Ids::number(&tree, &bodies);
     let refs = ids::References { names: &names, ids: &ids };
     let mut cx = read_body::Context { tree: &tree, classes: &classes, compiler: &compiler, report };
     let tendons = read_tendon::tendons(&mut cx, refs);
     let equalities = read_equality::equalities(&mut cx, refs);
     let (pairs, excludes) = read_contact::contacts(&mut cx, refs, &bodies);
+    let scene = fill_scene::Scene {
+        materials: read_scene::materials(&cx),
+        textures: read_scene::textures(&tree),
+        numerics: read_scene::numerics(&mut cx),
+        texts: read_scene::texts(&tree),
+        tuples: read_scene::tuples(&mut cx, refs),
+    };
     let sensors = read_sensor::sensors(&tree, refs, &tendons, report);
     let users = fill::Users {
         body: settings::user_width(&tree, "nuser_body", bodies.iter().map(|b| &b.user), report),
@@ -125,6 +135,24 @@ fn build(xml: &str, report: &mut Report) -> Option<Model> {
             &tree,
             "nuser_jnt",
             bodies.iter().flat_map(|b| &b.joints).map(|j| &j.user),
+            report,
+        ),
+        geom: settings::user_width(
+            &tree,
+            "nuser_geom",
+            bodies.iter().flat_map(|b| &b.geoms).map(|g| &g.user),
+            report,
+        ),
+        site: settings::user_width(
+            &tree,
+            "nuser_site",
+            bodies.iter().flat_map(|b| &b.sites).map(|s| &s.user),
+            report,
+        ),
+        camera: settings::user_width(
+            &tree,
+            "nuser_cam",
+            bodies.iter().flat_map(|b| &b.cameras).map(|c| &c.user),
             report,
         ),
         tendon: settings::user_width(&tree, "nuser_tendon", tendons.iter().map(|t| &t.user), report),
@@ -159,6 +187,7 @@ fn build(xml: &str, report: &mut Report) -> Option<Model> {
         pairs: &pairs,
         excludes: &excludes,
         users,
+        scene: &scene,
         sensors: &sensors,
         keys: &keys,
     };
@@ -168,5 +197,6 @@ fn build(xml: &str, report: &mut Report) -> Option<Model> {
     crate::setconst::set_const0(&mut m);
     fill::spring_dampers(&mut m, &bodies);
     statistic.apply(&mut m.stat);
+    unsimulated::check(&tree, &m, report);
     Some(m)
 }

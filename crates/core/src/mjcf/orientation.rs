@@ -97,7 +97,7 @@ fn xyaxes(x: Vec3, y: Vec3) -> Result<Quat, String> {
 }
 
 /// The smallest rotation that takes the z axis to the unit vector `v`.
-fn z_to(v: Vec3) -> Quat {
+pub(crate) fn z_to(v: Vec3) -> Quat {
     let z = [0.0, 0.0, 1.0];
     let axis = cross(z, v);
     let sine = norm(axis);

@@ -5,9 +5,9 @@ use super::diagnostic::{Report, code};
 use super::inertia::principal;
 use super::names::WORLD;
 use super::settings::{Compiler, checked};
-use super::spec::{BodySpec, Inertia, List, SiteSpec};
+use super::spec::{BodySpec, Inertia, List};
 use super::tree::{Node, Tree};
-use super::{orientation, read_geom, read_joint};
+use super::{orientation, read_geom, read_joint, read_scene};
 use crate::math::{IDENTITY, Quat};
 
 /// What reading an element needs to know.
@@ -108,9 +108,9 @@ fn member(cx: &mut Context, i: usize, node: &Node, body: &mut BodySpec) {
         }
         "joint" | "freejoint" => body.joints.push(read_joint::joint(cx, i, node, body.childclass)),
         "geom" => body.geoms.extend(read_geom::geom(cx, i, node, body.childclass)),
-        "site" => body.sites.push(site(cx, i, node, body.childclass)),
-        "camera" => body.cameras.push(name(node)),
-        "light" => body.lights.push(name(node)),
+        "site" => body.sites.push(read_scene::site(cx, i, node, body.childclass)),
+        "camera" => body.cameras.push(read_scene::camera(cx, node, body.childclass)),
+        "light" => body.lights.push(read_scene::light(cx, node, body.childclass)),
         _ => {}
     }
 }
@@ -162,29 +162,4 @@ fn inertial(cx: &mut Context, node: &Node) -> Option<Inertia> {
     }
     let quat = cx.orientation(&p, node);
     complete.then_some(Inertia { pos, quat, mass, moments })
-}
-
-/// A site: a marked frame. Its size is only drawn.
-fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> SiteSpec {
-    let p = cx.classes.props(node, childclass);
-    let size = p.reals("size", [0.005; 3]);
-    // Sphere: a radius; capsule, cylinder: and a half length; ellipsoid, box: three half lengths.
-    let kind = p.word("type").unwrap_or(crate::geom::SPHERE);
-    let needed = match kind {
-        2 => 1,
-        3 | 5 => 2,
-        _ => 3,
-    };
-    if let Some(x) = size.iter().take(needed).find(|&&x| x <= 0.0) {
-        let message = format!("`size` of {} has {x}, it must be larger than zero", node.shown());
-        cx.report.error(code::VALUE, p.span("size").unwrap_or(node.span.clone()), message);
-    }
-    SiteSpec {
-        node: i,
-        name: name(node),
-        kind,
-        size,
-        pos: p.reals("pos", [0.0; 3]),
-        quat: cx.orientation(&p, node),
-    }
 }

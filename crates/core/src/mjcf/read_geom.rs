@@ -2,13 +2,14 @@
 
 use super::defaults::Props;
 use super::diagnostic::code;
+use super::orientation;
 use super::read_body::{Context, name};
 use super::settings::checked;
 use super::shapes::{self, Shape};
-use super::spec::{GeomSpec, SOLIMP, SOLREF};
+use super::spec::{GeomSpec, List, SOLIMP, SOLREF};
 use super::tree::Node;
 use crate::geom;
-use crate::math::{Vec3, scale};
+use crate::math::{MINVAL, Quat, Vec3, normalize, quat_normalize, scale, sub};
 
 /// A `geom` element; `None` when its type was refused.
 pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> Option<GeomSpec> {
@@ -17,7 +18,19 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
         return None;
     }
     let shape = shapes::of(p.word("type").unwrap_or(geom::SPHERE))?;
-    let size = size(cx, &p, node, shape);
+    let mut size = p.reals("size", [0.0; 3]);
+    let (mut pos, mut quat) = (p.reals("pos", [0.0; 3]), cx.orientation(&p, node));
+    if let Some(span) = fromto(cx, &p, node, shape.name, shape.length) {
+        (pos, quat) = (span.pos, span.quat);
+        if let Some((length, half)) = shape.length.and_then(|i| Some((size.get_mut(i)?, span.half))) {
+            *length = half;
+        }
+        // Two radii that are not given are the first.
+        if shape.length == Some(2) {
+            size[1] = size[0];
+        }
+    }
+    check_size(cx, &p, node, shape, size);
     let (mass, moments) = mass(cx, &p, node, shape, size);
     Some(GeomSpec {
         node: i,
@@ -25,11 +38,17 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
         name: name(node),
         kind: shape.kind,
         size,
-        pos: p.reals("pos", [0.0; 3]),
-        quat: cx.orientation(&p, node),
+        pos,
+        quat,
         mass,
         moments,
         rbound: (shape.rbound)(size),
+        half: (shape.half)(size),
+        fluid: fluid(&p, shape, size),
+        material: p.text("material").map(str::to_string),
+        surfacevel: p.reals("surfacevel", [0.0; 6]),
+        adhesion: p.real("adhesion").unwrap_or(0.0),
+        user: List::read(&p, "user"),
         only_static: shape.only_static,
         contype: p.int("contype").unwrap_or(1),
         conaffinity: p.int("conaffinity").unwrap_or(1),
@@ -46,13 +65,57 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
     })
 }
 
-/// The sizes, as many as the shape needs; more are kept as they are written.
-fn size(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) -> Vec3 {
-    let size = p.reals("size", [0.0; 3]);
-    if p.has("size") && p.list("size").is_none() {
-        return size; // reported before
+/// What lies between two points: its middle, the turn of its z axis, and half its length.
+pub(crate) struct Span {
+    pub(crate) pos: Vec3,
+    pub(crate) quat: Quat,
+    pub(crate) half: f64,
+}
+
+/// `fromto`, for a shape that has a length.
+pub(crate) fn fromto(
+    cx: &mut Context,
+    p: &Props,
+    node: &Node,
+    shape: &str,
+    length: Option<usize>,
+) -> Option<Span> {
+    let &[ax, ay, az, bx, by, bz] = p.list("fromto")? else { return None };
+    let (from, to) = ([ax, ay, az], [bx, by, bz]);
+    let (axis, distance) = normalize(sub(from, to));
+    let owner = node.shown();
+    let problem = if length.is_none() {
+        format!("{owner} has `fromto`, but a {shape} has no length")
+    } else if p.has("pos") {
+        format!("{owner} has both `pos` and `fromto`")
+    } else if distance < MINVAL || !distance.is_finite() {
+        format!("the two points of `fromto` of {owner} are the same")
+    } else {
+        let pos = std::array::from_fn(|i| 0.5 * (from[i] + to[i]));
+        return Some(Span { pos, quat: quat_normalize(orientation::z_to(axis)), half: 0.5 * distance });
+    };
+    let span = p.span("fromto").unwrap_or(node.span.clone());
+    cx.report
+        .error(code::GEOM, span, problem)
+        .why("`fromto` gives the ends of a capsule, cylinder, ellipsoid or box, and so its place");
+    None
+}
+
+/// Coefficients of fluid forces, for a geom that feels the medium as an ellipsoid.
+fn fluid(p: &Props, shape: &Shape, size: Vec3) -> [f64; 12] {
+    if p.word("fluidshape") != Some(geom::ELLIPSOID) || shape.only_static {
+        return [0.0; 12];
     }
-    let given = p.list("size").map_or(0, <[f64]>::len);
+    shapes::fluid((shape.half)(size), p.reals("fluidcoef", [0.5, 0.25, 1.5, 1.0, 1.0]))
+}
+
+/// The sizes, as many as the shape needs.
+fn check_size(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3) {
+    if p.has("size") && p.list("size").is_none() {
+        return; // reported before
+    }
+    let spans = p.has("fromto");
+    let given = if spans && p.has("size") { 3 } else { p.list("size").map_or(0, <[f64]>::len) };
     let span = p.span("size").unwrap_or(node.span.clone());
     let help = format!("a {} is written as `size=\"{}\"`", shape.name, shape.example);
     for (k, (rule, &x)) in shape.sizes.iter().zip(&size).enumerate() {
@@ -67,7 +130,6 @@ fn size(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) -> Vec3 {
         cx.report.error(code::GEOM, span, what).help(help);
         break;
     }
-    size
 }
 
 /// Mass and principal moments: from `mass`, else from `density`.
@@ -78,8 +140,12 @@ fn mass(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3) -> 
     if shape.only_static {
         return (0.0, [0.0; 3]);
     }
-    let mass = given.unwrap_or_else(|| density * (shape.volume)(size));
-    let moments = scale((shape.inertia)(size), mass);
+    let (amount, inertia) = match p.word("shellinertia") {
+        Some(1) => (shape.surface, shape.shell),
+        _ => (shape.volume, shape.inertia),
+    };
+    let mass = given.unwrap_or_else(|| density * amount(size));
+    let moments = if mass > 0.0 { scale(inertia(size), mass) } else { [0.0; 3] };
     if !mass.is_finite() || moments.iter().any(|x| !x.is_finite()) {
         let message = format!("the mass or inertia of {owner} is larger than a 64-bit number can be");
         cx.report.error(code::GEOM, p.span("size").unwrap_or(node.span.clone()), message);
@@ -91,18 +157,11 @@ fn mass(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3) -> 
 fn condim(cx: &mut Context, p: &Props, node: &Node) -> i32 {
     let condim = p.int("condim").unwrap_or(3);
     let span = p.span("condim").unwrap_or(node.span.clone());
-    match condim {
-        1 | 3 => {}
-        4 | 6 => {
-            let message = format!("`condim` of {} is {condim}, which is not supported yet", node.shown());
-            cx.report
-                .error(code::NOT_SUPPORTED, span, message)
-                .help("supported: 1 (no friction) and 3 (sliding friction)");
-        }
-        _ => {
-            let message = format!("`condim` of {} is {condim}", node.shown());
-            cx.report.error(code::VALUE, span, message).help("write 1 (no friction) or 3 (sliding friction)");
-        }
+    if !matches!(condim, 1 | 3 | 4 | 6) {
+        let message = format!("`condim` of {} is {condim}", node.shown());
+        cx.report
+            .error(code::VALUE, span, message)
+            .help("write 1 (no friction), 3 (sliding), 4 (and spinning) or 6 (and rolling friction)");
     }
     condim
 }

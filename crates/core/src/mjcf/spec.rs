@@ -32,10 +32,8 @@ pub(crate) struct BodySpec {
     pub(crate) joints: Vec<JointSpec>,
     pub(crate) geoms: Vec<GeomSpec>,
     pub(crate) sites: Vec<SiteSpec>,
-    /// Names of cameras.
-    pub(crate) cameras: Vec<String>,
-    /// Names of lights.
-    pub(crate) lights: Vec<String>,
+    pub(crate) cameras: Vec<CameraSpec>,
+    pub(crate) lights: Vec<LightSpec>,
 }
 
 /// Mass, centre of mass and principal moments.
@@ -104,6 +102,15 @@ pub(crate) struct GeomSpec {
     pub(crate) moments: Vec3,
     /// Radius of the bounding sphere, m.
     pub(crate) rbound: f64,
+    /// Half lengths of the bounding box, m.
+    pub(crate) half: Vec3,
+    /// `geom_fluid`.
+    pub(crate) fluid: [f64; 12],
+    /// Name of the material.
+    pub(crate) material: Option<String>,
+    pub(crate) surfacevel: [f64; 6],
+    pub(crate) adhesion: f64,
+    pub(crate) user: List,
     pub(crate) only_static: bool,
     pub(crate) contype: i32,
     pub(crate) conaffinity: i32,
@@ -128,6 +135,74 @@ pub(crate) struct SiteSpec {
     pub(crate) size: Vec3,
     pub(crate) pos: Vec3,
     pub(crate) quat: Quat,
+    /// Name of the material.
+    pub(crate) material: Option<String>,
+    pub(crate) group: i32,
+    pub(crate) rgba: [f64; 4],
+    pub(crate) user: List,
+}
+
+/// A camera.
+#[derive(Debug)]
+pub(crate) struct CameraSpec {
+    pub(crate) name: String,
+    pub(crate) mode: i32,
+    /// Name of the body that it looks at.
+    pub(crate) target: Option<String>,
+    pub(crate) pos: Vec3,
+    pub(crate) quat: Quat,
+    pub(crate) projection: i32,
+    pub(crate) fovy: f64,
+    pub(crate) ipd: f64,
+    pub(crate) resolution: [i32; 2],
+    pub(crate) output: i32,
+    pub(crate) sensorsize: [f64; 2],
+    pub(crate) intrinsic: [f64; 4],
+    pub(crate) user: List,
+}
+
+/// A light.
+#[derive(Debug)]
+pub(crate) struct LightSpec {
+    pub(crate) name: String,
+    pub(crate) mode: i32,
+    /// Name of the body that it points at.
+    pub(crate) target: Option<String>,
+    pub(crate) kind: i32,
+    pub(crate) castshadow: bool,
+    pub(crate) active: bool,
+    pub(crate) pos: Vec3,
+    pub(crate) dir: Vec3,
+    /// bulbradius, intensity, range, cutoff, softness, exponent
+    pub(crate) numbers: [f64; 6],
+    /// attenuation, ambient, diffuse, specular
+    pub(crate) triples: [Vec3; 4],
+}
+
+/// A material.
+#[derive(Debug)]
+pub(crate) struct MaterialSpec {
+    pub(crate) name: String,
+    pub(crate) texture: Option<String>,
+    pub(crate) texuniform: bool,
+    pub(crate) texrepeat: [f64; 2],
+    /// emission, specular, shininess, reflectance, metallic, roughness
+    pub(crate) numbers: [f64; 6],
+    pub(crate) rgba: [f64; 4],
+}
+
+/// Custom numbers.
+#[derive(Debug)]
+pub(crate) struct NumericSpec {
+    pub(crate) name: String,
+    pub(crate) data: Vec<f64>,
+}
+
+/// A custom tuple: kind, id and parameter of each element.
+#[derive(Debug)]
+pub(crate) struct TupleSpec {
+    pub(crate) name: String,
+    pub(crate) elements: Vec<(i32, i32, f64)>,
 }
 
 /// A sensor, its objects resolved.

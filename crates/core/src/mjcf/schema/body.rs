@@ -1,9 +1,8 @@
 //! `worldbody` and what bodies hold: joints, inertias, geoms, sites, cameras, lights.
 
-use super::Status::Only;
 use super::{
-    AUTO, Attr, Element, FLAG, INT, Kind, LIST, LOOK, MOOT, ORIENTATION, REAL, TEXT, USER, Word, attributes,
-    not_yet, reals, rest, upto, word,
+    AUTO, Attr, Element, FLAG, INT, Kind, LIST, MOOT, ORIENTATION, REAL, TEXT, Word, attributes, not_yet,
+    reals, rest, upto, word,
 };
 use crate::model::{geom, joint};
 
@@ -11,10 +10,10 @@ const GEOM_SHAPES: &[Word] = &[
     word("plane", geom::PLANE),
     not_yet("hfield", 1),
     word("sphere", geom::SPHERE),
-    not_yet("capsule", 3),
-    not_yet("ellipsoid", 4),
-    not_yet("cylinder", 5),
-    not_yet("box", 6),
+    word("capsule", geom::CAPSULE),
+    word("ellipsoid", geom::ELLIPSOID),
+    word("cylinder", geom::CYLINDER),
+    word("box", geom::BOX),
     not_yet("mesh", 7),
     not_yet("sdf", 8),
 ];
@@ -157,16 +156,16 @@ pub(super) const GEOM_ATTRS: &[Attr] = attributes! {
     upto(5) => solimp;
     reals(4) => rgba;
     Kind::Ref("material") => material;
-    FLAG => shellinertia [Only("false")];
-    REAL => adhesion [Only("0")];
-    upto(6) => surfacevel [Only("0 0 0 0 0 0")];
-    reals(6) => fromto [super::Status::Unsupported];
+    FLAG => shellinertia;
+    REAL => adhesion;
+    upto(6) => surfacevel;
+    reals(6) => fromto;
     Kind::Ref("mesh") => mesh [super::Status::Unsupported];
     Kind::Ref("hfield") => hfield [super::Status::Unsupported];
     REAL => fitscale [MOOT];
-    Kind::Words(&[word("none", 0), not_yet("ellipsoid", 1)]) => fluidshape;
-    upto(5) => fluidcoef [MOOT];
-    LIST => user [USER];
+    Kind::Words(&[word("none", 0), word("ellipsoid", geom::ELLIPSOID)]) => fluidshape;
+    upto(5) => fluidcoef;
+    LIST => user;
 };
 static GEOM: Element =
     Element::new("geom", &[attributes! { Kind::Name("geom") => name; }, CLASS, GEOM_ATTRS])
@@ -180,12 +179,12 @@ pub(super) const SITE_ATTRS: &[Attr] = attributes! {
     reals(3) => euler zaxis;
     reals(6) => xyaxes;
     upto(3) => size;
-    reals(4) => rgba [LOOK];
-    Kind::Ref("material") => material [LOOK];
-    INT => group [LOOK];
-    reals(6) => fromto [super::Status::Unsupported];
+    reals(4) => rgba;
+    Kind::Ref("material") => material;
+    INT => group;
+    reals(6) => fromto;
     Kind::Ref("mesh") => mesh [super::Status::Unsupported];
-    LIST => user [USER];
+    LIST => user;
 };
 static SITE: Element =
     Element::new("site", &[attributes! { Kind::Name("site") => name; }, CLASS, SITE_ATTRS]);
@@ -200,16 +199,16 @@ const TRACKING: Kind = Kind::Words(&[
 
 /// A camera, without its name, class and target.
 pub(super) const CAMERA_ATTRS: &[Attr] = attributes! {
-    reals(3) => pos euler zaxis [LOOK];
-    reals(4) => quat axisangle [LOOK];
-    reals(6) => xyaxes [LOOK];
-    TRACKING => mode [LOOK];
-    Kind::Words(&[word("perspective", 0), word("orthographic", 1)]) => projection [LOOK];
-    REAL => fovy ipd [LOOK];
-    Kind::Ints(2, 2) => resolution [LOOK];
-    TEXT => output [LOOK];
-    reals(2) => focal focalpixel principal principalpixel sensorsize [LOOK];
-    LIST => user [LOOK];
+    reals(3) => pos euler zaxis;
+    reals(4) => quat axisangle;
+    reals(6) => xyaxes;
+    TRACKING => mode;
+    Kind::Words(&[word("perspective", 0), word("orthographic", 1)]) => projection;
+    REAL => fovy ipd;
+    Kind::Ints(2, 2) => resolution;
+    TEXT => output;
+    reals(2) => focal focalpixel principal principalpixel sensorsize;
+    LIST => user;
 };
 static CAMERA: Element = Element::new(
     "camera",
@@ -218,11 +217,11 @@ static CAMERA: Element = Element::new(
 
 /// A light, without its name, class, target and texture.
 pub(super) const LIGHT_ATTRS: &[Attr] = attributes! {
-    reals(3) => pos dir ambient diffuse specular attenuation [LOOK];
-    FLAG => active castshadow directional [LOOK];
-    REAL => bulbradius cutoff exponent intensity range softness [LOOK];
-    TRACKING => mode [LOOK];
-    Kind::Words(&[word("spot", 0), word("directional", 1), word("point", 2), word("image", 3)]) => type [LOOK];
+    reals(3) => pos dir ambient diffuse specular attenuation;
+    FLAG => active castshadow directional;
+    REAL => bulbradius cutoff exponent intensity range softness;
+    TRACKING => mode;
+    Kind::Words(&[word("spot", 0), word("directional", 1), word("point", 2), word("image", 3)]) => type;
 };
 static LIGHT: Element = Element::new(
     "light",

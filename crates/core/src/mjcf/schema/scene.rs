@@ -77,11 +77,11 @@ static TEXTURE: Element = Element::new(
 
 /// A material, without its name and class.
 pub(super) const MATERIAL_ATTRS: &[super::Attr] = attributes! {
-    Kind::Ref("texture") => texture [LOOK];
-    upto(2) => texrepeat [LOOK];
-    FLAG => texuniform [LOOK];
-    REAL => emission specular shininess reflectance metallic roughness [LOOK];
-    reals(4) => rgba [LOOK];
+    Kind::Ref("texture") => texture;
+    upto(2) => texrepeat;
+    FLAG => texuniform;
+    REAL => emission specular shininess reflectance metallic roughness;
+    reals(4) => rgba;
 };
 pub(super) static MATERIAL: Element = Element::new(
     "material",
