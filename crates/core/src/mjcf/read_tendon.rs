@@ -7,7 +7,7 @@ use super::read_body::{Context, name};
 use super::spec::{List, SOLIMP, SOLREF, TendonSpec, WrapSpec};
 use super::tree::Node;
 use super::{defaults::Props, settings::checked};
-use crate::{geom, joint, wraptype};
+use crate::{geom, wraptype};
 
 /// All tendons in the order of the text.
 pub(crate) fn tendons(cx: &mut Context, refs: References) -> Vec<TendonSpec> {
@@ -124,13 +124,7 @@ fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> 
         "joint" => {
             let id = refs.required("joint", node, "joint", report)?;
             let prm = number("coef", report)?;
-            if matches!(refs.ids.joint(id)?.0, joint::FREE | joint::BALL) {
-                report
-                    .error(code::TENDON, node.span.clone(), "a fixed tendon passes a free or ball joint")
-                    .why("its length is a sum of joint coordinates, and such a joint has more than one")
-                    .help("use slide or hinge joints, or a spatial tendon");
-                return None;
-            }
+            // Of a free or ball joint it takes the first coordinate, as MuJoCo does.
             Some(WrapSpec { kind: wraptype::JOINT, id, prm })
         }
         "site" => Some(WrapSpec {

@@ -124,6 +124,8 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     };
     let (tolerance, ls_tolerance) =
         (from_zero("tolerance", d.tolerance), from_zero("ls_tolerance", d.ls_tolerance));
+    let (noslip_tolerance, ccd_tolerance) =
+        (from_zero("noslip_tolerance", d.noslip_tolerance), from_zero("ccd_tolerance", d.ccd_tolerance));
     let (density, viscosity) = (from_zero("density", 0.0), from_zero("viscosity", 0.0));
     let mut count = |name: &str, default: i32| {
         let n = p.int(name).unwrap_or(default);
@@ -135,6 +137,8 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     };
     let (iterations, ls_iterations) =
         (count("iterations", d.iterations), count("ls_iterations", d.ls_iterations));
+    let (noslip_iterations, ccd_iterations) =
+        (count("noslip_iterations", d.noslip_iterations), count("ccd_iterations", d.ccd_iterations));
     let (disableflags, enableflags) = flags(tree);
     Options {
         timestep,
@@ -155,6 +159,10 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         solver: p.word("solver").unwrap_or(d.solver),
         iterations,
         ls_iterations,
+        noslip_iterations,
+        ccd_iterations,
+        noslip_tolerance,
+        ccd_tolerance,
         disableflags,
         enableflags,
         ..d

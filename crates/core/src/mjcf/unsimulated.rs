@@ -6,6 +6,9 @@ use super::tree::Tree;
 use crate::math::rows;
 use crate::{Model, collision, disable};
 
+/// Value of `opt.solver`.
+const NEWTON: i32 = 2;
+
 /// Reports the first element of each kind that the scene needs.
 pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {
     let on = |bit: i32| !m.opt.disabled(disable::CONSTRAINT) && !m.opt.disabled(bit);
@@ -19,8 +22,19 @@ pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {
     if on(disable::LIMIT) && m.tendon_limited.contains(&true) {
         refuse(tree, report, "tendon", "range", "a limited tendon");
     }
-    if !on(disable::CONTACT) {
+    let limited = on(disable::LIMIT) && m.jnt_limited.contains(&true);
+    let touches = on(disable::CONTACT) && !collision::candidate_pairs(m, false).is_empty();
+    if (limited || touches) && m.opt.solver != NEWTON {
+        refuse(tree, report, "", "solver", "a solver other than Newton");
+    }
+    if (limited || touches) && m.opt.noslip_iterations > 0 {
+        refuse(tree, report, "", "noslip_iterations", "the removal of slip");
+    }
+    if !touches {
         return;
+    }
+    if m.opt.cone != 0 {
+        refuse(tree, report, "", "cone", "the elliptic friction cone");
     }
     let pairs = collision::candidate_pairs(m, false);
     let turns = |dim: i32| dim > 3;

@@ -49,15 +49,13 @@ pub(super) static OPTION: Element = Element::new(
             word("Euler", integrator::EULER), word("RK4", integrator::RK4), not_yet("implicit", 2),
             not_yet("implicitfast", 3), not_yet("discrete", 4),
         ]) => integrator;
-        Kind::Words(&[word("pyramidal", 0), not_yet("elliptic", 1)]) => cone;
-        Kind::Words(&[not_yet("PGS", 0), not_yet("CG", 1), word("Newton", 2)]) => solver;
+        Kind::Words(&[word("pyramidal", 0), word("elliptic", 1)]) => cone;
+        Kind::Words(&[word("PGS", 0), word("CG", 1), word("Newton", 2)]) => solver;
         INT => iterations ls_iterations;
         Kind::Words(&[word("dense", 0), word("sparse", 1), word("auto", 2)]) => jacobian
             [Ignored("how matrices are stored")];
-        INT => noslip_iterations [Only("0")];
-        REAL => noslip_tolerance [Ignored("for the no-slip solver, which is refused")];
-        REAL => ccd_tolerance [Ignored("for convex collisions, which are refused")];
-        INT => ccd_iterations [Ignored("for convex collisions, which are refused")];
+        INT => noslip_iterations ccd_iterations;
+        REAL => noslip_tolerance ccd_tolerance;
         REAL => sleep_tolerance [Ignored("for sleeping, which is refused")];
         INT => sdf_iterations sdf_initpoints [Ignored("for signed distance fields, which are refused")];
         INTS => actuatorgroupdisable [MOOT];
