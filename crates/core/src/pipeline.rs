@@ -205,7 +205,7 @@ fn potential_energy(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Energy) {
         if m.opt.enabled(enable::ENERGY) {
             energy::potential(m, d);
-        } else {
+        } else if m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {
             d.energy = [0.0; 2];
         }
     }
