@@ -200,7 +200,7 @@ fn measured(m: &Model, d: &Data, stage: Stage) -> bool {
     d.plan.keeps(stage) && !m.opt.disabled(disable::SENSOR) && sensor::needs(m, stage)
 }
 
-/// `energy[0]`, or zeros when the flag is off.
+/// `energy[0]`, or zeros when the flag is off and no sensor has computed it.
 fn potential_energy(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Energy) {
         if m.opt.enabled(enable::ENERGY) {

@@ -112,3 +112,34 @@ fn at_most_a_hundred_findings_in_the_order_of_the_text() {
     assert_eq!(list.len(), 100);
     assert!(list.windows(2).all(|w| w[0].span.start <= w[1].span.start));
 }
+
+#[test]
+fn tendons_and_user_values_cannot_ask_for_memory() {
+    // Each tendon moves with every joint of a long chain.
+    let chain = "<body><joint type='slide'/><geom size='1'/>".repeat(900);
+    let world =
+        format!("<worldbody><site name='a'/>{chain}<site name='b'/>{}</worldbody>", "</body>".repeat(900));
+    let tendons = "<spatial><site site='a'/><site site='b'/></spatial>".repeat(30_000);
+    let xml = format!("<mujoco>{world}<tendon>{tendons}</tendon></mujoco>");
+    assert_eq!(first_code(&xml), Some(code::LIMIT));
+
+    let users = "<mujoco><size nuser_body='2147483647'/><worldbody/></mujoco>";
+    assert_eq!(first_code(users), Some(code::LIMIT));
+}
+
+/// Parameters of a path that a program may write: no number of them leads outside the model.
+#[test]
+fn written_paths_stay_inside_the_model() {
+    let xml = "<mujoco><worldbody><site name='a'/><geom name='g' size='0.1' pos='0.5 0 0'/><body pos='1 0 0'>
+        <freejoint/><geom size='0.1'/><site name='b'/></body></worldbody><tendon><spatial stiffness='1'>
+        <site site='a'/><geom geom='g'/><site site='b'/><pulley divisor='2'/><site site='a'/><site site='b'/>
+        </spatial></tendon></mujoco>";
+    let mut m = compile(xml).unwrap();
+    let mut d = crate::Data::new(&m);
+    for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1.0, 0.0, 0.5, 1.0, 2.0] {
+        m.wrap_prm.fill(x);
+        m.geom_size.fill(x);
+        crate::forward(&m, &mut d);
+        crate::step(&m, &mut d);
+    }
+}
