@@ -133,6 +133,12 @@ pub(crate) struct Work {
     pub(crate) diag_inv: Vec<f64>,
     pub(crate) qacc: Vec<f64>,
     pub(crate) rk: RungeKutta,
+    /// Controls as they act: delayed and clamped.
+    pub(crate) ctrl: Vec<f64>,
+    /// Sums of the forces of actuators on each tendon.
+    pub(crate) tendon_force: Vec<f64>,
+    /// A row of the moments of actuators.
+    pub(crate) moment: Vec<f64>,
 }
 
 /// What a Runge–Kutta step keeps between its stages.
@@ -141,11 +147,13 @@ pub(crate) struct RungeKutta {
     /// The state and acceleration at the start of the step.
     pub(crate) qpos: Vec<f64>,
     pub(crate) qvel: Vec<f64>,
+    pub(crate) act: Vec<f64>,
     pub(crate) warmstart: Vec<f64>,
     /// Weighted sums of the stages' slopes, and the velocity of one stage.
     pub(crate) dpos: Vec<f64>,
     pub(crate) dvel: Vec<f64>,
     pub(crate) slope: Vec<f64>,
+    pub(crate) dact: Vec<f64>,
 }
 
 impl Data {
@@ -175,6 +183,9 @@ impl Data {
         w.columns = Columns::with_room(m.nv);
         w.ld = vec![0.0; m.nC];
         w.rk.qpos = vec![0.0; m.nq];
+        (w.rk.act, w.rk.dact) = (vec![0.0; m.na], vec![0.0; m.na]);
+        (w.ctrl, w.tendon_force) = (vec![0.0; m.nu], vec![0.0; m.ntendon]);
+        w.moment = vec![0.0; m.nv];
         let rk = &mut w.rk;
         for v in [
             &mut w.mv,

@@ -29,6 +29,7 @@ mod data;
 mod energy;
 mod equality;
 mod fields;
+mod history;
 mod integrate;
 mod jacobian;
 mod kinematics;
