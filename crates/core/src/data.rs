@@ -142,6 +142,12 @@ pub(crate) struct Work {
     pub(crate) rk: RungeKutta,
     /// Contacts that pass the filter of a sensor.
     pub(crate) matches: Vec<Match>,
+    /// Controls as they act: delayed and clamped.
+    pub(crate) ctrl: Vec<f64>,
+    /// Sums of the forces of actuators on each tendon.
+    pub(crate) tendon_force: Vec<f64>,
+    /// A row of the moments of actuators.
+    pub(crate) moment: Vec<f64>,
 }
 
 /// What a Runge–Kutta step keeps between its stages.
@@ -150,11 +156,13 @@ pub(crate) struct RungeKutta {
     /// The state and acceleration at the start of the step.
     pub(crate) qpos: Vec<f64>,
     pub(crate) qvel: Vec<f64>,
+    pub(crate) act: Vec<f64>,
     pub(crate) warmstart: Vec<f64>,
     /// Weighted sums of the stages' slopes, and the velocity of one stage.
     pub(crate) dpos: Vec<f64>,
     pub(crate) dvel: Vec<f64>,
     pub(crate) slope: Vec<f64>,
+    pub(crate) dact: Vec<f64>,
 }
 
 impl Data {
@@ -184,6 +192,9 @@ impl Data {
         w.columns = Columns::with_room(m.nv);
         w.ld = vec![0.0; m.nC];
         w.rk.qpos = vec![0.0; m.nq];
+        (w.rk.act, w.rk.dact) = (vec![0.0; m.na], vec![0.0; m.na]);
+        (w.ctrl, w.tendon_force) = (vec![0.0; m.nu], vec![0.0; m.ntendon]);
+        w.moment = vec![0.0; m.nv];
         let rk = &mut w.rk;
         for v in [
             &mut w.mv,

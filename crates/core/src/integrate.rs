@@ -4,9 +4,10 @@
 //! coordinates (Hairer, Lubich and Wanner 2006, *Geometric Numerical Integration*, ch. IV).
 
 use crate::math::*;
+use crate::passive::spring;
 use crate::pipeline::{self, Skip};
 use crate::reflect::Stage;
-use crate::{Data, Model, disable, joint, mass, sensor};
+use crate::{Data, Model, actuation, disable, joint, mass, sensor};
 
 /// qpos ← qpos advanced for a time `h` with velocity `v` (`mj_integratePos`).
 pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
@@ -28,9 +29,13 @@ pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
     }
 }
 
-/// Keeps the values of this time for delayed sensors.
+/// Keeps the controls and values of this time for delayed actuators and sensors.
 fn record(m: &Model, d: &mut Data) {
-    if m.nhistory > 0 && d.plan.keeps(Stage::Sensors) {
+    if m.nhistory == 0 {
+        return;
+    }
+    actuation::record(m, d);
+    if d.plan.keeps(Stage::Sensors) {
         sensor::record(m, d);
     }
 }
@@ -41,15 +46,17 @@ fn record(m: &Model, d: &mut Data) {
 pub(crate) fn euler(m: &Model, d: &mut Data) {
     let h = m.opt.timestep;
     record(m, d);
+    actuation::advance(m, d);
     let implicit = d.plan.keeps(Stage::Passive)
         && !m.opt.disabled(disable::EULERDAMP)
         && !m.opt.disabled(disable::DAMPER)
-        && m.dof_damping.iter().any(|&b| b != 0.0);
+        && (0..m.nv).any(|i| !spring::joint_damper(m, i).is_zero());
     if implicit {
         let w = &mut d.work;
         w.ld.copy_from_slice(&d.M);
         for i in 0..m.nv {
-            w.ld[(m.M_rowadr[i] + m.M_rownnz[i] - 1) as usize] += h * m.dof_damping[i];
+            w.ld[(m.M_rowadr[i] + m.M_rownnz[i] - 1) as usize] +=
+                h * spring::joint_damper(m, i).slope(d.qvel[i].abs());
         }
         mass::factor(m, &mut w.ld, &mut w.diag_inv);
         for i in 0..m.nv {
@@ -79,10 +86,14 @@ pub(crate) fn rk4(m: &Model, d: &mut Data) {
     let mut w = std::mem::take(&mut d.work.rk);
     w.qpos.copy_from_slice(&d.qpos);
     w.qvel.copy_from_slice(&d.qvel);
+    w.act.copy_from_slice(&d.act);
     w.warmstart.copy_from_slice(&d.qacc);
     for i in 0..m.nv {
         w.dpos[i] = B[0] * d.qvel[i];
         w.dvel[i] = B[0] * d.qacc[i];
+    }
+    for (sum, rate) in w.dact.iter_mut().zip(&d.act_dot) {
+        *sum = B[0] * rate;
     }
     for stage in 0..3 {
         let a = A[stage] * h;
@@ -90,6 +101,9 @@ pub(crate) fn rk4(m: &Model, d: &mut Data) {
         w.slope.copy_from_slice(&d.qvel);
         for i in 0..m.nv {
             d.qvel[i] = w.qvel[i] + a * d.qacc[i];
+        }
+        for i in 0..m.na {
+            d.act[i] = w.act[i] + a * d.act_dot[i];
         }
         d.qpos.copy_from_slice(&w.qpos);
         integrate_pos(m, &mut d.qpos, &w.slope, a);
@@ -99,11 +113,16 @@ pub(crate) fn rk4(m: &Model, d: &mut Data) {
             w.dpos[i] += B[stage + 1] * d.qvel[i];
             w.dvel[i] += B[stage + 1] * d.qacc[i];
         }
+        for (sum, rate) in w.dact.iter_mut().zip(&d.act_dot) {
+            *sum += B[stage + 1] * rate;
+        }
     }
     d.qpos.copy_from_slice(&w.qpos);
     d.qvel.copy_from_slice(&w.qvel);
+    d.act.copy_from_slice(&w.act);
     d.time = start;
     record(m, d);
+    actuation::advance_along(m, d, &w.dact);
     integrate_pos(m, &mut d.qpos, &w.dpos, h);
     for i in 0..m.nv {
         d.qvel[i] = w.qvel[i] + h * w.dvel[i];

@@ -5,6 +5,7 @@
 //! M = Lᵀ D L, which creates no fill-in on this pattern, are in Featherstone 2008, chapter 6.
 
 use crate::math::*;
+use crate::transmission::{self, On};
 use crate::{Data, Model};
 use std::ops::Range;
 
@@ -39,8 +40,14 @@ pub(crate) fn composite_inertia(m: &Model, d: &mut Data, constant: bool) {
                 *out = dot_ref(&cdof[j as usize], &momentum);
             }
         }
-        d.M[end - 1] += m.dof_armature[i];
+        d.M[end - 1] += armature(m, i);
     }
+}
+
+/// Inertia that is added to degree of freedom `i`: its own and that of actuators.
+#[inline(always)]
+pub(crate) fn armature(m: &Model, i: usize) -> f64 {
+    m.dof_armature[i] + transmission::armature(m, On::Joint(m.dof_jntid[i] as usize))
 }
 
 /// The constant diagonal of simple bodies in M.

@@ -342,6 +342,18 @@ pub fn inertia_mul(i: &Inertia, v: &Spatial) -> Spatial {
     ]
 }
 
+/// x in a range; the lower end where the range is none, NaN for NaN.
+#[inline(always)]
+pub fn clip(x: f64, [lower, upper]: [f64; 2]) -> f64 {
+    if x < lower {
+        lower
+    } else if x > upper {
+        upper
+    } else {
+        x
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

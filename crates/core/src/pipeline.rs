@@ -221,7 +221,7 @@ fn kinetic_energy(m: &Model, d: &mut Data) {
 /// A number that no simulation means: NaN, or larger than 1e10.
 #[inline(always)]
 #[allow(clippy::neg_cmp_op_on_partial_ord)] // one comparison that NaN fails, too: it runs for every number of the state
-fn bad(x: f64) -> bool {
+pub(crate) fn bad(x: f64) -> bool {
     !(x.abs() <= 1e10)
 }
 
@@ -229,7 +229,7 @@ fn first_bad(v: &[f64]) -> Option<usize> {
     v.iter().position(|&x| bad(x))
 }
 
-fn warn(d: &mut Data, warning: Warning, info: usize) {
+pub(crate) fn warn(d: &mut Data, warning: Warning, info: usize) {
     let time = d.time;
     let stat = &mut d.warning[warning as usize];
     if stat.number == 0 {

@@ -5,7 +5,7 @@
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
 use crate::reflect::{FieldId, FieldSet, Object, Stage, field};
-use crate::{Model, chain, collision, enable, joint, sensor};
+use crate::{Model, chain, collision, disable, enable, joint, sensor};
 use crate::{trntype, wraptype};
 
 /// What programs read and write.
@@ -195,6 +195,10 @@ const TENDON_FORCES: [Numbers; 4] = [
     ("tendon_damping", |m| &m.tendon_damping),
     ("tendon_dampingpoly", |m| &m.tendon_dampingpoly),
 ];
+/// Damping of actuators, which joints and tendons have.
+const ACTUATOR_DAMPING: [Numbers; 2] =
+    [("actuator_damping", |m| &m.actuator_damping), ("actuator_dampingpoly", |m| &m.actuator_dampingpoly)];
+const ACTUATOR_ARMATURE: Numbers = ("actuator_armature", |m| &m.actuator_armature);
 const TENDON_ARMATURE: Numbers = ("tendon_armature", |m| &m.tendon_armature);
 /// Geoms on which the medium acts one by one.
 const ELLIPSOIDS: Numbers = ("geom_fluid", |m| &m.geom_fluid);
@@ -274,7 +278,7 @@ impl<'a> Scene<'a> {
             gravcomp: false,
             fluid: m.opt.density > 0.0 || m.opt.viscosity > 0.0,
             tendon_armature: false,
-            actuated: m.nactuator > 0,
+            actuated: m.nactuator > 0 && !m.opt.disabled(disable::ACTUATION),
             sensors: false,
             energy: m.opt.enabled(enable::ENERGY),
         };
@@ -290,8 +294,14 @@ impl<'a> Scene<'a> {
         scene.tendon_springs = scene.some(&TENDON_FORCES[..2]);
         scene.tendon_dampers = scene.some(&TENDON_FORCES[2..]);
         scene.tendon_armature = scene.some(&[TENDON_ARMATURE]);
+        let damping = scene.some(&ACTUATOR_DAMPING);
+        scene.joint_forces |= damping && scene.transmits(&[trntype::JOINT, trntype::JOINTINPARENT]);
+        let on_tendons = scene.transmits(&[trntype::TENDON]);
+        scene.tendon_dampers |= on_tendons && damping;
+        scene.tendon_armature |= on_tendons && scene.some(&[ACTUATOR_ARMATURE]);
         // A tendon's inertia adds to that of simple bodies, too.
         scene.general |= scene.tendon_armature;
+        scene.actuated |= m.nactuator > 0 && scene.writes(Object::Option, &["disableflags"]);
         scene.sensors = m.nsensor > 0
             && (scene.reads(Stage::Sensors).is_some() || m.nhistory > 0 && scene.reads_field("history"));
         scene.energy |= scene.writes(Object::Option, &["enableflags"]);
@@ -376,12 +386,14 @@ impl<'a> Scene<'a> {
             (Stage::Passive, Stage::Kinematics) => self.body_forces(),
             (Stage::Passive, Stage::ComVel) => self.fluid,
             (Stage::Passive, Stage::GeomPoses) => self.fluid && self.some(&[ELLIPSOIDS]),
-            (Stage::Transmission, Stage::Kinematics) => true,
+            (Stage::Transmission, Stage::Kinematics) => {
+                self.transmits(&[trntype::SITE, trntype::SLIDERCRANK, trntype::SO3, trntype::BODY])
+            }
             (Stage::Transmission, Stage::SitePoses) => {
                 self.transmits(&[trntype::SITE, trntype::SLIDERCRANK, trntype::SO3])
             }
             (Stage::Transmission, Stage::Tendon) => self.transmits(&[trntype::TENDON]),
-            (Stage::Transmission, Stage::Constraint) => self.transmits(&[trntype::BODY]),
+            (Stage::Transmission, Stage::Collision | Stage::Constraint) => self.transmits(&[trntype::BODY]),
             (Stage::ActuatorVel, Stage::Transmission) => true,
             (Stage::Actuation, Stage::Transmission | Stage::ActuatorVel) => true,
             (Stage::Actuation, Stage::Passive) => m.jnt_actgravcomp.contains(&true),

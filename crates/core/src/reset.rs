@@ -1,7 +1,8 @@
 //! Resets, and the counts that follow from them.
 
 use crate::math::*;
-use crate::{Data, Model, Warning, WarningStat, kinematics, mass, reflect, sensor};
+use crate::reflect::Stage;
+use crate::{Data, Model, Warning, WarningStat, actuation, kinematics, mass, reflect, sensor};
 
 /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
 /// what was written to it.
@@ -13,6 +14,7 @@ pub fn reset_data(m: &Model, d: &mut Data) {
     kinematics::world(d);
     d.qpos.copy_from_slice(&m.qpos0);
     d.eq_active.copy_from_slice(&m.eq_active0);
+    actuation::reset(m, d);
     sensor::reset(m, d);
     for b in 0..m.nbody {
         let id = m.body_mocapid[b];
@@ -44,6 +46,10 @@ pub fn reset_data_keyframe(m: &Model, d: &mut Data, key: usize) {
 pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
     if !d.plan.some_general {
         mass::constant_mass(m, d);
+    }
+    if !d.plan.keeps(Stage::Actuation) {
+        d.actuator_force.fill(0.0);
+        d.qfrc_actuator.fill(0.0);
     }
     if !d.plan.body_forces {
         d.qfrc_gravcomp.fill(0.0);

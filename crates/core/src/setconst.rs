@@ -3,7 +3,9 @@
 use crate::kinematics::sameframe;
 use crate::math::*;
 use crate::plan::Plan;
-use crate::{Data, Model, com, equality, geom, jacobian, joint, kinematics, mass, pipeline, tendon};
+use crate::{
+    Data, Model, com, equality, geom, jacobian, joint, kinematics, mass, pipeline, tendon, transmission,
+};
 
 /// Recomputes what follows from masses, inertias and poses (`mj_setConst`).
 ///
@@ -15,6 +17,7 @@ pub fn set_const(m: &mut Model, d: &mut Data) {
     subtree_mass(m);
     same_frames(m);
     trees(m);
+    transmission::reflected(m);
     m.ngravcomp = m.body_gravcomp.iter().filter(|&&c| c > 0.0).count();
 
     d.qpos.copy_from_slice(&m.qpos0);
@@ -28,6 +31,9 @@ pub fn set_const(m: &mut Model, d: &mut Data) {
     mass::factor(m, &mut d.qLD, &mut d.qLDiagInv);
     inverse_weights(m, d);
     tendon::at_default(m, d);
+    transmission::transmissions(m, d);
+    transmission::at_default(m, d);
+    transmission::critical_damping(m, d);
     equality::set_const(m, d);
     crate::camera::set_const(m, d);
     statistics(m, d);

@@ -18,13 +18,13 @@ mod spatial;
 mod tests;
 
 use crate::math::*;
-use crate::{Data, Model, jacobian, joint};
+use crate::{Data, Model, jacobian, joint, mass};
 
 /// A tree with more degrees of freedom is cheaper by composite bodies and recursion.
 const MAX_DOFS: usize = 6;
 
 /// What is written to the model and changes a link.
-pub(crate) const FIELDS: [&str; 10] = [
+pub(crate) const FIELDS: [&str; 12] = [
     "body_pos",
     "body_quat",
     "body_ipos",
@@ -35,6 +35,8 @@ pub(crate) const FIELDS: [&str; 10] = [
     "jnt_axis",
     "qpos0",
     "dof_armature",
+    "actuator_armature",
+    "actuator_gear",
 ];
 
 /// The links of all short chains, chain by chain, each from its root on.
@@ -193,7 +195,7 @@ impl Chains {
                 (f.turn, f.straight) = (turn, turn == EYE);
                 f.axis = axis[j];
                 f.reference = m.qpos0[link.coordinate];
-                f.armature = m.dof_armature[link.dof];
+                f.armature = mass::armature(m, link.dof);
                 (f.mass, f.com, f.inertia) = (0.0, [0.0; 3], [0.0; 6]);
                 // What follows is given in the link's own frame.
                 (at, turn) = (scale(anchor[j], -1.0), EYE);

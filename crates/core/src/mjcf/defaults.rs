@@ -119,7 +119,10 @@ fn overlaid(below: &[f64], over: &[f64]) -> Vec<f64> {
 /// A class: what it says about each kind of element, its parents included.
 #[derive(Debug, Default)]
 struct Class {
+    parent: usize,
     entries: BTreeMap<&'static str, Props>,
+    /// The elements of the class itself, in the order of the text.
+    nodes: Vec<usize>,
 }
 
 /// All default classes of a model.
@@ -140,12 +143,12 @@ impl Classes {
         let mut of_node: BTreeMap<usize, usize> = BTreeMap::new();
         for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
             let nested_in = node.parent.and_then(|p| of_node.get(&p)).copied();
-            let mut entries = classes
-                .list
-                .get(nested_in.unwrap_or(classes.main))
-                .map_or_else(BTreeMap::new, |c| c.entries.clone());
-            for (_, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
+            let parent = nested_in.unwrap_or(classes.main);
+            let mut entries = classes.list.get(parent).map_or_else(BTreeMap::new, |c| c.entries.clone());
+            let mut nodes = Vec::new();
+            for (at, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
                 entries.entry(entry.element.name).or_default().overlay(entry);
+                nodes.push(at);
             }
             let index = classes.list.len();
             if index > MAX_CLASSES {
@@ -153,7 +156,7 @@ impl Classes {
                 report.error(code::LIMIT, node.span.clone(), message);
                 break;
             }
-            classes.list.push(Class { entries });
+            classes.list.push(Class { parent, entries, nodes });
             of_node.insert(i, index);
             match (nested_in, node.text("class")) {
                 (None, _) => classes.main = index,
@@ -178,17 +181,26 @@ impl Classes {
         self.names.keys().map(String::as_str)
     }
 
-    /// The attributes that hold for an element: its own over those of its class, which is its `class`, else
-    /// the nearest `childclass` of the bodies around it, else `main`.
+    /// The class of an element: its `class`, else the nearest `childclass` of the bodies around it, else `main`.
+    pub(crate) fn class_of(&self, node: &Node, childclass: Option<usize>) -> usize {
+        let own = node.text("class").and_then(|name| self.find(name));
+        own.or(childclass).unwrap_or(self.main)
+    }
+
+    /// All classes with their parents, which stand before them, and the elements of each itself. The first is its
+    /// own parent and has none.
+    pub(crate) fn elements(&self) -> impl Iterator<Item = (usize, &[usize])> {
+        self.list.iter().map(|c| (c.parent, c.nodes.as_slice()))
+    }
+
+    /// The attributes that hold for an element: its own over those of its class.
     pub(crate) fn props(&self, node: &Node, childclass: Option<usize>) -> Props {
         self.props_of(node.element.name, node, childclass)
     }
 
     /// The same for an element whose defaults stand under another name: all tendons share `tendon`.
     pub(crate) fn props_of(&self, entry: &str, node: &Node, childclass: Option<usize>) -> Props {
-        let own = node.text("class").and_then(|name| self.find(name));
-        let class = own.or(childclass).unwrap_or(self.main);
-        let entry = self.list.get(class).and_then(|c| c.entries.get(entry));
+        let entry = self.list.get(self.class_of(node, childclass)).and_then(|c| c.entries.get(entry));
         let mut props = entry.cloned().unwrap_or_default();
         props.overlay(node);
         props

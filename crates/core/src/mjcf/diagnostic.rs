@@ -161,6 +161,7 @@ pub mod code {
         TENDON = "mjcf-tendon", "The path of a tendon is incomplete, or its numbers are out of range.";
         EQUALITY = "mjcf-equality", "The equality constraint does not say what it ties.";
         CONTACT = "mjcf-contact", "The contact pair does not say which geoms may touch.";
+        ACTUATOR = "mjcf-actuator", "The parts of an actuator do not fit together, or its numbers are out of range.";
         SENSOR = "mjcf-sensor", "The sensor cannot measure that object.";
         KEYFRAME = "mjcf-keyframe", "The keyframe does not fit the model.";
     }

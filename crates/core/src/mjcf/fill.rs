@@ -1,11 +1,12 @@
 //! Specifications to the arrays of [`Model`].
 
+use super::fill_actuator::Counts;
 use super::layout::{Dof, Layout, Pattern};
 use super::spec::{
-    BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, List, PairSpec, SOLIMP,
-    SOLREF, SensorSpec, SiteSpec, TendonSpec,
+    ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, List, PairSpec,
+    SOLIMP, SOLREF, SensorSpec, SiteSpec, TendonSpec,
 };
-use super::{fill_constraint, fill_scene, fill_tendon};
+use super::{fill_actuator, fill_constraint, fill_scene, fill_tendon};
 use crate::math::{IDENTITY, MINVAL, quat_normalize, rows_mut};
 use crate::{Model, Names, joint, reflect};
 
@@ -15,6 +16,8 @@ pub(crate) struct Sizes {
     pub(crate) nq: usize,
     pub(crate) nv: usize,
     pub(crate) nmocap: usize,
+    pub(crate) na: usize,
+    pub(crate) nu: usize,
 }
 
 /// Numbers of user values of each object.
@@ -27,6 +30,7 @@ pub(crate) struct Users {
     pub(crate) geom: usize,
     pub(crate) site: usize,
     pub(crate) camera: usize,
+    pub(crate) actuator: usize,
 }
 
 /// Everything that goes into a model.
@@ -37,6 +41,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) simple: &'a [i32],
     pub(crate) pattern: Pattern,
     pub(crate) tendons: &'a [TendonSpec],
+    pub(crate) actuators: &'a [ActuatorSpec],
+    pub(crate) counts: Counts,
     pub(crate) equalities: &'a [EqualitySpec],
     pub(crate) pairs: &'a [PairSpec],
     pub(crate) excludes: &'a [ExcludeSpec],
@@ -49,7 +55,7 @@ pub(crate) struct Parts<'a> {
 /// Fills the model. Options, statistics and what `mj_setConst` computes are not touched.
 pub(crate) fn model(m: &mut Model, parts: Parts) {
     let Parts { bodies: list, inertias, layout, simple, sensors: sensor_list, keys: key_list, .. } = parts;
-    let Parts { tendons, equalities, pairs, excludes, users, pattern, scene, .. } = parts;
+    let Parts { tendons, actuators, counts, equalities, pairs, excludes, users, pattern, scene, .. } = parts;
     let joints: Vec<(usize, &JointSpec)> = members(list, |b| &b.joints);
     let geoms: Vec<(usize, &GeomSpec)> = members(list, |b| &b.geoms);
     let sites: Vec<(usize, &SiteSpec)> = members(list, |b| &b.sites);
@@ -71,11 +77,18 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     m.nkey = key_list.len();
     m.nC = pattern.colind.len();
     fill_tendon::count(m, tendons);
+    m.nactuator = actuators.len();
+    (m.nu, m.nout, m.na) = (counts.nu, counts.nout, counts.na);
+    m.nhistory += counts.nhistory;
     (m.neq, m.npair, m.nexclude) = (equalities.len(), pairs.len(), excludes.len());
     (m.nuser_body, m.nuser_jnt, m.nuser_tendon) = (users.body, users.joint, users.tendon);
     (m.nuser_geom, m.nuser_site, m.nuser_cam) = (users.geom, users.site, users.camera);
     fill_scene::count(m, scene);
+    m.nuser_actuator = users.actuator;
     reflect::allocate_model(m);
+    // Found by `mj_setConst`.
+    m.jnt_actuatorid.fill(-1);
+    m.tendon_actuatorid.fill(-1);
 
     bodies(m, list, inertias, layout, simple);
     joints_and_dofs(m, list, &joints, layout, simple);
@@ -87,6 +100,7 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     fill_scene::cameras(m, &members(list, |b| &b.cameras), &body_names);
     fill_scene::lights(m, &members(list, |b| &b.lights), &body_names);
     fill_tendon::tendons(m, tendons);
+    fill_actuator::actuators(m, actuators);
     fill_constraint::equalities(m, equalities);
     fill_constraint::contacts(m, pairs, excludes);
     fill_sensors(m, sensor_list);
@@ -105,6 +119,7 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
         exclude: names(&mut excludes.iter().map(|e| &e.name)),
         equality: names(&mut equalities.iter().map(|e| &e.name)),
         tendon: names(&mut tendons.iter().map(|t| &t.name)),
+        actuator: names(&mut actuators.iter().map(|a| &a.name)),
         sensor: names(&mut sensor_list.iter().map(|s| &s.name)),
         key: names(&mut key_list.iter().map(|k| &k.name)),
         ..Names::default()
@@ -290,6 +305,8 @@ fn fill_keys(m: &mut Model, bodies: &[BodySpec], keys: &[KeySpec]) {
     };
     m.key_qpos = of(|k| &k.qpos, &m.qpos0);
     m.key_qvel = of(|k| &k.qvel, &vec![0.0; m.nv]);
+    m.key_act = of(|k| &k.act, &vec![0.0; m.na]);
+    m.key_ctrl = of(|k| &k.ctrl, &vec![0.0; m.nu]);
     m.key_mpos = of(|k| &k.mpos, &mpos0);
     m.key_mquat = of(|k| &k.mquat, &mquat0);
 

@@ -2,8 +2,8 @@
 
 use super::diagnostic::{Report, code};
 use super::fill::{flat, ints, padded};
-use super::spec::{BodySpec, TendonSpec};
-use crate::{Model, tendon, wraptype};
+use super::spec::{ActuatorSpec, BodySpec, TendonSpec};
+use crate::{Model, tendon, trntype, wraptype};
 
 /// More entries than this in the Jacobians of all tendons are refused.
 const MAX_JACOBIAN: usize = 20_000_000;
@@ -15,10 +15,21 @@ pub(crate) fn count(m: &mut Model, list: &[TendonSpec]) {
 }
 
 /// Bodies that a spatial tendon with inertia touches do not have a diagonal mass matrix.
-pub(crate) fn demote_simple(simple: &mut [i32], bodies: &[BodySpec], list: &[TendonSpec]) {
+pub(crate) fn demote_simple(
+    simple: &mut [i32],
+    bodies: &[BodySpec],
+    list: &[TendonSpec],
+    actuators: &[ActuatorSpec],
+) {
     let site_body: Vec<usize> =
         bodies.iter().enumerate().flat_map(|(i, b)| b.sites.iter().map(move |_| i)).collect();
-    let sites = list.iter().filter(|t| t.armature > 0.0).flat_map(|t| &t.path);
+    let rotors: Vec<i32> = actuators
+        .iter()
+        .filter_map(|a| a.transmission.filter(|t| a.armature != 0.0 && t.kind == trntype::TENDON))
+        .map(|t| t.id[0])
+        .collect();
+    let heavy = |&(t, spec): &(usize, &TendonSpec)| spec.armature > 0.0 || rotors.contains(&(t as i32));
+    let sites = list.iter().enumerate().filter(heavy).flat_map(|(_, t)| &t.path);
     for site in sites.filter(|w| w.kind == wraptype::SITE) {
         let body = usize::try_from(site.id).ok().and_then(|s| site_body.get(s));
         if let Some(s) = body.and_then(|&b| simple.get_mut(b)) {

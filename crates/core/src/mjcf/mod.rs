@@ -8,9 +8,11 @@
 //! The meaning of elements and attributes follows MuJoCo's XML reference; the file's own places are in
 //! [`MjcfDiagnostic`].
 
+mod check_actuator;
 mod defaults;
 mod diagnostic;
 mod fill;
+mod fill_actuator;
 mod fill_constraint;
 mod fill_scene;
 mod fill_tendon;
@@ -20,6 +22,7 @@ mod layout;
 mod limits;
 mod names;
 mod orientation;
+mod read_actuator;
 mod read_body;
 mod read_contact;
 mod read_equality;
@@ -33,6 +36,8 @@ mod scan;
 mod schema;
 mod settings;
 mod shapes;
+mod shortcut;
+mod shortcut_motor;
 mod sleep;
 mod spec;
 #[cfg(test)]
@@ -132,6 +137,7 @@ fn build(xml: &str, report: &mut Report) -> Option<(tree::Tree, Model)> {
     let refs = ids::References { names: &names, ids: &ids };
     let mut cx = read_body::Context { tree: &tree, classes: &classes, compiler: &compiler, report };
     let tendons = read_tendon::tendons(&mut cx, refs);
+    let actuators = read_actuator::actuators(&mut cx, refs, &bodies, &tendons);
     let equalities = read_equality::equalities(&mut cx, refs);
     let (pairs, excludes) = read_contact::contacts(&mut cx, refs, &bodies);
     let scene = fill_scene::Scene {
@@ -142,6 +148,7 @@ fn build(xml: &str, report: &mut Report) -> Option<(tree::Tree, Model)> {
         tuples: read_scene::tuples(&mut cx, refs),
     };
     let sensors = read_sensor::sensors(&tree, refs, &tendons, report);
+    let actuator_users: Vec<_> = actuators.iter().map(fill_actuator::user).collect();
     let users = fill::Users {
         body: settings::user_width(&tree, "nuser_body", bodies.iter().map(|b| &b.user), report),
         joint: settings::user_width(
@@ -170,13 +177,21 @@ fn build(xml: &str, report: &mut Report) -> Option<(tree::Tree, Model)> {
         ),
         tendon: settings::user_width(&tree, "nuser_tendon", tendons.iter().map(|t| &t.user), report),
         sensor: settings::user_width(&tree, "nuser_sensor", sensors.iter().map(|s| &s.user), report),
+        actuator: settings::user_width(&tree, "nuser_actuator", actuator_users.iter(), report),
     };
     if !report.is_clean() {
         return None;
     }
 
     // What follows depends on everything being read: a refused geom would also be a missing mass.
-    let sizes = fill::Sizes { nq: layout.nq, nv: layout.dofs.len(), nmocap: layout.nmocap };
+    let counts = fill_actuator::count(&actuators, report);
+    let sizes = fill::Sizes {
+        nq: layout.nq,
+        nv: layout.dofs.len(),
+        nmocap: layout.nmocap,
+        na: counts.na,
+        nu: counts.nu,
+    };
     let keys = read_key::keys(&tree, &sizes, min_keys, report);
     let inertias = inertia::bodies(&bodies, &compiler, report);
     inertia::check_moving(&bodies, &layout.weld, &inertias, report);
@@ -184,7 +199,7 @@ fn build(xml: &str, report: &mut Report) -> Option<(tree::Tree, Model)> {
         return None;
     }
     let mut simple = layout::simple(&bodies, &inertias);
-    fill_tendon::demote_simple(&mut simple, &bodies, &tendons);
+    fill_tendon::demote_simple(&mut simple, &bodies, &tendons, &actuators);
     let pattern = layout::pattern(&layout, &simple, report)?;
 
     let mut m = Model { opt: options, ..Model::default() };
@@ -196,6 +211,8 @@ fn build(xml: &str, report: &mut Report) -> Option<(tree::Tree, Model)> {
         simple: &simple,
         pattern,
         tendons: &tendons,
+        actuators: &actuators,
+        counts,
         equalities: &equalities,
         pairs: &pairs,
         excludes: &excludes,
@@ -206,6 +223,7 @@ fn build(xml: &str, report: &mut Report) -> Option<(tree::Tree, Model)> {
     };
     fill::model(&mut m, parts);
     fill_tendon::pattern(&mut m, &tendons, report)?;
+    fill_actuator::pattern(&mut m, &actuators, report)?;
     sleep::policies(&mut m, &bodies);
     crate::setconst::set_const0(&mut m);
     fill::spring_dampers(&mut m, &bodies);

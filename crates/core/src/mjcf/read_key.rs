@@ -17,7 +17,7 @@ pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) 
         .flat_map(|(section, _)| tree.children(section))
         .map(|(_, node)| node)
         .collect();
-    let numbers = 1 + sizes.nq + sizes.nv + 7 * sizes.nmocap;
+    let numbers = 1 + sizes.nq + sizes.nv + sizes.na + sizes.nu + 7 * sizes.nmocap;
     if given.len().max(min).saturating_mul(numbers) > MAX_NUMBERS {
         let span = given.first().map_or(0..0, |n| n.span.clone());
         report.error(code::LIMIT, span, format!("the keyframes hold more than {MAX_NUMBERS} numbers"));
@@ -30,6 +30,8 @@ pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) 
             time: 0.0,
             qpos: None,
             qvel: None,
+            act: None,
+            ctrl: None,
             mpos: None,
             mquat: None,
         });
@@ -54,16 +56,18 @@ fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
     let state = |what: &str, free: usize, ball: usize| {
         format!("{what}: {free} for a free joint, {ball} for a ball joint, one for a slide or hinge joint")
     };
-    let key = KeySpec {
+    let none = |n: usize, what: &str| match n {
+        0 => "the model has no actuators that need it".to_string(),
+        _ => what.to_string(),
+    };
+    KeySpec {
         name: name(node),
         time: p.real("time").unwrap_or(0.0),
         qpos: list("qpos", sizes.nq, state("one coordinate after the other", 7, 4)),
         qvel: list("qvel", sizes.nv, state("one velocity after the other", 6, 3)),
+        act: list("act", sizes.na, none(sizes.na, "one for each state of an actuator")),
+        ctrl: list("ctrl", sizes.nu, none(sizes.nu, "one for each control of an actuator")),
         mpos: list("mpos", 3 * sizes.nmocap, "three for each mocap body".into()),
         mquat: list("mquat", 4 * sizes.nmocap, "four for each mocap body".into()),
-    };
-    for name in ["act", "ctrl"] {
-        list(name, 0, "the model has no actuators".into());
     }
-    key
 }

@@ -140,6 +140,7 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     let (noslip_iterations, ccd_iterations) =
         (count("noslip_iterations", d.noslip_iterations), count("ccd_iterations", d.ccd_iterations));
     let (disableflags, enableflags) = flags(tree);
+    let disableactuator = disabled_groups(&p, report);
     Options {
         timestep,
         impratio,
@@ -165,8 +166,25 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         ccd_tolerance,
         disableflags,
         enableflags,
+        disableactuator,
         ..d
     }
+}
+
+/// The groups of `actuatorgroupdisable` as bits.
+fn disabled_groups(p: &Props, report: &mut Report) -> i32 {
+    let mut bits = 0;
+    for &group in p.ints("actuatorgroupdisable").unwrap_or(&[]) {
+        if (0..=30).contains(&group) {
+            bits |= 1 << group;
+        } else {
+            let span = p.span("actuatorgroupdisable").unwrap_or(0..0);
+            report
+                .error(code::VALUE, span, format!("`actuatorgroupdisable` of option has {group}"))
+                .why("groups that can be switched off are 0 to 30");
+        }
+    }
+    bits
 }
 
 /// What is on unless a flag disables it, and what is off unless a flag enables it.

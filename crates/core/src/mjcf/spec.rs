@@ -368,6 +368,67 @@ pub(crate) struct ExcludeSpec {
     pub(crate) signature: i32,
 }
 
+/// A range with a flag: 0 free, 1 limited, 2 limited when the range is given.
+#[derive(Clone, Debug)]
+pub(crate) struct RangeSpec {
+    pub(crate) flag: i32,
+    pub(crate) range: [f64; 2],
+}
+
+/// What an actuator acts on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TransmissionSpec {
+    /// One of [`crate::trntype`].
+    pub(crate) kind: i32,
+    /// The object, and the reference or slider site; -1 for none.
+    pub(crate) id: [i32; 2],
+}
+
+/// An actuator, or what a class says about actuators. Elements of any name fill in the same fields, one over the
+/// other: a `motor` in a class with a `position` keeps the numbers of the servo that a motor does not use.
+#[derive(Clone, Debug)]
+pub(crate) struct ActuatorSpec {
+    pub(crate) span: Range<usize>,
+    /// The name of the element, and its own name if it has one.
+    pub(crate) shown: String,
+    pub(crate) name: String,
+    /// One of [`crate::gaintype`], [`crate::biastype`], [`crate::dyntype`], with parameters.
+    pub(crate) gaintype: i32,
+    pub(crate) gainprm: [f64; 10],
+    pub(crate) biastype: i32,
+    pub(crate) biasprm: [f64; 10],
+    pub(crate) dyntype: i32,
+    pub(crate) dynprm: [f64; 10],
+    /// Number of activations; negative: as many as the dynamics need.
+    pub(crate) actdim: i32,
+    pub(crate) actearly: bool,
+    /// Meaning of the controls; 0 for what the gain type takes by itself.
+    pub(crate) ctrlspec: i32,
+    pub(crate) ctrl: RangeSpec,
+    /// Ranges of a velocity setpoint and of a feedforward.
+    pub(crate) velrange: [f64; 2],
+    pub(crate) ffrange: [f64; 2],
+    pub(crate) force: RangeSpec,
+    pub(crate) act: RangeSpec,
+    /// The range of controls or activations is that of the target, scaled by this about its middle.
+    pub(crate) inheritrange: f64,
+    pub(crate) gear: [f64; 6],
+    pub(crate) cranklength: f64,
+    pub(crate) lengthrange: [f64; 2],
+    /// Linear coefficient, and its growth with speed.
+    pub(crate) damping: [f64; 3],
+    pub(crate) armature: f64,
+    pub(crate) group: i32,
+    /// Samples kept, how values between them are found, and the age of the control that acts, s.
+    pub(crate) nsample: i32,
+    pub(crate) interp: i32,
+    pub(crate) delay: f64,
+    pub(crate) user: Vec<f64>,
+    pub(crate) user_span: Range<usize>,
+    /// `None` in a class, and where it is wrong.
+    pub(crate) transmission: Option<TransmissionSpec>,
+}
+
 /// A keyframe as written; what is not given is taken from the reference configuration.
 #[derive(Debug)]
 pub(crate) struct KeySpec {
@@ -375,6 +436,8 @@ pub(crate) struct KeySpec {
     pub(crate) time: f64,
     pub(crate) qpos: Option<Vec<f64>>,
     pub(crate) qvel: Option<Vec<f64>>,
+    pub(crate) act: Option<Vec<f64>>,
+    pub(crate) ctrl: Option<Vec<f64>>,
     pub(crate) mpos: Option<Vec<f64>>,
     pub(crate) mquat: Option<Vec<f64>>,
 }

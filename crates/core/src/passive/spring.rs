@@ -5,6 +5,7 @@
 //! resists with f = -v (b + p₁ |v| + p₂ v²).
 
 use crate::math::*;
+use crate::transmission::{self, On};
 use crate::{Data, Model, joint, tendon};
 
 /// The coefficients of a spring or a damper.
@@ -19,6 +20,18 @@ impl Law {
     #[inline(always)]
     pub(crate) fn new(linear: &[f64], growth: &[f64], i: usize) -> Law {
         Law { linear: linear[i], growth: rows::<2>(growth)[i] }
+    }
+
+    /// With more coefficients of the same kind.
+    #[inline(always)]
+    fn plus(self, [linear, first, second]: [f64; 3]) -> Law {
+        Law { linear: self.linear + linear, growth: [self.growth[0] + first, self.growth[1] + second] }
+    }
+
+    /// The derivative of the force of a damper, with its sign turned, at speed x: b + 2 p₁ x + 3 p₂ x².
+    #[inline(always)]
+    pub(crate) fn slope(self, x: f64) -> f64 {
+        self.linear + x * (2.0 * self.growth[0] + x * 3.0 * self.growth[1])
     }
 
     /// Nothing there.
@@ -82,10 +95,22 @@ fn ball_displacement(q: &[f64], reference: &[f64]) -> Vec3 {
     quat_to_vel(quat_mul(quat_conj(r), q))
 }
 
+/// The damper of degree of freedom `i`, that of actuators included.
+#[inline(always)]
+pub(crate) fn joint_damper(m: &Model, i: usize) -> Law {
+    let actuators = transmission::damping(m, On::Joint(m.dof_jntid[i] as usize));
+    Law::new(&m.dof_damping, &m.dof_dampingpoly, i).plus(actuators)
+}
+
+/// The damper of tendon `t`, that of actuators included.
+fn tendon_damper(m: &Model, t: usize) -> Law {
+    Law::new(&m.tendon_damping, &m.tendon_dampingpoly, t).plus(transmission::damping(m, On::Tendon(t)))
+}
+
 /// The dampers of joints, by `qfrc_damper`.
 pub(super) fn joint_dampers(m: &Model, d: &mut Data) {
     for i in 0..m.nv {
-        let law = Law::new(&m.dof_damping, &m.dof_dampingpoly, i);
+        let law = joint_damper(m, i);
         // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.
         if !law.is_zero() {
             let v = d.qvel[i];
@@ -99,7 +124,7 @@ pub(super) fn joint_dampers(m: &Model, d: &mut Data) {
 pub(super) fn tendons(m: &Model, d: &mut Data, springs: bool, dampers: bool) {
     for t in 0..m.ntendon {
         let spring = Law::new(&m.tendon_stiffness, &m.tendon_stiffnesspoly, t);
-        let damper = Law::new(&m.tendon_damping, &m.tendon_dampingpoly, t);
+        let damper = tendon_damper(m, t);
         if springs && !spring.is_zero() {
             let x = tendon::spring_displacement(m, d, t);
             let force = -spring.at(x) * x;

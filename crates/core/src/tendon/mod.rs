@@ -11,6 +11,7 @@ mod wrap;
 
 use crate::math::*;
 use crate::model::wraptype;
+use crate::transmission::{self, On};
 use crate::{Data, Model};
 
 pub(crate) use constants::{at_default, at_rest};
@@ -65,7 +66,7 @@ fn fixed(m: &Model, d: &Data, t: usize, jacobian: &mut [f64]) -> f64 {
 /// Adds a Jᵀ J to M for tendons with armature a, where M has an entry: trees stay independent.
 pub(crate) fn armature(m: &Model, d: &mut Data) {
     for t in 0..m.ntendon {
-        let a = m.tendon_armature[t];
+        let a = m.tendon_armature[t] + transmission::armature(m, On::Tendon(t));
         if a == 0.0 {
             continue;
         }
@@ -101,7 +102,7 @@ pub(crate) fn velocities(m: &Model, d: &mut Data) {
 /// Adds a Jᵀ (J̇ v) to `qfrc_bias` for tendons with armature a.
 pub(crate) fn bias(m: &Model, d: &mut Data) {
     for t in 0..m.ntendon {
-        let a = m.tendon_armature[t];
+        let a = m.tendon_armature[t] + transmission::armature(m, On::Tendon(t));
         if a != 0.0 && !is_fixed(m, t) {
             let force = a * path::acceleration(m, d, t);
             add_force(m, t, &d.ten_J, force, &mut d.qfrc_bias);

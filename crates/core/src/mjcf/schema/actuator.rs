@@ -1,10 +1,13 @@
-//! `actuator`, and its elements as they stand in `default`. All are refused for now.
+//! `actuator`, and its elements as they stand in `default`.
 
-use super::{AUTO, Attr, Element, FLAG, INT, Kind, LIST, REAL, TEXT, attributes, reals, rest, upto};
+use super::{
+    AUTO, Attr, Element, FLAG, INT, Kind, LIST, REAL, TEXT, attributes, not_yet, reals, rest, upto, word,
+};
+use crate::model::{biastype, dyntype, gaintype};
 
 const COMMON: &[Attr] = attributes! {
     INT => group nsample;
-    TEXT => interp;
+    Kind::Words(&[word("zoh", 0), word("linear", 1), word("cubic", 2)]) => interp;
     REAL => delay;
     LIST => user;
 };
@@ -17,27 +20,59 @@ const JOINTLIKE: &[Attr] = attributes! {
     REAL => cranklength armature;
     upto(3) => damping;
 };
+/// Those that programs would compute are refused: a model alone does not say what they do.
+const DYN: &[super::Word] = &[
+    word("none", dyntype::NONE),
+    word("integrator", dyntype::INTEGRATOR),
+    word("filter", dyntype::FILTER),
+    word("filterexact", dyntype::FILTEREXACT),
+    word("muscle", dyntype::MUSCLE),
+    word("dcmotor", dyntype::DCMOTOR),
+    word("pid", dyntype::PID),
+    not_yet("user", 7),
+];
+const GAINS: &[super::Word] = &[
+    word("fixed", gaintype::FIXED),
+    word("affine", gaintype::AFFINE),
+    word("muscle", gaintype::MUSCLE),
+    word("dcmotor", gaintype::DCMOTOR),
+    word("so3", gaintype::SO3),
+    word("pid", gaintype::PID),
+    not_yet("user", 6),
+];
+const BIASES: &[super::Word] = &[
+    word("none", biastype::NONE),
+    word("affine", biastype::AFFINE),
+    word("muscle", biastype::MUSCLE),
+    word("dcmotor", biastype::DCMOTOR),
+    word("so3", biastype::SO3),
+    not_yet("user", 5),
+];
 const GENERAL: &[Attr] = attributes! {
     INT => actdim;
     FLAG => actearly;
-    TEXT => dyntype;
+    Kind::Words(DYN) => dyntype;
     upto(10) => dynprm;
 };
-const GAIN: &[Attr] = attributes! { TEXT => gaintype biastype input; upto(10) => gainprm biasprm; reals(2) => ffrange velrange; };
+const GAIN: &[Attr] = attributes! { Kind::Words(GAINS) => gaintype; Kind::Words(BIASES) => biastype; TEXT => input; upto(10) => gainprm biasprm; reals(2) => ffrange velrange; };
 const SERVO: &[Attr] = attributes! { REAL => kp kv dampratio; };
 const INHERIT: &[Attr] = attributes! { REAL => inheritrange; };
 const INPUT: &[Attr] = attributes! { TEXT => input; };
 const PID: &[Attr] = attributes! { REAL => ki imax slewmax; reals(2) => ffrange posrange velrange; };
 const KV: &[Attr] = attributes! { REAL => kv; };
-const CYLINDER: &[Attr] = attributes! { REAL => timeconst area diameter; upto(3) => bias; };
+const CYLINDER: &[Attr] = attributes! { REAL => timeconst area diameter; reals(3) => bias; };
 const MUSCLE: &[Attr] = attributes! {
-    upto(2) => timeconst;
+    reals(2) => timeconst;
     reals(2) => range;
     REAL => force scale lmin lmax vmax fpmax fvmax;
 };
 const GRIP: &[Attr] = attributes! { REAL => gain; };
 const MOTOR_DC: &[Attr] = attributes! {
-    upto(10) => motorconst resistance nominal saturation inductance cogging controller thermal lugre;
+    REAL => resistance;
+    upto(2) => motorconst inductance;
+    upto(3) => nominal saturation cogging;
+    upto(5) => lugre;
+    upto(6) => controller thermal;
     TEXT => input;
 };
 const TIMECONST: &[Attr] = attributes! { REAL => timeconst; };
@@ -60,12 +95,12 @@ macro_rules! actuators {
         /// The actuators themselves.
         mod place {
             use super::*;
-            $(pub(super) static $id: Element = Element::new($name, &[NAMED, COMMON, $($group,)* $($place),*]).refused();)*
+            $(pub(super) static $id: Element = Element::new($name, &[NAMED, COMMON, $($group,)* $($place),*]);)*
         }
         /// Their entries in `default`.
         mod defaults {
             use super::*;
-            $(pub(super) static $id: Element = Element::new($name, &[COMMON, $($group),*]).status(super::super::MOOT).once();)*
+            $(pub(super) static $id: Element = Element::new($name, &[COMMON, $($group),*]).once();)*
         }
         pub(super) static ACTUATOR: Element =
             Element::new("actuator", &[]).children(&[$(&place::$id,)* &PLUGIN]);

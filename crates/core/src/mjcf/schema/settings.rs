@@ -35,7 +35,6 @@ static LENGTHRANGE: Element = Element::new(
         REAL => accel maxforce timeconst timestep inttotal interval tolrange;
     }],
 )
-.status(MOOT)
 .once();
 
 pub(super) static OPTION: Element = Element::new(
@@ -58,7 +57,7 @@ pub(super) static OPTION: Element = Element::new(
         REAL => noslip_tolerance ccd_tolerance;
         REAL => sleep_tolerance [Ignored("for sleeping, which is refused")];
         INT => sdf_iterations sdf_initpoints [Ignored("for signed distance fields, which are refused")];
-        INTS => actuatorgroupdisable [MOOT];
+        INTS => actuatorgroupdisable;
     }],
 )
 .children(&[&FLAGS]);
@@ -84,8 +83,8 @@ pub(super) static SIZE: Element = Element::new(
         INT => nkey;
         TEXT => memory [MEMORY];
         INT => njmax nconmax nstack [MEMORY];
-        INT => nuser_body nuser_jnt nuser_tendon;
-        INT => nuserdata nuser_geom nuser_site nuser_cam nuser_actuator nuser_sensor [super::USER];
+        INT => nuser_body nuser_jnt nuser_tendon nuser_actuator;
+        INT => nuserdata nuser_geom nuser_site nuser_cam nuser_sensor [super::USER];
     }],
 );
 

@@ -1,0 +1,130 @@
+//! Actuation: forces from controls, activations, lengths and velocities.
+//!
+//! MuJoCo's documentation, "Computation: Actuation model". An actuator makes the force
+//!
+//! > gain(length, velocity) · input + bias(length, velocity)
+//!
+//! of its control or, where it has dynamics, of its last activation. Servos with several inputs, orientations and
+//! motors have laws of their own.
+
+mod activation;
+mod control;
+mod limit;
+mod motor;
+mod muscle;
+mod servo;
+
+use crate::math::*;
+use crate::{Data, Model, biastype, disable, dyntype, gaintype, joint, transmission};
+
+pub(crate) use activation::{advance, advance_along};
+pub(crate) use control::{record, reset};
+pub(crate) use motor::slots;
+
+/// Whether the forces of actuator `i` are switched off by its group.
+fn switched_off(m: &Model, i: usize) -> bool {
+    let group = m.actuator_group[i];
+    (0..=30).contains(&group) && m.opt.disableactuator & (1 << group) != 0
+}
+
+/// Ten parameters of actuator `i`.
+fn prm(of: &[f64], i: usize) -> &[f64; 10] {
+    &rows::<10>(of)[i]
+}
+
+/// Addresses of the activations of actuator `i`.
+fn states(m: &Model, i: usize) -> std::ops::Range<usize> {
+    // Without activations the address is -1 and the number 0.
+    let first = m.actuator_actadr[i].max(0) as usize;
+    first..first + m.actuator_actnum[i] as usize
+}
+
+/// `actuator_force`, `act_dot`, `qfrc_actuator`.
+pub(crate) fn actuation(m: &Model, d: &mut Data) {
+    d.actuator_force.fill(0.0);
+    if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
+        d.qfrc_actuator.fill(0.0);
+        return;
+    }
+    let mut ctrl = std::mem::take(&mut d.work.ctrl);
+    control::effective(m, d, &mut ctrl);
+    for i in 0..m.nactuator {
+        activation::rates(m, d, i, &mut ctrl);
+    }
+    for i in (0..m.nactuator).filter(|&i| !switched_off(m, i)) {
+        let o = m.actuator_outadr[i] as usize;
+        match m.actuator_gaintype[i] {
+            gaintype::SO3 => {
+                let torque = servo::orientation(m, d, i, &ctrl);
+                d.actuator_force[o..o + 3].copy_from_slice(&torque);
+            }
+            gaintype::PID => d.actuator_force[o] = servo::pid(m, d, i, &ctrl),
+            gaintype::DCMOTOR => d.actuator_force[o] = motor::electric(m, d, i, &ctrl) + bias(m, d, i),
+            _ => {
+                d.actuator_force[o] =
+                    gain(m, d, i) * servo::wrapped(m, d, i, input(m, d, i, &ctrl)) + bias(m, d, i)
+            }
+        }
+    }
+    d.work.ctrl = ctrl;
+    limit::tendons(m, d);
+    limit::forces(m, d);
+    for i in (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == biastype::DCMOTOR && !switched_off(m, i))
+    {
+        d.actuator_force[m.actuator_outadr[i] as usize] += motor::mechanical(m, d, i);
+    }
+    transmission::apply_forces(m, d);
+    gravity_compensation(m, d);
+    limit::joints(m, d);
+}
+
+/// What the gain of actuator `i` multiplies: its control, or its last activation.
+fn input(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> f64 {
+    match states(m, i).last() {
+        Some(last) => activation::acting(m, d, i, last),
+        None if m.actuator_ctrlnum[i] == 0 => 0.0,
+        None => ctrl[m.actuator_ctrladr[i] as usize],
+    }
+}
+
+/// p₀ + p₁ length + p₂ velocity.
+fn affine(p: &[f64; 10], d: &Data, o: usize) -> f64 {
+    p[0] + p[1] * d.actuator_length[o] + p[2] * d.actuator_velocity[o]
+}
+
+fn gain(m: &Model, d: &Data, i: usize) -> f64 {
+    let (p, o) = (prm(&m.actuator_gainprm, i), m.actuator_outadr[i] as usize);
+    match m.actuator_gaintype[i] {
+        gaintype::AFFINE => affine(p, d, o),
+        gaintype::MUSCLE => muscle::gain(p, &muscle::State::new(m, d, o, p)),
+        _ => p[0],
+    }
+}
+
+fn bias(m: &Model, d: &Data, i: usize) -> f64 {
+    let (p, o) = (prm(&m.actuator_biasprm, i), m.actuator_outadr[i] as usize);
+    match m.actuator_biastype[i] {
+        biastype::AFFINE => affine(p, d, o),
+        biastype::MUSCLE => muscle::bias(p, &muscle::State::new(m, d, o, p)),
+        biastype::DCMOTOR => motor::back_emf(m, d, i),
+        _ => 0.0,
+    }
+}
+
+/// Gravity compensation that acts as a force of actuators.
+fn gravity_compensation(m: &Model, d: &mut Data) {
+    if m.ngravcomp == 0 || m.opt.disabled(disable::GRAVITY) {
+        return;
+    }
+    for j in (0..m.njnt).filter(|&j| m.jnt_actgravcomp[j]) {
+        let first = m.jnt_dofadr[j] as usize;
+        for k in first..first + joint::nv(m.jnt_type[j]) {
+            d.qfrc_actuator[k] += d.qfrc_gravcomp[k];
+        }
+    }
+}
+
+/// Whether the activation of actuator `i` is a setpoint that is integrated.
+fn integrates(m: &Model, i: usize) -> bool {
+    m.actuator_dyntype[i] == dyntype::INTEGRATOR
+}
