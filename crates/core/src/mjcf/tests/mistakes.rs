@@ -60,16 +60,17 @@ mistakes! {
     // Names of the language
     element_misspelt: world("\n<boddy/>");
     element_misplaced: "<mujoco>\n<worldbody/>\n<geom size=\"1\"/>\n</mujoco>";
-    element_not_supported: after("<actuator><motor joint=\"j\"/></actuator>");
+    element_not_supported: after("<deformable><flex name=\"f\"/></deformable>");
     element_twice: before("<option><flag/><flag/></option>");
     attribute_misspelt: world("<geom size=\"1\" fricton=\"1\"/>");
     attribute_of_world: "<mujoco><worldbody name=\"w\"/></mujoco>";
-    attribute_not_supported: world("<geom size=\"1\" surfacevel=\"1 0 0\"/>");
-    geom_type_not_supported: world("<geom type=\"capsule\" size=\"1 1\"/>");
+    attribute_not_supported: world("<site mesh=\"m\"/>");
+    geom_type_not_supported: world("<geom type=\"sdf\" size=\"1 1\"/>");
     keyword_misspelt: before("<option integrator=\"euler\"/>");
     integrator_not_supported: before("<option integrator=\"implicitfast\"/>");
     flag_not_supported: before("<option><flag sleep=\"enable\"/></option>");
-    option_not_supported: before("<option noslip_iterations=\"3\"/>");
+    option_not_simulated: before("<option noslip_iterations=\"3\"/>\n<worldbody><geom type=\"plane\" size=\"1 1 1\"/><body><freejoint/><geom size=\"1\" condim=\"4\"/></body></worldbody>");
+    equality_not_simulated: tied("<equality>\n<joint joint1=\"j\"/></equality>");
     boolean: world("<body mocap=\"True\"/>");
     stray_text: world("\n  geom size=\"1\"/>");
     // Numbers
@@ -157,7 +158,6 @@ mistakes! {
     tendon_pulley_twice: tied("<tendon>\n<spatial><pulley divisor=\"2\"/><pulley divisor=\"2\"/><site site=\"s\"/><site site=\"t\"/></spatial></tendon>");
     tendon_pulley_zero: tied("<tendon>\n<spatial><pulley divisor=\"0\"/><site site=\"s\"/><site site=\"t\"/></spatial></tendon>");
     tendon_pulley_alone: tied("<tendon>\n<spatial><pulley/><site site=\"s\"/><site site=\"t\"/></spatial></tendon>");
-    tendon_free_joint: tied("<tendon>\n<fixed><joint joint=\"j\" coef=\"1\"/></fixed></tendon>");
     tendon_without_joint: tied("<tendon>\n<fixed><joint coef=\"1\"/></fixed></tendon>");
     tendon_unknown_site: tied("<tendon>\n<spatial><site site=\"s\"/><site site=\"tt\"/></spatial></tendon>");
     tendon_range: tied("<tendon>\n<spatial range=\"2 1\" springlength=\"2 1\" actuatorfrcrange=\"1 2\" width=\"0\"><site site=\"s\"/><site site=\"t\"/></spatial></tendon>");
