@@ -43,20 +43,20 @@ pub(super) fn force(m: &Model, axes: Vec3, fluid: &[f64; 12], motion: Spatial) -
     let volume = 4.0 / 3.0 * PI * a * b * c;
     force = add_scaled(force, cross(w, v), magnus * density * volume);
 
-    // Area of the shadow along v, and the angle of the surface there.
-    let faces = [b * c, c * a, a * b];
-    let (mut num, mut den) = (0.0, 0.0);
-    for k in 0..3 {
-        num += square(faces[k] * v[k]);
-        den += square(square(faces[k])) * square(v[k]);
+    // The shadow along the direction u of the motion, and Kutta and Joukowski's lift from the circulation that an
+    // inclined body causes: with the areas f = (b c, c a, a b), shadow = π √(Σ f⁴u² / Σ f²u²), normal ~ f² u.
+    let mut shadow = 0.0;
+    if speed >= MINVAL {
+        let u = scale(v, 1.0 / speed);
+        let areas = [b * c, c * a, a * b].map(square);
+        let normal = [0, 1, 2].map(|k| areas[k] * u[k]);
+        let (num, den) = (dot(normal, u), dot(normal, normal));
+        if num > 0.0 && den > 0.0 {
+            shadow = PI * (den / num).sqrt();
+            let circulation = scale(cross(normal, v), kutta * density * shadow * num / den);
+            force = add(force, cross(circulation, v));
+        }
     }
-    let shadow = PI * (den / num.max(MINVAL)).sqrt();
-    let normal = [0, 1, 2].map(|k| square(faces[k]) * v[k]);
-    let cosine = num / (speed * den).max(MINVAL);
-
-    // Kutta and Joukowski: circulation that an inclined body causes.
-    let circulation = scale(cross(normal, v), kutta * density * cosine * shadow);
-    force = add(force, cross(circulation, v));
 
     // Stokes' viscous drag of the sphere of the same mean diameter, and quadratic drag.
     let diameter = 2.0 / 3.0 * (a + b + c);
