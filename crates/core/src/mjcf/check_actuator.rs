@@ -63,12 +63,12 @@ pub(crate) fn outputs(a: &ActuatorSpec) -> usize {
     if a.transmission.is_some_and(|t| t.kind == trntype::SO3) { 3 } else { 1 }
 }
 
-struct Check<'c, 'a, 't> {
-    cx: &'c mut Context<'a, 't>,
+struct Check<'c, 'a> {
+    cx: &'c mut Context<'a>,
     node: &'c Node,
 }
 
-impl Check<'_, '_, '_> {
+impl Check<'_, '_> {
     /// An error at one of these attributes, or at the element when they stand in its class.
     fn error(&mut self, attribute: &str, message: &str) -> &mut MjcfDiagnostic {
         let span = self.node.attribute(attribute).map_or(self.node.span.clone(), |a| a.span.clone());

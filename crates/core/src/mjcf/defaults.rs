@@ -137,13 +137,19 @@ impl Classes {
     /// Reads all `default` sections.
     ///
     /// A later section at the top level continues the class `main`; classes that were made before keep what
-    /// they copied from it, as in MuJoCo.
+    /// they copied from it, as in MuJoCo. A model that is attached has a main class of its own, under the name that
+    /// its section has by now.
     pub(crate) fn read(tree: &Tree, report: &mut Report) -> Classes {
         let mut classes = Classes { list: vec![Class::default()], names: BTreeMap::new(), main: 0 };
         let mut of_node: BTreeMap<usize, usize> = BTreeMap::new();
         for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
             let nested_in = node.parent.and_then(|p| of_node.get(&p)).copied();
-            let parent = nested_in.unwrap_or(classes.main);
+            let attached = nested_in.is_none() && node.model > 0;
+            let parent = match (nested_in, attached) {
+                (Some(class), _) => class,
+                (None, false) => classes.main,
+                (None, true) => node.text("class").and_then(|name| classes.find(name)).unwrap_or(0),
+            };
             let mut entries = classes.list.get(parent).map_or_else(BTreeMap::new, |c| c.entries.clone());
             let mut nodes = Vec::new();
             for (at, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
@@ -159,6 +165,9 @@ impl Classes {
             classes.list.push(Class { parent, entries, nodes });
             of_node.insert(i, index);
             match (nested_in, node.text("class")) {
+                (None, Some(name)) if attached => {
+                    classes.names.insert(name.to_string(), index);
+                }
                 (None, _) => classes.main = index,
                 (Some(_), Some(name)) => {
                     classes.names.entry(name.to_string()).or_insert(index);

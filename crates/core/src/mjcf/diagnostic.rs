@@ -1,9 +1,13 @@
 //! What is wrong with a model, and where: diagnostics with a stable code, a place in the XML, the reason and
 //! the next step. A [`Report`] collects them, so that an author with three mistakes sees three.
+//!
+//! A model may be written in several files. The passes know one text, in which the files follow each other: a
+//! span is a range of bytes there, and only [`Report::finish`] tells which file it belongs to.
 
 use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
+use std::rc::Rc;
 
 /// More findings than this are not listed: the first mistakes explain the rest.
 const MAX_DIAGNOSTICS: usize = 100;
@@ -13,7 +17,9 @@ const MAX_DIAGNOSTICS: usize = 100;
 pub struct MjcfDiagnostic {
     /// Stable code, one of [`code`].
     pub code: &'static str,
-    /// Bytes of the XML text.
+    /// The file, seen from the folder of the model; `None` for the model itself.
+    pub file: Option<String>,
+    /// Bytes of the file's text.
     pub span: Range<usize>,
     /// Line of the start of `span`, from 1.
     pub line: usize,
@@ -43,6 +49,9 @@ impl MjcfDiagnostic {
 
 impl fmt::Display for MjcfDiagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(file) = &self.file {
+            write!(f, "{file}:")?;
+        }
         write!(f, "{}:{}: error[{}]: {}", self.line, self.column, self.code, self.message)?;
         if let Some(why) = &self.why {
             write!(f, "\n  why: {why}")?;
@@ -109,7 +118,12 @@ impl fmt::Display for MjcfFileError {
             MjcfFileError::Model { path, diagnostics } => {
                 for (i, d) in diagnostics.iter().enumerate() {
                     let separator = if i == 0 { "" } else { "\n" };
-                    write!(f, "{separator}{}:{d}", path.display())?;
+                    match (&d.file, path.parent()) {
+                        (Some(_), Some(folder)) => {
+                            write!(f, "{separator}{}", folder.join(d.to_string()).display())?
+                        }
+                        _ => write!(f, "{separator}{}:{d}", path.display())?,
+                    }
                 }
                 Ok(())
             }
@@ -138,6 +152,7 @@ pub mod code {
     codes! {
         XML = "mjcf-xml", "The text is not well-formed XML.";
         LIMIT = "mjcf-limit", "The model is larger or more deeply nested than the limits allow.";
+        FILE = "mjcf-file", "A file that the model names cannot be read, or may not be.";
         TEXT = "mjcf-text", "There is text where only elements belong.";
         UNKNOWN_ELEMENT = "mjcf-unknown-element", "MJCF has no such element.";
         MISPLACED_ELEMENT = "mjcf-misplaced-element", "The element does not belong here.";
@@ -153,6 +168,7 @@ pub mod code {
         DUPLICATE_NAME = "mjcf-duplicate-name", "Two objects of one kind have the same name.";
         UNKNOWN_NAME = "mjcf-unknown-name", "The name belongs to no object.";
         UNKNOWN_CLASS = "mjcf-unknown-class", "There is no such default class.";
+        COPY = "mjcf-copy", "A `replicate` or `attach` cannot copy what it should.";
         ORIENTATION = "mjcf-orientation", "The orientation is given twice, or has no direction.";
         JOINT = "mjcf-joint", "The joints of a body do not fit together.";
         MOCAP = "mjcf-mocap", "A mocap body must be a child of the world without joints.";
@@ -167,18 +183,40 @@ pub mod code {
     }
 }
 
-/// Collects findings about one text.
-pub(crate) struct Report<'a> {
-    text: &'a str,
+/// A text that a model is written in.
+struct Source {
+    /// `None` for the model itself.
+    file: Option<String>,
+    text: Rc<str>,
+    /// Where it begins among all texts.
+    base: usize,
+}
+
+/// Collects findings about the texts of one model.
+pub(crate) struct Report {
+    sources: Vec<Source>,
     list: Vec<MjcfDiagnostic>,
     /// Something was left out because it is not supported: names that it would define are missing, and
     /// saying so again would only repeat the first message.
     pub(crate) incomplete: bool,
 }
 
-impl<'a> Report<'a> {
-    pub(crate) fn new(text: &'a str) -> Report<'a> {
-        Report { text, list: Vec::new(), incomplete: false }
+impl Report {
+    pub(crate) fn new() -> Report {
+        Report { sources: Vec::new(), list: Vec::new(), incomplete: false }
+    }
+
+    /// Takes a text; returns where its spans begin. The first is the model itself.
+    pub(crate) fn source(&mut self, file: Option<&str>, text: Rc<str>) -> usize {
+        // A byte between two texts: the end of one is not the start of the next.
+        let base = self.bytes() + self.sources.len();
+        self.sources.push(Source { file: file.map(str::to_string), text, base });
+        base
+    }
+
+    /// Length of all texts together.
+    pub(crate) fn bytes(&self) -> usize {
+        self.sources.iter().map(|s| s.text.len()).sum()
     }
 
     /// Adds an error at a range of bytes.
@@ -191,8 +229,16 @@ impl<'a> Report<'a> {
         if self.list.len() > MAX_DIAGNOSTICS {
             self.list.pop(); // one beyond the limit stands for all that follow
         }
-        let d =
-            MjcfDiagnostic { code, span, line: 0, column: 0, message: message.into(), why: None, help: None };
+        let d = MjcfDiagnostic {
+            code,
+            file: None,
+            span,
+            line: 0,
+            column: 0,
+            message: message.into(),
+            why: None,
+            help: None,
+        };
         let at = self.list.len();
         self.list.push(d);
         &mut self.list[at] // just pushed
@@ -208,16 +254,24 @@ impl<'a> Report<'a> {
         self.list.len() > MAX_DIAGNOSTICS
     }
 
-    /// The findings in the order of the text, each with its line and column.
+    /// The findings in the order of the texts, each with its file, line and column. What copies of one element
+    /// have in common is said once.
     pub(crate) fn finish(mut self) -> Vec<MjcfDiagnostic> {
         self.list.truncate(MAX_DIAGNOSTICS);
         self.list.sort_by_key(|d| (d.span.start, d.span.end));
-        let (mut at, mut line, mut column) = (0, 1, 1);
+        self.list.dedup_by(|a, b| (a.code, &a.span, &a.message) == (b.code, &b.span, &b.message));
+        let (mut source, mut at, mut line, mut column) = (usize::MAX, 0, 1, 1);
         for d in &mut self.list {
+            let i = self.sources.partition_point(|s| s.base <= d.span.start).saturating_sub(1);
+            let Some(Source { file, text, base }) = self.sources.get(i) else { continue };
+            if i != source {
+                (source, at, line, column) = (i, 0, 1, 1);
+            }
+            d.file = file.clone();
             // A span that was computed on decoded text may end inside a character.
-            let start = boundary(self.text, d.span.start);
-            d.span = start..boundary(self.text, d.span.end).max(start);
-            for c in self.text.get(at..start).unwrap_or("").chars() {
+            let start = boundary(text, d.span.start - base);
+            d.span = start..boundary(text, d.span.end.saturating_sub(*base)).max(start);
+            for c in text.get(at..start).unwrap_or("").chars() {
                 if c == '\n' {
                     line += 1;
                     column = 1;
@@ -301,11 +355,14 @@ mod tests {
 
     #[test]
     fn lines_and_columns_count_characters() {
-        let text = "äö\nxyz";
-        let mut r = Report::new(text);
+        let mut r = Report::new();
+        assert_eq!(r.source(None, "äö\nxyz".into()), 0);
+        let base = r.source(Some("b.xml"), "\nx".into());
+        r.error(code::XML, base + 1..base + 2, "x");
         r.error(code::XML, 7..8, "z");
         r.error(code::XML, 2..4, "ö");
-        let places: Vec<_> = r.finish().iter().map(|d| (d.line, d.column)).collect();
-        assert_eq!(places, [(1, 2), (2, 3)]);
+        r.error(code::XML, 2..4, "ö");
+        let places: Vec<_> = r.finish().into_iter().map(|d| (d.file, d.line, d.column, d.span)).collect();
+        assert_eq!(places, [(None, 1, 2, 2..4), (None, 2, 3, 7..8), (Some("b.xml".into()), 2, 1, 1..2)]);
     }
 }

@@ -1,6 +1,7 @@
 //! Inertia of bodies: explicit, or put together from their geoms by the parallel axis theorem.
 
 use super::diagnostic::{Report, code};
+use super::expand::Part;
 use super::settings::{Compiler, InertiaFromGeom};
 use super::spec::{BodySpec, GeomSpec, Inertia};
 use crate::math::{
@@ -11,9 +12,10 @@ use crate::math::{
 const NONE: Inertia = Inertia { pos: [0.0; 3], quat: IDENTITY, mass: 0.0, moments: [0.0; 3] };
 
 /// The inertia of every body. The world has none.
-pub(crate) fn bodies(list: &[BodySpec], compiler: &Compiler, report: &mut Report) -> Vec<Inertia> {
+pub(crate) fn bodies(list: &[BodySpec], parts: &[Part], report: &mut Report) -> Vec<Inertia> {
     let mut all = vec![NONE];
     for body in list.iter().skip(1) {
+        let Some(Part { compiler, .. }) = parts.get(body.part) else { continue };
         let mut inertia = body_inertia(body, compiler);
         inertia.mass = inertia.mass.max(compiler.boundmass);
         inertia.moments = inertia.moments.map(|x| x.max(compiler.boundinertia));
@@ -30,9 +32,9 @@ fn body_inertia(body: &BodySpec, compiler: &Compiler) -> Inertia {
         InertiaFromGeom::Auto if body.inertial.is_some() => None,
         InertiaFromGeom::Auto => of_geoms(&body.geoms, compiler),
     };
-    // Without mass the inertial frame means nothing. MuJoCo stores the body's frame there, in the parent's
-    // frame like `body_pos`; `xipos` shows it, so it is kept.
-    let massless = Inertia { pos: body.pos, quat: body.quat, ..NONE };
+    // Without mass the inertial frame means nothing. MuJoCo stores the body's pose there, as it
+    // is written; `xipos` shows it, so it is kept.
+    let massless = Inertia { pos: body.written.pos, quat: body.written.quat, ..NONE };
     from_geoms.or_else(|| body.inertial.clone()).unwrap_or(massless)
 }
 

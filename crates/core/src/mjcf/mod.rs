@@ -1,7 +1,7 @@
 //! The MJCF compiler: XML text to a [`Model`], with MuJoCo 3.14.0's names, defaults and conventions.
 //!
-//! The passes, one file each: `scan` (limits) → `tree` (XML checked against the one `schema`) → `defaults`,
-//! `names` → `settings`, `read_*` (specifications in our own terms, `spec`) → `inertia`, `layout` → `fill`.
+//! The passes, one file each: `load` (`files`, `scan` for limits, `xml`, `tree` checked against the one `schema`) →
+//! `expand` (copies) → `defaults`, `names` → `settings`, `read_*` (specifications in our own terms, `spec`) → `inertia`, `layout` → `fill`.
 //! A pass reports what it finds and goes on, so that one run shows all mistakes; passes that would only
 //! repeat an earlier finding in other words wait until that is corrected.
 //!
@@ -11,15 +11,19 @@
 mod check_actuator;
 mod defaults;
 mod diagnostic;
+mod expand;
+mod files;
 mod fill;
 mod fill_actuator;
 mod fill_constraint;
 mod fill_scene;
 mod fill_tendon;
+mod frame;
 mod ids;
 mod inertia;
 mod layout;
 mod limits;
+mod load;
 mod names;
 mod orientation;
 mod read_actuator;
@@ -45,6 +49,7 @@ mod tests;
 mod tree;
 mod unsimulated;
 mod values;
+mod xml;
 
 use std::io::Read;
 use std::path::Path;
@@ -53,6 +58,7 @@ use crate::Model;
 use diagnostic::Report;
 
 pub use diagnostic::{MjcfDiagnostic, MjcfFileError, code};
+pub use files::{FileProblem, Files, Folder, MAX_FILE, NoFiles};
 pub use schema::{Attr, Element, Kind, SchemaRow, Status, Word, schema_rows};
 
 /// Largest text that is read, bytes.
@@ -68,14 +74,24 @@ pub const MAX_GEOMS: usize = 5000;
 /// Largest number of attributes of an element.
 pub const MAX_ATTRIBUTES: usize = 200;
 
-/// Compiles a model from its text.
+/// Compiles a model from its text. It can name no files: [`compile_with`] and [`compile_file`] let it.
 ///
 /// # Errors
 ///
 /// All mistakes that were found, in the order of the text.
 pub fn compile(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
-    let mut report = Report::new(xml);
-    match build(xml, &mut report) {
+    compile_with(xml, &NoFiles, None)
+}
+
+/// Compiles a model from its text and the files that it names, which come from `files`. `path` is where `files` has
+/// the text itself, if it has it: what it names is looked for in that folder.
+///
+/// # Errors
+///
+/// All mistakes that were found, in the order of the texts.
+pub fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<MjcfDiagnostic>> {
+    let mut report = Report::new();
+    match build(xml, files, path, &mut report) {
         Some((tree, model)) => {
             unsimulated::check(&tree, &model, &mut report);
             if report.is_clean() { Ok(model) } else { Err(report.finish()) }
@@ -86,15 +102,15 @@ pub fn compile(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
 
 /// Compiles a model that may hold what is not simulated yet.
 #[cfg(test)]
-pub(crate) fn compile_only(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
-    let mut report = Report::new(xml);
-    match build(xml, &mut report) {
+pub(crate) fn compile_only(xml: &str, files: &dyn Files) -> Result<Model, Vec<MjcfDiagnostic>> {
+    let mut report = Report::new();
+    match build(xml, files, None, &mut report) {
         Some((_, model)) if report.is_clean() => Ok(model),
         _ => Err(report.finish()),
     }
 }
 
-/// Compiles a model from a file.
+/// Compiles a model from a file, with what it names in the folder of that file and below.
 ///
 /// # Errors
 ///
@@ -110,32 +126,37 @@ pub fn compile_file(path: &Path) -> Result<Model, MjcfFileError> {
     }
     let text = String::from_utf8(bytes)
         .map_err(|e| MjcfFileError::NotUtf8 { path: owned(), offset: e.utf8_error().valid_up_to() })?;
-    compile(&text).map_err(|diagnostics| MjcfFileError::Model { path: owned(), diagnostics })
+    let folder = Folder::new(path.parent().unwrap_or(Path::new(""))).map_err(io)?;
+    compile_with(&text, &folder, path.file_name().and_then(|name| name.to_str()))
+        .map_err(|diagnostics| MjcfFileError::Model { path: owned(), diagnostics })
 }
 
 /// All passes. `None` when something is wrong; then the report says what.
-fn build(xml: &str, report: &mut Report) -> Option<(tree::Tree, Model)> {
-    if !scan::within_limits(xml, report) {
-        return None;
-    }
-    let tree = tree::parse(xml, report)?;
+fn build(
+    xml: &str,
+    files: &dyn Files,
+    path: Option<&str>,
+    report: &mut Report,
+) -> Option<(tree::Tree, Model)> {
+    let written = load::Loader::new(files).model(xml.into(), path, report)?;
+    let expand::Expanded { tree, parts } = expand::model(written, report);
     let classes = defaults::Classes::read(&tree, report);
     let names = names::NameTable::read(&tree, report);
     names::check_references(&tree, &names, &classes, report);
     orientation::check_forms(&tree, report);
 
-    let compiler = settings::Compiler::read(&tree, report);
     let options = settings::options(&tree, report);
     let statistic = settings::StatisticOverride::read(&tree, report);
     let min_keys = settings::min_keys(&tree, report);
-    let mut cx = read_body::Context { tree: &tree, classes: &classes, compiler: &compiler, report };
+    let compiler = &parts.first()?.compiler;
+    let mut cx = read_body::Context { tree: &tree, classes: &classes, parts: &parts, compiler, report };
     let bodies = read_body::bodies(&mut cx);
     let layout = layout::number(&bodies);
     layout::check(&bodies, &layout, report);
     sleep::check(&bodies, &layout, report);
     let ids = ids::Ids::number(&tree, &bodies);
     let refs = ids::References { names: &names, ids: &ids };
-    let mut cx = read_body::Context { tree: &tree, classes: &classes, compiler: &compiler, report };
+    let mut cx = read_body::Context { tree: &tree, classes: &classes, parts: &parts, compiler, report };
     let tendons = read_tendon::tendons(&mut cx, refs);
     let actuators = read_actuator::actuators(&mut cx, refs, &bodies, &tendons);
     let equalities = read_equality::equalities(&mut cx, refs);
@@ -193,7 +214,7 @@ fn build(xml: &str, report: &mut Report) -> Option<(tree::Tree, Model)> {
         nu: counts.nu,
     };
     let keys = read_key::keys(&tree, &sizes, min_keys, report);
-    let inertias = inertia::bodies(&bodies, &compiler, report);
+    let inertias = inertia::bodies(&bodies, &parts, report);
     inertia::check_moving(&bodies, &layout.weld, &inertias, report);
     if !report.is_clean() {
         return None;

@@ -134,7 +134,7 @@ fn check_class<'t>(
                 )
                 .help("give one of them another name");
         }
-        (false, Some(name)) if name != "main" => {
+        (false, Some(name)) if name != "main" && node.model == 0 => {
             report
                 .error(
                     code::UNKNOWN_CLASS,

@@ -74,7 +74,7 @@ fn quaternion(q: Quat) -> Result<Quat, String> {
 }
 
 /// Rotations about three axes in turn.
-fn euler(angles: Vec3, compiler: &Compiler) -> Quat {
+pub(crate) fn euler(angles: Vec3, compiler: &Compiler) -> Quat {
     let mut q = IDENTITY;
     for (angle, (axis, fixed)) in angles.into_iter().zip(compiler.eulerseq) {
         let mut unit = [0.0; 3];

@@ -31,6 +31,7 @@ pub(crate) fn actuators(
         if cx.report.is_full() {
             break;
         }
+        cx.enter(node);
         let class = of_class.get(classes.class_of(node, None));
         let mut spec = class.cloned().unwrap_or_else(unset);
         overlay(&mut spec, node, cx.report);

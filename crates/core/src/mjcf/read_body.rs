@@ -2,27 +2,48 @@
 
 use super::defaults::{Classes, Props};
 use super::diagnostic::{Report, code};
+use super::expand::Part;
+use super::frame::Pose;
 use super::inertia::principal;
 use super::names::WORLD;
 use super::settings::{Compiler, checked};
 use super::spec::{BodySpec, Inertia, List};
 use super::tree::{Node, Tree};
 use super::{orientation, read_geom, read_joint, read_scene};
-use crate::math::{IDENTITY, Quat};
+use crate::joint;
+use crate::math::{IDENTITY, Quat, normalize};
 
 /// What reading an element needs to know.
-pub(crate) struct Context<'a, 't> {
+pub(crate) struct Context<'a> {
     pub(crate) tree: &'a Tree,
     pub(crate) classes: &'a Classes,
+    /// The models that make up the whole.
+    pub(crate) parts: &'a [Part],
+    /// What the model of the current element says: see [`Context::enter`].
     pub(crate) compiler: &'a Compiler,
-    pub(crate) report: &'a mut Report<'t>,
+    pub(crate) report: &'a mut Report,
 }
 
-impl Context<'_, '_> {
+impl Context<'_> {
+    /// Turns to an element: its angles mean what its own model says.
+    pub(crate) fn enter(&mut self, node: &Node) {
+        if let Some(part) = self.parts.get(node.model) {
+            self.compiler = &part.compiler;
+        }
+    }
+
     /// The orientation of an element.
     pub(crate) fn orientation(&mut self, p: &Props, node: &Node) -> Quat {
         orientation::read(p, self.compiler, node, self.report)
     }
+}
+
+/// Where an element stands: in a body, and perhaps in frames.
+#[derive(Clone, Copy)]
+struct Place {
+    body: usize,
+    frame: Pose,
+    childclass: Option<usize>,
 }
 
 /// All bodies, the world first. A body's parent stands before it.
@@ -30,40 +51,52 @@ pub(crate) fn bodies(cx: &mut Context) -> Vec<BodySpec> {
     let mut list = vec![empty(0, 0..0, WORLD.into(), 0)];
     // Elements are in document order, so are the bodies; `worldbody` may stand several times.
     let tree = cx.tree;
-    let mut body_of: Vec<Option<usize>> = vec![None; tree.nodes.len()];
+    let mut inside: Vec<Option<Place>> = vec![None; tree.nodes.len()];
     for (i, node) in tree.nodes.iter().enumerate() {
-        let parent = node.parent.and_then(|p| body_of.get(p).copied().flatten());
-        let body = match (node.element.name, parent) {
-            ("worldbody", None) => 0,
-            ("body", Some(parent)) => {
-                let childclass = list.get(parent).and_then(|b| b.childclass);
-                list.push(body(cx, i, node, parent, childclass));
-                list.len() - 1
+        let place = node.parent.and_then(|p| inside.get(p).copied().flatten());
+        cx.enter(node);
+        let holds = match (node.element.name, place) {
+            ("worldbody", None) => Place { body: 0, frame: Pose::NONE, childclass: None },
+            ("body", Some(place)) => {
+                list.push(body(cx, i, node, place));
+                let childclass = class_inside(cx, node, place);
+                Place { body: list.len() - 1, frame: Pose::NONE, childclass }
             }
-            (_, Some(parent)) => {
-                if let Some(body) = list.get_mut(parent) {
-                    member(cx, i, node, body);
+            ("frame", Some(place)) => {
+                let p = Props::own(node);
+                let (pos, quat) = (p.reals("pos", [0.0; 3]), cx.orientation(&p, node));
+                Place { frame: place.frame.of(pos, quat), childclass: class_inside(cx, node, place), ..place }
+            }
+            (_, Some(place)) => {
+                if let Some(body) = list.get_mut(place.body) {
+                    member(cx, i, node, place, body);
                 }
                 continue;
             }
             _ => continue,
         };
-        if let Some(slot) = body_of.get_mut(i) {
-            *slot = Some(body);
+        if let Some(slot) = inside.get_mut(i) {
+            *slot = Some(holds);
         }
     }
     list
 }
 
+/// The class of what stands in a body or frame and has none.
+fn class_inside(cx: &Context, node: &Node, place: Place) -> Option<usize> {
+    node.text("childclass").and_then(|name| cx.classes.find(name)).or(place.childclass)
+}
+
 fn empty(node: usize, span: std::ops::Range<usize>, name: String, parent: usize) -> BodySpec {
     BodySpec {
         node,
+        part: 0,
         span,
         name,
         parent,
-        childclass: None,
         pos: [0.0; 3],
         quat: IDENTITY,
+        written: Pose::NONE,
         mocap: false,
         simple: true,
         gravcomp: 0.0,
@@ -79,18 +112,21 @@ fn empty(node: usize, span: std::ops::Range<usize>, name: String, parent: usize)
     }
 }
 
-fn body(cx: &mut Context, i: usize, node: &Node, parent: usize, childclass: Option<usize>) -> BodySpec {
+fn body(cx: &mut Context, i: usize, node: &Node, place: Place) -> BodySpec {
     let p = Props::own(node);
+    let written = Pose { pos: p.reals("pos", [0.0; 3]), quat: cx.orientation(&p, node) };
+    let Pose { pos, quat } = place.frame.of(written.pos, written.quat);
     BodySpec {
-        childclass: node.text("childclass").and_then(|name| cx.classes.find(name)).or(childclass),
-        pos: p.reals("pos", [0.0; 3]),
-        quat: cx.orientation(&p, node),
+        part: node.model,
+        pos,
+        quat,
+        written,
         mocap: p.word("mocap") == Some(1),
         simple: p.word("simple") != Some(0),
         gravcomp: p.real("gravcomp").unwrap_or(0.0),
         sleep: p.word("sleep").unwrap_or(0),
         user: List::read(&p, "user"),
-        ..empty(i, node.span.clone(), name(node), parent)
+        ..empty(i, node.span.clone(), name(node), place.body)
     }
 }
 
@@ -100,17 +136,60 @@ pub(crate) fn name(node: &Node) -> String {
 }
 
 /// Something that stands in a body.
-fn member(cx: &mut Context, i: usize, node: &Node, body: &mut BodySpec) {
+fn member(cx: &mut Context, i: usize, node: &Node, place: Place, body: &mut BodySpec) {
+    let (frame, class) = (place.frame, place.childclass);
+    if place.body == 0 && matches!(node.element.name, "inertial" | "joint" | "freejoint") {
+        // Directly in `worldbody` the schema refuses them; here a frame stands between.
+        let message = format!("`{}` cannot stand in the world", node.element.name);
+        cx.report
+            .error(code::MISPLACED_ELEMENT, node.span.clone(), message)
+            .help("a frame only places what it holds: write a `body` around it");
+        return;
+    }
     match node.element.name {
         "inertial" => {
-            body.inertial = inertial(cx, node);
-            body.inertial_span = Some(node.span.clone());
+            if body.inertial_span.replace(node.span.clone()).is_some() {
+                let message = "a second `inertial` in the same body";
+                cx.report.error(code::REPEATED_ELEMENT, node.span.clone(), message);
+            }
+            body.inertial = inertial(cx, node).map(|mut inertia| {
+                frame.place(&mut inertia.pos, &mut inertia.quat);
+                inertia
+            });
         }
-        "joint" | "freejoint" => body.joints.push(read_joint::joint(cx, i, node, body.childclass)),
-        "geom" => body.geoms.extend(read_geom::geom(cx, i, node, body.childclass)),
-        "site" => body.sites.push(read_scene::site(cx, i, node, body.childclass)),
-        "camera" => body.cameras.push(read_scene::camera(cx, node, body.childclass)),
-        "light" => body.lights.push(read_scene::light(cx, node, body.childclass)),
+        "joint" | "freejoint" => {
+            let mut joint = read_joint::joint(cx, i, node, class);
+            // A free joint has no place of its own, a ball joint no axis.
+            if joint.kind != joint::FREE {
+                joint.pos = frame.point(joint.pos);
+            }
+            if matches!(joint.kind, joint::SLIDE | joint::HINGE) && frame.quat != IDENTITY {
+                joint.axis = normalize(frame.direction(joint.axis)).0;
+            }
+            body.joints.push(joint);
+        }
+        "geom" => {
+            if let Some(mut geom) = read_geom::geom(cx, i, node, class) {
+                frame.place(&mut geom.pos, &mut geom.quat);
+                body.geoms.push(geom);
+            }
+        }
+        "site" => {
+            let mut site = read_scene::site(cx, i, node, class);
+            frame.place(&mut site.pos, &mut site.quat);
+            body.sites.push(site);
+        }
+        "camera" => {
+            let mut camera = read_scene::camera(cx, node, class);
+            frame.place(&mut camera.pos, &mut camera.quat);
+            body.cameras.push(camera);
+        }
+        "light" => {
+            let mut light = read_scene::light(cx, node, class);
+            light.pos = frame.point(light.pos);
+            light.dir = frame.direction(light.dir);
+            body.lights.push(light);
+        }
         _ => {}
     }
 }

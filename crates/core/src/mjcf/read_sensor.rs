@@ -16,13 +16,13 @@ use crate::{Obj, joint};
 const MAX_VALUES: usize = 1 << 22;
 
 /// What reading a sensor needs to know.
-struct Context<'a, 't> {
+struct Context<'a> {
     node: &'a Node,
     /// Its own attributes; sensors have no defaults.
     p: Props,
     refs: References<'a>,
     tendons: &'a [TendonSpec],
-    report: &'a mut Report<'t>,
+    report: &'a mut Report,
 }
 
 /// All sensors in the order of the text.
@@ -61,7 +61,7 @@ pub(crate) fn sensors(
     list
 }
 
-impl Context<'_, '_> {
+impl Context<'_> {
     fn sensor(&mut self, number: usize, kind: &'static Kind) -> Option<SensorSpec> {
         let cutoff = self.not_negative("cutoff");
         let noise = self.not_negative("noise");

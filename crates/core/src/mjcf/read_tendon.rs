@@ -17,6 +17,7 @@ pub(crate) fn tendons(cx: &mut Context, refs: References) -> Vec<TendonSpec> {
 }
 
 fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSpec {
+    cx.enter(node);
     let p = cx.classes.props_of("tendon", node, None);
     let spatial = node.element.name == "spatial";
     let (limited, range) = limits::read(cx, &p, node, &limits::TENDON);

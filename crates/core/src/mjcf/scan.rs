@@ -6,18 +6,17 @@
 use super::diagnostic::{Report, code};
 use super::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_ELEMENTS, MAX_TEXT};
 
-/// Checks the limits; `false` after reporting the first that is exceeded.
-pub(crate) fn within_limits(text: &str, report: &mut Report) -> bool {
-    if text.len() > MAX_TEXT {
-        report.error(
-            code::LIMIT,
-            0..0,
-            format!("the model has {} bytes, at most {MAX_TEXT} are read", text.len()),
-        );
+/// Checks the limits of a text whose spans begin at `base`; `elements` counts those of all texts of a model.
+/// `false` after reporting the first limit that is exceeded.
+pub(crate) fn within_limits(text: &str, base: usize, elements: &mut usize, report: &mut Report) -> bool {
+    let size = report.bytes();
+    if size > MAX_TEXT {
+        let message = format!("the model has {size} bytes, at most {MAX_TEXT} are read");
+        report.error(code::LIMIT, base..base, message);
         return false;
     }
     let bytes = text.as_bytes();
-    let (mut at, mut depth, mut elements) = (0, 0usize, 0);
+    let (mut at, mut depth) = (0, 0usize);
     while let Some(open) = find(bytes, at, b"<") {
         let rest = bytes.get(open..).unwrap_or_default();
         at = if rest.starts_with(b"<!--") {
@@ -30,7 +29,7 @@ pub(crate) fn within_limits(text: &str, report: &mut Report) -> bool {
             report
                 .error(
                     code::XML,
-                    open..open + 2,
+                    base + open..base + open + 2,
                     "a document type or entity is declared, which a model has no use for",
                 )
                 .why("entities could make a small file expand without bound")
@@ -41,8 +40,8 @@ pub(crate) fn within_limits(text: &str, report: &mut Report) -> bool {
             after(bytes, open + 2, b">")
         } else {
             let tag = tag(bytes, open + 1);
-            elements += 1;
-            let name = open..open + 1;
+            *elements += 1;
+            let name = base + open..base + open + 1;
             if tag.attributes > MAX_ATTRIBUTES {
                 report.error(
                     code::LIMIT,
@@ -55,7 +54,7 @@ pub(crate) fn within_limits(text: &str, report: &mut Report) -> bool {
                 report
                     .error(
                         code::XML,
-                        at..at + 5,
+                        base + at..base + at + 5,
                         "an XML namespace is declared, which a model has no use for",
                     )
                     .help("remove the `xmlns` attribute");
@@ -70,7 +69,7 @@ pub(crate) fn within_limits(text: &str, report: &mut Report) -> bool {
                     .help("a kinematic chain this long can be cut into several trees");
                 return false;
             }
-            if elements > MAX_ELEMENTS {
+            if *elements > MAX_ELEMENTS {
                 report.error(code::LIMIT, name, format!("the model has more than {MAX_ELEMENTS} elements"));
                 return false;
             }
@@ -125,8 +124,9 @@ mod tests {
     use super::*;
 
     fn code_of(text: &str) -> Option<&'static str> {
-        let mut report = Report::new(text);
-        within_limits(text, &mut report);
+        let mut report = Report::new();
+        let base = report.source(None, text.into());
+        within_limits(text, base, &mut 0, &mut report);
         report.finish().first().map(|d| d.code)
     }
 

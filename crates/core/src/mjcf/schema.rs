@@ -201,6 +201,9 @@ const ORIENTATION: &[Attr] = attributes! {
     reals(6) => xyaxes;
 };
 
+pub(crate) use body::{BODY, FRAME};
+pub(crate) use rest::INCLUDE;
+
 /// The root of the table: the element `mujoco`.
 pub(crate) static ROOT: Element = Element::new("mujoco", &[attributes! { TEXT => model; }]).children(&[
     &settings::COMPILER,
@@ -220,7 +223,7 @@ pub(crate) static ROOT: Element = Element::new("mujoco", &[attributes! { TEXT =>
     &actuator::ACTUATOR,
     &sensor::SENSOR,
     &rest::KEYFRAME,
-    &rest::INCLUDE,
+    &INCLUDE,
 ]);
 
 /// A row of the compatibility table.
@@ -258,7 +261,7 @@ pub fn schema_rows() -> Vec<SchemaRow> {
 }
 
 /// Where else an element of this name may stand: the names of its possible parents. Places that are refused
-/// are named only when there is no other.
+/// are named only when there is no other, and a body also stands for what holds the same as it.
 pub(crate) fn parents_of(name: &str) -> Vec<&'static str> {
     let mut parents: [Vec<&'static str>; 2] = Default::default();
     let mut seen: Vec<&'static Element> = vec![&ROOT];
@@ -269,7 +272,8 @@ pub(crate) fn parents_of(name: &str) -> Vec<&'static str> {
             let refused = [element.status, child.status].contains(&Status::Unsupported);
             let [open, closed] = &mut parents;
             let list = if refused { closed } else { open };
-            if !list.contains(&element.name) {
+            let as_body = matches!(element.name, "frame" | "replicate");
+            if !list.contains(&element.name) && !as_body {
                 list.push(element.name);
             }
         }

@@ -12,14 +12,14 @@ use crate::{biastype, dyntype, gaintype};
 use std::f64::consts::PI;
 
 /// An element that is laid over an actuator.
-pub(super) struct Element<'a, 't> {
+pub(super) struct Element<'a> {
     pub(super) node: &'a Node,
     /// Its own attributes.
     pub(super) p: Props,
-    pub(super) report: &'a mut Report<'t>,
+    pub(super) report: &'a mut Report,
 }
 
-impl Element<'_, '_> {
+impl Element<'_> {
     /// An error at an attribute, or at the element where it is absent.
     pub(super) fn error(&mut self, attribute: &str, message: impl Into<String>) -> &mut MjcfDiagnostic {
         let span = self.p.span(attribute).unwrap_or(self.node.span.clone());

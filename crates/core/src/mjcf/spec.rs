@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use super::defaults::Props;
+use super::frame::Pose;
 use crate::math::{Quat, Vec3};
 
 /// A body and what it holds. The first body of a model is the world.
@@ -11,13 +12,16 @@ use crate::math::{Quat, Vec3};
 pub(crate) struct BodySpec {
     /// The element; the root for the world.
     pub(crate) node: usize,
+    /// The model that it was written in.
+    pub(crate) part: usize,
     pub(crate) span: Range<usize>,
     pub(crate) name: String,
     /// Index of the parent body, always smaller than the body's own. The world is its own parent.
     pub(crate) parent: usize,
-    pub(crate) childclass: Option<usize>,
     pub(crate) pos: Vec3,
     pub(crate) quat: Quat,
+    /// The pose as it is written: seen from the innermost frame.
+    pub(crate) written: Pose,
     pub(crate) mocap: bool,
     /// Whether the simple form of its mass matrix may be used.
     pub(crate) simple: bool,

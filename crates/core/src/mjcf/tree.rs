@@ -1,17 +1,17 @@
-//! XML to a checked tree: every element and attribute known to the schema, every value of its type.
+//! Plain elements to a checked tree: every element and attribute known to the schema, every value of its type.
 //!
 //! Unknown names are reported with the nearest known one; what is refused is left out, with all it holds.
 
 use std::ops::Range;
 
-use roxmltree::{Document, Error, ParsingOptions};
-
+use super::MAX_DEPTH;
 use super::diagnostic::{Report, closest, code, shown};
-use super::schema::{Attr, Element, ROOT, Status, parents_of};
+use super::schema::{Attr, Element, INCLUDE, ROOT, Status, parents_of};
 use super::values::{self, Value};
+use super::xml::Element as Xml;
 
 /// An attribute of an element.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Attribute {
     pub(crate) attr: &'static Attr,
     pub(crate) value: Value,
@@ -20,9 +20,11 @@ pub(crate) struct Attribute {
 }
 
 /// An element.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) element: &'static Element,
+    /// The model that it was written in: 0 for the main model, others are attached.
+    pub(crate) model: usize,
     pub(crate) parent: Option<usize>,
     /// Bytes of the name in the start tag.
     pub(crate) span: Range<usize>,
@@ -40,6 +42,22 @@ impl Node {
     pub(crate) fn text(&self, name: &str) -> Option<&str> {
         match &self.attribute(name)?.value {
             Value::Text(text) if !text.is_empty() => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The integer of an attribute.
+    pub(crate) fn int(&self, name: &str) -> Option<i32> {
+        match &self.attribute(name)?.value {
+            Value::Ints(list) => list.first().copied(),
+            _ => None,
+        }
+    }
+
+    /// The numbers of an attribute that has exactly `N`.
+    pub(crate) fn reals<const N: usize>(&self, name: &str) -> Option<[f64; N]> {
+        match &self.attribute(name)?.value {
+            Value::Reals(list) => list.as_slice().try_into().ok(),
             _ => None,
         }
     }
@@ -72,78 +90,81 @@ impl Tree {
     }
 }
 
-/// Parses and checks a text; `None` when it is not XML or not a model at all.
-pub(crate) fn parse(text: &str, report: &mut Report) -> Option<Tree> {
-    let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
-    let document = match Document::parse_with_options(text, options) {
-        Ok(document) => document,
-        Err(error) => {
-            explain(text, &error, report);
-            return None;
-        }
-    };
-    let root = document.root_element();
-    if root.tag_name().name() != ROOT.name {
-        let found = shown(root.tag_name().name());
+/// Checks the elements of a model; `None` when it is not a model at all.
+pub(crate) fn check(list: &[Xml], root: usize, report: &mut Report) -> Option<Tree> {
+    let name = list.get(root).map_or("", |r| r.name.as_str());
+    if name != ROOT.name {
+        let span = list.get(root).map_or(0..0, |r| r.span.clone());
         report
-            .error(
-                code::UNKNOWN_ELEMENT,
-                name_span(&root),
-                format!("the root element is {found}, not `mujoco`"),
-            )
+            .error(code::UNKNOWN_ELEMENT, span, format!("the root element is {}, not `mujoco`", shown(name)))
             .help("a model is written as `<mujoco> … </mujoco>`");
         return None;
     }
 
     let mut tree = Tree::default();
-    let mut stack = vec![(root, &ROOT, None)];
-    while let Some((xml, element, parent)) = stack.pop() {
+    let mut stack = vec![(root, &ROOT, None, 1)];
+    while let Some((at, element, parent, depth)) = stack.pop() {
+        let Some(xml) = list.get(at) else { continue };
         if report.is_full() {
+            return None;
+        }
+        if depth > MAX_DEPTH {
+            report.error(
+                code::LIMIT,
+                xml.span.clone(),
+                format!("elements are nested more than {MAX_DEPTH} deep"),
+            );
             return None;
         }
         let index = tree.nodes.len();
         if let Some(node) = parent.and_then(|p: usize| tree.nodes.get_mut(p)) {
             node.children.push(index);
         }
-        let attributes = attributes(text, &xml, element, report);
-        tree.nodes.push(Node { element, parent, span: name_span(&xml), attributes, children: Vec::new() });
+        let attributes = attributes(xml, element, report);
+        let span = xml.span.clone();
+        tree.nodes.push(Node { element, model: 0, parent, span, attributes, children: Vec::new() });
 
-        let below: Vec<_> =
-            children(&xml, element, report).into_iter().map(|(x, e)| (x, e, Some(index))).collect();
-        stack.extend(below.into_iter().rev());
+        let below = children(list, xml, element, report);
+        stack.extend(below.into_iter().rev().map(|(x, e)| (x, e, Some(index), depth + 1)));
     }
     Some(tree)
 }
 
-type Xml<'a, 'i> = roxmltree::Node<'a, 'i>;
-
-/// Bytes of the name in the start tag.
-fn name_span(xml: &Xml) -> Range<usize> {
-    let start = xml.range().start + 1;
-    start..start + xml.tag_name().name().len()
+/// The children of an element, those of included files in the place of their `include`.
+fn content<'x>(list: &'x [Xml], xml: &'x Xml, report: &mut Report) -> Vec<(usize, &'x Xml)> {
+    let mut content = Vec::new();
+    let mut stack: Vec<usize> = xml.children.iter().rev().copied().collect();
+    while let Some(at) = stack.pop() {
+        let Some(child) = list.get(at) else { continue };
+        if child.name == INCLUDE.name {
+            attributes(child, &INCLUDE, report);
+            stack.extend(child.children.iter().rev());
+        } else {
+            content.push((at, child));
+        }
+    }
+    content
 }
 
 /// The child elements that the schema knows and accepts.
-fn children<'a, 'i>(
-    xml: &Xml<'a, 'i>,
+fn children(
+    list: &[Xml],
+    xml: &Xml,
     element: &'static Element,
     report: &mut Report,
-) -> Vec<(Xml<'a, 'i>, &'static Element)> {
-    let mut list: Vec<(Xml<'a, 'i>, &'static Element)> = Vec::new();
+) -> Vec<(usize, &'static Element)> {
+    for span in &xml.stray {
+        stray_text(span.clone(), element, report);
+    }
+    let mut known_children: Vec<(usize, &'static Element)> = Vec::new();
     let mut seen: Vec<&'static str> = Vec::new();
-    for child in xml.children() {
-        if child.is_text() {
-            stray_text(&child, element, report);
-        }
+    for (at, child) in content(list, xml, report) {
         if report.is_full() {
             break;
         }
-        if !child.is_element() {
-            continue;
-        }
-        let name = child.tag_name().name();
-        let span = name_span(&child);
-        if child.tag_name().namespace().is_some() {
+        let name = child.name.as_str();
+        let span = child.span.clone();
+        if child.namespace {
             report.error(
                 code::UNKNOWN_ELEMENT,
                 span,
@@ -175,22 +196,15 @@ fn children<'a, 'i>(
         if known.once {
             seen.push(known.name);
         }
-        list.push((child, known));
+        known_children.push((at, known));
     }
-    list
+    known_children
 }
 
 /// Text between elements means nothing and is passed over, unless it looks like a tag without its `<`.
-fn stray_text(xml: &Xml, element: &Element, report: &mut Report) {
-    let text = xml.text().unwrap_or("");
-    let Some(first) = text.trim().lines().next() else { return };
-    if !text.contains(['=', '>']) {
-        return;
-    }
-    let start = xml.range().start + (text.len() - text.trim_start().len());
-    let end = (start + first.trim_end().len()).min(xml.range().end);
+fn stray_text(span: Range<usize>, element: &Element, report: &mut Report) {
     report
-        .error(code::TEXT, start..end, format!("text between the elements of `{}`", element.name))
+        .error(code::TEXT, span, format!("text between the elements of `{}`", element.name))
         .why("it looks like a tag, but without its `<` it would be passed over")
         .help("begin the tag with `<`, or write the text as a comment, <!-- … -->");
 }
@@ -216,28 +230,27 @@ fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, re
 }
 
 /// The attributes that the schema knows, with their values read.
-fn attributes(text: &str, xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<Attribute> {
+fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<Attribute> {
     let mut list = Vec::new();
     // Attributes that are refused, and whether a keyword already is: a capsule's `fromto` needs no finding of
     // its own when the capsule has one.
     let (mut refused, mut refused_word) = (Vec::new(), false);
-    for a in xml.attributes() {
-        let Some(attr) = element.attribute(a.name()).filter(|_| a.namespace().is_none()) else {
-            unknown_attribute(a.name(), a.range_qname(), element, report);
+    for a in &xml.attributes {
+        let Some(attr) = element.attribute(&a.name).filter(|_| !a.namespace) else {
+            unknown_attribute(&a.name, a.name_span.clone(), element, report);
             continue;
         };
-        let span = a.range_value();
-        let value = match (attr.status, values::parse(attr.kind, a.value())) {
+        let span = a.value_span.clone();
+        let value = match (attr.status, values::parse(attr.kind, &a.value)) {
             (Status::Unsupported, _) => {
-                refused.push((attr.name, a.range_qname()));
+                refused.push((attr.name, a.name_span.clone()));
                 Value::Bad
             }
             (_, Err(p)) => {
                 refused_word |= p.code == code::NOT_SUPPORTED;
                 // Inside the value only when the text was not changed by character references.
-                let exact = text.get(span.clone()) == Some(a.value());
                 let at = match p.at {
-                    Some(at) if exact => span.start + at.start..span.start + at.end,
+                    Some(at) if a.exact => span.start + at.start..span.start + at.end,
                     _ => span.clone(),
                 };
                 let error =
@@ -288,63 +301,4 @@ fn unknown_attribute(name: &str, span: Range<usize>, element: &'static Element, 
     } else if element.attributes().next().is_none() {
         error.help(format!("`{}` takes no attributes", element.name));
     }
-}
-
-/// A syntax error of the XML in plain words.
-fn explain(text: &str, error: &Error, report: &mut Report) {
-    let at = match error {
-        Error::UnclosedRootNode | Error::UnexpectedEndOfStream | Error::NoRootNode => text.len(),
-        _ => offset(text, error.pos().row, error.pos().col),
-    };
-    let end = text.get(at..).and_then(|rest| rest.chars().next()).map_or(at, |c| at + c.len_utf8());
-    let (message, help) = match error {
-        Error::UnexpectedCloseTag(open, close, _) => (
-            format!("`<{open}>` is closed by `</{close}>`"),
-            format!("close it with `</{open}>` first; tags close in the reverse order of opening"),
-        ),
-        Error::UnclosedRootNode => (
-            "the text ends inside an element that was opened and never closed".into(),
-            "every `<name>` needs a `</name>`; an element without content ends with `/>`".into(),
-        ),
-        Error::NoRootNode => {
-            ("the text holds no element".into(), "a model is written as `<mujoco> … </mujoco>`".into())
-        }
-        Error::DuplicatedAttribute(name, _) => {
-            (format!("the attribute {} stands twice in one tag", shown(name)), "keep one of them".into())
-        }
-        Error::InvalidAttributeValue(_) => {
-            ("a `<` inside an attribute's value".into(), "close the quotes of the attribute before it".into())
-        }
-        Error::UnknownEntityReference(..) | Error::MalformedEntityReference(_) => (
-            "a `&` that does not begin `&amp;`, `&lt;`, `&gt;`, `&quot;` or `&apos;`".into(),
-            "write `&amp;` for the character itself".into(),
-        ),
-        Error::InvalidChar2("a whitespace", ..) => (
-            "the value of an attribute ends here, but text follows it".into(),
-            "close the quotes of the value before it, or put a space between two attributes".into(),
-        ),
-        Error::InvalidComment(_) => {
-            ("`--` inside a comment".into(), "a comment may not hold two hyphens in a row".into())
-        }
-        Error::UnexpectedEndOfStream => {
-            ("the text ends inside a tag, a value or a comment".into(), "complete the last tag".into())
-        }
-        other => {
-            let words = other.to_string();
-            // The place is given by the diagnostic itself.
-            let words = words.rsplit_once(" at ").map_or(words.as_str(), |(before, _)| before);
-            (format!("not well-formed XML: {words}"), "compare this tag with a working one".into())
-        }
-    };
-    report.error(code::XML, at..end, message).help(help);
-}
-
-/// The byte of a line and column that count from 1, the column in characters.
-fn offset(text: &str, row: u32, col: u32) -> usize {
-    let line_start = match row {
-        0 | 1 => 0,
-        _ => text.match_indices('\n').nth(row as usize - 2).map_or(text.len(), |(i, _)| i + 1),
-    };
-    let line = text.get(line_start..).unwrap_or("");
-    line_start + line.char_indices().nth(col.saturating_sub(1) as usize).map_or(line.len(), |(i, _)| i)
 }

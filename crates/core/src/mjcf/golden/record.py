@@ -1,6 +1,7 @@
 """Records what MuJoCo 3.14.0 compiles for each model of this folder: `python record.py` with mujoco==3.14.0.
 
-Writes, beside each NAME.xml, NAME.txt with one line per field: its name, then its numbers in full precision;
+Writes, beside each NAME.xml, NAME.txt with one line per field: its name, then its numbers in full precision; one line
+per kind of object with the names between bars, where any has one;
 and schema.txt, a line per element of the XML schema: path, then attribute names. The tests compare against both.
 """
 
@@ -10,6 +11,12 @@ import re
 import mujoco
 
 HERE = pathlib.Path(__file__).parent
+KINDS = {
+    "body": "nbody", "joint": "njnt", "geom": "ngeom", "site": "nsite", "camera": "ncam", "light": "nlight",
+    "mesh": "nmesh", "hfield": "nhfield", "texture": "ntex", "material": "nmat", "pair": "npair", "exclude": "nexclude",
+    "equality": "neq", "tendon": "ntendon", "actuator": "nactuator", "sensor": "nsensor", "numeric": "nnumeric",
+    "text": "ntext", "tuple": "ntuple", "key": "nkey",
+}
 FIELDS = HERE.parent.parent / "fields.rs"
 
 
@@ -34,6 +41,10 @@ def record(path):
     ]:
         for name in fields(macro):
             lines.append(f"{prefix}.{name} {numbers(getattr(owner, name))}".rstrip())
+    for kind, size in KINDS.items():
+        names = [mujoco.mj_id2name(model, getattr(mujoco.mjtObj, f"mjOBJ_{kind.upper()}"), i) for i in range(getattr(model, size))]
+        if any(names):
+            lines.append(f"names.{kind} {'|'.join(name or '' for name in names)}")
     path.with_suffix(".txt").write_text("\n".join(lines) + "\n")
 
 

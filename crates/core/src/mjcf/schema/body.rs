@@ -56,7 +56,7 @@ pub(super) static WORLDBODY: Element = Element::new("worldbody", &[]).children(&
     &rest::INCLUDE,
 ]);
 
-pub(super) static BODY: Element = Element::new(
+pub(crate) static BODY: Element = Element::new(
     "body",
     &[
         attributes! { Kind::Name("body") => name; Kind::Class => childclass; },
@@ -73,10 +73,11 @@ pub(super) static BODY: Element = Element::new(
 )
 .children(&BODY_CHILDREN);
 
-static FRAME: Element =
-    Element::new("frame", &[attributes! { TEXT => name; Kind::Class => childclass; }, POS, ORIENTATION])
-        .children(&BODY_CHILDREN)
-        .refused();
+pub(crate) static FRAME: Element = Element::new(
+    "frame",
+    &[attributes! { Kind::Name("frame") => name; Kind::Class => childclass; }, POS, ORIENTATION],
+)
+.children(&BODY_CHILDREN);
 
 static REPLICATE: Element = Element::new(
     "replicate",
@@ -84,16 +85,12 @@ static REPLICATE: Element = Element::new(
         INT => count;
         TEXT => sep;
         reals(3) => offset euler;
+        Kind::Class => childclass;
     }],
 )
-.children(&BODY_CHILDREN)
-.refused();
+.children(&BODY_CHILDREN);
 
-static ATTACH: Element = Element::new(
-    "attach",
-    &[attributes! { TEXT => prefix frame; Kind::Ref("model") => model; Kind::Ref("body") => body; }],
-)
-.refused();
+static ATTACH: Element = Element::new("attach", &[attributes! { TEXT => prefix model body frame; }]);
 
 static INERTIAL: Element = Element::new(
     "inertial",

@@ -76,7 +76,7 @@ static TUPLE: Element =
 static TUPLE_ELEMENT: Element =
     Element::new("element", &[attributes! { TEXT => objtype objname; REAL => prm; }]);
 
-pub(super) static INCLUDE: Element = Element::new("include", &[attributes! { TEXT => file; }]).refused();
+pub(crate) static INCLUDE: Element = Element::new("include", &[attributes! { TEXT => file; }]);
 
 pub(super) static EXTENSION: Element =
     Element::new("extension", &[]).children(&[&EXTENSION_PLUGIN]).refused();

@@ -153,5 +153,4 @@ static BONE: Element = Element::new(
     }],
 );
 static MODEL: Element =
-    Element::new("model", &[attributes! { Kind::Name("model") => name; TEXT => file content_type; }])
-        .refused();
+    Element::new("model", &[attributes! { Kind::Name("model") => name; TEXT => file content_type; }]);

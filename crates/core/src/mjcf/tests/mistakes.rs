@@ -60,7 +60,7 @@ mistakes! {
     // Names of the language
     element_misspelt: world("\n<boddy/>");
     element_misplaced: "<mujoco>\n<worldbody/>\n<geom size=\"1\"/>\n</mujoco>";
-    element_not_supported: after("<deformable><flex name=\"f\"/></deformable>");
+    element_not_supported: after("<deformable><flex name=\"cloth\"/></deformable>");
     element_twice: before("<option><flag/><flag/></option>");
     attribute_misspelt: world("<geom size=\"1\" fricton=\"1\"/>");
     attribute_of_world: "<mujoco><worldbody name=\"w\"/></mujoco>";

@@ -1,0 +1,124 @@
+//! What goes with copies of a part: sensors, tendons and all else that refers to it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::copy::own_name;
+use super::references::{self, Names, SECTIONS};
+use crate::mjcf::tree::Node;
+
+/// The elements of [`SECTIONS`], by what they refer to.
+#[derive(Debug, Default)]
+pub(super) struct Uses {
+    /// Section (an index of [`SECTIONS`]) and element of what refers to an object.
+    of: BTreeMap<(&'static str, String), Vec<(usize, usize)>>,
+    /// Elements that refer to nothing.
+    free: Vec<(usize, usize)>,
+    gone: BTreeSet<usize>,
+}
+
+/// What goes with copies, of one section.
+#[derive(Debug)]
+pub(super) struct Followers {
+    pub(super) section: &'static str,
+    /// In the order in which they are copied.
+    pub(super) elements: Vec<usize>,
+    /// Names that are copied with this section, as the elements know them.
+    pub(super) names: Names,
+    /// Those that refer to what is copied, and those of them that refer to something else too, so that no copy can
+    /// be complete.
+    pub(super) bound: Vec<usize>,
+    pub(super) incomplete: Vec<usize>,
+}
+
+/// Numbers and texts belong to a model as a whole.
+pub(super) fn can_follow(section: &str, node: &Node) -> bool {
+    section != "custom" || node.element.name == "tuple"
+}
+
+impl Uses {
+    /// Takes an element into account.
+    pub(super) fn add(&mut self, section: &str, nodes: &[Node], at: usize) {
+        let Some(section) = SECTIONS.iter().position(|s| *s == section) else { return };
+        if !nodes.get(at).is_some_and(|node| can_follow(SECTIONS[section], node)) {
+            return;
+        }
+        let refs = references::of(nodes, at);
+        if refs.is_empty() {
+            self.free.push((section, at));
+        }
+        for object in refs {
+            self.of.entry(object).or_default().push((section, at));
+        }
+    }
+
+    /// Forgets elements, for good.
+    pub(super) fn remove(&mut self, elements: impl IntoIterator<Item = usize>) {
+        self.gone.extend(elements);
+    }
+
+    /// Whether an element was removed.
+    pub(super) fn is_gone(&self, at: usize) -> bool {
+        self.gone.contains(&at)
+    }
+
+    /// All elements of a tree.
+    pub(super) fn survey(nodes: &[Node]) -> Uses {
+        let mut uses = Uses::default();
+        for &section in nodes.first().map_or(&[][..], |root| &root.children) {
+            let Some(section) = nodes.get(section) else { continue };
+            for &at in &section.children {
+                uses.add(section.element.name, nodes, at);
+            }
+        }
+        uses
+    }
+
+    /// The elements that go with copies of a part that has these names: those that refer to it, directly or through
+    /// what goes with it, and those that refer to nothing.
+    pub(super) fn followers(&self, nodes: &[Node], subtree: &Names, other_model: bool) -> Vec<Followers> {
+        let mut bound: BTreeSet<(usize, usize)> = BTreeSet::new();
+        let mut known = subtree.clone();
+        let mut new: Vec<(&'static str, String)> = subtree.iter().cloned().collect();
+        while let Some(object) = new.pop() {
+            for &(section, at) in self.of.get(&object).map_or(&[][..], Vec::as_slice) {
+                if !self.gone.contains(&at) && bound.insert((section, at)) {
+                    new.extend(nodes.get(at).and_then(own_name).filter(|name| known.insert(name.clone())));
+                }
+            }
+        }
+        let free = self.free.iter().filter(|(_, at)| !self.gone.contains(at));
+        let all: BTreeSet<(usize, usize)> = bound.iter().chain(free).copied().collect();
+
+        let mut copied = subtree.clone();
+        let mut list: Vec<Followers> = SECTIONS.iter().map(|&section| Followers::none(section)).collect();
+        if let Some(first) = list.first_mut() {
+            first.names.clone_from(subtree);
+        }
+        for (section, at) in all {
+            let (Some(f), Some(node)) = (list.get_mut(section), nodes.get(at)) else { continue };
+            if bound.contains(&(section, at)) {
+                f.bound.push(at);
+            }
+            if references::follows(f.section, node, &references::of(nodes, at), &copied, other_model) {
+                f.elements.push(at);
+                f.names.extend(own_name(node));
+                copied.extend(own_name(node));
+            } else {
+                f.incomplete.push(at);
+            }
+        }
+        list
+    }
+}
+
+impl Followers {
+    fn none(section: &'static str) -> Followers {
+        Followers {
+            section,
+            elements: Vec::new(),
+            names: Names::new(),
+            bound: Vec::new(),
+            incomplete: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,593 @@
+//! `replicate` and `attach`: copies of parts of a model, made before anything else reads the tree.
+//!
+//! A copy stands in a `frame` at the place of the element that asked for it. What refers to the copied objects,
+//! such as sensors and tendons, is copied too and stands behind all that its section held before, as in MuJoCo
+//! 3.14.0 (XML reference, `replicate` and `attach`; rules of names and order measured on the library).
+//!
+//! Requests are carried out in the order of the text, inner ones first, so that copies hold copies.
+
+mod copy;
+mod followers;
+mod references;
+
+use std::collections::BTreeMap;
+
+use super::MAX_ELEMENTS;
+use super::diagnostic::{Report, closest, code, shown};
+use super::load::Written;
+use super::names::WORLD;
+use super::orientation;
+use super::schema::{BODY, FRAME, ROOT};
+use super::settings::Compiler;
+use super::tree::{Attribute, Node, Tree};
+use super::values::Value;
+use crate::math::{Vec3, add, rotate};
+use copy::Rename;
+use followers::{Followers, Uses};
+use references::Names;
+
+/// Bytes that copies may take; a small text could ask for any amount.
+const MAX_COPIED: usize = 200 << 20;
+
+/// A model that is part of the whole: the main model, or one that is attached.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    /// What its angles, ranges and inertias mean.
+    pub(crate) compiler: Compiler,
+    /// The folder that its files are looked for in.
+    #[allow(dead_code)] // for the files of meshes, which are not read yet
+    pub(crate) folder: String,
+}
+
+/// A model without `replicate` and `attach`.
+#[derive(Debug)]
+pub(crate) struct Expanded {
+    pub(crate) tree: Tree,
+    /// By [`Node::model`].
+    pub(crate) parts: Vec<Part>,
+}
+
+/// Carries out everything that a model asks for.
+pub(crate) fn model(written: Written, report: &mut Report) -> Expanded {
+    let compiler = Compiler::read(&written.tree, report);
+    let child = |(name, written)| (name, Child::new(model(written, report)));
+    let models = written.models.into_iter().map(child).collect();
+    let nodes = written.tree.nodes;
+    let mut e = Expander {
+        uses: Uses::survey(&nodes),
+        written: nodes.len(),
+        nodes,
+        bytes: 0,
+        sections: BTreeMap::new(),
+        names: BTreeMap::new(),
+        parts: vec![Part { compiler, folder: written.folder }],
+        models,
+    };
+    for at in e.survey() {
+        if report.is_full() {
+            break;
+        }
+        let done = match e.nodes.get(at).map(|n| n.element.name) {
+            Some("replicate") => e.replicate(at, report),
+            _ => e.attach(at, report),
+        };
+        if done.is_none() {
+            // What failed holds nothing, and its names are missing.
+            report.incomplete = true;
+            e.settle(at, Vec::new(), Vec::new());
+        }
+        if e.is_too_large() {
+            let span = e.nodes.get(at).map_or(0..0, |n| n.span.clone());
+            report
+                .error(code::LIMIT, span, "the copies are too many or too large")
+                .why(format!("a model may have {MAX_ELEMENTS} elements, copies included"))
+                .help("lower `count`, also of what stands around it");
+            break;
+        }
+    }
+    e.finish()
+}
+
+/// A model that may be attached.
+#[derive(Debug)]
+struct Child {
+    model: Expanded,
+    uses: Uses,
+    names: BTreeMap<(&'static str, String), usize>,
+    /// Where its parts begin among those of the whole, once it is attached.
+    offset: Option<usize>,
+}
+
+impl Child {
+    fn new(model: Expanded) -> Child {
+        let nodes = &model.tree.nodes;
+        let uses = Uses::survey(nodes);
+        let names = nodes.iter().enumerate().filter_map(|(at, node)| Some((target(node)?, at))).collect();
+        Child { model, uses, names, offset: None }
+    }
+}
+
+struct Expander {
+    /// All elements, also patterns of copies: only what the root leads to counts.
+    nodes: Vec<Node>,
+    uses: Uses,
+    /// What the copies take.
+    bytes: usize,
+    /// How many elements stand in the text: those from there on are copies.
+    written: usize,
+    /// The last section of each name.
+    sections: BTreeMap<&'static str, usize>,
+    /// Bodies and frames by name.
+    names: BTreeMap<(&'static str, String), usize>,
+    parts: Vec<Part>,
+    models: BTreeMap<String, Child>,
+}
+
+impl Expander {
+    /// Finds the sections and names, and what is asked for, in order.
+    fn survey(&mut self) -> Vec<usize> {
+        let mut requests = Vec::new();
+        for &section in self.nodes.first().map_or(&[][..], |root| &root.children) {
+            if let Some(node) = self.nodes.get(section) {
+                self.sections.insert(node.element.name, section);
+            }
+        }
+        // Inner requests first: an element is left after all that it holds.
+        let mut stack: Vec<(usize, bool)> = vec![(0, false)];
+        while let Some((at, left)) = stack.pop() {
+            let Some(node) = self.nodes.get(at) else { continue };
+            if left {
+                if matches!(node.element.name, "replicate" | "attach") {
+                    requests.push(at);
+                }
+            } else {
+                self.names.extend(target(node).map(|key| (key, at)));
+                stack.push((at, true));
+                stack.extend(node.children.iter().rev().map(|&c| (c, false)));
+            }
+        }
+        requests
+    }
+
+    fn is_too_large(&self) -> bool {
+        self.nodes.len() > MAX_ELEMENTS || self.bytes > MAX_COPIED
+    }
+
+    /// Takes a copy into the list; returns its place. `None` when there is no more room.
+    fn adopt(&mut self, copy: Vec<Node>, parent: usize) -> Option<usize> {
+        let base = self.nodes.len();
+        for mut node in copy {
+            node.parent = Some(node.parent.map_or(parent, |p| base + p));
+            node.children.iter_mut().for_each(|c| *c += base);
+            self.bytes += weight(&node);
+            self.names.extend(target(&node).map(|key| (key, self.nodes.len())));
+            self.nodes.push(node);
+        }
+        if self.is_too_large() { None } else { Some(base) }
+    }
+
+    /// Makes a request the frame of what it asked for.
+    fn settle(&mut self, request: usize, attributes: Vec<Attribute>, children: Vec<usize>) -> Option<()> {
+        let node = self.nodes.get_mut(request)?;
+        node.element = &FRAME;
+        node.attributes = attributes;
+        node.children = children;
+        Some(())
+    }
+
+    /// Adds an element to the end of a section.
+    fn append(&mut self, section: &'static str, copy: Vec<Node>) -> Option<usize> {
+        let at = match self.sections.get(section) {
+            Some(&at) => at,
+            None => {
+                let element = ROOT.child(section)?;
+                let span = self.nodes.first()?.span.clone();
+                let node = Node {
+                    element,
+                    model: 0,
+                    parent: Some(0),
+                    span,
+                    attributes: Vec::new(),
+                    children: Vec::new(),
+                };
+                let at = self.adopt(vec![node], 0)?;
+                self.nodes.first_mut()?.children.push(at);
+                self.sections.insert(element.name, at);
+                at
+            }
+        };
+        let copy = self.adopt(copy, at)?;
+        self.nodes.get_mut(at)?.children.push(copy);
+        self.uses.add(section, &self.nodes, copy);
+        Some(copy)
+    }
+
+    /// Makes `count` copies in frames that follow each other; the original is only their pattern.
+    fn replicate(&mut self, at: usize, report: &mut Report) -> Option<()> {
+        let node = self.nodes.get(at)?.clone();
+        let count = count(&node, report)?;
+        let digits = count.to_string().len();
+        let separator = node.text("sep").unwrap_or("");
+        let offset = node.reals("offset").unwrap_or([0.0; 3]);
+        let euler: Vec3 = node.reals("euler").unwrap_or([0.0; 3]);
+        let compiler = self.parts.get(node.model)?.compiler.clone();
+        let subtree = copy::names(&self.nodes, at);
+        let mut followers = self.uses.followers(&self.nodes, &subtree, false);
+        if count > 0 {
+            self.complain(&followers, report);
+        }
+        for name in &subtree {
+            self.names.remove(name);
+        }
+
+        let (mut frames, mut pos) = (Vec::new(), [0.0; 3]);
+        // Copies of nothing are nothing, however many.
+        let count = if node.children.is_empty() { 0 } else { count };
+        for i in 0..count {
+            let suffix = format!("{separator}{i:0digits$}");
+            let rename = Rename { prefix: "", suffix: &suffix, other_model: None };
+            let quat = orientation::euler(euler.map(|x| f64::from(i) * x), &compiler);
+            let attributes = vec![
+                written(&node, "pos", Value::Reals(pos.to_vec()))?,
+                written(&node, "quat", Value::Reals(quat.to_vec()))?,
+            ];
+            pos = add(pos, rotate(offset, quat));
+
+            let frame = Node { element: &FRAME, attributes, children: Vec::new(), ..node.clone() };
+            let frame = self.adopt(vec![Node { parent: None, ..frame }], at)?;
+            for &child in &node.children {
+                let (copy, _) = copy::copy(&self.nodes, child, rename, None);
+                let copy = self.adopt(copy, frame)?;
+                self.nodes.get_mut(frame)?.children.push(copy);
+            }
+            frames.push(frame);
+            self.follow(&mut followers, rename)?;
+        }
+        self.settle(at, node.attribute("childclass").cloned().into_iter().collect(), frames)?;
+        // What referred to the pattern goes with it.
+        self.uses.remove(followers.into_iter().flat_map(|f| f.bound));
+        Some(())
+    }
+
+    /// Reports what cannot be replicated.
+    fn complain(&self, followers: &[Followers], report: &mut Report) {
+        for node in followers.iter().flat_map(|f| &f.incomplete).filter_map(|&at| self.nodes.get(at)) {
+            report
+                .error(
+                    code::COPY,
+                    node.span.clone(),
+                    format!("{} ties what is replicated to something that is not", node.shown()),
+                )
+                .why("MuJoCo copies it only when all that it names is copied, and else leaves it out without a word")
+                .help("write the copies out instead of using `replicate`");
+        }
+    }
+
+    /// One copy of each follower.
+    fn follow(&mut self, followers: &mut [Followers], rename: Rename) -> Option<()> {
+        let mut copied = Names::new();
+        for f in followers {
+            copied.extend(f.names.iter().cloned());
+            for i in 0..f.elements.len() {
+                let at = *f.elements.get(i)?;
+                let (copy, _) = copy::copy(&self.nodes, at, rename, Some(&copied));
+                let new = self.append(f.section, copy)?;
+                // A copy that refers to nothing is copied by the next step again.
+                if references::of(&self.nodes, new).is_empty() {
+                    f.elements.push(new);
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// Copies a part of another model, or of this one, under a prefix.
+    fn attach(&mut self, at: usize, report: &mut Report) -> Option<()> {
+        let node = self.nodes.get(at)?.clone();
+        let Some(prefix) = node.attribute("prefix").and(Some(node.text("prefix").unwrap_or(""))) else {
+            report
+                .error(code::MISSING_ATTRIBUTE, node.span.clone(), "attach has no `prefix`")
+                .why("it goes before every name of the copy, so that names stay unique")
+                .help("write `prefix=\"left_\"`");
+            return None;
+        };
+        let part = match (node.text("body"), node.text("frame")) {
+            (Some(_), Some(_)) => {
+                report
+                    .error(code::CONFLICT, node.span.clone(), "attach has both `body` and `frame`")
+                    .help("name what is attached once: remove one of them");
+                return None;
+            }
+            (Some(name), None) => Some(("body", name)),
+            (None, Some(name)) => Some(("frame", name)),
+            (None, None) => None,
+        };
+        match node.text("model") {
+            Some(model) => {
+                // Taken out, so that it can be read while this model grows.
+                let Some((name, mut child)) = self.models.remove_entry(model) else {
+                    let span = node.attribute("model").map_or(node.span.clone(), |a| a.span.clone());
+                    unknown("model", model, self.models.keys().map(String::as_str), span, report);
+                    return None;
+                };
+                let done = self.attach_model(at, &node, prefix, &mut child, part, report);
+                self.models.insert(name, child);
+                done
+            }
+            None => self.attach_own(at, &node, prefix, part, report),
+        }
+    }
+
+    /// Copies a body or frame of this model.
+    fn attach_own(
+        &mut self,
+        at: usize,
+        node: &Node,
+        prefix: &str,
+        part: Option<(&'static str, &str)>,
+        report: &mut Report,
+    ) -> Option<()> {
+        let Some((kind, name)) = part else {
+            report
+                .error(code::MISSING_ATTRIBUTE, node.span.clone(), "attach says neither which model nor which body")
+                .help("write `model=\"…\"` for a model of the assets, or `body=\"…\"` for a copy of a body of this model");
+            return None;
+        };
+        let span = node.attribute(kind).map_or(node.span.clone(), |a| a.span.clone());
+        let Some(&original) = self.names.get(&(kind, name.to_string())) else {
+            let known = self.names.keys().filter(|(k, _)| *k == kind).map(|(_, name)| name.as_str());
+            unknown(kind, name, known, span, report);
+            return None;
+        };
+        if original > at && original < self.written {
+            report
+                .error(
+                    code::COPY,
+                    span,
+                    format!("{kind} {} stands after the `attach` that copies it", shown(name)),
+                )
+                .help("move the `attach` behind it");
+            return None;
+        }
+        if self.holds(original, at) {
+            report
+                .error(code::COPY, span, format!("{kind} {} is attached inside of itself", shown(name)))
+                .why("the copy would hold a copy of itself without end");
+            return None;
+        }
+        let rename = Rename { prefix, suffix: "", other_model: None };
+        let subtree = copy::names(&self.nodes, original);
+        let mut followers = self.uses.followers(&self.nodes, &subtree, false);
+        let (copy, _) = copy::copy(&self.nodes, original, rename, None);
+        let copy = self.adopt(copy, at)?;
+        let class = class_around(&self.nodes, original).unwrap_or("main").to_string();
+        self.settle(at, vec![childclass(node, class)?], vec![copy])?;
+        self.follow(&mut followers, rename)
+    }
+
+    /// Whether an element stands inside of another.
+    fn holds(&self, outer: usize, inner: usize) -> bool {
+        let mut up = Some(inner);
+        while let Some(at) = up {
+            if at == outer {
+                return true;
+            }
+            up = self.nodes.get(at).and_then(|n| n.parent);
+        }
+        false
+    }
+
+    /// Copies a body, a frame or all of another model, with its assets and classes.
+    fn attach_model(
+        &mut self,
+        at: usize,
+        node: &Node,
+        prefix: &str,
+        child: &mut Child,
+        part: Option<(&'static str, &str)>,
+        report: &mut Report,
+    ) -> Option<()> {
+        let offset = *child.offset.get_or_insert(self.parts.len());
+        if offset == self.parts.len() {
+            self.parts.extend(child.model.parts.iter().cloned());
+        }
+        let nodes = &child.model.tree.nodes;
+        let rename = Rename { prefix, suffix: "", other_model: Some(offset) };
+        let world = members(nodes, "worldbody");
+        let roots = match part {
+            None => world.clone(),
+            Some(("body", WORLD)) => world.clone(),
+            Some((kind, name)) => {
+                let Some(&root) = child.names.get(&(kind, name.to_string())) else {
+                    let span = node.attribute(kind).map_or(node.span.clone(), |a| a.span.clone());
+                    let known = child.names.keys().filter(|(k, _)| *k == kind).map(|(_, name)| name.as_str());
+                    unknown(kind, name, known, span, report);
+                    return None;
+                };
+                vec![root]
+            }
+        };
+        let mut subtree: Names = roots.iter().flat_map(|&root| copy::names(nodes, root)).collect();
+
+        let class = match roots.as_slice() {
+            [root] if part.is_some() => class_around(nodes, *root).map(|class| rename.class(class)),
+            _ => None,
+        };
+        let class = childclass(node, class.unwrap_or(rename.main_class()))?;
+        let mut holder = at;
+        let mut inside = Vec::new();
+        if part == Some(("body", WORLD)) {
+            subtree.insert(("body", WORLD.to_string()));
+            let name = Attribute {
+                attr: BODY.attribute("name")?,
+                value: Value::Text(rename.name(WORLD)),
+                span: node.span.clone(),
+            };
+            let body = Node {
+                element: &BODY,
+                model: offset,
+                attributes: vec![name],
+                children: Vec::new(),
+                parent: None,
+                ..node.clone()
+            };
+            holder = self.adopt(vec![body], at)?;
+        }
+        for root in roots {
+            let (copy, _) = copy::copy(nodes, root, rename, None);
+            inside.push(self.adopt(copy, holder)?);
+        }
+        if holder == at {
+            self.settle(at, vec![class], inside)?;
+        } else {
+            self.nodes.get_mut(holder)?.children = inside;
+            self.settle(at, vec![class], vec![holder])?;
+        }
+
+        for (section, at) in luggage(nodes) {
+            let (mut copy, _) = copy::copy(nodes, at, rename, None);
+            add_main_class(&mut copy, rename, node);
+            if section == "default" {
+                let root = self.adopt(copy, 0)?;
+                self.nodes.first_mut()?.children.push(root);
+            } else {
+                self.append(section, copy)?;
+            }
+        }
+        for f in child.uses.followers(nodes, &subtree, true) {
+            subtree.extend(f.names);
+            for at in f.elements {
+                let (mut copy, _) = copy::copy(nodes, at, rename, Some(&subtree));
+                add_main_class(&mut copy, rename, node);
+                self.append(f.section, copy)?;
+            }
+        }
+        Some(())
+    }
+
+    /// The whole in the order of the text.
+    fn finish(mut self) -> Expanded {
+        for section in self.nodes.first().map_or(Vec::new(), |root| root.children.clone()) {
+            if let Some(section) = self.nodes.get_mut(section) {
+                section.children.retain(|&at| !self.uses.is_gone(at));
+            }
+        }
+        Expanded { tree: Tree { nodes: in_order(&self.nodes) }, parts: self.parts }
+    }
+}
+
+/// The class of what stands at a place without a class of its own; `None` for the main class. A copy keeps it.
+fn class_around(nodes: &[Node], at: usize) -> Option<&str> {
+    let mut up = nodes.get(at)?.parent;
+    while let Some(node) = up.and_then(|at| nodes.get(at)) {
+        if let Some(class) = node.text("childclass") {
+            return Some(class);
+        }
+        up = node.parent;
+    }
+    None
+}
+
+/// The class of what a copy holds.
+fn childclass(request: &Node, class: String) -> Option<Attribute> {
+    let attr = FRAME.attribute("childclass")?;
+    Some(Attribute { attr, value: Value::Text(class), span: request.span.clone() })
+}
+
+/// Reports a name that is not there.
+fn unknown<'n>(
+    kind: &str,
+    name: &str,
+    known: impl Iterator<Item = &'n str>,
+    span: std::ops::Range<usize>,
+    report: &mut Report,
+) {
+    let error =
+        report.error(code::UNKNOWN_NAME, span, format!("there is no {kind} named {} to attach", shown(name)));
+    if let Some(near) = closest(name, known) {
+        error.help(format!("did you mean `{near}`?"));
+    }
+}
+
+/// An element of another model that has no class is of that model's main class.
+fn add_main_class(copy: &mut [Node], rename: Rename, request: &Node) {
+    let Some(node) = copy.first_mut() else { return };
+    let without =
+        node.attribute("class").is_none() || node.element.name == "default" && node.text("class").is_none();
+    if let Some(attr) = node.element.attribute("class").filter(|_| without) {
+        let value = Value::Text(rename.main_class());
+        node.attributes.push(Attribute { attr, value, span: request.span.clone() });
+    }
+}
+
+/// How many copies are asked for.
+fn count(node: &Node, report: &mut Report) -> Option<i32> {
+    let Some(attribute) = node.attribute("count") else {
+        report
+            .error(code::MISSING_ATTRIBUTE, node.span.clone(), "replicate has no `count`")
+            .help("write the number of copies, `count=\"5\"`");
+        return None;
+    };
+    let count = node.int("count")?;
+    if count < 0 {
+        let message = format!("`count` of replicate is {count}, it must be zero or more");
+        report.error(code::VALUE, attribute.span.clone(), message);
+        return None;
+    }
+    Some(count)
+}
+
+/// The kind and name of what `attach` can find.
+fn target(node: &Node) -> Option<(&'static str, String)> {
+    copy::own_name(node).filter(|(kind, _)| matches!(*kind, "body" | "frame"))
+}
+
+/// An attribute of a frame, at the place of what asked for it.
+fn written(request: &Node, name: &str, value: Value) -> Option<Attribute> {
+    Some(Attribute { attr: FRAME.attribute(name)?, value, span: request.span.clone() })
+}
+
+/// What another model brings along whatever is attached of it: all classes and assets, numbers and texts.
+fn luggage(nodes: &[Node]) -> Vec<(&'static str, usize)> {
+    let mut list: Vec<_> = Vec::new();
+    for &at in nodes.first().map_or(&[][..], |root| &root.children) {
+        let Some(section) = nodes.get(at) else { continue };
+        match section.element.name {
+            "default" => list.push(("default", at)),
+            name @ ("asset" | "custom" | "deformable") => {
+                let travels = |c: &usize| match nodes.get(*c).map_or("", |n| n.element.name) {
+                    "model" => false,
+                    "tuple" => false, // a tuple follows its objects
+                    _ => true,
+                };
+                list.extend(section.children.iter().copied().filter(travels).map(|c| (name, c)));
+            }
+            _ => {}
+        }
+    }
+    list
+}
+
+/// The elements of all sections of a name.
+fn members(nodes: &[Node], section: &str) -> Vec<usize> {
+    let sections = nodes.first().map_or(&[][..], |root| &root.children);
+    let sections = sections.iter().filter_map(|&s| nodes.get(s)).filter(|s| s.element.name == section);
+    sections.flat_map(|s| s.children.iter().copied()).collect()
+}
+
+/// About how many bytes an element takes.
+fn weight(node: &Node) -> usize {
+    let value = |a: &Attribute| match &a.value {
+        Value::Reals(list) => 8 * list.len(),
+        Value::Ints(list) => 4 * list.len(),
+        Value::Text(text) => text.len(),
+        Value::Word(_) | Value::Bad => 0,
+    };
+    128 + node.attributes.iter().map(|a| 80 + value(a)).sum::<usize>()
+}
+
+/// All that the root leads to, in the order of the text.
+fn in_order(nodes: &[Node]) -> Vec<Node> {
+    let rename = Rename { prefix: "", suffix: "", other_model: None };
+    copy::copy(nodes, 0, rename, None).0
+}

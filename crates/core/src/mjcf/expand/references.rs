@@ -1,0 +1,90 @@
+//! Which objects an element refers to, and whether it is copied with them.
+
+use std::collections::BTreeSet;
+
+use crate::Obj;
+use crate::mjcf::names::WORLD;
+use crate::mjcf::schema::Kind;
+use crate::mjcf::tree::{Attribute, Node};
+use crate::mjcf::values::Value;
+
+/// Objects by kind and name.
+pub(super) type Names = BTreeSet<(&'static str, String)>;
+
+/// Sections whose elements refer to objects, those that are referred to first.
+pub(super) const SECTIONS: [&str; 6] = ["contact", "tendon", "equality", "actuator", "sensor", "custom"];
+
+/// Kinds of objects that are shared by all copies within one model.
+pub(super) fn is_asset(kind: &str) -> bool {
+    matches!(kind, "texture" | "material" | "mesh" | "hfield" | "skin" | "model")
+}
+
+/// The kind of object that an attribute names, `None` for all other attributes.
+pub(super) fn kind_of(node: &Node, attribute: &Attribute) -> Option<&'static str> {
+    // An object whose kind stands in another attribute.
+    let chosen = match attribute.attr.name {
+        "objname" => node.attribute("objtype"),
+        "refname" => node.attribute("reftype"),
+        _ => {
+            return match attribute.attr.kind {
+                Kind::Ref(kind) => Some(kind),
+                _ => None,
+            };
+        }
+    };
+    match &chosen?.value {
+        Value::Word(n) => keyword(*n),
+        Value::Text(word) => KINDS.iter().find(|(_, kind)| kind == word).map(|&(_, kind)| kind),
+        _ => None,
+    }
+}
+
+/// Kinds that can be chosen by a word.
+const KINDS: [(Obj, &str); 6] = [
+    (Obj::Body, "body"),
+    (Obj::XBody, "body"),
+    (Obj::Joint, "joint"),
+    (Obj::Geom, "geom"),
+    (Obj::Site, "site"),
+    (Obj::Camera, "camera"),
+];
+
+fn keyword(n: i32) -> Option<&'static str> {
+    KINDS.iter().find(|(obj, _)| *obj as i32 == n).map(|&(_, kind)| kind)
+}
+
+/// The objects that an element and its children refer to, assets left out.
+pub(super) fn of(nodes: &[Node], at: usize) -> Vec<(&'static str, String)> {
+    let Some(node) = nodes.get(at) else { return Vec::new() };
+    let children = node.children.iter().filter_map(|&c| nodes.get(c));
+    let named = |n: &Node| {
+        let refs = n.attributes.iter().filter_map(|a| match (kind_of(n, a), &a.value) {
+            (Some(kind), Value::Text(name)) if !name.is_empty() && !is_asset(kind) => {
+                Some((kind, name.clone()))
+            }
+            _ => None,
+        });
+        refs.collect::<Vec<_>>()
+    };
+    std::iter::once(node).chain(children).flat_map(named).collect()
+}
+
+/// Whether an element that refers to these objects is copied when `copied` are: MuJoCo asks of some elements that
+/// one of their objects is copied, of others that all are. What refers to nothing is always copied. In a copy of
+/// another model the rest can only be the world.
+pub(super) fn follows(
+    section: &str,
+    node: &Node,
+    refs: &[(&'static str, String)],
+    copied: &Names,
+    other_model: bool,
+) -> bool {
+    let is_copied = |r: &(&'static str, String)| copied.contains(r);
+    let stays = |r: &(&'static str, String)| !other_model || r.0 == "body" && r.1 == WORLD;
+    let one_is_enough = matches!(section, "contact" | "sensor") || node.element.name == "fixed";
+    match refs {
+        [] => true,
+        _ if one_is_enough => refs.iter().any(is_copied) && refs.iter().all(|r| is_copied(r) || stays(r)),
+        _ => refs.iter().all(is_copied),
+    }
+}

@@ -1,0 +1,161 @@
+//! XML to plain elements: names, attributes and places, whatever they mean.
+//!
+//! Elements stand in one list and hold their children by index, so that depth costs no stack and texts of several
+//! files can be put together.
+
+use std::ops::Range;
+
+use roxmltree::{Document, Error, Node, ParsingOptions};
+
+use super::diagnostic::{Report, code, shown};
+
+/// An attribute as it is written.
+#[derive(Debug)]
+pub(crate) struct Attribute {
+    pub(crate) name: String,
+    /// Character references resolved.
+    pub(crate) value: String,
+    pub(crate) name_span: Range<usize>,
+    /// Bytes of the value, without quotes.
+    pub(crate) value_span: Range<usize>,
+    /// Whether the value stands in the text as it is: its parts have places of their own.
+    pub(crate) exact: bool,
+    pub(crate) namespace: bool,
+}
+
+/// An element as it is written.
+#[derive(Debug)]
+pub(crate) struct Element {
+    pub(crate) name: String,
+    /// Bytes of the name in the start tag.
+    pub(crate) span: Range<usize>,
+    pub(crate) namespace: bool,
+    pub(crate) attributes: Vec<Attribute>,
+    pub(crate) children: Vec<usize>,
+    /// Text between the children that looks like a tag without its `<`.
+    pub(crate) stray: Vec<Range<usize>>,
+}
+
+impl Element {
+    /// The value of an attribute.
+    pub(crate) fn attribute(&self, name: &str) -> Option<&Attribute> {
+        self.attributes.iter().find(|a| a.name == name && !a.namespace)
+    }
+}
+
+/// Adds the elements of a text, whose spans begin at `base`, to a list; returns the place of the root. `None` after
+/// reporting that the text is not XML.
+pub(crate) fn parse(text: &str, base: usize, list: &mut Vec<Element>, report: &mut Report) -> Option<usize> {
+    let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
+    let document = match Document::parse_with_options(text, options) {
+        Ok(document) => document,
+        Err(error) => {
+            explain(text, base, &error, report);
+            return None;
+        }
+    };
+    let root = list.len();
+    let mut stack = vec![(document.root_element(), None)];
+    while let Some((xml, parent)) = stack.pop() {
+        let at = list.len();
+        if let Some(parent) = parent.and_then(|p: usize| list.get_mut(p)) {
+            parent.children.push(at);
+        }
+        list.push(element(text, base, &xml));
+        let below: Vec<_> = xml.children().filter(Node::is_element).map(|x| (x, Some(at))).collect();
+        stack.extend(below.into_iter().rev());
+    }
+    Some(root)
+}
+
+fn element(text: &str, base: usize, xml: &Node) -> Element {
+    let shifted = |span: Range<usize>| base + span.start..base + span.end;
+    let name = xml.tag_name();
+    let start = base + xml.range().start + 1;
+    let attribute = |a: roxmltree::Attribute| Attribute {
+        name: a.name().to_string(),
+        value: a.value().to_string(),
+        name_span: shifted(a.range_qname()),
+        value_span: shifted(a.range_value()),
+        exact: text.get(a.range_value()) == Some(a.value()),
+        namespace: a.namespace().is_some(),
+    };
+    Element {
+        name: name.name().to_string(),
+        span: start..start + name.name().len(),
+        namespace: name.namespace().is_some(),
+        attributes: xml.attributes().map(attribute).collect(),
+        children: Vec::new(),
+        stray: xml.children().filter(Node::is_text).filter_map(|t| stray(&t)).map(shifted).collect(),
+    }
+}
+
+/// The first line of a text that looks like a tag without its `<`.
+fn stray(xml: &Node) -> Option<Range<usize>> {
+    let text = xml.text()?;
+    let first = text.trim().lines().next()?;
+    if !text.contains(['=', '>']) {
+        return None;
+    }
+    let start = xml.range().start + (text.len() - text.trim_start().len());
+    Some(start..(start + first.trim_end().len()).min(xml.range().end))
+}
+
+/// A syntax error of the XML in plain words.
+fn explain(text: &str, base: usize, error: &Error, report: &mut Report) {
+    let at = match error {
+        Error::UnclosedRootNode | Error::UnexpectedEndOfStream | Error::NoRootNode => text.len(),
+        _ => offset(text, error.pos().row, error.pos().col),
+    };
+    let end = text.get(at..).and_then(|rest| rest.chars().next()).map_or(at, |c| at + c.len_utf8());
+    let (message, help) = match error {
+        Error::UnexpectedCloseTag(open, close, _) => (
+            format!("`<{open}>` is closed by `</{close}>`"),
+            format!("close it with `</{open}>` first; tags close in the reverse order of opening"),
+        ),
+        Error::UnclosedRootNode => (
+            "the text ends inside an element that was opened and never closed".into(),
+            "every `<name>` needs a `</name>`; an element without content ends with `/>`".into(),
+        ),
+        Error::NoRootNode => {
+            ("the text holds no element".into(), "a model is written as `<mujoco> … </mujoco>`".into())
+        }
+        Error::DuplicatedAttribute(name, _) => {
+            (format!("the attribute {} stands twice in one tag", shown(name)), "keep one of them".into())
+        }
+        Error::InvalidAttributeValue(_) => {
+            ("a `<` inside an attribute's value".into(), "close the quotes of the attribute before it".into())
+        }
+        Error::UnknownEntityReference(..) | Error::MalformedEntityReference(_) => (
+            "a `&` that does not begin `&amp;`, `&lt;`, `&gt;`, `&quot;` or `&apos;`".into(),
+            "write `&amp;` for the character itself".into(),
+        ),
+        Error::InvalidChar2("a whitespace", ..) => (
+            "the value of an attribute ends here, but text follows it".into(),
+            "close the quotes of the value before it, or put a space between two attributes".into(),
+        ),
+        Error::InvalidComment(_) => {
+            ("`--` inside a comment".into(), "a comment may not hold two hyphens in a row".into())
+        }
+        Error::UnexpectedEndOfStream => {
+            ("the text ends inside a tag, a value or a comment".into(), "complete the last tag".into())
+        }
+        other => {
+            let words = other.to_string();
+            // The place is given by the diagnostic itself.
+            let words = words.rsplit_once(" at ").map_or(words.as_str(), |(before, _)| before);
+            (format!("not well-formed XML: {words}"), "compare this tag with a working one".into())
+        }
+    };
+    report.error(code::XML, base + at..base + end, message).help(help);
+}
+
+/// The byte of a line and column that count from 1, the column in characters.
+fn offset(text: &str, row: u32, col: u32) -> usize {
+    let line_start = match row {
+        0 | 1 => 0,
+        _ => text.match_indices('\n').nth(row as usize - 2).map_or(text.len(), |(i, _)| i + 1),
+    };
+    let line = text.get(line_start..).unwrap_or("");
+    line_start + line.char_indices().nth(col.saturating_sub(1) as usize).map_or(line.len(), |(i, _)| i)
+}
