@@ -14,8 +14,8 @@ fn site_body(m: &Model, s: usize) -> usize {
 /// MuJoCo 3.14.0 composes the orientation of a site in the order site, body, which is that of the site in the world only
 /// where one of both does not turn. Its numbers are ours: moments are those of the sites as they are.
 fn relative_rotation(m: &Model, d: &Data, sites: [usize; 2]) -> Vec3 {
-    let [s, reference] = sites
-        .map(|s| quat_mul(rows::<4>(&m.site_quat)[s], rows::<4>(&d.xquat)[site_body(m, s)]));
+    let [s, reference] =
+        sites.map(|s| quat_mul(rows::<4>(&m.site_quat)[s], rows::<4>(&d.xquat)[site_body(m, s)]));
     quat_to_vel(quat_mul(quat_conj(reference), s))
 }
 
@@ -126,14 +126,15 @@ pub(super) fn crank(
     };
     let start = out.at;
     for (k, side) in union(m, [crank, slider].map(|s| site_body(m, s))) {
-        let mut change = 0.0;
-        if side != Side::Second {
-            change += dot(by_v, dof_motion(m, d, k, points[0]).1);
-        }
-        if side != Side::First {
-            let (turn, shift) = dof_motion(m, d, k, points[1]);
-            change += dot(by_axis, cross(turn, axis)) - dot(by_v, shift);
-        }
+        let change = match side {
+            Side::First => dot(by_v, dof_motion(m, d, k, points[0]).1),
+            Side::Second => {
+                let (turn, shift) = dof_motion(m, d, k, points[1]);
+                dot(by_axis, cross(turn, axis)) - dot(by_v, shift)
+            }
+            // What moves both does not move the slider in its site.
+            Side::Both => continue,
+        };
         out.push(k, change * gear);
     }
     out.reverse_from(start);
