@@ -184,12 +184,6 @@ fn pid(a: &mut ActuatorSpec, e: &mut Element) {
     a.dynprm[1] = slewmax;
     a.dyntype = if ki > 0.0 || slewmax > 0.0 { dyntype::PID } else { dyntype::NONE };
     a.actdim = -1;
-    if ki > 0.0 && slewmax > 0.0 {
-        let owner = e.node.shown();
-        e.error("slewmax", format!("{owner} has both `ki` and `slewmax`"))
-            .why("MuJoCo 3.14.0 gives a pid one state: an integral or a limited setpoint")
-            .help("remove one of them, or use a `dcmotor`, whose controller has both");
-    }
     a.ctrl.range = e.p.reals("posrange", a.ctrl.range);
     a.inheritrange = e.p.real("inheritrange").unwrap_or(a.inheritrange);
     inherit(a.inheritrange, a.ctrl.range, "ctrlrange", e);
