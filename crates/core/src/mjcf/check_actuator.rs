@@ -91,7 +91,9 @@ impl Check<'_, '_> {
             gaintype::PID => a.ctrlspec == 0 || a.ctrlspec & inputs::POS != 0,
             _ => false,
         };
-        let Some(target) = a.transmission.filter(|_| servo) else { return };
+        let own = if a.dyntype == dyntype::INTEGRATOR { &a.act } else { &a.ctrl };
+        // A range that is given, too, is reported where it is read.
+        let Some(target) = a.transmission.filter(|_| servo && own.range == [0.0; 2]) else { return };
         let at = usize::try_from(target.id[0]).unwrap_or(usize::MAX);
         let joints = || bodies.iter().flat_map(|b| &b.joints).nth(at);
         let scalar = |j: &JointSpec| matches!(j.kind, joint::SLIDE | joint::HINGE);
@@ -145,25 +147,24 @@ impl Check<'_, '_> {
             self.error("input", "has `input`, but takes one control")
                 .why("only `orientation`, `pid` and `dcmotor` choose what their controls are");
         }
-        for (prm, muscle) in
-            [(&a.gainprm, a.gaintype == gaintype::MUSCLE), (&a.biasprm, a.biastype == biastype::MUSCLE)]
-        {
-            if muscle {
-                self.muscle(prm);
-            }
+        if a.gaintype == gaintype::MUSCLE {
+            self.muscle(&a.gainprm);
+        }
+        if a.biastype == biastype::MUSCLE && (a.gaintype != gaintype::MUSCLE || a.biasprm != a.gainprm) {
+            self.muscle(&a.biasprm);
         }
     }
 
     fn so3(&mut self, a: &ActuatorSpec) {
         if a.transmission.is_some_and(|t| t.kind != trntype::SO3) {
-            self.error("joint", "is an orientation servo and acts on neither a ball joint nor a site");
+            self.error("joint", "turns something, but acts on neither a ball joint nor a site");
         }
         if a.gainprm[0] != -a.biasprm[1] {
-            self.error("biasprm", "is an orientation servo whose bias is not that of its gain")
+            self.error("biasprm", "has a bias that is not that of its gain")
                 .help("write `biasprm=\"0 -KP -KV\"` with the same KP as in `gainprm`");
         }
         if !matches!(a.dyntype, dyntype::NONE | dyntype::INTEGRATOR) {
-            self.error("dyntype", "is an orientation servo whose `dyntype` is neither none nor integrator");
+            self.error("dyntype", "has a `dyntype` that is neither none nor integrator");
         }
         if a.ctrlspec == inputs::QUAT && a.dyntype != dyntype::NONE {
             self.error("input", "integrates quaternions")
@@ -171,25 +172,25 @@ impl Check<'_, '_> {
                 .help("write `input=\"expmap\"`");
         }
         if a.force.flag == 1 && a.force.range[0] != 0.0 {
-            self.error("forcerange", "is an orientation servo whose forcerange does not begin at zero")
+            self.error("forcerange", "has a forcerange that does not begin at zero")
                 .why("the range is that of the length of its torque");
         }
     }
 
     fn pid(&mut self, a: &ActuatorSpec) {
         if a.biastype != biastype::AFFINE {
-            self.error("biastype", "is a pid whose `biastype` is not affine");
+            self.error("biastype", "has the `gaintype` pid, but not the `biastype` affine");
         }
         if !matches!(a.dyntype, dyntype::NONE | dyntype::PID) {
-            self.error("dyntype", "is a pid whose `dyntype` is neither none nor pid");
+            self.error("dyntype", "has the `gaintype` pid, but a `dyntype` other than none and pid");
         }
         if a.dyntype != dyntype::PID && a.gainprm[0] != 0.0 {
-            self.error("gainprm", "is a pid with an integral gain, but without a state for the integral")
+            self.error("gainprm", "has an integral gain, but no state for the integral")
                 .help("write `dyntype=\"pid\"`, or use `pid` with `ki`");
         }
         let known = inputs::POS | inputs::VEL | inputs::FF;
         if a.ctrlspec & !known != 0 {
-            self.error("input", "is a pid with inputs other than pos, vel and ff");
+            self.error("input", "has inputs other than pos, vel and ff");
         }
         if a.dyntype == dyntype::PID && a.ctrlspec != 0 && a.ctrlspec & inputs::POS == 0 {
             self.error("input", "has a state of its position setpoint, but takes none")
@@ -202,7 +203,7 @@ impl Check<'_, '_> {
         let states = slots(&a.dynprm, &a.gainprm).count();
         if a.dyntype == dyntype::DCMOTOR {
             if !a.actearly {
-                self.error("actearly", "is a dcmotor without `actearly`")
+                self.error("actearly", "has the `dyntype` dcmotor, but not `actearly`")
                     .why("the current of a motor acts in the step in which it flows");
             }
         } else if states > 0 {
@@ -231,15 +232,15 @@ impl Check<'_, '_> {
     fn muscle(&mut self, prm: &[f64; 10]) {
         let [lower, upper, _, scale, lmin, lmax, vmax, fpmax, fvmax, _] = *prm;
         if lower >= upper {
-            self.error("range", "is a muscle whose `range` does not grow")
+            self.error("range", "has a `range` that does not grow")
                 .why("it gives the operating range, in optimal lengths: for example 0.75 to 1.05");
         }
         if lmin >= 1.0 || lmax <= 1.0 {
-            self.error("lmin", "is a muscle without active force at its optimal length")
+            self.error("lmin", "has no active force at its optimal length")
                 .why("lengths are in optimal lengths: `lmin` must be smaller than 1, `lmax` larger");
         }
         if [scale, vmax, fpmax, fvmax].iter().any(|&x| x <= 0.0) {
-            self.error("scale", "is a muscle whose scale, vmax, fpmax or fvmax is not larger than zero");
+            self.error("scale", "has a scale, vmax, fpmax or fvmax that is not larger than zero");
         }
     }
 
@@ -283,7 +284,7 @@ impl Check<'_, '_> {
             self.error("actdim", &message).help("remove `actdim`: the number follows from `dyntype`");
         }
         if a.dyntype == dyntype::PID && pid != 1 {
-            self.error("dyntype", "is a pid whose states are neither an integral nor a limited setpoint")
+            self.error("slewmax", "has states that are neither an integral nor a limited setpoint")
                 .why("MuJoCo 3.14.0 gives a pid one state")
                 .help("write either `ki` (the first of `gainprm`) or `slewmax` (the second of `dynprm`)");
         }

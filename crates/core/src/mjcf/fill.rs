@@ -218,6 +218,7 @@ fn joints_and_dofs(
             }
         }
     }
+    m.jnt_actuatorid = vec![-1; joints.len()];
     m.jnt_type = ints(joints, |(_, j)| j.kind);
     m.jnt_bodyid = ints(joints, |&(b, _)| b as i32);
     m.jnt_limited = joints.iter().map(|(_, j)| j.limited).collect();

@@ -27,7 +27,7 @@ impl Element<'_> {
     }
 
     /// A number that may not be negative, `None` when it is not given.
-    pub(super) fn from_zero(&mut self, attribute: &str) -> Option<f64> {
+    pub(super) fn zero_or_more(&mut self, attribute: &str) -> Option<f64> {
         let x = self.p.real(attribute)?;
         if x < 0.0 {
             let owner = self.node.shown();
@@ -49,7 +49,7 @@ const SHORTCUTS: [(&str, Set); 12] = [
     }),
     ("position", |a, e| {
         servo(a, e);
-        if let Some(time) = e.from_zero("timeconst") {
+        if let Some(time) = e.zero_or_more("timeconst") {
             a.dynprm[0] = time;
             a.dyntype = if time == 0.0 { dyntype::NONE } else { dyntype::FILTEREXACT };
         }
@@ -69,7 +69,7 @@ const SHORTCUTS: [(&str, Set); 12] = [
     }),
     ("damper", |a, e| {
         let inherited = if a.gaintype == gaintype::AFFINE { -a.gainprm[2] } else { 0.0 };
-        let kv = e.from_zero("kv").unwrap_or(inherited);
+        let kv = e.zero_or_more("kv").unwrap_or(inherited);
         (a.gaintype, a.biastype, a.dyntype) = (gaintype::AFFINE, biastype::NONE, dyntype::NONE);
         a.gainprm = [0.0; 10];
         a.gainprm[2] = -kv;
@@ -81,14 +81,14 @@ const SHORTCUTS: [(&str, Set); 12] = [
         let bias = e.p.reals("bias", [a.biasprm[0], a.biasprm[1], a.biasprm[2]]);
         a.biasprm[..3].copy_from_slice(&bias);
         a.gainprm[0] = e.p.real("area").unwrap_or(a.gainprm[0]);
-        if let Some(diameter) = e.from_zero("diameter") {
+        if let Some(diameter) = e.zero_or_more("diameter") {
             a.gainprm[0] = PI / 4.0 * diameter * diameter;
         }
     }),
     ("muscle", muscle),
     ("adhesion", |a, e| {
         (a.gaintype, a.biastype) = (gaintype::FIXED, biastype::NONE);
-        a.gainprm[0] = e.from_zero("gain").unwrap_or(a.gainprm[0]);
+        a.gainprm[0] = e.zero_or_more("gain").unwrap_or(a.gainprm[0]);
         one_way(a, e, "adhesion pulls surfaces together and never pushes them apart");
     }),
     ("orientation", |a, e| {
@@ -120,7 +120,7 @@ fn servo(a: &mut ActuatorSpec, e: &mut Element) {
 
 /// `kv`, or `dampratio`: a positive number in its place until `mj_setConst` knows the inertia.
 fn damping(a: &mut ActuatorSpec, e: &mut Element) {
-    let (kv, ratio) = (e.from_zero("kv"), e.from_zero("dampratio"));
+    let (kv, ratio) = (e.zero_or_more("kv"), e.zero_or_more("dampratio"));
     if kv.is_some() && ratio.is_some() {
         let owner = e.node.shown();
         e.error("dampratio", format!("{owner} has both `kv` and `dampratio`"))
@@ -171,9 +171,9 @@ fn pid(a: &mut ActuatorSpec, e: &mut Element) {
     let stateful = a.dyntype == dyntype::PID;
     let kept = |x: f64| if stateful { x } else { 0.0 };
     let [ki, imax, slewmax] = [kept(a.gainprm[0]), kept(a.dynprm[0]), kept(a.dynprm[1])];
-    let ki = e.from_zero("ki").unwrap_or(ki);
-    let imax = e.from_zero("imax").unwrap_or(imax);
-    let slewmax = e.from_zero("slewmax").unwrap_or(slewmax);
+    let ki = e.zero_or_more("ki").unwrap_or(ki);
+    let imax = e.zero_or_more("imax").unwrap_or(imax);
+    let slewmax = e.zero_or_more("slewmax").unwrap_or(slewmax);
     (a.gaintype, a.biastype) = (gaintype::PID, biastype::AFFINE);
     a.biasprm[1] = e.p.real("kp").map_or(a.biasprm[1], |kp| -kp);
     damping(a, e);
@@ -184,12 +184,6 @@ fn pid(a: &mut ActuatorSpec, e: &mut Element) {
     a.dynprm[1] = slewmax;
     a.dyntype = if ki > 0.0 || slewmax > 0.0 { dyntype::PID } else { dyntype::NONE };
     a.actdim = -1;
-    if ki > 0.0 && slewmax > 0.0 {
-        let owner = e.node.shown();
-        e.error("slewmax", format!("{owner} has both `ki` and `slewmax`"))
-            .why("MuJoCo 3.14.0 gives a pid one state: an integral or a limited setpoint")
-            .help("remove one of them, or use a `dcmotor`, whose controller has both");
-    }
     a.ctrl.range = e.p.reals("posrange", a.ctrl.range);
     a.inheritrange = e.p.real("inheritrange").unwrap_or(a.inheritrange);
     inherit(a.inheritrange, a.ctrl.range, "ctrlrange", e);
@@ -219,7 +213,7 @@ fn muscle(a: &mut ActuatorSpec, e: &mut Element) {
         a.dynprm[i] = given(e, "timeconst", i).unwrap_or(a.dynprm[i]);
         a.gainprm[i] = given(e, "range", i).unwrap_or(a.gainprm[i]);
     }
-    a.dynprm[2] = e.from_zero("tausmooth").unwrap_or(a.dynprm[2]);
+    a.dynprm[2] = e.zero_or_more("tausmooth").unwrap_or(a.dynprm[2]);
     for (x, (name, default)) in a.gainprm.iter_mut().skip(2).zip(MUSCLE) {
         *x = given(e, name, 0).unwrap_or(or(*x, 0.0, default));
     }

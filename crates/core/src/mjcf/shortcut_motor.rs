@@ -24,7 +24,9 @@ pub(super) fn dcmotor(a: &mut ActuatorSpec, e: &mut Element) {
     let resistance = e.p.real("resistance").unwrap_or(a.gainprm[0]);
     let r = if resistance == 0.0 { from_stall } else { resistance };
     positive(e, k, "motorconst", "motor constant", "torque is the motor constant times the current");
-    positive(e, r, "resistance", "resistance", "the current is the voltage divided by the resistance");
+    if k > 0.0 {
+        positive(e, r, "resistance", "resistance", "the current is the voltage divided by the resistance");
+    }
     (a.gainprm[0], a.gainprm[1]) = (r, k);
 
     let [force, current, slope] = e.p.reals("saturation", [0.0, 0.0, a.dynprm[1]]);

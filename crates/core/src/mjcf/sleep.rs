@@ -52,7 +52,9 @@ pub(crate) fn policies(m: &mut Model, bodies: &[BodySpec]) {
         let ids = ids.into_iter().filter_map(|id| usize::try_from(id).ok());
         match m.actuator_trntype[a] {
             trntype::TENDON => ids.take(1).for_each(|t| trees_of_tendon(m, t).for_each(&mut keep_awake)),
-            trntype::SITE | trntype::SLIDERCRANK => {
+            kind @ (trntype::SITE | trntype::SLIDERCRANK | trntype::SO3)
+                if kind != trntype::SO3 || m.actuator_trnid[2 * a + 1] >= 0 =>
+            {
                 ids.for_each(|s| keep_awake(m.body_treeid[m.site_bodyid[s] as usize]));
             }
             trntype::BODY => ids.take(1).for_each(|b| keep_awake(m.body_treeid[b])),

@@ -9,9 +9,14 @@ fn site_body(m: &Model, s: usize) -> usize {
     m.site_bodyid[s] as usize
 }
 
-/// The orientation of site `s`, world.
-fn site_quat(m: &Model, d: &Data, s: usize) -> Quat {
-    quat_mul(rows::<4>(&d.xquat)[site_body(m, s)], rows::<4>(&m.site_quat)[s])
+/// The rotation vector from a reference site to a site.
+///
+/// MuJoCo 3.14.0 composes the orientation of a site in the order site, body, which is that of the site in the world only
+/// where one of both does not turn. Its numbers are ours: moments are those of the sites as they are.
+fn relative_rotation(m: &Model, d: &Data, sites: [usize; 2]) -> Vec3 {
+    let [s, reference] =
+        sites.map(|s| quat_mul(rows::<4>(&m.site_quat)[s], rows::<4>(&d.xquat)[site_body(m, s)]));
+    quat_to_vel(quat_mul(quat_conj(reference), s))
 }
 
 /// First and last three numbers of a gear.
@@ -51,8 +56,7 @@ pub(super) fn between(
         length += dot(mat_t_mul_vec(mat, sub(points[0], points[1])), along);
     }
     if about != [0.0; 3] {
-        let q = quat_mul(quat_conj(site_quat(m, d, reference)), site_quat(m, d, s));
-        length += dot(quat_to_vel(q), about);
+        length += dot(relative_rotation(m, d, [s, reference]), about);
     }
     let (force, torque) = (mat_mul_vec(mat, along), mat_mul_vec(mat, about));
     let bodies = [s, reference].map(|s| site_body(m, s));
@@ -90,8 +94,7 @@ pub(super) fn orientation(
         out.push(k, sign * dot(dof_motion(m, d, k, [0.0; 3]).0, direction));
     }
     out.reverse_from(start);
-    let q = quat_mul(quat_conj(site_quat(m, d, reference)), site_quat(m, d, s));
-    quat_to_vel(q)[axis]
+    relative_rotation(m, d, [s, reference])[axis]
 }
 
 /// A rod of length r from a crank to a slider, which moves along the z axis a of its site: with the vector v from the
@@ -123,14 +126,15 @@ pub(super) fn crank(
     };
     let start = out.at;
     for (k, side) in union(m, [crank, slider].map(|s| site_body(m, s))) {
-        let mut change = 0.0;
-        if side != Side::Second {
-            change += dot(by_v, dof_motion(m, d, k, points[0]).1);
-        }
-        if side != Side::First {
-            let (turn, shift) = dof_motion(m, d, k, points[1]);
-            change += dot(by_axis, cross(turn, axis)) - dot(by_v, shift);
-        }
+        let change = match side {
+            Side::First => dot(by_v, dof_motion(m, d, k, points[0]).1),
+            Side::Second => {
+                let (turn, shift) = dof_motion(m, d, k, points[1]);
+                dot(by_axis, cross(turn, axis)) - dot(by_v, shift)
+            }
+            // What moves both does not move the slider in its site.
+            Side::Both => continue,
+        };
         out.push(k, change * gear);
     }
     out.reverse_from(start);

@@ -46,6 +46,13 @@ fn tied(sections: &str) -> String {
     )
 }
 
+/// A hinge, a free body and two sites, with an actuator.
+fn driven(actuator: &str) -> String {
+    format!(
+        "<mujoco><worldbody><site name=\"t\"/><body name=\"b\"><joint name=\"h\"/><geom size=\"0.1\"/><site name=\"s\"/></body><body><joint name=\"f\" type=\"ball\"/><geom size=\"0.1\"/></body></worldbody>\n<actuator>{actuator}</actuator></mujoco>"
+    )
+}
+
 mistakes! {
     // XML
     xml_wrong_close: "<mujoco>\n  <worldbody>\n    <body>\n  </worldbody>\n</mujoco>";
@@ -147,6 +154,39 @@ mistakes! {
     sensor_cutoff: after("<sensor><framequat objtype=\"body\" objname=\"b\" cutoff=\"1\"/></sensor>");
     key_short: after("<keyframe><key name=\"k\" qpos=\"0 0 1\"/></keyframe>");
     key_control: after("<keyframe><key ctrl=\"1\"/></keyframe>");
+    // Actuators
+    actuator_without_target: driven("<motor name=\"m\"/>");
+    actuator_two_targets: driven("<motor joint=\"h\" site=\"s\"/>");
+    actuator_unknown_joint: driven("<motor joint=\"hh\"/>");
+    actuator_range_reversed: driven("<motor joint=\"h\" ctrlrange=\"1 -1\"/>");
+    actuator_range_missing: driven("<motor joint=\"h\" forcelimited=\"true\"/>");
+    actuator_kv_and_dampratio: driven("<position joint=\"h\" kv=\"1\" dampratio=\"1\"/>");
+    actuator_kv_negative: driven("<position joint=\"h\" kv=\"-1\"/>");
+    actuator_inherit_nothing: driven("<position joint=\"f\" inheritrange=\"1\"/>");
+    actuator_inherit_and_range: driven("<position joint=\"h\" inheritrange=\"1\" ctrlrange=\"0 1\"/>");
+    actuator_act_without_state: driven("<general joint=\"h\" actrange=\"0 1\"/>");
+    actuator_actdim: driven("<general joint=\"h\" dyntype=\"filter\" actdim=\"2\"/>");
+    actuator_user_dynamics: driven("<general joint=\"h\" dyntype=\"user\"/>");
+    actuator_delay_without_samples: driven("<motor joint=\"h\" delay=\"0.1\"/>");
+    actuator_damper_backwards: driven("<damper joint=\"h\" kv=\"1\" ctrlrange=\"-1 1\"/>");
+    actuator_adhesion_unlimited: driven("<adhesion body=\"b\"/>");
+    actuator_crank_without_slider: driven("<motor cranksite=\"s\" cranklength=\"1\"/>");
+    actuator_crank_without_length: driven("<motor cranksite=\"s\" slidersite=\"t\"/>");
+    actuator_refsite_of_joint: driven("<motor joint=\"h\" refsite=\"s\"/>");
+    actuator_armature_of_site: driven("<motor site=\"s\" armature=\"1\"/>");
+    orientation_of_hinge: driven("<orientation joint=\"h\"/>");
+    orientation_without_reference: driven("<orientation site=\"s\"/>");
+    orientation_input: driven("<orientation joint=\"f\" input=\"pos\"/>");
+    pid_input: driven("<pid joint=\"h\" input=\"vel pos\"/>");
+    pid_two_states: driven("<pid joint=\"h\" ki=\"1\" slewmax=\"1\"/>");
+    pid_integral_of_velocity: driven("<pid joint=\"h\" ki=\"1\" input=\"vel\"/>");
+    dcmotor_without_constants: driven("<dcmotor joint=\"h\"/>");
+    dcmotor_gains_without_setpoint: driven("<dcmotor joint=\"h\" motorconst=\"0.1\" resistance=\"1\" controller=\"1\"/>");
+    dcmotor_thermal: driven("<dcmotor joint=\"h\" motorconst=\"0.1\" resistance=\"1\" thermal=\"1\"/>");
+    muscle_range: driven("<muscle joint=\"h\" range=\"1 0.5\" lengthrange=\"0 1\"/>");
+    muscle_lengths: driven("<muscle joint=\"h\" lmin=\"1.1\" lengthrange=\"0 1\"/>");
+    actuator_group_disabled: before("<option actuatorgroupdisable=\"31\"/>");
+        key_activation: driven("<general joint=\"h\" dyntype=\"filter\"/></actuator><keyframe><key act=\"1 2\"/></keyframe><actuator>");
     // Tendons
     tendon_empty: tied("<tendon><spatial name=\"rope\"/></tendon>");
     tendon_one_site: tied("<tendon>\n<spatial><site site=\"s\"/></spatial></tendon>");
