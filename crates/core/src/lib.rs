@@ -26,6 +26,7 @@ mod collision;
 mod com;
 mod constraint;
 mod data;
+mod derivative;
 mod energy;
 mod equality;
 mod fields;
@@ -49,13 +50,13 @@ mod transmission;
 
 pub use collision::{can_collide, contact_force};
 pub use data::{Contact, Data, Warning, WarningStat};
-pub use integrate::integrate_pos;
+pub use integrate::{differentiate_pos, integrate_pos};
 pub use mass::full_m;
 pub use model::{Model, Names, Obj, Options, Statistic};
 pub use model::{
     biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, trntype, wraptype,
 };
-pub use pipeline::{forward, set_plan, step};
+pub use pipeline::{forward, set_plan, step, step1, step2};
 pub use plan::{Demand, Plan};
 pub use reset::{reset_data, reset_data_keyframe};
 pub use setconst::set_const;

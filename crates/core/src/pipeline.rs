@@ -5,7 +5,7 @@ use crate::plan::Plan;
 use crate::reflect::Stage;
 use crate::{
     Data, Model, Warning, actuation, camera, chain, collision, com, constraint, disable, enable, energy,
-    integrate, integrator, kinematics,
+    integrate, kinematics,
 };
 use crate::{jacobian, mass, passive, reset, rne, sensor, tendon, transmission};
 
@@ -27,10 +27,28 @@ pub fn step(m: &Model, d: &mut Data) {
     check_state(m, d);
     forward_skip(m, d, Skip::NOTHING);
     check_acceleration(m, d);
-    match m.opt.integrator {
-        integrator::RK4 => integrate::rk4(m, d),
-        _ => integrate::euler(m, d),
-    }
+    integrate::integrate(m, d);
+}
+
+/// The first part of a step (`mj_step1`): all that does not depend on inputs. Controls and applied forces may be
+/// set between the two.
+pub fn step1(m: &Model, d: &mut Data) {
+    check_state(m, d);
+    position(m, d);
+    read_position(m, d);
+    velocity(m, d);
+    read_velocity(m, d);
+}
+
+/// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name
+/// Runge–Kutta, which needs forces at other states, this is a step of Euler.
+pub fn step2(m: &Model, d: &mut Data) {
+    actuation(m, d);
+    acceleration(m, d);
+    constraints(m, d);
+    read_acceleration(m, d);
+    check_acceleration(m, d);
+    integrate::integrate_once(m, d);
 }
 
 /// Computes everything that follows from the state, without advancing time (`mj_forward`).
@@ -221,7 +239,7 @@ fn first_bad(v: &[f64]) -> Option<usize> {
     v.iter().position(|&x| bad(x))
 }
 
-fn warn(d: &mut Data, warning: Warning, info: usize) {
+pub(crate) fn warn(d: &mut Data, warning: Warning, info: usize) {
     let time = d.time;
     let stat = &mut d.warning[warning as usize];
     if stat.number == 0 {

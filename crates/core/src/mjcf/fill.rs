@@ -1,6 +1,6 @@
 //! Specifications to the arrays of [`Model`].
 
-use super::layout::{Dof, Layout, Pattern};
+use super::layout::{Dof, Layout, Pattern, WholePattern};
 use super::spec::{
     BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, List, PairSpec, SOLIMP,
     SOLREF, SensorSpec, SiteSpec, TendonSpec,
@@ -32,6 +32,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) layout: &'a Layout,
     pub(crate) simple: &'a [i32],
     pub(crate) pattern: Pattern,
+    pub(crate) whole: WholePattern,
     pub(crate) tendons: &'a [TendonSpec],
     pub(crate) equalities: &'a [EqualitySpec],
     pub(crate) pairs: &'a [PairSpec],
@@ -44,7 +45,7 @@ pub(crate) struct Parts<'a> {
 /// Fills the model. Options, statistics and what `mj_setConst` computes are not touched.
 pub(crate) fn model(m: &mut Model, parts: Parts) {
     let Parts { bodies: list, inertias, layout, simple, sensors: sensor_list, keys: key_list, .. } = parts;
-    let Parts { tendons, equalities, pairs, excludes, users, pattern, .. } = parts;
+    let Parts { tendons, equalities, pairs, excludes, users, pattern, whole, .. } = parts;
     let joints: Vec<(usize, &JointSpec)> = members(list, |b| &b.joints);
     let geoms: Vec<(usize, &GeomSpec)> = members(list, |b| &b.geoms);
     let sites: Vec<(usize, &SiteSpec)> = members(list, |b| &b.sites);
@@ -63,6 +64,7 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     m.nsensordata = sensor_list.iter().map(|s| s.dim as usize).sum();
     m.nkey = key_list.len();
     m.nC = pattern.colind.len();
+    m.nD = whole.pattern.colind.len();
     fill_tendon::count(m, tendons);
     (m.neq, m.npair, m.nexclude) = (equalities.len(), pairs.len(), excludes.len());
     (m.nuser_body, m.nuser_jnt, m.nuser_tendon) = (users.body, users.joint, users.tendon);
@@ -71,6 +73,8 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     bodies(m, list, inertias, layout, simple);
     joints_and_dofs(m, list, &joints, layout, simple);
     (m.M_rownnz, m.M_rowadr, m.M_colind) = (pattern.rownnz, pattern.rowadr, pattern.colind);
+    let Pattern { rownnz, rowadr, colind } = whole.pattern;
+    (m.D_rownnz, m.D_rowadr, m.D_colind, m.D_diag) = (rownnz, rowadr, colind, whole.diag);
     fill_geoms(m, &geoms);
     fill_sites(m, &sites);
     fill_tendon::tendons(m, tendons);
@@ -189,6 +193,7 @@ fn joints_and_dofs(
         }
     }
     m.jnt_type = ints(joints, |(_, j)| j.kind);
+    m.jnt_actuatorid = vec![-1; joints.len()];
     m.jnt_bodyid = ints(joints, |&(b, _)| b as i32);
     m.jnt_limited = joints.iter().map(|(_, j)| j.limited).collect();
     m.jnt_solref = flat(joints, |(_, j)| j.solref);

@@ -144,6 +144,7 @@ fn build(xml: &str, report: &mut Report) -> Option<Model> {
     let mut simple = layout::simple(&bodies, &inertias);
     fill_tendon::demote_simple(&mut simple, &bodies, &tendons);
     let pattern = layout::pattern(&layout, &simple, report)?;
+    let whole = layout::whole_pattern(&layout, report)?;
 
     let mut m = Model { opt: options, ..Model::default() };
     m.names.model = settings::model_name(&tree);
@@ -153,6 +154,7 @@ fn build(xml: &str, report: &mut Report) -> Option<Model> {
         layout: &layout,
         simple: &simple,
         pattern,
+        whole,
         tendons: &tendons,
         equalities: &equalities,
         pairs: &pairs,

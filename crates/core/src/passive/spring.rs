@@ -5,7 +5,10 @@
 //! resists with f = -v (b + p₁ |v| + p₂ v²).
 
 use crate::math::*;
-use crate::{Data, Model, joint, tendon};
+use crate::{Data, Model, joint, tendon, trntype};
+
+/// More than one actuator adds to a joint or tendon, in `jnt_actuatorid` and `tendon_actuatorid`.
+const SEVERAL: i32 = -2;
 
 /// The coefficients of a spring or a damper.
 #[derive(Clone, Copy)]
@@ -21,6 +24,42 @@ impl Law {
         Law { linear: linear[i], growth: rows::<2>(growth)[i] }
     }
 
+    /// The damper of a degree of freedom, together with those of actuators on its joint.
+    pub(crate) fn dof_damper(m: &Model, i: usize) -> Law {
+        let law = Law::new(&m.dof_damping, &m.dof_dampingpoly, i);
+        let j = m.dof_jntid[i];
+        law.with_actuators(m, m.jnt_actuatorid[j as usize], &[trntype::JOINT, trntype::JOINTINPARENT], j)
+    }
+
+    /// The damper of a tendon, together with those of actuators on it.
+    pub(crate) fn tendon_damper(m: &Model, t: usize) -> Law {
+        let law = Law::new(&m.tendon_damping, &m.tendon_dampingpoly, t);
+        law.with_actuators(m, m.tendon_actuatorid[t], &[trntype::TENDON], t as i32)
+    }
+
+    /// Adds the dampers of actuators, each times the square of its gear: of `actuator`, or when that is
+    /// [`SEVERAL`], of all that act through one of these transmissions on `target`.
+    #[inline(always)]
+    fn with_actuators(self, m: &Model, actuator: i32, kinds: &[i32], target: i32) -> Law {
+        match actuator {
+            SEVERAL => (0..m.nactuator)
+                .filter(|&i| m.actuator_trnid[2 * i] == target && kinds.contains(&m.actuator_trntype[i]))
+                .fold(self, |law, i| law.with_actuator(m, i)),
+            ..0 => self,
+            i => self.with_actuator(m, i as usize),
+        }
+    }
+
+    fn with_actuator(self, m: &Model, i: usize) -> Law {
+        let gear = rows::<6>(&m.actuator_gear)[m.actuator_outadr[i] as usize][0];
+        let added = Law::new(&m.actuator_damping, &m.actuator_dampingpoly, i);
+        let square = gear * gear;
+        Law {
+            linear: self.linear + square * added.linear,
+            growth: add_scaled(self.growth, added.growth, square),
+        }
+    }
+
     /// Nothing there.
     #[inline(always)]
     pub(crate) fn is_zero(self) -> bool {
@@ -31,6 +70,13 @@ impl Law {
     #[inline(always)]
     pub(crate) fn at(self, x: f64) -> f64 {
         self.linear + x * (self.growth[0] + x * self.growth[1])
+    }
+
+    /// Derivative of the force of a spring at displacement x, or of a damper at velocity x, without its sign:
+    /// k + 2 p₁ x + 3 p₂ x², with the magnitude of a velocity.
+    #[inline(always)]
+    pub(crate) fn slope(self, x: f64) -> f64 {
+        self.linear + x * (2.0 * self.growth[0] + x * 3.0 * self.growth[1])
     }
 
     /// Energy of a spring at displacement x: k x²/2 + p₁ x³/3 + p₂ x⁴/4.
@@ -65,7 +111,7 @@ pub(super) fn joint_springs(m: &Model, d: &mut Data) {
 }
 
 /// How far the spring of a free or ball joint is stretched: translation (free only) and rotation vector.
-fn displacements(m: &Model, d: &Data, j: usize) -> (Option<Vec3>, Vec3) {
+pub(crate) fn displacements(m: &Model, d: &Data, j: usize) -> (Option<Vec3>, Vec3) {
     let q = m.jnt_qposadr[j] as usize;
     if m.jnt_type[j] == joint::FREE {
         let shift = [0, 1, 2].map(|i| d.qpos[q + i] - m.qpos_spring[q + i]);
@@ -85,7 +131,7 @@ fn ball_displacement(q: &[f64], reference: &[f64]) -> Vec3 {
 /// The dampers of joints, by `qfrc_damper`.
 pub(super) fn joint_dampers(m: &Model, d: &mut Data) {
     for i in 0..m.nv {
-        let law = Law::new(&m.dof_damping, &m.dof_dampingpoly, i);
+        let law = Law::dof_damper(m, i);
         // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.
         if !law.is_zero() {
             let v = d.qvel[i];
@@ -99,7 +145,7 @@ pub(super) fn joint_dampers(m: &Model, d: &mut Data) {
 pub(super) fn tendons(m: &Model, d: &mut Data, springs: bool, dampers: bool) {
     for t in 0..m.ntendon {
         let spring = Law::new(&m.tendon_stiffness, &m.tendon_stiffnesspoly, t);
-        let damper = Law::new(&m.tendon_damping, &m.tendon_dampingpoly, t);
+        let damper = Law::tendon_damper(m, t);
         if springs && !spring.is_zero() {
             let x = tendon::spring_displacement(m, d, t);
             let force = -spring.at(x) * x;

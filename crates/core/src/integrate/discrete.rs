@@ -1,0 +1,3 @@
+//! The discrete integrator.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Metric {}
