@@ -54,7 +54,7 @@ pub use integrate::{differentiate_pos, integrate_pos};
 pub use mass::full_m;
 pub use model::{Model, Names, Obj, Options, Statistic};
 pub use model::{
-    biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, trntype, wraptype,
+    biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, solver, trntype, wraptype,
 };
 pub use pipeline::{forward, set_plan, step, step1, step2};
 pub use plan::{Demand, Plan};

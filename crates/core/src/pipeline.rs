@@ -5,7 +5,7 @@ use crate::plan::Plan;
 use crate::reflect::Stage;
 use crate::{
     Data, Model, Warning, actuation, camera, chain, collision, com, constraint, disable, enable, energy,
-    integrate, kinematics,
+    integrate, integrator, kinematics,
 };
 use crate::{jacobian, mass, passive, reset, rne, sensor, tendon, transmission};
 
@@ -166,7 +166,9 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     if d.plan.applied_forces {
         applied_forces(m, d);
     }
-    if d.plan.some_general {
+    if m.opt.integrator == integrator::DISCRETE {
+        integrate::discrete::acceleration(m, d);
+    } else if d.plan.some_general {
         d.qacc_smooth.copy_from_slice(&d.qfrc_smooth);
         mass::solve(m, &d.qLD, &d.qLDiagInv, &mut d.qacc_smooth, 0..m.nv);
     } else {
@@ -190,10 +192,20 @@ fn applied_forces(m: &Model, d: &mut Data) {
 
 /// `qacc` and constraint forces.
 pub(crate) fn constraints(m: &Model, d: &mut Data) {
+    let discrete = m.opt.integrator == integrator::DISCRETE;
     if d.plan.keeps(Stage::Solve) {
+        if discrete {
+            integrate::discrete::exchange_metric(d);
+        }
         constraint::solve(m, d);
+        if discrete {
+            integrate::discrete::exchange_metric(d);
+        }
     } else {
         d.qacc.copy_from_slice(&d.qacc_smooth);
+    }
+    if discrete {
+        integrate::discrete::turn_free_bodies(m, d);
     }
 }
 

@@ -74,6 +74,20 @@ pub(crate) fn velocity_slope(m: &Model, d: &Data, i: usize) -> f64 {
     slope
 }
 
+/// ∂force/∂length.
+pub(crate) fn length_slope(m: &Model, d: &Data, i: usize) -> f64 {
+    let prm = |of: &[f64]| rows::<PARAMETERS>(of)[i];
+    let (gain, bias) = (prm(&m.actuator_gainprm), prm(&m.actuator_biasprm));
+    let mut slope = match m.actuator_biastype[i] {
+        biastype::AFFINE | biastype::SO3 => bias[1],
+        _ => 0.0,
+    };
+    if m.actuator_gaintype[i] == gaintype::AFFINE {
+        slope += gain[1] * input(m, d, i);
+    }
+    slope
+}
+
 /// What the gain multiplies: the control, or the last activation.
 fn input(m: &Model, d: &Data, i: usize) -> f64 {
     if m.actuator_dyntype[i] == dyntype::NONE || m.actuator_actnum[i] == 0 {

@@ -31,7 +31,7 @@ pub(crate) enum Medium {
     Whole,
     /// The symmetric part for bodies that are not free rigid ones.
     Symmetric,
-    /// Drag and viscosity: they dissipate.
+    /// The symmetric part of drag and viscosity: they dissipate.
     Drag,
 }
 
@@ -64,14 +64,25 @@ pub(crate) fn subtract_bias(m: &Model, d: &Data, w: &mut Work) {
 /// Subtracts the derivative of the bias force of one tree.
 pub(crate) fn subtract_tree_bias(m: &Model, d: &Data, w: &mut Work, tree: usize) {
     let first = m.tree_bodyadr[tree] as usize;
-    bias::subtract(
-        m,
-        d,
-        &mut w.bias,
-        first..first + m.tree_bodynum[tree] as usize,
-        tree_dofs(m, tree),
-        &mut w.whole,
-    );
+    let bodies = first..first + m.tree_bodynum[tree] as usize;
+    bias::subtract(m, d, &mut w.bias, bodies, tree_dofs(m, tree), &mut w.whole);
+}
+
+/// The rows of one tree in `w.whole` ← minus the derivative of its bias force.
+pub(crate) fn tree_bias(m: &Model, d: &Data, w: &mut Work, tree: usize) {
+    w.resize(m);
+    for i in tree_dofs(m, tree) {
+        let start = m.D_rowadr[i] as usize;
+        w.whole[start..start + m.D_rownnz[i] as usize].fill(0.0);
+    }
+    subtract_tree_bias(m, d, w, tree);
+}
+
+/// `w.whole` ← the derivative of the medium's forces.
+pub(crate) fn medium(m: &Model, d: &Data, w: &mut Work, medium: Medium) {
+    w.resize(m);
+    w.whole.fill(0.0);
+    add_fluid(m, d, w, medium);
 }
 
 /// The degrees of freedom of a tree.
@@ -102,8 +113,7 @@ fn dampers(m: &Model, d: &Data, out: &mut [f64]) {
 }
 
 /// Adds Jᵀ B J for the derivative B of the forces on every body or geom in the medium.
-pub(crate) fn add_fluid(m: &Model, d: &Data, w: &mut Work, medium: Medium) {
-    w.resize(m);
+fn add_fluid(m: &Model, d: &Data, w: &mut Work, medium: Medium) {
     let Work { whole, columns, .. } = w;
     fluid::shapes(m, d, |frame, shape| {
         let last = jacobian::last_dof(m, frame.body);
@@ -152,7 +162,12 @@ fn slope(m: &Model, frame: &Frame, shape: &Shape, medium: Medium) -> [Spatial; 6
         Shape::Ellipsoid(ellipsoid) => b = ellipsoid.derivative(frame.motion),
     }
     let tree = m.body_treeid[frame.body];
-    if medium == Medium::Symmetric && !(tree >= 0 && is_free_rigid(m, tree as usize)) {
+    let symmetric = match medium {
+        Medium::Whole => false,
+        Medium::Symmetric => !(tree >= 0 && is_free_rigid(m, tree as usize)),
+        Medium::Drag => true,
+    };
+    if symmetric {
         for r in 0..6 {
             for c in 0..r {
                 let mean = 0.5 * (b[r][c] + b[c][r]);
