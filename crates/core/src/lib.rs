@@ -31,6 +31,7 @@ mod energy;
 mod equality;
 mod fields;
 mod integrate;
+mod inverse;
 mod jacobian;
 mod kinematics;
 mod mass;
@@ -51,7 +52,11 @@ mod transmission;
 pub use collision::{can_collide, contact_force};
 pub use data::{Contact, Data, Warning, WarningStat};
 pub use integrate::{differentiate_pos, integrate_pos};
-pub use mass::full_m;
+pub use inverse::{InverseError, inverse};
+pub use jacobian::{
+    Jacobian, apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,
+};
+pub use mass::{full_m, mul_m, solve_m, solve_m2};
 pub use model::{Model, Names, Obj, Options, Statistic};
 pub use model::{
     biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, solver, trntype, wraptype,
@@ -59,4 +64,5 @@ pub use model::{
 pub use pipeline::{forward, set_plan, step, step1, step2};
 pub use plan::{Demand, Plan};
 pub use reset::{reset_data, reset_data_keyframe};
+pub use rne::rne;
 pub use setconst::set_const;

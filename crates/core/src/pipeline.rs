@@ -210,7 +210,7 @@ pub(crate) fn constraints(m: &Model, d: &mut Data) {
 }
 
 /// Sensors and energy of the position stage.
-fn read_position(m: &Model, d: &mut Data) {
+pub(crate) fn read_position(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Sensors) {
         sensor::position_stage(m, d);
     }
@@ -224,7 +224,7 @@ fn read_position(m: &Model, d: &mut Data) {
 }
 
 /// Sensors and energy of the velocity stage.
-fn read_velocity(m: &Model, d: &mut Data) {
+pub(crate) fn read_velocity(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Sensors) {
         sensor::velocity_stage(m, d);
     }
@@ -234,7 +234,7 @@ fn read_velocity(m: &Model, d: &mut Data) {
 }
 
 /// Sensors of the acceleration stage.
-fn read_acceleration(m: &Model, d: &mut Data) {
+pub(crate) fn read_acceleration(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Sensors) {
         sensor::acceleration_stage(m, d);
     }

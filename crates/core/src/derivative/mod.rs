@@ -12,7 +12,7 @@ use std::ops::Range;
 use crate::math::*;
 use crate::passive::fluid::{self, Frame, Shape};
 use crate::passive::spring::Law;
-use crate::{Data, Model, disable, jacobian, joint, tendon};
+use crate::{Data, Model, disable, jacobian, joint, mass, tendon};
 
 /// What is computed anew in every step; its arrays are made when they are first needed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -83,6 +83,18 @@ pub(crate) fn medium(m: &Model, d: &Data, w: &mut Work, medium: Medium) {
     w.resize(m);
     w.whole.fill(0.0);
     add_fluid(m, d, w, medium);
+}
+
+/// M - h D for a free joint, given its first degree of freedom, with a matrix in the place of M.
+pub(crate) fn free_block(m: &Model, mass: &[f64], w: &Work, h: f64, first: usize) -> [Spatial; 6] {
+    let mut out = mass::free_block(m, mass, first);
+    for (r, row) in out.iter_mut().enumerate() {
+        let start = m.D_rowadr[first + r] as usize;
+        for (x, y) in row.iter_mut().zip(&w.whole[start..start + 6]) {
+            *x -= h * y;
+        }
+    }
+    out
 }
 
 /// The degrees of freedom of a tree.

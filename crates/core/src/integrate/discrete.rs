@@ -12,7 +12,7 @@
 
 use super::implicit::solve_six;
 use crate::derivative::{self, Medium, actuator};
-use crate::math::{Spatial, dot_slice, norm};
+use crate::math::{Spatial, dot, dot_slice, norm};
 use crate::passive::{fluid, spring, spring::Law};
 use crate::{Data, Model, disable, joint, mass, solver, tendon};
 
@@ -80,23 +80,35 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
 pub(crate) fn turn_free_bodies(m: &Model, d: &mut Data) {
     let w = std::mem::take(&mut d.work.metric);
     let mut slopes = std::mem::take(&mut d.work.derivative);
-    for tree in (0..m.ntree).filter(|&t| !w.coupled[t] && derivative::is_free_rigid(m, t)) {
-        let first = m.tree_dofadr[tree] as usize;
-        if d.work.jac.touches(first..first + 6) {
-            continue;
-        }
-        derivative::tree_bias(m, d, &mut slopes, tree);
-        let mut a = mass::free_block(m, &w.matrix, first);
-        for (r, row) in a.iter_mut().enumerate() {
-            let start = m.D_rowadr[first + r] as usize;
-            for (x, y) in row.iter_mut().zip(&slopes.whole[start..start + 6]) {
-                *x -= m.opt.timestep * y;
+    for tree in 0..m.ntree {
+        if let Some((first, mut a)) = w.free_block(m, d, &mut slopes, tree) {
+            let mut f: Spatial = std::array::from_fn(|r| w.force[first + r]);
+            if solve_six(&mut a, &mut f) {
+                d.qacc[first..first + 6].copy_from_slice(&f);
             }
         }
-        let mut f: Spatial = std::array::from_fn(|r| w.force[first + r]);
-        if solve_six(&mut a, &mut f) {
-            d.qacc[first..first + 6].copy_from_slice(&f);
+    }
+    (d.work.metric, d.work.derivative) = (w, slopes);
+}
+
+/// Adds to `qfrc_inverse` what the metric adds to M times `qacc`, and h K v.
+pub(crate) fn add_to_inverse(m: &Model, d: &mut Data) {
+    let mut w = std::mem::take(&mut d.work.metric);
+    let mut slopes = std::mem::take(&mut d.work.derivative);
+    w.build(m, d, &mut slopes);
+    w.search.copy_from_slice(&d.qacc);
+    w.multiply(m, d);
+    for tree in 0..m.ntree {
+        if let Some((first, a)) = w.free_block(m, d, &mut slopes, tree) {
+            let x: Spatial = std::array::from_fn(|r| d.qacc[first + r]);
+            for (f, row) in w.product[first..first + 6].iter_mut().zip(a) {
+                *f = dot(row, x);
+            }
         }
+    }
+    for i in 0..m.nv {
+        // The product has M in it, too.
+        d.qfrc_inverse[i] = w.product[i] + d.qfrc_smooth[i] - w.force[i];
     }
     (d.work.metric, d.work.derivative) = (w, slopes);
 }
@@ -269,6 +281,23 @@ impl Metric {
                 self.residual[i] -= alpha * self.product[i];
             }
         }
+    }
+
+    /// The metric of a rigid body that moves freely, coupled with nothing, and the derivative of its gyroscopic
+    /// force: the first degree of freedom, and the block.
+    fn free_block(
+        &self,
+        m: &Model,
+        d: &Data,
+        slopes: &mut derivative::Work,
+        tree: usize,
+    ) -> Option<(usize, [Spatial; 6])> {
+        let first = m.tree_dofadr[tree] as usize;
+        if self.coupled[tree] || !derivative::is_free_rigid(m, tree) || d.work.jac.touches(first..first + 6) {
+            return None;
+        }
+        derivative::tree_bias(m, d, slopes, tree);
+        Some((first, derivative::free_block(m, &self.matrix, slopes, m.opt.timestep, first)))
     }
 
     /// `product` ← metric `search`.

@@ -14,11 +14,11 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
         return;
     }
     let h = m.opt.timestep;
-    let w = &mut d.work;
-    w.ld.copy_from_slice(&d.M);
+    d.work.ld.copy_from_slice(&d.M);
     for i in 0..m.nv {
-        w.ld[mass::diagonal(m, i)] += h * Law::dof_damper(m, i).slope(d.qvel[i].abs());
+        d.work.ld[mass::diagonal(m, i)] += h * damping(m, d, i);
     }
+    let w = &mut d.work;
     mass::factor(m, &mut w.ld, &mut w.diag_inv);
     let mut acceleration = std::mem::take(&mut w.qacc);
     for (a, (f, c)) in acceleration.iter_mut().zip(d.qfrc_smooth.iter().zip(&d.qfrc_constraint)) {
@@ -29,8 +29,14 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
     d.work.qacc = acceleration;
 }
 
+/// The derivative of the damping force of a degree of freedom.
+#[inline(always)]
+pub(crate) fn damping(m: &Model, d: &Data, i: usize) -> f64 {
+    Law::dof_damper(m, i).slope(d.qvel[i].abs())
+}
+
 /// Whether some degree of freedom has a damper, and dampers are on.
-fn damps(m: &Model, d: &Data) -> bool {
+pub(crate) fn damps(m: &Model, d: &Data) -> bool {
     d.plan.keeps(Stage::Passive)
         && !m.opt.disabled(disable::EULERDAMP)
         && !m.opt.disabled(disable::DAMPER)

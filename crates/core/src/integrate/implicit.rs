@@ -48,13 +48,7 @@ pub(super) fn implicitfast(m: &Model, d: &mut Data) {
         derivative::subtract_tree_bias(m, d, &mut w, t);
         let first = m.tree_dofadr[t] as usize;
         let mut f: Spatial = std::array::from_fn(|r| d.qfrc_smooth[first + r] + d.qfrc_constraint[first + r]);
-        let mut a = mass::free_block(m, &d.M, first);
-        for (r, row) in a.iter_mut().enumerate() {
-            let start = m.D_rowadr[first + r] as usize;
-            for (x, y) in row.iter_mut().zip(&w.whole[start..start + 6]) {
-                *x -= h * y;
-            }
-        }
+        let mut a = derivative::free_block(m, &d.M, &w, h, first);
         if solve_six(&mut a, &mut f) {
             acceleration[first..first + 6].copy_from_slice(&f);
         }

@@ -10,6 +10,7 @@ mod runge_kutta;
 use crate::{Data, Model, integrator};
 
 pub(crate) use discrete::Metric;
+pub(crate) use euler::{damping, damps};
 pub use position::{differentiate_pos, integrate_pos};
 pub(crate) use runge_kutta::RungeKutta;
 

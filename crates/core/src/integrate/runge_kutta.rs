@@ -12,7 +12,7 @@ pub(crate) struct RungeKutta {
     qpos: Vec<f64>,
     qvel: Vec<f64>,
     act: Vec<f64>,
-    qacc: Vec<f64>,
+    pub(crate) qacc: Vec<f64>,
     /// Weighted sums of the stages' slopes, and the velocity of one stage.
     dpos: Vec<f64>,
     dvel: Vec<f64>,
