@@ -15,19 +15,46 @@ const RANDOM: usize = 100;
 
 /// What is known to differ, and why.
 const EXCEPTIONS: &[Exception] = &[
-    ("*", "compile", "fields whose compilation is not here yet"),
-    ("*", "forward", "fields whose compilation is not here yet"),
-    ("*", "implicit", "the integrator is not here yet"),
-    ("*", "discrete", "the integrator is not here yet"),
-    ("*", "implicitfast", "the integrator is not here yet"),
     ("bench/chain100", "Euler", "not examined yet: the chain is very sensitive"),
+    ("bench/chain100", "forward", "not examined yet: the chain is very sensitive"),
+    ("bench/chain100", "implicit", "not examined yet: the chain is very sensitive"),
+    ("bench/chain100", "implicitfast", "not examined yet: the chain is very sensitive"),
+    ("bench/chain100", "discrete", "not examined yet: the chain is very sensitive"),
+    ("conformance/engine__vis_visualize__frustum", "compile", "single precision"),
+    ("conformance/frustum", "compile", "single precision"),
     (
         "conformance/engine__solver__humanoid",
         "load",
         "its key has fewer numbers than the model; the library pads them",
     ),
+    (
+        "conformance/mjx__actuator__arm26",
+        "compile",
+        "the range of lengths of its muscles is not computed yet",
+    ),
+    (
+        "conformance/mjx__actuator__arm26",
+        "forward",
+        "the range of lengths of its muscles is not computed yet",
+    ),
     ("conformance/mjx__actuator__arm26", "Euler", "the range of lengths of its muscles is not computed yet"),
     ("conformance/mjx__actuator__arm26", "RK4", "the range of lengths of its muscles is not computed yet"),
+    (
+        "conformance/mjx__actuator__arm26",
+        "implicit",
+        "the range of lengths of its muscles is not computed yet",
+    ),
+    (
+        "conformance/mjx__actuator__arm26",
+        "implicitfast",
+        "the range of lengths of its muscles is not computed yet",
+    ),
+    (
+        "conformance/mjx__actuator__arm26",
+        "discrete",
+        "the range of lengths of its muscles is not computed yet",
+    ),
+    ("conformance/model__slider_crank__slider_crank", "forward", "pattern of moments"),
     ("conformance/user__lengthrange", "load", "a tendon outside a replica that ties one of its copies"),
 ];
 

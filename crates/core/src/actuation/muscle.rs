@@ -8,25 +8,29 @@ use crate::math::*;
 use crate::{Data, Model};
 
 /// A muscle in normalized units.
-pub(super) struct State {
+pub(crate) struct State {
     /// Peak isometric force, N.
     peak: f64,
     /// Length in optimal lengths.
     length: f64,
     /// Velocity in largest shortening velocities.
     velocity: f64,
+    /// The largest shortening velocity, m/s.
+    fastest: f64,
 }
 
 impl State {
     /// The muscle with output `o` and parameters `p`: its operating range is reached over `actuator_lengthrange`.
-    pub(super) fn new(m: &Model, d: &Data, o: usize, p: &[f64; 10]) -> State {
+    pub(crate) fn new(m: &Model, d: &Data, o: usize, p: &[f64; 10]) -> State {
         let [shortest, longest] = rows::<2>(&m.actuator_lengthrange)[o];
         let optimal = (longest - shortest) / (p[1] - p[0]).max(MINVAL);
         let peak = if p[2] >= 0.0 { p[2] } else { p[3] / m.actuator_acc0[o].max(MINVAL) };
+        let fastest = (optimal * p[6]).max(MINVAL);
         State {
             peak,
             length: p[0] + (d.actuator_length[o] - shortest) / optimal.max(MINVAL),
-            velocity: d.actuator_velocity[o] / (optimal * p[6]).max(MINVAL),
+            velocity: d.actuator_velocity[o] / fastest,
+            fastest,
         }
     }
 }
@@ -71,6 +75,20 @@ fn over_velocity(velocity: f64, fvmax: f64) -> f64 {
     } else {
         fvmax
     }
+}
+
+/// The derivative of the gain with respect to velocity.
+pub(crate) fn gain_slope(p: &[f64; 10], s: &State) -> f64 {
+    let [_, _, _, _, lmin, lmax, _, _, fvmax, _] = *p;
+    let y = fvmax - 1.0;
+    let slope = if s.velocity <= -1.0 || s.velocity > y {
+        0.0
+    } else if s.velocity <= 0.0 {
+        2.0 * (s.velocity + 1.0)
+    } else {
+        2.0 * (y - s.velocity) / y.max(MINVAL)
+    };
+    -s.peak * over_length(s.length, lmin, lmax) * slope / s.fastest
 }
 
 /// The passive force: a parabola from the optimal length to half way to `lmax`, and a line from there.

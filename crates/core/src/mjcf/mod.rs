@@ -222,6 +222,7 @@ fn build(
     let mut simple = layout::simple(&bodies, &inertias);
     fill_tendon::demote_simple(&mut simple, &bodies, &tendons, &actuators);
     let pattern = layout::pattern(&layout, &simple, report)?;
+    let whole = layout::whole_pattern(&layout, report)?;
 
     let mut m = Model { opt: options, ..Model::default() };
     m.names.model = settings::model_name(&tree);
@@ -231,6 +232,7 @@ fn build(
         layout: &layout,
         simple: &simple,
         pattern,
+        whole,
         tendons: &tendons,
         actuators: &actuators,
         counts,
