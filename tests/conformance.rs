@@ -20,8 +20,6 @@ const EXCEPTIONS: &[Exception] = &[
     ("bench/chain100", "implicit", "not examined yet: the chain is very sensitive"),
     ("bench/chain100", "implicitfast", "not examined yet: the chain is very sensitive"),
     ("bench/chain100", "discrete", "not examined yet: the chain is very sensitive"),
-    ("conformance/engine__vis_visualize__frustum", "compile", "single precision"),
-    ("conformance/frustum", "compile", "single precision"),
     (
         "conformance/engine__solver__humanoid",
         "load",

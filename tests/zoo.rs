@@ -25,8 +25,6 @@ const EXCEPTIONS: &[Exception] = &[
     ("actuator_muscle", "discrete", "not examined yet"),
     ("actuator_orientation_clamp", "implicitfast", "not examined yet"),
     ("actuator_orientation_clamp", "discrete", "not examined yet"),
-    ("cameras", "compile", "not examined yet"),
-    ("custom", "compile", "not examined yet"),
     ("lengthrange_options", "compile", "not examined yet"),
     ("lengthrange_options", "forward", "not examined yet"),
     ("lengthrange_options", "Euler", "not examined yet"),
@@ -34,12 +32,9 @@ const EXCEPTIONS: &[Exception] = &[
     ("lengthrange_options", "implicit", "not examined yet"),
     ("lengthrange_options", "implicitfast", "not examined yet"),
     ("lengthrange_options", "discrete", "not examined yet"),
-    ("looks", "compile", "not examined yet"),
-    ("options", "compile", "not examined yet"),
     ("actuator_transmissions", "forward", "not examined yet"),
     ("sensor_trees", "RK4", "not examined yet"),
     ("walker", "discrete", "not examined yet"),
-    ("sensor_camera", "compile", "not examined yet"),
 ];
 
 fn folder() -> PathBuf {

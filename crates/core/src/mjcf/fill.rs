@@ -31,6 +31,8 @@ pub(crate) struct Users {
     pub(crate) site: usize,
     pub(crate) camera: usize,
     pub(crate) actuator: usize,
+    /// Values of the whole model.
+    pub(crate) data: usize,
 }
 
 /// Everything that goes into a model.
@@ -76,6 +78,7 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     m.nsensor = sensor_list.len();
     m.nsensordata = sensor_list.iter().map(|s| s.dim as usize).sum();
     m.nuser_sensor = users.sensor;
+    m.nuserdata = users.data;
     m.nhistory += sensor_list.iter().map(SensorSpec::history).sum::<usize>();
     m.nkey = key_list.len();
     m.nC = pattern.colind.len();

@@ -198,6 +198,7 @@ fn build(
         ),
         tendon: settings::user_width(&tree, "nuser_tendon", tendons.iter().map(|t| &t.user), report),
         sensor: settings::user_width(&tree, "nuser_sensor", sensors.iter().map(|s| &s.user), report),
+        data: settings::userdata(&tree, report),
         actuator: settings::user_width(&tree, "nuser_actuator", actuator_users.iter(), report),
     };
     if !report.is_clean() {

@@ -126,6 +126,7 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         (from_zero("tolerance", d.tolerance), from_zero("ls_tolerance", d.ls_tolerance));
     let (noslip_tolerance, ccd_tolerance) =
         (from_zero("noslip_tolerance", d.noslip_tolerance), from_zero("ccd_tolerance", d.ccd_tolerance));
+    let sleep_tolerance = from_zero("sleep_tolerance", d.sleep_tolerance);
     let (density, viscosity) = (from_zero("density", 0.0), from_zero("viscosity", 0.0));
     let mut count = |name: &str, default: i32| {
         let n = p.int(name).unwrap_or(default);
@@ -139,6 +140,8 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         (count("iterations", d.iterations), count("ls_iterations", d.ls_iterations));
     let (noslip_iterations, ccd_iterations) =
         (count("noslip_iterations", d.noslip_iterations), count("ccd_iterations", d.ccd_iterations));
+    let (sdf_iterations, sdf_initpoints) =
+        (count("sdf_iterations", d.sdf_iterations), count("sdf_initpoints", d.sdf_initpoints));
     let (disableflags, enableflags) = flags(tree);
     let disableactuator = disabled_groups(&p, report);
     Options {
@@ -164,10 +167,13 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         ccd_iterations,
         noslip_tolerance,
         ccd_tolerance,
+        sleep_tolerance,
+        sdf_iterations,
+        sdf_initpoints,
+        jacobian: p.word("jacobian").unwrap_or(d.jacobian),
         disableflags,
         enableflags,
         disableactuator,
-        ..d
     }
 }
 
@@ -306,6 +312,21 @@ pub(crate) fn user_width<'l>(
         return 0;
     }
     width
+}
+
+/// The number of values that `size nuserdata` reserves.
+pub(crate) fn userdata(tree: &Tree, report: &mut Report) -> usize {
+    let p = section(tree, "size");
+    let n = p.int("nuserdata").unwrap_or(0);
+    match usize::try_from(n) {
+        Ok(n) if n <= MAX_USER => n,
+        _ => {
+            let span = p.span("nuserdata").unwrap_or(0..0);
+            let message = format!("`nuserdata` of size is {n}, it must be between 0 and {MAX_USER}");
+            report.error(code::VALUE, span, message);
+            0
+        }
+    }
 }
 
 /// The model's name.

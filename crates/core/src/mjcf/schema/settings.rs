@@ -55,7 +55,7 @@ pub(super) static OPTION: Element = Element::new(
             [Ignored("how matrices are stored")];
         INT => noslip_iterations ccd_iterations;
         REAL => noslip_tolerance ccd_tolerance;
-        REAL => sleep_tolerance [Ignored("for sleeping, which is refused")];
+        REAL => sleep_tolerance [Ignored("kept; sleeping is refused")];
         INT => sdf_iterations sdf_initpoints [Ignored("for signed distance fields, which are refused")];
         INTS => actuatorgroupdisable;
     }],
@@ -84,7 +84,7 @@ pub(super) static SIZE: Element = Element::new(
         TEXT => memory [MEMORY];
         INT => njmax nconmax nstack [MEMORY];
         INT => nuser_body nuser_jnt nuser_tendon nuser_actuator;
-        INT => nuserdata nuser_geom nuser_site nuser_cam nuser_sensor [super::USER];
+        INT => nuserdata nuser_geom nuser_site nuser_cam nuser_sensor;
     }],
 );
 
