@@ -52,7 +52,6 @@ const EXCEPTIONS: &[Exception] = &[
         "discrete",
         "the range of lengths of its muscles is not computed yet",
     ),
-    ("conformance/model__slider_crank__slider_crank", "forward", "pattern of moments"),
     ("conformance/user__lengthrange", "load", "a tendon outside a replica that ties one of its copies"),
 ];
 

@@ -11,10 +11,6 @@ use std::path::PathBuf;
 
 /// What is known to differ, and why.
 const EXCEPTIONS: &[Exception] = &[
-    ("actuator_attributes", "discrete", "not examined yet"),
-    ("actuator_dcmotor_states", "implicit", "not examined yet"),
-    ("actuator_dcmotor_states", "implicitfast", "not examined yet"),
-    ("actuator_dcmotor_states", "discrete", "not examined yet"),
     ("actuator_lengthrange", "compile", "not examined yet"),
     ("actuator_lengthrange", "forward", "not examined yet"),
     ("actuator_lengthrange", "Euler", "not examined yet"),
@@ -22,7 +18,6 @@ const EXCEPTIONS: &[Exception] = &[
     ("actuator_lengthrange", "implicit", "not examined yet"),
     ("actuator_lengthrange", "implicitfast", "not examined yet"),
     ("actuator_lengthrange", "discrete", "not examined yet"),
-    ("actuator_muscle", "discrete", "not examined yet"),
     ("actuator_orientation_clamp", "implicitfast", "not examined yet"),
     ("actuator_orientation_clamp", "discrete", "not examined yet"),
     ("lengthrange_options", "compile", "not examined yet"),
@@ -32,9 +27,7 @@ const EXCEPTIONS: &[Exception] = &[
     ("lengthrange_options", "implicit", "not examined yet"),
     ("lengthrange_options", "implicitfast", "not examined yet"),
     ("lengthrange_options", "discrete", "not examined yet"),
-    ("actuator_transmissions", "forward", "not examined yet"),
     ("sensor_trees", "RK4", "not examined yet"),
-    ("walker", "discrete", "not examined yet"),
 ];
 
 fn folder() -> PathBuf {

@@ -10,7 +10,7 @@
 mod activation;
 mod control;
 mod limit;
-mod motor;
+pub(crate) mod motor;
 pub(crate) mod muscle;
 mod servo;
 

@@ -15,6 +15,8 @@ pub(crate) struct State {
     length: f64,
     /// Velocity in largest shortening velocities.
     velocity: f64,
+    /// The optimal length, m.
+    optimal: f64,
     /// The largest shortening velocity, m/s.
     fastest: f64,
 }
@@ -28,6 +30,7 @@ impl State {
         let fastest = (optimal * p[6]).max(MINVAL);
         State {
             peak,
+            optimal: optimal.max(MINVAL),
             length: p[0] + (d.actuator_length[o] - shortest) / optimal.max(MINVAL),
             velocity: d.actuator_velocity[o] / fastest,
             fastest,
@@ -78,7 +81,7 @@ fn over_velocity(velocity: f64, fvmax: f64) -> f64 {
 }
 
 /// The derivative of the gain with respect to velocity.
-pub(crate) fn gain_slope(p: &[f64; 10], s: &State) -> f64 {
+pub(crate) fn gain_by_velocity(p: &[f64; 10], s: &State) -> f64 {
     let [_, _, _, _, lmin, lmax, _, _, fvmax, _] = *p;
     let y = fvmax - 1.0;
     let slope = if s.velocity <= -1.0 || s.velocity > y {
@@ -89,6 +92,37 @@ pub(crate) fn gain_slope(p: &[f64; 10], s: &State) -> f64 {
         2.0 * (y - s.velocity) / y.max(MINVAL)
     };
     -s.peak * over_length(s.length, lmin, lmax) * slope / s.fastest
+}
+
+/// The derivative of the gain with respect to length.
+pub(crate) fn gain_by_length(p: &[f64; 10], s: &State) -> f64 {
+    let [_, _, _, _, lmin, lmax, _, _, fvmax, _] = *p;
+    -s.peak * slope_over_length(s.length, lmin, lmax) * over_velocity(s.velocity, fvmax) / s.optimal
+}
+
+/// The derivative of [`over_length`].
+fn slope_over_length(length: f64, lmin: f64, lmax: f64) -> f64 {
+    if length < lmin || length > lmax {
+        return 0.0;
+    }
+    let (rise, fall) = (0.5 * (lmin + 1.0), 0.5 * (1.0 + lmax));
+    let part = |distance: f64, width: f64| distance / (width * width).max(MINVAL);
+    if length <= rise {
+        part(length - lmin, rise - lmin)
+    } else if length <= 1.0 {
+        part(1.0 - length, 1.0 - rise)
+    } else if length <= fall {
+        -part(length - 1.0, fall - 1.0)
+    } else {
+        -part(lmax - length, lmax - fall)
+    }
+}
+
+/// The derivative of the passive force with respect to length.
+pub(crate) fn bias_by_length(p: &[f64; 10], s: &State) -> f64 {
+    let (lmax, fpmax) = (p[5], p[7]);
+    let width = (0.5 * (1.0 + lmax) - 1.0).max(MINVAL);
+    -s.peak * fpmax * ((s.length - 1.0) / width).clamp(0.0, 1.0) / (width * s.optimal)
 }
 
 /// The passive force: a parabola from the optimal length to half way to `lmax`, and a line from there.

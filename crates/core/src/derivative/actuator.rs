@@ -1,6 +1,6 @@
 //! How the force of an actuator changes with its velocity.
 
-use crate::actuation::{self, muscle, prm};
+use crate::actuation::{self, motor, muscle, prm};
 use crate::math::*;
 use crate::{Data, Model, biastype, disable, gaintype};
 
@@ -12,7 +12,7 @@ pub(super) fn add_velocity(m: &Model, d: &Data, out: &mut [f64]) {
         return;
     }
     for i in (0..m.nactuator).filter(|&i| acts(m, d, i)) {
-        let slope = velocity_slope(m, d, i);
+        let slope = slopes(m, d, i).velocity;
         if slope != 0.0 {
             for (dofs, moment) in moments(m, d, i) {
                 sparse::add_outer(m, dofs, moment, slope, out);
@@ -52,55 +52,42 @@ pub(crate) fn acts(m: &Model, d: &Data, i: usize) -> bool {
     }
 }
 
-/// ∂force/∂velocity.
-pub(crate) fn velocity_slope(m: &Model, d: &Data, i: usize) -> f64 {
-    let (dynamics, gain, bias) =
-        (prm(&m.actuator_dynprm, i), prm(&m.actuator_gainprm, i), prm(&m.actuator_biasprm, i));
-    let mut slope = match m.actuator_biastype[i] {
-        biastype::AFFINE | biastype::SO3 => bias[2],
-        biastype::DCMOTOR if dynamics[0] <= 0.0 => -gain[1] * gain[1] / gain[0].max(MINVAL),
-        _ => 0.0,
-    };
+/// ∂force/∂velocity and ∂force/∂length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slopes {
+    pub(crate) velocity: f64,
+    pub(crate) length: f64,
+}
+
+/// How the force of an actuator follows its state within a step.
+pub(crate) fn slopes(m: &Model, d: &Data, i: usize) -> Slopes {
+    let (gain, bias) = (prm(&m.actuator_gainprm, i), prm(&m.actuator_biasprm, i));
+    let mut out = Slopes { velocity: 0.0, length: 0.0 };
+    if matches!(m.actuator_biastype[i], biastype::AFFINE | biastype::SO3) {
+        out = Slopes { velocity: bias[2], length: bias[1] };
+    }
     match m.actuator_gaintype[i] {
-        gaintype::AFFINE => slope += gain[2] * actuation::input(m, d, i, &d.work.ctrl),
-        gaintype::MUSCLE => {
-            let state = muscle::State::new(m, d, m.actuator_outadr[i] as usize, gain);
-            slope += muscle::gain_slope(gain, &state) * actuation::input(m, d, i, &d.work.ctrl);
+        gaintype::AFFINE => {
+            let input = actuation::input(m, d, i, &d.work.ctrl);
+            out.velocity += gain[2] * input;
+            out.length += gain[1] * input;
         }
-        gaintype::DCMOTOR => slope += motor_slope(m.opt.timestep, dynamics, gain),
+        gaintype::MUSCLE => {
+            let input = actuation::input(m, d, i, &d.work.ctrl);
+            let state = muscle::State::new(m, d, m.actuator_outadr[i] as usize, gain);
+            out.velocity += muscle::gain_by_velocity(gain, &state) * input;
+            out.length += muscle::gain_by_length(gain, &state) * input;
+        }
+        gaintype::DCMOTOR => {
+            let [velocity, length] = motor::slopes(m, d, i, &d.work.ctrl);
+            out.velocity += velocity;
+            out.length += length;
+        }
         _ => {}
     }
-    slope
-}
-
-/// ∂force/∂length.
-pub(crate) fn length_slope(m: &Model, d: &Data, i: usize) -> f64 {
-    let (gain, bias) = (prm(&m.actuator_gainprm, i), prm(&m.actuator_biasprm, i));
-    let mut slope = match m.actuator_biastype[i] {
-        biastype::AFFINE | biastype::SO3 => bias[1],
-        _ => 0.0,
-    };
-    if m.actuator_gaintype[i] == gaintype::AFFINE {
-        slope += gain[1] * actuation::input(m, d, i, &d.work.ctrl);
+    if m.actuator_biastype[i] == biastype::MUSCLE {
+        let state = muscle::State::new(m, d, m.actuator_outadr[i] as usize, bias);
+        out.length += muscle::bias_by_length(bias, &state);
     }
-    slope
-}
-
-/// A motor's voltage U drives the torque K U/R, against friction in its bristles. The voltage of a position
-/// controller falls by kd with the velocity, that of a velocity controller by kp; the current follows with the time
-/// constant of the coil.
-fn motor_slope(h: f64, dynamics: &[f64; 10], gain: &[f64; 10]) -> f64 {
-    let (resistance, constant) = (gain[0].max(MINVAL), gain[1]);
-    let voltage = match gain[8] as i32 {
-        1 => -gain[6],
-        2 => -gain[4],
-        _ => 0.0,
-    };
-    let coil = dynamics[0];
-    let driven = if coil > 0.0 {
-        constant * (voltage - constant) * (1.0 - libm::exp(-h / coil)) / resistance
-    } else {
-        constant * voltage / resistance
-    };
-    driven - dynamics[6].max(0.0)
+    out
 }

@@ -219,10 +219,10 @@ impl Metric {
             return;
         }
         for i in (0..m.nactuator).filter(|&i| actuator::acts(m, d, i)) {
-            let (stiffness, damping) = (-actuator::length_slope(m, d, i), -actuator::velocity_slope(m, d, i));
+            let slopes = actuator::slopes(m, d, i);
             let first = m.actuator_outadr[i] as usize;
             for o in first..first + m.actuator_outnum[i] as usize {
-                self.add(m, d, Row::Output(o), stiffness, damping, d.actuator_velocity[o]);
+                self.add(m, d, Row::Output(o), -slopes.length, -slopes.velocity, d.actuator_velocity[o]);
             }
         }
     }
