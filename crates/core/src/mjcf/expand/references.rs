@@ -9,7 +9,7 @@ use crate::mjcf::tree::{Attribute, Node};
 use crate::mjcf::values::Value;
 
 /// Objects by kind and name.
-pub(super) type Names = BTreeSet<(&'static str, String)>;
+pub(crate) type Names = BTreeSet<(&'static str, String)>;
 
 /// Sections whose elements refer to objects, those that are referred to first.
 pub(super) const SECTIONS: [&str; 6] = ["contact", "tendon", "equality", "actuator", "sensor", "custom"];
@@ -20,7 +20,7 @@ pub(super) fn is_asset(kind: &str) -> bool {
 }
 
 /// The kind of object that an attribute names, `None` for all other attributes.
-pub(super) fn kind_of(node: &Node, attribute: &Attribute) -> Option<&'static str> {
+pub(crate) fn kind_of(node: &Node, attribute: &Attribute) -> Option<&'static str> {
     // An object whose kind stands in another attribute.
     let chosen = match attribute.attr.name {
         "objname" => node.attribute("objtype"),
