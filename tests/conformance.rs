@@ -21,14 +21,8 @@ const EXCEPTIONS: &[Exception] = &[
     ("*", "discrete", "the integrator is not here yet"),
     ("*", "implicitfast", "the integrator is not here yet"),
     ("bench/chain100", "Euler", "not examined yet: the chain is very sensitive"),
-    (
-        "conformance/engine__solver__humanoid",
-        "load",
-        "its key has fewer numbers than the model; the library pads them",
-    ),
     ("conformance/mjx__actuator__arm26", "Euler", "the range of lengths of its muscles is not computed yet"),
     ("conformance/mjx__actuator__arm26", "RK4", "the range of lengths of its muscles is not computed yet"),
-    ("conformance/user__lengthrange", "load", "a tendon outside a replica that ties one of its copies"),
 ];
 
 /// Folder of the recordings, and of the models in `../shared`.

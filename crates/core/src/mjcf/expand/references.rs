@@ -74,14 +74,13 @@ pub(super) fn of(nodes: &[Node], at: usize) -> Vec<(&'static str, String)> {
 /// another model the rest can only be the world.
 pub(super) fn follows(
     section: &str,
-    node: &Node,
     refs: &[(&'static str, String)],
     copied: &Names,
     other_model: bool,
 ) -> bool {
     let is_copied = |r: &(&'static str, String)| copied.contains(r);
     let stays = |r: &(&'static str, String)| !other_model || r.0 == "body" && r.1 == WORLD;
-    let one_is_enough = matches!(section, "contact" | "sensor") || node.element.name == "fixed";
+    let one_is_enough = matches!(section, "contact" | "sensor" | "tendon");
     match refs {
         [] => true,
         _ if one_is_enough => refs.iter().any(is_copied) && refs.iter().all(|r| is_copied(r) || stays(r)),

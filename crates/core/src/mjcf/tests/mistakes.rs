@@ -153,6 +153,7 @@ mistakes! {
     sensor_plugin: after("<sensor><plugin plugin=\"touch_grid\"/>\n<tactile geom=\"g\" mesh=\"m\"/></sensor>");
     sensor_cutoff: after("<sensor><framequat objtype=\"body\" objname=\"b\" cutoff=\"1\"/></sensor>");
     key_short: after("<keyframe><key name=\"k\" qpos=\"0 0 1\"/></keyframe>");
+    key_long: after("<keyframe><key qvel=\"0 0 0 0 0 0 1\"/></keyframe>");
     key_control: after("<keyframe><key ctrl=\"1\"/></keyframe>");
     // Actuators
     actuator_without_target: driven("<motor name=\"m\"/>");
