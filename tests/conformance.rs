@@ -21,6 +21,11 @@ const EXCEPTIONS: &[Exception] = &[
     ("*", "discrete", "the integrator is not here yet"),
     ("*", "implicitfast", "the integrator is not here yet"),
     ("bench/chain100", "Euler", "not examined yet: the chain is very sensitive"),
+    (
+        "conformance/mjx__constraints",
+        "RK4",
+        "a servo explodes and is reset every eleven steps: there, too, 1e-16 at the start of a round is 1e-6 at its end",
+    ),
     ("conformance/mjx__actuator__arm26", "Euler", "the range of lengths of its muscles is not computed yet"),
     ("conformance/mjx__actuator__arm26", "RK4", "the range of lengths of its muscles is not computed yet"),
 ];

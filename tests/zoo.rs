@@ -2,9 +2,9 @@
 
 use crate::recorded::{examine, list, objects, set};
 use crate::standing::{Exception, Standing};
-use crate::support::{models, recording, workspace};
+use crate::support::{compile_unconstrained, models, recording, workspace};
 use labspec_core::reflect::{self, FieldSet, Object};
-use labspec_core::{self as core, Data, Demand, Model, Plan, disable, mjcf};
+use labspec_core::{self as core, Data, Demand, Model, Plan};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -32,8 +32,7 @@ fn folder() -> PathBuf {
 /// The models that load, each in the second of its recorded states: everything moves.
 pub(crate) fn animals() -> impl Iterator<Item = (String, Model, Value)> {
     models(&folder()).into_iter().filter_map(|name| {
-        let mut m = mjcf::compile_file(&folder().join(format!("{name}.xml"))).ok()?;
-        m.opt.disableflags |= disable::CONSTRAINT;
+        let m = compile_unconstrained(&folder().join(format!("{name}.xml"))).ok()?;
         let state = recording(&format!("zoo/{name}"))["forward"][1]["state"].clone();
         Some((name, m, state))
     })
