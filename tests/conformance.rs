@@ -15,19 +15,44 @@ const RANDOM: usize = 100;
 
 /// What is known to differ, and why.
 const EXCEPTIONS: &[Exception] = &[
-    ("*", "compile", "fields whose compilation is not here yet"),
-    ("*", "forward", "fields whose compilation is not here yet"),
-    ("*", "implicit", "the integrator is not here yet"),
-    ("*", "discrete", "the integrator is not here yet"),
-    ("*", "implicitfast", "the integrator is not here yet"),
     ("bench/chain100", "Euler", "not examined yet: the chain is very sensitive"),
+    ("bench/chain100", "forward", "not examined yet: the chain is very sensitive"),
+    ("bench/chain100", "implicit", "not examined yet: the chain is very sensitive"),
+    ("bench/chain100", "implicitfast", "not examined yet: the chain is very sensitive"),
+    ("bench/chain100", "discrete", "not examined yet: the chain is very sensitive"),
     (
         "conformance/mjx__constraints",
         "RK4",
         "a servo explodes and is reset every eleven steps: there, too, 1e-16 at the start of a round is 1e-6 at its end",
     ),
+    (
+        "conformance/mjx__actuator__arm26",
+        "compile",
+        "the range of lengths of its muscles is not computed yet",
+    ),
+    (
+        "conformance/mjx__actuator__arm26",
+        "forward",
+        "the range of lengths of its muscles is not computed yet",
+    ),
     ("conformance/mjx__actuator__arm26", "Euler", "the range of lengths of its muscles is not computed yet"),
     ("conformance/mjx__actuator__arm26", "RK4", "the range of lengths of its muscles is not computed yet"),
+    (
+        "conformance/mjx__actuator__arm26",
+        "implicit",
+        "the range of lengths of its muscles is not computed yet",
+    ),
+    (
+        "conformance/mjx__actuator__arm26",
+        "implicitfast",
+        "the range of lengths of its muscles is not computed yet",
+    ),
+    (
+        "conformance/mjx__actuator__arm26",
+        "discrete",
+        "the range of lengths of its muscles is not computed yet",
+    ),
+    ("conformance/user__lengthrange", "compile", "the range of lengths of its actuators is not computed yet"),
 ];
 
 /// Folder of the recordings, and of the models in `../shared`.

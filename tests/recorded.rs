@@ -178,17 +178,40 @@ fn forward(m: &Model, states: &Value) -> Verdict {
     for (k, row) in states.as_array().into_iter().flatten().enumerate() {
         set(m, &mut d, &row["state"]);
         core::forward(m, &mut d);
-        for (field, values) in objects(&row["data"]) {
+        let place = format!("state {k}");
+        let mut hold = |field: &str, ours: &[f64], theirs: &[f64]| {
+            let scale = largest(theirs).max(1.0);
+            worst = worst.max(note(&mut found, &place, field, ours, theirs, scale, FORWARD));
+        };
+        for (field, values) in objects(&row["data"]).filter(|(name, _)| !MOMENTS.contains(&name.as_str())) {
             let Some(id) = reflect::field(Object::Data, field) else { continue };
-            let (ours, theirs) = (list(m, &d, id), numbers(values));
-            let (place, scale) = (format!("state {k}"), largest(&theirs).max(1.0));
-            worst = worst.max(note(&mut found, &place, field, &ours, &theirs, scale, FORWARD));
+            hold(field, &list(m, &d, id), &numbers(values));
+        }
+        let theirs = MOMENTS.map(|name| row["data"].get(name).map(numbers).unwrap_or_default());
+        if theirs.iter().any(|list| !list.is_empty()) {
+            let ours = MOMENTS
+                .map(|name| reflect::field(Object::Data, name).map(|id| list(m, &d, id)).unwrap_or_default());
+            hold("actuator_moment", &dense(&ours, m.nv), &dense(&theirs, m.nv));
         }
     }
     // The first state in which a field differs says enough.
     let mut seen = std::collections::HashSet::new();
     found.retain(|d: &Difference| seen.insert(d.field.clone()));
     Verdict::of(found, worst)
+}
+
+/// Moments of actuators: which entries are kept depends on which are rounded to zero.
+const MOMENTS: [&str; 4] = ["moment_rownnz", "moment_rowadr", "moment_colind", "actuator_moment"];
+
+/// The matrix of what [`MOMENTS`] names, with zeros.
+fn dense([number, address, column, value]: &[Vec<f64>; 4], nv: usize) -> Vec<f64> {
+    let mut out = vec![0.0; number.len() * nv];
+    for (row, (&n, &start)) in out.chunks_mut(nv.max(1)).zip(number.iter().zip(address)) {
+        for k in start as usize..(start + n) as usize {
+            row[column[k] as usize] = value[k];
+        }
+    }
+    out
 }
 
 fn trajectory(m: &Model, start: &Value, recording: &Value) -> Verdict {

@@ -11,17 +11,22 @@ use std::path::PathBuf;
 
 /// What is known to differ, and why.
 const EXCEPTIONS: &[Exception] = &[
-    ("*", "compile", "fields whose compilation is not here yet"),
-    ("*", "implicit", "the integrator is not here yet"),
-    ("*", "implicitfast", "the integrator is not here yet"),
-    ("*", "discrete", "the integrator is not here yet"),
-    ("actuator_lengthrange", "Euler", "ranges of lengths are not computed yet"),
-    ("actuator_lengthrange", "RK4", "ranges of lengths are not computed yet"),
-    ("actuator_lengthrange", "forward", "ranges of lengths are not computed yet"),
-    ("actuator_transmissions", "forward", "not examined yet"),
-    ("lengthrange_options", "Euler", "ranges of lengths are not computed yet"),
-    ("lengthrange_options", "RK4", "ranges of lengths are not computed yet"),
-    ("lengthrange_options", "forward", "ranges of lengths are not computed yet"),
+    ("actuator_lengthrange", "compile", "not examined yet"),
+    ("actuator_lengthrange", "forward", "not examined yet"),
+    ("actuator_lengthrange", "Euler", "not examined yet"),
+    ("actuator_lengthrange", "RK4", "not examined yet"),
+    ("actuator_lengthrange", "implicit", "not examined yet"),
+    ("actuator_lengthrange", "implicitfast", "not examined yet"),
+    ("actuator_lengthrange", "discrete", "not examined yet"),
+    ("actuator_orientation_clamp", "implicitfast", "not examined yet"),
+    ("actuator_orientation_clamp", "discrete", "not examined yet"),
+    ("lengthrange_options", "compile", "not examined yet"),
+    ("lengthrange_options", "forward", "not examined yet"),
+    ("lengthrange_options", "Euler", "not examined yet"),
+    ("lengthrange_options", "RK4", "not examined yet"),
+    ("lengthrange_options", "implicit", "not examined yet"),
+    ("lengthrange_options", "implicitfast", "not examined yet"),
+    ("lengthrange_options", "discrete", "not examined yet"),
     ("sensor_trees", "RK4", "not examined yet"),
 ];
 

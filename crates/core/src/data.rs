@@ -2,11 +2,12 @@
 
 use crate::constraint::{Islands, Jacobian, Scratch};
 use crate::fields::data_fields;
+use crate::integrate::{Metric, RungeKutta};
 use crate::jacobian::Columns;
 use crate::model::define;
 use crate::plan::{Demand, Plan};
 use crate::sensor::Match;
-use crate::{Model, chain, collision, pipeline, reset};
+use crate::{Model, chain, collision, derivative, pipeline, reset};
 
 macro_rules! define_data {
     ($($rows:tt)*) => { define! {
@@ -148,21 +149,10 @@ pub(crate) struct Work {
     pub(crate) tendon_force: Vec<f64>,
     /// A row of the moments of actuators.
     pub(crate) moment: Vec<f64>,
-}
-
-/// What a Runge–Kutta step keeps between its stages.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct RungeKutta {
-    /// The state and acceleration at the start of the step.
-    pub(crate) qpos: Vec<f64>,
-    pub(crate) qvel: Vec<f64>,
-    pub(crate) act: Vec<f64>,
-    pub(crate) warmstart: Vec<f64>,
-    /// Weighted sums of the stages' slopes, and the velocity of one stage.
-    pub(crate) dpos: Vec<f64>,
-    pub(crate) dvel: Vec<f64>,
-    pub(crate) slope: Vec<f64>,
-    pub(crate) dact: Vec<f64>,
+    /// Derivatives of forces with respect to velocities.
+    pub(crate) derivative: derivative::Work,
+    /// The metric of the discrete integrator.
+    pub(crate) metric: Metric,
 }
 
 impl Data {
@@ -191,21 +181,10 @@ impl Data {
         w.solver = Some(Box::default());
         w.columns = Columns::with_room(m.nv);
         w.ld = vec![0.0; m.nC];
-        w.rk.qpos = vec![0.0; m.nq];
-        (w.rk.act, w.rk.dact) = (vec![0.0; m.na], vec![0.0; m.na]);
         (w.ctrl, w.tendon_force) = (vec![0.0; m.nu], vec![0.0; m.ntendon]);
         w.moment = vec![0.0; m.nv];
-        let rk = &mut w.rk;
-        for v in [
-            &mut w.mv,
-            &mut w.diag_inv,
-            &mut w.qacc,
-            &mut rk.qvel,
-            &mut rk.warmstart,
-            &mut rk.dpos,
-            &mut rk.dvel,
-            &mut rk.slope,
-        ] {
+        w.rk = RungeKutta::new(m);
+        for v in [&mut w.mv, &mut w.diag_inv, &mut w.qacc] {
             *v = vec![0.0; m.nv];
         }
         reset::reset_data(m, &mut d);

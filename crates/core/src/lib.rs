@@ -26,12 +26,14 @@ mod collision;
 mod com;
 mod constraint;
 mod data;
+mod derivative;
 mod energy;
 mod equality;
 mod fields;
 pub mod geometry;
 mod history;
 mod integrate;
+mod inverse;
 mod jacobian;
 mod kinematics;
 mod mass;
@@ -54,16 +56,21 @@ mod transmission;
 
 pub use collision::{can_collide, contact_force};
 pub use data::{Contact, Data, Warning, WarningStat};
-pub use integrate::integrate_pos;
-pub use mass::full_m;
+pub use integrate::{differentiate_pos, integrate_pos};
+pub use inverse::{InverseError, inverse};
+pub use jacobian::{
+    Jacobian, apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,
+};
+pub use mass::{full_m, mul_m, solve_m, solve_m2};
 pub use model::{Model, Names, Obj, Options, Statistic};
 pub use model::{
-    biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, trntype, wraptype,
+    biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, solver, trntype, wraptype,
 };
 pub use object::{object_acceleration, object_velocity};
-pub use pipeline::{forward, set_plan, step};
+pub use pipeline::{forward, set_plan, step, step1, step2};
 pub use plan::{Demand, Plan};
 pub use reset::{reset_data, reset_data_keyframe};
+pub use rne::rne;
 pub use rne_post::rne_post_constraint;
 pub use setconst::set_const;
 pub use subtree::subtree_vel;

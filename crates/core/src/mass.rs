@@ -366,13 +366,79 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
     }
 }
 
+/// Where the diagonal element of degree of freedom `i` is.
+#[inline(always)]
+pub(crate) fn diagonal(m: &Model, i: usize) -> usize {
+    (m.M_rowadr[i] + m.M_rownnz[i]) as usize - 1
+}
+
+/// The dense block of a free joint, given its first degree of freedom, in a matrix with the pattern of M.
+pub(crate) fn free_block(m: &Model, mass: &[f64], first: usize) -> [Spatial; 6] {
+    let mut out = [[0.0; 6]; 6];
+    for r in 0..6 {
+        let row = m.M_rowadr[first + r] as usize..diagonal(m, first + r) + 1;
+        for (&k, &x) in m.M_colind[row.clone()].iter().zip(&mass[row]) {
+            let c = k as usize - first;
+            (out[r][c], out[c][r]) = (x, x);
+        }
+    }
+    out
+}
+
+/// Adds s x xᵀ for a vector with few non-zeros where M has an entry: `dofs` ascend.
+pub(crate) fn add_outer(m: &Model, dofs: &[i32], values: &[f64], s: f64, out: &mut [f64]) {
+    for (&i, x) in dofs.iter().zip(values) {
+        let start = m.M_rowadr[i as usize] as usize;
+        let columns = &m.M_colind[start..diagonal(m, i as usize) + 1];
+        // Both lists ascend.
+        let mut at = 0;
+        for (&j, y) in dofs.iter().zip(values) {
+            while at < columns.len() && columns[at] < j {
+                at += 1;
+            }
+            if at < columns.len() && columns[at] == j {
+                out[start + at] += s * x * y;
+            }
+        }
+    }
+}
+
 /// Sum of the diagonal of M over the degrees of freedom `dofs`.
 #[inline]
 pub(crate) fn trace(m: &Model, mass: &[f64], dofs: Range<usize>) -> f64 {
     if m.nC == m.nv {
         return mass[dofs].iter().sum();
     }
-    dofs.map(|k| mass[(m.M_rowadr[k] + m.M_rownnz[k] - 1) as usize]).sum()
+    dofs.map(|k| mass[diagonal(m, k)]).sum()
+}
+
+/// out ← M v (`mj_mulM`), for vectors of nv numbers. `None` when one is shorter.
+pub fn mul_m(m: &Model, d: &Data, v: &[f64], out: &mut [f64]) -> Option<()> {
+    mul(m, &d.M, v.get(..m.nv)?, out.get_mut(..m.nv)?, 0..m.nv);
+    Some(())
+}
+
+/// x ← M⁻¹ x (`mj_solveM`), for a vector of nv numbers. `None` when it is shorter.
+pub fn solve_m(m: &Model, d: &Data, x: &mut [f64]) -> Option<()> {
+    solve(m, &d.qLD, &d.qLDiagInv, x.get_mut(..m.nv)?, 0..m.nv);
+    Some(())
+}
+
+/// x ← D^-½ L⁻ᵀ x (`mj_solveM2`): half of the solution, so that xᵀ M⁻¹ x is the square of its norm. `None` when the
+/// vector is shorter than nv.
+pub fn solve_m2(m: &Model, d: &Data, x: &mut [f64]) -> Option<()> {
+    let x = x.get_mut(..m.nv)?;
+    for i in (0..m.nv).rev() {
+        let row = m.M_rowadr[i] as usize..diagonal(m, i);
+        let xi = x[i];
+        for (&j, l) in m.M_colind[row.clone()].iter().zip(&d.qLD[row]) {
+            x[j as usize] -= l * xi;
+        }
+    }
+    for (x, inv) in x.iter_mut().zip(&d.qLDiagInv) {
+        *x *= inv.sqrt();
+    }
+    Some(())
 }
 
 /// M as a dense symmetric matrix, row-major (`mj_fullM`).

@@ -104,6 +104,16 @@ pub mod integrator {
     pub const DISCRETE: i32 = 4;
 }
 
+/// Values of `opt.solver`.
+pub mod solver {
+    /// Projected Gauss–Seidel, on the dual problem.
+    pub const PGS: i32 = 0;
+    /// Conjugate gradients.
+    pub const CG: i32 = 1;
+    /// Newton's method.
+    pub const NEWTON: i32 = 2;
+}
+
 /// Bits of `opt.disableflags` (mjtDisableBit).
 #[allow(missing_docs)] // each is named after the part that it switches off
 pub mod disable {

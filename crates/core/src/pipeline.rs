@@ -28,10 +28,22 @@ pub fn step(m: &Model, d: &mut Data) {
     check_state(m, d);
     forward_skip(m, d, Skip::NOTHING);
     check_acceleration(m, d);
-    match m.opt.integrator {
-        integrator::RK4 => integrate::rk4(m, d),
-        _ => integrate::euler(m, d),
-    }
+    integrate::integrate(m, d);
+}
+
+/// The first part of a step (`mj_step1`): all that does not depend on inputs. Controls and applied forces may be
+/// set between the two.
+pub fn step1(m: &Model, d: &mut Data) {
+    check_state(m, d);
+    from_state(m, d, Skip::NOTHING);
+}
+
+/// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name
+/// Runge–Kutta, which needs forces at other states, this is a step of Euler.
+pub fn step2(m: &Model, d: &mut Data) {
+    from_inputs(m, d, Skip::NOTHING);
+    check_acceleration(m, d);
+    integrate::integrate_once(m, d);
 }
 
 /// Computes everything that follows from the state, without advancing time (`mj_forward`).
@@ -40,23 +52,26 @@ pub fn forward(m: &Model, d: &mut Data) {
 }
 
 pub(crate) fn forward_skip(m: &Model, d: &mut Data, skip: Skip) {
-    let show = skip == Skip::NOTHING;
+    from_state(m, d, skip);
+    from_inputs(m, d, skip);
+}
+
+/// What follows from positions and velocities, with the sensors and the energy that they determine.
+pub(crate) fn from_state(m: &Model, d: &mut Data, skip: Skip) {
     position(m, d);
-    if show {
-        read(m, d, When::Position);
-    }
+    read(m, d, When::Position, skip);
     potential_energy(m, d);
     velocity(m, d);
-    if show {
-        read(m, d, When::Velocity);
-    }
+    read(m, d, When::Velocity, skip);
     kinetic_energy(m, d);
+}
+
+/// What follows from inputs as well: forces, accelerations and the other sensors.
+fn from_inputs(m: &Model, d: &mut Data, skip: Skip) {
     actuation(m, d);
     acceleration(m, d);
     constraints(m, d);
-    if show {
-        read(m, d, When::Acceleration);
-    }
+    read(m, d, When::Acceleration, skip);
 }
 
 /// What depends on `qpos` alone.
@@ -151,7 +166,9 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     if d.plan.applied_forces {
         applied_forces(m, d);
     }
-    if d.plan.some_general {
+    if m.opt.integrator == integrator::DISCRETE {
+        integrate::discrete::acceleration(m, d);
+    } else if d.plan.some_general {
         d.qacc_smooth.copy_from_slice(&d.qfrc_smooth);
         mass::solve(m, &d.qLD, &d.qLDiagInv, &mut d.qacc_smooth, 0..m.nv);
     } else {
@@ -175,15 +192,28 @@ fn applied_forces(m: &Model, d: &mut Data) {
 
 /// `qacc` and constraint forces.
 pub(crate) fn constraints(m: &Model, d: &mut Data) {
+    let discrete = m.opt.integrator == integrator::DISCRETE;
     if d.plan.keeps(Stage::Solve) {
+        if discrete {
+            integrate::discrete::exchange_metric(d);
+        }
         constraint::solve(m, d);
+        if discrete {
+            integrate::discrete::exchange_metric(d);
+        }
     } else {
         d.qacc.copy_from_slice(&d.qacc_smooth);
+    }
+    if discrete {
+        integrate::discrete::turn_free_bodies(m, d);
     }
 }
 
 /// Sensors whose values are known at this point, and what they need.
-fn read(m: &Model, d: &mut Data, when: When) {
+pub(crate) fn read(m: &Model, d: &mut Data, when: When, skip: Skip) {
+    if skip == Skip::SENSORS {
+        return;
+    }
     match when {
         When::Velocity if measured(m, d, Stage::SubtreeVel) => subtree::subtree_vel(m, d),
         When::Acceleration if measured(m, d, Stage::RnePost) => rne_post::rne_post_constraint(m, d),

@@ -132,6 +132,11 @@ impl Plan {
         plan
     }
 
+    /// The same with every stage kept and no list of reasons.
+    pub(crate) fn keeping_all(self) -> Plan {
+        Plan { kept: u32::MAX, ..self }
+    }
+
     fn decide(&mut self, stage: Stage, keep: bool, reason: String) {
         if keep {
             self.kept |= 1 << stage as u32;

@@ -49,9 +49,30 @@ fn simple(m: &Model, d: &mut Data, j: usize, gravity: Vec3) {
     }
 }
 
-/// The force for zero acceleration (Featherstone 2008, section 5.3). Gravity enters as an upward
-/// acceleration of the world.
+/// `qfrc_bias` of all bodies.
 pub(crate) fn newton_euler(m: &Model, d: &mut Data, gravity: Vec3) {
+    let mut out = std::mem::take(&mut d.qfrc_bias);
+    recursion(m, d, gravity, None, &mut out);
+    d.qfrc_bias = out;
+}
+
+/// The generalized force (nv) that causes the acceleration `qacc` (nv), or none when it is not given: gravity,
+/// Coriolis and centrifugal force then (`mj_rne`). The inertia of joints (armature) does not count. `None` when an
+/// array is shorter.
+///
+/// It needs the position and velocity stages of a full pipeline.
+pub fn rne(m: &Model, d: &mut Data, qacc: Option<&[f64]>, out: &mut [f64]) -> Option<()> {
+    if out.len() < m.nv || qacc.is_some_and(|a| a.len() < m.nv) {
+        return None;
+    }
+    let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
+    recursion(m, d, gravity, qacc, out);
+    Some(())
+}
+
+/// The force for an acceleration (Featherstone 2008, section 5.3). Gravity enters as an upward acceleration of the
+/// world.
+fn recursion(m: &Model, d: &mut Data, gravity: Vec3, qacc: Option<&[f64]>, out: &mut [f64]) {
     let cdof = rows::<6>(&d.cdof);
     let cdof_dot = rows::<6>(&d.cdof_dot);
     let (cinert, cvel) = (rows::<10>(&d.cinert), rows::<6>(&d.cvel));
@@ -63,8 +84,14 @@ pub(crate) fn newton_euler(m: &Model, d: &mut Data, gravity: Vec3) {
     for i in 1..m.nbody {
         let mut a = [0.0; 6];
         let first = m.body_dofadr[i];
-        for k in first as usize..(first + m.body_dofnum[i]) as usize {
+        let dofs = first as usize..(first + m.body_dofnum[i]) as usize;
+        for k in dofs.clone() {
             a = add_scaled(a, cdof_dot[k], d.qvel[k]);
+        }
+        if let Some(qacc) = qacc {
+            for k in dofs {
+                a = add_scaled(a, cdof[k], qacc[k]);
+            }
         }
         cacc[i] = add(cacc[m.body_parentid[i] as usize], a);
         let momentum = inertia_mul(&cinert[i], &cvel[i]);
@@ -75,6 +102,6 @@ pub(crate) fn newton_euler(m: &Model, d: &mut Data, gravity: Vec3) {
         cfrc[parent] = add(cfrc[parent], cfrc[i]);
     }
     for k in 0..m.nv {
-        d.qfrc_bias[k] = dot(cdof[k], cfrc[m.dof_bodyid[k] as usize]);
+        out[k] = dot(cdof[k], cfrc[m.dof_bodyid[k] as usize]);
     }
 }

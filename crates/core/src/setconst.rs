@@ -66,17 +66,15 @@ fn subtree_mass(m: &mut Model) {
     }
 }
 
-/// Where the bodies and the degrees of freedom of each tree are.
+/// Where the bodies and degrees of freedom of each tree are.
 fn trees(m: &mut Model) {
     m.tree_bodynum.fill(0);
-    for (b, &t) in m.body_treeid.iter().enumerate().rev() {
-        // A body that cannot move is in no tree.
-        if let Ok(t) = usize::try_from(t) {
-            m.tree_bodyadr[t] = b as i32;
-            m.tree_bodynum[t] += 1;
-        }
-    }
     m.tree_dofnum.fill(0);
+    for b in (0..m.nbody).rev().filter(|&b| m.body_treeid[b] >= 0) {
+        let t = m.body_treeid[b] as usize;
+        m.tree_bodyadr[t] = b as i32;
+        m.tree_bodynum[t] += 1;
+    }
     for k in (0..m.nv).rev() {
         let t = m.dof_treeid[k] as usize;
         m.tree_dofadr[t] = k as i32;

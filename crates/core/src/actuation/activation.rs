@@ -54,22 +54,13 @@ pub(super) fn exact(act: f64, rate: f64, tau: f64, h: f64) -> f64 {
 
 /// Advances `act` by a step along `act_dot`.
 pub(crate) fn advance(m: &Model, d: &mut Data) {
-    if m.na > 0 {
-        let rates = std::mem::take(&mut d.act_dot);
-        advance_along(m, d, &rates);
-        d.act_dot = rates;
-    }
-}
-
-/// Advances `act` by a step along given rates, such as the mean of the stages of a Runge–Kutta step.
-pub(crate) fn advance_along(m: &Model, d: &mut Data, rates: &[f64]) {
-    if m.opt.disabled(disable::ACTUATION) {
+    if m.na == 0 || m.opt.disabled(disable::ACTUATION) {
         return;
     }
     for i in 0..m.nactuator {
         let off = switched_off(m, i);
         for at in states(m, i) {
-            d.act[at] = next(m, d, i, at, if off { 0.0 } else { rates[at] });
+            d.act[at] = next(m, d, i, at, if off { 0.0 } else { d.act_dot[at] });
         }
         if integrates(m, i) {
             anchor(m, d, i);

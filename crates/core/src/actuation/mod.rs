@@ -10,25 +10,25 @@
 mod activation;
 mod control;
 mod limit;
-mod motor;
-mod muscle;
+pub(crate) mod motor;
+pub(crate) mod muscle;
 mod servo;
 
 use crate::math::*;
 use crate::{Data, Model, biastype, disable, dyntype, gaintype, joint, transmission};
 
-pub(crate) use activation::{advance, advance_along};
+pub(crate) use activation::advance;
 pub(crate) use control::{record, reset};
 pub(crate) use motor::slots;
 
 /// Whether the forces of actuator `i` are switched off by its group.
-fn switched_off(m: &Model, i: usize) -> bool {
+pub(crate) fn switched_off(m: &Model, i: usize) -> bool {
     let group = m.actuator_group[i];
     (0..=30).contains(&group) && m.opt.disableactuator & (1 << group) != 0
 }
 
 /// Ten parameters of actuator `i`.
-fn prm(of: &[f64], i: usize) -> &[f64; 10] {
+pub(crate) fn prm(of: &[f64], i: usize) -> &[f64; 10] {
     &rows::<10>(of)[i]
 }
 
@@ -79,7 +79,7 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
 }
 
 /// What the gain of actuator `i` multiplies: its control, or its last activation.
-fn input(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> f64 {
+pub(crate) fn input(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> f64 {
     match states(m, i).last() {
         Some(last) => activation::acting(m, d, i, last),
         None if m.actuator_ctrlnum[i] == 0 => 0.0,

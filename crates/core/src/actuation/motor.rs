@@ -192,6 +192,26 @@ pub(super) fn back_emf(m: &Model, d: &Data, i: usize) -> f64 {
     -(k / motor.resistance(d).max(MINVAL)) * k * motor.velocity
 }
 
+/// The derivatives of a motor's torque with respect to velocity and length: those of its winding, which follows a
+/// change of the voltage with the electrical time constant where it has one, and the viscous friction of its
+/// bristles. Limits of the voltage, cogging and the bending of bristles do not count, as in MuJoCo.
+pub(crate) fn slopes(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> [f64; 2] {
+    let motor = Motor::new(m, d, i);
+    let (k, resistance) = (motor.constant(), motor.resistance(d).max(MINVAL));
+    let mut voltage = [-k, 0.0];
+    if Inputs::new(m, i, ctrl).controller {
+        let [cold, _, _, _, kp, _, kd, ..] = *motor.gain;
+        voltage = [-cold / k * kd, -cold / k * kp];
+    }
+    let followed = match motor.slots.current {
+        Some(_) => 1.0 - libm::exp(-m.opt.timestep / motor.dyn_[0]),
+        None => 1.0,
+    };
+    let [velocity, length] = voltage.map(|v| v * k / resistance * followed);
+    let viscous = if motor.slots.bristle.is_some() { motor.dyn_[6] } else { 0.0 };
+    [velocity - viscous, length]
+}
+
 /// Cogging and friction, which limits of the current do not touch.
 pub(super) fn mechanical(m: &Model, d: &Data, i: usize) -> f64 {
     let motor = Motor::new(m, d, i);

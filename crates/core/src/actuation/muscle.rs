@@ -8,25 +8,32 @@ use crate::math::*;
 use crate::{Data, Model};
 
 /// A muscle in normalized units.
-pub(super) struct State {
+pub(crate) struct State {
     /// Peak isometric force, N.
     peak: f64,
     /// Length in optimal lengths.
     length: f64,
     /// Velocity in largest shortening velocities.
     velocity: f64,
+    /// The optimal length, m.
+    optimal: f64,
+    /// The largest shortening velocity, m/s.
+    fastest: f64,
 }
 
 impl State {
     /// The muscle with output `o` and parameters `p`: its operating range is reached over `actuator_lengthrange`.
-    pub(super) fn new(m: &Model, d: &Data, o: usize, p: &[f64; 10]) -> State {
+    pub(crate) fn new(m: &Model, d: &Data, o: usize, p: &[f64; 10]) -> State {
         let [shortest, longest] = rows::<2>(&m.actuator_lengthrange)[o];
         let optimal = (longest - shortest) / (p[1] - p[0]).max(MINVAL);
         let peak = if p[2] >= 0.0 { p[2] } else { p[3] / m.actuator_acc0[o].max(MINVAL) };
+        let fastest = (optimal * p[6]).max(MINVAL);
         State {
             peak,
+            optimal: optimal.max(MINVAL),
             length: p[0] + (d.actuator_length[o] - shortest) / optimal.max(MINVAL),
-            velocity: d.actuator_velocity[o] / (optimal * p[6]).max(MINVAL),
+            velocity: d.actuator_velocity[o] / fastest,
+            fastest,
         }
     }
 }
@@ -71,6 +78,51 @@ fn over_velocity(velocity: f64, fvmax: f64) -> f64 {
     } else {
         fvmax
     }
+}
+
+/// The derivative of the gain with respect to velocity.
+pub(crate) fn gain_by_velocity(p: &[f64; 10], s: &State) -> f64 {
+    let [_, _, _, _, lmin, lmax, _, _, fvmax, _] = *p;
+    let y = fvmax - 1.0;
+    let slope = if s.velocity <= -1.0 || s.velocity > y {
+        0.0
+    } else if s.velocity <= 0.0 {
+        2.0 * (s.velocity + 1.0)
+    } else {
+        2.0 * (y - s.velocity) / y.max(MINVAL)
+    };
+    -s.peak * over_length(s.length, lmin, lmax) * slope / s.fastest
+}
+
+/// The derivative of the gain with respect to length.
+pub(crate) fn gain_by_length(p: &[f64; 10], s: &State) -> f64 {
+    let [_, _, _, _, lmin, lmax, _, _, fvmax, _] = *p;
+    -s.peak * slope_over_length(s.length, lmin, lmax) * over_velocity(s.velocity, fvmax) / s.optimal
+}
+
+/// The derivative of [`over_length`].
+fn slope_over_length(length: f64, lmin: f64, lmax: f64) -> f64 {
+    if length < lmin || length > lmax {
+        return 0.0;
+    }
+    let (rise, fall) = (0.5 * (lmin + 1.0), 0.5 * (1.0 + lmax));
+    let part = |distance: f64, width: f64| distance / (width * width).max(MINVAL);
+    if length <= rise {
+        part(length - lmin, rise - lmin)
+    } else if length <= 1.0 {
+        part(1.0 - length, 1.0 - rise)
+    } else if length <= fall {
+        -part(length - 1.0, fall - 1.0)
+    } else {
+        -part(lmax - length, lmax - fall)
+    }
+}
+
+/// The derivative of the passive force with respect to length.
+pub(crate) fn bias_by_length(p: &[f64; 10], s: &State) -> f64 {
+    let (lmax, fpmax) = (p[5], p[7]);
+    let width = (0.5 * (1.0 + lmax) - 1.0).max(MINVAL);
+    -s.peak * fpmax * ((s.length - 1.0) / width).clamp(0.0, 1.0) / (width * s.optimal)
 }
 
 /// The passive force: a parabola from the optimal length to half way to `lmax`, and a line from there.

@@ -115,6 +115,11 @@ impl Jacobian {
         &self.values[b.adr as usize..(b.adr + b.nrow * b.ncol) as usize]
     }
 
+    /// Whether some row has a column among these degrees of freedom.
+    pub(crate) fn touches(&self, dofs: Range<usize>) -> bool {
+        self.columns[..self.used_columns].iter().any(|&k| dofs.contains(&(k as usize)))
+    }
+
     /// out ← J x, all rows.
     #[inline]
     pub(super) fn mul(&self, x: &[f64], out: &mut [f64]) {

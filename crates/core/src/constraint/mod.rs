@@ -14,7 +14,7 @@ mod solver;
 pub(crate) use island::Islands;
 pub(crate) use jacobian::Jacobian;
 pub(crate) use rows::{make, reference};
-pub(crate) use solver::{Scratch, solve};
+pub(crate) use solver::{Scratch, inverse, solve};
 
 /// Values of `efc_type` (mjtConstraint).
 pub(crate) mod kind {

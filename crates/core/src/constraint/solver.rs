@@ -74,6 +74,25 @@ pub(crate) fn solve(m: &Model, d: &mut Data) {
     d.work.solver = Some(s);
 }
 
+/// `efc_force` and `qfrc_constraint` at the acceleration `qacc` (`mj_invConstraint`).
+pub(crate) fn inverse(m: &Model, d: &mut Data) {
+    d.qfrc_constraint.fill(0.0);
+    if d.nefc == 0 {
+        return;
+    }
+    let mut islands = d.work.islands.take().unwrap_or_default();
+    d.nisland = islands.find(m, &d.work.jac);
+    let mut s = d.work.solver.take().unwrap_or_default();
+    s.resize(m.nv, d.nefc);
+    s.ma.fill(0.0);
+    d.work.jac.residual(&d.qacc, &d.efc_aref, &mut s.jar);
+    for island in 0..d.nisland {
+        Problem { m, d, s: &mut s, islands: &islands, island }.update();
+    }
+    d.work.islands = Some(islands);
+    d.work.solver = Some(s);
+}
+
 impl Scratch {
     fn resize(&mut self, nv: usize, nefc: usize) {
         if self.ma.len() != nv {

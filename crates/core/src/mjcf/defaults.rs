@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::diagnostic::{Report, code};
-use super::schema::{Kind, Status};
+use super::schema::Kind;
 use super::tree::{Attribute, Node, Tree};
 use super::values::Value;
 
@@ -33,10 +33,8 @@ impl Props {
 
     /// Puts the attributes of an element over these. Names stay with their element.
     pub(crate) fn overlay(&mut self, node: &Node) {
-        let read = |a: &&Attribute| {
-            a.attr.status == Status::Supported && !matches!(a.attr.kind, Kind::Name(_) | Kind::Class)
-        };
-        for a in node.attributes.iter().filter(read) {
+        let own = |a: &&Attribute| matches!(a.attr.kind, Kind::Name(_) | Kind::Class);
+        for a in node.attributes.iter().filter(|a| !own(a)) {
             if ALTERNATIVES.contains(&a.attr.name) {
                 self.values.retain(|name, _| !ALTERNATIVES.contains(name));
             }

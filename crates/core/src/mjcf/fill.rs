@@ -1,7 +1,7 @@
 //! Specifications to the arrays of [`Model`].
 
 use super::fill_actuator::Counts;
-use super::layout::{Dof, Layout, Pattern};
+use super::layout::{Dof, Layout, Pattern, WholePattern};
 use super::spec::{
     ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, List, PairSpec,
     SOLIMP, SOLREF, SensorSpec, SiteSpec, TendonSpec,
@@ -31,6 +31,8 @@ pub(crate) struct Users {
     pub(crate) site: usize,
     pub(crate) camera: usize,
     pub(crate) actuator: usize,
+    /// Values of the whole model.
+    pub(crate) data: usize,
 }
 
 /// Everything that goes into a model.
@@ -40,6 +42,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) layout: &'a Layout,
     pub(crate) simple: &'a [i32],
     pub(crate) pattern: Pattern,
+    pub(crate) whole: WholePattern,
     pub(crate) tendons: &'a [TendonSpec],
     pub(crate) actuators: &'a [ActuatorSpec],
     pub(crate) counts: Counts,
@@ -55,7 +58,9 @@ pub(crate) struct Parts<'a> {
 /// Fills the model. Options, statistics and what `mj_setConst` computes are not touched.
 pub(crate) fn model(m: &mut Model, parts: Parts) {
     let Parts { bodies: list, inertias, layout, simple, sensors: sensor_list, keys: key_list, .. } = parts;
-    let Parts { tendons, actuators, counts, equalities, pairs, excludes, users, pattern, scene, .. } = parts;
+    let Parts {
+        tendons, actuators, counts, equalities, pairs, excludes, users, pattern, whole, scene, ..
+    } = parts;
     let joints: Vec<(usize, &JointSpec)> = members(list, |b| &b.joints);
     let geoms: Vec<(usize, &GeomSpec)> = members(list, |b| &b.geoms);
     let sites: Vec<(usize, &SiteSpec)> = members(list, |b| &b.sites);
@@ -73,9 +78,11 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     m.nsensor = sensor_list.len();
     m.nsensordata = sensor_list.iter().map(|s| s.dim as usize).sum();
     m.nuser_sensor = users.sensor;
+    m.nuserdata = users.data;
     m.nhistory += sensor_list.iter().map(SensorSpec::history).sum::<usize>();
     m.nkey = key_list.len();
     m.nC = pattern.colind.len();
+    m.nD = whole.pattern.colind.len();
     fill_tendon::count(m, tendons);
     m.nactuator = actuators.len();
     (m.nu, m.nout, m.na) = (counts.nu, counts.nout, counts.na);
@@ -93,6 +100,8 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     bodies(m, list, inertias, layout, simple);
     joints_and_dofs(m, list, &joints, layout, simple);
     (m.M_rownnz, m.M_rowadr, m.M_colind) = (pattern.rownnz, pattern.rowadr, pattern.colind);
+    let Pattern { rownnz, rowadr, colind } = whole.pattern;
+    (m.D_rownnz, m.D_rowadr, m.D_colind, m.D_diag) = (rownnz, rowadr, colind, whole.diag);
     fill_scene::geoms(m, &geoms, scene);
     bodies_from_geoms(m);
     fill_scene::sites(m, &sites, scene);
@@ -218,7 +227,6 @@ fn joints_and_dofs(
             }
         }
     }
-    m.jnt_actuatorid = vec![-1; joints.len()];
     m.jnt_type = ints(joints, |(_, j)| j.kind);
     m.jnt_bodyid = ints(joints, |&(b, _)| b as i32);
     m.jnt_limited = joints.iter().map(|(_, j)| j.limited).collect();

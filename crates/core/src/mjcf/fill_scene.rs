@@ -120,15 +120,8 @@ pub(crate) fn lights(m: &mut Model, lights: &[(usize, &LightSpec)], bodies: &[St
 
 pub(crate) fn materials(m: &mut Model, scene: &Scene) {
     let list = &scene.materials;
-    // A material's texture gives the colour: the second of ten roles.
-    m.mat_texid = list
-        .iter()
-        .flat_map(|material| {
-            let mut roles = [-1; 10];
-            roles[1] = index(material.texture.as_ref(), scene.textures.iter());
-            roles
-        })
-        .collect();
+    let textures = list.iter().flat_map(|material| &material.textures);
+    m.mat_texid = textures.map(|name| index(name.as_ref(), scene.textures.iter())).collect();
     m.mat_texuniform = list.iter().map(|x| x.texuniform).collect();
     m.mat_texrepeat = flat(list, |x| single(x.texrepeat));
     let number = |i: usize| flat(list, |x| single([x.numbers[i]]));

@@ -236,3 +236,42 @@ pub(crate) fn pattern(layout: &Layout, simple: &[i32], report: &mut Report) -> O
     }
     Some(p)
 }
+
+/// Both triangles of the matrix that couples every degree of freedom with its ancestors, simple bodies or not:
+/// the pattern of derivatives with respect to velocities. A row holds the ancestors, then its own degree of freedom,
+/// then all that descend from it, ascending.
+#[derive(Debug, Default)]
+pub(crate) struct WholePattern {
+    pub(crate) pattern: Pattern,
+    /// Place of the diagonal in each row.
+    pub(crate) diag: Vec<i32>,
+}
+
+/// `None` after reporting that it is too large.
+pub(crate) fn whole_pattern(layout: &Layout, report: &mut Report) -> Option<WholePattern> {
+    let dofs = &layout.dofs;
+    let up = |i: usize| std::iter::successors(dofs.get(i).and_then(|d| d.parent), |&j| dofs.get(j)?.parent);
+    let mut w = WholePattern::default();
+    let mut below = vec![0; dofs.len()];
+    for (i, place) in (0..dofs.len()).map(|i| (i, up(i).count())) {
+        w.diag.push(place as i32);
+        up(i).for_each(|j| below[j] += 1);
+    }
+    let p = &mut w.pattern;
+    for i in 0..dofs.len() {
+        let start = p.colind.len();
+        p.rowadr.push(start as i32);
+        p.colind.extend(up(i).map(|j| j as i32));
+        if let Some(row) = p.colind.get_mut(start..) {
+            row.reverse();
+        }
+        // Degrees of freedom are numbered depth first: what descends from one follows it.
+        p.colind.extend((i..=i + below[i]).map(|k| k as i32));
+        p.rownnz.push((p.colind.len() - start) as i32);
+        if p.colind.len() > MAX_MATRIX {
+            report.error(code::LIMIT, 0..0, format!("the mass matrix has more than {MAX_MATRIX} entries"));
+            return None;
+        }
+    }
+    Some(w)
+}

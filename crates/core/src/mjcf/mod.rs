@@ -208,6 +208,7 @@ fn build(
         ),
         tendon: settings::user_width(&tree, "nuser_tendon", tendons.iter().map(|t| &t.user), report),
         sensor: settings::user_width(&tree, "nuser_sensor", sensors.iter().map(|s| &s.user), report),
+        data: settings::userdata(&tree, report),
         actuator: settings::user_width(&tree, "nuser_actuator", actuator_users.iter(), report),
     };
     if !report.is_clean() {
@@ -231,6 +232,7 @@ fn build(
     let mut simple = layout::simple(&bodies, &inertias);
     fill_tendon::demote_simple(&mut simple, &bodies, &tendons, &actuators);
     let pattern = layout::pattern(&layout, &simple, report)?;
+    let whole = layout::whole_pattern(&layout, report)?;
 
     let mut m = Model { opt: options, ..Model::default() };
     m.names.model = settings::model_name(&tree);
@@ -240,6 +242,7 @@ fn build(
         layout: &layout,
         simple: &simple,
         pattern,
+        whole,
         tendons: &tendons,
         actuators: &actuators,
         counts,

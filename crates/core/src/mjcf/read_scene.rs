@@ -72,7 +72,11 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
     let [fx, fy] = metres("focal", "focalpixel", [0.01; 2]);
     let [px, py] = metres("principal", "principalpixel", [0.0; 2]);
     let fovy = match sensorsize[1] > 0.0 {
-        true => 2.0 * libm::atan2(sensorsize[1] / 2.0, fy) * 180.0 / std::f64::consts::PI,
+        // In single precision, as the lengths are kept.
+        true => {
+            let half = libm::atan2f(sensorsize[1] as f32 / 2.0, fy as f32);
+            2.0 * f64::from(half) * 180.0 / std::f64::consts::PI
+        }
         false => p.real("fovy").unwrap_or(45.0),
     };
     CameraSpec {
@@ -145,16 +149,28 @@ pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) ->
     }
 }
 
+/// Roles of a material's textures, and that of its colour.
+const ROLES: usize = 10;
+const RGB: usize = 1;
+
 /// All materials in the order of the text.
 pub(crate) fn materials(cx: &Context) -> Vec<MaterialSpec> {
     let tree = cx.tree;
     let nodes = tree.sections("asset").flat_map(|(at, _)| tree.children(at));
-    let read = |node: &Node| {
+    let read = |at: usize, node: &Node| {
         let p = cx.classes.props(node, None);
         let number = |name: &str, default: f64| p.real(name).unwrap_or(default);
+        let mut textures: [Option<String>; ROLES] = Default::default();
+        textures[RGB] = p.text("texture").map(str::to_string);
+        for (_, layer) in tree.children(at) {
+            let role = layer.word("role").and_then(|role| textures.get_mut(usize::try_from(role).ok()?));
+            if let Some(place) = role {
+                *place = layer.text("texture").map(str::to_string);
+            }
+        }
         MaterialSpec {
             name: name(node),
-            texture: p.text("texture").map(str::to_string),
+            textures,
             texuniform: p.word("texuniform") == Some(1),
             texrepeat: p.reals("texrepeat", [1.0; 2]),
             numbers: [
@@ -168,7 +184,7 @@ pub(crate) fn materials(cx: &Context) -> Vec<MaterialSpec> {
             rgba: p.reals("rgba", [1.0; 4]),
         }
     };
-    nodes.filter(|(_, node)| node.element.name == "material").map(|(_, node)| read(node)).collect()
+    nodes.filter(|(_, node)| node.element.name == "material").map(|(at, node)| read(at, node)).collect()
 }
 
 /// Names of all textures in the order of the text.

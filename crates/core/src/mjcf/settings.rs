@@ -326,6 +326,21 @@ pub(crate) fn user_width<'l>(
     width
 }
 
+/// The number of values that `size nuserdata` reserves.
+pub(crate) fn userdata(tree: &Tree, report: &mut Report) -> usize {
+    let p = section(tree, "size");
+    let n = p.int("nuserdata").unwrap_or(0);
+    match usize::try_from(n) {
+        Ok(n) if n <= MAX_USER => n,
+        _ => {
+            let span = p.span("nuserdata").unwrap_or(0..0);
+            let message = format!("`nuserdata` of size is {n}, it must be between 0 and {MAX_USER}");
+            report.error(code::VALUE, span, message);
+            0
+        }
+    }
+}
+
 /// The model's name.
 pub(crate) fn model_name(tree: &Tree) -> String {
     let root = tree.nodes.first().and_then(|n| n.attribute("model"));

@@ -189,7 +189,8 @@ pub(crate) struct LightSpec {
 #[derive(Debug)]
 pub(crate) struct MaterialSpec {
     pub(crate) name: String,
-    pub(crate) texture: Option<String>,
+    /// Names of its textures, by role.
+    pub(crate) textures: [Option<String>; 10],
     pub(crate) texuniform: bool,
     pub(crate) texrepeat: [f64; 2],
     /// emission, specular, shininess, reflectance, metallic, roughness

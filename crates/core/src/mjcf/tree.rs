@@ -46,6 +46,14 @@ impl Node {
         }
     }
 
+    /// The number of an attribute's keyword.
+    pub(crate) fn word(&self, name: &str) -> Option<i32> {
+        match &self.attribute(name)?.value {
+            Value::Word(word) => Some(*word),
+            _ => None,
+        }
+    }
+
     /// The integer of an attribute.
     pub(crate) fn int(&self, name: &str) -> Option<i32> {
         match &self.attribute(name)?.value {

@@ -5,47 +5,53 @@
 
 use std::f64::consts::PI;
 
-use super::ellipsoid;
+use super::ellipsoid::Ellipsoid;
 use crate::math::*;
-use crate::{Data, Model, jacobian};
+use crate::{Data, Model, disable, jacobian};
 
 /// Numbers of a geom in `geom_fluid`.
 const FLUID: usize = 12;
 
-/// `qfrc_fluid` (zero before). Whether there is a medium.
-pub(super) fn fluid(m: &Model, d: &mut Data) -> bool {
-    if m.opt.density <= 0.0 && m.opt.viscosity <= 0.0 {
-        return false;
-    }
+/// Whether there is a medium whose forces act.
+pub(crate) fn acts(m: &Model) -> bool {
+    let on = !m.opt.disabled(disable::SPRING) || !m.opt.disabled(disable::DAMPER);
+    on && (m.opt.density > 0.0 || m.opt.viscosity > 0.0)
+}
+
+/// `qfrc_fluid` (zero before).
+pub(super) fn fluid(m: &Model, d: &mut Data) {
     let mut out = std::mem::take(&mut d.qfrc_fluid);
+    shapes(m, d, |frame, shape| frame.apply(m, d, shape.force(frame.motion), &mut out));
+    d.qfrc_fluid = out;
+}
+
+/// Calls `f` for everything that the medium resists.
+pub(crate) fn shapes(m: &Model, d: &Data, mut f: impl FnMut(&Frame, &Shape)) {
     for b in 1..m.nbody {
         if m.body_mass[b] < MINVAL {
             continue;
         }
         let first = m.body_geomadr[b].max(0) as usize;
-        let shapes = &rows::<FLUID>(&m.geom_fluid)[first..first + m.body_geomnum[b] as usize];
-        if shapes.iter().all(|s| s[0] <= 0.0) {
+        let fluid = &rows::<FLUID>(&m.geom_fluid)[first..first + m.body_geomnum[b] as usize];
+        if fluid.iter().all(|s| s[0] <= 0.0) {
             let frame = Frame::new(m, d, b, rows::<3>(&d.xipos)[b], rows::<9>(&d.ximat)[b]);
-            frame.apply(m, d, inertia_box(m, b, frame.motion), &mut out);
+            f(&frame, &Shape::Box(InertiaBox::new(m, b)));
             continue;
         }
-        for (g, shape) in (first..).zip(shapes).filter(|(_, s)| s[0] != 0.0) {
+        for (g, &fluid) in (first..).zip(fluid).filter(|(_, s)| s[0] != 0.0) {
             let frame = Frame::new(m, d, b, rows::<3>(&d.geom_xpos)[g], rows::<9>(&d.geom_xmat)[g]);
-            let force = ellipsoid::force(m, ellipsoid::semi_axes(m, g), shape, frame.motion);
-            frame.apply(m, d, scale(force, shape[0]), &mut out);
+            f(&frame, &Shape::Ellipsoid(Ellipsoid::new(m, g, fluid)));
         }
     }
-    d.qfrc_fluid = out;
-    true
 }
 
 /// A frame that moves with a body, and its motion through the medium: angular and linear velocity along the
 /// frame's axes.
-struct Frame {
-    body: usize,
-    pos: Vec3,
-    mat: Mat3,
-    motion: Spatial,
+pub(crate) struct Frame {
+    pub(crate) body: usize,
+    pub(crate) pos: Vec3,
+    pub(crate) mat: Mat3,
+    pub(crate) motion: Spatial,
 }
 
 impl Frame {
@@ -67,34 +73,66 @@ impl Frame {
 }
 
 /// A spatial vector from its parts.
-pub(super) fn spatial(w: Vec3, v: Vec3) -> Spatial {
+pub(crate) fn spatial(w: Vec3, v: Vec3) -> Spatial {
     [w[0], w[1], w[2], v[0], v[1], v[2]]
 }
 
-/// Torque and force on the box that has the inertia of body `b`.
+/// What the medium resists.
+pub(crate) enum Shape {
+    Box(InertiaBox),
+    Ellipsoid(Ellipsoid),
+}
+
+impl Shape {
+    /// Torque and force for a motion through the medium, all along the frame's axes.
+    fn force(&self, motion: Spatial) -> Spatial {
+        match self {
+            Shape::Box(b) => b.force(motion),
+            Shape::Ellipsoid(e) => e.force(motion),
+        }
+    }
+}
+
+/// The box with the inertia of a body.
 ///
 /// Viscosity acts as on a sphere of diameter D, the box's mean edge: torque π D³ η ω, force 3π D η v. Each pair
 /// of faces has a drag of ½ ρ A |v| v, and a torque against turning of ρ e (e₁⁴ + e₂⁴) |ω| ω / 64.
-fn inertia_box(m: &Model, b: usize, motion: Spatial) -> Spatial {
-    let i = rows::<3>(&m.body_inertia)[b];
-    let mass = m.body_mass[b];
-    let edge = |k: usize| {
-        let sum = i[(k + 1) % 3] + i[(k + 2) % 3] - i[k];
-        (sum.max(MINVAL) / mass * 6.0).sqrt()
-    };
-    let e = [edge(0), edge(1), edge(2)];
-    let (density, viscosity) = (m.opt.density.max(0.0), m.opt.viscosity.max(0.0));
-    let diameter = (e[0] + e[1] + e[2]) / 3.0;
-    let (w, v) = (angular(&motion), linear(&motion));
-    let mut force = spatial(
-        scale(w, -PI * diameter * diameter * diameter * viscosity),
-        scale(v, -3.0 * PI * diameter * viscosity),
-    );
-    let fourth = |x: f64| x * x * x * x;
-    for k in 0..3 {
-        let (e1, e2) = (e[(k + 1) % 3], e[(k + 2) % 3]);
-        force[k] -= density * e[k] * (fourth(e1) + fourth(e2)) * w[k].abs() * w[k] / 64.0;
-        force[3 + k] -= 0.5 * density * e1 * e2 * v[k].abs() * v[k];
+pub(crate) struct InertiaBox {
+    /// Coefficients of linear and quadratic resistance, three rotations and three translations.
+    linear: Spatial,
+    quadratic: Spatial,
+}
+
+impl InertiaBox {
+    fn new(m: &Model, b: usize) -> InertiaBox {
+        let i = rows::<3>(&m.body_inertia)[b];
+        let mass = m.body_mass[b];
+        let edge = |k: usize| {
+            let sum = i[(k + 1) % 3] + i[(k + 2) % 3] - i[k];
+            (sum.max(MINVAL) / mass * 6.0).sqrt()
+        };
+        let e = [edge(0), edge(1), edge(2)];
+        let (density, viscosity) = (m.opt.density.max(0.0), m.opt.viscosity.max(0.0));
+        let diameter = (e[0] + e[1] + e[2]) / 3.0;
+        let turn = PI * diameter * diameter * diameter * viscosity;
+        let push = 3.0 * PI * diameter * viscosity;
+        let fourth = |x: f64| x * x * x * x;
+        let mut quadratic = [0.0; 6];
+        for k in 0..3 {
+            let (e1, e2) = (e[(k + 1) % 3], e[(k + 2) % 3]);
+            quadratic[k] = density * e[k] * (fourth(e1) + fourth(e2)) / 64.0;
+            quadratic[3 + k] = 0.5 * density * e1 * e2;
+        }
+        InertiaBox { linear: [turn, turn, turn, push, push, push], quadratic }
     }
-    force
+
+    /// Torque and force.
+    fn force(&self, motion: Spatial) -> Spatial {
+        std::array::from_fn(|k| -(self.linear[k] + self.quadratic[k] * motion[k].abs()) * motion[k])
+    }
+
+    /// The diagonal of their derivative with respect to the motion.
+    pub(crate) fn derivative(&self, motion: Spatial) -> Spatial {
+        std::array::from_fn(|k| -(self.linear[k] + 2.0 * self.quadratic[k] * motion[k].abs()))
+    }
 }

@@ -1,7 +1,7 @@
 //! Passive forces: springs and dampers, gravity compensation, the medium.
 
-mod ellipsoid;
-mod fluid;
+pub(crate) mod ellipsoid;
+pub(crate) mod fluid;
 mod gravcomp;
 pub(crate) mod spring;
 
@@ -32,7 +32,8 @@ pub(crate) fn passive(m: &Model, d: &mut Data) {
 fn body_forces(m: &Model, d: &mut Data, on: bool) {
     d.qfrc_gravcomp.fill(0.0);
     d.qfrc_fluid.fill(0.0);
-    if on && fluid::fluid(m, d) {
+    if fluid::acts(m) {
+        fluid::fluid(m, d);
         for (f, fluid) in d.qfrc_passive.iter_mut().zip(&d.qfrc_fluid) {
             *f += fluid;
         }

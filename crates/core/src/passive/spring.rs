@@ -78,7 +78,7 @@ pub(super) fn joint_springs(m: &Model, d: &mut Data) {
 }
 
 /// How far the spring of a free or ball joint is stretched: translation (free only) and rotation vector.
-fn displacements(m: &Model, d: &Data, j: usize) -> (Option<Vec3>, Vec3) {
+pub(crate) fn displacements(m: &Model, d: &Data, j: usize) -> (Option<Vec3>, Vec3) {
     let q = m.jnt_qposadr[j] as usize;
     if m.jnt_type[j] == joint::FREE {
         let shift = [0, 1, 2].map(|i| d.qpos[q + i] - m.qpos_spring[q + i]);
@@ -103,7 +103,7 @@ pub(crate) fn joint_damper(m: &Model, i: usize) -> Law {
 }
 
 /// The damper of tendon `t`, that of actuators included.
-fn tendon_damper(m: &Model, t: usize) -> Law {
+pub(crate) fn tendon_damper(m: &Model, t: usize) -> Law {
     Law::new(&m.tendon_damping, &m.tendon_dampingpoly, t).plus(transmission::damping(m, On::Tendon(t)))
 }
 

@@ -12,7 +12,7 @@ mod wrap;
 use crate::math::*;
 use crate::model::wraptype;
 use crate::transmission::{self, On};
-use crate::{Data, Model};
+use crate::{Data, Model, mass};
 
 pub(crate) use constants::{at_default, at_rest};
 pub(crate) use pattern::set_pattern;
@@ -71,22 +71,7 @@ pub(crate) fn armature(m: &Model, d: &mut Data) {
             continue;
         }
         let row = row(m, t);
-        let (dofs, values) = (&m.ten_J_colind[row.clone()], &d.ten_J[row]);
-        for (&i, x) in dofs.iter().zip(values) {
-            let start = m.M_rowadr[i as usize] as usize;
-            let end = start + m.M_rownnz[i as usize] as usize;
-            let columns = &m.M_colind[start..end];
-            // Both lists ascend.
-            let mut at = 0;
-            for (&j, y) in dofs.iter().zip(values) {
-                while at < columns.len() && columns[at] < j {
-                    at += 1;
-                }
-                if at < columns.len() && columns[at] == j {
-                    d.M[start + at] += a * x * y;
-                }
-            }
-        }
+        mass::add_outer(m, &m.ten_J_colind[row.clone()], &d.ten_J[row], a, &mut d.M);
     }
 }
 

@@ -88,8 +88,23 @@ pub(super) static MATERIAL: Element = Element::new(
     &[attributes! { Kind::Name("material") => name; Kind::Class => class; }, MATERIAL_ATTRS],
 )
 .children(&[&LAYER]);
-pub(super) static LAYER: Element =
-    Element::new("layer", &[attributes! { TEXT => role; Kind::Ref("texture") => texture; }]).status(LOOK);
+pub(super) static LAYER: Element = Element::new(
+    "layer",
+    &[attributes! { Kind::Words(TEXTURE_ROLES) => role; Kind::Ref("texture") => texture; }],
+);
+
+/// What a texture of a material is for, by `mjtTextureRole`.
+const TEXTURE_ROLES: &[super::Word] = &[
+    word("rgb", 1),
+    word("occlusion", 2),
+    word("roughness", 3),
+    word("metallic", 4),
+    word("normal", 5),
+    word("opacity", 6),
+    word("emissive", 7),
+    word("rgba", 8),
+    word("orm", 9),
+];
 
 /// A mesh, without its name, class and data.
 pub(super) const MESH_ATTRS: &[super::Attr] = attributes! {

@@ -45,8 +45,8 @@ pub(super) static OPTION: Element = Element::new(
         upto(2) => o_solref;
         upto(5) => o_solimp o_friction;
         Kind::Words(&[
-            word("Euler", integrator::EULER), word("RK4", integrator::RK4), not_yet("implicit", 2),
-            not_yet("implicitfast", 3), not_yet("discrete", 4),
+            word("Euler", integrator::EULER), word("RK4", integrator::RK4), word("implicit", integrator::IMPLICIT),
+            word("implicitfast", integrator::IMPLICITFAST), word("discrete", integrator::DISCRETE),
         ]) => integrator;
         Kind::Words(&[word("pyramidal", 0), word("elliptic", 1)]) => cone;
         Kind::Words(&[word("PGS", 0), word("CG", 1), word("Newton", 2)]) => solver;
@@ -81,7 +81,7 @@ pub(super) static SIZE: Element = Element::new(
         TEXT => memory [MEMORY];
         INT => njmax nconmax nstack [MEMORY];
         INT => nuser_body nuser_jnt nuser_tendon nuser_actuator;
-        INT => nuserdata nuser_geom nuser_site nuser_cam nuser_sensor [super::USER];
+        INT => nuserdata nuser_geom nuser_site nuser_cam nuser_sensor;
     }],
 );
 

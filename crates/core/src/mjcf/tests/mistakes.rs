@@ -74,7 +74,7 @@ mistakes! {
     attribute_not_supported: world("<site mesh=\"m\"/>");
     geom_type_not_supported: world("<geom type=\"sdf\" size=\"1 1\"/>");
     keyword_misspelt: before("<option integrator=\"euler\"/>");
-    integrator_not_supported: before("<option integrator=\"implicitfast\"/>");
+    integrator_unknown: before("<option integrator=\"midpoint\"/>");
     flag_not_simulated: before("<option><flag sleep=\"enable\"/></option>");
     option_not_simulated: before("<option noslip_iterations=\"3\"/>\n<worldbody><geom type=\"plane\" size=\"1 1 1\"/><body><freejoint/><geom size=\"1\" condim=\"4\"/></body></worldbody>");
     equality_not_simulated: tied("<equality>\n<joint joint1=\"j\"/></equality>");

@@ -1,7 +1,13 @@
 //! Jacobians of points: how the velocity of a point follows from `qvel`.
 
+mod points;
+
 use crate::math::*;
 use crate::{Data, Model, joint};
+
+pub use points::{
+    Jacobian, apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,
+};
 
 /// Last degree of freedom that moves body `b`, -1 when it cannot move.
 #[inline(always)]

@@ -1,0 +1,46 @@
+//! Semi-implicit Euler.
+
+use super::advance;
+use crate::passive::spring;
+use crate::reflect::Stage;
+use crate::{Data, Model, disable, mass};
+
+/// v += h a, then q advances with the new v. Joint damping is implicit, so that it is stable however stiff:
+/// (M + h B) a' = M a, where B is the derivative of the damping force.
+#[inline(never)]
+pub(super) fn euler(m: &Model, d: &mut Data) {
+    if !damps(m, d) {
+        advance(m, d, None, None);
+        return;
+    }
+    let h = m.opt.timestep;
+    d.work.ld.copy_from_slice(&d.M);
+    for i in 0..m.nv {
+        d.work.ld[mass::diagonal(m, i)] += h * damping(m, d, i);
+    }
+    let w = &mut d.work;
+    mass::factor(m, &mut w.ld, &mut w.diag_inv);
+    let mut acceleration = std::mem::take(&mut w.qacc);
+    for (a, (f, c)) in acceleration.iter_mut().zip(d.qfrc_smooth.iter().zip(&d.qfrc_constraint)) {
+        *a = f + c;
+    }
+    mass::solve(m, &d.work.ld, &d.work.diag_inv, &mut acceleration, 0..m.nv);
+    advance(m, d, Some(&acceleration), None);
+    d.work.qacc = acceleration;
+}
+
+/// The derivative of the damping force of a degree of freedom.
+#[inline(always)]
+pub(crate) fn damping(m: &Model, d: &Data, i: usize) -> f64 {
+    spring::joint_damper(m, i).slope(d.qvel[i].abs())
+}
+
+/// Whether some degree of freedom has a damper, and dampers are on.
+pub(crate) fn damps(m: &Model, d: &Data) -> bool {
+    d.plan.keeps(Stage::Passive)
+        && !m.opt.disabled(disable::EULERDAMP)
+        && !m.opt.disabled(disable::DAMPER)
+        && (m.dof_damping.iter().any(|&b| b != 0.0)
+            || m.dof_dampingpoly.iter().any(|&p| p != 0.0)
+            || m.jnt_actuatorid.iter().any(|&i| i != -1))
+}

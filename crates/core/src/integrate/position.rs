@@ -1,0 +1,51 @@
+//! Coordinates and velocities: steps along velocities, and the velocities between two configurations.
+//!
+//! Positions live on a manifold (unit quaternions), so they advance along velocities, never by adding
+//! coordinates (Hairer, Lubich and Wanner 2006, *Geometric Numerical Integration*, ch. IV).
+
+use crate::math::*;
+use crate::{Model, joint};
+
+/// qpos ← qpos advanced for a time `h` with velocity `v` (`mj_integratePos`).
+pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
+    for j in 0..m.njnt {
+        let (mut q, mut k) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
+        match m.jnt_type[j] {
+            joint::SLIDE | joint::HINGE => qpos[q] += h * v[k],
+            kind => {
+                if kind == joint::FREE {
+                    for i in 0..3 {
+                        qpos[q + i] += h * v[k + i];
+                    }
+                    (q, k) = (q + 3, k + 3);
+                }
+                let q = &mut qpos[q..q + 4];
+                q.copy_from_slice(&quat_integrate([q[0], q[1], q[2], q[3]], [v[k], v[k + 1], v[k + 2]], h));
+            }
+        }
+    }
+}
+
+/// v ← the velocity that leads from `from` to `to` in a time `h` (`mj_differentiatePos`); rotations by the
+/// shorter way. Inverse to [`integrate_pos`] for unit quaternions and turns below half a revolution.
+pub fn differentiate_pos(m: &Model, v: &mut [f64], h: f64, from: &[f64], to: &[f64]) {
+    for j in 0..m.njnt {
+        let (mut q, mut k) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
+        match m.jnt_type[j] {
+            joint::SLIDE | joint::HINGE => v[k] = (to[q] - from[q]) / h,
+            kind => {
+                if kind == joint::FREE {
+                    for i in 0..3 {
+                        v[k + i] = (to[q + i] - from[q + i]) / h;
+                    }
+                    (q, k) = (q + 3, k + 3);
+                }
+                let quat = |of: &[f64]| [of[q], of[q + 1], of[q + 2], of[q + 3]];
+                let turn = quat_to_vel(quat_mul(quat_conj(quat(from)), quat(to)));
+                for i in 0..3 {
+                    v[k + i] = turn[i] / h;
+                }
+            }
+        }
+    }
+}
