@@ -21,9 +21,9 @@ const EXCEPTIONS: &[Exception] = &[
     ("bench/chain100", "implicitfast", "not examined yet: the chain is very sensitive"),
     ("bench/chain100", "discrete", "not examined yet: the chain is very sensitive"),
     (
-        "conformance/engine__solver__humanoid",
-        "load",
-        "its key has fewer numbers than the model; the library pads them",
+        "conformance/mjx__constraints",
+        "RK4",
+        "a servo explodes and is reset every eleven steps: there, too, 1e-16 at the start of a round is 1e-6 at its end",
     ),
     (
         "conformance/mjx__actuator__arm26",
@@ -52,7 +52,7 @@ const EXCEPTIONS: &[Exception] = &[
         "discrete",
         "the range of lengths of its muscles is not computed yet",
     ),
-    ("conformance/user__lengthrange", "load", "a tendon outside a replica that ties one of its copies"),
+    ("conformance/user__lengthrange", "compile", "the range of lengths of its actuators is not computed yet"),
 ];
 
 /// Folder of the recordings, and of the models in `../shared`.

@@ -6,8 +6,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::support::numbers;
-use labspec_core::mjcf::{self, MjcfFileError};
+use crate::support::{compile_unconstrained, numbers};
+use labspec_core::mjcf::MjcfDiagnostic;
 use labspec_core::reflect::{self, FieldId, Object};
 use labspec_core::{self as core, Data, Model, Obj, Warning, disable, enable};
 use serde_json::{Map, Value};
@@ -91,8 +91,7 @@ pub(crate) type Outcome = Result<Vec<Verdict>, String>;
 
 /// Loads a model and holds it against its recording.
 pub(crate) fn examine(model: &Path, recording: &Value) -> Outcome {
-    let mut m = mjcf::compile_file(model).map_err(|e| reason(&e))?;
-    m.opt.disableflags |= disable::CONSTRAINT;
+    let m = compile_unconstrained(model).map_err(|list| reason(&list))?;
     let mut verdicts = vec![compiled(&m, &recording["compiled"]), forward(&m, &recording["forward"])];
     for (i, name) in ASPECTS[2..].iter().enumerate() {
         let mut m = m.clone();
@@ -104,13 +103,8 @@ pub(crate) fn examine(model: &Path, recording: &Value) -> Outcome {
 }
 
 /// The first finding of the compiler, on one line.
-fn reason(error: &MjcfFileError) -> String {
-    match error {
-        MjcfFileError::Model { diagnostics, .. } => {
-            diagnostics.first().map_or(String::new(), |d| format!("{}: {}", d.code, d.message))
-        }
-        other => other.to_string(),
-    }
+fn reason(list: &[MjcfDiagnostic]) -> String {
+    list.first().map_or(String::new(), |d| format!("{}: {}", d.code, d.message))
 }
 
 fn compiled(m: &Model, recording: &Value) -> Verdict {
@@ -127,9 +121,6 @@ fn compiled(m: &Model, recording: &Value) -> Verdict {
         for (field, values) in objects(&recording[part]) {
             let Some(id) = reflect::field(object, field) else { continue };
             let (ours, theirs) = (list(m, &d, id), numbers(values));
-            if field == "disableflags" {
-                continue;
-            }
             let scale = largest(&theirs).max(COMPILED_ZERO / tolerance);
             worst = worst.max(note(&mut found, "", field, &ours, &theirs, scale, tolerance));
         }

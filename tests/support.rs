@@ -9,6 +9,7 @@ use labspec::lint::ModelFolder;
 use labspec::source::SourceFile;
 use labspec::spec::load_lesson;
 use labspec_core::Model;
+use labspec_core::mjcf::{self, Folder, MjcfDiagnostic};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -29,11 +30,30 @@ pub(crate) fn model(name: &str) -> Model {
 
 /// Compiles a model that is meant to be right.
 pub(crate) fn compile(xml: &str) -> Model {
-    labspec_core::mjcf::compile(xml).unwrap_or_else(|list| {
+    mjcf::compile(xml).unwrap_or_else(|list| {
         let text: Vec<String> =
             list.iter().map(|d| format!("{}:{}: {} {}", d.line, d.column, d.code, d.message)).collect();
         panic!("the model does not compile:\n{}\n{xml}", text.join("\n"))
     })
+}
+
+/// Compiles a model file with constraints switched off in its text, as the recordings of MuJoCo are made.
+pub(crate) fn compile_unconstrained(path: &Path) -> Result<Model, Vec<MjcfDiagnostic>> {
+    let text = std::fs::read_to_string(path).unwrap();
+    let folder = Folder::new(path.parent().unwrap()).unwrap();
+    mjcf::compile_with(&unconstrained(&text), &folder, path.file_name().and_then(|name| name.to_str()))
+}
+
+/// A model's text with constraints switched off.
+pub(crate) fn unconstrained(text: &str) -> String {
+    let root = text.find("<mujoco").unwrap();
+    let end = root + text[root..].find('>').unwrap();
+    let (head, tail) = if text[..end].ends_with('/') {
+        (format!("{}>", &text[..end - 1]), format!("</mujoco>{}", &text[end + 1..]))
+    } else {
+        (text[..=end].to_string(), text[end + 1..].to_string())
+    };
+    format!("{head}<option><flag constraint=\"disable\"/></option>{tail}")
 }
 
 /// A file of `tests/golden`, by its name without the ending.

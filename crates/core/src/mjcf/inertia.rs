@@ -41,22 +41,26 @@ fn body_inertia(body: &BodySpec, compiler: &Compiler) -> Inertia {
 /// The inertia of the geoms that have mass, `None` if there are none.
 fn of_geoms(geoms: &[GeomSpec], compiler: &Compiler) -> Option<Inertia> {
     let [lowest, highest] = compiler.inertiagrouprange;
-    let massive: Vec<&GeomSpec> =
-        geoms.iter().filter(|g| g.mass > MINVAL && (lowest..=highest).contains(&g.group)).collect();
+    let massive: Vec<Inertia> = geoms
+        .iter()
+        .filter(|g| g.mass > MINVAL && (lowest..=highest).contains(&g.group))
+        .map(|g| Inertia { pos: g.pos, quat: g.quat, mass: g.mass, moments: g.moments })
+        .collect();
     match massive.as_slice() {
         [] => None,
         // One geom keeps its own frame, which need not be sorted.
-        [g] => Some(Inertia { pos: g.pos, quat: g.quat, mass: g.mass, moments: g.moments }),
+        [one] => Some(one.clone()),
         many => Some(combined(many)),
     }
 }
 
-fn combined(geoms: &[&GeomSpec]) -> Inertia {
-    let mass: f64 = geoms.iter().map(|g| g.mass).sum();
-    let moment = geoms.iter().fold([0.0; 3], |sum, g| add_scaled(sum, g.pos, g.mass));
+/// The inertia of parts that are fixed to each other: moments about the common centre of mass add up.
+pub(crate) fn combined(parts: &[Inertia]) -> Inertia {
+    let mass: f64 = parts.iter().map(|p| p.mass).sum();
+    let moment = parts.iter().fold([0.0; 3], |sum, p| add_scaled(sum, p.pos, p.mass));
     let pos = moment.map(|x| x / mass);
-    let about = |g: &GeomSpec| inertia_about(g.moments, &quat_to_mat(g.quat), sub(g.pos, pos), g.mass);
-    let [xx, yy, zz, xy, xz, yz, ..] = geoms.iter().fold([0.0; 10], |sum, g| add(sum, about(g)));
+    let about = |p: &Inertia| inertia_about(p.moments, &quat_to_mat(p.quat), sub(p.pos, pos), p.mass);
+    let [xx, yy, zz, xy, xz, yz, ..] = parts.iter().fold([0.0; 10], |sum, p| add(sum, about(p)));
     let (moments, quat) = principal([xx, yy, zz, xy, xz, yz]);
     Inertia { pos, quat, mass, moments }
 }

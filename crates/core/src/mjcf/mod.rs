@@ -36,6 +36,7 @@ mod read_key;
 mod read_scene;
 mod read_sensor;
 mod read_tendon;
+mod reshape;
 mod scan;
 mod schema;
 mod settings;
@@ -150,9 +151,15 @@ fn build(
     let min_keys = settings::min_keys(&tree, report);
     let compiler = &parts.first()?.compiler;
     let mut cx = read_body::Context { tree: &tree, classes: &classes, parts: &parts, compiler, report };
-    let bodies = read_body::bodies(&mut cx);
+    let mut bodies = read_body::bodies(&mut cx);
+    layout::check(&bodies, &layout::number(&bodies), report);
+    let mut inertias = Vec::new();
+    // A refused geom would also be a missing mass.
+    if report.is_clean() {
+        inertias = inertia::bodies(&bodies, &parts, report);
+        reshape::apply(&mut bodies, &mut inertias, &tree, &parts);
+    }
     let layout = layout::number(&bodies);
-    layout::check(&bodies, &layout, report);
     sleep::check(&bodies, &layout, report);
     let ids = ids::Ids::number(&tree, &bodies);
     let refs = ids::References { names: &names, ids: &ids };
@@ -161,13 +168,16 @@ fn build(
     let actuators = read_actuator::actuators(&mut cx, refs, &bodies, &tendons);
     let equalities = read_equality::equalities(&mut cx, refs);
     let (pairs, excludes) = read_contact::contacts(&mut cx, refs, &bodies);
-    let scene = fill_scene::Scene {
+    let mut scene = fill_scene::Scene {
         materials: read_scene::materials(&cx),
         textures: read_scene::textures(&tree),
         numerics: read_scene::numerics(&mut cx),
         texts: read_scene::texts(&tree),
         tuples: read_scene::tuples(&mut cx, refs),
     };
+    if compiler.discardvisual {
+        (scene.materials, scene.textures) = Default::default();
+    }
     let sensors = read_sensor::sensors(&tree, refs, &tendons, report);
     let actuator_users: Vec<_> = actuators.iter().map(fill_actuator::user).collect();
     let users = fill::Users {
@@ -205,7 +215,7 @@ fn build(
         return None;
     }
 
-    // What follows depends on everything being read: a refused geom would also be a missing mass.
+    // What follows depends on everything being read.
     let counts = fill_actuator::count(&actuators, report);
     let sizes = fill::Sizes {
         nq: layout.nq,
@@ -215,7 +225,6 @@ fn build(
         nu: counts.nu,
     };
     let keys = read_key::keys(&tree, &sizes, min_keys, report);
-    let inertias = inertia::bodies(&bodies, &parts, report);
     inertia::check_moving(&bodies, &layout.weld, &inertias, report);
     if !report.is_clean() {
         return None;
@@ -249,6 +258,7 @@ fn build(
     fill_tendon::pattern(&mut m, &tendons, report)?;
     fill_actuator::pattern(&mut m, &actuators, report)?;
     sleep::policies(&mut m, &bodies);
+    reshape::total_mass(&mut m, compiler);
     crate::setconst::set_const0(&mut m);
     fill::spring_dampers(&mut m, &bodies);
     statistic.apply(&mut m.stat);

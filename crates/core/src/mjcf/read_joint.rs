@@ -31,6 +31,7 @@ pub(crate) fn joint(cx: &mut Context, i: usize, node: &Node, childclass: Option<
         kind,
         pos: if kind == joint::FREE { [0.0; 3] } else { p.reals("pos", [0.0; 3]) },
         axis: axis(cx, &p, node, kind),
+        align: p.word("align").unwrap_or(2),
         limited,
         range,
         margin: p.real("margin").unwrap_or(0.0),

@@ -39,10 +39,23 @@ pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) 
     list
 }
 
+/// What a list that is too short means.
+#[derive(Clone, Copy, PartialEq)]
+enum Rest {
+    /// The rest is zero, as in MuJoCo.
+    Zero,
+    /// A mistake. MuJoCo fills the rest of a configuration with angles in degrees and with poses outside their frames,
+    /// which nobody means.
+    Needed,
+}
+
 fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
     let p = Props::own(node);
-    let mut list = |name: &str, n: usize, what: String| {
-        let given = p.list(name)?;
+    let mut list = |name: &str, n: usize, rest: Rest, what: String| {
+        let mut given = p.list(name).filter(|list| !list.is_empty())?.to_vec();
+        if rest == Rest::Zero && given.len() < n {
+            given.resize(n, 0.0);
+        }
         if given.len() != n {
             let plural = if given.len() == 1 { "" } else { "s" };
             let owner = node.shown();
@@ -51,7 +64,7 @@ fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
             report.error(code::KEYFRAME, p.span(name).unwrap_or(0..0), message).why(what);
             return None;
         }
-        Some(given.to_vec())
+        Some(given)
     };
     let state = |what: &str, free: usize, ball: usize| {
         format!("{what}: {free} for a free joint, {ball} for a ball joint, one for a slide or hinge joint")
@@ -63,11 +76,11 @@ fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
     KeySpec {
         name: name(node),
         time: p.real("time").unwrap_or(0.0),
-        qpos: list("qpos", sizes.nq, state("one coordinate after the other", 7, 4)),
-        qvel: list("qvel", sizes.nv, state("one velocity after the other", 6, 3)),
-        act: list("act", sizes.na, none(sizes.na, "one for each state of an actuator")),
-        ctrl: list("ctrl", sizes.nu, none(sizes.nu, "one for each control of an actuator")),
-        mpos: list("mpos", 3 * sizes.nmocap, "three for each mocap body".into()),
-        mquat: list("mquat", 4 * sizes.nmocap, "four for each mocap body".into()),
+        qpos: list("qpos", sizes.nq, Rest::Needed, state("one coordinate after the other", 7, 4)),
+        qvel: list("qvel", sizes.nv, Rest::Zero, state("one velocity after the other", 6, 3)),
+        act: list("act", sizes.na, Rest::Zero, none(sizes.na, "one for each state of an actuator")),
+        ctrl: list("ctrl", sizes.nu, Rest::Zero, none(sizes.nu, "one for each control of an actuator")),
+        mpos: list("mpos", 3 * sizes.nmocap, Rest::Needed, "three for each mocap body".into()),
+        mquat: list("mquat", 4 * sizes.nmocap, Rest::Needed, "four for each mocap body".into()),
     }
 }

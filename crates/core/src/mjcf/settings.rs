@@ -57,6 +57,11 @@ pub(crate) struct Compiler {
     pub(crate) boundmass: f64,
     pub(crate) boundinertia: f64,
     pub(crate) balanceinertia: bool,
+    /// kg; nothing is asked for when it is not positive.
+    pub(crate) settotalmass: f64,
+    pub(crate) fusestatic: bool,
+    pub(crate) discardvisual: bool,
+    pub(crate) alignfree: bool,
 }
 
 impl Compiler {
@@ -79,6 +84,10 @@ impl Compiler {
             boundinertia: checked(&p, "boundinertia", "compiler", |x| x >= 0.0, "zero or more", report)
                 .unwrap_or(0.0),
             balanceinertia: p.word("balanceinertia") == Some(1),
+            settotalmass: p.real("settotalmass").unwrap_or(-1.0),
+            fusestatic: p.word("fusestatic") == Some(1),
+            discardvisual: p.word("discardvisual") == Some(1),
+            alignfree: p.word("alignfree") == Some(1),
         }
     }
 
@@ -160,6 +169,7 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         o_friction: p.reals("o_friction", d.o_friction),
         integrator: p.word("integrator").unwrap_or(d.integrator),
         cone: p.word("cone").unwrap_or(d.cone),
+        jacobian: p.word("jacobian").unwrap_or(d.jacobian),
         solver: p.word("solver").unwrap_or(d.solver),
         iterations,
         ls_iterations,
@@ -170,7 +180,6 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
         sleep_tolerance,
         sdf_iterations,
         sdf_initpoints,
-        jacobian: p.word("jacobian").unwrap_or(d.jacobian),
         disableflags,
         enableflags,
         disableactuator,
@@ -216,11 +225,14 @@ const DISABLE: [(&str, i32); 20] = [
     ("island", disable::ISLAND),
     ("multiccd", disable::MULTICCD),
 ];
-const ENABLE: [(&str, i32); 4] = [
+const ENABLE: [(&str, i32); 7] = [
     ("override", enable::OVERRIDE),
     ("energy", enable::ENERGY),
     ("fwdinv", enable::FWDINV),
     ("invdiscrete", enable::INVDISCRETE),
+    ("sleep", enable::SLEEP),
+    ("diagexact", enable::DIAGEXACT),
+    ("ipc", enable::IPC),
 ];
 
 /// `option/flag` as bits: disabled, enabled.

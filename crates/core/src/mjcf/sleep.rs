@@ -29,8 +29,8 @@ pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     }
 }
 
-/// `tree_sleep_policy`: by its author's choice; else a tree may sleep unless actuators move it or a tendon with
-/// a spring or a damper ties it to another.
+/// `tree_sleep_policy`: by its author's choice; else a tree may sleep unless actuators move it, or a tendon ties it
+/// to more than one other, or to one by a spring or a damper.
 pub(crate) fn policies(m: &mut Model, bodies: &[BodySpec]) {
     let mut policies = vec![policy::AUTO_ALLOWED; m.ntree];
     let mut keep_awake = |tree: i32| {
@@ -43,7 +43,7 @@ pub(crate) fn policies(m: &mut Model, bodies: &[BodySpec]) {
             || m.tendon_damping[t] != 0.0
             || m.tendon_stiffnesspoly[2 * t..2 * t + 2] != [0.0; 2]
             || m.tendon_dampingpoly[2 * t..2 * t + 2] != [0.0; 2];
-        if forces && m.tendon_treenum[t] > 1 {
+        if m.tendon_treenum[t] > if forces { 1 } else { 2 } {
             trees_of_tendon(m, t).for_each(&mut keep_awake);
         }
     }

@@ -62,6 +62,8 @@ pub(crate) struct JointSpec {
     pub(crate) kind: i32,
     pub(crate) pos: Vec3,
     pub(crate) axis: Vec3,
+    /// Of a free joint: whether its body takes the frame of its inertia; 0 no, 1 yes, 2 as `compiler` says.
+    pub(crate) align: i32,
     pub(crate) limited: bool,
     pub(crate) range: [f64; 2],
     pub(crate) margin: f64,

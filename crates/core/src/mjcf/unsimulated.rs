@@ -4,13 +4,20 @@
 use super::diagnostic::{Report, code};
 use super::tree::Tree;
 use crate::math::rows;
-use crate::{Model, collision, disable};
+use crate::{Model, collision, disable, enable};
 
 /// Value of `opt.solver`.
 const NEWTON: i32 = 2;
 
 /// Reports the first element of each kind that the scene needs.
 pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {
+    if m.opt.enabled(enable::SLEEP) {
+        let flag = tree.nodes.iter().filter(|n| n.element.name == "flag").find_map(|n| n.attribute("sleep"));
+        let span = flag.map_or(0..0, |a| a.span.clone());
+        report
+            .error(code::NOT_SUPPORTED, span, "sleeping is not simulated yet")
+            .why("trees that MuJoCo puts to sleep would go on moving a little");
+    }
     let on = |bit: i32| !m.opt.disabled(disable::CONSTRAINT) && !m.opt.disabled(bit);
     let some = |list: &[f64]| list.iter().any(|&x| x > 0.0);
     if on(disable::EQUALITY) && m.neq > 0 {
@@ -23,6 +30,9 @@ pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {
         refuse(tree, report, "tendon", "range", "a limited tendon");
     }
     let limited = on(disable::LIMIT) && m.jnt_limited.contains(&true);
+    if m.opt.enabled(enable::DIAGEXACT) && on(0) {
+        refuse(tree, report, "", "diagexact", "the exact diagonal of the constraint problem");
+    }
     let touches = on(disable::CONTACT) && !collision::candidate_pairs(m, false).is_empty();
     if (limited || touches) && m.opt.solver != NEWTON {
         refuse(tree, report, "", "solver", "a solver other than Newton");

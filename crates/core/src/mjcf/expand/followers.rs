@@ -99,7 +99,7 @@ impl Uses {
             if bound.contains(&(section, at)) {
                 f.bound.push(at);
             }
-            if references::follows(f.section, node, &references::of(nodes, at), &copied, other_model) {
+            if references::follows(f.section, &references::of(nodes, at), &copied, other_model) {
                 f.elements.push(at);
                 f.names.extend(own_name(node));
                 copied.extend(own_name(node));

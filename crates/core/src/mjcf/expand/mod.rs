@@ -8,7 +8,7 @@
 
 mod copy;
 mod followers;
-mod references;
+pub(crate) mod references;
 
 use std::collections::BTreeMap;
 

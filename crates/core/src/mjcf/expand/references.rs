@@ -9,7 +9,7 @@ use crate::mjcf::tree::{Attribute, Node};
 use crate::mjcf::values::Value;
 
 /// Objects by kind and name.
-pub(super) type Names = BTreeSet<(&'static str, String)>;
+pub(crate) type Names = BTreeSet<(&'static str, String)>;
 
 /// Sections whose elements refer to objects, those that are referred to first.
 pub(super) const SECTIONS: [&str; 6] = ["contact", "tendon", "equality", "actuator", "sensor", "custom"];
@@ -20,7 +20,7 @@ pub(super) fn is_asset(kind: &str) -> bool {
 }
 
 /// The kind of object that an attribute names, `None` for all other attributes.
-pub(super) fn kind_of(node: &Node, attribute: &Attribute) -> Option<&'static str> {
+pub(crate) fn kind_of(node: &Node, attribute: &Attribute) -> Option<&'static str> {
     // An object whose kind stands in another attribute.
     let chosen = match attribute.attr.name {
         "objname" => node.attribute("objtype"),
@@ -74,14 +74,13 @@ pub(super) fn of(nodes: &[Node], at: usize) -> Vec<(&'static str, String)> {
 /// another model the rest can only be the world.
 pub(super) fn follows(
     section: &str,
-    node: &Node,
     refs: &[(&'static str, String)],
     copied: &Names,
     other_model: bool,
 ) -> bool {
     let is_copied = |r: &(&'static str, String)| copied.contains(r);
     let stays = |r: &(&'static str, String)| !other_model || r.0 == "body" && r.1 == WORLD;
-    let one_is_enough = matches!(section, "contact" | "sensor") || node.element.name == "fixed";
+    let one_is_enough = matches!(section, "contact" | "sensor" | "tendon");
     match refs {
         [] => true,
         _ if one_is_enough => refs.iter().any(is_copied) && refs.iter().all(|r| is_copied(r) || stays(r)),

@@ -134,7 +134,7 @@ static FREEJOINT: Element = Element::new(
     "freejoint",
     &[attributes! {
         Kind::Name("joint") => name;
-        Kind::Words(&[word("false", 0), not_yet("true", 1), word("auto", 2)]) => align;
+        Kind::Words(&[word("false", 0), word("true", 1), word("auto", 2)]) => align;
         INT => group;
     }],
 );

@@ -1,6 +1,6 @@
 //! `compiler`, `option`, `size`, `statistic`.
 
-use super::Status::{Ignored, Only};
+use super::Status::Ignored;
 use super::{Element, FLAG, INT, INTS, Kind, MOOT, REAL, TEXT, attributes, not_yet, reals, upto, word};
 use crate::model::integrator;
 
@@ -16,8 +16,8 @@ pub(super) static COMPILER: Element = Element::new(
         Kind::Words(&[word("false", 0), word("true", 1), word("auto", 2)]) => inertiafromgeom;
         Kind::Ints(2, 2) => inertiagrouprange;
         Kind::Words(&[word("local", 0), not_yet("global", 1)]) => coordinate;
-        REAL => settotalmass [Only("-1")];
-        FLAG => alignfree discardvisual fusestatic [Only("false")];
+        REAL => settotalmass;
+        FLAG => alignfree discardvisual fusestatic;
         FLAG => fitaabb [MOOT];
         TEXT => assetdir meshdir texturedir [FILES];
         FLAG => strippath [FILES];
@@ -51,12 +51,10 @@ pub(super) static OPTION: Element = Element::new(
         Kind::Words(&[word("pyramidal", 0), word("elliptic", 1)]) => cone;
         Kind::Words(&[word("PGS", 0), word("CG", 1), word("Newton", 2)]) => solver;
         INT => iterations ls_iterations;
-        Kind::Words(&[word("dense", 0), word("sparse", 1), word("auto", 2)]) => jacobian
-            [Ignored("how matrices are stored")];
+        Kind::Words(&[word("dense", 0), word("sparse", 1), word("auto", 2)]) => jacobian;
         INT => noslip_iterations ccd_iterations;
-        REAL => noslip_tolerance ccd_tolerance;
-        REAL => sleep_tolerance [Ignored("kept; sleeping is refused")];
-        INT => sdf_iterations sdf_initpoints [Ignored("for signed distance fields, which are refused")];
+        REAL => noslip_tolerance ccd_tolerance sleep_tolerance;
+        INT => sdf_iterations sdf_initpoints;
         INTS => actuatorgroupdisable;
     }],
 )
@@ -69,8 +67,7 @@ static FLAGS: Element = Element::new(
     &[attributes! {
         SWITCH => constraint equality frictionloss limit contact spring damper gravity clampctrl warmstart
             filterparent actuation refsafe sensor midphase eulerdamp autoreset nativeccd island multiccd;
-        SWITCH => override energy fwdinv invdiscrete;
-        SWITCH => sleep diagexact ipc [Only("disable")];
+        SWITCH => override energy fwdinv invdiscrete sleep diagexact ipc;
     }],
 )
 .once();

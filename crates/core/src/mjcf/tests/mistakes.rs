@@ -75,7 +75,7 @@ mistakes! {
     geom_type_not_supported: world("<geom type=\"sdf\" size=\"1 1\"/>");
     keyword_misspelt: before("<option integrator=\"euler\"/>");
     integrator_unknown: before("<option integrator=\"midpoint\"/>");
-    flag_not_supported: before("<option><flag sleep=\"enable\"/></option>");
+    flag_not_simulated: before("<option><flag sleep=\"enable\"/></option>");
     option_not_simulated: before("<option noslip_iterations=\"3\"/>\n<worldbody><geom type=\"plane\" size=\"1 1 1\"/><body><freejoint/><geom size=\"1\" condim=\"4\"/></body></worldbody>");
     equality_not_simulated: tied("<equality>\n<joint joint1=\"j\"/></equality>");
     boolean: world("<body mocap=\"True\"/>");
@@ -153,6 +153,7 @@ mistakes! {
     sensor_plugin: after("<sensor><plugin plugin=\"touch_grid\"/>\n<tactile geom=\"g\" mesh=\"m\"/></sensor>");
     sensor_cutoff: after("<sensor><framequat objtype=\"body\" objname=\"b\" cutoff=\"1\"/></sensor>");
     key_short: after("<keyframe><key name=\"k\" qpos=\"0 0 1\"/></keyframe>");
+    key_long: after("<keyframe><key qvel=\"0 0 0 0 0 0 1\"/></keyframe>");
     key_control: after("<keyframe><key ctrl=\"1\"/></keyframe>");
     // Actuators
     actuator_without_target: driven("<motor name=\"m\"/>");
