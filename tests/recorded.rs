@@ -25,9 +25,25 @@ const FORWARD: f64 = 1e-10;
 /// Two hundred steps.
 const TRAJECTORY: f64 = 1e-9;
 
-/// Where we are held against the library, in the order of the recording; the last five are integrators by number.
-pub(crate) const ASPECTS: [&str; 7] =
-    ["compile", "forward", "Euler", "RK4", "implicit", "implicitfast", "discrete"];
+/// Integrators by number.
+const INTEGRATORS: [&str; 5] = ["Euler", "RK4", "implicit", "implicitfast", "discrete"];
+
+/// Where we are held against the library: trajectories from the default or first keyframe, and from a state in which
+/// everything moves.
+pub(crate) const ASPECTS: [&str; 12] = [
+    "compile",
+    "forward",
+    "Euler",
+    "RK4",
+    "implicit",
+    "implicitfast",
+    "discrete",
+    "Euler, moving",
+    "RK4, moving",
+    "implicit, moving",
+    "implicitfast, moving",
+    "discrete, moving",
+];
 
 /// One number that is not theirs.
 #[derive(Clone, Debug)]
@@ -93,11 +109,12 @@ pub(crate) type Outcome = Result<Vec<Verdict>, String>;
 pub(crate) fn examine(model: &Path, recording: &Value) -> Outcome {
     let m = compile_unconstrained(model).map_err(|list| reason(&list))?;
     let mut verdicts = vec![compiled(&m, &recording["compiled"]), forward(&m, &recording["forward"])];
-    for (i, name) in ASPECTS[2..].iter().enumerate() {
-        let mut m = m.clone();
-        m.opt.integrator = i as i32;
-        let start = &recording["forward"][1]["state"];
-        verdicts.push(trajectory(&m, start, &recording["trajectories"][name]));
+    for (path, state) in [("calm", 0), ("trajectories", 1)] {
+        for (i, name) in INTEGRATORS.iter().enumerate() {
+            let mut m = m.clone();
+            m.opt.integrator = i as i32;
+            verdicts.push(trajectory(&m, &recording["forward"][state]["state"], &recording[path][name]));
+        }
     }
     Ok(verdicts)
 }
@@ -232,7 +249,7 @@ fn on_request(m: &Model, d: &mut Data, row: &Value) -> Vec<(String, Vec<f64>, Ve
         if name == "Euler" && m.opt.disabled(disable::DAMPER) {
             continue;
         }
-        m.opt.integrator = ASPECTS[2..].iter().position(|a| a == name).unwrap() as i32;
+        m.opt.integrator = INTEGRATORS.iter().position(|a| a == name).unwrap() as i32;
         d.qacc.copy_from_slice(&vector);
         core::inverse(&m, d).unwrap();
         out.push((format!("qfrc_inverse of a step, {name}"), d.qfrc_inverse.clone(), numbers(values)));

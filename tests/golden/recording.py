@@ -220,13 +220,13 @@ def rollout(m, d, steps, every):
     return rows
 
 
-def trajectory(m, integrator, scale, seed, steps=200, every=40):
-    """A trajectory from the second of the states. `spread` is how far, in the same rows, the library parts from itself
+def trajectory(m, integrator, first, scale, seed, steps=200, every=40):
+    """A trajectory from the first of the states, or from the second, where everything moves. `spread` is how far, in the same rows, the library parts from itself
     when its start is moved by 1e-14: chaos, beyond which nobody can follow it."""
     m.opt.integrator = integrator
     d, all_rows = mujoco.MjData(m), []
     for k in range(4):
-        list(states(m, d, 2, scale, seed))
+        list(states(m, d, 1 if first else 2, scale, seed))
         if k:
             rng = np.random.default_rng(100 + k)
             mujoco.mj_integratePos(m, d.qpos, rng.normal(size=m.nv) * 1e-14, 1.0)
@@ -237,12 +237,12 @@ def trajectory(m, integrator, scale, seed, steps=200, every=40):
             return {"refused": str(e)}
         if k == 0:
             warnings = {mujoco.mjtWarning(i).name: int(w.number) for i, w in enumerate(d.warning) if w.number}
-    first, spread = all_rows[0], []
-    for i, row in enumerate(first):
+    rows, spread = all_rows[0], []
+    for i, row in enumerate(rows):
         scales = [max(1.0, np.abs(a).max(initial=0)) for a in row]
         spread.append(max(np.abs(a - b).max(initial=0) / s for other in all_rows[1:] for a, b, s in zip(row, other[i], scales)))
     return {"steps": steps, "every": every, "spread": " ".join(f"{x:.1e}" for x in spread), "warnings": warnings,
-            "rows": [{n: text(a) for n, a in zip(ROW, row) if a.size} for row in first]}
+            "rows": [{n: text(a) for n, a in zip(ROW, row) if a.size} for row in rows]}
 
 
 def record(path, count, scale, short=False, seed=2, steps=200, every=40):
@@ -253,8 +253,9 @@ def record(path, count, scale, short=False, seed=2, steps=200, every=40):
     compiled, states = constants(m), forward(m, count, scale, seed, short)
     if not short:
         compiled["names"] = names(m)
-    paths = {name: trajectory(m, i, scale, seed, steps, every) for i, name in enumerate(INTEGRATORS)}
-    return {"mujoco": mujoco.__version__, "compiled": compiled, "forward": states, "trajectories": paths}
+    calm = {name: trajectory(m, i, True, scale, seed, steps, steps) for i, name in enumerate(INTEGRATORS)}
+    paths = {name: trajectory(m, i, False, scale, seed, steps, every) for i, name in enumerate(INTEGRATORS)}
+    return {"mujoco": mujoco.__version__, "compiled": compiled, "forward": states, "calm": calm, "trajectories": paths}
 
 
 def write(path, out):
