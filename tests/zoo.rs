@@ -11,13 +11,6 @@ use std::path::PathBuf;
 
 /// What is known to differ, and why.
 const EXCEPTIONS: &[Exception] = &[
-    ("actuator_lengthrange", "compile", "not examined yet"),
-    ("actuator_lengthrange", "forward", "not examined yet"),
-    ("actuator_lengthrange", "Euler", "not examined yet"),
-    ("actuator_lengthrange", "RK4", "not examined yet"),
-    ("actuator_lengthrange", "implicit", "not examined yet"),
-    ("actuator_lengthrange", "implicitfast", "not examined yet"),
-    ("actuator_lengthrange", "discrete", "not examined yet"),
     ("actuator_transmissions", "forward", "the pull of tendons does not count in cfrc_ext yet"),
     ("energy", "forward", "the pull of tendons does not count in cfrc_ext yet"),
     ("tendon_armature", "forward", "the pull of tendons does not count in cfrc_ext yet"),
@@ -32,13 +25,6 @@ const EXCEPTIONS: &[Exception] = &[
     ("tendon_spatial", "forward", "the pull of tendons does not count in cfrc_ext yet"),
     ("actuator_orientation_clamp", "implicitfast", CLAMPED),
     ("actuator_orientation_clamp", "discrete", CLAMPED),
-    ("lengthrange_options", "compile", "not examined yet"),
-    ("lengthrange_options", "forward", "not examined yet"),
-    ("lengthrange_options", "Euler", "not examined yet"),
-    ("lengthrange_options", "RK4", "not examined yet"),
-    ("lengthrange_options", "implicit", "not examined yet"),
-    ("lengthrange_options", "implicitfast", "not examined yet"),
-    ("lengthrange_options", "discrete", "not examined yet"),
     ("sensor_trees", "RK4", "not examined yet"),
 ];
 
