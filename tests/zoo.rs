@@ -25,7 +25,6 @@ const EXCEPTIONS: &[Exception] = &[
     ("tendon_spatial", "forward", "the pull of tendons does not count in cfrc_ext yet"),
     ("actuator_orientation_clamp", "implicitfast", CLAMPED),
     ("actuator_orientation_clamp", "discrete", CLAMPED),
-    ("sensor_trees", "RK4", "not examined yet"),
 ];
 
 /// A torque that its range holds at the length 0.3 is as long as 0.3 or one rounding shorter; the library takes it for

@@ -185,3 +185,70 @@ pub(crate) fn has_length(m: &Model, i: usize) -> bool {
         _ => true,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::mjcf::compile;
+
+    /// An arm; what the compiler is told, the options, what is said of the joint, actuators.
+    fn arm(lengthrange: &str, option: &str, joint: &str, actuators: &str) -> Result<Vec<f64>, String> {
+        let model = format!(
+            "<mujoco><compiler><lengthrange {lengthrange}/></compiler><option {option}/><worldbody><body>
+             <joint name='a' axis='0 1 0' {joint}/><geom type='capsule' fromto='0 0 0 .3 0 0' size='.02'/></body>
+             </worldbody><actuator>{actuators}</actuator></mujoco>"
+        );
+        compile(&model).map(|m| m.actuator_lengthrange).map_err(|e| e[0].message.clone())
+    }
+
+    /// What MuJoCo 3.14.0 finds.
+    #[test]
+    fn ranges_are_those_of_mujoco() {
+        let limit = "range='-60 60'";
+        let muscle = "<muscle joint='a'/>";
+        let motor = "<motor joint='a'/>";
+        let two = "<motor joint='a' gear='3'/><motor joint='a' gear='3'/>";
+        let found = 1.0477674895499682;
+        let cases: [(&str, &str, &str, &[f64]); 10] = [
+            ("mode='all'", "", motor, &[found]),
+            ("", "integrator='RK4'", muscle, &[found]),
+            ("", "integrator='implicit'", muscle, &[found]),
+            ("", "integrator='discrete'", muscle, &[found]),
+            ("", "", motor, &[0.0]),
+            ("mode='muscleuser'", "", motor, &[0.0]),
+            ("mode='none'", "", muscle, &[0.0]),
+            ("timestep='0'", "", muscle, &[1.0477674895498892]),
+            ("mode='all'", "", "<motor joint='a' lengthrange='-.1 .1'/>", &[0.1]),
+            ("mode='all' uselimit='true'", "", two, &[1.0471975511965976, 3.143302468649905]),
+        ];
+        for (lengthrange, option, actuators, want) in cases {
+            let got = arm(lengthrange, option, limit, actuators).unwrap();
+            let want: Vec<f64> = want.iter().flat_map(|x| [-x, *x]).collect();
+            let apart = got.iter().zip(&want).fold(0.0f64, |s, (a, b)| s.max((a - b).abs()));
+            assert!(
+                got.len() == want.len() && apart < 2e-12,
+                "{lengthrange} {option}: {got:?}, not {want:?}"
+            );
+        }
+    }
+
+    /// Where MuJoCo finds none, neither do we; and a search without end is not begun.
+    #[test]
+    fn what_has_no_range_says_so() {
+        let limit = "range='-60 60'";
+        let motor = "<motor joint='a'/>";
+        let cases = [
+            ("", "", "<muscle joint='a'/>", "still moves between -181.00"),
+            ("inttotal='1' interval='3'", limit, "<muscle joint='a'/>", "still moves between -1.0695"),
+            ("accel='-20'", limit, "<muscle joint='a'/>", "pulling it either way gives 1.0477"),
+            ("mode='all'", limit, "<motor joint='a' gear='0'/>", "pulling it either way gives 0.0000 and 0.0000"),
+            ("mode='all' inttotal='1e300'", limit, motor, "too many steps"),
+            ("mode='all' timestep='1e-300'", limit, motor, "too many steps"),
+            ("mode='all' accel='1e300'", limit, motor, "no range"),
+            ("mode='all' timeconst='-1' interval='-5'", limit, motor, "no range"),
+        ];
+        for (lengthrange, joint, actuators, want) in cases {
+            let message = arm(lengthrange, "", joint, actuators).unwrap_err();
+            assert!(message.contains(want), "{lengthrange}: {message}");
+        }
+    }
+}

@@ -133,10 +133,10 @@ pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Searc
             Ok(()) => continue,
             _ if !lengthrange::has_length(m, i) => "what it acts on gives it no length".to_string(),
             Err(Failure::NoRange([lower, upper])) => {
-                format!("pulling it either way gives {lower} and {upper}")
+                format!("pulling it either way gives {lower:.4} and {upper:.4}")
             }
             Err(Failure::NotSettled([lower, upper])) => {
-                format!("pulled for as long as it may take, it still moves between {lower} and {upper}")
+                format!("pulled for as long as it may take, it still moves between {lower:.4} and {upper:.4}")
             }
         };
         let message = format!("no range of lengths is found for {}: {wrong}", spec.shown);
