@@ -36,6 +36,7 @@ mod integrate;
 mod inverse;
 mod jacobian;
 mod kinematics;
+mod lengthrange;
 mod mass;
 pub mod math;
 pub mod mjcf;

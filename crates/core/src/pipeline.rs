@@ -60,7 +60,7 @@ pub(crate) fn forward_skip(m: &Model, d: &mut Data, skip: Skip) {
 pub(crate) fn from_state(m: &Model, d: &mut Data, skip: Skip) {
     position(m, d);
     read(m, d, When::Position, skip);
-    potential_energy(m, d);
+    potential_energy(m, d, skip);
     velocity(m, d);
     read(m, d, When::Velocity, skip);
     kinetic_energy(m, d);
@@ -230,12 +230,12 @@ fn measured(m: &Model, d: &Data, stage: Stage) -> bool {
     d.plan.keeps(stage) && !m.opt.disabled(disable::SENSOR) && sensor::needs(m, stage)
 }
 
-/// `energy[0]`, or zeros when the flag is off and no sensor has computed it.
-fn potential_energy(m: &Model, d: &mut Data) {
+/// `energy[0]`, or zeros when the flag is off and no sensor has just computed it.
+fn potential_energy(m: &Model, d: &mut Data, skip: Skip) {
     if d.plan.keeps(Stage::Energy) {
         if m.opt.enabled(enable::ENERGY) {
             energy::potential(m, d);
-        } else if m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {
+        } else if skip == Skip::SENSORS || m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {
             d.energy = [0.0; 2];
         }
     }

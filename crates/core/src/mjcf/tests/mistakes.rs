@@ -186,6 +186,7 @@ mistakes! {
     dcmotor_thermal: driven("<dcmotor joint=\"h\" motorconst=\"0.1\" resistance=\"1\" thermal=\"1\"/>");
     muscle_range: driven("<muscle joint=\"h\" range=\"1 0.5\" lengthrange=\"0 1\"/>");
     muscle_lengths: driven("<muscle joint=\"h\" lmin=\"1.1\" lengthrange=\"0 1\"/>");
+    muscle_without_end: driven("<muscle joint=\"h\"/>");
     actuator_group_disabled: before("<option actuatorgroupdisable=\"31\"/>");
         key_activation: driven("<general joint=\"h\" dyntype=\"filter\"/></actuator><keyframe><key act=\"1 2\"/></keyframe><actuator>");
     // Tendons
