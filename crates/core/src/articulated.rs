@@ -108,25 +108,17 @@ impl Tree<'_> {
             body.inertia = [[0.0; 8]; 6];
         }
         for b in self.bodies.clone().rev() {
-            let mut inertia = bodies[b].inertia;
-            add_inertia(&mut inertia, &cinert[b]);
+            let parent = self.m.body_parentid[b] as usize;
+            let (above, rest) = bodies.split_at_mut(b);
+            let Some(Body { inertia, .. }) = rest.first_mut() else { continue };
+            add_inertia(inertia, &cinert[b]);
             for k in mass::dofs(self.m, b).rev() {
-                let s = &self.cdof[k];
-                let u = mul(&inertia, s);
-                let mut d = diag(k) + dot(wide(s), u);
-                if d < MINVAL {
-                    d = MINVAL;
+                if eliminate(inertia, &self.cdof[k], diag(k), &mut joints[k]) {
                     bad = Some(k);
                 }
-                let inv = 1.0 / d;
-                joints[k] = Joint { u, inv };
-                subtract_outer(&mut inertia, &u, inv);
             }
             if b > self.bodies.start {
-                let up = &mut bodies[self.m.body_parentid[b] as usize].inertia;
-                for c in 0..6 {
-                    up[c] = add(up[c], inertia[c]);
-                }
+                add_to(&mut above[parent].inertia, inertia);
             }
         }
         bad
@@ -261,21 +253,28 @@ fn add_inertia(a: &mut [Wide; 6], i: &Inertia) {
     }
 }
 
-/// I v
-#[inline(always)]
-fn mul(i: &[Wide; 6], v: &Spatial) -> Wide {
-    let mut out = scale(i[0], v[0]);
-    for c in 1..6 {
-        out = add_scaled(out, i[c], v[c]);
+/// a ← a + b
+#[inline(never)] // see `eliminate`
+fn add_to(a: &mut [Wide; 6], b: &[Wide; 6]) {
+    for c in 0..6 {
+        a[c] = add(a[c], b[c]);
     }
-    out
 }
 
-/// I ← I - s u uᵀ
-#[inline(always)]
-fn subtract_outer(i: &mut [Wide; 6], u: &Wide, s: f64) {
-    let v = scale(*u, -s);
-    for c in 0..6 {
-        i[c] = add_scaled(i[c], *u, v[c]);
+/// U and D of the degree of freedom s of a joint with inertia `diag`, and I ← I - U Uᵀ / D. Returns whether D is not
+/// positive.
+#[inline(never)] // inlined into a loop, the compiler would not add lane by lane
+fn eliminate(i: &mut [Wide; 6], s: &Spatial, diag: f64, joint: &mut Joint) -> bool {
+    let mut u = scale(i[0], s[0]);
+    for c in 1..6 {
+        u = add_scaled(u, i[c], s[c]);
     }
+    let d = diag + dot(wide(s), u);
+    let inv = 1.0 / d.max(MINVAL);
+    let v = scale(u, -inv);
+    for c in 0..6 {
+        i[c] = add_scaled(i[c], u, v[c]);
+    }
+    *joint = Joint { u, inv };
+    d < MINVAL
 }
