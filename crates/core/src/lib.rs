@@ -20,6 +20,7 @@
 #![forbid(unsafe_code)]
 
 mod actuation;
+mod articulated;
 mod camera;
 mod chain;
 mod collision;
@@ -43,6 +44,7 @@ pub mod mjcf;
 mod model;
 mod object;
 mod passive;
+mod path;
 mod pipeline;
 pub mod plan;
 pub mod reflect;

@@ -5,8 +5,8 @@ use crate::plan::Plan;
 use crate::reflect::Stage;
 use crate::sensor::When;
 use crate::{
-    Data, Model, Warning, actuation, camera, chain, collision, com, constraint, disable, enable, energy,
-    integrate, integrator, kinematics,
+    Data, Model, Warning, actuation, articulated, camera, chain, collision, com, constraint, disable, enable,
+    energy, integrate, integrator, kinematics,
 };
 use crate::{jacobian, mass, passive, reset, rne, rne_post, sensor, subtree, tendon, transmission};
 
@@ -105,8 +105,7 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
         tendon::armature(m, d);
     }
     if d.plan.keeps(Stage::Factor) {
-        d.qLD.copy_from_slice(&d.M);
-        if let Some(dof) = mass::factor(m, &mut d.qLD, &mut d.qLDiagInv) {
+        if let Some(dof) = articulated::factor(m, d) {
             warn(d, Warning::Inertia, dof);
         }
     }
@@ -169,8 +168,10 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     if m.opt.integrator == integrator::DISCRETE {
         integrate::discrete::acceleration(m, d);
     } else if d.plan.some_general {
-        d.qacc_smooth.copy_from_slice(&d.qfrc_smooth);
-        mass::solve(m, &d.qLD, &d.qLDiagInv, &mut d.qacc_smooth, 0..m.nv);
+        let mut out = std::mem::take(&mut d.qacc_smooth);
+        out.copy_from_slice(&d.qfrc_smooth);
+        articulated::solve(m, d, &mut out);
+        d.qacc_smooth = out;
     } else {
         for ((a, f), inv) in d.qacc_smooth.iter_mut().zip(&d.qfrc_smooth).zip(&d.qLDiagInv) {
             *a = f * inv;
