@@ -3,13 +3,11 @@
 
 use super::diagnostic::{Report, code};
 use super::tree::Tree;
-use crate::math::rows;
 use crate::{Model, collision, disable, solver};
 
 /// Reports the first element of each kind that the scene needs.
 pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {
     let on = |bit: i32| !m.opt.disabled(disable::CONSTRAINT) && !m.opt.disabled(bit);
-    let some = |list: &[f64]| list.iter().any(|&x| x > 0.0);
     let limited = on(disable::LIMIT) && m.jnt_limited.contains(&true);
     let touches = on(disable::CONTACT) && !collision::candidate_pairs(m, false).is_empty();
     if (limited || touches) && m.opt.solver == solver::PGS {
@@ -17,15 +15,6 @@ pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {
     }
     if (limited || touches) && m.opt.noslip_iterations > 0 {
         refuse(tree, report, "", "noslip_iterations", "the removal of slip");
-    }
-    if !touches {
-        return;
-    }
-    if some(&m.geom_adhesion) || some(&m.pair_adhesion) {
-        refuse(tree, report, "", "adhesion", "a contact that pulls");
-    }
-    if rows::<6>(&m.geom_surfacevel).iter().any(|v| *v != [0.0; 6]) {
-        refuse(tree, report, "", "surfacevel", "a surface that moves");
     }
 }
 
