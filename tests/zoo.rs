@@ -11,19 +11,8 @@ use std::path::PathBuf;
 
 /// What is known to differ, and why.
 const EXCEPTIONS: &[Exception] = &[
-    ("actuator_transmissions", "forward", "the pull of tendons does not count in cfrc_ext yet"),
-    ("energy", "forward", "the pull of tendons does not count in cfrc_ext yet"),
     ("tendon_armature", "forward", "the pull of tendons does not count in cfrc_ext yet"),
-    ("tendon_polynomial", "forward", "the pull of tendons does not count in cfrc_ext yet"),
-    ("tendon_pulley", "forward", "the pull of tendons does not count in cfrc_ext yet"),
-    ("tendon_wrap_cylinder", "forward", "the pull of tendons does not count in cfrc_ext yet"),
-    ("tendon_wrap_inside", "forward", "the pull of tendons does not count in cfrc_ext yet"),
-    ("tendon_wrap_sphere", "forward", "the pull of tendons does not count in cfrc_ext yet"),
-    ("walker", "forward", "the pull of tendons does not count in cfrc_ext yet"),
     ("actuator_orientation_clamp", "forward", CLAMPED),
-    ("lengthrange_options", "forward", "the pull of tendons does not count in cfrc_ext yet"),
-    ("replicate", "forward", "the pull of tendons does not count in cfrc_ext yet"),
-    ("tendon_spatial", "forward", "the pull of tendons does not count in cfrc_ext yet"),
     ("actuator_orientation_clamp", "implicit", CLAMPED),
     ("actuator_orientation_clamp", "implicitfast", CLAMPED),
     ("actuator_orientation_clamp", "discrete, moving", CLAMPED),

@@ -68,8 +68,13 @@ fn finish(m: &Model, gap: f64, p: Params) -> Params {
     Params {
         reach: p.margin + gap,
         friction: p.friction.map(|f| f.max(MINMU)),
-        // Anything but frictionless slides until torsional and rolling friction exist.
-        dim: if p.dim <= 1 { 1 } else { 3 },
+        // Written to the model, a number that is no dimension means the next that is one.
+        dim: match p.dim {
+            0 | 1 => 1,
+            2 | 3 => 3,
+            4 => 4,
+            _ => 6,
+        },
         ..p
     }
 }
@@ -119,6 +124,9 @@ fn mixed(m: &Model, g1: usize, g2: usize) -> Params {
 /// A contact of the pair at `touch`.
 #[inline(always)]
 pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &Touch, frame: Mat3) -> Contact {
+    let apart = touch.dist >= p.margin;
+    // What sticks pulls across the gap, too: it holds the normal alone.
+    let sticks = p.adhesion != 0.0;
     Contact {
         dist: touch.dist,
         pos: touch.pos,
@@ -130,10 +138,10 @@ pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &Touch, frame: Ma
         solimp: p.solimp,
         adhesion: p.adhesion,
         mu: 0.0,
-        dim: p.dim,
+        dim: if apart && sticks { 1 } else { p.dim },
         geom1: g1,
         geom2: g2,
-        exclude: u8::from(touch.dist >= p.margin),
+        exclude: u8::from(apart && !sticks),
         efc_address: None,
     }
 }
