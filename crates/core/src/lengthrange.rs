@@ -113,8 +113,7 @@ pub(crate) fn length_range(m: &mut Model, d: &mut Data, i: usize, search: &Searc
     }
     let options = m.opt.clone();
     m.opt.timestep = search.step(m);
-    // Whatever the model itself switches off, limits act here.
-    m.opt.disableflags = disable::FRICTIONLOSS
+    m.opt.disableflags |= disable::FRICTIONLOSS
         | disable::CONTACT
         | disable::SPRING
         | disable::DAMPER
@@ -240,7 +239,7 @@ mod tests {
         let cases = [
             ("", "", "<muscle joint='a'/>", "still moves between -181.00"),
             ("inttotal='1' interval='3'", limit, "<muscle joint='a'/>", "still moves between -1.0695"),
-            ("accel='-20'", limit, "<muscle joint='a'/>", "pulling it either way gives 1.0477"),
+            ("accel='-20'", limit, "<muscle joint='a'/>", "pulling it either way gives 1.0478 and -1.0478"),
             (
                 "mode='all'",
                 limit,
