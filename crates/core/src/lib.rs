@@ -53,6 +53,7 @@ mod rne;
 mod rne_post;
 pub mod sensor;
 mod setconst;
+pub mod state;
 mod subtree;
 mod tendon;
 mod transmission;
@@ -72,7 +73,7 @@ pub use model::{
 pub use object::{object_acceleration, object_velocity};
 pub use pipeline::{forward, set_plan, step, step1, step2};
 pub use plan::{Demand, Plan};
-pub use reset::{reset_data, reset_data_keyframe};
+pub use reset::{reset_data, reset_data_keyframe, set_keyframe};
 pub use rne::rne;
 pub use rne_post::rne_post_constraint;
 pub use setconst::set_const;

@@ -216,7 +216,7 @@ fn to_int32(x: f64) -> i32 {
 }
 
 /// A Rust type that can stand in the field table.
-trait Cell {
+pub(crate) trait Cell {
     const ELEM: Elem;
     fn view(&self) -> View<'_>;
     fn view_mut(&mut self) -> ViewMut<'_>;
@@ -390,7 +390,7 @@ pub fn size(m: &Model, name: &str) -> Option<usize> {
 
 /// Number of elements of a field that the sizes of the model decide; 0 while a size is not known. Allocates
 /// nothing: a reset in the step loop asks for every array.
-fn length(m: &Model, field: FieldId) -> usize {
+pub(crate) fn length(m: &Model, field: FieldId) -> usize {
     field.info().shape.iter().map(|dim| dim.parse().ok().or_else(|| size(m, dim)).unwrap_or(0)).product()
 }
 
