@@ -20,7 +20,7 @@
 #![forbid(unsafe_code)]
 
 mod actuation;
-mod articulated;
+mod bytes;
 mod camera;
 mod chain;
 mod collision;
@@ -44,13 +44,13 @@ pub mod mjcf;
 mod model;
 mod object;
 mod passive;
-mod path;
 mod pipeline;
 pub mod plan;
 pub mod reflect;
 mod reset;
 mod rne;
 mod rne_post;
+pub mod save;
 pub mod sensor;
 mod setconst;
 pub mod state;
