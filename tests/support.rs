@@ -8,8 +8,8 @@ use labspec::check::{self, Checked, Depth};
 use labspec::lint::ModelFolder;
 use labspec::source::SourceFile;
 use labspec::spec::load_lesson;
+use labspec_core::Model;
 use labspec_core::mjcf::{self, Folder, MjcfDiagnostic};
-use labspec_core::{Model, disable};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -37,16 +37,11 @@ pub(crate) fn compile(xml: &str) -> Model {
     })
 }
 
-/// Compiles a model file and switches constraints off, as the recordings of MuJoCo are made. A model with constraints that
-/// are not simulated compiles with constraints switched off in its text.
+/// Compiles a model file with constraints switched off in its text, as the recordings of MuJoCo are made.
 pub(crate) fn compile_unconstrained(path: &Path) -> Result<Model, Vec<MjcfDiagnostic>> {
     let text = std::fs::read_to_string(path).unwrap();
     let folder = Folder::new(path.parent().unwrap()).unwrap();
-    let compile =
-        |text: &str| mjcf::compile_with(text, &folder, path.file_name().and_then(|name| name.to_str()));
-    let mut m = compile(&text).or_else(|_| compile(&unconstrained(&text)))?;
-    m.opt.disableflags |= disable::CONSTRAINT;
-    Ok(m)
+    mjcf::compile_with(&unconstrained(&text), &folder, path.file_name().and_then(|name| name.to_str()))
 }
 
 /// A model's text with constraints switched off.

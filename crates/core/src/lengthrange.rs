@@ -113,7 +113,8 @@ pub(crate) fn length_range(m: &mut Model, d: &mut Data, i: usize, search: &Searc
     }
     let options = m.opt.clone();
     m.opt.timestep = search.step(m);
-    m.opt.disableflags |= disable::FRICTIONLOSS
+    // Whatever the model itself switches off, limits act here.
+    m.opt.disableflags = disable::FRICTIONLOSS
         | disable::CONTACT
         | disable::SPRING
         | disable::DAMPER

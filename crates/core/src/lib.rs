@@ -20,6 +20,7 @@
 #![forbid(unsafe_code)]
 
 mod actuation;
+mod articulated;
 mod bytes;
 mod camera;
 mod chain;
@@ -44,6 +45,7 @@ pub mod mjcf;
 mod model;
 mod object;
 mod passive;
+mod path;
 mod pipeline;
 pub mod plan;
 pub mod reflect;
