@@ -99,3 +99,25 @@ fn a_plan_for_any_field_changes_no_bit_of_it() {
     }
     assert_eq!(wrong, [""; 0]);
 }
+
+/// A simulation that was saved and restored goes on with the same bits, whatever is in it and by every integrator.
+#[test]
+fn what_is_restored_goes_on_as_before() {
+    let mut wrong = Vec::new();
+    for (name, mut m, state) in animals() {
+        for integrator in 0..5 {
+            m.opt.integrator = integrator;
+            let mut d = Data::new(&m);
+            set(&m, &mut d, &state);
+            (0..5).for_each(|_| core::step(&m, &mut d));
+            let bytes = core::save::save(&m, &d);
+            let mut other = Data::new(&m);
+            let restored = core::save::restore(&m, &mut other, &bytes);
+            (0..5).for_each(|_| [&mut d, &mut other].into_iter().for_each(|d| core::step(&m, d)));
+            if restored.is_err() || core::save::save(&m, &d) != core::save::save(&m, &other) {
+                wrong.push(format!("{name}, integrator {integrator}: {restored:?}"));
+            }
+        }
+    }
+    assert_eq!(wrong, [""; 0]);
+}

@@ -21,6 +21,7 @@
 
 mod actuation;
 mod articulated;
+mod bytes;
 mod camera;
 mod chain;
 mod collision;
@@ -51,8 +52,10 @@ pub mod reflect;
 mod reset;
 mod rne;
 mod rne_post;
+pub mod save;
 pub mod sensor;
 mod setconst;
+pub mod state;
 mod subtree;
 mod tendon;
 mod transmission;
@@ -72,7 +75,7 @@ pub use model::{
 pub use object::{object_acceleration, object_velocity};
 pub use pipeline::{forward, set_plan, step, step1, step2};
 pub use plan::{Demand, Plan};
-pub use reset::{reset_data, reset_data_keyframe};
+pub use reset::{reset_data, reset_data_keyframe, set_keyframe};
 pub use rne::rne;
 pub use rne_post::rne_post_constraint;
 pub use setconst::set_const;

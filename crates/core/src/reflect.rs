@@ -2,6 +2,7 @@
 //!
 //! The language, the lints, the reports and the reference pages know the engine only through this module.
 
+use crate::bytes::Plain;
 use crate::fields::{data_fields, model_fields, option_fields, statistic_fields};
 use crate::{Data, Model};
 
@@ -216,12 +217,16 @@ fn to_int32(x: f64) -> i32 {
 }
 
 /// A Rust type that can stand in the field table.
-trait Cell {
+pub(crate) trait Cell {
     const ELEM: Elem;
     fn view(&self) -> View<'_>;
     fn view_mut(&mut self) -> ViewMut<'_>;
     /// Gives an array `n` zero elements, and numbers of fixed shape the value zero. Sizes stay as they are.
     fn allocate(&mut self, n: usize);
+    /// Appends the elements as bytes.
+    fn write(&self, out: &mut Vec<u8>);
+    /// Takes `n` elements, or as many as the shape fixes, from the front of `bytes`; `false` when there are not as many.
+    fn read(&mut self, n: usize, bytes: &mut &[u8]) -> bool;
 }
 
 macro_rules! cells {
@@ -231,6 +236,10 @@ macro_rules! cells {
             fn view(&self) -> View<'_> { View::$variant(std::slice::from_ref(self)) }
             fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(std::slice::from_mut(self)) }
             fn allocate(&mut self, _: usize) { *self = <$t>::default(); }
+            fn write(&self, out: &mut Vec<u8>) { self.put(out); }
+            fn read(&mut self, _: usize, bytes: &mut &[u8]) -> bool {
+                Plain::take(bytes).map(|x| *self = x).is_some()
+            }
         }
         impl Cell for Vec<$t> {
             const ELEM: Elem = Elem::$variant;
@@ -240,12 +249,25 @@ macro_rules! cells {
                 self.clear();
                 self.resize(n, <$t>::default());
             }
+            fn write(&self, out: &mut Vec<u8>) { self.iter().for_each(|x| x.put(out)); }
+            fn read(&mut self, n: usize, bytes: &mut &[u8]) -> bool {
+                // Every element takes a byte or more: no room is made for what is not there.
+                if n > bytes.len() {
+                    return false;
+                }
+                self.allocate(n);
+                self.iter_mut().all(|x| Plain::take(bytes).map(|y| *x = y).is_some())
+            }
         }
         impl<const N: usize> Cell for [$t; N] {
             const ELEM: Elem = Elem::$variant;
             fn view(&self) -> View<'_> { View::$variant(self) }
             fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(self) }
             fn allocate(&mut self, _: usize) { *self = [<$t>::default(); N]; }
+            fn write(&self, out: &mut Vec<u8>) { self.iter().for_each(|x| x.put(out)); }
+            fn read(&mut self, _: usize, bytes: &mut &[u8]) -> bool {
+                self.iter_mut().all(|x| Plain::take(bytes).map(|y| *x = y).is_some())
+            }
         }
     )* };
 }
@@ -260,6 +282,12 @@ impl Cell for usize {
         ViewMut::Fixed
     }
     fn allocate(&mut self, _: usize) {}
+    fn write(&self, out: &mut Vec<u8>) {
+        self.put(out);
+    }
+    fn read(&mut self, _: usize, bytes: &mut &[u8]) -> bool {
+        Plain::take(bytes).map(|x| *self = x).is_some()
+    }
 }
 
 macro_rules! reflect {
@@ -299,6 +327,9 @@ macro_rules! allocation {
             fn allocate(&mut self, id: $ids, n: usize) {
                 match id { $($ids::$name => Cell::allocate(&mut self.$name, n)),* }
             }
+            fn write(&self, id: $ids, out: &mut Vec<u8>) {
+                match id { $($ids::$name => Cell::write(&self.$name, out)),* }
+            }
         }
     };
 }
@@ -306,6 +337,16 @@ macro_rules! allocation_model { ($($t:tt)*) => { allocation! { ModelId, Model; $
 macro_rules! allocation_data { ($($t:tt)*) => { allocation! { DataId, Data; $($t)* } } }
 model_fields!(allocation_model);
 data_fields!(allocation_data);
+macro_rules! reading {
+    ($($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        impl Data {
+            fn read(&mut self, id: DataId, n: usize, bytes: &mut &[u8]) -> bool {
+                match id { $(DataId::$name => Cell::read(&mut self.$name, n, bytes)),* }
+            }
+        }
+    };
+}
+data_fields!(reading);
 model_fields!(reflect_model);
 option_fields!(reflect_option);
 statistic_fields!(reflect_stat);
@@ -390,8 +431,42 @@ pub fn size(m: &Model, name: &str) -> Option<usize> {
 
 /// Number of elements of a field that the sizes of the model decide; 0 while a size is not known. Allocates
 /// nothing: a reset in the step loop asks for every array.
-fn length(m: &Model, field: FieldId) -> usize {
+pub(crate) fn length(m: &Model, field: FieldId) -> usize {
     field.info().shape.iter().map(|dim| dim.parse().ok().or_else(|| size(m, dim)).unwrap_or(0)).product()
+}
+
+/// Appends all numbers of the data that are fields, in the order of the table.
+pub(crate) fn write_data(d: &Data, out: &mut Vec<u8>) {
+    for id in DataId::ALL {
+        d.write(id, out);
+    }
+}
+
+/// Reads what [`write_data`] wrote; `false` when it is too short.
+pub(crate) fn read_data(m: &Model, d: &mut Data, bytes: &mut &[u8]) -> bool {
+    (0..DATA_COUNT).all(|i| {
+        let dims = DATA[i].shape.iter();
+        let n = dims.fold(1, |n: usize, dim| {
+            n.saturating_mul(dim.parse().ok().or_else(|| size(m, dim)).or_else(|| count(d, dim)).unwrap_or(0))
+        });
+        d.read(DataId::ALL[i], n, bytes)
+    })
+}
+
+/// The count of this name in the data (`nefc`).
+pub(crate) fn count(d: &Data, name: &str) -> Option<usize> {
+    let i = DATA.iter().position(|f| f.name == name && f.elem == Elem::Size)?;
+    match d.cell(DataId::ALL[i]) {
+        View::Size(n) => Some(n),
+        _ => None,
+    }
+}
+
+/// Appends sizes, types and addresses of the model.
+pub(crate) fn write_structure(m: &Model, out: &mut Vec<u8>) {
+    for i in (0..MODEL_COUNT).filter(|&i| MODEL[i].kind == Kind::Structure) {
+        m.write(ModelId::ALL[i], out);
+    }
 }
 
 /// Gives every array of the model the length that its shape says, filled with zeros.

@@ -43,6 +43,21 @@ pub fn reset_data_keyframe(m: &Model, d: &mut Data, key: usize) {
     row(&m.key_ctrl, m.nu, &mut d.ctrl);
 }
 
+/// Stores the time, the state and the inputs in keyframe `key` (`mj_setKeyframe`). `false`, and nothing changes, when the
+/// model has no such keyframe.
+pub fn set_keyframe(m: &mut Model, d: &Data, key: usize) -> bool {
+    let Some(time) = m.key_time.get_mut(key) else { return false };
+    *time = d.time;
+    let row = |a: &mut [f64], x: &[f64]| a[key * x.len()..(key + 1) * x.len()].copy_from_slice(x);
+    row(&mut m.key_qpos, &d.qpos);
+    row(&mut m.key_qvel, &d.qvel);
+    row(&mut m.key_act, &d.act);
+    row(&mut m.key_mpos, &d.mocap_pos);
+    row(&mut m.key_mquat, &d.mocap_quat);
+    row(&mut m.key_ctrl, &d.ctrl);
+    true
+}
+
 /// Gives the fields of stages that the plan leaves out the values that those stages would find.
 pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
     if !d.plan.some_general {

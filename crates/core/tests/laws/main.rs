@@ -8,6 +8,7 @@ mod definitions;
 mod dynamics;
 mod integrators;
 mod invariance;
+mod inverse;
 mod rest;
 #[path = "../../../../tests/scenes.rs"]
 mod scenes;

@@ -1,0 +1,81 @@
+//! Numbers as bytes, least significant first.
+
+/// A number or a flag with a fixed number of bytes.
+pub(crate) trait Plain: Sized {
+    fn put(&self, out: &mut Vec<u8>);
+    /// From the front of `bytes`; `None` when they end, or mean nothing.
+    fn take(bytes: &mut &[u8]) -> Option<Self>;
+}
+
+fn front<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
+    let (first, rest) = bytes.split_first_chunk::<N>()?;
+    *bytes = rest;
+    Some(*first)
+}
+
+macro_rules! numbers {
+    ($($t:ty),*) => { $(
+        impl Plain for $t {
+            fn put(&self, out: &mut Vec<u8>) {
+                out.extend_from_slice(&self.to_le_bytes());
+            }
+            fn take(bytes: &mut &[u8]) -> Option<Self> {
+                front(bytes).map(<$t>::from_le_bytes)
+            }
+        }
+    )* };
+}
+numbers!(u8, u32, u64, i32, f64);
+
+impl Plain for bool {
+    fn put(&self, out: &mut Vec<u8>) {
+        out.push(u8::from(*self));
+    }
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        match u8::take(bytes)? {
+            0 => Some(false),
+            1 => Some(true),
+            _ => None,
+        }
+    }
+}
+
+impl Plain for usize {
+    fn put(&self, out: &mut Vec<u8>) {
+        (*self as u64).put(out);
+    }
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        usize::try_from(u64::take(bytes)?).ok()
+    }
+}
+
+impl<T: Plain> Plain for Option<T> {
+    fn put(&self, out: &mut Vec<u8>) {
+        self.is_some().put(out);
+        if let Some(x) = self {
+            x.put(out);
+        }
+    }
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        if bool::take(bytes)? { Some(Some(T::take(bytes)?)) } else { Some(None) }
+    }
+}
+
+impl<T: Plain + Copy + Default, const N: usize> Plain for [T; N] {
+    fn put(&self, out: &mut Vec<u8>) {
+        self.iter().for_each(|x| x.put(out));
+    }
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        let mut out = [T::default(); N];
+        for x in &mut out {
+            *x = T::take(bytes)?;
+        }
+        Some(out)
+    }
+}
+
+/// A number that tells one list of bytes from another (Fowler, Noll and Vo's FNV-1a, 64 bits). It finds accidents, not
+/// intent.
+pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01b3))
+}

@@ -1,0 +1,53 @@
+//! Inverse dynamics undoes forward dynamics, and is linear in accelerations.
+
+use crate::definitions::*;
+use crate::scenes::scene;
+use labspec_core::mjcf::compile;
+use labspec_core::{self as core, Data, disable};
+use nalgebra::DVector;
+use proptest::prelude::*;
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+
+    /// inverse(forward(f)) = f for applied forces, with springs, dampers and the medium there, constraints off.
+    #[test]
+    fn inverse_dynamics_finds_the_forces(scene in scene(), numbers in numbers()) {
+        let mut m = compile(&scene.xml()).unwrap();
+        m.opt.disableflags |= disable::CONSTRAINT;
+        let mut d = Data::new(&m);
+        scatter(&m, &mut d, &numbers);
+        for i in 0..m.nv {
+            d.qfrc_applied[i] = numbers[(7 * i) % numbers.len()];
+        }
+        core::forward(&m, &mut d);
+        let (force, mass) = (DVector::from_column_slice(&d.qfrc_applied), full_m(&m, &d));
+        core::inverse(&m, &mut d).unwrap();
+        let found = DVector::from_column_slice(&d.qfrc_inverse);
+        let scale = (mass.amax() * DVector::from_column_slice(&d.qacc).amax()).max(1.0);
+        prop_assert!((&found - &force).amax() <= 1e-11 * scale, "{found}{force}");
+    }
+
+    /// rne(a) - rne(0) = M a, without the inertia of joints: it is linear in a.
+    #[test]
+    fn newton_and_euler_are_linear_in_the_acceleration(scene in scene(), numbers in numbers(), s in -3.0..3.0f64) {
+        let mut m = compile(&scene.conservative()).unwrap();
+        m.dof_armature.fill(0.0);
+        let mut d = Data::planned(&m, core::Plan::full());
+        scatter(&m, &mut d, &numbers);
+        core::forward(&m, &mut d);
+        let a: Vec<f64> = (0..m.nv).map(|i| numbers[(5 * i + 1) % numbers.len()]).collect();
+        let b: Vec<f64> = (0..m.nv).map(|i| numbers[(3 * i + 2) % numbers.len()]).collect();
+        let mut rne = |a: Option<&[f64]>| {
+            let mut out = vec![0.0; m.nv];
+            core::rne(&m, &mut d, a, &mut out).map(|()| DVector::from_vec(out)).unwrap()
+        };
+        let sum: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + s * b).collect();
+        let (bias, of_a, of_b, of_sum) = (rne(None), rne(Some(&a)), rne(Some(&b)), rne(Some(&sum)));
+        let scale = of_a.amax().max(of_b.amax()).max(bias.amax()).max(1.0);
+        let apart = (&of_sum - &bias) - (&of_a - &bias) - s * (&of_b - &bias);
+        prop_assert!(apart.amax() <= 20.0 * ROUNDING * scale, "{apart}");
+        let m_a = mass_matrix(&m, &d) * DVector::from_column_slice(&a);
+        prop_assert!((&of_a - &bias - &m_a).amax() <= 20.0 * ROUNDING * scale.max(m_a.amax()), "{of_a}{bias}{m_a}");
+    }
+}
