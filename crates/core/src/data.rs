@@ -52,7 +52,7 @@ pub struct Contact {
     pub adhesion: f64,
     /// Regularized friction coefficient of the cone.
     pub mu: f64,
-    /// Dimension of the contact space: 1 or 3.
+    /// Dimension of the contact space: 1, 3, 4 or 6.
     pub dim: usize,
     /// The geom with the smaller type.
     pub geom1: usize,

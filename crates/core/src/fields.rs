@@ -476,6 +476,9 @@ macro_rules! data_fields {
         // Counts.
         ncon: usize, [], Derived, Collision, "", "number of detected contacts";
         nefc: usize, [], Derived, Constraint, "", "number of scalar constraints";
+        ne: usize, [], Derived, Constraint, "", "number of scalar constraints of equalities";
+        nf: usize, [], Derived, Constraint, "", "number of scalar constraints of dry friction";
+        nl: usize, [], Derived, Constraint, "", "number of scalar constraints of limits";
         nisland: usize, [], Derived, Constraint, "", "number of independent sets of constraints";
         solver_niter: usize, [], Derived, Solve, "", "solver iterations of the last step, summed over islands";
 
@@ -538,16 +541,19 @@ macro_rules! data_fields {
 
         // Constraints: as many rows as there are now (`nefc`).
         efc_type: Vec<i32>, [nefc], Derived, Constraint, "", "type of the constraint (mjtConstraint)";
-        efc_id: Vec<i32>, [nefc], Derived, Constraint, "", "the joint or contact that the row belongs to";
+        efc_id: Vec<i32>, [nefc], Derived, Constraint, "", "the equality, degree of freedom, joint, tendon or contact that the row belongs to";
         efc_pos: Vec<f64>, [nefc], Derived, Constraint, "m or rad", "violation (negative when violated)";
         efc_margin: Vec<f64>, [nefc], Derived, Constraint, "m or rad", "violation at which the constraint starts to act";
+        efc_frictionloss: Vec<f64>, [nefc], Derived, Constraint, "N or N m", "largest force of dry friction";
         efc_diagA: Vec<f64>, [nefc], Derived, Constraint, "1/kg", "approximate diagonal of J M^-1 J'";
         efc_KBIP: Vec<f64>, [nefc, 4], Derived, Constraint, "1/s^2, 1/s, 1, 1/m", "stiffness, damping, impedance and its derivative";
         efc_D: Vec<f64>, [nefc], Derived, Constraint, "kg", "1/R";
         efc_R: Vec<f64>, [nefc], Derived, Constraint, "1/kg", "regularization";
         efc_vel: Vec<f64>, [nefc], Derived, Reference, "m/s or rad/s", "velocity along the constraint, J v";
         efc_aref: Vec<f64>, [nefc], Derived, Reference, "m/s^2 or rad/s^2", "reference acceleration";
+        efc_b: Vec<f64>, [nefc], Derived, Solve, "m/s^2 or rad/s^2", "how far the acceleration without constraints misses the reference";
         efc_force: Vec<f64>, [nefc], Derived, Solve, "N or N m", "force of the constraint";
+        efc_state: Vec<i32>, [nefc], Derived, Solve, "", "0 satisfied, 1 quadratic, 2 and 3 dry friction at its largest, 4 sliding (mjtConstraintState)";
 
         // After the solver, computed when a sensor needs them or on request.
         subtree_linvel: Vec<f64>, [nbody, 3], Derived, SubtreeVel, "m/s", "velocity of the centre of mass of the body and its descendants, world";

@@ -139,7 +139,7 @@ pub(crate) fn velocity(m: &Model, d: &mut Data) {
         passive::passive(m, d);
     }
     if d.plan.keeps(Stage::Reference) {
-        constraint::reference(d);
+        constraint::reference(m, d);
     }
     if d.plan.keeps(Stage::Bias) {
         rne::bias(m, d);

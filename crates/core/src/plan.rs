@@ -5,8 +5,8 @@
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
 use crate::reflect::{FieldId, FieldSet, Object, Stage, field};
-use crate::{Model, chain, collision, disable, enable, joint, sensor};
-use crate::{trntype, wraptype};
+use crate::{Model, Obj, chain, collision, disable, enable, joint, sensor};
+use crate::{eqtype, trntype, wraptype};
 
 /// What programs read and write.
 #[derive(Clone, Copy, Debug)]
@@ -50,8 +50,12 @@ pub struct Plan {
     pub(crate) simple_bodies: bool,
     /// Whether the parameters of short chains may change.
     pub(crate) chains_may_change: bool,
-    /// Whether a joint limit can become active.
+    /// Whether there can be equality constraints, dry friction, or limits of joints and tendons.
+    pub(crate) equalities: bool,
+    pub(crate) friction_loss: bool,
     pub(crate) limits: bool,
+    /// Whether the solver says more than forces: `efc_b` and `efc_state`.
+    pub(crate) solver_details: bool,
     /// Whether bodies feel a medium or gravity compensation.
     pub(crate) body_forces: bool,
     /// Whether forces applied to bodies are looked at.
@@ -70,7 +74,10 @@ impl Default for Plan {
             recursion: true,
             simple_bodies: true,
             chains_may_change: true,
+            equalities: true,
+            friction_loss: true,
             limits: true,
+            solver_details: true,
             body_forces: true,
             applied_forces: true,
             pairs_may_change: true,
@@ -112,7 +119,10 @@ impl Plan {
             recursion: scene.large,
             simple_bodies: m.dof_simplenum.iter().any(|&n| n > 0),
             chains_may_change: scene.writes(Object::Model, &chain::FIELDS),
-            limits: scene.limited > 0,
+            equalities: m.neq > 0,
+            friction_loss: scene.friction > 0,
+            limits: scene.limited > 0 || scene.limited_tendons > 0,
+            solver_details: scene.reads_field("efc_b") || scene.reads_field("efc_state"),
             body_forces: scene.body_forces(),
             applied_forces: scene.writes(Object::Data, &["xfrc_applied"]),
             pairs_may_change: scene.pairs_change,
@@ -203,6 +213,9 @@ const TENDON_FORCES: [Numbers; 4] = [
 /// Damping of actuators, which joints and tendons have.
 const ACTUATOR_DAMPING: [Numbers; 2] =
     [("actuator_damping", |m| &m.actuator_damping), ("actuator_dampingpoly", |m| &m.actuator_dampingpoly)];
+/// Dry friction.
+const FRICTION_LOSS: [Numbers; 2] =
+    [("dof_frictionloss", |m| &m.dof_frictionloss), ("tendon_frictionloss", |m| &m.tendon_frictionloss)];
 const ACTUATOR_ARMATURE: Numbers = ("actuator_armature", |m| &m.actuator_armature);
 const TENDON_ARMATURE: Numbers = ("tendon_armature", |m| &m.tendon_armature);
 /// Geoms on which the medium acts one by one.
@@ -252,8 +265,11 @@ struct Scene<'a> {
     pairs_change: bool,
     /// Number of pairs of geoms that may touch.
     pairs: usize,
-    /// Number of joints with limits, or all when limits are switched while it runs.
+    /// Number of joints and tendons with limits, or all when limits are switched while it runs.
     limited: usize,
+    limited_tendons: usize,
+    /// Number of degrees of freedom and tendons with dry friction, likewise.
+    friction: usize,
     /// Springs and dampers of joints, springs of tendons, dampers of tendons.
     joint_forces: bool,
     tendon_springs: bool,
@@ -277,6 +293,8 @@ impl<'a> Scene<'a> {
             pairs_change: false,
             pairs: 0,
             limited: m.jnt_limited.iter().filter(|&&l| l).count(),
+            limited_tendons: m.tendon_limited.iter().filter(|&&l| l).count(),
+            friction: 0,
             joint_forces: false,
             tendon_springs: false,
             tendon_dampers: false,
@@ -293,6 +311,10 @@ impl<'a> Scene<'a> {
         if scene.writes(Object::Model, &["jnt_limited"]) {
             scene.limited = m.njnt;
         }
+        if scene.writes(Object::Model, &["tendon_limited"]) {
+            scene.limited_tendons = m.ntendon;
+        }
+        scene.friction = FRICTION_LOSS.iter().map(|f| scene.others_than_zero(f)).sum();
         scene.fluid |= scene.writes(Object::Option, &["density", "viscosity"]);
         scene.gravcomp = scene.some(&[GRAVCOMP]);
         scene.joint_forces = scene.some(&JOINT_FORCES);
@@ -315,15 +337,34 @@ impl<'a> Scene<'a> {
 
     /// Whether one of these numbers is or may become other than zero.
     fn some(&self, of: &[Numbers]) -> bool {
-        of.iter().any(|(name, numbers)| {
-            let numbers = numbers(self.m);
-            numbers.iter().any(|&x| x != 0.0) || !numbers.is_empty() && self.writes(Object::Model, &[name])
-        })
+        of.iter().any(|numbers| self.others_than_zero(numbers) > 0)
+    }
+
+    /// How many of these numbers are or may become other than zero.
+    fn others_than_zero(&self, (name, numbers): &Numbers) -> usize {
+        let numbers = numbers(self.m);
+        if self.writes(Object::Model, &[name]) {
+            return numbers.len();
+        }
+        numbers.iter().filter(|&&x| x != 0.0).count()
     }
 
     /// Forces on bodies as such.
     fn body_forces(&self) -> bool {
         self.gravcomp || self.fluid
+    }
+
+    /// Constraints between points or frames of bodies.
+    fn ties_bodies(&self) -> bool {
+        self.m.eq_type.iter().any(|&t| t == eqtype::CONNECT || t == eqtype::WELD)
+    }
+
+    /// Constraints of the lengths of tendons.
+    fn tendon_constraints(&self) -> bool {
+        let m = self.m;
+        self.limited_tendons > 0
+            || m.eq_type.contains(&eqtype::TENDON)
+            || self.some(&[("tendon_frictionloss", |m| &m.tendon_frictionloss)])
     }
 
     /// Forces along tendons.
@@ -346,7 +387,12 @@ impl<'a> Scene<'a> {
             }
             n => count(n, "one pair of geoms can touch", "pairs of geoms can touch"),
         };
-        let limits = || count(self.limited, "one joint is limited", "joints are limited");
+        let single = || {
+            count(self.limited, "one joint is limited", "joints are limited")
+                .or_else(|| count(self.limited_tendons, "one tendon is limited", "tendons are limited"))
+                .or_else(|| count(self.friction, "one thing has dry friction", "things have dry friction"))
+                .or_else(|| count(m.neq, "there is one equality constraint", "equality constraints hold"))
+        };
         match stage {
             Stage::MassMatrix | Stage::Factor if self.general => {
                 Some("the mass matrix depends on the configuration".into())
@@ -355,7 +401,7 @@ impl<'a> Scene<'a> {
             Stage::MassMatrix => because(self.reads_field("crb"), "data.crb is read"),
             Stage::Factor => None,
             Stage::Collision => contacts(),
-            Stage::Constraint | Stage::Reference | Stage::Solve => contacts().or_else(limits),
+            Stage::Constraint | Stage::Reference | Stage::Solve => contacts().or_else(single),
             Stage::Passive if self.joint_forces || self.tendon_forces() => {
                 Some("joints or tendons have springs or dampers".into())
             }
@@ -403,7 +449,12 @@ impl<'a> Scene<'a> {
             (Stage::Actuation, Stage::Transmission | Stage::ActuatorVel) => true,
             (Stage::Actuation, Stage::Passive) => m.jnt_actgravcomp.contains(&true),
             (Stage::Collision, Stage::GeomPoses) => true,
-            (Stage::Constraint, Stage::Kinematics) => self.pairs > 0,
+            (Stage::Constraint, Stage::Kinematics) => self.pairs > 0 || self.ties_bodies(),
+            (Stage::Constraint, Stage::SitePoses) => {
+                self.ties_bodies() && m.eq_objtype.contains(&(Obj::Site as i32))
+            }
+            (Stage::Constraint, Stage::Tendon) => self.tendon_constraints(),
+            (Stage::Reference, Stage::ComVel) => self.ties_bodies(),
             (Stage::Bias, Stage::ComVel) => self.large,
             (Stage::Bias, Stage::Kinematics) if self.large => true,
             // A simple body's weight acts along its slides.

@@ -9,6 +9,7 @@ use crate::{Data, Model, Warning, WarningStat, actuation, kinematics, mass, refl
 pub fn reset_data(m: &Model, d: &mut Data) {
     reflect::allocate_data(m, d);
     (d.ncon, d.nefc, d.nisland, d.solver_niter) = (0, 0, 0, 0);
+    (d.ne, d.nf, d.nl) = (0, 0, 0);
     d.contact.clear();
     d.warning = [WarningStat::default(); Warning::COUNT];
     kinematics::world(d);

@@ -134,17 +134,17 @@ pub(crate) fn frame_along(normal: Vec3, tangent: Vec3) -> Mat3 {
 /// (`mj_contactForce`), N and N m. Zero when the contact has no constraint.
 pub fn contact_force(m: &Model, d: &Data, contact: &Contact) -> [f64; 6] {
     let mut out = [0.0; 6];
-    let Some(row) = contact.efc_address else { return out };
-    if contact.dim == 1 {
-        out[0] = d.efc_force[row];
+    let Some(force) = contact.efc_address.and_then(|row| d.efc_force.get(row..)) else { return out };
+    if contact.dim == 1 || m.opt.cone != 0 {
+        for (out, f) in out.iter_mut().zip(force).take(contact.dim) {
+            *out = *f;
+        }
         return out;
     }
-    debug_assert_eq!(m.opt.cone, 0);
     // Pyramid: each edge pushes along n ± μ t.
-    for k in 0..contact.dim - 1 {
-        let (plus, minus) = (d.efc_force[row + 2 * k], d.efc_force[row + 2 * k + 1]);
-        out[0] += plus + minus;
-        out[1 + k] = (plus - minus) * contact.friction[k];
+    for (k, edges) in force.chunks_exact(2).take(contact.dim - 1).enumerate() {
+        out[0] += edges[0] + edges[1];
+        out[1 + k] = (edges[0] - edges[1]) * contact.friction[k];
     }
     out
 }

@@ -68,8 +68,13 @@ fn finish(m: &Model, gap: f64, p: Params) -> Params {
     Params {
         reach: p.margin + gap,
         friction: p.friction.map(|f| f.max(MINMU)),
-        // Anything but frictionless slides until torsional and rolling friction exist.
-        dim: if p.dim <= 1 { 1 } else { 3 },
+        // Written to the model, a number that is no dimension means the next that is one.
+        dim: match p.dim {
+            0 | 1 => 1,
+            2 | 3 => 3,
+            4 => 4,
+            _ => 6,
+        },
         ..p
     }
 }

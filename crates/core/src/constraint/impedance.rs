@@ -3,7 +3,7 @@
 //! The formulas are those of the documentation, "Computation: Constraint model, Parameters".
 
 use crate::math::MINVAL;
-use crate::{Model, disable};
+use crate::{Contact, Model, disable};
 
 /// Stiffness K (1/s²), damping B (1/s), impedance I, at the current violation.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +35,16 @@ pub(super) fn kbi(m: &Model, solref: [f64; 2], solimp: [f64; 5], r: f64) -> Kbi 
         (-solref[0] / (dmax * dmax).max(MINVAL), -solref[1] / dmax.max(MINVAL))
     };
     Kbi { k, b, imp, slope }
+}
+
+/// The same for the friction of an elliptic cone, whose impedance is that of its normal: `solreffriction` where it is
+/// given, without mixed signs.
+pub(super) fn kbi_friction(m: &Model, c: &Contact, normal: Kbi) -> Kbi {
+    let [a, b] = c.solreffriction;
+    if [a, b] == [0.0; 2] || (a > 0.0) != (b > 0.0) {
+        return normal;
+    }
+    Kbi { imp: normal.imp, slope: normal.slope, ..kbi(m, [a, b], c.solimp, 0.0) }
 }
 
 /// Mixed signs are an error of the model: the default replaces them. A time constant below two steps would

@@ -3,8 +3,40 @@
 //! Values are stored column by column within a block, so that products run along the rows: four rows of a
 //! frictional contact fill vector registers.
 
+use super::cost::Cost;
+use crate::Model;
 use crate::math::dot;
 use std::ops::Range;
+
+/// Runs an expression with the constant `$rows` equal to the number of rows of a block: 1 for what is a number, 3 for a
+/// point, 4 and 6 for pyramids and cones with friction, 6 for a frame, 10 for the pyramid with all friction.
+macro_rules! by_rows {
+    ($n:expr, $rows:ident => $run:expr) => {
+        match $n {
+            1 => {
+                const $rows: usize = 1;
+                $run
+            }
+            3 => {
+                const $rows: usize = 3;
+                $run
+            }
+            4 => {
+                const $rows: usize = 4;
+                $run
+            }
+            6 => {
+                const $rows: usize = 6;
+                $run
+            }
+            _ => {
+                const $rows: usize = 10;
+                $run
+            }
+        }
+    };
+}
+pub(super) use by_rows;
 
 /// The rows of one constraint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +45,8 @@ pub(super) struct Block {
     pub(super) row: u32,
     /// Number of rows.
     pub(super) nrow: u32,
+    /// What missing the reference acceleration costs.
+    pub(super) cost: Cost,
     /// First value.
     adr: u32,
     /// First column index, and their number.
@@ -61,6 +95,7 @@ impl Jacobian {
     #[inline(always)]
     pub(super) fn push<const R: usize>(
         &mut self,
+        cost: Cost,
         row: usize,
         descending: &[u32],
         values: impl Iterator<Item = [f64; R]>,
@@ -77,6 +112,7 @@ impl Jacobian {
         self.blocks.push(Block {
             row: row as u32,
             nrow: R as u32,
+            cost,
             adr: adr as u32,
             col: col as u32,
             ncol: n as u32,
@@ -110,8 +146,93 @@ impl Jacobian {
         columns.extend_from_slice(&self.columns[..self.used_columns]);
     }
 
+    /// Appends a block of one row: its columns in ascending order with a value each.
+    pub(super) fn push_sparse(
+        &mut self,
+        cost: Cost,
+        row: usize,
+        columns: &[i32],
+        values: impl Iterator<Item = f64>,
+    ) {
+        self.open(cost, row);
+        for (&c, v) in columns.iter().zip(values) {
+            self.append(c, v);
+        }
+    }
+
+    /// Appends the row a + factor b. The columns of both ascend.
+    pub(super) fn push_sum(
+        &mut self,
+        cost: Cost,
+        row: usize,
+        (mut ca, mut va): (&[i32], &[f64]),
+        (mut cb, mut vb): (&[i32], &[f64]),
+        factor: f64,
+    ) {
+        self.open(cost, row);
+        loop {
+            match (ca, va, cb, vb) {
+                ([a, na @ ..], [x, nx @ ..], [b, nb @ ..], [y, ny @ ..]) if a == b => {
+                    self.append(*a, x + factor * y);
+                    (ca, va, cb, vb) = (na, nx, nb, ny);
+                }
+                ([a, na @ ..], [x, nx @ ..], rest, _) if rest.first().is_none_or(|b| a < b) => {
+                    self.append(*a, *x);
+                    (ca, va) = (na, nx);
+                }
+                (_, _, [b, nb @ ..], [y, ny @ ..]) => {
+                    self.append(*b, factor * y);
+                    (cb, vb) = (nb, ny);
+                }
+                _ => return,
+            }
+        }
+    }
+
+    /// Begins a block of one row.
+    fn open(&mut self, cost: Cost, row: usize) {
+        let (adr, col) = (self.used_values as u32, self.used_columns as u32);
+        self.blocks.push(Block { row: row as u32, nrow: 1, cost, adr, col, ncol: 0 });
+    }
+
+    /// Adds a column to it.
+    fn append(&mut self, column: i32, value: f64) {
+        let (at, col) = (self.used_values, self.used_columns);
+        (self.used_values, self.used_columns) = (at + 1, col + 1);
+        if self.values.len() <= at {
+            self.values.resize(at + 1, 0.0);
+        }
+        if self.columns.len() <= col {
+            self.columns.resize(col + 1, 0);
+        }
+        (self.values[at], self.columns[col]) = (value, column as u32);
+        if let Some(b) = self.blocks.last_mut() {
+            b.ncol += 1;
+        }
+    }
+
+    /// Keeps the last block if it moves anything, otherwise takes it back. The library asks for values where it works
+    /// with dense matrices, for columns where with sparse ones.
+    pub(super) fn keep_moving(&mut self, m: &Model) -> bool {
+        let sparse = m.opt.jacobian == 1 || m.opt.jacobian == 2 && m.nv >= 60;
+        let moves = |b: &Block| if sparse { b.ncol > 0 } else { self.values(b).iter().any(|&v| v != 0.0) };
+        let keep = self.blocks.last().is_some_and(moves);
+        if !keep {
+            self.pop();
+        }
+        keep
+    }
+
+    /// Takes back the last block.
+    fn pop(&mut self) {
+        if let Some(b) = self.blocks.pop() {
+            (self.used_values, self.used_columns) = (b.adr as usize, b.col as usize);
+        }
+    }
+
+    /// The values of a block, column by column.
     #[inline(always)]
-    fn values(&self, b: &Block) -> &[f64] {
+    pub(super) fn values(&self, b: &Block) -> &[f64] {
         &self.values[b.adr as usize..(b.adr + b.nrow * b.ncol) as usize]
     }
 
@@ -140,10 +261,7 @@ impl Jacobian {
     /// out ← J x for the rows of a block.
     #[inline(always)]
     pub(super) fn mul_block(&self, b: &Block, x: &[f64], out: &mut [f64]) {
-        match b.nrow {
-            1 => self.mul_rows::<1>(b, x, out),
-            _ => self.mul_rows::<4>(b, x, out),
-        }
+        by_rows!(b.nrow, R => self.mul_rows::<R>(b, x, out))
     }
 
     #[inline(always)]
@@ -208,10 +326,7 @@ impl Jacobian {
     /// are `local`.
     #[inline(always)]
     pub(super) fn add_gram(&self, b: &Block, w: &[f64], local: &[u32], h: &mut [f64], n: usize) {
-        match b.nrow {
-            1 => self.add_gram_rows::<1>(b, w, local, h, n),
-            _ => self.add_gram_rows::<4>(b, w, local, h, n),
-        }
+        by_rows!(b.nrow, R => self.add_gram_rows::<R>(b, w, local, h, n))
     }
 
     #[inline(always)]
@@ -228,6 +343,26 @@ impl Jacobian {
                     sum += wi[r] * vj[r];
                 }
                 row[local[cj as usize] as usize] += sum;
+            }
+        }
+    }
+
+    /// h ← h + Jᵀ W J for the R rows of a block, with W symmetric; the rest as [`Jacobian::add_gram`].
+    #[inline(never)]
+    pub(super) fn add_gram_full<const R: usize>(
+        &self,
+        b: &Block,
+        w: &[[f64; R]; R],
+        local: &[u32],
+        h: &mut [f64],
+        n: usize,
+    ) {
+        let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
+        for (i, (&ci, vi)) in cols.iter().zip(vals).enumerate() {
+            let wi: [f64; R] = std::array::from_fn(|r| dot(w[r], *vi));
+            let row = &mut h[local[ci as usize] as usize * n..][..n];
+            for (&cj, vj) in cols[..=i].iter().zip(vals) {
+                row[local[cj as usize] as usize] += dot(wi, *vj);
             }
         }
     }

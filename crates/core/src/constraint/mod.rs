@@ -4,23 +4,36 @@
 //! dynamics with contacts and constraints*): among all accelerations, the one nearest to the unconstrained
 //! in the metric of M, where each constraint adds a cost for missing its reference acceleration.
 
+mod cg;
+mod contact;
+mod cost;
+mod equality;
+mod exact;
 mod impedance;
 mod island;
 mod jacobian;
+mod newton;
+mod primal;
+mod reference;
 mod rows;
 mod search;
+mod single;
 mod solver;
 
 pub(crate) use island::Islands;
 pub(crate) use jacobian::Jacobian;
-pub(crate) use rows::{make, reference};
+pub(crate) use reference::reference;
+pub(crate) use rows::make;
 pub(crate) use solver::{Scratch, inverse, solve};
 
 /// Values of `efc_type` (mjtConstraint).
 pub(crate) mod kind {
     pub(crate) const EQUALITY: i32 = 0;
+    pub(crate) const FRICTION_DOF: i32 = 1;
+    pub(crate) const FRICTION_TENDON: i32 = 2;
     pub(crate) const LIMIT_JOINT: i32 = 3;
     pub(crate) const LIMIT_TENDON: i32 = 4;
     pub(crate) const CONTACT_FRICTIONLESS: i32 = 5;
     pub(crate) const CONTACT_PYRAMIDAL: i32 = 6;
+    pub(crate) const CONTACT_ELLIPTIC: i32 = 7;
 }

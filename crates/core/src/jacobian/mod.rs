@@ -46,12 +46,13 @@ pub(crate) fn apply(m: &Model, d: &Data, b: usize, point: Vec3, force: Vec3, tor
 pub(crate) struct Columns {
     dofs: Vec<u32>,
     values: Vec<Vec3>,
+    turns: Vec<Vec3>,
     len: usize,
 }
 
 impl Columns {
     pub(crate) fn with_room(nv: usize) -> Columns {
-        Columns { dofs: vec![0; nv], values: vec![[0.0; 3]; nv], len: 0 }
+        Columns { dofs: vec![0; nv], values: vec![[0.0; 3]; nv], turns: vec![[0.0; 3]; nv], len: 0 }
     }
 
     /// The degrees of freedom.
@@ -64,6 +65,17 @@ impl Columns {
     #[inline(always)]
     pub(crate) fn values(&self) -> &[Vec3] {
         &self.values[..self.len]
+    }
+
+    /// Angular velocity along each row of the frame, likewise; where it was asked for.
+    #[inline(always)]
+    pub(crate) fn turns(&self) -> &[Vec3] {
+        &self.turns[..self.len]
+    }
+
+    #[inline(always)]
+    pub(crate) fn turns_mut(&mut self) -> &mut [Vec3] {
+        &mut self.turns[..self.len]
     }
 
     /// Appends N columns, of which the first belongs to degree of freedom `last`.
@@ -142,5 +154,40 @@ fn joint_columns(
         out.push(last, [turn(2), turn(1), turn(0), shift(2), shift(1), shift(0)]);
     } else {
         out.push(last, [turn(2), turn(1), turn(0)]);
+    }
+}
+
+/// The rotational part that goes with [`point_difference`]: the difference of angular velocities along the rows of
+/// `frame`, for the columns that are there.
+pub(crate) fn turn_difference(m: &Model, d: &Data, bodies: [usize; 2], frame: &Mat3, out: &mut Columns) {
+    let mut last = bodies.map(|b| last_dof(m, b));
+    for turn in out.turns_mut() {
+        let side = usize::from(last[1] > last[0]);
+        let k = last[side].max(0) as usize;
+        let (w, _) = dof_motion(m, d, k, [0.0; 3]);
+        *turn = mat_mul_vec(frame, scale(w, if side == 1 { 1.0 } else { -1.0 }));
+        last[side] = m.dof_parentid[k];
+    }
+}
+
+/// The Jacobian difference of two points, each fixed to a body, J(b1) - J(b2), with that of the angular velocities, world
+/// axes. Degrees of freedom that move both bodies are there, too: they move two points differently.
+pub(crate) fn pair_difference(m: &Model, d: &Data, bodies: [usize; 2], points: [Vec3; 2], out: &mut Columns) {
+    out.len = 0;
+    let mut last = bodies.map(|b| last_dof(m, b));
+    loop {
+        let k = last[0].max(last[1]);
+        let Ok(dof) = usize::try_from(k) else { return };
+        let (mut shift, mut turn) = ([0.0; 3], [0.0; 3]);
+        for (side, sign) in [(0, 1.0), (1, -1.0)] {
+            if last[side] == k {
+                let (w, v) = dof_motion(m, d, dof, points[side]);
+                (shift, turn) = (add_scaled(shift, v, sign), add_scaled(turn, w, sign));
+                last[side] = m.dof_parentid[dof];
+            }
+        }
+        let at = out.len;
+        (out.dofs[at], out.values[at], out.turns[at]) = (dof as u32, shift, turn);
+        out.len += 1;
     }
 }

@@ -1,0 +1,67 @@
+//! The conjugate gradient method with the mass matrix as preconditioner.
+//!
+//! Directions follow Hager and Zhang 2005 (*A new conjugate gradient method with guaranteed descent and an efficient
+//! line search*), with their truncation.
+
+use super::primal::{Problem, Reached};
+use crate::math::MINVAL;
+
+/// Keeps the truncation finite where the gradient vanishes.
+const ETA: f64 = 0.01;
+
+impl Problem<'_> {
+    #[inline(never)]
+    pub(super) fn conjugate_gradient(&mut self, from: Reached) {
+        if from.minimum {
+            return;
+        }
+        let (tol, scale) = (self.m.opt.tolerance, self.scale());
+        let Reached { mut cost, mut gradient, .. } = from;
+        self.decrement_by_mass();
+        for k in self.dofs().flatten() {
+            self.s.search[k] = -self.s.step[k];
+        }
+        for _ in 0..self.m.opt.iterations.max(0) {
+            let alpha = self.line_search(scale);
+            if alpha == 0.0 {
+                break;
+            }
+            self.advance(alpha);
+            self.d.solver_niter += 1;
+            for k in self.dofs().flatten() {
+                (self.s.grad_old[k], self.s.step_old[k]) = (self.s.grad[k], self.s.step[k]);
+            }
+            let before = (cost, gradient);
+            (cost, gradient) = self.update();
+            self.decrement_by_mass();
+            let improvement = scale * (before.0 - cost);
+            if (improvement > 0.0 && improvement < tol) || scale * gradient < tol {
+                break;
+            }
+            let beta = self.beta(before.1);
+            for k in self.dofs().flatten() {
+                self.s.search[k] = beta * self.s.search[k] - self.s.step[k];
+            }
+        }
+    }
+
+    /// How much of the last direction d stays: (y·Mg - 2 (y·My) (d·g) / (d·y)) / (d·y), where y is the change of the
+    /// gradient g and M its preconditioner; not below -1 / (|d| min(η, |g|)) with the gradient before.
+    fn beta(&mut self, gradient: f64) -> f64 {
+        let (dofs, s) = (self.dofs(), &mut *self.s);
+        let mut sums = [0.0; 5];
+        for k in dofs.flatten() {
+            let (y, my) = (s.grad[k] - s.grad_old[k], s.step[k] - s.step_old[k]);
+            let (g, mg, d) = (s.grad[k], s.step[k], s.search[k]);
+            for (sum, term) in sums.iter_mut().zip([y * mg, y * my, d * g, d * y, d * d]) {
+                *sum += term;
+            }
+        }
+        let [y_mg, y_my, d_g, d_y, d_d] = sums;
+        if d_y < MINVAL {
+            return 0.0;
+        }
+        let beta = (y_mg - 2.0 * y_my / d_y * d_g) / d_y;
+        beta.max(-1.0 / (d_d.sqrt() * gradient.min(ETA)).max(MINVAL))
+    }
+}

@@ -1,0 +1,164 @@
+//! The rows of contacts: along the normal, and for friction the edges of a pyramid or the axes of a cone.
+
+use super::cost::Cost;
+use super::impedance::{Kbi, kbi, kbi_friction};
+use super::kind;
+use super::rows::{Rows, push, regularization};
+use crate::jacobian::{self, Columns};
+use crate::math::*;
+use crate::{Contact, Data, Model};
+
+/// Value of `opt.cone`.
+const PYRAMIDAL: i32 = 0;
+
+/// Number of rows that the contacts may need.
+#[inline(always)]
+pub(super) fn count(m: &Model, d: &Data) -> usize {
+    let rows = |c: &Contact| match c.dim {
+        1 => 1,
+        dim if m.opt.cone == PYRAMIDAL => 2 * (dim - 1),
+        dim => dim,
+    };
+    d.contact.iter().map(rows).sum()
+}
+
+/// Rows of all contacts that touch, in their order.
+pub(super) fn make(m: &Model, d: &mut Data) {
+    let mut list = std::mem::take(&mut d.contact);
+    let mut columns = std::mem::take(&mut d.work.columns);
+    for (id, c) in list.iter_mut().enumerate() {
+        c.efc_address = None;
+        if c.exclude != 0 {
+            continue;
+        }
+        let bodies = [m.geom_bodyid[c.geom1] as usize, m.geom_bodyid[c.geom2] as usize];
+        jacobian::point_difference(m, d, bodies, c.pos, &c.frame, &mut columns);
+        if columns.dofs().is_empty() {
+            c.exclude = 3;
+            continue;
+        }
+        c.efc_address = Some(d.nefc);
+        match (c.dim, m.opt.cone) {
+            (1 | 3, PYRAMIDAL) => common(m, d, id, c, bodies, &columns),
+            _ => other(m, d, id, c, bodies, &mut columns),
+        }
+    }
+    d.contact = list;
+    d.work.columns = columns;
+}
+
+/// Sum over both bodies of the inverse inertia, for translation (0) or rotation (1).
+#[inline(always)]
+fn inverse_weight(m: &Model, [b1, b2]: [usize; 2], part: usize) -> f64 {
+    m.body_invweight0[2 * b1 + part] + m.body_invweight0[2 * b2 + part]
+}
+
+/// What all rows of a contact share.
+#[inline(always)]
+fn shared<const R: usize>(c: &Contact, id: usize, kind: i32, kbi: Kbi, others: Kbi, r: [f64; R]) -> Rows<R> {
+    Rows { kind, id, pos: [c.dist; R], margin: [c.includemargin; R], loss: 0.0, kbi, others, r }
+}
+
+/// Without friction, or with the pyramid of sliding friction: the edges n ± μ t.
+#[inline(always)]
+fn common(m: &Model, d: &mut Data, id: usize, c: &mut Contact, bodies: [usize; 2], columns: &Columns) {
+    let (cols, along) = (columns.dofs(), columns.values());
+    let (row, mu, mu2) = (d.nefc, c.friction[0], c.friction[1]);
+    let kbi = kbi(m, c.solref, c.solimp, c.dist - c.includemargin);
+    let translation = inverse_weight(m, bodies, 0);
+    if c.dim == 1 {
+        d.work.jac.push::<1>(Cost::Push, row, cols, along.iter().map(|a| [a[0]]));
+        let r = [regularization(kbi.imp, translation)];
+        push::<1>(d, &shared(c, id, kind::CONTACT_FRICTIONLESS, kbi, kbi, r));
+        return;
+    }
+    let edges = |&[n, t1, t2]: &Vec3| [n + mu * t1, n - mu * t1, n + mu2 * t2, n - mu2 * t2];
+    d.work.jac.push::<4>(Cost::Push, row, cols, along.iter().map(edges));
+    let r = friction(m, c, false, regularization(kbi.imp, translation + mu * mu * translation));
+    push::<4>(d, &shared(c, id, kind::CONTACT_PYRAMIDAL, kbi, kbi, r));
+}
+
+/// Contacts that also resist spinning and rolling, and elliptic cones.
+#[inline(never)]
+fn other(m: &Model, d: &mut Data, id: usize, c: &mut Contact, bodies: [usize; 2], columns: &mut Columns) {
+    if c.dim > 3 {
+        jacobian::turn_difference(m, d, bodies, &c.frame, columns);
+    }
+    match (c.dim, m.opt.cone) {
+        (1, _) => common(m, d, id, c, bodies, columns),
+        (4, PYRAMIDAL) => pyramid::<6>(m, d, id, c, bodies, columns),
+        (_, PYRAMIDAL) => pyramid::<10>(m, d, id, c, bodies, columns),
+        (3, _) => cone::<3>(m, d, id, c, bodies, columns),
+        (4, _) => cone::<4>(m, d, id, c, bodies, columns),
+        _ => cone::<6>(m, d, id, c, bodies, columns),
+    }
+}
+
+/// Velocities of a column in the contact's space: normal, two tangents, spin, two rolls.
+#[inline(always)]
+fn space(columns: &Columns) -> impl Iterator<Item = [f64; 6]> {
+    let both = columns.values().iter().zip(columns.turns());
+    both.map(|(v, w)| [v[0], v[1], v[2], w[0], w[1], w[2]])
+}
+
+/// A pair of edges n ± μ t for each of the R / 2 directions of friction.
+fn pyramid<const R: usize>(
+    m: &Model,
+    d: &mut Data,
+    id: usize,
+    c: &mut Contact,
+    bodies: [usize; 2],
+    columns: &Columns,
+) {
+    let mu = c.friction;
+    let edge = |s: &[f64; 6], r: usize| s[0] + if r % 2 == 0 { mu[r / 2] } else { -mu[r / 2] } * s[1 + r / 2];
+    let edges = space(columns).map(|s| std::array::from_fn(|r| edge(&s, r)));
+    d.work.jac.push::<R>(Cost::Push, d.nefc, columns.dofs(), edges);
+    let kbi = kbi(m, c.solref, c.solimp, c.dist - c.includemargin);
+    let translation = inverse_weight(m, bodies, 0);
+    let r = friction(m, c, false, regularization(kbi.imp, translation + mu[0] * mu[0] * translation));
+    push::<R>(d, &shared(c, id, kind::CONTACT_PYRAMIDAL, kbi, kbi, r));
+}
+
+/// The normal, and R - 1 directions of friction, which have no stiffness.
+fn cone<const R: usize>(
+    m: &Model,
+    d: &mut Data,
+    id: usize,
+    c: &mut Contact,
+    bodies: [usize; 2],
+    columns: &Columns,
+) {
+    let axes = space(columns).map(|s| std::array::from_fn(|r| s[r]));
+    d.work.jac.push::<R>(Cost::Cone, d.nefc, columns.dofs(), axes);
+    let kbi = kbi(m, c.solref, c.solimp, c.dist - c.includemargin);
+    let others = Kbi { k: 0.0, ..kbi_friction(m, c, kbi) };
+    let r = friction(m, c, true, regularization(kbi.imp, inverse_weight(m, bodies, 0)));
+    let mut rows = shared::<R>(c, id, kind::CONTACT_ELLIPTIC, kbi, others, r);
+    // The violation is that of the normal alone.
+    for r in 1..R {
+        (rows.pos[r], rows.margin[r]) = (0.0, 0.0);
+    }
+    push::<R>(d, &rows);
+}
+
+/// R of the rows of a contact with friction, given that of the first; sets the coefficient of the cone, μ = μ1 / √impratio.
+///
+/// Every edge of a pyramid is as soft as the cone is: 2 μ² R. In a cone each direction of friction is as soft as makes
+/// all of it isotropic: R μ1² / (impratio μj²).
+#[inline(always)]
+pub(super) fn friction<const R: usize>(m: &Model, c: &mut Contact, elliptic: bool, normal: f64) -> [f64; R] {
+    let impratio = m.opt.impratio.max(MINVAL);
+    let mu1 = c.friction[0];
+    if !elliptic {
+        c.mu = mu1 * (1.0 / impratio).sqrt();
+        return [(2.0 * c.mu * c.mu * normal).max(MINVAL); R];
+    }
+    let first = normal / impratio;
+    c.mu = mu1 * (first / normal).sqrt();
+    std::array::from_fn(|r| match r {
+        0 => normal,
+        1 => first,
+        r => first * mu1 * mu1 / (c.friction[r - 1] * c.friction[r - 1]),
+    })
+}

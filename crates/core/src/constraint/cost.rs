@@ -1,0 +1,340 @@
+//! What it costs to miss the reference acceleration, and the force that follows: minus the gradient of the cost.
+//!
+//! With x = J a - aref for the rows of a constraint and D = 1/R (MuJoCo's documentation, "Computation: Constraint
+//! model"): an equality costs ½ D x²; dry friction the same up to its largest force, and beyond it grows linearly (Huber
+//! 1964); a limit or contact that pushes costs only where x < 0. A contact with an elliptic cone has three zones:
+//! nothing where the contact opens, all of ½ D x² where it sticks, and the squared distance from the dual cone where
+//! it slides.
+
+use super::kind;
+use crate::Contact;
+use crate::math::MINVAL;
+
+/// The shape of a cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cost {
+    /// Both ways, without bound.
+    Quadratic,
+    /// Both ways, up to a largest force.
+    DryFriction,
+    /// One way.
+    Push,
+    /// Normal and friction together.
+    Cone,
+}
+
+/// Values of `efc_state` (mjtConstraintState).
+pub(super) mod state {
+    pub(in crate::constraint) const SATISFIED: i32 = 0;
+    pub(in crate::constraint) const QUADRATIC: i32 = 1;
+    pub(in crate::constraint) const LINEARNEG: i32 = 2;
+    pub(in crate::constraint) const LINEARPOS: i32 = 3;
+    pub(in crate::constraint) const CONE: i32 = 4;
+}
+
+impl Cost {
+    /// Of a row with this `efc_type`.
+    pub(super) fn of(kind: i32) -> Cost {
+        match kind {
+            kind::EQUALITY => Cost::Quadratic,
+            kind::FRICTION_DOF | kind::FRICTION_TENDON => Cost::DryFriction,
+            kind::CONTACT_ELLIPTIC => Cost::Cone,
+            _ => Cost::Push,
+        }
+    }
+}
+
+/// What the cost of one constraint depends on besides x.
+#[derive(Clone, Copy)]
+pub(super) struct Shape<'a, const R: usize> {
+    pub(super) cost: Cost,
+    /// 1/R of each row.
+    pub(super) stiff: &'a [f64; R],
+    /// Largest force of dry friction.
+    pub(super) loss: f64,
+    /// The contact of a cone.
+    pub(super) contact: Option<&'a Contact>,
+}
+
+/// Second derivative of a cost.
+pub(super) enum Curvature<const R: usize> {
+    Flat,
+    Diagonal([f64; R]),
+    Full([[f64; R]; R]),
+}
+
+/// Where x is, for an elliptic cone.
+enum Zone<const R: usize> {
+    Open,
+    Stick,
+    Slide(Slide<R>),
+}
+
+/// A sliding contact, in the coordinates in which its cone is round: N = μ x₀, U = f x along the friction directions.
+struct Slide<const R: usize> {
+    mu: f64,
+    /// Scale of each row.
+    scale: [f64; R],
+    /// N, then U.
+    u: [f64; R],
+    /// |U|
+    t: f64,
+    /// D₀ / (μ² (1 + μ²))
+    stiff: f64,
+}
+
+impl<const R: usize> Slide<R> {
+    /// N - μ |U|: how far x is from the cone, negative.
+    fn depth(&self) -> f64 {
+        self.u[0] - self.mu * self.t
+    }
+}
+
+impl<const R: usize> Shape<'_, R> {
+    /// Cost and force at x.
+    #[inline]
+    pub(super) fn value(&self, x: &[f64; R]) -> (f64, [f64; R]) {
+        match self.cost {
+            Cost::Quadratic => self.quadratic(x),
+            Cost::Push => {
+                let pushed = x.map(|x| if x < 0.0 { x } else { 0.0 });
+                self.quadratic(&pushed)
+            }
+            Cost::DryFriction => match self.slips(x[0]) {
+                Some(side) => {
+                    let mut force = [0.0; R];
+                    force[0] = -side * self.loss;
+                    (self.loss * (side * x[0] - 0.5 * self.loss / self.stiff[0]), force)
+                }
+                None => self.quadratic(x),
+            },
+            Cost::Cone => match self.zone(x) {
+                Zone::Open => (0.0, [0.0; R]),
+                Zone::Stick => self.quadratic(x),
+                Zone::Slide(s) => {
+                    let depth = s.depth();
+                    let normal = -s.stiff * depth * s.mu;
+                    let mut force: [f64; R] = std::array::from_fn(|j| -normal / s.t * s.u[j] * s.scale[j]);
+                    force[0] = normal;
+                    (0.5 * s.stiff * depth * depth, force)
+                }
+            },
+        }
+    }
+
+    /// Which way dry friction slips: the sign of x where the force is at its largest.
+    #[inline]
+    fn slips(&self, x: f64) -> Option<f64> {
+        (x.abs() >= self.loss / self.stiff[0]).then_some(if x < 0.0 { -1.0 } else { 1.0 })
+    }
+
+    fn quadratic(&self, x: &[f64; R]) -> (f64, [f64; R]) {
+        let force: [f64; R] = std::array::from_fn(|r| -self.stiff[r] * x[r]);
+        let mut cost = force[0] * x[0];
+        for r in 1..R {
+            cost += force[r] * x[r];
+        }
+        (-0.5 * cost, force)
+    }
+
+    /// The zone of a cone; a block without a contact is as good as open.
+    #[inline]
+    fn zone(&self, x: &[f64; R]) -> Zone<R> {
+        let Some(c) = self.contact else { return Zone::Open };
+        let mu = c.mu;
+        let scale: [f64; R] = std::array::from_fn(|j| if j == 0 { mu } else { c.friction[(j - 1).min(4)] });
+        let u: [f64; R] = std::array::from_fn(|j| scale[j] * x[j]);
+        let mut square = 0.0;
+        for u in &u[1..] {
+            square += u * u;
+        }
+        let (n, t) = (u[0], square.sqrt());
+        if n >= mu * t || t <= 0.0 && n >= 0.0 {
+            Zone::Open
+        } else if mu * n + t <= 0.0 || t <= 0.0 && n < 0.0 {
+            Zone::Stick
+        } else {
+            let stiff = self.stiff[0] / (mu * mu * (1.0 + mu * mu)).max(MINVAL);
+            Zone::Slide(Slide { mu, scale, u, t, stiff })
+        }
+    }
+
+    /// Second derivative at x.
+    #[inline]
+    pub(super) fn curvature(&self, x: &[f64; R]) -> Curvature<R> {
+        match self.cost {
+            Cost::Quadratic => Curvature::Diagonal(*self.stiff),
+            Cost::Push => {
+                if x.iter().all(|&x| x >= 0.0) {
+                    Curvature::Flat
+                } else {
+                    Curvature::Diagonal(std::array::from_fn(|r| if x[r] < 0.0 { self.stiff[r] } else { 0.0 }))
+                }
+            }
+            Cost::DryFriction => match self.slips(x[0]) {
+                Some(_) => Curvature::Flat,
+                None => Curvature::Diagonal(*self.stiff),
+            },
+            Cost::Cone => match self.zone(x) {
+                Zone::Open => Curvature::Flat,
+                Zone::Stick => Curvature::Diagonal(*self.stiff),
+                Zone::Slide(s) => Curvature::Full(s.curvature()),
+            },
+        }
+    }
+
+    /// Cost at x + α v less that at x, and its first and second derivative along v. Differences are formed without the
+    /// costs themselves where both ends are in the same zone: near the minimum these are all rounding.
+    #[inline]
+    pub(super) fn along(&self, x: &[f64; R], v: &[f64; R], alpha: f64) -> [f64; 3] {
+        let now: [f64; R] = std::array::from_fn(|r| x[r] + alpha * v[r]);
+        let (before, (after, force)) = (|| self.value(x).0, self.value(&now));
+        let mut slope = 0.0;
+        for r in 0..R {
+            slope -= force[r] * v[r];
+        }
+        let step = |r: usize| 0.5 * self.stiff[r] * alpha * v[r] * (x[r] + now[r]);
+        let change = match self.cost {
+            Cost::Quadratic => (0..R).map(step).sum(),
+            Cost::Push => (0..R)
+                .map(|r| match (x[r] < 0.0, now[r] < 0.0) {
+                    (true, true) => step(r),
+                    (true, false) => -0.5 * self.stiff[r] * x[r] * x[r],
+                    (false, true) => 0.5 * self.stiff[r] * now[r] * now[r],
+                    (false, false) => 0.0,
+                })
+                .sum(),
+            Cost::DryFriction => match (self.slips(x[0]), self.slips(now[0])) {
+                (None, None) => step(0),
+                (Some(a), Some(b)) if a == b => a * self.loss * alpha * v[0],
+                _ => after - before(),
+            },
+            Cost::Cone => match (self.zone(x), self.zone(&now)) {
+                (Zone::Open, Zone::Open) => 0.0,
+                (Zone::Stick, Zone::Stick) => (0..R).map(step).sum(),
+                (Zone::Slide(a), Zone::Slide(b)) => {
+                    let squares: f64 = (1..R).map(|j| a.scale[j] * alpha * v[j] * (a.u[j] + b.u[j])).sum();
+                    let change = a.mu * alpha * v[0] - a.mu * squares / (a.t + b.t);
+                    0.5 * a.stiff * change * (a.depth() + b.depth())
+                }
+                _ => after - before(),
+            },
+        };
+        [change, slope, self.curvature(&now).along(v)]
+    }
+
+    /// `efc_state` at x, of each row.
+    pub(super) fn state(&self, x: &[f64; R]) -> [i32; R] {
+        match self.cost {
+            Cost::Quadratic => [state::QUADRATIC; R],
+            Cost::Push => x.map(|x| if x < 0.0 { state::QUADRATIC } else { state::SATISFIED }),
+            Cost::DryFriction => match self.slips(x[0]) {
+                Some(side) if side < 0.0 => [state::LINEARNEG; R],
+                Some(_) => [state::LINEARPOS; R],
+                None => [state::QUADRATIC; R],
+            },
+            Cost::Cone => match self.zone(x) {
+                Zone::Open => [state::SATISFIED; R],
+                Zone::Stick => [state::QUADRATIC; R],
+                Zone::Slide(_) => [state::CONE; R],
+            },
+        }
+    }
+}
+
+impl<const R: usize> Slide<R> {
+    fn curvature(&self) -> [[f64; R]; R] {
+        let Slide { mu, scale, u, t, stiff } = self;
+        let (n, t2) = (u[0], t * t);
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let round = match (i, j) {
+                    (0, 0) => 1.0,
+                    (0, k) | (k, 0) => -mu * u[k] / t,
+                    _ => {
+                        let same = if i == j { mu * mu - mu * n / t } else { 0.0 };
+                        mu * n / (t2 * t) * u[i] * u[j] + same
+                    }
+                };
+                stiff * round * scale[i] * scale[j]
+            })
+        })
+    }
+}
+
+impl<const R: usize> Curvature<R> {
+    /// vᵀ C v
+    fn along(&self, v: &[f64; R]) -> f64 {
+        match self {
+            Curvature::Flat => 0.0,
+            Curvature::Diagonal(w) => (0..R).map(|r| w[r] * v[r] * v[r]).sum(),
+            Curvature::Full(c) => (0..R).map(|i| v[i] * (0..R).map(|j| c[i][j] * v[j]).sum::<f64>()).sum(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn close(a: f64, b: f64, scale: f64) -> bool {
+        (a - b).abs() <= 1e-5 * (1.0 + scale)
+    }
+
+    proptest! {
+        /// Force is minus the gradient, the curvature its derivative, and the change along a line adds up, in all zones.
+        #[test]
+        fn derivatives(
+            x in prop::array::uniform6(-2.0f64..2.0),
+            v in prop::array::uniform6(-1.0f64..1.0),
+            friction in prop::array::uniform5(0.1f64..2.0),
+            impratio in 0.3f64..5.0,
+            loss in 0.1f64..3.0,
+            which in 0usize..4,
+        ) {
+            let d0 = 1.7;
+            let mu = friction[0] / impratio.sqrt();
+            let contact = Contact { mu, friction, ..Contact::default() };
+            let mut stiff = [d0; 6];
+            for j in 1..6 {
+                stiff[j] = d0 * (friction[j - 1] / mu).powi(2);
+            }
+            let cost = [Cost::Quadratic, Cost::Push, Cost::DryFriction, Cost::Cone][which];
+            if which == 2 {
+                let shape = Shape { cost, stiff: &[d0], loss, contact: None };
+                check(&shape, &[x[0]], &[v[0]])?;
+            } else {
+                check(&Shape { cost, stiff: &stiff, loss, contact: Some(&contact) }, &x, &v)?;
+            }
+        }
+    }
+
+    fn check<const R: usize>(s: &Shape<R>, x: &[f64; R], v: &[f64; R]) -> Result<(), TestCaseError> {
+        let at = |alpha: f64| -> [f64; R] { std::array::from_fn(|r| x[r] + alpha * v[r]) };
+        let h = 1e-6;
+        let (ahead, behind) = (s.value(&at(h)), s.value(&at(-h)));
+        let [change, slope, curvature] = s.along(x, v, 0.7);
+        let (there, here) = (s.value(&at(0.7)).0, s.value(x).0);
+        prop_assert!(
+            (change - (there - here)).abs() < 1e-12 * (1.0 + there + here),
+            "{change}, {}",
+            there - here
+        );
+        let [zero, start, _] = s.along(x, v, 0.0);
+        prop_assert_eq!(zero, 0.0);
+        prop_assert!(close(start, (ahead.0 - behind.0) / (2.0 * h), here));
+        let along = |f: [f64; R]| -(0..R).map(|r| f[r] * v[r]).sum::<f64>();
+        let (next, last) = (s.value(&at(0.7 + h)).1, s.value(&at(0.7 - h)).1);
+        prop_assert!(close(slope, along(s.value(&at(0.7)).1), there));
+        // A kink of the force may lie between the two.
+        if s.state(&at(0.7 + h)) == s.state(&at(0.7 - h)) {
+            let numeric = (along(next) - along(last)) / (2.0 * h);
+            prop_assert!(
+                (curvature - numeric).abs() < 1e-3 * (1.0 + curvature.abs()),
+                "{curvature}, {numeric}"
+            );
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,192 @@
+//! The rows of equality constraints, and the part of their acceleration that velocities cause.
+//!
+//! A connect holds two points together, a weld two frames: x₁ - x₂ = 0 and Im(q₂⁻¹ q₁) = 0, whose rate is
+//! ½ Im(q₂⁻¹ (ω₁ - ω₂) q₁). Joints and tendons follow a polynomial of each other (MuJoCo's documentation,
+//! "Computation: Constraint model, Equality").
+
+use super::cost::Cost;
+use super::impedance::kbi;
+use super::kind;
+use super::rows::{Rows, push, regularization};
+use crate::equality::{self, End};
+use crate::jacobian::{self, Columns};
+use crate::math::*;
+use crate::{Data, Model, eqtype, tendon};
+
+/// Number of rows of the active constraints.
+pub(super) fn count(m: &Model, d: &Data) -> usize {
+    (0..m.neq).filter(|&e| d.eq_active[e]).map(|e| equality::rows_of(m, e)).sum()
+}
+
+/// Rows of all active constraints, by id.
+pub(super) fn make(m: &Model, d: &mut Data) {
+    let mut columns = std::mem::take(&mut d.work.columns);
+    for e in 0..m.neq {
+        if !d.eq_active[e] {
+            continue;
+        }
+        match (m.eq_type[e], equality::ends(m, d, e)) {
+            (eqtype::CONNECT, Some(ends)) => connect(m, d, e, &ends, &mut columns),
+            (eqtype::WELD, Some(ends)) => weld(m, d, e, &ends, &mut columns),
+            (eqtype::JOINT, _) => coupled_joints(m, d, e),
+            (eqtype::TENDON, _) => coupled_tendons(m, d, e),
+            _ => {}
+        }
+    }
+    d.work.columns = columns;
+}
+
+/// Appends the scalars of a constraint; its impedance is that of the distance `off` from where it should be.
+fn scalars<const R: usize>(m: &Model, d: &mut Data, e: usize, pos: [f64; R], off: f64, weight: [f64; R]) {
+    let kbi = kbi(m, rows::<2>(&m.eq_solref)[e], rows::<5>(&m.eq_solimp)[e], off);
+    let r = weight.map(|w| regularization(kbi.imp, w));
+    push::<R>(
+        d,
+        &Rows { kind: kind::EQUALITY, id: e, pos, margin: [0.0; R], loss: 0.0, kbi, others: kbi, r },
+    );
+}
+
+/// Sum over both bodies of the inverse inertia, for translation (0) or rotation (1).
+fn inverse_weight(m: &Model, ends: &[End; 2], part: usize) -> f64 {
+    m.body_invweight0[2 * ends[0].body + part] + m.body_invweight0[2 * ends[1].body + part]
+}
+
+fn difference(m: &Model, d: &Data, ends: &[End; 2], out: &mut Columns) {
+    jacobian::pair_difference(m, d, [ends[0].body, ends[1].body], [ends[0].point, ends[1].point], out);
+}
+
+fn connect(m: &Model, d: &mut Data, e: usize, ends: &[End; 2], columns: &mut Columns) {
+    difference(m, d, ends, columns);
+    d.work.jac.push::<3>(Cost::Quadratic, d.nefc, columns.dofs(), columns.values().iter().copied());
+    if d.work.jac.keep_moving(m) {
+        let pos = sub(ends[0].point, ends[1].point);
+        scalars(m, d, e, pos, norm(pos), [inverse_weight(m, ends, 0); 3]);
+    }
+}
+
+fn weld(m: &Model, d: &mut Data, e: usize, ends: &[End; 2], columns: &mut Columns) {
+    difference(m, d, ends, columns);
+    let torquescale = rows::<11>(&m.eq_data)[e][10];
+    let both = columns.values().iter().zip(columns.turns()).map(|(&[x, y, z], &turn)| {
+        let [a, b, c] = scale(between(ends, turn), 0.5 * torquescale);
+        [x, y, z, a, b, c]
+    });
+    d.work.jac.push::<6>(Cost::Quadratic, d.nefc, columns.dofs(), both);
+    if d.work.jac.keep_moving(m) {
+        let [x, y, z] = sub(ends[0].point, ends[1].point);
+        let [_, a, b, c] = quat_mul(quat_conj(ends[1].quat), ends[0].quat);
+        let [a, b, c] = scale([a, b, c], torquescale);
+        let off = dot_slice(&[x, y, z, a, b, c], &[x, y, z, a, b, c]).sqrt();
+        let [t, r] = [inverse_weight(m, ends, 0), inverse_weight(m, ends, 1)];
+        scalars(m, d, e, [x, y, z, a, b, c], off, [t, t, t, r, r, r]);
+    }
+}
+
+/// Im(q₂⁻¹ w q₁)
+fn between(ends: &[End; 2], [x, y, z]: Vec3) -> Vec3 {
+    let [_, a, b, c] = quat_mul(quat_mul(quat_conj(ends[1].quat), [0.0, x, y, z]), ends[0].quat);
+    [a, b, c]
+}
+
+/// A polynomial and its derivative.
+fn polynomial(coefficients: &[f64], x: f64) -> (f64, f64) {
+    coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c, slope * x + value))
+}
+
+/// q₁ - ref₁ = c(q₂ - ref₂), or = c₀ without a second one: the difference, and what the second moves it by.
+fn coupled(m: &Model, e: usize, first: f64, second: Option<f64>) -> (f64, f64) {
+    let data = &rows::<11>(&m.eq_data)[e];
+    match second {
+        Some(x) => {
+            let (value, slope) = polynomial(&data[..5], x);
+            (first - value, -slope)
+        }
+        None => (first - data[0], 0.0),
+    }
+}
+
+fn coupled_joints(m: &Model, d: &mut Data, e: usize) {
+    let first = m.eq_obj1id[e].max(0) as usize;
+    let second = usize::try_from(m.eq_obj2id[e]).ok();
+    let moved = |j: usize| {
+        let q = m.jnt_qposadr[j] as usize;
+        d.qpos[q] - m.qpos0[q]
+    };
+    let (pos, ratio) = coupled(m, e, moved(first), second.map(moved));
+    let mut weight = m.dof_invweight0[m.jnt_dofadr[first] as usize];
+    let dof = |j: usize| &m.jnt_dofadr[j..j + 1];
+    let other = second.map_or(&[][..], dof);
+    d.work.jac.push_sum(Cost::Quadratic, d.nefc, (dof(first), &[1.0]), (other, &[1.0]), ratio);
+    if let Some(&k) = other.first() {
+        weight += m.dof_invweight0[k as usize];
+    }
+    if d.work.jac.keep_moving(m) {
+        scalars(m, d, e, [pos], pos, [weight]);
+    }
+}
+
+fn coupled_tendons(m: &Model, d: &mut Data, e: usize) {
+    let first = m.eq_obj1id[e].max(0) as usize;
+    let second = usize::try_from(m.eq_obj2id[e]).ok();
+    let moved = |t: usize| d.ten_length[t] - m.tendon_length0[t];
+    let (pos, ratio) = coupled(m, e, moved(first), second.map(moved));
+    let jac = |t: usize| (&m.ten_J_colind[tendon::row(m, t)], &d.ten_J[tendon::row(m, t)]);
+    let other = second.map_or((&[][..], &[][..]), jac);
+    d.work.jac.push_sum(Cost::Quadratic, d.nefc, jac(first), other, ratio);
+    let weight = m.tendon_invweight0[first] + second.map_or(0.0, |t| m.tendon_invweight0[t]);
+    if d.work.jac.keep_moving(m) {
+        scalars(m, d, e, [pos], pos, [weight]);
+    }
+}
+
+/// aref -= J̇ v for connects and welds.
+pub(super) fn bias(m: &Model, d: &mut Data) {
+    let mut row = 0;
+    while row < d.ne {
+        let e = d.efc_id[row] as usize;
+        if let Some(ends) = equality::ends(m, d, e) {
+            let [a, b] = [motion(m, d, &ends[0]), motion(m, d, &ends[1])];
+            for (aref, x) in d.efc_aref[row..].iter_mut().zip(sub(a.acceleration, b.acceleration)) {
+                *aref -= x;
+            }
+            if m.eq_type[e] == eqtype::WELD {
+                // d/dt of ½ Im(q₂⁻¹ (ω₁ - ω₂) q₁) without accelerations, where q̇ = ½ ω q.
+                let spin = sub(a.velocity, b.velocity);
+                let torquescale = rows::<11>(&m.eq_data)[e][10];
+                let quat = |v: Vec3| [0.0, v[0], v[1], v[2]];
+                let product =
+                    sub(quat_mul(quat(spin), quat(a.velocity)), quat_mul(quat(b.velocity), quat(spin)));
+                let inner = add_scaled(quat(sub(a.turn, b.turn)), product, 0.5);
+                let turned = quat_mul(quat_mul(quat_conj(ends[1].quat), inner), ends[0].quat);
+                for (aref, x) in d.efc_aref[row + 3..].iter_mut().zip(&turned[1..]) {
+                    *aref -= 0.5 * torquescale * x;
+                }
+            }
+        }
+        row += equality::rows_of(m, e);
+    }
+}
+
+/// How an end moves while all joints keep their speed.
+struct Motion {
+    /// Angular velocity of the body, and its rate.
+    velocity: Vec3,
+    turn: Vec3,
+    /// Acceleration of the point.
+    acceleration: Vec3,
+}
+
+fn motion(m: &Model, d: &Data, end: &End) -> Motion {
+    let mut rate = [0.0; 6];
+    let mut k = jacobian::last_dof(m, end.body);
+    while let Ok(dof) = usize::try_from(k) {
+        rate = add_scaled(rate, rows::<6>(&d.cdof_dot)[dof], d.qvel[dof]);
+        k = m.dof_parentid[dof];
+    }
+    let v = &rows::<6>(&d.cvel)[end.body];
+    let arm = sub(end.point, rows::<3>(&d.subtree_com)[m.body_rootid[end.body] as usize]);
+    let velocity = angular(v);
+    let point = add(linear(v), cross(velocity, arm));
+    let turn = angular(&rate);
+    Motion { velocity, turn, acceleration: add(add(linear(&rate), cross(turn, arm)), cross(velocity, point)) }
+}

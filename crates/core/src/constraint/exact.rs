@@ -1,0 +1,39 @@
+//! The `diagexact` flag: regularization from the diagonal of J M⁻¹ Jᵀ itself, instead of its estimate at `qpos0`.
+
+use super::jacobian::by_rows;
+use super::rows::{regularization, soften};
+use super::{contact, kind};
+use crate::{Data, Model, mass};
+
+/// Replaces `efc_R` and what follows from it.
+pub(super) fn regularize(m: &Model, d: &mut Data) {
+    for i in 0..d.work.jac.blocks.len() {
+        let b = d.work.jac.blocks[i];
+        by_rows!(b.nrow, R => block::<R>(m, d, i));
+    }
+}
+
+fn block<const R: usize>(m: &Model, d: &mut Data, i: usize) {
+    let b = d.work.jac.blocks[i];
+    let row = b.row as usize;
+    let mut x = std::mem::take(&mut d.work.mv);
+    let mut diag = [0.0; R];
+    for (r, diag) in diag.iter_mut().enumerate() {
+        x.fill(0.0);
+        let terms = || d.work.jac.columns(&b).iter().zip(d.work.jac.values(&b).chunks_exact(R));
+        for (&k, v) in terms() {
+            x[k as usize] = v[r];
+        }
+        mass::solve(m, &d.qLD, &d.qLDiagInv, &mut x, 0..m.nv);
+        *diag = terms().map(|(&k, v)| v[r] * x[k as usize]).sum();
+    }
+    d.work.mv = x;
+    let imp = d.efc_KBIP[4 * row + 2];
+    let mut r = diag.map(|a| regularization(imp, a));
+    if matches!(d.efc_type[row], kind::CONTACT_PYRAMIDAL | kind::CONTACT_ELLIPTIC) {
+        let id = d.efc_id[row] as usize;
+        let elliptic = d.efc_type[row] == kind::CONTACT_ELLIPTIC;
+        r = contact::friction(m, &mut d.contact[id], elliptic, r[0]);
+    }
+    soften(d, row, imp, &r);
+}

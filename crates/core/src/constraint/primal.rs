@@ -1,0 +1,241 @@
+//! The primal problem of one island, and what all methods share that solve it: cost, forces and gradient at the current
+//! acceleration, and the exact search along a direction.
+
+use super::cost::{Cost, Shape};
+use super::island::Islands;
+use super::jacobian::{Block, by_rows};
+use super::search::{Point, minimize};
+use super::solver::{Scratch, tree_dofs};
+use crate::math::{MINVAL, dot, dot_slice};
+use crate::{Data, Model, disable, mass, solver};
+use std::ops::Range;
+
+/// Where an island stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reached {
+    pub(super) cost: f64,
+    /// Norm of the gradient.
+    pub(super) gradient: f64,
+    /// Certified to be the minimum.
+    pub(super) minimum: bool,
+}
+
+/// One island: its trees and constraints.
+pub(super) struct Problem<'a> {
+    pub(super) m: &'a Model,
+    pub(super) d: &'a mut Data,
+    pub(super) s: &'a mut Scratch,
+    pub(super) islands: &'a Islands,
+    pub(super) island: usize,
+}
+
+impl<'a> Problem<'a> {
+    /// Forces, cost and gradient at the current acceleration, and whether it is already the minimum: the
+    /// decrease that M⁻¹ promises and the gradient are both small.
+    pub(super) fn reached(&mut self) -> Reached {
+        let (tol, scale) = (self.m.opt.tolerance, self.scale());
+        let (cost, gradient) = self.update();
+        let small = scale * gradient < tol || self.m.opt.solver == solver::CG;
+        let minimum = small && scale * self.decrement_by_mass() < tol;
+        Reached { cost, gradient, minimum }
+    }
+
+    /// The degrees of freedom of each tree.
+    #[inline(always)]
+    pub(super) fn dofs(&self) -> impl Iterator<Item = Range<usize>> + Clone + use<'a> {
+        let m = self.m;
+        self.islands.trees.of(self.island).map(move |t| tree_dofs(m, t))
+    }
+
+    /// The constraints, by their place in the Jacobian's blocks.
+    #[inline(always)]
+    pub(super) fn blocks(&self) -> impl Iterator<Item = usize> + Clone + use<'a> {
+        self.islands.blocks.of(self.island)
+    }
+
+    /// Makes costs and gradients comparable between scenes of any mass.
+    pub(super) fn scale(&self) -> f64 {
+        let m = self.m;
+        if m.opt.disabled(disable::ISLAND) {
+            return 1.0 / (m.stat.meaninertia * m.nv.max(1) as f64).max(MINVAL);
+        }
+        let sum: f64 = self.dofs().map(|dofs| mass::trace(m, &self.d.M, dofs)).sum();
+        1.0 / sum.max(MINVAL)
+    }
+
+    /// Forces and gradient at the current acceleration; returns the cost and the norm of the gradient.
+    pub(super) fn update(&mut self) -> (f64, f64) {
+        let mut cost = 0.0;
+        for dofs in self.dofs() {
+            self.d.qfrc_constraint[dofs].fill(0.0);
+        }
+        for b in self.blocks() {
+            let b = self.d.work.jac.blocks[b];
+            cost += match (b.cost, b.nrow) {
+                (Cost::Push, 1) => self.push_block::<1>(&b),
+                (Cost::Push, 4) => self.push_block::<4>(&b),
+                _ => by_rows!(b.nrow, R => self.other_block::<R>(&b)),
+            };
+        }
+        let mut square = 0.0;
+        for dofs in self.dofs() {
+            let (d, s) = (&*self.d, &mut *self.s);
+            let ma = s.ma[dofs.clone()].iter().zip(&d.qfrc_smooth[dofs.clone()]);
+            let a = d.qacc[dofs.clone()].iter().zip(&d.qacc_smooth[dofs.clone()]);
+            let grad = s.grad[dofs.clone()].iter_mut().zip(&d.qfrc_constraint[dofs]);
+            for (((ma, smooth), (a, a0)), (g, constraint)) in ma.zip(a).zip(grad) {
+                let residual = ma - smooth;
+                cost += 0.5 * residual * (a - a0);
+                *g = residual - constraint;
+                square += *g * *g;
+            }
+        }
+        (cost, square.sqrt())
+    }
+
+    /// Forces of one constraint; returns its cost.
+    #[inline(always)]
+    fn push_block<const R: usize>(&mut self, b: &Block) -> f64 {
+        let (d, s) = (&mut *self.d, &*self.s);
+        let rows = b.rows();
+        let (Some(x), Some(w)) =
+            (s.jar[rows.clone()].first_chunk::<R>(), d.efc_D[rows.clone()].first_chunk::<R>())
+        else {
+            return 0.0;
+        };
+        let pushed: [f64; R] = std::array::from_fn(|r| if x[r] < 0.0 { x[r] } else { 0.0 });
+        let force: [f64; R] = std::array::from_fn(|r| -w[r] * pushed[r]);
+        d.efc_force[rows].copy_from_slice(&force);
+        d.work.jac.add_transposed(b, &force, &mut d.qfrc_constraint);
+        -0.5 * dot(force, pushed)
+    }
+
+    /// The same for any kind of constraint.
+    #[inline(never)]
+    fn other_block<const R: usize>(&mut self, b: &Block) -> f64 {
+        let (d, s) = (&mut *self.d, &*self.s);
+        let (Some(shape), Some(x)) = (shape::<R>(d, b), s.jar[b.rows()].first_chunk::<R>()) else {
+            return 0.0;
+        };
+        let (cost, force) = shape.value(x);
+        d.efc_force[b.rows()].copy_from_slice(&force);
+        d.work.jac.add_transposed(b, &force, &mut d.qfrc_constraint);
+        cost
+    }
+
+    /// ½ gᵀ M⁻¹ g; step ← M⁻¹ g.
+    pub(super) fn decrement_by_mass(&mut self) -> f64 {
+        for dofs in self.dofs() {
+            self.s.step[dofs.clone()].copy_from_slice(&self.s.grad[dofs.clone()]);
+            mass::solve(self.m, &self.d.qLD, &self.d.qLDiagInv, &mut self.s.step, dofs);
+        }
+        self.decrement()
+    }
+
+    /// ½ gᵀ step.
+    pub(super) fn decrement(&self) -> f64 {
+        0.5 * self.dofs().map(|r| dot_slice(&self.s.grad[r.clone()], &self.s.step[r])).sum::<f64>()
+    }
+
+    /// The best step along `search`.
+    pub(super) fn line_search(&mut self, scale: f64) -> f64 {
+        let (dofs, blocks) = (self.dofs(), self.blocks());
+        let (m, d, s) = (self.m, &*self.d, &mut *self.s);
+        let (mut length, mut linear, mut quadratic) = (0.0, 0.0, 0.0);
+        for dofs in dofs {
+            mass::mul(m, &d.M, &s.search, &mut s.mv, dofs.clone());
+            for k in dofs {
+                length += s.search[k] * s.search[k];
+                linear += s.search[k] * (s.ma[k] - d.qfrc_smooth[k]);
+                quadratic += 0.5 * s.search[k] * s.mv[k];
+            }
+        }
+        let length = length.sqrt();
+        if length < MINVAL {
+            return 0.0;
+        }
+        for b in blocks.clone() {
+            d.work.jac.mul_block(&d.work.jac.blocks[b], &s.search, &mut s.jv);
+        }
+        let gtol = m.opt.tolerance * m.opt.ls_tolerance * length / scale;
+        minimize(gtol, m.opt.ls_iterations.max(0) as usize, |alpha| {
+            let mut p = Point {
+                alpha,
+                cost: alpha * (linear + alpha * quadratic),
+                slope: linear + 2.0 * alpha * quadratic,
+                curvature: 2.0 * quadratic,
+            };
+            for b in blocks.clone() {
+                let b = &d.work.jac.blocks[b];
+                if b.cost == Cost::Push {
+                    add_push(&mut p, d, s, b);
+                } else {
+                    by_rows!(b.nrow, R => add_other::<R>(&mut p, d, s, b));
+                }
+            }
+            p
+        })
+    }
+
+    /// a ← a + α search.
+    pub(super) fn advance(&mut self, alpha: f64) {
+        let (dofs, blocks) = (self.dofs(), self.blocks());
+        let (d, s) = (&mut *self.d, &mut *self.s);
+        for k in dofs {
+            for ((a, ma), (step, mstep)) in d.qacc[k.clone()]
+                .iter_mut()
+                .zip(&mut s.ma[k.clone()])
+                .zip(s.search[k.clone()].iter().zip(&s.mv[k]))
+            {
+                *a += alpha * step;
+                *ma += alpha * mstep;
+            }
+        }
+        for b in blocks {
+            let rows = d.work.jac.blocks[b].rows();
+            for (x, v) in s.jar[rows.clone()].iter_mut().zip(&s.jv[rows]) {
+                *x += alpha * v;
+            }
+        }
+    }
+}
+
+/// What the cost of a constraint of R rows depends on.
+#[inline(always)]
+pub(super) fn shape<'a, const R: usize>(d: &'a Data, b: &Block) -> Option<Shape<'a, R>> {
+    let row = b.row as usize;
+    let contact = if b.cost == Cost::Cone { d.contact.get(d.efc_id[row] as usize) } else { None };
+    let stiff = d.efc_D[b.rows()].first_chunk::<R>()?;
+    Some(Shape { cost: b.cost, stiff, loss: d.efc_frictionloss[row], contact })
+}
+
+/// Adds the rows of a block that push to a point of the line.
+#[inline(always)]
+fn add_push(p: &mut Point, d: &Data, s: &Scratch, b: &Block) {
+    for r in b.rows() {
+        let (start, v, w) = (s.jar[r], s.jv[r], d.efc_D[r]);
+        let now = start + p.alpha * v;
+        if now < 0.0 {
+            p.slope += w * now * v;
+            p.curvature += w * v * v;
+        }
+        // The difference of squares, without squaring first: near the minimum it is all rounding.
+        let (before, after) = (start.min(0.0), now.min(0.0));
+        let change = if before < 0.0 && after < 0.0 { p.alpha * v } else { after - before };
+        p.cost += 0.5 * w * change * (after + before);
+    }
+}
+
+/// The same for a constraint of any other kind.
+#[inline(never)]
+fn add_other<const R: usize>(p: &mut Point, d: &Data, s: &Scratch, b: &Block) {
+    let (Some(x), Some(v)) = (s.jar[b.rows()].first_chunk::<R>(), s.jv[b.rows()].first_chunk::<R>()) else {
+        return;
+    };
+    if let Some(shape) = shape::<R>(d, b) {
+        let [cost, slope, curvature] = shape.along(x, v, p.alpha);
+        p.cost += cost;
+        p.slope += slope;
+        p.curvature += curvature;
+    }
+}

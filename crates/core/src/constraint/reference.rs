@@ -1,0 +1,18 @@
+//! The reference acceleration: what a damped spring on the violation would do.
+
+use super::equality;
+use crate::math::*;
+use crate::{Data, Model};
+
+/// `efc_vel` = J v and `efc_aref` = -B J v - K d r, less the acceleration J̇ v that is there already.
+#[inline(never)]
+pub(crate) fn reference(m: &Model, d: &mut Data) {
+    d.work.jac.mul(&d.qvel, &mut d.efc_vel);
+    let rows = d.efc_pos.iter().zip(&d.efc_margin).zip(rows::<4>(&d.efc_KBIP)).zip(&d.efc_vel);
+    for (aref, (((pos, margin), [k, b, imp, _]), vel)) in d.efc_aref.iter_mut().zip(rows) {
+        *aref = -b * vel - k * imp * (pos - margin);
+    }
+    if d.ne > 0 {
+        equality::bias(m, d);
+    }
+}

@@ -1,0 +1,129 @@
+//! Constraints of single rows: dry friction of joints and tendons, limits of joints and tendons.
+
+use super::cost::Cost;
+use super::impedance::kbi;
+use super::kind;
+use super::rows::{Rows, push, regularization};
+use crate::math::*;
+use crate::{Data, Model, joint, tendon};
+
+/// Number of rows of dry friction.
+pub(super) fn count_friction(m: &Model) -> usize {
+    let some = |list: &[f64]| list.iter().filter(|&&f| f > 0.0).count();
+    some(&m.dof_frictionloss) + some(&m.tendon_frictionloss)
+}
+
+/// Largest number of rows of limits: two sides each.
+pub(super) fn count_limits(m: &Model) -> usize {
+    let some = |list: &[bool]| 2 * list.iter().filter(|&&l| l).count();
+    some(&m.jnt_limited) + some(&m.tendon_limited)
+}
+
+/// What a row is about: `efc_type`, `efc_id`, the violation with its margin, and the largest force of dry friction.
+#[derive(Clone, Copy)]
+struct Row {
+    kind: i32,
+    id: usize,
+    pos: f64,
+    margin: f64,
+    loss: f64,
+}
+
+/// Appends the scalars of a row whose Jacobian is there.
+fn scalars(m: &Model, d: &mut Data, row: Row, solref: [f64; 2], solimp: [f64; 5], weight: f64) {
+    let Row { kind, id, pos, margin, loss } = row;
+    let mut kbi = kbi(m, solref, solimp, pos - margin);
+    if Cost::of(kind) == Cost::DryFriction {
+        kbi.k = 0.0;
+    }
+    let r = [regularization(kbi.imp, weight)];
+    push::<1>(d, &Rows { kind, id, pos: [pos], margin: [margin], loss, kbi, others: kbi, r });
+}
+
+/// A row for each degree of freedom and each tendon with dry friction.
+pub(super) fn friction(m: &Model, d: &mut Data) {
+    for k in 0..m.nv {
+        let loss = m.dof_frictionloss[k];
+        if loss > 0.0 {
+            d.work.jac.push::<1>(Cost::DryFriction, d.nefc, &[k as u32], [[1.0]].into_iter());
+            let row = Row { kind: kind::FRICTION_DOF, id: k, pos: 0.0, margin: 0.0, loss };
+            let (solref, solimp) = (rows::<2>(&m.dof_solref)[k], rows::<5>(&m.dof_solimp)[k]);
+            scalars(m, d, row, solref, solimp, m.dof_invweight0[k]);
+        }
+    }
+    for t in 0..m.ntendon {
+        let loss = m.tendon_frictionloss[t];
+        if loss > 0.0 && along_tendon(m, d, Cost::DryFriction, t, 1.0) {
+            let row = Row { kind: kind::FRICTION_TENDON, id: t, pos: 0.0, margin: 0.0, loss };
+            let (solref, solimp) = (rows::<2>(&m.tendon_solref_fri)[t], rows::<5>(&m.tendon_solimp_fri)[t]);
+            scalars(m, d, row, solref, solimp, m.tendon_invweight0[t]);
+        }
+    }
+}
+
+/// A row for each violated side of a limit, lower side first; one for a ball's cone.
+pub(super) fn limits(m: &Model, d: &mut Data) {
+    for j in 0..m.njnt {
+        if !m.jnt_limited[j] {
+            continue;
+        }
+        let range = rows::<2>(&m.jnt_range)[j];
+        let q = m.jnt_qposadr[j] as usize;
+        match m.jnt_type[j] {
+            joint::SLIDE | joint::HINGE => {
+                let value = d.qpos[q];
+                for (dist, sign) in sides(range, value, m.jnt_margin[j]) {
+                    joint_limit(m, d, j, dist, &[sign]);
+                }
+            }
+            joint::BALL => {
+                let turn =
+                    quat_to_vel(quat_normalize([d.qpos[q], d.qpos[q + 1], d.qpos[q + 2], d.qpos[q + 3]]));
+                let (axis, angle) = normalize(turn);
+                let dist = range[0].max(range[1]) - angle;
+                if dist < m.jnt_margin[j] {
+                    joint_limit(m, d, j, dist, &scale(axis, -1.0));
+                }
+            }
+            _ => {}
+        }
+    }
+    for t in 0..m.ntendon {
+        if !m.tendon_limited[t] {
+            continue;
+        }
+        let margin = m.tendon_margin[t];
+        for (pos, sign) in sides(rows::<2>(&m.tendon_range)[t], d.ten_length[t], margin) {
+            if along_tendon(m, d, Cost::Push, t, sign) {
+                let row = Row { kind: kind::LIMIT_TENDON, id: t, pos, margin, loss: 0.0 };
+                let (solref, solimp) =
+                    (rows::<2>(&m.tendon_solref_lim)[t], rows::<5>(&m.tendon_solimp_lim)[t]);
+                scalars(m, d, row, solref, solimp, m.tendon_invweight0[t]);
+            }
+        }
+    }
+}
+
+/// The sides of a range that are nearer than the margin: distance, and the direction that leads away.
+fn sides(range: [f64; 2], value: f64, margin: f64) -> impl Iterator<Item = (f64, f64)> {
+    let both = [(range[0], 1.0), (range[1], -1.0)];
+    both.into_iter().map(move |(side, sign)| (sign * (value - side), sign)).filter(move |s| s.0 < margin)
+}
+
+fn joint_limit(m: &Model, d: &mut Data, j: usize, pos: f64, jac: &[f64]) {
+    let dof = m.jnt_dofadr[j] as usize;
+    let (n, last) = (jac.len(), dof + jac.len() - 1);
+    let columns: [u32; 3] = std::array::from_fn(|c| last.saturating_sub(c) as u32);
+    d.work.jac.push::<1>(Cost::Push, d.nefc, &columns[..n], jac.iter().rev().map(|&j| [j]));
+    let row = Row { kind: kind::LIMIT_JOINT, id: j, pos, margin: m.jnt_margin[j], loss: 0.0 };
+    let (solref, solimp) = (rows::<2>(&m.jnt_solref)[j], rows::<5>(&m.jnt_solimp)[j]);
+    scalars(m, d, row, solref, solimp, m.dof_invweight0[dof]);
+}
+
+/// Appends the Jacobian of a tendon's length, times `sign`; `false` when nothing moves the tendon.
+fn along_tendon(m: &Model, d: &mut Data, cost: Cost, t: usize, sign: f64) -> bool {
+    let row = tendon::row(m, t);
+    let values = d.ten_J[row.clone()].iter().map(|j| sign * j);
+    d.work.jac.push_sparse(cost, d.nefc, &m.ten_J_colind[row], values);
+    d.work.jac.keep_moving(m)
+}

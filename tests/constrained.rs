@@ -1,0 +1,166 @@
+//! Constraints held against MuJoCo 3.14.0, both sides solved to rounding: `golden/constrained.py` records.
+//!
+//! Our own models (`golden/constrained/*.xml`) show every kind of row with every option, field by field; the models of
+//! `../shared` show accelerations, forces and sensors. Where the contacts are not the same in number nothing else can
+//! be, and the table says so.
+//!
+//! Differences are absolute for numbers up to 1 and relative above, by the largest recorded number of the field.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::recorded::{list, objects, set, worst};
+use crate::support::{models, numbers, read_json, workspace};
+use labspec_core::mjcf::{self, MjcfFileError};
+use labspec_core::reflect::{self, Object};
+use labspec_core::{self as core, Data, Model};
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::Path;
+
+/// The rows: a few products.
+const ROWS: f64 = 1e-10;
+/// What the solver finds: the library's own is solved no further.
+const SOLVED: f64 = 1e-8;
+
+/// Fields that the solution decides.
+const SOLUTION: [&str; 8] =
+    ["qacc", "qfrc_constraint", "sensordata", "efc_force", "efc_state", "cfrc_ext", "cfrc_int", "cacc"];
+
+/// How a model came out.
+enum Outcome {
+    Same { rows: f64, solution: f64 },
+    Contacts(String),
+    Refused(String),
+    Differs(Vec<String>),
+}
+
+fn options(m: &mut Model, chosen: &Value) {
+    let mut d = Data::new(m);
+    for (name, value) in objects(chosen) {
+        let field = reflect::field(Object::Option, name).unwrap();
+        let values = value.as_array().map_or(vec![value.clone()], Clone::clone);
+        for (i, v) in values.iter().enumerate() {
+            reflect::view_mut(m, &mut d, field).set(i, v.as_f64().unwrap());
+        }
+    }
+}
+
+fn tight(m: &mut Model) {
+    (m.opt.tolerance, m.opt.ls_tolerance) = (0.0, 1e-10);
+    (m.opt.iterations, m.opt.ls_iterations) = (200, 100);
+}
+
+fn examine(path: &Path, recording: &Value) -> Outcome {
+    let mut compiled = match mjcf::compile_file(path) {
+        Ok(m) => m,
+        Err(MjcfFileError::Model { diagnostics, .. }) => {
+            return Outcome::Refused(diagnostics.first().map_or(String::new(), |d| d.message.clone()));
+        }
+        Err(other) => return Outcome::Refused(other.to_string()),
+    };
+    tight(&mut compiled);
+    let (mut rows, mut solution): (f64, f64) = (0.0, 0.0);
+    let mut found = Vec::new();
+    for case in recording["cases"].as_array().unwrap() {
+        let mut m = compiled.clone();
+        options(&mut m, &case["options"]);
+        let mut d = Data::new(&m);
+        for (k, row) in case["states"].as_array().unwrap().iter().enumerate() {
+            set(&m, &mut d, &row["state"]);
+            core::forward(&m, &mut d);
+            core::rne_post_constraint(&m, &mut d);
+            let at = format!("{} state {k}", case["case"].as_str().unwrap());
+            let theirs = |name: &str| row["data"].get(name).map_or(0.0, |v| numbers(v)[0]);
+            if d.ncon as f64 != theirs("ncon") && row["data"].get("ncon").is_some() {
+                return Outcome::Contacts(format!("{at}: {} contacts, theirs {}", d.ncon, theirs("ncon")));
+            }
+            for (name, values) in objects(&row["data"]) {
+                let Some(field) = reflect::field(Object::Data, name) else { continue };
+                let (ours, theirs) = (list(&m, &d, field), numbers(values));
+                let scale = theirs.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
+                let (index, apart) = worst(&ours, &theirs, scale);
+                let solved = SOLUTION.contains(&name.as_str());
+                let (most, limit) = if solved { (&mut solution, SOLVED) } else { (&mut rows, ROWS) };
+                *most = most.max(apart);
+                if apart > limit {
+                    let number = |list: &[f64]| list.get(index).copied().unwrap_or(f64::NAN);
+                    found.push(format!(
+                        "{at}, {name}[{index}]: ours {:?}, theirs {:?} ({apart:.1e})",
+                        number(&ours),
+                        number(&theirs)
+                    ));
+                }
+            }
+        }
+    }
+    if found.is_empty() { Outcome::Same { rows, solution } } else { Outcome::Differs(found) }
+}
+
+/// Our own models: all the same, to the last field.
+#[test]
+fn rows_and_forces_are_those_of_mujoco() {
+    let folder = workspace().join("tests/golden/constrained");
+    let mut wrong = String::new();
+    for name in models(&folder) {
+        let recording = read_json(&folder.join(format!("{name}.json")));
+        match examine(&folder.join(format!("{name}.xml")), &recording) {
+            Outcome::Same { rows, solution } => {
+                println!("{name}: rows {rows:.1e} apart at most, solution {solution:.1e}")
+            }
+            Outcome::Contacts(what) | Outcome::Refused(what) => drop(writeln!(wrong, "{name}: {what}")),
+            Outcome::Differs(list) => drop(writeln!(wrong, "{name}:\n    {}", list.join("\n    "))),
+        }
+    }
+    assert!(wrong.is_empty(), "differences from MuJoCo 3.14.0:\n{wrong}");
+}
+
+/// The models of `../shared`; the table `golden/constrained.md` says which are the same.
+#[test]
+fn shared_models_with_constraints() {
+    let shared = workspace().join("../shared");
+    if !shared.join("conformance").is_dir() {
+        println!("skipped: there are no models in {}", shared.display());
+        return;
+    }
+    let recordings = workspace().join("tests/golden/constrained");
+    let (mut table, mut counts) = (String::new(), [0; 4]);
+    for (kind, folder) in
+        [("conformance", "conformance/models"), ("corpus", "corpus/models"), ("bench", "bench")]
+    {
+        for name in models(&shared.join(folder)) {
+            let recording = read_json(&recordings.join(kind).join(format!("{name}.json")));
+            let outcome = examine(&shared.join(folder).join(format!("{name}.xml")), &recording);
+            let (class, text) = match outcome {
+                Outcome::Same { rows, solution } => {
+                    println!("{kind}/{name}: ok, rows {rows:.1e}, solution {solution:.1e}");
+                    (0, String::new())
+                }
+                Outcome::Contacts(what) => (1, format!("contacts | {what}")),
+                Outcome::Refused(what) => (2, format!("refused | {what}")),
+                Outcome::Differs(list) => {
+                    println!("{kind}/{name} differs:\n    {}", list.join("\n    "));
+                    (3, format!("differs | {}", list[0]))
+                }
+            };
+            counts[class] += 1;
+            if class > 0 {
+                let _ = writeln!(table, "| {kind}/{name} | {} |", text.replace('\n', " "));
+            }
+        }
+    }
+    let [same, contacts, refused, differs] = counts;
+    let text = format!(
+        "# Models with constraints held against MuJoCo 3.14.0\n\nWritten by `tests/constrained.rs`: forward passes, both \
+         sides solved to rounding.\n\n{same} the same within {SOLVED:.0e}, {contacts} with other contacts, {refused} \
+         refused, {differs} differ.\n\n| model | outcome | where |\n|---|---|---|\n{table}"
+    );
+    let path = workspace().join("tests/golden/constrained.md");
+    if std::env::var_os("LABSPEC_BLESS").is_some() {
+        std::fs::write(&path, &text).unwrap();
+    }
+    let kept = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        kept == text,
+        "tests/golden/constrained.md is stale: LABSPEC_BLESS=1 cargo test -p labspec constrained"
+    );
+}
