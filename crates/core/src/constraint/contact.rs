@@ -111,7 +111,9 @@ fn pyramid<const R: usize>(
     columns: &Columns,
 ) {
     let mu = c.friction;
-    let edge = |s: &[f64; 6], r: usize| s[0] + if r % 2 == 0 { mu[r / 2] } else { -mu[r / 2] } * s[1 + r / 2];
+    let edge = |s: &[f64; 6], r: usize| {
+        s[0] + if r.is_multiple_of(2) { mu[r / 2] } else { -mu[r / 2] } * s[1 + r / 2]
+    };
     let edges = space(columns).map(|s| std::array::from_fn(|r| edge(&s, r)));
     d.work.jac.push::<R>(Cost::Push, d.nefc, columns.dofs(), edges);
     let kbi = kbi(m, c.solref, c.solimp, c.dist - c.includemargin);
