@@ -54,6 +54,9 @@ pub struct Plan {
     pub(crate) equalities: bool,
     pub(crate) friction_loss: bool,
     pub(crate) limits: bool,
+    /// Whether contacts pull, and whether surfaces move by themselves.
+    pub(crate) adhesion: bool,
+    pub(crate) surfaces: bool,
     /// Whether the solver says more than forces: `efc_b` and `efc_state`.
     pub(crate) solver_details: bool,
     /// Whether bodies feel a medium or gravity compensation.
@@ -77,6 +80,8 @@ impl Default for Plan {
             equalities: true,
             friction_loss: true,
             limits: true,
+            adhesion: true,
+            surfaces: true,
             solver_details: true,
             body_forces: true,
             applied_forces: true,
@@ -122,6 +127,8 @@ impl Plan {
             equalities: m.neq > 0,
             friction_loss: scene.friction > 0,
             limits: scene.limited > 0 || scene.limited_tendons > 0,
+            adhesion: scene.adhesion,
+            surfaces: scene.pairs > 0 && scene.some(&[SURFACES]),
             solver_details: scene.reads_field("efc_b") || scene.reads_field("efc_state"),
             body_forces: scene.body_forces(),
             applied_forces: scene.writes(Object::Data, &["xfrc_applied"]),
@@ -184,7 +191,7 @@ const STAGES: [Stage; 24] = [
 ];
 
 /// What the parameters of a contact are mixed from.
-const CONTACT_PARAMS: [&str; 8] = [
+const CONTACT_PARAMS: [&str; 17] = [
     "geom_condim",
     "geom_priority",
     "geom_solmix",
@@ -193,6 +200,15 @@ const CONTACT_PARAMS: [&str; 8] = [
     "geom_friction",
     "geom_margin",
     "geom_gap",
+    "geom_adhesion",
+    "pair_dim",
+    "pair_friction",
+    "pair_solref",
+    "pair_solreffriction",
+    "pair_solimp",
+    "pair_margin",
+    "pair_gap",
+    "pair_adhesion",
 ];
 /// The name of a field, and its numbers.
 type Numbers = (&'static str, fn(&Model) -> &[f64]);
@@ -220,6 +236,10 @@ const ACTUATOR_ARMATURE: Numbers = ("actuator_armature", |m| &m.actuator_armatur
 const TENDON_ARMATURE: Numbers = ("tendon_armature", |m| &m.tendon_armature);
 /// Geoms on which the medium acts one by one.
 const ELLIPSOIDS: Numbers = ("geom_fluid", |m| &m.geom_fluid);
+/// Contacts that pull, and surfaces that move by themselves.
+const ADHESION: [Numbers; 2] =
+    [("geom_adhesion", |m| &m.geom_adhesion), ("pair_adhesion", |m| &m.pair_adhesion)];
+const SURFACES: Numbers = ("geom_surfacevel", |m| &m.geom_surfacevel);
 const GRAVCOMP: Numbers = ("body_gravcomp", |m| &m.body_gravcomp);
 const OVERRIDES: [&str; 5] = ["o_margin", "o_solref", "o_solimp", "o_friction", "enableflags"];
 
@@ -275,6 +295,8 @@ struct Scene<'a> {
     tendon_springs: bool,
     tendon_dampers: bool,
     gravcomp: bool,
+    /// Contacts pull.
+    adhesion: bool,
     /// The medium resists.
     fluid: bool,
     tendon_armature: bool,
@@ -299,6 +321,7 @@ impl<'a> Scene<'a> {
             tendon_springs: false,
             tendon_dampers: false,
             gravcomp: false,
+            adhesion: false,
             fluid: m.opt.density > 0.0 || m.opt.viscosity > 0.0,
             tendon_armature: false,
             actuated: m.nactuator > 0 && !m.opt.disabled(disable::ACTUATION),
@@ -317,6 +340,7 @@ impl<'a> Scene<'a> {
         scene.friction = FRICTION_LOSS.iter().map(|f| scene.others_than_zero(f)).sum();
         scene.fluid |= scene.writes(Object::Option, &["density", "viscosity"]);
         scene.gravcomp = scene.some(&[GRAVCOMP]);
+        scene.adhesion = scene.pairs > 0 && scene.some(&ADHESION);
         scene.joint_forces = scene.some(&JOINT_FORCES);
         scene.tendon_springs = scene.some(&TENDON_FORCES[..2]);
         scene.tendon_dampers = scene.some(&TENDON_FORCES[2..]);
@@ -406,6 +430,7 @@ impl<'a> Scene<'a> {
                 Some("joints or tendons have springs or dampers".into())
             }
             Stage::Passive if self.fluid => Some("bodies move in a medium".into()),
+            Stage::Passive if self.adhesion => Some("contacts pull".into()),
             Stage::Passive => because(self.gravcomp, "the weight of bodies is compensated"),
             Stage::Actuation => because(self.actuated, "actuators make forces"),
             Stage::Bias => because(m.nv > 0, "gravity and the motion of bodies make forces"),
@@ -434,7 +459,7 @@ impl<'a> Scene<'a> {
             (Stage::Bias, Stage::ComVel) if self.tendon_armature => true,
             (Stage::Passive, Stage::Tendon) => self.tendon_forces(),
             (Stage::Passive, Stage::TendonVel) => self.tendon_dampers,
-            (Stage::Passive, Stage::Kinematics) => self.body_forces(),
+            (Stage::Passive, Stage::Kinematics) => self.body_forces() || self.adhesion,
             (Stage::Passive, Stage::ComVel) => self.fluid,
             (Stage::Passive, Stage::GeomPoses) => self.fluid && self.some(&[ELLIPSOIDS]),
             (Stage::Transmission, Stage::Kinematics) => {
@@ -462,6 +487,10 @@ impl<'a> Scene<'a> {
                 .any(|j| m.jnt_type[j] == joint::SLIDE && m.body_simple[m.jnt_bodyid[j] as usize] > 0),
             (Stage::Acceleration, Stage::Kinematics) => self.writes(Object::Data, &["xfrc_applied"]),
             (Stage::SubtreeVel | Stage::RnePost, Stage::ComVel) => true,
+            // Spatial tendons pull at bodies.
+            (Stage::RnePost, Stage::Tendon | Stage::TendonVel | Stage::Actuation) => {
+                m.wrap_type.contains(&wraptype::SITE)
+            }
             (Stage::Sensors, _) => sensor::needs(m, of),
             (Stage::Energy, Stage::Sensors) => sensor::measures_energy(m),
             (Stage::Energy, Stage::Kinematics) => true,

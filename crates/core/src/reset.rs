@@ -56,4 +56,7 @@ pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
         d.qfrc_gravcomp.fill(0.0);
         d.qfrc_fluid.fill(0.0);
     }
+    if !d.plan.adhesion {
+        d.qfrc_adhesion.fill(0.0);
+    }
 }

@@ -5,7 +5,7 @@
 //! the centre of mass of the tree.
 
 use crate::math::*;
-use crate::{Data, Model, collision, constraint, disable, equality};
+use crate::{Data, Model, collision, constraint, disable, equality, tendon};
 
 /// `cacc`, `cfrc_ext`, `cfrc_int`; needs `qacc` and the forces of constraints.
 ///
@@ -38,7 +38,7 @@ pub fn rne_post_constraint(m: &Model, d: &mut Data) {
     }
 }
 
-/// `cfrc_ext`: forces applied to bodies, and those of equality constraints and contacts.
+/// `cfrc_ext`: forces applied to bodies, those of equality constraints, contacts and spatial tendons.
 fn external(m: &Model, d: &mut Data) {
     let mut cfrc_ext = std::mem::take(&mut d.cfrc_ext);
     let out = rows_mut::<6>(&mut cfrc_ext);
@@ -75,5 +75,6 @@ fn external(m: &Model, d: &mut Data) {
         apply(m.geom_bodyid[c.geom1] as usize, c.pos, scale(force, -1.0), scale(torque, -1.0));
         apply(m.geom_bodyid[c.geom2] as usize, c.pos, force, torque);
     }
+    tendon::pulls(m, d, |body, point, force| apply(body, point, force, [0.0; 3]));
     d.cfrc_ext = cfrc_ext;
 }

@@ -139,13 +139,15 @@ pub fn contact_force(m: &Model, d: &Data, contact: &Contact) -> [f64; 6] {
         for (out, f) in out.iter_mut().zip(force).take(contact.dim) {
             *out = *f;
         }
-        return out;
+    } else {
+        // Pyramid: each edge pushes along n ± μ t.
+        for (k, edges) in force.chunks_exact(2).take(contact.dim - 1).enumerate() {
+            out[0] += edges[0] + edges[1];
+            out[1 + k] = (edges[0] - edges[1]) * contact.friction[k];
+        }
     }
-    // Pyramid: each edge pushes along n ± μ t.
-    for (k, edges) in force.chunks_exact(2).take(contact.dim - 1).enumerate() {
-        out[0] += edges[0] + edges[1];
-        out[1 + k] = (edges[0] - edges[1]) * contact.friction[k];
-    }
+    // What sticks presses with that much less.
+    out[0] -= contact.adhesion;
     out
 }
 

@@ -124,6 +124,9 @@ fn mixed(m: &Model, g1: usize, g2: usize) -> Params {
 /// A contact of the pair at `touch`.
 #[inline(always)]
 pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &Touch, frame: Mat3) -> Contact {
+    let apart = touch.dist >= p.margin;
+    // What sticks pulls across the gap, too: it holds the normal alone.
+    let sticks = p.adhesion != 0.0;
     Contact {
         dist: touch.dist,
         pos: touch.pos,
@@ -135,10 +138,10 @@ pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &Touch, frame: Ma
         solimp: p.solimp,
         adhesion: p.adhesion,
         mu: 0.0,
-        dim: p.dim,
+        dim: if apart && sticks { 1 } else { p.dim },
         geom1: g1,
         geom2: g2,
-        exclude: u8::from(touch.dist >= p.margin),
+        exclude: u8::from(apart && !sticks),
         efc_address: None,
     }
 }

@@ -164,3 +164,44 @@ pub(super) fn friction<const R: usize>(m: &Model, c: &mut Contact, elliptic: boo
         r => first * mu1 * mu1 / (c.friction[r - 1] * c.friction[r - 1]),
     })
 }
+
+/// Adds the motion of surfaces that move by themselves to `efc_vel`: along the tangents, and spinning about the normal.
+pub(super) fn surfaces(m: &Model, d: &mut Data) {
+    for i in 0..d.contact.len() {
+        let c = &d.contact[i];
+        let Some(row) = c.efc_address else { continue };
+        let [one, two] = [c.geom1, c.geom2].map(|g| surface(m, d, g, c.pos));
+        let linear = mat_mul_vec(&c.frame, sub(two.0, one.0));
+        let spin = mat_mul_vec(&c.frame, sub(two.1, one.1))[0];
+        let along = [linear[1], linear[2], spin, 0.0, 0.0];
+        let (dim, friction, elliptic) = (c.dim, c.friction, d.efc_type[row] == kind::CONTACT_ELLIPTIC);
+        let velocities = d.efc_vel[row..].iter_mut();
+        if elliptic {
+            velocities.skip(1).zip(along).take(dim - 1).for_each(|(v, s)| *v += s);
+        } else if dim > 1 {
+            for (r, v) in velocities.take(2 * (dim - 1)).enumerate() {
+                let edge = friction[r / 2] * along[r / 2];
+                *v += if r.is_multiple_of(2) { edge } else { -edge };
+            }
+        }
+    }
+}
+
+/// Velocity of a geom's surface at a point, and its angular velocity, relative to the geom, world axes.
+fn surface(m: &Model, d: &Data, g: usize, point: Vec3) -> (Vec3, Vec3) {
+    let v = &rows::<6>(&m.geom_surfacevel)[g];
+    let mat = &rows::<9>(&d.geom_xmat)[g];
+    let [linear, turn] = [[v[0], v[1], v[2]], [v[3], v[4], v[5]]].map(|v| mat_mul_vec(mat, v));
+    (add(linear, cross(turn, sub(point, rows::<3>(&d.geom_xpos)[g]))), turn)
+}
+
+/// Adds to `efc_aref` what keeps the violation of a contact that pulls as it is without the pull: R times its force.
+pub(super) fn adhesion(d: &mut Data) {
+    for c in d.contact.iter().filter(|c| c.adhesion != 0.0) {
+        let Some(row) = c.efc_address else { continue };
+        let rows = if d.efc_type[row] == kind::CONTACT_PYRAMIDAL { 2 * (c.dim - 1) } else { 1 };
+        for (aref, r) in d.efc_aref[row..].iter_mut().zip(&d.efc_R[row..]).take(rows) {
+            *aref += r * c.adhesion / rows as f64;
+        }
+    }
+}

@@ -93,6 +93,12 @@ fn polynomial(coefficients: &[f64], x: f64) -> (f64, f64) {
     coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c, slope * x + value))
 }
 
+/// How much the force of a tendon equality pulls at its second tendon.
+pub(super) fn ratio(m: &Model, d: &Data, e: usize) -> f64 {
+    let second = usize::try_from(m.eq_obj2id[e]).ok();
+    coupled(m, e, 0.0, second.map(|t| d.ten_length[t] - m.tendon_length0[t])).1
+}
+
 /// q₁ - ref₁ = c(q₂ - ref₂), or = c₀ without a second one: the difference, and what the second moves it by.
 fn coupled(m: &Model, e: usize, first: f64, second: Option<f64>) -> (f64, f64) {
     let data = &rows::<11>(&m.eq_data)[e];
@@ -145,17 +151,16 @@ pub(super) fn bias(m: &Model, d: &mut Data) {
     while row < d.ne {
         let e = d.efc_id[row] as usize;
         if let Some(ends) = equality::ends(m, d, e) {
-            let [a, b] = [motion(m, d, &ends[0]), motion(m, d, &ends[1])];
+            let [a, b] = [0, 1].map(|i| jacobian::unforced(m, d, ends[i].body, ends[i].point));
             for (aref, x) in d.efc_aref[row..].iter_mut().zip(sub(a.acceleration, b.acceleration)) {
                 *aref -= x;
             }
             if m.eq_type[e] == eqtype::WELD {
                 // d/dt of ½ Im(q₂⁻¹ (ω₁ - ω₂) q₁) without accelerations, where q̇ = ½ ω q.
-                let spin = sub(a.velocity, b.velocity);
+                let spin = sub(a.spin, b.spin);
                 let torquescale = rows::<11>(&m.eq_data)[e][10];
                 let quat = |v: Vec3| [0.0, v[0], v[1], v[2]];
-                let product =
-                    sub(quat_mul(quat(spin), quat(a.velocity)), quat_mul(quat(b.velocity), quat(spin)));
+                let product = sub(quat_mul(quat(spin), quat(a.spin)), quat_mul(quat(b.spin), quat(spin)));
                 let inner = add_scaled(quat(sub(a.turn, b.turn)), product, 0.5);
                 let turned = quat_mul(quat_mul(quat_conj(ends[1].quat), inner), ends[0].quat);
                 for (aref, x) in d.efc_aref[row + 3..].iter_mut().zip(&turned[1..]) {
@@ -165,28 +170,4 @@ pub(super) fn bias(m: &Model, d: &mut Data) {
         }
         row += equality::rows_of(m, e);
     }
-}
-
-/// How an end moves while all joints keep their speed.
-struct Motion {
-    /// Angular velocity of the body, and its rate.
-    velocity: Vec3,
-    turn: Vec3,
-    /// Acceleration of the point.
-    acceleration: Vec3,
-}
-
-fn motion(m: &Model, d: &Data, end: &End) -> Motion {
-    let mut rate = [0.0; 6];
-    let mut k = jacobian::last_dof(m, end.body);
-    while let Ok(dof) = usize::try_from(k) {
-        rate = add_scaled(rate, rows::<6>(&d.cdof_dot)[dof], d.qvel[dof]);
-        k = m.dof_parentid[dof];
-    }
-    let v = &rows::<6>(&d.cvel)[end.body];
-    let arm = sub(end.point, rows::<3>(&d.subtree_com)[m.body_rootid[end.body] as usize]);
-    let velocity = angular(v);
-    let point = add(linear(v), cross(velocity, arm));
-    let turn = angular(&rate);
-    Motion { velocity, turn, acceleration: add(add(linear(&rate), cross(turn, arm)), cross(velocity, point)) }
 }

@@ -24,6 +24,7 @@ pub(crate) use island::Islands;
 pub(crate) use jacobian::Jacobian;
 pub(crate) use reference::reference;
 pub(crate) use rows::make;
+pub(crate) use single::tendon_force;
 pub(crate) use solver::{Scratch, inverse, solve};
 
 /// Values of `efc_type` (mjtConstraint).

@@ -1,6 +1,6 @@
 //! The reference acceleration: what a damped spring on the violation would do.
 
-use super::equality;
+use super::{contact, equality};
 use crate::math::*;
 use crate::{Data, Model};
 
@@ -8,11 +8,17 @@ use crate::{Data, Model};
 #[inline(never)]
 pub(crate) fn reference(m: &Model, d: &mut Data) {
     d.work.jac.mul(&d.qvel, &mut d.efc_vel);
+    if d.plan.surfaces {
+        contact::surfaces(m, d);
+    }
     let rows = d.efc_pos.iter().zip(&d.efc_margin).zip(rows::<4>(&d.efc_KBIP)).zip(&d.efc_vel);
     for (aref, (((pos, margin), [k, b, imp, _]), vel)) in d.efc_aref.iter_mut().zip(rows) {
         *aref = -b * vel - k * imp * (pos - margin);
     }
     if d.ne > 0 {
         equality::bias(m, d);
+    }
+    if d.plan.adhesion {
+        contact::adhesion(d);
     }
 }

@@ -2,10 +2,10 @@
 
 use super::cost::Cost;
 use super::impedance::kbi;
-use super::kind;
 use super::rows::{Rows, push, regularization};
+use super::{equality, kind};
 use crate::math::*;
-use crate::{Data, Model, joint, tendon};
+use crate::{Data, Model, eqtype, joint, tendon};
 
 /// Number of rows of dry friction.
 pub(super) fn count_friction(m: &Model) -> usize {
@@ -126,4 +126,25 @@ fn along_tendon(m: &Model, d: &mut Data, cost: Cost, t: usize, sign: f64) -> boo
     let values = d.ten_J[row.clone()].iter().map(|j| sign * j);
     d.work.jac.push_sparse(cost, d.nefc, &m.ten_J_colind[row], values);
     d.work.jac.keep_moving(m)
+}
+
+/// The force of all constraints along the length of a tendon, N.
+pub(crate) fn tendon_force(m: &Model, d: &Data, t: usize) -> f64 {
+    let range = sides(rows::<2>(&m.tendon_range)[t], d.ten_length[t], m.tendon_margin[t]);
+    let mut signs = range.map(|(_, sign)| sign);
+    let mut sum = 0.0;
+    for row in 0..d.ne + d.nf + d.nl {
+        let (id, force) = (d.efc_id[row] as usize, d.efc_force[row]);
+        match d.efc_type[row] {
+            kind::EQUALITY if m.eq_type[id] == eqtype::TENDON => {
+                let tied = [m.eq_obj1id[id], m.eq_obj2id[id]].map(|o| o == t as i32);
+                sum += if tied[0] { force } else { 0.0 };
+                sum += if tied[1] { force * equality::ratio(m, d, id) } else { 0.0 };
+            }
+            kind::FRICTION_TENDON if id == t => sum += force,
+            kind::LIMIT_TENDON if id == t => sum += force * signs.next().unwrap_or(1.0),
+            _ => {}
+        }
+    }
+    sum
 }

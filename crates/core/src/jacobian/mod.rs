@@ -191,3 +191,30 @@ pub(crate) fn pair_difference(m: &Model, d: &Data, bodies: [usize; 2], points: [
         out.len += 1;
     }
 }
+
+/// How a point of a body moves while all joints keep their speed.
+pub(crate) struct Unforced {
+    /// Velocity and acceleration of the point.
+    pub(crate) velocity: Vec3,
+    pub(crate) acceleration: Vec3,
+    /// Angular velocity of the body, and its rate.
+    pub(crate) spin: Vec3,
+    pub(crate) turn: Vec3,
+}
+
+/// J v and J̇ v of a point of body `b`, for translation and rotation; needs `cvel` and `cdof_dot`.
+pub(crate) fn unforced(m: &Model, d: &Data, b: usize, point: Vec3) -> Unforced {
+    let mut rate = [0.0; 6];
+    let mut k = last_dof(m, b);
+    while let Ok(dof) = usize::try_from(k) {
+        rate = add_scaled(rate, rows::<6>(&d.cdof_dot)[dof], d.qvel[dof]);
+        k = m.dof_parentid[dof];
+    }
+    let motion = &rows::<6>(&d.cvel)[b];
+    let arm = sub(point, rows::<3>(&d.subtree_com)[m.body_rootid[b] as usize]);
+    let (spin, turn) = (angular(motion), angular(&rate));
+    let velocity = add(linear(motion), cross(spin, arm));
+    // What is fixed to the body moves on while the axes turn.
+    let acceleration = add(add(linear(&rate), cross(turn, arm)), cross(spin, velocity));
+    Unforced { velocity, acceleration, spin, turn }
+}

@@ -1,6 +1,7 @@
 //! Passive forces: springs and dampers, gravity compensation, the medium.
 
-pub(crate) mod ellipsoid;
+pub(crate) mod adhesion;
+mod ellipsoid;
 pub(crate) mod fluid;
 mod gravcomp;
 pub(crate) mod spring;
@@ -25,6 +26,15 @@ pub(crate) fn passive(m: &Model, d: &mut Data) {
     }
     if d.plan.body_forces {
         body_forces(m, d, springs || dampers);
+    }
+    if d.plan.adhesion {
+        d.qfrc_adhesion.fill(0.0);
+        if springs || dampers {
+            adhesion::adhesion(m, d);
+            for (f, pull) in d.qfrc_passive.iter_mut().zip(&d.qfrc_adhesion) {
+                *f += pull;
+            }
+        }
     }
 }
 

@@ -123,19 +123,30 @@ pub(super) fn joint_dampers(m: &Model, d: &mut Data) {
 /// the two lengths of `tendon_lengthspring`.
 pub(super) fn tendons(m: &Model, d: &mut Data, springs: bool, dampers: bool) {
     for t in 0..m.ntendon {
-        let spring = Law::new(&m.tendon_stiffness, &m.tendon_stiffnesspoly, t);
-        let damper = tendon_damper(m, t);
-        if springs && !spring.is_zero() {
-            let x = tendon::spring_displacement(m, d, t);
-            let force = -spring.at(x) * x;
-            tendon::add_force(m, t, &d.ten_J, force, &mut d.qfrc_spring);
+        let [spring, damper] = tendon_force(m, d, t, springs, dampers);
+        if spring != 0.0 {
+            tendon::add_force(m, t, &d.ten_J, spring, &mut d.qfrc_spring);
         }
-        if dampers && !damper.is_zero() {
-            let v = d.ten_velocity[t];
-            let force = -damper.at(v.abs()) * v;
-            tendon::add_force(m, t, &d.ten_J, force, &mut d.qfrc_damper);
+        if damper != 0.0 {
+            tendon::add_force(m, t, &d.ten_J, damper, &mut d.qfrc_damper);
         }
     }
+}
+
+/// The forces of the spring and the damper of a tendon along its length, N.
+pub(crate) fn tendon_force(m: &Model, d: &Data, t: usize, springs: bool, dampers: bool) -> [f64; 2] {
+    let mut forces = [0.0; 2];
+    let spring = Law::new(&m.tendon_stiffness, &m.tendon_stiffnesspoly, t);
+    if springs && !spring.is_zero() {
+        let x = tendon::spring_displacement(m, d, t);
+        forces[0] = -spring.at(x) * x;
+    }
+    let damper = tendon_damper(m, t);
+    if dampers && !damper.is_zero() {
+        let v = d.ten_velocity[t];
+        forces[1] = -damper.at(v.abs()) * v;
+    }
+    forces
 }
 
 /// The energy of all springs, J.

@@ -7,6 +7,7 @@
 mod constants;
 mod path;
 mod pattern;
+mod tension;
 mod wrap;
 
 use crate::math::*;
@@ -16,6 +17,7 @@ use crate::{Data, Model, mass};
 
 pub(crate) use constants::{at_default, at_rest};
 pub(crate) use pattern::set_pattern;
+pub(crate) use tension::pulls;
 
 /// Whether tendon `t` combines joint coordinates; otherwise it is a path in space.
 pub(crate) fn is_fixed(m: &Model, t: usize) -> bool {

@@ -191,8 +191,9 @@ pub(super) fn acceleration(m: &Model, d: &Data, t: usize) -> f64 {
             continue;
         }
         let (u, length) = normalize(sub(ends[1], ends[0]));
-        let [(v1, a1), (v2, a2)] = [0, 1].map(|i| point_motion(m, d, bodies[i], ends[i]));
-        let (w, a) = (sub(v2, v1), sub(a2, a1));
+        let [first, second] = [0, 1].map(|i| jacobian::unforced(m, d, bodies[i], ends[i]));
+        let w = sub(second.velocity, first.velocity);
+        let a = sub(second.acceleration, first.acceleration);
         let along = dot(u, w);
         let turning = if length > MINVAL { (dot(w, w) - along * along) / length } else { 0.0 };
         sum += (dot(u, a) + turning) / leg.divisor;
@@ -200,18 +201,33 @@ pub(super) fn acceleration(m: &Model, d: &Data, t: usize) -> f64 {
     sum
 }
 
-/// Velocity of a point fixed to a body, and its acceleration for zero joint accelerations.
-fn point_motion(m: &Model, d: &Data, body: usize, point: Vec3) -> (Vec3, Vec3) {
-    let cdof_dot = rows::<6>(&d.cdof_dot);
-    let mut acceleration = [0.0; 6];
-    let mut k = jacobian::last_dof(m, body);
-    while k >= 0 {
-        acceleration = add_scaled(acceleration, cdof_dot[k as usize], d.qvel[k as usize]);
-        k = m.dof_parentid[k as usize];
+/// Calls `apply` with the body, point and force at each end of the straight pieces of a path along which a force acts
+/// that would lengthen it; an arc around a geom has both ends on one body.
+pub(super) fn pull(m: &Model, d: &Data, t: usize, force: f64, apply: &mut impl FnMut(usize, Vec3, Vec3)) {
+    let first = d.ten_wrapadr[t] as usize;
+    let points = first..first + d.ten_wrapnum[t] as usize;
+    let pulleys = m.tendon_adr[t] as usize..(m.tendon_adr[t] + m.tendon_num[t]) as usize;
+    let mut divisors = pulleys.filter(|&w| m.wrap_type[w] == wraptype::PULLEY).map(|w| m.wrap_prm[w]);
+    // Sites come in the order of the path.
+    let sites = m.tendon_adr[t] as usize..(m.tendon_adr[t] + m.tendon_num[t]) as usize;
+    let mut sites = sites.filter(|&w| m.wrap_type[w] == wraptype::SITE).map(|w| m.wrap_objid[w] as usize);
+    let (mut divisor, mut last) = (1.0, None);
+    for k in points {
+        let point = rows::<3>(&d.wrap_xpos)[k];
+        let body = match d.wrap_obj[k] {
+            ON_PULLEY => {
+                (divisor, last) = (divisors.next().unwrap_or(1.0), None);
+                continue;
+            }
+            ON_SITE => sites.next().map_or(0, |s| m.site_bodyid[s]),
+            geom => m.geom_bodyid[geom as usize],
+        };
+        if let Some((from, start)) = last.replace((body, point))
+            && from != body
+        {
+            let (u, _) = normalize(sub(point, start));
+            apply(from as usize, start, scale(u, -force / divisor));
+            apply(body as usize, point, scale(u, force / divisor));
+        }
     }
-    let arm = sub(point, rows::<3>(&d.subtree_com)[m.body_rootid[body] as usize]);
-    let at = |s: &Spatial| add(linear(s), cross(angular(s), arm));
-    let motion = &rows::<6>(&d.cvel)[body];
-    let velocity = at(motion);
-    (velocity, add(at(&acceleration), cross(angular(motion), velocity)))
 }
