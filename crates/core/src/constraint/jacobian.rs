@@ -189,6 +189,41 @@ impl Jacobian {
         }
     }
 
+    /// Appends a block with the rows of another over other columns, in ascending order; its values, all zero.
+    pub(super) fn push_zeros(&mut self, like: &Block, columns: impl Iterator<Item = usize>) -> &mut [f64] {
+        self.open(like.cost, like.row as usize);
+        let (adr, col) = (self.used_values, self.used_columns);
+        for c in columns {
+            if self.columns.len() <= self.used_columns {
+                self.columns.resize(self.used_columns + 1, 0);
+            }
+            self.columns[self.used_columns] = c as u32;
+            self.used_columns += 1;
+        }
+        let ncol = self.used_columns - col;
+        self.used_values = adr + ncol * like.nrow as usize;
+        if self.values.len() < self.used_values {
+            self.values.resize(self.used_values, 0.0);
+        }
+        if let Some(b) = self.blocks.last_mut() {
+            (b.nrow, b.ncol) = (like.nrow, ncol as u32);
+        }
+        let values = &mut self.values[adr..self.used_values];
+        values.fill(0.0);
+        values
+    }
+
+    /// The kinematic trees that a block moves, ascending.
+    pub(super) fn trees<'a>(
+        &'a self,
+        m: &'a Model,
+        b: &Block,
+    ) -> impl Iterator<Item = usize> + Clone + use<'a> {
+        let mut last = usize::MAX;
+        let of = |&c: &u32| m.dof_treeid[c as usize].max(0) as usize;
+        self.columns(b).iter().map(of).filter(move |&t| std::mem::replace(&mut last, t) != t)
+    }
+
     /// Begins a block of one row.
     fn open(&mut self, cost: Cost, row: usize) {
         let (adr, col) = (self.used_values as u32, self.used_columns as u32);

@@ -7,12 +7,15 @@
 mod cg;
 mod contact;
 mod cost;
+mod dual;
 mod equality;
 mod exact;
 mod impedance;
 mod island;
 mod jacobian;
 mod newton;
+mod noslip;
+mod pgs;
 mod primal;
 mod reference;
 mod rows;
