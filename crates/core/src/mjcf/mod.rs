@@ -48,6 +48,7 @@ mod spec;
 #[cfg(test)]
 mod tests;
 mod tree;
+mod unsimulated;
 mod values;
 mod xml;
 
@@ -92,7 +93,20 @@ pub fn compile(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
 pub fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<MjcfDiagnostic>> {
     let mut report = Report::new();
     match build(xml, files, path, &mut report) {
-        Some(model) if report.is_clean() => Ok(model),
+        Some((tree, model)) => {
+            unsimulated::check(&tree, &model, &mut report);
+            if report.is_clean() { Ok(model) } else { Err(report.finish()) }
+        }
+        None => Err(report.finish()),
+    }
+}
+
+/// Compiles a model that may hold what is not simulated yet.
+#[cfg(test)]
+pub(crate) fn compile_only(xml: &str, files: &dyn Files) -> Result<Model, Vec<MjcfDiagnostic>> {
+    let mut report = Report::new();
+    match build(xml, files, None, &mut report) {
+        Some((_, model)) if report.is_clean() => Ok(model),
         _ => Err(report.finish()),
     }
 }
@@ -119,7 +133,12 @@ pub fn compile_file(path: &Path) -> Result<Model, MjcfFileError> {
 }
 
 /// All passes. `None` when something is wrong; then the report says what.
-fn build(xml: &str, files: &dyn Files, path: Option<&str>, report: &mut Report) -> Option<Model> {
+fn build(
+    xml: &str,
+    files: &dyn Files,
+    path: Option<&str>,
+    report: &mut Report,
+) -> Option<(tree::Tree, Model)> {
     let written = load::Loader::new(files).model(xml.into(), path, report)?;
     let expand::Expanded { tree, parts } = expand::model(written, report);
     let classes = defaults::Classes::read(&tree, report);
@@ -244,5 +263,5 @@ fn build(xml: &str, files: &dyn Files, path: Option<&str>, report: &mut Report) 
     fill::spring_dampers(&mut m, &bodies);
     fill_actuator::length_ranges(&mut m, &actuators, &settings::length_range(&tree), report);
     statistic.apply(&mut m.stat);
-    Some(m)
+    Some((tree, m))
 }

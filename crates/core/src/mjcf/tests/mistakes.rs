@@ -75,13 +75,7 @@ mistakes! {
     geom_type_not_supported: world("<geom type=\"sdf\" size=\"1 1\"/>");
     keyword_misspelt: before("<option integrator=\"euler\"/>");
     integrator_unknown: before("<option integrator=\"midpoint\"/>");
-<<<<<<< HEAD
     flag_not_simulated: before("<option><flag sleep=\"enable\"/></option>");
-    option_not_simulated: before("<option noslip_iterations=\"3\"/>\n<worldbody><geom type=\"plane\" size=\"1 1 1\"/><body><freejoint/><geom size=\"1\" condim=\"4\"/></body></worldbody>");
-    equality_not_simulated: tied("<equality>\n<joint joint1=\"j\"/></equality>");
-=======
-    flag_not_supported: before("<option><flag sleep=\"enable\"/></option>");
->>>>>>> dac4ee4 (Dual solver and removal of slip)
     boolean: world("<body mocap=\"True\"/>");
     stray_text: world("\n  geom size=\"1\"/>");
     // Numbers
