@@ -39,6 +39,9 @@ VARIANTS = {
                  "o_solimp": [0.7, 0.93, 0.002, 0.4, 3.0], "o_friction": [0.4, 0.6, 0.01, 0.002, 0.003]},
     "together": {"disableflags": int(D.mjDSBL_ISLAND)},
     "sparse": {"jacobian": 1},
+    "discrete": {"integrator": 4},
+    "discrete stiff": {"integrator": 4, "timestep": 0.02},
+    "discrete dual": {"integrator": 4, "solver": 0, "iterations": 12},
     # The paths of the other solvers, which do not arrive at the solution.
     "gradients": {"solver": 1, "iterations": 6},
     "dual": {"solver": 0, "iterations": 12},

@@ -259,7 +259,7 @@ impl Jacobian {
     }
 
     /// Takes back the last block.
-    fn pop(&mut self) {
+    pub(super) fn pop(&mut self) {
         if let Some(b) = self.blocks.pop() {
             (self.used_values, self.used_columns) = (b.adr as usize, b.col as usize);
         }

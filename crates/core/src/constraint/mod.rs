@@ -7,6 +7,7 @@
 mod cg;
 mod contact;
 mod cost;
+mod discrete;
 mod dual;
 mod equality;
 mod exact;
@@ -23,6 +24,7 @@ mod search;
 mod single;
 mod solver;
 
+pub(crate) use discrete::{at_end_of_step, pop_metric, push_metric};
 pub(crate) use island::Islands;
 pub(crate) use jacobian::Jacobian;
 pub(crate) use reference::reference;

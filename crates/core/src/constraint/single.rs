@@ -1,7 +1,7 @@
 //! Constraints of single rows: dry friction of joints and tendons, limits of joints and tendons.
 
 use super::cost::Cost;
-use super::impedance::kbi;
+use super::impedance::{Acts, kbi};
 use super::rows::{Rows, push, regularization};
 use super::{equality, kind};
 use crate::math::*;
@@ -32,8 +32,10 @@ struct Row {
 /// Appends the scalars of a row whose Jacobian is there.
 fn scalars(m: &Model, d: &mut Data, row: Row, solref: [f64; 2], solimp: [f64; 5], weight: f64) {
     let Row { kind, id, pos, margin, loss } = row;
-    let mut kbi = kbi(m, solref, solimp, pos - margin);
-    if Cost::of(kind) == Cost::DryFriction {
+    let dry = Cost::of(kind) == Cost::DryFriction;
+    let acts = if dry { Acts::BothWays } else { Acts::OneWay };
+    let mut kbi = kbi(m, acts, solref, solimp, pos - margin);
+    if dry {
         kbi.k = 0.0;
     }
     let r = [regularization(kbi.imp, weight)];
