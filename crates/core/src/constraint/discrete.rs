@@ -62,9 +62,10 @@ fn soften_block<const R: usize>(m: &Model, d: &mut Data, metric: &[f64], i: usiz
     let mut new: [f64; R] = std::array::from_fn(|r| (old[r] * softer(r)).max(MINVAL));
     let (first, imp) = (softer(0), kbip[0][2]);
     let elliptic = d.efc_type[row] == kind::CONTACT_ELLIPTIC;
-    if elliptic || d.efc_type[row] == kind::CONTACT_PYRAMIDAL {
+    if (elliptic || d.efc_type[row] == kind::CONTACT_PYRAMIDAL)
+        && let Some(c) = d.contact.get_mut(d.efc_id[row] as usize)
+    {
         // Friction is as soft as its normal makes it; an edge's R is 2 μ² times that of the normal.
-        let c = &mut d.contact[d.efc_id[row] as usize];
         let normal = if elliptic { old[0] } else { old[0] / (2.0 * c.mu * c.mu) };
         new = contact::friction(m, c, elliptic, (normal * first).max(MINVAL));
     }

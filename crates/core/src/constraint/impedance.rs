@@ -65,10 +65,12 @@ fn refsafe(m: &Model) -> bool {
 /// given, without mixed signs.
 pub(super) fn kbi_friction(m: &Model, c: &Contact, normal: Kbi) -> Kbi {
     let [a, b] = c.solreffriction;
-    if [a, b] == [0.0; 2] || (a > 0.0) != (b > 0.0) {
+    let own = [a, b] != [0.0; 2] && (a > 0.0) == (b > 0.0);
+    if !own && !discrete(m) {
         return normal;
     }
-    Kbi { imp: normal.imp, slope: normal.slope, ..kbi(m, Acts::BothWays, [a, b], c.solimp, 0.0) }
+    let solref = if own { [a, b] } else { c.solref };
+    Kbi { imp: normal.imp, slope: normal.slope, ..kbi(m, Acts::BothWays, solref, c.solimp, 0.0) }
 }
 
 /// Mixed signs are an error of the model: the default replaces them. A time constant below two steps would

@@ -4,8 +4,8 @@
 //! frictional contact fill vector registers.
 
 use super::cost::Cost;
-use crate::Model;
 use crate::math::dot;
+use crate::{Data, Model};
 use std::ops::Range;
 
 /// Runs an expression with the constant `$rows` equal to the number of rows of a block: 1 for what is a number, 3 for a
@@ -401,4 +401,20 @@ impl Jacobian {
             }
         }
     }
+}
+
+/// The Jacobian of the constraints as a dense matrix, `nefc` x `nv`, row-major (`efc_J`).
+pub fn full_j(m: &Model, d: &Data) -> Vec<f64> {
+    let mut out = vec![0.0; d.nefc * m.nv];
+    let jac = &d.work.jac;
+    for b in &jac.blocks {
+        for (&k, values) in jac.columns(b).iter().zip(jac.values(b).chunks_exact(b.nrow as usize)) {
+            for (row, v) in b.rows().zip(values) {
+                if let Some(entry) = out.get_mut(row * m.nv + k as usize) {
+                    *entry = *v;
+                }
+            }
+        }
+    }
+    out
 }

@@ -65,7 +65,7 @@ impl Problem<'_> {
             let w = &mut self.s.dual;
             std::mem::swap(&mut w.last, &mut w.before);
             self.copy_forces(|w| &mut w.last);
-            if scale * improvement < tol {
+            if scale * improvement < tol || improvement == 0.0 {
                 break;
             }
         }

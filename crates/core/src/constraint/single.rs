@@ -138,7 +138,7 @@ pub(crate) fn tendon_force(m: &Model, d: &Data, t: usize) -> f64 {
     for row in 0..d.ne + d.nf + d.nl {
         let (id, force) = (d.efc_id[row] as usize, d.efc_force[row]);
         match d.efc_type[row] {
-            kind::EQUALITY if m.eq_type[id] == eqtype::TENDON => {
+            kind::EQUALITY if m.eq_type.get(id) == Some(&eqtype::TENDON) => {
                 let tied = [m.eq_obj1id[id], m.eq_obj2id[id]].map(|o| o == t as i32);
                 sum += if tied[0] { force } else { 0.0 };
                 sum += if tied[1] { force * equality::ratio(m, d, id) } else { 0.0 };

@@ -56,7 +56,7 @@ pub(crate) fn solve(m: &Model, d: &mut Data) {
     s.resize(m.nv, d.nefc);
     let dual = m.opt.solver == solver::PGS || m.opt.noslip_iterations > 0;
     if dual {
-        d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut d.efc_b);
+        unconstrained_residual(d);
         s.dual.build(m, d);
     }
     if m.opt.solver == solver::PGS {
@@ -207,9 +207,14 @@ fn block_cost<const R: usize>(d: &Data, b: &Block, x: &[f64]) -> f64 {
     }
 }
 
+/// `efc_b`.
+pub(crate) fn unconstrained_residual(d: &mut Data) {
+    d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut d.efc_b);
+}
+
 /// `efc_b` and `efc_state`, for those who read them.
 fn details(d: &mut Data, jar: &[f64]) {
-    d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut d.efc_b);
+    unconstrained_residual(d);
     for i in 0..d.work.jac.blocks.len() {
         let b = d.work.jac.blocks[i];
         by_rows!(b.nrow, R => block_state::<R>(d, &b, jar));

@@ -163,6 +163,7 @@ pub(crate) fn constraints(m: &Model, d: &mut Data) {
         let mut w = std::mem::take(&mut d.work.metric);
         std::mem::swap(&mut w.other, &mut d.qacc_smooth);
         d.work.metric = w;
+        constraint::unconstrained_residual(d);
     }
 }
 
