@@ -39,6 +39,15 @@ VARIANTS = {
                  "o_solimp": [0.7, 0.93, 0.002, 0.4, 3.0], "o_friction": [0.4, 0.6, 0.01, 0.002, 0.003]},
     "together": {"disableflags": int(D.mjDSBL_ISLAND)},
     "sparse": {"jacobian": 1},
+    "discrete": {"integrator": 4},
+    "discrete stiff": {"integrator": 4, "timestep": 0.02},
+    "discrete dual": {"integrator": 4, "solver": 0, "iterations": 12},
+    # The paths of the other solvers, which do not arrive at the solution.
+    "gradients": {"solver": 1, "iterations": 6},
+    "dual": {"solver": 0, "iterations": 12},
+    "dual together": {"solver": 0, "iterations": 12, "disableflags": int(D.mjDSBL_ISLAND)},
+    "noslip": {"noslip_iterations": 4, "noslip_tolerance": 0.0},
+    "dual noslip": {"solver": 0, "iterations": 9, "noslip_iterations": 4},
 }
 
 
@@ -50,8 +59,9 @@ def apply(m, options):
             setattr(m.opt, k, v)
 
 
-def record(m, count, scale, chosen):
+def record(m, count, scale, chosen, options={}):
     apply(m, TIGHT)
+    apply(m, options)
     d, out = mujoco.MjData(m), []
     for state in recording.states(m, d, count, scale, seed=2):
         mujoco.mj_forward(m, d)
@@ -74,7 +84,7 @@ def main():
         for (cone, one), (name, other) in itertools.product(CONES.items(), {"": {}, **VARIANTS}.items()):
             m = mujoco.MjModel.from_xml_path(str(path))
             apply(m, {**one, **other})
-            found = record(m, a.states, 0.05, RESULTS + ROWS + MORE)
+            found = record(m, a.states, 0.05, RESULTS + ROWS + MORE, {**one, **other})
             if name != "together":
                 # The library leaves the states of islands in an order of their own.
                 found = [{**s, "data": {k: v for k, v in s["data"].items() if k != "efc_state"}} for s in found]

@@ -57,17 +57,17 @@ pub(crate) struct End {
 
 /// Number of rows of an equality constraint.
 pub(crate) fn rows_of(m: &Model, e: usize) -> usize {
-    match m.eq_type[e] {
-        eqtype::CONNECT => 3,
-        eqtype::WELD => 6,
+    match m.eq_type.get(e) {
+        Some(&eqtype::CONNECT) => 3,
+        Some(&eqtype::WELD) => 6,
         _ => 1,
     }
 }
 
 /// Both ends of a connect or weld. `None` for constraints of joints and tendons.
 pub(crate) fn ends(m: &Model, d: &Data, e: usize) -> Option<[End; 2]> {
-    let ids = [m.eq_obj1id[e], m.eq_obj2id[e]].map(|id| id.max(0) as usize);
     let data = rows::<DATA>(&m.eq_data).get(e)?;
+    let ids = [m.eq_obj1id[e], m.eq_obj2id[e]].map(|id| id.max(0) as usize);
     let weld = m.eq_type[e] == eqtype::WELD;
     if !weld && m.eq_type[e] != eqtype::CONNECT {
         return None;

@@ -48,6 +48,9 @@ fn from_velocity(m: &Model, d: &mut Data, skip: Skip) {
     if m.opt.enabled(enable::INVDISCRETE) {
         continuous(m, d);
     }
+    if m.opt.integrator == integrator::DISCRETE {
+        integrate::discrete::prepare_inverse(m, d);
+    }
     constraint::inverse(m, d);
     pipeline::read(m, d, When::Acceleration, skip);
     mass::mul(m, &d.M, &d.qacc, &mut d.qfrc_inverse, 0..m.nv);

@@ -61,6 +61,7 @@ mod tendon;
 mod transmission;
 
 pub use collision::{can_collide, contact_force};
+pub use constraint::full_j;
 pub use data::{Contact, Data, Warning, WarningStat};
 pub use integrate::{differentiate_pos, integrate_pos};
 pub use inverse::{InverseError, inverse};

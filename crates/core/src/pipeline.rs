@@ -195,13 +195,7 @@ fn applied_forces(m: &Model, d: &mut Data) {
 pub(crate) fn constraints(m: &Model, d: &mut Data) {
     let discrete = m.opt.integrator == integrator::DISCRETE;
     if d.plan.keeps(Stage::Solve) {
-        if discrete {
-            integrate::discrete::exchange_metric(d);
-        }
-        constraint::solve(m, d);
-        if discrete {
-            integrate::discrete::exchange_metric(d);
-        }
+        if discrete { integrate::discrete::constraints(m, d) } else { constraint::solve(m, d) }
     } else {
         d.qacc.copy_from_slice(&d.qacc_smooth);
     }

@@ -1,7 +1,7 @@
 //! The rows of contacts: along the normal, and for friction the edges of a pyramid or the axes of a cone.
 
 use super::cost::Cost;
-use super::impedance::{Kbi, kbi, kbi_friction};
+use super::impedance::{Acts, Kbi, kbi, kbi_friction};
 use super::kind;
 use super::rows::{Rows, push, regularization};
 use crate::jacobian::{self, Columns};
@@ -64,7 +64,7 @@ fn shared<const R: usize>(c: &Contact, id: usize, kind: i32, kbi: Kbi, others: K
 fn common(m: &Model, d: &mut Data, id: usize, c: &mut Contact, bodies: [usize; 2], columns: &Columns) {
     let (cols, along) = (columns.dofs(), columns.values());
     let (row, mu, mu2) = (d.nefc, c.friction[0], c.friction[1]);
-    let kbi = kbi(m, c.solref, c.solimp, c.dist - c.includemargin);
+    let kbi = kbi(m, Acts::OneWay, c.solref, c.solimp, c.dist - c.includemargin);
     let translation = inverse_weight(m, bodies, 0);
     if c.dim == 1 {
         d.work.jac.push::<1>(Cost::Push, row, cols, along.iter().map(|a| [a[0]]));
@@ -116,7 +116,7 @@ fn pyramid<const R: usize>(
     };
     let edges = space(columns).map(|s| std::array::from_fn(|r| edge(&s, r)));
     d.work.jac.push::<R>(Cost::Push, d.nefc, columns.dofs(), edges);
-    let kbi = kbi(m, c.solref, c.solimp, c.dist - c.includemargin);
+    let kbi = kbi(m, Acts::OneWay, c.solref, c.solimp, c.dist - c.includemargin);
     let translation = inverse_weight(m, bodies, 0);
     let r = friction(m, c, false, regularization(kbi.imp, translation + mu[0] * mu[0] * translation));
     push::<R>(d, &shared(c, id, kind::CONTACT_PYRAMIDAL, kbi, kbi, r));
@@ -133,7 +133,7 @@ fn cone<const R: usize>(
 ) {
     let axes = space(columns).map(|s| std::array::from_fn(|r| s[r]));
     d.work.jac.push::<R>(Cost::Cone, d.nefc, columns.dofs(), axes);
-    let kbi = kbi(m, c.solref, c.solimp, c.dist - c.includemargin);
+    let kbi = kbi(m, Acts::OneWay, c.solref, c.solimp, c.dist - c.includemargin);
     let others = Kbi { k: 0.0, ..kbi_friction(m, c, kbi) };
     let r = friction(m, c, true, regularization(kbi.imp, inverse_weight(m, bodies, 0)));
     let mut rows = shared::<R>(c, id, kind::CONTACT_ELLIPTIC, kbi, others, r);

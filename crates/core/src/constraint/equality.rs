@@ -5,7 +5,7 @@
 //! "Computation: Constraint model, Equality").
 
 use super::cost::Cost;
-use super::impedance::kbi;
+use super::impedance::{Acts, kbi};
 use super::kind;
 use super::rows::{Rows, push, regularization};
 use crate::equality::{self, End};
@@ -38,7 +38,7 @@ pub(super) fn make(m: &Model, d: &mut Data) {
 
 /// Appends the scalars of a constraint; its impedance is that of the distance `off` from where it should be.
 fn scalars<const R: usize>(m: &Model, d: &mut Data, e: usize, pos: [f64; R], off: f64, weight: [f64; R]) {
-    let kbi = kbi(m, rows::<2>(&m.eq_solref)[e], rows::<5>(&m.eq_solimp)[e], off);
+    let kbi = kbi(m, Acts::BothWays, rows::<2>(&m.eq_solref)[e], rows::<5>(&m.eq_solimp)[e], off);
     let r = weight.map(|w| regularization(kbi.imp, w));
     push::<R>(
         d,

@@ -30,10 +30,11 @@ fn block<const R: usize>(m: &Model, d: &mut Data, i: usize) {
     d.work.mv = x;
     let imp = d.efc_KBIP[4 * row + 2];
     let mut r = diag.map(|a| regularization(imp, a));
-    if matches!(d.efc_type[row], kind::CONTACT_PYRAMIDAL | kind::CONTACT_ELLIPTIC) {
-        let id = d.efc_id[row] as usize;
-        let elliptic = d.efc_type[row] == kind::CONTACT_ELLIPTIC;
-        r = contact::friction(m, &mut d.contact[id], elliptic, r[0]);
+    let elliptic = d.efc_type[row] == kind::CONTACT_ELLIPTIC;
+    if (elliptic || d.efc_type[row] == kind::CONTACT_PYRAMIDAL)
+        && let Some(c) = d.contact.get_mut(d.efc_id[row] as usize)
+    {
+        r = contact::friction(m, c, elliptic, r[0]);
     }
     soften(d, row, imp, &r);
 }

@@ -3,7 +3,7 @@
 //! The formulas are those of the documentation, "Computation: Constraint model, Parameters".
 
 use crate::math::MINVAL;
-use crate::{Contact, Model, disable};
+use crate::{Contact, Model, disable, integrator};
 
 /// Stiffness K (1/s²), damping B (1/s), impedance I, at the current violation.
 #[derive(Clone, Copy, Debug)]
@@ -18,13 +18,22 @@ pub(super) struct Kbi {
 const MINIMP: f64 = 1e-4;
 const MAXIMP: f64 = 0.9999;
 
+/// What a row acts on: it decides how `refsafe` keeps the discrete integrator from bouncing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Acts {
+    /// Both ways, as equalities and friction do.
+    BothWays,
+    /// One way, as limits and the normals of contacts do.
+    OneWay,
+}
+
 /// Parameters of a row at violation `r` = position - margin.
-pub(super) fn kbi(m: &Model, solref: [f64; 2], solimp: [f64; 5], r: f64) -> Kbi {
+pub(super) fn kbi(m: &Model, acts: Acts, solref: [f64; 2], solimp: [f64; 5], r: f64) -> Kbi {
     let solref = safe_solref(m, solref);
     let dmin = solimp[0].clamp(MINIMP, MAXIMP);
     let dmax = solimp[1].clamp(MINIMP, MAXIMP);
     let (imp, slope) = impedance([dmin, dmax, solimp[2], solimp[3], solimp[4]], r);
-    let (k, b) = if solref[0] > 0.0 {
+    let (mut k, mut b) = if solref[0] > 0.0 {
         // Time constant and damping ratio of the mass-spring-damper that the constraint behaves like.
         let [timeconst, dampratio] = solref;
         (
@@ -34,24 +43,41 @@ pub(super) fn kbi(m: &Model, solref: [f64; 2], solimp: [f64; 5], r: f64) -> Kbi 
     } else {
         (-solref[0] / (dmax * dmax).max(MINVAL), -solref[1] / dmax.max(MINVAL))
     };
+    // A row of the discrete integrator is solved at the end of the step: it is stable however stiff, but beyond this
+    // it would throw back what it stops.
+    let stiffest = 1.0 / (imp * m.opt.timestep * m.opt.timestep);
+    if acts == Acts::OneWay && solref[0] > 0.0 && k > stiffest && refsafe(m) && discrete(m) {
+        k = stiffest;
+        b = 2.0 * solref[1] * k.sqrt();
+    }
     Kbi { k, b, imp, slope }
+}
+
+fn discrete(m: &Model) -> bool {
+    m.opt.integrator == integrator::DISCRETE
+}
+
+fn refsafe(m: &Model) -> bool {
+    !m.opt.disabled(disable::REFSAFE)
 }
 
 /// The same for the friction of an elliptic cone, whose impedance is that of its normal: `solreffriction` where it is
 /// given, without mixed signs.
 pub(super) fn kbi_friction(m: &Model, c: &Contact, normal: Kbi) -> Kbi {
     let [a, b] = c.solreffriction;
-    if [a, b] == [0.0; 2] || (a > 0.0) != (b > 0.0) {
+    let own = [a, b] != [0.0; 2] && (a > 0.0) == (b > 0.0);
+    if !own && !discrete(m) {
         return normal;
     }
-    Kbi { imp: normal.imp, slope: normal.slope, ..kbi(m, [a, b], c.solimp, 0.0) }
+    let solref = if own { [a, b] } else { c.solref };
+    Kbi { imp: normal.imp, slope: normal.slope, ..kbi(m, Acts::BothWays, solref, c.solimp, 0.0) }
 }
 
 /// Mixed signs are an error of the model: the default replaces them. A time constant below two steps would
 /// be integrated unstably: `refsafe` raises it.
 fn safe_solref(m: &Model, solref: [f64; 2]) -> [f64; 2] {
     let [a, b] = if (solref[0] > 0.0) != (solref[1] > 0.0) { [0.02, 1.0] } else { solref };
-    if a > 0.0 && !m.opt.disabled(disable::REFSAFE) { [a.max(2.0 * m.opt.timestep), b] } else { [a, b] }
+    if a > 0.0 && refsafe(m) && !discrete(m) { [a.max(2.0 * m.opt.timestep), b] } else { [a, b] }
 }
 
 /// d(r) and its slope: a sigmoid from d0 at r = 0 to dwidth at |r| = width, whose midpoint and power the

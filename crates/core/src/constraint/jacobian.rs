@@ -4,8 +4,8 @@
 //! frictional contact fill vector registers.
 
 use super::cost::Cost;
-use crate::Model;
 use crate::math::dot;
+use crate::{Data, Model};
 use std::ops::Range;
 
 /// Runs an expression with the constant `$rows` equal to the number of rows of a block: 1 for what is a number, 3 for a
@@ -189,6 +189,41 @@ impl Jacobian {
         }
     }
 
+    /// Appends a block with the rows of another over other columns, in ascending order; its values, all zero.
+    pub(super) fn push_zeros(&mut self, like: &Block, columns: impl Iterator<Item = usize>) -> &mut [f64] {
+        self.open(like.cost, like.row as usize);
+        let (adr, col) = (self.used_values, self.used_columns);
+        for c in columns {
+            if self.columns.len() <= self.used_columns {
+                self.columns.resize(self.used_columns + 1, 0);
+            }
+            self.columns[self.used_columns] = c as u32;
+            self.used_columns += 1;
+        }
+        let ncol = self.used_columns - col;
+        self.used_values = adr + ncol * like.nrow as usize;
+        if self.values.len() < self.used_values {
+            self.values.resize(self.used_values, 0.0);
+        }
+        if let Some(b) = self.blocks.last_mut() {
+            (b.nrow, b.ncol) = (like.nrow, ncol as u32);
+        }
+        let values = &mut self.values[adr..self.used_values];
+        values.fill(0.0);
+        values
+    }
+
+    /// The kinematic trees that a block moves, ascending.
+    pub(super) fn trees<'a>(
+        &'a self,
+        m: &'a Model,
+        b: &Block,
+    ) -> impl Iterator<Item = usize> + Clone + use<'a> {
+        let mut last = usize::MAX;
+        let of = |&c: &u32| m.dof_treeid[c as usize].max(0) as usize;
+        self.columns(b).iter().map(of).filter(move |&t| std::mem::replace(&mut last, t) != t)
+    }
+
     /// Begins a block of one row.
     fn open(&mut self, cost: Cost, row: usize) {
         let (adr, col) = (self.used_values as u32, self.used_columns as u32);
@@ -224,7 +259,7 @@ impl Jacobian {
     }
 
     /// Takes back the last block.
-    fn pop(&mut self) {
+    pub(super) fn pop(&mut self) {
         if let Some(b) = self.blocks.pop() {
             (self.used_values, self.used_columns) = (b.adr as usize, b.col as usize);
         }
@@ -366,4 +401,20 @@ impl Jacobian {
             }
         }
     }
+}
+
+/// The Jacobian of the constraints as a dense matrix, `nefc` x `nv`, row-major (`efc_J`).
+pub fn full_j(m: &Model, d: &Data) -> Vec<f64> {
+    let mut out = vec![0.0; d.nefc * m.nv];
+    let jac = &d.work.jac;
+    for b in &jac.blocks {
+        for (&k, values) in jac.columns(b).iter().zip(jac.values(b).chunks_exact(b.nrow as usize)) {
+            for (row, v) in b.rows().zip(values) {
+                if let Some(entry) = out.get_mut(row * m.nv + k as usize) {
+                    *entry = *v;
+                }
+            }
+        }
+    }
+    out
 }

@@ -7,12 +7,16 @@
 mod cg;
 mod contact;
 mod cost;
+mod discrete;
+mod dual;
 mod equality;
 mod exact;
 mod impedance;
 mod island;
 mod jacobian;
 mod newton;
+mod noslip;
+mod pgs;
 mod primal;
 mod reference;
 mod rows;
@@ -20,12 +24,14 @@ mod search;
 mod single;
 mod solver;
 
+pub(crate) use discrete::{at_end_of_step, pop_metric, push_metric};
 pub(crate) use island::Islands;
 pub(crate) use jacobian::Jacobian;
+pub use jacobian::full_j;
 pub(crate) use reference::reference;
 pub(crate) use rows::make;
 pub(crate) use single::tendon_force;
-pub(crate) use solver::{Scratch, inverse, solve};
+pub(crate) use solver::{Scratch, inverse, solve, unconstrained_residual};
 
 /// Values of `efc_type` (mjtConstraint).
 pub(crate) mod kind {

@@ -2,7 +2,7 @@
 
 use super::{contact, equality};
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Data, Model, integrator};
 
 /// `efc_vel` = J v and `efc_aref` = -B J v - K d r, less the acceleration J̇ v that is there already.
 #[inline(never)]
@@ -10,6 +10,10 @@ pub(crate) fn reference(m: &Model, d: &mut Data) {
     d.work.jac.mul(&d.qvel, &mut d.efc_vel);
     if d.plan.surfaces {
         contact::surfaces(m, d);
+    }
+    if m.opt.integrator == integrator::DISCRETE {
+        // The reference at the end of the step depends on forces: it comes later.
+        return;
     }
     let rows = d.efc_pos.iter().zip(&d.efc_margin).zip(rows::<4>(&d.efc_KBIP)).zip(&d.efc_vel);
     for (aref, (((pos, margin), [k, b, imp, _]), vel)) in d.efc_aref.iter_mut().zip(rows) {

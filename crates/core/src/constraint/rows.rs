@@ -42,7 +42,8 @@ pub(crate) fn make(m: &Model, d: &mut Data) {
     }
 }
 
-fn resize(d: &mut Data, rows: usize) {
+/// Gives the arrays a length.
+pub(super) fn resize(d: &mut Data, rows: usize) {
     if d.efc_type.len() == rows && d.efc_force.len() == rows {
         return;
     }

@@ -1,7 +1,7 @@
 //! Constraints of single rows: dry friction of joints and tendons, limits of joints and tendons.
 
 use super::cost::Cost;
-use super::impedance::kbi;
+use super::impedance::{Acts, kbi};
 use super::rows::{Rows, push, regularization};
 use super::{equality, kind};
 use crate::math::*;
@@ -32,8 +32,10 @@ struct Row {
 /// Appends the scalars of a row whose Jacobian is there.
 fn scalars(m: &Model, d: &mut Data, row: Row, solref: [f64; 2], solimp: [f64; 5], weight: f64) {
     let Row { kind, id, pos, margin, loss } = row;
-    let mut kbi = kbi(m, solref, solimp, pos - margin);
-    if Cost::of(kind) == Cost::DryFriction {
+    let dry = Cost::of(kind) == Cost::DryFriction;
+    let acts = if dry { Acts::BothWays } else { Acts::OneWay };
+    let mut kbi = kbi(m, acts, solref, solimp, pos - margin);
+    if dry {
         kbi.k = 0.0;
     }
     let r = [regularization(kbi.imp, weight)];
@@ -136,7 +138,7 @@ pub(crate) fn tendon_force(m: &Model, d: &Data, t: usize) -> f64 {
     for row in 0..d.ne + d.nf + d.nl {
         let (id, force) = (d.efc_id[row] as usize, d.efc_force[row]);
         match d.efc_type[row] {
-            kind::EQUALITY if m.eq_type[id] == eqtype::TENDON => {
+            kind::EQUALITY if m.eq_type.get(id) == Some(&eqtype::TENDON) => {
                 let tied = [m.eq_obj1id[id], m.eq_obj2id[id]].map(|o| o == t as i32);
                 sum += if tied[0] { force } else { 0.0 };
                 sum += if tied[1] { force * equality::ratio(m, d, id) } else { 0.0 };

@@ -4,6 +4,7 @@
 //! costs to miss the reference (Todorov 2014).
 
 use super::cost::Cost;
+use super::dual::Dual;
 use super::island::Islands;
 use super::jacobian::{Block, by_rows};
 use super::primal::{Problem, Reached, shape};
@@ -33,6 +34,8 @@ pub(crate) struct Scratch {
     /// Dense Hessian of the island, lower triangle by rows, and a right-hand side.
     pub(super) hessian: Vec<f64>,
     pub(super) rhs: Vec<f64>,
+    /// What the dual methods keep.
+    pub(super) dual: Dual,
     /// Where each island stands after the warm start.
     pub(super) reached: Vec<Reached>,
 }
@@ -51,15 +54,26 @@ pub(crate) fn solve(m: &Model, d: &mut Data) {
     d.nisland = islands.find(m, &d.work.jac);
     let mut s = d.work.solver.take().unwrap_or_default();
     s.resize(m.nv, d.nefc);
-    let done = !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, &mut s, &islands);
-    if !done {
-        d.qacc.copy_from_slice(&d.qacc_smooth);
-        s.ma.copy_from_slice(&d.qfrc_smooth);
-        d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jar);
-        for i in 0..d.nisland {
-            let mut problem = Problem { m, d, s: &mut s, islands: &islands, island: i };
-            let from = problem.reached();
-            problem.run(from);
+    let dual = m.opt.solver == solver::PGS || m.opt.noslip_iterations > 0;
+    if dual {
+        unconstrained_residual(d);
+        s.dual.build(m, d);
+    }
+    if m.opt.solver == solver::PGS {
+        dual_start(m, d, &mut s, &islands);
+    } else {
+        primal(m, d, &mut s, &islands);
+    }
+    if dual {
+        for island in 0..d.nisland {
+            let mut problem = Problem { m, d, s: &mut s, islands: &islands, island };
+            if m.opt.solver == solver::PGS {
+                problem.gauss_seidel();
+            }
+            if m.opt.noslip_iterations > 0 {
+                problem.remove_slip();
+            }
+            problem.finish_dual();
         }
     }
     if d.plan.solver_details {
@@ -67,6 +81,40 @@ pub(crate) fn solve(m: &Model, d: &mut Data) {
     }
     d.work.islands = Some(islands);
     d.work.solver = Some(s);
+}
+
+/// Newton's method or conjugate gradients, from the better start.
+#[inline(always)]
+fn primal(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) {
+    if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, islands) {
+        return;
+    }
+    d.qacc.copy_from_slice(&d.qacc_smooth);
+    s.ma.copy_from_slice(&d.qfrc_smooth);
+    d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jar);
+    for island in 0..d.nisland {
+        let mut problem = Problem { m, d, s, islands, island };
+        let from = problem.reached();
+        problem.run(from);
+    }
+}
+
+/// The forces that the dual method starts from: those at the last step's acceleration, unless none cost less.
+fn dual_start(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) {
+    d.efc_force.fill(0.0);
+    if m.opt.disabled(disable::WARMSTART) {
+        return;
+    }
+    d.work.jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
+    let mut cost = 0.0;
+    for island in 0..d.nisland {
+        let mut problem = Problem { m, d, s, islands, island };
+        problem.update();
+        cost += problem.dual_cost();
+    }
+    if cost > 0.0 {
+        d.efc_force.fill(0.0);
+    }
 }
 
 /// `efc_force` and `qfrc_constraint` at the acceleration `qacc` (`mj_invConstraint`).
@@ -159,9 +207,14 @@ fn block_cost<const R: usize>(d: &Data, b: &Block, x: &[f64]) -> f64 {
     }
 }
 
+/// `efc_b`.
+pub(crate) fn unconstrained_residual(d: &mut Data) {
+    d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut d.efc_b);
+}
+
 /// `efc_b` and `efc_state`, for those who read them.
 fn details(d: &mut Data, jar: &[f64]) {
-    d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut d.efc_b);
+    unconstrained_residual(d);
     for i in 0..d.work.jac.blocks.len() {
         let b = d.work.jac.blocks[i];
         by_rows!(b.nrow, R => block_state::<R>(d, &b, jar));

@@ -14,7 +14,7 @@ use super::implicit::solve_six;
 use crate::derivative::{self, Medium, actuator};
 use crate::math::{Spatial, dot, dot_slice, norm};
 use crate::passive::{fluid, spring, spring::Law};
-use crate::{Data, Model, disable, joint, mass, solver, tendon};
+use crate::{Data, Model, constraint, disable, joint, mass, solver, tendon};
 
 /// The metric and what follows from it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,6 +33,12 @@ pub(crate) struct Metric {
     step: Vec<f64>,
     search: Vec<f64>,
     product: Vec<f64>,
+    /// The diagonal of the metric, terms included.
+    diagonal: Vec<f64>,
+    /// `qacc_smooth` while constraints are solved with the terms apart, and the Jacobian of one of them.
+    other: Vec<f64>,
+    columns: Vec<i32>,
+    values: Vec<f64>,
 }
 
 /// A tendon, or a force output of an actuator.
@@ -113,8 +119,56 @@ pub(crate) fn add_to_inverse(m: &Model, d: &mut Data) {
     (d.work.metric, d.work.derivative) = (w, slopes);
 }
 
+/// Sets the rows of constraints for the end of the step, for the accelerations that [`acceleration`] has found.
+pub(crate) fn place_rows(m: &Model, d: &mut Data) {
+    let w = std::mem::take(&mut d.work.metric);
+    constraint::at_end_of_step(m, d, &w.diagonal);
+    d.work.metric = w;
+}
+
+/// The same when the metric is not there yet.
+pub(crate) fn prepare_inverse(m: &Model, d: &mut Data) {
+    let mut w = std::mem::take(&mut d.work.metric);
+    let mut slopes = std::mem::take(&mut d.work.derivative);
+    w.build(m, d, &mut slopes);
+    (d.work.metric, d.work.derivative) = (w, slopes);
+    place_rows(m, d);
+}
+
+/// `qacc` and forces of constraints, in the metric. Its terms are rows of their own there.
+pub(crate) fn constraints(m: &Model, d: &mut Data) {
+    if d.nefc > 0 {
+        place_rows(m, d);
+    }
+    let rows = d.nefc;
+    let apart = rows > 0 && !d.work.metric.terms.is_empty();
+    if apart {
+        let mut w = std::mem::take(&mut d.work.metric);
+        for term in &w.terms {
+            let (dofs, values) = term.row.jacobian(m, d);
+            w.columns.clear();
+            w.columns.extend_from_slice(dofs);
+            w.values.clear();
+            w.values.extend_from_slice(values);
+            constraint::push_metric(d, &w.columns, &w.values, term.scale);
+        }
+        w.solve_alone(m, &mut d.qacc_smooth);
+        d.work.metric = w;
+    }
+    exchange_metric(d);
+    constraint::solve(m, d);
+    exchange_metric(d);
+    if apart {
+        constraint::pop_metric(d, rows);
+        let mut w = std::mem::take(&mut d.work.metric);
+        std::mem::swap(&mut w.other, &mut d.qacc_smooth);
+        d.work.metric = w;
+        constraint::unconstrained_residual(d);
+    }
+}
+
 /// Puts the metric in the place of the mass matrix, or back: constraints are solved in it.
-pub(crate) fn exchange_metric(d: &mut Data) {
+fn exchange_metric(d: &mut Data) {
     let w = &mut d.work.metric;
     std::mem::swap(&mut d.M, &mut w.matrix);
     std::mem::swap(&mut d.qLD, &mut w.ld);
@@ -155,7 +209,20 @@ impl Metric {
                 self.ld[mass::diagonal(m, k as usize)] += term.scale * x * x;
             }
         }
+        for i in 0..m.nv {
+            self.diagonal[i] = self.ld[mass::diagonal(m, i)];
+        }
         mass::factor(m, &mut self.ld, &mut self.diag_inv);
+    }
+
+    /// Puts the acceleration without the terms in the place of that with them, which goes to `other`, and the
+    /// factorization of the matrix alone in the place of that with the diagonals of the terms.
+    fn solve_alone(&mut self, m: &Model, smooth: &mut Vec<f64>) {
+        self.ld.copy_from_slice(&self.matrix);
+        mass::factor(m, &mut self.ld, &mut self.diag_inv);
+        self.other.copy_from_slice(&self.force);
+        mass::solve(m, &self.ld, &self.diag_inv, &mut self.other, 0..m.nv);
+        std::mem::swap(&mut self.other, smooth);
     }
 
     fn resize(&mut self, m: &Model) {
@@ -163,7 +230,8 @@ impl Metric {
         self.ld.resize(m.nC, 0.0);
         self.coupled.resize(m.ntree, false);
         let vectors = [&mut self.force, &mut self.diag_inv, &mut self.residual, &mut self.step];
-        for v in vectors.into_iter().chain([&mut self.search, &mut self.product]) {
+        let more = [&mut self.search, &mut self.product, &mut self.diagonal, &mut self.other];
+        for v in vectors.into_iter().chain(more) {
             v.resize(m.nv, 0.0);
         }
     }
@@ -232,8 +300,7 @@ impl Metric {
         let (h, k, b) = (m.opt.timestep, stiffness.max(0.0), damping.max(0.0));
         let scale = h * h * k + h * b;
         let (dofs, values) = row.jacobian(m, d);
-        // Constraints are solved in the matrix alone.
-        if scale == 0.0 || dofs.len() > 1 && d.nefc > 0 {
+        if scale == 0.0 {
             return;
         }
         for (&i, x) in dofs.iter().zip(values) {

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod conservation;
+mod constraints;
 mod definitions;
 mod dynamics;
 mod integrators;

@@ -76,8 +76,6 @@ mistakes! {
     keyword_misspelt: before("<option integrator=\"euler\"/>");
     integrator_unknown: before("<option integrator=\"midpoint\"/>");
     flag_not_simulated: before("<option><flag sleep=\"enable\"/></option>");
-    option_not_simulated: before("<option noslip_iterations=\"3\"/>\n<worldbody><geom type=\"plane\" size=\"1 1 1\"/><body><freejoint/><geom size=\"1\" condim=\"4\"/></body></worldbody>");
-    equality_not_simulated: tied("<equality>\n<joint joint1=\"j\"/></equality>");
     boolean: world("<body mocap=\"True\"/>");
     stray_text: world("\n  geom size=\"1\"/>");
     // Numbers

@@ -1,0 +1,96 @@
+//! Rows at the end of a step, for the discrete integrator.
+//!
+//! The damped spring of a row acts with the violation r + h v⁺ and the velocity v⁺ = v + h a at the end of the step. Written
+//! for the acceleration a it is a row again: with s = 1 + h B + h² K d its regularization is R/s and its reference
+//! -((B + h K d) v + K d r)/s (derived from MuJoCo 3.14.0's numbers).
+
+use super::cost::Cost;
+use super::jacobian::by_rows;
+use super::rows::{resize, soften};
+use super::{contact, equality, kind};
+use crate::math::*;
+use crate::{Data, Model, mass};
+
+/// Replaces `efc_R` with what follows from it, and sets `efc_aref`. `metric` is the diagonal of the matrix that takes the
+/// place of M.
+pub(crate) fn at_end_of_step(m: &Model, d: &mut Data, metric: &[f64]) {
+    for i in 0..d.work.jac.blocks.len() {
+        let b = d.work.jac.blocks[i];
+        by_rows!(b.nrow, R => soften_block::<R>(m, d, metric, i));
+    }
+    let h = m.opt.timestep;
+    for (r, [k, b, imp, _]) in rows::<4>(&d.efc_KBIP).iter().enumerate() {
+        let off = d.efc_pos[r] - d.efc_margin[r];
+        d.efc_aref[r] = -(b + h * k * imp) * d.efc_vel[r] - k * imp * off;
+    }
+    if d.ne > 0 {
+        equality::bias(m, d);
+    }
+    for (aref, kbip) in d.efc_aref.iter_mut().zip(rows::<4>(&d.efc_KBIP)) {
+        *aref /= growth(h, kbip);
+    }
+    if d.plan.adhesion {
+        contact::adhesion(d);
+    }
+}
+
+/// s = 1 + h B + h² K d
+fn growth(h: f64, [k, b, imp, _]: &[f64; 4]) -> f64 {
+    1.0 + h * b + h * h * k * imp
+}
+
+/// R/s of the rows of a block, for the inertia that they meet now.
+fn soften_block<const R: usize>(m: &Model, d: &mut Data, metric: &[f64], i: usize) {
+    let b = d.work.jac.blocks[i];
+    let row = b.row as usize;
+    let Some(&old) = d.efc_R[row..].first_chunk::<R>() else { return };
+    // Σ J²/M' over Σ J²/M, with diagonals alone.
+    let (mut now, mut before) = ([0.0; R], [0.0; R]);
+    for (&k, v) in d.work.jac.columns(&b).iter().zip(d.work.jac.values(&b).as_chunks::<R>().0) {
+        let k = k as usize;
+        let inertia = d.M[mass::diagonal(m, k)];
+        for r in 0..R {
+            now[r] += v[r] * v[r] / metric[k];
+            before[r] += v[r] * v[r] / inertia;
+        }
+    }
+    let kbip = &rows::<4>(&d.efc_KBIP)[row..];
+    let softer = |r: usize| {
+        let lighter = if before[r] > 0.0 { now[r] / before[r] } else { 1.0 };
+        lighter / growth(m.opt.timestep, &kbip[r])
+    };
+    let mut new: [f64; R] = std::array::from_fn(|r| (old[r] * softer(r)).max(MINVAL));
+    let (first, imp) = (softer(0), kbip[0][2]);
+    let elliptic = d.efc_type[row] == kind::CONTACT_ELLIPTIC;
+    if (elliptic || d.efc_type[row] == kind::CONTACT_PYRAMIDAL)
+        && let Some(c) = d.contact.get_mut(d.efc_id[row] as usize)
+    {
+        // Friction is as soft as its normal makes it; an edge's R is 2 μ² times that of the normal.
+        let normal = if elliptic { old[0] } else { old[0] / (2.0 * c.mu * c.mu) };
+        new = contact::friction(m, c, elliptic, (normal * first).max(MINVAL));
+    }
+    soften(d, row, imp, &new);
+}
+
+/// Appends a row that costs ½ `stiff` x² for x = J a: a part of the metric that M's pattern has no room for.
+pub(crate) fn push_metric(d: &mut Data, columns: &[i32], values: &[f64], stiff: f64) {
+    let row = d.nefc;
+    resize(d, row + 1);
+    d.nefc += 1;
+    d.work.jac.push_sparse(Cost::Quadratic, row, columns, values.iter().copied());
+    (d.efc_type[row], d.efc_id[row]) = (kind::EQUALITY, 0);
+    (d.efc_aref[row], d.efc_D[row], d.efc_R[row], d.efc_frictionloss[row]) = (0.0, stiff, 1.0 / stiff, 0.0);
+}
+
+/// Takes the rows from `rows` on back, and their force out of `qfrc_constraint`.
+pub(crate) fn pop_metric(d: &mut Data, rows: usize) {
+    while let Some(&b) = d.work.jac.blocks.last()
+        && b.row as usize >= rows
+    {
+        let opposite = [-d.efc_force[b.row as usize]];
+        d.work.jac.add_transposed(&b, &opposite, &mut d.qfrc_constraint);
+        d.work.jac.pop();
+    }
+    d.nefc = rows;
+    resize(d, rows);
+}

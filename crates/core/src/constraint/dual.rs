@@ -1,0 +1,295 @@
+//! The dual problem of one island: the forces themselves are what is looked for.
+//!
+//! min over f of ½ fᵀ (A + R) f + bᵀ f with A = J M⁻¹ Jᵀ, where b is how far the unconstrained acceleration misses the
+//! reference, and each force stays where it is allowed to be. A is never formed: the acceleration M⁻¹ Jᵀ f follows
+//! every change of a force, as in Mirtich and Canny's and Erleben's solvers by impulses; only the blocks of A on its
+//! diagonal are kept.
+
+use super::cost::Cost;
+use super::jacobian::{Block, Jacobian, by_rows};
+use super::primal::Problem;
+use super::solver::tree_dofs;
+use crate::math::{MINVAL, dot};
+use crate::{Data, Model, mass};
+
+/// What the dual methods keep.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Dual {
+    /// M⁻¹ Jᵀ, block by block as J, over all degrees of freedom of the trees that a block touches.
+    inverse: Jacobian,
+    /// Blocks of A, row by row, and where each begins.
+    gram: Vec<f64>,
+    start: Vec<u32>,
+    /// M⁻¹ Jᵀ f.
+    pub(super) acceleration: Vec<f64>,
+    /// A column of M⁻¹ Jᵀ.
+    x: Vec<f64>,
+    /// Forces after the last sweep, after the one before, and where the present sweep began.
+    pub(super) last: Vec<f64>,
+    pub(super) before: Vec<f64>,
+    pub(super) begun: Vec<f64>,
+    /// What a sweep visits, in its order.
+    pub(super) order: Vec<Item>,
+}
+
+/// Rows that are solved together: one, or all of an elliptic cone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Item {
+    pub(super) block: u32,
+    /// First row, counted from the block's first.
+    pub(super) first: u32,
+}
+
+impl Dual {
+    /// Fills M⁻¹ Jᵀ and the blocks of A.
+    pub(super) fn build(&mut self, m: &Model, d: &Data) {
+        self.inverse.clear();
+        self.gram.clear();
+        self.start.clear();
+        self.acceleration.resize(m.nv, 0.0);
+        self.x.resize(m.nv, 0.0);
+        for v in [&mut self.last, &mut self.before, &mut self.begun] {
+            v.resize(d.nefc, 0.0);
+        }
+        for b in &d.work.jac.blocks {
+            by_rows!(b.nrow, R => self.block::<R>(m, d, b));
+        }
+    }
+
+    fn block<const R: usize>(&mut self, m: &Model, d: &Data, b: &Block) {
+        let jac = &d.work.jac;
+        let trees = jac.trees(m, b);
+        let values = self.inverse.push_zeros(b, trees.clone().flat_map(|t| tree_dofs(m, t)));
+        let terms = || jac.columns(b).iter().zip(jac.values(b).as_chunks::<R>().0);
+        self.start.push(self.gram.len() as u32);
+        for r in 0..R {
+            for t in trees.clone() {
+                self.x[tree_dofs(m, t)].fill(0.0);
+            }
+            for (&k, v) in terms() {
+                self.x[k as usize] = v[r];
+            }
+            for t in trees.clone() {
+                mass::solve(m, &d.qLD, &d.qLDiagInv, &mut self.x, tree_dofs(m, t));
+            }
+            let dofs = trees.clone().flat_map(|t| tree_dofs(m, t));
+            for (value, k) in values.as_chunks_mut::<R>().0.iter_mut().zip(dofs) {
+                value[r] = self.x[k];
+            }
+            let mut row = [0.0; R];
+            for (&k, v) in terms() {
+                for (sum, v) in row.iter_mut().zip(v) {
+                    *sum += v * self.x[k as usize];
+                }
+            }
+            self.gram.extend_from_slice(&row);
+        }
+    }
+
+    /// The part of A that belongs to N rows of a block.
+    pub(super) fn part<const N: usize>(&self, b: &Block, item: Item) -> [[f64; N]; N] {
+        let (at, n) = (self.start[item.block as usize] as usize, b.nrow as usize);
+        let first = item.first as usize;
+        std::array::from_fn(|i| std::array::from_fn(|j| self.gram[at + (first + i) * n + first + j]))
+    }
+}
+
+impl Problem<'_> {
+    /// `acceleration` ← M⁻¹ Jᵀ f of the island.
+    pub(super) fn accelerate(&mut self) {
+        for dofs in self.dofs() {
+            self.s.dual.acceleration[dofs].fill(0.0);
+        }
+        for i in self.blocks() {
+            let b = self.s.dual.inverse.blocks[i];
+            by_rows!(b.nrow, R => {
+                let w = &mut self.s.dual;
+                if let Some(f) = self.d.efc_force[b.rows()].first_chunk::<R>() {
+                    w.inverse.add_transposed(&b, f, &mut w.acceleration);
+                }
+            });
+        }
+    }
+
+    /// b + A f of N rows: how far the acceleration misses the reference.
+    #[inline]
+    pub(super) fn missed<const N: usize>(&self, b: &Block, item: Item) -> [f64; N] {
+        let n = b.nrow as usize;
+        let first = item.first as usize;
+        let row = b.row as usize + first;
+        let mut out = [0.0; N];
+        let jac = &self.d.work.jac;
+        for (&k, v) in jac.columns(b).iter().zip(jac.values(b).chunks_exact(n)) {
+            let a = self.s.dual.acceleration[k as usize];
+            for (sum, v) in out.iter_mut().zip(&v[first..]) {
+                *sum += v * a;
+            }
+        }
+        for (sum, b) in out.iter_mut().zip(&self.d.efc_b[row..]) {
+            *sum += b;
+        }
+        out
+    }
+
+    /// Replaces the forces of N rows.
+    #[inline]
+    pub(super) fn replace<const N: usize>(&mut self, b: &Block, item: Item, force: [f64; N]) {
+        let n = b.nrow as usize;
+        let first = item.first as usize;
+        let row = b.row as usize + first;
+        let Some(old) = self.d.efc_force[row..].first_chunk_mut::<N>() else { return };
+        let change: [f64; N] = std::array::from_fn(|r| force[r] - old[r]);
+        *old = force;
+        let w = &mut self.s.dual;
+        let wide = &w.inverse.blocks[item.block as usize];
+        let terms = w.inverse.columns(wide).iter().zip(w.inverse.values(wide).chunks_exact(n));
+        for (&k, v) in terms {
+            if let Some(v) = v[first..].first_chunk::<N>() {
+                w.acceleration[k as usize] += dot(*v, change);
+            }
+        }
+    }
+
+    /// ½ fᵀ (A + R) f + bᵀ f of the island.
+    pub(super) fn dual_cost(&mut self) -> f64 {
+        self.accelerate();
+        let mut cost = 0.0;
+        for i in self.blocks() {
+            let b = self.d.work.jac.blocks[i];
+            for first in 0..b.nrow {
+                let row = (b.row + first) as usize;
+                let item = Item { block: i as u32, first };
+                let [missed] = self.missed::<1>(&b, item);
+                let (f, d) = (self.d.efc_force[row], &*self.d);
+                // Half of b + A f, and half of b.
+                cost += 0.5 * f * (missed + d.efc_b[row] + d.efc_R[row] * f);
+            }
+        }
+        cost
+    }
+
+    /// `qfrc_constraint` and `qacc` from the forces.
+    pub(super) fn finish_dual(&mut self) {
+        for dofs in self.dofs() {
+            self.d.qfrc_constraint[dofs].fill(0.0);
+        }
+        for i in self.blocks() {
+            let b = self.d.work.jac.blocks[i];
+            by_rows!(b.nrow, R => {
+                let d = &mut *self.d;
+                if let Some(f) = d.efc_force[b.rows()].first_chunk::<R>() {
+                    d.work.jac.add_transposed(&b, f, &mut d.qfrc_constraint);
+                }
+            });
+        }
+        for dofs in self.dofs() {
+            let (m, d, s) = (self.m, &mut *self.d, &mut *self.s);
+            s.step[dofs.clone()].copy_from_slice(&d.qfrc_constraint[dofs.clone()]);
+            mass::solve(m, &d.qLD, &d.qLDiagInv, &mut s.step, dofs.clone());
+            for k in dofs {
+                d.qacc[k] = d.qacc_smooth[k] + s.step[k];
+            }
+        }
+        for i in self.blocks() {
+            let d = &*self.d;
+            let b = &d.work.jac.blocks[i];
+            d.work.jac.mul_block(b, &d.qacc, &mut self.s.jar);
+            for (x, aref) in self.s.jar[b.rows()].iter_mut().zip(&d.efc_aref[b.rows()]) {
+                *x -= aref;
+            }
+        }
+    }
+
+    /// The constraints of a sweep in the order of their rows.
+    pub(super) fn list_items(&mut self) {
+        let blocks = self.blocks();
+        let (d, order) = (&*self.d, &mut self.s.dual.order);
+        order.clear();
+        for i in blocks {
+            let b = &d.work.jac.blocks[i];
+            let each = if b.cost == Cost::Cone { b.nrow } else { 1 };
+            let firsts = (0..b.nrow).step_by(each.max(1) as usize);
+            order.extend(firsts.map(|first| Item { block: i as u32, first }));
+        }
+    }
+}
+
+/// The friction of a contact with a given normal force: minimizes ½ xᵀ A x + bᵀ x within Σ (xⱼ/μⱼ)² ≤ r². All in
+/// the rows 1 to N - 1; row 0 is left as it is.
+///
+/// Scaled by μ it is a ball: on its surface (A + λ) x = -b, and Newton's method finds λ from below (Nocedal and
+/// Wright 2006, section 4.3).
+pub(super) fn friction<const N: usize>(a: &[[f64; N]; N], b: &[f64; N], mu: &[f64; 5], r: f64) -> [f64; N] {
+    let scaled: [[f64; N]; N] = std::array::from_fn(|i| {
+        std::array::from_fn(|j| if i == 0 || j == 0 { 0.0 } else { a[i][j] * mu[i - 1] * mu[j - 1] })
+    });
+    let goal: [f64; N] = std::array::from_fn(|i| if i == 0 { 0.0 } else { -b[i] * mu[i - 1] });
+    let mut lambda = 0.0;
+    let mut x = [0.0; N];
+    let mut outside = false;
+    for _ in 0..20 {
+        let Some(l) = factor(&scaled, lambda) else { break };
+        x = solve(&l, goal);
+        let excess = dot(x, x) - r * r;
+        if excess < 1e-10 {
+            break;
+        }
+        outside = true;
+        // d|x|²/dλ = -2 xᵀ (A + λ)⁻¹ x.
+        let slope = -2.0 * dot(x, solve(&l, x));
+        let step = -excess / slope.min(-MINVAL);
+        if step < 1e-10 {
+            break;
+        }
+        lambda += step;
+    }
+    let size = dot(x, x).sqrt();
+    // On the surface: the search may have been cut short.
+    let onto = if outside || lambda > 0.0 { r / size.max(MINVAL) } else { 1.0 };
+    std::array::from_fn(|i| if i == 0 { 0.0 } else { x[i] * mu[i - 1] * onto })
+}
+
+/// Two and three directions of friction with a smaller determinant than this have none, more with a smaller pivot (measured on
+/// MuJoCo 3.14.0).
+const SINGULAR: f64 = 1e-10;
+
+/// Cholesky factor of A + λ without its first row; `None` when it is singular.
+fn factor<const N: usize>(a: &[[f64; N]; N], lambda: f64) -> Option<[[f64; N]; N]> {
+    let mut l = [[0.0; N]; N];
+    let (mut determinant, few) = (1.0, N <= 4);
+    for i in 1..N {
+        for j in 1..=i {
+            let mut sum = a[i][j] + if i == j { lambda } else { 0.0 };
+            for k in 1..j {
+                sum -= l[i][k] * l[j][k];
+            }
+            if i == j {
+                determinant *= sum;
+                if sum < if few { f64::MIN_POSITIVE } else { SINGULAR } {
+                    return None;
+                }
+                l[i][i] = sum.sqrt();
+            } else {
+                l[i][j] = sum / l[j][j];
+            }
+        }
+    }
+    (!few || determinant >= SINGULAR).then_some(l)
+}
+
+/// x ← (L Lᵀ)⁻¹ x without the first row.
+fn solve<const N: usize>(l: &[[f64; N]; N], mut x: [f64; N]) -> [f64; N] {
+    for i in 1..N {
+        for k in 1..i {
+            x[i] -= l[i][k] * x[k];
+        }
+        x[i] /= l[i][i];
+    }
+    for i in (1..N).rev() {
+        for k in i + 1..N {
+            x[i] -= l[k][i] * x[k];
+        }
+        x[i] /= l[i][i];
+    }
+    x
+}

@@ -1,0 +1,165 @@
+//! What the solution of the constraint problem is, whichever method finds it: forces stay inside their cones and bounds,
+//! they follow from the acceleration as the costs say, and the equations of motion hold.
+
+use labspec_core::mjcf::compile;
+use labspec_core::{self as core, Contact, Data, Model, solver};
+use proptest::prelude::*;
+use std::fmt::Write;
+
+/// Types of rows (mjtConstraint).
+const EQUALITY: i32 = 0;
+const FRICTION: [i32; 2] = [1, 2];
+const ELLIPTIC: i32 = 7;
+
+/// A ball that is pressed into the floor and into its neighbour.
+#[derive(Clone, Copy, Debug)]
+struct Ball {
+    depth: f64,
+    condim: usize,
+    friction: [f64; 3],
+    mass: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Scene {
+    balls: Vec<Ball>,
+    elliptic: bool,
+    impratio: f64,
+    loss: f64,
+    angle: f64,
+    speeds: Vec<f64>,
+}
+
+fn scene() -> impl Strategy<Value = Scene> {
+    let friction = (0.2..1.2, 0.005..0.1, 0.001..0.05).prop_map(|(a, b, c)| [a, b, c]);
+    let ball = (1e-4..5e-3, prop::sample::select(vec![1, 3, 4, 6]), friction, 0.3..3.0)
+        .prop_map(|(depth, condim, friction, mass)| Ball { depth, condim, friction, mass });
+    let speeds = prop::collection::vec(-0.5..0.5, 32);
+    let balls = prop::collection::vec(ball, 1..4);
+    (balls, any::<bool>(), 0.5..5.0, 0.01..2.0, -0.4..0.4, speeds).prop_map(
+        |(balls, elliptic, impratio, loss, angle, speeds)| Scene {
+            balls,
+            elliptic,
+            impratio,
+            loss,
+            angle,
+            speeds,
+        },
+    )
+}
+
+impl Scene {
+    /// Balls in a row, the first one tied to an arm with dry friction and limits.
+    fn model(&self) -> Model {
+        let mut balls = String::new();
+        for (i, b) in self.balls.iter().enumerate() {
+            let [slide, spin, roll] = b.friction;
+            let (x, z) = (0.199 * i as f64, 0.1 - b.depth);
+            let _ = write!(
+                balls,
+                "<body name='b{i}' pos='{x} 0 {z}'><freejoint/><geom size='.1' mass='{}' condim='{}' priority='1' \
+                 friction='{slide} {spin} {roll}'/></body>",
+                b.mass, b.condim
+            );
+        }
+        let (cone, loss) = (if self.elliptic { "elliptic" } else { "pyramidal" }, self.loss);
+        let m = compile(&format!(
+            "<mujoco><option cone='{cone}' impratio='{}' tolerance='0' ls_tolerance='1e-10' iterations='300' \
+             ls_iterations='100'/><worldbody><geom type='plane' size='5 5 1'/>{balls}\
+             <body name='arm' pos='-.4 0 .1'><joint name='arm' axis='0 1 0' range='-10 10' frictionloss='{loss}'/>\
+             <geom type='capsule' fromto='0 0 0 .2 0 0' size='.03' contype='0' conaffinity='0'/></body></worldbody>\
+             <equality><connect body1='arm' body2='b0' anchor='.3 0 0'/></equality></mujoco>",
+            self.impratio
+        ));
+        m.unwrap()
+    }
+
+    fn data(&self, m: &Model) -> Data {
+        let mut d = Data::new(m);
+        if let Some(angle) = d.qpos.last_mut() {
+            *angle = self.angle;
+        }
+        for (v, s) in d.qvel.iter_mut().zip(&self.speeds) {
+            *v = *s;
+        }
+        d
+    }
+}
+
+fn largest(v: &[f64]) -> f64 {
+    v.iter().fold(1.0, |s: f64, x| s.max(x.abs()))
+}
+
+/// How far the friction of a contact is outside its cone, relative to its normal force.
+fn outside(m: &Model, d: &Data, c: &Contact) -> f64 {
+    let [normal, tangents @ ..] = core::contact_force(m, d, c);
+    let shares = tangents.iter().zip(c.friction).take(c.dim - 1).map(|(f, mu)| (f / mu).abs());
+    let size: f64 = if m.opt.cone == 0 { shares.sum() } else { shares.map(|s| s * s).sum::<f64>().sqrt() };
+    (-normal).max(size - normal) / (1.0 + normal)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn forces_obey_their_constraints(scene in scene()) {
+        let m = scene.model();
+        let mut d = scene.data(&m);
+        core::forward(&m, &mut d);
+        for c in d.contact.iter().filter(|c| c.efc_address.is_some()) {
+            prop_assert!(outside(&m, &d, c) < 1e-9, "{c:?} {:?}", core::contact_force(&m, &d, c));
+        }
+        // Forces from accelerations: x = J a - aref.
+        let jac = core::full_j(&m, &d);
+        let scale = largest(&d.efc_force);
+        for row in 0..d.nefc {
+            let (f, stiff) = (d.efc_force[row], d.efc_D[row]);
+            let ja: f64 = (0..m.nv).map(|k| jac[row * m.nv + k] * d.qacc[k]).sum();
+            let pull = -stiff * (ja - d.efc_aref[row]);
+            let expected = match d.efc_type[row] {
+                EQUALITY => pull,
+                t if FRICTION.contains(&t) => pull.clamp(-d.efc_frictionloss[row], d.efc_frictionloss[row]),
+                ELLIPTIC => continue,
+                _ => pull.max(0.0),
+            };
+            prop_assert!((f - expected).abs() < 1e-6 * scale, "row {row}: {f}, not {expected}");
+        }
+        // M a = smooth forces + Jᵀ f.
+        let mass = core::full_m(&m, &d);
+        for i in 0..m.nv {
+            let ma: f64 = (0..m.nv).map(|k| mass[i * m.nv + k] * d.qacc[k]).sum();
+            let jf: f64 = (0..d.nefc).map(|r| jac[r * m.nv + i] * d.efc_force[r]).sum();
+            let scale = largest(&d.qfrc_constraint);
+            prop_assert!((jf - d.qfrc_constraint[i]).abs() < 1e-10 * scale);
+            prop_assert!((ma - d.qfrc_smooth[i] - jf).abs() < 1e-6 * scale, "{ma} {} {jf}", d.qfrc_smooth[i]);
+        }
+    }
+
+    #[test]
+    fn solvers_agree(scene in scene()) {
+        let mut m = scene.model();
+        let mut d = scene.data(&m);
+        core::forward(&m, &mut d);
+        let newton = d.qacc.clone();
+        for (which, iterations, tolerance) in [(solver::CG, 2000, 1e-6), (solver::PGS, 20_000, 1e-5)] {
+            (m.opt.solver, m.opt.iterations) = (which, iterations);
+            let mut d = scene.data(&m);
+            core::forward(&m, &mut d);
+            let apart = newton.iter().zip(&d.qacc).fold(0.0, |s: f64, (a, b)| s.max((a - b).abs()));
+            prop_assert!(apart < tolerance * largest(&newton), "solver {which}: {apart} of {}", largest(&newton));
+        }
+    }
+
+    /// Without slip: what sticks has no acceleration along the floor that its reference does not ask for, and forces stay
+    /// inside their cones.
+    #[test]
+    fn removal_of_slip_keeps_the_cones(scene in scene()) {
+        let mut m = scene.model();
+        (m.opt.noslip_iterations, m.opt.noslip_tolerance) = (200, 0.0);
+        let mut d = scene.data(&m);
+        core::forward(&m, &mut d);
+        for c in d.contact.iter().filter(|c| c.efc_address.is_some()) {
+            prop_assert!(outside(&m, &d, c) < 1e-9, "{c:?} {:?}", core::contact_force(&m, &d, c));
+        }
+    }
+}
