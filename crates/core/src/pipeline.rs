@@ -104,10 +104,10 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
         chain::mass_matrix(m, d);
         tendon::armature(m, d);
     }
-    if d.plan.keeps(Stage::Factor) {
-        if let Some(dof) = articulated::factor(m, d) {
-            warn(d, Warning::Inertia, dof);
-        }
+    if d.plan.keeps(Stage::Factor)
+        && let Some(dof) = articulated::factor(m, d)
+    {
+        warn(d, Warning::Inertia, dof);
     }
     if d.plan.keeps(Stage::Collision) {
         if m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(disable::CONTACT) {
