@@ -26,10 +26,16 @@ type Wide = [f64; 8];
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Articulated {
     spans: Vec<Span>,
+    /// Whether no tendon's inertia ties bodies of a tree together.
+    untied: bool,
+    links: Vec<Link>,
     bodies: Vec<Body>,
     /// Of M, and of M with something added to its diagonal: one for each degree of freedom.
     joints: Vec<Joint>,
     damped: Vec<Joint>,
+    /// What joints add to the diagonal of M, and to that of the other matrix.
+    armature: Vec<f64>,
+    diagonal: Vec<f64>,
 }
 
 /// A tree of many degrees of freedom, or any number of trees of few.
@@ -38,9 +44,21 @@ struct Span {
     dofs: Range<usize>,
     /// The bodies of a tree of many degrees of freedom, none otherwise.
     bodies: Range<usize>,
+    /// Those that cannot move on the body that carries them, the last first: body and carrier.
+    fixed: Vec<(usize, usize)>,
 }
 
-/// What the children of a body leave to it: their inertia and force; and its acceleration.
+/// Where a degree of freedom is in its tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Link {
+    /// The body that it moves.
+    body: usize,
+    /// The moving body that carries that one, for the first degree of freedom of a body that is not the root.
+    carrier: Option<usize>,
+    first: bool,
+}
+
+/// The inertia and the force that children have left to a body, and its acceleration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Body {
     inertia: [Wide; 6],
@@ -55,10 +73,10 @@ struct Joint {
     inv: f64,
 }
 
-/// What the algorithm reads of a model and its data.
+/// What the passes over a tree read.
 struct Tree<'a> {
-    m: &'a Model,
-    bodies: Range<usize>,
+    span: &'a Span,
+    links: &'a [Link],
     cdof: &'a [Spatial],
 }
 
@@ -73,52 +91,65 @@ impl Articulated {
                 // Bodies are numbered depth first: those of a tree follow each other.
                 let root = m.dof_bodyid[first] as usize;
                 let end = (root..m.nbody).find(|&b| m.body_treeid[b] != t as i32).unwrap_or(m.nbody);
-                spans.push(Span { dofs, bodies: root..end });
+                let still = |&b: &usize| m.body_dofnum[b] == 0;
+                let fixed = (root..end).rev().filter(still).map(|b| (b, m.body_parentid[b] as usize));
+                spans.push(Span { dofs, bodies: root..end, fixed: fixed.collect() });
                 continue;
             }
             match spans.last_mut() {
                 Some(last) if last.bodies.is_empty() => last.dofs.end = dofs.end,
-                _ => spans.push(Span { dofs, bodies: 0..0 }),
+                _ => spans.push(Span { dofs, ..Span::default() }),
             }
         }
         let any = spans.iter().any(|s| !s.bodies.is_empty());
         let (bodies, joints) = if any { (m.nbody, m.nv) } else { (0, 0) };
+        let link = |k: usize| {
+            let body = m.dof_bodyid[k] as usize;
+            let first = m.body_dofadr[body] == k as i32;
+            let carrier = usize::try_from(m.dof_parentid[k]).ok().map(|up| m.dof_bodyid[up] as usize);
+            Link { body, carrier: carrier.filter(|_| first), first }
+        };
         Articulated {
             spans,
+            untied: true,
+            links: (0..joints).map(link).collect(),
             bodies: vec![Body::default(); bodies],
             joints: vec![Joint::default(); joints],
             damped: vec![Joint::default(); joints],
+            armature: vec![0.0; joints],
+            diagonal: vec![0.0; joints],
         }
     }
 }
 
 impl Tree<'_> {
-    /// U and D of every degree of freedom, `diag` being what the joints add to the diagonal of M. Returns the first
-    /// degree of freedom whose D is not positive.
+    /// U and D of every degree of freedom, with what its joint adds to the diagonal of M. Returns the first degree of
+    /// freedom whose D is not positive.
     #[inline(always)]
     fn factor(
         &self,
         cinert: &[Inertia],
-        diag: impl Fn(usize) -> f64,
+        diagonal: &[f64],
         bodies: &mut [Body],
         joints: &mut [Joint],
     ) -> Option<usize> {
-        let mut bad = None;
-        for body in &mut bodies[self.bodies.clone()] {
-            body.inertia = [[0.0; 8]; 6];
+        let range = self.span.bodies.clone();
+        for (body, inertia) in bodies[range.clone()].iter_mut().zip(&cinert[range]) {
+            set_inertia(&mut body.inertia, inertia);
         }
-        for b in self.bodies.clone().rev() {
-            let parent = self.m.body_parentid[b] as usize;
-            let (above, rest) = bodies.split_at_mut(b);
-            let Some(Body { inertia, .. }) = rest.first_mut() else { continue };
-            add_inertia(inertia, &cinert[b]);
-            for k in mass::dofs(self.m, b).rev() {
-                if eliminate(inertia, &self.cdof[k], diag(k), &mut joints[k]) {
-                    bad = Some(k);
-                }
+        for &(body, carrier) in &self.span.fixed {
+            give(bodies, body, carrier);
+        }
+        let mut bad = None;
+        let dofs = self.span.dofs.clone();
+        let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]);
+        let joints = joints[dofs.clone()].iter_mut().zip(&diagonal[dofs.clone()]);
+        for ((k, (link, s)), (joint, &added)) in dofs.zip(links).zip(joints).rev() {
+            if eliminate(&mut bodies[link.body].inertia, s, added, joint) {
+                bad = Some(k);
             }
-            if b > self.bodies.start {
-                add_to(&mut above[parent].inertia, inertia);
+            if let Some(carrier) = link.carrier {
+                give(bodies, link.body, carrier);
             }
         }
         bad
@@ -127,58 +158,72 @@ impl Tree<'_> {
     /// x ← M⁻¹ x.
     #[inline(always)]
     fn solve(&self, bodies: &mut [Body], joints: &[Joint], x: &mut [f64]) {
-        let root = self.bodies.start;
-        for body in &mut bodies[self.bodies.clone()] {
+        for body in &mut bodies[self.span.bodies.clone()] {
             body.force = [0.0; 8];
         }
-        for b in self.bodies.clone().rev() {
-            let mut force = bodies[b].force;
-            for k in mass::dofs(self.m, b).rev() {
-                let Joint { u, inv } = &joints[k];
-                x[k] = (x[k] - dot(wide(&self.cdof[k]), force)) * inv;
-                force = add_scaled(force, *u, x[k]);
-            }
-            if b > root {
-                let up = &mut bodies[self.m.body_parentid[b] as usize].force;
-                *up = add(*up, force);
-            }
+        let dofs = self.span.dofs.clone();
+        let x = &mut x[dofs.clone()];
+        let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]).zip(&joints[dofs]);
+        for (x, ((link, s), joint)) in x.iter_mut().zip(links.clone()).rev() {
+            let mut force = bodies[link.body].force;
+            *x = (*x - dot(wide(s), force)) * joint.inv;
+            force = add_scaled(force, joint.u, *x);
+            let up = &mut bodies[link.carrier.unwrap_or(link.body)].force;
+            *up = if link.carrier.is_some() { add(*up, force) } else { force };
         }
-        for b in self.bodies.clone() {
-            let mut a =
-                if b > root { bodies[self.m.body_parentid[b] as usize].acceleration } else { [0.0; 8] };
-            for k in mass::dofs(self.m, b) {
-                let Joint { u, inv } = &joints[k];
-                x[k] -= inv * dot(*u, a);
-                a = add_scaled(a, wide(&self.cdof[k]), x[k]);
-            }
-            bodies[b].acceleration = a;
+        for (x, ((link, s), joint)) in x.iter_mut().zip(links) {
+            // The bodies before this one are done.
+            let before = match link.carrier {
+                Some(carrier) => bodies[carrier].acceleration,
+                None if link.first => [0.0; 8],
+                None => bodies[link.body].acceleration,
+            };
+            *x -= joint.inv * dot(joint.u, before);
+            bodies[link.body].acceleration = add_scaled(before, wide(s), *x);
         }
+    }
+}
+
+/// Adds the inertia of a body to that of its carrier, which comes before it.
+#[inline(always)]
+fn give(bodies: &mut [Body], body: usize, carrier: usize) {
+    let (above, rest) = bodies.split_at_mut(body);
+    if let (Some(up), Some(own)) = (above.get_mut(carrier), rest.first()) {
+        add_to(&mut up.inertia, &own.inertia);
     }
 }
 
 /// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive.
 pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
+    if d.work.articulated.bodies.is_empty() {
+        d.qLD.copy_from_slice(&d.M);
+        return mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, 0..m.nv);
+    }
+    d.work.articulated.untied = !tendon::has_armature(m);
+    let Articulated { spans, untied, links, bodies, joints, armature, .. } = &mut d.work.articulated;
     let mut bad = None;
-    // A tendon's inertia ties bodies of a tree together.
-    let alone = !tendon::has_armature(m);
-    let Articulated { spans, bodies, joints, .. } = &mut d.work.articulated;
-    for Span { dofs, bodies: range } in spans.iter() {
-        let found = if alone && !range.is_empty() {
-            let tree = Tree { m, bodies: range.clone(), cdof: rows(&d.cdof) };
-            let found = tree.factor(rows(&d.cinert), |k| mass::armature(m, k), bodies, joints);
+    for span in spans.iter() {
+        let dofs = span.dofs.clone();
+        let found = if *untied && !span.bodies.is_empty() {
             for k in dofs.clone() {
+                armature[k] = mass::armature(m, k);
+            }
+            let tree = Tree { span, links, cdof: rows(&d.cdof) };
+            let found = tree.factor(rows(&d.cinert), armature, bodies, joints);
+            for k in dofs {
                 let Joint { u, inv } = &joints[k];
                 d.qLDiagInv[k] = *inv;
                 let row = &mut d.qLD[mass::row(m, k)];
-                d.work.path.extend(row.len() - 1, &tree.cdof[k]);
+                let depth = row.len() - 1;
+                d.work.path.extend(depth, &tree.cdof[k]);
                 d.work.path.product(&narrow(&scale(*u, *inv)), row);
-                row[row.len() - 1] = 1.0 / inv;
+                row[depth] = 1.0 / inv;
             }
             found
         } else {
-            let entries = mass::row(m, dofs.start).start..mass::row(m, dofs.end - 1).end;
+            let entries = mass::rows_of(m, dofs.clone());
             d.qLD[entries.clone()].copy_from_slice(&d.M[entries]);
-            mass::factor_dofs(m, &mut d.qLD, &mut d.qLDiagInv, dofs.clone())
+            mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, dofs)
         };
         bad = bad.or(found);
     }
@@ -187,36 +232,42 @@ pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
 
 /// x ← M⁻¹ x by what [`factor`] has left.
 pub(crate) fn solve(m: &Model, d: &mut Data, x: &mut [f64]) {
-    let alone = !tendon::has_armature(m);
-    let Articulated { spans, bodies, joints, .. } = &mut d.work.articulated;
-    for Span { dofs, bodies: range } in spans.iter() {
-        if alone && !range.is_empty() {
-            Tree { m, bodies: range.clone(), cdof: rows(&d.cdof) }.solve(bodies, joints, x);
+    let Articulated { spans, untied, links, bodies, joints, .. } = &mut d.work.articulated;
+    if bodies.is_empty() {
+        return mass::solve(m, &d.qLD, &d.qLDiagInv, x, 0..m.nv);
+    }
+    for span in spans.iter() {
+        if *untied && !span.bodies.is_empty() {
+            Tree { span, links, cdof: rows(&d.cdof) }.solve(bodies, joints, x);
         } else {
-            mass::solve(m, &d.qLD, &d.qLDiagInv, x, dofs.clone());
+            mass::solve(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone());
         }
     }
 }
 
-/// x ← (M + B)⁻¹ x for a diagonal matrix B (nv).
+/// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after [`factor`].
 pub(crate) fn solve_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
-    let alone = !tendon::has_armature(m);
-    let Articulated { spans, bodies, damped, .. } = &mut d.work.articulated;
-    for Span { dofs, bodies: range } in spans.iter() {
-        if alone && !range.is_empty() {
-            let tree = Tree { m, bodies: range.clone(), cdof: rows(&d.cdof) };
-            tree.factor(rows(&d.cinert), |k| mass::armature(m, k) + b[k], bodies, damped);
+    let Articulated { spans, untied, links, bodies, damped, armature, diagonal, .. } =
+        &mut d.work.articulated;
+    for span in spans.iter() {
+        let dofs = span.dofs.clone();
+        if *untied && !span.bodies.is_empty() {
+            for (sum, (armature, b)) in diagonal.iter_mut().zip(armature.iter().zip(b)) {
+                *sum = armature + b;
+            }
+            let tree = Tree { span, links, cdof: rows(&d.cdof) };
+            tree.factor(rows(&d.cinert), diagonal, bodies, damped);
             tree.solve(bodies, damped, x);
             continue;
         }
         let (ld, diag_inv) = (&mut d.work.ld, &mut d.work.diag_inv);
-        let entries = mass::row(m, dofs.start).start..mass::row(m, dofs.end - 1).end;
+        let entries = mass::rows_of(m, dofs.clone());
         ld[entries.clone()].copy_from_slice(&d.M[entries]);
         for k in dofs.clone() {
             ld[mass::diagonal(m, k)] += b[k];
         }
-        mass::factor_dofs(m, ld, diag_inv, dofs.clone());
-        mass::solve(m, ld, diag_inv, x, dofs.clone());
+        mass::factor(m, ld, diag_inv, dofs.clone());
+        mass::solve(m, ld, diag_inv, x, dofs);
     }
 }
 
@@ -237,19 +288,22 @@ fn dot(a: Wide, b: Wide) -> f64 {
     (s[0] + s[2]) + (s[1] + s[3])
 }
 
-/// a ← a + i as a symmetric matrix, by columns.
-#[inline(always)]
-fn add_inertia(a: &mut [Wide; 6], i: &Inertia) {
+/// An inertia as a symmetric matrix, by columns, whose last rows stay zero.
+#[inline(never)] // see `eliminate`
+fn set_inertia(to: &mut [Wide; 6], i: &Inertia) {
     let [xx, yy, zz, xy, xz, yz, x, y, z, m] = *i;
-    let turning = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-    let shift = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
-    for c in 0..3 {
-        for r in 0..3 {
-            a[c][r] += turning[c][r];
-            a[c][r + 3] += shift[c][r];
-            a[r + 3][c] += shift[c][r];
+    let columns = [
+        [xx, xy, xz, 0.0, -z, y],
+        [xy, yy, yz, z, 0.0, -x],
+        [xz, yz, zz, -y, x, 0.0],
+        [0.0, z, -y, m, 0.0, 0.0],
+        [-z, 0.0, x, 0.0, m, 0.0],
+        [y, -x, 0.0, 0.0, 0.0, m],
+    ];
+    for c in 0..6 {
+        for r in 0..6 {
+            to[c][r] = columns[c][r];
         }
-        a[c + 3][c + 3] += m;
     }
 }
 
@@ -261,20 +315,99 @@ fn add_to(a: &mut [Wide; 6], b: &[Wide; 6]) {
     }
 }
 
-/// U and D of the degree of freedom s of a joint with inertia `diag`, and I ← I - U Uᵀ / D. Returns whether D is not
+/// U and D of the degree of freedom s of a joint with inertia `diagonal`, and I ← I - U Uᵀ / D. Returns whether D is not
 /// positive.
 #[inline(never)] // inlined into a loop, the compiler would not add lane by lane
-fn eliminate(i: &mut [Wide; 6], s: &Spatial, diag: f64, joint: &mut Joint) -> bool {
+fn eliminate(i: &mut [Wide; 6], s: &Spatial, diagonal: f64, joint: &mut Joint) -> bool {
     let mut u = scale(i[0], s[0]);
     for c in 1..6 {
         u = add_scaled(u, i[c], s[c]);
     }
-    let d = diag + dot(wide(s), u);
+    let d = diagonal + dot(wide(s), u);
     let inv = 1.0 / d.max(MINVAL);
     let v = scale(u, -inv);
     for c in 0..6 {
         i[c] = add_scaled(i[c], u, v[c]);
     }
-    *joint = Joint { u, inv };
+    (joint.u, joint.inv) = (u, inv);
     d < MINVAL
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::panic)]
+
+    use super::*;
+    use crate::{forward, joint, mjcf::compile};
+    use proptest::prelude::*;
+
+    /// A tree as text: of each body its parent, its joints (-1 for none, three hinges at most), its place and turn.
+    fn text(bodies: &[(usize, i32, [f64; 3])]) -> String {
+        fn body(i: usize, bodies: &[(usize, i32, [f64; 3])], free: bool) -> String {
+            let (_, joints, [x, y, z]) = bodies[i];
+            let joints = match joints {
+                _ if i == 0 && free => "<freejoint/>".into(),
+                -1 if i > 0 => String::new(),
+                0 => "<joint type='ball' armature='0.02'/>".into(),
+                1 => "<joint type='slide' axis='1 2 0' armature='0.1'/>".into(),
+                n => ["1 0 0", "0 1 0.2", "0.3 0 1"][..(n.max(2) - 1) as usize]
+                    .iter()
+                    .map(|axis| format!("<joint axis='{axis}' pos='0.05 0 0.02' damping='0.3'/>"))
+                    .collect(),
+            };
+            let children = (i + 1..bodies.len()).filter(|&c| bodies[c].0.min(c - 1) == i);
+            let children: String = children.map(|c| body(c, bodies, free)).collect();
+            format!(
+                "<body pos='{x} {y} {z}' euler='{} {} 20'>{joints}<geom type='box' size='0.1 0.07 0.05' pos='0.04 0.1 0'/>{children}</body>",
+                40.0 * x,
+                30.0 * z
+            )
+        }
+        format!(
+            "<mujoco><option gravity='1 2 -9'/><worldbody>{}<body><freejoint/><geom size='0.1'/></body>{}</worldbody></mujoco>",
+            body(0, bodies, true),
+            body(0, bodies, false)
+        )
+    }
+
+    proptest! {
+        #[test]
+        fn an_articulated_tree_is_that_of_its_mass_matrix(
+            bodies in prop::collection::vec((0usize..6, -1i32..5, prop::array::uniform3(-0.4f64..0.4)), 3..9),
+            q in prop::collection::vec(-1.0f64..1.0, 80),
+        ) {
+            let m = compile(&text(&bodies)).unwrap();
+            let mut d = Data::new(&m);
+            for j in (0..m.njnt).filter(|&j| m.jnt_type[j] != joint::FREE) {
+                let at = m.jnt_qposadr[j] as usize;
+                d.qpos[at] += q[at % q.len()];
+            }
+            for (v, x) in d.qvel.iter_mut().zip(q.iter().rev()) {
+                *v = *x;
+            }
+            forward(&m, &mut d);
+            let (mut ld, mut inv) = (d.M.clone(), vec![0.0; m.nv]);
+            prop_assert_eq!(mass::factor(&m, &mut ld, &mut inv, 0..m.nv), None);
+            for (ours, rows) in d.qLD.iter().zip(&ld) {
+                prop_assert!((ours - rows).abs() < 1e-10 * (1.0 + rows.abs()), "{ours} {rows}");
+            }
+
+            // Backwards: the force of the acceleration is the force.
+            let f: Vec<f64> = (0..m.nv).map(|k| q[(3 * k) % q.len()]).collect();
+            let b: Vec<f64> = (0..m.nv).map(|k| q[(5 * k) % q.len()].abs()).collect();
+            let (mut x, mut back) = (f.clone(), vec![0.0; m.nv]);
+            solve_with(&m, &mut d, &b, &mut x);
+            mass::mul(&m, &d.M, &x, &mut back, 0..m.nv);
+            for k in 0..m.nv {
+                prop_assert!((back[k] + b[k] * x[k] - f[k]).abs() < 1e-9, "{k}");
+            }
+            x.copy_from_slice(&f);
+            solve(&m, &mut d, &mut x);
+            mass::mul(&m, &d.M, &x, &mut back, 0..m.nv);
+            let size = x.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
+            for k in 0..m.nv {
+                prop_assert!((back[k] - f[k]).abs() < 1e-9 * size, "{k}");
+            }
+        }
+    }
 }

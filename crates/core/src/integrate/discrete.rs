@@ -212,14 +212,14 @@ impl Metric {
         for i in 0..m.nv {
             self.diagonal[i] = self.ld[mass::diagonal(m, i)];
         }
-        mass::factor(m, &mut self.ld, &mut self.diag_inv);
+        mass::factor(m, &mut self.ld, &mut self.diag_inv, 0..m.nv);
     }
 
     /// Puts the acceleration without the terms in the place of that with them, which goes to `other`, and the
     /// factorization of the matrix alone in the place of that with the diagonals of the terms.
     fn solve_alone(&mut self, m: &Model, smooth: &mut Vec<f64>) {
         self.ld.copy_from_slice(&self.matrix);
-        mass::factor(m, &mut self.ld, &mut self.diag_inv);
+        mass::factor(m, &mut self.ld, &mut self.diag_inv, 0..m.nv);
         self.other.copy_from_slice(&self.force);
         mass::solve(m, &self.ld, &self.diag_inv, &mut self.other, 0..m.nv);
         std::mem::swap(&mut self.other, smooth);

@@ -98,8 +98,13 @@ fn ball_displacement(q: &[f64], reference: &[f64]) -> Vec3 {
 /// The damper of degree of freedom `i`, that of actuators included.
 #[inline(always)]
 pub(crate) fn joint_damper(m: &Model, i: usize) -> Law {
-    let actuators = transmission::damping(m, On::Joint(m.dof_jntid[i] as usize));
-    Law::new(&m.dof_damping, &m.dof_dampingpoly, i).plus(actuators)
+    let own = Law::new(&m.dof_damping, &m.dof_dampingpoly, i);
+    let joint = m.dof_jntid[i] as usize;
+    // Few joints have a damper of an actuator.
+    if m.jnt_actuatorid[joint] == -1 {
+        return own;
+    }
+    own.plus(transmission::damping(m, On::Joint(joint)))
 }
 
 /// The damper of tendon `t`, that of actuators included.
@@ -107,14 +112,13 @@ pub(crate) fn tendon_damper(m: &Model, t: usize) -> Law {
     Law::new(&m.tendon_damping, &m.tendon_dampingpoly, t).plus(transmission::damping(m, On::Tendon(t)))
 }
 
-/// The dampers of joints, by `qfrc_damper`.
-pub(super) fn joint_dampers(m: &Model, d: &mut Data) {
-    for i in 0..m.nv {
+/// What the dampers of joints do, by `qfrc_damper`.
+pub(super) fn damp_joints(m: &Model, d: &mut Data) {
+    for (i, (f, v)) in d.qfrc_damper.iter_mut().zip(&d.qvel).enumerate() {
         let law = joint_damper(m, i);
         // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.
         if !law.is_zero() {
-            let v = d.qvel[i];
-            d.qfrc_damper[i] = -law.at(v.abs()) * v;
+            *f = -law.at(v.abs()) * v;
         }
     }
 }
