@@ -57,6 +57,12 @@ pub(crate) struct Compiler {
     pub(crate) boundmass: f64,
     pub(crate) boundinertia: f64,
     pub(crate) balanceinertia: bool,
+    /// Primitive shapes that stand for a mesh are as large as its bounding box, not as its inertia.
+    pub(crate) fitaabb: bool,
+    /// The folder of meshes and height fields, as it is written; empty when there is none.
+    pub(crate) meshdir: String,
+    /// Paths of files lose their folders.
+    pub(crate) strippath: bool,
 }
 
 impl Compiler {
@@ -79,6 +85,9 @@ impl Compiler {
             boundinertia: checked(&p, "boundinertia", "compiler", |x| x >= 0.0, "zero or more", report)
                 .unwrap_or(0.0),
             balanceinertia: p.word("balanceinertia") == Some(1),
+            fitaabb: p.word("fitaabb") == Some(1),
+            meshdir: p.text("meshdir").or(p.text("assetdir")).unwrap_or("").to_string(),
+            strippath: p.word("strippath") == Some(1),
         }
     }
 

@@ -114,8 +114,7 @@ static MESH: Element = Element::new(
         MESH_ATTRS,
     ],
 )
-.children(&[&super::rest::PLUGIN])
-.refused();
+.children(&[&super::rest::PLUGIN]);
 static HFIELD: Element = Element::new(
     "hfield",
     &[attributes! {
@@ -125,8 +124,7 @@ static HFIELD: Element = Element::new(
         reals(4) => size;
         LIST => elevation;
     }],
-)
-.refused();
+);
 pub(super) static SKIN: Element = Element::new(
     "skin",
     &[attributes! {
