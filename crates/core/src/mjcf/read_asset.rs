@@ -131,7 +131,7 @@ impl Assets {
                 continue;
             };
             let Some(mesh) = asset.value.as_mut().filter(|m| m.hull.is_none()) else { continue };
-            match build::hull(&mesh.written, &mesh.options) {
+            match build::hull(mesh) {
                 Ok(hull) => mesh.hull = Some(hull),
                 Err(problem) => {
                     say(problem, code::MESH, &format!("mesh `{}`", asset.name), asset.span.clone(), report);

@@ -69,11 +69,6 @@ impl Hull {
         graph.extend(self.face.as_flattened());
         graph
     }
-
-    /// The same hull seen in a mirror.
-    pub(crate) fn mirror(&mut self) {
-        self.face.iter_mut().for_each(|f| f.swap(1, 2));
-    }
 }
 
 type Point = [i64; 3];

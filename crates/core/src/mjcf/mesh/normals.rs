@@ -1,34 +1,45 @@
 //! Normals of vertices: the mean of the triangles around, by area. Unless a mesh is to look smooth, triangles at a
 //! large angle from that mean do not count.
+//!
+//! Sums are in single precision, as MuJoCo's are: where all triangles around a vertex are taken away again, what is
+//! left is rounding, and it becomes a normal.
 
-use crate::math::{MINVAL, Vec3, add, cross, dot, normalize, sub};
+use crate::math::{MINVAL, Vec3, cross, dot, normalize, scale, sub};
 
 /// Cosine of the largest angle of a triangle that counts.
 const SHARP: f64 = 0.8;
 
+type Single = [f32; 3];
+
 pub(super) fn of_vertices(vert: &[Vec3], face: &[[i32; 3]], smooth: bool) -> Vec<Vec3> {
     let corner = |v: i32| vert.get(v as usize).copied().unwrap_or_default();
-    // Twice the area of each triangle along its normal.
-    let sides: Vec<Vec3> =
-        face.iter().map(|f| f.map(corner)).map(|[a, b, c]| cross(sub(b, a), sub(c, a))).collect();
-    let mut sums = vec![[0.0; 3]; vert.len()];
+    // Direction and twice the area of each triangle.
+    let side = |[a, b, c]: [Vec3; 3]| normalize(cross(sub(b, a), sub(c, a)));
+    let sides: Vec<(Vec3, f64)> = face.iter().map(|f| side(f.map(corner))).collect();
     let corners = || face.iter().zip(&sides).flat_map(|(f, &side)| f.map(|v| (v as usize, side)));
-    for (v, side) in corners() {
-        if let Some(sum) = sums.get_mut(v) {
-            *sum = add(*sum, side);
-        }
+    let mut sums: Vec<Single> = vec![[0.0; 3]; vert.len()];
+    for (v, (normal, area)) in corners() {
+        add(&mut sums, v, scale(normal, area));
     }
     if !smooth {
-        let means: Vec<Vec3> = sums.iter().map(|s| normalize(*s).0).collect();
-        for (v, side) in corners() {
-            if let (Some(sum), Some(mean)) = (sums.get_mut(v), means.get(v))
-                && dot(normalize(side).0, *mean) < SHARP
-            {
-                *sum = sub(*sum, side);
+        let mut sharp: Vec<Single> = vec![[0.0; 3]; vert.len()];
+        for (v, (normal, area)) in corners() {
+            let mean = normalize(sums.get(v).copied().unwrap_or_default().map(f64::from)).0;
+            if dot(normal, mean) < SHARP {
+                add(&mut sharp, v, scale(normal, area));
             }
         }
+        for (sum, sharp) in sums.as_flattened_mut().iter_mut().zip(sharp.as_flattened()) {
+            *sum -= sharp;
+        }
     }
-    sums.into_iter().map(unit).collect()
+    sums.into_iter().map(|s| unit(s.map(f64::from))).collect()
+}
+
+fn add(sums: &mut [Single], v: usize, part: Vec3) {
+    for (sum, part) in sums.get_mut(v).into_iter().flatten().zip(part) {
+        *sum = (f64::from(*sum) + part) as f32;
+    }
 }
 
 /// The direction of a normal; up where there is none.
