@@ -1,9 +1,10 @@
 //! Meshes and height fields to the arrays of the model.
 
 use super::fill::{flat, ints};
-use super::mesh::Mesh;
+use super::mesh::{Hull, Mesh};
 use super::read_asset::Assets;
 use crate::Model;
+use crate::geometry::{self, Sides};
 use crate::math::Vec3;
 
 /// Numbers that MuJoCo keeps as 32-bit floats have no more precision here.
@@ -68,6 +69,15 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
         })
         .collect();
     m.mesh_graph = list.iter().filter_map(|x| x.hull.as_ref()).flat_map(|h| h.graph()).collect();
+    m.mesh_sides = list
+        .iter()
+        .map(|x| {
+            // Seen before the vertices lose their precision.
+            let graph = x.hull.as_ref().map_or(Vec::new(), Hull::graph);
+            let (vert, face) = (x.shape.vert.as_slice(), x.shape.face.as_slice());
+            Sides::of(&geometry::Mesh { vert, face, hull: geometry::Hull::of(&graph), sides: None })
+        })
+        .collect();
     m.mesh_scale = flat(&list, |x| x.options.scale);
     m.mesh_pos = flat(&list, |x| x.pos);
     m.mesh_quat = flat(&list, |x| x.quat);
