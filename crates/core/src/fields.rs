@@ -182,6 +182,7 @@ macro_rules! model_fields {
         // Sites.
         site_type: Vec<i32>, [nsite], Structure, Compile, "", "shape, as geom_type";
         site_bodyid: Vec<i32>, [nsite], Structure, Compile, "", "body of the site";
+        site_dataid: Vec<i32>, [nsite], Structure, Compile, "", "mesh of the site, -1 if none";
         site_matid: Vec<i32>, [nsite], Constant, Compile, "", "material, -1 if none";
         site_group: Vec<i32>, [nsite], Constant, Compile, "", "group, for visibility";
         site_sameframe: Vec<i32>, [nsite], Structure, SetConst, "", "site frame, as geom_sameframe";

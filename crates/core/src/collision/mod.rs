@@ -11,7 +11,7 @@ pub(crate) use filter::{MOST_LISTED, candidate_pairs};
 use params::Params;
 use sweep::Sweep;
 
-use crate::geometry::{Mesh, Shape, Sides, pair};
+use crate::geometry::{Shape, pair};
 use crate::math::*;
 use crate::{Contact, Data, Model, geom};
 
@@ -24,8 +24,6 @@ pub(crate) struct Pairs {
     filter: bool,
     /// Too many pairs for a list: the near ones are found at every step.
     sweep: Option<Box<Sweep>>,
-    /// Flat sides of the hull of each mesh.
-    sides: Vec<Sides>,
 }
 
 /// Finds the pairs that may touch: all that can ever, when contact bits and flags may be written later,
@@ -34,15 +32,11 @@ pub(crate) fn pairs(m: &Model, pairs_may_change: bool, params_may_change: bool) 
     let pairs = candidate_pairs(m, pairs_may_change);
     if pairs.len() > MOST_LISTED {
         let sweep = Some(Box::new(Sweep::new(m, pairs_may_change)));
-        return Pairs { sweep, sides: mesh_sides(m), ..Pairs::default() };
+        return Pairs { sweep, ..Pairs::default() };
     }
     let params =
         if params_may_change { Vec::new() } else { pairs.iter().map(|p| params::params(m, p)).collect() };
-    Pairs { pairs, params, filter: pairs_may_change, sweep: None, sides: mesh_sides(m) }
-}
-
-fn mesh_sides(m: &Model) -> Vec<Sides> {
-    (0..m.nmesh).map(|id| Sides::of(&Mesh::of(m, id))).collect()
+    Pairs { pairs, params, filter: pairs_may_change, sweep: None }
 }
 
 /// `contact`, `ncon`: tests the pairs of the plan in their order.
@@ -53,7 +47,7 @@ pub(crate) fn collide(m: &Model, d: &mut Data) {
     if let Some(sweep) = &mut list.sweep {
         sweep.run(m, d);
         for pair in &sweep.near {
-            narrow(m, d, pair, &params::params(m, pair), &list.sides);
+            narrow(m, d, pair, &params::params(m, pair));
         }
     }
     for (i, pair) in list.pairs.iter().enumerate() {
@@ -62,8 +56,8 @@ pub(crate) fn collide(m: &Model, d: &mut Data) {
             continue;
         }
         match list.params.get(i) {
-            Some(params) => narrow(m, d, pair, params, &list.sides),
-            None => narrow(m, d, pair, &params::params(m, pair), &list.sides),
+            Some(params) => narrow(m, d, pair, params),
+            None => narrow(m, d, pair, &params::params(m, pair)),
         }
     }
     d.work.pairs = list;
@@ -78,12 +72,12 @@ pub(crate) fn none(d: &mut Data) {
 
 /// The exact test of one pair. Spheres, the commonest, have a short way.
 #[inline]
-fn narrow(m: &Model, d: &mut Data, pair: &Pair, params: &Params, sides: &[Sides]) {
+fn narrow(m: &Model, d: &mut Data, pair: &Pair, params: &Params) {
     let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
     let touch = match (m.geom_type[g1], m.geom_type[g2]) {
         (geom::PLANE, geom::SPHERE) => primitive::plane_sphere(m, d, g1, g2, params.reach),
         (geom::SPHERE, geom::SPHERE) => primitive::sphere_sphere(m, d, g1, g2, params.reach),
-        _ => return general(m, d, [g1, g2], params, sides),
+        _ => return general(m, d, [g1, g2], params),
     };
     if let Some(t) = touch {
         d.contact.push(params::contact(params, g1, g2, &t, frame(t.normal)));
@@ -92,18 +86,14 @@ fn narrow(m: &Model, d: &mut Data, pair: &Pair, params: &Params, sides: &[Sides]
 
 /// The exact test of any pair, when their bounds are near.
 #[inline(never)]
-fn general(m: &Model, d: &mut Data, [g1, g2]: [usize; 2], params: &Params, sides: &[Sides]) {
+fn general(m: &Model, d: &mut Data, [g1, g2]: [usize; 2], params: &Params) {
     if sweep::far_apart(m, d, g1, g2, params.reach) {
         return;
     }
     let Some(method) = pair::method(m.geom_type[g1], m.geom_type[g2]) else { return };
     let mut work = std::mem::take(&mut d.work.narrow);
     work.touches.clear();
-    let [a, b] = [g1, g2].map(|g| {
-        let mut shape = Shape::geom(m, d, g);
-        shape.mesh.sides = usize::try_from(m.geom_dataid[g]).ok().and_then(|id| sides.get(id));
-        shape
-    });
+    let [a, b] = [g1, g2].map(|g| Shape::geom(m, d, g));
     pair::contacts(method, &a, &b, params.reach, &pair::Settings::of(m), &mut work.room, &mut work.touches);
     for t in &work.touches {
         d.contact.push(params::contact(params, g1, g2, t, frame_along(t.normal, t.tangent)));

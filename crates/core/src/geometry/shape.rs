@@ -115,7 +115,11 @@ impl<'a> Shape<'a> {
     pub fn site(m: &'a Model, d: &Data, s: usize) -> Shape<'a> {
         let (size, pos, mat) =
             (rows::<3>(&m.site_size)[s], rows::<3>(&d.site_xpos)[s], rows::<9>(&d.site_xmat)[s]);
-        Shape::new(m.site_type[s], size, pos, mat)
+        let mut shape = Shape::new(m.site_type[s], size, pos, mat);
+        if let Ok(id) = usize::try_from(m.site_dataid[s]) {
+            shape.mesh = Mesh::of(m, id);
+        }
+        shape
     }
 
     /// The axis `i` of its frame, world.
@@ -148,7 +152,7 @@ impl<'a> Mesh<'a> {
             vert: &rows::<3>(&m.mesh_vert)[range(&m.mesh_vertadr, &m.mesh_vertnum)],
             face: &m.mesh_face.as_chunks().0[range(&m.mesh_faceadr, &m.mesh_facenum)],
             hull: usize::try_from(m.mesh_graphadr[id]).ok().and_then(|adr| Hull::of(&m.mesh_graph[adr..])),
-            sides: None,
+            sides: m.mesh_sides.get(id),
         }
     }
 }
@@ -156,7 +160,7 @@ impl<'a> Mesh<'a> {
 impl<'a> Hull<'a> {
     /// Layout: numbers of vertices and triangles, where each vertex's neighbours begin, the vertices, the lists of
     /// neighbours (six for each pair of triangles, and an end for each vertex), the triangles.
-    pub(super) fn of(graph: &'a [i32]) -> Option<Hull<'a>> {
+    pub(crate) fn of(graph: &'a [i32]) -> Option<Hull<'a>> {
         let [vertices, faces, rest @ ..] = graph else { return None };
         let (n, f) = (usize::try_from(*vertices).ok()?, usize::try_from(*faces).ok()?);
         let (first_edge, rest) = rest.split_at_checked(n)?;

@@ -172,6 +172,8 @@ pub mod code {
         ORIENTATION = "mjcf-orientation", "The orientation is given twice, or has no direction.";
         JOINT = "mjcf-joint", "The joints of a body do not fit together.";
         MOCAP = "mjcf-mocap", "A mocap body must be a child of the world without joints.";
+        MESH = "mjcf-mesh", "The data of a mesh do not make a body.";
+        HFIELD = "mjcf-hfield", "The data of a height field do not make a ground.";
         GEOM = "mjcf-geom", "The geom lacks a size, or may not be here.";
         INERTIA = "mjcf-inertia", "A moving body has no mass or an impossible inertia.";
         TENDON = "mjcf-tendon", "The path of a tendon is incomplete, or its numbers are out of range.";

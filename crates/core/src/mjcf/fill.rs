@@ -2,11 +2,12 @@
 
 use super::fill_actuator::Counts;
 use super::layout::{Dof, Layout, Pattern, WholePattern};
+use super::read_asset::Assets;
 use super::spec::{
     ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, List, PairSpec,
     SOLIMP, SOLREF, SensorSpec, SiteSpec, TendonSpec,
 };
-use super::{fill_actuator, fill_constraint, fill_scene, fill_tendon};
+use super::{fill_actuator, fill_asset, fill_constraint, fill_scene, fill_tendon};
 use crate::math::{IDENTITY, MINVAL, quat_normalize, rows_mut};
 use crate::{Model, Names, joint, reflect};
 
@@ -51,6 +52,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) excludes: &'a [ExcludeSpec],
     pub(crate) users: Users,
     pub(crate) scene: &'a fill_scene::Scene,
+    pub(crate) assets: &'a Assets,
     pub(crate) sensors: &'a [SensorSpec],
     pub(crate) keys: &'a [KeySpec],
 }
@@ -59,7 +61,18 @@ pub(crate) struct Parts<'a> {
 pub(crate) fn model(m: &mut Model, parts: Parts) {
     let Parts { bodies: list, inertias, layout, simple, sensors: sensor_list, keys: key_list, .. } = parts;
     let Parts {
-        tendons, actuators, counts, equalities, pairs, excludes, users, pattern, whole, scene, ..
+        tendons,
+        actuators,
+        counts,
+        equalities,
+        pairs,
+        excludes,
+        users,
+        pattern,
+        whole,
+        scene,
+        assets,
+        ..
     } = parts;
     let joints: Vec<(usize, &JointSpec)> = members(list, |b| &b.joints);
     let geoms: Vec<(usize, &GeomSpec)> = members(list, |b| &b.geoms);
@@ -91,6 +104,7 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     (m.nuser_body, m.nuser_jnt, m.nuser_tendon) = (users.body, users.joint, users.tendon);
     (m.nuser_geom, m.nuser_site, m.nuser_cam) = (users.geom, users.site, users.camera);
     fill_scene::count(m, scene);
+    fill_asset::count(m, assets);
     m.nuser_actuator = users.actuator;
     reflect::allocate_model(m);
     // Found by `mj_setConst`.
@@ -133,6 +147,8 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
         key: names(&mut key_list.iter().map(|k| &k.name)),
         ..Names::default()
     };
+    fill_asset::meshes(m, assets);
+    fill_asset::hfields(m, assets);
     fill_scene::materials(m, scene);
     fill_scene::custom(m, scene);
 }

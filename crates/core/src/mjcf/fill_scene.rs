@@ -3,7 +3,6 @@
 use super::fill::{flat, ints};
 use super::spec::{CameraSpec, GeomSpec, LightSpec, List, MaterialSpec, NumericSpec, SiteSpec, TupleSpec};
 use crate::Model;
-use crate::geom;
 
 /// What the functions of this file fill in.
 pub(crate) struct Scene {
@@ -44,7 +43,7 @@ pub(crate) fn geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)], scene: &Scene) 
     m.geom_conaffinity = ints(geoms, |(_, g)| g.conaffinity);
     m.geom_condim = ints(geoms, |(_, g)| g.condim);
     m.geom_bodyid = ints(geoms, |&(b, _)| b as i32);
-    m.geom_dataid = ints(geoms, |_| -1);
+    m.geom_dataid = ints(geoms, |(_, g)| g.data);
     m.geom_matid = ints(geoms, |(_, g)| index(g.material.as_ref(), scene.materials.iter().map(|m| &m.name)));
     m.geom_group = ints(geoms, |(_, g)| g.group);
     m.geom_priority = ints(geoms, |(_, g)| g.priority);
@@ -52,11 +51,7 @@ pub(crate) fn geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)], scene: &Scene) 
     m.geom_solref = flat(geoms, |(_, g)| g.solref);
     m.geom_solimp = flat(geoms, |(_, g)| g.solimp);
     m.geom_size = flat(geoms, |(_, g)| g.size);
-    // What is solid lies around its centre; a plane is what lies below it.
-    m.geom_aabb = flat(geoms, |(_, g)| {
-        let [x, y, z] = g.half;
-        [0.0, 0.0, if g.kind == geom::PLANE { -z } else { 0.0 }, x, y, z]
-    });
+    m.geom_aabb = flat(geoms, |(_, g)| g.aabb);
     m.geom_rbound = flat(geoms, |(_, g)| [g.rbound]);
     m.geom_pos = flat(geoms, |(_, g)| g.pos);
     m.geom_quat = flat(geoms, |(_, g)| g.quat);
@@ -72,6 +67,7 @@ pub(crate) fn geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)], scene: &Scene) 
 
 pub(crate) fn sites(m: &mut Model, sites: &[(usize, &SiteSpec)], scene: &Scene) {
     m.site_type = ints(sites, |(_, s)| s.kind);
+    m.site_dataid = ints(sites, |(_, s)| s.data);
     m.site_bodyid = ints(sites, |&(b, _)| b as i32);
     m.site_matid = ints(sites, |(_, s)| index(s.material.as_ref(), scene.materials.iter().map(|m| &m.name)));
     m.site_group = ints(sites, |(_, s)| s.group);

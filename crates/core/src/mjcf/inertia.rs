@@ -71,6 +71,11 @@ pub(crate) fn combined(parts: &[Inertia]) -> Inertia {
 /// Each rotation takes the smaller of the two possible angles, and axes are put in order by quarter turns,
 /// so that the orientation is the one MuJoCo stores and not one of its equivalents.
 pub(crate) fn principal(m: [f64; 6]) -> (Vec3, Quat) {
+    principal_to(0.0, m)
+}
+
+/// The same, as long as an element off the diagonal is larger than `error`.
+pub(crate) fn principal_to(error: f64, m: [f64; 6]) -> (Vec3, Quat) {
     const MAX_ROTATIONS: usize = 100;
     // The two axes of each off-diagonal element, and the unit vector from the first to the second turned.
     const PLANES: [(usize, usize, Vec3); 3] =
@@ -89,7 +94,7 @@ pub(crate) fn principal(m: [f64; 6]) -> (Vec3, Quat) {
                 (largest, at) = (x.abs(), i);
             }
         }
-        if largest <= f64::EPSILON * size || largest.is_nan() {
+        if largest <= error.max(f64::EPSILON * size) || largest.is_nan() {
             break;
         }
         let (r, c, axis) = PLANES[at];

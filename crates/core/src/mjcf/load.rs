@@ -12,7 +12,7 @@ use super::diagnostic::{Report, code, shown};
 use super::files::{FileProblem, Files, folder_of, inside};
 use super::tree::{self, Tree};
 use super::xml::{self, Element};
-use super::{MAX_TEXT, scan};
+use super::{MAX_TEXT, names, scan};
 
 /// More files than this are not read.
 const MAX_FILES: usize = 500;
@@ -56,7 +56,8 @@ impl<'f> Loader<'f> {
         let mut list = Vec::new();
         let written = self.parse(&text, base, &mut list, report).and_then(|root| {
             self.include(&mut list, file, &folder, report);
-            let tree = tree::check(&list, root, report)?;
+            let mut tree = tree::check(&list, root, report)?;
+            names::after_files(&mut tree);
             let models = self.models(&tree, &folder, report);
             Some(Written { tree, folder, models })
         });

@@ -15,21 +15,26 @@ mod expand;
 mod files;
 mod fill;
 mod fill_actuator;
+mod fill_asset;
 mod fill_constraint;
 mod fill_scene;
 mod fill_tendon;
 mod frame;
+mod hfield;
 mod ids;
 mod inertia;
 mod layout;
 mod limits;
 mod load;
+mod mesh;
 mod names;
 mod orientation;
 mod read_actuator;
+mod read_asset;
 mod read_body;
 mod read_contact;
 mod read_equality;
+mod read_form;
 mod read_geom;
 mod read_joint;
 mod read_key;
@@ -150,7 +155,15 @@ fn build(
     let statistic = settings::StatisticOverride::read(&tree, report);
     let min_keys = settings::min_keys(&tree, report);
     let compiler = &parts.first()?.compiler;
-    let mut cx = read_body::Context { tree: &tree, classes: &classes, parts: &parts, compiler, report };
+    let mut assets = read_asset::Assets::read(&tree, &classes, &parts, files, report);
+    let mut cx = read_body::Context {
+        tree: &tree,
+        classes: &classes,
+        parts: &parts,
+        assets: &assets,
+        compiler,
+        report,
+    };
     let mut bodies = read_body::bodies(&mut cx);
     layout::check(&bodies, &layout::number(&bodies), report);
     let mut inertias = Vec::new();
@@ -163,7 +176,14 @@ fn build(
     sleep::check(&bodies, &layout, report);
     let ids = ids::Ids::number(&tree, &bodies);
     let refs = ids::References { names: &names, ids: &ids };
-    let mut cx = read_body::Context { tree: &tree, classes: &classes, parts: &parts, compiler, report };
+    let mut cx = read_body::Context {
+        tree: &tree,
+        classes: &classes,
+        parts: &parts,
+        assets: &assets,
+        compiler,
+        report,
+    };
     let tendons = read_tendon::tendons(&mut cx, refs);
     let actuators = read_actuator::actuators(&mut cx, refs, &bodies, &tendons);
     let equalities = read_equality::equalities(&mut cx, refs);
@@ -178,6 +198,7 @@ fn build(
     if compiler.discardvisual {
         (scene.materials, scene.textures) = Default::default();
     }
+    assets.hulls(&bodies, &pairs, report);
     let sensors = read_sensor::sensors(&tree, refs, &tendons, report);
     let actuator_users: Vec<_> = actuators.iter().map(fill_actuator::user).collect();
     let users = fill::Users {
@@ -251,6 +272,7 @@ fn build(
         excludes: &excludes,
         users,
         scene: &scene,
+        assets: &assets,
         sensors: &sensors,
         keys: &keys,
     };

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::defaults::Classes;
 use super::diagnostic::{Report, closest, code, shown};
 use super::schema::Kind;
-use super::tree::Tree;
+use super::tree::{Attribute, Tree};
 use super::values::Value;
 
 /// Named elements by kind and name.
@@ -73,6 +73,27 @@ impl<'t> NameTable<'t> {
             None => error,
         };
     }
+}
+
+/// Names meshes, height fields and textures without a name after their files.
+pub(crate) fn after_files(tree: &mut Tree) {
+    for node in &mut tree.nodes {
+        if !matches!(node.element.name, "mesh" | "hfield" | "texture") || node.text("name").is_some() {
+            continue;
+        }
+        let (Some(attr), Some(file)) = (node.element.attribute("name"), node.attribute("file")) else {
+            continue;
+        };
+        let (span, stem) = (file.span.clone(), stem(node.text("file").unwrap_or("")).to_string());
+        node.attributes.retain(|a| a.attr.name != "name");
+        node.attributes.push(Attribute { attr, value: Value::Text(stem), span });
+    }
+}
+
+/// The name of a file without its folders and its ending.
+fn stem(path: &str) -> &str {
+    let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
+    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
 }
 
 /// Checks that references and classes exist.

@@ -6,6 +6,7 @@ use super::expand::Part;
 use super::frame::Pose;
 use super::inertia::principal;
 use super::names::WORLD;
+use super::read_asset::Assets;
 use super::settings::{Compiler, checked};
 use super::spec::{BodySpec, Inertia, List};
 use super::tree::{Node, Tree};
@@ -19,6 +20,7 @@ pub(crate) struct Context<'a> {
     pub(crate) classes: &'a Classes,
     /// The models that make up the whole.
     pub(crate) parts: &'a [Part],
+    pub(crate) assets: &'a Assets,
     /// What the model of the current element says: see [`Context::enter`].
     pub(crate) compiler: &'a Compiler,
     pub(crate) report: &'a mut Report,

@@ -2,8 +2,10 @@
 
 use super::defaults::Props;
 use super::diagnostic::code;
+use super::frame::Pose;
 use super::orientation;
 use super::read_body::{Context, name};
+use super::read_form::{self, Form};
 use super::settings::checked;
 use super::shapes::{self, Shape};
 use super::spec::{GeomSpec, List, SOLIMP, SOLREF};
@@ -30,22 +32,36 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
             size[1] = size[0];
         }
     }
-    check_size(cx, &p, node, shape, size);
-    let (mass, moments) = mass(cx, &p, node, shape, size);
+    let of_asset = form_is_of_asset(&p, shape);
+    let form = if of_asset {
+        if !read_form::check(cx, &p, node, shape.kind) {
+            return None;
+        }
+        let form = read_form::of_asset(cx, &p, node, shape)?;
+        check_fit(cx, &p, node, shape, form.size);
+        Pose { pos, quat } = Pose { pos, quat }.of(form.own.pos, form.own.quat);
+        form
+    } else {
+        check_size(cx, &p, node, shape, size);
+        Form::primitive(shape, size, p.word("shellinertia") == Some(1))
+    };
+    let (mass, moments) = mass(cx, &p, node, shape, &form);
+    let material = p.text("material").or_else(|| cx.assets.material(p.text("mesh")?));
     Some(GeomSpec {
         node: i,
         span: node.span.clone(),
         name: name(node),
         kind: shape.kind,
-        size,
+        size: form.size,
         pos,
         quat,
         mass,
         moments,
-        rbound: (shape.rbound)(size),
-        half: (shape.half)(size),
-        fluid: fluid(&p, shape, size),
-        material: p.text("material").map(str::to_string),
+        rbound: form.rbound,
+        aabb: form.aabb,
+        data: form.data,
+        fluid: fluid(&p, shape, form.size),
+        material: material.map(str::to_string),
         surfacevel: p.reals("surfacevel", [0.0; 6]),
         adhesion: p.real("adhesion").unwrap_or(0.0),
         user: List::read(&p, "user"),
@@ -132,20 +148,33 @@ fn check_size(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec
     }
 }
 
+/// Whether a mesh or height field gives the form of a geom.
+fn form_is_of_asset(p: &Props, shape: &Shape) -> bool {
+    matches!(shape.kind, geom::MESH | geom::HFIELD) || p.text("mesh").or(p.text("hfield")).is_some()
+}
+
+/// That a shape in place of a mesh has sizes.
+fn check_fit(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3) {
+    if let Some((rule, _)) = shape.sizes.iter().zip(size).find(|&(_, x)| x <= 0.0) {
+        let message =
+            format!("{} takes the place of its mesh with a {} of zero or less", node.shown(), rule.name);
+        cx.report
+            .error(code::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
+            .why(format!("the mesh is too flat or too long for a {}", shape.name))
+            .help("choose another `type`: a box fits anything that has a volume");
+    }
+}
+
 /// Mass and principal moments: from `mass`, else from `density`.
-fn mass(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3) -> (f64, Vec3) {
+fn mass(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, form: &Form) -> (f64, Vec3) {
     let owner = node.shown();
     let density = checked(p, "density", &owner, |x| x >= 0.0, "zero or more", cx.report).unwrap_or(1000.0);
     let given = checked(p, "mass", &owner, |x| x >= 0.0, "zero or more", cx.report);
     if shape.only_static {
         return (0.0, [0.0; 3]);
     }
-    let (amount, inertia) = match p.word("shellinertia") {
-        Some(1) => (shape.surface, shape.shell),
-        _ => (shape.volume, shape.inertia),
-    };
-    let mass = given.unwrap_or_else(|| density * amount(size));
-    let moments = if mass > 0.0 { scale(inertia(size), mass) } else { [0.0; 3] };
+    let mass = given.unwrap_or(density * form.amount);
+    let moments = if mass > 0.0 { scale(form.moments, mass) } else { [0.0; 3] };
     if !mass.is_finite() || moments.iter().any(|x| !x.is_finite()) {
         let message = format!("the mass or inertia of {owner} is larger than a 64-bit number can be");
         cx.report.error(code::GEOM, p.span("size").unwrap_or(node.span.clone()), message);

@@ -6,9 +6,9 @@ use super::ids::{Ids, References};
 use super::names::NameTable;
 use super::read_body::{Context, name};
 use super::read_geom::fromto;
-use super::shapes;
 use super::spec::{CameraSpec, LightSpec, List, MaterialSpec, NumericSpec, SiteSpec, TupleSpec};
 use super::tree::{Node, Tree};
+use super::{read_form, shapes};
 use crate::geom;
 use crate::math::normalize;
 
@@ -32,6 +32,12 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
             *x = span.half;
         }
     }
+    let mut data = -1;
+    if (kind == geom::MESH || p.text("mesh").is_some()) && check_mesh(cx, &p, node, kind) {
+        // The mesh lies about the site as it lies about its own centre of mass.
+        let mesh = p.text("mesh").and_then(|name| cx.assets.mesh(name));
+        (data, size) = mesh.map_or((-1, size), |(id, mesh)| (id, mesh.reach()));
+    }
     let needed = shape.map_or(0, |s| s.sizes.len());
     if let Some(x) = size.iter().take(needed).find(|&&x| x <= 0.0) {
         let message = format!("`size` of {} has {x}, it must be larger than zero", node.shown());
@@ -41,6 +47,7 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
         node: i,
         name: name(node),
         kind,
+        data,
         size,
         pos,
         quat,
@@ -49,6 +56,18 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
         rgba: p.reals("rgba", [0.5, 0.5, 0.5, 1.0]),
         user: List::read(&p, "user"),
     }
+}
+
+/// Whether a site that names a mesh is one.
+fn check_mesh(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
+    if kind == geom::MESH {
+        return read_form::check(cx, p, node, kind);
+    }
+    let message = format!("{} names a mesh but is not one", node.shown());
+    cx.report
+        .error(code::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
+        .help("write `type=\"mesh\"`, or leave `mesh` out");
+    false
 }
 
 /// A camera. Its lens is given by the field of view, or by a sensor's size and a focal length, in metres or in

@@ -63,6 +63,12 @@ pub(crate) struct Compiler {
     pub(crate) fusestatic: bool,
     pub(crate) discardvisual: bool,
     pub(crate) alignfree: bool,
+    /// Primitive shapes that stand for a mesh are as large as its bounding box, not as its inertia.
+    pub(crate) fitaabb: bool,
+    /// The folder of meshes and height fields, as it is written; empty when there is none.
+    pub(crate) meshdir: String,
+    /// Paths of files lose their folders.
+    pub(crate) strippath: bool,
 }
 
 impl Compiler {
@@ -89,6 +95,9 @@ impl Compiler {
             fusestatic: p.word("fusestatic") == Some(1),
             discardvisual: p.word("discardvisual") == Some(1),
             alignfree: p.word("alignfree") == Some(1),
+            fitaabb: p.word("fitaabb") == Some(1),
+            meshdir: p.text("meshdir").or(p.text("assetdir")).unwrap_or("").to_string(),
+            strippath: p.word("strippath") == Some(1),
         }
     }
 

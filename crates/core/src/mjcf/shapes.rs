@@ -50,6 +50,34 @@ pub(crate) struct Shape {
 const RADIUS: Size = Size { name: "radius", zero: false };
 const HALF_LENGTH: Size = Size { name: "half length", zero: false };
 
+const CUBOID: Shape = Shape {
+    kind: geom::BOX,
+    name: "box",
+    sizes: &[
+        Size { name: "half length in x", zero: false },
+        Size { name: "half length in y", zero: false },
+        Size { name: "half length in z", zero: false },
+    ],
+    example: "0.1 0.2 0.3",
+    only_static: false,
+    length: Some(2),
+    volume: |[a, b, c]| 8.0 * a * b * c,
+    surface: |[a, b, c]| 8.0 * (a * b + b * c + c * a),
+    inertia: |[a, b, c]| [(b * b + c * c) / 3.0, (a * a + c * c) / 3.0, (a * a + b * b) / 3.0],
+    shell: |[a, b, c]| {
+        // Two faces across each axis, their mass by their area.
+        let (x, y, z) = (b * c, a * c, a * b);
+        let (aa, bb, cc, all) = (a * a, b * b, c * c, x + y + z);
+        [
+            (x * (bb + cc) / 3.0 + y * (bb + cc / 3.0) + z * (cc + bb / 3.0)) / all,
+            (x * (aa + cc / 3.0) + y * (aa + cc) / 3.0 + z * (cc + aa / 3.0)) / all,
+            (x * (aa + bb / 3.0) + y * (bb + aa / 3.0) + z * (aa + bb) / 3.0) / all,
+        ]
+    },
+    half: |size| size,
+    rbound: norm,
+};
+
 const SHAPES: &[Shape] = &[
     Shape {
         kind: geom::PLANE,
@@ -69,6 +97,8 @@ const SHAPES: &[Shape] = &[
         half: |_| [1e10, 1e10, 5e9],
         rbound: |_| 0.0,
     },
+    // Its sizes are those of a box of about the same bulk; its bounds are those of the field.
+    Shape { kind: geom::HFIELD, name: "height field", sizes: &[], length: None, ..CUBOID },
     Shape {
         kind: geom::SPHERE,
         name: "sphere",
@@ -152,33 +182,9 @@ const SHAPES: &[Shape] = &[
         half: |[r, h, _]| [r, r, h],
         rbound: |[r, h, _]| libm::sqrt(r * r + h * h),
     },
-    Shape {
-        kind: geom::BOX,
-        name: "box",
-        sizes: &[
-            Size { name: "half length in x", zero: false },
-            Size { name: "half length in y", zero: false },
-            Size { name: "half length in z", zero: false },
-        ],
-        example: "0.1 0.2 0.3",
-        only_static: false,
-        length: Some(2),
-        volume: |[a, b, c]| 8.0 * a * b * c,
-        surface: |[a, b, c]| 8.0 * (a * b + b * c + c * a),
-        inertia: |[a, b, c]| [(b * b + c * c) / 3.0, (a * a + c * c) / 3.0, (a * a + b * b) / 3.0],
-        shell: |[a, b, c]| {
-            // Two faces across each axis, their mass by their area.
-            let (x, y, z) = (b * c, a * c, a * b);
-            let (aa, bb, cc, all) = (a * a, b * b, c * c, x + y + z);
-            [
-                (x * (bb + cc) / 3.0 + y * (bb + cc / 3.0) + z * (cc + bb / 3.0)) / all,
-                (x * (aa + cc / 3.0) + y * (aa + cc) / 3.0 + z * (cc + aa / 3.0)) / all,
-                (x * (aa + bb / 3.0) + y * (bb + aa / 3.0) + z * (aa + bb) / 3.0) / all,
-            ]
-        },
-        half: |size| size,
-        rbound: norm,
-    },
+    CUBOID,
+    // What else there is to know of a mesh is known of each.
+    Shape { kind: geom::MESH, name: "mesh", sizes: &[], length: None, ..CUBOID },
 ];
 
 /// The shape of a geom type; `None` when the schema refuses the type.

@@ -108,8 +108,10 @@ pub(crate) struct GeomSpec {
     pub(crate) moments: Vec3,
     /// Radius of the bounding sphere, m.
     pub(crate) rbound: f64,
-    /// Half lengths of the bounding box, m.
-    pub(crate) half: Vec3,
+    /// Centre and half lengths of the bounding box, m.
+    pub(crate) aabb: [f64; 6],
+    /// Mesh or height field, -1 if none.
+    pub(crate) data: i32,
     /// `geom_fluid`.
     pub(crate) fluid: [f64; 12],
     /// Name of the material.
@@ -138,6 +140,8 @@ pub(crate) struct SiteSpec {
     pub(crate) name: String,
     /// One of [`crate::geom`].
     pub(crate) kind: i32,
+    /// Mesh, -1 if none.
+    pub(crate) data: i32,
     pub(crate) size: Vec3,
     pub(crate) pos: Vec3,
     pub(crate) quat: Quat,

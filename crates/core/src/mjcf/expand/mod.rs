@@ -35,7 +35,6 @@ pub(crate) struct Part {
     /// What its angles, ranges and inertias mean.
     pub(crate) compiler: Compiler,
     /// The folder that its files are looked for in.
-    #[allow(dead_code)] // for the files of meshes, which are not read yet
     pub(crate) folder: String,
 }
 

@@ -1,24 +1,30 @@
 //! `worldbody` and what bodies hold: joints, inertias, geoms, sites, cameras, lights.
 
 use super::{
-    AUTO, Attr, Element, FLAG, INT, Kind, LIST, MOOT, ORIENTATION, REAL, TEXT, Word, attributes, not_yet,
-    reals, rest, upto, word,
+    AUTO, Attr, Element, FLAG, INT, Kind, LIST, ORIENTATION, REAL, TEXT, Word, attributes, not_yet, reals,
+    rest, upto, word,
 };
 use crate::model::{geom, joint};
 
 const GEOM_SHAPES: &[Word] = &[
     word("plane", geom::PLANE),
-    not_yet("hfield", 1),
+    word("hfield", geom::HFIELD),
     word("sphere", geom::SPHERE),
     word("capsule", geom::CAPSULE),
     word("ellipsoid", geom::ELLIPSOID),
     word("cylinder", geom::CYLINDER),
     word("box", geom::BOX),
-    not_yet("mesh", 7),
+    word("mesh", geom::MESH),
     not_yet("sdf", 8),
 ];
-const SITE_SHAPES: &[Word] =
-    &[word("sphere", 2), word("capsule", 3), word("ellipsoid", 4), word("cylinder", 5), word("box", 6)];
+const SITE_SHAPES: &[Word] = &[
+    word("sphere", geom::SPHERE),
+    word("capsule", geom::CAPSULE),
+    word("ellipsoid", geom::ELLIPSOID),
+    word("cylinder", geom::CYLINDER),
+    word("box", geom::BOX),
+    word("mesh", geom::MESH),
+];
 
 const POS: &[Attr] = attributes! { reals(3) => pos; };
 const CLASS: &[Attr] = attributes! { Kind::Class => class; };
@@ -157,9 +163,9 @@ pub(super) const GEOM_ATTRS: &[Attr] = attributes! {
     REAL => adhesion;
     upto(6) => surfacevel;
     reals(6) => fromto;
-    Kind::Ref("mesh") => mesh [super::Status::Unsupported];
-    Kind::Ref("hfield") => hfield [super::Status::Unsupported];
-    REAL => fitscale [MOOT];
+    Kind::Ref("mesh") => mesh;
+    Kind::Ref("hfield") => hfield;
+    REAL => fitscale;
     Kind::Words(&[word("none", 0), word("ellipsoid", geom::ELLIPSOID)]) => fluidshape;
     upto(5) => fluidcoef;
     LIST => user;
@@ -180,7 +186,7 @@ pub(super) const SITE_ATTRS: &[Attr] = attributes! {
     Kind::Ref("material") => material;
     INT => group;
     reals(6) => fromto;
-    Kind::Ref("mesh") => mesh [super::Status::Unsupported];
+    Kind::Ref("mesh") => mesh;
     LIST => user;
 };
 static SITE: Element =

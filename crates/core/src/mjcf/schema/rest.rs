@@ -3,8 +3,8 @@
 
 use super::Status::{Supported, Unsupported};
 use super::{
-    AUTO, Attr, Element, FLAG, INT, INTS, Kind, LIST, LOOK, MOOT, REAL, TEXT, USER, actuator, attributes,
-    body, reals, scene, upto,
+    AUTO, Attr, Element, FLAG, INT, INTS, Kind, LIST, LOOK, REAL, TEXT, USER, actuator, attributes, body,
+    reals, scene, upto,
 };
 
 /// An entry of `default`: what its class says about one kind of element.
@@ -50,7 +50,7 @@ static D_SITE: Element = entry("site", &[body::SITE_ATTRS]);
 static D_CAMERA: Element = entry("camera", &[body::CAMERA_ATTRS]);
 static D_LIGHT: Element = entry("light", &[body::LIGHT_ATTRS]);
 static D_MATERIAL: Element = entry("material", &[scene::MATERIAL_ATTRS]).children(&[&scene::LAYER]);
-static D_MESH: Element = entry("mesh", &[scene::MESH_ATTRS]).status(MOOT);
+static D_MESH: Element = entry("mesh", &[scene::MESH_ATTRS]);
 static D_PAIR: Element = entry("pair", &[PAIR_ATTRS]);
 static D_EQUALITY: Element = entry("equality", &[EQUALITY_ATTRS]);
 static D_TENDON: Element = entry("tendon", &[TENDON_ATTRS, TENDON_DRAWN, TENDON_USER]);

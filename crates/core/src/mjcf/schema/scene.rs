@@ -129,8 +129,7 @@ static MESH: Element = Element::new(
         MESH_ATTRS,
     ],
 )
-.children(&[&super::rest::PLUGIN])
-.refused();
+.children(&[&super::rest::PLUGIN]);
 static HFIELD: Element = Element::new(
     "hfield",
     &[attributes! {
@@ -140,8 +139,7 @@ static HFIELD: Element = Element::new(
         reals(4) => size;
         LIST => elevation;
     }],
-)
-.refused();
+);
 pub(super) static SKIN: Element = Element::new(
     "skin",
     &[attributes! {

@@ -4,8 +4,6 @@ use super::Status::Ignored;
 use super::{Element, FLAG, INT, INTS, Kind, MOOT, REAL, TEXT, attributes, not_yet, reals, upto, word};
 use crate::model::integrator;
 
-const FILES: super::Status = Ignored("where files are looked for; no file is read yet");
-
 pub(super) static COMPILER: Element = Element::new(
     "compiler",
     &[attributes! {
@@ -17,10 +15,10 @@ pub(super) static COMPILER: Element = Element::new(
         Kind::Ints(2, 2) => inertiagrouprange;
         Kind::Words(&[word("local", 0), not_yet("global", 1)]) => coordinate;
         REAL => settotalmass;
-        FLAG => alignfree discardvisual fusestatic;
-        FLAG => fitaabb [MOOT];
-        TEXT => assetdir meshdir texturedir [FILES];
-        FLAG => strippath [FILES];
+        FLAG => alignfree discardvisual fusestatic fitaabb;
+        TEXT => assetdir meshdir;
+        TEXT => texturedir [super::LOOK];
+        FLAG => strippath;
         Kind::Words(&[word("warning", 0), word("merge", 1), word("error", 2)]) => conflict [MOOT];
         FLAG => saveinertial usethread [Ignored("for MuJoCo's own compiler and writer")];
     }],

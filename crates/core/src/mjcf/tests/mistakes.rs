@@ -71,7 +71,7 @@ mistakes! {
     element_twice: before("<option><flag/><flag/></option>");
     attribute_misspelt: world("<geom size=\"1\" fricton=\"1\"/>");
     attribute_of_world: "<mujoco><worldbody name=\"w\"/></mujoco>";
-    attribute_not_supported: world("<site mesh=\"m\"/>");
+    attribute_not_supported: before("<compiler alignfree=\"true\"/>");
     geom_type_not_supported: world("<geom type=\"sdf\" size=\"1 1\"/>");
     keyword_misspelt: before("<option integrator=\"euler\"/>");
     integrator_unknown: before("<option integrator=\"midpoint\"/>");

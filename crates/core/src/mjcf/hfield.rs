@@ -1,0 +1,145 @@
+//! Height fields: samples of a ground on a grid, from text or a file, brought to 0 to 1.
+
+use super::mesh::{Bytes, Problem};
+
+/// Most samples of a field.
+const MAX_SAMPLES: usize = 4_000_000;
+
+/// A height field.
+#[derive(Debug)]
+pub(crate) struct HField {
+    /// Half lengths in x and y, height of the top, depth of the base, m.
+    pub(crate) size: [f64; 4],
+    pub(crate) nrow: usize,
+    pub(crate) ncol: usize,
+    /// Elevations from 0 to 1, row by row from the smallest y.
+    pub(crate) data: Vec<f64>,
+}
+
+/// Numbers of rows and columns, and elevations of any range.
+pub(crate) struct Samples {
+    nrow: usize,
+    ncol: usize,
+    data: Vec<f64>,
+}
+
+impl HField {
+    /// A field whose lowest sample is 0 and whose highest is 1.
+    pub(crate) fn new(samples: Samples, size: &[f64]) -> Result<HField, Problem> {
+        let Ok(size) = <[f64; 4]>::try_from(size) else {
+            return Err(Problem::new(
+                "size",
+                "has no `size`",
+                "",
+                "write half lengths in x and y, height of the top and depth of the base: `size=\"5 5 1 0.1\"`",
+            ));
+        };
+        if let Some(x) = size.iter().find(|&&x| x <= 0.0) {
+            return Err(Problem::new(
+                "size",
+                format!("has {x} in its `size`"),
+                "a ground without extent, height or base has nothing to stand on",
+                "write four numbers larger than zero",
+            ));
+        }
+        let Samples { nrow, ncol, mut data } = samples;
+        if let Some(i) = data.iter().position(|x| !x.is_finite()) {
+            return Err(Problem::new(
+                "file",
+                format!("has a sample {i} that is not finite"),
+                "",
+                "correct it",
+            ));
+        }
+        let lowest = data.iter().fold(f64::INFINITY, |s, &x| s.min(x));
+        let range = data.iter().fold(f64::NEG_INFINITY, |s, &x| s.max(x)) - lowest;
+        for x in &mut data {
+            // Kept in single precision, as in MuJoCo.
+            let above = (*x - lowest) as f32;
+            *x = f64::from(if range > crate::math::MINVAL { above / range as f32 } else { above });
+        }
+        Ok(HField { size, nrow, ncol, data })
+    }
+
+    /// The size of a geom: half lengths of a box of about the same bulk.
+    pub(crate) fn geom_size(&self) -> [f64; 3] {
+        let [x, y, top, base] = self.size;
+        [x, y, 0.25 * top + 0.5 * base]
+    }
+
+    /// Centre and half lengths of the box around it.
+    pub(crate) fn aabb(&self) -> [f64; 6] {
+        let [x, y, top, base] = self.size;
+        [0.0, 0.0, (top - base) / 2.0, x, y, (top + base) / 2.0]
+    }
+
+    /// Radius of the sphere around its frame.
+    pub(crate) fn rbound(&self) -> f64 {
+        let [x, y, top, base] = self.size;
+        crate::math::norm([x, y, top.max(base)])
+    }
+}
+
+/// Numbers of rows and columns that make a field.
+fn grid(nrow: i32, ncol: i32, attribute: &'static str) -> Result<(usize, usize), Problem> {
+    match (usize::try_from(nrow), usize::try_from(ncol)) {
+        (Ok(r), Ok(c)) if r > 0 && c > 0 && r.saturating_mul(c) <= MAX_SAMPLES => Ok((r, c)),
+        _ => Err(Problem::new(
+            attribute,
+            format!("has {nrow} rows and {ncol} columns"),
+            "",
+            "write at least one of each in `nrow` and `ncol`, and at most 4000000 samples",
+        )),
+    }
+}
+
+/// A field whose elevations stand in its attribute, from the largest y down; none are a plain.
+pub(crate) fn written(nrow: i32, ncol: i32, elevation: &[f64]) -> Result<Samples, Problem> {
+    let (nrow, ncol) = grid(nrow, ncol, "nrow")?;
+    if elevation.is_empty() {
+        return Ok(Samples { nrow, ncol, data: vec![0.0; nrow * ncol] });
+    }
+    if elevation.len() != nrow * ncol {
+        return Err(Problem::new(
+            "elevation",
+            format!("has {} elevations, but {nrow} rows of {ncol} columns", elevation.len()),
+            "",
+            "write a number for each sample, row by row from the largest y",
+        ));
+    }
+    let rows = elevation.chunks_exact(ncol).rev();
+    let data = rows.flatten().map(|&x| f64::from(x as f32)).collect();
+    Ok(Samples { nrow, ncol, data })
+}
+
+/// MuJoCo's own file: numbers of rows and columns, then the elevations in single precision, from the smallest y.
+pub(crate) fn decode(path: &str, bytes: &[u8]) -> Result<Samples, Problem> {
+    if bytes.starts_with(b"\x89PNG") || path.to_ascii_lowercase().ends_with(".png") {
+        return Err(Problem::new(
+            "file",
+            "has a PNG picture as its file",
+            "pictures are not decoded here",
+            "write the heights into `elevation`, or into a binary file: two 32-bit integers for rows and columns, then \
+             32-bit floats row by row",
+        ));
+    }
+    let mut numbers = Bytes(bytes);
+    let Some([nrow, ncol]) = numbers.ints() else {
+        return Err(Problem::file(
+            format!("has a file of {} bytes", bytes.len()),
+            "the file begins with two 32-bit integers: rows and columns",
+        ));
+    };
+    let (nrow, ncol) = grid(nrow, ncol, "file")?;
+    if numbers.0.len() != 4 * nrow * ncol {
+        return Err(Problem::file(
+            format!(
+                "has a file of {} bytes, but {nrow} rows of {ncol} columns take {}",
+                bytes.len(),
+                8 + 4 * nrow * ncol
+            ),
+            "write the file again: it is cut off or of another kind",
+        ));
+    }
+    Ok(Samples { nrow, ncol, data: (0..nrow * ncol).map_while(|_| numbers.real()).collect() })
+}

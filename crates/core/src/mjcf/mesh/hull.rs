@@ -1,0 +1,491 @@
+//! Convex hulls by quickhull (Barber, Dobkin, Huhdanpaa 1996, *The quickhull algorithm for convex hulls*, ACM TOMS 22).
+//!
+//! Heights are computed in integers: along each axis the points stand on a grid of 2^40 steps, as fine as single
+//! precision is, and a height over a plane then fits into 127 bits. So every decision is exact, coplanar points are
+//! coplanar, and no cloud, however degenerate, can lead the algorithm astray. (A hull does not change when an axis is
+//! stretched, so each axis has a grid of its own.)
+
+use std::collections::{BTreeMap, BinaryHeap};
+
+use crate::math::Vec3;
+
+/// Bits of a grid coordinate: three products of three differences stay below 2^127.
+const BITS: i32 = 40;
+/// Tests of a point against a plane: points on a sphere, the worst that is drawn, take 40 for each.
+const MOST_TESTS: usize = 400_000_000;
+/// No face.
+const NONE: u32 = u32::MAX;
+
+/// The convex hull of some points.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Hull {
+    /// The points at its corners, ascending.
+    pub(crate) vertex: Vec<u32>,
+    /// Points at the corners of each triangle, counterclockwise from outside. Flat sides of more corners are fans.
+    pub(crate) face: Vec<[i32; 3]>,
+}
+
+/// Why there is no hull.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Flat {
+    /// All points are one.
+    Point,
+    /// All points lie on a line.
+    Line,
+    /// All points lie in a plane.
+    Plane,
+    /// It takes too long.
+    Endless,
+}
+
+impl Hull {
+    /// The hull of finite points, or of so many of them at most: those that stick out farthest.
+    pub(crate) fn of(points: &[Vec3], most: Option<usize>) -> Result<Hull, Flat> {
+        let mut growing = Growing::new(points)?;
+        growing.grow(most.unwrap_or(usize::MAX))?;
+        Ok(growing.finish())
+    }
+
+    /// `mesh_graph`: numbers of vertices and triangles; where the neighbours of each vertex begin; the vertices;
+    /// neighbours, each list with an end of -1; the triangles.
+    pub(crate) fn graph(&self) -> Vec<i32> {
+        let place = |v: i32| self.vertex.partition_point(|&x| (x as i32) < v) as i32;
+        let mut edges: Vec<(i32, i32)> =
+            self.face.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+        edges.sort_unstable();
+        let mut graph = vec![self.vertex.len() as i32, self.face.len() as i32];
+        let (mut starts, mut lists) = (Vec::new(), Vec::with_capacity(self.vertex.len() + edges.len()));
+        let mut rest = edges.as_slice();
+        for &v in &self.vertex {
+            starts.push(lists.len() as i32);
+            let (own, after) = rest.split_at(rest.partition_point(|e| e.0 <= v as i32));
+            lists.extend(own.iter().map(|e| place(e.1)));
+            lists.push(-1);
+            rest = after;
+        }
+        graph.extend(starts);
+        graph.extend(self.vertex.iter().map(|&v| v as i32));
+        graph.extend(lists);
+        graph.extend(self.face.as_flattened());
+        graph
+    }
+}
+
+type Point = [i64; 3];
+
+/// A plane through a point of the grid; what is above it is outside.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    at: Point,
+    normal: [i128; 3],
+    /// Length of the normal in the world.
+    length: f64,
+}
+
+#[derive(Debug)]
+struct Face {
+    corner: [u32; 3],
+    /// The faces beyond the edges from each corner to the next.
+    beyond: [u32; 3],
+    plane: Plane,
+    /// Points above it, of those that are above no earlier face; the highest is the last.
+    above: Vec<u32>,
+    alive: bool,
+}
+
+struct Growing {
+    points: Vec<Point>,
+    /// Steps of the grid in a unit of the world.
+    steps: Vec3,
+    faces: Vec<Face>,
+    corners: usize,
+    /// Faces with points above, by the height of the highest.
+    open: BinaryHeap<(u64, std::cmp::Reverse<u32>)>,
+    tests: usize,
+    /// For each point, the new face that begins there.
+    begins: Vec<u32>,
+}
+
+impl Growing {
+    /// A tetrahedron of points that are far apart.
+    fn new(points: &[Vec3]) -> Result<Growing, Flat> {
+        let (points, steps) = on_grid(points);
+        let indices = || 0..points.len() as u32;
+        let mut g = Growing {
+            steps,
+            faces: Vec::new(),
+            corners: 4,
+            open: BinaryHeap::new(),
+            tests: 0,
+            begins: vec![NONE; points.len()],
+            points: Vec::new(),
+        };
+        let at = |i: u32| points.get(i as usize).copied().unwrap_or_default();
+        let (Some(a), Some(b)) = (indices().min_by_key(|&i| at(i)), indices().max_by_key(|&i| at(i))) else {
+            return Err(Flat::Point);
+        };
+        if at(a) == at(b) {
+            return Err(Flat::Point);
+        }
+        let off_line =
+            |i: u32| normal(at(a), at(b), at(i)).iter().map(|&x| (x as f64) * (x as f64)).sum::<f64>();
+        let farthest = indices().map(|i| (off_line(i).to_bits(), std::cmp::Reverse(i))).max();
+        let Some(c) = farthest.filter(|&(d, _)| d > 0).map(|(_, i)| i.0) else { return Err(Flat::Line) };
+        let base = g.plane_of([at(a), at(b), at(c)]);
+        let off_plane = |i: u32| (base.height(at(i)).unsigned_abs(), std::cmp::Reverse(i));
+        let Some(d) = indices().map(off_plane).max().filter(|x| x.0 > 0).map(|x| x.1.0) else {
+            return Err(Flat::Plane);
+        };
+        // The base looks away from the fourth corner.
+        let (b, c) = if base.height(at(d)) > 0 { (c, b) } else { (b, c) };
+        g.points = points;
+        // Each face with the faces beyond its edges.
+        let sides =
+            [([a, b, c], [1, 2, 3]), ([b, a, d], [0, 3, 2]), ([c, b, d], [0, 1, 3]), ([a, c, d], [0, 2, 1])];
+        for (corner, beyond) in sides {
+            g.add(corner, beyond);
+        }
+        g.hand_out((0..g.points.len() as u32).collect(), 0);
+        Ok(g)
+    }
+
+    fn point(&self, i: u32) -> Point {
+        self.points.get(i as usize).copied().unwrap_or_default()
+    }
+
+    fn face(&self, i: u32) -> Option<&Face> {
+        self.faces.get(i as usize)
+    }
+
+    fn plane_of(&self, [a, b, c]: [Point; 3]) -> Plane {
+        let normal = normal(a, b, c);
+        let length = (0..3).map(|i| normal[i] as f64 * self.steps[i]).map(|x| x * x).sum::<f64>();
+        Plane { at: a, normal, length: libm::sqrt(length) }
+    }
+
+    fn add(&mut self, corner: [u32; 3], beyond: [u32; 3]) {
+        let plane = self.plane_of(corner.map(|i| self.point(i)));
+        self.faces.push(Face { corner, beyond, plane, above: Vec::new(), alive: true });
+    }
+
+    /// Gives points to the faces from `first` on that they are above; those that are above none are inside.
+    fn hand_out(&mut self, points: Vec<u32>, first: usize) {
+        let mut highest: Vec<i128> = vec![0; self.faces.len() - first];
+        for p in points {
+            let at = self.point(p);
+            for (face, highest) in self.faces.iter_mut().skip(first).zip(&mut highest) {
+                self.tests += 1;
+                let height = face.plane.height(at);
+                if height > 0 {
+                    face.above.push(p);
+                    if height > *highest {
+                        *highest = height; // the highest is the last
+                    } else if let [.., second, last] = face.above.as_mut_slice() {
+                        std::mem::swap(second, last);
+                    }
+                    break;
+                }
+            }
+        }
+        (first..self.faces.len()).for_each(|i| self.open(i));
+    }
+
+    /// Puts a face among those with points above.
+    fn open(&mut self, i: usize) {
+        let Some(face) = self.faces.get(i) else { return };
+        if let Some(&highest) = face.above.last() {
+            let height = face.plane.height(self.point(highest)) as f64 / face.plane.length;
+            self.open.push((height.to_bits(), std::cmp::Reverse(i as u32)));
+        }
+    }
+
+    /// Forgets the faces that are covered.
+    fn compact(&mut self) {
+        let mut place = 0;
+        let places: Vec<u32> = self
+            .faces
+            .iter()
+            .map(|f| {
+                if f.alive {
+                    place += 1;
+                    place - 1
+                } else {
+                    NONE
+                }
+            })
+            .collect();
+        self.faces.retain(|f| f.alive);
+        for face in &mut self.faces {
+            face.beyond = face.beyond.map(|i| places.get(i as usize).copied().unwrap_or(NONE));
+        }
+        self.open.clear();
+        (0..self.faces.len()).for_each(|i| self.open(i));
+    }
+
+    /// Adds the point that sticks out farthest, until none does or there are as many corners as there may be.
+    fn grow(&mut self, most: usize) -> Result<(), Flat> {
+        while self.corners < most
+            && let Some((_, std::cmp::Reverse(start))) = self.open.pop()
+        {
+            let Some(&apex) = self.face(start).filter(|f| f.alive).and_then(|f| f.above.last()) else {
+                continue;
+            };
+            if self.tests > MOST_TESTS {
+                return Err(Flat::Endless);
+            }
+            self.corners += 1;
+            self.cover(start, apex);
+            // A closed surface of triangles has two faces for each corner, less four.
+            if self.faces.len() > 8 * self.corners + 1000 {
+                self.compact();
+            }
+        }
+        Ok(())
+    }
+
+    /// Replaces the faces that see a point by a cone from their border to it.
+    fn cover(&mut self, start: u32, apex: u32) {
+        let at = self.point(apex);
+        let mut border: Vec<(u32, u32, u32)> = Vec::new();
+        let mut orphans = Vec::new();
+        let mut stack = vec![start];
+        if let Some(face) = self.faces.get_mut(start as usize) {
+            face.alive = false;
+        }
+        while let Some(i) = stack.pop() {
+            let Some(face) = self.faces.get_mut(i as usize) else { continue };
+            orphans.append(&mut face.above);
+            let (corner, beyond) = (face.corner, face.beyond);
+            for k in 0..3 {
+                let Some(other) = self.faces.get_mut(beyond[k] as usize).filter(|f| f.alive) else {
+                    continue;
+                };
+                self.tests += 1;
+                if other.plane.height(at) > 0 {
+                    other.alive = false;
+                    stack.push(beyond[k]);
+                }
+            }
+            for k in 0..3 {
+                border.push((corner[k], corner[(k + 1) % 3], beyond[k]));
+            }
+        }
+        border.retain(|&(_, _, outer)| self.face(outer).is_some_and(|f| f.alive));
+        let first = self.faces.len();
+        for (i, &(a, _, _)) in border.iter().enumerate() {
+            if let Some(begins) = self.begins.get_mut(a as usize) {
+                *begins = (first + i) as u32;
+            }
+        }
+        for (i, &(a, b, outer)) in border.iter().enumerate() {
+            let new = (first + i) as u32;
+            let follows = self.begins.get(b as usize).copied().unwrap_or(NONE);
+            // The face before is found when that one is linked.
+            self.add([a, b, apex], [outer, follows, NONE]);
+            if let Some(outer) = self.faces.get_mut(outer as usize)
+                && let Some(k) = (0..3).find(|&k| outer.corner[k] == b && outer.corner[(k + 1) % 3] == a)
+            {
+                outer.beyond[k] = new;
+            }
+        }
+        for new in first..self.faces.len() {
+            let follows = self.faces.get(new).map_or(NONE, |f| f.beyond[1]);
+            if let Some(next) = self.faces.get_mut(follows as usize) {
+                next.beyond[2] = new as u32;
+            }
+        }
+        orphans.retain(|&p| p != apex);
+        self.hand_out(orphans, first);
+    }
+
+    /// Triangles in one plane become one side; a corner is where three sides or more meet.
+    fn finish(self) -> Hull {
+        // Which side each face is of.
+        let mut side: Vec<u32> = vec![NONE; self.faces.len()];
+        let mut sides = 0;
+        for start in 0..self.faces.len() {
+            if side[start] != NONE || !self.faces[start].alive {
+                continue;
+            }
+            let plane = self.faces[start].plane;
+            side[start] = sides;
+            let mut stack = vec![start];
+            while let Some(i) = stack.pop() {
+                for next in self.faces[i].beyond.map(|b| b as usize) {
+                    let flat = |f: &Face| f.corner.iter().all(|&c| plane.height(self.point(c)) == 0);
+                    if side.get(next) == Some(&NONE) && self.faces.get(next).is_some_and(flat) {
+                        side[next] = sides;
+                        stack.push(next);
+                    }
+                }
+            }
+            sides += 1;
+        }
+        // From each corner of a side to the next.
+        let mut borders: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+        let mut meet: BTreeMap<u32, u32> = BTreeMap::new();
+        for (face, &own) in self.faces.iter().zip(&side).filter(|(f, _)| f.alive) {
+            for k in 0..3 {
+                if side.get(face.beyond[k] as usize) != Some(&own) {
+                    borders.insert((own, face.corner[k]), face.corner[(k + 1) % 3]);
+                    *meet.entry(face.corner[k]).or_default() += 1;
+                }
+            }
+        }
+        let is_corner = |v: u32| meet.get(&v).is_some_and(|&n| n > 2);
+        let mut face = Vec::new();
+        for own in 0..sides {
+            let corners = || borders.range((own, 0)..=(own, NONE)).map(|(&(_, v), _)| v);
+            let Some(first) = corners().find(|&v| is_corner(v)) else { continue };
+            let mut last = None;
+            let mut at = first;
+            for _ in 0..corners().count() {
+                at = borders.get(&(own, at)).copied().unwrap_or(first);
+                if at == first {
+                    break;
+                }
+                if is_corner(at) {
+                    face.extend(last.map(|last: u32| [first as i32, last as i32, at as i32]));
+                    last = Some(at);
+                }
+            }
+        }
+        face.sort_unstable();
+        let vertex = meet.into_iter().filter(|&(_, n)| n > 2).map(|(v, _)| v).collect();
+        Hull { vertex, face }
+    }
+}
+
+impl Plane {
+    /// How far a point is above the plane, in volumes of the grid.
+    #[inline]
+    fn height(&self, p: Point) -> i128 {
+        (0..3).map(|i| self.normal[i] * i128::from(p[i] - self.at[i])).sum()
+    }
+}
+
+/// (b - a) × (c - a)
+fn normal(a: Point, b: Point, c: Point) -> [i128; 3] {
+    let [u, v]: [[i128; 3]; 2] = [b, c].map(|p| std::array::from_fn(|i| i128::from(p[i] - a[i])));
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
+/// Points on the grid, and the steps of the grid in a unit.
+fn on_grid(points: &[Vec3]) -> (Vec<Point>, Vec3) {
+    let lower: Vec3 = std::array::from_fn(|i| points.iter().fold(f64::INFINITY, |x, p| x.min(p[i])));
+    let upper: Vec3 = std::array::from_fn(|i| points.iter().fold(f64::NEG_INFINITY, |x, p| x.max(p[i])));
+    // A power of two: what is exact stays exact.
+    let steps = [0, 1, 2].map(|i| libm::ldexp(1.0, BITS - libm::frexp(upper[i] - lower[i]).1));
+    let grid = |p: &Vec3| std::array::from_fn(|i| libm::round((p[i] - lower[i]) * steps[i]) as i64);
+    (points.iter().map(grid).collect(), steps)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{cross, dot, sub};
+    use proptest::prelude::*;
+
+    /// What makes a hull: closed, convex, around all points, with as many triangles as Euler says.
+    fn check(points: &[Vec3], hull: &Hull, whole: bool) {
+        let (v, f) = (hull.vertex.len(), hull.face.len());
+        assert_eq!(f, 2 * v - 4);
+        let mut edges: Vec<(i32, i32)> =
+            hull.face.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+        edges.sort_unstable();
+        for &(a, b) in &edges {
+            assert!(edges.binary_search(&(b, a)).is_ok());
+        }
+        edges.dedup();
+        assert_eq!(edges.len(), 3 * f);
+        let size = points.iter().flatten().fold(0.0_f64, |s, x| s.max(x.abs()));
+        for face in &hull.face {
+            let [a, b, c] = face.map(|i| points[i as usize]);
+            let n = cross(sub(b, a), sub(c, a));
+            for p in points.iter().filter(|_| whole) {
+                assert!(dot(n, sub(*p, a)) <= 1e-11 * size * size * size, "{face:?} {p:?}");
+            }
+        }
+    }
+
+    fn cube(n: i32) -> Vec<Vec3> {
+        let range = || (0..=n).map(f64::from);
+        range().flat_map(|x| range().flat_map(move |y| range().map(move |z| [x, 2.0 * y, 3.0 * z]))).collect()
+    }
+
+    #[test]
+    fn points_on_sides_and_edges_are_no_corners() {
+        for n in 1..6 {
+            let points = cube(n);
+            let hull = Hull::of(&points, None).unwrap();
+            assert_eq!((hull.vertex.len(), hull.face.len()), (8, 12), "{n}");
+            check(&points, &hull, true);
+        }
+    }
+
+    #[test]
+    fn flat_clouds_are_told() {
+        assert_eq!(Hull::of(&[], None), Err(Flat::Point));
+        assert_eq!(Hull::of(&[[1.0; 3]; 9], None), Err(Flat::Point));
+        assert_eq!(Hull::of(&[[0.0; 3], [1.0; 3], [2.0; 3], [0.5; 3]], None), Err(Flat::Line));
+        let flat: Vec<Vec3> = cube(3).into_iter().map(|[x, y, _]| [x, y, x + 0.5 * y]).collect();
+        assert_eq!(Hull::of(&flat, None), Err(Flat::Plane));
+    }
+
+    #[test]
+    fn a_limited_hull_has_no_more_corners() {
+        let points: Vec<Vec3> = (0..500)
+            .map(|i| {
+                let (h, a) = (1.0 - 2.0 * (f64::from(i) + 0.5) / 500.0, 2.4 * f64::from(i));
+                let r = (1.0 - h * h).sqrt();
+                [r * a.cos(), r * a.sin(), h]
+            })
+            .collect();
+        let whole = Hull::of(&points, None).unwrap();
+        assert_eq!(whole.vertex.len(), 500);
+        check(&points, &whole, true);
+        for most in [4, 5, 20, 100] {
+            let hull = Hull::of(&points, Some(most)).unwrap();
+            assert_eq!(hull.vertex.len(), most);
+            check(&points, &hull, false);
+        }
+    }
+
+    #[test]
+    fn graphs_list_neighbours() {
+        let hull =
+            Hull::of(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.1; 3]], None).unwrap();
+        assert_eq!(
+            hull.graph(),
+            [
+                4, 4, 0, 4, 8, 12, 0, 1, 2, 3, 1, 2, 3, -1, 0, 2, 3, -1, 0, 1, 3, -1, 0, 1, 2, -1, 0, 1, 3,
+                0, 2, 1, 0, 3, 2, 1, 2, 3
+            ]
+        );
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+        /// Few different numbers make many coincidences.
+        #[test]
+        fn degenerate_clouds_have_hulls(points in prop::collection::vec(prop::array::uniform3(-3..4_i32), 4..60)) {
+            let points: Vec<Vec3> = points.into_iter().map(|p| p.map(|x| f64::from(x) * 0.1)).collect();
+            if let Ok(hull) = Hull::of(&points, None) {
+                check(&points, &hull, true);
+                prop_assert_eq!(&Hull::of(&points, None).unwrap(), &hull);
+            }
+        }
+
+        #[test]
+        fn clouds_of_single_precision_have_hulls(
+            points in prop::collection::vec(prop::array::uniform3(-1.0_f32..1.0), 4..100),
+            stretch in prop::array::uniform3(-20..20_i32),
+        ) {
+            let points: Vec<Vec3> =
+                points.into_iter().map(|p| [0, 1, 2].map(|i| f64::from(p[i]) * 2f64.powi(stretch[i]))).collect();
+            if let Ok(hull) = Hull::of(&points, None) {
+                prop_assert_eq!(hull.face.len(), 2 * hull.vertex.len() - 4);
+            }
+        }
+    }
+}

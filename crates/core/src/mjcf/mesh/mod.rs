@@ -1,0 +1,216 @@
+//! Triangle meshes: from text, files or a rule to vertices about the centre of mass along the principal axes, with
+//! volume, inertia and convex hull.
+//!
+//! [`Raw`] is what was written; [`build::mesh`] makes a [`Mesh`] of it, in the order that MuJoCo's documentation gives
+//! ("XML reference, asset/mesh"; details measured on the library).
+
+pub(crate) mod build;
+pub(crate) mod builtin;
+mod hull;
+mod inertia;
+mod msh;
+mod normals;
+mod obj;
+mod polygon;
+mod stl;
+
+use crate::geom;
+use crate::math::{Quat, Vec3, add, dot, norm, rotate, scale, sub};
+
+pub(crate) use hull::{Flat, Hull};
+pub(crate) use inertia::Body;
+
+/// Most vertices of a mesh: more than any body needs to touch another.
+pub(crate) const MAX_VERTICES: usize = 1_000_000;
+/// Most triangles of a mesh.
+pub(crate) const MAX_FACES: usize = 2_000_000;
+
+/// A mesh as it was written.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Raw {
+    /// m, before scaling. Numbers of single precision, as files have them.
+    pub(crate) vert: Vec<Vec3>,
+    pub(crate) normal: Vec<Vec3>,
+    pub(crate) texcoord: Vec<[f64; 2]>,
+    /// Vertices of each triangle. None: the convex hull of the vertices.
+    pub(crate) face: Vec<[i32; 3]>,
+    /// Normals of each triangle's corners. None: those of the vertices.
+    pub(crate) facenormal: Vec<[i32; 3]>,
+    /// Texture coordinates of each triangle's corners. None: those of the vertices.
+    pub(crate) facetexcoord: Vec<[i32; 3]>,
+}
+
+/// A mesh ready for geoms.
+#[derive(Clone, Debug)]
+pub(crate) struct Mesh {
+    /// What is drawn and hit by rays: vertices in the frame of the mesh, m.
+    pub(crate) shape: Raw,
+    /// The vertices as they were written: a hull is computed from them.
+    pub(crate) written: Vec<Vec3>,
+    pub(crate) hull: Option<Hull>,
+    pub(crate) options: build::Options,
+    /// Centre of mass in the frame that the mesh was written in, m.
+    pub(crate) pos: Vec3,
+    /// Orientation of the principal axes there.
+    pub(crate) quat: Quat,
+    /// Volume, m^3; of a shell its area, m^2.
+    pub(crate) amount: f64,
+    /// Half lengths of the box of the same volume's mass and moments, m.
+    pub(crate) half: Vec3,
+    /// Corners of the box along the axes that holds the vertices, m.
+    pub(crate) lower: Vec3,
+    pub(crate) upper: Vec3,
+}
+
+impl Mesh {
+    /// Centre and half lengths of the box that holds the vertices, m.
+    pub(crate) fn aabb(&self) -> [f64; 6] {
+        let ([a, b, c], [x, y, z]) = (self.middle(), scale(sub(self.upper, self.lower), 0.5));
+        [a, b, c, x, y, z]
+    }
+
+    /// Half lengths of the box about the centre of mass that holds the vertices, m.
+    pub(crate) fn reach(&self) -> Vec3 {
+        [0, 1, 2].map(|i| self.lower[i].abs().max(self.upper[i].abs()))
+    }
+
+    /// Moments of the mesh for a unit mass, m^2: those of a box.
+    pub(crate) fn moments(&self) -> Vec3 {
+        let [x, y, z] = self.half.map(|h| h * h / 3.0);
+        [y + z, x + z, x + y]
+    }
+
+    fn middle(&self) -> Vec3 {
+        scale(add(self.upper, self.lower), 0.5)
+    }
+
+    /// Centre in the frame that the mesh was written in, and sizes, of a primitive shape that stands for the mesh:
+    /// as large as its inertia, or as its bounding box. `None` for a shape without inside.
+    pub(crate) fn fit(&self, kind: i32, bounding: bool) -> Option<(Vec3, Vec3)> {
+        let size = if bounding { self.around(kind)? } else { self.equivalent(kind)? };
+        let centre = if bounding { add(self.pos, rotate(self.middle(), self.quat)) } else { self.pos };
+        Some((centre, size))
+    }
+
+    /// Sizes from those of the box of the same inertia.
+    fn equivalent(&self, kind: i32) -> Option<Vec3> {
+        let [x, y, z] = self.half;
+        let radius = (x + y) / 2.0;
+        Some(match kind {
+            geom::SPHERE => [(x + y + z) / 3.0, 0.0, 0.0],
+            geom::CAPSULE => [radius, (z - radius / 2.0).max(0.0), 0.0],
+            geom::CYLINDER => [radius, z, 0.0],
+            geom::ELLIPSOID | geom::BOX => [x, y, z],
+            _ => return None,
+        })
+    }
+
+    /// Sizes of the shape about the middle of the bounding box that holds every vertex; those of an ellipsoid are
+    /// the box's.
+    fn around(&self, kind: i32) -> Option<Vec3> {
+        let middle = self.middle();
+        let largest = |of: &dyn Fn(Vec3) -> f64| {
+            self.shape.vert.iter().fold(0.0_f64, |largest, &v| largest.max(of(sub(v, middle))))
+        };
+        let across = |[x, y, _]: Vec3| libm::sqrt(x * x + y * y);
+        Some(match kind {
+            geom::SPHERE => [largest(&norm), 0.0, 0.0],
+            geom::CYLINDER => [largest(&across), largest(&|d| d[2].abs()), 0.0],
+            geom::CAPSULE => {
+                let radius = largest(&across);
+                // Beyond its half length the cap rises by its height at the vertex's distance from the axis.
+                let cap = |d: Vec3| radius * libm::sin(libm::acos(across(d) / radius));
+                [radius, largest(&|d| d[2].abs() - cap(d)), 0.0]
+            }
+            geom::ELLIPSOID | geom::BOX => sub(self.upper, middle),
+            _ => return None,
+        })
+    }
+}
+
+/// Area, centre and unit normal of a triangle; a flat one has no area.
+pub(crate) fn triangle([a, b, c]: [Vec3; 3]) -> (f64, Vec3, Vec3) {
+    let centre = [0, 1, 2].map(|i| (a[i] + b[i] + c[i]) / 3.0);
+    let normal = crate::math::cross(sub(b, a), sub(c, a));
+    let length = libm::sqrt(dot(normal, normal));
+    if length < crate::math::MINVAL || !length.is_finite() {
+        return (0.0, centre, normal);
+    }
+    (0.5 * length, centre, normal.map(|x| x / length))
+}
+
+/// What is wrong with a mesh or height field, and what to do about it.
+#[derive(Debug)]
+pub(crate) struct Problem {
+    /// The attribute that it is about.
+    pub(crate) attribute: &'static str,
+    /// Continues a sentence that begins with the asset.
+    pub(crate) message: String,
+    pub(crate) why: &'static str,
+    pub(crate) help: &'static str,
+}
+
+impl Problem {
+    pub(crate) fn new(
+        attribute: &'static str,
+        message: impl Into<String>,
+        why: &'static str,
+        help: &'static str,
+    ) -> Problem {
+        Problem { attribute, message: message.into(), why, help }
+    }
+
+    /// A file that is not what its name says.
+    pub(crate) fn file(message: impl Into<String>, help: &'static str) -> Problem {
+        Problem::new("file", message, "", help)
+    }
+}
+
+/// Reads a mesh from the bytes of a file; the ending of its name says what it is.
+pub(crate) fn decode(path: &str, bytes: &[u8]) -> Result<Raw, Problem> {
+    let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
+    match ending.as_str() {
+        "stl" => stl::read(bytes),
+        "obj" => obj::read(bytes),
+        "msh" => msh::read(bytes),
+        _ => Err(Problem::file(
+            "has a file whose name does not end in .obj, .stl or .msh",
+            "export the mesh as Wavefront OBJ or as binary STL",
+        )),
+    }
+}
+
+/// Numbers of a little-endian file, front to back.
+pub(crate) struct Bytes<'b>(pub(crate) &'b [u8]);
+
+impl Bytes<'_> {
+    fn word(&mut self) -> Option<[u8; 4]> {
+        let (word, rest) = self.0.split_first_chunk()?;
+        self.0 = rest;
+        Some(*word)
+    }
+
+    pub(crate) fn int(&mut self) -> Option<i32> {
+        self.word().map(i32::from_le_bytes)
+    }
+
+    pub(crate) fn real(&mut self) -> Option<f64> {
+        self.word().map(|w| f64::from(f32::from_le_bytes(w)))
+    }
+
+    pub(crate) fn reals<const N: usize>(&mut self) -> Option<[f64; N]> {
+        let mut all = [0.0; N];
+        for x in &mut all {
+            *x = self.real()?;
+        }
+        Some(all)
+    }
+
+    pub(crate) fn ints<const N: usize>(&mut self) -> Option<[i32; N]> {
+        let mut all = [0; N];
+        for x in &mut all {
+            *x = self.int()?;
+        }
+        Some(all)
+    }
+}
