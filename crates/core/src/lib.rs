@@ -50,6 +50,7 @@ mod rne;
 mod rne_post;
 pub mod sensor;
 mod setconst;
+mod sleep;
 mod subtree;
 mod tendon;
 mod transmission;

@@ -2,7 +2,7 @@
 
 use crate::math::*;
 use crate::reflect::Stage;
-use crate::{Data, Model, Warning, WarningStat, actuation, kinematics, mass, reflect, sensor};
+use crate::{Data, Model, Warning, WarningStat, actuation, kinematics, mass, reflect, sensor, sleep};
 
 /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
 /// what was written to it.
@@ -16,6 +16,7 @@ pub fn reset_data(m: &Model, d: &mut Data) {
     d.eq_active.copy_from_slice(&m.eq_active0);
     actuation::reset(m, d);
     sensor::reset(m, d);
+    sleep::reset(m, d);
     for b in 0..m.nbody {
         let id = m.body_mocapid[b];
         if id >= 0 {

@@ -7,7 +7,7 @@ mod position;
 mod runge_kutta;
 
 use crate::reflect::Stage;
-use crate::{Data, Model, actuation, integrator, sensor};
+use crate::{Data, Model, actuation, integrator, sensor, sleep};
 
 pub(crate) use discrete::Metric;
 pub(crate) use euler::{damping, damps};
@@ -41,10 +41,14 @@ fn advance(m: &Model, d: &mut Data, acceleration: Option<&[f64]>, velocity: Opti
     let h = m.opt.timestep;
     record(m, d);
     actuation::advance(m, d);
-    for (v, a) in d.qvel.iter_mut().zip(acceleration.unwrap_or(&d.qacc)) {
-        *v += h * a;
+    if d.plan.keeps(Stage::Sleep) && sleep::on(m, d) {
+        sleep::advance(m, d, acceleration, velocity);
+    } else {
+        for (v, a) in d.qvel.iter_mut().zip(acceleration.unwrap_or(&d.qacc)) {
+            *v += h * a;
+        }
+        integrate_pos(m, &mut d.qpos, velocity.unwrap_or(&d.qvel), h);
     }
-    integrate_pos(m, &mut d.qpos, velocity.unwrap_or(&d.qvel), h);
     d.time += h;
     d.qacc_warmstart.copy_from_slice(&d.qacc);
 }

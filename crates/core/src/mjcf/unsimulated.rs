@@ -4,7 +4,7 @@
 use super::diagnostic::{Report, code};
 use super::tree::Tree;
 use crate::math::rows;
-use crate::{Model, collision, disable, enable};
+use crate::{Model, collision, disable, enable, eqtype};
 
 /// Value of `opt.solver`.
 const NEWTON: i32 = 2;
@@ -12,11 +12,7 @@ const NEWTON: i32 = 2;
 /// Reports the first element of each kind that the scene needs.
 pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {
     if m.opt.enabled(enable::SLEEP) {
-        let flag = tree.nodes.iter().filter(|n| n.element.name == "flag").find_map(|n| n.attribute("sleep"));
-        let span = flag.map_or(0..0, |a| a.span.clone());
-        report
-            .error(code::NOT_SUPPORTED, span, "sleeping is not simulated yet")
-            .why("trees that MuJoCo puts to sleep would go on moving a little");
+        asleep(tree, m, report);
     }
     let on = |bit: i32| !m.opt.disabled(disable::CONSTRAINT) && !m.opt.disabled(bit);
     let some = |list: &[f64]| list.iter().any(|&x| x > 0.0);
@@ -62,6 +58,32 @@ pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {
     let own_friction = |r: &[f64; 2]| *r != [0.0; 2];
     if rows::<2>(&m.pair_solreffriction).iter().any(own_friction) {
         refuse(tree, report, "pair", "solreffriction", "friction with a `solref` of its own");
+    }
+}
+
+/// Reports sleeping where it would have to know of constraints.
+fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
+    let flag = || tree.nodes.iter().filter(|n| n.element.name == "flag").find_map(|n| n.attribute("sleep"));
+    let span = || flag().map_or(0..0, |a| a.span.clone());
+    let off = |bit: i32| m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(bit);
+    let acts = |e: usize| m.eq_type[e] == eqtype::TENDON && m.eq_active0[e];
+    if (0..m.neq).any(acts) {
+        report
+            .error(code::NOT_SUPPORTED, span(), "trees cannot sleep while an equality ties tendons")
+            .why("MuJoCo has no rule for what wakes them, and refuses such a model, too")
+            .help("switch sleeping off, or remove the equality between tendons");
+    } else if !off(disable::LIMIT) && (m.jnt_limited.contains(&true) || m.tendon_limited.contains(&true))
+        || !off(disable::EQUALITY) && m.neq > 0
+        || !off(disable::CONTACT) && !collision::candidate_pairs(m, false).is_empty()
+    {
+        report
+            .error(
+                code::NOT_SUPPORTED,
+                span(),
+                "sleeping is not simulated yet where bodies can touch, or have limits",
+            )
+            .why("trees that MuJoCo puts to sleep would go on moving a little")
+            .help("switch sleeping off: at rest the numbers differ by less than `sleep_tolerance`");
     }
 }
 

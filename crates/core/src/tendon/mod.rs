@@ -12,7 +12,7 @@ mod wrap;
 use crate::math::*;
 use crate::model::wraptype;
 use crate::transmission::{self, On};
-use crate::{Data, Model, mass};
+use crate::{Data, Model, mass, sleep};
 
 pub(crate) use constants::{at_default, at_rest};
 pub(crate) use pattern::set_pattern;
@@ -30,6 +30,14 @@ pub(crate) fn row(m: &Model, t: usize) -> std::ops::Range<usize> {
 
 /// `ten_length`, `ten_J` and the points of the paths.
 pub(crate) fn tendons(m: &Model, d: &mut Data) {
+    if sleep::is_first(m, d) {
+        paths(m, d, |_, _| false);
+    }
+    paths(m, d, |d, t| sleep::tendon_sleeps(m, d, t));
+}
+
+/// Those of the tendons that do not sleep: the others have no length, and are where they were.
+fn paths(m: &Model, d: &mut Data, sleeps: impl Fn(&Data, usize) -> bool) {
     // Taken out, so that the rest of the data can be read while they are written.
     let mut out = path::Paths {
         jacobian: std::mem::take(&mut d.ten_J),
@@ -39,6 +47,10 @@ pub(crate) fn tendons(m: &Model, d: &mut Data) {
     };
     out.jacobian.fill(0.0);
     for t in 0..m.ntendon {
+        if sleeps(d, t) {
+            d.ten_length[t] = 0.0;
+            continue;
+        }
         let first = out.count;
         d.ten_length[t] =
             if is_fixed(m, t) { fixed(m, d, t, &mut out.jacobian) } else { path::spatial(m, d, t, &mut out) };

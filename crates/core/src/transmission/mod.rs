@@ -9,7 +9,7 @@ mod reflection;
 mod space;
 
 use crate::math::*;
-use crate::{Data, Model, disable, jacobian, joint, tendon, trntype};
+use crate::{Data, Model, disable, jacobian, joint, sleep, tendon, trntype};
 
 pub(crate) use constants::{at_default, critical_damping, reflected};
 pub(crate) use reflection::{On, armature, damping};
@@ -110,6 +110,14 @@ fn union(m: &Model, bodies: [usize; 2]) -> impl Iterator<Item = (usize, Side)> +
 
 /// `actuator_length`, `actuator_moment` and its pattern.
 pub(crate) fn transmissions(m: &Model, d: &mut Data) {
+    if sleep::is_first(m, d) {
+        moments(m, d, |_, _| false);
+    }
+    moments(m, d, |d, i| sleep::actuator_sleeps(m, d, i));
+}
+
+/// Those of the actuators that do not sleep: the others keep their lengths, and have no moments.
+fn moments(m: &Model, d: &mut Data, sleeps: impl Fn(&Data, usize) -> bool) {
     // Taken out, so that the rest of the data can be read while they are written.
     let mut out = Rows {
         colind: std::mem::take(&mut d.moment_colind),
@@ -121,6 +129,10 @@ pub(crate) fn transmissions(m: &Model, d: &mut Data) {
         let first = m.actuator_outadr[i] as usize;
         for o in first..first + m.actuator_outnum[i] as usize {
             let start = out.at;
+            (d.moment_rowadr[o], d.moment_rownnz[o]) = (start as i32, 0);
+            if sleeps(d, i) {
+                continue;
+            }
             let gear = rows::<6>(&m.actuator_gear)[o];
             d.actuator_length[o] = match (m.actuator_trntype[i], target(m, i)) {
                 (trntype::TENDON, (t, _)) => along_tendon(m, d, t, gear[0], &mut out),
@@ -139,7 +151,6 @@ pub(crate) fn transmissions(m: &Model, d: &mut Data) {
                 (trntype::BODY, (b, _)) => contact::adhesion(m, d, b, &mut dense, &mut out),
                 (kind, (j, _)) => at_joint(m, d, j, kind == trntype::JOINTINPARENT, gear, &mut out),
             };
-            d.moment_rowadr[o] = start as i32;
             d.moment_rownnz[o] = (out.at - start) as i32;
         }
     }

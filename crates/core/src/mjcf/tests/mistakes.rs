@@ -75,7 +75,8 @@ mistakes! {
     geom_type_not_supported: world("<geom type=\"sdf\" size=\"1 1\"/>");
     keyword_misspelt: before("<option integrator=\"euler\"/>");
     integrator_unknown: before("<option integrator=\"midpoint\"/>");
-    flag_not_simulated: before("<option><flag sleep=\"enable\"/></option>");
+    sleep_not_simulated: before("<option><flag sleep=\"enable\"/></option>\n<worldbody><body><joint range=\"0 1\"/><geom size=\"1\"/></body></worldbody>");
+    sleep_of_tendons: tied("<option><flag sleep=\"enable\"/></option>\n<tendon><spatial name=\"rope\"><site site=\"s\"/><site site=\"t\"/></spatial></tendon><equality><tendon tendon1=\"rope\"/></equality>");
     option_not_simulated: before("<option noslip_iterations=\"3\"/>\n<worldbody><geom type=\"plane\" size=\"1 1 1\"/><body><freejoint/><geom size=\"1\" condim=\"4\"/></body></worldbody>");
     equality_not_simulated: tied("<equality>\n<joint joint1=\"j\"/></equality>");
     boolean: world("<body mocap=\"True\"/>");
