@@ -12,6 +12,7 @@ mod program;
 mod readme;
 mod recorded;
 mod scenes;
+mod sleep;
 mod standing;
 mod support;
 mod verify;

@@ -74,7 +74,7 @@ fn from_inputs(m: &Model, d: &mut Data, skip: Skip) {
     constraints(m, d);
     sleep::put_back(m, d);
     read(m, d, When::Acceleration, skip);
-    sleep::shown(d, skip);
+    sleep::passed(d);
 }
 
 /// The same, and what follows from velocities.

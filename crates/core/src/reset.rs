@@ -16,7 +16,6 @@ pub fn reset_data(m: &Model, d: &mut Data) {
     d.eq_active.copy_from_slice(&m.eq_active0);
     actuation::reset(m, d);
     sensor::reset(m, d);
-    sleep::reset(m, d);
     for b in 0..m.nbody {
         let id = m.body_mocapid[b];
         if id >= 0 {
@@ -25,6 +24,7 @@ pub fn reset_data(m: &Model, d: &mut Data) {
         }
     }
     clear_left_out(m, d);
+    sleep::reset(m, d);
 }
 
 /// Back to keyframe `key` (`mj_resetDataKeyframe`); one that does not exist resets to the default.

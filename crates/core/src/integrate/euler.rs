@@ -1,6 +1,6 @@
 //! Semi-implicit Euler.
 
-use super::advance;
+use super::{Slopes, advance};
 use crate::passive::spring;
 use crate::reflect::Stage;
 use crate::{Data, Model, disable, mass};
@@ -10,7 +10,7 @@ use crate::{Data, Model, disable, mass};
 #[inline(never)]
 pub(super) fn euler(m: &Model, d: &mut Data) {
     if !damps(m, d) {
-        advance(m, d, None, None);
+        advance(m, d, Slopes::default());
         return;
     }
     let h = m.opt.timestep;
@@ -25,7 +25,7 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
         *a = f + c;
     }
     mass::solve(m, &d.work.ld, &d.work.diag_inv, &mut acceleration, 0..m.nv);
-    advance(m, d, Some(&acceleration), None);
+    advance(m, d, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
     d.work.qacc = acceleration;
 }
 

@@ -14,12 +14,11 @@ mod wake;
 
 use std::ops::Range;
 
-use crate::pipeline::Skip;
 use crate::reflect::Stage;
-use crate::{Data, Model, disable, enable, joint};
+use crate::{Data, Model, disable, enable, joint, pipeline};
 
 pub(crate) use rest::{advance, keep, put_back};
-pub(crate) use state::{actuator_sleeps, sensor_sleeps, tendon_sleeps};
+pub(crate) use state::{actuator_sleeps, body_sleeps, sensor_sleeps, tendon_sleeps};
 pub(crate) use wake::{wake, wake_tied};
 
 /// Steps that a tree has to be slow for.
@@ -56,7 +55,7 @@ pub(crate) struct Work {
     act_dot: Vec<f64>,
     /// The acceleration of this step.
     acceleration: Vec<f64>,
-    /// Whether some sensor has not been read since the reset.
+    /// Whether there has been no forward pass since the reset.
     fresh: bool,
 }
 
@@ -97,14 +96,9 @@ pub(crate) fn plan_changed(m: &Model, d: &mut Data) {
     }
 }
 
-/// Whether this is the first forward pass since the reset, and some tree starts asleep: it is seen once.
-pub(crate) fn is_first(m: &Model, d: &Data) -> bool {
-    some(m, d) && d.work.sleep.fresh
-}
-
-/// After a forward pass: all sensors have been read, unless they were skipped.
-pub(crate) fn shown(d: &mut Data, skip: Skip) {
-    d.work.sleep.fresh &= skip == Skip::SENSORS;
+/// After a forward pass.
+pub(crate) fn passed(d: &mut Data) {
+    d.work.sleep.fresh = false;
 }
 
 /// Degrees of freedom of a tree.
@@ -121,12 +115,16 @@ fn coordinates(m: &Model, tree: usize) -> Range<usize> {
     m.jnt_qposadr[first] as usize..m.jnt_qposadr[last] as usize + joint::nq(m.jnt_type[last])
 }
 
-/// All trees are awake, but those that start asleep where sleeping is on: then the others are at rest, too.
+/// All trees are awake, but those that start asleep where sleeping is on: then the others are at rest, too. What
+/// sleeps shows what a forward pass makes of the start, without forces and accelerations.
 pub(crate) fn reset(m: &Model, d: &mut Data) {
     d.tree_asleep.fill(AWAKE);
-    d.work.sleep.fresh = true;
-    d.work.sleep.seen.copy_from_slice(&d.qpos);
+    state::update(m, d);
     if on(m, d) && m.tree_sleep_policy.contains(&policy::INIT) {
+        pipeline::forward(m, d);
+        for v in [&mut d.qfrc_smooth, &mut d.qacc_smooth, &mut d.qacc, &mut d.act_dot] {
+            v.fill(0.0);
+        }
         for t in 0..m.ntree {
             d.tree_asleep[t] = match m.tree_sleep_policy[t] {
                 policy::INIT => t as i32,
@@ -134,6 +132,8 @@ pub(crate) fn reset(m: &Model, d: &mut Data) {
                 _ => AWAKE,
             };
         }
+        state::update(m, d);
     }
-    state::update(m, d);
+    d.work.sleep.seen.copy_from_slice(&d.qpos);
+    d.work.sleep.fresh = true;
 }

@@ -3,7 +3,7 @@
 use super::{AWAKE, coordinates, dofs, on, policy, some, state};
 use crate::integrate::integrate_pos;
 use crate::pipeline;
-use crate::{Data, Model};
+use crate::{Data, Model, integrator};
 
 /// Whether a tree may sleep at all.
 pub(super) fn may_sleep(m: &Model, tree: usize) -> bool {
@@ -29,6 +29,10 @@ pub(crate) fn advance(m: &Model, d: &mut Data, acceleration: Option<&[f64]>, vel
     let mut w = std::mem::take(&mut d.work.sleep.acceleration);
     w.copy_from_slice(acceleration.unwrap_or(&d.qacc));
     fall_asleep(m, d);
+    if m.opt.integrator == integrator::DISCRETE {
+        // Its acceleration is that of the data, which may have been computed again.
+        w.copy_from_slice(&d.qacc);
+    }
     d.work.sleep.start.copy_from_slice(&d.qpos);
     for (v, a) in d.qvel.iter_mut().zip(&w) {
         *v += m.opt.timestep * a;

@@ -1,6 +1,6 @@
 //! Which objects sleep: those of sleeping trees, and what acts on or measures nothing else.
 
-use super::{awake, is_first, some};
+use super::{awake, some};
 use crate::sensor::kind;
 use crate::{Data, Model, Obj, trntype};
 
@@ -32,6 +32,11 @@ pub(crate) fn actuator_sleeps(m: &Model, d: &Data, i: usize) -> bool {
     some(m, d) && actuator(m, d, i) == awake::NO
 }
 
+/// Whether a body sleeps.
+pub(crate) fn body_sleeps(m: &Model, d: &Data, b: usize) -> bool {
+    some(m, d) && d.body_awake[b] == awake::NO
+}
+
 /// Whether the trees on the path of tendon `t` sleep.
 pub(crate) fn tendon_sleeps(m: &Model, d: &Data, t: usize) -> bool {
     some(m, d) && tendon(m, d, t) == awake::NO
@@ -39,7 +44,7 @@ pub(crate) fn tendon_sleeps(m: &Model, d: &Data, t: usize) -> bool {
 
 /// Whether all that sensor `s` measures sleeps or cannot move: its values stay as they are.
 pub(crate) fn sensor_sleeps(m: &Model, d: &Data, s: usize) -> bool {
-    if !some(m, d) || is_first(m, d) {
+    if !some(m, d) {
         return false;
     }
     let types = [m.sensor_objtype[s], m.sensor_reftype[s]];

@@ -28,16 +28,8 @@ pub(crate) fn row(m: &Model, t: usize) -> std::ops::Range<usize> {
     start..start + m.ten_J_rownnz[t] as usize
 }
 
-/// `ten_length`, `ten_J` and the points of the paths.
+/// `ten_length`, `ten_J` and the points of the paths. A tendon that sleeps has no length and stays where it is.
 pub(crate) fn tendons(m: &Model, d: &mut Data) {
-    if sleep::is_first(m, d) {
-        paths(m, d, |_, _| false);
-    }
-    paths(m, d, |d, t| sleep::tendon_sleeps(m, d, t));
-}
-
-/// Those of the tendons that do not sleep: the others have no length, and are where they were.
-fn paths(m: &Model, d: &mut Data, sleeps: impl Fn(&Data, usize) -> bool) {
     // Taken out, so that the rest of the data can be read while they are written.
     let mut out = path::Paths {
         jacobian: std::mem::take(&mut d.ten_J),
@@ -47,7 +39,7 @@ fn paths(m: &Model, d: &mut Data, sleeps: impl Fn(&Data, usize) -> bool) {
     };
     out.jacobian.fill(0.0);
     for t in 0..m.ntendon {
-        if sleeps(d, t) {
+        if sleep::tendon_sleeps(m, d, t) {
             d.ten_length[t] = 0.0;
             continue;
         }

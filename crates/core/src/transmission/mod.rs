@@ -108,16 +108,8 @@ fn union(m: &Model, bodies: [usize; 2]) -> impl Iterator<Item = (usize, Side)> +
     })
 }
 
-/// `actuator_length`, `actuator_moment` and its pattern.
+/// `actuator_length`, `actuator_moment` and its pattern. An actuator that sleeps keeps its lengths and has no moments.
 pub(crate) fn transmissions(m: &Model, d: &mut Data) {
-    if sleep::is_first(m, d) {
-        moments(m, d, |_, _| false);
-    }
-    moments(m, d, |d, i| sleep::actuator_sleeps(m, d, i));
-}
-
-/// Those of the actuators that do not sleep: the others keep their lengths, and have no moments.
-fn moments(m: &Model, d: &mut Data, sleeps: impl Fn(&Data, usize) -> bool) {
     // Taken out, so that the rest of the data can be read while they are written.
     let mut out = Rows {
         colind: std::mem::take(&mut d.moment_colind),
@@ -130,7 +122,7 @@ fn moments(m: &Model, d: &mut Data, sleeps: impl Fn(&Data, usize) -> bool) {
         for o in first..first + m.actuator_outnum[i] as usize {
             let start = out.at;
             (d.moment_rowadr[o], d.moment_rownnz[o]) = (start as i32, 0);
-            if sleeps(d, i) {
+            if sleep::actuator_sleeps(m, d, i) {
                 continue;
             }
             let gear = rows::<6>(&m.actuator_gear)[o];
