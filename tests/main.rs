@@ -4,6 +4,7 @@ mod allocation;
 mod cli;
 mod cli_run;
 mod conformance;
+mod hostile;
 mod lessons;
 mod numbers;
 mod parity;
