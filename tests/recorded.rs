@@ -4,10 +4,12 @@
 //! Differences of computed fields are absolute for numbers up to 1 and relative above, by the largest recorded
 //! number of the field: a force of 1e4 N is not known to 1e-10 N by anyone. Constants are relative to their field.
 
+#![allow(clippy::unwrap_used, clippy::panic)]
+
 use crate::support::{compile_unconstrained, numbers};
 use labspec_core::mjcf::MjcfDiagnostic;
 use labspec_core::reflect::{self, FieldId, Object};
-use labspec_core::{self as core, Data, Model, Obj, Warning};
+use labspec_core::{self as core, Data, Model, Obj, Warning, disable, enable};
 use serde_json::{Map, Value};
 use std::fmt;
 use std::path::Path;
@@ -23,9 +25,25 @@ const FORWARD: f64 = 1e-10;
 /// Two hundred steps.
 const TRAJECTORY: f64 = 1e-9;
 
-/// Where we are held against the library, in the order of the recording; the last five are integrators by number.
-pub(crate) const ASPECTS: [&str; 7] =
-    ["compile", "forward", "Euler", "RK4", "implicit", "implicitfast", "discrete"];
+/// Integrators by number.
+const INTEGRATORS: [&str; 5] = ["Euler", "RK4", "implicit", "implicitfast", "discrete"];
+
+/// Where we are held against the library: trajectories from the default or first keyframe, and from a state in which
+/// everything moves.
+pub(crate) const ASPECTS: [&str; 12] = [
+    "compile",
+    "forward",
+    "Euler",
+    "RK4",
+    "implicit",
+    "implicitfast",
+    "discrete",
+    "Euler, moving",
+    "RK4, moving",
+    "implicit, moving",
+    "implicitfast, moving",
+    "discrete, moving",
+];
 
 /// One number that is not theirs.
 #[derive(Clone, Debug)]
@@ -91,11 +109,12 @@ pub(crate) type Outcome = Result<Vec<Verdict>, String>;
 pub(crate) fn examine(model: &Path, recording: &Value) -> Outcome {
     let m = compile_unconstrained(model).map_err(|list| reason(&list))?;
     let mut verdicts = vec![compiled(&m, &recording["compiled"]), forward(&m, &recording["forward"])];
-    for (i, name) in ASPECTS[2..].iter().enumerate() {
-        let mut m = m.clone();
-        m.opt.integrator = i as i32;
-        let start = &recording["forward"][1]["state"];
-        verdicts.push(trajectory(&m, start, &recording["trajectories"][name]));
+    for (path, state) in [("calm", 0), ("trajectories", 1)] {
+        for (i, name) in INTEGRATORS.iter().enumerate() {
+            let mut m = m.clone();
+            m.opt.integrator = i as i32;
+            verdicts.push(trajectory(&m, &recording["forward"][state]["state"], &recording[path][name]));
+        }
     }
     Ok(verdicts)
 }
@@ -193,11 +212,86 @@ fn forward(m: &Model, states: &Value) -> Verdict {
                 .map(|name| reflect::field(Object::Data, name).map(|id| list(m, &d, id)).unwrap_or_default());
             hold("actuator_moment", &dense(&ours, m.nv), &dense(&theirs, m.nv));
         }
+        for (field, ours, theirs) in on_request(m, &mut d, row) {
+            hold(&field, &ours, &theirs);
+        }
     }
     // The first state in which a field differs says enough.
     let mut seen = std::collections::HashSet::new();
     found.retain(|d: &Difference| seen.insert(d.field.clone()));
     Verdict::of(found, worst)
+}
+
+/// What is computed on request, in the order of the recording, each beside what the library computed.
+fn on_request(m: &Model, d: &mut Data, row: &Value) -> Vec<(String, Vec<f64>, Vec<f64>)> {
+    let vector: Vec<f64> = (0..m.nv).map(|i| (7 * i % 5) as f64 - 2.0).collect();
+    let mut out = Vec::new();
+    let recorded = |part: &Value, name: &str| part.get(name).map(numbers);
+    let post = &row["post"];
+    core::subtree_vel(m, d);
+    core::rne_post_constraint(m, d);
+    for (name, values) in objects(post).filter(|(name, _)| *name != "qfrc_inverse") {
+        let Some(id) = reflect::field(Object::Data, name) else { continue };
+        out.push((name.clone(), list(m, d, id), numbers(values)));
+    }
+    if let Some(theirs) = recorded(post, "qfrc_inverse") {
+        d.qacc.copy_from_slice(&vector);
+        core::inverse(m, d).unwrap();
+        out.push(("qfrc_inverse".into(), d.qfrc_inverse.clone(), theirs));
+    }
+    for (name, values) in objects(&row["functions"]) {
+        out.push((format!("{name}()"), function(m, d, name, &vector), numbers(values)));
+    }
+    let mut m = m.clone();
+    m.opt.enableflags |= enable::INVDISCRETE;
+    for (name, values) in objects(&row["inverse"]) {
+        // The library counts dampers here that the flag switches off: it would not undo its own step.
+        if name == "Euler" && m.opt.disabled(disable::DAMPER) {
+            continue;
+        }
+        m.opt.integrator = INTEGRATORS.iter().position(|a| a == name).unwrap() as i32;
+        d.qacc.copy_from_slice(&vector);
+        core::inverse(&m, d).unwrap();
+        out.push((format!("qfrc_inverse of a step, {name}"), d.qfrc_inverse.clone(), numbers(values)));
+    }
+    out
+}
+
+/// What a function gives for the vector, point and bodies of the recorder.
+fn function(m: &Model, d: &mut Data, name: &str, vector: &[f64]) -> Vec<f64> {
+    let body = m.nbody - 1;
+    let at = &d.xpos[3 * body..];
+    let point = [at[0] + 0.1, at[1] - 0.2, at[2] + 0.3];
+    let both = |j: Option<core::Jacobian>| j.map(|j| [j.jacp, j.jacr].concat()).unwrap();
+    let mut out = vec![0.0; m.nv];
+    match name {
+        "mul_m" => core::mul_m(m, d, vector, &mut out).unwrap(),
+        "solve_m" | "solve_m2" => {
+            out.copy_from_slice(vector);
+            if name == "solve_m" { core::solve_m(m, d, &mut out) } else { core::solve_m2(m, d, &mut out) }
+                .unwrap();
+        }
+        "full_m" => return core::full_m(m, d),
+        "rne" => core::rne(m, d, None, &mut out).unwrap(),
+        "rne_acc" => core::rne(m, d, Some(vector), &mut out).unwrap(),
+        "apply_ft" => {
+            core::apply_ft(m, d, [1.0, 2.0, 3.0], [-3.0, 1.0, 2.0], point, body, &mut out).unwrap();
+        }
+        "jac" => return both(core::jac(m, d, point, body)),
+        "jac_dot" => return both(core::jac_dot(m, d, point, body)),
+        "jac_body" => return both(core::jac_body(m, d, body)),
+        "jac_body_com" => return both(core::jac_body_com(m, d, body)),
+        "jac_geom" => return both(core::jac_geom(m, d, m.ngeom - 1)),
+        "jac_site" => return both(core::jac_site(m, d, m.nsite - 1)),
+        "jac_subtree_com" => return core::jac_subtree_com(m, d, body.min(1)).unwrap(),
+        "integrate_pos" => {
+            out.clone_from(&d.qpos);
+            core::integrate_pos(m, &mut out, vector, 0.3);
+        }
+        "differentiate_pos" => core::differentiate_pos(m, &mut out, 0.2, &m.qpos0, &d.qpos),
+        other => panic!("no function is called {other}"),
+    }
+    out
 }
 
 /// Moments of actuators: which entries are kept depends on which are rounded to zero.

@@ -11,24 +11,28 @@ use std::path::PathBuf;
 
 /// What is known to differ, and why.
 const EXCEPTIONS: &[Exception] = &[
-    ("actuator_lengthrange", "compile", "not examined yet"),
-    ("actuator_lengthrange", "forward", "not examined yet"),
-    ("actuator_lengthrange", "Euler", "not examined yet"),
-    ("actuator_lengthrange", "RK4", "not examined yet"),
-    ("actuator_lengthrange", "implicit", "not examined yet"),
-    ("actuator_lengthrange", "implicitfast", "not examined yet"),
-    ("actuator_lengthrange", "discrete", "not examined yet"),
-    ("actuator_orientation_clamp", "implicitfast", "not examined yet"),
-    ("actuator_orientation_clamp", "discrete", "not examined yet"),
-    ("lengthrange_options", "compile", "not examined yet"),
-    ("lengthrange_options", "forward", "not examined yet"),
-    ("lengthrange_options", "Euler", "not examined yet"),
-    ("lengthrange_options", "RK4", "not examined yet"),
-    ("lengthrange_options", "implicit", "not examined yet"),
-    ("lengthrange_options", "implicitfast", "not examined yet"),
-    ("lengthrange_options", "discrete", "not examined yet"),
-    ("sensor_trees", "RK4", "not examined yet"),
+    ("actuator_transmissions", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    ("energy", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    ("tendon_armature", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    ("tendon_polynomial", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    ("tendon_pulley", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    ("tendon_wrap_cylinder", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    ("tendon_wrap_inside", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    ("tendon_wrap_sphere", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    ("walker", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    ("actuator_orientation_clamp", "forward", CLAMPED),
+    ("lengthrange_options", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    ("replicate", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    ("tendon_spatial", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    ("actuator_orientation_clamp", "implicit", CLAMPED),
+    ("actuator_orientation_clamp", "implicitfast", CLAMPED),
+    ("actuator_orientation_clamp", "discrete, moving", CLAMPED),
+    ("actuator_orientation_clamp", "implicitfast, moving", CLAMPED),
 ];
+
+/// A torque that its range holds at the length 0.3 is as long as 0.3 or one rounding shorter; the library takes it for
+/// held in the one case and free in the other.
+const CLAMPED: &str = "whether the range holds the torque is decided by its last bit";
 
 fn folder() -> PathBuf {
     workspace().join("specs/models/zoo")

@@ -123,25 +123,90 @@ def fields(d, chosen):
     return {f: text(getattr(d, f)) for f in chosen if np.size(getattr(d, f))}
 
 
+def pattern(n):
+    """A vector that anyone can write down."""
+    return np.array([7.0 * i % 5 - 2 for i in range(n)])
+
+
 def on_request(m, d):
     """What the functions for bodies' forces and momenta compute, and the inverse dynamics of accelerations that anyone can
     write down."""
     mujoco.mj_subtreeVel(m, d)
     mujoco.mj_rnePostConstraint(m, d)
     bodies = fields(d, POST[:-1])
-    d.qacc[:] = [7 * i % 5 - 2 for i in range(m.nv)]
+    d.qacc[:] = pattern(m.nv)
     mujoco.mj_inverse(m, d)
     return {**bodies, **fields(d, POST[-1:])}
 
 
+def functions(m, d):
+    """What functions of a vector, a point or two configurations give; the vector is one that anyone can write down."""
+    v = pattern(m.nv)
+    out, nv = {}, m.nv
+
+    def result(name, of, *shape):
+        array = np.zeros(shape)
+        of(array)
+        out[name] = text(array)
+
+    def pair(name, of):
+        jacp, jacr = np.zeros((3, nv)), np.zeros((3, nv))
+        of(jacp, jacr)
+        out[name] = text(np.concatenate([jacp, jacr]))
+
+    body, point = m.nbody - 1, d.xpos[-1] + [0.1, -0.2, 0.3]
+    result("mul_m", lambda a: mujoco.mj_mulM(m, d, a, v), nv)
+    result("solve_m", lambda a: mujoco.mj_solveM(m, d, a, v[None]), 1, nv)
+    result("solve_m2", lambda a: mujoco.mj_solveM2(m, d, a, v[None], np.sqrt(d.qLDiagInv)), 1, nv)
+    result("full_m", lambda a: mujoco.mj_fullM(m, d, a), nv, nv)
+    result("rne", lambda a: mujoco.mj_rne(m, d, 0, a), nv)
+    d.qacc[:] = v
+    result("rne_acc", lambda a: mujoco.mj_rne(m, d, 1, a), nv)
+    result("apply_ft", lambda a: mujoco.mj_applyFT(m, d, np.array([1.0, 2, 3]), np.array([-3.0, 1, 2]), point, body, a), nv)
+    pair("jac", lambda p, r: mujoco.mj_jac(m, d, p, r, point, body))
+    pair("jac_dot", lambda p, r: mujoco.mj_jacDot(m, d, p, r, point, body))
+    pair("jac_body", lambda p, r: mujoco.mj_jacBody(m, d, p, r, body))
+    pair("jac_body_com", lambda p, r: mujoco.mj_jacBodyCom(m, d, p, r, body))
+    if m.ngeom:
+        pair("jac_geom", lambda p, r: mujoco.mj_jacGeom(m, d, p, r, m.ngeom - 1))
+    if m.nsite:
+        pair("jac_site", lambda p, r: mujoco.mj_jacSite(m, d, p, r, m.nsite - 1))
+    result("jac_subtree_com", lambda a: mujoco.mj_jacSubtreeCom(m, d, a, min(1, body)), 3, nv)
+    moved = d.qpos.copy()
+    mujoco.mj_integratePos(m, moved, v, 0.3)
+    out["integrate_pos"] = text(moved)
+    result("differentiate_pos", lambda a: mujoco.mj_differentiatePos(m, a, 0.2, m.qpos0, d.qpos), nv)
+    return out
+
+
+def inverse_of_steps(m, d):
+    """`qfrc_inverse` of the flag `invdiscrete`, for every integrator that has one."""
+    out, before = {}, m.opt.integrator
+    m.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_INVDISCRETE)
+    for i, name in enumerate(INTEGRATORS):
+        if name != "RK4":
+            m.opt.integrator = i
+            d.qacc[:] = pattern(m.nv)
+            mujoco.mj_inverse(m, d)
+            out[name] = text(d.qfrc_inverse)
+    m.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_INVDISCRETE)
+    m.opt.integrator = before
+    return out
+
+
 def forward(m, count, scale, seed, short):
     """[{"state": {..}, "data": {..}, "post": {..}}]: every field after mj_forward; unless `short`, what is computed on
-    request, too."""
+    request, too, and for the second state what functions give."""
     d, out = mujoco.MjData(m), []
-    for state in states(m, d, count, scale, seed):
+    for k, state in enumerate(states(m, d, count, scale, seed)):
         mujoco.mj_forward(m, d)
         row = {"state": state, "data": fields(d, FIELDS)}
-        out.append(row if short else {**row, "post": on_request(m, d)})
+        if not short:
+            row["post"] = on_request(m, d)
+            if k == 1:
+                row["functions"] = functions(m, d)
+                row["inverse"] = inverse_of_steps(m, d)
+        out.append(row)
     return out
 
 
@@ -155,13 +220,13 @@ def rollout(m, d, steps, every):
     return rows
 
 
-def trajectory(m, integrator, scale, seed, steps=200, every=40):
-    """A trajectory from the second of the states. `spread` is how far, in the same rows, the library parts from itself
+def trajectory(m, integrator, first, scale, seed, steps=200, every=40):
+    """A trajectory from the first of the states, or from the second, where everything moves. `spread` is how far, in the same rows, the library parts from itself
     when its start is moved by 1e-14: chaos, beyond which nobody can follow it."""
     m.opt.integrator = integrator
     d, all_rows = mujoco.MjData(m), []
     for k in range(4):
-        list(states(m, d, 2, scale, seed))
+        list(states(m, d, 1 if first else 2, scale, seed))
         if k:
             rng = np.random.default_rng(100 + k)
             mujoco.mj_integratePos(m, d.qpos, rng.normal(size=m.nv) * 1e-14, 1.0)
@@ -172,12 +237,12 @@ def trajectory(m, integrator, scale, seed, steps=200, every=40):
             return {"refused": str(e)}
         if k == 0:
             warnings = {mujoco.mjtWarning(i).name: int(w.number) for i, w in enumerate(d.warning) if w.number}
-    first, spread = all_rows[0], []
-    for i, row in enumerate(first):
+    rows, spread = all_rows[0], []
+    for i, row in enumerate(rows):
         scales = [max(1.0, np.abs(a).max(initial=0)) for a in row]
         spread.append(max(np.abs(a - b).max(initial=0) / s for other in all_rows[1:] for a, b, s in zip(row, other[i], scales)))
     return {"steps": steps, "every": every, "spread": " ".join(f"{x:.1e}" for x in spread), "warnings": warnings,
-            "rows": [{n: text(a) for n, a in zip(ROW, row) if a.size} for row in first]}
+            "rows": [{n: text(a) for n, a in zip(ROW, row) if a.size} for row in rows]}
 
 
 def record(path, count, scale, short=False, seed=2, steps=200, every=40):
@@ -188,8 +253,9 @@ def record(path, count, scale, short=False, seed=2, steps=200, every=40):
     compiled, states = constants(m), forward(m, count, scale, seed, short)
     if not short:
         compiled["names"] = names(m)
-    paths = {name: trajectory(m, i, scale, seed, steps, every) for i, name in enumerate(INTEGRATORS)}
-    return {"mujoco": mujoco.__version__, "compiled": compiled, "forward": states, "trajectories": paths}
+    calm = {name: trajectory(m, i, True, scale, seed, steps, steps) for i, name in enumerate(INTEGRATORS)}
+    paths = {name: trajectory(m, i, False, scale, seed, steps, every) for i, name in enumerate(INTEGRATORS)}
+    return {"mujoco": mujoco.__version__, "compiled": compiled, "forward": states, "calm": calm, "trajectories": paths}
 
 
 def write(path, out):

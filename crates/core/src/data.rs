@@ -5,9 +5,10 @@ use crate::fields::data_fields;
 use crate::integrate::{Metric, RungeKutta};
 use crate::jacobian::Columns;
 use crate::model::define;
+use crate::path::Path;
 use crate::plan::{Demand, Plan};
 use crate::sensor::Match;
-use crate::{Model, chain, collision, derivative, pipeline, reset, sleep};
+use crate::{Model, articulated, chain, collision, derivative, pipeline, reset, sleep};
 
 macro_rules! define_data {
     ($($rows:tt)*) => { define! {
@@ -131,6 +132,10 @@ pub(crate) struct Work {
     pub(crate) solver: Option<Box<Scratch>>,
     /// Trees of a few slides and hinges.
     pub(crate) chains: chain::Chains,
+    /// Trees of many degrees of freedom.
+    pub(crate) articulated: articulated::Articulated,
+    /// Motions of ancestors, for rows of M.
+    pub(crate) path: Path,
     /// Spatial accelerations and forces of bodies.
     pub(crate) cacc: Vec<f64>,
     pub(crate) cfrc: Vec<f64>,
@@ -140,6 +145,8 @@ pub(crate) struct Work {
     pub(crate) ld: Vec<f64>,
     pub(crate) diag_inv: Vec<f64>,
     pub(crate) qacc: Vec<f64>,
+    /// What implicit damping adds to the diagonal of M.
+    pub(crate) damping: Vec<f64>,
     pub(crate) rk: RungeKutta,
     /// Contacts that pass the filter of a sensor.
     pub(crate) matches: Vec<Match>,
@@ -177,6 +184,8 @@ impl Data {
         let mut d = Data { plan: Plan::awake(), ..Data::default() };
         let w = &mut d.work;
         w.chains = chain::Chains::new(m);
+        w.articulated = articulated::Articulated::new(m);
+        w.path = Path::new(m);
         w.cacc = vec![0.0; 6 * m.nbody];
         w.cfrc = vec![0.0; 6 * m.nbody];
         w.islands = Some(Box::default());
@@ -187,7 +196,7 @@ impl Data {
         w.moment = vec![0.0; m.nv];
         w.rk = RungeKutta::new(m);
         w.sleep = sleep::Work::new(m);
-        for v in [&mut w.mv, &mut w.diag_inv, &mut w.qacc] {
+        for v in [&mut w.mv, &mut w.diag_inv, &mut w.qacc, &mut w.damping] {
             *v = vec![0.0; m.nv];
         }
         reset::reset_data(m, &mut d);

@@ -20,6 +20,7 @@
 #![forbid(unsafe_code)]
 
 mod actuation;
+mod articulated;
 mod camera;
 mod chain;
 mod collision;
@@ -36,12 +37,14 @@ mod integrate;
 mod inverse;
 mod jacobian;
 mod kinematics;
+mod lengthrange;
 mod mass;
 pub mod math;
 pub mod mjcf;
 mod model;
 mod object;
 mod passive;
+mod path;
 mod pipeline;
 pub mod plan;
 pub mod reflect;

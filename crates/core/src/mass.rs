@@ -21,27 +21,25 @@ pub(crate) fn composite_inertia(m: &Model, d: &mut Data, constant: bool) {
     }
     let cdof = rows::<6>(&d.cdof);
     for i in 0..m.nv {
-        let end = (m.M_rowadr[i] + m.M_rownnz[i]) as usize;
+        let row = &mut d.M[row(m, i)];
+        let depth = row.len() - 1;
         if constant && m.dof_simplenum[i] > 0 {
-            d.M[end - 1] = m.dof_M0[i];
+            row[depth] = m.dof_M0[i];
             continue;
         }
         // Momentum of the subtree for a unit velocity of this degree of freedom.
         let momentum = inertia_mul(&crb[m.dof_bodyid[i] as usize], &cdof[i]);
-        let row = m.M_rowadr[i] as usize..end;
-        let columns = &m.M_colind[row.clone()];
-        if columns[0] as usize + columns.len() == i + 1 {
-            // A serial chain: the columns are consecutive.
-            for (out, c) in d.M[row].iter_mut().zip(&cdof[i + 1 - columns.len()..]) {
-                *out = dot_ref(c, &momentum);
-            }
-        } else {
-            for (out, &j) in d.M[row].iter_mut().zip(columns) {
-                *out = dot_ref(&cdof[j as usize], &momentum);
-            }
-        }
-        d.M[end - 1] += armature(m, i);
+        d.work.path.extend(depth, &cdof[i]);
+        d.work.path.product(&momentum, row);
+        row[depth] += armature(m, i);
     }
+}
+
+/// Where the row of degree of freedom `i` is.
+#[inline(always)]
+pub(crate) fn row(m: &Model, i: usize) -> Range<usize> {
+    let start = m.M_rowadr[i] as usize;
+    start..start + m.M_rownnz[i] as usize
 }
 
 /// Inertia that is added to degree of freedom `i`: its own and that of actuators.
@@ -59,10 +57,12 @@ pub(crate) fn simple_diagonal(m: &Model, d: &mut Data) {
     }
 }
 
-/// a · b, without copies.
+/// The degrees of freedom of body `b`.
 #[inline(always)]
-fn dot_ref(a: &Spatial, b: &Spatial) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]
+pub(crate) fn dofs(m: &Model, b: usize) -> Range<usize> {
+    // A body without any has the address -1 and the number 0.
+    let first = m.body_dofadr[b].max(0) as usize;
+    first..first + m.body_dofnum[b] as usize
 }
 
 /// The diagonal of M as the model knows it, for a scene whose bodies are all simple: M is constant.
@@ -81,12 +81,22 @@ pub(crate) fn constant_mass(m: &Model, d: &mut Data) {
 /// chain are taken four at a time, so that an ancestor's row is read and written once for four eliminations;
 /// every element sees the same operations in the same order.
 pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64]) -> Option<usize> {
+    factor_dofs(m, ld, diag_inv, 0..m.nv)
+}
+
+/// The same for the rows of the degrees of freedom `dofs` (ascending, whole trees).
+pub(crate) fn factor_dofs(
+    m: &Model,
+    ld: &mut [f64],
+    diag_inv: &mut [f64],
+    dofs: Range<usize>,
+) -> Option<usize> {
     if let Some(n) = whole_chain(m) {
         return factor_root(n, ld, diag_inv);
     }
     let mut bad = None;
-    let mut end = m.nv;
-    while end > 0 {
+    let mut end = dofs.end;
+    while end > dofs.start {
         if let Some(n) = root_chain(m, end) {
             let first = end - n;
             let at = m.M_rowadr[first] as usize;

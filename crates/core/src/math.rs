@@ -84,6 +84,12 @@ pub fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
     s
 }
 
+/// a · b of two spatial vectors, without copies.
+#[inline(always)]
+pub fn dot_ref(a: &Spatial, b: &Spatial) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]
+}
+
 /// a · b of two slices of the same length, in two interleaved sums.
 #[inline(always)]
 pub fn dot_slice(a: &[f64], b: &[f64]) -> f64 {

@@ -5,8 +5,8 @@ use crate::plan::Plan;
 use crate::reflect::Stage;
 use crate::sensor::When;
 use crate::{
-    Data, Model, Warning, actuation, camera, chain, collision, com, constraint, disable, enable, energy,
-    integrate, integrator, kinematics,
+    Data, Model, Warning, actuation, articulated, camera, chain, collision, com, constraint, disable, enable,
+    energy, integrate, integrator, kinematics,
 };
 use crate::{jacobian, mass, passive, reset, rne, rne_post, sensor, sleep, subtree, tendon, transmission};
 
@@ -60,7 +60,7 @@ pub(crate) fn forward_skip(m: &Model, d: &mut Data, skip: Skip) {
 pub(crate) fn from_state(m: &Model, d: &mut Data, skip: Skip) {
     position(m, d);
     read(m, d, When::Position, skip);
-    potential_energy(m, d);
+    potential_energy(m, d, skip);
     velocity(m, d);
     read(m, d, When::Velocity, skip);
     kinetic_energy(m, d);
@@ -122,8 +122,7 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
         tendon::armature(m, d);
     }
     if d.plan.keeps(Stage::Factor) {
-        d.qLD.copy_from_slice(&d.M);
-        if let Some(dof) = mass::factor(m, &mut d.qLD, &mut d.qLDiagInv) {
+        if let Some(dof) = articulated::factor(m, d) {
             warn(d, Warning::Inertia, dof);
         }
     }
@@ -186,8 +185,10 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     if m.opt.integrator == integrator::DISCRETE {
         integrate::discrete::acceleration(m, d);
     } else if d.plan.some_general {
-        d.qacc_smooth.copy_from_slice(&d.qfrc_smooth);
-        mass::solve(m, &d.qLD, &d.qLDiagInv, &mut d.qacc_smooth, 0..m.nv);
+        let mut out = std::mem::take(&mut d.qacc_smooth);
+        out.copy_from_slice(&d.qfrc_smooth);
+        articulated::solve(m, d, &mut out);
+        d.qacc_smooth = out;
     } else {
         for ((a, f), inv) in d.qacc_smooth.iter_mut().zip(&d.qfrc_smooth).zip(&d.qLDiagInv) {
             *a = f * inv;
@@ -247,12 +248,12 @@ fn measured(m: &Model, d: &Data, stage: Stage) -> bool {
     d.plan.keeps(stage) && !m.opt.disabled(disable::SENSOR) && sensor::needs(m, stage)
 }
 
-/// `energy[0]`, or zeros when the flag is off and no sensor has computed it.
-fn potential_energy(m: &Model, d: &mut Data) {
+/// `energy[0]`, or zeros when the flag is off and no sensor has just computed it.
+fn potential_energy(m: &Model, d: &mut Data, skip: Skip) {
     if d.plan.keeps(Stage::Energy) {
         if m.opt.enabled(enable::ENERGY) {
             energy::potential(m, d);
-        } else if m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {
+        } else if skip == Skip::SENSORS || m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {
             d.energy = [0.0; 2];
         }
     }

@@ -3,7 +3,7 @@
 use super::{Slopes, advance};
 use crate::passive::spring;
 use crate::reflect::Stage;
-use crate::{Data, Model, disable, mass};
+use crate::{Data, Model, articulated, disable};
 
 /// v += h a, then q advances with the new v. Joint damping is implicit, so that it is stable however stiff:
 /// (M + h B) a' = M a, where B is the derivative of the damping force.
@@ -14,17 +14,16 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
         return;
     }
     let h = m.opt.timestep;
-    d.work.ld.copy_from_slice(&d.M);
-    for i in 0..m.nv {
-        d.work.ld[mass::diagonal(m, i)] += h * damping(m, d, i);
-    }
-    let w = &mut d.work;
-    mass::factor(m, &mut w.ld, &mut w.diag_inv);
-    let mut acceleration = std::mem::take(&mut w.qacc);
+    let mut acceleration = std::mem::take(&mut d.work.qacc);
     for (a, (f, c)) in acceleration.iter_mut().zip(d.qfrc_smooth.iter().zip(&d.qfrc_constraint)) {
         *a = f + c;
     }
-    mass::solve(m, &d.work.ld, &d.work.diag_inv, &mut acceleration, 0..m.nv);
+    let mut damping = std::mem::take(&mut d.work.damping);
+    for (i, b) in damping.iter_mut().enumerate() {
+        *b = h * self::damping(m, d, i);
+    }
+    articulated::solve_with(m, d, &damping, &mut acceleration);
+    d.work.damping = damping;
     advance(m, d, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
     d.work.qacc = acceleration;
 }

@@ -4,10 +4,14 @@ use super::check_actuator::{controls, outputs};
 use super::diagnostic::{Report, code};
 use super::fill::{flat, ints, padded};
 use super::spec::{ActuatorSpec, List, RangeSpec};
-use crate::{Model, history, transmission};
+use crate::lengthrange::{self, Failure, Search};
+use crate::{Data, Model, history, transmission};
 
 /// More entries than this in the moments of all actuators, or numbers in their histories, are refused.
 const MAX_ENTRIES: usize = 20_000_000;
+
+/// Steps times degrees of freedom for all ranges of lengths: more would take minutes.
+const MAX_SEARCH: f64 = 2e7;
 
 /// Sizes of actuators, for keyframes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -110,4 +114,35 @@ pub(crate) fn pattern(m: &mut Model, list: &[ActuatorSpec], report: &mut Report)
     let message = format!("the moments of all actuators have more than {MAX_ENTRIES} entries");
     report.error(code::LIMIT, span, message).help("leave out what the lesson does not need");
     None
+}
+
+/// The ranges of lengths that actuators can reach, where they are needed and not given.
+pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Search, report: &mut Report) {
+    let wanted: Vec<usize> = (0..m.nactuator).filter(|&i| search.wants(m, i)).collect();
+    let pulled = wanted.iter().filter(|&&i| search.limits(m, i).is_none()).count();
+    let Some(first) = wanted.first().and_then(|&i| list.get(i)) else { return };
+    if pulled as f64 * search.steps(m) * m.nv.max(1) as f64 > MAX_SEARCH {
+        let message = format!("the ranges of lengths of {pulled} actuators take too many steps to find");
+        report.error(code::LIMIT, first.span.clone(), message).help("write a `lengthrange` for each");
+        return;
+    }
+    let mut d = Data::unplanned(m);
+    for i in wanted {
+        let Some(spec) = list.get(i) else { continue };
+        let wrong = match lengthrange::length_range(m, &mut d, i, search) {
+            Ok(()) => continue,
+            _ if !lengthrange::has_length(m, i) => "what it acts on gives it no length".to_string(),
+            Err(Failure::NoRange([lower, upper])) => {
+                format!("pulling it either way gives {lower:.4} and {upper:.4}")
+            }
+            Err(Failure::NotSettled([lower, upper])) => {
+                format!("pulled for as long as it may take, it still moves between {lower:.4} and {upper:.4}")
+            }
+        };
+        let message = format!("no range of lengths is found for {}: {wrong}", spec.shown);
+        report
+            .error(code::ACTUATOR, spec.span.clone(), message)
+            .why("the force of a muscle depends on its length in the range that it can have")
+            .help("write `lengthrange`, or limit the joints that it moves");
+    }
 }

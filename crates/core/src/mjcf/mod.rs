@@ -261,6 +261,7 @@ fn build(
     reshape::total_mass(&mut m, compiler);
     crate::setconst::set_const0(&mut m);
     fill::spring_dampers(&mut m, &bodies);
+    fill_actuator::length_ranges(&mut m, &actuators, &settings::length_range(&tree), report);
     statistic.apply(&mut m.stat);
     Some((tree, m))
 }

@@ -5,6 +5,7 @@ use super::diagnostic::{Report, code, shown};
 use super::spec::List;
 use super::tree::Tree;
 use super::values::Value;
+use crate::lengthrange::{Mode, Search};
 use crate::model::{Options, Statistic, disable, enable};
 
 /// More user values of all objects of a kind than this are refused.
@@ -200,6 +201,36 @@ fn disabled_groups(p: &Props, report: &mut Report) -> i32 {
         }
     }
     bits
+}
+
+/// How ranges of lengths are searched, `compiler/lengthrange`.
+pub(crate) fn length_range(tree: &Tree) -> Search {
+    let mut p = Props::default();
+    for (i, _) in tree.sections("compiler") {
+        for (_, node) in tree.children(i) {
+            p.overlay(node);
+        }
+    }
+    let d = Search::default();
+    let flag = |name: &str, default: bool| p.word(name).map_or(default, |w| w == 1);
+    let real = |name: &str, default: f64| p.real(name).unwrap_or(default);
+    Search {
+        mode: match p.word("mode") {
+            Some(0) => Mode::Nothing,
+            Some(3) => Mode::All,
+            // There are no actuators of programs.
+            _ => Mode::Muscles,
+        },
+        useexisting: flag("useexisting", d.useexisting),
+        uselimit: flag("uselimit", d.uselimit),
+        accel: real("accel", d.accel),
+        maxforce: real("maxforce", d.maxforce),
+        timeconst: real("timeconst", d.timeconst),
+        timestep: real("timestep", d.timestep),
+        inttotal: real("inttotal", d.inttotal),
+        interval: real("interval", d.interval),
+        tolrange: real("tolrange", d.tolrange),
+    }
 }
 
 /// What is on unless a flag disables it, and what is off unless a flag enables it.

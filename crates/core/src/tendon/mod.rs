@@ -79,6 +79,11 @@ pub(crate) fn armature(m: &Model, d: &mut Data) {
     }
 }
 
+/// Whether some tendon has inertia of its own or of an actuator.
+pub(crate) fn has_armature(m: &Model) -> bool {
+    (0..m.ntendon).any(|t| m.tendon_armature[t] + transmission::armature(m, On::Tendon(t)) != 0.0)
+}
+
 /// `ten_velocity` = J v.
 pub(crate) fn velocities(m: &Model, d: &mut Data) {
     for t in 0..m.ntendon {

@@ -137,15 +137,9 @@ proptest! {
 
     #[test]
     fn one_step_of_an_oscillator(o in an_oscillator()) {
-        for method in METHODS.iter().filter(|m| m.id != integrator::DISCRETE) {
+        for method in &METHODS {
             o.check(method)?;
         }
-    }
-
-    #[test]
-    #[ignore = "the discrete integrator is not here yet"]
-    fn one_discrete_step_of_an_oscillator(o in an_oscillator()) {
-        o.check(&METHODS[integrator::DISCRETE as usize])?;
     }
 
     /// Gravity alone: the parabola, or the sum of rectangles that a first-order method makes of it.

@@ -1,7 +1,7 @@
 //! Wrong models and what an author reads about them.
 
 use super::world;
-use crate::mjcf::compile;
+use crate::mjcf::{FileProblem, Files, compile, compile_with};
 
 /// Each finding with the line it is about, the place underlined.
 fn explained(xml: &str) -> String {
@@ -51,6 +51,25 @@ fn driven(actuator: &str) -> String {
     format!(
         "<mujoco><worldbody><site name=\"t\"/><body name=\"b\"><joint name=\"h\"/><geom size=\"0.1\"/><site name=\"s\"/></body><body><joint name=\"f\" type=\"ball\"/><geom size=\"0.1\"/></body></worldbody>\n<actuator>{actuator}</actuator></mujoco>"
     )
+}
+
+/// A model that names itself, by whatever name.
+struct Itself(&'static str);
+
+impl Files for Itself {
+    fn read(&self, _: &str, _: usize) -> Result<Vec<u8>, FileProblem> {
+        Ok(self.0.as_bytes().to_vec())
+    }
+}
+
+#[test]
+fn hostile_include_cycle() {
+    let xml = "<mujoco>\n<include file=\"other.xml\"/>\n</mujoco>";
+    let list = compile_with(xml, &Itself(xml), Some("model.xml")).unwrap_err();
+    let text: String = list.iter().map(|d| format!("{d}\n")).collect();
+    insta::with_settings!({ snapshot_path => "../snapshots", prepend_module_to_snapshot => false, omit_expression => true }, {
+        insta::assert_snapshot!("hostile_include_cycle", text);
+    });
 }
 
 mistakes! {
@@ -187,6 +206,7 @@ mistakes! {
     dcmotor_thermal: driven("<dcmotor joint=\"h\" motorconst=\"0.1\" resistance=\"1\" thermal=\"1\"/>");
     muscle_range: driven("<muscle joint=\"h\" range=\"1 0.5\" lengthrange=\"0 1\"/>");
     muscle_lengths: driven("<muscle joint=\"h\" lmin=\"1.1\" lengthrange=\"0 1\"/>");
+    muscle_without_end: driven("<muscle joint=\"h\"/>");
     actuator_group_disabled: before("<option actuatorgroupdisable=\"31\"/>");
         key_activation: driven("<general joint=\"h\" dyntype=\"filter\"/></actuator><keyframe><key act=\"1 2\"/></keyframe><actuator>");
     // Tendons
@@ -215,6 +235,15 @@ mistakes! {
     pair_one_geom: tied("<contact>\n<pair geom1=\"g\"/></contact>");
     pair_condim: tied("<contact>\n<pair geom1=\"g\" geom2=\"floor\" condim=\"2\"/></contact>");
     exclude_one_body: tied("<contact>\n<exclude body1=\"b\"/></contact>");
+    // Models made to break something
+    hostile_nesting: world(&format!("\n{}", "<body>".repeat(1001)));
+    hostile_many_keys: "<mujoco><size nkey=\"2147483647\"/><worldbody><body><freejoint/><geom size=\"1\"/></body></worldbody></mujoco>";
+    hostile_many_copies: world("<replicate count=\"2147483647\"><geom size=\"1\"/></replicate>");
+    hostile_copies_of_copies: world(&format!("{}<geom size=\"1\"/>{}", "<replicate count=\"99\">".repeat(9), "</replicate>".repeat(9)));
+    hostile_infinite: world("<body pos=\"inf 0 0\"><joint damping=\"-inf\"/><geom size=\"1\" mass=\"nan\"/></body>");
+    hostile_attached_to_itself: world("<body name=\"a\"><attach body=\"a\" prefix=\"b\"/></body>");
+    hostile_names_of_nothing: tied("<contact><pair geom1=\"gg\" geom2=\"nothing\"/></contact>\n<sensor><jointpos joint=\"k\"/></sensor>\n<actuator><motor tendon=\"rope\"/></actuator>");
+    global_coordinates: before("<compiler coordinate=\"global\"/>");
     // Several at once, in the order of the text
     many: "<mujoco>\n  <option timestep=\"0.002s\" gravitiy=\"0 0 -1\"/>\n  <worldbody>\n    <body name=\"a\">\n      <joint type=\"hing\"/>\n      <geom size=\"-1\"/>\n    </body>\n    <body name=\"a\"/>\n  </worldbody>\n</mujoco>";
 }

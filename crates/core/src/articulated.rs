@@ -1,0 +1,280 @@
+//! Articulated bodies (Featherstone 2008, chapter 7): trees of many degrees of freedom without the cost of rows of M.
+//!
+//! The subtree of a body answers a force on that body as one body would, whose inertia is
+//!
+//! > Iᴬ = I + Σ over children (Iᴬ - U Uᵀ / D),   U = Iᴬ s,   D = s·U + inertia of the joint
+//!
+//! with a term for each degree of freedom s of the child. One pass from the leaves to the root finds all U and D. They
+//! are the factorization M = Lᵀ D L, whose rows are L_kj = U_k·s_j / D_k for the ancestors j of k (Rodriguez 1987,
+//! *Kalman filtering, smoothing, and recursive robot arm forward and inverse dynamics*), and they give M⁻¹ f in a pass
+//! up and a pass down the tree.
+//!
+//! Everything is expressed about the centre of mass of the tree, as `cdof` and `cinert` are: nothing is transformed
+//! from body to body.
+
+use crate::math::*;
+use crate::{Data, Model, mass, tendon};
+use std::ops::Range;
+
+/// Degrees of freedom of a tree up to which its rows of M are short enough to be eliminated one from the other.
+const FEW: usize = 6;
+
+/// Six numbers and two zeros: two vectors of a processor.
+type Wide = [f64; 8];
+
+/// The trees of a model by how they are solved, and scratch.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Articulated {
+    spans: Vec<Span>,
+    bodies: Vec<Body>,
+    /// Of M, and of M with something added to its diagonal: one for each degree of freedom.
+    joints: Vec<Joint>,
+    damped: Vec<Joint>,
+}
+
+/// A tree of many degrees of freedom, or any number of trees of few.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Span {
+    dofs: Range<usize>,
+    /// The bodies of a tree of many degrees of freedom, none otherwise.
+    bodies: Range<usize>,
+}
+
+/// What the children of a body leave to it: their inertia and force; and its acceleration.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Body {
+    inertia: [Wide; 6],
+    force: Wide,
+    acceleration: Wide,
+}
+
+/// U and 1/D.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Joint {
+    u: Wide,
+    inv: f64,
+}
+
+/// What the algorithm reads of a model and its data.
+struct Tree<'a> {
+    m: &'a Model,
+    bodies: Range<usize>,
+    cdof: &'a [Spatial],
+}
+
+impl Articulated {
+    /// The trees of a model.
+    pub(crate) fn new(m: &Model) -> Articulated {
+        let mut spans: Vec<Span> = Vec::new();
+        for t in 0..m.ntree {
+            let first = m.tree_dofadr[t] as usize;
+            let dofs = first..first + m.tree_dofnum[t] as usize;
+            if dofs.len() > FEW && dofs.clone().any(|k| m.dof_simplenum[k] == 0) {
+                // Bodies are numbered depth first: those of a tree follow each other.
+                let root = m.dof_bodyid[first] as usize;
+                let end = (root..m.nbody).find(|&b| m.body_treeid[b] != t as i32).unwrap_or(m.nbody);
+                spans.push(Span { dofs, bodies: root..end });
+                continue;
+            }
+            match spans.last_mut() {
+                Some(last) if last.bodies.is_empty() => last.dofs.end = dofs.end,
+                _ => spans.push(Span { dofs, bodies: 0..0 }),
+            }
+        }
+        let any = spans.iter().any(|s| !s.bodies.is_empty());
+        let (bodies, joints) = if any { (m.nbody, m.nv) } else { (0, 0) };
+        Articulated {
+            spans,
+            bodies: vec![Body::default(); bodies],
+            joints: vec![Joint::default(); joints],
+            damped: vec![Joint::default(); joints],
+        }
+    }
+}
+
+impl Tree<'_> {
+    /// U and D of every degree of freedom, `diag` being what the joints add to the diagonal of M. Returns the first
+    /// degree of freedom whose D is not positive.
+    #[inline(always)]
+    fn factor(
+        &self,
+        cinert: &[Inertia],
+        diag: impl Fn(usize) -> f64,
+        bodies: &mut [Body],
+        joints: &mut [Joint],
+    ) -> Option<usize> {
+        let mut bad = None;
+        for body in &mut bodies[self.bodies.clone()] {
+            body.inertia = [[0.0; 8]; 6];
+        }
+        for b in self.bodies.clone().rev() {
+            let parent = self.m.body_parentid[b] as usize;
+            let (above, rest) = bodies.split_at_mut(b);
+            let Some(Body { inertia, .. }) = rest.first_mut() else { continue };
+            add_inertia(inertia, &cinert[b]);
+            for k in mass::dofs(self.m, b).rev() {
+                if eliminate(inertia, &self.cdof[k], diag(k), &mut joints[k]) {
+                    bad = Some(k);
+                }
+            }
+            if b > self.bodies.start {
+                add_to(&mut above[parent].inertia, inertia);
+            }
+        }
+        bad
+    }
+
+    /// x ← M⁻¹ x.
+    #[inline(always)]
+    fn solve(&self, bodies: &mut [Body], joints: &[Joint], x: &mut [f64]) {
+        let root = self.bodies.start;
+        for body in &mut bodies[self.bodies.clone()] {
+            body.force = [0.0; 8];
+        }
+        for b in self.bodies.clone().rev() {
+            let mut force = bodies[b].force;
+            for k in mass::dofs(self.m, b).rev() {
+                let Joint { u, inv } = &joints[k];
+                x[k] = (x[k] - dot(wide(&self.cdof[k]), force)) * inv;
+                force = add_scaled(force, *u, x[k]);
+            }
+            if b > root {
+                let up = &mut bodies[self.m.body_parentid[b] as usize].force;
+                *up = add(*up, force);
+            }
+        }
+        for b in self.bodies.clone() {
+            let mut a =
+                if b > root { bodies[self.m.body_parentid[b] as usize].acceleration } else { [0.0; 8] };
+            for k in mass::dofs(self.m, b) {
+                let Joint { u, inv } = &joints[k];
+                x[k] -= inv * dot(*u, a);
+                a = add_scaled(a, wide(&self.cdof[k]), x[k]);
+            }
+            bodies[b].acceleration = a;
+        }
+    }
+}
+
+/// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive.
+pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
+    let mut bad = None;
+    // A tendon's inertia ties bodies of a tree together.
+    let alone = !tendon::has_armature(m);
+    let Articulated { spans, bodies, joints, .. } = &mut d.work.articulated;
+    for Span { dofs, bodies: range } in spans.iter() {
+        let found = if alone && !range.is_empty() {
+            let tree = Tree { m, bodies: range.clone(), cdof: rows(&d.cdof) };
+            let found = tree.factor(rows(&d.cinert), |k| mass::armature(m, k), bodies, joints);
+            for k in dofs.clone() {
+                let Joint { u, inv } = &joints[k];
+                d.qLDiagInv[k] = *inv;
+                let row = &mut d.qLD[mass::row(m, k)];
+                d.work.path.extend(row.len() - 1, &tree.cdof[k]);
+                d.work.path.product(&narrow(&scale(*u, *inv)), row);
+                row[row.len() - 1] = 1.0 / inv;
+            }
+            found
+        } else {
+            let entries = mass::row(m, dofs.start).start..mass::row(m, dofs.end - 1).end;
+            d.qLD[entries.clone()].copy_from_slice(&d.M[entries]);
+            mass::factor_dofs(m, &mut d.qLD, &mut d.qLDiagInv, dofs.clone())
+        };
+        bad = bad.or(found);
+    }
+    bad
+}
+
+/// x ← M⁻¹ x by what [`factor`] has left.
+pub(crate) fn solve(m: &Model, d: &mut Data, x: &mut [f64]) {
+    let alone = !tendon::has_armature(m);
+    let Articulated { spans, bodies, joints, .. } = &mut d.work.articulated;
+    for Span { dofs, bodies: range } in spans.iter() {
+        if alone && !range.is_empty() {
+            Tree { m, bodies: range.clone(), cdof: rows(&d.cdof) }.solve(bodies, joints, x);
+        } else {
+            mass::solve(m, &d.qLD, &d.qLDiagInv, x, dofs.clone());
+        }
+    }
+}
+
+/// x ← (M + B)⁻¹ x for a diagonal matrix B (nv).
+pub(crate) fn solve_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
+    let alone = !tendon::has_armature(m);
+    let Articulated { spans, bodies, damped, .. } = &mut d.work.articulated;
+    for Span { dofs, bodies: range } in spans.iter() {
+        if alone && !range.is_empty() {
+            let tree = Tree { m, bodies: range.clone(), cdof: rows(&d.cdof) };
+            tree.factor(rows(&d.cinert), |k| mass::armature(m, k) + b[k], bodies, damped);
+            tree.solve(bodies, damped, x);
+            continue;
+        }
+        let (ld, diag_inv) = (&mut d.work.ld, &mut d.work.diag_inv);
+        let entries = mass::row(m, dofs.start).start..mass::row(m, dofs.end - 1).end;
+        ld[entries.clone()].copy_from_slice(&d.M[entries]);
+        for k in dofs.clone() {
+            ld[mass::diagonal(m, k)] += b[k];
+        }
+        mass::factor_dofs(m, ld, diag_inv, dofs.clone());
+        mass::solve(m, ld, diag_inv, x, dofs.clone());
+    }
+}
+
+#[inline(always)]
+fn wide(s: &Spatial) -> Wide {
+    [s[0], s[1], s[2], s[3], s[4], s[5], 0.0, 0.0]
+}
+
+#[inline(always)]
+fn narrow(w: &Wide) -> Spatial {
+    [w[0], w[1], w[2], w[3], w[4], w[5]]
+}
+
+/// a · b, lane by lane.
+#[inline(always)]
+fn dot(a: Wide, b: Wide) -> f64 {
+    let s: [f64; 4] = std::array::from_fn(|i| a[i] * b[i] + a[i + 4] * b[i + 4]);
+    (s[0] + s[2]) + (s[1] + s[3])
+}
+
+/// a ← a + i as a symmetric matrix, by columns.
+#[inline(always)]
+fn add_inertia(a: &mut [Wide; 6], i: &Inertia) {
+    let [xx, yy, zz, xy, xz, yz, x, y, z, m] = *i;
+    let turning = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+    let shift = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
+    for c in 0..3 {
+        for r in 0..3 {
+            a[c][r] += turning[c][r];
+            a[c][r + 3] += shift[c][r];
+            a[r + 3][c] += shift[c][r];
+        }
+        a[c + 3][c + 3] += m;
+    }
+}
+
+/// a ← a + b
+#[inline(never)] // see `eliminate`
+fn add_to(a: &mut [Wide; 6], b: &[Wide; 6]) {
+    for c in 0..6 {
+        a[c] = add(a[c], b[c]);
+    }
+}
+
+/// U and D of the degree of freedom s of a joint with inertia `diag`, and I ← I - U Uᵀ / D. Returns whether D is not
+/// positive.
+#[inline(never)] // inlined into a loop, the compiler would not add lane by lane
+fn eliminate(i: &mut [Wide; 6], s: &Spatial, diag: f64, joint: &mut Joint) -> bool {
+    let mut u = scale(i[0], s[0]);
+    for c in 1..6 {
+        u = add_scaled(u, i[c], s[c]);
+    }
+    let d = diag + dot(wide(s), u);
+    let inv = 1.0 / d.max(MINVAL);
+    let v = scale(u, -inv);
+    for c in 0..6 {
+        i[c] = add_scaled(i[c], u, v[c]);
+    }
+    *joint = Joint { u, inv };
+    d < MINVAL
+}
