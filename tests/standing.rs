@@ -21,6 +21,11 @@ impl Standing {
         self.0.push((name, outcome));
     }
 
+    /// How many models do not load.
+    pub(crate) fn refused(&self) -> usize {
+        self.0.iter().filter(|(_, outcome)| outcome.is_err()).count()
+    }
+
     /// Fails when a model differs that is not excepted, when an exception no longer holds, and when the table is stale.
     ///
     /// What is not supported is no failure: the table names it, and shows when it changes.

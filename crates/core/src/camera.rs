@@ -1,6 +1,7 @@
 //! Poses of cameras and lights, which may follow a body or look at one.
 
 use crate::math::*;
+use crate::sleep::{self, awake};
 use crate::{Data, Model};
 
 /// How a camera or light moves (mjtCamLight).
@@ -17,6 +18,8 @@ mod mode {
 
 /// `cam_xpos`, `cam_xmat`.
 pub(crate) fn cameras(m: &Model, d: &mut Data) {
+    // Where trees may sleep, nothing that stands is looked at: what it tracks moves away.
+    let (sleeping, state) = (sleep::on(m, d), &d.body_awake);
     let (pos, quat) = (rows::<3>(&m.cam_pos), rows::<4>(&m.cam_quat));
     let (xpos, xquat, com) = (rows::<3>(&d.xpos), rows::<4>(&d.xquat), rows::<3>(&d.subtree_com));
     let (out_pos, out_mat) = (rows_mut::<3>(&mut d.cam_xpos), rows_mut::<9>(&mut d.cam_xmat));
@@ -29,7 +32,7 @@ pub(crate) fn cameras(m: &Model, d: &mut Data) {
                 out_pos[c] = add(xpos[b], rows::<3>(&m.cam_pos0)[c]);
                 out_mat[c] = rows::<9>(&m.cam_mat0)[c];
             }
-            mode::TRACKCOM => {
+            mode::TRACKCOM if !(sleeping && state[b] == awake::STATIC) => {
                 out_pos[c] = add(com[b], rows::<3>(&m.cam_poscom0)[c]);
                 out_mat[c] = rows::<9>(&m.cam_mat0)[c];
             }
@@ -43,6 +46,7 @@ pub(crate) fn cameras(m: &Model, d: &mut Data) {
 
 /// `light_xpos`, `light_xdir`.
 pub(crate) fn lights(m: &Model, d: &mut Data) {
+    let (sleeping, state) = (sleep::on(m, d), &d.body_awake);
     let (pos, dir) = (rows::<3>(&m.light_pos), rows::<3>(&m.light_dir));
     let (xpos, xquat, com) = (rows::<3>(&d.xpos), rows::<4>(&d.xquat), rows::<3>(&d.subtree_com));
     let (out_pos, out_dir) = (rows_mut::<3>(&mut d.light_xpos), rows_mut::<3>(&mut d.light_xdir));
@@ -55,7 +59,7 @@ pub(crate) fn lights(m: &Model, d: &mut Data) {
                 out_pos[l] = add(xpos[b], rows::<3>(&m.light_pos0)[l]);
                 out_dir[l] = rows::<3>(&m.light_dir0)[l];
             }
-            mode::TRACKCOM => {
+            mode::TRACKCOM if !(sleeping && state[b] == awake::STATIC) => {
                 out_pos[l] = add(com[b], rows::<3>(&m.light_poscom0)[l]);
                 out_dir[l] = rows::<3>(&m.light_dir0)[l];
             }

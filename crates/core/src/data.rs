@@ -8,7 +8,7 @@ use crate::model::define;
 use crate::path::Path;
 use crate::plan::{Demand, Plan};
 use crate::sensor::Match;
-use crate::{Model, articulated, chain, collision, derivative, pipeline, reset};
+use crate::{Model, articulated, chain, collision, derivative, pipeline, reset, sleep};
 
 macro_rules! define_data {
     ($($rows:tt)*) => { define! {
@@ -150,6 +150,8 @@ pub(crate) struct Work {
     pub(crate) rk: RungeKutta,
     /// Contacts that pass the filter of a sensor.
     pub(crate) matches: Vec<Match>,
+    /// What sleeping trees keep.
+    pub(crate) sleep: sleep::Work,
     /// Controls as they act: delayed and clamped.
     pub(crate) ctrl: Vec<f64>,
     /// Sums of the forces of actuators on each tendon.
@@ -179,7 +181,7 @@ impl Data {
 
     /// Data with the full pipeline and no collision pairs.
     pub(crate) fn unplanned(m: &Model) -> Data {
-        let mut d = Data { plan: Plan::full(), ..Data::default() };
+        let mut d = Data { plan: Plan::awake(), ..Data::default() };
         let w = &mut d.work;
         w.chains = chain::Chains::new(m);
         w.articulated = articulated::Articulated::new(m);
@@ -193,6 +195,7 @@ impl Data {
         (w.ctrl, w.tendon_force) = (vec![0.0; m.nu], vec![0.0; m.ntendon]);
         w.moment = vec![0.0; m.nv];
         w.rk = RungeKutta::new(m);
+        w.sleep = sleep::Work::new(m);
         for v in [&mut w.mv, &mut w.diag_inv, &mut w.qacc, &mut w.damping] {
             *v = vec![0.0; m.nv];
         }

@@ -474,6 +474,8 @@ macro_rules! data_fields {
         eq_active: Vec<bool>, [neq], Input, User, "", "whether each equality constraint acts";
         userdata: Vec<f64>, [nuserdata], Input, User, "", "values of the user; the engine does not touch them";
 
+        tree_asleep: Vec<i32>, [ntree], State, User, "", "-11 to -1 while the tree is awake, counting steps at rest; then the next of the trees that sleep with it";
+
         // Counts.
         ncon: usize, [], Derived, Collision, "", "number of detected contacts";
         nefc: usize, [], Derived, Constraint, "", "number of scalar constraints";
@@ -481,7 +483,15 @@ macro_rules! data_fields {
         nf: usize, [], Derived, Constraint, "", "number of scalar constraints of dry friction";
         nl: usize, [], Derived, Constraint, "", "number of scalar constraints of limits";
         nisland: usize, [], Derived, Constraint, "", "number of independent sets of constraints";
+        ntree_awake: usize, [], Derived, Sleep, "", "number of trees that are awake";
+        nbody_awake: usize, [], Derived, Sleep, "", "number of bodies that do not sleep";
+        nparent_awake: usize, [], Derived, Sleep, "", "number of bodies whose parents do not sleep";
+        nv_awake: usize, [], Derived, Sleep, "", "number of degrees of freedom that are awake";
         solver_niter: usize, [], Derived, Solve, "", "solver iterations of the last step, summed over islands";
+
+        // Sleep.
+        tree_awake: Vec<i32>, [ntree], Derived, Sleep, "", "whether the tree is awake";
+        body_awake: Vec<i32>, [nbody], Derived, Sleep, "", "-1 the body cannot move, 0 it sleeps, 1 it is awake";
 
         // Position.
         xpos: Vec<f64>, [nbody, 3], Derived, Kinematics, "m", "position of the body frame, world";

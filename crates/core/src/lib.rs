@@ -55,6 +55,7 @@ mod rne_post;
 pub mod save;
 pub mod sensor;
 mod setconst;
+mod sleep;
 pub mod state;
 mod subtree;
 mod tendon;

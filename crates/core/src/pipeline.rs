@@ -8,7 +8,7 @@ use crate::{
     Data, Model, Warning, actuation, articulated, camera, chain, collision, com, constraint, disable, enable,
     energy, integrate, integrator, kinematics,
 };
-use crate::{jacobian, mass, passive, reset, rne, rne_post, sensor, subtree, tendon, transmission};
+use crate::{jacobian, mass, passive, reset, rne, rne_post, sensor, sleep, subtree, tendon, transmission};
 
 /// What a caller can leave out of a forward pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,14 +68,28 @@ pub(crate) fn from_state(m: &Model, d: &mut Data, skip: Skip) {
 
 /// What follows from inputs as well: forces, accelerations and the other sensors.
 fn from_inputs(m: &Model, d: &mut Data, skip: Skip) {
+    sleep::keep(m, d);
     actuation(m, d);
     acceleration(m, d);
     constraints(m, d);
+    sleep::put_back(m, d);
     read(m, d, When::Acceleration, skip);
+    sleep::passed(d);
+}
+
+/// The same, and what follows from velocities.
+pub(crate) fn from_velocities(m: &Model, d: &mut Data) {
+    velocity(m, d);
+    read(m, d, When::Velocity, Skip::NOTHING);
+    kinetic_energy(m, d);
+    from_inputs(m, d, Skip::NOTHING);
 }
 
 /// What depends on `qpos` alone.
 pub(crate) fn position(m: &Model, d: &mut Data) {
+    if d.plan.keeps(Stage::Sleep) {
+        sleep::wake(m, d);
+    }
     if d.plan.keeps(Stage::Kinematics) {
         kinematics::bodies(m, d);
     }
@@ -94,6 +108,9 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
     }
     if d.plan.keeps(Stage::Tendon) {
         tendon::tendons(m, d);
+    }
+    if d.plan.keeps(Stage::Sleep) {
+        sleep::wake_tied(m, d);
     }
     if d.plan.keeps(Stage::MassMatrix) {
         if d.plan.composite {
@@ -303,5 +320,6 @@ pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
     };
     d.plan = plan;
     d.work.chains.load(m);
+    sleep::plan_changed(m, d);
     reset::clear_left_out(m, d);
 }

@@ -112,6 +112,13 @@ impl Plan {
         plan
     }
 
+    /// Every stage but the one that lets trees sleep: what computes constants wants all of them awake.
+    pub(crate) fn awake() -> Plan {
+        let mut plan = Plan::full();
+        plan.kept &= !(1 << Stage::Sleep as u32);
+        plan
+    }
+
     /// The stages that this scene needs.
     ///
     /// From the last stage to the first: a stage runs when it is wanted for its own sake, or when a later
@@ -163,7 +170,8 @@ impl Plan {
 }
 
 /// The stages of a forward pass, in order.
-const STAGES: [Stage; 24] = [
+const STAGES: [Stage; 25] = [
+    Stage::Sleep,
     Stage::Kinematics,
     Stage::GeomPoses,
     Stage::SitePoses,
@@ -269,6 +277,7 @@ fn name(stage: Stage) -> &'static str {
         Stage::Solve => "solver",
         Stage::Sensors => "sensor",
         Stage::Energy => "energy",
+        Stage::Sleep => "sleep",
         _ => "kinematics",
     }
 }
@@ -303,6 +312,8 @@ struct Scene<'a> {
     actuated: bool,
     sensors: bool,
     energy: bool,
+    /// Trees may sleep.
+    sleeps: bool,
 }
 
 impl<'a> Scene<'a> {
@@ -327,7 +338,10 @@ impl<'a> Scene<'a> {
             actuated: m.nactuator > 0 && !m.opt.disabled(disable::ACTUATION),
             sensors: false,
             energy: m.opt.enabled(enable::ENERGY),
+            sleeps: false,
         };
+        scene.sleeps =
+            m.ntree > 0 && (m.opt.enabled(enable::SLEEP) || scene.writes(Object::Option, &["enableflags"]));
         scene.pairs_change = scene.writes(Object::Model, &["geom_contype", "geom_conaffinity"])
             || scene.writes(Object::Option, &["disableflags"]);
         scene.pairs = collision::candidate_pairs(m, scene.pairs_change).len();
@@ -418,6 +432,7 @@ impl<'a> Scene<'a> {
                 .or_else(|| count(m.neq, "there is one equality constraint", "equality constraints hold"))
         };
         match stage {
+            Stage::Sleep => because(self.sleeps, "trees at rest fall asleep"),
             Stage::MassMatrix | Stage::Factor if self.general => {
                 Some("the mass matrix depends on the configuration".into())
             }
@@ -451,6 +466,7 @@ impl<'a> Scene<'a> {
             (Stage::ComVel, Stage::ComPos) => true,
             (Stage::MassMatrix, Stage::ComPos) => self.large || self.reads_field("crb"),
             (Stage::CameraPoses, Stage::ComPos) => true,
+            (Stage::Sleep, Stage::Tendon) => self.sleeps && m.tendon_limited.contains(&true),
             (Stage::Tendon, Stage::Kinematics) => true,
             (Stage::Tendon, Stage::SitePoses) => m.wrap_type.contains(&wraptype::SITE),
             (Stage::Tendon, Stage::GeomPoses) => m.wrap_type.iter().any(|&t| t > wraptype::SITE),
@@ -503,6 +519,8 @@ impl<'a> Scene<'a> {
     fn leaves_out(&self, stage: Stage) -> &'static str {
         let m = self.m;
         match stage {
+            Stage::Sleep if m.ntree == 0 => "nothing can move",
+            Stage::Sleep => "the sleep flag is off",
             Stage::Kinematics => "nothing can touch and nothing reads a pose",
             Stage::GeomPoses => "no contact is possible and nothing reads a geom's pose",
             Stage::SitePoses if m.nsite == 0 => "the model has no sites",

@@ -95,6 +95,8 @@ pub enum Stage {
     Energy,
     /// Inverse dynamics.
     Inverse,
+    /// Which trees sleep.
+    Sleep,
 }
 
 /// Element type of a field.

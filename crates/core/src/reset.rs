@@ -2,7 +2,7 @@
 
 use crate::math::*;
 use crate::reflect::Stage;
-use crate::{Data, Model, Warning, WarningStat, actuation, kinematics, mass, reflect, sensor};
+use crate::{Data, Model, Warning, WarningStat, actuation, kinematics, mass, reflect, sensor, sleep};
 
 /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
 /// what was written to it.
@@ -25,6 +25,7 @@ pub fn reset_data(m: &Model, d: &mut Data) {
         }
     }
     clear_left_out(m, d);
+    sleep::reset(m, d);
 }
 
 /// Back to keyframe `key` (`mj_resetDataKeyframe`); one that does not exist resets to the default.

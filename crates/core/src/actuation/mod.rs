@@ -15,7 +15,7 @@ pub(crate) mod muscle;
 mod servo;
 
 use crate::math::*;
-use crate::{Data, Model, biastype, disable, dyntype, gaintype, joint, transmission};
+use crate::{Data, Model, biastype, disable, dyntype, gaintype, joint, sleep, transmission};
 
 pub(crate) use activation::advance;
 pub(crate) use control::{record, reset};
@@ -25,6 +25,11 @@ pub(crate) use motor::slots;
 pub(crate) fn switched_off(m: &Model, i: usize) -> bool {
     let group = m.actuator_group[i];
     (0..=30).contains(&group) && m.opt.disableactuator & (1 << group) != 0
+}
+
+/// Whether actuator `i` makes a force.
+fn acts(m: &Model, d: &Data, i: usize) -> bool {
+    !switched_off(m, i) && !sleep::actuator_sleeps(m, d, i)
 }
 
 /// Ten parameters of actuator `i`.
@@ -53,7 +58,10 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
             activation::rates(m, d, i, &mut ctrl);
         }
     }
-    for i in (0..m.nactuator).filter(|&i| !switched_off(m, i)) {
+    for i in 0..m.nactuator {
+        if !acts(m, d, i) {
+            continue;
+        }
         match m.actuator_gaintype[i] {
             gaintype::SO3 | gaintype::PID | gaintype::DCMOTOR => of_its_own(m, d, i, &ctrl),
             _ => {
@@ -65,9 +73,10 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
     d.work.ctrl = ctrl;
     limit::tendons(m, d);
     limit::forces(m, d);
-    for i in (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == biastype::DCMOTOR && !switched_off(m, i))
-    {
-        d.actuator_force[m.actuator_outadr[i] as usize] += motor::mechanical(m, d, i);
+    for i in (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == biastype::DCMOTOR) {
+        if acts(m, d, i) {
+            d.actuator_force[m.actuator_outadr[i] as usize] += motor::mechanical(m, d, i);
+        }
     }
     transmission::apply_forces(m, d);
     gravity_compensation(m, d);

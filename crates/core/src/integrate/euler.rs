@@ -1,6 +1,6 @@
 //! Semi-implicit Euler.
 
-use super::advance;
+use super::{Slopes, advance};
 use crate::passive::spring;
 use crate::reflect::Stage;
 use crate::{Data, Model, articulated, disable};
@@ -10,7 +10,7 @@ use crate::{Data, Model, articulated, disable};
 #[inline(never)]
 pub(super) fn euler(m: &Model, d: &mut Data) {
     if !damps(m, d) {
-        advance(m, d, None, None);
+        advance(m, d, Slopes::default());
         return;
     }
     let h = m.opt.timestep;
@@ -24,7 +24,7 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
     }
     articulated::solve_with(m, d, &damping, &mut acceleration);
     d.work.damping = damping;
-    advance(m, d, Some(&acceleration), None);
+    advance(m, d, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
     d.work.qacc = acceleration;
 }
 

@@ -1,7 +1,7 @@
 //! Implicit in velocity: (M - h D) a' = f, where D is the derivative of the smooth forces f with respect to
 //! velocities (Hairer and Wanner 1996, *Solving Ordinary Differential Equations II*, section IV.7).
 
-use super::advance;
+use super::{Slopes, advance};
 use crate::derivative::{self, Medium, sparse};
 use crate::math::{MINVAL, Spatial};
 use crate::pipeline::warn;
@@ -19,7 +19,7 @@ pub(super) fn implicit(m: &Model, d: &mut Data) {
     let mut acceleration = force(d);
     sparse::solve(m, &w.whole, &mut acceleration);
     d.work.derivative = w;
-    advance(m, d, Some(&acceleration), None);
+    advance(m, d, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
     d.work.qacc = acceleration;
 }
 
@@ -54,7 +54,7 @@ pub(super) fn implicitfast(m: &Model, d: &mut Data) {
         }
     }
     (d.work.derivative, d.work.ld) = (w, ld);
-    advance(m, d, Some(&acceleration), None);
+    advance(m, d, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
     d.work.qacc = acceleration;
 }
 

@@ -7,7 +7,7 @@ mod position;
 mod runge_kutta;
 
 use crate::reflect::Stage;
-use crate::{Data, Model, actuation, integrator, sensor};
+use crate::{Data, Model, actuation, integrator, sensor, sleep};
 
 pub(crate) use discrete::Metric;
 pub(crate) use euler::{damping, damps};
@@ -28,23 +28,42 @@ pub(crate) fn integrate_once(m: &Model, d: &mut Data) {
         integrator::IMPLICIT => implicit::implicit(m, d),
         integrator::IMPLICITFAST => implicit::implicitfast(m, d),
         // Its acceleration is already that of the end of the step.
-        integrator::DISCRETE => advance(m, d, None, None),
+        integrator::DISCRETE => advance(m, d, Slopes::default()),
         _ => euler::euler(m, d),
     }
 }
 
-/// What every integrator ends with, in MuJoCo's order: histories, activations, velocities, positions along the new
-/// velocities, time, and the acceleration from which the next solver starts. The acceleration and the velocity
-/// are those of the data unless others are given.
+/// What an integrator advances along, where that is not what the data hold.
+#[derive(Default)]
+struct Slopes<'a> {
+    activation: Option<&'a mut Vec<f64>>,
+    acceleration: Option<&'a [f64]>,
+    velocity: Option<&'a [f64]>,
+}
+
+/// What every integrator ends with, in MuJoCo's order: histories, activations, sleep, velocities, positions along the
+/// new velocities, time, and the acceleration from which the next solver starts.
 #[inline(always)]
-fn advance(m: &Model, d: &mut Data, acceleration: Option<&[f64]>, velocity: Option<&[f64]>) {
+fn advance(m: &Model, d: &mut Data, slopes: Slopes) {
     let h = m.opt.timestep;
+    let Slopes { activation, acceleration, velocity } = slopes;
     record(m, d);
-    actuation::advance(m, d);
-    for (v, a) in d.qvel.iter_mut().zip(acceleration.unwrap_or(&d.qacc)) {
-        *v += h * a;
+    match activation {
+        Some(rates) => {
+            std::mem::swap(&mut d.act_dot, rates);
+            actuation::advance(m, d);
+            std::mem::swap(&mut d.act_dot, rates);
+        }
+        None => actuation::advance(m, d),
     }
-    integrate_pos(m, &mut d.qpos, velocity.unwrap_or(&d.qvel), h);
+    if d.plan.keeps(Stage::Sleep) && sleep::on(m, d) {
+        sleep::advance(m, d, acceleration, velocity);
+    } else {
+        for (v, a) in d.qvel.iter_mut().zip(acceleration.unwrap_or(&d.qacc)) {
+            *v += h * a;
+        }
+        integrate_pos(m, &mut d.qpos, velocity.unwrap_or(&d.qvel), h);
+    }
     d.time += h;
     d.qacc_warmstart.copy_from_slice(&d.qacc);
 }

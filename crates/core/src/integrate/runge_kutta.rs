@@ -1,7 +1,7 @@
 //! The classic Runge–Kutta method of fourth order (Kutta 1901). Stage velocities are averaged and applied in
 //! one step on the manifold.
 
-use super::{advance, integrate_pos};
+use super::{Slopes, advance, integrate_pos};
 use crate::pipeline::{self, Skip};
 use crate::{Data, Model};
 
@@ -68,9 +68,11 @@ pub(super) fn rk4(m: &Model, d: &mut Data) {
     d.qpos.copy_from_slice(&w.qpos);
     d.qvel.copy_from_slice(&w.qvel);
     d.act.copy_from_slice(&w.act);
-    std::mem::swap(&mut d.act_dot, &mut w.dact);
-    advance(m, d, Some(&w.dvel), Some(&w.dpos));
-    std::mem::swap(&mut d.act_dot, &mut w.dact);
+    advance(
+        m,
+        d,
+        Slopes { activation: Some(&mut w.dact), acceleration: Some(&w.dvel), velocity: Some(&w.dpos) },
+    );
     // The warm start of the next step is the first stage's acceleration.
     d.qacc_warmstart.copy_from_slice(&w.qacc);
     d.work.rk = w;

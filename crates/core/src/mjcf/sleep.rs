@@ -6,14 +6,7 @@ use super::layout::Layout;
 use super::spec::BodySpec;
 use crate::Model;
 use crate::model::trntype;
-
-/// Values of `tree_sleep_policy`: decided here, or by the author.
-mod policy {
-    pub(super) const AUTO_NEVER: i32 = 1;
-    pub(super) const AUTO_ALLOWED: i32 = 2;
-    /// The first of the three that an author can choose: never, allowed, asleep at the start.
-    pub(super) const CHOSEN: i32 = 3;
-}
+use crate::sleep::policy;
 
 /// Reports a choice where there is no tree to sleep.
 pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
@@ -63,7 +56,7 @@ pub(crate) fn policies(m: &mut Model, bodies: &[BodySpec]) {
     }
     for (body, &tree) in bodies.iter().zip(&m.body_treeid) {
         if let (1.., Some(p)) = (body.sleep, usize::try_from(tree).ok().and_then(|t| policies.get_mut(t))) {
-            *p = policy::CHOSEN + body.sleep - 1;
+            *p = policy::NEVER + body.sleep - 1;
         }
     }
     m.tree_sleep_policy = policies;

@@ -5,6 +5,7 @@
 //! resists with f = -v (b + p₁ |v| + p₂ v²).
 
 use crate::math::*;
+use crate::sleep;
 use crate::transmission::{self, On};
 use crate::{Data, Model, joint, tendon};
 
@@ -158,7 +159,7 @@ pub(crate) fn energy(m: &Model, d: &Data) -> f64 {
     let mut e = 0.0;
     for j in 0..m.njnt {
         let law = Law::new(&m.jnt_stiffness, &m.jnt_stiffnesspoly, j);
-        if law.is_zero() {
+        if law.is_zero() || sleep::body_sleeps(m, d, m.jnt_bodyid[j] as usize) {
             continue;
         }
         if matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE) {
@@ -171,7 +172,7 @@ pub(crate) fn energy(m: &Model, d: &Data) -> f64 {
     }
     for t in 0..m.ntendon {
         let law = Law::new(&m.tendon_stiffness, &m.tendon_stiffnesspoly, t);
-        if !law.is_zero() {
+        if !law.is_zero() && !sleep::tendon_sleeps(m, d, t) {
             e += law.energy(tendon::spring_displacement(m, d, t));
         }
     }

@@ -21,7 +21,7 @@ pub(crate) use timing::{record, reset};
 pub use table::{Datatype, KINDS, Kind, Senses, When, kind};
 
 use crate::reflect::Stage;
-use crate::{Data, Model, Obj, disable};
+use crate::{Data, Model, Obj, disable, sleep};
 
 /// The sensors whose values are known at a stage. While sensors are switched off values stay as they are.
 pub(crate) fn evaluate(m: &Model, d: &mut Data, when: When) {
@@ -31,7 +31,7 @@ pub(crate) fn evaluate(m: &Model, d: &mut Data, when: When) {
     // Taken out, because reading a sensor uses scratch of the data; nothing is allocated.
     let mut values = std::mem::take(&mut d.sensordata);
     for s in 0..m.nsensor {
-        if m.sensor_needstage[s] == when as i32 {
+        if m.sensor_needstage[s] == when as i32 && !sleep::sensor_sleeps(m, d, s) {
             let adr = m.sensor_adr[s] as usize;
             let out = &mut values[adr..adr + m.sensor_dim[s] as usize];
             if !timing::past(m, d, s, out) {

@@ -13,7 +13,7 @@ mod wrap;
 use crate::math::*;
 use crate::model::wraptype;
 use crate::transmission::{self, On};
-use crate::{Data, Model, mass};
+use crate::{Data, Model, mass, sleep};
 
 pub(crate) use constants::{at_default, at_rest};
 pub(crate) use pattern::set_pattern;
@@ -30,7 +30,7 @@ pub(crate) fn row(m: &Model, t: usize) -> std::ops::Range<usize> {
     start..start + m.ten_J_rownnz[t] as usize
 }
 
-/// `ten_length`, `ten_J` and the points of the paths.
+/// `ten_length`, `ten_J` and the points of the paths. A tendon that sleeps has no length and stays where it is.
 pub(crate) fn tendons(m: &Model, d: &mut Data) {
     // Taken out, so that the rest of the data can be read while they are written.
     let mut out = path::Paths {
@@ -41,6 +41,10 @@ pub(crate) fn tendons(m: &Model, d: &mut Data) {
     };
     out.jacobian.fill(0.0);
     for t in 0..m.ntendon {
+        if sleep::tendon_sleeps(m, d, t) {
+            d.ten_length[t] = 0.0;
+            continue;
+        }
         let first = out.count;
         d.ten_length[t] =
             if is_fixed(m, t) { fixed(m, d, t, &mut out.jacobian) } else { path::spatial(m, d, t, &mut out) };

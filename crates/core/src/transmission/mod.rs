@@ -9,7 +9,7 @@ mod reflection;
 mod space;
 
 use crate::math::*;
-use crate::{Data, Model, disable, jacobian, joint, tendon, trntype};
+use crate::{Data, Model, disable, jacobian, joint, sleep, tendon, trntype};
 
 pub(crate) use constants::{at_default, critical_damping, reflected};
 pub(crate) use reflection::{On, armature, damping};
@@ -108,7 +108,7 @@ fn union(m: &Model, bodies: [usize; 2]) -> impl Iterator<Item = (usize, Side)> +
     })
 }
 
-/// `actuator_length`, `actuator_moment` and its pattern.
+/// `actuator_length`, `actuator_moment` and its pattern. An actuator that sleeps keeps its lengths and has no moments.
 pub(crate) fn transmissions(m: &Model, d: &mut Data) {
     // Taken out, so that the rest of the data can be read while they are written.
     let mut out = Rows {
@@ -121,6 +121,10 @@ pub(crate) fn transmissions(m: &Model, d: &mut Data) {
         let first = m.actuator_outadr[i] as usize;
         for o in first..first + m.actuator_outnum[i] as usize {
             let start = out.at;
+            (d.moment_rowadr[o], d.moment_rownnz[o]) = (start as i32, 0);
+            if sleep::actuator_sleeps(m, d, i) {
+                continue;
+            }
             d.actuator_length[o] = match m.actuator_trntype[i] {
                 kind @ (trntype::JOINT | trntype::JOINTINPARENT) => {
                     let gear = &rows::<6>(&m.actuator_gear)[o];
@@ -128,7 +132,6 @@ pub(crate) fn transmissions(m: &Model, d: &mut Data) {
                 }
                 _ => elsewhere(m, d, [i, o], &mut dense, &mut out),
             };
-            d.moment_rowadr[o] = start as i32;
             d.moment_rownnz[o] = (out.at - start) as i32;
         }
     }

@@ -170,6 +170,7 @@ fn stage_phrase(stage: Stage) -> &'static str {
         Stage::SubtreeVel => "mj_subtreeVel, which mj_step and mj_forward call when a sensor needs it",
         Stage::RnePost => "mj_rnePostConstraint, which mj_step and mj_forward call when a sensor needs it",
         Stage::Inverse => "mj_inverse",
+        Stage::Sleep => "the sleep stage, inside mj_step and mj_forward",
         Stage::Sensors => "the sensor stage, inside mj_step and mj_forward",
         Stage::Energy => "the energy stage, inside mj_step and mj_forward",
     }

@@ -1,7 +1,7 @@
 //! Wrong models and what an author reads about them.
 
 use super::world;
-use crate::mjcf::compile;
+use crate::mjcf::{FileProblem, Files, compile, compile_with};
 
 /// Each finding with the line it is about, the place underlined.
 fn explained(xml: &str) -> String {
@@ -53,6 +53,25 @@ fn driven(actuator: &str) -> String {
     )
 }
 
+/// A model that names itself, by whatever name.
+struct Itself(&'static str);
+
+impl Files for Itself {
+    fn read(&self, _: &str, _: usize) -> Result<Vec<u8>, FileProblem> {
+        Ok(self.0.as_bytes().to_vec())
+    }
+}
+
+#[test]
+fn hostile_include_cycle() {
+    let xml = "<mujoco>\n<include file=\"other.xml\"/>\n</mujoco>";
+    let list = compile_with(xml, &Itself(xml), Some("model.xml")).unwrap_err();
+    let text: String = list.iter().map(|d| format!("{d}\n")).collect();
+    insta::with_settings!({ snapshot_path => "../snapshots", prepend_module_to_snapshot => false, omit_expression => true }, {
+        insta::assert_snapshot!("hostile_include_cycle", text);
+    });
+}
+
 mistakes! {
     // XML
     xml_wrong_close: "<mujoco>\n  <worldbody>\n    <body>\n  </worldbody>\n</mujoco>";
@@ -75,7 +94,8 @@ mistakes! {
     geom_type_not_supported: world("<geom type=\"sdf\" size=\"1 1\"/>");
     keyword_misspelt: before("<option integrator=\"euler\"/>");
     integrator_unknown: before("<option integrator=\"midpoint\"/>");
-    flag_not_simulated: before("<option><flag sleep=\"enable\"/></option>");
+    sleep_not_simulated: before("<option><flag sleep=\"enable\"/></option>\n<worldbody><body><joint range=\"0 1\"/><geom size=\"1\"/></body></worldbody>");
+    sleep_of_tendons: tied("<option><flag sleep=\"enable\"/></option>\n<tendon><spatial name=\"rope\"><site site=\"s\"/><site site=\"t\"/></spatial></tendon><equality><tendon tendon1=\"rope\"/></equality>");
     boolean: world("<body mocap=\"True\"/>");
     stray_text: world("\n  geom size=\"1\"/>");
     // Numbers
@@ -213,6 +233,15 @@ mistakes! {
     pair_one_geom: tied("<contact>\n<pair geom1=\"g\"/></contact>");
     pair_condim: tied("<contact>\n<pair geom1=\"g\" geom2=\"floor\" condim=\"2\"/></contact>");
     exclude_one_body: tied("<contact>\n<exclude body1=\"b\"/></contact>");
+    // Models made to break something
+    hostile_nesting: world(&format!("\n{}", "<body>".repeat(1001)));
+    hostile_many_keys: "<mujoco><size nkey=\"2147483647\"/><worldbody><body><freejoint/><geom size=\"1\"/></body></worldbody></mujoco>";
+    hostile_many_copies: world("<replicate count=\"2147483647\"><geom size=\"1\"/></replicate>");
+    hostile_copies_of_copies: world(&format!("{}<geom size=\"1\"/>{}", "<replicate count=\"99\">".repeat(9), "</replicate>".repeat(9)));
+    hostile_infinite: world("<body pos=\"inf 0 0\"><joint damping=\"-inf\"/><geom size=\"1\" mass=\"nan\"/></body>");
+    hostile_attached_to_itself: world("<body name=\"a\"><attach body=\"a\" prefix=\"b\"/></body>");
+    hostile_names_of_nothing: tied("<contact><pair geom1=\"gg\" geom2=\"nothing\"/></contact>\n<sensor><jointpos joint=\"k\"/></sensor>\n<actuator><motor tendon=\"rope\"/></actuator>");
+    global_coordinates: before("<compiler coordinate=\"global\"/>");
     // Several at once, in the order of the text
     many: "<mujoco>\n  <option timestep=\"0.002s\" gravitiy=\"0 0 -1\"/>\n  <worldbody>\n    <body name=\"a\">\n      <joint type=\"hing\"/>\n      <geom size=\"-1\"/>\n    </body>\n    <body name=\"a\"/>\n  </worldbody>\n</mujoco>";
 }

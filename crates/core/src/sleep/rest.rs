@@ -1,0 +1,100 @@
+//! Falling asleep, and what of a sleeping tree stays as it is.
+
+use super::{AWAKE, coordinates, dofs, on, policy, some, state};
+use crate::integrate::integrate_pos;
+use crate::pipeline;
+use crate::{Data, Model, integrator};
+
+/// Whether a tree may sleep at all.
+pub(super) fn may_sleep(m: &Model, tree: usize) -> bool {
+    !matches!(m.tree_sleep_policy[tree], policy::AUTO_NEVER | policy::NEVER)
+}
+
+/// Whether a tree may sleep, is not pushed from outside and moves slower than `tolerance`; for 0, not at all.
+pub(super) fn is_still(m: &Model, d: &Data, tree: usize, tolerance: f64) -> bool {
+    // A negative zero counts: somebody wrote it.
+    let zero = |list: &[f64]| list.iter().all(|x| x.to_bits() == 0);
+    let first = 6 * m.tree_bodyadr[tree] as usize;
+    let pushed = &d.xfrc_applied[first..first + 6 * m.tree_bodynum[tree] as usize];
+    let dofs = dofs(m, tree);
+    let slow = |k: usize| m.dof_length[k] * d.qvel[k].abs() < tolerance;
+    may_sleep(m, tree)
+        && zero(pushed)
+        && zero(&d.qfrc_applied[dofs.clone()])
+        && if tolerance == 0.0 { zero(&d.qvel[dofs]) } else { dofs.into_iter().all(slow) }
+}
+
+/// Puts trees to sleep that have been slow for long enough, and advances velocities and positions of the others.
+pub(crate) fn advance(m: &Model, d: &mut Data, acceleration: Option<&[f64]>, velocity: Option<&[f64]>) {
+    let mut w = std::mem::take(&mut d.work.sleep.acceleration);
+    w.copy_from_slice(acceleration.unwrap_or(&d.qacc));
+    fall_asleep(m, d);
+    if m.opt.integrator == integrator::DISCRETE {
+        // Its acceleration is that of the data, which may have been computed again.
+        w.copy_from_slice(&d.qacc);
+    }
+    d.work.sleep.start.copy_from_slice(&d.qpos);
+    for (v, a) in d.qvel.iter_mut().zip(&w) {
+        *v += m.opt.timestep * a;
+    }
+    integrate_pos(m, &mut d.qpos, velocity.unwrap_or(&d.qvel), m.opt.timestep);
+    for tree in (0..m.ntree).filter(|&t| d.tree_awake[t] == 0) {
+        d.qvel[dofs(m, tree)].fill(0.0);
+        let q = coordinates(m, tree);
+        d.qpos[q.clone()].copy_from_slice(&d.work.sleep.start[q]);
+    }
+    d.work.sleep.acceleration = w;
+}
+
+/// Counts the steps for which trees have been slow. Where one falls asleep, all that depends on velocities is computed
+/// again without its own.
+fn fall_asleep(m: &Model, d: &mut Data) {
+    let mut slept = false;
+    for tree in (0..m.ntree).filter(|&t| d.tree_awake[t] != 0) {
+        if !is_still(m, d, tree, m.opt.sleep_tolerance) {
+            d.tree_asleep[tree] = AWAKE;
+            continue;
+        }
+        d.tree_asleep[tree] = (d.tree_asleep[tree] + 1).min(-1);
+        if d.tree_asleep[tree] == -1 {
+            d.tree_asleep[tree] = tree as i32;
+            d.qvel[dofs(m, tree)].fill(0.0);
+            slept = true;
+        }
+    }
+    if slept {
+        pipeline::from_velocities(m, d);
+        state::update(m, d);
+    }
+}
+
+/// Keeps the results of sleeping trees, before others are computed.
+pub(crate) fn keep(m: &Model, d: &mut Data) {
+    if some(m, d) && on(m, d) {
+        let w = &mut d.work.sleep;
+        w.qfrc_smooth.copy_from_slice(&d.qfrc_smooth);
+        w.qacc_smooth.copy_from_slice(&d.qacc_smooth);
+        w.qacc.copy_from_slice(&d.qacc);
+        w.act_dot.copy_from_slice(&d.act_dot);
+    }
+}
+
+/// Gives sleeping trees their own results back.
+pub(crate) fn put_back(m: &Model, d: &mut Data) {
+    if !some(m, d) || !on(m, d) {
+        return;
+    }
+    for tree in (0..m.ntree).filter(|&t| d.tree_awake[t] == 0) {
+        let (k, w) = (dofs(m, tree), &d.work.sleep);
+        d.qfrc_smooth[k.clone()].copy_from_slice(&w.qfrc_smooth[k.clone()]);
+        d.qacc_smooth[k.clone()].copy_from_slice(&w.qacc_smooth[k.clone()]);
+        d.qacc[k.clone()].copy_from_slice(&w.qacc[k]);
+    }
+    for i in 0..m.nactuator {
+        if state::actuator_sleeps(m, d, i) {
+            let first = m.actuator_actadr[i].max(0) as usize;
+            let states = first..first + m.actuator_actnum[i] as usize;
+            d.act_dot[states.clone()].copy_from_slice(&d.work.sleep.act_dot[states]);
+        }
+    }
+}

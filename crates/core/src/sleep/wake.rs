@@ -1,0 +1,103 @@
+//! What wakes a tree.
+
+use super::{AWAKE, coordinates, on, rest, some, state};
+use crate::{Data, Model, eqtype};
+
+/// Wakes what was disturbed from outside since the last position stage: moved, pushed, or given a velocity.
+pub(crate) fn wake(m: &Model, d: &mut Data) {
+    if some(m, d) {
+        let allowed = on(m, d);
+        for tree in 0..m.ntree {
+            if d.tree_asleep[tree] >= 0
+                && (!allowed || was_moved(m, d, tree) || !rest::is_still(m, d, tree, 0.0))
+            {
+                wake_island(d, tree, AWAKE);
+            }
+        }
+        state::update(m, d);
+    }
+    if on(m, d) {
+        d.work.sleep.seen.copy_from_slice(&d.qpos);
+    }
+}
+
+/// Wakes what a tendon at its limit, then what an equality ties to a tree that is awake.
+pub(crate) fn wake_tied(m: &Model, d: &mut Data) {
+    if !some(m, d) {
+        return;
+    }
+    for t in (0..m.ntendon).filter(|&t| m.tendon_treenum[t] == 2) {
+        let length = d.ten_length[t];
+        let [lower, upper] = [m.tendon_range[2 * t], m.tendon_range[2 * t + 1]];
+        let margin = m.tendon_margin[t];
+        if m.tendon_limited[t] && (length < lower + margin || length > upper - margin) {
+            let trees = [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]];
+            let [a, b] = trees.map(|tree| tree.max(0) as usize);
+            // The woken one has been slow for as long as the other.
+            match (d.tree_awake[a] != 0, d.tree_awake[b] != 0) {
+                (true, false) => wake_island(d, b, d.tree_asleep[a]),
+                (false, true) => wake_island(d, a, d.tree_asleep[b]),
+                _ => {}
+            }
+        }
+    }
+    state::update(m, d);
+    for e in 0..m.neq {
+        let Some([a, b]) = tied_trees(m, e).filter(|_| d.eq_active[e]) else { continue };
+        let asleep = [d.tree_awake[a] == 0, d.tree_awake[b] == 0];
+        // Two that sleep wake unless they fell asleep together.
+        if a != b && asleep != [false, false] && (asleep != [true, true] || !together(d, a, b)) {
+            for (tree, _) in [a, b].into_iter().zip(asleep).filter(|&(_, asleep)| asleep) {
+                wake_island(d, tree, AWAKE);
+            }
+        }
+    }
+    state::update(m, d);
+}
+
+/// The two trees that an equality ties, `None` when one side cannot move.
+fn tied_trees(m: &Model, e: usize) -> Option<[usize; 2]> {
+    let body = |list: &[i32], id: i32| Some(*list.get(usize::try_from(id).ok()?)? as usize);
+    let sides = [m.eq_obj1id[e], m.eq_obj2id[e]].map(|id| match m.eq_type[e] {
+        eqtype::CONNECT | eqtype::WELD if m.eq_objtype[e] == crate::Obj::Body as i32 => {
+            usize::try_from(id).ok()
+        }
+        eqtype::CONNECT | eqtype::WELD => body(&m.site_bodyid, id),
+        eqtype::JOINT => body(&m.jnt_bodyid, id),
+        _ => None,
+    });
+    let [a, b] = sides.map(|body| usize::try_from(m.body_treeid[body?]).ok());
+    Some([a?, b?])
+}
+
+/// Whether the coordinates of a tree are not those of the last position stage.
+fn was_moved(m: &Model, d: &Data, tree: usize) -> bool {
+    let of_tree = coordinates(m, tree);
+    d.qpos[of_tree.clone()] != d.work.sleep.seen[of_tree]
+}
+
+/// Wakes a tree and those that fell asleep with it. One that is awake counts on from `value` if that is less.
+fn wake_island(d: &mut Data, tree: usize, value: i32) {
+    let mut at = tree;
+    while let Some(slot) = d.tree_asleep.get_mut(at) {
+        let next = *slot;
+        *slot = next.min(value);
+        match usize::try_from(next) {
+            Ok(next) => at = next,
+            Err(_) => return,
+        }
+    }
+}
+
+/// Whether two sleeping trees fell asleep together.
+fn together(d: &Data, a: usize, b: usize) -> bool {
+    let mut at = a;
+    for _ in 0..d.tree_asleep.len() {
+        match d.tree_asleep.get(at).map(|&next| usize::try_from(next)) {
+            Some(Ok(next)) if next == b => return true,
+            Some(Ok(next)) => at = next,
+            _ => return false,
+        }
+    }
+    false
+}

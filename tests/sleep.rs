@@ -1,0 +1,64 @@
+//! Sleeping trees: `golden/sleep.py` recorded when MuJoCo 3.14.0 puts them to sleep, what wakes them and what their
+//! fields show meanwhile.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::recorded::{list, objects, worst};
+use crate::support::{model, numbers, recording};
+use labspec_core::reflect::{self, Object};
+use labspec_core::{self as core, Data, Demand, Plan};
+
+/// Rounding alone, over 700 steps that are stable.
+const ROUNDING: f64 = 1e-12;
+
+#[test]
+fn trees_sleep_and_wake_as_recorded() {
+    let recorded = recording("sleep");
+    let mut wrong = Vec::new();
+    for (integrator, (name, rows)) in objects(&recorded["runs"]).enumerate() {
+        let mut m = model("sleep");
+        m.opt.integrator = integrator as i32;
+        let mut d = Data::new(&m);
+        let mut next = 0;
+        for row in rows.as_array().unwrap() {
+            let step = row["step"].as_u64().unwrap();
+            while next <= step {
+                for write in recorded["writes"].as_array().unwrap().iter().filter(|w| w[0] == next) {
+                    let field = reflect::field(Object::Data, write[1].as_str().unwrap()).unwrap();
+                    let (element, value) = (write[2].as_u64().unwrap() as usize, write[3].as_f64().unwrap());
+                    assert!(reflect::view_mut(&mut m, &mut d, field).set(element, value));
+                }
+                core::step(&m, &mut d);
+                next += 1;
+            }
+            for (field, values) in objects(row).filter(|(field, _)| *field != "step") {
+                let ours = list(&m, &d, reflect::field(Object::Data, field).unwrap());
+                let theirs = numbers(values);
+                let scale = theirs.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
+                let (i, apart) = worst(&ours, &theirs, scale);
+                if apart > ROUNDING {
+                    wrong.push(format!(
+                        "{name}, step {step}: {field}[{i}]: ours {:?}, theirs {:?}",
+                        ours.get(i),
+                        theirs.get(i)
+                    ));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} differences:\n{}", wrong.len(), wrong[..wrong.len().min(30)].join("\n"));
+}
+
+/// A plan that leaves out what nobody reads changes no bit of what sleeps.
+#[test]
+fn a_plan_lets_trees_sleep_as_they_do() {
+    let m = model("sleep");
+    let mut demand = Demand { reads: Default::default(), writes: Default::default() };
+    demand.reads.insert(reflect::field(Object::Data, "tree_asleep").unwrap());
+    let run = |plan: Plan| {
+        let mut d = Data::planned(&m, plan);
+        (0..300).for_each(|_| core::step(&m, &mut d));
+        (d.tree_asleep, d.qpos)
+    };
+    assert_eq!(run(Plan::new(&m, &demand)), run(Plan::full()));
+}
