@@ -40,6 +40,8 @@ pub enum ExprKind {
         object: Box<Expr>,
         /// After it.
         name: Name,
+        /// `object?.name`
+        optional: bool,
     },
     /// `object[index]`
     Index {
@@ -47,16 +49,36 @@ pub enum ExprKind {
         object: Box<Expr>,
         /// Between them.
         index: Box<Expr>,
+        /// `object?.[index]`
+        optional: bool,
     },
     /// `callee(arguments)`
     Call {
         /// What is called.
         callee: Box<Expr>,
-        /// In order.
+        /// In order; some may be spreads.
         args: Vec<Expr>,
+        /// `callee?.(arguments)`
+        optional: bool,
     },
-    /// `[items]`
+    /// Members, indexes and calls with at least one `?.` in their chain: where an optional one meets nothing, all
+    /// of the chain is `undefined`.
+    Chain(Box<Expr>),
+    /// `[items]`; some may be spreads.
     Array(Vec<Expr>),
+    /// `{key: value}`
+    Object(Vec<Property>),
+    /// `...list`, only among items and arguments.
+    Spread(Box<Expr>),
+    /// `` `text ${value} text` ``: texts and the values between them; one text more than values.
+    Template {
+        /// Before, between and behind the values.
+        texts: Vec<String>,
+        /// In order.
+        values: Vec<Expr>,
+    },
+    /// `(x) => x * x`, or `function (x) { return x * x }`
+    Function(Box<Function>),
     /// `-operand` and its like.
     Unary {
         /// The sign.
@@ -102,6 +124,19 @@ pub enum ExprKind {
         /// The new value, or the right operand of `op`.
         value: Box<Expr>,
     },
+    /// `target ||= value`, `target &&= value`, `target ??= value`
+    AssignLogical {
+        /// What is assigned to.
+        target: Box<Expr>,
+        /// Decides whether.
+        op: LogicalOp,
+        /// Where the operator stands.
+        op_span: Span,
+        /// The new value.
+        value: Box<Expr>,
+    },
+    /// `first, second`: only as a statement and in the head of a `for`.
+    Sequence(Vec<Expr>),
     /// `target++`, `--target`
     Update {
         /// What is changed.
@@ -113,6 +148,87 @@ pub enum ExprKind {
     },
     /// Could not be read; already reported.
     Error,
+}
+
+/// A part of an object literal.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Property {
+    /// `key: value`, or `key` alone for `key: key`
+    Named {
+        /// The key.
+        key: Name,
+        /// Its value.
+        value: Expr,
+    },
+    /// `[key]: value`
+    Computed {
+        /// Gives the key.
+        key: Expr,
+        /// Its value.
+        value: Expr,
+    },
+    /// `...record`
+    Spread(Expr),
+}
+
+/// A function of the text's own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function {
+    /// In order.
+    pub params: Vec<Element>,
+    /// What it does.
+    pub body: Body,
+    /// All of it.
+    pub span: Span,
+}
+
+/// What a function does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Body {
+    /// Gives a value.
+    Value(Expr),
+    /// Runs statements up to `return`.
+    Block(Vec<Stmt>),
+}
+
+/// What a declaration names: one value, or parts of a list or a record.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pattern {
+    /// `name`
+    Name(Name),
+    /// `[a, , b]`
+    List {
+        /// `None` for an element that is passed over.
+        items: Vec<Option<Element>>,
+        /// All of it.
+        span: Span,
+    },
+    /// `{a, b: c}`
+    Record {
+        /// Key and what it is bound to.
+        entries: Vec<(Name, Element)>,
+        /// All of it.
+        span: Span,
+    },
+}
+
+impl Pattern {
+    /// Where it stands.
+    pub fn span(&self) -> Span {
+        match self {
+            Pattern::Name(name) => name.span,
+            Pattern::List { span, .. } | Pattern::Record { span, .. } => *span,
+        }
+    }
+}
+
+/// A part of a pattern, or a parameter: what it names, and the value it takes instead of `undefined`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Element {
+    /// What it names.
+    pub target: Pattern,
+    /// `= value`
+    pub default: Option<Expr>,
 }
 
 /// A statement.
@@ -136,15 +252,77 @@ pub enum StmtKind {
         /// At least one.
         declarators: Vec<Declarator>,
     },
+    /// `function name(x) { … }`
+    Function {
+        /// The new name.
+        name: Name,
+        /// What it does.
+        function: Box<Function>,
+    },
+    /// `if (test) then else otherwise`
+    If {
+        /// Between the parentheses.
+        test: Expr,
+        /// Run when it holds.
+        then: Box<Stmt>,
+        /// Run when it does not.
+        otherwise: Option<Box<Stmt>>,
+    },
+    /// `for (init; test; update) body`
+    For {
+        /// Run once before.
+        init: Option<Box<Stmt>>,
+        /// Asked before every turn.
+        test: Option<Expr>,
+        /// Run after every turn.
+        update: Option<Expr>,
+        /// Run in every turn.
+        body: Box<Stmt>,
+    },
+    /// `for (const target of items) body`
+    ForOf {
+        /// `const` rather than `let`.
+        constant: bool,
+        /// Names each item.
+        target: Pattern,
+        /// A list, an array of the simulation or a string.
+        items: Expr,
+        /// Run for every item.
+        body: Box<Stmt>,
+    },
+    /// `while (test) body`
+    While {
+        /// Asked before every turn.
+        test: Expr,
+        /// Run in every turn.
+        body: Box<Stmt>,
+    },
+    /// `do body while (test)`
+    DoWhile {
+        /// Run in every turn.
+        body: Box<Stmt>,
+        /// Asked after every turn.
+        test: Expr,
+    },
+    /// `{ … }`
+    Block(Vec<Stmt>),
+    /// `break`
+    Break,
+    /// `continue`
+    Continue,
+    /// `return value`
+    Return(Option<Expr>),
+    /// `;`
+    Empty,
     /// Could not be read; already reported.
     Error,
 }
 
-/// `name = value` of a declaration.
+/// `target = value` of a declaration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Declarator {
-    /// The new name.
-    pub name: Name,
+    /// The new name, or names.
+    pub target: Pattern,
     /// Its first value; without one it is `undefined`.
     pub value: Option<Expr>,
 }

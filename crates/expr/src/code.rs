@@ -24,6 +24,8 @@ codes! {
     NOT_SUPPORTED = "not-supported-yet", "A construct of JavaScript that is not supported yet.";
     AMBIGUOUS_POWER = "ambiguous-power", "A sign before `**`: JavaScript refuses it as ambiguous.";
 
+    AMBIGUOUS_DEFAULT = "ambiguous-default", "`??` beside `||` or `&&`: JavaScript refuses it as ambiguous.";
+
     // Resolving names.
     UNKNOWN_NAME = "unknown-name", "A name that nothing defines.";
     UNKNOWN_FIELD = "unknown-field", "An object has no member of this name.";
@@ -66,9 +68,15 @@ codes! {
     ASSIGN_ARRAY = "assign-array", "A whole array is assigned instead of one element.";
     ASSIGN_INSIDE = "assign-inside", "`=` inside an expression, where a comparison was probably meant.";
     EXPRESSION_ONLY = "expression-only", "A statement stands where only an expression is read.";
+    EMPTY_BODY = "empty-body", "A `;` directly behind the head of a condition or a loop.";
+    UNREACHABLE = "never-reached", "A statement behind a `return`, a `break` or a `continue`.";
     UNUSED_RESULT = "unused-result", "A statement that changes nothing.";
 
     // While running.
+    BUDGET = "too-many-steps", "A loop or a recursion that does not come to an end.";
+    CALL_DEPTH = "calls-too-deep", "Functions that call each other too deeply.";
+    MEMORY = "too-much-memory", "Lists and records that take too much memory.";
+    NO_PARTS = "no-parts", "A member or an element of something that has none: JavaScript stops the text here.";
     TEXT_TOO_LONG = "text-too-long", "A string grew beyond the limit.";
     HOST_CALL = "call-failed", "A function of the host failed.";
     HOST_STORE = "store-failed", "The host refused to store a value.";

@@ -31,6 +31,13 @@ pub struct Effects {
     pub reads_everything: bool,
     /// It calls a function that may write everything.
     pub writes_everything: bool,
+    /// It computes the name of a `ctx` variable, so it may read and store any.
+    pub any_ctx: bool,
+    /// It calls functions that are known only while running, as those that another text left in `ctx`. What they
+    /// touch is in the effects of the text that holds them.
+    pub calls_values: bool,
+    /// It stores elements of lists and arrays that are known only while running.
+    pub(crate) stores_items: bool,
     /// It uses `value`.
     pub uses_value: bool,
     /// It holds aggregates.
@@ -43,12 +50,14 @@ impl Effects {
     /// Whether every run gives the same value and changes nothing.
     pub fn constant(&self) -> bool {
         let reads = self.reads_everything || self.uses_value || self.aggregates || !self.ctx_reads.is_empty();
+        let reads = reads || self.any_ctx || self.calls_values;
         !reads && self.reads.is_empty() && self.calls.is_empty() && self.pure()
     }
 
     /// Whether a run changes nothing.
     pub fn pure(&self) -> bool {
-        self.writes.is_empty() && self.ctx_writes.is_empty() && !self.writes_everything
+        let ctx = !self.ctx_writes.is_empty() || self.any_ctx;
+        self.writes.is_empty() && !ctx && !self.writes_everything && !self.stores_items && !self.calls_values
     }
 
     pub(crate) fn read(&mut self, access: Access) {

@@ -18,7 +18,16 @@ pub struct Globals {
     /// The host itself stores the variable.
     given: Vec<bool>,
     uses: Vec<Use>,
+    /// Beginnings of names that some program computes.
+    computed: Vec<String>,
     programs: u32,
+}
+
+/// A point in the work on a lab, to go back to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mark {
+    uses: usize,
+    computed: usize,
 }
 
 /// One mention of a variable.
@@ -84,7 +93,10 @@ impl Globals {
                 *known = true;
             }
         }
-        let is_stored = |slot: u32| stored.get(slot as usize).copied().unwrap_or(false);
+        let is_stored = |slot: u32| {
+            let computed = |name: &str| self.computed.iter().any(|c| name.starts_with(c.as_str()));
+            stored.get(slot as usize).copied().unwrap_or(false) || computed(self.name(slot))
+        };
         let known: Vec<&str> =
             (0..self.names.len() as u32).filter(|s| is_stored(*s)).map(|s| self.name(s)).collect();
         let mut found: Vec<(u32, ProgramId)> = Vec::new();
@@ -103,6 +115,26 @@ impl Globals {
         let id = ProgramId(self.programs);
         self.programs += 1;
         id
+    }
+
+    /// Notes that a program stores and reads names with this beginning, which it computes.
+    pub(crate) fn mention_all(&mut self, beginning: &str) {
+        self.computed.push(beginning.to_owned());
+    }
+
+    /// All names with their slots.
+    pub(crate) fn named(&self) -> &BTreeMap<String, u32> {
+        &self.slots
+    }
+
+    pub(crate) fn mark(&self) -> Mark {
+        Mark { uses: self.uses.len(), computed: self.computed.len() }
+    }
+
+    /// Forgets the uses since a mark. Names keep their slots.
+    pub(crate) fn back_to(&mut self, mark: Mark) {
+        self.uses.truncate(mark.uses);
+        self.computed.truncate(mark.computed);
     }
 
     pub(crate) fn mention(&mut self, name: &str, program: ProgramId, span: Span, stores: bool) -> u32 {

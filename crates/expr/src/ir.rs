@@ -1,10 +1,13 @@
 //! The typed tree: what a program means, with every name resolved. Made by `bind`, turned into code by `lower`.
 
+use std::sync::Arc;
+
 use crate::diagnostic::Span;
 use crate::math;
-use crate::operators::{BinaryOp, LogicalOp};
-use crate::schema::{FieldKey, FunctionId, Type};
-use crate::value::Value;
+use crate::natives;
+use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
+use crate::schema::{Elem, FunctionId, Type};
+use crate::value::{Value, View};
 
 /// A value to be computed.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +16,9 @@ pub(crate) struct Ir {
     pub(crate) ty: Type,
     pub(crate) span: Span,
 }
+
+/// A variable, counted over all functions of a program.
+pub(crate) type LocalId = u32;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Kind {
@@ -23,7 +29,9 @@ pub(crate) enum Kind {
     Length(View),
     /// A `ctx` variable.
     Global(u32),
-    Local(u32),
+    /// A `ctx` variable whose name is computed.
+    GlobalNamed(Box<Ir>),
+    Local(LocalId),
     /// The chosen value of a control, `value`.
     Input,
     /// The number that the host computed for an aggregate.
@@ -32,26 +40,87 @@ pub(crate) enum Kind {
     BitNot(Box<Ir>),
     Negate(Box<Ir>),
     ToNumber(Box<Ir>),
+    ToText(Box<Ir>),
+    TypeOf(Box<Ir>),
     Binary(BinaryOp, Box<Ir>, Box<Ir>),
     Logical(LogicalOp, Box<Ir>, Box<Ir>),
     Choice(Box<Ir>, Box<Ir>, Box<Ir>),
     Math(math::Function, Vec<Ir>),
+    /// A function of `Math` over all elements of a list.
+    MathOver(math::Function, Box<Ir>),
     Call(FunctionId, Vec<Ir>),
     /// `place = value` or `place op= value`; gives the stored value.
     Store(Box<Place>, Option<BinaryOp>, Box<Ir>),
+    /// `place ||= value` and its like.
+    StoreIf(LogicalOp, Box<Place>, Box<Ir>),
+    /// `place++` and its like: adds the number; gives the new value, or the old one.
+    Update(Box<Place>, f64, Gives),
     /// Stores one number in every element.
     Fill(View, Box<Ir>),
     /// Stores values one after the other, from an element of the view on.
     StoreAll(View, usize, Vec<Ir>),
+    /// A list, with spreads.
+    List(Vec<Item>),
+    Record(Vec<Entry>),
+    /// `object[index]` of something known only while running.
+    Element(Box<Ir>, Box<Ir>),
+    /// `object.name` of something known only while running.
+    Member(Box<Ir>, Arc<str>),
+    /// A method of a value.
+    Method(natives::Name, Box<Ir>, Vec<Item>),
+    /// A function that is no method.
+    Native(natives::Free, Vec<Item>),
+    /// A function of the text, as a value.
+    Closure(UnitId),
+    /// A call of a known function of the text.
+    Invoke(UnitId, Vec<Ir>),
+    /// A call of whatever function the value is.
+    InvokeValue(Box<Ir>, Vec<Item>),
+    /// The array that belongs to the object of a computed name.
+    Pick(Arc<Picks>, Box<Ir>),
+    /// The end of a chain with `?.` in it.
+    Chain(Box<Ir>),
+    /// What stands before `?.`: where it is nothing, the chain around it is `undefined`.
+    Present(Box<Ir>),
+    /// Statements, then a value.
+    Block(Vec<Step>, Box<Ir>),
 }
 
-/// A part of a field, in elements of the whole field.
+/// Which value a `++` gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct View {
-    pub(crate) field: FieldKey,
-    pub(crate) first: usize,
-    /// `None`: to the end, which changes while running.
-    pub(crate) count: Option<usize>,
+pub(crate) enum Gives {
+    New,
+    Old,
+}
+
+/// A function of the text.
+pub(crate) type UnitId = u32;
+
+/// An item of a list or an argument.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Item {
+    pub(crate) value: Ir,
+    /// Its elements, rather than itself.
+    pub(crate) spread: bool,
+}
+
+/// An entry of a record.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Entry {
+    Named(Arc<str>, Ir),
+    Computed(Ir, Ir),
+    Spread(Ir),
+}
+
+/// One member of every object of a collection, by the name of the object.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Picks {
+    /// What the objects are called: `joint`.
+    pub(crate) noun: String,
+    /// Sorted by name.
+    pub(crate) of: Vec<(Arc<str>, Value)>,
+    /// The members are numbers: the first element of each view is loaded.
+    pub(crate) scalar: bool,
 }
 
 /// An element of a view.
@@ -66,7 +135,11 @@ pub(crate) enum Index {
 pub(crate) enum Place {
     Element(View, Index),
     Global(u32),
-    Local(u32),
+    GlobalNamed(Ir),
+    Local(LocalId),
+    /// An element of something known only while running.
+    Item(Ir, Ir),
+    Member(Ir, Arc<str>),
 }
 
 /// A statement.
@@ -74,8 +147,67 @@ pub(crate) enum Place {
 pub(crate) enum Step {
     /// Computed for its effect.
     Effect(Ir),
-    /// A declaration. `fixed`: the name is never assigned again, so it keeps the type of its value.
-    Declare { local: u32, fixed: bool, value: Ir },
+    /// The first value of a variable.
+    Declare(LocalId, Ir),
+    /// A variable that functions share gets its place; it has no value yet.
+    Reserve(LocalId),
+    /// A variable that functions share gets a new place with its value: the next turn of a loop has its own.
+    Renew(LocalId),
+    If(Ir, Vec<Step>, Vec<Step>),
+    Loop(Box<Loop>),
+    Break,
+    Continue,
+    Return(Ir),
+    /// Statements in which `Return` ends only them, and stores its value; the place is where they seem to stand.
+    Inline(LocalId, Vec<Step>, Span),
+}
+
+/// A loop of any kind.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Loop {
+    /// Asked before every turn; at the end of every turn when `late`.
+    pub(crate) test: Option<Ir>,
+    pub(crate) late: bool,
+    pub(crate) body: Vec<Step>,
+    /// Run after every turn.
+    pub(crate) update: Vec<Step>,
+    pub(crate) span: Span,
+}
+
+/// A function of the text, or the text itself.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Unit {
+    pub(crate) params: Vec<LocalId>,
+    /// Variables of the functions around it that it uses.
+    pub(crate) captures: Vec<LocalId>,
+    pub(crate) body: Vec<Step>,
+    /// Type of what it returns.
+    pub(crate) result: Option<Type>,
+}
+
+/// What is known of a variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Local {
+    pub(crate) ty: Type,
+    /// It is changed while functions use it, so that they share one place.
+    pub(crate) shared: bool,
+}
+
+/// All functions and variables of a program; the first function is the text itself.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Tree {
+    pub(crate) units: Vec<Unit>,
+    pub(crate) locals: Vec<Local>,
+    /// Arrays that become values, with what their elements are.
+    pub(crate) views: Vec<Shown>,
+}
+
+/// An array of the simulation that becomes a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Shown {
+    pub(crate) view: View,
+    pub(crate) elem: Elem,
+    pub(crate) assignable: bool,
 }
 
 impl Ir {
@@ -88,19 +220,27 @@ impl Ir {
         Ir { kind: Kind::Constant(value), ty, span }
     }
 
-    /// The value, if it is known.
-    pub(crate) fn known(&self) -> Option<&Value> {
-        if let Kind::Constant(value) = &self.kind { Some(value) } else { None }
+    pub(crate) fn number(x: f64, span: Span) -> Ir {
+        Ir::constant(Value::Number(x), span)
     }
 
-    /// Whether it is never a string: then arithmetic on it can use plain numbers.
-    pub(crate) fn never_text(&self) -> bool {
+    pub(crate) fn undefined(span: Span) -> Ir {
+        Ir::constant(Value::Undefined, span)
+    }
+
+    /// The value, if it is known and a primitive one.
+    pub(crate) fn known(&self) -> Option<&Value> {
+        match &self.kind {
+            Kind::Constant(value) if value.is_primitive() => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Whether it is never a string nor something with parts: then arithmetic on it can use plain numbers.
+    pub(crate) fn is_plain(&self) -> bool {
         match (&self.kind, self.ty) {
-            (_, Type::String) => false,
-            (Kind::Load(..), _) => true, // a number or `undefined`
-            (Kind::Logical(_, a, b) | Kind::Choice(_, a, b), Type::Any) => a.never_text() && b.never_text(),
-            (_, Type::Any) => false,
-            _ => true,
+            (Kind::Logical(_, a, b) | Kind::Choice(_, a, b), Type::Any) => a.is_plain() && b.is_plain(),
+            (_, ty) => ty.is_plain(),
         }
     }
 
@@ -112,38 +252,51 @@ impl Ir {
         }
     }
 
-    pub(crate) fn negate(operand: Ir, span: Span) -> Ir {
-        match operand.known() {
-            Some(value) => Ir::constant(Value::Number(-value.to_number()), span),
-            None => Ir::new(Kind::Negate(Box::new(operand)), Type::Number, span),
-        }
-    }
-
-    pub(crate) fn bit_not(operand: Ir, span: Span) -> Ir {
-        match operand.known() {
-            Some(value) => {
-                Ir::constant(Value::Number(f64::from(!crate::number::to_int32(value.to_number()))), span)
-            }
-            None => Ir::new(Kind::BitNot(Box::new(operand)), Type::Number, span),
+    pub(crate) fn sign(op: UnaryOp, operand: Ir, span: Span) -> Ir {
+        match op {
+            UnaryOp::Not => Ir::not(operand, span),
+            UnaryOp::Plus => Ir::to_number(operand, span),
+            UnaryOp::Minus => match operand.known() {
+                Some(value) => Ir::number(-value.to_number(), span),
+                None => Ir::new(Kind::Negate(Box::new(operand)), Type::Number, span),
+            },
+            UnaryOp::BitNot => match operand.known() {
+                Some(value) => Ir::number(f64::from(!crate::number::to_int32(value.to_number())), span),
+                None => Ir::new(Kind::BitNot(Box::new(operand)), Type::Number, span),
+            },
+            UnaryOp::TypeOf => match operand.known() {
+                Some(value) => Ir::constant(Value::from(type_name(value)), span),
+                None => Ir::new(Kind::TypeOf(Box::new(operand)), Type::String, span),
+            },
         }
     }
 
     pub(crate) fn to_number(operand: Ir, span: Span) -> Ir {
         match operand.known() {
-            Some(value) => Ir::constant(Value::Number(value.to_number()), span),
+            Some(value) => Ir::number(value.to_number(), span),
             None if operand.ty == Type::Number => operand,
             None => Ir::new(Kind::ToNumber(Box::new(operand)), Type::Number, span),
         }
     }
 
+    pub(crate) fn to_text(operand: Ir, span: Span) -> Ir {
+        match operand.known() {
+            Some(value) => Ir::constant(Value::String(value.to_string().into()), span),
+            None if operand.ty == Type::String => operand,
+            None => Ir::new(Kind::ToText(Box::new(operand)), Type::String, span),
+        }
+    }
+
     pub(crate) fn binary(op: BinaryOp, left: Ir, right: Ir, span: Span) -> Ir {
-        if let (Some(a), Some(b)) = (left.known(), right.known()) {
+        if let (Some(a), Some(b)) = (left.known(), right.known())
+            && a.text_len() + b.text_len() < 1000
+        {
             return Ir::constant(op.on_values(a, b), span);
         }
         let ty = match op {
             _ if op.is_comparison() => Type::Boolean,
             BinaryOp::Add if left.ty == Type::String || right.ty == Type::String => Type::String,
-            BinaryOp::Add if !(left.never_text() && right.never_text()) => Type::Any,
+            BinaryOp::Add if !(left.is_plain() && right.is_plain()) => Type::Any,
             _ => Type::Number,
         };
         Ir::new(Kind::Binary(op, Box::new(left), Box::new(right)), ty, span)
@@ -151,10 +304,15 @@ impl Ir {
 
     pub(crate) fn logical(op: LogicalOp, left: Ir, right: Ir, span: Span) -> Ir {
         if let Some(value) = left.known() {
-            let keeps_left = value.truthy() == (op == LogicalOp::Or);
-            return Ir { span, ..if keeps_left { left } else { right } };
+            return Ir { span, ..if op.keeps(value) { left } else { right } };
         }
-        let ty = left.ty.or(right.ty);
+        let ty = match (op, left.ty) {
+            // What is left of a number or nothing in front of a default.
+            (LogicalOp::Nullish | LogicalOp::Or, Type::Element) if right.ty == Type::Number => Type::Number,
+            (LogicalOp::Nullish, Type::Number | Type::Boolean | Type::String) => left.ty,
+            (LogicalOp::Nullish, Type::Undefined | Type::Null) => right.ty,
+            _ => left.ty.or(right.ty),
+        };
         Ir::new(Kind::Logical(op, Box::new(left), Box::new(right)), ty, span)
     }
 
@@ -171,8 +329,20 @@ impl Ir {
         let ty = if function.gives_boolean() { Type::Boolean } else { Type::Number };
         match known.map(|numbers| function.apply(&numbers)) {
             Some(x) if ty == Type::Boolean => Ir::constant(Value::Boolean(x != 0.0), span),
-            Some(x) => Ir::constant(Value::Number(x), span),
+            Some(x) => Ir::number(x, span),
             None => Ir::new(Kind::Math(function, args), ty, span),
         }
+    }
+}
+
+/// What `typeof` says.
+pub(crate) fn type_name(value: &Value) -> &'static str {
+    match value {
+        Value::Undefined => "undefined",
+        Value::Number(_) => "number",
+        Value::Boolean(_) => "boolean",
+        Value::String(_) => "string",
+        Value::Function(_) => "function",
+        Value::Null | Value::List(_) | Value::Record(_) | Value::View(_) => "object",
     }
 }

@@ -24,13 +24,16 @@ mod bind;
 mod diagnostic;
 mod effects;
 mod globals;
+mod heap;
 mod ir;
 mod lex;
 mod lower;
 mod math;
+mod natives;
 mod number;
 mod operators;
 mod parse;
+mod prelude;
 mod print;
 mod program;
 mod schema;
@@ -47,12 +50,14 @@ pub use bind::{Compiled, Compiler};
 pub use diagnostic::{Diagnostic, Fix, Parsed, Severity, Span};
 pub use effects::{Access, Effects};
 pub use globals::{Globals, ProgramId};
+pub use heap::{Full, Heap, Ref};
+pub use natives::to_fixed;
 pub use parse::{MAX_DEPTH, MAX_SOURCE, parse_expression, parse_statements};
 pub use print::{print, print_statements};
 pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
 pub use schema::{
-    CollectionId, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Param, Schema,
-    Touch, Type,
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Help, ObjectId, Param,
+    Schema, Touch, Type,
 };
 pub use suggest::closest;
-pub use value::Value;
+pub use value::{Value, View};

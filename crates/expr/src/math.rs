@@ -73,6 +73,46 @@ const MATH: &[Row] = &[
     one("isNaN", |x| f64::from(u8::from(x.is_nan()))),
 ];
 
+/// What the functions give, for help and the reference.
+pub(crate) const DOCS: &[(&str, &str)] = &[
+    ("abs", "magnitude"),
+    ("acos", "angle in rad from 0 to π whose cosine is x"),
+    ("acosh", "inverse of the hyperbolic cosine"),
+    ("asin", "angle in rad from -π/2 to π/2 whose sine is x"),
+    ("asinh", "inverse of the hyperbolic sine"),
+    ("atan", "angle in rad from -π/2 to π/2 whose tangent is x"),
+    ("atan2", "atan2(y, x): angle in rad from -π to π of the point (x, y)"),
+    ("atanh", "inverse of the hyperbolic tangent"),
+    ("cbrt", "cube root"),
+    ("ceil", "next whole number above"),
+    ("clz32", "leading zero bits of an integer of 32 bits"),
+    ("cos", "cosine of an angle in rad"),
+    ("cosh", "hyperbolic cosine"),
+    ("exp", "e to the power of x"),
+    ("expm1", "exp(x) - 1, exact for small x"),
+    ("floor", "next whole number below"),
+    ("fround", "nearest number of single precision"),
+    ("hypot", "root of the sum of squares"),
+    ("imul", "product of two integers of 32 bits"),
+    ("log", "natural logarithm"),
+    ("log10", "logarithm to base 10"),
+    ("log1p", "log(1 + x), exact for small x"),
+    ("log2", "logarithm to base 2"),
+    ("max", "largest argument; NaN when any is NaN"),
+    ("min", "smallest argument; NaN when any is NaN"),
+    ("pow", "pow(x, y): x to the power of y"),
+    ("round", "nearest whole number; a half goes up"),
+    ("sign", "1, 0 or -1"),
+    ("sin", "sine of an angle in rad"),
+    ("sinh", "hyperbolic sine"),
+    ("sqrt", "square root"),
+    ("tan", "tangent of an angle in rad"),
+    ("tanh", "hyperbolic tangent"),
+    ("trunc", "whole part"),
+    ("isFinite", "whether a number is neither infinite nor NaN"),
+    ("isNaN", "whether a number is NaN"),
+];
+
 /// How many rows at the end of [`MATH`] are global names instead of members of `Math`.
 const GLOBALS: usize = 2;
 
@@ -122,6 +162,11 @@ impl Function {
         if self.gives_boolean() { name.into() } else { format!("Math.{name}") }
     }
 
+    /// What it gives.
+    pub(crate) fn doc(self) -> &'static str {
+        DOCS.iter().find(|(name, _)| *name == self.row().name).map_or("", |(_, doc)| doc)
+    }
+
     /// Whether the result is `true` or `false`.
     pub(crate) fn gives_boolean(self) -> bool {
         usize::from(self.0) >= MATH.len() - GLOBALS
@@ -146,6 +191,10 @@ impl Function {
 
 /// `**` and `Math.pow`: IEEE's pow, except that a NaN exponent and (±1) ** ±Infinity give NaN.
 pub(crate) fn pow(base: f64, exponent: f64) -> f64 {
+    // The most frequent power, and exact: every engine rounds the product once.
+    if exponent == 2.0 {
+        return base * base;
+    }
     if exponent.is_nan() || (exponent.is_infinite() && base.abs() == 1.0) {
         return f64::NAN;
     }

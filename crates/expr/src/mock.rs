@@ -49,7 +49,17 @@ fn view(key: usize, path: String, first: usize, shape: Vec<Option<usize>>, owner
         _ => FieldKind::Derived { by: "the kinematics stage".into() },
     };
     let doc = if FIELDS[key].0 == "model.nq" { "the number of coordinates" } else { "" };
-    Field { key: FieldKey(key as u32), path, first, shape, kind, unit: String::new(), doc: doc.into(), owner }
+    Field {
+        key: FieldKey(key as u32),
+        path,
+        first,
+        shape,
+        kind,
+        elem: Elem::Double,
+        unit: String::new(),
+        doc: doc.into(),
+        owner,
+    }
 }
 
 fn members(object: ObjectId) -> Vec<String> {
@@ -86,14 +96,30 @@ impl Schema for Mock {
             "say" => Entry::Function(FunctionId(3)),
             "final" => Entry::Function(FunctionId(4)),
             "bodyId" => Entry::Function(FunctionId(5)),
+            "energy" => Entry::Function(FunctionId(6)),
+            "norm" => Entry::Function(FunctionId(7)),
+            "bodyPos" => Entry::Function(FunctionId(8)),
             _ => return None,
         })
     }
 
     fn root_names(&self) -> Vec<String> {
-        ["model", "data", "mj", "run", "mj_setConst", "fail", "say", "final", "bodyId"]
-            .map(String::from)
-            .into()
+        [
+            "model",
+            "data",
+            "mj",
+            "run",
+            "mj_setConst",
+            "fail",
+            "say",
+            "final",
+            "bodyId",
+            "energy",
+            "norm",
+            "bodyPos",
+        ]
+        .map(String::from)
+        .into()
     }
 
     fn member(&self, object: ObjectId, name: &str) -> Option<Entry> {
@@ -173,6 +199,8 @@ impl Schema for Mock {
             optional: 0,
             implied: false,
             returns,
+            members: Vec::new(),
+            length: None,
             aggregate: false,
             reads: Touch::Nothing,
             writes: Touch::Nothing,
@@ -207,12 +235,25 @@ impl Schema for Mock {
                 aggregate: true,
                 ..info("final", vec![Param::Lazy], Type::Number, "the last value")
             },
-            _ => info("bodyId", vec![Param::Name(MODEL_BODIES)], Type::Number, "the number of a body"),
+            5 => info("bodyId", vec![Param::Name(MODEL_BODIES)], Type::Number, "the number of a body"),
+            6 => FunctionInfo {
+                members: ["potential", "kinetic"].map(|n| (n.into(), Type::Number)).into(),
+                ..info("energy", Vec::new(), Type::Record, "the energy")
+            },
+            7 => info("norm", vec![Param::Numbers], Type::Number, "the length of a vector"),
+            _ => FunctionInfo {
+                length: Some(3),
+                ..info("bodyPos", vec![Param::Name(MODEL_BODIES)], Type::List, "the place of a body")
+            },
         }
     }
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
         (object == DATA && name == "position").then(|| "positions of bodies are in `data.xpos`".into())
+    }
+
+    fn element_help(&self, field: FieldKey, index: usize) -> Option<String> {
+        (field == FieldKey(1)).then(|| format!("coordinate {index}"))
     }
 
     fn refresh(&self) -> Option<String> {
@@ -253,12 +294,22 @@ impl Host for World {
         self.fields[field.0 as usize].len()
     }
 
-    fn call(&mut self, function: FunctionId, args: &[Value]) -> Result<Value, String> {
+    fn call(&mut self, heap: &mut Heap, function: FunctionId, args: &[Value]) -> Result<Value, String> {
         self.calls.push((function.0, args.to_vec()));
         match function.0 {
             2 => Err("this function always fails".into()),
             3 => Ok(Value::from(args.iter().map(Value::to_string).collect::<Vec<_>>().join("|").as_str())),
             5 => Ok(Value::Number(args[0].to_number() - 20.0)),
+            6 => {
+                let entries =
+                    vec![("potential".into(), Value::Number(1.5)), ("kinetic".into(), Value::Number(2.5))];
+                heap.record(entries).map_err(|_| "full".into())
+            }
+            7 => {
+                let numbers = heap.to_numbers(&args[0]).unwrap_or_default();
+                Ok(Value::Number(numbers.iter().map(|x| x * x).sum::<f64>().sqrt()))
+            }
+            8 => heap.numbers(&[args[0].to_number(), 1.0, 2.0]).map_err(|_| "full".into()),
             _ => Ok(Value::Undefined),
         }
     }
@@ -279,6 +330,6 @@ pub(crate) fn execute(source: &str) -> (World, Value) {
     let compiled = Compiler::new(&Mock, &mut globals).statements(source);
     let program = compiled.program.unwrap_or_else(|| panic!("{source}: {:#?}", compiled.diagnostics));
     let (mut world, mut context) = (World::new(), Context::new());
-    program.run(&mut world, &mut context, None).unwrap();
+    program.run(&mut world, &mut context, None).unwrap_or_else(|e| panic!("{source}: {e:?}"));
     (world, context.get(out).clone())
 }

@@ -15,6 +15,8 @@ pub enum UnaryOp {
     Not,
     /// `~x`
     BitNot,
+    /// `typeof x`
+    TypeOf,
 }
 
 impl UnaryOp {
@@ -25,6 +27,7 @@ impl UnaryOp {
             UnaryOp::Plus => "+",
             UnaryOp::Not => "!",
             UnaryOp::BitNot => "~",
+            UnaryOp::TypeOf => "typeof",
         }
     }
 }
@@ -36,6 +39,8 @@ pub enum LogicalOp {
     And,
     /// `||`
     Or,
+    /// `??`
+    Nullish,
 }
 
 impl LogicalOp {
@@ -44,13 +49,23 @@ impl LogicalOp {
         match self {
             LogicalOp::And => "&&",
             LogicalOp::Or => "||",
+            LogicalOp::Nullish => "??",
+        }
+    }
+
+    /// Whether `left op right` is the left operand.
+    pub(crate) fn keeps(self, left: &Value) -> bool {
+        match self {
+            LogicalOp::And => !left.truthy(),
+            LogicalOp::Or => left.truthy(),
+            LogicalOp::Nullish => !left.is_nothing(),
         }
     }
 
     /// Binding power, see [`BinaryOp::power`].
     pub fn power(self) -> u8 {
         match self {
-            LogicalOp::Or => 3,
+            LogicalOp::Or | LogicalOp::Nullish => 3,
             LogicalOp::And => 4,
         }
     }

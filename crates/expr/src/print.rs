@@ -1,6 +1,8 @@
 //! Tree to text: one layout, parentheses only where the tree needs them. Reading the result gives the tree back.
 
-use crate::ast::{BinaryOp, Expr, ExprKind, Stmt, StmtKind, UnaryOp};
+use crate::ast::{
+    BinaryOp, Body, Element, Expr, ExprKind, Function, LogicalOp, Pattern, Property, Stmt, StmtKind, UnaryOp,
+};
 use crate::number;
 
 /// Binding powers beyond those of the operators, see [`BinaryOp::power`].
@@ -9,153 +11,467 @@ const CHOICE: u8 = 2;
 const SIGN: u8 = 15;
 const UPDATE: u8 = 16;
 const MEMBER: u8 = 17;
+/// Of a name or a literal, which nothing can take apart.
+const ATOM: u8 = 18;
 
 /// The text of an expression. A part that could not be read prints as `<error>`.
 pub fn print(expr: &Expr) -> String {
-    let mut out = String::new();
-    write(expr, ASSIGNMENT, &mut out);
-    out
+    let mut printer = Printer::default();
+    printer.expr(expr, ASSIGNMENT);
+    printer.out
 }
 
-/// The text of statements, one a line.
+/// The text of statements, one a line, blocks indented by two spaces.
 pub fn print_statements(statements: &[Stmt]) -> String {
-    let mut out = String::new();
-    for (i, statement) in statements.iter().enumerate() {
-        if i > 0 {
-            out.push('\n');
-        }
-        match &statement.kind {
-            StmtKind::Expr(expr) => write(expr, ASSIGNMENT, &mut out),
-            StmtKind::Error => out.push_str("<error>"),
-            StmtKind::Declare { constant, declarators } => {
-                out.push_str(if *constant { "const " } else { "let " });
-                for (i, declarator) in declarators.iter().enumerate() {
-                    if i > 0 {
-                        out.push_str(", ");
-                    }
-                    out.push_str(&declarator.name.text);
-                    if let Some(value) = &declarator.value {
-                        out.push_str(" = ");
-                        write(value, ASSIGNMENT, &mut out);
-                    }
-                }
-            }
-        }
-        out.push(';');
-    }
-    out
+    let mut printer = Printer::default();
+    printer.lines(statements);
+    printer.out
 }
 
 /// How tightly the outermost operator of a tree binds.
 fn power(expr: &Expr) -> u8 {
     match &expr.kind {
-        ExprKind::Assign { .. } => ASSIGNMENT,
+        ExprKind::Sequence(_) => 0,
+        ExprKind::Assign { .. } | ExprKind::AssignLogical { .. } | ExprKind::Function(_) => ASSIGNMENT,
         ExprKind::Conditional { .. } => CHOICE,
         ExprKind::Logical { op, .. } => op.power(),
         ExprKind::Binary { op, .. } => op.power(),
         ExprKind::Unary { .. } => SIGN,
         ExprKind::Update { .. } => UPDATE,
-        _ => MEMBER,
+        // A chain that goes on must not swallow what was outside of it.
+        ExprKind::Chain(_) => MEMBER - 1,
+        ExprKind::Member { .. } | ExprKind::Index { .. } | ExprKind::Call { .. } => MEMBER,
+        _ => ATOM,
     }
 }
 
-/// Writes a tree where an operator around it needs at least `least`.
-fn write(expr: &Expr, least: u8, out: &mut String) {
-    let enclosed = power(expr) < least;
-    if enclosed {
-        out.push('(');
-    }
-    write_kind(&expr.kind, out);
-    if enclosed {
-        out.push(')');
-    }
+#[derive(Default)]
+struct Printer {
+    out: String,
+    indent: usize,
 }
 
-fn write_kind(kind: &ExprKind, out: &mut String) {
-    match kind {
-        ExprKind::Number(x) => out.push_str(&number_text(*x)),
-        ExprKind::String(text) => quote(text, out),
-        ExprKind::Boolean(b) => out.push_str(if *b { "true" } else { "false" }),
-        ExprKind::Null => out.push_str("null"),
-        ExprKind::Name(name) => out.push_str(name),
-        ExprKind::Error => out.push_str("<error>"),
-        ExprKind::Member { object, name } => {
-            // `1.x` would be read as the number `1.`
-            let digits = matches!(object.kind, ExprKind::Number(_));
-            write(object, if digits { MEMBER + 1 } else { MEMBER }, out);
-            out.push('.');
-            out.push_str(&name.text);
+impl Printer {
+    fn put(&mut self, text: &str) {
+        self.out.push_str(text);
+    }
+
+    fn new_line(&mut self) {
+        self.out.push('\n');
+        for _ in 0..self.indent {
+            self.out.push_str("  ");
         }
-        ExprKind::Index { object, index } => {
-            write(object, MEMBER, out);
-            out.push('[');
-            // An assignment in an index is read only in parentheses.
-            write(index, CHOICE, out);
-            out.push(']');
-        }
-        ExprKind::Call { callee, args } => {
-            write(callee, MEMBER, out);
-            write_list('(', args, ')', out);
-        }
-        ExprKind::Array(items) => write_list('[', items, ']', out),
-        ExprKind::Unary { op, operand } => {
-            out.push_str(op.symbol());
-            // `- -x` and `+ ++x` must not run together.
-            if starts_with_sign(operand) && matches!(op, UnaryOp::Minus | UnaryOp::Plus) {
-                out.push(' ');
+    }
+
+    fn lines(&mut self, statements: &[Stmt]) {
+        for (i, statement) in statements.iter().enumerate() {
+            if i > 0 {
+                self.new_line();
             }
-            write(operand, SIGN, out);
+            self.statement(statement);
         }
-        ExprKind::Binary { op, left, right } => {
-            let p = op.power();
-            // `**` groups from the right and takes no sign on its left; all others group from the left.
-            let (l, r) = if *op == BinaryOp::Power { (UPDATE, p) } else { (p, p + 1) };
-            write_between(left, l, op.symbol(), right, r, out);
+    }
+
+    fn block(&mut self, statements: &[Stmt]) {
+        if statements.is_empty() {
+            return self.put("{}");
         }
-        ExprKind::Logical { op, left, right } => {
-            write_between(left, op.power(), op.symbol(), right, op.power() + 1, out);
+        self.put("{");
+        self.indent += 1;
+        self.new_line();
+        self.lines(statements);
+        self.indent -= 1;
+        self.new_line();
+        self.put("}");
+    }
+
+    /// The statement of a condition or a loop, behind its head.
+    fn body(&mut self, statement: &Stmt) {
+        self.put(" ");
+        self.statement(statement);
+    }
+
+    fn statement(&mut self, statement: &Stmt) {
+        match &statement.kind {
+            StmtKind::Expr(expr) => {
+                // What starts like a block or a declaration of a function would be read as one.
+                let start = self.out.len();
+                self.expr(expr, 0);
+                let text = self.out.get(start..).unwrap_or("");
+                if text.starts_with('{') || text.starts_with("function") {
+                    self.out.insert(start, '(');
+                    self.put(")");
+                }
+                self.put(";");
+            }
+            StmtKind::Declare { constant, declarators } => {
+                self.declarators(*constant, declarators);
+                self.put(";");
+            }
+            StmtKind::Function { name, function } => {
+                self.put("function ");
+                self.put(&name.text);
+                self.params(&function.params);
+                self.put(" ");
+                match &function.body {
+                    Body::Block(statements) => self.block(statements),
+                    Body::Value(_) => self.put("{}"), // the parser makes none of these
+                }
+            }
+            StmtKind::If { test, then, otherwise } => {
+                self.head("if", test);
+                match otherwise {
+                    None => self.body(then),
+                    Some(otherwise) => {
+                        // Without braces the `else` could join an `if` inside.
+                        if open_ended(then) {
+                            self.put(" ");
+                            self.block(std::slice::from_ref(then));
+                        } else {
+                            self.body(then);
+                        }
+                        self.put(" else");
+                        self.body(otherwise);
+                    }
+                }
+            }
+            StmtKind::For { init, test, update, body } => {
+                self.put("for (");
+                match init.as_deref().map(|s| &s.kind) {
+                    Some(StmtKind::Declare { constant, declarators }) => {
+                        self.declarators(*constant, declarators);
+                    }
+                    Some(StmtKind::Expr(expr)) => self.expr(expr, 0),
+                    _ => {}
+                }
+                self.put(";");
+                if let Some(test) = test {
+                    self.put(" ");
+                    self.expr(test, ASSIGNMENT);
+                }
+                self.put(";");
+                if let Some(update) = update {
+                    self.put(" ");
+                    self.expr(update, 0);
+                }
+                self.put(")");
+                self.body(body);
+            }
+            StmtKind::ForOf { constant, target, items, body } => {
+                self.put(if *constant { "for (const " } else { "for (let " });
+                self.pattern(target);
+                self.put(" of ");
+                self.expr(items, ASSIGNMENT);
+                self.put(")");
+                self.body(body);
+            }
+            StmtKind::While { test, body } => {
+                self.head("while", test);
+                self.body(body);
+            }
+            StmtKind::DoWhile { body, test } => {
+                self.put("do");
+                self.body(body);
+                self.put(" ");
+                self.head("while", test);
+                self.put(";");
+            }
+            StmtKind::Block(statements) => self.block(statements),
+            StmtKind::Break => self.put("break;"),
+            StmtKind::Continue => self.put("continue;"),
+            StmtKind::Return(None) => self.put("return;"),
+            StmtKind::Return(Some(value)) => {
+                self.put("return ");
+                self.expr(value, ASSIGNMENT);
+                self.put(";");
+            }
+            StmtKind::Empty => self.put(";"),
+            StmtKind::Error => self.put("<error>"),
         }
-        ExprKind::Conditional { test, then, otherwise } => {
-            write(test, CHOICE + 1, out);
-            out.push_str(" ? ");
-            write(then, ASSIGNMENT, out);
-            out.push_str(" : ");
-            write(otherwise, ASSIGNMENT, out);
-        }
-        ExprKind::Assign { target, op, value, .. } => {
-            let symbol = format!("{}=", op.map_or("", |o| o.symbol()));
-            write_between(target, UPDATE, &symbol, value, ASSIGNMENT, out);
-        }
-        ExprKind::Update { target, increment, prefix } => {
-            let symbol = if *increment { "++" } else { "--" };
-            if *prefix {
-                out.push_str(symbol);
-                write(target, SIGN, out);
-            } else {
-                write(target, UPDATE, out);
-                out.push_str(symbol);
+    }
+
+    fn head(&mut self, word: &str, test: &Expr) {
+        self.put(word);
+        self.put(" (");
+        self.expr(test, ASSIGNMENT);
+        self.put(")");
+    }
+
+    fn declarators(&mut self, constant: bool, declarators: &[crate::ast::Declarator]) {
+        self.put(if constant { "const " } else { "let " });
+        for (i, declarator) in declarators.iter().enumerate() {
+            if i > 0 {
+                self.put(", ");
+            }
+            self.pattern(&declarator.target);
+            if let Some(value) = &declarator.value {
+                self.put(" = ");
+                self.expr(value, ASSIGNMENT);
             }
         }
     }
-}
 
-fn write_between(left: &Expr, l: u8, symbol: &str, right: &Expr, r: u8, out: &mut String) {
-    write(left, l, out);
-    out.push(' ');
-    out.push_str(symbol);
-    out.push(' ');
-    write(right, r, out);
-}
-
-fn write_list(open: char, items: &[Expr], close: char, out: &mut String) {
-    out.push(open);
-    for (i, item) in items.iter().enumerate() {
-        if i > 0 {
-            out.push_str(", ");
+    fn pattern(&mut self, pattern: &Pattern) {
+        match pattern {
+            Pattern::Name(name) => self.put(&name.text),
+            Pattern::List { items, .. } => {
+                self.put("[");
+                for (i, item) in items.iter().enumerate() {
+                    if i > 0 {
+                        self.put(", ");
+                    }
+                    match item {
+                        Some(item) => self.element(item),
+                        // A hole at the end needs a comma of its own.
+                        None if i + 1 == items.len() => self.put(","),
+                        None => {}
+                    }
+                }
+                self.put("]");
+            }
+            Pattern::Record { entries, .. } => {
+                self.put("{");
+                for (i, (key, element)) in entries.iter().enumerate() {
+                    if i > 0 {
+                        self.put(", ");
+                    }
+                    if !matches!(&element.target, Pattern::Name(name) if name.text == key.text) {
+                        self.put(&key.text);
+                        self.put(": ");
+                    }
+                    self.element(element);
+                }
+                self.put("}");
+            }
         }
-        write(item, ASSIGNMENT, out);
     }
-    out.push(close);
+
+    fn element(&mut self, element: &Element) {
+        self.pattern(&element.target);
+        if let Some(default) = &element.default {
+            self.put(" = ");
+            self.expr(default, ASSIGNMENT);
+        }
+    }
+
+    fn params(&mut self, params: &[Element]) {
+        self.put("(");
+        for (i, param) in params.iter().enumerate() {
+            if i > 0 {
+                self.put(", ");
+            }
+            self.element(param);
+        }
+        self.put(")");
+    }
+
+    fn function(&mut self, function: &Function) {
+        self.params(&function.params);
+        self.put(" => ");
+        match &function.body {
+            Body::Block(statements) => self.block(statements),
+            // `=> {` would start a block.
+            Body::Value(value) => {
+                let start = self.out.len();
+                self.expr(value, ASSIGNMENT);
+                if self.out.get(start..).is_some_and(|text| text.starts_with('{')) {
+                    self.out.insert(start, '(');
+                    self.put(")");
+                }
+            }
+        }
+    }
+
+    /// A tree where an operator around it needs at least `least`.
+    fn expr(&mut self, expr: &Expr, least: u8) {
+        let enclosed = power(expr) < least;
+        if enclosed {
+            self.put("(");
+        }
+        self.kind(&expr.kind);
+        if enclosed {
+            self.put(")");
+        }
+    }
+
+    fn kind(&mut self, kind: &ExprKind) {
+        match kind {
+            ExprKind::Number(x) => self.put(&number_text(*x)),
+            ExprKind::String(text) => quote(text, &mut self.out),
+            ExprKind::Boolean(b) => self.put(if *b { "true" } else { "false" }),
+            ExprKind::Null => self.put("null"),
+            ExprKind::Name(name) => self.put(name),
+            ExprKind::Error => self.put("<error>"),
+            ExprKind::Member { object, name, optional } => {
+                // `1.x` would be read as the number `1.`
+                let digits = matches!(object.kind, ExprKind::Number(_));
+                self.expr(object, if digits { ATOM + 1 } else { MEMBER });
+                self.put(if *optional { "?." } else { "." });
+                self.put(&name.text);
+            }
+            ExprKind::Index { object, index, optional } => {
+                self.expr(object, MEMBER);
+                self.put(if *optional { "?.[" } else { "[" });
+                // An assignment in an index is read only in parentheses.
+                self.expr(index, CHOICE);
+                self.put("]");
+            }
+            ExprKind::Call { callee, args, optional } => {
+                self.expr(callee, MEMBER);
+                self.put(if *optional { "?.(" } else { "(" });
+                self.items(args);
+                self.put(")");
+            }
+            ExprKind::Chain(inner) => self.kind(&inner.kind),
+            ExprKind::Array(items) => {
+                self.put("[");
+                self.items(items);
+                self.put("]");
+            }
+            ExprKind::Spread(items) => {
+                self.put("...");
+                self.expr(items, ASSIGNMENT);
+            }
+            ExprKind::Object(properties) => self.object(properties),
+            ExprKind::Template { texts, values } => {
+                self.put("`");
+                for (i, text) in texts.iter().enumerate() {
+                    template_text(text, &mut self.out);
+                    if let Some(value) = values.get(i) {
+                        self.put("${");
+                        self.expr(value, ASSIGNMENT);
+                        self.put("}");
+                    }
+                }
+                self.put("`");
+            }
+            ExprKind::Function(function) => self.function(function),
+            ExprKind::Unary { op, operand } => {
+                self.put(op.symbol());
+                // `- -x` and `+ ++x` must not run together, nor `typeof x`.
+                let runs = starts_with_sign(operand) && matches!(op, UnaryOp::Minus | UnaryOp::Plus);
+                if runs || *op == UnaryOp::TypeOf {
+                    self.put(" ");
+                }
+                self.expr(operand, SIGN);
+            }
+            ExprKind::Binary { op, left, right } => {
+                let p = op.power();
+                // `**` groups from the right and takes no sign on its left; all others group from the left.
+                let (l, r) = if *op == BinaryOp::Power { (UPDATE, p) } else { (p, p + 1) };
+                self.between(left, l, op.symbol(), right, r);
+            }
+            ExprKind::Logical { op, left, right } => {
+                self.logical_operand(*op, left, op.power());
+                self.put(" ");
+                self.put(op.symbol());
+                self.put(" ");
+                self.logical_operand(*op, right, op.power() + 1);
+            }
+            ExprKind::Conditional { test, then, otherwise } => {
+                self.expr(test, CHOICE + 1);
+                self.put(" ? ");
+                self.expr(then, ASSIGNMENT);
+                self.put(" : ");
+                self.expr(otherwise, ASSIGNMENT);
+            }
+            ExprKind::Assign { target, op, value, .. } => {
+                let symbol = format!("{}=", op.map_or("", |o| o.symbol()));
+                self.between(target, UPDATE, &symbol, value, ASSIGNMENT);
+            }
+            ExprKind::AssignLogical { target, op, value, .. } => {
+                self.between(target, UPDATE, &format!("{}=", op.symbol()), value, ASSIGNMENT);
+            }
+            ExprKind::Sequence(parts) => {
+                for (i, part) in parts.iter().enumerate() {
+                    if i > 0 {
+                        self.put(", ");
+                    }
+                    self.expr(part, ASSIGNMENT);
+                }
+            }
+            ExprKind::Update { target, increment, prefix } => {
+                let symbol = if *increment { "++" } else { "--" };
+                if *prefix {
+                    self.put(symbol);
+                    self.expr(target, SIGN);
+                } else {
+                    self.expr(target, UPDATE);
+                    self.put(symbol);
+                }
+            }
+        }
+    }
+
+    fn object(&mut self, properties: &[Property]) {
+        self.put("{");
+        for (i, property) in properties.iter().enumerate() {
+            if i > 0 {
+                self.put(", ");
+            }
+            match property {
+                Property::Named { key, value } => {
+                    let short = matches!(&value.kind, ExprKind::Name(name) if *name == key.text);
+                    if !short {
+                        if is_word(&key.text) {
+                            self.put(&key.text);
+                        } else {
+                            quote(&key.text, &mut self.out);
+                        }
+                        self.put(": ");
+                    }
+                    self.expr(value, ASSIGNMENT);
+                }
+                Property::Computed { key, value } => {
+                    self.put("[");
+                    self.expr(key, ASSIGNMENT);
+                    self.put("]: ");
+                    self.expr(value, ASSIGNMENT);
+                }
+                Property::Spread(value) => {
+                    self.put("...");
+                    self.expr(value, ASSIGNMENT);
+                }
+            }
+        }
+        self.put("}");
+    }
+
+    fn between(&mut self, left: &Expr, l: u8, symbol: &str, right: &Expr, r: u8) {
+        self.expr(left, l);
+        self.put(" ");
+        self.put(symbol);
+        self.put(" ");
+        self.expr(right, r);
+    }
+
+    /// `??` mixes with `||` and `&&` only in parentheses.
+    fn logical_operand(&mut self, op: LogicalOp, operand: &Expr, least: u8) {
+        let mixes = matches!(&operand.kind, ExprKind::Logical { op: other, .. }
+            if (*other == LogicalOp::Nullish) != (op == LogicalOp::Nullish));
+        self.expr(operand, if mixes { ATOM + 1 } else { least });
+    }
+
+    fn items(&mut self, items: &[Expr]) {
+        for (i, item) in items.iter().enumerate() {
+            if i > 0 {
+                self.put(", ");
+            }
+            self.expr(item, ASSIGNMENT);
+        }
+    }
+}
+
+/// Whether an `else` behind this statement would belong to an `if` in it.
+fn open_ended(statement: &Stmt) -> bool {
+    match &statement.kind {
+        StmtKind::If { otherwise: None, .. } => true,
+        StmtKind::If { otherwise: Some(last), .. } => open_ended(last),
+        StmtKind::For { body, .. } | StmtKind::ForOf { body, .. } | StmtKind::While { body, .. } => {
+            open_ended(body)
+        }
+        _ => false,
+    }
 }
 
 /// Whether the text of an operand starts with `+` or `-`.
@@ -169,6 +485,12 @@ fn starts_with_sign(expr: &Expr) -> bool {
 /// A literal never holds a sign; an infinite one is written so that it is read as infinite again.
 fn number_text(x: f64) -> String {
     if x.is_infinite() { "1e999".into() } else { number::to_text(x) }
+}
+
+/// Whether a key can be written without quotes.
+fn is_word(key: &str) -> bool {
+    key.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_' || c == '$')
+        && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '$')
 }
 
 fn quote(text: &str, out: &mut String) {
@@ -186,4 +508,15 @@ fn quote(text: &str, out: &mut String) {
         }
     }
     out.push('"');
+}
+
+fn template_text(text: &str, out: &mut String) {
+    for c in text.chars() {
+        match c {
+            '`' | '\\' | '$' => out.extend(['\\', c]),
+            '\n' => out.push('\n'),
+            c if c.is_control() => out.push_str(&format!("\\u{{{:x}}}", u32::from(c))),
+            c => out.push(c),
+        }
+    }
 }

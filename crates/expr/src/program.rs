@@ -1,10 +1,14 @@
 //! What a host needs to run programs: itself as a [`Host`], a [`Context`] to run in, and the compiled [`Program`].
 
+use std::collections::BTreeMap;
 use std::fmt;
+use std::sync::Arc;
 
 use crate::code;
 use crate::diagnostic::Span;
 use crate::effects::Effects;
+use crate::globals::Globals;
+use crate::heap::Heap;
 use crate::schema::{FieldKey, FunctionId, Type};
 use crate::value::Value;
 use crate::vm::{self, Code};
@@ -23,12 +27,12 @@ pub trait Host {
     /// Number of elements of the whole field, now.
     fn len(&self, field: FieldKey) -> usize;
 
-    /// Calls a function. Arguments for [`crate::Param::Object`] are not passed; parameters that were left out
+    /// Calls a function. Lists and records among the arguments and the result live in `heap`. Arguments for [`crate::Param::Object`] are not passed; parameters that were left out
     /// make the list shorter.
     ///
     /// # Errors
     /// The call fails: the text becomes the message of a [`RuntimeError`].
-    fn call(&mut self, function: FunctionId, args: &[Value]) -> Result<Value, String>;
+    fn call(&mut self, heap: &mut Heap, function: FunctionId, args: &[Value]) -> Result<Value, String>;
 }
 
 /// Why a run ended early.
@@ -104,12 +108,21 @@ impl fmt::Display for RuntimeEvent {
 /// programs of a lab; a numeric program allocates nothing once the room has grown.
 #[derive(Clone, Debug, Default)]
 pub struct Context {
+    /// The lists, records and functions that values refer to.
+    pub heap: Heap,
     pub(crate) globals: Vec<Value>,
+    /// Slots of variables whose names may be computed.
+    named: BTreeMap<String, u32>,
+    /// Variables with computed names that no text names.
+    unnamed: BTreeMap<String, Value>,
     pub(crate) aggregates: Vec<f64>,
     pub(crate) numbers: Vec<f64>,
     pub(crate) values: Vec<Value>,
     pub(crate) events: Vec<RuntimeEvent>,
 }
+
+/// Variables with computed names.
+const MAX_UNNAMED: usize = 1000;
 
 /// Events kept of one run.
 const MAX_EVENTS: usize = 16;
@@ -118,6 +131,38 @@ impl Context {
     /// All variables `undefined`.
     pub fn new() -> Context {
         Context::default()
+    }
+
+    /// All variables `undefined`. Programs that compute the names of variables need this one, made when all texts
+    /// of the lab are compiled.
+    pub fn of(globals: &Globals) -> Context {
+        Context { named: globals.named().clone(), ..Context::default() }
+    }
+
+    /// A variable by its name.
+    pub(crate) fn get_named(&self, name: &str) -> Value {
+        match self.named.get(name) {
+            Some(slot) => self.get(*slot).clone(),
+            None => self.unnamed.get(name).cloned().unwrap_or_default(),
+        }
+    }
+
+    /// Stores a variable by its name; `false` when there are too many.
+    pub(crate) fn set_named(&mut self, name: &str, value: Value) -> bool {
+        match self.named.get(name) {
+            Some(slot) => self.set(*slot, value),
+            None if self.unnamed.len() >= MAX_UNNAMED && !self.unnamed.contains_key(name) => return false,
+            None => {
+                self.unnamed.insert(name.to_owned(), value);
+            }
+        }
+        true
+    }
+
+    /// Collects what neither a variable nor one of these values refers to.
+    pub(crate) fn collect(&mut self, values: &[Value]) {
+        let Context { heap, globals, unnamed, .. } = self;
+        heap.collect(globals.iter().chain(unnamed.values()).chain(values));
     }
 
     /// A `ctx` variable.
@@ -172,7 +217,7 @@ pub struct Aggregate {
 /// A compiled text.
 #[derive(Clone, Debug)]
 pub struct Program {
-    pub(crate) code: Code,
+    pub(crate) code: Arc<Code>,
     pub(crate) effects: Effects,
     pub(crate) result: Type,
     pub(crate) aggregates: Vec<Aggregate>,

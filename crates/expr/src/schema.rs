@@ -48,6 +48,8 @@ pub struct Field {
     pub shape: Vec<Option<usize>>,
     /// What it is, and so what assigning means.
     pub kind: FieldKind,
+    /// What its elements are.
+    pub elem: Elem,
     /// Unit, empty when it has none.
     pub unit: String,
     /// One line of documentation.
@@ -67,9 +69,37 @@ impl Field {
         self.len() == Some(0)
     }
 
+    /// Whether its elements may be set.
+    pub fn is_assignable(&self) -> bool {
+        !matches!(self.kind, FieldKind::Derived { .. } | FieldKind::Structure)
+    }
+
     /// Whether it is one number rather than an array.
     pub fn is_scalar(&self) -> bool {
         self.shape.is_empty()
+    }
+}
+
+/// What the elements of a field are, and so what is left of a number that is stored there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Elem {
+    /// Doubles.
+    #[default]
+    Double,
+    /// Integers of 32 bits.
+    Int,
+    /// Bytes.
+    Byte,
+}
+
+impl Elem {
+    /// What is kept of a number.
+    pub(crate) fn keep(self, x: f64) -> f64 {
+        match self {
+            Elem::Double => x,
+            Elem::Int => f64::from(crate::number::to_int32(x)),
+            Elem::Byte => f64::from(crate::number::to_int32(x) & 0xff),
+        }
     }
 }
 
@@ -118,6 +148,10 @@ pub struct FunctionInfo {
     pub implied: bool,
     /// Type of the result.
     pub returns: Type,
+    /// Members of the result, when it is a record of known members.
+    pub members: Vec<(String, Type)>,
+    /// Number of elements of the result, when it is a list of known length.
+    pub length: Option<usize>,
     /// The arguments are sub-programs that the host evaluates over many samples, see [`crate::Aggregate`].
     pub aggregate: bool,
     /// What it reads.
@@ -137,6 +171,8 @@ pub enum Param {
     Text,
     /// Anything, converted to true or false.
     Boolean,
+    /// A list of numbers, or an array of the simulation, which is passed as a copy: always a [`Value::List`].
+    Numbers,
     /// Any value, as it is.
     Any,
     /// Exactly this object, checked when compiling. **Not passed** at run time.
@@ -164,12 +200,42 @@ pub enum Type {
     Any,
     /// Nothing: the function is called for its effect.
     Void,
+    /// A list.
+    List,
+    /// A record.
+    Record,
+    /// A function of the text.
+    Function,
+    /// An array of the simulation.
+    View,
+    /// No value ever: what a function gives that never returns.
+    Never,
+    /// A number, or `undefined`: an element at an index that may be past the end.
+    Element,
 }
 
 impl Type {
     /// The type of a value that is one or the other.
     pub fn or(self, other: Type) -> Type {
-        if self == other { self } else { Type::Any }
+        match (self, other) {
+            (Type::Never, one) | (one, Type::Never) => one,
+            (a, b) if a == b => a,
+            (
+                Type::Number | Type::Undefined | Type::Element,
+                Type::Number | Type::Undefined | Type::Element,
+            ) => Type::Element,
+            _ => Type::Any,
+        }
+    }
+
+    /// Whether it is nothing but numbers, truth values and nothing: then arithmetic on it can use plain numbers.
+    pub(crate) fn is_plain(self) -> bool {
+        !self.may_have_parts() && self != Type::String
+    }
+
+    /// Whether it may be something with parts: a list, a record, an array, a function.
+    pub(crate) fn may_have_parts(self) -> bool {
+        matches!(self, Type::List | Type::Record | Type::View | Type::Function | Type::Any)
     }
 
     /// In words, with an article.
@@ -182,8 +248,23 @@ impl Type {
             Type::Undefined => "undefined",
             Type::Any => "a value of any type",
             Type::Void => "nothing",
+            Type::List => "a list",
+            Type::Record => "a record",
+            Type::Function => "a function",
+            Type::View => "an array",
+            Type::Never => "no value",
+            Type::Element => "a number, or undefined past the end",
         }
     }
+}
+
+/// What a place in a text is, for a person who points at it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Help {
+    /// How it is written in full, or its signature.
+    pub title: String,
+    /// What it is, in sentences without full stops.
+    pub lines: Vec<String>,
 }
 
 /// Names to things, at compile time. Lists are for suggestions and should have a stable order.
@@ -213,12 +294,31 @@ pub trait Schema {
     /// What one of its objects is called: `joint`.
     fn noun(&self, collection: CollectionId) -> &str;
 
+    /// The field whose elements a function of one object gives, so that a single one can be read without the call.
+    fn result_field(&self, function: FunctionId, object: ObjectId) -> Option<Field> {
+        let _ = (function, object);
+        None
+    }
+
     /// Signature and effects of a function.
     fn function(&self, function: FunctionId) -> FunctionInfo;
 
     /// A remark of the host on a member that does not exist: what people who write it usually mean.
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
         let _ = (object, name);
+        None
+    }
+
+    /// What element `index` of a whole field is: `joint light_free (free): z position, m`.
+    fn element_help(&self, field: FieldKey, index: usize) -> Option<String> {
+        let _ = (field, index);
+        None
+    }
+
+    /// How an author writes element `index` of a whole field by the name of the object that it belongs to:
+    /// `data.joint("light_free").qpos[2]`.
+    fn named_element(&self, field: FieldKey, index: usize) -> Option<String> {
+        let _ = (field, index);
         None
     }
 

@@ -1,11 +1,13 @@
 //! Values of a program: JavaScript's primitive values and their conversions (ECMAScript, "Type Conversion" and
-//! "Testing and Comparison Operations").
+//! "Testing and Comparison Operations"), and references to lists, records and functions, which live in a
+//! [`crate::Heap`].
 
 use std::fmt;
 use std::sync::Arc;
 
+use crate::heap::Ref;
 use crate::number;
-use crate::schema::Type;
+use crate::schema::{FieldKey, Type};
 
 /// A value of JavaScript.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,6 +23,37 @@ pub enum Value {
     Boolean(bool),
     /// Text.
     String(Arc<str>),
+    /// A list of values, or a copy of an array of the simulation.
+    List(Ref),
+    /// Values with names.
+    Record(Ref),
+    /// A function of a text.
+    Function(Ref),
+    /// An array of the simulation itself: reading and writing its elements reads and writes the simulation.
+    View(View),
+}
+
+/// A part of a field, in elements of the whole field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct View {
+    /// The field.
+    pub field: FieldKey,
+    /// Its first element.
+    pub first: u32,
+    count: u32,
+}
+
+impl View {
+    /// `count` elements from `first` on; without a count up to the end, which may move while running.
+    pub(crate) fn new(field: FieldKey, first: usize, count: Option<usize>) -> View {
+        let small = |n: usize| u32::try_from(n).unwrap_or(u32::MAX - 1).min(u32::MAX - 1);
+        View { field, first: small(first), count: count.map_or(u32::MAX, small) }
+    }
+
+    /// Number of elements; `None` when it may change while running.
+    pub fn count(self) -> Option<usize> {
+        (self.count != u32::MAX).then_some(self.count as usize)
+    }
 }
 
 impl Value {
@@ -32,10 +65,24 @@ impl Value {
             Value::Number(_) => Type::Number,
             Value::Boolean(_) => Type::Boolean,
             Value::String(_) => Type::String,
+            Value::List(_) => Type::List,
+            Value::Record(_) => Type::Record,
+            Value::Function(_) => Type::Function,
+            Value::View(_) => Type::View,
         }
     }
 
-    /// JavaScript's `Number(v)`.
+    /// Whether it is `undefined` or `null`.
+    pub fn is_nothing(&self) -> bool {
+        matches!(self, Value::Undefined | Value::Null)
+    }
+
+    /// Whether it is a number, a truth value, a text or nothing: all that needs no heap.
+    pub fn is_primitive(&self) -> bool {
+        !matches!(self, Value::List(_) | Value::Record(_) | Value::Function(_) | Value::View(_))
+    }
+
+    /// JavaScript's `Number(v)` of a primitive value; of others NaN, see [`crate::Heap::number`].
     pub fn to_number(&self) -> f64 {
         match self {
             Value::Undefined => f64::NAN,
@@ -43,6 +90,7 @@ impl Value {
             Value::Number(x) => *x,
             Value::Boolean(b) => f64::from(u8::from(*b)),
             Value::String(s) => number::from_text(s),
+            Value::List(_) | Value::Record(_) | Value::Function(_) | Value::View(_) => f64::NAN,
         }
     }
 
@@ -53,10 +101,11 @@ impl Value {
             Value::Number(x) => truthy(*x),
             Value::Boolean(b) => *b,
             Value::String(s) => !s.is_empty(),
+            Value::List(_) | Value::Record(_) | Value::Function(_) | Value::View(_) => true,
         }
     }
 
-    /// `a + b`: concatenation when either is a string.
+    /// `a + b` of primitive values: concatenation when either is a string.
     pub(crate) fn plus(&self, other: &Value) -> Value {
         match (self, other) {
             (Value::String(_), _) | (_, Value::String(_)) => Value::String(format!("{self}{other}").into()),
@@ -75,12 +124,13 @@ impl Value {
         self == other
     }
 
-    /// `a == b`
+    /// `a == b` of primitive values
     pub fn loosely_equals(&self, other: &Value) -> bool {
         match (self, other) {
             (Value::Undefined | Value::Null, Value::Undefined | Value::Null) => true,
             (Value::Undefined | Value::Null, _) | (_, Value::Undefined | Value::Null) => false,
             (Value::String(a), Value::String(b)) => a == b,
+            (a, b) if !a.is_primitive() || !b.is_primitive() => a == b,
             _ => self.to_number() == other.to_number(),
         }
     }
@@ -92,7 +142,7 @@ pub(crate) fn truthy(x: f64) -> bool {
     x != 0.0 && !x.is_nan()
 }
 
-/// JavaScript's `String(v)`.
+/// JavaScript's `String(v)` of a primitive value; of others only what it is, see [`crate::Heap::text`].
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -101,6 +151,9 @@ impl fmt::Display for Value {
             Value::Number(x) => f.write_str(&number::to_text(*x)),
             Value::Boolean(b) => write!(f, "{b}"),
             Value::String(s) => f.write_str(s),
+            Value::List(_) | Value::View(_) => f.write_str("[object Array]"),
+            Value::Record(_) => f.write_str("[object Object]"),
+            Value::Function(_) => f.write_str("function"),
         }
     }
 }

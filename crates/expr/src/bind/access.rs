@@ -6,22 +6,47 @@ use crate::ast::{Expr, ExprKind};
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::effects::Access;
-use crate::ir::{Index, Ir, Kind, View};
+use crate::ir::{Index, Ir, Kind};
 use crate::number;
-use crate::schema::{CollectionId, Field, ObjectId, Type};
+use crate::schema::{CollectionId, Field, Help, ObjectId, Type};
 use crate::suggest::closest;
-use crate::value::Value;
+use crate::value::{Value, View};
 
-impl Binder<'_> {
+/// What chooses a `ctx` variable.
+pub(super) enum GlobalName {
+    Known(String),
+    Computed(Ir),
+}
+
+impl<'a> Binder<'a> {
     /// `object[index]`, read.
-    pub(super) fn element(&mut self, object: &Expr, index: &Expr, span: Span) -> Attempt<Thing> {
+    pub(super) fn element(
+        &mut self,
+        object: &'a Expr,
+        index: &'a Expr,
+        optional: bool,
+        span: Span,
+    ) -> Attempt<Thing> {
+        if let Some(field) = self.call_as_field(object) {
+            let index = self.index(&field, index, span)?;
+            return Ok(Thing::Value(self.load(&field, index, span)));
+        }
         let thing = self.thing(object);
         if let Ok(Thing::Globals) = thing {
-            let name = self.global_name(index)?;
-            return self.global(&name, span).map(Thing::Value);
+            return self.read_named_global(index, span).map(Thing::Value);
         }
-        let checked = match thing {
-            Ok(Thing::Field(field)) => self.index(&field, index, span).map(|i| (field, i)),
+        match thing {
+            Ok(Thing::Field(field)) => {
+                let index = self.index(&field, index, span)?;
+                if let (Index::At(i), false) = (&index, self.site.is_some()) {
+                    self.explain_element(&field, *i, span);
+                }
+                Ok(Thing::Value(self.load(&field, index, span)))
+            }
+            Ok(Thing::Value(ir)) if ir.ty.may_have_parts() || ir.ty == Type::String || optional => {
+                let ir = if optional { self.present(ir) } else { ir };
+                self.value_element(ir, index, span).map(Thing::Value)
+            }
             Ok(other) => {
                 let report = self.not_indexable(&other, object, index, span);
                 self.refuse(report)
@@ -31,9 +56,43 @@ impl Binder<'_> {
                 let _ = self.value(index);
                 Err(Reported)
             }
-        };
-        let (field, index) = checked?;
-        Ok(Thing::Value(self.load(&field, index, span)))
+        }
+    }
+
+    /// Notes what an element of a field is: `joint light_free (free): z position, m`.
+    fn explain_element(&mut self, field: &Field, index: usize, span: Span) {
+        let (schema, key, first) = (self.schema, field.key, field.first);
+        self.explain(span, || {
+            let mut help = super::name::field_help(field);
+            help.title = format!("{}[{index}]", field.path);
+            help.lines.splice(0..0, schema.element_help(key, first + index));
+            help
+        });
+    }
+
+    /// An element of a list or a text.
+    fn value_element(&mut self, object: Ir, index: &'a Expr, span: Span) -> Attempt<Ir> {
+        let index = self.value(index)?;
+        self.effects.can_throw |= !matches!(object.ty, Type::List | Type::View | Type::String);
+        if let Some(n) = self.known_length(&object)
+            && let Some(Value::Number(x)) = index.known()
+            && (*x < 0.0 || *x >= n as f64)
+        {
+            let shown = number::to_text(*x);
+            let count = if n == 1 { "1 element".into() } else { format!("{n} elements") };
+            self.report(
+                Diagnostic::error(
+                    code::INDEX_RANGE,
+                    index.span,
+                    format!("index {shown} is past the end of this list"),
+                )
+                .why(format!("it has {count}, and reading past them gives `undefined`"))
+                .help(format!("indexes are 0 to {}", n.saturating_sub(1))),
+            );
+            return Err(Reported);
+        }
+        let ty = if object.ty == Type::View { Type::Element } else { Type::Any };
+        Ok(Ir::new(Kind::Element(Box::new(object), Box::new(index)), ty, span))
     }
 
     /// An element of a field, read.
@@ -41,8 +100,14 @@ impl Binder<'_> {
         let view = view_of(field);
         self.read(view, Some(&index));
         // An index that is known to exist gives a number, any other a number or `undefined`.
-        let certain = matches!(index, Index::At(_)) && view.count.is_some();
-        let ty = if certain { Type::Number } else { Type::Any };
+        let certain = match (&index, view.count()) {
+            (Index::At(_), Some(_)) => true,
+            (Index::Computed(ir), Some(n)) => {
+                self.range_of(ir).is_some_and(|(least, most)| least >= 0.0 && most < n as f64)
+            }
+            _ => false,
+        };
+        let ty = if certain { Type::Number } else { Type::Element };
         Ir::new(Kind::Load(view, index), ty, span)
     }
 
@@ -57,30 +122,35 @@ impl Binder<'_> {
     }
 
     /// The name in `ctx['name']`.
-    pub(super) fn global_name(&mut self, index: &Expr) -> Attempt<String> {
-        let known = match &index.kind {
-            ExprKind::String(name) => Some(name.clone()),
-            ExprKind::Number(x) => Some(number::to_text(*x)),
-            _ => None,
-        };
-        if let Some(name) = known {
-            return Ok(name);
+    pub(super) fn global_name(&mut self, index: &'a Expr) -> Attempt<GlobalName> {
+        let ir = self.value(index)?;
+        match ir.known() {
+            Some(name @ (Value::String(_) | Value::Number(_))) => Ok(GlobalName::Known(name.to_string())),
+            _ => {
+                // `'q' + i` names only what begins with `q`.
+                let begins = match &ir.kind {
+                    Kind::Binary(crate::ast::BinaryOp::Add, left, _) => left.known().map(Value::to_string),
+                    _ => None,
+                };
+                self.globals.mention_all(&begins.unwrap_or_default());
+                Ok(GlobalName::Computed(ir))
+            }
         }
-        self.value(index)?;
-        self.refuse(
-            Diagnostic::error(
-                code::COMPUTED_NAME,
-                index.span,
-                "a computed name of a `ctx` variable is not supported yet",
-            )
-            .why("variables are found before the run, so that a misspelt one can be reported")
-            .help("write the name itself, as `ctx.q1` or `ctx['q1']`"),
-        )
+    }
+
+    fn read_named_global(&mut self, index: &'a Expr, span: Span) -> Attempt<Ir> {
+        match self.global_name(index)? {
+            GlobalName::Known(name) => self.global(&name, span),
+            GlobalName::Computed(ir) => {
+                self.effects.any_ctx = true;
+                Ok(Ir::new(Kind::GlobalNamed(Box::new(ir)), Type::Any, span))
+            }
+        }
     }
 
     /// The index of an element of a field, checked as far as it is known.
-    pub(super) fn index(&mut self, field: &Field, index: &Expr, span: Span) -> Attempt<Index> {
-        let ir = self.value(index)?;
+    pub(super) fn index(&mut self, field: &Field, index: &'a Expr, span: Span) -> Attempt<Index> {
+        let ir = self.operand(index)?;
         if field.is_scalar() {
             let object = Span::new(span.start, index.span.start);
             let object = self.text(object).trim_end().trim_end_matches('[').to_owned();
@@ -100,7 +170,10 @@ impl Binder<'_> {
                 let at = self.known_index(field, *x, index.span)?;
                 Ok(Index::At(at))
             }
-            (None, Type::Number | Type::Any) => Ok(Index::Computed(Box::new(ir))),
+            (None, Type::Number | Type::Any | Type::Element | Type::Never) => {
+                self.check_range(field, &ir)?;
+                Ok(Index::Computed(Box::new(ir)))
+            }
             (_, ty) => {
                 let mut report = Diagnostic::error(
                     code::INDEX_KIND,
@@ -124,7 +197,7 @@ impl Binder<'_> {
     }
 
     /// Checks an index whose value is known.
-    fn known_index(&mut self, field: &Field, x: f64, span: Span) -> Attempt<usize> {
+    pub(super) fn known_index(&mut self, field: &Field, x: f64, span: Span) -> Attempt<usize> {
         let shown = number::to_text(x);
         if x < 0.0 {
             let mut report =
@@ -155,7 +228,7 @@ impl Binder<'_> {
         Ok(at)
     }
 
-    fn not_indexable(&self, thing: &Thing, object: &Expr, index: &Expr, span: Span) -> Diagnostic {
+    pub(super) fn not_indexable(&self, thing: &Thing, object: &Expr, index: &Expr, span: Span) -> Diagnostic {
         let text = self.text(object.span);
         let error = |message: String| Diagnostic::error(code::NOT_INDEXABLE, span, message);
         let name = match &index.kind {
@@ -184,9 +257,14 @@ impl Binder<'_> {
             (Thing::Value(_), _) => {
                 error(format!("`{text}` is a single value, not an array")).help("remove the index")
             }
-            (Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..), _) => {
-                self.not_called(thing, object.span)
-            }
+            (
+                Thing::Function(_)
+                | Thing::MathFunction(_)
+                | Thing::Method(..)
+                | Thing::Native(_)
+                | Thing::Closure(_),
+                _,
+            ) => self.not_called(thing, object.span),
             _ => {
                 error(format!("`{text}` is not an array")).help("choose a field with a point, as `data.qpos`")
             }
@@ -245,9 +323,9 @@ impl Binder<'_> {
         &mut self,
         id: CollectionId,
         callee: Span,
-        args: &[Expr],
+        args: &'a [Expr],
         span: Span,
-    ) -> Attempt<ObjectId> {
+    ) -> Attempt<Thing> {
         let noun = self.schema.noun(id).to_owned();
         let [arg] = args else {
             let message =
@@ -257,56 +335,70 @@ impl Binder<'_> {
                     .help(format!("write `{}(\"…\")`", self.text(callee))),
             );
         };
-        self.object_name(id, arg)
+        match self.object_name(id, arg)? {
+            Chosen::Known(object) => Ok(Thing::Object(object)),
+            Chosen::Computed(name) => Ok(Thing::Picked(id, name)),
+        }
     }
 
-    /// The object that a literal name means.
-    pub(super) fn object_name(&mut self, id: CollectionId, arg: &Expr) -> Attempt<ObjectId> {
+    /// The object that a name means.
+    pub(super) fn object_name(&mut self, id: CollectionId, arg: &'a Expr) -> Attempt<Chosen> {
         let noun = self.schema.noun(id).to_owned();
         let names = self.schema.names(id);
-        let ExprKind::String(name) = &arg.kind else {
-            let shown =
-                if names.is_empty() { String::new() } else { format!("; the names are {}", list(&names)) };
-            if let ExprKind::Number(_) = arg.kind {
+        if let ExprKind::Name(word) = &arg.kind
+            && names.contains(word)
+            && self.variable(word).is_none()
+        {
+            return self.refuse(
+                Diagnostic::error(
+                    code::COMPUTED_NAME,
+                    arg.span,
+                    format!("the name of a {noun} stands in quotes"),
+                )
+                .why("without quotes it is the name of a variable")
+                .help(format!("write `\"{word}\"`"))
+                .fix(arg.span, format!("\"{word}\"")),
+            );
+        }
+        let ir = self.value(arg)?;
+        let name = match (ir.known(), ir.ty) {
+            (Some(Value::String(name)), _) => name.clone(),
+            (None, Type::String | Type::Any | Type::Never) => {
+                if names.is_empty() {
+                    return self.refuse(
+                        Diagnostic::error(
+                            code::UNKNOWN_OBJECT,
+                            arg.span,
+                            format!("no {noun} has a name here"),
+                        )
+                        .help(format!("give the {noun} a name in the model")),
+                    );
+                }
+                self.effects.can_throw = true;
+                return Ok(Chosen::Computed(ir));
+            }
+            _ => {
+                let shown = if names.is_empty() {
+                    String::new()
+                } else {
+                    format!("; the names are {}", list(&names))
+                };
                 return self.refuse(
                     Diagnostic::error(
                         code::ARGUMENT_TYPE,
                         arg.span,
-                        format!("a {noun} is chosen by its name, not by a number"),
+                        format!("a {noun} is chosen by its name, not by {}", ir.ty.describe()),
                     )
                     .why("numbers of objects change when the model changes")
                     .help(format!("write the name in quotes{shown}")),
                 );
             }
-            if let ExprKind::Name(word) = &arg.kind
-                && names.contains(word)
-                && !self.locals.iter().any(|l| l.name == *word)
-            {
-                return self.refuse(
-                    Diagnostic::error(
-                        code::COMPUTED_NAME,
-                        arg.span,
-                        format!("the name of a {noun} stands in quotes"),
-                    )
-                    .why("without quotes it is the name of a variable")
-                    .help(format!("write `\"{word}\"`"))
-                    .fix(arg.span, format!("\"{word}\"")),
-                );
-            }
-            let bound = self.value(arg);
-            bound?;
-            return self.refuse(
-                Diagnostic::error(
-                    code::COMPUTED_NAME,
-                    arg.span,
-                    format!("the name of a {noun} must be written out, not computed"),
-                )
-                .why("names are resolved before the run, so that a misspelt one is found at once")
-                .help(format!("write the name in quotes{shown}")),
-            );
         };
+        let name = &*name;
         if let Some(object) = self.schema.lookup(id, name) {
-            return Ok(object);
+            let title = self.schema.describe(object);
+            self.explain(arg.span, || Help { title, lines: Vec::new() });
+            return Ok(Chosen::Known(object));
         }
         let report =
             Diagnostic::error(code::UNKNOWN_OBJECT, arg.span, format!("there is no {noun} named \"{name}\""));
@@ -323,17 +415,25 @@ impl Binder<'_> {
     }
 }
 
+/// The object that a name means.
+pub(super) enum Chosen {
+    Known(ObjectId),
+    /// Known only while running.
+    Computed(Ir),
+}
+
 /// What an access touches, in elements of the whole field.
 fn access(view: View, index: Option<&Index>) -> Access {
+    let start = view.first as usize;
     let (first, count) = match index {
-        Some(Index::At(i)) => (view.first.saturating_add(*i), Some(1)),
-        _ => (view.first, view.count),
+        Some(Index::At(i)) => (start.saturating_add(*i), Some(1)),
+        _ => (start, view.count()),
     };
     Access { field: view.field, first, count }
 }
 
 /// ` 0 to 13`, for the end of a sentence on indexes.
-fn range(field: &Field) -> String {
+pub(super) fn range(field: &Field) -> String {
     match field.len() {
         Some(0) => ", but there are none".into(),
         Some(1) => " 0 only".into(),

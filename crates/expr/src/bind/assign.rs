@@ -1,88 +1,167 @@
 //! Assignments: what may stand on the left, and why not what may not.
 
-use super::name::{is_language, view_of};
-use super::{Attempt, Binder, Meaning, Reported, Thing};
-use crate::ast::{BinaryOp, Expr, ExprKind};
+use super::access::GlobalName;
+use super::name::{is_language, machinery, view_of};
+use super::scope::Meaning;
+use super::{Attempt, Binder, Reported, Thing};
+use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp};
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::ir::{Index, Ir, Kind, Place};
+use crate::ir::{Gives, Index, Ir, Kind, Place};
 use crate::schema::{Field, FieldKind, Type};
 use crate::value::Value;
 
-impl Binder<'_> {
+impl<'a> Binder<'a> {
     /// `target = value` of a control that sets.
-    pub(super) fn set(&mut self, target: &Expr, given: Type) -> Attempt<Ir> {
+    pub(super) fn set(&mut self, target: &'a Expr, given: Type) -> Attempt<Ir> {
         let place = self.place(target, false)?;
         self.effects.uses_value = true;
         let value = Ir::new(Kind::Input, given, target.span);
         Ok(Ir::new(Kind::Store(Box::new(place), None, Box::new(value)), given, target.span))
     }
 
-    /// `target = value` or `target op= value` as a statement; its value may be assigned further.
+    /// An expression that changes something: an assignment, `++`, or one of their like.
+    pub(super) fn changing(&mut self, expr: &'a Expr) -> Attempt<Ir> {
+        let span = expr.span;
+        match &expr.kind {
+            ExprKind::Assign { target, op, value, .. } => self.assign(target, *op, value, span),
+            ExprKind::AssignLogical { target, op, value, .. } => self.assign_if(target, *op, value, span),
+            ExprKind::Update { target, increment, prefix } => self.update(target, *increment, *prefix, span),
+            _ => self.value(expr),
+        }
+    }
+
+    /// `target = value` or `target op= value`; its value may be assigned further.
     pub(super) fn assign(
         &mut self,
-        target: &Expr,
+        target: &'a Expr,
         op: Option<BinaryOp>,
-        value: &Expr,
+        value: &'a Expr,
         span: Span,
     ) -> Attempt<Ir> {
         let place = self.place(target, op.is_some());
+        let scalar = matches!(place, Ok(Place::Element(..)));
         let value = match &value.kind {
-            ExprKind::Assign { target, op, value, .. } => self.assign(target, *op, value, span),
-            ExprKind::Array(_) if matches!(place, Ok(Place::Element(..))) => {
+            ExprKind::Assign { .. } | ExprKind::AssignLogical { .. } => self.changing(value),
+            ExprKind::Array(_) if scalar => {
                 let report = array_in_element(value.span);
                 self.refuse(report)
             }
+            _ if scalar || op.is_some_and(|op| op != BinaryOp::Add) => self.operand(value),
             _ => self.value(value),
         };
         let (place, value) = (place?, value?);
+        self.check_kept(&place, &value)?;
         self.check_stored_in(&place, op, &value);
-        let ty = match (op, &place) {
-            (None, _) => value.ty,
-            (Some(BinaryOp::Add), Place::Element(..)) if value.never_text() => Type::Number,
-            (Some(BinaryOp::Add), _) if value.ty == Type::String => Type::String,
-            (Some(BinaryOp::Add), _) => Type::Any,
-            (Some(_), _) => Type::Number,
+        let old = self.type_of_place(&place);
+        let ty = match op {
+            None => value.ty,
+            Some(BinaryOp::Add) if old == Type::String || value.ty == Type::String => Type::String,
+            Some(BinaryOp::Add) if old.is_plain() && value.is_plain() => Type::Number,
+            Some(BinaryOp::Add) => Type::Any,
+            Some(_) => Type::Number,
         };
+        self.stored(target, &place, ty);
         Ok(Ir::new(Kind::Store(Box::new(place), op, Box::new(value)), ty, span))
     }
 
-    /// `target++` and its like. Adding is subtracting -1, which also turns text into a number, as `++` does.
-    pub(super) fn update(&mut self, target: &Expr, increment: bool, span: Span) -> Attempt<Ir> {
+    /// `target ||= value` and its like.
+    fn assign_if(&mut self, target: &'a Expr, op: LogicalOp, value: &'a Expr, span: Span) -> Attempt<Ir> {
+        let place = self.place(target, true);
+        let value =
+            if matches!(place, Ok(Place::Element(..))) { self.operand(value) } else { self.value(value) };
+        let (place, value) = (place?, value?);
+        self.check_kept(&place, &value)?;
+        self.check_stored_in(&place, None, &value);
+        let ty = self.type_of_place(&place).or(value.ty);
+        self.stored(target, &place, ty);
+        Ok(Ir::new(Kind::StoreIf(op, Box::new(place), Box::new(value)), ty, span))
+    }
+
+    /// `target++` and its like.
+    fn update(&mut self, target: &'a Expr, increment: bool, prefix: bool, span: Span) -> Attempt<Ir> {
         let place = self.place(target, true)?;
-        let step = Ir::constant(Value::Number(if increment { -1.0 } else { 1.0 }), span);
-        Ok(Ir::new(
-            Kind::Store(Box::new(place), Some(BinaryOp::Subtract), Box::new(step)),
-            Type::Number,
-            span,
-        ))
+        self.stored(target, &place, Type::Number);
+        let (step, gives) =
+            (if increment { 1.0 } else { -1.0 }, if prefix { Gives::New } else { Gives::Old });
+        Ok(Ir::new(Kind::Update(Box::new(place), step, gives), Type::Number, span))
+    }
+
+    /// The type of what a place holds.
+    fn type_of_place(&self, place: &Place) -> Type {
+        match place {
+            Place::Element(..) => Type::Element,
+            Place::Local(id) => self.tree.locals.get(*id as usize).map_or(Type::Any, |l| l.ty),
+            _ => Type::Any,
+        }
+    }
+
+    /// Notes what is stored in a variable of the text.
+    fn stored(&mut self, target: &Expr, place: &Place, ty: Type) {
+        let (Place::Local(id), ExprKind::Name(_)) = (place, &target.kind) else { return };
+        if let Some(key) = self.variables.iter().rev().find(|v| v.id == *id).map(|v| v.key) {
+            self.facts.see(key, ty);
+        }
+    }
+
+    /// Refuses to keep an array of the simulation in `ctx`: it would still change there.
+    fn check_kept(&mut self, place: &Place, value: &Ir) -> Attempt<()> {
+        let kept = matches!(place, Place::Global(_) | Place::GlobalNamed(_));
+        if !(kept && value.ty == Type::View) {
+            return Ok(());
+        }
+        let text = self.text(value.span);
+        self.refuse(
+            Diagnostic::error(
+                code::WHOLE_ARRAY,
+                value.span,
+                format!("`{text}` is an array of the simulation; `ctx` keeps values"),
+            )
+            .why("what is kept would change with every step, which is hardly ever meant")
+            .help(format!("keep a copy, as `{text}.slice()`, or one element, as `{text}[0]`"))
+            .fix(value.span.after(), ".slice()"),
+        )
     }
 
     /// What can be assigned to. `reads`: a compound assignment also reads it.
-    fn place(&mut self, target: &Expr, reads: bool) -> Attempt<Place> {
+    fn place(&mut self, target: &'a Expr, reads: bool) -> Attempt<Place> {
         match &target.kind {
             ExprKind::Name(name) => self.named_place(name, target.span, reads),
-            ExprKind::Member { object, name } if self.is_globals(object) => {
-                self.global_place(&name.text, target.span, reads)
-            }
-            ExprKind::Index { object, index } if self.is_globals(object) => {
-                let name = self.global_name(index)?;
-                self.global_place(&name, target.span, reads)
-            }
-            ExprKind::Member { .. } => {
-                let thing = self.thing(target)?;
-                self.place_of(thing, target, reads)
-            }
-            ExprKind::Index { object, index } => match self.thing(object) {
+            ExprKind::Member { object, name, optional: false } => match self.thing(object)? {
+                Thing::Globals => self.global_place(&name.text, target.span, reads),
+                Thing::Value(ir) => self.member_place(ir, name, target.span),
+                thing => {
+                    let thing = self.member_of(thing, object.span, name, false, target.span)?;
+                    self.place_of(thing, target, reads)
+                }
+            },
+            ExprKind::Index { object, index, optional: false } => match self.thing(object) {
+                Ok(Thing::Globals) => match self.global_name(index)? {
+                    GlobalName::Known(name) => self.global_place(&name, target.span, reads),
+                    GlobalName::Computed(name) => {
+                        self.effects.any_ctx = true;
+                        Ok(Place::GlobalNamed(name))
+                    }
+                },
                 Ok(Thing::Field(field)) => {
                     let checked = self.check_assignable(&field, target.span);
                     let index = self.index(&field, index, target.span)?;
                     checked?;
                     Ok(self.element_place(&field, index, reads))
                 }
-                Ok(_) => {
-                    let thing = self.thing(target)?;
-                    self.place_of(thing, target, reads)
+                Ok(Thing::Value(ir)) if ir.ty.may_have_parts() => {
+                    let index = self.value(index)?;
+                    self.stores_item(&ir);
+                    Ok(Place::Item(ir, index))
+                }
+                Ok(thing) => {
+                    let report = match thing {
+                        Thing::Value(ref ir) if !matches!(ir.kind, Kind::Load(..)) => {
+                            self.not_a_place(target)
+                        }
+                        other => self.not_indexable(&other, object, index, target.span),
+                    };
+                    self.refuse(report)
                 }
                 Err(Reported) => {
                     let _ = self.value(index);
@@ -97,8 +176,27 @@ impl Binder<'_> {
         }
     }
 
-    fn is_globals(&mut self, object: &Expr) -> bool {
-        matches!(&object.kind, ExprKind::Name(name) if name == "ctx" && !self.locals.iter().any(|l| l.name == "ctx"))
+    /// `value.name` on the left.
+    fn member_place(&mut self, ir: Ir, name: &crate::ast::Name, span: Span) -> Attempt<Place> {
+        if super::name::MACHINERY.contains(&name.text.as_str()) {
+            return self.refuse(machinery(&name.text, name.span));
+        }
+        if matches!(ir.ty, Type::Record | Type::Any | Type::Never | Type::List) {
+            self.stores_item(&ir);
+            return Ok(Place::Member(ir, name.text.as_str().into()));
+        }
+        let message =
+            format!("`{}` is {}; it has no members to assign", self.text(ir.span), ir.ty.describe());
+        self.refuse(
+            Diagnostic::error(code::NOT_ASSIGNABLE, span, message)
+                .help("assign a member of a record, or a variable of the lab, as `ctx.peak`"),
+        )
+    }
+
+    /// Notes that something is stored in what is known only while running.
+    fn stores_item(&mut self, object: &Ir) {
+        self.effects.can_throw = true;
+        self.effects.stores_items |= object.ty != Type::Record;
     }
 
     fn global_place(&mut self, name: &str, span: Span, reads: bool) -> Attempt<Place> {
@@ -122,24 +220,22 @@ impl Binder<'_> {
 
     /// A plain name on the left.
     fn named_place(&mut self, name: &str, span: Span, reads: bool) -> Attempt<Place> {
-        let local = self.locals.iter().rev().find(|l| l.name == name).cloned();
-        if let Some(local) = local {
-            return match local.meaning {
-                Meaning::Unknown => Err(Reported),
-                _ if local.constant => self.refuse(
+        if let Some(variable) = self.variable(name) {
+            self.check_ready(&variable, span)?;
+            if variable.constant {
+                return self.refuse(
                     Diagnostic::error(code::ASSIGN_CONST, span, format!("`{name}` is declared with `const`"))
                         .why("a `const` name keeps its first value; JavaScript stops the program here")
                         .help(format!("declare it with `let {name}`, or use another name")),
-                ),
-                Meaning::Slot(slot, _) => Ok(Place::Local(slot)),
-                Meaning::Alias(_) => self.refuse(
-                    Diagnostic::error(
-                        code::NOT_ASSIGNABLE,
-                        span,
-                        format!("`{name}` stands for a part of the simulation"),
-                    )
-                    .help("assign one of its elements or fields, or use another name"),
-                ),
+                );
+            }
+            self.facts.reassign(variable.key, span.start + self.site.map_or(0, |s| s.end << 20));
+            return match variable.meaning {
+                Meaning::Unknown if variable.ready => Err(Reported),
+                _ => {
+                    self.capture(&variable);
+                    Ok(Place::Local(variable.id))
+                }
             };
         }
         if self.schema.root(name).is_none() && !is_language(name) {
@@ -159,23 +255,15 @@ impl Binder<'_> {
                 _ => report.why("it means the same everywhere").help("use another name"),
             });
         }
+        let thing = self.root(name, span)?;
         let expr = Expr { kind: ExprKind::Name(name.to_owned()), span };
-        let thing = self.thing(&expr)?;
         self.place_of(thing, &expr, reads)
     }
 
     fn undeclared(&self, name: &str, span: Span) -> Diagnostic {
-        if self.declared_later.iter().any(|n| n == name) {
-            return Diagnostic::error(
-                code::USED_TOO_EARLY,
-                span,
-                format!("`{name}` is assigned before its declaration"),
-            )
-            .help(format!("move the declaration of `{name}` up"));
-        }
         let report = Diagnostic::error(code::UNKNOWN_NAME, span, format!("`{name}` is not declared"))
             .why("an assignment without a declaration would make a variable of the whole page");
-        match self.closest_root(name) {
+        match self.closest_name(name) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(span, meant),
             None => report.help(format!(
                 "write `const {name} = …` for this text only, or `ctx.{name} = …` to keep it in the lab"

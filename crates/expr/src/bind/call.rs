@@ -1,22 +1,30 @@
-//! Calls: signatures of the host's functions, `Math`, named objects, `.fill` and `.set`, and aggregates.
+//! Calls: signatures of the host's functions, `Math`, named objects, functions of the text, and aggregates.
 
-use super::name::{quoted, view_of};
-use super::{Attempt, Binder, Method, Reported, Thing};
+use super::access::Chosen;
+use super::name::quoted;
+use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Expr, ExprKind};
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::ir::{Ir, Kind};
+use crate::ir::{Ir, Item, Kind, Step, Tree, Unit};
 use crate::lower;
 use crate::math;
-use crate::operators::BinaryOp;
+use crate::natives;
+use crate::prelude;
 use crate::program::{Aggregate, Program};
-use crate::schema::{Field, FunctionId, FunctionInfo, Param, Type};
+use crate::schema::{FunctionId, FunctionInfo, Help, Param, Type};
 use crate::suggest::closest;
 use crate::value::Value;
 
-impl Binder<'_> {
-    /// `callee(args)`
-    pub(super) fn call(&mut self, callee: &Expr, args: &[Expr], span: Span) -> Attempt<Thing> {
+impl<'a> Binder<'a> {
+    /// `callee(args)`, or `callee?.(args)`
+    pub(super) fn call(
+        &mut self,
+        callee: &'a Expr,
+        args: &'a [Expr],
+        optional: bool,
+        span: Span,
+    ) -> Attempt<Thing> {
         let thing = match self.callee(callee) {
             Ok(thing) => thing,
             Err(Reported) => {
@@ -25,10 +33,32 @@ impl Binder<'_> {
             }
         };
         match thing {
-            Thing::Collection(id) => self.named(id, callee.span, args, span).map(Thing::Object),
+            Thing::Collection(id) => self.named(id, callee.span, args, span),
             Thing::Function(id) => self.host_call(id, args, callee.span, span).map(Thing::Value),
             Thing::MathFunction(function) => self.math_call(function, args, span).map(Thing::Value),
-            Thing::Method(method, field) => self.method(method, &field, args, span).map(Thing::Value),
+            Thing::Method(receiver, text) => self.method(*receiver, &text, args, span).map(Thing::Value),
+            Thing::Native(function) => self.native_call(function, args, span).map(Thing::Value),
+            Thing::Namespace(name) => match natives::free(name) {
+                Some(function) => self.native_call(function, args, span).map(Thing::Value),
+                None => {
+                    self.only_check(args);
+                    self.refuse(
+                        Diagnostic::error(
+                            code::NOT_IN_LANGUAGE,
+                            callee.span,
+                            format!("`{name}(…)` is not in this language"),
+                        )
+                        .why("it would make an object of JavaScript around the value")
+                        .help("write a list `[0, 0]` or a record `{a: 1}`"),
+                    )
+                }
+            },
+            Thing::Closure(at) => self.call_known(at, args, span).map(Thing::Value),
+            Thing::Value(ir) if matches!(ir.ty, Type::Function | Type::Any | Type::Never) => {
+                let callee = if optional { self.present(ir) } else { ir };
+                let items = self.items(args)?;
+                Ok(Thing::Value(self.call_value(callee, items, span)))
+            }
             other => {
                 self.only_check(args);
                 let report = self.not_callable(&other, callee.span);
@@ -37,8 +67,32 @@ impl Binder<'_> {
         }
     }
 
+    /// A function of the language: `Number(x)`, `Array.from(v, f)`.
+    fn native_call(&mut self, function: natives::Free, args: &'a [Expr], span: Span) -> Attempt<Ir> {
+        let row = function.row();
+        if row.name == "Array.from"
+            && args.len() == 2
+            && let (Some(method), [first, rest @ ..]) = (prelude::method(row.name, 1), args)
+        {
+            let first = self.value(first).map(Thing::Value)?;
+            return self.call_prelude(method, first, rest, span);
+        }
+        self.check_arity(row.name, Some(row), args, span)?;
+        let items = self.items(args)?;
+        if let [Item { value, spread: false }] = items.as_slice() {
+            match row.name {
+                "Number" if value.is_plain() => return Ok(Ir::to_number(value.clone(), span)),
+                "String" => return Ok(Ir::to_text(value.clone(), span)),
+                "Boolean" => return Ok(Ir::not(Ir::not(value.clone(), span), span)),
+                _ => {}
+            }
+        }
+        self.effects.can_throw = true;
+        Ok(Ir::new(Kind::Native(function, items), row.returns, span))
+    }
+
     /// What is called. A name that nothing defines is looked for among functions.
-    fn callee(&mut self, callee: &Expr) -> Attempt<Thing> {
+    fn callee(&mut self, callee: &'a Expr) -> Attempt<Thing> {
         let before = self.diagnostics.len();
         let thing = self.thing(callee);
         let ExprKind::Name(_) = &callee.kind else { return thing };
@@ -47,7 +101,8 @@ impl Binder<'_> {
                 report.code = code::UNKNOWN_FUNCTION;
                 report.message = report.message.replace("unknown name", "unknown function");
                 if report.fix.is_none() {
-                    report.help = Some("functions of one's own are not supported yet; write the expression where it is needed".into());
+                    report.help =
+                        Some("to make a function of your own, write `const f = (x) => …` before".into());
                 }
             }
         }
@@ -55,9 +110,12 @@ impl Binder<'_> {
     }
 
     /// Looks for mistakes in arguments that will not be used.
-    fn only_check(&mut self, args: &[Expr]) {
+    pub(super) fn only_check(&mut self, args: &'a [Expr]) {
         for arg in args {
-            let _ = self.thing(arg);
+            let _ = match &arg.kind {
+                ExprKind::Spread(inner) => self.thing(inner),
+                _ => self.thing(arg),
+            };
         }
     }
 
@@ -67,6 +125,7 @@ impl Binder<'_> {
             Thing::Field(field) if !field.is_scalar() => "an array",
             Thing::Field(_) => "a number",
             Thing::Object(_) | Thing::Math | Thing::Globals => "an object",
+            Thing::Value(ir) => ir.ty.describe(),
             _ => "a value",
         };
         let report =
@@ -97,12 +156,19 @@ impl Binder<'_> {
             .help(format!("write `{call}`"))
     }
 
-    fn math_call(&mut self, function: math::Function, args: &[Expr], span: Span) -> Attempt<Ir> {
+    fn math_call(&mut self, function: math::Function, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let path = function.path();
+        let title = path.clone();
+        self.explain(span, || Help {
+            title: format!("{title}(…)"), lines: vec![function.doc().to_owned()]
+        });
+        if args.iter().any(|a| matches!(a.kind, ExprKind::Spread(_))) {
+            return self.math_over(function, args, span);
+        }
         let mut numbers = Vec::new();
         let mut failed = false;
         for arg in args {
-            match self.value(arg) {
+            match self.math_argument(&path, function, arg) {
                 Ok(ir) => {
                     self.expect_argument(&ir, &path);
                     numbers.push(Ir::to_number(ir, arg.span));
@@ -137,6 +203,43 @@ impl Binder<'_> {
         if failed { Err(Reported) } else { Ok(Ir::math(function, numbers, span)) }
     }
 
+    /// `Math.max([1, 2])` wants to be `Math.max(...[1, 2])`.
+    fn math_argument(&mut self, path: &str, function: math::Function, arg: &'a Expr) -> Attempt<Ir> {
+        let before = self.diagnostics.len();
+        let bound = self.operand(arg);
+        if bound.is_err() && function.arity().1.is_none() {
+            let text = self.text(arg.span);
+            for report in self.diagnostics.iter_mut().skip(before) {
+                if report.code == code::WHOLE_ARRAY && report.span == arg.span {
+                    report.help = Some(format!(
+                        "write `{path}(...{text})` for all its elements, or `{text}[0]` for one"
+                    ));
+                    report.fix = Some(crate::Fix {
+                        span: Span::new(arg.span.start, arg.span.start),
+                        text: "...".into(),
+                    });
+                }
+            }
+        }
+        bound
+    }
+
+    /// A function of `Math` over lists: written out where their length is known.
+    fn math_over(&mut self, function: math::Function, args: &'a [Expr], span: Span) -> Attempt<Ir> {
+        let items = self.items(args)?;
+        if items.iter().all(|i| !i.spread) {
+            let numbers = items.into_iter().map(|i| Ir::to_number(i.value, span)).collect();
+            return Ok(Ir::math(function, numbers, span));
+        }
+        self.effects.can_throw = true;
+        let ty = if function.gives_boolean() { Type::Boolean } else { Type::Number };
+        let list = match items.as_slice() {
+            [only] if only.value.ty != Type::String => only.value.clone(),
+            _ => Ir::new(Kind::List(items), Type::List, span),
+        };
+        Ok(Ir::new(Kind::MathOver(function, Box::new(list)), ty, span))
+    }
+
     fn expect_argument(&mut self, ir: &Ir, path: &str) {
         if ir.ty == Type::String {
             self.report(
@@ -155,11 +258,21 @@ impl Binder<'_> {
     pub(super) fn host_call(
         &mut self,
         id: FunctionId,
-        args: &[Expr],
+        args: &'a [Expr],
         callee: Span,
         span: Span,
     ) -> Attempt<Ir> {
         let info = self.schema.function(id);
+        if let Some(spread) = args.iter().find(|a| matches!(a.kind, ExprKind::Spread(_))) {
+            let report = Diagnostic::error(
+                code::ARGUMENT_TYPE,
+                spread.span,
+                format!("the arguments of `{}` cannot be spread", info.name),
+            )
+            .why("they are checked before the run, one by one")
+            .help(format!("write `{}`", self.signature(&info)));
+            return self.refuse(report);
+        }
         if info.aggregate {
             return self.aggregate(id, &info, args, span);
         }
@@ -210,12 +323,13 @@ impl Binder<'_> {
     }
 
     /// `mj.mj_setConst(model, data)`
-    fn signature(&self, info: &FunctionInfo) -> String {
+    pub(super) fn signature(&self, info: &FunctionInfo) -> String {
         let params = info.params.iter().map(|param| match param {
             Param::Number | Param::Lazy => "x".to_owned(),
             Param::Text => "\"text\"".to_owned(),
             Param::Boolean => "true".to_owned(),
             Param::Any => "value".to_owned(),
+            Param::Numbers => "list".to_owned(),
             Param::Object(id) => self.schema.describe(*id),
             Param::Name(id) => format!("\"name of a {}\"", self.schema.noun(*id)),
         });
@@ -223,7 +337,13 @@ impl Binder<'_> {
     }
 
     /// An argument, checked; nothing for an object, which is not passed.
-    fn argument(&mut self, info: &FunctionInfo, i: usize, param: Param, arg: &Expr) -> Attempt<Option<Ir>> {
+    fn argument(
+        &mut self,
+        info: &FunctionInfo,
+        i: usize,
+        param: Param,
+        arg: &'a Expr,
+    ) -> Attempt<Option<Ir>> {
         let span = arg.span;
         match param {
             Param::Object(wanted) => {
@@ -239,22 +359,54 @@ impl Binder<'_> {
                 )
             }
             Param::Name(collection) => {
-                let object = self.object_name(collection, arg)?;
-                Ok(Some(Ir::constant(Value::Number(f64::from(object.0)), span)))
+                match self.object_name(collection, arg)? {
+                    Chosen::Known(object) => Ok(Some(Ir::number(f64::from(object.0), span))),
+                    // By name while running: the numbers of all objects of the collection.
+                    Chosen::Computed(name) => {
+                        let noun = self.schema.noun(collection).to_owned();
+                        let names = self.schema.names(collection);
+                        let id = |n: &String| {
+                            Some((
+                                n.as_str().into(),
+                                Value::Number(f64::from(self.schema.lookup(collection, n)?.0)),
+                            ))
+                        };
+                        let mut of: Vec<_> = names.iter().filter_map(id).collect();
+                        of.sort_by(|a: &(std::sync::Arc<str>, Value), b| a.0.cmp(&b.0));
+                        let picks = crate::ir::Picks { noun, of, scalar: false };
+                        Ok(Some(Ir::new(Kind::Pick(picks.into(), Box::new(name)), Type::Number, span)))
+                    }
+                }
             }
             Param::Number => {
-                let ir = self.value(arg)?;
+                let ir = self.operand(arg)?;
                 if ir.ty == Type::String {
                     return self.wrong_type(info, i, &ir, "a number");
                 }
                 Ok(Some(Ir::to_number(ir, span)))
             }
             Param::Text => {
-                let ir = self.value(arg)?;
-                if !matches!(ir.ty, Type::String | Type::Any) {
+                let ir = self.operand(arg)?;
+                if !matches!(ir.ty, Type::String | Type::Any | Type::Never) {
                     return self.wrong_type(info, i, &ir, "a string");
                 }
-                Ok(Some(Ir::binary(BinaryOp::Add, Ir::constant(Value::from(""), span), ir, span)))
+                Ok(Some(Ir::to_text(ir, span)))
+            }
+            Param::Numbers => {
+                let ir = self.value(arg)?;
+                match ir.ty {
+                    Type::List | Type::View | Type::Any | Type::Never => {}
+                    _ => return self.wrong_type(info, i, &ir, "a list of numbers"),
+                }
+                // A copy, so that the function sees one kind of list only.
+                let copy = natives::free("Array.from").filter(|_| ir.ty != Type::List);
+                Ok(Some(match copy {
+                    Some(copy) => {
+                        let item = Item { value: ir, spread: false };
+                        Ir::new(Kind::Native(copy, vec![item]), Type::List, span)
+                    }
+                    None => ir,
+                }))
             }
             Param::Boolean => {
                 let ir = self.value(arg)?;
@@ -279,7 +431,13 @@ impl Binder<'_> {
     }
 
     /// A call whose arguments are programs of their own.
-    fn aggregate(&mut self, id: FunctionId, info: &FunctionInfo, args: &[Expr], span: Span) -> Attempt<Ir> {
+    fn aggregate(
+        &mut self,
+        id: FunctionId,
+        info: &FunctionInfo,
+        args: &'a [Expr],
+        span: Span,
+    ) -> Attempt<Ir> {
         let required = info.params.len().saturating_sub(info.optional);
         if args.len() < required || args.len() > info.params.len() {
             let report = self.wrong_count(info, args, Span::new(span.start, span.start), span);
@@ -291,18 +449,30 @@ impl Binder<'_> {
             // Each argument reads and writes on its own account.
             let effects = std::mem::take(&mut self.effects);
             let aggregates = std::mem::take(&mut self.aggregates);
-            let locals = std::mem::take(&mut self.locals);
+            let variables = std::mem::take(&mut self.variables);
+            let known = std::mem::take(&mut self.known);
+            let alone = Tree { units: vec![Unit::default()], ..Tree::default() };
+            let tree = std::mem::replace(&mut self.tree, alone);
+            let unit = std::mem::take(&mut self.unit);
             let bound = match param {
-                Param::Lazy => self.value(arg).map(Some),
+                Param::Lazy => self.operand(arg).map(Some),
                 _ => self.argument(info, i, *param, arg),
             };
-            let effects = std::mem::replace(&mut self.effects, effects);
+            let result = if let Ok(Some(ir)) = &bound { Some(ir.ty) } else { None };
+            if let Ok(Some(ir)) = &bound {
+                self.finish(vec![Step::Return(ir.clone())], result);
+            }
+            let mut effects = std::mem::replace(&mut self.effects, effects);
             let aggregates = std::mem::replace(&mut self.aggregates, aggregates);
-            self.locals = locals;
+            let tree = std::mem::replace(&mut self.tree, tree);
+            self.variables = variables;
+            self.known = known;
+            self.unit = unit;
             match bound {
                 Ok(Some(ir)) => {
+                    super::note_views(&tree.views, &mut effects);
                     programs.push(Program {
-                        code: lower::expression(&ir),
+                        code: lower::program(&tree).into(),
                         effects,
                         result: ir.ty,
                         aggregates,
@@ -322,114 +492,15 @@ impl Binder<'_> {
         Ok(Ir::new(Kind::Aggregate(slot as u32), Type::Number, span))
     }
 
-    /// `.fill(x)` and `.set([...], offset)`
-    fn method(&mut self, method: Method, field: &Field, args: &[Expr], span: Span) -> Attempt<Ir> {
-        let assignable = self.check_assignable(field, span);
-        let view = view_of(field);
-        let kind = match (method, args) {
-            (Method::Fill, [value]) => {
-                let value = self.value(value)?;
-                self.check_stored(&value);
-                self.write(view, None);
-                Kind::Fill(view, Box::new(value))
-            }
-            (Method::Set, [items, rest @ ..]) if rest.len() < 2 => {
-                let offset = match rest.first() {
-                    Some(offset) => self.offset(offset)?,
-                    None => 0,
-                };
-                let items = self.items(items)?;
-                self.check_fits(field, &items, offset, span)?;
-                self.write(view, None);
-                Kind::StoreAll(view, offset, items)
-            }
-            _ => {
-                self.only_check(args);
-                let (name, example) = match method {
-                    Method::Fill => ("fill", ".fill(0)"),
-                    Method::Set => ("set", ".set([0, 0, 1], 0)"),
-                };
-                return self.refuse(
-                    Diagnostic::error(
-                        code::ARGUMENT_COUNT,
-                        span,
-                        format!("`.{name}` does not take {}", count(args.len(), "argument")),
-                    )
-                    .help(format!("write `{}{example}`", field.path)),
-                );
-            }
-        };
-        assignable?;
-        Ok(Ir::new(kind, Type::Void, span))
-    }
-
-    /// The first index of `.set`.
-    fn offset(&mut self, offset: &Expr) -> Attempt<usize> {
-        let ir = self.value(offset)?;
-        match ir.known() {
-            Some(Value::Number(x)) if *x >= 0.0 && x.fract() == 0.0 => Ok(*x as usize),
-            _ => self.refuse(
-                Diagnostic::error(
-                    code::ARGUMENT_TYPE,
-                    offset.span,
-                    "the second argument of `.set` must be a whole number, written out",
-                )
-                .why("it is the index of the first element that is stored")
-                .help("write the number, as `.set([0, 0, 1], 7)`, or assign the elements one by one"),
-            ),
-        }
-    }
-
-    /// The values of `.set`.
-    fn items(&mut self, items: &Expr) -> Attempt<Vec<Ir>> {
-        let ExprKind::Array(items) = &items.kind else {
-            return self.refuse(
-                Diagnostic::error(
-                    code::ARGUMENT_TYPE,
-                    items.span,
-                    "`.set` needs its numbers in square brackets",
-                )
-                .help("write `.set([0, 0, 1], 0)`; to store one number in all elements, write `.fill(0)`"),
-            );
-        };
-        let bound: Vec<Attempt<Ir>> = items.iter().map(|item| self.value(item)).collect();
-        let values = bound.into_iter().collect::<Attempt<Vec<Ir>>>()?;
-        for value in &values {
-            self.check_stored(value);
-        }
-        Ok(values)
-    }
-
-    fn check_fits(&mut self, field: &Field, items: &[Ir], offset: usize, span: Span) -> Attempt<()> {
-        let end = offset.saturating_add(items.len());
-        let Some(n) = field.len().filter(|n| end > *n) else { return Ok(()) };
-        self.refuse(
-            Diagnostic::error(
-                code::INDEX_RANGE,
-                span,
-                format!(
-                    "{} from index {offset} on do not fit into `{}`",
-                    count(items.len(), "number"),
-                    field.path
-                ),
-            )
-            .why(if field.owner.is_empty() {
-                format!("it has {}", count(n, "element"))
-            } else {
-                field.owner.clone()
-            })
-            .help(format!("store at most {} from there", count(n.saturating_sub(offset), "number"))),
-        )
-    }
-
-    /// A function of the host that is probably meant by a misspelt one.
-    pub(super) fn closest_root(&self, name: &str) -> Option<String> {
+    /// The name that is probably meant by a misspelt one.
+    pub(super) fn closest_name(&self, name: &str) -> Option<String> {
         let roots = self.schema.root_names();
-        closest(name, roots.iter().map(String::as_str)).map(str::to_owned)
+        let own = self.variables.iter().map(|v| v.name.as_str());
+        closest(name, own.chain(roots.iter().map(String::as_str))).map(str::to_owned)
     }
 }
 
 /// `1 argument`, `2 arguments`
-fn count(n: usize, what: &str) -> String {
+pub(super) fn count(n: usize, what: &str) -> String {
     if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") }
 }

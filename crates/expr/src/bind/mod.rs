@@ -1,25 +1,37 @@
 //! Tree to meaning: resolves every name against the host's schema and checks everything that can be checked
 //! before a run.
+//!
+//! Types are found by repetition: a pass binds the whole text with what the last pass saw stored in each variable
+//! and returned by each function, until nothing new is seen (a fixed point over a lattice of small height; Kildall,
+//! "A unified approach to global program optimization", 1973). Findings are those of the last pass.
 
 mod access;
 mod assign;
 mod call;
+mod facts;
+mod function;
+mod literal;
+mod loops;
+mod method;
 mod name;
+mod object;
+mod scope;
 mod statement;
 mod value;
 
-use std::collections::BTreeSet;
-
-use crate::ast::Stmt;
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::effects::Effects;
 use crate::globals::{Globals, ProgramId};
-use crate::ir::{Ir, Step};
+use crate::ir::{Ir, Shown, Step, Tree, Unit, UnitId};
+use crate::natives;
 use crate::parse::in_order;
 use crate::program::{Aggregate, Program};
-use crate::schema::{CollectionId, Field, FunctionId, ObjectId, Schema, Type};
+use crate::schema::{CollectionId, Field, FunctionId, Help, ObjectId, Schema, Type};
 use crate::{lower, math, parse_expression, parse_statements};
+
+pub(crate) use facts::Facts;
+use scope::{Known, Variable};
 
 /// Compiles the texts of one lab.
 pub struct Compiler<'s> {
@@ -38,7 +50,12 @@ pub struct Compiled {
     pub program: Option<Program>,
     /// Findings in source order.
     pub diagnostics: Vec<Diagnostic>,
+    /// What the parts of the text are, for a person who points at them.
+    pub help: Vec<(Span, Help)>,
 }
+
+/// Passes over a text before every type that still changes is taken to be unknown.
+const PASSES: usize = 8;
 
 impl<'s> Compiler<'s> {
     /// A compiler for texts that name things of `schema` and share the variables `globals`.
@@ -49,18 +66,21 @@ impl<'s> Compiler<'s> {
     /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.
     pub fn expression(&mut self, source: &str) -> Compiled {
         let parsed = parse_expression(source);
-        self.compile(source, parsed.diagnostics, Mode::Expression, |binder| {
-            let ir = binder.value(&parsed.tree)?;
-            Ok((lower::expression(&ir), ir.ty))
+        self.compile(source, &parsed.diagnostics, Mode::Expression, &mut |binder| {
+            let ir = binder.operand(&parsed.tree)?;
+            let ty = ir.ty;
+            binder.finish(vec![Step::Return(ir)], Some(ty));
+            Ok(ty)
         })
     }
 
     /// Statements: `setup`, `controller`, `apply`, `run`.
     pub fn statements(&mut self, source: &str) -> Compiled {
         let parsed = parse_statements(source);
-        self.compile(source, parsed.diagnostics, Mode::Statements, |binder| {
-            let steps = binder.statements(&parsed.tree);
-            Ok((lower::statements(&steps), Type::Void))
+        self.compile(source, &parsed.diagnostics, Mode::Statements, &mut |binder| {
+            let steps = binder.block(&parsed.tree);
+            binder.finish(steps, None);
+            Ok(Type::Void)
         })
     }
 
@@ -69,41 +89,67 @@ impl<'s> Compiler<'s> {
     pub fn assignment(&mut self, target: &str) -> Compiled {
         let parsed = parse_expression(target);
         let given = self.value.unwrap_or(Type::Any);
-        self.compile(target, parsed.diagnostics, Mode::Target, |binder| {
+        self.compile(target, &parsed.diagnostics, Mode::Target, &mut |binder| {
             let step = Step::Effect(binder.set(&parsed.tree, given)?);
-            Ok((lower::statements(&[step]), Type::Void))
+            binder.finish(vec![step], None);
+            Ok(Type::Void)
         })
     }
 
-    fn compile(
+    fn compile<'t>(
         &mut self,
-        source: &str,
-        diagnostics: Vec<Diagnostic>,
+        source: &'t str,
+        read: &[Diagnostic],
         mode: Mode,
-        work: impl FnOnce(&mut Binder<'_>) -> Attempt<(crate::vm::Code, Type)>,
-    ) -> Compiled {
+        work: &mut dyn FnMut(&mut Binder<'t>) -> Attempt<Type>,
+    ) -> Compiled
+    where
+        's: 't,
+    {
         let id = self.globals.next_program();
-        let mut binder = Binder {
-            schema: self.schema,
-            globals: self.globals,
-            value: self.value,
-            source,
-            mode,
-            program: id,
-            diagnostics,
-            effects: Effects::default(),
-            aggregates: Vec::new(),
-            next_aggregate: 0,
-            locals: Vec::new(),
-            reassigned: BTreeSet::new(),
-            declared_later: Vec::new(),
+        let mark = self.globals.mark();
+        let mut facts = Facts::default();
+        let mut passes = 0;
+        loop {
+            passes += 1;
+            let before = facts.clone();
+            self.globals.back_to(mark);
+            let mut binder = Binder::new(self, source, mode, id, facts);
+            let done = work(&mut binder);
+            let Binder { mut diagnostics, mut effects, aggregates, tree, facts: seen, help, globals, .. } =
+                binder;
+            *self.globals = globals;
+            facts = seen;
+            if facts != before {
+                if passes >= PASSES {
+                    facts.give_up();
+                }
+                continue;
+            }
+            diagnostics.extend(read.iter().cloned());
+            let failed = diagnostics.iter().any(Diagnostic::is_error);
+            note_views(&tree.views, &mut effects);
+            let program = done.ok().filter(|_| !failed).map(|result| {
+                let code = lower::program(&tree);
+                Program { code: code.into(), effects, result, aggregates }
+            });
+            return Compiled { id, program, diagnostics: in_order(diagnostics), help };
+        }
+    }
+}
+
+/// Arrays that became values may be read, and stored to when anything is stored through a value.
+fn note_views(views: &[Shown], effects: &mut Effects) {
+    for shown in views {
+        let access = crate::Access {
+            field: shown.view.field,
+            first: shown.view.first as usize,
+            count: shown.view.count(),
         };
-        let done = work(&mut binder);
-        let Binder { diagnostics, effects, aggregates, .. } = binder;
-        let failed = diagnostics.iter().any(Diagnostic::is_error);
-        let program = done.ok().filter(|_| !failed);
-        let program = program.map(|(code, result)| Program { code, effects, result, aggregates });
-        Compiled { id, program, diagnostics: in_order(diagnostics) }
+        effects.read(access);
+        if effects.stores_items && shown.assignable {
+            effects.write(access);
+        }
     }
 }
 
@@ -132,6 +178,8 @@ enum Thing {
     Field(Field),
     /// A choice by name, not yet called.
     Collection(CollectionId),
+    /// An object of a collection whose name is computed while running.
+    Picked(CollectionId, Ir),
     /// A function of the host, not yet called.
     Function(FunctionId),
     /// `Math`
@@ -140,40 +188,27 @@ enum Thing {
     MathFunction(math::Function),
     /// `ctx`
     Globals,
-    /// `.fill` or `.set` of a field, not yet called.
-    Method(Method, Field),
+    /// `Array`, `Number`, `String`, `Object`: a holder of functions.
+    Namespace(&'static str),
+    /// A function of the language, not yet called.
+    Native(natives::Free),
+    /// A method, not yet called, with what it is called on.
+    Method(Box<Receiver>, String),
+    /// A function of the text: its place among the known ones.
+    Closure(usize),
 }
 
-/// Methods of arrays.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Method {
-    Fill,
-    Set,
-}
-
-/// A name that the text declares.
+/// What a method is called on.
 #[derive(Clone, Debug)]
-struct Local {
-    name: String,
-    constant: bool,
-    meaning: Meaning,
+enum Receiver {
+    Field(Field),
+    Value(Ir),
 }
 
-/// What a declared name stands for.
-#[derive(Clone, Debug)]
-enum Meaning {
-    /// A value, kept under a number.
-    Slot(u32, Type),
-    /// Another word for a thing: `const v = data.qvel`.
-    Alias(Thing),
-    /// Its declaration has a mistake, reported there.
-    Unknown,
-}
-
-/// The work on one text.
+/// The work on one text, in one pass.
 struct Binder<'a> {
     schema: &'a dyn Schema,
-    globals: &'a mut Globals,
+    globals: Globals,
     value: Option<Type>,
     source: &'a str,
     mode: Mode,
@@ -182,35 +217,89 @@ struct Binder<'a> {
     effects: Effects,
     aggregates: Vec<Aggregate>,
     next_aggregate: usize,
-    locals: Vec<Local>,
-    /// Names that are assigned after their declaration.
-    reassigned: BTreeSet<String>,
-    /// Names that this text declares further down.
-    declared_later: Vec<String>,
+    help: Vec<(Span, Help)>,
+    facts: Facts,
+    tree: Tree,
+    /// Names in reach, inner ones last.
+    variables: Vec<Variable>,
+    /// Functions of the text.
+    known: Vec<Known<'a>>,
+    /// The function that is bound.
+    unit: UnitId,
+    /// The call whose method of the prelude is bound.
+    site: Option<Span>,
+    /// Where the results of the functions around go.
+    returns: Vec<(facts::Key, UnitId)>,
+    /// Loops around the statement, in this function.
+    loops: usize,
+    /// Conditions and jumps since the innermost counted loop began: what stands behind one may never run.
+    guards: usize,
 }
 
-impl Binder<'_> {
+impl<'a> Binder<'a> {
+    fn new<'s: 'a>(
+        compiler: &mut Compiler<'s>,
+        source: &'a str,
+        mode: Mode,
+        program: ProgramId,
+        facts: Facts,
+    ) -> Binder<'a> {
+        Binder {
+            schema: compiler.schema,
+            globals: std::mem::take(compiler.globals),
+            value: compiler.value,
+            source,
+            mode,
+            program,
+            diagnostics: Vec::new(),
+            effects: Effects::default(),
+            aggregates: Vec::new(),
+            next_aggregate: 0,
+            help: Vec::new(),
+            facts,
+            tree: Tree { units: vec![Unit::default()], ..Tree::default() },
+            variables: Vec::new(),
+            known: Vec::new(),
+            unit: 0,
+            site: None,
+            returns: Vec::new(),
+            loops: 0,
+            guards: 0,
+        }
+    }
+
+    /// The text itself is bound: it is the first function.
+    fn finish(&mut self, body: Vec<Step>, result: Option<Type>) {
+        if let Some(unit) = self.tree.units.first_mut() {
+            unit.body = body;
+            unit.result = result;
+        }
+    }
+
     fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(diagnostic);
+        // In a method of the prelude the call is the place.
+        self.diagnostics.push(match self.site {
+            Some(span) => Diagnostic { span, fix: None, ..diagnostic },
+            None => diagnostic,
+        });
     }
 
     fn refuse<T>(&mut self, diagnostic: Diagnostic) -> Attempt<T> {
-        self.diagnostics.push(diagnostic);
+        self.report(diagnostic);
         Err(Reported)
     }
 
     /// The source of a part.
-    fn text(&self, span: Span) -> &str {
+    fn text(&self, span: Span) -> &'a str {
         span.text(self.source)
     }
 
-    fn statements(&mut self, statements: &[Stmt]) -> Vec<Step> {
-        self.prepare(statements);
-        let mut steps = Vec::new();
-        for statement in statements {
-            self.statement(statement, &mut steps);
+    /// Notes what a part of the text is.
+    fn explain(&mut self, span: Span, help: impl FnOnce() -> Help) {
+        const MOST: usize = 1000;
+        if self.site.is_none() && self.help.len() < MOST {
+            self.help.push((span, help()));
         }
-        steps
     }
 }
 

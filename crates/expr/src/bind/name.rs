@@ -1,18 +1,37 @@
 //! Names at the start of an expression and behind a point, and what was probably meant by unknown ones.
 
-use super::{Attempt, Binder, Meaning, Method, Reported, Thing};
+use super::{Attempt, Binder, Receiver, Thing};
 use crate::ast::{Expr, ExprKind, Name};
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::ir::{Ir, Kind, View};
+use crate::ir::{Ir, Kind};
 use crate::math;
+use crate::natives;
 use crate::parse::MAX_DIAGNOSTICS;
-use crate::schema::{Entry, Field, ObjectId, Type};
+use crate::schema::{Entry, Field, FieldKind, Help, ObjectId, Type};
 use crate::suggest::{closest, ranked};
-use crate::value::Value;
+use crate::value::{Value, View};
 
 /// Names of the language itself.
-const LANGUAGE: [&str; 7] = ["Math", "NaN", "Infinity", "undefined", "isNaN", "isFinite", "ctx"];
+const LANGUAGE: [&str; 14] = [
+    "Math",
+    "NaN",
+    "Infinity",
+    "undefined",
+    "isNaN",
+    "isFinite",
+    "ctx",
+    "Array",
+    "Number",
+    "String",
+    "Boolean",
+    "Object",
+    "parseFloat",
+    "parseInt",
+];
+
+/// Names that hold functions of the language.
+const NAMESPACES: [&str; 4] = ["Array", "Number", "String", "Object"];
 
 /// Objects of a browser or of Node that a lesson does not have, and why.
 const GLOBALS: &[(&[&str], &str, &str)] = &[
@@ -47,59 +66,54 @@ const GLOBALS: &[(&[&str], &str, &str)] = &[
         "use the time of the simulation, `data.time`",
     ),
     (
-        &[
-            "Promise",
-            "Symbol",
-            "Reflect",
-            "Proxy",
-            "Object",
-            "Array",
-            "RegExp",
-            "Map",
-            "Set",
-            "JSON",
-            "Intl",
-            "arguments",
-        ],
-        "a lesson works on numbers of the simulation; it has no objects of its own",
-        "keep numbers in variables of the lab, as `ctx.peak`",
+        &["Promise", "Symbol", "Reflect", "Proxy", "RegExp", "Map", "Set", "JSON", "Intl", "arguments"],
+        "a lesson works on numbers of the simulation; lists and records are all it needs",
+        "keep values in variables of the lab, as `ctx.peak`, in lists `[0, 1]` or in records `{a: 1}`",
     ),
 ];
 
 /// Members through which JavaScript reaches the machinery behind a value.
 pub(super) const MACHINERY: [&str; 5] =
-    ["constructor", "prototype", "__proto__", "hasOwnProperty", "toString"];
+    ["constructor", "prototype", "__proto__", "hasOwnProperty", "valueOf"];
 
-impl Binder<'_> {
+impl<'a> Binder<'a> {
     /// What a part of the source stands for.
-    pub(super) fn thing(&mut self, expr: &Expr) -> Attempt<Thing> {
+    pub(super) fn thing(&mut self, expr: &'a Expr) -> Attempt<Thing> {
         match &expr.kind {
             ExprKind::Name(name) => self.root(name, expr.span),
-            ExprKind::Member { object, name } => self.member(object, name, expr.span),
-            ExprKind::Index { object, index } => self.element(object, index, expr.span),
-            ExprKind::Call { callee, args } => self.call(callee, args, expr.span),
+            ExprKind::Member { object, name, optional } => self.member(object, name, *optional, expr.span),
+            ExprKind::Index { object, index, optional } => self.element(object, index, *optional, expr.span),
+            ExprKind::Call { callee, args, optional } => self.call(callee, args, *optional, expr.span),
+            ExprKind::Function(function) => Ok(self.new_function(function)),
             _ => self.operation(expr).map(Thing::Value),
         }
     }
 
     /// A name at the start of an expression.
-    fn root(&mut self, name: &str, span: Span) -> Attempt<Thing> {
-        if let Some(local) = self.locals.iter().rev().find(|l| l.name == name) {
-            return match &local.meaning {
-                Meaning::Slot(slot, ty) => Ok(Thing::Value(Ir::new(Kind::Local(*slot), *ty, span))),
-                Meaning::Alias(thing) => Ok(thing.clone()),
-                Meaning::Unknown => Err(Reported),
-            };
+    pub(super) fn root(&mut self, name: &str, span: Span) -> Attempt<Thing> {
+        if let Some(variable) = self.variable(name) {
+            let thing = self.read_variable(&variable, span)?;
+            self.explain_thing(&thing, name, span);
+            return Ok(thing);
         }
         if let Some(thing) = language(name, span) {
             return Ok(thing);
+        }
+        if self.site.is_some()
+            && let Some(function) = natives::free(name)
+        {
+            return Ok(Thing::Native(function));
         }
         if let (true, Some(ty)) = (name == "value", self.value) {
             self.effects.uses_value = true;
             return Ok(Thing::Value(Ir::new(Kind::Input, ty, span)));
         }
         match self.schema.root(name) {
-            Some(entry) => Ok(from_entry(entry, span)),
+            Some(entry) => {
+                let thing = from_entry(entry, span);
+                self.explain_thing(&thing, name, span);
+                Ok(thing)
+            }
             None => {
                 let report = self.unknown_root(name, span);
                 self.refuse(report)
@@ -107,16 +121,28 @@ impl Binder<'_> {
         }
     }
 
-    fn unknown_root(&self, name: &str, span: Span) -> Diagnostic {
-        if self.declared_later.iter().any(|n| n == name) {
-            return Diagnostic::error(
-                code::USED_TOO_EARLY,
-                span,
-                format!("`{name}` is used before its declaration"),
-            )
-            .why("statements run from top to bottom: here the name has no value yet")
-            .help(format!("move the declaration of `{name}` up"));
+    /// Notes what a name or a member is.
+    pub(super) fn explain_thing(&mut self, thing: &Thing, text: &str, span: Span) {
+        let schema = self.schema;
+        match thing {
+            Thing::Field(field) => self.explain(span, || field_help(field)),
+            Thing::Object(id) => {
+                self.explain(span, || Help { title: schema.describe(*id), lines: Vec::new() });
+            }
+            Thing::Function(id) => {
+                let info = schema.function(*id);
+                let title = self.signature(&info);
+                self.explain(span, || Help { title, lines: vec![info.doc] });
+            }
+            Thing::Value(ir) => {
+                let ty = ir.ty;
+                self.explain(span, || Help { title: text.to_owned(), lines: vec![ty.describe().to_owned()] });
+            }
+            _ => {}
         }
+    }
+
+    fn unknown_root(&self, name: &str, span: Span) -> Diagnostic {
         if name == "value" {
             return Diagnostic::error(code::NO_VALUE_HERE, span, "there is no `value` here")
                 .why("`value` is what a slider or select gives to its own `set` or `apply`")
@@ -158,7 +184,7 @@ impl Binder<'_> {
         if math::function(name).is_some() || math::constant(name).is_some() {
             return Some(format!("Math.{name}"));
         }
-        let locals = self.locals.iter().map(|l| l.name.as_str());
+        let locals = self.variables.iter().filter(|_| self.site.is_none()).map(|v| v.name.as_str());
         let known = locals.chain(roots.iter().map(String::as_str)).chain(LANGUAGE);
         if let Some(meant) = closest(name, known) {
             return Some(meant.to_owned());
@@ -202,9 +228,24 @@ impl Binder<'_> {
         best
     }
 
-    /// `object.name`
-    fn member(&mut self, object: &Expr, name: &Name, span: Span) -> Attempt<Thing> {
-        match self.thing(object)? {
+    /// `object.name`, or `object?.name`
+    fn member(&mut self, object: &'a Expr, name: &Name, optional: bool, span: Span) -> Attempt<Thing> {
+        let thing = self.thing(object)?;
+        let found = self.member_of(thing, object.span, name, optional, span)?;
+        self.explain_thing(&found, &name.text, name.span);
+        Ok(found)
+    }
+
+    /// A member of what stands before the point.
+    pub(super) fn member_of(
+        &mut self,
+        thing: Thing,
+        object: Span,
+        name: &Name,
+        optional: bool,
+        span: Span,
+    ) -> Attempt<Thing> {
+        match thing {
             Thing::Object(id) => match self.schema.member(id, &name.text) {
                 Some(entry) => Ok(from_entry(entry, span)),
                 None => {
@@ -214,20 +255,58 @@ impl Binder<'_> {
             },
             Thing::Math => self.math_member(name, span),
             Thing::Globals => self.global(&name.text, span).map(Thing::Value),
-            Thing::Field(field) => self.field_member(field, object.span, name, span),
+            Thing::Namespace(holder) => self.namespace_member(holder, name, span),
+            Thing::Field(field) if field.is_scalar() && natives::name(&name.text).is_some() => {
+                let ir = self.load(&field, crate::ir::Index::At(0), object);
+                self.value_member(ir, name, optional, span)
+            }
+            Thing::Field(field) => self.field_member(field, object, name, span),
+            Thing::Picked(id, chosen) => self.picked_member(id, chosen, name, span),
             Thing::Collection(id) => {
-                let report = self.collection_needs_call(id, object.span, Some((&name.text, span)));
+                let report = self.collection_needs_call(id, object, Some((&name.text, span)));
                 self.refuse(report)
             }
-            thing @ (Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..)) => {
-                let report = self.not_called(&thing, object.span);
+            thing @ (Thing::Function(_)
+            | Thing::MathFunction(_)
+            | Thing::Method(..)
+            | Thing::Native(_)
+            | Thing::Closure(_)) => {
+                let report = self.not_called(&thing, object);
                 self.refuse(report)
             }
-            Thing::Value(_) => {
-                let report = self.no_members(name);
-                self.refuse(report)
-            }
+            Thing::Value(ir) => self.value_member(ir, name, optional, span),
         }
+    }
+
+    /// `Array.from` and its like.
+    fn namespace_member(&mut self, holder: &'static str, name: &Name, span: Span) -> Attempt<Thing> {
+        let path = format!("{holder}.{}", name.text);
+        if let Some(function) = natives::free(&path) {
+            return Ok(Thing::Native(function));
+        }
+        let constants = if holder == "Number" { natives::NUMBER_CONSTANTS } else { &[] };
+        if let Some((_, x)) = constants.iter().find(|(n, _)| *n == name.text) {
+            return Ok(Thing::Value(Ir::number(*x, span)));
+        }
+        if MACHINERY.contains(&name.text.as_str()) {
+            return self.refuse(machinery(&name.text, name.span));
+        }
+        let report = Diagnostic::error(
+            code::UNKNOWN_FUNCTION,
+            name.span,
+            format!("`{holder}` has no `{}`", name.text),
+        );
+        let names: Vec<&str> = natives::rows()
+            .filter_map(|row| row.name.strip_prefix(holder)?.strip_prefix('.'))
+            .chain(constants.iter().map(|(n, _)| *n))
+            .collect();
+        self.refuse(match closest(&name.text, names.iter().copied()) {
+            Some(meant) => report.help(format!("did you mean `{holder}.{meant}`?")).fix(name.span, meant),
+            None => {
+                let names: Vec<String> = names.iter().map(|n| (*n).to_owned()).collect();
+                report.why(format!("it has {}", list(&names)))
+            }
+        })
     }
 
     /// A variable of the lab, read.
@@ -243,19 +322,6 @@ impl Binder<'_> {
             return Ok(());
         }
         self.refuse(machinery(name, span))
-    }
-
-    fn no_members(&self, name: &Name) -> Diagnostic {
-        if MACHINERY.contains(&name.text.as_str()) {
-            return machinery(&name.text, name.span);
-        }
-        Diagnostic::error(
-            code::NOT_SUPPORTED,
-            name.span,
-            format!("`.{}` of a single value is not supported yet", name.text),
-        )
-        .why("a value here is a number, a boolean or a string, and has no members")
-        .help("write a field of an object, as `data.qpos`")
     }
 
     fn math_member(&mut self, name: &Name, span: Span) -> Attempt<Thing> {
@@ -283,31 +349,27 @@ impl Binder<'_> {
         self.refuse(report)
     }
 
-    /// `.length`, `.fill` and `.set` of an array.
+    /// `.length` and the methods of an array.
     fn field_member(&mut self, field: Field, object: Span, name: &Name, span: Span) -> Attempt<Thing> {
         let array = !field.is_scalar();
         match name.text.as_str() {
             "length" if array => Ok(Thing::Value(match field.len() {
-                Some(n) => Ir::constant(Value::Number(n as f64), span),
+                Some(n) => Ir::number(n as f64, span),
                 None => {
                     let view = view_of(&field);
                     self.read(view, None);
                     Ir::new(Kind::Length(view), Type::Number, span)
                 }
             })),
-            "fill" if array => Ok(Thing::Method(Method::Fill, field)),
-            "set" if array => Ok(Thing::Method(Method::Set, field)),
-            text if MACHINERY.contains(&text) => self.refuse(machinery(text, name.span)),
-            "map" | "reduce" | "slice" | "join" | "forEach" | "filter" | "some" | "every" | "at"
-            | "indexOf"
-                if array =>
-            {
-                let message = format!("the method `{}` is not supported yet", name.text);
-                self.refuse(
-                    Diagnostic::error(code::NOT_SUPPORTED, name.span, message)
-                        .help(format!("write the elements out, as `{}[0]`", field.path)),
-                )
+            text if array && self.is_method(text, Type::View) => {
+                Ok(Thing::Method(Box::new(Receiver::Field(field)), text.to_owned()))
             }
+            text @ ("push" | "pop" | "shift" | "unshift" | "splice") if array => self.refuse(
+                Diagnostic::error(code::NOT_CALLABLE, name.span, format!("`{}` has a fixed number of elements", field.path))
+                    .why(format!("`{text}` changes the number of elements of a list; this array is the memory of the simulation"))
+                    .help(format!("store elements, as `{}[0] = 1`, or copy it into a list of your own: `const list = [...{}]`", field.path, field.path)),
+            ),
+            text if MACHINERY.contains(&text) => self.refuse(machinery(text, name.span)),
             text if array => {
                 let report = Diagnostic::error(
                     code::UNKNOWN_FIELD,
@@ -339,7 +401,7 @@ impl Binder<'_> {
         }
     }
 
-    fn unknown_member(&self, id: ObjectId, name: &Name, span: Span) -> Diagnostic {
+    pub(super) fn unknown_member(&self, id: ObjectId, name: &Name, span: Span) -> Diagnostic {
         let object = self.schema.describe(id);
         if MACHINERY.contains(&name.text.as_str()) {
             return machinery(&name.text, name.span);
@@ -385,7 +447,45 @@ fn language(name: &str, span: Span) -> Option<Thing> {
         "Infinity" => constant(Value::Number(f64::INFINITY)),
         "Math" => Some(Thing::Math),
         "ctx" => Some(Thing::Globals),
-        _ => math::global(name).map(Thing::MathFunction),
+        // `String(x)` is a function and `String` a holder of others: which is meant shows behind the name.
+        _ => match NAMESPACES.iter().find(|n| **n == name) {
+            Some(holder) => Some(Thing::Namespace(holder)),
+            None if name.starts_with('_') || name.contains('.') => None,
+            None => {
+                math::global(name).map(Thing::MathFunction).or_else(|| natives::free(name).map(Thing::Native))
+            }
+        },
+    }
+}
+
+/// What a field is, in the words of its table.
+pub(super) fn field_help(field: &Field) -> Help {
+    let mut lines = Vec::new();
+    if !field.doc.is_empty() {
+        let unit = if field.unit.is_empty() { String::new() } else { format!(", {}", field.unit) };
+        lines.push(format!("{}{unit}", field.doc));
+    }
+    if !field.owner.is_empty() {
+        lines.push(field.owner.clone());
+    }
+    let shape: Vec<String> = field.shape.iter().map(|n| n.map_or("?".into(), |n| n.to_string())).collect();
+    if !shape.is_empty() {
+        lines.push(format!("{} numbers", shape.join(" × ")));
+    }
+    lines.push(kind_in_words(&field.kind));
+    Help { title: field.path.clone(), lines }
+}
+
+/// What assigning means.
+fn kind_in_words(kind: &FieldKind) -> String {
+    match kind {
+        FieldKind::State => "state: evolves in time, may be set".into(),
+        FieldKind::Input => "input: set from outside".into(),
+        FieldKind::Constant => "constant: a change takes effect at the next step".into(),
+        FieldKind::Inertial => "constant: a change needs `mj_setConst`".into(),
+        FieldKind::Structure => "fixed with the model".into(),
+        FieldKind::Derived { by } if by.is_empty() => "computed".into(),
+        FieldKind::Derived { by } => format!("computed by {by}"),
     }
 }
 
@@ -404,7 +504,7 @@ fn from_entry(entry: Entry, span: Span) -> Thing {
     }
 }
 
-fn machinery(name: &str, span: Span) -> Diagnostic {
+pub(super) fn machinery(name: &str, span: Span) -> Diagnostic {
     Diagnostic::error(code::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
         .why("values have no prototypes and no methods of objects here; this is also what keeps a lesson harmless")
         .help("use another name")
@@ -412,7 +512,7 @@ fn machinery(name: &str, span: Span) -> Diagnostic {
 
 /// The elements of a field.
 pub(super) fn view_of(field: &Field) -> View {
-    View { field: field.key, first: field.first, count: field.len() }
+    View::new(field.key, field.first, field.len())
 }
 
 /// `model.opt` in backquotes; `the joint "a"` as it is.

@@ -1,61 +1,132 @@
-//! Statements: declarations, effects, and expressions that change nothing.
+//! Statements: declarations, effects, choices, and expressions that change nothing.
 
-use std::collections::BTreeSet;
-
-use super::name::is_language;
-use super::{Attempt, Binder, Local, Meaning, Thing};
-use crate::ast::{BinaryOp, Declarator, Expr, ExprKind, Stmt, StmtKind};
+use super::function::ends;
+use super::scope::Meaning;
+use super::{Attempt, Binder, Mode, Thing};
+use crate::ast::{BinaryOp, Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::ir::{Ir, Kind, Step};
+use crate::ir::{Entry, Ir, Item, Kind, Step};
 use crate::schema::Type;
 use crate::value::Value;
 
-impl Binder<'_> {
-    /// Notes which names the text declares, and which it assigns again.
-    pub(super) fn prepare(&mut self, statements: &[Stmt]) {
-        let mut reassigned = BTreeSet::new();
-        for statement in statements {
-            match &statement.kind {
-                StmtKind::Expr(expr) => assigned_names(expr, &mut reassigned),
-                StmtKind::Declare { declarators, .. } => {
-                    for declarator in declarators {
-                        self.declared_later.push(declarator.name.text.clone());
-                        if let Some(value) = &declarator.value {
-                            assigned_names(value, &mut reassigned);
-                        }
-                    }
-                }
-                StmtKind::Error => {}
-            }
-        }
-        self.reassigned = reassigned;
-    }
-
-    pub(super) fn statement(&mut self, statement: &Stmt, steps: &mut Vec<Step>) {
+impl<'a> Binder<'a> {
+    pub(super) fn statement(&mut self, statement: &'a Stmt, steps: &mut Vec<Step>) {
+        let span = statement.span;
+        self.check_reached(span, steps);
         match &statement.kind {
-            StmtKind::Error => {}
-            StmtKind::Expr(expr) => {
-                if let Ok(Some(ir)) = self.effect(expr) {
-                    steps.push(Step::Effect(ir));
-                }
-            }
+            StmtKind::Error | StmtKind::Empty | StmtKind::Function { .. } => {}
+            StmtKind::Expr(expr) => self.effect_into(expr, steps),
             StmtKind::Declare { constant, declarators } => {
                 for declarator in declarators {
                     self.declare(*constant, declarator, steps);
                 }
             }
+            StmtKind::If { test, then, otherwise } => {
+                let test = self.test(test);
+                self.guards += 1;
+                let then = self.scoped(then);
+                let otherwise = otherwise.as_ref().map(|s| self.scoped(s)).unwrap_or_default();
+                self.guards -= 1;
+                // A jump in one branch makes what follows conditional.
+                if jumps(&then) || jumps(&otherwise) {
+                    self.guards += 1;
+                }
+                let Ok(test) = test else { return };
+                match test.known().map(Value::truthy) {
+                    Some(true) => steps.extend(then),
+                    Some(false) => steps.extend(otherwise),
+                    None => steps.push(Step::If(test, then, otherwise)),
+                }
+            }
+            StmtKind::For { init, test, update, body } => {
+                self.for_loop(init.as_deref(), test.as_ref(), update.as_ref(), body, span, steps);
+            }
+            StmtKind::ForOf { constant, target, items, body } => {
+                self.for_of(*constant, target, items, body, span, steps);
+            }
+            StmtKind::While { test, body } => self.while_loop(test, body, false, span, steps),
+            StmtKind::DoWhile { test, body } => self.while_loop(test, body, true, span, steps),
+            StmtKind::Block(statements) => {
+                let inside = self.block(statements);
+                steps.extend(inside);
+            }
+            StmtKind::Break | StmtKind::Continue => {
+                let word = if statement.kind == StmtKind::Break { "break" } else { "continue" };
+                if self.loops == 0 {
+                    self.report(
+                        Diagnostic::error(code::UNEXPECTED, span, format!("`{word}` outside of a loop"))
+                            .why("there is no loop here that it could leave or go on with")
+                            .help("remove it, or leave a function with `return`"),
+                    );
+                    return;
+                }
+                self.guards += 1;
+                steps.push(if word == "break" { Step::Break } else { Step::Continue });
+            }
+            StmtKind::Return(value) => self.leave_function(value.as_ref(), span, steps),
         }
     }
 
+    fn leave_function(&mut self, value: Option<&'a Expr>, span: Span, steps: &mut Vec<Step>) {
+        let ir = match value {
+            None => Ok(Ir::undefined(span)),
+            Some(value) => self.value(value),
+        };
+        self.guards += 1;
+        let Ok(ir) = ir else { return };
+        if let Some((key, _)) = self.returns.last().copied() {
+            self.facts.see(key, ir.ty);
+        }
+        steps.push(Step::Return(ir));
+    }
+
+    /// Warns once of what stands behind a `return` or a jump.
+    fn check_reached(&mut self, span: Span, steps: &[Step]) {
+        let last = steps.last().is_some_and(|s| matches!(s, Step::Break | Step::Continue));
+        if self.site.is_some() || !(last || ends(steps)) {
+            return;
+        }
+        let known = self.diagnostics.iter().any(|d| d.code == code::UNREACHABLE && d.span.start < span.start);
+        if !known {
+            self.report(
+                Diagnostic::warning(code::UNREACHABLE, span, "this is never reached")
+                    .why("the statement before it leaves for good")
+                    .help("remove it, or put what comes before under a condition"),
+            );
+        }
+    }
+
+    /// A condition.
+    pub(super) fn test(&mut self, test: &'a Expr) -> Attempt<Ir> {
+        if let ExprKind::Assign { op, op_span, .. } = &test.kind {
+            let report = self.assignment_inside(*op, *op_span, test.span);
+            return self.refuse(report);
+        }
+        let thing = self.thing(test)?;
+        if let Thing::Field(field) = &thing
+            && !field.is_scalar()
+        {
+            let report = self.whole_array(field, test.span);
+            return self.refuse(report);
+        }
+        self.value_of(thing, test.span)
+    }
+
     /// An expression as a statement; nothing to run when it has no effect.
-    fn effect(&mut self, expr: &Expr) -> Attempt<Option<Ir>> {
+    pub(super) fn effect_into(&mut self, expr: &'a Expr, steps: &mut Vec<Step>) {
+        if let ExprKind::Sequence(parts) = &expr.kind {
+            return parts.iter().for_each(|part| self.effect_into(part, steps));
+        }
+        if let Ok(Some(ir)) = self.effect(expr) {
+            steps.push(Step::Effect(ir));
+        }
+    }
+
+    fn effect(&mut self, expr: &'a Expr) -> Attempt<Option<Ir>> {
         match &expr.kind {
-            ExprKind::Assign { target, op, value, .. } => {
-                self.assign(target, *op, value, expr.span).map(Some)
-            }
-            ExprKind::Update { target, increment, .. } => {
-                self.update(target, *increment, expr.span).map(Some)
+            ExprKind::Assign { .. } | ExprKind::AssignLogical { .. } | ExprKind::Update { .. } => {
+                self.changing(expr).map(Some)
             }
             ExprKind::Call { .. } | ExprKind::Name(_) | ExprKind::Member { .. } => {
                 let ir = match self.thing(expr)? {
@@ -64,7 +135,10 @@ impl Binder<'_> {
                         self.host_call(id, &[], expr.span, expr.span)?
                     }
                     Thing::Value(ir) if acts(&ir) => ir,
-                    thing @ (Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..)) => {
+                    thing @ (Thing::Function(_)
+                    | Thing::MathFunction(_)
+                    | Thing::Method(..)
+                    | Thing::Closure(_)) => {
                         let report = self.not_called(&thing, expr.span);
                         return self.refuse(report);
                     }
@@ -79,17 +153,17 @@ impl Binder<'_> {
             ExprKind::Logical { op, left, right } => {
                 let (test, act) = (self.value(left), self.effect(right));
                 let test = test?;
-                Ok(act?.map(|act| Ir::logical(*op, test, act, expr.span)))
+                Ok(act?.map(|act| Ir::logical(*op, test, as_value(act), expr.span)))
             }
             ExprKind::Conditional { test, then, otherwise } => {
-                let (test, then, otherwise) = (self.value(test), self.effect(then), self.effect(otherwise));
+                let (test, then, otherwise) = (self.test(test), self.effect(then), self.effect(otherwise));
                 let (test, then, otherwise) = (test?, then?, otherwise?);
-                let nothing = || Ir::constant(Value::Undefined, expr.span);
+                let nothing = || Ir::undefined(expr.span);
                 if then.is_none() && otherwise.is_none() {
                     return Ok(None);
                 }
                 let (then, otherwise) = (then.unwrap_or_else(nothing), otherwise.unwrap_or_else(nothing));
-                Ok(Some(Ir::choice(test, then, otherwise, expr.span)))
+                Ok(Some(Ir::choice(test, as_value(then), as_value(otherwise), expr.span)))
             }
             _ => {
                 let ir = self.value(expr)?;
@@ -119,109 +193,121 @@ impl Binder<'_> {
     }
 
     /// One name of a declaration.
-    fn declare(&mut self, constant: bool, declarator: &Declarator, steps: &mut Vec<Step>) {
-        let (name, span) = (&declarator.name.text, declarator.name.span);
-        // From here on the name is known; the value itself cannot use it yet.
-        let meaning = match &declarator.value {
-            Some(value) => self.declared_meaning(name, constant, value, span, steps),
-            None => {
-                let undefined = Ir::constant(Value::Undefined, span);
-                Ok(self.declared_value(name, undefined, steps))
+    /// `name = value`, or a pattern, of a declaration.
+    fn declare(&mut self, constant: bool, declarator: &'a Declarator, steps: &mut Vec<Step>) {
+        match (&declarator.target, &declarator.value) {
+            (Pattern::Name(name), Some(value)) => match self.declared(name, constant, value, steps) {
+                Ok(Some(thing)) => self.give(name, Meaning::Alias(thing)),
+                Ok(None) => {}
+                Err(_) => self.give(name, Meaning::Unknown),
+            },
+            (Pattern::Name(name), None) => {
+                let value = Ir::undefined(name.span);
+                self.give_value(name, value, steps);
             }
-        };
-        if let Some(i) = self.declared_later.iter().position(|n| n == name) {
-            self.declared_later.remove(i);
+            (pattern, Some(value)) => self.destructure(pattern, value, steps),
+            (pattern, None) => self.forget(pattern),
         }
-        let taken = self.locals.iter().any(|l| l.name == *name);
-        if taken || is_language(name) || self.schema.root(name).is_some() {
-            let why = if taken {
-                "it is declared above"
-            } else {
-                "it already means something in every text of a lab"
-            };
-            self.report(
-                Diagnostic::error(code::NAME_TAKEN, span, format!("`{name}` cannot be declared here"))
-                    .why(format!("{why}; JavaScript refuses a second declaration"))
-                    .help(if taken {
-                        "assign it without `const` or `let`, or choose another name"
-                    } else {
-                        "choose another name"
-                    }),
-            );
-            return;
-        }
-        let meaning = meaning.unwrap_or(Meaning::Unknown);
-        self.locals.push(Local { name: name.clone(), constant, meaning });
     }
 
-    fn declared_meaning(
+    /// The thing that a declared name stands for; nothing when it holds a value.
+    fn declared(
         &mut self,
-        name: &str,
+        name: &'a Name,
         constant: bool,
-        value: &Expr,
-        span: Span,
+        value: &'a Expr,
         steps: &mut Vec<Step>,
-    ) -> Attempt<Meaning> {
-        if let ExprKind::Assign { target, op, value, .. } = &value.kind {
-            let ir = self.assign(target, *op, value, span)?;
-            return Ok(self.declared_value(name, ir, steps));
+    ) -> Attempt<Option<Thing>> {
+        if let ExprKind::Assign { .. } | ExprKind::AssignLogical { .. } = &value.kind {
+            let ir = self.changing(value)?;
+            self.give_value(name, ir, steps);
+            return Ok(None);
         }
+        let changes = !constant && self.facts.assignments(self.key(name.span.start)) > 0;
         let thing = match self.thing(value)? {
-            Thing::Field(field) if !field.is_scalar() => Thing::Field(field),
-            single @ (Thing::Value(_) | Thing::Field(_)) => {
+            alias @ (Thing::Field(_) | Thing::Closure(_) | Thing::Native(_) | Thing::MathFunction(_))
+                if !changes && !matches!(&alias, Thing::Field(f) if f.is_scalar()) =>
+            {
+                return Ok(Some(alias));
+            }
+            single @ (Thing::Value(_) | Thing::Field(_) | Thing::Closure(_)) => {
                 let ir = self.value_of(single, value.span)?;
-                return Ok(self.declared_value(name, ir, steps));
+                self.give_value(name, ir, steps);
+                return Ok(None);
             }
             other => other,
         };
-        if !constant && self.reassigned.contains(name) {
+        if changes {
             return self.refuse(
                 Diagnostic::error(
                     code::NOT_A_VALUE,
                     value.span,
-                    format!("`{}` is not a value that `{name}` can hold and change", self.text(value.span)),
+                    format!(
+                        "`{}` is not a value that `{}` can hold and change",
+                        self.text(value.span),
+                        name.text
+                    ),
                 )
                 .why("a name for a part of the simulation means that part for good")
-                .help(format!("declare it with `const {name}`, and use another name for the number")),
+                .help(format!("declare it with `const {}`, and use another name for the number", name.text)),
             );
         }
-        Ok(Meaning::Alias(thing))
+        Ok(Some(thing))
     }
 
-    /// A name that holds a value.
-    fn declared_value(&mut self, name: &str, value: Ir, steps: &mut Vec<Step>) -> Meaning {
-        let fixed = !self.reassigned.contains(name);
-        let ty = if fixed { value.ty } else { Type::Any };
-        // Numbers of locals are those of the steps that declare them, so no two are the same.
-        let local = steps.len() as u32;
-        steps.push(Step::Declare { local, fixed, value });
-        Meaning::Slot(local, ty)
+    /// Whether the text only reads values.
+    pub(super) fn only_reads(&self) -> bool {
+        self.mode != Mode::Statements
     }
 }
 
-/// Whether computing this does something.
+/// What a call for its effect leaves.
+fn as_value(ir: Ir) -> Ir {
+    if ir.ty == Type::Void { Ir { ty: Type::Undefined, ..ir } } else { ir }
+}
+
+/// Whether statements jump out of where they stand.
+fn jumps(steps: &[Step]) -> bool {
+    steps.iter().any(|step| match step {
+        Step::Return(_) | Step::Break | Step::Continue => true,
+        Step::If(_, then, otherwise) => jumps(then) || jumps(otherwise),
+        _ => false,
+    })
+}
+
+/// Whether computing this does something, or may.
 fn acts(ir: &Ir) -> bool {
+    let any = |items: &[Item]| items.iter().any(|i| acts(&i.value));
     match &ir.kind {
-        Kind::Call(..) | Kind::Store(..) | Kind::Fill(..) | Kind::StoreAll(..) => true,
-        Kind::Not(a) | Kind::BitNot(a) | Kind::Negate(a) | Kind::ToNumber(a) => acts(a),
-        Kind::Binary(_, a, b) | Kind::Logical(_, a, b) => acts(a) || acts(b),
+        Kind::Call(..)
+        | Kind::Store(..)
+        | Kind::StoreIf(..)
+        | Kind::Update(..)
+        | Kind::Fill(..)
+        | Kind::StoreAll(..)
+        | Kind::Invoke(..)
+        | Kind::InvokeValue(..)
+        | Kind::Block(..) => true,
+        Kind::Method(name, object, args) => name.rows().any(|r| r.changes) || acts(object) || any(args),
+        Kind::Native(function, args) => function.row().name == "_empty" || any(args),
+        Kind::Not(a)
+        | Kind::BitNot(a)
+        | Kind::Negate(a)
+        | Kind::ToNumber(a)
+        | Kind::ToText(a)
+        | Kind::TypeOf(a) => acts(a),
+        Kind::Chain(a) | Kind::Present(a) | Kind::Pick(_, a) | Kind::GlobalNamed(a) | Kind::Member(a, _) => {
+            acts(a)
+        }
+        Kind::MathOver(_, a) => acts(a),
+        Kind::Binary(_, a, b) | Kind::Logical(_, a, b) | Kind::Element(a, b) => acts(a) || acts(b),
         Kind::Choice(a, b, c) => acts(a) || acts(b) || acts(c),
         Kind::Math(_, args) => args.iter().any(acts),
+        Kind::List(items) => any(items),
+        Kind::Record(entries) => entries.iter().any(|e| match e {
+            Entry::Named(_, v) | Entry::Spread(v) => acts(v),
+            Entry::Computed(k, v) => acts(k) || acts(v),
+        }),
         _ => false,
-    }
-}
-
-/// Names that an expression assigns, as far as assignments are allowed: one after the other.
-fn assigned_names(expr: &Expr, names: &mut BTreeSet<String>) {
-    let target = match &expr.kind {
-        ExprKind::Assign { target, value, .. } => {
-            assigned_names(value, names);
-            target
-        }
-        ExprKind::Update { target, .. } => target,
-        _ => return,
-    };
-    if let ExprKind::Name(name) = &target.kind {
-        names.insert(name.clone());
     }
 }

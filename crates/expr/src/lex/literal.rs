@@ -1,4 +1,4 @@
-//! Literals: numbers, strings, template literals (read to their end, so that they can be refused as a whole).
+//! Literals: numbers, strings, template literals (their texts, and the places of the expressions in them).
 
 use nom::branch::alt;
 use nom::bytes::complete::{tag_no_case, take_while, take_while1};
@@ -194,22 +194,122 @@ fn hex(digits: &str) -> Option<u32> {
     fine.then(|| u32::from_str_radix(digits, 16).ok())?
 }
 
-/// A template literal, to its closing backquote.
+/// A template literal: texts and the places of the expressions between them. A line end in it is part of the text.
 pub(super) fn template<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Diagnostic>) -> (&'a str, Tok) {
-    let mut escaped = false;
-    for (i, c) in input.char_indices().skip(1) {
+    let (mut texts, mut values) = (Vec::new(), Vec::new());
+    let mut text = String::new();
+    let mut rest = input.get(1..).unwrap_or("");
+    while let Some(c) = rest.chars().next() {
+        let behind = rest.get(c.len_utf8()..).unwrap_or("");
+        let here = at + input.len() - rest.len();
         match c {
-            _ if escaped => escaped = false,
-            '\\' => escaped = true,
-            '`' => return (input.get(i + 1..).unwrap_or(""), Tok::Template),
-            _ => {}
+            '`' => {
+                texts.push(text);
+                return (behind, Tok::Template(texts, values));
+            }
+            '$' if behind.starts_with('{') => {
+                let code = behind.get(1..).unwrap_or("");
+                let Some(length) = length_of_code(code) else { break };
+                texts.push(std::mem::take(&mut text));
+                values.push(Span::new(here + 2, here + 2 + length));
+                rest = code.get(length + 1..).unwrap_or("");
+            }
+            '\\' => match escape(behind, &mut text) {
+                Some(next) => rest = next,
+                None => {
+                    diagnostics.push(
+                        Diagnostic::error(
+                            code::BAD_STRING,
+                            Span::new(here, here + 1),
+                            "this escape is broken",
+                        )
+                        .help("write the character itself, or `\\\\` for a backslash"),
+                    );
+                    rest = behind;
+                }
+            },
+            // JavaScript reads every line end as a line feed.
+            '\r' => {
+                text.push('\n');
+                rest = behind.strip_prefix('\n').unwrap_or(behind);
+            }
+            c => {
+                text.push(c);
+                rest = behind;
+            }
         }
     }
     diagnostics.push(
         Diagnostic::error(code::BAD_STRING, Span::new(at, at + 1), "this backquote is never closed")
-            .help("write strings between `\"` or `'`"),
+            .why("a template literal ends with a backquote, and every `${` in it with `}`")
+            .help("write a backquote where the text ends"),
     );
     ("", Tok::Bad)
+}
+
+/// Bytes up to the `}` that closes an expression in a template; strings, comments and templates in it are skipped.
+fn length_of_code(code: &str) -> Option<usize> {
+    /// What the reader stands in.
+    #[derive(PartialEq)]
+    enum Inside {
+        Braces,
+        Template,
+    }
+    let mut inside = vec![Inside::Braces];
+    let mut chars = code.char_indices().peekable();
+    while let Some((i, c)) = chars.next() {
+        let next = chars.peek().map_or(' ', |(_, c)| *c);
+        let template = inside.last() == Some(&Inside::Template);
+        match c {
+            '\\' if template => {
+                chars.next();
+            }
+            '`' if template => {
+                inside.pop();
+            }
+            '$' if template && next == '{' => {
+                chars.next();
+                inside.push(Inside::Braces);
+            }
+            _ if template => {}
+            '`' => inside.push(Inside::Template),
+            '{' => inside.push(Inside::Braces),
+            '}' => {
+                inside.pop();
+                if inside.is_empty() {
+                    return Some(i);
+                }
+            }
+            '"' | '\'' => {
+                let mut escaped = false;
+                for (_, d) in chars.by_ref() {
+                    if !escaped && (d == c || is_line_end(d)) {
+                        break;
+                    }
+                    escaped = !escaped && d == '\\';
+                }
+            }
+            '/' if next == '/' => {
+                for (_, d) in chars.by_ref() {
+                    if is_line_end(d) {
+                        break;
+                    }
+                }
+            }
+            '/' if next == '*' => {
+                chars.next();
+                let mut star = false;
+                for (_, d) in chars.by_ref() {
+                    if star && d == '/' {
+                        break;
+                    }
+                    star = d == '*';
+                }
+            }
+            _ => {}
+        }
+    }
+    None
 }
 
 #[cfg(test)]

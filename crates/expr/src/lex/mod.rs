@@ -27,8 +27,8 @@ pub(crate) enum Tok {
     Text(String),
     Word(String),
     Symbol(&'static str),
-    /// A template literal, from backquote to backquote.
-    Template,
+    /// A template literal: its texts, and where the expressions between them stand.
+    Template(Vec<String>, Vec<Span>),
     /// Could not be read; already reported.
     Bad,
     /// Behind the last character.
@@ -45,12 +45,18 @@ const SYMBOLS: &[&str] = &[
 
 /// All tokens of a text, the last one [`Tok::End`].
 pub(crate) fn tokens(source: &str, diagnostics: &mut Vec<Diagnostic>) -> Vec<Token> {
+    tokens_of(source, Span::new(0, source.len()), diagnostics)
+}
+
+/// All tokens of a part of a text, the last one [`Tok::End`].
+pub(crate) fn tokens_of(source: &str, part: Span, diagnostics: &mut Vec<Diagnostic>) -> Vec<Token> {
     let mut tokens = Vec::new();
-    let mut input = source;
+    let mut input = part.text(source);
+    let end = part.start + input.len();
     loop {
         let (at, gap) = blank(input).unwrap_or((input, ""));
-        let gap_start = source.len() - input.len();
-        let start = source.len() - at.len();
+        let gap_start = end - input.len();
+        let start = end - at.len();
         check_comment(gap, gap_start, diagnostics);
         let newline = gap.contains(is_line_end);
         if at.is_empty() {
@@ -60,7 +66,7 @@ pub(crate) fn tokens(source: &str, diagnostics: &mut Vec<Diagnostic>) -> Vec<Tok
         let (behind, kind) = token(at, start, diagnostics);
         // Every branch of `token` takes at least one character; if one did not, this still ends.
         let behind = if behind.len() < at.len() { behind } else { "" };
-        tokens.push(Token { kind, span: Span::new(start, source.len() - behind.len()), newline });
+        tokens.push(Token { kind, span: Span::new(start, end - behind.len()), newline });
         input = behind;
     }
 }

@@ -4,10 +4,10 @@
 //! recursion, can run out of stack.
 
 use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
-use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, Name, UnaryOp};
+use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, Name, Property, UnaryOp};
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::lex::Tok;
+use crate::lex::{self, Tok};
 
 /// Binding powers that no operator table holds, see [`BinaryOp::power`].
 const ASSIGNMENT: u8 = 1;
@@ -15,11 +15,13 @@ const CHOICE: u8 = 2;
 const SIGN: u8 = 15;
 
 /// An expression with what only the parser needs to know.
-struct Node {
-    expr: Expr,
+pub(super) struct Node {
+    pub(super) expr: Expr,
     height: usize,
     /// It stands between parentheses.
     closed: bool,
+    /// A `?.` stands in the chain of members that it ends.
+    chain: bool,
 }
 
 /// What stands between two operands.
@@ -32,7 +34,8 @@ fn infix(symbol: &str) -> Option<(Infix, u8)> {
     if let Some(op) = BinaryOp::ALL.into_iter().find(|op| op.symbol() == symbol) {
         return Some((Infix::Binary(op), op.power()));
     }
-    let op = [LogicalOp::And, LogicalOp::Or].into_iter().find(|op| op.symbol() == symbol)?;
+    let op =
+        [LogicalOp::And, LogicalOp::Or, LogicalOp::Nullish].into_iter().find(|op| op.symbol() == symbol)?;
     Some((Infix::Logical(op), op.power()))
 }
 
@@ -45,6 +48,12 @@ fn assignment_op(symbol: &str) -> Option<Option<BinaryOp>> {
     BinaryOp::ALL.into_iter().find(|b| !b.is_comparison() && b.symbol() == op).map(Some)
 }
 
+/// The operator of `&&=`, `||=` or `??=`.
+fn logical_assignment(symbol: &str) -> Option<LogicalOp> {
+    let op = symbol.strip_suffix('=')?;
+    [LogicalOp::And, LogicalOp::Or, LogicalOp::Nullish].into_iter().find(|l| l.symbol() == op)
+}
+
 impl Parser<'_> {
     /// An expression of any kind.
     pub(super) fn assignment(&mut self) -> Attempt<Expr> {
@@ -52,7 +61,7 @@ impl Parser<'_> {
     }
 
     /// An expression whose operators bind at least as tightly as `power`.
-    fn expression(&mut self, power: u8) -> Attempt<Node> {
+    pub(super) fn expression(&mut self, power: u8) -> Attempt<Node> {
         if self.depth >= MAX_DEPTH {
             let span = self.span();
             return self.too_deep(span);
@@ -60,10 +69,10 @@ impl Parser<'_> {
         self.depth += 1;
         let result = self.prefix().and_then(|left| self.continuation(left, power));
         self.depth -= 1;
-        result
+        result.map(Node::whole_chain)
     }
 
-    fn too_deep<T>(&mut self, span: Span) -> Attempt<T> {
+    pub(super) fn too_deep<T>(&mut self, span: Span) -> Attempt<T> {
         let message = format!("the expression is nested more than {MAX_DEPTH} levels deep");
         let report = Diagnostic::error(code::TOO_DEEP, span, message)
             .why("brackets, signs and each further operator of a chain count as a level")
@@ -72,20 +81,24 @@ impl Parser<'_> {
     }
 
     /// A node from its parts, if the tree does not become too high.
-    fn node(&mut self, kind: ExprKind, span: Span, below: usize) -> Attempt<Node> {
+    pub(super) fn node(&mut self, kind: ExprKind, span: Span, below: usize) -> Attempt<Node> {
         if below >= MAX_DEPTH {
             return self.too_deep(span);
         }
-        Ok(Node { expr: Expr { kind, span }, height: below + 1, closed: false })
+        self.tallest = self.tallest.max(below + 1);
+        Ok(Node { expr: Expr { kind, span }, height: below + 1, closed: false, chain: false })
     }
 
     /// What follows `left`, as long as it binds tightly enough.
     fn continuation(&mut self, mut left: Node, power: u8) -> Attempt<Node> {
         loop {
             let Tok::Symbol(symbol) = *self.peek() else { return Ok(left) };
-            if matches!(symbol, "." | "[" | "(") {
+            if matches!(symbol, "." | "[" | "(" | "?.") {
                 left = self.postfix(left, symbol)?;
-            } else if matches!(symbol, "++" | "--") && !self.newline() {
+                continue;
+            }
+            left = left.whole_chain();
+            if matches!(symbol, "++" | "--") && !self.newline() {
                 left = self.update_behind(left)?;
             } else if let Some((operator, binds)) = infix(symbol) {
                 if binds < power {
@@ -96,37 +109,49 @@ impl Parser<'_> {
                 left = self.choice(left)?;
             } else if let Some(op) = assignment_op(symbol).filter(|_| power <= ASSIGNMENT) {
                 left = self.assign(left, op)?;
-            } else if matches!(symbol, "=>" | "?." | "??" | "??=" | "&&=" | "||=") {
-                let report = refuse::symbol(symbol, self.span());
-                self.diagnostics.extend(report);
-                return Err(Reported);
+            } else if let Some(op) = logical_assignment(symbol).filter(|_| power <= ASSIGNMENT) {
+                left = self.assign_logical(left, op)?;
             } else {
                 return Ok(left);
             }
         }
     }
 
-    /// `.name`, `[index]` or `(arguments)`
+    /// `.name`, `[index]` or `(arguments)`, each with `?.` before it or not.
     fn postfix(&mut self, left: Node, symbol: &str) -> Attempt<Node> {
-        let opener = self.bump();
+        let mut opener = self.bump();
+        let optional = symbol == "?.";
+        let symbol = match *self.peek() {
+            Tok::Symbol(bracket @ ("[" | "(")) if optional => {
+                opener = self.bump();
+                bracket
+            }
+            _ if optional => ".",
+            _ => symbol,
+        };
+        // In `(a?.b).c` the parentheses end the chain.
+        let chain = optional || left.chain;
+        let left = if left.closed { left.whole_chain() } else { left };
         let start = left.expr.span;
         let object = Box::new(left.expr);
-        match symbol {
+        let node = match symbol {
             "." => {
                 let name = self.member_name()?;
                 let span = start.to(name.span);
-                self.node(ExprKind::Member { object, name }, span, left.height)
+                self.node(ExprKind::Member { object, name, optional }, span, left.height)
             }
             "[" => {
                 let (index, closer) = self.enclosed(opener, "]", CHOICE)?;
-                let height = left.height.max(index.height);
-                self.node(ExprKind::Index { object, index: Box::new(index.expr) }, start.to(closer), height)
+                let (height, index) = (left.height.max(index.height), Box::new(index.expr));
+                self.node(ExprKind::Index { object, index, optional }, start.to(closer), height)
             }
             _ => {
                 let (args, height, closer) = self.list(opener, ")")?;
-                self.node(ExprKind::Call { callee: object, args }, start.to(closer), left.height.max(height))
+                let height = left.height.max(height);
+                self.node(ExprKind::Call { callee: object, args, optional }, start.to(closer), height)
             }
-        }
+        };
+        Ok(Node { chain, ..node? })
     }
 
     fn member_name(&mut self) -> Attempt<Name> {
@@ -156,7 +181,7 @@ impl Parser<'_> {
 
     fn binary(&mut self, left: Node, operator: Infix, binds: u8) -> Attempt<Node> {
         let power = matches!(operator, Infix::Binary(BinaryOp::Power));
-        self.bump();
+        let op_span = self.bump();
         // `**` groups from the right, all others from the left.
         let right = self.expression(if power { binds } else { binds + 1 })?;
         if let (true, false, ExprKind::Unary { op, operand }) = (power, left.closed, &left.expr.kind) {
@@ -172,6 +197,16 @@ impl Parser<'_> {
             )
             .help(format!("write `{sign}({base} ** {exponent})` or `({sign}{base}) ** {exponent}`"));
             self.diagnostics.push(report); // and read on, as if it were the second
+        }
+        if let Infix::Logical(op) = operator {
+            let mixes = |side: &Node| {
+                let nullish = LogicalOp::Nullish;
+                matches!(&side.expr.kind, ExprKind::Logical { op: other, .. }
+                    if !side.closed && (*other == nullish) != (op == nullish))
+            };
+            if mixes(&left) || mixes(&right) {
+                self.diagnostics.push(refuse::mixed(op_span));
+            }
         }
         let span = left.expr.span.to(right.expr.span);
         let height = left.height.max(right.height);
@@ -208,17 +243,32 @@ impl Parser<'_> {
         self.node(ExprKind::Assign { target, op, op_span, value }, span, height)
     }
 
+    fn assign_logical(&mut self, target: Node, op: LogicalOp) -> Attempt<Node> {
+        let op_span = self.bump();
+        let value = self.expression(ASSIGNMENT)?;
+        let span = target.expr.span.to(value.expr.span);
+        let height = target.height.max(value.height);
+        let (target, value) = (Box::new(target.expr), Box::new(value.expr));
+        self.node(ExprKind::AssignLogical { target, op, op_span, value }, span, height)
+    }
+
     /// What an expression starts with.
     fn prefix(&mut self) -> Attempt<Node> {
         let span = self.span();
         let kind = match self.peek() {
             Tok::Number(x) => ExprKind::Number(*x),
             Tok::Text(text) => ExprKind::String(text.clone()),
-            Tok::Template => return self.refuse(refuse::template(span)),
+            Tok::Template(texts, values) => {
+                let (texts, values) = (texts.clone(), values.clone());
+                return self.template(texts, values);
+            }
             Tok::Bad => return Err(Reported),
             Tok::End => return self.expected_value(),
             Tok::Symbol(symbol) => return self.prefix_symbol(symbol),
+            Tok::Word(_) if *self.peek_at(1) == Tok::Symbol("=>") => return self.arrow(),
             Tok::Word(word) => match word.as_str() {
+                "typeof" => return self.sign(UnaryOp::TypeOf),
+                "function" => return self.function_expression(),
                 "true" => ExprKind::Boolean(true),
                 "false" => ExprKind::Boolean(false),
                 "null" => ExprKind::Null,
@@ -240,10 +290,7 @@ impl Parser<'_> {
             .into_iter()
             .find(|op| op.symbol() == symbol);
         if let Some(op) = sign {
-            self.bump();
-            let operand = self.expression(SIGN)?;
-            let span = span.to(operand.expr.span);
-            return self.node(ExprKind::Unary { op, operand: Box::new(operand.expr) }, span, operand.height);
+            return self.sign(op);
         }
         match symbol {
             "++" | "--" => {
@@ -260,40 +307,145 @@ impl Parser<'_> {
                 let (items, height, closer) = self.list(opener, "]")?;
                 self.node(ExprKind::Array(items), opener.to(closer), height)
             }
-            _ => match refuse::symbol(symbol, span)
-                .filter(|_| !matches!(symbol, "=>" | "?." | "??" | "??=" | "&&=" | "||="))
-            {
+            "{" => self.object(),
+            _ => match refuse::symbol(symbol, span) {
                 Some(report) => self.refuse(report),
                 None => self.expected_value(),
             },
         }
     }
 
-    /// `(expression)`, or the parameters of an arrow function, which is refused as such.
+    /// An operator before its operand.
+    fn sign(&mut self, op: UnaryOp) -> Attempt<Node> {
+        let span = self.bump();
+        let operand = self.expression(SIGN)?;
+        let span = span.to(operand.expr.span);
+        self.node(ExprKind::Unary { op, operand: Box::new(operand.expr) }, span, operand.height)
+    }
+
+    /// `(expression)`, or an arrow function.
     fn parenthesis(&mut self) -> Attempt<Node> {
-        if let Some(arrow) = self.arrow_ahead() {
-            let report = refuse::symbol("=>", arrow);
-            self.diagnostics.extend(report);
-            return Err(Reported);
+        if self.arrow_ahead() {
+            return self.arrow();
         }
         let opener = self.bump();
         let (inner, closer) = self.enclosed(opener, ")", ASSIGNMENT)?;
         let span = opener.to(closer);
-        Ok(Node { expr: Expr { span, ..inner.expr }, closed: true, height: inner.height })
+        Ok(Node { expr: Expr { span, ..inner.expr }, closed: true, ..inner })
     }
 
-    /// Where the `=>` stands when the parenthesis ahead is a list of parameters: names and commas.
-    fn arrow_ahead(&self) -> Option<Span> {
-        let mut n = 1;
-        while matches!(self.peek_at(n), Tok::Word(_) | Tok::Symbol("," | "=" | "...") | Tok::Number(_)) {
-            n += 1;
+    /// The parts of a template literal, each read as a text of its own.
+    fn template(&mut self, texts: Vec<String>, places: Vec<Span>) -> Attempt<Node> {
+        let span = self.bump();
+        let mut values = Vec::new();
+        let mut height = 0;
+        for place in places {
+            let tokens = lex::tokens_of(self.source, place, &mut self.diagnostics);
+            let outer = std::mem::replace(&mut self.tokens, tokens);
+            let at = std::mem::take(&mut self.at);
+            let value = self.template_value(place);
+            self.tokens = outer;
+            self.at = at;
+            let value = value.unwrap_or_else(|Reported| error_node(place));
+            height = height.max(value.height);
+            values.push(value.expr);
         }
-        let arrow = *self.peek_at(n) == Tok::Symbol(")") && *self.peek_at(n + 1) == Tok::Symbol("=>");
-        arrow.then(|| self.tokens.get(self.at + n + 1).map(|t| t.span))?
+        self.node(ExprKind::Template { texts, values }, span, height)
+    }
+
+    fn template_value(&mut self, place: Span) -> Attempt<Node> {
+        if self.ended() {
+            let report = Diagnostic::error(code::EMPTY, place, "there is nothing between the braces")
+                .help("write the value that belongs into the text, as `${data.time}`");
+            return self.refuse(report);
+        }
+        let value = self.expression(ASSIGNMENT)?;
+        if !self.ended() {
+            let report = self.unexpected_behind(value.expr.span);
+            self.diagnostics.extend(report);
+        }
+        Ok(value)
+    }
+
+    /// `{key: value, …}`
+    fn object(&mut self) -> Attempt<Node> {
+        let opener = self.bump();
+        let mut properties = Vec::new();
+        let mut height = 0;
+        loop {
+            if let Some(closer) = self.eat("}") {
+                return self.node(ExprKind::Object(properties), opener.to(closer), height);
+            }
+            match self.property() {
+                Ok((property, below)) => {
+                    height = height.max(below);
+                    properties.push(property);
+                }
+                Err(Reported) if self.skip_to(&[",", "}"]) => {}
+                Err(Reported) => return Err(Reported),
+            }
+            if self.eat(",").is_some() || self.is("}") {
+                continue;
+            }
+            let report = self.unclosed(opener, "}", self.last_span());
+            self.diagnostics.extend(report);
+            if !self.skip_to(&[",", "}"]) {
+                return Err(Reported);
+            }
+            self.eat(",");
+        }
+    }
+
+    fn property(&mut self) -> Attempt<(Property, usize)> {
+        let span = self.span();
+        if self.eat("...").is_some() {
+            let value = self.expression(ASSIGNMENT)?;
+            return Ok((Property::Spread(value.expr), value.height));
+        }
+        if self.is("[") {
+            let opener = self.bump();
+            let (key, _) = self.enclosed(opener, "]", ASSIGNMENT)?;
+            if self.eat(":").is_none() {
+                return self.refuse(refuse::member_function(span));
+            }
+            let value = self.expression(ASSIGNMENT)?;
+            let height = key.height.max(value.height);
+            return Ok((Property::Computed { key: key.expr, value: value.expr }, height));
+        }
+        let (text, word) = match self.peek() {
+            Tok::Word(text) => (text.clone(), true),
+            Tok::Text(text) => (text.clone(), false),
+            Tok::Number(x) => (crate::number::to_text(*x), false),
+            Tok::Bad => return Err(Reported),
+            _ => {
+                let message = format!("expected a key, found {}", self.shown());
+                let report = Diagnostic::error(code::UNEXPECTED, span, message)
+                    .why("braces inside an expression hold a record: keys and their values")
+                    .help("write it as `{a: 1, b: 2}`");
+                return self.refuse(report);
+            }
+        };
+        self.bump();
+        let key = Name { text, span };
+        if self.eat(":").is_some() {
+            let value = self.expression(ASSIGNMENT)?;
+            return Ok((Property::Named { key, value: value.expr }, value.height));
+        }
+        if word && (self.is(",") || self.is("}")) {
+            let value = Expr { kind: ExprKind::Name(key.text.clone()), span };
+            return Ok((Property::Named { key, value }, 1));
+        }
+        if self.is("(") || matches!(self.peek(), Tok::Word(_)) {
+            return self.refuse(refuse::member_function(span));
+        }
+        let report =
+            Diagnostic::error(code::UNEXPECTED, span, format!("the key `{}` has no value", key.text))
+                .help(format!("write `{}: …`", key.text));
+        self.refuse(report)
     }
 
     /// One expression and its closing bracket; a mistake inside is skipped to the bracket.
-    fn enclosed(&mut self, opener: Span, closer: &str, power: u8) -> Attempt<(Node, Span)> {
+    pub(super) fn enclosed(&mut self, opener: Span, closer: &str, power: u8) -> Attempt<(Node, Span)> {
         if self.is(closer) {
             let span = opener.to(self.bump());
             let what = if closer == "]" { "an index" } else { "an expression" };
@@ -334,7 +486,7 @@ impl Parser<'_> {
                 return Ok((items, height, end)); // also behind a comma at the end, as in JavaScript
             }
             let span = self.span();
-            let item = match self.expression(ASSIGNMENT) {
+            let item = match self.item() {
                 Ok(item) => item,
                 Err(Reported) if self.skip_to(&[",", closer]) => error_node(span),
                 Err(Reported) => return Err(Reported),
@@ -354,8 +506,16 @@ impl Parser<'_> {
         }
     }
 
+    /// An item or argument, possibly a spread.
+    fn item(&mut self) -> Attempt<Node> {
+        let Some(dots) = self.eat("...") else { return self.expression(ASSIGNMENT) };
+        let value = self.expression(ASSIGNMENT)?;
+        let span = dots.to(value.expr.span);
+        self.node(ExprKind::Spread(Box::new(value.expr)), span, value.height)
+    }
+
     /// The finding when something else stands where a bracket must close.
-    fn unclosed(&mut self, opener: Span, closer: &str, before: Span) -> Option<Diagnostic> {
+    pub(super) fn unclosed(&mut self, opener: Span, closer: &str, before: Span) -> Option<Diagnostic> {
         // An index holds no assignment, so `=` shows that its bracket should have been closed.
         let ends = self.ended() || matches!(self.peek(), Tok::Symbol(";" | ")" | "]" | "}" | "="));
         if !ends {
@@ -371,7 +531,7 @@ impl Parser<'_> {
     }
 
     /// Reports that a value is missing.
-    fn expected_value<T>(&mut self) -> Attempt<T> {
+    pub(super) fn expected_value<T>(&mut self) -> Attempt<T> {
         let span = self.span();
         let before = self.last_span().text(self.source);
         let message = format!("expected a value, found {}", self.shown());
@@ -391,7 +551,19 @@ impl Parser<'_> {
 }
 
 fn error_node(span: Span) -> Node {
-    Node { expr: Expr { kind: ExprKind::Error, span }, height: 1, closed: true }
+    Node { expr: Expr { kind: ExprKind::Error, span }, height: 1, closed: true, chain: false }
+}
+
+impl Node {
+    /// Puts the mark of a chain around a finished one.
+    fn whole_chain(self) -> Node {
+        if !self.chain {
+            return self;
+        }
+        let span = self.expr.span;
+        let kind = ExprKind::Chain(Box::new(self.expr));
+        Node { expr: Expr { kind, span }, height: self.height + 1, chain: false, ..self }
+    }
 }
 
 #[cfg(test)]
@@ -421,8 +593,8 @@ mod tests {
             Assign { target, op, value, .. } => {
                 format!("({} {}= {})", explicit(target), op.map_or("", |o| o.symbol()), explicit(value))
             }
-            Member { object, name } => format!("{}.{}", explicit(object), name.text),
-            Index { object, index } => format!("{}[{}]", explicit(object), explicit(index)),
+            Member { object, name, .. } => format!("{}.{}", explicit(object), name.text),
+            Index { object, index, .. } => format!("{}[{}]", explicit(object), explicit(index)),
             _ => print(e),
         }
     }

@@ -5,6 +5,7 @@
 //! comma, any other to the end of its statement, and reading goes on from there.
 
 mod expr;
+mod function;
 mod refuse;
 mod stmt;
 
@@ -65,7 +66,10 @@ struct Parser<'s> {
     source: &'s str,
     tokens: Vec<Token>,
     at: usize,
+    /// Expressions and statements that are being read, one inside the other.
     depth: usize,
+    /// Height of the highest tree since [`Parser::measured`] began.
+    tallest: usize,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -83,7 +87,7 @@ impl<'s> Parser<'s> {
         } else {
             lex::tokens(source, &mut diagnostics)
         };
-        Parser { source, tokens, at: 0, depth: 0, diagnostics }
+        Parser { source, tokens, at: 0, depth: 0, tallest: 0, diagnostics }
     }
 
     fn peek(&self) -> &Tok {
@@ -144,7 +148,7 @@ impl<'s> Parser<'s> {
     fn shown(&self) -> String {
         match self.peek() {
             Tok::End => "the end of the text".into(),
-            Tok::Template => "a template literal".into(),
+            Tok::Template(..) => "a template literal".into(),
             _ => format!("`{}`", self.span().text(self.source)),
         }
     }
@@ -178,6 +182,15 @@ impl<'s> Parser<'s> {
         }
     }
 
+    /// Reads with `work` and gives the height of the highest tree in it.
+    fn measured<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> (T, usize) {
+        let before = std::mem::take(&mut self.tallest);
+        let result = work(self);
+        let height = self.tallest;
+        self.tallest = before.max(height);
+        (result, height)
+    }
+
     /// The whole text as one expression.
     fn whole_expression(&mut self) -> Expr {
         let nothing = Expr { kind: ExprKind::Error, span: self.span() };
@@ -192,6 +205,12 @@ impl<'s> Parser<'s> {
             return nothing;
         }
         let Ok(expr) = self.assignment() else { return nothing };
+        if self.is(",")
+            && let Some(report) = self.unexpected_behind(expr.span)
+        {
+            self.diagnostics.push(report);
+            return expr;
+        }
         if !self.ended() {
             let report = self.trailing(&expr);
             self.diagnostics.extend(report);

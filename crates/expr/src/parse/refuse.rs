@@ -1,31 +1,27 @@
-//! Constructs of JavaScript that are not read, in two families: what lessons do not have on purpose, with the
-//! reason, and what is not supported yet, with what to write meanwhile.
+//! Constructs of JavaScript that lessons do not have, on purpose: each with its reason and what to write instead.
 
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
 
-/// On purpose.
+/// The finding for a construct, in the plural.
 fn never(span: Span, name: &str, why: &str, help: &str) -> Diagnostic {
     Diagnostic::error(code::NOT_IN_LANGUAGE, span, format!("{name} are not in this language"))
         .why(why)
         .help(help)
 }
 
-/// Not yet.
-fn not_yet(span: Span, name: &str, help: &str) -> Diagnostic {
-    Diagnostic::error(code::NOT_SUPPORTED, span, format!("{name} are not supported yet")).help(help)
-}
-
-const NO_OBJECTS: &str = "a lesson works on numbers of the simulation; it has no objects of its own";
+const NO_OBJECTS: &str = "a lesson works on numbers of the simulation; it has no classes of its own";
 const NO_TIME: &str =
     "every text runs to its end between two steps of the simulation; nothing is ever waited for";
 const NO_EXCEPTIONS: &str = "mistakes are found before the run, so there is nothing to catch";
-const STORE_HELP: &str = "keep numbers in variables of the lab, as `ctx.peak`";
+const STORE_HELP: &str = "keep values in variables of the lab, as `ctx.peak`";
 
-/// The finding for a reserved word of JavaScript; `None` for a word that is a name.
+/// The finding for a reserved word of JavaScript where it cannot stand; `None` for a word that is a name.
 pub(super) fn word(word: &str, span: Span) -> Option<Diagnostic> {
     let name = format!("`{word}`");
-    let statements = format!("`{word}` statements");
+    let misplaced = |help: &str| {
+        Diagnostic::error(code::UNEXPECTED, span, format!("`{word}` has no place here")).help(help)
+    };
     Some(match word {
         "this" | "super" => never(
             span,
@@ -34,12 +30,14 @@ pub(super) fn word(word: &str, span: Span) -> Option<Diagnostic> {
             "name the thing itself, as `data` or `ctx`",
         ),
         "class" | "extends" | "enum" | "interface" => never(span, "classes", NO_OBJECTS, STORE_HELP),
-        "new" => never(span, "objects made with `new`", NO_OBJECTS, STORE_HELP),
+        "new" => {
+            never(span, "objects made with `new`", NO_OBJECTS, "write a list `[0, 0]` or a record `{a: 1}`")
+        }
         "async" | "await" | "yield" => {
             never(span, &format!("{name} and waiting"), NO_TIME, "test `data.time` in the controller instead")
         }
         "try" | "catch" | "finally" | "throw" => {
-            never(span, "exceptions", NO_EXCEPTIONS, "test for the case itself, with `? :`")
+            never(span, "exceptions", NO_EXCEPTIONS, "test for the case itself, with `if` or `? :`")
         }
         "import" | "export" => never(
             span,
@@ -47,68 +45,95 @@ pub(super) fn word(word: &str, span: Span) -> Option<Diagnostic> {
             "a lesson reaches nothing outside itself",
             "use `Math` and the functions that the lab offers",
         ),
-        "delete" => never(span, "`delete` expressions", NO_OBJECTS, "store `null` or `undefined` instead"),
+        "delete" => never(
+            span,
+            "`delete` expressions",
+            "whoever reads the variable next should find a value, if only `null`",
+            "store `null` or `undefined` instead",
+        ),
         "void" => never(span, "`void` expressions", "they only give `undefined`", "write `undefined`"),
-        "instanceof" | "in" => {
-            never(span, &format!("{name} tests"), NO_OBJECTS, "compare with a value, as `ctx.start == null`")
+        "instanceof" | "in" => never(
+            span,
+            &format!("{name} tests"),
+            "what a value is follows from where it comes from",
+            "compare with a value, as `ctx.start == null`",
+        ),
+        "with" => {
+            never(span, "`with` statements", "names must mean the same everywhere", "write the names in full")
         }
-        "with" => never(span, &statements, "names must mean the same everywhere", "write the names in full"),
         "debugger" => never(
             span,
             "`debugger` statements",
             "a lesson is not run in a debugger",
             "show the value in a readout",
         ),
-        "if" | "else" => not_yet(
+        "switch" | "case" | "default" => never(
             span,
-            &statements,
-            "choose a value with `test ? a : b`, as `data.ctrl[0] = data.time > 1 ? 5 : 0`",
+            "`switch` statements",
+            "a forgotten `break` runs on into the next case, and nothing shows it",
+            "write `if … else if … else`, or choose a value with `test ? a : b`",
         ),
-        "for" | "while" | "do" => not_yet(span, "loops", "write the statements out, one for each index"),
-        "switch" | "case" | "default" => {
-            not_yet(span, "`switch` statements", "choose a value with `test ? a : b`")
+        "if" | "for" | "while" | "do" | "return" | "break" | "continue" => {
+            misplaced("it starts a statement of its own; a value is chosen with `test ? a : b`")
         }
-        "break" | "continue" => not_yet(span, "loops", "write the statements out"),
-        "return" => not_yet(span, "`return` statements", "write the value itself, or store it in `ctx`"),
-        "function" => not_yet(span, "functions of one's own", "write the expression where it is needed"),
-        "typeof" => {
-            not_yet(span, "`typeof` tests", "compare with `null` or `undefined`, as `ctx.start == null`")
-        }
-        "var" | "const" | "let" | "true" | "false" | "null" => return None,
+        "else" => misplaced("`else` follows directly behind the statement of its `if`"),
         _ => return None,
     })
+}
+
+/// Whether a word means something of its own, so that it cannot be the name of a variable.
+pub(super) fn is_reserved(text: &str) -> bool {
+    let own = ["true", "false", "null", "const", "let", "var", "function", "typeof"];
+    own.contains(&text) || word(text, Span::default()).is_some()
 }
 
 /// The finding for a symbol that starts or continues a construct that is not read.
 pub(super) fn symbol(text: &str, span: Span) -> Option<Diagnostic> {
     Some(match text {
-        "=>" => not_yet(span, "arrow functions", "write the expression where it is needed"),
-        "..." => not_yet(span, "spreads", "write the elements out"),
-        "?." => not_yet(span, "optional members", "write `.`: names are checked before the run"),
-        "??" | "??=" => not_yet(span, "`??` defaults", "write `x == null ? y : x`"),
-        "&&=" | "||=" => not_yet(span, "logical assignments", "write `x = x || y`"),
-        "{" => {
-            not_yet(span, "object literals and blocks", "store the parts one by one, as `ctx.a` and `ctx.b`")
-        }
         "/" | "/=" => never(
             span,
             "regular expressions",
             "a lesson computes with numbers; text is only shown",
-            "compare strings with `===`",
+            "compare strings with `===`, or use `includes` and `startsWith`",
         ),
         "@" | "#" => never(span, "decorators and private names", NO_OBJECTS, STORE_HELP),
         _ => return None,
     })
 }
 
-/// A template literal.
-pub(super) fn template(span: Span) -> Diagnostic {
-    not_yet(span, "template literals", "join the parts with `+`, as `\"h = \" + model.opt.timestep`")
+/// `for (key in object)`
+pub(super) fn for_in(span: Span) -> Diagnostic {
+    never(
+        span,
+        "`for … in` loops",
+        "they walk over the keys as text, in an order that surprises",
+        "write `for (const x of list)`, or count with `for (let i = 0; i < n; i++)`",
+    )
 }
 
-/// A pattern on the left of a declaration.
-pub(super) fn pattern(span: Span) -> Diagnostic {
-    not_yet(span, "declarations that take an object or array apart", "declare one name after the other")
+/// A label, and `break` or `continue` to one.
+pub(super) fn label(span: Span) -> Diagnostic {
+    never(
+        span,
+        "labels",
+        "a jump out of several loops at once is hard to follow",
+        "put the loops into a function and leave it with `return`",
+    )
+}
+
+/// `(...rest) =>`
+pub(super) fn rest(span: Span) -> Diagnostic {
+    never(
+        span,
+        "parameters that collect the rest",
+        "the size of everything should be known before the run",
+        "pass one list, as `f([a, b])`",
+    )
+}
+
+/// `function*`, `{ get x() {} }` and methods of literals.
+pub(super) fn member_function(span: Span) -> Diagnostic {
+    never(span, "generators, getters and methods of literals", NO_OBJECTS, "write `{name: (x) => …}`")
 }
 
 /// The comma operator.
@@ -119,7 +144,12 @@ pub(super) fn comma(span: Span, decimal: Option<(Span, String)>) -> Diagnostic {
             .help(format!("write `{meant}`"))
             .fix(number, meant);
     }
-    not_yet(span, "expressions joined by a comma", "separate statements with `;`")
+    never(
+        span,
+        "values joined by a comma",
+        "all but the last value would be computed and dropped",
+        "separate statements with `;`",
+    )
 }
 
 /// `var`, which is read as `let` after this.
@@ -131,4 +161,11 @@ pub(super) fn var(span: Span) -> Diagnostic {
         "write `const`, or `let` when the value changes later",
     )
     .fix(span, "let")
+}
+
+/// `a ?? b || c` without parentheses.
+pub(super) fn mixed(span: Span) -> Diagnostic {
+    Diagnostic::error(code::AMBIGUOUS_DEFAULT, span, "`??` next to `||` or `&&` without parentheses")
+        .why("it could group in two ways; JavaScript refuses it")
+        .help("put one of them into parentheses, as `(a ?? b) || c`")
 }

@@ -1,7 +1,7 @@
 //! Statements, automatic semicolons, and where reading goes on after a mistake.
 
-use super::{Attempt, Parser, Reported, refuse};
-use crate::ast::{Declarator, Expr, ExprKind, Name, Stmt, StmtKind};
+use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
+use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::lex::Tok;
@@ -9,21 +9,37 @@ use crate::lex::Tok;
 impl Parser<'_> {
     /// All statements to the end of the text.
     pub(super) fn statements(&mut self) -> Vec<Stmt> {
-        let mut statements = Vec::new();
+        let mut statements = self.statements_up_to("");
         while !self.ended() {
+            // A closing bracket that nothing opened: reported, and passed over.
+            statements.extend(self.statements_up_to(""));
+        }
+        statements
+    }
+
+    /// Statements up to a closing symbol, which is left, or to the end of the text.
+    pub(super) fn statements_up_to(&mut self, closer: &str) -> Vec<Stmt> {
+        let mut statements = Vec::new();
+        while !self.ended() && !self.is(closer) {
             if self.eat(";").is_some() {
                 continue;
             }
-            let (first, span) = (self.at, self.span());
-            let kind = self.statement().unwrap_or(StmtKind::Error);
-            let failed = kind == StmtKind::Error;
-            statements.push(Stmt { kind, span: span.to(self.last_span()) });
-            // An opening word that was reported has been skipped with all that belongs to it.
-            if failed && !self.at_boundary(first) {
-                self.skip_statement(first);
-            }
+            statements.push(self.recovered(closer));
         }
         statements
+    }
+
+    /// A statement, or the mark of one that could not be read and has been skipped.
+    fn recovered(&mut self, closer: &str) -> Stmt {
+        let (first, span) = (self.at, self.span());
+        let kind = self.statement().unwrap_or(StmtKind::Error);
+        let failed = kind == StmtKind::Error;
+        let stmt = Stmt { kind, span: span.to(self.last_span()) };
+        // An opening word that was reported has been skipped with all that belongs to it.
+        if failed && !self.at_boundary(first) {
+            self.skip_statement(first, closer);
+        }
+        stmt
     }
 
     /// Whether the reader stands where a statement ended.
@@ -37,10 +53,10 @@ impl Parser<'_> {
         before.is_some_and(|t| matches!(t.kind, Tok::Symbol(s) if s == symbol))
     }
 
-    /// Skips what is left of a statement that started at token `first`: to behind its semicolon or to the next
-    /// line. Takes at least one token.
-    fn skip_statement(&mut self, first: usize) {
-        while !self.ended() {
+    /// Skips what is left of a statement that started at token `first`: to behind its semicolon, to the next
+    /// line, or to the end of the block. Takes at least one token, except there.
+    fn skip_statement(&mut self, first: usize, closer: &str) {
+        while !self.ended() && !self.is(closer) {
             if self.at > first && self.newline() {
                 return;
             }
@@ -52,26 +68,258 @@ impl Parser<'_> {
     }
 
     /// One statement with its end.
-    fn statement(&mut self) -> Attempt<StmtKind> {
-        if let Some(report) = self.statement_keyword() {
-            let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
-            if !declares {
-                self.diagnostics.push(report);
-                let named = self.function_name();
-                self.skip_construct();
-                return named.ok_or(Reported);
+    pub(super) fn statement(&mut self) -> Attempt<StmtKind> {
+        if self.depth >= MAX_DEPTH {
+            let span = self.span();
+            return self.too_deep(span);
+        }
+        self.depth += 1;
+        let (kind, height) = self.measured(Self::statement_inside);
+        self.depth -= 1;
+        self.tallest = self.tallest.max(height + 1);
+        if self.tallest > MAX_DEPTH {
+            let span = self.last_span();
+            return self.too_deep(span);
+        }
+        kind
+    }
+
+    fn statement_inside(&mut self) -> Attempt<StmtKind> {
+        let word = match self.peek() {
+            Tok::Word(word) => word.clone(),
+            Tok::Symbol("{") => return self.block().map(StmtKind::Block),
+            Tok::Symbol(")" | "]" | "}") => {
+                let report = self.unexpected_behind(Span::default());
+                self.diagnostics.extend(report);
+                return Err(Reported);
             }
-            return self.declaration();
+            _ => return self.expression_statement(),
+        };
+        match word.as_str() {
+            "const" | "let" | "var" => self.declaration(),
+            "if" => self.condition(),
+            "for" => self.for_loop(),
+            "while" => {
+                self.bump();
+                let test = self.head("while")?;
+                let body = Box::new(self.body("while")?);
+                Ok(StmtKind::While { test, body })
+            }
+            "do" => {
+                self.bump();
+                let body = Box::new(self.body("do")?);
+                if !self.is_word("while") {
+                    let report =
+                        Diagnostic::error(code::UNEXPECTED, self.span(), "a `do` loop without its `while`")
+                            .help("write `do { … } while (test)`");
+                    return self.refuse(report);
+                }
+                self.bump();
+                let test = self.head("while")?;
+                self.eat(";");
+                Ok(StmtKind::DoWhile { body, test })
+            }
+            "break" | "continue" => {
+                let span = self.bump();
+                if !self.newline() && matches!(self.peek(), Tok::Word(_)) {
+                    let report = refuse::label(self.span());
+                    return self.refuse(report);
+                }
+                self.end_of_statement(span)?;
+                Ok(if word == "break" { StmtKind::Break } else { StmtKind::Continue })
+            }
+            "return" => {
+                let span = self.bump();
+                let bare = self.newline() || self.ended() || self.is(";") || self.is("}");
+                let value = if bare { None } else { Some(self.assignment()?) };
+                self.end_of_statement(span.to(self.last_span()))?;
+                Ok(StmtKind::Return(value))
+            }
+            "function" => self.function_declaration(),
+            _ if *self.peek_at(1) == Tok::Symbol(":") => {
+                let report = refuse::label(self.span());
+                self.diagnostics.push(report);
+                self.bump();
+                self.bump();
+                self.statement()
+            }
+            _ => match self.statement_keyword() {
+                Some(report) => {
+                    self.diagnostics.push(report);
+                    let named = self.class_name();
+                    self.skip_construct();
+                    named.ok_or(Reported)
+                }
+                None => self.expression_statement(),
+            },
         }
-        if self.is("{") {
-            let report = refuse::symbol("{", self.span());
-            self.diagnostics.extend(report);
-            self.skip_group();
-            return Err(Reported);
-        }
-        let expr = self.assignment()?;
+    }
+
+    /// An expression for its effect, or several joined by commas.
+    fn expression_statement(&mut self) -> Attempt<StmtKind> {
+        let expr = self.sequence()?;
         self.end_of_statement(expr.span)?;
         Ok(StmtKind::Expr(expr))
+    }
+
+    fn sequence(&mut self) -> Attempt<Expr> {
+        let first = self.assignment()?;
+        if !self.is(",") || self.decimal_comma().is_some() {
+            return Ok(first);
+        }
+        let mut parts = vec![first];
+        while self.eat(",").is_some() {
+            parts.push(self.assignment()?);
+        }
+        let span = parts.iter().map(|part| part.span).reduce(Span::to).unwrap_or_default();
+        Ok(Expr { kind: ExprKind::Sequence(parts), span })
+    }
+
+    /// `(test)` behind `if` or `while`.
+    fn head(&mut self, word: &str) -> Attempt<Expr> {
+        let Some(opener) = self.eat("(") else {
+            let report = Diagnostic::error(
+                code::UNEXPECTED,
+                self.span(),
+                format!("expected `(` behind `{word}`, found {}", self.shown()),
+            )
+            .help(format!("write the condition in parentheses, as `{word} (data.time > 1)`"));
+            return self.refuse(report);
+        };
+        Ok(self.enclosed(opener, ")", 1)?.0.expr)
+    }
+
+    /// The statement that belongs to a condition or a loop.
+    fn body(&mut self, word: &str) -> Attempt<Stmt> {
+        let span = self.span();
+        if self.eat(";").is_some() {
+            let report = Diagnostic::warning(
+                code::EMPTY_BODY,
+                span,
+                format!("this `;` is all that the `{word}` does"),
+            )
+            .why("the statement behind it runs in any case, and only once")
+            .help("remove the `;`")
+            .fix(span, "");
+            self.diagnostics.push(report);
+            return Ok(Stmt { kind: StmtKind::Empty, span });
+        }
+        if self.ended() || self.is("}") {
+            let report = Diagnostic::error(
+                code::UNEXPECTED,
+                span,
+                format!("expected a statement behind `{word}`, found {}", self.shown()),
+            )
+            .help("write what is to be done, several statements in braces");
+            return self.refuse(report);
+        }
+        let declares = ["const", "let", "function"].iter().any(|w| self.is_word(w));
+        if declares {
+            let report =
+                Diagnostic::error(code::UNEXPECTED, span, format!("a declaration alone behind `{word}`"))
+                    .why("the name would be gone at once; JavaScript refuses it")
+                    .help("put the statements into braces");
+            self.diagnostics.push(report);
+        }
+        let kind = self.statement()?;
+        Ok(Stmt { kind, span: span.to(self.last_span()) })
+    }
+
+    fn condition(&mut self) -> Attempt<StmtKind> {
+        self.bump();
+        let test = self.head("if")?;
+        let then = Box::new(self.body("if")?);
+        let otherwise = if self.is_word("else") {
+            self.bump();
+            Some(Box::new(self.body("else")?))
+        } else {
+            None
+        };
+        Ok(StmtKind::If { test, then, otherwise })
+    }
+
+    fn for_loop(&mut self) -> Attempt<StmtKind> {
+        self.bump();
+        let Some(opener) = self.eat("(") else {
+            let report = Diagnostic::error(
+                code::UNEXPECTED,
+                self.span(),
+                format!("expected `(` behind `for`, found {}", self.shown()),
+            )
+            .help("write `for (let i = 0; i < n; i++) { … }`");
+            return self.refuse(report);
+        };
+        if let Some((constant, target)) = self.for_of_head()? {
+            let items = self.enclosed(opener, ")", 1)?.0.expr;
+            let body = Box::new(self.body("for")?);
+            return Ok(StmtKind::ForOf { constant, target, items, body });
+        }
+        let init = match self.peek() {
+            Tok::Symbol(";") => None,
+            _ => {
+                let span = self.span();
+                let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
+                let kind = if declares { self.declarators()?.0 } else { StmtKind::Expr(self.sequence()?) };
+                Some(Box::new(Stmt { kind, span: span.to(self.last_span()) }))
+            }
+        };
+        self.separator()?;
+        let test = if self.is(";") { None } else { Some(self.assignment()?) };
+        self.separator()?;
+        let update = if self.is(")") { None } else { Some(self.sequence()?) };
+        if self.eat(")").is_none() {
+            let last = self.last_span();
+            let report = self.unclosed(opener, ")", last);
+            self.diagnostics.extend(report);
+            return Err(Reported);
+        }
+        let body = Box::new(self.body("for")?);
+        Ok(StmtKind::For { init, test, update, body })
+    }
+
+    /// `const name of`, when that is what stands behind `for (`.
+    fn for_of_head(&mut self) -> Attempt<Option<(bool, Pattern)>> {
+        let (start, found) = (self.at, self.diagnostics.len());
+        let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
+        let constant = self.is_word("const");
+        if declares {
+            self.bump();
+        }
+        if let Ok(target) = self.pattern("a name") {
+            if self.is_word("in") {
+                let report = refuse::for_in(self.span());
+                return self.refuse(report);
+            }
+            if self.is_word("of") {
+                if !declares {
+                    let report = Diagnostic::error(
+                        code::UNEXPECTED,
+                        target.span(),
+                        "the name of a `for … of` loop needs `const`",
+                    )
+                    .help(format!("write `for (const {} of …)`", target.span().text(self.source)))
+                    .fix(Span::new(target.span().start, target.span().start), "const ");
+                    self.diagnostics.push(report);
+                }
+                self.bump();
+                return Ok(Some((constant || !declares, target)));
+            }
+        }
+        self.at = start;
+        self.diagnostics.truncate(found);
+        Ok(None)
+    }
+
+    /// A `;` in the head of a `for`.
+    fn separator(&mut self) -> Attempt<()> {
+        if self.eat(";").is_some() {
+            return Ok(());
+        }
+        let report =
+            Diagnostic::error(code::UNEXPECTED, self.span(), format!("expected `;`, found {}", self.shown()))
+                .why("the head of a `for` has three parts: start, condition, step")
+                .help("write `for (let i = 0; i < n; i++) { … }`");
+        self.refuse(report)
     }
 
     /// The finding for a word that opens a statement, when an expression is wanted.
@@ -83,9 +331,13 @@ impl Parser<'_> {
                     .why("this text is an expression: it gives a value and changes nothing")
                     .help("write the expression in one piece, or compute the part in `controller` and keep it in `ctx`"),
             ),
-            "if" | "for" | "while" | "do" | "switch" | "try" | "function" | "class" | "with" | "return" | "throw"
-            | "break" | "continue" | "import" | "export" | "debugger" | "else" | "case" | "default" | "catch"
-            | "finally" | "async" => refuse::word(word, self.span()),
+            "if" | "for" | "while" | "do" | "return" | "break" | "continue" => Some(
+                Diagnostic::error(code::EXPRESSION_ONLY, self.span(), format!("`{word}` starts a statement, but only one value is read here"))
+                    .why("this text is an expression: it gives a value and changes nothing")
+                    .help("choose a value with `test ? a : b`, or compute it in `controller` and keep it in `ctx`"),
+            ),
+            "switch" | "try" | "class" | "with" | "throw" | "import" | "export" | "debugger" | "else" | "case"
+            | "default" | "catch" | "finally" | "async" => refuse::word(word, self.span()),
             _ => None,
         }
     }
@@ -115,7 +367,7 @@ impl Parser<'_> {
             } else if !self.at_behind(";") {
                 let first = self.at;
                 if !self.ended() {
-                    self.skip_statement(first);
+                    self.skip_statement(first, "}");
                 }
             }
             let hangs_on = ["else", "catch", "finally"].iter().any(|w| self.is_word(w));
@@ -125,20 +377,33 @@ impl Parser<'_> {
         }
     }
 
-    /// The declaration that stands for `function name` or `class name`, so that uses of the name are not mistakes
-    /// of their own.
-    fn function_name(&self) -> Option<StmtKind> {
-        let opener = self.is_word("function") || self.is_word("class");
-        let (Tok::Word(text), true) = (self.peek_at(1), opener) else { return None };
+    /// The declaration that stands for `class name`, so that uses of the name are not mistakes of their own.
+    fn class_name(&self) -> Option<StmtKind> {
+        let (Tok::Word(text), true) = (self.peek_at(1), self.is_word("class")) else { return None };
         let span = self.tokens.get(self.at + 1)?.span;
         let value = Some(Expr { kind: ExprKind::Error, span });
-        let declarators = vec![Declarator { name: Name { text: text.clone(), span }, value }];
-        Some(StmtKind::Declare { constant: true, declarators })
+        let target = Pattern::Name(Name { text: text.clone(), span });
+        Some(StmtKind::Declare { constant: true, declarators: vec![Declarator { target, value }] })
     }
 
-    /// `const a = 1, b = 2`
+    /// `const a = 1, b = 2` with its end.
     fn declaration(&mut self) -> Attempt<StmtKind> {
-        let first = self.at;
+        let (first, opener) = (self.at, self.span());
+        let (kind, failed) = self.declarators()?;
+        if failed {
+            // The names are kept, so that their uses are not mistakes of their own.
+            if !self.at_boundary(first) {
+                self.skip_statement(first, "}");
+            }
+            return Ok(kind);
+        }
+        let span = opener.to(self.last_span());
+        self.end_of_statement(span)?;
+        Ok(kind)
+    }
+
+    /// `const a = 1, b = 2`, and whether the last value could not be read.
+    fn declarators(&mut self) -> Attempt<(StmtKind, bool)> {
         let constant = self.is_word("const");
         if self.is_word("var") {
             let report = refuse::var(self.span());
@@ -151,67 +416,50 @@ impl Parser<'_> {
             let failed = matches!(&declarator.value, Some(e) if e.kind == ExprKind::Error);
             declarators.push(declarator);
             if failed && !self.is(",") {
-                // The name is kept, so that its uses are not mistakes of their own.
-                if !self.at_boundary(first) {
-                    self.skip_statement(first);
-                }
-                return Ok(StmtKind::Declare { constant, declarators });
+                return Ok((StmtKind::Declare { constant, declarators }, true));
             }
-            if self.eat(",").is_none() {
-                break;
+            if !self.is(",") || self.decimal_comma().is_some() {
+                return Ok((StmtKind::Declare { constant, declarators }, false));
             }
+            self.bump();
         }
-        let span = opener.to(self.last_span());
-        self.end_of_statement(span)?;
-        Ok(StmtKind::Declare { constant, declarators })
     }
 
     fn declarator(&mut self, constant: bool, opener: Span) -> Attempt<Declarator> {
         let span = self.span();
-        let text = match self.peek() {
-            Tok::Word(word) => word.clone(),
-            Tok::Symbol("{" | "[") => return self.refuse(refuse::pattern(span)),
-            Tok::Bad => return Err(Reported),
-            _ => {
-                let report = Diagnostic::error(
-                    code::UNEXPECTED,
-                    span,
-                    format!("expected a name, found {}", self.shown()),
-                )
-                .why(format!("`{}` declares a name", opener.text(self.source)))
-                .help("write `const angle = data.qpos[0]`");
-                return self.refuse(report);
-            }
-        };
-        let reserved = matches!(text.as_str(), "true" | "false" | "null" | "const" | "let" | "var");
-        if reserved || refuse::word(&text, span).is_some() {
-            let report = Diagnostic::error(
-                code::NAME_TAKEN,
-                span,
-                format!("`{text}` is a word of the language, not a name"),
-            )
-            .help("choose another name");
+        if !matches!(self.peek(), Tok::Word(_) | Tok::Bad | Tok::Symbol("[" | "{")) {
+            let report =
+                Diagnostic::error(code::UNEXPECTED, span, format!("expected a name, found {}", self.shown()))
+                    .why(format!("`{}` declares a name", opener.text(self.source)))
+                    .help("write `const angle = data.qpos[0]`");
             return self.refuse(report);
         }
-        self.bump();
+        let target = self.pattern("a name")?;
         let unread = Expr { kind: ExprKind::Error, span };
         let value = self.eat("=").map(|_| self.assignment().unwrap_or(unread));
-        if constant && value.is_none() {
+        if value.is_none() && (constant || !matches!(target, Pattern::Name(_))) {
+            let text = target.span().text(self.source).to_owned();
+            let word = opener.text(self.source);
             let report = Diagnostic::error(
                 code::UNEXPECTED,
                 span,
-                format!("`{text}` is declared with `const` but gets no value"),
-            )
-            .why("a `const` name never changes, so it needs its value at once")
-            .help(format!("write `const {text} = …`, or `let {text}` when it gets its value later"));
-            return self.refuse(report);
+                format!("`{text}` is declared with `{word}` but gets no value"),
+            );
+            return self.refuse(match target {
+                Pattern::Name(_) => report
+                    .why("a `const` name never changes, so it needs its value at once")
+                    .help(format!("write `const {text} = …`, or `let {text}` when it gets its value later")),
+                _ => report
+                    .why("there is nothing to take the parts from")
+                    .help(format!("write `{word} {text} = …`")),
+            });
         }
-        Ok(Declarator { name: Name { text, span }, value })
+        Ok(Declarator { target, value })
     }
 
     /// A semicolon, a line end or the end of the text.
     fn end_of_statement(&mut self, statement: Span) -> Attempt<()> {
-        if self.eat(";").is_some() || self.ended() || self.newline() {
+        if self.eat(";").is_some() || self.ended() || self.newline() || self.is("}") {
             return Ok(());
         }
         let report = self.unexpected_behind(statement);
@@ -250,7 +498,6 @@ impl Parser<'_> {
                 Diagnostic::error(code::UNEXPECTED, span, format!("`{text}` has no place here"))
                     .help("remove it"),
             ),
-            Tok::Template => Some(refuse::template(span)),
             Tok::Word(word) if matches!(word.as_str(), "in" | "instanceof") => refuse::word(word, span),
             _ => {
                 let left = shorten(before.text(self.source));

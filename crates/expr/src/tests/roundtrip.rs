@@ -15,7 +15,11 @@ fn name() -> impl Strategy<Value = Name> {
         .prop_map(|text| Name { text: text.into(), span: Span::default() })
 }
 
-fn expression() -> impl Strategy<Value = Expr> {
+fn boxed(kind: ExprKind) -> Box<Expr> {
+    Box::new(bare(kind))
+}
+
+fn expression() -> BoxedStrategy<Expr> {
     let leaf = prop_oneof![
         prop_oneof![0.0..1e6f64, Just(1e300), Just(5e-324), Just(0.0), Just(f64::INFINITY)]
             .prop_map(|x| bare(ExprKind::Number(x))),
@@ -26,25 +30,77 @@ fn expression() -> impl Strategy<Value = Expr> {
     ];
     leaf.prop_recursive(5, 40, 3, |inner| {
         let one = || inner.clone().prop_map(Box::new);
-        let many = || prop::collection::vec(inner.clone(), 0..3);
+        let items = || {
+            let item = (inner.clone(), prop::bool::weighted(0.2));
+            prop::collection::vec(
+                item.prop_map(|(e, s)| if s { bare(ExprKind::Spread(Box::new(e))) } else { e }),
+                0..3,
+            )
+        };
         let place = || {
-            (name(), name()).prop_map(|(o, n)| {
-                Box::new(bare(ExprKind::Member { object: Box::new(bare(ExprKind::Name(o.text))), name: n }))
+            (name(), name()).prop_map(|(o, name)| {
+                boxed(ExprKind::Member { object: boxed(ExprKind::Name(o.text)), name, optional: false })
             })
         };
-        prop_oneof![
-            (one(), name()).prop_map(|(object, name)| bare(ExprKind::Member { object, name })),
-            (one(), one()).prop_map(|(object, index)| bare(ExprKind::Index { object, index })),
-            (one(), many()).prop_map(|(callee, args)| bare(ExprKind::Call { callee, args })),
-            many().prop_map(|items| bare(ExprKind::Array(items))),
-            (prop::sample::select(vec![UnaryOp::Minus, UnaryOp::Plus, UnaryOp::Not, UnaryOp::BitNot]), one())
+        let unary = vec![UnaryOp::Minus, UnaryOp::Plus, UnaryOp::Not, UnaryOp::BitNot, UnaryOp::TypeOf];
+        let logical = || prop::sample::select(vec![LogicalOp::And, LogicalOp::Or, LogicalOp::Nullish]);
+        let property = prop_oneof![
+            (name(), inner.clone()).prop_map(|(key, value)| Property::Named { key, value }),
+            (any::<String>(), inner.clone()).prop_map(|(text, value)| {
+                Property::Named { key: Name { text, span: Span::default() }, value }
+            }),
+            (inner.clone(), inner.clone()).prop_map(|(key, value)| Property::Computed { key, value }),
+            inner.clone().prop_map(Property::Spread),
+        ];
+        let calls = prop_oneof![
+            (one(), name()).prop_map(|(object, name)| bare(ExprKind::Member {
+                object,
+                name,
+                optional: false
+            })),
+            (one(), one()).prop_map(|(object, index)| bare(ExprKind::Index {
+                object,
+                index,
+                optional: false
+            })),
+            (one(), items()).prop_map(|(callee, args)| bare(ExprKind::Call {
+                callee,
+                args,
+                optional: false
+            })),
+            (one(), name(), name()).prop_map(|(object, a, b)| {
+                let object = boxed(ExprKind::Member { object, name: a, optional: true });
+                bare(ExprKind::Chain(boxed(ExprKind::Member { object, name: b, optional: false })))
+            }),
+            (one(), one()).prop_map(|(object, index)| {
+                bare(ExprKind::Chain(boxed(ExprKind::Index { object, index, optional: true })))
+            }),
+        ];
+        let literals = prop_oneof![
+            items().prop_map(|items| bare(ExprKind::Array(items))),
+            prop::collection::vec(property, 0..3).prop_map(|p| bare(ExprKind::Object(p))),
+            (prop::collection::vec((any::<String>(), inner.clone()), 0..3), any::<String>()).prop_map(
+                |(parts, last)| {
+                    let (mut texts, values): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+                    texts.push(last);
+                    bare(ExprKind::Template { texts, values })
+                }
+            ),
+            (elements(inner.clone()), inner.clone())
+                .prop_map(|(params, value)| function(params, Body::Value(value))),
+            (elements(inner.clone()), statements(inner.clone()))
+                .prop_map(|(params, s)| function(params, Body::Block(s))),
+        ];
+        let operators = prop_oneof![
+            (prop::sample::select(unary), one())
                 .prop_map(|(op, operand)| bare(ExprKind::Unary { op, operand })),
             (prop::sample::select(BinaryOp::ALL.to_vec()), one(), one())
                 .prop_map(|(op, left, right)| bare(ExprKind::Binary { op, left, right })),
-            (any::<bool>(), one(), one()).prop_map(|(and, left, right)| {
-                let op = if and { LogicalOp::And } else { LogicalOp::Or };
-                bare(ExprKind::Logical { op, left, right })
-            }),
+            (logical(), one(), one()).prop_map(|(op, left, right)| bare(ExprKind::Logical {
+                op,
+                left,
+                right
+            })),
             (one(), one(), one()).prop_map(|(test, then, otherwise)| bare(ExprKind::Conditional {
                 test,
                 then,
@@ -53,42 +109,117 @@ fn expression() -> impl Strategy<Value = Expr> {
             (place(), one()).prop_map(|(target, value)| {
                 bare(ExprKind::Assign { target, op: Some(BinaryOp::Power), op_span: Span::default(), value })
             }),
+            (place(), logical(), one()).prop_map(|(target, op, value)| {
+                bare(ExprKind::AssignLogical { target, op, op_span: Span::default(), value })
+            }),
             (place(), any::<bool>(), any::<bool>())
                 .prop_map(|(target, increment, prefix)| bare(ExprKind::Update { target, increment, prefix })),
-        ]
+        ];
+        prop_oneof![2 => calls, 3 => literals, 5 => operators]
     })
+    .boxed()
 }
 
-/// Forgets all places.
-fn strip(e: &mut Expr) {
-    e.span = Span::default();
-    match &mut e.kind {
-        ExprKind::Member { object, name } => {
-            name.span = Span::default();
-            strip(object);
+fn function(params: Vec<Element>, body: Body) -> Expr {
+    bare(ExprKind::Function(Box::new(Function { params, body, span: Span::default() })))
+}
+
+/// Names, lists of names and records of names, with defaults.
+fn elements(value: impl Strategy<Value = Expr> + Clone + 'static) -> impl Strategy<Value = Vec<Element>> {
+    let plain = (name(), prop::option::weighted(0.2, value))
+        .prop_map(|(name, default)| Element { target: Pattern::Name(name), default });
+    let element = plain.boxed().prop_recursive(2, 4, 2, move |inner| {
+        let item = prop::option::weighted(0.8, inner.clone());
+        prop_oneof![
+            prop::collection::vec(item, 0..3).prop_map(|items| Element {
+                target: Pattern::List { items, span: Span::default() },
+                default: None
+            }),
+            prop::collection::vec((name(), inner), 0..3).prop_map(|entries| Element {
+                target: Pattern::Record { entries, span: Span::default() },
+                default: None
+            }),
+        ]
+    });
+    prop::collection::vec(element, 0..3)
+}
+
+fn stmt(kind: StmtKind) -> Stmt {
+    Stmt { kind, span: Span::default() }
+}
+
+fn statements(value: impl Strategy<Value = Expr> + Clone + 'static) -> impl Strategy<Value = Vec<Stmt>> {
+    let v = move || value.clone();
+    let declare = {
+        let v = v.clone();
+        move || {
+            (any::<bool>(), elements(v()), v()).prop_map(|(constant, elements, value)| {
+                let targets = elements.into_iter().map(|e| e.target);
+                let declarators: Vec<_> =
+                    targets.map(|target| Declarator { target, value: Some(value.clone()) }).collect();
+                match declarators.is_empty() {
+                    true => stmt(StmtKind::Break),
+                    false => stmt(StmtKind::Declare { constant, declarators }),
+                }
+            })
         }
-        ExprKind::Index { object: a, index: b }
-        | ExprKind::Binary { left: a, right: b, .. }
-        | ExprKind::Logical { left: a, right: b, .. } => {
-            strip(a);
-            strip(b);
-        }
-        ExprKind::Call { callee, args } => {
-            strip(callee);
-            args.iter_mut().for_each(strip);
-        }
-        ExprKind::Array(items) => items.iter_mut().for_each(strip),
-        ExprKind::Unary { operand: a, .. } | ExprKind::Update { target: a, .. } => strip(a),
-        ExprKind::Conditional { test, then, otherwise } => {
-            [test, then, otherwise].into_iter().for_each(|x| strip(x))
-        }
-        ExprKind::Assign { target, value, op_span, .. } => {
-            *op_span = Span::default();
-            strip(target);
-            strip(value);
-        }
-        _ => {}
+    };
+    let leaf = prop_oneof![
+        v().prop_map(|e| stmt(StmtKind::Expr(e))),
+        prop::option::of(v()).prop_map(|e| stmt(StmtKind::Return(e))),
+        Just(stmt(StmtKind::Continue)),
+        (name(), elements(v()), v()).prop_map(|(name, params, value)| {
+            let body = Body::Block(vec![stmt(StmtKind::Return(Some(value)))]);
+            let function = Box::new(Function { params, body, span: Span::default() });
+            stmt(StmtKind::Function { name, function })
+        }),
+    ];
+    let nested = leaf.prop_recursive(3, 10, 3, move |inner| {
+        let body = || inner.clone().prop_map(|s| Box::new(braced(s)));
+        let w = &v;
+        prop_oneof![
+            (w(), body(), prop::option::of(body())).prop_map(|(test, then, otherwise)| {
+                // Without braces the `else` would belong to an `if` inside.
+                let then =
+                    if otherwise.is_some() { Box::new(stmt(StmtKind::Block(vec![*then]))) } else { then };
+                stmt(StmtKind::If { test, then, otherwise })
+            }),
+            (w(), body()).prop_map(|(test, body)| stmt(StmtKind::While { test, body })),
+            (w(), body()).prop_map(|(test, body)| stmt(StmtKind::DoWhile { body, test })),
+            (name(), w(), body()).prop_map(|(name, items, body)| {
+                stmt(StmtKind::ForOf { constant: true, target: Pattern::Name(name), items, body })
+            }),
+            (prop::option::of(declare()), prop::option::of(w()), prop::option::of(w()), body()).prop_map(
+                |(init, test, update, body)| {
+                    let init = init.filter(|s| matches!(s.kind, StmtKind::Declare { .. })).map(Box::new);
+                    stmt(StmtKind::For { init, test, update, body })
+                }
+            ),
+            prop::collection::vec(inner.clone(), 0..3).prop_map(|s| stmt(StmtKind::Block(s))),
+        ]
+    });
+    prop::collection::vec(nested, 0..3)
+}
+
+/// A declaration of a function alone behind a condition is none.
+fn braced(s: Stmt) -> Stmt {
+    match s.kind {
+        StmtKind::Function { .. } => stmt(StmtKind::Block(vec![s])),
+        _ => s,
     }
+}
+
+/// The tree without its places.
+fn bones(tree: &impl std::fmt::Debug) -> String {
+    let text = format!("{tree:?}");
+    let mut out = String::new();
+    let mut rest = text.as_str();
+    while let Some(at) = rest.find("Span { start: ") {
+        out += &rest[..at];
+        rest = &rest[at..];
+        rest = &rest[rest.find('}').unwrap_or(0) + 1..];
+    }
+    out + rest
 }
 
 /// Pieces that make texts near the language.
@@ -196,10 +327,19 @@ proptest! {
     #[test]
     fn printing_and_reading_is_the_identity(tree in expression()) {
         let text = print(&tree);
-        let mut parsed = parse_expression(&text);
+        let parsed = parse_expression(&text);
         prop_assert!(parsed.diagnostics.is_empty(), "{text}: {:?}", parsed.diagnostics);
-        strip(&mut parsed.tree);
-        prop_assert_eq!(parsed.tree, tree, "{}", text);
+        prop_assert_eq!(bones(&parsed.tree), bones(&tree), "{}", text);
+        prop_assert_eq!(print(&parsed.tree), text);
+    }
+
+    #[test]
+    fn printing_and_reading_statements_is_the_identity(tree in statements(expression())) {
+        let text = print_statements(&tree);
+        let parsed = parse_statements(&text);
+        prop_assert!(parsed.diagnostics.is_empty(), "{text}: {:?}", parsed.diagnostics);
+        prop_assert_eq!(bones(&parsed.tree), bones(&tree), "{}", text);
+        prop_assert_eq!(print_statements(&parsed.tree), text);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::World;
 use super::handle::{self, Side};
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_core::{self as core, Obj};
-use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Param, Touch, Type, Value};
+use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Heap, Param, Touch, Type, Value};
 
 /// The objects that hold functions.
 pub(super) const OBJECTS: [&str; 3] = ["mj", "sim", "lib"];
@@ -57,7 +57,7 @@ pub(super) struct Function {
     pub(super) place: Place,
     pub(super) aggregate: bool,
     pub(super) doc: &'static str,
-    pub(super) run: fn(&mut World, &[Value]) -> Result<Value, String>,
+    pub(super) run: fn(&mut World, &mut Heap, &[Value]) -> Result<Value, String>,
 }
 
 /// Of no function: what the rows below do not say.
@@ -72,7 +72,7 @@ pub(super) const ROW: Function = Function {
     place: Place::Everywhere,
     aggregate: false,
     doc: "",
-    run: |_, _| NOTHING,
+    run: |_, _, _| NOTHING,
 };
 
 /// A function of `mj` that takes the model and the data.
@@ -87,7 +87,7 @@ pub(super) static TABLE: &[Function] = &[
         name: "mj_setConst",
         writes: &[Touches::Coordinates, Touches::Derived],
         doc: "recomputes the constants that follow from masses, inertias and poses; puts qpos back to the start",
-        run: |w, _| {
+        run: |w, _, _| {
             core::set_const(&mut w.model, &mut w.data);
             NOTHING
         },
@@ -97,7 +97,7 @@ pub(super) static TABLE: &[Function] = &[
         name: "mj_forward",
         writes: &[Touches::Derived],
         doc: "computes every derived field from the state, without advancing time",
-        run: |w, _| {
+        run: |w, _, _| {
             core::forward(&w.model, &mut w.data);
             NOTHING
         },
@@ -107,7 +107,7 @@ pub(super) static TABLE: &[Function] = &[
         name: "mj_step",
         writes: &[Touches::State, Touches::Derived],
         doc: "advances the simulation by one step",
-        run: |w, _| {
+        run: |w, _, _| {
             core::step(&w.model, &mut w.data);
             NOTHING
         },
@@ -117,7 +117,7 @@ pub(super) static TABLE: &[Function] = &[
         name: "mj_resetData",
         writes: &[Touches::State, Touches::Derived],
         doc: "puts the data back to the default configuration",
-        run: |w, _| {
+        run: |w, _, _| {
             core::reset_data(&w.model, &mut w.data);
             NOTHING
         },
@@ -128,7 +128,7 @@ pub(super) static TABLE: &[Function] = &[
         args: &[Arg::Model, Arg::Data, Arg::Number],
         writes: &[Touches::State, Touches::Derived],
         doc: "puts the data back to a keyframe, counted from 0",
-        run: |w, args| {
+        run: |w, _, args| {
             let key = args.first().map_or(0.0, Value::to_number);
             if !(key >= 0.0 && key < w.model.nkey as f64) {
                 return Err(format!("there is no keyframe {key}: the model has {}", w.model.nkey));
@@ -143,7 +143,7 @@ pub(super) static TABLE: &[Function] = &[
         name: "bodyId",
         args: &[Arg::Name(Obj::Body)],
         doc: "index of a body",
-        run: |_, args| index(args).map(|i| Value::Number(i as f64)),
+        run: |_, _, args| index(args).map(|i| Value::Number(i as f64)),
         ..ROW
     },
     Function {
@@ -151,7 +151,7 @@ pub(super) static TABLE: &[Function] = &[
         name: "jointId",
         args: &[Arg::Name(Obj::Joint)],
         doc: "index of a joint",
-        run: |_, args| index(args).map(|i| Value::Number(i as f64)),
+        run: |_, _, args| index(args).map(|i| Value::Number(i as f64)),
         ..ROW
     },
     Function {
@@ -160,7 +160,7 @@ pub(super) static TABLE: &[Function] = &[
         args: &[Arg::Name(Obj::Joint)],
         reads: Touches::State,
         doc: "first coordinate of a joint",
-        run: |w, args| {
+        run: |w, _, args| {
             let q = w.model.jnt_qposadr.get(index(args)?).map_or(0, |&a| a as usize);
             Ok(w.data.qpos.get(q).map_or(Value::Undefined, |&x| Value::Number(x)))
         },
@@ -173,7 +173,7 @@ pub(super) static TABLE: &[Function] = &[
         optional: 1,
         reads: Touches::Contacts,
         doc: "normal force in N, summed over all contacts, or over those of one geom",
-        run: |w, args| {
+        run: |w, _, args| {
             let geom = if args.is_empty() { None } else { Some(index(args)?) };
             let touching = |c: &&core::Contact| geom.is_none_or(|g| c.geom1 == g || c.geom2 == g);
             let forces =
@@ -188,7 +188,7 @@ pub(super) static TABLE: &[Function] = &[
         name: "deg",
         args: &[Arg::Number],
         doc: "radians to degrees",
-        run: |_, args| number(args).map(|x| Value::Number(x * 180.0 / std::f64::consts::PI)),
+        run: |_, _, args| number(args).map(|x| Value::Number(x * 180.0 / std::f64::consts::PI)),
         ..ROW
     },
     Function {
@@ -196,7 +196,7 @@ pub(super) static TABLE: &[Function] = &[
         name: "rad",
         args: &[Arg::Number],
         doc: "degrees to radians",
-        run: |_, args| number(args).map(|x| Value::Number(x * std::f64::consts::PI / 180.0)),
+        run: |_, _, args| number(args).map(|x| Value::Number(x * std::f64::consts::PI / 180.0)),
         ..ROW
     },
     Function {
@@ -207,7 +207,7 @@ pub(super) static TABLE: &[Function] = &[
         reads: Touches::Contacts,
         place: Place::Measures,
         doc: "whether two geoms are in contact, or whether one touches anything",
-        run: |w, args| {
+        run: |w, _, args| {
             let (a, b) = (index(args)?, args.get(1).map(|v| handle::index_of(v.to_number())));
             let touch = |c: &core::Contact| {
                 let pair = [c.geom1, c.geom2];
@@ -222,7 +222,7 @@ pub(super) static TABLE: &[Function] = &[
         args: &[Arg::Number],
         place: Place::Measures,
         doc: "magnitude",
-        run: |_, args| number(args).map(|x| Value::Number(x.abs())),
+        run: |_, _, args| number(args).map(|x| Value::Number(x.abs())),
         ..ROW
     },
     Function {
@@ -275,6 +275,8 @@ pub(super) fn info(f: &Function) -> FunctionInfo {
         optional: f.optional,
         implied: f.name == "mj_setConst",
         returns: f.returns,
+        members: Vec::new(),
+        length: None,
         aggregate: f.aggregate,
         reads: touch(&[f.reads]),
         writes: touch(f.writes),

@@ -5,7 +5,7 @@ use super::handle::{self, KINDS, Side, Thing};
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_core::{Model, Obj, joint};
 use labspec_expr::{
-    CollectionId, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Schema, Value,
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Schema, Value,
 };
 
 /// Where a program stands: decides which functions exist.
@@ -140,6 +140,11 @@ fn field(f: FieldId, path: String, first: usize, shape: Vec<Option<usize>>, owne
         first,
         shape,
         kind,
+        elem: match info.elem {
+            reflect::Elem::F64 => Elem::Double,
+            reflect::Elem::I32 | reflect::Elem::Size => Elem::Int,
+            reflect::Elem::Bool => Elem::Byte,
+        },
         unit: info.unit.into(),
         doc: info.doc.into(),
         owner,

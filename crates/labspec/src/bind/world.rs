@@ -3,7 +3,7 @@
 use super::functions;
 use labspec_core::reflect::{self, FieldId};
 use labspec_core::{Data, Model, integrator};
-use labspec_expr::{FieldKey, FunctionId, Host, Value};
+use labspec_expr::{FieldKey, FunctionId, Heap, Host, Value};
 
 /// A model and its data, while a lab runs.
 #[derive(Clone, Debug)]
@@ -30,9 +30,9 @@ impl Host for World {
         reflect::view(&self.model, &self.data, FieldId(f as u16)).len()
     }
 
-    fn call(&mut self, FunctionId(f): FunctionId, args: &[Value]) -> Result<Value, String> {
+    fn call(&mut self, heap: &mut Heap, FunctionId(f): FunctionId, args: &[Value]) -> Result<Value, String> {
         match functions::TABLE.get(f as usize) {
-            Some(function) => (function.run)(self, args),
+            Some(function) => (function.run)(self, heap, args),
             None => Err("there is no such function".into()),
         }
     }

@@ -67,7 +67,7 @@ impl<'p> Session<'p> {
         });
         let mut session = Session {
             world: World { model: model.clone(), data },
-            context: Context::new(),
+            context: Context::of(&programs.globals),
             troubles: Vec::new(),
             warnings: [WarningStat::default(); Warning::COUNT],
             values: values.collect(),

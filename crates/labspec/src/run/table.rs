@@ -25,7 +25,8 @@ impl From<Value> for Cell {
             Value::Number(x) => Cell::Number(x),
             Value::Boolean(b) => Cell::Bool(b),
             Value::String(s) => Cell::Text(s.to_string()),
-            Value::Undefined | Value::Null => Cell::Nothing,
+            // Lists and records are refused where a readout is compiled.
+            _ => Cell::Nothing,
         }
     }
 }

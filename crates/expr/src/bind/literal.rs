@@ -1,0 +1,239 @@
+//! Lists, records, templates, and declarations that take lists and records apart.
+
+use super::scope::Meaning;
+use super::{Attempt, Binder, Reported, Thing};
+use crate::ast::{Element, Expr, ExprKind, Pattern, Property};
+use crate::code;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ir::{Entry, Ir, Item, Kind, Step};
+use crate::operators::BinaryOp;
+use crate::schema::Type;
+
+impl<'a> Binder<'a> {
+    /// Items of a list, or arguments, with their spreads.
+    pub(super) fn items(&mut self, items: &'a [Expr]) -> Attempt<Vec<Item>> {
+        let mut bound = Vec::new();
+        let mut failed = false;
+        for item in items {
+            let spread = match &item.kind {
+                ExprKind::Spread(inner) => self.spread(inner),
+                _ => self.value(item).map(|value| vec![Item { value, spread: false }]),
+            };
+            match spread {
+                Ok(items) => bound.extend(items),
+                Err(Reported) => failed = true,
+            }
+        }
+        if failed { Err(Reported) } else { Ok(bound) }
+    }
+
+    /// `...list`: written out when it is a short array of known size.
+    fn spread(&mut self, inner: &'a Expr) -> Attempt<Vec<Item>> {
+        let thing = self.thing(inner)?;
+        if let Thing::Field(field) = &thing
+            && !field.is_scalar()
+            && let Some(elements) = self.elements(field, inner.span)
+        {
+            return Ok(elements.into_iter().map(|value| Item { value, spread: false }).collect());
+        }
+        let value = self.value_of(thing, inner.span)?;
+        self.expect_elements(&value)?;
+        self.effects.can_throw = true;
+        Ok(vec![Item { value, spread: true }])
+    }
+
+    /// Refuses what has no elements to go through.
+    pub(super) fn expect_elements(&mut self, value: &Ir) -> Attempt<()> {
+        if matches!(value.ty, Type::List | Type::View | Type::String | Type::Any | Type::Never) {
+            return Ok(());
+        }
+        let text = self.text(value.span);
+        let report = Diagnostic::error(
+            code::NO_PARTS,
+            value.span,
+            format!("`{text}` is {}; it has no elements to go through", value.ty.describe()),
+        )
+        .why("JavaScript stops the text here");
+        self.refuse(match value.ty {
+            Type::Number => report.help("to count, write `for (let i = 0; i < n; i++)`"),
+            Type::Record => report.help(format!("write `Object.values({text})` for its values")),
+            _ => report.help("write a list, as `[1, 2, 3]`, or an array, as `data.qpos`"),
+        })
+    }
+
+    /// `[a, b]`
+    pub(super) fn list(&mut self, items: &'a [Expr], span: Span) -> Attempt<Ir> {
+        let items = self.items(items)?;
+        Ok(Ir::new(Kind::List(items), Type::List, span))
+    }
+
+    /// `{a: 1}`
+    pub(super) fn record(&mut self, properties: &'a [Property], span: Span) -> Attempt<Ir> {
+        let mut entries = Vec::new();
+        let mut failed = false;
+        for property in properties {
+            let entry = match property {
+                Property::Named { key, value } => self
+                    .check_machinery(&key.text, key.span)
+                    .and_then(|()| Ok(Entry::Named(key.text.as_str().into(), self.value(value)?))),
+                Property::Computed { key, value } => {
+                    let key = self.value(key);
+                    let value = self.value(value);
+                    key.and_then(|key| Ok(Entry::Computed(Ir::to_text(key, span), value?)))
+                }
+                Property::Spread(value) => self.value(value).map(Entry::Spread),
+            };
+            match entry {
+                Ok(entry) => entries.push(entry),
+                Err(Reported) => failed = true,
+            }
+        }
+        if failed { Err(Reported) } else { Ok(Ir::new(Kind::Record(entries), Type::Record, span)) }
+    }
+
+    /// `` `text ${value}` ``
+    pub(super) fn template(&mut self, texts: &'a [String], values: &'a [Expr], span: Span) -> Attempt<Ir> {
+        let text = |i: usize| texts.get(i).map_or("", String::as_str);
+        let mut whole = Ir::constant(text(0).into(), span);
+        let mut failed = false;
+        for (i, value) in values.iter().enumerate() {
+            match self.value(value) {
+                Ok(ir) => {
+                    let ir = Ir::to_text(ir, value.span);
+                    whole = Ir::binary(BinaryOp::Add, whole, ir, span);
+                    if !text(i + 1).is_empty() {
+                        whole =
+                            Ir::binary(BinaryOp::Add, whole, Ir::constant(text(i + 1).into(), span), span);
+                    }
+                }
+                Err(Reported) => failed = true,
+            }
+        }
+        if failed { Err(Reported) } else { Ok(whole) }
+    }
+
+    /// Names parts of a value that is kept in a place of its own, so that it can be read again and again.
+    pub(super) fn take_apart(&mut self, pattern: &'a Pattern, whole: Ir, steps: &mut Vec<Step>) {
+        match pattern {
+            Pattern::Name(name) => self.give_value(name, whole, steps),
+            Pattern::List { items, span } => {
+                if self.expect_elements(&whole).is_err() {
+                    return self.forget(pattern);
+                }
+                for (i, item) in items.iter().enumerate() {
+                    let Some(item) = item else { continue };
+                    let ty = if whole.ty == Type::View { Type::Element } else { Type::Any };
+                    let index = Box::new(Ir::number(i as f64, *span));
+                    let part = Ir::new(Kind::Element(Box::new(whole.clone()), index), ty, *span);
+                    self.part(item, part, steps);
+                }
+            }
+            Pattern::Record { entries, span } => {
+                for (key, element) in entries {
+                    let object = whole.clone();
+                    match self.value_member(object, key, false, *span) {
+                        Ok(thing) => match self.value_of(thing, key.span) {
+                            Ok(part) => self.part(element, part, steps),
+                            Err(Reported) => self.forget(&element.target),
+                        },
+                        Err(Reported) => self.forget(&element.target),
+                    }
+                }
+            }
+        }
+    }
+
+    /// One part, with its default.
+    fn part(&mut self, element: &'a Element, part: Ir, steps: &mut Vec<Step>) {
+        let span = element.target.span();
+        let mut value = part;
+        if let Some(default) = &element.default {
+            let Ok(default) = self.value(default) else { return self.forget(&element.target) };
+            let place = self.keep(value, span, steps);
+            let test = Ir::binary(BinaryOp::StrictEqual, place.clone(), Ir::undefined(span), span);
+            value = Ir::choice(test, default, place, span);
+        }
+        match &element.target {
+            Pattern::Name(name) => self.give_value(name, value, steps),
+            pattern => {
+                let place = self.keep(value, span, steps);
+                self.take_apart(pattern, place, steps);
+            }
+        }
+    }
+
+    /// Puts a value into a place without a name.
+    pub(super) fn keep(&mut self, value: Ir, span: Span, steps: &mut Vec<Step>) -> Ir {
+        // Beyond every byte of a text, where no name has its place.
+        let key = self.key(usize::MAX / 2 + span.start);
+        self.facts.see(key, value.ty);
+        let (place, ty) = (self.new_local(key), self.facts.ty(key));
+        steps.push(Step::Declare(place, value));
+        Ir::new(Kind::Local(place), ty, span)
+    }
+
+    /// The names of a pattern that could not be bound: their uses are no mistakes of their own.
+    pub(super) fn forget(&mut self, pattern: &'a Pattern) {
+        match pattern {
+            Pattern::Name(name) => self.give(name, Meaning::Unknown),
+            Pattern::List { items, .. } => items.iter().flatten().for_each(|e| self.forget(&e.target)),
+            Pattern::Record { entries, .. } => entries.iter().for_each(|(_, e)| self.forget(&e.target)),
+        }
+    }
+
+    /// `const {kinetic, total} = lib.energy()` checks the names against what the function gives.
+    pub(super) fn destructure(&mut self, pattern: &'a Pattern, value: &'a Expr, steps: &mut Vec<Step>) {
+        let Ok(thing) = self.thing(value) else { return self.forget(pattern) };
+        // Parts of `model`, `data` or `Math` are other words for them.
+        if let (Pattern::Record { entries, .. }, Thing::Object(_) | Thing::Math | Thing::Globals) =
+            (pattern, &thing)
+        {
+            for (key, element) in entries {
+                let part = self.member_of(thing.clone(), value.span, key, false, key.span);
+                match (part, &element.target) {
+                    (Ok(part), Pattern::Name(name)) => self.give_part(name, part, key.span, steps),
+                    (Ok(part), inner) => match self.value_of(part, key.span) {
+                        Ok(ir) => {
+                            let place = self.keep(ir, inner.span(), steps);
+                            self.take_apart(inner, place, steps);
+                        }
+                        Err(Reported) => self.forget(inner),
+                    },
+                    (Err(Reported), inner) => self.forget(inner),
+                }
+            }
+            return;
+        }
+        if let (Pattern::Record { entries, .. }, Thing::Value(ir)) = (pattern, &thing) {
+            let known: Vec<Attempt<Ir>> = entries
+                .iter()
+                .filter(|_| ir.ty == Type::Record)
+                .map(|(key, _)| self.record_member(ir.clone(), key, key.span))
+                .collect();
+            if known.iter().any(Result::is_err) {
+                return self.forget(pattern);
+            }
+        }
+        match self.value_of(thing, value.span) {
+            Ok(ir) => {
+                let place = self.keep(ir, pattern.span(), steps);
+                self.take_apart(pattern, place, steps);
+            }
+            Err(Reported) => self.forget(pattern),
+        }
+    }
+
+    fn give_part(&mut self, name: &'a crate::ast::Name, part: Thing, span: Span, steps: &mut Vec<Step>) {
+        match part {
+            single @ Thing::Value(_) => match self.value_of(single, span) {
+                Ok(ir) => self.give_value(name, ir, steps),
+                Err(Reported) => self.give(name, Meaning::Unknown),
+            },
+            Thing::Field(field) if field.is_scalar() => {
+                let ir = self.load(&field, crate::ir::Index::At(0), span);
+                self.give_value(name, ir, steps);
+            }
+            other => self.give(name, Meaning::Alias(other)),
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! Loops, and what is known of the numbers that count them.
+
+use super::access::out_of_range;
+use super::{Attempt, Binder, Reported, Thing};
+use crate::ast::{BinaryOp, Expr, ExprKind, Pattern, Stmt, StmtKind};
+use crate::code;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ir::{Ir, Item, Kind, Loop, Place, Step};
+use crate::number;
+use crate::schema::{Field, Type};
+use crate::value::Value;
+
+impl<'a> Binder<'a> {
+    /// `for (init; test; update) body`
+    pub(super) fn for_loop(
+        &mut self,
+        init: Option<&'a Stmt>,
+        test: Option<&'a Expr>,
+        update: Option<&'a Expr>,
+        body: &'a Stmt,
+        span: Span,
+        steps: &mut Vec<Step>,
+    ) {
+        let (reach, known) = (self.variables.len(), self.known.len());
+        if let Some(init) = init {
+            if let StmtKind::Declare { constant, declarators } = &init.kind {
+                for d in declarators {
+                    self.hoist_pattern(&d.target, *constant, reach, steps);
+                }
+            }
+            self.statement(init, steps);
+        }
+        let counted = self.counted(init, test, update, reach);
+        let test = test.and_then(|t| self.test(t).ok());
+        let guards = self.guards;
+        if counted {
+            self.guards = 0;
+        } else {
+            self.guards += 1;
+        }
+        let inside = self.body_of_loop(body);
+        self.guards = guards;
+        let mut after = Vec::new();
+        for v in self.variables.get(reach..).unwrap_or(&[]) {
+            if self.facts.is_shared(v.key) {
+                after.push(Step::Renew(v.id));
+            }
+        }
+        if let Some(update) = update {
+            self.effect_into(update, &mut after);
+        }
+        steps.push(Step::Loop(Box::new(Loop { test, late: false, body: inside, update: after, span })));
+        self.leave(reach, known);
+    }
+
+    pub(super) fn while_loop(
+        &mut self,
+        test: &'a Expr,
+        body: &'a Stmt,
+        late: bool,
+        span: Span,
+        steps: &mut Vec<Step>,
+    ) {
+        let bound = self.test(test);
+        self.guards += 1;
+        let inside = self.body_of_loop(body);
+        self.guards -= 1;
+        if let Ok(ir) = bound {
+            if ir.known().is_some_and(Value::truthy) && !leaves(&inside) {
+                self.report(
+                    Diagnostic::error(code::BUDGET, test.span, "this loop never ends")
+                        .why("its condition always holds, and nothing in it leaves the loop: the page would hang")
+                        .help("write a condition that becomes false, or leave the loop with `break`"),
+                );
+            }
+            steps.push(Step::Loop(Box::new(Loop {
+                test: Some(ir),
+                late,
+                body: inside,
+                update: Vec::new(),
+                span,
+            })));
+        }
+    }
+
+    /// `for (const target of items) body`
+    pub(super) fn for_of(
+        &mut self,
+        constant: bool,
+        target: &'a Pattern,
+        items: &'a Expr,
+        body: &'a Stmt,
+        span: Span,
+        steps: &mut Vec<Step>,
+    ) {
+        let list = self.thing(items);
+        let (reach, known) = (self.variables.len(), self.known.len());
+        // The list, how long it is and where the loop stands are kept in places without names.
+        let at = |me: &mut Self, n: usize, ty: Type| {
+            let key = me.key(usize::MAX / 4 * 3 + 4 * span.start + n);
+            me.facts.see(key, ty);
+            me.new_local(key)
+        };
+        let counter = at(self, 0, Type::Number);
+        let read_counter = Ir::new(Kind::Local(counter), Type::Number, items.span);
+        let one_more = |span| {
+            Step::Effect(Ir::new(
+                Kind::Update(Box::new(Place::Local(counter)), 1.0, crate::ir::Gives::New),
+                Type::Number,
+                span,
+            ))
+        };
+        let mut turn = Vec::new();
+        let (length, item) = match list {
+            Ok(Thing::Field(field)) if !field.is_scalar() => {
+                let length = match field.len() {
+                    Some(n) => Ir::number(n as f64, items.span),
+                    None => Ir::new(Kind::Length(super::name::view_of(&field)), Type::Number, items.span),
+                };
+                let index = crate::ir::Index::Computed(Box::new(read_counter.clone()));
+                let known = field.len().is_some();
+                let mut item = self.load(&field, index, items.span);
+                // The counter stays below the length.
+                item.ty = if known { Type::Number } else { item.ty };
+                (length, item)
+            }
+            Ok(thing) => {
+                let Ok(value) = self.value_of(thing, items.span) else {
+                    return self.dead_loop(target, body, constant, reach, known);
+                };
+                if self.expect_elements(&value).is_err() {
+                    return self.dead_loop(target, body, constant, reach, known);
+                }
+                self.effects.can_throw = true;
+                // A text is taken apart into its characters, of which some take two units.
+                let function = crate::natives::free("Array.from");
+                let value = match (value.ty, function) {
+                    (Type::List | Type::View, _) | (_, None) => value,
+                    (_, Some(function)) => {
+                        let whole = Item { value, spread: false };
+                        Ir::new(Kind::Native(function, vec![whole]), Type::List, items.span)
+                    }
+                };
+                let ty = value.ty;
+                let list = at(self, 1, ty);
+                steps.push(Step::Declare(list, value));
+                let list = Ir::new(Kind::Local(list), ty, items.span);
+                let length =
+                    Ir::new(Kind::Member(Box::new(list.clone()), "length".into()), Type::Number, items.span);
+                let element = if ty == Type::View { Type::Element } else { Type::Any };
+                let item = Kind::Element(Box::new(list), Box::new(read_counter.clone()));
+                (length, Ir::new(item, element, items.span))
+            }
+            Err(Reported) => return self.dead_loop(target, body, constant, reach, known),
+        };
+        steps.push(Step::Declare(counter, Ir::number(0.0, items.span)));
+        let test = Ir::binary(BinaryOp::Less, read_counter, length, items.span);
+        self.hoist_pattern(target, constant, reach, &mut turn);
+        match target {
+            Pattern::Name(name) => self.give_value(name, item, &mut turn),
+            pattern => {
+                let whole = self.keep(item, pattern.span(), &mut turn);
+                self.take_apart(pattern, whole, &mut turn);
+            }
+        }
+        self.guards += 1;
+        turn.extend(self.body_of_loop(body));
+        self.guards -= 1;
+        let update = vec![one_more(items.span)];
+        steps.push(Step::Loop(Box::new(Loop { test: Some(test), late: false, body: turn, update, span })));
+        self.leave(reach, known);
+    }
+
+    /// A loop over something that is a mistake: its body may hold more of them.
+    fn dead_loop(&mut self, target: &'a Pattern, body: &'a Stmt, constant: bool, reach: usize, known: usize) {
+        self.hoist_pattern(target, constant, reach, &mut Vec::new());
+        self.forget(target);
+        self.body_of_loop(body);
+        self.leave(reach, known);
+    }
+
+    fn body_of_loop(&mut self, body: &'a Stmt) -> Vec<Step> {
+        self.loops += 1;
+        let steps = self.scoped(body);
+        self.loops -= 1;
+        steps
+    }
+
+    /// A statement with names of its own.
+    pub(super) fn scoped(&mut self, statement: &'a Stmt) -> Vec<Step> {
+        match &statement.kind {
+            StmtKind::Block(statements) => self.block(statements),
+            _ => self.block(std::slice::from_ref(statement)),
+        }
+    }
+
+    /// Whether the loop counts a variable of its own up to a bound that is known: then its range is noted.
+    fn counted(
+        &mut self,
+        init: Option<&'a Stmt>,
+        test: Option<&'a Expr>,
+        update: Option<&'a Expr>,
+        reach: usize,
+    ) -> bool {
+        let Some(StmtKind::Declare { declarators, .. }) = init.map(|s| &s.kind) else { return false };
+        let [only] = declarators.as_slice() else { return false };
+        let (Pattern::Name(name), Some(start)) = (&only.target, &only.value) else { return false };
+        let counts = |e: &Expr| matches!(&e.kind, ExprKind::Name(n) if *n == name.text);
+        let up = match update.map(|u| &u.kind) {
+            Some(ExprKind::Update { target, increment, .. }) => counts(target) && *increment,
+            Some(ExprKind::Assign { target, op: Some(BinaryOp::Add), value, .. }) => {
+                counts(target) && matches!(value.kind, ExprKind::Number(x) if x >= 1.0)
+            }
+            _ => false,
+        };
+        let Some(ExprKind::Binary { op, left, right }) = test.map(|t| &t.kind) else { return false };
+        if !(up && counts(left) && matches!(op, BinaryOp::Less | BinaryOp::LessEqual)) {
+            return false;
+        }
+        let Some(variable) = self.variables.get(reach).cloned() else { return false };
+        // Assigned by the update alone: an assignment in the body is seen as one more.
+        if self.facts.assignments(variable.key) > 1 {
+            return false;
+        }
+        let quiet = self.diagnostics.len();
+        let bounds = (self.operand(start), self.operand(right));
+        self.diagnostics.truncate(quiet);
+        let (Ok(start), Ok(bound)) = bounds else { return false };
+        let (Some(least), Some((_, bound))) = (self.range_of(&start).map(|r| r.0), self.range_of(&bound))
+        else {
+            return false;
+        };
+        let most = if *op == BinaryOp::Less { (bound - 1.0).ceil() } else { bound.floor() };
+        let whole = least.fract() == 0.0 && least.is_finite() && most.is_finite();
+        let single = matches!(update.map(|u| &u.kind), Some(ExprKind::Update { .. }));
+        if whole && let Some(variable) = self.variables.get_mut(reach) {
+            variable.range = Some((least, most.max(least)));
+        }
+        // A larger step may pass over the last one; an empty loop runs nothing.
+        whole && single && most >= least
+    }
+
+    /// Smallest and largest value of a number, as far as known.
+    pub(super) fn range_of(&self, ir: &Ir) -> Option<(f64, f64)> {
+        match &ir.kind {
+            Kind::Constant(Value::Number(x)) => Some((*x, *x)),
+            Kind::Local(id) => self.variables.iter().rev().find(|v| v.id == *id)?.range,
+            Kind::Binary(op, a, b) => {
+                let ((a0, a1), (b0, b1)) = (self.range_of(a)?, self.range_of(b)?);
+                let range = match op {
+                    BinaryOp::Add => (a0 + b0, a1 + b1),
+                    BinaryOp::Subtract => (a0 - b1, a1 - b0),
+                    BinaryOp::Multiply => {
+                        let all = [a0 * b0, a0 * b1, a1 * b0, a1 * b1];
+                        all.iter()
+                            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| (l.min(*x), m.max(*x)))
+                    }
+                    _ => return None,
+                };
+                (range.0.is_finite() && range.1.is_finite()).then_some(range)
+            }
+            _ => None,
+        }
+    }
+
+    /// Refuses an index that leaves the field in the last turn of a loop, when nothing in the loop prevents it.
+    pub(super) fn check_range(&mut self, field: &Field, index: &Ir) -> Attempt<()> {
+        let (Some((least, most)), Some(n)) = (self.range_of(index), field.len()) else { return Ok(()) };
+        if self.guards > 0 || self.site.is_some() {
+            return Ok(());
+        }
+        if most >= n as f64 {
+            let shown = number::to_text(most);
+            let report = out_of_range(field, &shown, index.span);
+            let text = self.text(index.span);
+            let message =
+                format!("in the last turn of the loop `{text}` is {shown}: past the end of `{}`", field.path);
+            return self.refuse(Diagnostic { message, ..report });
+        }
+        if least < 0.0 {
+            let shown = number::to_text(least);
+            return self.refuse(
+                Diagnostic::error(
+                    code::INDEX_NEGATIVE,
+                    index.span,
+                    format!("in the loop `{}` becomes {shown}, below zero", self.text(index.span)),
+                )
+                .why("indexes start at 0; JavaScript gives `undefined` here")
+                .help(format!(
+                    "indexes of `{}` are{}",
+                    field.path,
+                    super::access::range(field)
+                )),
+            );
+        }
+        Ok(())
+    }
+}
+
+/// Whether statements may leave the loop that they stand in.
+fn leaves(steps: &[Step]) -> bool {
+    steps.iter().any(|step| match step {
+        Step::Break | Step::Return(_) => true,
+        Step::If(_, then, otherwise) => leaves(then) || leaves(otherwise),
+        Step::Loop(inner) => returns(&inner.body),
+        _ => false,
+    })
+}
+
+fn returns(steps: &[Step]) -> bool {
+    steps.iter().any(|step| match step {
+        Step::Return(_) => true,
+        Step::If(_, then, otherwise) => returns(then) || returns(otherwise),
+        Step::Loop(inner) => returns(&inner.body),
+        _ => false,
+    })
+}

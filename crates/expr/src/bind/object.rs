@@ -1,0 +1,214 @@
+//! Members of values, and of objects whose name is computed while running.
+
+use std::sync::Arc;
+
+use super::name::{MACHINERY, list, machinery, view_of};
+use super::{Attempt, Binder, Receiver, Thing};
+use crate::ast::{Expr, ExprKind, Name};
+use crate::code;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ir::{Index, Ir, Kind, Picks};
+use crate::schema::{CollectionId, Entry, Field, Param, Type};
+use crate::suggest::closest;
+use crate::value::{Value, View};
+
+/// The most elements that a literal spread of an array of the simulation writes out.
+const MAX_WRITTEN_OUT: usize = 64;
+
+impl<'a> Binder<'a> {
+    /// `value.name`
+    pub(super) fn value_member(&mut self, ir: Ir, name: &Name, optional: bool, span: Span) -> Attempt<Thing> {
+        let text = name.text.as_str();
+        if MACHINERY.contains(&text) {
+            return self.refuse(machinery(text, name.span));
+        }
+        let ir = if optional { self.present(ir) } else { ir };
+        if self.is_method(text, ir.ty) {
+            return Ok(Thing::Method(Box::new(Receiver::Value(ir)), text.to_owned()));
+        }
+        match ir.ty {
+            Type::List | Type::View | Type::String if text == "length" => {
+                Ok(Thing::Value(match self.known_length(&ir) {
+                    Some(n) => Ir::number(n as f64, span),
+                    None => Ir::new(Kind::Member(Box::new(ir), text.into()), Type::Number, span),
+                }))
+            }
+            Type::Record => self.record_member(ir, name, span).map(Thing::Value),
+            Type::Any | Type::Never => {
+                self.effects.can_throw = true;
+                Ok(Thing::Value(Ir::new(Kind::Member(Box::new(ir), text.into()), Type::Any, span)))
+            }
+            _ if optional => {
+                Ok(Thing::Value(Ir::new(Kind::Member(Box::new(ir), text.into()), Type::Any, span)))
+            }
+            ty => {
+                let report = self.no_member(ty, name, span, ir.span);
+                self.refuse(report)
+            }
+        }
+    }
+
+    /// A member of a record, checked when it is known what makes the record.
+    pub(super) fn record_member(&mut self, ir: Ir, name: &Name, span: Span) -> Attempt<Ir> {
+        let mut ty = Type::Any;
+        if let Kind::Call(id, _) = &ir.kind {
+            let info = self.schema.function(*id);
+            match info.members.iter().find(|(member, _)| *member == name.text) {
+                Some((_, known)) => ty = *known,
+                None if info.members.is_empty() => {}
+                None => {
+                    let names: Vec<String> = info.members.iter().map(|(n, _)| n.clone()).collect();
+                    let report = Diagnostic::error(
+                        code::UNKNOWN_FIELD,
+                        name.span,
+                        format!("the result of `{}` has no `{}`", info.name, name.text),
+                    )
+                    .why(format!("it has {}", list(&names)));
+                    return self.refuse(match closest(&name.text, names.iter().map(String::as_str)) {
+                        Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(name.span, meant),
+                        None => report.help("use one of them"),
+                    });
+                }
+            }
+        }
+        Ok(Ir::new(Kind::Member(Box::new(ir), name.text.as_str().into()), ty, span))
+    }
+
+    /// The finding for a member of something that has none of this name.
+    fn no_member(&self, ty: Type, name: &Name, span: Span, object: Span) -> Diagnostic {
+        let text = name.text.as_str();
+        let what = self.text(object);
+        let report = Diagnostic::error(
+            code::UNKNOWN_FIELD,
+            name.span,
+            format!("`{what}` is {}; it has no member `{text}`", ty.describe()),
+        );
+        let xyz = ["x", "y", "z"].iter().position(|n| *n == text);
+        match (ty, xyz) {
+            (Type::List | Type::View, Some(i)) => {
+                let meant = format!("{what}[{i}]");
+                report.why("elements are chosen by index").help(format!("write `{meant}`")).fix(span, meant)
+            }
+            _ => match closest(text, self.method_names(ty).iter().map(String::as_str)) {
+                Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(name.span, meant),
+                None if matches!(ty, Type::Undefined | Type::Null) => {
+                    report.why("JavaScript stops the text here").help("test for it first, or write `?.`")
+                }
+                None => report.help(format!("remove `.{text}`")),
+            },
+        }
+    }
+
+    /// What stands before `?.`.
+    pub(super) fn present(&mut self, ir: Ir) -> Ir {
+        let (ty, span) = (ir.ty, ir.span);
+        let ty = if ty == Type::Element { Type::Number } else { ty };
+        Ir::new(Kind::Present(Box::new(ir)), ty, span)
+    }
+
+    /// The number of elements of a list that is written out or that a function of known size gives.
+    pub(super) fn known_length(&self, ir: &Ir) -> Option<usize> {
+        match &ir.kind {
+            Kind::List(items) if items.iter().all(|i| !i.spread) => Some(items.len()),
+            Kind::Call(id, _) => self.schema.function(*id).length,
+            Kind::Constant(Value::View(view)) => view.count(),
+            Kind::Constant(Value::String(text)) => Some(text.encode_utf16().count()),
+            _ => None,
+        }
+    }
+
+    /// A call like `lib.bodyPos('cube')` whose elements are those of a field, when one element is all that is asked.
+    pub(super) fn call_as_field(&mut self, object: &'a Expr) -> Option<Field> {
+        let ExprKind::Call { callee, args, optional: false } = &object.kind else { return None };
+        let ExprKind::Member { object: holder, name, .. } = &callee.kind else { return None };
+        let ExprKind::Name(root) = &holder.kind else { return None };
+        let [Expr { kind: ExprKind::String(chosen), .. }] = args.as_slice() else { return None };
+        if self.variable(root).is_some() {
+            return None;
+        }
+        let Some(Entry::Object(holder)) = self.schema.root(root) else { return None };
+        let Some(Entry::Function(id)) = self.schema.member(holder, &name.text) else { return None };
+        let info = self.schema.function(id);
+        let [Param::Name(collection)] = info.params.as_slice() else { return None };
+        let object = self.schema.lookup(*collection, chosen)?;
+        self.schema.result_field(id, object)
+    }
+
+    /// A member of an object whose name is known only while running: the same member of all of them, by name.
+    pub(super) fn picked_member(
+        &mut self,
+        id: CollectionId,
+        chosen: Ir,
+        name: &Name,
+        span: Span,
+    ) -> Attempt<Thing> {
+        let noun = self.schema.noun(id).to_owned();
+        let names = self.schema.names(id);
+        let mut of: Vec<(Arc<str>, Value)> = Vec::new();
+        let mut scalar = false;
+        let mut fields = Vec::new();
+        for object_name in &names {
+            let entry = self.schema.lookup(id, object_name).and_then(|o| self.schema.member(o, &name.text));
+            match entry {
+                Some(Entry::Field(field)) => {
+                    scalar |= field.is_scalar();
+                    of.push((object_name.as_str().into(), Value::View(view_of(&field))));
+                    fields.push(field);
+                }
+                Some(Entry::Constant(value)) => of.push((object_name.as_str().into(), value)),
+                _ => {}
+            }
+        }
+        if of.is_empty() {
+            // Any of the objects shows what members there are.
+            let known = names.first().and_then(|n| self.schema.lookup(id, n));
+            let report = match known {
+                Some(object) => self.unknown_member(object, name, span),
+                None => Diagnostic::error(
+                    code::UNKNOWN_FIELD,
+                    name.span,
+                    format!("no {noun} has a `{}`", name.text),
+                ),
+            };
+            return self.refuse(report);
+        }
+        for field in &fields {
+            if scalar {
+                self.read(view_of(field), None);
+            } else {
+                self.show(field);
+            }
+        }
+        of.sort_by(|a, b| a.0.cmp(&b.0));
+        of.dedup_by(|a, b| a.0 == b.0);
+        let ty = match of.first() {
+            Some((_, Value::View(_))) if scalar => Type::Number,
+            Some((_, value)) => value.type_of(),
+            None => Type::Any,
+        };
+        let picks = Picks { noun, of, scalar };
+        Ok(Thing::Value(Ir::new(Kind::Pick(picks.into(), Box::new(chosen)), ty, span)))
+    }
+
+    /// An array of the simulation as a value.
+    pub(super) fn field_value(&mut self, field: &Field, span: Span) -> Ir {
+        let view = self.show(field);
+        Ir::constant(Value::View(view), span)
+    }
+
+    /// Notes that an array becomes a value.
+    pub(super) fn show(&mut self, field: &Field) -> View {
+        let view = view_of(field);
+        let shown = crate::ir::Shown { view, elem: field.elem, assignable: field.is_assignable() };
+        if !self.tree.views.contains(&shown) {
+            self.tree.views.push(shown);
+        }
+        view
+    }
+
+    /// All elements of an array of known size, as values; `None` when there are too many to write out.
+    pub(super) fn elements(&mut self, field: &Field, span: Span) -> Option<Vec<Ir>> {
+        let n = field.len().filter(|n| *n <= MAX_WRITTEN_OUT)?;
+        Some((0..n).map(|i| self.load(field, Index::At(i), span)).collect())
+    }
+}

@@ -1,0 +1,244 @@
+//! Methods of numbers and functions that make numbers (ECMAScript, "Number Objects", "parseFloat", "parseInt").
+
+use super::{Env, Trouble, arg, integer};
+use crate::code;
+use crate::number as convert;
+use crate::value::Value;
+
+type Outcome = Result<Value, Trouble>;
+
+/// The number a method is called on.
+fn own(value: &Value) -> f64 {
+    value.to_number()
+}
+
+/// An argument that counts digits, from `least` to 100.
+fn digits(env: &mut Env<'_>, args: &[Value], least: f64) -> Result<Option<usize>, Trouble> {
+    if *arg(args, 0) == Value::Undefined {
+        return Ok(None);
+    }
+    let x = integer(env.number(arg(args, 0))?);
+    if !(least..=100.0).contains(&x) {
+        let message = format!("{x} digits: between {least} and 100 are possible");
+        return Err(Trouble::new(code::ARGUMENT_TYPE, message));
+    }
+    Ok(Some(x as usize))
+}
+
+/// Binary places behind the point that a finite number needs.
+fn fraction_bits(x: f64) -> i64 {
+    let bits = x.to_bits();
+    let exponent = (bits >> 52 & 0x7ff) as i64;
+    let mantissa = bits & ((1 << 52) - 1);
+    let (mantissa, exponent) =
+        if exponent == 0 { (mantissa, -1074) } else { (mantissa | 1 << 52, exponent - 1075) };
+    if mantissa == 0 { 0 } else { (-exponent - i64::from(mantissa.trailing_zeros())).max(0) }
+}
+
+/// JavaScript's `x.toFixed(digits)`: the exact value rounded, and a tie away from zero.
+pub fn to_fixed(x: f64, digits: usize) -> String {
+    if !x.is_finite() || x.abs() >= 1e21 {
+        return convert::to_text(x);
+    }
+    // A number with k binary places has k decimal places, and the last one is a 5: a tie for k - 1 digits. Rust
+    // rounds it to even; the next number above is no tie any more.
+    let tie = fraction_bits(x) == digits as i64 + 1;
+    let magnitude = if tie { x.abs().next_up() } else { x.abs() };
+    let sign = if x < 0.0 { "-" } else { "" };
+    format!("{sign}{magnitude:.digits$}")
+}
+
+/// Mantissa with so many decimals, and exponent; a tie goes away from zero.
+fn scientific(x: f64, digits: usize) -> (String, i32) {
+    let x = x.abs();
+    let longer = format!("{x:.*e}", digits + 1);
+    let mantissa = longer.split('e').next().unwrap_or("");
+    // 800 digits show every double in full.
+    let tie = mantissa.ends_with('5')
+        && format!("{x:.800e}")
+            .split('e')
+            .next()
+            .and_then(|m| m.get(mantissa.len()..))
+            .is_some_and(|rest| rest.bytes().all(|b| b == b'0'));
+    let text = format!("{:.digits$e}", if tie { x.next_up() } else { x });
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    (mantissa.to_owned(), exponent.parse().unwrap_or(0))
+}
+
+fn exponential(sign: &str, mantissa: &str, exponent: i32) -> String {
+    let e = if exponent < 0 { '-' } else { '+' };
+    format!("{sign}{mantissa}e{e}{}", exponent.abs())
+}
+
+pub(super) fn to_fixed_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+    let digits = digits(env, args, 0.0)?.unwrap_or(0);
+    env.string(to_fixed(own(x), digits))
+}
+
+pub(super) fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+    let digits = digits(env, args, 0.0)?;
+    let x = own(x);
+    if !x.is_finite() {
+        return env.string(convert::to_text(x));
+    }
+    let sign = if x < 0.0 { "-" } else { "" };
+    let (mantissa, exponent) = match digits {
+        Some(digits) => scientific(x, digits),
+        None => {
+            let text = format!("{:e}", x.abs());
+            let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+            (mantissa.to_owned(), exponent.parse().unwrap_or(0))
+        }
+    };
+    env.string(exponential(sign, &mantissa, exponent))
+}
+
+pub(super) fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+    let precision = digits(env, args, 1.0)?;
+    let x = own(x);
+    let Some(precision) = precision.filter(|_| x.is_finite()) else { return env.string(convert::to_text(x)) };
+    let sign = if x < 0.0 { "-" } else { "" };
+    let (mantissa, exponent) = scientific(x, precision - 1);
+    if exponent < -6 || exponent >= precision as i32 {
+        return env.string(exponential(sign, &mantissa, exponent));
+    }
+    let digits: String = mantissa.chars().filter(|c| *c != '.').collect();
+    let text = if exponent < 0 {
+        format!("0.{}{digits}", "0".repeat((-exponent - 1) as usize))
+    } else {
+        let (whole, fraction) = digits.split_at((exponent as usize + 1).min(digits.len()));
+        if fraction.is_empty() { whole.to_owned() } else { format!("{whole}.{fraction}") }
+    };
+    env.string(format!("{sign}{text}"))
+}
+
+pub(super) fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+    let radix = match arg(args, 0) {
+        Value::Undefined => 10.0,
+        radix => integer(env.number(radix)?),
+    };
+    let x = own(x);
+    if radix == 10.0 || !x.is_finite() {
+        return env.string(convert::to_text(x));
+    }
+    // Of numbers with a fraction engines print different digits; of whole numbers all the same.
+    if !(2.0..=36.0).contains(&radix) || x.fract() != 0.0 || x.abs() > 9007199254740992.0 {
+        let message = format!("{} cannot be written in base {radix}", convert::to_text(x));
+        return Err(Trouble::new(code::ARGUMENT_TYPE, message));
+    }
+    let (mut rest, mut digits) = (x.abs() as u64, Vec::new());
+    while rest > 0 || digits.is_empty() {
+        digits.push(char::from_digit((rest % radix as u64) as u32, radix as u32).unwrap_or('0'));
+        rest /= radix as u64;
+    }
+    let sign = if x < 0.0 { "-" } else { "" };
+    env.string(format!("{sign}{}", digits.iter().rev().collect::<String>()))
+}
+
+pub(super) fn number(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    Ok(Value::Number(match args.first() {
+        Some(value) => env.number(value)?,
+        None => 0.0,
+    }))
+}
+
+pub(super) fn boolean(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    Ok(Value::Boolean(arg(args, 0).truthy()))
+}
+
+pub(super) fn is_finite(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    Ok(Value::Boolean(matches!(arg(args, 0), Value::Number(x) if x.is_finite())))
+}
+
+pub(super) fn is_integer(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    Ok(Value::Boolean(matches!(arg(args, 0), Value::Number(x) if x.is_finite() && x.fract() == 0.0)))
+}
+
+pub(super) fn is_nan(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    Ok(Value::Boolean(matches!(arg(args, 0), Value::Number(x) if x.is_nan())))
+}
+
+pub(super) fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    let text = env.text(arg(args, 0))?;
+    let text = text.trim_start_matches(convert::is_space);
+    let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
+    if unsigned.starts_with("Infinity") {
+        return Ok(Value::Number(if text.starts_with('-') { f64::NEG_INFINITY } else { f64::INFINITY }));
+    }
+    // The longest beginning that is a decimal number.
+    let (mut point, mut exponent, mut digit) = (false, false, false);
+    let mut end = 0;
+    let mut before = ' ';
+    for (i, c) in text.char_indices() {
+        match c {
+            '0'..='9' => digit = true,
+            '+' | '-' if i == 0 || matches!(before, 'e' | 'E') => {}
+            '.' if !point && !exponent => point = true,
+            'e' | 'E' if digit && !exponent => exponent = true,
+            _ => break,
+        }
+        before = c;
+        if digit && (c.is_ascii_digit() || c == '.') {
+            end = i + 1;
+        }
+    }
+    Ok(Value::Number(text.get(..end).and_then(|t| t.parse().ok()).unwrap_or(f64::NAN)))
+}
+
+pub(super) fn parse_int(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    let text = env.text(arg(args, 0))?;
+    let text = text.trim_start_matches(convert::is_space);
+    let (sign, text) = match text.strip_prefix('-') {
+        Some(rest) => (-1.0, rest),
+        None => (1.0, text.strip_prefix('+').unwrap_or(text)),
+    };
+    let mut radix = convert::to_int32(env.number(arg(args, 1))?);
+    let prefixed = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
+    let text = match prefixed {
+        Some(rest) if radix == 0 || radix == 16 => {
+            radix = 16;
+            rest
+        }
+        _ => text,
+    };
+    let radix = if radix == 0 { 10 } else { radix };
+    if !(2..=36).contains(&radix) {
+        return Ok(Value::Number(f64::NAN));
+    }
+    let length = text.find(|c: char| !c.is_digit(radix as u32)).unwrap_or(text.len());
+    let digits = text.get(..length).unwrap_or("");
+    let x = match radix {
+        _ if digits.is_empty() => f64::NAN,
+        10 => digits.parse().unwrap_or(f64::NAN),
+        2 | 4 | 8 | 16 | 32 => convert::from_digits(digits, radix as u32).unwrap_or(f64::NAN),
+        _ => digits
+            .chars()
+            .fold(0.0, |x, c| x * f64::from(radix) + f64::from(c.to_digit(radix as u32).unwrap_or(0))),
+    };
+    Ok(Value::Number(sign * x))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ties_go_away_from_zero() {
+        for (x, digits, text) in [
+            (0.5, 0, "1"),
+            (1.5, 0, "2"),
+            (2.5, 0, "3"),
+            (-2.5, 0, "-3"),
+            (1.005, 2, "1.00"),
+            (1.25, 1, "1.3"),
+            (1.35, 1, "1.4"),
+            (0.0, 2, "0.00"),
+            (-0.0, 1, "0.0"),
+            (-1e-9, 2, "-0.00"),
+            (1e21, 2, "1e+21"),
+            (f64::NAN, 1, "NaN"),
+        ] {
+            assert_eq!(to_fixed(x, digits), text, "{x} {digits}");
+        }
+    }
+}

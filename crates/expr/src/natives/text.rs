@@ -1,0 +1,261 @@
+//! Methods of texts (ECMAScript, "String Objects"). Indexes count UTF-16 code units, as JavaScript's do; half of a
+//! pair, cut off by an index, becomes the replacement character.
+
+use super::{Env, Trouble, arg, integer, range};
+use crate::code;
+use crate::heap::MAX_TEXT;
+use crate::number::is_space;
+use crate::value::Value;
+
+type Outcome = Result<Value, Trouble>;
+
+fn str_of(value: &Value) -> &str {
+    if let Value::String(text) = value { text } else { "" }
+}
+
+fn units(value: &Value) -> Vec<u16> {
+    str_of(value).encode_utf16().collect()
+}
+
+fn from_units(env: &mut Env<'_>, units: &[u16]) -> Outcome {
+    env.string(String::from_utf16_lossy(units))
+}
+
+/// Units up to a byte of a text.
+fn units_before(text: &str, byte: usize) -> f64 {
+    text.get(..byte).map_or(0, |before| before.encode_utf16().count()) as f64
+}
+
+pub(super) fn at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let units = units(text);
+    let x = integer(env.number(arg(args, 0))?);
+    let at = if x < 0.0 { units.len() as f64 + x } else { x };
+    if at < 0.0 || at >= units.len() as f64 {
+        return Ok(Value::Undefined);
+    }
+    let at = at as usize;
+    from_units(env, units.get(at..at + 1).unwrap_or(&[]))
+}
+
+pub(super) fn concat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let mut all = str_of(text).to_owned();
+    for arg in args {
+        all.push_str(&env.text(arg)?);
+    }
+    env.string(all)
+}
+
+/// The text from a start index on, in bytes, and that text.
+fn from_index<'t>(env: &mut Env<'_>, text: &'t str, start: &Value) -> Result<&'t str, Trouble> {
+    let start = integer(env.number(start)?).max(0.0);
+    let mut seen = 0.0;
+    for (byte, c) in text.char_indices() {
+        if seen >= start {
+            return Ok(text.get(byte..).unwrap_or(""));
+        }
+        seen += c.len_utf16() as f64;
+    }
+    Ok("")
+}
+
+pub(super) fn includes(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let wanted = env.text(arg(args, 0))?;
+    let rest = from_index(env, str_of(text), arg(args, 1))?;
+    Ok(Value::Boolean(rest.contains(&wanted)))
+}
+
+pub(super) fn index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let wanted = env.text(arg(args, 0))?;
+    let text = str_of(text);
+    let rest = from_index(env, text, arg(args, 1))?;
+    let skipped = text.len() - rest.len();
+    let found = rest.find(&wanted).map(|byte| units_before(text, skipped + byte));
+    Ok(Value::Number(found.unwrap_or(-1.0)))
+}
+
+pub(super) fn last_index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let wanted = env.text(arg(args, 0))?;
+    let text = str_of(text);
+    Ok(Value::Number(text.rfind(&wanted).map_or(-1.0, |byte| units_before(text, byte))))
+}
+
+pub(super) fn slice(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let units = units(text);
+    let (start, end) = range(env, args, 0, units.len())?;
+    from_units(env, units.get(start..end).unwrap_or(&[]))
+}
+
+pub(super) fn substring(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let units = units(text);
+    let n = units.len() as f64;
+    let a = integer(env.number(arg(args, 0))?).clamp(0.0, n);
+    let b = match arg(args, 1) {
+        Value::Undefined => n,
+        end => integer(env.number(end)?).clamp(0.0, n),
+    };
+    from_units(env, units.get(a.min(b) as usize..a.max(b) as usize).unwrap_or(&[]))
+}
+
+pub(super) fn char_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let units = units(text);
+    let at = integer(env.number(arg(args, 0))?);
+    if at < 0.0 || at >= units.len() as f64 {
+        return Ok(Value::from(""));
+    }
+    let at = at as usize;
+    from_units(env, units.get(at..at + 1).unwrap_or(&[]))
+}
+
+pub(super) fn char_code_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let at = integer(env.number(arg(args, 0))?);
+    let unit = if at < 0.0 { None } else { str_of(text).encode_utf16().nth(at as usize) };
+    Ok(Value::Number(unit.map_or(f64::NAN, f64::from)))
+}
+
+pub(super) fn starts_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let wanted = env.text(arg(args, 0))?;
+    let rest = from_index(env, str_of(text), arg(args, 1))?;
+    Ok(Value::Boolean(rest.starts_with(&wanted)))
+}
+
+pub(super) fn ends_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let wanted = env.text(arg(args, 0))?;
+    Ok(Value::Boolean(str_of(text).ends_with(&wanted)))
+}
+
+/// What fills a text up to a length.
+fn padding(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Result<String, Trouble> {
+    let filler = match arg(args, 1) {
+        Value::Undefined => " ".to_owned(),
+        filler => env.text(filler)?,
+    };
+    let have = str_of(text).encode_utf16().count() as f64;
+    let missing = integer(env.number(arg(args, 0))?) - have;
+    if missing <= 0.0 || filler.is_empty() {
+        return Ok(String::new());
+    }
+    if missing > MAX_TEXT as f64 {
+        return Err(super::too_long());
+    }
+    let units: Vec<u16> = filler.encode_utf16().cycle().take(missing as usize).collect();
+    Ok(String::from_utf16_lossy(&units))
+}
+
+pub(super) fn pad_start(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let padding = padding(env, text, args)?;
+    env.string(padding + str_of(text))
+}
+
+pub(super) fn pad_end(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let padding = padding(env, text, args)?;
+    env.string(str_of(text).to_owned() + &padding)
+}
+
+pub(super) fn repeat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let count = integer(env.number(arg(args, 0))?);
+    if count < 0.0 || count.is_infinite() {
+        return Err(Trouble::new(code::ARGUMENT_TYPE, format!("a text cannot be repeated {count} times")));
+    }
+    let text = str_of(text);
+    if text.len() as f64 * count > MAX_TEXT as f64 {
+        return Err(super::too_long());
+    }
+    env.string(if text.is_empty() { String::new() } else { text.repeat(count as usize) })
+}
+
+/// What stands for a text that is found: `$$` is a dollar sign, `$&` the text itself, as in JavaScript.
+fn replacement(pattern: &str, found: &str, before: &str, after: &str) -> String {
+    let mut out = String::new();
+    let mut rest = pattern;
+    while let Some(at) = rest.find('$') {
+        out.push_str(rest.get(..at).unwrap_or(""));
+        let (text, length) = match rest.as_bytes().get(at + 1) {
+            Some(b'$') => ("$", 2),
+            Some(b'&') => (found, 2),
+            Some(b'`') => (before, 2),
+            Some(b'\'') => (after, 2),
+            _ => ("$", 1),
+        };
+        out.push_str(text);
+        rest = rest.get(at + length..).unwrap_or("");
+    }
+    out + rest
+}
+
+pub(super) fn replace(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let (from, to) = (env.text(arg(args, 0))?, env.text(arg(args, 1))?);
+    let text = str_of(text);
+    let Some(at) = text.find(&from) else { return env.string(text.to_owned()) };
+    let (before, after) = (text.get(..at).unwrap_or(""), text.get(at + from.len()..).unwrap_or(""));
+    env.string(format!("{before}{}{after}", replacement(&to, &from, before, after)))
+}
+
+pub(super) fn replace_all(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let (from, to) = (env.text(arg(args, 0))?, env.text(arg(args, 1))?);
+    let text = str_of(text);
+    let mut out = String::new();
+    let mut last = 0;
+    for (at, found) in text.match_indices(&from) {
+        out.push_str(text.get(last..at).unwrap_or(""));
+        let after = text.get(at + found.len()..).unwrap_or("");
+        out.push_str(&replacement(&to, found, text.get(..at).unwrap_or(""), after));
+        last = at + found.len();
+        if out.len() > MAX_TEXT {
+            return Err(super::too_long());
+        }
+    }
+    out.push_str(text.get(last..).unwrap_or(""));
+    env.string(out)
+}
+
+pub(super) fn split(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+    let limit = match arg(args, 1) {
+        Value::Undefined => usize::MAX,
+        limit => crate::number::to_int32(env.number(limit)?) as u32 as usize,
+    };
+    let whole = str_of(text);
+    env.spend(whole.len())?;
+    let parts: Vec<String> = match arg(args, 0) {
+        Value::Undefined => vec![whole.to_owned()],
+        separator => {
+            let separator = env.text(separator)?;
+            if separator.is_empty() {
+                whole.encode_utf16().map(|unit| String::from_utf16_lossy(&[unit])).collect()
+            } else {
+                whole.split(&separator).map(str::to_owned).collect()
+            }
+        }
+    };
+    let parts = parts.into_iter().take(limit).map(|part| Value::String(part.into())).collect();
+    Ok(env.heap.list(parts)?)
+}
+
+pub(super) fn to_lower_case(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+    env.string(str_of(text).to_lowercase())
+}
+
+pub(super) fn to_upper_case(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+    env.string(str_of(text).to_uppercase())
+}
+
+pub(super) fn trim(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+    env.string(str_of(text).trim_matches(is_space).to_owned())
+}
+
+pub(super) fn trim_start(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+    env.string(str_of(text).trim_start_matches(is_space).to_owned())
+}
+
+pub(super) fn trim_end(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+    env.string(str_of(text).trim_end_matches(is_space).to_owned())
+}
+
+pub(super) fn string(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    match args.first() {
+        Some(value) => {
+            let text = env.text(value)?;
+            env.string(text)
+        }
+        None => Ok(Value::from("")),
+    }
+}

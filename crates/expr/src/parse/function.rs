@@ -1,0 +1,272 @@
+//! Functions of a text's own, and the patterns that take lists and records apart.
+
+use super::expr::Node;
+use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
+use crate::ast::{Body, Element, ExprKind, Function, Name, Pattern, Stmt, StmtKind};
+use crate::code;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::lex::Tok;
+
+/// The binding power of an assignment, the loosest.
+const ASSIGNMENT: u8 = 1;
+
+/// Parameters that a function may have.
+const MAX_PARAMS: usize = 16;
+
+impl Parser<'_> {
+    /// Whether the parenthesis ahead holds the parameters of an arrow function: `=>` stands behind it.
+    pub(super) fn arrow_ahead(&self) -> bool {
+        let mut open = 0usize;
+        let mut n = 0;
+        loop {
+            match self.peek_at(n) {
+                Tok::Symbol("(" | "[" | "{") => open += 1,
+                Tok::Symbol(")" | "]" | "}") => open = open.saturating_sub(1),
+                Tok::End => return false,
+                _ => {}
+            }
+            n += 1;
+            if open == 0 {
+                return *self.peek_at(n) == Tok::Symbol("=>");
+            }
+            // A search from every bracket of a hostile text would take forever; no list of parameters is this long.
+            if n > 200 {
+                return false;
+            }
+        }
+    }
+
+    /// `x => …` or `(x, y) => …`
+    pub(super) fn arrow(&mut self) -> Attempt<Node> {
+        let start = self.span();
+        let (function, height) = self.measured(|p| {
+            let params = match p.eat("(") {
+                Some(opener) => p.parameters(opener)?,
+                None => vec![Element { target: Pattern::Name(p.new_name("a parameter")?), default: None }],
+            };
+            p.eat("=>");
+            let body = if p.is("{") { Body::Block(p.block()?) } else { Body::Value(p.assignment()?) };
+            Ok(Function { params, body, span: start.to(p.last_span()) })
+        });
+        self.function_node(function?, height)
+    }
+
+    /// `function (x) { … }` as a value.
+    pub(super) fn function_expression(&mut self) -> Attempt<Node> {
+        let (function, height) = self.measured(|p| Ok(p.function()?.1));
+        self.function_node(function?, height)
+    }
+
+    fn function_node(&mut self, function: Function, height: usize) -> Attempt<Node> {
+        let span = function.span;
+        self.node(ExprKind::Function(Box::new(function)), span, height)
+    }
+
+    /// `function name(x) { … }` as a declaration.
+    pub(super) fn function_declaration(&mut self) -> Attempt<StmtKind> {
+        let place = self.span();
+        let (name, function) = self.function()?;
+        let Some(name) = name else {
+            let report = Diagnostic::error(code::UNEXPECTED, place, "this function has no name")
+                .why("a function that stands alone can only be called by its name")
+                .help("write `function name(x) { … }`, or `const name = (x) => …`");
+            return self.refuse(report);
+        };
+        Ok(StmtKind::Function { name, function: Box::new(function) })
+    }
+
+    /// From `function` to the end of its body.
+    fn function(&mut self) -> Attempt<(Option<Name>, Function)> {
+        let start = self.bump();
+        if self.is("*") {
+            let span = self.span();
+            return self.refuse(refuse::member_function(span));
+        }
+        let name = match self.peek() {
+            Tok::Word(_) => Some(self.new_name("the name of the function")?),
+            _ => None,
+        };
+        let Some(opener) = self.eat("(") else {
+            let report = Diagnostic::error(
+                code::UNEXPECTED,
+                self.span(),
+                format!("expected `(`, found {}", self.shown()),
+            )
+            .help("write the parameters in parentheses, as `function f(x) { … }`");
+            return self.refuse(report);
+        };
+        let params = self.parameters(opener)?;
+        if !self.is("{") {
+            let report = Diagnostic::error(
+                code::UNEXPECTED,
+                self.span(),
+                format!("expected `{{`, found {}", self.shown()),
+            )
+            .help("write what the function does in braces, as `function f(x) { return 2 * x }`");
+            return self.refuse(report);
+        }
+        let body = Body::Block(self.block()?);
+        Ok((name, Function { params, body, span: start.to(self.last_span()) }))
+    }
+
+    /// Parameters behind their opening parenthesis, with the closing one.
+    fn parameters(&mut self, opener: Span) -> Attempt<Vec<Element>> {
+        let mut params = Vec::new();
+        while self.eat(")").is_none() {
+            if self.is("...") {
+                let span = self.span();
+                return self.refuse(refuse::rest(span));
+            }
+            params.push(self.element()?);
+            if self.eat(",").is_some() || self.is(")") {
+                continue;
+            }
+            let last = self.last_span();
+            let report = self.unclosed(opener, ")", last);
+            self.diagnostics.extend(report);
+            return Err(Reported);
+        }
+        if params.len() > MAX_PARAMS {
+            let span = opener.to(self.last_span());
+            let message = format!("a function of {} parameters", params.len());
+            let report = Diagnostic::error(code::ARGUMENT_COUNT, span, message)
+                .why(format!("at most {MAX_PARAMS} are allowed"))
+                .help("pass a list or a record");
+            return self.refuse(report);
+        }
+        Ok(params)
+    }
+
+    /// `name`, `[a, b]` or `{a, b}`, with or without `= default`.
+    fn element(&mut self) -> Attempt<Element> {
+        let target = self.pattern("a parameter")?;
+        let default = match self.eat("=") {
+            Some(_) => Some(self.expression(ASSIGNMENT)?.expr),
+            None => None,
+        };
+        Ok(Element { target, default })
+    }
+
+    /// What a declaration names.
+    pub(super) fn pattern(&mut self, what: &str) -> Attempt<Pattern> {
+        if self.depth >= MAX_DEPTH {
+            let span = self.span();
+            return self.too_deep(span);
+        }
+        self.depth += 1;
+        let pattern = match self.peek() {
+            Tok::Symbol("[") => self.list_pattern(),
+            Tok::Symbol("{") => self.record_pattern(),
+            _ => self.new_name(what).map(Pattern::Name),
+        };
+        self.depth -= 1;
+        pattern
+    }
+
+    fn list_pattern(&mut self) -> Attempt<Pattern> {
+        let opener = self.bump();
+        let mut items = Vec::new();
+        loop {
+            if let Some(closer) = self.eat("]") {
+                return Ok(Pattern::List { items, span: opener.to(closer) });
+            }
+            if self.eat(",").is_some() {
+                items.push(None);
+                continue;
+            }
+            if self.is("...") {
+                let span = self.span();
+                return self.refuse(refuse::rest(span));
+            }
+            items.push(Some(self.element()?));
+            if self.eat(",").is_none() && !self.is("]") {
+                let last = self.last_span();
+                let report = self.unclosed(opener, "]", last);
+                self.diagnostics.extend(report);
+                return Err(Reported);
+            }
+        }
+    }
+
+    fn record_pattern(&mut self) -> Attempt<Pattern> {
+        let opener = self.bump();
+        let mut entries = Vec::new();
+        loop {
+            if let Some(closer) = self.eat("}") {
+                return Ok(Pattern::Record { entries, span: opener.to(closer) });
+            }
+            if self.is("...") {
+                let span = self.span();
+                return self.refuse(refuse::rest(span));
+            }
+            let span = self.span();
+            let Tok::Word(text) = self.peek() else {
+                let report = Diagnostic::error(
+                    code::UNEXPECTED,
+                    span,
+                    format!("expected a key, found {}", self.shown()),
+                )
+                .help("write the keys to take, as `const {kinetic, potential} = lib.energy()`");
+                return self.refuse(report);
+            };
+            let key = Name { text: text.clone(), span };
+            let renamed = *self.peek_at(1) == Tok::Symbol(":");
+            let element = if renamed {
+                self.bump();
+                self.bump();
+                self.element()?
+            } else {
+                self.element()?
+            };
+            entries.push((key, element));
+            if self.eat(",").is_none() && !self.is("}") {
+                let last = self.last_span();
+                let report = self.unclosed(opener, "}", last);
+                self.diagnostics.extend(report);
+                return Err(Reported);
+            }
+        }
+    }
+
+    /// A name that is being given.
+    pub(super) fn new_name(&mut self, what: &str) -> Attempt<Name> {
+        let span = self.span();
+        let text = match self.peek() {
+            Tok::Word(word) => word.clone(),
+            Tok::Bad => return Err(Reported),
+            _ => {
+                let report = Diagnostic::error(
+                    code::UNEXPECTED,
+                    span,
+                    format!("expected {what}, found {}", self.shown()),
+                )
+                .help("write a name, as `angle`");
+                return self.refuse(report);
+            }
+        };
+        if refuse::is_reserved(&text) {
+            let report = Diagnostic::error(
+                code::NAME_TAKEN,
+                span,
+                format!("`{text}` is a word of the language, not a name"),
+            )
+            .help("choose another name");
+            return self.refuse(report);
+        }
+        self.bump();
+        Ok(Name { text, span })
+    }
+
+    /// `{ … }` as statements.
+    pub(super) fn block(&mut self) -> Attempt<Vec<Stmt>> {
+        let opener = self.bump();
+        let statements = self.statements_up_to("}");
+        if self.eat("}").is_none() {
+            let report = Diagnostic::error(code::UNCLOSED, opener, "this `{` is never closed")
+                .why("everything behind it is part of the block")
+                .help("write `}` where the block ends");
+            return self.refuse(report);
+        }
+        Ok(statements)
+    }
+}

@@ -1,0 +1,494 @@
+//! The machine: flat operations on two files of registers, one of doubles and one of values of any type.
+//!
+//! A boolean lives in a number register as 1 or 0; `lower` knows which it is. Constants stand in registers
+//! before the first operation of a function. Every jump back and every call counts as a step, so every run ends.
+
+mod code;
+mod parts;
+
+pub(crate) use code::{Code, CodeUnit, Num, Op, Slot, Val};
+
+use std::sync::Arc;
+
+use crate::code as codes;
+use crate::diagnostic::Span;
+use crate::heap::{MAX_TEXT, Object};
+use crate::ir;
+use crate::natives::{self, Env, Trouble};
+use crate::number;
+use crate::operators::BinaryOp;
+use crate::program::{Context, EventKind, Host, RuntimeError, RuntimeEvent};
+use crate::schema::FieldKey;
+use crate::value::{Value, View, truthy};
+
+/// Steps that a run may take: turns of loops, calls, elements that methods go through.
+pub(crate) const MAX_STEPS: u64 = 10_000_000;
+/// What a call of the host counts, which may be a whole step of the simulation.
+const HOST_CALL: usize = 100;
+/// Functions that may call each other, one inside the other.
+const MAX_CALLS: usize = 200;
+/// Registers for what is handed to a function.
+const HANDED: usize = 64;
+
+/// Runs a program once.
+pub(crate) fn run(
+    code: &Arc<Code>,
+    host: &mut dyn Host,
+    context: &mut Context,
+    input: Option<&Value>,
+) -> Result<Value, RuntimeError> {
+    context.events.clear();
+    if context.heap.wants_collection() {
+        context.collect(&[]);
+    }
+    // Registers are taken out while running, so that the rest of the context stays usable.
+    let numbers = std::mem::take(&mut context.numbers);
+    let values = std::mem::take(&mut context.values);
+    let mut machine = Machine { host, context, input, numbers, values, budget: MAX_STEPS, depth: 0 };
+    let result = machine.whole(code);
+    let Machine { numbers, values, .. } = machine;
+    context.numbers = numbers;
+    context.values = values;
+    result
+}
+
+/// Where the registers of a function start.
+#[derive(Clone, Copy)]
+struct Frame {
+    n: usize,
+    v: usize,
+}
+
+/// The state of a run. Registers and jump targets come from `lower`, which gives out only existing ones.
+struct Machine<'a> {
+    host: &'a mut dyn Host,
+    context: &'a mut Context,
+    input: Option<&'a Value>,
+    numbers: Vec<f64>,
+    values: Vec<Value>,
+    budget: u64,
+    depth: usize,
+}
+
+/// Where something went wrong.
+type Failed = Result<(), Box<RuntimeError>>;
+
+impl Machine<'_> {
+    fn whole(&mut self, code: &Arc<Code>) -> Result<Value, RuntimeError> {
+        let Some(unit) = code.units.first() else { return Ok(Value::Undefined) };
+        let frame = Frame { n: 0, v: 0 };
+        self.make_room(unit, frame);
+        self.execute(code, unit, frame).map_err(|e| *e)?;
+        Ok(self.taken(unit.result, frame))
+    }
+
+    /// What a function left as its result.
+    fn taken(&self, slot: Slot, frame: Frame) -> Value {
+        match slot {
+            Slot::Number => Value::Number(self.num(frame, Num(0))),
+            Slot::Boolean => Value::Boolean(self.num(frame, Num(0)) != 0.0),
+            Slot::Value => self.val(frame, Val(0)).clone(),
+        }
+    }
+
+    fn make_room(&mut self, unit: &CodeUnit, frame: Frame) {
+        let numbers = frame.n + unit.number_count as usize + HANDED;
+        if self.numbers.len() < numbers {
+            self.numbers.resize(numbers, 0.0);
+        }
+        let values = frame.v + unit.value_count as usize + HANDED;
+        if self.values.len() < values {
+            self.values.resize(values, Value::Undefined);
+        }
+    }
+
+    #[inline]
+    fn num(&self, f: Frame, register: Num) -> f64 {
+        self.numbers[f.n + register.0 as usize]
+    }
+
+    #[inline]
+    fn val(&self, f: Frame, register: Val) -> &Value {
+        &self.values[f.v + register.0 as usize]
+    }
+
+    #[inline]
+    fn put(&mut self, f: Frame, register: Num, x: f64) {
+        self.numbers[f.n + register.0 as usize] = x;
+    }
+
+    #[inline]
+    fn put_value(&mut self, f: Frame, register: Val, value: Value) {
+        self.values[f.v + register.0 as usize] = value;
+    }
+
+    /// Runs a function whose parameters stand in their registers.
+    fn execute(&mut self, code: &Arc<Code>, unit: &CodeUnit, f: Frame) -> Failed {
+        for &(register, x) in &unit.numbers {
+            self.put(f, register, x);
+        }
+        for (register, value) in &unit.values {
+            self.put_value(f, *register, value.clone());
+        }
+        let mut at = 0;
+        while let Some(&op) = unit.ops.get(at) {
+            at += 1;
+            match op {
+                Op::Jump(to) => at = to as usize,
+                Op::JumpIf(when, test, to) => {
+                    if truthy(self.num(f, test)) == when {
+                        at = to as usize;
+                    }
+                }
+                Op::JumpIfNothing(when, value, to) => {
+                    if self.val(f, value).is_nothing() == when {
+                        at = to as usize;
+                    }
+                }
+                Op::Again(to) => {
+                    if self.budget == 0 {
+                        return Err(failure(natives::out_of_steps(), unit, at - 1));
+                    }
+                    self.budget -= 1;
+                    at = to as usize;
+                }
+                Op::Return => return Ok(()),
+
+                Op::Load(dst, field, index) => match self.host.get(field, index as usize) {
+                    Some(x) => self.put(f, dst, x),
+                    None => {
+                        let view = View::new(field, 0, None);
+                        self.note(EventKind::ReadPastEnd, unit, at - 1, view, f64::from(index));
+                        self.put(f, dst, f64::NAN);
+                    }
+                },
+                Op::LoadAt(dst, view, index) => {
+                    let x = self.element(view, self.num(f, index), unit, at - 1).unwrap_or(f64::NAN);
+                    self.put(f, dst, x);
+                }
+                Op::Add(dst, a, b) => self.put(f, dst, self.num(f, a) + self.num(f, b)),
+                Op::Subtract(dst, a, b) => self.put(f, dst, self.num(f, a) - self.num(f, b)),
+                Op::Multiply(dst, a, b) => self.put(f, dst, self.num(f, a) * self.num(f, b)),
+                Op::Divide(dst, a, b) => self.put(f, dst, self.num(f, a) / self.num(f, b)),
+                Op::Less(dst, a, b) => self.put(f, dst, truth(self.num(f, a) < self.num(f, b))),
+                Op::Binary(dst, op, a, b) => self.put(f, dst, op.on_numbers(self.num(f, a), self.num(f, b))),
+                Op::Negate(dst, a) => self.put(f, dst, -self.num(f, a)),
+                Op::Not(dst, a) => self.put(f, dst, truth(!truthy(self.num(f, a)))),
+                Op::BitNot(dst, a) => self.put(f, dst, f64::from(!number::to_int32(self.num(f, a)))),
+                Op::Move(dst, src) => self.put(f, dst, self.num(f, src)),
+                Op::Math(dst, function, first, count) => {
+                    let first = f.n + first.0 as usize;
+                    let x = function.apply(&self.numbers[first..first + count as usize]);
+                    self.put(f, dst, x);
+                }
+                Op::PassNumber(k, src) => {
+                    let x = self.num(f, src);
+                    self.numbers[f.n + (unit.number_count + k) as usize] = x;
+                }
+                Op::PassValue(k, src) => {
+                    let value = self.val(f, src).clone();
+                    self.values[f.v + (unit.value_count + k) as usize] = value;
+                }
+                Op::Call(callee) => self.call(code, callee, unit, f, at - 1)?,
+                Op::TakeNumber(dst) => {
+                    let x = self.numbers[f.n + unit.number_count as usize];
+                    self.put(f, dst, x);
+                }
+                Op::TakeValue(dst) => {
+                    let value = std::mem::take(&mut self.values[f.v + unit.value_count as usize]);
+                    self.put_value(f, dst, value);
+                }
+                _ => {
+                    if let Err(trouble) = self.step(op, code, unit, f, at - 1) {
+                        return Err(match trouble {
+                            Stop::Here(trouble) => failure(trouble, unit, at - 1),
+                            Stop::Inside(error) => error,
+                        });
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Calls a function of the same text; what it gets is already in its registers.
+    fn call(&mut self, code: &Arc<Code>, callee: u32, unit: &CodeUnit, f: Frame, at: usize) -> Failed {
+        let frame = Frame { n: f.n + unit.number_count as usize, v: f.v + unit.value_count as usize };
+        let Some(callee) = code.units.get(callee as usize) else { return Ok(()) };
+        if let Err(trouble) = self.enter() {
+            return Err(failure(trouble, unit, at));
+        }
+        self.make_room(callee, frame);
+        let result = self.execute(code, callee, frame);
+        self.depth -= 1;
+        result
+    }
+
+    /// Counts a call.
+    fn enter(&mut self) -> Result<(), Trouble> {
+        if self.depth >= MAX_CALLS {
+            let message =
+                format!("functions call each other more than {MAX_CALLS} times, one inside the other");
+            return Err(Trouble::new(codes::CALL_DEPTH, message));
+        }
+        self.budget = self.budget.checked_sub(1).ok_or_else(natives::out_of_steps)?;
+        self.depth += 1;
+        Ok(())
+    }
+
+    /// What natives work with.
+    fn env<'e>(&'e mut self, code: &'e Code) -> Env<'e> {
+        Env { heap: &mut self.context.heap, host: self.host, views: &code.views, budget: &mut self.budget }
+    }
+
+    /// Collects what no register and no variable refers to any more.
+    fn tidy(&mut self) {
+        if self.context.heap.wants_collection() {
+            let input = self.input.cloned();
+            self.values.extend(input);
+            self.context.collect(&self.values);
+            if self.input.is_some() {
+                self.values.pop();
+            }
+        }
+    }
+
+    /// Everything but jumps, calls and plain arithmetic.
+    fn step(&mut self, op: Op, code: &Arc<Code>, unit: &CodeUnit, f: Frame, at: usize) -> Result<(), Stop> {
+        match op {
+            Op::LoadValueAt(dst, view, index) => {
+                let x = self.element(view, self.num(f, index), unit, at);
+                self.put_value(f, dst, x.map_or(Value::Undefined, Value::Number));
+            }
+            Op::Length(dst, view) => self.put(f, dst, self.length(view) as f64),
+            Op::Input(dst) => self.put_value(f, dst, self.input.cloned().unwrap_or_default()),
+            Op::Global(dst, slot) => self.put_value(f, dst, self.context.get(slot).clone()),
+            Op::GlobalNumber(dst, slot) => {
+                let value = self.context.get(slot).clone();
+                let x = self.env(code).number(&value)?;
+                self.put(f, dst, x);
+            }
+            Op::GlobalNamed(dst, name) => {
+                let name = self.val(f, name).clone();
+                let name = self.env(code).text(&name)?;
+                self.put_value(f, dst, self.context.get_named(&name));
+            }
+            Op::Aggregate(dst, slot) => {
+                self.put(f, dst, self.context.aggregates.get(slot as usize).copied().unwrap_or(f64::NAN));
+            }
+
+            Op::MoveValue(dst, src) => self.put_value(f, dst, self.val(f, src).clone()),
+            Op::BoxNumber(dst, src) => self.put_value(f, dst, Value::Number(self.num(f, src))),
+            Op::BoxBoolean(dst, src) => self.put_value(f, dst, Value::Boolean(self.num(f, src) != 0.0)),
+            Op::ToNumber(dst, src) => {
+                let x = match self.val(f, src) {
+                    Value::Number(x) => *x,
+                    value => {
+                        let value = value.clone();
+                        self.env(code).number(&value)?
+                    }
+                };
+                self.put(f, dst, x);
+            }
+            Op::ToIndex(dst, src) => self.put(f, dst, index_of(self.val(f, src))),
+            Op::Truthy(dst, src) => self.put(f, dst, truth(self.val(f, src).truthy())),
+            Op::ToText(dst, src) => {
+                let value = self.val(f, src).clone();
+                let mut env = self.env(code);
+                let text = env.text(&value)?;
+                let text = env.string(text)?;
+                self.put_value(f, dst, text);
+            }
+            Op::TypeOf(dst, src) => {
+                let name = ir::type_name(self.val(f, src));
+                self.put_value(f, dst, Value::from(name));
+            }
+            Op::Plus(dst, a, b) => {
+                let sum = self.plus(code, f, a, b)?;
+                self.put_value(f, dst, sum);
+            }
+            Op::Compare(dst, op, a, b) => {
+                let holds = self.compare(code, f, op, a, b)?;
+                self.put(f, dst, truth(holds));
+            }
+
+            Op::CallHost(dst, function, first, count) => {
+                self.env(code).spend(HOST_CALL)?;
+                let first = f.v + first.0 as usize;
+                let args = &self.values[first..first + count as usize];
+                let result = self.host.call(&mut self.context.heap, function, args);
+                let result = result.map_err(|message| Trouble::new(codes::HOST_CALL, message))?;
+                self.put_value(f, dst, result);
+            }
+            Op::Store(field, index, src) => self.store(field, index as usize, self.num(f, src))?,
+            Op::StoreAt(view, index, src) => {
+                let written = self.num(f, index);
+                match self.position(view, written) {
+                    Some(index) => self.store(view.field, index, self.num(f, src))?,
+                    None => self.note(EventKind::StorePastEnd, unit, at, view, written),
+                }
+            }
+            Op::StoreGlobal(slot, src) => {
+                let value = self.val(f, src).clone();
+                self.check_kept(&value)?;
+                self.context.set(slot, value);
+            }
+            Op::StoreGlobalNamed(name, src) => {
+                let name = self.val(f, name).clone();
+                let name = self.env(code).text(&name)?;
+                let value = self.val(f, src).clone();
+                self.check_kept(&value)?;
+                if !self.context.set_named(&name, value) {
+                    return Err(Trouble::new(codes::MEMORY, "too many variables with computed names").into());
+                }
+            }
+            Op::Fill(view, src) => {
+                for index in 0..self.length(view) {
+                    self.store(view.field, view.first as usize + index, self.num(f, src))?;
+                }
+            }
+            _ => self.part(op, code, unit, f, at)?,
+        }
+        Ok(())
+    }
+
+    /// Refuses to keep an array of the simulation in `ctx`.
+    fn check_kept(&self, value: &Value) -> Result<(), Trouble> {
+        if matches!(value, Value::View(_)) {
+            return Err(Trouble::new(
+                codes::WHOLE_ARRAY,
+                "an array of the simulation cannot be kept in `ctx`; keep a copy, as `data.qpos.slice()`",
+            ));
+        }
+        Ok(())
+    }
+
+    fn plus(&mut self, code: &Code, f: Frame, a: Val, b: Val) -> Result<Value, Trouble> {
+        let (a, b) = (self.val(f, a), self.val(f, b));
+        if let (Value::Number(a), Value::Number(b)) = (a, b) {
+            return Ok(Value::Number(a + b));
+        }
+        let length = a.text_len() + b.text_len();
+        if length > MAX_TEXT {
+            return Err(natives::too_long());
+        }
+        if a.is_primitive() && b.is_primitive() {
+            let sum = a.plus(b);
+            self.env(code).spend(length / 16)?;
+            return Ok(sum);
+        }
+        let (a, b) = (a.clone(), b.clone());
+        let mut env = self.env(code);
+        let text = env.text(&a)? + &env.text(&b)?;
+        env.string(text)
+    }
+
+    fn compare(&mut self, code: &Code, f: Frame, op: BinaryOp, a: Val, b: Val) -> Result<bool, Trouble> {
+        let (a, b) = (self.val(f, a), self.val(f, b));
+        let strict = matches!(op, BinaryOp::StrictEqual | BinaryOp::StrictNotEqual);
+        let plain = a.is_primitive() && b.is_primitive();
+        let equality = op.power() == 8;
+        // Things are equal when they are the same thing, and never equal to nothing.
+        let things = equality && (!a.is_primitive() && !b.is_primitive() || a.is_nothing() || b.is_nothing());
+        if plain || strict || things {
+            return Ok(op.on_values(a, b).truthy());
+        }
+        let (a, b) = (a.clone(), b.clone());
+        let mut env = self.env(code);
+        let mut primitive = |v: Value| -> Result<Value, Trouble> {
+            if v.is_primitive() { Ok(v) } else { Ok(Value::String(env.text(&v)?.into())) }
+        };
+        let (a, b) = (primitive(a)?, primitive(b)?);
+        Ok(op.on_values(&a, &b).truthy())
+    }
+
+    /// Number of elements of a view, now.
+    fn length(&self, view: View) -> usize {
+        view.count().unwrap_or_else(|| self.host.len(view.field).saturating_sub(view.first as usize))
+    }
+
+    /// The element of the whole field at index `written` of a view, `None` when there is none.
+    fn position(&self, view: View, written: f64) -> Option<usize> {
+        let index = whole_index(written)?;
+        if index < self.length(view) { (view.first as usize).checked_add(index) } else { None }
+    }
+
+    #[inline]
+    fn element(&mut self, view: View, written: f64, unit: &CodeUnit, at: usize) -> Option<f64> {
+        let found = self.position(view, written).and_then(|index| self.host.get(view.field, index));
+        if found.is_none() {
+            self.note(EventKind::ReadPastEnd, unit, at, view, written);
+        }
+        found
+    }
+
+    fn store(&mut self, field: FieldKey, index: usize, x: f64) -> Result<(), Trouble> {
+        self.host.set(field, index, x).map_err(|message| Trouble::new(codes::HOST_STORE, message))
+    }
+
+    #[cold]
+    fn note(&mut self, kind: EventKind, unit: &CodeUnit, at: usize, view: View, index: f64) {
+        let len = self.length(view);
+        self.context.note(RuntimeEvent { kind, span: span_of(unit, at), field: view.field, index, len });
+    }
+}
+
+/// Why a step ends the run.
+enum Stop {
+    Here(Trouble),
+    /// In a function that it called.
+    Inside(Box<RuntimeError>),
+}
+
+impl From<Trouble> for Stop {
+    fn from(trouble: Trouble) -> Stop {
+        Stop::Here(trouble)
+    }
+}
+
+impl From<crate::heap::Full> for Stop {
+    fn from(full: crate::heap::Full) -> Stop {
+        Stop::Here(full.into())
+    }
+}
+
+fn truth(holds: bool) -> f64 {
+    f64::from(u8::from(holds))
+}
+
+/// A number as an index: whole and not negative.
+#[inline]
+fn whole_index(written: f64) -> Option<usize> {
+    // The comparison is false for NaN; a fraction does not survive the round trip.
+    let index = if written >= 0.0 { written as usize } else { return None };
+    (index as f64 == written).then_some(index)
+}
+
+/// The index that a value means as the key of an element: `"1"` is 1, `null` and `"01"` are none.
+fn index_of(value: &Value) -> f64 {
+    match value {
+        Value::Number(x) => *x,
+        Value::String(text) => {
+            let x = number::from_text(text);
+            if number::to_text(x) == **text { x } else { f64::NAN }
+        }
+        _ => f64::NAN,
+    }
+}
+
+fn span_of(unit: &CodeUnit, at: usize) -> Span {
+    unit.spans.get(at).copied().unwrap_or_default()
+}
+
+#[cold]
+fn failure(trouble: Trouble, unit: &CodeUnit, at: usize) -> Box<RuntimeError> {
+    Box::new(RuntimeError { code: trouble.code, span: span_of(unit, at), message: trouble.message })
+}
+
+/// What a value is, for a message.
+fn what(value: &Value, object: &Object) -> String {
+    match (value, object) {
+        (Value::Undefined | Value::Null, _) => value.to_string(),
+        _ => value.type_of().describe().to_owned(),
+    }
+}
