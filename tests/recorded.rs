@@ -138,6 +138,7 @@ fn compiled(m: &Model, recording: &Value) -> Verdict {
         for (field, values) in objects(&recording[part]) {
             let Some(id) = reflect::field(object, field) else { continue };
             let (ours, theirs) = (list(m, &d, id), numbers(values));
+            let [ours, theirs] = [ours, theirs].map(|list| without_order(field, list));
             let scale = largest(&theirs).max(COMPILED_ZERO / tolerance);
             worst = worst.max(note(&mut found, "", field, &ours, &theirs, scale, tolerance));
         }
@@ -161,6 +162,28 @@ fn compiled(m: &Model, recording: &Value) -> Verdict {
         }
     }
     Verdict::of(found, worst)
+}
+
+/// Hulls are found in another order, and flat sides of more than three corners are cut otherwise: what counts is which
+/// vertices they have.
+fn without_order(field: &str, list: Vec<f64>) -> Vec<f64> {
+    let mut vertices: Vec<f64> = Vec::new();
+    match field {
+        "mesh_face" | "mesh_facenormal" => vertices = list,
+        "mesh_graph" => {
+            // Numbers of vertices and triangles, addresses, vertices, lists of neighbours, triangles.
+            let mut rest = list.as_slice();
+            while let [n, f, after @ ..] = rest {
+                let (n, f) = (*n as usize, *f as usize);
+                vertices.extend(after.iter().skip(n).take(n));
+                rest = after.get(3 * n + 6 * f..).unwrap_or(&[]);
+            }
+        }
+        _ => return list,
+    }
+    vertices.sort_by(f64::total_cmp);
+    vertices.dedup();
+    vertices
 }
 
 /// The kind of object that MuJoCo calls by this name.

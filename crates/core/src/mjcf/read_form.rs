@@ -93,7 +93,7 @@ pub(crate) fn check(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool
         cx.report
             .error(code::GEOM, span("type"), format!("{owner} has no `{asset}`"))
             .why(format!("its shape is that of the asset: `{asset}` names it"))
-            .help(format!("write `{asset}=\"…\"` with the name of an `{asset}` in `asset`"));
+            .help(format!("write `{asset}=\"…\"` with the name that it has in `asset`"));
         return false;
     }
     let what = |kind: i32| shapes::of(kind).map_or("shape", |s| s.name);

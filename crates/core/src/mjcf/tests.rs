@@ -1,5 +1,6 @@
 //! Tests of the compiler as a whole.
 
+mod assets;
 mod golden;
 mod hostile;
 mod mistakes;

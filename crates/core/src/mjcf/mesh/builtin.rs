@@ -37,7 +37,12 @@ pub(crate) fn make(rule: &str, params: &[f64]) -> Result<(Raw, bool), Problem> {
     if params.len() != names.len() {
         return Err(Problem::new(
             "params",
-            format!("has {} parameters, `{rule}` takes {}: {}", params.len(), names.len(), names.join(", ")),
+            format!(
+                "has {} of the {} parameters of `{rule}`: {}",
+                params.len(),
+                names.len(),
+                names.join(", ")
+            ),
             "",
             "write that many numbers",
         ));
@@ -141,20 +146,26 @@ fn sphere(subdivision: usize) -> Raw {
         let mut middles: BTreeMap<(i32, i32), i32> = BTreeMap::new();
         let mut finer = Vec::with_capacity(4 * face.len());
         for [a, b, c] in face {
-            let mut middle = |a: i32, b: i32| {
+            let mut cut = |a: i32, b: i32| {
                 *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
                     let corner = |i: i32| vert.get(i as usize).copied().unwrap_or_default();
-                    let (a, b) = (corner(a), corner(b));
-                    vert.push(normalize(std::array::from_fn(|i| 0.5 * (a[i] + b[i]))).0);
+                    vert.push(middle(corner(a), corner(b)));
                     vert.len() as i32 - 1
                 })
             };
-            let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+            let (ab, bc, ca) = (cut(a, b), cut(b, c), cut(c, a));
             finer.extend([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]);
         }
         face = finer;
     }
     Raw { vert, face, ..Raw::default() }
+}
+
+/// The point on the unit sphere between two others, in single precision as MuJoCo has it.
+fn middle(a: Vec3, b: Vec3) -> Vec3 {
+    let m = [0, 1, 2].map(|i| 0.5 * (a[i] as f32 + b[i] as f32));
+    let length = (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]).sqrt();
+    m.map(|x| f64::from(x / length))
 }
 
 /// Half an octahedron of `resolution` + 1 rings, blown up to the sphere, with a lid.

@@ -32,6 +32,13 @@ fn before(sections: &str) -> String {
     format!("<mujoco>{sections}<worldbody/></mujoco>")
 }
 
+/// A mesh with these attributes, and a body of it.
+fn mesh(attributes: &str) -> String {
+    format!(
+        "<mujoco><asset>\n<mesh name=\"m\" {attributes}/></asset><worldbody>\n<geom type=\"mesh\" mesh=\"m\"/></worldbody></mujoco>"
+    )
+}
+
 /// A moving body, then what follows the world.
 fn after(sections: &str) -> String {
     format!(
@@ -91,6 +98,22 @@ mistakes! {
     attribute_misspelt: world("<geom size=\"1\" fricton=\"1\"/>");
     attribute_of_world: "<mujoco><worldbody name=\"w\"/></mujoco>";
     attribute_not_supported: before("<compiler alignfree=\"true\"/>");
+    mesh_missing: world("<geom type=\"mesh\"/>");
+    mesh_with_three_vertices: mesh("vertex=\"0 0 0 1 0 0 0 1 0\"");
+    mesh_flat: mesh("vertex=\"0 0 0 1 0 0 0 1 0 1 1 0\"");
+    mesh_face_beyond_vertices: mesh("vertex=\"0 0 0 1 0 0 0 1 0 0 0 1\" face=\"0 1 4\"");
+    mesh_half_a_vertex: mesh("vertex=\"0 0 0 1 0 0 0 1 0 0 0 1 2\"");
+    mesh_inside_out: mesh("vertex=\"0 0 0 1 0 0 0 1 0 0 0 1\" face=\"0 1 2 0 3 1 0 2 3 1 3 2\" inertia=\"exact\"");
+    mesh_triangles_differ: mesh("vertex=\"0 0 0 1 0 0 0 1 0 0 0 1\" face=\"0 1 2 0 1 3 0 3 2 1 2 3\" inertia=\"exact\"");
+    mesh_too_small: mesh("vertex=\"0 0 0 1 0 0 0 1 0 0 0 1\" scale=\"1e-6 1e-6 1e-6\"");
+    mesh_two_sources: mesh("vertex=\"0 0 0 1 0 0 0 1 0 0 0 1\" builtin=\"sphere\" params=\"1\"");
+    mesh_rule_unknown: mesh("builtin=\"ball\" params=\"1\"");
+    mesh_rule_parameters: mesh("builtin=\"cone\" params=\"4\"");
+    mesh_file_without_folder: mesh("file=\"a.obj\"");
+    mesh_with_fromto: "<mujoco><asset>\n<mesh name=\"m\" builtin=\"sphere\" params=\"1\"/></asset><worldbody>\n<geom type=\"box\" mesh=\"m\" fromto=\"0 0 0 1 1 1\"/></worldbody></mujoco>";
+    hfield_without_rows: before("<asset><hfield name=\"h\" size=\"1 1 1 1\"/></asset>");
+    hfield_elevations_missing: before("<asset><hfield name=\"h\" nrow=\"2\" ncol=\"3\" size=\"1 1 1 1\" elevation=\"1 2 3\"/></asset>");
+    hfield_without_height: before("<asset><hfield name=\"h\" nrow=\"2\" ncol=\"3\" size=\"1 1 0 1\"/></asset>");
     geom_type_not_supported: world("<geom type=\"sdf\" size=\"1 1\"/>");
     keyword_misspelt: before("<option integrator=\"euler\"/>");
     integrator_unknown: before("<option integrator=\"midpoint\"/>");

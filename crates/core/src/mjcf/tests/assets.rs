@@ -1,0 +1,117 @@
+//! Meshes and height fields from files: damaged, hostile, large.
+
+use std::collections::BTreeMap;
+
+use crate::mjcf::{compile_with, files::Files};
+use crate::{Data, Model, step};
+
+fn load(asset: &str, geom: &str, file: &str, bytes: &[u8]) -> Result<Model, String> {
+    let files = BTreeMap::from([(file.to_string(), bytes.to_vec())]);
+    let xml = format!(
+        "<mujoco><asset>{asset}</asset><worldbody><geom {geom}/><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>"
+    );
+    compile_with(&xml, &files as &dyn Files, None).map_err(|list| list[0].message.clone())
+}
+
+fn mesh(file: &str, bytes: &[u8]) -> Result<Model, String> {
+    load(&format!("<mesh name='m' file='{file}'/>"), "type='mesh' mesh='m'", file, bytes)
+}
+
+fn words(list: &[f32]) -> impl Iterator<Item = u8> + '_ {
+    list.iter().flat_map(|x| x.to_le_bytes())
+}
+
+const CORNERS: [[f32; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.5]];
+const FACES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+
+fn stl() -> Vec<u8> {
+    let mut bytes = vec![0; 80];
+    bytes.extend(4_i32.to_le_bytes());
+    for face in FACES {
+        bytes.extend([0; 12]);
+        bytes.extend(face.iter().flat_map(|&v| words(&CORNERS[v]).collect::<Vec<u8>>()));
+        bytes.extend([0; 2]);
+    }
+    bytes
+}
+
+fn msh() -> Vec<u8> {
+    let mut bytes: Vec<u8> = [4_i32, 0, 0, 4].iter().flat_map(|n| n.to_le_bytes()).collect();
+    bytes.extend(words(CORNERS.as_flattened()));
+    bytes.extend(FACES.as_flattened().iter().flat_map(|&v| (v as i32).to_le_bytes()));
+    bytes
+}
+
+fn hfield() -> Vec<u8> {
+    let mut bytes: Vec<u8> = [2_i32, 3].iter().flat_map(|n| n.to_le_bytes()).collect();
+    bytes.extend(words(&[0.0, 1.0, 2.0, 3.0, 1.0, 0.0]));
+    bytes
+}
+
+const OBJ: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1.5\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+fn field(bytes: &[u8]) -> Result<Model, String> {
+    load("<hfield name='h' file='h.bin' size='1 1 1 1'/>", "type='hfield' hfield='h'", "h.bin", bytes)
+}
+
+#[test]
+fn three_formats_are_one_mesh() {
+    let [obj, stl, msh] = [("a.obj", OBJ.to_vec()), ("a.STL", stl()), ("a.msh", msh())]
+        .map(|(name, bytes)| mesh(name, &bytes).unwrap());
+    for other in [&stl, &msh] {
+        for (a, b) in obj.mesh_pos.iter().zip(&other.mesh_pos) {
+            assert!((a - b).abs() < 1e-15);
+        }
+        assert_eq!((obj.nmeshvert, obj.nmeshface), (other.nmeshvert, other.nmeshface));
+    }
+}
+
+/// A file that is cut off anywhere, or has any byte changed, is refused or is a mesh that can be simulated.
+#[test]
+fn damaged_files_do_no_harm() {
+    let go = |model: Result<Model, String>| {
+        if let Ok(m) = model {
+            let mut d = Data::new(&m);
+            (0..3).for_each(|_| step(&m, &mut d));
+        }
+    };
+    for (name, bytes) in [("a.obj", OBJ.to_vec()), ("a.stl", stl()), ("a.msh", msh()), ("h.bin", hfield())] {
+        let load = |bytes: &[u8]| if name == "h.bin" { field(bytes) } else { mesh(name, bytes) };
+        assert!(load(&bytes).is_ok(), "{name}");
+        for end in 0..bytes.len() {
+            let cut = load(&bytes[..end]);
+            assert!(cut.is_err() || name == "a.obj", "{name} {end}");
+        }
+        for at in 0..bytes.len() {
+            for change in [0x80, 0x7f, 0xff] {
+                let mut damaged = bytes.clone();
+                damaged[at] ^= change;
+                go(load(&damaged));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_large_mesh_is_ready_in_seconds() {
+    let start = std::time::Instant::now();
+    let n = 100_000;
+    let mut text = String::new();
+    for i in 0..n {
+        let (h, a) = (1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(n), 2.399_963 * f64::from(i));
+        let r = (1.0 - h * h).sqrt();
+        text += &format!("v {} {} {}\n", r * a.cos(), 0.9 * r * a.sin(), 0.8 * h);
+    }
+    let m = mesh("a.obj", text.as_bytes()).unwrap();
+    assert!(m.mesh_graph[0] > n / 2);
+    assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
+}
+
+#[test]
+fn pictures_and_text_stl_are_told_by_name() {
+    let png = field(b"\x89PNG\r\n\x1a\n").unwrap_err();
+    assert!(png.contains("PNG"), "{png}");
+    let text = mesh("a.stl", b"solid a\nfacet normal 0 0 1\n").unwrap_err();
+    assert!(text.contains("text form"), "{text}");
+    assert!(mesh("a.ply", b"ply").unwrap_err().contains("does not end in"));
+}
