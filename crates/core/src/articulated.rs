@@ -26,10 +26,15 @@ type Wide = [f64; 8];
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Articulated {
     spans: Vec<Span>,
+    /// Whether no tendon's inertia ties bodies of a tree together.
+    untied: bool,
     bodies: Vec<Body>,
     /// Of M, and of M with something added to its diagonal: one for each degree of freedom.
     joints: Vec<Joint>,
     damped: Vec<Joint>,
+    /// What joints add to the diagonal of M, and to that of the other matrix.
+    armature: Vec<f64>,
+    diagonal: Vec<f64>,
 }
 
 /// A tree of many degrees of freedom, or any number of trees of few.
@@ -85,40 +90,43 @@ impl Articulated {
         let (bodies, joints) = if any { (m.nbody, m.nv) } else { (0, 0) };
         Articulated {
             spans,
+            untied: true,
             bodies: vec![Body::default(); bodies],
             joints: vec![Joint::default(); joints],
             damped: vec![Joint::default(); joints],
+            armature: vec![0.0; joints],
+            diagonal: vec![0.0; joints],
         }
     }
 }
 
 impl Tree<'_> {
-    /// U and D of every degree of freedom, `diag` being what the joints add to the diagonal of M. Returns the first
-    /// degree of freedom whose D is not positive.
+    /// U and D of every degree of freedom, with what its joint adds to the diagonal of M. Returns the first degree of
+    /// freedom whose D is not positive.
     #[inline(always)]
     fn factor(
         &self,
         cinert: &[Inertia],
-        diag: impl Fn(usize) -> f64,
+        diagonal: &[f64],
         bodies: &mut [Body],
         joints: &mut [Joint],
     ) -> Option<usize> {
         let mut bad = None;
-        for body in &mut bodies[self.bodies.clone()] {
-            body.inertia = [[0.0; 8]; 6];
+        for (body, inertia) in bodies.iter_mut().zip(cinert).skip(self.bodies.start).take(self.bodies.len()) {
+            set_inertia(&mut body.inertia, inertia);
         }
         for b in self.bodies.clone().rev() {
-            let parent = self.m.body_parentid[b] as usize;
+            let dofs = mass::dofs(self.m, b);
             let (above, rest) = bodies.split_at_mut(b);
             let Some(Body { inertia, .. }) = rest.first_mut() else { continue };
-            add_inertia(inertia, &cinert[b]);
-            for k in mass::dofs(self.m, b).rev() {
-                if eliminate(inertia, &self.cdof[k], diag(k), &mut joints[k]) {
+            let motions = self.cdof[dofs.clone()].iter().zip(&diagonal[dofs.clone()]);
+            for ((k, joint), (s, &diagonal)) in dofs.clone().zip(&mut joints[dofs]).zip(motions).rev() {
+                if eliminate(inertia, s, diagonal, joint) {
                     bad = Some(k);
                 }
             }
             if b > self.bodies.start {
-                add_to(&mut above[parent].inertia, inertia);
+                add_to(&mut above[self.m.body_parentid[b] as usize].inertia, inertia);
             }
         }
         bad
@@ -133,10 +141,11 @@ impl Tree<'_> {
         }
         for b in self.bodies.clone().rev() {
             let mut force = bodies[b].force;
-            for k in mass::dofs(self.m, b).rev() {
-                let Joint { u, inv } = &joints[k];
-                x[k] = (x[k] - dot(wide(&self.cdof[k]), force)) * inv;
-                force = add_scaled(force, *u, x[k]);
+            let dofs = mass::dofs(self.m, b);
+            let motions = self.cdof[dofs.clone()].iter().zip(&joints[dofs.clone()]);
+            for (x, (s, joint)) in x[dofs].iter_mut().zip(motions).rev() {
+                *x = (*x - dot(wide(s), force)) * joint.inv;
+                force = add_scaled(force, joint.u, *x);
             }
             if b > root {
                 let up = &mut bodies[self.m.body_parentid[b] as usize].force;
@@ -146,10 +155,11 @@ impl Tree<'_> {
         for b in self.bodies.clone() {
             let mut a =
                 if b > root { bodies[self.m.body_parentid[b] as usize].acceleration } else { [0.0; 8] };
-            for k in mass::dofs(self.m, b) {
-                let Joint { u, inv } = &joints[k];
-                x[k] -= inv * dot(*u, a);
-                a = add_scaled(a, wide(&self.cdof[k]), x[k]);
+            let dofs = mass::dofs(self.m, b);
+            let motions = self.cdof[dofs.clone()].iter().zip(&joints[dofs.clone()]);
+            for (x, (s, joint)) in x[dofs].iter_mut().zip(motions) {
+                *x -= joint.inv * dot(joint.u, a);
+                a = add_scaled(a, wide(s), *x);
             }
             bodies[b].acceleration = a;
         }
@@ -159,13 +169,15 @@ impl Tree<'_> {
 /// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive.
 pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
     let mut bad = None;
-    // A tendon's inertia ties bodies of a tree together.
-    let alone = !tendon::has_armature(m);
-    let Articulated { spans, bodies, joints, .. } = &mut d.work.articulated;
+    d.work.articulated.untied = !tendon::has_armature(m);
+    let Articulated { spans, untied, bodies, joints, armature, .. } = &mut d.work.articulated;
     for Span { dofs, bodies: range } in spans.iter() {
-        let found = if alone && !range.is_empty() {
+        let found = if *untied && !range.is_empty() {
             let tree = Tree { m, bodies: range.clone(), cdof: rows(&d.cdof) };
-            let found = tree.factor(rows(&d.cinert), |k| mass::armature(m, k), bodies, joints);
+            for k in dofs.clone() {
+                armature[k] = mass::armature(m, k);
+            }
+            let found = tree.factor(rows(&d.cinert), armature, bodies, joints);
             for k in dofs.clone() {
                 let Joint { u, inv } = &joints[k];
                 d.qLDiagInv[k] = *inv;
@@ -187,10 +199,9 @@ pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
 
 /// x ← M⁻¹ x by what [`factor`] has left.
 pub(crate) fn solve(m: &Model, d: &mut Data, x: &mut [f64]) {
-    let alone = !tendon::has_armature(m);
-    let Articulated { spans, bodies, joints, .. } = &mut d.work.articulated;
+    let Articulated { spans, untied, bodies, joints, .. } = &mut d.work.articulated;
     for Span { dofs, bodies: range } in spans.iter() {
-        if alone && !range.is_empty() {
+        if *untied && !range.is_empty() {
             Tree { m, bodies: range.clone(), cdof: rows(&d.cdof) }.solve(bodies, joints, x);
         } else {
             mass::solve(m, &d.qLD, &d.qLDiagInv, x, dofs.clone());
@@ -198,14 +209,16 @@ pub(crate) fn solve(m: &Model, d: &mut Data, x: &mut [f64]) {
     }
 }
 
-/// x ← (M + B)⁻¹ x for a diagonal matrix B (nv).
+/// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after [`factor`].
 pub(crate) fn solve_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
-    let alone = !tendon::has_armature(m);
-    let Articulated { spans, bodies, damped, .. } = &mut d.work.articulated;
+    let Articulated { spans, untied, bodies, damped, armature, diagonal, .. } = &mut d.work.articulated;
     for Span { dofs, bodies: range } in spans.iter() {
-        if alone && !range.is_empty() {
+        if *untied && !range.is_empty() {
             let tree = Tree { m, bodies: range.clone(), cdof: rows(&d.cdof) };
-            tree.factor(rows(&d.cinert), |k| mass::armature(m, k) + b[k], bodies, damped);
+            for (sum, (armature, b)) in diagonal.iter_mut().zip(armature.iter().zip(b)) {
+                *sum = armature + b;
+            }
+            tree.factor(rows(&d.cinert), diagonal, bodies, damped);
             tree.solve(bodies, damped, x);
             continue;
         }
@@ -237,19 +250,22 @@ fn dot(a: Wide, b: Wide) -> f64 {
     (s[0] + s[2]) + (s[1] + s[3])
 }
 
-/// a ← a + i as a symmetric matrix, by columns.
-#[inline(always)]
-fn add_inertia(a: &mut [Wide; 6], i: &Inertia) {
+/// An inertia as a symmetric matrix, by columns, whose last rows stay zero.
+#[inline(never)] // see `eliminate`
+fn set_inertia(to: &mut [Wide; 6], i: &Inertia) {
     let [xx, yy, zz, xy, xz, yz, x, y, z, m] = *i;
-    let turning = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-    let shift = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
-    for c in 0..3 {
-        for r in 0..3 {
-            a[c][r] += turning[c][r];
-            a[c][r + 3] += shift[c][r];
-            a[r + 3][c] += shift[c][r];
+    let columns = [
+        [xx, xy, xz, 0.0, -z, y],
+        [xy, yy, yz, z, 0.0, -x],
+        [xz, yz, zz, -y, x, 0.0],
+        [0.0, z, -y, m, 0.0, 0.0],
+        [-z, 0.0, x, 0.0, m, 0.0],
+        [y, -x, 0.0, 0.0, 0.0, m],
+    ];
+    for c in 0..6 {
+        for r in 0..6 {
+            to[c][r] = columns[c][r];
         }
-        a[c + 3][c + 3] += m;
     }
 }
 
@@ -261,20 +277,20 @@ fn add_to(a: &mut [Wide; 6], b: &[Wide; 6]) {
     }
 }
 
-/// U and D of the degree of freedom s of a joint with inertia `diag`, and I ← I - U Uᵀ / D. Returns whether D is not
+/// U and D of the degree of freedom s of a joint with inertia `diagonal`, and I ← I - U Uᵀ / D. Returns whether D is not
 /// positive.
 #[inline(never)] // inlined into a loop, the compiler would not add lane by lane
-fn eliminate(i: &mut [Wide; 6], s: &Spatial, diag: f64, joint: &mut Joint) -> bool {
+fn eliminate(i: &mut [Wide; 6], s: &Spatial, diagonal: f64, joint: &mut Joint) -> bool {
     let mut u = scale(i[0], s[0]);
     for c in 1..6 {
         u = add_scaled(u, i[c], s[c]);
     }
-    let d = diag + dot(wide(s), u);
+    let d = diagonal + dot(wide(s), u);
     let inv = 1.0 / d.max(MINVAL);
     let v = scale(u, -inv);
     for c in 0..6 {
         i[c] = add_scaled(i[c], u, v[c]);
     }
-    *joint = Joint { u, inv };
+    (joint.u, joint.inv) = (u, inv);
     d < MINVAL
 }

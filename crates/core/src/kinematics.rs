@@ -68,7 +68,9 @@ pub(crate) fn bodies(m: &Model, d: &mut Data) {
             }
             for j in first as usize..first as usize + joints {
                 let q = &qpos[m.jnt_qposadr[j] as usize..];
-                let anchor = add(rotate(jnt_pos[j], quat), pos);
+                // Most joints turn about the origin of their body.
+                let central = jnt_pos[j] == [0.0; 3];
+                let anchor = if central { pos } else { add(rotate(jnt_pos[j], quat), pos) };
                 let axis = rotate(jnt_axis[j], quat);
                 xanchor[j] = anchor;
                 xaxis[j] = axis;
@@ -83,7 +85,9 @@ pub(crate) fn bodies(m: &Model, d: &mut Data) {
                 };
                 // Rotating about an anchor off the origin moves the origin.
                 quat = quat_mul(quat, turn);
-                pos = sub(anchor, rotate(jnt_pos[j], quat));
+                if !central {
+                    pos = sub(anchor, rotate(jnt_pos[j], quat));
+                }
             }
         }
         quat = quat_normalize(quat);

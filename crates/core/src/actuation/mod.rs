@@ -101,7 +101,11 @@ fn gain(m: &Model, d: &Data, i: usize) -> f64 {
     }
 }
 
+#[inline(always)]
 fn bias(m: &Model, d: &Data, i: usize) -> f64 {
+    if m.actuator_biastype[i] == biastype::NONE {
+        return 0.0;
+    }
     let (p, o) = (prm(&m.actuator_biasprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_biastype[i] {
         biastype::AFFINE => affine(p, d, o),

@@ -66,12 +66,17 @@ fn nearest(u: f64, to: f64, turn: f64) -> f64 {
 }
 
 /// A setpoint of a position servo, next to the length where that is an angle; what is no such setpoint is unchanged.
+#[inline(always)]
 pub(super) fn wrapped(m: &Model, d: &Data, i: usize, setpoint: f64) -> f64 {
-    let servo = m.actuator_gaintype[i] == gaintype::FIXED
-        && m.actuator_biastype[i] == biastype::AFFINE
+    // What rules most actuators out comes first.
+    let servo = m.actuator_biastype[i] == biastype::AFFINE
+        && m.actuator_gaintype[i] == gaintype::FIXED
         && m.actuator_gainprm[10 * i] == -m.actuator_biasprm[10 * i + 1]
         && matches!(m.actuator_dyntype[i], dyntype::NONE | dyntype::INTEGRATOR);
-    match turn(m, i).filter(|_| servo) {
+    if !servo {
+        return setpoint;
+    }
+    match turn(m, i) {
         Some(turn) => nearest(setpoint, d.actuator_length[m.actuator_outadr[i] as usize], turn),
         None => setpoint,
     }

@@ -18,7 +18,7 @@ pub(crate) fn passive(m: &Model, d: &mut Data) {
         spring::joint_springs(m, d);
     }
     if dampers {
-        spring::joint_dampers(m, d);
+        spring::damp_joints(m, d);
     }
     spring::tendons(m, d, springs, dampers);
     for ((f, s), b) in d.qfrc_passive.iter_mut().zip(&d.qfrc_spring).zip(&d.qfrc_damper) {

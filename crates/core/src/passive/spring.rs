@@ -95,8 +95,20 @@ fn ball_displacement(q: &[f64], reference: &[f64]) -> Vec3 {
     quat_to_vel(quat_mul(quat_conj(r), q))
 }
 
-/// The damper of degree of freedom `i`, that of actuators included.
+/// The dampers of all degrees of freedom, those of actuators included.
 #[inline(always)]
+pub(crate) fn joint_dampers(m: &Model) -> impl Iterator<Item = Law> + '_ {
+    let own = m.dof_damping.iter().zip(rows::<2>(&m.dof_dampingpoly));
+    own.zip(&m.dof_jntid).map(|((&linear, &growth), &joint)| {
+        let law = Law { linear, growth };
+        match m.jnt_actuatorid[joint as usize] {
+            -1 => law,
+            _ => law.plus(transmission::damping(m, On::Joint(joint as usize))),
+        }
+    })
+}
+
+/// The damper of degree of freedom `i`, that of actuators included.
 pub(crate) fn joint_damper(m: &Model, i: usize) -> Law {
     let actuators = transmission::damping(m, On::Joint(m.dof_jntid[i] as usize));
     Law::new(&m.dof_damping, &m.dof_dampingpoly, i).plus(actuators)
@@ -107,14 +119,12 @@ pub(crate) fn tendon_damper(m: &Model, t: usize) -> Law {
     Law::new(&m.tendon_damping, &m.tendon_dampingpoly, t).plus(transmission::damping(m, On::Tendon(t)))
 }
 
-/// The dampers of joints, by `qfrc_damper`.
-pub(super) fn joint_dampers(m: &Model, d: &mut Data) {
-    for i in 0..m.nv {
-        let law = joint_damper(m, i);
+/// What the dampers of joints do, by `qfrc_damper`.
+pub(super) fn damp_joints(m: &Model, d: &mut Data) {
+    for ((law, v), f) in joint_dampers(m).zip(&d.qvel).zip(&mut d.qfrc_damper) {
         // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.
         if !law.is_zero() {
-            let v = d.qvel[i];
-            d.qfrc_damper[i] = -law.at(v.abs()) * v;
+            *f = -law.at(v.abs()) * v;
         }
     }
 }
