@@ -28,6 +28,7 @@ pub(crate) struct Articulated {
     spans: Vec<Span>,
     /// Whether no tendon's inertia ties bodies of a tree together.
     untied: bool,
+    links: Vec<Link>,
     bodies: Vec<Body>,
     /// Of M, and of M with something added to its diagonal: one for each degree of freedom.
     joints: Vec<Joint>,
@@ -43,9 +44,21 @@ struct Span {
     dofs: Range<usize>,
     /// The bodies of a tree of many degrees of freedom, none otherwise.
     bodies: Range<usize>,
+    /// Those that cannot move on the body that carries them, the last first: body and carrier.
+    fixed: Vec<(usize, usize)>,
 }
 
-/// What the children of a body leave to it: their inertia and force; and its acceleration.
+/// Where a degree of freedom is in its tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Link {
+    /// The body that it moves.
+    body: usize,
+    /// The moving body that carries that one, for the first degree of freedom of a body that is not the root.
+    carrier: Option<usize>,
+    first: bool,
+}
+
+/// The inertia and the force that children have left to a body, and its acceleration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Body {
     inertia: [Wide; 6],
@@ -60,10 +73,10 @@ struct Joint {
     inv: f64,
 }
 
-/// What the algorithm reads of a model and its data.
+/// What the passes over a tree read.
 struct Tree<'a> {
-    m: &'a Model,
-    bodies: Range<usize>,
+    span: &'a Span,
+    links: &'a [Link],
     cdof: &'a [Spatial],
 }
 
@@ -78,19 +91,28 @@ impl Articulated {
                 // Bodies are numbered depth first: those of a tree follow each other.
                 let root = m.dof_bodyid[first] as usize;
                 let end = (root..m.nbody).find(|&b| m.body_treeid[b] != t as i32).unwrap_or(m.nbody);
-                spans.push(Span { dofs, bodies: root..end });
+                let still = |&b: &usize| m.body_dofnum[b] == 0;
+                let fixed = (root..end).rev().filter(still).map(|b| (b, m.body_parentid[b] as usize));
+                spans.push(Span { dofs, bodies: root..end, fixed: fixed.collect() });
                 continue;
             }
             match spans.last_mut() {
                 Some(last) if last.bodies.is_empty() => last.dofs.end = dofs.end,
-                _ => spans.push(Span { dofs, bodies: 0..0 }),
+                _ => spans.push(Span { dofs, ..Span::default() }),
             }
         }
         let any = spans.iter().any(|s| !s.bodies.is_empty());
         let (bodies, joints) = if any { (m.nbody, m.nv) } else { (0, 0) };
+        let link = |k: usize| {
+            let body = m.dof_bodyid[k] as usize;
+            let first = m.body_dofadr[body] == k as i32;
+            let carrier = usize::try_from(m.dof_parentid[k]).ok().map(|up| m.dof_bodyid[up] as usize);
+            Link { body, carrier: carrier.filter(|_| first), first }
+        };
         Articulated {
             spans,
             untied: true,
+            links: (0..joints).map(link).collect(),
             bodies: vec![Body::default(); bodies],
             joints: vec![Joint::default(); joints],
             damped: vec![Joint::default(); joints],
@@ -111,22 +133,23 @@ impl Tree<'_> {
         bodies: &mut [Body],
         joints: &mut [Joint],
     ) -> Option<usize> {
-        let mut bad = None;
-        for (body, inertia) in bodies.iter_mut().zip(cinert).skip(self.bodies.start).take(self.bodies.len()) {
+        let range = self.span.bodies.clone();
+        for (body, inertia) in bodies[range.clone()].iter_mut().zip(&cinert[range]) {
             set_inertia(&mut body.inertia, inertia);
         }
-        for b in self.bodies.clone().rev() {
-            let dofs = mass::dofs(self.m, b);
-            let (above, rest) = bodies.split_at_mut(b);
-            let Some(Body { inertia, .. }) = rest.first_mut() else { continue };
-            let motions = self.cdof[dofs.clone()].iter().zip(&diagonal[dofs.clone()]);
-            for ((k, joint), (s, &diagonal)) in dofs.clone().zip(&mut joints[dofs]).zip(motions).rev() {
-                if eliminate(inertia, s, diagonal, joint) {
-                    bad = Some(k);
-                }
+        for &(body, carrier) in &self.span.fixed {
+            give(bodies, body, carrier);
+        }
+        let mut bad = None;
+        let dofs = self.span.dofs.clone();
+        let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]);
+        let joints = joints[dofs.clone()].iter_mut().zip(&diagonal[dofs.clone()]);
+        for ((k, (link, s)), (joint, &added)) in dofs.zip(links).zip(joints).rev() {
+            if eliminate(&mut bodies[link.body].inertia, s, added, joint) {
+                bad = Some(k);
             }
-            if b > self.bodies.start {
-                add_to(&mut above[self.m.body_parentid[b] as usize].inertia, inertia);
+            if let Some(carrier) = link.carrier {
+                give(bodies, link.body, carrier);
             }
         }
         bad
@@ -135,62 +158,72 @@ impl Tree<'_> {
     /// x ← M⁻¹ x.
     #[inline(always)]
     fn solve(&self, bodies: &mut [Body], joints: &[Joint], x: &mut [f64]) {
-        let root = self.bodies.start;
-        for body in &mut bodies[self.bodies.clone()] {
+        for body in &mut bodies[self.span.bodies.clone()] {
             body.force = [0.0; 8];
         }
-        for b in self.bodies.clone().rev() {
-            let mut force = bodies[b].force;
-            let dofs = mass::dofs(self.m, b);
-            let motions = self.cdof[dofs.clone()].iter().zip(&joints[dofs.clone()]);
-            for (x, (s, joint)) in x[dofs].iter_mut().zip(motions).rev() {
-                *x = (*x - dot(wide(s), force)) * joint.inv;
-                force = add_scaled(force, joint.u, *x);
-            }
-            if b > root {
-                let up = &mut bodies[self.m.body_parentid[b] as usize].force;
-                *up = add(*up, force);
-            }
+        let dofs = self.span.dofs.clone();
+        let x = &mut x[dofs.clone()];
+        let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]).zip(&joints[dofs]);
+        for (x, ((link, s), joint)) in x.iter_mut().zip(links.clone()).rev() {
+            let mut force = bodies[link.body].force;
+            *x = (*x - dot(wide(s), force)) * joint.inv;
+            force = add_scaled(force, joint.u, *x);
+            let up = &mut bodies[link.carrier.unwrap_or(link.body)].force;
+            *up = if link.carrier.is_some() { add(*up, force) } else { force };
         }
-        for b in self.bodies.clone() {
-            let mut a =
-                if b > root { bodies[self.m.body_parentid[b] as usize].acceleration } else { [0.0; 8] };
-            let dofs = mass::dofs(self.m, b);
-            let motions = self.cdof[dofs.clone()].iter().zip(&joints[dofs.clone()]);
-            for (x, (s, joint)) in x[dofs].iter_mut().zip(motions) {
-                *x -= joint.inv * dot(joint.u, a);
-                a = add_scaled(a, wide(s), *x);
-            }
-            bodies[b].acceleration = a;
+        for (x, ((link, s), joint)) in x.iter_mut().zip(links) {
+            // The bodies before this one are done.
+            let before = match link.carrier {
+                Some(carrier) => bodies[carrier].acceleration,
+                None if link.first => [0.0; 8],
+                None => bodies[link.body].acceleration,
+            };
+            *x -= joint.inv * dot(joint.u, before);
+            bodies[link.body].acceleration = add_scaled(before, wide(s), *x);
         }
+    }
+}
+
+/// Adds the inertia of a body to that of its carrier, which comes before it.
+#[inline(always)]
+fn give(bodies: &mut [Body], body: usize, carrier: usize) {
+    let (above, rest) = bodies.split_at_mut(body);
+    if let (Some(up), Some(own)) = (above.get_mut(carrier), rest.first()) {
+        add_to(&mut up.inertia, &own.inertia);
     }
 }
 
 /// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive.
 pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
-    let mut bad = None;
+    if d.work.articulated.bodies.is_empty() {
+        d.qLD.copy_from_slice(&d.M);
+        return mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, 0..m.nv);
+    }
     d.work.articulated.untied = !tendon::has_armature(m);
-    let Articulated { spans, untied, bodies, joints, armature, .. } = &mut d.work.articulated;
-    for Span { dofs, bodies: range } in spans.iter() {
-        let found = if *untied && !range.is_empty() {
-            let tree = Tree { m, bodies: range.clone(), cdof: rows(&d.cdof) };
+    let Articulated { spans, untied, links, bodies, joints, armature, .. } = &mut d.work.articulated;
+    let mut bad = None;
+    for span in spans.iter() {
+        let dofs = span.dofs.clone();
+        let found = if *untied && !span.bodies.is_empty() {
             for k in dofs.clone() {
                 armature[k] = mass::armature(m, k);
             }
+            let tree = Tree { span, links, cdof: rows(&d.cdof) };
             let found = tree.factor(rows(&d.cinert), armature, bodies, joints);
-            for k in dofs.clone() {
+            for k in dofs {
                 let Joint { u, inv } = &joints[k];
                 d.qLDiagInv[k] = *inv;
                 let row = &mut d.qLD[mass::row(m, k)];
-                d.work.path.extend(row.len() - 1, &tree.cdof[k]);
+                let depth = row.len() - 1;
+                d.work.path.extend(depth, &tree.cdof[k]);
                 d.work.path.product(&narrow(&scale(*u, *inv)), row);
-                row[row.len() - 1] = 1.0 / inv;
+                row[depth] = 1.0 / inv;
             }
             found
         } else {
-            let entries = mass::row(m, dofs.start).start..mass::row(m, dofs.end - 1).end;
+            let entries = mass::rows_of(m, dofs.clone());
             d.qLD[entries.clone()].copy_from_slice(&d.M[entries]);
-            mass::factor_dofs(m, &mut d.qLD, &mut d.qLDiagInv, dofs.clone())
+            mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, dofs)
         };
         bad = bad.or(found);
     }
@@ -199,37 +232,42 @@ pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
 
 /// x ← M⁻¹ x by what [`factor`] has left.
 pub(crate) fn solve(m: &Model, d: &mut Data, x: &mut [f64]) {
-    let Articulated { spans, untied, bodies, joints, .. } = &mut d.work.articulated;
-    for Span { dofs, bodies: range } in spans.iter() {
-        if *untied && !range.is_empty() {
-            Tree { m, bodies: range.clone(), cdof: rows(&d.cdof) }.solve(bodies, joints, x);
+    let Articulated { spans, untied, links, bodies, joints, .. } = &mut d.work.articulated;
+    if bodies.is_empty() {
+        return mass::solve(m, &d.qLD, &d.qLDiagInv, x, 0..m.nv);
+    }
+    for span in spans.iter() {
+        if *untied && !span.bodies.is_empty() {
+            Tree { span, links, cdof: rows(&d.cdof) }.solve(bodies, joints, x);
         } else {
-            mass::solve(m, &d.qLD, &d.qLDiagInv, x, dofs.clone());
+            mass::solve(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone());
         }
     }
 }
 
 /// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after [`factor`].
 pub(crate) fn solve_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
-    let Articulated { spans, untied, bodies, damped, armature, diagonal, .. } = &mut d.work.articulated;
-    for Span { dofs, bodies: range } in spans.iter() {
-        if *untied && !range.is_empty() {
-            let tree = Tree { m, bodies: range.clone(), cdof: rows(&d.cdof) };
+    let Articulated { spans, untied, links, bodies, damped, armature, diagonal, .. } =
+        &mut d.work.articulated;
+    for span in spans.iter() {
+        let dofs = span.dofs.clone();
+        if *untied && !span.bodies.is_empty() {
             for (sum, (armature, b)) in diagonal.iter_mut().zip(armature.iter().zip(b)) {
                 *sum = armature + b;
             }
+            let tree = Tree { span, links, cdof: rows(&d.cdof) };
             tree.factor(rows(&d.cinert), diagonal, bodies, damped);
             tree.solve(bodies, damped, x);
             continue;
         }
         let (ld, diag_inv) = (&mut d.work.ld, &mut d.work.diag_inv);
-        let entries = mass::row(m, dofs.start).start..mass::row(m, dofs.end - 1).end;
+        let entries = mass::rows_of(m, dofs.clone());
         ld[entries.clone()].copy_from_slice(&d.M[entries]);
         for k in dofs.clone() {
             ld[mass::diagonal(m, k)] += b[k];
         }
-        mass::factor_dofs(m, ld, diag_inv, dofs.clone());
-        mass::solve(m, ld, diag_inv, x, dofs.clone());
+        mass::factor(m, ld, diag_inv, dofs.clone());
+        mass::solve(m, ld, diag_inv, x, dofs);
     }
 }
 

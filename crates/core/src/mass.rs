@@ -42,6 +42,12 @@ pub(crate) fn row(m: &Model, i: usize) -> Range<usize> {
     start..start + m.M_rownnz[i] as usize
 }
 
+/// Where the rows of the degrees of freedom `dofs` are.
+#[inline(always)]
+pub(crate) fn rows_of(m: &Model, dofs: Range<usize>) -> Range<usize> {
+    if dofs.is_empty() { 0..0 } else { row(m, dofs.start).start..row(m, dofs.end - 1).end }
+}
+
 /// Inertia that is added to degree of freedom `i`: its own and that of actuators.
 #[inline(always)]
 pub(crate) fn armature(m: &Model, i: usize) -> f64 {
@@ -57,14 +63,6 @@ pub(crate) fn simple_diagonal(m: &Model, d: &mut Data) {
     }
 }
 
-/// The degrees of freedom of body `b`.
-#[inline(always)]
-pub(crate) fn dofs(m: &Model, b: usize) -> Range<usize> {
-    // A body without any has the address -1 and the number 0.
-    let first = m.body_dofadr[b].max(0) as usize;
-    first..first + m.body_dofnum[b] as usize
-}
-
 /// The diagonal of M as the model knows it, for a scene whose bodies are all simple: M is constant.
 pub(crate) fn constant_mass(m: &Model, d: &mut Data) {
     d.M.copy_from_slice(&m.dof_M0);
@@ -74,23 +72,13 @@ pub(crate) fn constant_mass(m: &Model, d: &mut Data) {
     }
 }
 
-/// Factorizes in place, M = Lᵀ D L with unit L: `ld` holds M and becomes L below the diagonal and D on it,
+/// Factorizes the rows of the degrees of freedom `dofs` (ascending, whole trees) in place, M = Lᵀ D L with unit L: `ld` holds M and becomes L below the diagonal and D on it,
 /// `diag_inv` becomes 1/D. Returns the first degree of freedom whose D is not positive.
 ///
 /// From the last row to the first, each row is eliminated from those of its ancestors. The rows of a serial
 /// chain are taken four at a time, so that an ancestor's row is read and written once for four eliminations;
 /// every element sees the same operations in the same order.
-pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64]) -> Option<usize> {
-    factor_dofs(m, ld, diag_inv, 0..m.nv)
-}
-
-/// The same for the rows of the degrees of freedom `dofs` (ascending, whole trees).
-pub(crate) fn factor_dofs(
-    m: &Model,
-    ld: &mut [f64],
-    diag_inv: &mut [f64],
-    dofs: Range<usize>,
-) -> Option<usize> {
+pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Range<usize>) -> Option<usize> {
     if let Some(n) = whole_chain(m) {
         return factor_root(n, ld, diag_inv);
     }

@@ -28,7 +28,7 @@ pub fn set_const(m: &mut Model, d: &mut Data) {
     }
     tendon::armature(m, d);
     d.qLD.copy_from_slice(&d.M);
-    mass::factor(m, &mut d.qLD, &mut d.qLDiagInv);
+    mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, 0..m.nv);
     inverse_weights(m, d);
     tendon::at_default(m, d);
     transmission::transmissions(m, d);

@@ -155,7 +155,7 @@ impl Metric {
                 self.ld[mass::diagonal(m, k as usize)] += term.scale * x * x;
             }
         }
-        mass::factor(m, &mut self.ld, &mut self.diag_inv);
+        mass::factor(m, &mut self.ld, &mut self.diag_inv, 0..m.nv);
     }
 
     fn resize(&mut self, m: &Model) {

@@ -19,8 +19,8 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
         *a = f + c;
     }
     let mut damping = std::mem::take(&mut d.work.damping);
-    for ((b, law), v) in damping.iter_mut().zip(spring::joint_dampers(m)).zip(&d.qvel) {
-        *b = h * law.slope(v.abs());
+    for (i, b) in damping.iter_mut().enumerate() {
+        *b = h * self::damping(m, d, i);
     }
     articulated::solve_with(m, d, &damping, &mut acceleration);
     d.work.damping = damping;

@@ -39,7 +39,7 @@ pub(super) fn implicitfast(m: &Model, d: &mut Data) {
         let rows = m.M_rowadr[dofs.start] as usize..mass::diagonal(m, dofs.end - 1) + 1;
         ld[rows.clone()].copy_from_slice(&d.M[rows]);
     }
-    if let Some(dof) = mass::factor(m, &mut ld, &mut d.work.diag_inv) {
+    if let Some(dof) = mass::factor(m, &mut ld, &mut d.work.diag_inv, 0..m.nv) {
         warn(d, Warning::Inertia, dof);
     }
     let mut acceleration = force(d);

@@ -95,23 +95,16 @@ fn ball_displacement(q: &[f64], reference: &[f64]) -> Vec3 {
     quat_to_vel(quat_mul(quat_conj(r), q))
 }
 
-/// The dampers of all degrees of freedom, those of actuators included.
-#[inline(always)]
-pub(crate) fn joint_dampers(m: &Model) -> impl Iterator<Item = Law> + '_ {
-    let own = m.dof_damping.iter().zip(rows::<2>(&m.dof_dampingpoly));
-    own.zip(&m.dof_jntid).map(|((&linear, &growth), &joint)| {
-        let law = Law { linear, growth };
-        match m.jnt_actuatorid[joint as usize] {
-            -1 => law,
-            _ => law.plus(transmission::damping(m, On::Joint(joint as usize))),
-        }
-    })
-}
-
 /// The damper of degree of freedom `i`, that of actuators included.
+#[inline(always)]
 pub(crate) fn joint_damper(m: &Model, i: usize) -> Law {
-    let actuators = transmission::damping(m, On::Joint(m.dof_jntid[i] as usize));
-    Law::new(&m.dof_damping, &m.dof_dampingpoly, i).plus(actuators)
+    let own = Law::new(&m.dof_damping, &m.dof_dampingpoly, i);
+    let joint = m.dof_jntid[i] as usize;
+    // Few joints have a damper of an actuator.
+    if m.jnt_actuatorid[joint] == -1 {
+        return own;
+    }
+    own.plus(transmission::damping(m, On::Joint(joint)))
 }
 
 /// The damper of tendon `t`, that of actuators included.
@@ -121,7 +114,8 @@ pub(crate) fn tendon_damper(m: &Model, t: usize) -> Law {
 
 /// What the dampers of joints do, by `qfrc_damper`.
 pub(super) fn damp_joints(m: &Model, d: &mut Data) {
-    for ((law, v), f) in joint_dampers(m).zip(&d.qvel).zip(&mut d.qfrc_damper) {
+    for (i, (f, v)) in d.qfrc_damper.iter_mut().zip(&d.qvel).enumerate() {
+        let law = joint_damper(m, i);
         // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.
         if !law.is_zero() {
             *f = -law.at(v.abs()) * v;

@@ -121,23 +121,12 @@ pub(crate) fn transmissions(m: &Model, d: &mut Data) {
         let first = m.actuator_outadr[i] as usize;
         for o in first..first + m.actuator_outnum[i] as usize {
             let start = out.at;
-            let gear = rows::<6>(&m.actuator_gear)[o];
-            d.actuator_length[o] = match (m.actuator_trntype[i], target(m, i)) {
-                (trntype::TENDON, (t, _)) => along_tendon(m, d, t, gear[0], &mut out),
-                (trntype::SITE, (s, None)) => space::site(m, d, s, gear, &mut out),
-                (trntype::SITE, (s, Some(reference))) => space::between(m, d, [s, reference], gear, &mut out),
-                (trntype::SLIDERCRANK, (s, Some(slider))) => {
-                    space::crank(m, d, [s, slider], m.actuator_cranklength[i], gear[0], &mut out)
+            d.actuator_length[o] = match m.actuator_trntype[i] {
+                kind @ (trntype::JOINT | trntype::JOINTINPARENT) => {
+                    let gear = &rows::<6>(&m.actuator_gear)[o];
+                    at_joint(m, d, target(m, i).0, kind == trntype::JOINTINPARENT, gear, &mut out)
                 }
-                (trntype::SO3, (j, None)) => {
-                    out.push(m.jnt_dofadr[j] as usize + (o - first), 1.0);
-                    joint_rotation(d, m.jnt_qposadr[j] as usize)[o - first]
-                }
-                (trntype::SO3, (s, Some(reference))) => {
-                    space::orientation(m, d, [s, reference], o - first, &mut out)
-                }
-                (trntype::BODY, (b, _)) => contact::adhesion(m, d, b, &mut dense, &mut out),
-                (kind, (j, _)) => at_joint(m, d, j, kind == trntype::JOINTINPARENT, gear, &mut out),
+                _ => elsewhere(m, d, [i, o], &mut dense, &mut out),
             };
             d.moment_rowadr[o] = start as i32;
             d.moment_rownnz[o] = (out.at - start) as i32;
@@ -145,6 +134,28 @@ pub(crate) fn transmissions(m: &Model, d: &mut Data) {
     }
     d.work.moment = dense;
     (d.moment_colind, d.actuator_moment) = (out.colind, out.values);
+}
+
+/// Output `o` of actuator `i` that does not act on a joint, or on its orientation.
+#[inline(never)] // most actuators are motors of joints
+fn elsewhere(m: &Model, d: &mut Data, [i, o]: [usize; 2], dense: &mut [f64], out: &mut Rows) -> f64 {
+    let gear = rows::<6>(&m.actuator_gear)[o];
+    let nth = o - m.actuator_outadr[i] as usize;
+    match (m.actuator_trntype[i], target(m, i)) {
+        (trntype::TENDON, (t, _)) => along_tendon(m, d, t, gear[0], out),
+        (trntype::SITE, (s, None)) => space::site(m, d, s, gear, out),
+        (trntype::SITE, (s, Some(reference))) => space::between(m, d, [s, reference], gear, out),
+        (trntype::SLIDERCRANK, (s, Some(slider))) => {
+            space::crank(m, d, [s, slider], m.actuator_cranklength[i], gear[0], out)
+        }
+        (trntype::SO3, (j, None)) => {
+            out.push(m.jnt_dofadr[j] as usize + nth, 1.0);
+            joint_rotation(d, m.jnt_qposadr[j] as usize)[nth]
+        }
+        (trntype::SO3, (s, Some(reference))) => space::orientation(m, d, [s, reference], nth, out),
+        (trntype::BODY, (b, _)) => contact::adhesion(m, d, b, dense, out),
+        _ => 0.0,
+    }
 }
 
 /// Rotation vector of the quaternion at `q` in qpos.
@@ -159,9 +170,9 @@ fn quaternion(d: &Data, q: usize) -> Quat {
 
 /// A joint's coordinate; along an axis for a ball joint, and a force without a length for a free joint. A gear in
 /// the parent's frame is turned into the child's, where velocities are.
-fn at_joint(m: &Model, d: &Data, j: usize, in_parent: bool, gear: [f64; 6], out: &mut Rows) -> f64 {
+fn at_joint(m: &Model, d: &Data, j: usize, in_parent: bool, gear: &[f64; 6], out: &mut Rows) -> f64 {
     let (q, k) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
-    let [a, b, c, e, f, g] = gear;
+    let [a, b, c, e, f, g] = *gear;
     let turned = |v: Vec3, q: usize| if in_parent { rotate(v, quat_conj(quaternion(d, q))) } else { v };
     let mut all = |first: usize, v: Vec3| (0..3).for_each(|i| out.push_any(first + i, v[i]));
     match m.jnt_type[j] {
