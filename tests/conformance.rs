@@ -15,7 +15,6 @@ const RANDOM: usize = 100;
 
 /// What is known to differ, and why.
 const EXCEPTIONS: &[Exception] = &[
-    ("bench/chain100", "forward", "not examined yet: the chain is very sensitive"),
     ("bench/chain100", "implicit, moving", "not examined yet: the chain is very sensitive"),
     ("bench/chain100", "implicitfast, moving", "not examined yet: the chain is very sensitive"),
     ("bench/chain100", "discrete, moving", "not examined yet: the chain is very sensitive"),

@@ -70,9 +70,9 @@ impl fmt::Display for Difference {
 pub(crate) enum Verdict {
     /// Within the tolerance; the largest difference.
     Same(f64),
-    /// Further apart than the tolerance, but no further than the library is from itself when its start moves by 1e-14:
-    /// the difference and the library's own.
-    Chaotic(f64, f64),
+    /// Further apart than the tolerance, but no further than the library is from itself when its start moves by 1e-14,
+    /// or its coordinates by their last bit for one forward pass: the difference and the library's own.
+    Sensitive(f64, f64),
     /// The library itself cannot: its message.
     Refused(String),
     /// Numbers beyond the tolerance, the worst of each field.
@@ -90,7 +90,7 @@ impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Verdict::Same(_) => f.write_str("ok"),
-            Verdict::Chaotic(..) => f.write_str("chaotic"),
+            Verdict::Sensitive(..) => f.write_str("sensitive"),
             Verdict::Refused(_) => f.write_str("refused there"),
             Verdict::Differs(list) => {
                 let mut fields: Vec<&str> = list.iter().map(|d| d.field.as_str()).collect();
@@ -194,13 +194,20 @@ fn forward(m: &Model, states: &Value) -> Verdict {
     let mut d = Data::new(m);
     let mut found = Vec::new();
     let mut worst: f64 = 0.0;
+    let mut sensitive: Option<(f64, f64)> = None;
     for (k, row) in states.as_array().into_iter().flatten().enumerate() {
         set(m, &mut d, &row["state"]);
         core::forward(m, &mut d);
         let place = format!("state {k}");
         let mut hold = |field: &str, ours: &[f64], theirs: &[f64]| {
             let scale = largest(theirs).max(1.0);
-            worst = worst.max(note(&mut found, &place, field, ours, theirs, scale, FORWARD));
+            let spread = row["spread"][field].as_str().and_then(|s| s.parse().ok()).unwrap_or(0.0);
+            let apart = note(&mut found, &place, field, ours, theirs, scale, f64::max(FORWARD, spread));
+            if apart > FORWARD && apart <= spread {
+                sensitive = sensitive.filter(|s| s.0 > apart).or(Some((apart, spread)));
+            } else {
+                worst = worst.max(apart);
+            }
         };
         for (field, values) in objects(&row["data"]).filter(|(name, _)| !MOMENTS.contains(&name.as_str())) {
             let Some(id) = reflect::field(Object::Data, field) else { continue };
@@ -219,7 +226,10 @@ fn forward(m: &Model, states: &Value) -> Verdict {
     // The first state in which a field differs says enough.
     let mut seen = std::collections::HashSet::new();
     found.retain(|d: &Difference| seen.insert(d.field.clone()));
-    Verdict::of(found, worst)
+    match sensitive {
+        Some((apart, spread)) if found.is_empty() => Verdict::Sensitive(apart, spread),
+        _ => Verdict::of(found, worst),
+    }
 }
 
 /// What is computed on request, in the order of the recording, each beside what the library computed.
@@ -331,7 +341,7 @@ fn trajectory(m: &Model, start: &Value, recording: &Value) -> Verdict {
         if !found.is_empty() {
             // What follows a difference follows from it.
             return if apart <= spread[k] {
-                Verdict::Chaotic(apart, spread[k])
+                Verdict::Sensitive(apart, spread[k])
             } else {
                 Verdict::Differs(found)
             };

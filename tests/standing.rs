@@ -62,7 +62,7 @@ impl Standing {
             for (name, outcome) in &self.0 {
                 match outcome.as_ref().map(|verdicts| &verdicts[i]) {
                     Ok(Verdict::Same(apart)) if *apart >= same.0 => same = (*apart, name),
-                    Ok(Verdict::Chaotic(apart, spread)) => {
+                    Ok(Verdict::Sensitive(apart, spread)) => {
                         println!(
                             "{aspect}, {name}: {apart:.1e} from the library, which is {spread:.1e} from itself"
                         );
@@ -100,23 +100,25 @@ impl Standing {
             "# Models held against MuJoCo 3.14.0\n\nWritten by `tests/standing.rs`; constraints are switched off on both sides.\n\n",
         );
         let _ = writeln!(text, "{} models, {} load.\n", self.0.len(), loaded.clone().count());
-        text.push_str("| aspect | the same | chaotic | refused there | differs |\n|---|---|---|---|---|\n");
+        text.push_str("| aspect | the same | sensitive | refused there | differs |\n|---|---|---|---|---|\n");
         for (i, aspect) in ASPECTS.into_iter().enumerate() {
             let mut counts = [0; 4];
             for verdicts in loaded.clone() {
                 let kind = match &verdicts[i] {
                     Verdict::Same(_) => 0,
-                    Verdict::Chaotic(..) => 1,
+                    Verdict::Sensitive(..) => 1,
                     Verdict::Refused(_) => 2,
                     Verdict::Differs(_) => 3,
                 };
                 counts[kind] += 1;
             }
-            let [same, chaotic, refused, differs] = counts;
-            let _ = writeln!(text, "| {aspect} | {same} | {chaotic} | {refused} | {differs} |");
+            let [same, sensitive, refused, differs] = counts;
+            let _ = writeln!(text, "| {aspect} | {same} | {sensitive} | {refused} | {differs} |");
         }
         text.push_str(
-            "\n*Chaotic*: apart by more than 1e-9, and by less than MuJoCo is from itself when the start moves by 1e-14.\n\
+            "\n*Sensitive*: a trajectory apart by more than 1e-9, and by less than MuJoCo is from itself when the start moves by\n\
+             1e-14; a forward pass by more than 1e-10, and by less than MuJoCo is from itself when positions move by their\n\
+             last bit.\n\
              All others are in no list below.\n",
         );
         let lines = self.exceptional(cause);
@@ -141,8 +143,8 @@ impl Standing {
                     for (aspect, verdict) in ASPECTS.into_iter().zip(verdicts) {
                         match verdict {
                             Verdict::Same(_) => {}
-                            Verdict::Chaotic(..) => {
-                                line(aspect, "chaotic", "the library parts from itself as far")
+                            Verdict::Sensitive(..) => {
+                                line(aspect, "sensitive", "the library parts from itself as far")
                             }
                             Verdict::Refused(message) => line(aspect, "refused there", message),
                             Verdict::Differs(_) => line(aspect, &verdict.to_string(), ""),
