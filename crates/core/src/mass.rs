@@ -51,7 +51,9 @@ pub(crate) fn rows_of(m: &Model, dofs: Range<usize>) -> Range<usize> {
 /// Inertia that is added to degree of freedom `i`: its own and that of actuators.
 #[inline(always)]
 pub(crate) fn armature(m: &Model, i: usize) -> f64 {
-    m.dof_armature[i] + transmission::armature(m, On::Joint(m.dof_jntid[i] as usize))
+    let (own, joint) = (m.dof_armature[i], m.dof_jntid[i] as usize);
+    // Few joints have an actuator with inertia of its own.
+    if m.jnt_actuatorid[joint] == -1 { own } else { own + transmission::armature(m, On::Joint(joint)) }
 }
 
 /// The constant diagonal of simple bodies in M.

@@ -48,20 +48,16 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
     }
     let mut ctrl = std::mem::take(&mut d.work.ctrl);
     control::effective(m, d, &mut ctrl);
-    for i in 0..m.nactuator {
-        activation::rates(m, d, i, &mut ctrl);
+    if m.na > 0 {
+        for i in 0..m.nactuator {
+            activation::rates(m, d, i, &mut ctrl);
+        }
     }
     for i in (0..m.nactuator).filter(|&i| !switched_off(m, i)) {
-        let o = m.actuator_outadr[i] as usize;
         match m.actuator_gaintype[i] {
-            gaintype::SO3 => {
-                let torque = servo::orientation(m, d, i, &ctrl);
-                d.actuator_force[o..o + 3].copy_from_slice(&torque);
-            }
-            gaintype::PID => d.actuator_force[o] = servo::pid(m, d, i, &ctrl),
-            gaintype::DCMOTOR => d.actuator_force[o] = motor::electric(m, d, i, &ctrl) + bias(m, d, i),
+            gaintype::SO3 | gaintype::PID | gaintype::DCMOTOR => of_its_own(m, d, i, &ctrl),
             _ => {
-                d.actuator_force[o] =
+                d.actuator_force[m.actuator_outadr[i] as usize] =
                     gain(m, d, i) * servo::wrapped(m, d, i, input(m, d, i, &ctrl)) + bias(m, d, i)
             }
         }
@@ -78,7 +74,22 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
     limit::joints(m, d);
 }
 
+/// The force of an actuator with a law of its own.
+#[inline(never)] // few are: what most are stays small
+fn of_its_own(m: &Model, d: &mut Data, i: usize, ctrl: &[f64]) {
+    let o = m.actuator_outadr[i] as usize;
+    match m.actuator_gaintype[i] {
+        gaintype::SO3 => {
+            let torque = servo::orientation(m, d, i, ctrl);
+            d.actuator_force[o..o + 3].copy_from_slice(&torque);
+        }
+        gaintype::PID => d.actuator_force[o] = servo::pid(m, d, i, ctrl),
+        _ => d.actuator_force[o] = motor::electric(m, d, i, ctrl) + bias(m, d, i),
+    }
+}
+
 /// What the gain of actuator `i` multiplies: its control, or its last activation.
+#[inline(always)]
 pub(crate) fn input(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> f64 {
     match states(m, i).last() {
         Some(last) => activation::acting(m, d, i, last),
@@ -92,7 +103,16 @@ fn affine(p: &[f64; 10], d: &Data, o: usize) -> f64 {
     p[0] + p[1] * d.actuator_length[o] + p[2] * d.actuator_velocity[o]
 }
 
+#[inline(always)]
 fn gain(m: &Model, d: &Data, i: usize) -> f64 {
+    match m.actuator_gaintype[i] {
+        gaintype::FIXED => m.actuator_gainprm[10 * i],
+        _ => changing_gain(m, d, i),
+    }
+}
+
+#[inline(never)] // see `of_its_own`
+fn changing_gain(m: &Model, d: &Data, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_gainprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_gaintype[i] {
         gaintype::AFFINE => affine(p, d, o),
@@ -103,9 +123,14 @@ fn gain(m: &Model, d: &Data, i: usize) -> f64 {
 
 #[inline(always)]
 fn bias(m: &Model, d: &Data, i: usize) -> f64 {
-    if m.actuator_biastype[i] == biastype::NONE {
-        return 0.0;
+    match m.actuator_biastype[i] {
+        biastype::NONE => 0.0,
+        _ => some_bias(m, d, i),
     }
+}
+
+#[inline(never)] // see `of_its_own`
+fn some_bias(m: &Model, d: &Data, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_biasprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_biastype[i] {
         biastype::AFFINE => affine(p, d, o),

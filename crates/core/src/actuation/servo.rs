@@ -73,9 +73,11 @@ pub(super) fn wrapped(m: &Model, d: &Data, i: usize, setpoint: f64) -> f64 {
         && m.actuator_gaintype[i] == gaintype::FIXED
         && m.actuator_gainprm[10 * i] == -m.actuator_biasprm[10 * i + 1]
         && matches!(m.actuator_dyntype[i], dyntype::NONE | dyntype::INTEGRATOR);
-    if !servo {
-        return setpoint;
-    }
+    if servo { next_to_length(m, d, i, setpoint) } else { setpoint }
+}
+
+#[inline(never)] // see `of_its_own`
+fn next_to_length(m: &Model, d: &Data, i: usize, setpoint: f64) -> f64 {
     match turn(m, i) {
         Some(turn) => nearest(setpoint, d.actuator_length[m.actuator_outadr[i] as usize], turn),
         None => setpoint,

@@ -43,7 +43,6 @@ fn square(m: &Model, i: usize) -> f64 {
 }
 
 /// Inertia, kg or kg m².
-#[inline(always)]
 pub(crate) fn armature(m: &Model, on: On) -> f64 {
     let mut sum = 0.0;
     for i in actuators(m, on) {
@@ -55,7 +54,6 @@ pub(crate) fn armature(m: &Model, on: On) -> f64 {
 }
 
 /// Damping, and its growth with speed.
-#[inline(always)]
 pub(crate) fn damping(m: &Model, on: On) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for i in actuators(m, on) {
