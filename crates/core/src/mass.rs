@@ -2,7 +2,8 @@
 //!
 //! M is stored as the rows of its lower triangle over the chain of ancestors of each degree of freedom,
 //! ancestors ascending and the diagonal last. The composite rigid body algorithm and the factorization
-//! M = Lᵀ D L, which creates no fill-in on this pattern, are in Featherstone 2008, chapter 6.
+//! M = Lᵀ D L, which creates no fill-in on this pattern, are in Featherstone 2008, chapter 6. Trees of many degrees of
+//! freedom are factorized by `articulated`.
 
 use crate::math::*;
 use crate::transmission::{self, On};
@@ -74,8 +75,8 @@ pub(crate) fn constant_mass(m: &Model, d: &mut Data) {
     }
 }
 
-/// Factorizes the rows of the degrees of freedom `dofs` (ascending, whole trees) in place, M = Lᵀ D L with unit L: `ld` holds M and becomes L below the diagonal and D on it,
-/// `diag_inv` becomes 1/D. Returns the first degree of freedom whose D is not positive.
+/// Factorizes the rows of the degrees of freedom `dofs` (ascending, whole trees) in place, M = Lᵀ D L with unit L: `ld`
+/// holds M and becomes L below the diagonal and D on it, `diag_inv` becomes 1/D. Returns the first degree of freedom whose D is not positive.
 ///
 /// From the last row to the first, each row is eliminated from those of its ancestors. The rows of a serial
 /// chain are taken four at a time, so that an ancestor's row is read and written once for four eliminations;
