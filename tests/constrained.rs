@@ -1,14 +1,14 @@
 //! Constraints held against MuJoCo 3.14.0, both sides solved to rounding: `golden/constrained.py` records.
 //!
 //! Our own models (`golden/constrained/*.xml`) show every kind of row with every option, field by field; the models of
-//! `../shared` show accelerations, forces and sensors. Where the contacts are not the same in number nothing else can
+//! `../shared` show accelerations, forces and sensors, and a hundred steps. Where the contacts are not the same in number nothing else can
 //! be, and the table says so.
 //!
 //! Differences are absolute for numbers up to 1 and relative above, by the largest recorded number of the field.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::recorded::{list, objects, set, worst};
+use crate::recorded::{Verdict, list, objects, set, trajectory, worst};
 use crate::support::{models, numbers, read_json, workspace};
 use labspec_core::mjcf::{self, MjcfFileError};
 use labspec_core::reflect::{self, Object};
@@ -21,6 +21,9 @@ use std::path::Path;
 const ROWS: f64 = 1e-10;
 /// What the solver finds: the library's own is solved no further.
 const SOLVED: f64 = 1e-8;
+
+/// A hundred steps with the solver as the model has it: the library stops where an improvement falls below its tolerance.
+const PATH: f64 = 1e-6;
 
 /// Fields that the solution decides.
 const SOLUTION: [&str; 8] =
@@ -123,13 +126,28 @@ fn shared_models_with_constraints() {
         return;
     }
     let recordings = workspace().join("tests/golden/constrained");
-    let (mut table, mut counts) = (String::new(), [0; 4]);
+    let (mut table, mut counts, mut paths) = (String::new(), [0; 4], [0; 4]);
     for (kind, folder) in
         [("conformance", "conformance/models"), ("corpus", "corpus/models"), ("bench", "bench")]
     {
         for name in models(&shared.join(folder)) {
             let recording = read_json(&recordings.join(kind).join(format!("{name}.json")));
-            let outcome = examine(&shared.join(folder).join(format!("{name}.xml")), &recording);
+            let model = shared.join(folder).join(format!("{name}.xml"));
+            let outcome = examine(&model, &recording);
+            if let Ok(m) = mjcf::compile_file(&model) {
+                let start = &recording["cases"][0]["states"][0]["state"];
+                let path = trajectory(&m, start, &recording["trajectory"], PATH);
+                let class = match &path {
+                    Verdict::Same(_) => 0,
+                    Verdict::Chaotic(..) => 1,
+                    Verdict::Refused(_) => 2,
+                    Verdict::Differs(list) => {
+                        let _ = writeln!(table, "| {kind}/{name} | trajectory | {} |", list[0]);
+                        3
+                    }
+                };
+                paths[class] += 1;
+            }
             let (class, text) = match outcome {
                 Outcome::Same { rows, solution } => {
                     println!("{kind}/{name}: ok, rows {rows:.1e}, solution {solution:.1e}");
@@ -149,10 +167,12 @@ fn shared_models_with_constraints() {
         }
     }
     let [same, contacts, refused, differs] = counts;
+    let [along, chaotic, impossible, apart] = paths;
     let text = format!(
         "# Models with constraints held against MuJoCo 3.14.0\n\nWritten by `tests/constrained.rs`: forward passes, both \
          sides solved to rounding.\n\n{same} the same within {SOLVED:.0e}, {contacts} with other contacts, {refused} \
-         refused, {differs} differ.\n\n| model | outcome | where |\n|---|---|---|\n{table}"
+         refused, {differs} differ.\n\nA hundred steps from the start with the solver as the model has it: {along} the same within \
+         {PATH:.0e}, {chaotic} chaotic, {impossible} refused there, {apart} differ.\n\n| model | outcome | where |\n|---|---|---|\n{table}"
     );
     let path = workspace().join("tests/golden/constrained.md");
     if std::env::var_os("LABSPEC_BLESS").is_some() {

@@ -113,7 +113,8 @@ pub(crate) fn examine(model: &Path, recording: &Value) -> Outcome {
         for (i, name) in INTEGRATORS.iter().enumerate() {
             let mut m = m.clone();
             m.opt.integrator = i as i32;
-            verdicts.push(trajectory(&m, &recording["forward"][state]["state"], &recording[path][name]));
+            let start = &recording["forward"][state]["state"];
+            verdicts.push(trajectory(&m, start, &recording[path][name], TRAJECTORY));
         }
     }
     Ok(verdicts)
@@ -341,7 +342,8 @@ fn dense([number, address, column, value]: &[Vec<f64>; 4], nv: usize) -> Vec<f64
     out
 }
 
-fn trajectory(m: &Model, start: &Value, recording: &Value) -> Verdict {
+/// Follows a recorded trajectory from its start.
+pub(crate) fn trajectory(m: &Model, start: &Value, recording: &Value, tolerance: f64) -> Verdict {
     if let Some(message) = recording["refused"].as_str() {
         return Verdict::Refused(message.into());
     }
@@ -359,7 +361,7 @@ fn trajectory(m: &Model, start: &Value, recording: &Value) -> Verdict {
             let Some(id) = reflect::field(Object::Data, field) else { continue };
             let (ours, theirs) = (list(m, &d, id), numbers(values));
             let scale = largest(&theirs).max(1.0);
-            apart = apart.max(note(&mut found, &place, field, &ours, &theirs, scale, TRAJECTORY));
+            apart = apart.max(note(&mut found, &place, field, &ours, &theirs, scale, tolerance));
         }
         if !found.is_empty() {
             // What follows a difference follows from it.

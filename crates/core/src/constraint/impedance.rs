@@ -43,12 +43,14 @@ pub(super) fn kbi(m: &Model, acts: Acts, solref: [f64; 2], solimp: [f64; 5], r: 
     } else {
         (-solref[0] / (dmax * dmax).max(MINVAL), -solref[1] / dmax.max(MINVAL))
     };
-    // A row of the discrete integrator is solved at the end of the step: it is stable however stiff, but beyond this
-    // it would throw back what it stops.
-    let stiffest = 1.0 / (imp * m.opt.timestep * m.opt.timestep);
-    if acts == Acts::OneWay && solref[0] > 0.0 && k > stiffest && refsafe(m) && discrete(m) {
-        k = stiffest;
-        b = 2.0 * solref[1] * k.sqrt();
+    if discrete(m) && acts == Acts::OneWay && solref[0] > 0.0 && refsafe(m) {
+        // A row of the discrete integrator is solved at the end of the step: it is stable however stiff, but beyond
+        // this it would throw back what it stops.
+        let stiffest = 1.0 / (imp * m.opt.timestep * m.opt.timestep);
+        if k > stiffest {
+            k = stiffest;
+            b = 2.0 * solref[1] * k.sqrt();
+        }
     }
     Kbi { k, b, imp, slope }
 }
