@@ -51,6 +51,7 @@ pub use diagnostic::{Diagnostic, Fix, Parsed, Severity, Span};
 pub use effects::{Access, Effects};
 pub use globals::{Globals, ProgramId};
 pub use heap::{Full, Heap, Ref};
+pub use math::hypot;
 pub use natives::to_fixed;
 pub use parse::{MAX_DEPTH, MAX_SOURCE, parse_expression, parse_statements};
 pub use print::{print, print_statements};

@@ -355,6 +355,8 @@ impl<'t> Lowering<'t> {
                 self.unary_value(span, |dst| Op::GlobalNamed(dst, name))
             }
             (Kind::Chain(inner), _) => self.chain(inner, span),
+            // A number register cannot tell `undefined` from NaN.
+            (Kind::Logical(op @ LogicalOp::Nullish, a, b), _) => self.logical_value(*op, a, b, span),
             (Kind::Present(object), _) => {
                 let value = self.value(object);
                 let exit = self.jump(Op::JumpIfNothing(true, value, 0), span);
@@ -381,14 +383,7 @@ impl<'t> Lowering<'t> {
                 let (a, b) = self.two_values(a, b);
                 self.unary_value(span, |dst| Op::Plus(dst, a, b))
             }
-            (Kind::Logical(op, a, b), _) => {
-                let dst = self.new_value();
-                self.value_to(a, dst);
-                let end = self.keeps(*op, dst, span);
-                self.value_to(b, dst);
-                self.land(end);
-                dst
-            }
+            (Kind::Logical(op, a, b), _) => self.logical_value(*op, a, b, span),
             (Kind::Choice(test, a, b), _) => {
                 let dst = self.new_value();
                 self.choice(test, span, |s| s.value_to(a, dst), |s| s.value_to(b, dst));
@@ -400,6 +395,15 @@ impl<'t> Lowering<'t> {
                 self.boxed(src, Slot::Number, span)
             }
         }
+    }
+
+    fn logical_value(&mut self, op: LogicalOp, a: &Ir, b: &Ir, span: Span) -> Val {
+        let dst = self.new_value();
+        self.value_to(a, dst);
+        let end = self.keeps(op, dst, span);
+        self.value_to(b, dst);
+        self.land(end);
+        dst
     }
 
     /// A jump that is taken when `value op …` is the value.

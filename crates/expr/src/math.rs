@@ -233,9 +233,9 @@ fn min(args: &[f64]) -> f64 {
     })
 }
 
-/// The root of the sum of squares, scaled by the largest against overflow and summed with Kahan's
+/// `Math.hypot`: the root of the sum of squares, scaled by the largest against overflow and summed with Kahan's
 /// compensation, as engines do. An infinite argument wins over NaN.
-fn hypot(args: &[f64]) -> f64 {
+pub fn hypot(args: &[f64]) -> f64 {
     if args.iter().any(|x| x.is_infinite()) {
         return f64::INFINITY;
     }

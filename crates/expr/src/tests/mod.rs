@@ -3,6 +3,7 @@
 mod arithmetic;
 mod javascript;
 mod mistakes;
+mod node;
 mod programs;
 mod roundtrip;
 mod semantics;

@@ -1,9 +1,16 @@
 //! The one table of functions that programs may call: signature, effects, documentation, and what they do.
 
+mod lib;
+mod measure;
+mod mj;
+mod sim;
+
+use std::sync::LazyLock;
+
 use super::World;
 use super::handle::{self, Side};
+use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
-use labspec_core::{self as core, Obj};
 use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Heap, Param, Touch, Type, Value};
 
 /// The objects that hold functions.
@@ -24,6 +31,11 @@ pub(super) enum Arg {
     Model,
     Data,
     Number,
+    Text,
+    /// A list of numbers.
+    Numbers,
+    /// Any value.
+    Any,
     /// The name of an object of this kind.
     Name(Obj),
     /// A sub-program of an aggregate.
@@ -42,6 +54,16 @@ pub(super) enum Touches {
     Coordinates,
     /// Contacts and their forces.
     Contacts,
+    /// Energies.
+    Energy,
+    /// The flags of options that are switched on.
+    Flags,
+    /// Places of bodies and sites.
+    Places,
+    /// All that a Jacobian follows from.
+    Motion,
+    /// The mass matrix.
+    Mass,
 }
 
 /// A row of the table.
@@ -52,6 +74,12 @@ pub(super) struct Function {
     pub(super) args: &'static [Arg],
     pub(super) optional: usize,
     pub(super) returns: Type,
+    /// Members of a record that it gives.
+    pub(super) members: &'static [(&'static str, Type)],
+    /// Number of elements of a list that it gives.
+    pub(super) length: Option<usize>,
+    /// The field of the data whose part for an object of this kind it gives.
+    pub(super) gives: Option<(&'static str, Obj)>,
     pub(super) reads: Touches,
     pub(super) writes: &'static [Touches],
     pub(super) place: Place,
@@ -67,6 +95,9 @@ pub(super) const ROW: Function = Function {
     args: &[],
     optional: 0,
     returns: Type::Number,
+    members: &[],
+    length: None,
+    gives: None,
     reads: Touches::Nothing,
     writes: &[],
     place: Place::Everywhere,
@@ -75,178 +106,9 @@ pub(super) const ROW: Function = Function {
     run: |_, _, _| NOTHING,
 };
 
-/// A function of `mj` that takes the model and the data.
-const ENGINE: Function =
-    Function { object: "mj", args: &[Arg::Model, Arg::Data], returns: Type::Void, ..ROW };
-/// A function over all samples of a run; what it makes of them is in [`crate::verify`].
-const OVER_RUN: Function = Function { args: &[Arg::Lazy], place: Place::Measures, aggregate: true, ..ROW };
-
 /// All functions. Their place in this list is their id.
-pub(super) static TABLE: &[Function] = &[
-    Function {
-        name: "mj_setConst",
-        writes: &[Touches::Coordinates, Touches::Derived],
-        doc: "recomputes the constants that follow from masses, inertias and poses; puts qpos back to the start",
-        run: |w, _, _| {
-            core::set_const(&mut w.model, &mut w.data);
-            NOTHING
-        },
-        ..ENGINE
-    },
-    Function {
-        name: "mj_forward",
-        writes: &[Touches::Derived],
-        doc: "computes every derived field from the state, without advancing time",
-        run: |w, _, _| {
-            core::forward(&w.model, &mut w.data);
-            NOTHING
-        },
-        ..ENGINE
-    },
-    Function {
-        name: "mj_step",
-        writes: &[Touches::State, Touches::Derived],
-        doc: "advances the simulation by one step",
-        run: |w, _, _| {
-            core::step(&w.model, &mut w.data);
-            NOTHING
-        },
-        ..ENGINE
-    },
-    Function {
-        name: "mj_resetData",
-        writes: &[Touches::State, Touches::Derived],
-        doc: "puts the data back to the default configuration",
-        run: |w, _, _| {
-            core::reset_data(&w.model, &mut w.data);
-            NOTHING
-        },
-        ..ENGINE
-    },
-    Function {
-        name: "mj_resetDataKeyframe",
-        args: &[Arg::Model, Arg::Data, Arg::Number],
-        writes: &[Touches::State, Touches::Derived],
-        doc: "puts the data back to a keyframe, counted from 0",
-        run: |w, _, args| {
-            let key = args.first().map_or(0.0, Value::to_number);
-            if !(key >= 0.0 && key < w.model.nkey as f64) {
-                return Err(format!("there is no keyframe {key}: the model has {}", w.model.nkey));
-            }
-            core::reset_data_keyframe(&w.model, &mut w.data, key as usize);
-            NOTHING
-        },
-        ..ENGINE
-    },
-    Function {
-        object: "lib",
-        name: "bodyId",
-        args: &[Arg::Name(Obj::Body)],
-        doc: "index of a body",
-        run: |_, _, args| index(args).map(|i| Value::Number(i as f64)),
-        ..ROW
-    },
-    Function {
-        object: "lib",
-        name: "jointId",
-        args: &[Arg::Name(Obj::Joint)],
-        doc: "index of a joint",
-        run: |_, _, args| index(args).map(|i| Value::Number(i as f64)),
-        ..ROW
-    },
-    Function {
-        object: "lib",
-        name: "qpos",
-        args: &[Arg::Name(Obj::Joint)],
-        reads: Touches::State,
-        doc: "first coordinate of a joint",
-        run: |w, _, args| {
-            let q = w.model.jnt_qposadr.get(index(args)?).map_or(0, |&a| a as usize);
-            Ok(w.data.qpos.get(q).map_or(Value::Undefined, |&x| Value::Number(x)))
-        },
-        ..ROW
-    },
-    Function {
-        object: "lib",
-        name: "normalForce",
-        args: &[Arg::Name(Obj::Geom)],
-        optional: 1,
-        reads: Touches::Contacts,
-        doc: "normal force in N, summed over all contacts, or over those of one geom",
-        run: |w, _, args| {
-            let geom = if args.is_empty() { None } else { Some(index(args)?) };
-            let touching = |c: &&core::Contact| geom.is_none_or(|g| c.geom1 == g || c.geom2 == g);
-            let forces =
-                w.data.contact.iter().filter(touching).map(|c| core::contact_force(&w.model, &w.data, c)[0]);
-            // JavaScript's reduce starts from 0, not from -0.
-            Ok(Value::Number(forces.fold(0.0, |sum, f| sum + f)))
-        },
-        ..ROW
-    },
-    Function {
-        object: "lib",
-        name: "deg",
-        args: &[Arg::Number],
-        doc: "radians to degrees",
-        run: |_, _, args| number(args).map(|x| Value::Number(x * 180.0 / std::f64::consts::PI)),
-        ..ROW
-    },
-    Function {
-        object: "lib",
-        name: "rad",
-        args: &[Arg::Number],
-        doc: "degrees to radians",
-        run: |_, _, args| number(args).map(|x| Value::Number(x * std::f64::consts::PI / 180.0)),
-        ..ROW
-    },
-    Function {
-        name: "contact",
-        args: &[Arg::Name(Obj::Geom), Arg::Name(Obj::Geom)],
-        optional: 1,
-        returns: Type::Boolean,
-        reads: Touches::Contacts,
-        place: Place::Measures,
-        doc: "whether two geoms are in contact, or whether one touches anything",
-        run: |w, _, args| {
-            let (a, b) = (index(args)?, args.get(1).map(|v| handle::index_of(v.to_number())));
-            let touch = |c: &core::Contact| {
-                let pair = [c.geom1, c.geom2];
-                pair.contains(&a) && b.is_none_or(|b| b != a && pair.contains(&b))
-            };
-            Ok(Value::Boolean(w.data.contact.iter().any(touch)))
-        },
-        ..ROW
-    },
-    Function {
-        name: "abs",
-        args: &[Arg::Number],
-        place: Place::Measures,
-        doc: "magnitude",
-        run: |_, _, args| number(args).map(|x| Value::Number(x.abs())),
-        ..ROW
-    },
-    Function {
-        name: "first",
-        doc: "time in s of the first sample at which a condition holds; NaN if it never does",
-        ..OVER_RUN
-    },
-    Function {
-        name: "at",
-        args: &[Arg::Lazy, Arg::Lazy],
-        doc: "at(condition, x): x at the first sample at which the condition holds; NaN if it never does",
-        ..OVER_RUN
-    },
-    Function {
-        name: "before",
-        args: &[Arg::Lazy, Arg::Lazy],
-        doc: "before(condition, x): x at the sample just before the condition first holds; NaN if there is none",
-        ..OVER_RUN
-    },
-    Function { name: "initial", doc: "value at the first sample", ..OVER_RUN },
-    Function { name: "final", doc: "value at the last sample", ..OVER_RUN },
-    Function { name: "min", doc: "smallest value over the run", ..OVER_RUN },
-    Function { name: "max", doc: "largest value over the run", ..OVER_RUN },
-];
+pub(super) static TABLE: LazyLock<Vec<&'static Function>> =
+    LazyLock::new(|| [mj::ROWS, lib::ROWS, sim::ROWS, measure::ROWS].into_iter().flatten().collect());
 
 /// The result of a function that gives nothing back.
 const NOTHING: Result<Value, String> = Ok(Value::Undefined);
@@ -266,6 +128,9 @@ pub(super) fn info(f: &Function) -> FunctionInfo {
         Arg::Model => Param::Object(handle::encode(handle::Thing::Struct(Object::Model))),
         Arg::Data => Param::Object(handle::encode(handle::Thing::Struct(Object::Data))),
         Arg::Number => Param::Number,
+        Arg::Text => Param::Text,
+        Arg::Numbers => Param::Numbers,
+        Arg::Any => Param::Any,
         Arg::Name(kind) => Param::Name(handle::collection(Side::Data, *kind)),
         Arg::Lazy => Param::Lazy,
     };
@@ -275,8 +140,8 @@ pub(super) fn info(f: &Function) -> FunctionInfo {
         optional: f.optional,
         implied: f.name == "mj_setConst",
         returns: f.returns,
-        members: Vec::new(),
-        length: None,
+        members: f.members.iter().map(|(name, ty)| (name.to_string(), *ty)).collect(),
+        length: f.length,
         aggregate: f.aggregate,
         reads: touch(&[f.reads]),
         writes: touch(f.writes),
@@ -298,6 +163,11 @@ fn touch(touches: &[Touches]) -> Touch {
             Touches::State => i.object == Object::Data && matches!(i.kind, Kind::State | Kind::Input),
             Touches::Coordinates => i.object == Object::Data && i.name == "qpos",
             Touches::Contacts => i.stage == Stage::Collision || i.name == "efc_force",
+            Touches::Energy => i.name == "energy",
+            Touches::Flags => i.name == "enableflags",
+            Touches::Places => matches!(i.name, "xpos" | "site_xpos"),
+            Touches::Motion => matches!(i.name, "site_xpos" | "cdof" | "subtree_com"),
+            Touches::Mass => i.stage == Stage::MassMatrix,
         }
     };
     let fields: Vec<FieldKey> = reflect::fields()
@@ -329,6 +199,9 @@ pub fn reference() -> Vec<FunctionDoc> {
         Arg::Model => "model",
         Arg::Data => "data",
         Arg::Number => "x",
+        Arg::Text => "text",
+        Arg::Numbers => "list",
+        Arg::Any => "options",
         Arg::Name(_) => "name",
         Arg::Lazy => "expression",
     };
@@ -340,5 +213,5 @@ pub fn reference() -> Vec<FunctionDoc> {
             measure: f.place == Place::Measures,
         }
     };
-    TABLE.iter().map(one).collect()
+    TABLE.iter().map(|f| one(f)).collect()
 }

@@ -18,21 +18,61 @@ pub(super) enum Thing {
     Struct(Object),
     /// `mj`, `sim`, `lib`: the number of its name in [`super::functions::OBJECTS`].
     Functions(usize),
+    /// `mj.mjtObj`: the number of an enumeration in [`super::enums::ENUMS`].
+    Enum(usize),
+    /// `mj.mjtObj.mjOBJ_BODY`: one of its members.
+    Member(usize, usize),
     /// `data.joint("hinge")`: one object of the model.
     Named(Side, Obj, usize),
 }
 
 /// Kinds of objects with names, and what they are called in the language.
-pub(super) const KINDS: [(Obj, &str); 5] = [
+pub(super) const KINDS: [(Obj, &str); 20] = [
     (Obj::Body, "body"),
     (Obj::Joint, "joint"),
     (Obj::Geom, "geom"),
     (Obj::Site, "site"),
+    (Obj::Camera, "camera"),
+    (Obj::Light, "light"),
+    (Obj::Mesh, "mesh"),
+    (Obj::HField, "hfield"),
+    (Obj::Texture, "texture"),
+    (Obj::Material, "material"),
+    (Obj::Pair, "pair"),
+    (Obj::Exclude, "exclude"),
+    (Obj::Equality, "equality"),
+    (Obj::Tendon, "tendon"),
+    (Obj::Actuator, "actuator"),
     (Obj::Sensor, "sensor"),
+    (Obj::Numeric, "numeric"),
+    (Obj::Text, "text"),
+    (Obj::Tuple, "tuple"),
+    (Obj::Key, "key"),
 ];
+
+/// Shorter and longer words for the same, as the library's own bindings have them.
+const ALIASES: [(&str, &str); 8] = [
+    ("jnt", "joint"),
+    ("cam", "camera"),
+    ("tex", "texture"),
+    ("mat", "material"),
+    ("eq", "equality"),
+    ("ten", "tendon"),
+    ("keyframe", "key"),
+    ("hf", "hfield"),
+];
+
+/// The kind of object that a word means.
+pub(super) fn kind_of(word: &str) -> Option<Obj> {
+    let word = ALIASES.iter().find(|(alias, _)| *alias == word).map_or(word, |(_, noun)| noun);
+    KINDS.iter().find(|(_, noun)| *noun == word).map(|(kind, _)| *kind)
+}
 
 const STRUCTS: [Object; 4] = [Object::Model, Object::Option, Object::Statistic, Object::Data];
 const FUNCTIONS: u32 = 0x100;
+const ENUMS: u32 = 0x200;
+/// Members of the enumerations: 256 numbers for each.
+const MEMBERS: u32 = 0x1_0000;
 const NAMED: u32 = 1 << 31;
 const DATA_SIDE: u32 = 1 << 30;
 const INDEX: u32 = (1 << 24) - 1;
@@ -42,6 +82,8 @@ pub(super) fn encode(thing: Thing) -> ObjectId {
     ObjectId(match thing {
         Thing::Struct(object) => STRUCTS.iter().position(|&s| s == object).unwrap_or(0) as u32,
         Thing::Functions(i) => FUNCTIONS + i as u32,
+        Thing::Enum(i) => ENUMS + i as u32,
+        Thing::Member(i, j) => MEMBERS + ((i as u32) << 8) + j as u32,
         Thing::Named(side, kind, index) => {
             let kind = KINDS.iter().position(|&(k, _)| k == kind).unwrap_or(0) as u32;
             let side = if side == Side::Data { DATA_SIDE } else { 0 };
@@ -56,6 +98,12 @@ pub(super) fn decode(ObjectId(id): ObjectId) -> Option<Thing> {
         let side = if id & DATA_SIDE != 0 { Side::Data } else { Side::Model };
         let (kind, _) = *KINDS.get((id >> 24 & 0x3f) as usize)?;
         return Some(Thing::Named(side, kind, (id & INDEX) as usize));
+    }
+    if id >= MEMBERS {
+        return Some(Thing::Member(((id - MEMBERS) >> 8) as usize, (id & 0xff) as usize));
+    }
+    if id >= ENUMS {
+        return Some(Thing::Enum((id - ENUMS) as usize));
     }
     if id >= FUNCTIONS {
         return Some(Thing::Functions((id - FUNCTIONS) as usize));
@@ -94,7 +142,13 @@ mod tests {
                 assert_eq!(of_collection(collection(side, kind)).map(|(s, k, _)| (s, k)), Some((side, kind)));
             }
         }
-        for thing in [Thing::Struct(Object::Data), Thing::Struct(Object::Option), Thing::Functions(2)] {
+        for thing in [
+            Thing::Struct(Object::Data),
+            Thing::Struct(Object::Option),
+            Thing::Functions(2),
+            Thing::Enum(3),
+            Thing::Member(3, 70),
+        ] {
             assert_eq!(decode(encode(thing)), Some(thing));
         }
     }

@@ -5,6 +5,8 @@
 //! computes, bound to its model.
 
 mod compile;
+mod elements;
+mod enums;
 pub mod functions;
 mod handle;
 mod names;

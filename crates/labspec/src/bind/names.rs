@@ -1,9 +1,11 @@
 //! What names mean: the language's [`Schema`] over the engine's field table and one model.
 
+use super::elements;
+use super::enums::ENUMS;
 use super::functions::{self, OBJECTS, Place};
 use super::handle::{self, KINDS, Side, Thing};
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
-use labspec_core::{Model, Obj, joint};
+use labspec_core::{Model, Obj};
 use labspec_expr::{
     CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Schema, Value,
 };
@@ -29,7 +31,11 @@ pub struct ModelNames<'m> {
 impl ModelNames<'_> {
     fn functions(&self) -> impl Iterator<Item = (usize, &'static functions::Function)> {
         let measure = self.scope == Scope::Measure;
-        functions::TABLE.iter().enumerate().filter(move |(_, f)| measure || f.place == Place::Everywhere)
+        functions::TABLE
+            .iter()
+            .copied()
+            .enumerate()
+            .filter(move |(_, f)| measure || f.place == Place::Everywhere)
     }
 
     /// A function by its holder and name.
@@ -57,28 +63,9 @@ impl ModelNames<'_> {
             Side::Data => Object::Data,
         };
         reflect::fields().filter(move |f| f.info().object == objects).filter_map(move |f| {
-            let (first, count) = self.row(f, kind, index)?;
+            let (first, count) = elements::row(self.model, f, kind, index)?;
             Some((short_name(f.info().name).to_string(), f, first, count))
         })
-    }
-
-    /// First element and number of elements of a field that belong to one object.
-    fn row(&self, f: FieldId, kind: Obj, index: usize) -> Option<(usize, usize)> {
-        let m = self.model;
-        let shape = reflect::shape(m, f);
-        let width: usize = shape.iter().skip(1).try_fold(1usize, |n, d| Some(n * (*d)?))?;
-        let at = |v: &[i32]| v.get(index).map(|&x| x as usize);
-        let (first, count) = match (kind, *f.info().shape.first()?) {
-            (Obj::Body, "nbody") | (Obj::Joint, "njnt") | (Obj::Geom, "ngeom") | (Obj::Site, "nsite") => {
-                (index, 1)
-            }
-            (Obj::Sensor, "nsensor") => (index, 1),
-            (Obj::Sensor, "nsensordata") => (at(&m.sensor_adr)?, at(&m.sensor_dim)?),
-            (Obj::Joint, "nq") => (at(&m.jnt_qposadr)?, joint::nq(*m.jnt_type.get(index)?)),
-            (Obj::Joint, "nv") => (at(&m.jnt_dofadr)?, joint::nv(*m.jnt_type.get(index)?)),
-            _ => return None,
-        };
-        Some((first * width, count * width))
     }
 
     fn named_member(&self, side: Side, kind: Obj, index: usize, name: &str) -> Option<Entry> {
@@ -114,10 +101,31 @@ impl ModelNames<'_> {
 
 /// The name of a field in a named object: without the prefix that says what it belongs to.
 fn short_name(name: &str) -> &str {
-    ["body_", "jnt_", "dof_", "geom_", "site_", "sensor_"]
-        .iter()
-        .find_map(|p| name.strip_prefix(p))
-        .unwrap_or(name)
+    const PREFIXES: [&str; 22] = [
+        "body_",
+        "jnt_",
+        "dof_",
+        "geom_",
+        "site_",
+        "cam_",
+        "light_",
+        "mesh_",
+        "hfield_",
+        "tex_",
+        "mat_",
+        "pair_",
+        "exclude_",
+        "eq_",
+        "tendon_",
+        "ten_",
+        "actuator_",
+        "sensor_",
+        "numeric_",
+        "text_",
+        "tuple_",
+        "key_",
+    ];
+    PREFIXES.iter().find_map(|p| name.strip_prefix(p)).unwrap_or(name)
 }
 
 fn noun(kind: Obj) -> &'static str {
@@ -256,8 +264,11 @@ impl Schema for ModelNames<'_> {
                     Object::Data => Some(Side::Data),
                     _ => None,
                 };
-                if let (Some(side), Some((kind, _))) = (side, KINDS.iter().find(|(_, noun)| *noun == name)) {
-                    return Some(Entry::Collection(handle::collection(side, *kind)));
+                // A field of the name comes first, as in `data.contact`.
+                if let (Some(side), Some(kind), None) =
+                    (side, handle::kind_of(name), reflect::field(of, name))
+                {
+                    return Some(Entry::Collection(handle::collection(side, kind)));
                 }
                 let f = reflect::field(of, name)?;
                 Some(Entry::Field(self.whole(f, format!("{}.{name}", self.describe(object)))))
@@ -269,8 +280,21 @@ impl Schema for ModelNames<'_> {
                         .map(|f| Entry::Field(self.whole(f, "sim.time".into()))),
                     ("sim", "timestep") => reflect::field(Object::Option, "timestep")
                         .map(|f| Entry::Field(self.whole(f, "sim.timestep".into()))),
+                    ("mj", _) if name.starts_with("mjt") => {
+                        let i = ENUMS.iter().position(|(n, _)| *n == name)?;
+                        Some(Entry::Object(handle::encode(Thing::Enum(i))))
+                    }
                     _ => self.function_of(holder, name),
                 }
+            }
+            Thing::Enum(i) => {
+                let (_, members) = ENUMS.get(i)?;
+                let j = members.iter().position(|(n, _)| *n == name)?;
+                Some(Entry::Object(handle::encode(Thing::Member(i, j))))
+            }
+            Thing::Member(i, j) => {
+                let (_, number) = ENUMS.get(i)?.1.get(j)?;
+                (name == "value").then_some(Entry::Constant(Value::Number(*number as f64)))
             }
             Thing::Named(side, kind, index) => self.named_member(side, kind, index, name),
         }
@@ -297,6 +321,11 @@ impl Schema for ModelNames<'_> {
                     names.extend(["time".into(), "timestep".into()]);
                 }
             }
+            Some(Thing::Enum(i)) => {
+                let members = ENUMS.get(i).map_or(&[][..], |(_, members)| members);
+                names.extend(members.iter().map(|(n, _)| n.to_string()));
+            }
+            Some(Thing::Member(..)) => names.push("value".into()),
             Some(Thing::Named(side, kind, index)) => {
                 names.extend(["id".into(), "name".into()]);
                 names.extend(self.rows(side, kind, index).map(|(short, ..)| short));
@@ -313,6 +342,11 @@ impl Schema for ModelNames<'_> {
             Some(Thing::Struct(Object::Statistic)) => "model.stat".into(),
             Some(Thing::Struct(Object::Data)) => "data".into(),
             Some(Thing::Functions(i)) => OBJECTS.get(i).copied().unwrap_or("").into(),
+            Some(Thing::Enum(i)) => format!("mj.{}", ENUMS.get(i).map_or("", |(n, _)| n)),
+            Some(Thing::Member(i, j)) => {
+                let (holder, members) = ENUMS.get(i).copied().unwrap_or(("", &[]));
+                format!("mj.{holder}.{}", members.get(j).map_or("", |(n, _)| n))
+            }
             Some(Thing::Named(_, kind, index)) => {
                 let name = self.model.names.of(kind).get(index).map_or("", String::as_str);
                 format!("the {} \"{name}\"", noun(kind))
@@ -335,8 +369,36 @@ impl Schema for ModelNames<'_> {
         handle::of_collection(collection).map_or("object", |(_, _, noun)| noun)
     }
 
+    fn element_help(&self, FieldKey(f): FieldKey, index: usize) -> Option<String> {
+        elements::help(self.model, FieldId(f as u16), index)
+    }
+
+    fn named_element(&self, FieldKey(f): FieldKey, index: usize) -> Option<String> {
+        let field = FieldId(f as u16);
+        let side = match field.info().object {
+            Object::Model => Side::Model,
+            Object::Data => Side::Data,
+            _ => return None,
+        };
+        let (kind, object) = elements::owner(self.model, field, index)?;
+        let (first, _) = elements::row(self.model, field, kind, object)?;
+        self.model.names.of(kind).get(object).filter(|n| !n.is_empty())?;
+        let short = short_name(field.info().name);
+        let short = if short == "sensordata" { "data" } else { short };
+        Some(format!("{}.{short}[{}]", self.path(side, kind, object), index - first))
+    }
+
+    fn result_field(&self, FunctionId(i): FunctionId, object: ObjectId) -> Option<Field> {
+        let (name, kind) = functions::TABLE.get(i as usize)?.gives?;
+        let Some(Thing::Named(_, of, index)) = handle::decode(object) else { return None };
+        let f = reflect::field(Object::Data, name)?;
+        let (first, count) = elements::row(self.model, f, kind, index).filter(|_| of == kind)?;
+        let path = format!("{}.{}", self.path(Side::Data, kind, index), short_name(name));
+        Some(field(f, path, first, vec![Some(count)], format!("a position has {count} of these")))
+    }
+
     fn function(&self, FunctionId(i): FunctionId) -> FunctionInfo {
-        functions::info(functions::TABLE.get(i as usize).unwrap_or(&functions::ROW))
+        functions::info(functions::TABLE.get(i as usize).copied().unwrap_or(&functions::ROW))
     }
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {

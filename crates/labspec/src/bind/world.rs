@@ -12,6 +12,8 @@ pub struct World {
     pub model: Model,
     /// The state and what follows from it.
     pub data: Data,
+    /// The keyframe to return to.
+    pub key: Option<usize>,
 }
 
 impl Host for World {
@@ -45,8 +47,12 @@ fn check(field: FieldId, value: f64) -> Result<(), String> {
         "timestep" if !(value > 0.0 && value.is_finite()) => {
             Err(format!("the timestep must be greater than 0, not {value}"))
         }
-        "integrator" if !is(&[integrator::EULER, integrator::RK4]) => {
-            Err(format!("integrator {value} is not supported yet: 0 is Euler, 1 is RK4"))
+        "integrator"
+            if !is(&[integrator::EULER, integrator::RK4, integrator::IMPLICIT, integrator::IMPLICITFAST]) =>
+        {
+            Err(format!(
+                "integrator {value} does not exist: 0 is Euler, 1 is RK4, 2 is implicit, 3 is implicitfast"
+            ))
         }
         "cone" if !is(&[0]) => Err(format!("friction cone {value} is not supported yet: 0 is pyramidal")),
         "solver" if !is(&[2]) => Err(format!("solver {value} is not supported yet: 2 is Newton")),

@@ -66,7 +66,7 @@ impl<'p> Session<'p> {
             ControlProgram::Press(_) => Value::Undefined,
         });
         let mut session = Session {
-            world: World { model: model.clone(), data },
+            world: World { model: model.clone(), data, key },
             context: Context::of(&programs.globals),
             troubles: Vec::new(),
             warnings: [WarningStat::default(); Warning::COUNT],

@@ -85,7 +85,7 @@ pub fn shown(x: f64, digits: u32) -> String {
         // JavaScript writes the sign of the exponent.
         return if text.contains("e-") { text } else { text.replace('e', "e+") };
     }
-    format!("{x:.*}", digits as usize)
+    labspec_expr::to_fixed(x, digits as usize)
 }
 
 fn quoted(text: &str) -> String {

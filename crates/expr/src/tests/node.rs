@@ -1,0 +1,525 @@
+//! Random programs against JavaScript itself, bit for bit: generated, run here and in node, compared. Functions that
+//! the standard leaves to the implementation to the last digit (`sin`, `log`, `**` …) are left out.
+//!
+//! LABSPEC_NODE_PROGRAMS is the number of programs, LABSPEC_NODE_SEED where they start; without node the test says so.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::process::{Command, Stdio};
+
+use crate::mock::{Mock, World};
+use crate::*;
+
+/// Marsaglia's xorshift.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self, n: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as usize % n.max(1)
+    }
+
+    fn pick<'a>(&mut self, words: &[&'a str]) -> &'a str {
+        words[self.next(words.len())]
+    }
+}
+
+/// What a variable of the program holds.
+#[derive(Clone, Copy, PartialEq)]
+enum Holds {
+    Number,
+    Text,
+    Anything,
+    List,
+    Numbers,
+    Record,
+    /// Takes so many numbers, gives a number.
+    Function(usize),
+}
+
+struct Generator {
+    random: Random,
+    names: Vec<(String, Holds, bool)>,
+    count: usize,
+    /// Inside of a function: no changes of what is outside, so that folding stays visible.
+    loops: usize,
+    functions: usize,
+}
+
+impl Generator {
+    fn next(&mut self, n: usize) -> usize {
+        self.random.next(n)
+    }
+
+    fn name(&mut self, holds: Holds, changeable: bool) -> Option<String> {
+        let fitting: Vec<&String> =
+            self.names.iter().filter(|n| n.1 == holds && (n.2 || !changeable)).map(|n| &n.0).collect();
+        let n = fitting.len();
+        if n == 0 { None } else { Some(fitting[self.random.next(n)].clone()) }
+    }
+
+    fn number(&mut self, depth: usize) -> String {
+        if depth == 0 {
+            return match self.next(6) {
+                0 => self.next(10).to_string(),
+                1 => self
+                    .random
+                    .pick(&["0.1", "2.5", "1e21", "1e-7", "0x1f", "3.7e5", "NaN", "Infinity", "0"])
+                    .into(),
+                2 => format!("data.qpos[{}]", self.next(14)),
+                3 => self.random.pick(&["data.time", "data.ncon", "data.qpos.length"]).into(),
+                _ => self.name(Holds::Number, false).unwrap_or_else(|| "7".into()),
+            };
+        }
+        let d = depth - 1;
+        match self.next(24) {
+            0..=5 => {
+                let op = self.random.pick(&["+", "-", "*", "/", "%", "&", "|", "^", "<<", ">>", ">>>"]);
+                let (a, b) = (self.number(d), self.number(d));
+                format!("({a} {op} {b})")
+            }
+            6 => format!("(-{})", self.number(d)),
+            7 => format!("(~{})", self.number(d)),
+            8 => {
+                let f = self.random.pick(&[
+                    "abs", "ceil", "floor", "round", "trunc", "sign", "sqrt", "fround", "clz32", "atan",
+                    "asin", "acos", "exp", "expm1", "tan", "log2",
+                ]);
+                format!("Math.{f}({})", self.number(d))
+            }
+            9 => {
+                let f = self.random.pick(&["min", "max", "hypot", "atan2", "imul"]);
+                format!("Math.{f}({}, {})", self.number(d), self.number(d))
+            }
+            10 => format!("({} ? {} : {})", self.truth(d), self.number(d), self.number(d)),
+            11 => {
+                let op = self.random.pick(&["||", "&&"]);
+                format!("({} {op} {})", self.number(d), self.number(d))
+            }
+            12 => format!("(+{})", self.text(d)),
+            13 => format!("{}.length", self.text_atom(d)),
+            14 => format!("{}.length", self.list(d)),
+            15 => format!("{}.reduce((a, x) => a + x, {})", self.numbers(d), self.number(d)),
+            16 => match self.names.iter().rev().find(|n| matches!(n.1, Holds::Function(_))).cloned() {
+                Some((name, Holds::Function(n), _)) => {
+                    let args: Vec<String> = (0..n).map(|_| self.number(d)).collect();
+                    format!("{name}({})", args.join(", "))
+                }
+                _ => self.number(d),
+            },
+            17 => format!("({} ** 2)", self.number(d)),
+            18 => format!("Number({})", self.anything(d)),
+            19 => format!(
+                "(((a, b) => {{ const c = a + b; return c * a; }})({}, {}))",
+                self.number(d),
+                self.number(d)
+            ),
+            20 => format!("Math.max(...{})", self.numbers(d)),
+            21 => format!("parseFloat({})", self.text(d)),
+            22 => match self.name(Holds::Number, true) {
+                Some(name) => format!("{name}{}", self.random.pick(&["++", "--"])),
+                None => self.number(d),
+            },
+            _ => format!("({}[{}] ?? {})", self.numbers(d), self.next(5), self.number(d)),
+        }
+    }
+
+    fn text_atom(&mut self, depth: usize) -> String {
+        if depth > 0 && self.next(2) == 0 {
+            return format!("({})", self.text(depth - 1));
+        }
+        match self.name(Holds::Text, false) {
+            Some(name) if self.next(2) == 0 => name,
+            _ => format!(
+                "'{}'",
+                self.random.pick(&["", "a", "ab c", "12", " 3.5 ", "x,y", "é", "0x10", "-1e3", "true"])
+            ),
+        }
+    }
+
+    fn text(&mut self, depth: usize) -> String {
+        if depth == 0 {
+            return self.text_atom(0);
+        }
+        let d = depth - 1;
+        match self.next(14) {
+            0..=1 => format!("({} + {})", self.text(d), self.anything(d)),
+            2 => format!("`<${{{}}}>${{{}}}`", self.anything(d), self.anything(d)),
+            3 => format!("({}).toFixed({})", self.number(d), self.next(4)),
+            4 => format!("String({})", self.anything(d)),
+            5 => format!("{}.slice({}, {})", self.text_atom(d), self.next(4), self.next(6)),
+            6 => format!(
+                "{}.{}()",
+                self.text_atom(d),
+                self.random.pick(&["toUpperCase", "toLowerCase", "trim"])
+            ),
+            7 => format!("{}.padStart({}, '*')", self.text_atom(d), self.next(8)),
+            8 => format!("{}.join({})", self.list(d), self.text_atom(0)),
+            9 => format!("({} ? {} : {})", self.truth(d), self.text(d), self.text(d)),
+            10 => format!("typeof {}", self.anything(d)),
+            11 => format!("({}).toPrecision({})", self.number(d), 1 + self.next(6)),
+            12 => format!("{}.repeat({})", self.text_atom(d), self.next(3)),
+            _ => format!("({}).toString()", self.number(d)),
+        }
+    }
+
+    fn truth(&mut self, depth: usize) -> String {
+        if depth == 0 {
+            return self.random.pick(&["true", "false", "(data.time === 0)"]).into();
+        }
+        let d = depth - 1;
+        let compare = ["<", "<=", ">", ">=", "===", "!==", "==", "!="];
+        match self.next(8) {
+            0..=2 => format!("({} {} {})", self.number(d), self.random.pick(&compare), self.number(d)),
+            3 => format!("({} {} {})", self.text(d), self.random.pick(&compare), self.text(d)),
+            4 => format!("(!{})", self.anything(d)),
+            5 => format!("({} {} {})", self.truth(d), self.random.pick(&["&&", "||"]), self.truth(d)),
+            6 => format!(
+                "{}.{}(x => x > {})",
+                self.numbers(d),
+                self.random.pick(&["some", "every"]),
+                self.number(d)
+            ),
+            _ => format!("{}.includes({})", self.list(d), self.anything(d)),
+        }
+    }
+
+    fn anything(&mut self, depth: usize) -> String {
+        match self.next(7) {
+            0..=2 => self.number(depth),
+            3 => self.text(depth),
+            4 => self.truth(depth),
+            5 => self.name(Holds::Anything, false).unwrap_or_else(|| "null".into()),
+            _ => self.random.pick(&["null", "undefined", "1", "'s'"]).into(),
+        }
+    }
+
+    /// A list of numbers.
+    fn numbers(&mut self, depth: usize) -> String {
+        if depth == 0 {
+            return match self.name(Holds::Numbers, false) {
+                Some(name) => name,
+                None => self.random.pick(&["[3, 1, 2]", "data.qvel", "[0.5]", "data.efc_force"]).into(),
+            };
+        }
+        let d = depth - 1;
+        match self.next(7) {
+            0 => format!("[{}, {}, {}]", self.number(d), self.number(d), self.number(d)),
+            1 => format!(
+                "{}.map((x, i) => x {} {})",
+                self.numbers(d),
+                self.random.pick(&["+", "*", "-"]),
+                self.random.pick(&["i", "2", "x"])
+            ),
+            2 => format!("{}.slice({})", self.numbers(d), self.next(3)),
+            3 => format!("{}.filter(x => x > {})", self.numbers(d), self.number(0)),
+            4 => format!("[...{}].sort((a, b) => a - b)", self.numbers(d)),
+            5 => format!("[...{}].{}()", self.numbers(d), self.random.pick(&["reverse", "toReversed"])),
+            _ => format!("Array.from({{length: {}}}, (_, i) => i * {})", self.next(5), self.number(d)),
+        }
+    }
+
+    fn list(&mut self, depth: usize) -> String {
+        if depth == 0 {
+            return self.name(Holds::List, false).unwrap_or_else(|| "[1, 'b', null]".into());
+        }
+        let d = depth - 1;
+        match self.next(6) {
+            0 => format!("[{}, {}]", self.anything(d), self.anything(d)),
+            1 => format!("[...{}, {}]", self.list(d), self.anything(d)),
+            2 => format!("{}.concat({})", self.list(d), self.anything(d)),
+            3 => {
+                format!("{}.map(x => {})", self.list(d), self.random.pick(&["x", "x + 1", "[x]", "typeof x"]))
+            }
+            4 => format!("{}.split({})", self.text_atom(d), self.random.pick(&["','", "''", "' '"])),
+            _ => format!("[...{}]", self.numbers(d)),
+        }
+    }
+
+    fn declare(&mut self, holds: Holds, changes: bool) -> String {
+        self.count += 1;
+        let name = format!("v{}", self.count);
+        self.names.push((name.clone(), holds, changes));
+        name
+    }
+
+    fn block(&mut self, depth: usize, n: usize) -> String {
+        let names = self.names.len();
+        let mut out = String::from("{ ");
+        for _ in 0..n {
+            out += &self.statement(depth);
+        }
+        self.names.truncate(names);
+        out + "}"
+    }
+
+    fn statement(&mut self, depth: usize) -> String {
+        let d = depth.saturating_sub(1);
+        match self.next(if depth == 0 { 10 } else { 18 }) {
+            0..=1 => {
+                let value = self.number(2);
+                let changes = self.next(2) == 0;
+                let name = self.declare(Holds::Number, changes);
+                format!("{} {name} = {value}; ", if changes { "let" } else { "const" })
+            }
+            2 => {
+                let value = self.text(2);
+                format!("const {} = {value}; ", self.declare(Holds::Text, false))
+            }
+            3 => {
+                let value = self.list(2);
+                format!("const {} = {value}; ", self.declare(Holds::List, false))
+            }
+            4 => {
+                let value = self.anything(2);
+                format!("let {} = {value}; ", self.declare(Holds::Anything, true))
+            }
+            5..=6 => match self.name(Holds::Number, true) {
+                Some(name) => {
+                    let op =
+                        self.random.pick(&["=", "+=", "-=", "*=", "/=", "%=", "|=", "&&=", "||=", "??="]);
+                    format!("{name} {op} {}; ", self.number(2))
+                }
+                None => format!("data.qpos[{}] = {}; ", self.next(14), self.number(2)),
+            },
+            7 => match self.name(Holds::Anything, true) {
+                Some(name) => format!("{name} {} {}; ", self.random.pick(&["=", "+="]), self.anything(2)),
+                None => format!("ctx.k = {}; ", self.anything(2)),
+            },
+            8 => format!(
+                "data.qvel[{}] {} {}; ",
+                self.next(12),
+                self.random.pick(&["=", "+=", "*="]),
+                self.number(2)
+            ),
+            9 => match self.name(Holds::List, false) {
+                Some(name) => match self.next(4) {
+                    0 => format!("{name}.push({}); ", self.anything(1)),
+                    1 => format!("{name}[{}] = {}; ", self.next(4), self.anything(1)),
+                    2 => format!("{name}.reverse(); "),
+                    _ => format!("{name}.pop(); "),
+                },
+                None => format!("const {{a: {}}} = {{a: {}}}; ", self.declare(Holds::Anything, false), "4"),
+            },
+            10..=11 => {
+                let (test, then) = (self.truth(2), self.block(d, 2));
+                match self.next(2) {
+                    0 => format!("if ({test}) {then} "),
+                    _ => format!("if ({test}) {then} else {} ", self.block(d, 1)),
+                }
+            }
+            12..=13 => {
+                let names = self.names.len();
+                let i = self.declare(Holds::Number, false);
+                self.loops += 1;
+                let n = 1 + self.next(4);
+                let body = self.block(d, 2);
+                self.loops -= 1;
+                self.names.truncate(names);
+                format!("for (let {i} = 0; {i} < {n}; {i}++) {body} ")
+            }
+            14 => {
+                let list = self.numbers(1);
+                let names = self.names.len();
+                let x = self.declare(Holds::Number, false);
+                self.loops += 1;
+                let body = self.block(d, 2);
+                self.loops -= 1;
+                self.names.truncate(names);
+                format!("for (const {x} of {list}) {body} ")
+            }
+            15 if self.loops > 0 => {
+                format!("if ({}) {}; ", self.truth(1), self.random.pick(&["break", "continue"]))
+            }
+            16 if self.functions == 0 => {
+                let n = self.next(3);
+                self.functions += 1;
+                let (outer, loops) = (self.names.len(), std::mem::take(&mut self.loops));
+                let params: Vec<String> = (0..n).map(|_| self.declare(Holds::Number, true)).collect();
+                let body: String = (0..2).map(|_| self.statement(d)).collect();
+                let result = self.number(2);
+                self.names.truncate(outer);
+                self.loops = loops;
+                self.functions -= 1;
+                let name = self.declare(Holds::Function(n), false);
+                format!("const {name} = ({}) => {{ {body}return {result}; }}; ", params.join(", "))
+            }
+            17 => {
+                let i = self.declare(Holds::Number, false);
+                self.names.pop();
+                self.loops += 1;
+                let body = self.block(d, 1);
+                self.loops -= 1;
+                format!("let {i} = 0; while ({i} < 3) {{ {i}++; {body} }} ")
+            }
+            _ => {
+                let value = self.number(1);
+                let name = self.declare(Holds::Record, false);
+                format!("const {name} = {{p: {value}, q: [{value}]}}; {name}.p += 1; ")
+            }
+        }
+    }
+
+    fn program(&mut self) -> String {
+        self.names.clear();
+        (self.count, self.loops, self.functions) = (0, 0, 0);
+        let n = 1 + self.next(6);
+        let mut out = String::new();
+        for _ in 0..n {
+            out += &self.statement(2);
+        }
+        let shown: Vec<String> = self
+            .names
+            .iter()
+            .filter(|n| !matches!(n.1, Holds::Function(_)))
+            .map(|n| n.0.clone())
+            .chain([String::new()])
+            .collect();
+        let last = self.anything(3);
+        let shown = shown.join(", ");
+        out + &format!("ctx.out = [{shown}{last}, ctx.k];")
+    }
+}
+
+/// A value as `node.js` shows it.
+fn show(heap: &Heap, value: &Value, depth: usize, out: &mut String) {
+    if depth > 6 {
+        out.push('…');
+        return;
+    }
+    let _ = match value {
+        Value::Undefined => write!(out, "u"),
+        Value::Null => write!(out, "0"),
+        Value::Number(x) if x.is_nan() => write!(out, "nNaN"),
+        Value::Number(x) => write!(out, "n{:x}", x.to_bits()),
+        Value::String(s) => write!(out, "s{}", json(s)),
+        Value::Boolean(b) => write!(out, "b{b}"),
+        Value::Function(_) => write!(out, "f"),
+        Value::View(_) => write!(out, "view"),
+        Value::List(_) => {
+            out.push('[');
+            for i in 0..heap.len(value).unwrap_or(0) {
+                if i > 0 {
+                    out.push(' ');
+                }
+                show(heap, &heap.item(value, i).unwrap_or_default(), depth + 1, out);
+            }
+            write!(out, "]")
+        }
+        Value::Record(_) => {
+            out.push('{');
+            if let crate::heap::Object::Record(entries) = heap.object(value) {
+                for (i, (key, value)) in entries.iter().enumerate() {
+                    if i > 0 {
+                        out.push(' ');
+                    }
+                    out.push_str(&format!("{key}:"));
+                    show(heap, value, depth + 1, out);
+                }
+            }
+            write!(out, "}}")
+        }
+    };
+}
+
+fn json(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            '\n' => out.push_str("\\n"),
+            c if c < ' ' => out.push_str(&format!("\\u{:04x}", c as u32)),
+            c => out.push(c),
+        }
+    }
+    out + "\""
+}
+
+fn numbers(list: &[f64], out: &mut String) {
+    out.push('[');
+    for (i, x) in list.iter().enumerate() {
+        let gap = if i > 0 { " " } else { "" };
+        let text = if x.is_nan() { "NaN".into() } else { format!("{:x}", x.to_bits()) };
+        let _ = write!(out, "{gap}n{text}");
+    }
+    out.push(']');
+}
+
+/// What a program does here; `None` when the compiler refuses it.
+fn here(source: &str) -> Option<String> {
+    if std::env::var("LABSPEC_NODE_SHOW").is_ok() {
+        eprintln!("{source}");
+    }
+    let mut globals = Globals::new();
+    let slot = globals.define("out");
+    globals.define("k");
+    let program = Compiler::new(&Mock, &mut globals).statements(source).program?;
+    let (mut world, mut context) = (World::new(), Context::of(&globals));
+    let mut out = String::new();
+    match program.run(&mut world, &mut context, None) {
+        Ok(_) => show(&context.heap, context.get(slot), 0, &mut out),
+        Err(_) => out.push('E'),
+    }
+    out.push_str(" | ");
+    numbers(&world.fields[1], &mut out);
+    numbers(&world.fields[2], &mut out);
+    Some(out)
+}
+
+/// What programs do in node; `None` without node.
+fn there(sources: &[String]) -> Option<Vec<String>> {
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/src/tests/node.js");
+    let mut child =
+        Command::new("node").arg(script).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().ok()?;
+    let mut input = child.stdin.take().unwrap();
+    let text: String = sources.iter().map(|s| json(s) + "\n").collect();
+    let writer = std::thread::spawn(move || input.write_all(text.as_bytes()));
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap().unwrap();
+    Some(String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect())
+}
+
+fn from_env(name: &str, default: u64) -> u64 {
+    std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default)
+}
+
+#[test]
+fn random_programs_do_what_javascript_does() {
+    let wanted = from_env("LABSPEC_NODE_PROGRAMS", 1500) as usize;
+    let seed = from_env("LABSPEC_NODE_SEED", 1);
+    let random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+    let mut generator = Generator { random, names: Vec::new(), count: 0, loops: 0, functions: 0 };
+    let (mut done, mut refused) = (0, 0);
+    while done < wanted {
+        let batch: Vec<(String, String)> = (0..2000.min(2 * (wanted - done)))
+            .filter_map(|_| {
+                let source = generator.program();
+                match here(&source) {
+                    Some(result) => Some((source, result)),
+                    None => {
+                        refused += 1;
+                        None
+                    }
+                }
+            })
+            .take(wanted - done)
+            .collect();
+        let sources: Vec<String> = batch.iter().map(|(s, _)| s.clone()).collect();
+        let Some(results) = there(&sources) else {
+            println!("node is not installed: nothing was compared with JavaScript");
+            return;
+        };
+        assert_eq!(results.len(), batch.len());
+        for ((source, ours), theirs) in batch.iter().zip(&results) {
+            assert!(ours == theirs, "{source}\n here: {ours}\nthere: {theirs}");
+        }
+        done += batch.len();
+    }
+    println!("{done} programs compared, {refused} refused by the compiler");
+    assert!(
+        refused * 4 < done,
+        "{refused} of {done} programs refused: the generator writes what nobody means"
+    );
+}

@@ -1,0 +1,164 @@
+//! Which part of a field belongs to which object of the model, and what its elements are: the one place where
+//! named access, the help on an element and the rewriting of bare indexes come from.
+
+use labspec_core::reflect::{self, FieldId, Object};
+use labspec_core::{Model, Obj, joint};
+
+/// First element and number of elements of a field that belong to one object; `None` when the field has no rows
+/// of this kind.
+pub(super) fn row(m: &Model, f: FieldId, kind: Obj, index: usize) -> Option<(usize, usize)> {
+    let shape = reflect::shape(m, f);
+    let width: usize = shape.iter().skip(1).try_fold(1usize, |n, d| n.checked_mul((*d)?))?;
+    let (first, count) = span(m, kind, f.info().shape.first()?, index)?;
+    Some((first.checked_mul(width)?, count.checked_mul(width)?))
+}
+
+/// First and number of the rows of one object along a dimension.
+fn span(m: &Model, kind: Obj, dim: &str, index: usize) -> Option<(usize, usize)> {
+    let at = |v: &[i32]| v.get(index).and_then(|&x| usize::try_from(x).ok());
+    let one = |wanted: &str| (dim == wanted).then_some((index, 1));
+    match (kind, dim) {
+        (Obj::Joint, "nq") => Some((at(&m.jnt_qposadr)?, joint::nq(*m.jnt_type.get(index)?))),
+        (Obj::Joint, "nv") => Some((at(&m.jnt_dofadr)?, joint::nv(*m.jnt_type.get(index)?))),
+        (Obj::Sensor, "nsensordata") => Some((at(&m.sensor_adr)?, at(&m.sensor_dim)?)),
+        (Obj::Actuator, "nu") => Some((at(&m.actuator_ctrladr)?, at(&m.actuator_ctrlnum)?)),
+        (Obj::Actuator, "nout") => Some((at(&m.actuator_outadr)?, at(&m.actuator_outnum)?)),
+        (Obj::Actuator, "na") => Some((at(&m.actuator_actadr)?, at(&m.actuator_actnum)?)),
+        (Obj::Numeric, "nnumericdata") => Some((at(&m.numeric_adr)?, at(&m.numeric_size)?)),
+        (Obj::Tuple, "ntupledata") => Some((at(&m.tuple_adr)?, at(&m.tuple_size)?)),
+        (kind, _) => one(size_of(kind)?),
+    }
+}
+
+/// The size that counts the objects of a kind.
+fn size_of(kind: Obj) -> Option<&'static str> {
+    Some(match kind {
+        Obj::Body => "nbody",
+        Obj::Joint => "njnt",
+        Obj::Geom => "ngeom",
+        Obj::Site => "nsite",
+        Obj::Camera => "ncam",
+        Obj::Light => "nlight",
+        Obj::Mesh => "nmesh",
+        Obj::HField => "nhfield",
+        Obj::Texture => "ntex",
+        Obj::Material => "nmat",
+        Obj::Pair => "npair",
+        Obj::Exclude => "nexclude",
+        Obj::Equality => "neq",
+        Obj::Tendon => "ntendon",
+        Obj::Actuator => "nactuator",
+        Obj::Sensor => "nsensor",
+        Obj::Numeric => "nnumeric",
+        Obj::Text => "ntext",
+        Obj::Tuple => "ntuple",
+        Obj::Key => "nkey",
+        _ => return None,
+    })
+}
+
+/// The object that an element of a field belongs to.
+pub(super) fn owner(m: &Model, f: FieldId, index: usize) -> Option<(Obj, usize)> {
+    let dim = *f.info().shape.first()?;
+    let kinds = super::handle::KINDS.iter().map(|(kind, _)| *kind);
+    for kind in kinds {
+        // A quick look before all objects are asked.
+        if span(m, kind, dim, 0).is_none() {
+            continue;
+        }
+        let count = m.names.of(kind).len();
+        let holds =
+            |i: &usize| row(m, f, kind, *i).is_some_and(|(first, n)| (first..first + n).contains(&index));
+        if let Some(i) = (0..count).find(holds) {
+            return Some((kind, i));
+        }
+    }
+    None
+}
+
+/// What an element is: `joint "light_free" (free): z position, m`.
+pub(super) fn help(m: &Model, f: FieldId, index: usize) -> Option<String> {
+    let (kind, object) = owner(m, f, index)?;
+    let (first, count) = row(m, f, kind, object)?;
+    let noun = super::handle::KINDS.iter().find(|(k, _)| *k == kind).map_or("object", |(_, noun)| noun);
+    let name = m.names.of(kind).get(object).map_or("", String::as_str);
+    let name = if name.is_empty() { format!("{object}") } else { name.to_owned() };
+    let at = index - first;
+    let info = f.info();
+    if kind == Obj::Joint {
+        let ty = *m.jnt_type.get(object)?;
+        let what = match (info.object, *info.shape.first()?) {
+            (_, "nq") => coordinate(ty, at),
+            (_, "nv") => rate(ty, at),
+            _ => None,
+        };
+        if let Some((what, unit)) = what {
+            let per = match info.name {
+                "qvel" => format!("{}/s", unit),
+                "qacc" | "qacc_smooth" | "qacc_warmstart" => format!("{}/s^2", unit),
+                n if n.starts_with("qfrc") => if unit == "m" { "N" } else { "N m" }.to_owned(),
+                "qpos" | "qpos0" | "qpos_spring" => unit.to_owned(),
+                _ => String::new(),
+            };
+            let unit = if per.is_empty() { String::new() } else { format!(", {per}") };
+            return Some(format!("{noun} {name} ({}): {what}{unit}", joint_word(ty)));
+        }
+    }
+    let part = match count {
+        1 => String::new(),
+        3 => format!(" {}", ["x", "y", "z"].get(at)?),
+        4 if info.name.contains("quat") => format!(" quaternion {}", ["w", "x", "y", "z"].get(at)?),
+        _ => format!(" number {at}"),
+    };
+    let unit = if info.unit.is_empty() { String::new() } else { format!(", {}", info.unit) };
+    Some(format!("{noun} {name}:{part} of {}{unit}", info.doc))
+}
+
+fn joint_word(ty: i32) -> &'static str {
+    match ty {
+        joint::FREE => "free",
+        joint::BALL => "ball",
+        joint::SLIDE => "slide",
+        _ => "hinge",
+    }
+}
+
+/// What a coordinate of a joint is, and its unit.
+fn coordinate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
+    const QUATERNION: [&str; 4] =
+        ["quaternion w (cosine of half the angle)", "quaternion x", "quaternion y", "quaternion z"];
+    Some(match (ty, at) {
+        (joint::FREE, 0..=2) => (["x position", "y position", "z position"].get(at)?, "m"),
+        (joint::FREE, _) => (QUATERNION.get(at - 3)?, ""),
+        (joint::BALL, _) => (QUATERNION.get(at)?, ""),
+        (joint::SLIDE, _) => ("position", "m"),
+        _ => ("angle", "rad"),
+    })
+}
+
+/// What a degree of freedom of a joint is, and the unit of its coordinate.
+fn rate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
+    const TURN: [&str; 3] = ["turning about its own x", "turning about its own y", "turning about its own z"];
+    Some(match (ty, at) {
+        (joint::FREE, 0..=2) => (["along x", "along y", "along z"].get(at)?, "m"),
+        (joint::FREE, _) => (TURN.get(at - 3)?, "rad"),
+        (joint::BALL, _) => (TURN.get(at)?, "rad"),
+        (joint::SLIDE, _) => ("along its axis", "m"),
+        _ => ("about its axis", "rad"),
+    })
+}
+
+/// Whether an element of `data.qpos` is part of a quaternion.
+#[allow(dead_code)]
+pub(crate) fn is_quaternion(m: &Model, f: FieldId, index: usize) -> bool {
+    if f.info().object != Object::Data || f.info().name != "qpos" {
+        return false;
+    }
+    let Some((Obj::Joint, object)) = owner(m, f, index) else { return false };
+    let Some((first, _)) = row(m, f, Obj::Joint, object) else { return false };
+    match m.jnt_type.get(object) {
+        Some(&joint::FREE) => index - first >= 3,
+        Some(&joint::BALL) => true,
+        _ => false,
+    }
+}

@@ -1,0 +1,259 @@
+//! The functions of `lib`: what lessons ask for most, in one word.
+
+use super::{Arg, Function, ROW, Touches, index, number};
+use crate::bind::World;
+use labspec_core::{self as core, Obj, enable};
+use labspec_expr::{Heap, Type, Value};
+
+const LIST: Function = Function { object: "lib", returns: Type::List, ..ROW };
+
+/// What `energy` gives, J.
+pub(super) const ENERGIES: &[(&str, Type)] =
+    &[("potential", Type::Number), ("kinetic", Type::Number), ("total", Type::Number)];
+
+pub(super) const ROWS: &[Function] = &[
+    Function {
+        object: "lib",
+        name: "bodyId",
+        args: &[Arg::Name(Obj::Body)],
+        doc: "index of a body",
+        run: |_, _, args| index(args).map(|i| Value::Number(i as f64)),
+        ..ROW
+    },
+    Function {
+        object: "lib",
+        name: "jointId",
+        args: &[Arg::Name(Obj::Joint)],
+        doc: "index of a joint",
+        run: |_, _, args| index(args).map(|i| Value::Number(i as f64)),
+        ..ROW
+    },
+    Function {
+        object: "lib",
+        name: "qpos",
+        args: &[Arg::Name(Obj::Joint)],
+        reads: Touches::State,
+        doc: "first coordinate of a joint",
+        run: |w, _, args| {
+            let q = w.model.jnt_qposadr.get(index(args)?).map_or(0, |&a| a as usize);
+            Ok(w.data.qpos.get(q).map_or(Value::Undefined, |&x| Value::Number(x)))
+        },
+        ..ROW
+    },
+    Function {
+        object: "lib",
+        name: "normalForce",
+        args: &[Arg::Name(Obj::Geom)],
+        optional: 1,
+        reads: Touches::Contacts,
+        doc: "normal force in N, summed over all contacts, or over those of one geom",
+        run: |w, _, args| {
+            let geom = if args.is_empty() { None } else { Some(index(args)?) };
+            let touching = |c: &&core::Contact| geom.is_none_or(|g| c.geom1 == g || c.geom2 == g);
+            let forces =
+                w.data.contact.iter().filter(touching).map(|c| core::contact_force(&w.model, &w.data, c)[0]);
+            // JavaScript's reduce starts from 0, not from -0.
+            Ok(Value::Number(forces.fold(0.0, |sum, f| sum + f)))
+        },
+        ..ROW
+    },
+    Function {
+        object: "lib",
+        name: "deg",
+        args: &[Arg::Number],
+        doc: "radians to degrees",
+        run: |_, _, args| number(args).map(|x| Value::Number(x * 180.0 / std::f64::consts::PI)),
+        ..ROW
+    },
+    Function {
+        object: "lib",
+        name: "rad",
+        args: &[Arg::Number],
+        doc: "degrees to radians",
+        run: |_, _, args| number(args).map(|x| Value::Number(x * std::f64::consts::PI / 180.0)),
+        ..ROW
+    },
+    Function {
+        name: "sitePos",
+        args: &[Arg::Name(Obj::Site)],
+        length: Some(3),
+        gives: Some(("site_xpos", Obj::Site)),
+        reads: Touches::Places,
+        doc: "place of a site in the world, m",
+        run: |w, heap, args| place(heap, &w.data.site_xpos, index(args)?),
+        ..LIST
+    },
+    Function {
+        name: "bodyPos",
+        args: &[Arg::Name(Obj::Body)],
+        length: Some(3),
+        gives: Some(("xpos", Obj::Body)),
+        reads: Touches::Places,
+        doc: "place of a body in the world, m",
+        run: |w, heap, args| place(heap, &w.data.xpos, index(args)?),
+        ..LIST
+    },
+    Function {
+        object: "lib",
+        name: "energy",
+        returns: Type::Record,
+        members: ENERGIES,
+        reads: Touches::Energy,
+        writes: &[Touches::Flags, Touches::Derived],
+        doc: "potential, kinetic and total energy, J; switches the computation of energy on at its first use",
+        run: |w, heap, _| energy(w, heap),
+        ..ROW
+    },
+    Function {
+        name: "contactPairs",
+        reads: Touches::Contacts,
+        doc: "which geoms touch, each pair as text; a geom without a name shows its body's",
+        run: |w, heap, _| {
+            let pairs = w
+                .data
+                .contact
+                .iter()
+                .map(|c| Value::String(format!("{} / {}", label(w, c.geom1), label(w, c.geom2)).into()));
+            let pairs = pairs.collect();
+            heap.list(pairs).map_err(|_| full())
+        },
+        ..LIST
+    },
+    Function {
+        name: "jacobian",
+        args: &[Arg::Name(Obj::Site), Arg::Number],
+        optional: 1,
+        length: Some(6),
+        reads: Touches::Motion,
+        doc: "how a site moves with each degree of freedom: three rows of velocity, three of turning; the second argument keeps only the first columns",
+        run: |w, heap, args| {
+            let rows = jacobian(w, index(args)?, args.get(1).map(Value::to_number));
+            matrix(heap, &rows)
+        },
+        ..LIST
+    },
+    Function {
+        name: "jacobianSV",
+        args: &[Arg::Name(Obj::Site), Arg::Any],
+        optional: 1,
+        reads: Touches::Motion,
+        doc: "singular values of the Jacobian of a site, largest first; the second argument is {cols, rows: \"full\" or \"pos\"}",
+        run: |w, heap, args| {
+            let option = |key| args.get(1).and_then(|o| heap.get(o, key)).filter(|v| !v.is_nothing());
+            let only = option("rows").is_some_and(|v| v.to_string() == "pos");
+            let mut rows = jacobian(w, index(args)?, option("cols").map(|v| v.to_number()));
+            if only {
+                rows.truncate(3);
+            }
+            heap.numbers(&singular_values(&rows)).map_err(|_| full())
+        },
+        ..LIST
+    },
+    Function {
+        name: "massMatrix",
+        reads: Touches::Mass,
+        writes: &[Touches::Derived],
+        doc: "the mass matrix, nv rows of nv numbers; computes all derived fields first",
+        run: |w, heap, _| {
+            core::forward(&w.model, &mut w.data);
+            let m = core::full_m(&w.model, &w.data);
+            let rows: Vec<Vec<f64>> = m.chunks(w.model.nv.max(1)).map(<[f64]>::to_vec).collect();
+            matrix(heap, &rows)
+        },
+        ..LIST
+    },
+    Function {
+        object: "lib",
+        name: "norm",
+        args: &[Arg::Numbers],
+        doc: "length of a vector: the root of the sum of its squares",
+        run: |_, heap, args| {
+            let numbers = args.first().and_then(|v| heap.to_numbers(v)).unwrap_or_default();
+            Ok(Value::Number(labspec_expr::hypot(&numbers)))
+        },
+        ..ROW
+    },
+];
+
+fn full() -> String {
+    "the lists of this lab take too much memory".into()
+}
+
+fn place(heap: &mut Heap, places: &[f64], index: usize) -> Result<Value, String> {
+    let place = places.get(3 * index..3 * index + 3).unwrap_or(&[]);
+    heap.numbers(place).map_err(|_| full())
+}
+
+/// Potential, kinetic and total energy.
+pub(super) fn energy(w: &mut World, heap: &mut Heap) -> Result<Value, String> {
+    if !w.model.opt.enabled(enable::ENERGY) {
+        w.model.opt.enableflags |= enable::ENERGY;
+        core::forward(&w.model, &mut w.data);
+    }
+    let [potential, kinetic] = w.data.energy;
+    let numbers = [potential, kinetic, potential + kinetic];
+    let entries = ENERGIES.iter().zip(numbers).map(|((name, _), x)| ((*name).into(), Value::Number(x)));
+    heap.record(entries.collect()).map_err(|_| full())
+}
+
+/// The name of a geom, or of its body.
+fn label(w: &World, geom: usize) -> &str {
+    let names = &w.model.names;
+    let own = names.geom.get(geom).map_or("", String::as_str);
+    let body = w.model.geom_bodyid.get(geom).map_or(0, |&b| b as usize);
+    if own.is_empty() { names.body.get(body).map_or("", String::as_str) } else { own }
+}
+
+/// The six rows of the Jacobian of a site, or their first columns.
+fn jacobian(w: &World, site: usize, columns: Option<f64>) -> Vec<Vec<f64>> {
+    let nv = w.model.nv;
+    let width = columns.map_or(nv, |c| c.clamp(0.0, nv as f64) as usize);
+    let Some(j) = core::jac_site(&w.model, &w.data, site) else { return vec![Vec::new(); 6] };
+    let row = |all: &[f64], i: usize| all.get(i * nv..i * nv + width).unwrap_or(&[]).to_vec();
+    (0..3).map(|i| row(&j.jacp, i)).chain((0..3).map(|i| row(&j.jacr, i))).collect()
+}
+
+fn matrix(heap: &mut Heap, rows: &[Vec<f64>]) -> Result<Value, String> {
+    let rows: Result<Vec<Value>, _> = rows.iter().map(|row| heap.numbers(row)).collect();
+    rows.and_then(|rows| heap.list(rows)).map_err(|_| full())
+}
+
+/// Roots of the eigenvalues of J Jᵀ, largest first, by cyclic rotations (Jacobi 1846; Golub and Van Loan, "Matrix
+/// Computations", section 8.5).
+fn singular_values(j: &[Vec<f64>]) -> Vec<f64> {
+    let n = j.len();
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y);
+    let mut a: Vec<Vec<f64>> = j.iter().map(|r| j.iter().map(|s| dot(r, s)).collect()).collect();
+    for _sweep in 0..100 {
+        let off: f64 =
+            (0..n).flat_map(|p| (p + 1..n).map(move |q| (p, q))).map(|(p, q)| a[p][q] * a[p][q]).sum();
+        if off < 1e-30 {
+            break;
+        }
+        for p in 0..n {
+            for q in p + 1..n {
+                rotate(&mut a, p, q);
+            }
+        }
+    }
+    let mut values: Vec<f64> = (0..n).map(|i| a[i][i].max(0.0).sqrt()).collect();
+    values.sort_by(|x, y| y.total_cmp(x));
+    values
+}
+
+/// Makes the element (p, q) of a symmetric matrix zero.
+fn rotate(a: &mut [Vec<f64>], p: usize, q: usize) {
+    if a[p][q].abs() < 1e-300 {
+        return;
+    }
+    let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+    let t = 1f64.copysign(theta) / (theta.abs() + (theta * theta + 1.0).sqrt());
+    let c = 1.0 / (t * t + 1.0).sqrt();
+    let s = t * c;
+    for row in a.iter_mut() {
+        (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
+    }
+    for k in 0..a.len() {
+        (a[p][k], a[q][k]) = (c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]);
+    }
+}

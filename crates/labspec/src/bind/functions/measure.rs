@@ -1,0 +1,59 @@
+//! Functions of the measures of `verify`: over the samples of a run, and on the contacts of one sample.
+
+use super::{Arg, Function, Place, ROW, Touches, index, number};
+use crate::bind::handle;
+use labspec_core::{self as core, Obj};
+use labspec_expr::{Type, Value};
+
+/// A function over all samples of a run; what it makes of them is in [`crate::verify`].
+const OVER_RUN: Function = Function { args: &[Arg::Lazy], place: Place::Measures, aggregate: true, ..ROW };
+
+pub(super) const ROWS: &[Function] = &[
+    Function {
+        name: "contact",
+        args: &[Arg::Name(Obj::Geom), Arg::Name(Obj::Geom)],
+        optional: 1,
+        returns: Type::Boolean,
+        reads: Touches::Contacts,
+        place: Place::Measures,
+        doc: "whether two geoms are in contact, or whether one touches anything",
+        run: |w, _, args| {
+            let (a, b) = (index(args)?, args.get(1).map(|v| handle::index_of(v.to_number())));
+            let touch = |c: &core::Contact| {
+                let pair = [c.geom1, c.geom2];
+                pair.contains(&a) && b.is_none_or(|b| b != a && pair.contains(&b))
+            };
+            Ok(Value::Boolean(w.data.contact.iter().any(touch)))
+        },
+        ..ROW
+    },
+    Function {
+        name: "abs",
+        args: &[Arg::Number],
+        place: Place::Measures,
+        doc: "magnitude",
+        run: |_, _, args| number(args).map(|x| Value::Number(x.abs())),
+        ..ROW
+    },
+    Function {
+        name: "first",
+        doc: "time in s of the first sample at which a condition holds; NaN if it never does",
+        ..OVER_RUN
+    },
+    Function {
+        name: "at",
+        args: &[Arg::Lazy, Arg::Lazy],
+        doc: "at(condition, x): x at the first sample at which the condition holds; NaN if it never does",
+        ..OVER_RUN
+    },
+    Function {
+        name: "before",
+        args: &[Arg::Lazy, Arg::Lazy],
+        doc: "before(condition, x): x at the sample just before the condition first holds; NaN if there is none",
+        ..OVER_RUN
+    },
+    Function { name: "initial", doc: "value at the first sample", ..OVER_RUN },
+    Function { name: "final", doc: "value at the last sample", ..OVER_RUN },
+    Function { name: "min", doc: "smallest value over the run", ..OVER_RUN },
+    Function { name: "max", doc: "largest value over the run", ..OVER_RUN },
+];

@@ -1,0 +1,149 @@
+//! The functions of `mj`: MuJoCo's own, over the model and the data of the lab.
+
+use super::{Arg, Function, NOTHING, ROW, Touches, number};
+use labspec_core::{self as core, Obj};
+use labspec_expr::{Type, Value};
+
+/// A function of `mj` that takes the model and the data.
+const ENGINE: Function =
+    Function { object: "mj", args: &[Arg::Model, Arg::Data], returns: Type::Void, ..ROW };
+
+pub(super) const ROWS: &[Function] = &[
+    Function {
+        name: "mj_setConst",
+        writes: &[Touches::Coordinates, Touches::Derived],
+        doc: "recomputes the constants that follow from masses, inertias and poses; puts qpos back to the start",
+        run: |w, _, _| {
+            core::set_const(&mut w.model, &mut w.data);
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_forward",
+        writes: &[Touches::Derived],
+        doc: "computes every derived field from the state, without advancing time",
+        run: |w, _, _| {
+            core::forward(&w.model, &mut w.data);
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_step",
+        writes: &[Touches::State, Touches::Derived],
+        doc: "advances the simulation by one step",
+        run: |w, _, _| {
+            core::step(&w.model, &mut w.data);
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_resetData",
+        writes: &[Touches::State, Touches::Derived],
+        doc: "puts the data back to the default configuration",
+        run: |w, _, _| {
+            core::reset_data(&w.model, &mut w.data);
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_resetDataKeyframe",
+        args: &[Arg::Model, Arg::Data, Arg::Number],
+        writes: &[Touches::State, Touches::Derived],
+        doc: "puts the data back to a keyframe, counted from 0",
+        run: |w, _, args| {
+            let key = args.first().map_or(0.0, Value::to_number);
+            if !(key >= 0.0 && key < w.model.nkey as f64) {
+                return Err(format!("there is no keyframe {key}: the model has {}", w.model.nkey));
+            }
+            core::reset_data_keyframe(&w.model, &mut w.data, key as usize);
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_step1",
+        writes: &[Touches::Derived],
+        doc: "computes what follows from position and velocity: the first half of a step",
+        run: |w, _, _| {
+            core::step1(&w.model, &mut w.data);
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_step2",
+        writes: &[Touches::State, Touches::Derived],
+        doc: "computes forces and advances the simulation: the second half of a step",
+        run: |w, _, _| {
+            core::step2(&w.model, &mut w.data);
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_inverse",
+        writes: &[Touches::Derived],
+        doc: "computes qfrc_inverse, the generalized force that causes the acceleration in qacc",
+        run: |w, _, _| {
+            core::inverse(&w.model, &mut w.data).map_err(|e| e.to_string())?;
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_subtreeVel",
+        writes: &[Touches::Derived],
+        doc: "computes velocity and angular momentum of the subtrees",
+        run: |w, _, _| {
+            core::subtree_vel(&w.model, &mut w.data);
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_rnePostConstraint",
+        writes: &[Touches::Derived],
+        doc: "computes accelerations of bodies and the forces between them",
+        run: |w, _, _| {
+            core::rne_post_constraint(&w.model, &mut w.data);
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_name2id",
+        args: &[Arg::Model, Arg::Number, Arg::Text],
+        returns: Type::Number,
+        doc: "index of the object of this kind (as mj.mjtObj.mjOBJ_BODY.value) and name; -1 when there is none",
+        run: |w, _, args| {
+            let name = args.get(1).map(Value::to_string).unwrap_or_default();
+            let id = kind(number(args)?).and_then(|kind| w.model.names.id(kind, &name));
+            Ok(Value::Number(id.map_or(-1.0, |i| i as f64)))
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_id2name",
+        args: &[Arg::Model, Arg::Number, Arg::Number],
+        returns: Type::Any,
+        doc: "name of the object of this kind and index; null when there is none",
+        run: |w, _, args| {
+            let index = args.get(1).map_or(-1.0, Value::to_number);
+            let names = kind(number(args)?).map(|kind| w.model.names.of(kind)).unwrap_or(&[]);
+            let name = if index >= 0.0 { names.get(index as usize) } else { None };
+            let name = name.filter(|n| !n.is_empty());
+            Ok(name.map_or(Value::Null, |n| Value::from(n.as_str())))
+        },
+        ..ENGINE
+    },
+];
+
+/// The kind of object of a number of `mjtObj`.
+fn kind(number: f64) -> Option<Obj> {
+    let kinds = crate::bind::handle::KINDS.iter().map(|(kind, _)| *kind).chain([Obj::XBody]);
+    kinds.into_iter().find(|kind| f64::from(*kind as i32) == number)
+}

@@ -1,0 +1,73 @@
+//! The functions of `sim`: the simulation as the page sees it. Playing and pausing mean nothing without a page.
+
+use super::lib::{ENERGIES, energy};
+use super::{Function, NOTHING, ROW, Touches};
+use labspec_core as core;
+use labspec_expr::{Type, Value};
+
+const SIM: Function = Function { object: "sim", returns: Type::Void, ..ROW };
+
+pub(super) const ROWS: &[Function] = &[
+    Function { name: "play", doc: "lets the page go on", ..SIM },
+    Function { name: "pause", doc: "stops the page", ..SIM },
+    Function { name: "toggle", doc: "stops the page, or lets it go on", ..SIM },
+    Function {
+        name: "forward",
+        writes: &[Touches::Derived],
+        doc: "computes every derived field from the state",
+        run: |w, _, _| {
+            core::forward(&w.model, &mut w.data);
+            NOTHING
+        },
+        ..SIM
+    },
+    Function {
+        name: "reset",
+        writes: &[Touches::State, Touches::Derived],
+        doc: "puts the data back to the start, or to the keyframe of the lab, and computes the derived fields",
+        run: |w, _, _| {
+            match w.key.filter(|&k| k < w.model.nkey) {
+                Some(key) => core::reset_data_keyframe(&w.model, &mut w.data, key),
+                None => core::reset_data(&w.model, &mut w.data),
+            }
+            core::forward(&w.model, &mut w.data);
+            NOTHING
+        },
+        ..SIM
+    },
+    Function {
+        name: "energy",
+        returns: Type::Record,
+        members: ENERGIES,
+        reads: Touches::Energy,
+        writes: &[Touches::Flags, Touches::Derived],
+        doc: "potential, kinetic and total energy, J; switches the computation of energy on at its first use",
+        run: |w, heap, _| energy(w, heap),
+        ..SIM
+    },
+    Function {
+        name: "contacts",
+        returns: Type::List,
+        reads: Touches::Contacts,
+        doc: "the contacts, each a record of geom1, geom2, dist (m), pos (m), frame, force (N) and dim",
+        run: |w, heap, _| {
+            let full = |_| "the lists of this lab take too much memory".to_owned();
+            let mut contacts = Vec::new();
+            for c in &w.data.contact {
+                let force = core::contact_force(&w.model, &w.data, c);
+                let entries = vec![
+                    ("geom1".into(), Value::Number(c.geom1 as f64)),
+                    ("geom2".into(), Value::Number(c.geom2 as f64)),
+                    ("dist".into(), Value::Number(c.dist)),
+                    ("pos".into(), heap.numbers(&c.pos).map_err(full)?),
+                    ("frame".into(), heap.numbers(&c.frame).map_err(full)?),
+                    ("force".into(), heap.numbers(&force).map_err(full)?),
+                    ("dim".into(), Value::Number(c.dim as f64)),
+                ];
+                contacts.push(heap.record(entries).map_err(full)?);
+            }
+            heap.list(contacts).map_err(full)
+        },
+        ..SIM
+    },
+];
