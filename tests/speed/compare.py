@@ -109,7 +109,7 @@ def main():
     p.add_argument("bench")
     p.add_argument("scenes", nargs="*")
     p.add_argument("--out", type=pathlib.Path)
-    a = p.parse_args()
+    a = p.parse_intermixed_args()
     heads = ["scene", "every field, ns", "planned, ns", "MuJoCo, ns", "ratio", "planned"]
     if shutil.which("valgrind"):
         heads += ["every field, instructions", "planned", "MuJoCo", "ratio", "planned"]
