@@ -139,7 +139,7 @@ fn shared_models_with_constraints() {
                 let path = trajectory(&m, start, &recording["trajectory"], PATH);
                 let class = match &path {
                     Verdict::Same(_) => 0,
-                    Verdict::Chaotic(..) => 1,
+                    Verdict::Sensitive(..) => 1,
                     Verdict::Refused(_) => 2,
                     Verdict::Differs(list) => {
                         let _ = writeln!(table, "| {kind}/{name} | trajectory | {} |", list[0]);

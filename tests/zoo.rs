@@ -12,6 +12,12 @@ use std::path::PathBuf;
 /// What is known to differ, and why.
 const EXCEPTIONS: &[Exception] = &[
     ("tendon_armature", "forward", "the pull of tendons does not count in cfrc_ext yet"),
+    (
+        "mesh_builtin",
+        "compile",
+        "corners of a flat side are off it by the rounding of single precision: the library's hull lies along another of them",
+    ),
+    ("mesh_builtin", "forward", "the axes of that hull"),
     ("actuator_orientation_clamp", "forward", CLAMPED),
     ("actuator_orientation_clamp", "implicit", CLAMPED),
     ("actuator_orientation_clamp", "implicitfast", CLAMPED),

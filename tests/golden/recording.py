@@ -194,14 +194,27 @@ def inverse_of_steps(m, d):
     return out
 
 
+def solution(m, d):
+    """The acceleration of the library's own M and forces, refined in extended precision."""
+    full = np.zeros((m.nv, m.nv))
+    mujoco.mj_fullM(m, d, full)
+    x = np.linalg.solve(full, d.qfrc_smooth).astype(np.longdouble)
+    for _ in range(5):
+        left = d.qfrc_smooth - full.astype(np.longdouble) @ x
+        x += np.linalg.solve(full, left.astype(float))
+    return x
+
+
 def sensitivity(m, d):
     """How far the library's own fields move, on the scale that they are compared on, when every coordinate moves by its
-    last bit: what no one can know better. Only fields that it moves further than the test allows, and none that jumps."""
+    last bit, and how far its acceleration is from the solution of its own equations: what nobody can follow. Only fields
+    that are further from themselves than the test allows, and none that jumps."""
     qpos, before = d.qpos.copy(), {f: np.copy(getattr(d, f)) for f in FIELDS}
     spread = {}
     for seed in range(8):
         up = np.random.default_rng(seed).random(m.nq) < 0.5
-        d.qpos[:] = np.nextafter(qpos, np.where(up, np.inf, -np.inf))
+        # Zero has no last bit: it moves by half of that of 1, with which positions are computed.
+        d.qpos[:] = np.where(qpos == 0, np.where(up, 1, -1) * 2.0**-53, np.nextafter(qpos, np.where(up, np.inf, -np.inf)))
         mujoco.mj_forward(m, d)
         for f, a in before.items():
             b = getattr(d, f)
@@ -210,6 +223,10 @@ def sensitivity(m, d):
                 spread[f] = max(spread.get(f, 0.0), apart)
     d.qpos[:] = qpos
     mujoco.mj_forward(m, d)
+    if m.nv and m.opt.integrator != mujoco.mjtIntegrator.mjINT_DISCRETE:
+        apart = float(np.abs(solution(m, d) - d.qacc_smooth).max() / max(1.0, np.abs(d.qacc_smooth).max()))
+        for f in ("qacc_smooth", "qacc"):
+            spread[f] = max(spread.get(f, 0.0), apart)
     return {f: f"{x:.1e}" for f, x in spread.items() if 1e-10 < x < 1e-6}
 
 

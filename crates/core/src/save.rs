@@ -210,18 +210,10 @@ fn wrong(m: &Model, d: &Data) -> Option<&'static str> {
         if !matches!(info.elem, Elem::I32 | Elem::Size) {
             continue;
         }
-        let fits = |range: Range<usize>, x: i64| {
-            let (start, end) = (i64::try_from(range.start).ok(), i64::try_from(range.end).ok());
-            start.is_some_and(|s| s <= x) && end.is_none_or(|e| x < e)
-        };
         let Some(range) = limits(m, d, info.name) else { return Some(info.name) };
         let good = match reflect::view(m, d, f) {
-            // What a tendon's path lies on may be no geom: -1, -2.
-            View::I32(list) if info.name == "wrap_obj" => {
-                list.iter().all(|&x| fits(range.clone(), i64::from(x) + 2))
-            }
-            View::I32(list) => list.iter().all(|&x| fits(range.clone(), i64::from(x))),
-            View::Size(n) => i64::try_from(n).is_ok_and(|n| fits(range, n)),
+            View::I32(list) => list.iter().all(|&x| range.contains(&i64::from(x))),
+            View::Size(n) => i64::try_from(n).is_ok_and(|n| range.contains(&n)),
             View::F64(_) | View::Bool(_) => true,
         };
         if !good {
@@ -252,18 +244,26 @@ fn wrong(m: &Model, d: &Data) -> Option<&'static str> {
 }
 
 /// What the numbers of an integer field can be.
-fn limits(m: &Model, d: &Data, name: &str) -> Option<Range<usize>> {
+fn limits(m: &Model, d: &Data, name: &str) -> Option<Range<i64>> {
+    let to = |n: usize| 0..i64::try_from(n).unwrap_or(i64::MAX);
     Some(match name {
-        "ncon" | "nefc" | "solver_niter" => 0..usize::MAX,
-        "ne" | "nf" | "nl" | "nisland" => 0..d.nefc + 1,
-        "ten_wrapadr" | "ten_wrapnum" => 0..d.wrap_obj.len() + 1,
-        "wrap_obj" => 0..m.ngeom + 2,
-        "moment_rownnz" => 0..m.nv + 1,
-        "moment_rowadr" => 0..m.nJmom + 1,
-        "moment_colind" => 0..m.nv.max(1),
+        "ncon" | "nefc" | "solver_niter" | "efc_id" => 0..i64::MAX,
+        "ne" | "nf" | "nl" | "nisland" => to(d.nefc + 1),
+        "ten_wrapadr" | "ten_wrapnum" => to(d.wrap_obj.len() + 1),
+        // What a tendon's path lies on may be no geom: -1, -2.
+        "wrap_obj" => -2..to(m.ngeom).end,
+        "moment_rownnz" => to(m.nv + 1),
+        "moment_rowadr" => to(m.nJmom + 1),
+        "moment_colind" => to(m.nv.max(1)),
         "efc_type" => 0..8,
-        "efc_id" => 0..usize::MAX,
         "efc_state" => 0..5,
+        // Steps at rest are counted from -11 on; then it is a tree.
+        "tree_asleep" => -11..to(m.ntree).end,
+        "tree_awake" => 0..2,
+        "body_awake" => -1..2,
+        "ntree_awake" => to(m.ntree + 1),
+        "nbody_awake" | "nparent_awake" => to(m.nbody + 1),
+        "nv_awake" => to(m.nv + 1),
         _ => return None,
     })
 }
@@ -272,9 +272,9 @@ fn limits(m: &Model, d: &Data, name: &str) -> Option<Range<usize>> {
 fn owners(m: &Model, d: &Data, kind: i32) -> usize {
     match kind {
         kind::EQUALITY => m.neq,
-        1 => m.nv,
+        kind::FRICTION_DOF => m.nv,
         kind::LIMIT_JOINT => m.njnt,
-        2 | kind::LIMIT_TENDON => m.ntendon,
+        kind::FRICTION_TENDON | kind::LIMIT_TENDON => m.ntendon,
         _ => d.ncon,
     }
 }

@@ -31,7 +31,9 @@ pub(crate) fn passive(m: &Model, d: &mut Data) {
         d.qfrc_adhesion.fill(0.0);
         if springs || dampers {
             adhesion::adhesion(m, d);
-            for (f, pull) in d.qfrc_passive.iter_mut().zip(&d.qfrc_adhesion) {
+            // Without a pull the force stays as it is, -0 too: so it is in a plan without this stage.
+            for (f, pull) in d.qfrc_passive.iter_mut().zip(&d.qfrc_adhesion).filter(|(_, pull)| **pull != 0.0)
+            {
                 *f += pull;
             }
         }

@@ -410,7 +410,7 @@ fn show(heap: &Heap, value: &Value, depth: usize, out: &mut String) {
         }
         Value::Record(_) => {
             out.push('{');
-            if let crate::heap::Object::Record(entries) = heap.object(value) {
+            if let heap::Object::Record(entries) = heap.object(value) {
                 for (i, (key, value)) in entries.iter().enumerate() {
                     if i > 0 {
                         out.push(' ');

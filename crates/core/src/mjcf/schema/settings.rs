@@ -65,7 +65,8 @@ static FLAGS: Element = Element::new(
     &[attributes! {
         SWITCH => constraint equality frictionloss limit contact spring damper gravity clampctrl warmstart
             filterparent actuation refsafe sensor midphase eulerdamp autoreset nativeccd island multiccd;
-        SWITCH => override energy fwdinv invdiscrete sleep diagexact ipc;
+        SWITCH => override energy fwdinv invdiscrete sleep diagexact;
+        SWITCH => ipc [MOOT];
     }],
 )
 .once();

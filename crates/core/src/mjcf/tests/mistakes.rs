@@ -97,7 +97,6 @@ mistakes! {
     element_twice: before("<option><flag/><flag/></option>");
     attribute_misspelt: world("<geom size=\"1\" fricton=\"1\"/>");
     attribute_of_world: "<mujoco><worldbody name=\"w\"/></mujoco>";
-    attribute_not_supported: before("<compiler alignfree=\"true\"/>");
     mesh_missing: world("<geom type=\"mesh\"/>");
     mesh_with_three_vertices: mesh("vertex=\"0 0 0 1 0 0 0 1 0\"");
     mesh_flat: mesh("vertex=\"0 0 0 1 0 0 0 1 0 1 1 0\"");
