@@ -155,6 +155,9 @@ impl Problem<'_> {
         if old[0] < MINVAL {
             new = [0.0; R];
             new[0] = (old[0] - missed[0] / a[0][0]).max(0.0);
+            if new[0] < MINVAL {
+                new = from_apex(&missed, &mu, product);
+            }
         } else {
             let curvature = dot(old, product(&old));
             if curvature >= MINVAL {
@@ -164,7 +167,7 @@ impl Problem<'_> {
             }
         }
         if new[0] < MINVAL {
-            new[1..].fill(0.0);
+            new.fill(0.0);
         } else {
             // What the tangents would miss with no friction, but the new normal force.
             let mut rest = old.map(|f| -f);
@@ -182,6 +185,26 @@ impl Problem<'_> {
         self.replace(b, item, new);
         cost
     }
+}
+
+/// The best force along the steepest ray of the cone, from its apex: a push that alone would not pay may pay with the
+/// friction that it allows.
+fn from_apex<const R: usize>(
+    missed: &[f64; R],
+    mu: &[f64; 5],
+    product: impl Fn(&[f64; R]) -> [f64; R],
+) -> [f64; R] {
+    let pull = missed[1..].iter().zip(mu).map(|(x, mu)| (x * mu) * (x * mu)).sum::<f64>().sqrt();
+    let slope = missed[0] - pull;
+    if slope >= 0.0 || pull < MINVAL {
+        return [0.0; R];
+    }
+    let mut ray = [1.0; R];
+    for ((t, x), mu) in ray[1..].iter_mut().zip(&missed[1..]).zip(mu) {
+        *t = -x * mu * mu / pull;
+    }
+    let along = -slope / dot(ray, product(&ray)).max(MINVAL);
+    ray.map(|x| x * along)
 }
 
 /// The force moved into its cone: none where it would pull, else with friction scaled down.
