@@ -222,10 +222,16 @@ pub(crate) fn constraints(m: &Model, d: &mut Data) {
 }
 
 /// Sensors whose values are known at this point, and what they need.
+#[inline(always)]
 pub(crate) fn read(m: &Model, d: &mut Data, when: When, skip: Skip) {
-    if skip == Skip::SENSORS {
-        return;
+    let kept = [Stage::Sensors, Stage::SubtreeVel, Stage::RnePost].map(|stage| d.plan.keeps(stage));
+    if skip == Skip::NOTHING && kept != [false; 3] {
+        measure(m, d, when);
     }
+}
+
+#[inline(never)]
+fn measure(m: &Model, d: &mut Data, when: When) {
     match when {
         When::Velocity if measured(m, d, Stage::SubtreeVel) => subtree::subtree_vel(m, d),
         When::Acceleration if measured(m, d, Stage::RnePost) => rne_post::rne_post_constraint(m, d),

@@ -54,7 +54,7 @@ pub(super) fn exact(act: f64, rate: f64, tau: f64, h: f64) -> f64 {
 
 /// Advances `act` by a step along `act_dot`.
 pub(crate) fn advance(m: &Model, d: &mut Data) {
-    if m.na == 0 || m.opt.disabled(disable::ACTUATION) {
+    if m.opt.disabled(disable::ACTUATION) {
         return;
     }
     for i in 0..m.nactuator {

@@ -20,7 +20,7 @@ pub(crate) fn make(m: &Model, d: &mut Data) {
     let mut room = contact::count(m, d);
     room += if equal { equality::count(m, d) } else { 0 };
     room += if friction { single::count_friction(m) } else { 0 };
-    room += if limits { single::count_limits(m) } else { 0 };
+    room += if limits { single::count_limits(m, d) } else { 0 };
     resize(d, room);
     d.nefc = 0;
     if equal {

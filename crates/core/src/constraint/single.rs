@@ -13,10 +13,18 @@ pub(super) fn count_friction(m: &Model) -> usize {
     some(&m.dof_frictionloss) + some(&m.tendon_frictionloss)
 }
 
-/// Largest number of rows of limits: two sides each.
-pub(super) fn count_limits(m: &Model) -> usize {
-    let some = |list: &[bool]| 2 * list.iter().filter(|&&l| l).count();
-    some(&m.jnt_limited) + some(&m.tendon_limited)
+/// Rows that the limits of joints and tendons have at most: what is within its range needs none.
+pub(super) fn count_limits(m: &Model, d: &Data) -> usize {
+    let near = |range: [f64; 2], value: f64, margin: f64| sides(range, value, margin).count();
+    let of_joint = |j: usize| match m.jnt_type[j] {
+        joint::SLIDE | joint::HINGE => {
+            near(rows::<2>(&m.jnt_range)[j], d.qpos[m.jnt_qposadr[j] as usize], m.jnt_margin[j])
+        }
+        _ => 1,
+    };
+    let of_tendon = |t: usize| near(rows::<2>(&m.tendon_range)[t], d.ten_length[t], m.tendon_margin[t]);
+    let joints = (0..m.njnt).filter(|&j| m.jnt_limited[j]).map(of_joint);
+    joints.sum::<usize>() + (0..m.ntendon).filter(|&t| m.tendon_limited[t]).map(of_tendon).sum::<usize>()
 }
 
 /// What a row is about: `efc_type`, `efc_id`, the violation with its margin, and the largest force of dry friction.

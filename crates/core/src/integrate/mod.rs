@@ -47,8 +47,11 @@ struct Slopes<'a> {
 fn advance(m: &Model, d: &mut Data, slopes: Slopes) {
     let h = m.opt.timestep;
     let Slopes { activation, acceleration, velocity } = slopes;
-    record(m, d);
+    if m.nhistory > 0 {
+        record(m, d);
+    }
     match activation {
+        _ if m.na == 0 => {}
         Some(rates) => {
             std::mem::swap(&mut d.act_dot, rates);
             actuation::advance(m, d);
@@ -70,9 +73,6 @@ fn advance(m: &Model, d: &mut Data, slopes: Slopes) {
 
 /// Keeps the controls and values of this time for delayed actuators and sensors.
 fn record(m: &Model, d: &mut Data) {
-    if m.nhistory == 0 {
-        return;
-    }
     actuation::record(m, d);
     if d.plan.keeps(Stage::Sensors) {
         sensor::record(m, d);

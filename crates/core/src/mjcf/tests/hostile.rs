@@ -143,3 +143,13 @@ fn written_paths_stay_inside_the_model() {
         crate::step(&m, &mut d);
     }
 }
+
+/// A range of lengths is found by simulating: not for long.
+#[test]
+fn ranges_of_lengths_cannot_ask_for_time() {
+    let bodies =
+        "<replicate count='900'><body><joint name='j' range='0 1'/><geom size='1'/></body></replicate>";
+    let muscles = "<muscle joint='j000'/>".repeat(6);
+    let xml = format!("<mujoco><worldbody>{bodies}</worldbody><actuator>{muscles}</actuator></mujoco>");
+    assert_eq!(first_code(&xml), Some(code::LIMIT));
+}
