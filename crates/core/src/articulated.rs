@@ -80,6 +80,17 @@ struct Tree<'a> {
     cdof: &'a [Spatial],
 }
 
+/// Whether a degree of freedom belongs to a tree of many, which is factorized as articulated bodies.
+pub(crate) fn covers(m: &Model, dof: usize) -> bool {
+    let tree = m.dof_treeid[dof] as usize;
+    let first = m.tree_dofadr[tree] as usize;
+    is_large(m, first..first + m.tree_dofnum[tree] as usize)
+}
+
+fn is_large(m: &Model, mut dofs: Range<usize>) -> bool {
+    dofs.len() > FEW && dofs.any(|k| m.dof_simplenum[k] == 0)
+}
+
 impl Articulated {
     /// The trees of a model.
     pub(crate) fn new(m: &Model) -> Articulated {
@@ -87,7 +98,7 @@ impl Articulated {
         for t in 0..m.ntree {
             let first = m.tree_dofadr[t] as usize;
             let dofs = first..first + m.tree_dofnum[t] as usize;
-            if dofs.len() > FEW && dofs.clone().any(|k| m.dof_simplenum[k] == 0) {
+            if is_large(m, dofs.clone()) {
                 // Bodies are numbered depth first: those of a tree follow each other.
                 let root = m.dof_bodyid[first] as usize;
                 let end = (root..m.nbody).find(|&b| m.body_treeid[b] != t as i32).unwrap_or(m.nbody);
@@ -193,8 +204,9 @@ fn give(bodies: &mut [Body], body: usize, carrier: usize) {
     }
 }
 
-/// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive.
-pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
+/// `qLD` and `qLDiagInv`, the factorization of M; of large trees only what solves with M, unless `rows` are asked for.
+/// Returns the first degree of freedom whose D is not positive.
+pub(crate) fn factor(m: &Model, d: &mut Data, rows_too: bool) -> Option<usize> {
     if d.work.articulated.bodies.is_empty() {
         d.qLD.copy_from_slice(&d.M);
         return mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, 0..m.nv);
@@ -209,17 +221,7 @@ pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
                 armature[k] = mass::armature(m, k);
             }
             let tree = Tree { span, links, cdof: rows(&d.cdof) };
-            let found = tree.factor(rows(&d.cinert), armature, bodies, joints);
-            for k in dofs {
-                let Joint { u, inv } = &joints[k];
-                d.qLDiagInv[k] = *inv;
-                let row = &mut d.qLD[mass::row(m, k)];
-                let depth = row.len() - 1;
-                d.work.path.extend(depth, &tree.cdof[k]);
-                d.work.path.product(&narrow(&scale(*u, *inv)), row);
-                row[depth] = 1.0 / inv;
-            }
-            found
+            tree.factor(rows(&d.cinert), armature, bodies, joints)
         } else {
             let entries = mass::rows_of(m, dofs.clone());
             d.qLD[entries.clone()].copy_from_slice(&d.M[entries]);
@@ -227,7 +229,27 @@ pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
         };
         bad = bad.or(found);
     }
+    if rows_too {
+        rows_of_factor(m, d);
+    }
     bad
+}
+
+/// The rows of `qLD` that belong to articulated trees, and their `qLDiagInv`.
+pub(crate) fn rows_of_factor(m: &Model, d: &mut Data) {
+    let Articulated { spans, untied, joints, .. } = &d.work.articulated;
+    let cdof = rows::<6>(&d.cdof);
+    for span in spans.iter().filter(|span| *untied && !span.bodies.is_empty()) {
+        for k in span.dofs.clone() {
+            let Joint { u, inv } = &joints[k];
+            d.qLDiagInv[k] = *inv;
+            let row = &mut d.qLD[mass::row(m, k)];
+            let depth = row.len() - 1;
+            d.work.path.extend(depth, &cdof[k]);
+            d.work.path.product(&narrow(&scale(*u, *inv)), row);
+            row[depth] = 1.0 / inv;
+        }
+    }
 }
 
 /// x ← M⁻¹ x by what [`factor`] has left.

@@ -112,17 +112,12 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Sleep) {
         sleep::wake_tied(m, d);
     }
+    let composite = d.plan.composite && !d.plan.mass_for_rows;
     if d.plan.keeps(Stage::MassMatrix) {
-        if d.plan.composite {
-            mass::composite_inertia(m, d, true);
-        } else if d.plan.simple_bodies {
-            mass::simple_diagonal(m, d);
-        }
-        chain::mass_matrix(m, d);
-        tendon::armature(m, d);
+        mass_matrix(m, d, composite);
     }
     if d.plan.keeps(Stage::Factor)
-        && let Some(dof) = articulated::factor(m, d)
+        && let Some(dof) = articulated::factor(m, d, composite)
     {
         warn(d, Warning::Inertia, dof);
     }
@@ -135,10 +130,26 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
     }
     if d.plan.keeps(Stage::Constraint) {
         constraint::make(m, d);
+        if d.plan.mass_for_rows && d.nefc > 0 {
+            mass_matrix(m, d, true);
+            articulated::rows_of_factor(m, d);
+        }
     }
     if d.plan.keeps(Stage::Transmission) {
         transmission::transmissions(m, d);
     }
+}
+
+/// `M`, with or without what follows from composite inertias.
+#[inline(always)]
+fn mass_matrix(m: &Model, d: &mut Data, composite: bool) {
+    if composite {
+        mass::composite_inertia(m, d, true);
+    } else if d.plan.simple_bodies {
+        mass::simple_diagonal(m, d);
+    }
+    chain::mass_matrix(m, d);
+    tendon::armature(m, d);
 }
 
 /// What depends on `qvel` as well.

@@ -5,8 +5,8 @@
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
 use crate::reflect::{FieldId, FieldSet, Object, Stage, field};
-use crate::{Model, Obj, chain, collision, disable, enable, joint, sensor};
-use crate::{eqtype, trntype, wraptype};
+use crate::{Model, Obj, articulated, chain, collision, disable, enable, integrate, joint, sensor};
+use crate::{biastype, dyntype, eqtype, gaintype, integrator, trntype, wraptype};
 
 /// What programs read and write.
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +46,9 @@ pub struct Plan {
     pub(crate) composite: bool,
     /// Whether forces of bodies are computed by recursion: some tree is more than a short chain.
     pub(crate) recursion: bool,
+    /// Whether M and the rows of its factorization are computed only in steps in which constraints act: nothing else
+    /// looks at them.
+    pub(crate) mass_for_rows: bool,
     /// Whether some body is a simple one.
     pub(crate) simple_bodies: bool,
     /// Whether the parameters of short chains may change.
@@ -57,6 +60,8 @@ pub struct Plan {
     /// Whether contacts pull, and whether surfaces move by themselves.
     pub(crate) adhesion: bool,
     pub(crate) surfaces: bool,
+    /// Whether joints have dampers, where that is known once and for all.
+    pub(crate) damped: Option<bool>,
     /// Whether the solver says more than forces: `efc_b` and `efc_state`.
     pub(crate) solver_details: bool,
     /// Whether bodies feel a medium or gravity compensation.
@@ -75,6 +80,7 @@ impl Default for Plan {
             some_general: true,
             composite: true,
             recursion: true,
+            mass_for_rows: false,
             simple_bodies: true,
             chains_may_change: true,
             equalities: true,
@@ -82,6 +88,7 @@ impl Default for Plan {
             limits: true,
             adhesion: true,
             surfaces: true,
+            damped: None,
             solver_details: true,
             body_forces: true,
             applied_forces: true,
@@ -129,13 +136,15 @@ impl Plan {
             some_general: scene.general,
             composite: scene.large || scene.reads_field("crb"),
             recursion: scene.large,
+            mass_for_rows: false,
             simple_bodies: m.dof_simplenum.iter().any(|&n| n > 0),
             chains_may_change: scene.writes(Object::Model, &chain::FIELDS),
-            equalities: m.neq > 0,
+            equalities: scene.equalities > 0,
             friction_loss: scene.friction > 0,
             limits: scene.limited > 0 || scene.limited_tendons > 0,
             adhesion: scene.adhesion,
             surfaces: scene.pairs > 0 && scene.some(&[SURFACES]),
+            damped: scene.damped(),
             solver_details: scene.reads_field("efc_b") || scene.reads_field("efc_state"),
             body_forces: scene.body_forces(),
             applied_forces: scene.writes(Object::Data, &["xfrc_applied"]),
@@ -153,6 +162,7 @@ impl Plan {
             }
         }
         plan.decisions.reverse();
+        plan.mass_for_rows = scene.mass_for_rows(&plan);
         plan
     }
 
@@ -299,6 +309,7 @@ struct Scene<'a> {
     limited_tendons: usize,
     /// Number of degrees of freedom and tendons with dry friction, likewise.
     friction: usize,
+    equalities: usize,
     /// Springs and dampers of joints, springs of tendons, dampers of tendons.
     joint_forces: bool,
     tendon_springs: bool,
@@ -328,6 +339,7 @@ impl<'a> Scene<'a> {
             limited: m.jnt_limited.iter().filter(|&&l| l).count(),
             limited_tendons: m.tendon_limited.iter().filter(|&&l| l).count(),
             friction: 0,
+            equalities: m.neq,
             joint_forces: false,
             tendon_springs: false,
             tendon_dampers: false,
@@ -344,7 +356,16 @@ impl<'a> Scene<'a> {
             m.ntree > 0 && (m.opt.enabled(enable::SLEEP) || scene.writes(Object::Option, &["enableflags"]));
         scene.pairs_change = scene.writes(Object::Model, &["geom_contype", "geom_conaffinity"])
             || scene.writes(Object::Option, &["disableflags"]);
-        scene.pairs = collision::candidate_pairs(m, scene.pairs_change).len();
+        // What a flag switches off counts only if the flag may be cleared.
+        let off = |bit: i32| {
+            (m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(bit))
+                && !scene.writes(Object::Option, &["disableflags"])
+        };
+        let [no_contacts, no_limits, no_friction, no_equalities] =
+            [disable::CONTACT, disable::LIMIT, disable::FRICTIONLOSS, disable::EQUALITY].map(off);
+        if !no_contacts {
+            scene.pairs = collision::candidate_pairs(m, scene.pairs_change).len();
+        }
         if scene.writes(Object::Model, &["jnt_limited"]) {
             scene.limited = m.njnt;
         }
@@ -352,6 +373,15 @@ impl<'a> Scene<'a> {
             scene.limited_tendons = m.ntendon;
         }
         scene.friction = FRICTION_LOSS.iter().map(|f| scene.others_than_zero(f)).sum();
+        if no_limits {
+            (scene.limited, scene.limited_tendons) = (0, 0);
+        }
+        if no_friction {
+            scene.friction = 0;
+        }
+        if no_equalities {
+            scene.equalities = 0;
+        }
         scene.fluid |= scene.writes(Object::Option, &["density", "viscosity"]);
         scene.gravcomp = scene.some(&[GRAVCOMP]);
         scene.adhesion = scene.pairs > 0 && scene.some(&ADHESION);
@@ -385,6 +415,53 @@ impl<'a> Scene<'a> {
             return numbers.len();
         }
         numbers.iter().filter(|&&x| x != 0.0).count()
+    }
+
+    /// Whether joints have dampers, unless programs may change that.
+    fn damped(&self) -> Option<bool> {
+        let own = [JOINT_FORCES[0].0, JOINT_FORCES[1].0];
+        let actuators = ACTUATOR_DAMPING.map(|f| f.0);
+        let changes = self.writes(Object::Model, &own)
+            || self.writes(Object::Model, &actuators)
+            || self.writes(Object::Model, &[ACTUATOR_ARMATURE.0])
+            || self.writes(Object::Option, &["disableflags"]);
+        (!changes).then(|| integrate::has_dampers(self.m))
+    }
+
+    /// Whether only constraints look at M: all trees are single bodies, short chains, or factorized as articulated
+    /// bodies, and the integrator does without.
+    fn mass_for_rows(&self, plan: &Plan) -> bool {
+        let m = self.m;
+        let fields = ["M", "qLD", "qLDiagInv", "crb"];
+        let integrates = matches!(m.opt.integrator, integrator::EULER | integrator::RK4);
+        let changes = ["integrator", "enableflags"];
+        self.large
+            && integrates
+            && !self.writes(Object::Option, &changes)
+            && !m.opt.enabled(enable::DIAGEXACT)
+            && !self.tendon_armature
+            && !self.sleeps
+            && !plan.keeps(Stage::Energy)
+            && !sensor::needs(m, Stage::MassMatrix)
+            && !fields.into_iter().any(|f| self.reads_field(f))
+            && (0..m.nv).all(|k| m.dof_simplenum[k] > 0 || chain::covers(m, k) || articulated::covers(m, k))
+    }
+
+    /// Whether forces of actuators depend on their lengths or velocities, or their moments on the configuration.
+    fn lengths_act(&self) -> bool {
+        let m = self.m;
+        let motor = |i: usize| {
+            let joint = usize::try_from(m.actuator_trnid[2 * i]).ok().filter(|&j| j < m.njnt);
+            matches!(m.actuator_trntype[i], trntype::JOINT | trntype::JOINTINPARENT)
+                && joint.is_some_and(|j| matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE))
+                && m.actuator_gaintype[i] == gaintype::FIXED
+                && m.actuator_biastype[i] == biastype::NONE
+                && matches!(
+                    m.actuator_dyntype[i],
+                    dyntype::NONE | dyntype::INTEGRATOR | dyntype::FILTER | dyntype::FILTEREXACT
+                )
+        };
+        self.sleeps || self.writes(Object::Model, &["actuator_gear"]) || !(0..m.nactuator).all(motor)
     }
 
     /// Forces on bodies as such.
@@ -429,7 +506,7 @@ impl<'a> Scene<'a> {
             count(self.limited, "one joint is limited", "joints are limited")
                 .or_else(|| count(self.limited_tendons, "one tendon is limited", "tendons are limited"))
                 .or_else(|| count(self.friction, "one thing has dry friction", "things have dry friction"))
-                .or_else(|| count(m.neq, "there is one equality constraint", "equality constraints hold"))
+                .or_else(|| count(self.equalities, "there is one equality constraint", "equality constraints hold"))
         };
         match stage {
             Stage::Sleep => because(self.sleeps, "trees at rest fall asleep"),
@@ -487,7 +564,7 @@ impl<'a> Scene<'a> {
             (Stage::Transmission, Stage::Tendon) => self.transmits(&[trntype::TENDON]),
             (Stage::Transmission, Stage::Collision | Stage::Constraint) => self.transmits(&[trntype::BODY]),
             (Stage::ActuatorVel, Stage::Transmission) => true,
-            (Stage::Actuation, Stage::Transmission | Stage::ActuatorVel) => true,
+            (Stage::Actuation, Stage::Transmission | Stage::ActuatorVel) => self.lengths_act(),
             (Stage::Actuation, Stage::Passive) => m.jnt_actgravcomp.contains(&true),
             (Stage::Collision, Stage::GeomPoses) => true,
             (Stage::Constraint, Stage::Kinematics) => self.pairs > 0 || self.ties_bodies(),
@@ -531,6 +608,9 @@ impl<'a> Scene<'a> {
             Stage::MassMatrix | Stage::Factor => {
                 "every moving body is a single free or sliding one: its mass matrix is diagonal and constant"
             }
+            Stage::Collision if m.opt.disabled(disable::CONTACT) || m.opt.disabled(disable::CONSTRAINT) => {
+                "contacts are switched off"
+            }
             Stage::Collision if m.ngeom == 0 => "the model has no geoms",
             Stage::Collision => "no pair of geoms can ever touch",
             Stage::Constraint | Stage::Reference | Stage::Solve => "no contact and no limit is possible",
@@ -542,7 +622,10 @@ impl<'a> Scene<'a> {
             Stage::Transmission | Stage::ActuatorVel | Stage::Actuation if m.nactuator == 0 => {
                 "the model has no actuators"
             }
-            Stage::Transmission | Stage::ActuatorVel | Stage::Actuation => "actuators are switched off",
+            Stage::Actuation => "actuators are switched off",
+            Stage::Transmission | Stage::ActuatorVel if !self.actuated => "actuators are switched off",
+            Stage::Transmission => "moments are constant and no force depends on a length",
+            Stage::ActuatorVel => "no force depends on the velocity of an actuator",
             Stage::SubtreeVel => "no sensor measures the momentum of a subtree",
             Stage::RnePost => "no sensor measures a force or an acceleration",
             Stage::Sensors if m.nsensor == 0 => "the model has no sensors",

@@ -2,7 +2,7 @@
 
 use crate::math::*;
 use crate::reflect::Stage;
-use crate::{Data, Model, Warning, WarningStat, actuation, kinematics, mass, reflect, sensor, sleep};
+use crate::{Data, Model, Warning, WarningStat, actuation, kinematics, mass, reflect, sensor, sleep, transmission};
 
 /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
 /// what was written to it.
@@ -63,6 +63,9 @@ pub fn set_keyframe(m: &mut Model, d: &Data, key: usize) -> bool {
 pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
     if !d.plan.some_general {
         mass::constant_mass(m, d);
+    }
+    if d.plan.keeps(Stage::Actuation) && !d.plan.keeps(Stage::Transmission) {
+        transmission::transmissions(m, d);
     }
     if !d.plan.keeps(Stage::Actuation) {
         d.actuator_force.fill(0.0);

@@ -39,7 +39,12 @@ pub(crate) fn damps(m: &Model, d: &Data) -> bool {
     d.plan.keeps(Stage::Passive)
         && !m.opt.disabled(disable::EULERDAMP)
         && !m.opt.disabled(disable::DAMPER)
-        && (m.dof_damping.iter().any(|&b| b != 0.0)
-            || m.dof_dampingpoly.iter().any(|&p| p != 0.0)
-            || m.jnt_actuatorid.iter().any(|&i| i != -1))
+        && d.plan.damped.unwrap_or_else(|| has_dampers(m))
+}
+
+/// Whether some degree of freedom has a damper.
+pub(crate) fn has_dampers(m: &Model) -> bool {
+    m.dof_damping.iter().any(|&b| b != 0.0)
+        || m.dof_dampingpoly.iter().any(|&p| p != 0.0)
+        || m.jnt_actuatorid.iter().any(|&i| i != -1)
 }

@@ -8,6 +8,13 @@ use crate::{Model, joint};
 
 /// qpos ← qpos advanced for a time `h` with velocity `v` (`mj_integratePos`).
 pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
+    if m.nq == m.nv {
+        // Slides and hinges only: coordinates and velocities are in the same places.
+        for (q, v) in qpos.iter_mut().zip(v) {
+            *q += h * v;
+        }
+        return;
+    }
     for j in 0..m.njnt {
         let (mut q, mut k) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
         match m.jnt_type[j] {
