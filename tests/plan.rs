@@ -109,10 +109,11 @@ fn apply(event: &Event, now: usize, m: &mut Model, d: &mut Data) {
     }
 }
 
-/// The bits of a field.
+/// The bits of a field. NaN is one value: which of its bits a processor keeps depends on the order of the operands.
 fn bits(m: &Model, d: &Data, f: FieldId) -> Vec<u64> {
     let view = reflect::view(m, d, f);
-    (0..view.len()).map(|i| view.get(i).unwrap().to_bits()).collect()
+    let bits = |x: f64| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
+    (0..view.len()).map(|i| bits(view.get(i).unwrap())).collect()
 }
 
 /// Runs a scene with a plan and with the full pipeline; the first field that differs, with its step.

@@ -11,7 +11,6 @@ use std::path::PathBuf;
 
 /// What is known to differ, and why.
 const EXCEPTIONS: &[Exception] = &[
-    ("tendon_armature", "forward", "the pull of tendons does not count in cfrc_ext yet"),
     (
         "mesh_builtin",
         "compile",
@@ -19,10 +18,6 @@ const EXCEPTIONS: &[Exception] = &[
     ),
     ("mesh_builtin", "forward", "the axes of that hull"),
     ("actuator_orientation_clamp", "forward", CLAMPED),
-    ("actuator_orientation_clamp", "implicit", CLAMPED),
-    ("actuator_orientation_clamp", "implicitfast", CLAMPED),
-    ("actuator_orientation_clamp", "discrete, moving", CLAMPED),
-    ("actuator_orientation_clamp", "implicitfast, moving", CLAMPED),
 ];
 
 /// A torque that its range holds at the length 0.3 is as long as 0.3 or one rounding shorter; the library takes it for

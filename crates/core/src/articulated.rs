@@ -38,10 +38,12 @@ pub(crate) struct Articulated {
     diagonal: Vec<f64>,
 }
 
-/// A tree of many degrees of freedom, or any number of trees of few.
+/// A tree, or any number of trees that are solved by their rows of M.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Span {
     dofs: Range<usize>,
+    /// Whether it is one tree of at most three degrees of freedom, one after the other from its root.
+    serial: bool,
     /// The bodies of a tree of many degrees of freedom, none otherwise.
     bodies: Range<usize>,
     /// Those that cannot move on the body that carries them, the last first: body and carrier.
@@ -104,12 +106,13 @@ impl Articulated {
                 let end = (root..m.nbody).find(|&b| m.body_treeid[b] != t as i32).unwrap_or(m.nbody);
                 let still = |&b: &usize| m.body_dofnum[b] == 0;
                 let fixed = (root..end).rev().filter(still).map(|b| (b, m.body_parentid[b] as usize));
-                spans.push(Span { dofs, bodies: root..end, fixed: fixed.collect() });
+                spans.push(Span { dofs, bodies: root..end, fixed: fixed.collect(), serial: false });
                 continue;
             }
+            let serial = mass::is_serial(m, dofs.clone());
             match spans.last_mut() {
-                Some(last) if last.bodies.is_empty() => last.dofs.end = dofs.end,
-                _ => spans.push(Span { dofs, ..Span::default() }),
+                Some(last) if last.bodies.is_empty() && !last.serial && !serial => last.dofs.end = dofs.end,
+                _ => spans.push(Span { dofs, serial, ..Span::default() }),
             }
         }
         let any = spans.iter().any(|s| !s.bodies.is_empty());
@@ -207,16 +210,15 @@ fn give(bodies: &mut [Body], body: usize, carrier: usize) {
 /// `qLD` and `qLDiagInv`, the factorization of M; of large trees only what solves with M, unless `rows` are asked for.
 /// Returns the first degree of freedom whose D is not positive.
 pub(crate) fn factor(m: &Model, d: &mut Data, rows_too: bool) -> Option<usize> {
-    if d.work.articulated.bodies.is_empty() {
-        d.qLD.copy_from_slice(&d.M);
-        return mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, 0..m.nv);
-    }
-    d.work.articulated.untied = !tendon::has_armature(m);
-    let Articulated { spans, untied, links, bodies, joints, armature, .. } = &mut d.work.articulated;
+    let articulated = &mut d.work.articulated;
+    articulated.untied = m.ntendon == 0 || !tendon::has_armature(m);
+    let Articulated { spans, untied, links, bodies, joints, armature, .. } = articulated;
     let mut bad = None;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
-        let found = if *untied && !span.bodies.is_empty() {
+        let found = if span.serial {
+            mass::factor_serial(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs)
+        } else if *untied && !span.bodies.is_empty() {
             for k in dofs.clone() {
                 armature[k] = mass::armature(m, k);
             }
@@ -255,11 +257,10 @@ pub(crate) fn rows_of_factor(m: &Model, d: &mut Data) {
 /// x ← M⁻¹ x by what [`factor`] has left.
 pub(crate) fn solve(m: &Model, d: &mut Data, x: &mut [f64]) {
     let Articulated { spans, untied, links, bodies, joints, .. } = &mut d.work.articulated;
-    if bodies.is_empty() {
-        return mass::solve(m, &d.qLD, &d.qLDiagInv, x, 0..m.nv);
-    }
     for span in spans.iter() {
-        if *untied && !span.bodies.is_empty() {
+        if span.serial {
+            mass::solve_serial(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone());
+        } else if *untied && !span.bodies.is_empty() {
             Tree { span, links, cdof: rows(&d.cdof) }.solve(bodies, joints, x);
         } else {
             mass::solve(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone());
@@ -273,6 +274,10 @@ pub(crate) fn solve_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
         &mut d.work.articulated;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
+        if span.serial {
+            mass::solve_serial_with(m, &d.M, b, x, dofs);
+            continue;
+        }
         if *untied && !span.bodies.is_empty() {
             for (sum, (armature, b)) in diagonal.iter_mut().zip(armature.iter().zip(b)) {
                 *sum = armature + b;

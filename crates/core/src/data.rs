@@ -8,7 +8,7 @@ use crate::model::define;
 use crate::path::Path;
 use crate::plan::{Demand, Plan};
 use crate::sensor::Match;
-use crate::{Model, articulated, chain, collision, derivative, pipeline, reset, sleep};
+use crate::{Model, articulated, chain, collision, derivative, kinematics, pipeline, reset, sleep};
 
 macro_rules! define_data {
     ($($rows:tt)*) => { define! {
@@ -132,6 +132,7 @@ pub(crate) struct Work {
     pub(crate) solver: Option<Box<Scratch>>,
     /// Trees of a few slides and hinges.
     pub(crate) chains: chain::Chains,
+    pub(crate) frames: kinematics::Frames,
     /// Trees of many degrees of freedom.
     pub(crate) articulated: articulated::Articulated,
     /// Motions of ancestors, for rows of M.
@@ -184,6 +185,7 @@ impl Data {
         let mut d = Data { plan: Plan::awake(), ..Data::default() };
         let w = &mut d.work;
         w.chains = chain::Chains::new(m);
+        w.frames = kinematics::Frames::new(m);
         w.articulated = articulated::Articulated::new(m);
         w.path = Path::new(m);
         w.cacc = vec![0.0; 6 * m.nbody];

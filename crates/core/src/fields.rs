@@ -495,7 +495,7 @@ macro_rules! data_fields {
 
         // Position.
         xpos: Vec<f64>, [nbody, 3], Derived, Kinematics, "m", "position of the body frame, world";
-        xquat: Vec<f64>, [nbody, 4], Derived, Kinematics, "", "orientation of the body frame, world";
+        xquat: Vec<f64>, [nbody, 4], Derived, Orientations, "", "orientation of the body frame, world";
         xmat: Vec<f64>, [nbody, 9], Derived, Kinematics, "", "the same as a rotation matrix";
         xipos: Vec<f64>, [nbody, 3], Derived, Kinematics, "m", "centre of mass, world";
         ximat: Vec<f64>, [nbody, 9], Derived, Kinematics, "", "orientation of the principal axes of inertia, world";

@@ -4,6 +4,7 @@
 
 use crate::math::*;
 use crate::{Data, Model, joint};
+use std::ops::Range;
 
 /// How a frame coincides with that of its body, so that poses are copied, not multiplied: the copy is exact.
 pub(crate) mod sameframe {
@@ -28,92 +29,197 @@ pub(crate) fn world(d: &mut Data) {
     }
 }
 
-/// Poses of bodies and joints: `xpos xquat xmat xipos ximat xanchor xaxis`.
+/// Bodies and joints as the model describes them, side by side in the order in which they are used.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Frames {
+    bodies: Vec<Frame>,
+    joints: Vec<Joint>,
+}
+
+/// A body.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Frame {
+    parent: usize,
+    joints: Range<usize>,
+    free: bool,
+    mocap: Option<usize>,
+    /// Its frame in its parent's, before its joints move it; `straight` when the axes are the same.
+    at: Vec3,
+    quat: Quat,
+    axes: Mat3,
+    straight: bool,
+    /// Centre of mass and principal axes of inertia in its frame.
+    com: Vec3,
+    principal: Mat3,
+    same: i32,
+}
+
+/// A joint.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Joint {
+    kind: i32,
+    /// Its first coordinate in qpos.
+    coordinate: usize,
+    /// The displacement at which the body is where the model puts it.
+    reference: f64,
+    anchor: Vec3,
+    /// Whether it turns about the origin of the body, as most do.
+    central: bool,
+    axis: Vec3,
+    /// Sine and cosine of half the angle of a hinge.
+    half: (f64, f64),
+}
+
+/// What is written to the model and changes frames.
+pub(crate) const FIELDS: [&str; 7] =
+    ["body_pos", "body_quat", "body_ipos", "body_iquat", "jnt_pos", "jnt_axis", "qpos0"];
+
+impl Frames {
+    /// The frames of a model.
+    pub(crate) fn new(m: &Model) -> Frames {
+        let body = |i: usize| {
+            let first = m.body_jntadr[i].max(0) as usize;
+            let joints = first..first + m.body_jntnum[i] as usize;
+            Frame {
+                parent: m.body_parentid[i] as usize,
+                free: joints.len() == 1 && m.jnt_type[first] == joint::FREE,
+                joints,
+                mocap: usize::try_from(m.body_mocapid[i]).ok(),
+                ..Frame::default()
+            }
+        };
+        let joint = |j: usize| Joint {
+            kind: m.jnt_type[j],
+            coordinate: m.jnt_qposadr[j] as usize,
+            ..Joint::default()
+        };
+        let mut frames =
+            Frames { bodies: (0..m.nbody).map(body).collect(), joints: (0..m.njnt).map(joint).collect() };
+        frames.load(m);
+        frames
+    }
+
+    /// Takes the parameters from the model.
+    pub(crate) fn load(&mut self, m: &Model) {
+        let places = rows::<3>(&m.body_pos).iter().zip(rows::<4>(&m.body_quat));
+        let inertial = rows::<3>(&m.body_ipos).iter().zip(rows::<4>(&m.body_iquat)).zip(&m.body_sameframe);
+        for (f, ((&at, &quat), ((&com, &principal), &same))) in
+            self.bodies.iter_mut().zip(places.zip(inertial))
+        {
+            let quat = quat_normalize(quat);
+            (f.at, f.quat, f.axes, f.straight) = (at, quat, quat_to_mat(quat), quat == IDENTITY);
+            (f.com, f.principal, f.same) = (com, quat_to_mat(principal), same);
+        }
+        let anchors = rows::<3>(&m.jnt_pos).iter().zip(rows::<3>(&m.jnt_axis));
+        for (j, (&anchor, &axis)) in self.joints.iter_mut().zip(anchors) {
+            (j.anchor, j.central, j.axis) = (anchor, anchor == [0.0; 3], axis);
+            j.reference = m.qpos0[j.coordinate];
+        }
+    }
+}
+
+/// Poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
 #[inline(never)]
 pub(crate) fn bodies(m: &Model, d: &mut Data) {
-    let xpos = rows_mut::<3>(&mut d.xpos);
-    let xquat = rows_mut::<4>(&mut d.xquat);
-    let xmat = rows_mut::<9>(&mut d.xmat);
-    let xipos = rows_mut::<3>(&mut d.xipos);
-    let ximat = rows_mut::<9>(&mut d.ximat);
+    if d.plan.frames_may_change {
+        d.work.frames.load(m);
+    }
+    let Frames { bodies, joints } = &mut d.work.frames;
+    let (xpos, xmat) = (rows_mut::<3>(&mut d.xpos), rows_mut::<9>(&mut d.xmat));
+    let (xipos, ximat) = (rows_mut::<3>(&mut d.xipos), rows_mut::<9>(&mut d.ximat));
     let (xanchor, xaxis) = (rows_mut::<3>(&mut d.xanchor), rows_mut::<3>(&mut d.xaxis));
-    let (jnt_pos, jnt_axis) = (rows::<3>(&m.jnt_pos), rows::<3>(&m.jnt_axis));
-    let (body_pos, body_quat) = (rows::<3>(&m.body_pos), rows::<4>(&m.body_quat));
-    let (body_ipos, body_iquat) = (rows::<3>(&m.body_ipos), rows::<4>(&m.body_iquat));
     let (mocap_pos, mocap_quat) = (rows::<3>(&d.mocap_pos), rows::<4>(&d.mocap_quat));
     let qpos = &d.qpos;
 
-    for i in 1..m.nbody {
-        let first = m.body_jntadr[i];
-        let joints = m.body_jntnum[i] as usize;
-        let (mut pos, mut quat);
-        if joints == 1 && m.jnt_type[first as usize] == joint::FREE {
-            let j = first as usize;
-            let q = &qpos[m.jnt_qposadr[j] as usize..][..7];
-            pos = [q[0], q[1], q[2]];
-            quat = quat_normalize([q[3], q[4], q[5], q[6]]);
-            xanchor[j] = pos;
-            xaxis[j] = jnt_axis[j];
+    for (i, f) in bodies.iter().enumerate().skip(1) {
+        let (mut pos, mut axes);
+        if f.free {
+            let (j, q) = (f.joints.start, joints[f.joints.start].coordinate);
+            pos = [qpos[q], qpos[q + 1], qpos[q + 2]];
+            axes = quat_to_mat(quaternion(&qpos[q + 3..]));
+            (xanchor[j], xaxis[j]) = (pos, joints[j].axis);
         } else {
-            let (local_pos, local_quat) = match m.body_mocapid[i] {
-                id if id >= 0 => (mocap_pos[id as usize], quat_normalize(mocap_quat[id as usize])),
-                _ => (body_pos[i], body_quat[i]),
+            (pos, axes) = match f.mocap {
+                Some(id) => (mocap_pos[id], quat_to_mat(quat_normalize(mocap_quat[id]))),
+                None => (f.at, f.axes),
             };
-            let parent = m.body_parentid[i] as usize;
-            if parent == 0 {
-                (pos, quat) = (local_pos, local_quat);
-            } else {
-                pos = add(mat_mul_vec(&xmat[parent], local_pos), xpos[parent]);
-                quat = quat_mul(xquat[parent], local_quat);
+            if f.parent > 0 {
+                let above = &xmat[f.parent];
+                pos = add(mat_mul_vec(above, pos), xpos[f.parent]);
+                axes = if f.straight { *above } else { mat_mul(above, &axes) };
             }
-            for j in first as usize..first as usize + joints {
-                let q = &qpos[m.jnt_qposadr[j] as usize..];
-                // Most joints turn about the origin of their body.
-                let central = jnt_pos[j] == [0.0; 3];
-                let anchor = if central { pos } else { add(rotate(jnt_pos[j], quat), pos) };
-                let axis = rotate(jnt_axis[j], quat);
-                xanchor[j] = anchor;
-                xaxis[j] = axis;
-                let displacement = q[0] - m.qpos0[m.jnt_qposadr[j] as usize];
-                let turn = match m.jnt_type[j] {
+            let out = xanchor[f.joints.clone()].iter_mut().zip(&mut xaxis[f.joints.clone()]);
+            for (joint, (xanchor, xaxis)) in joints[f.joints.clone()].iter_mut().zip(out) {
+                let axis = mat_mul_vec(&axes, joint.axis);
+                *xanchor = if joint.central { pos } else { add(mat_mul_vec(&axes, joint.anchor), pos) };
+                *xaxis = axis;
+                let displacement = qpos[joint.coordinate] - joint.reference;
+                match joint.kind {
                     joint::SLIDE => {
                         pos = add_scaled(pos, axis, displacement);
                         continue;
                     }
-                    joint::HINGE => quat_axis_angle(jnt_axis[j], displacement),
-                    _ => quat_normalize([q[0], q[1], q[2], q[3]]),
-                };
+                    joint::HINGE => {
+                        let (s, c) = libm::sincos(0.5 * displacement);
+                        joint.half = (s, c);
+                        axes = mat_turned(&axes, joint.axis, 2.0 * s * c, 1.0 - 2.0 * s * s);
+                    }
+                    _ => axes = mat_mul(&axes, &quat_to_mat(quaternion(&qpos[joint.coordinate..]))),
+                }
                 // Rotating about an anchor off the origin moves the origin.
-                quat = quat_mul(quat, turn);
-                if !central {
-                    pos = sub(anchor, rotate(jnt_pos[j], quat));
+                if !joint.central {
+                    pos = sub(*xanchor, mat_mul_vec(&axes, joint.anchor));
                 }
             }
         }
-        quat = quat_normalize(quat);
         xpos[i] = pos;
-        xquat[i] = quat;
-        xmat[i] = quat_to_mat(quat);
-        match m.body_sameframe[i] {
-            sameframe::BODY => {
-                xipos[i] = pos;
-                ximat[i] = xmat[i];
-            }
-            same => {
-                xipos[i] = add(mat_mul_vec(&xmat[i], body_ipos[i]), pos);
-                ximat[i] = match same {
-                    sameframe::BODYROT => xmat[i],
-                    _ => quat_to_mat(quat_mul(quat, body_iquat[i])),
-                };
-            }
+        xmat[i] = axes;
+        // Copies where frames coincide: they are exact.
+        let same_axes = matches!(f.same, sameframe::BODY | sameframe::BODYROT);
+        xipos[i] = if f.same == sameframe::BODY { pos } else { add(mat_mul_vec(&axes, f.com), pos) };
+        ximat[i] = if same_axes { axes } else { mat_mul(&axes, &f.principal) };
+    }
+}
+
+/// The unit quaternion that four coordinates stand for.
+#[inline(always)]
+fn quaternion(q: &[f64]) -> Quat {
+    quat_normalize([q[0], q[1], q[2], q[3]])
+}
+
+/// Orientations of bodies as quaternions, `xquat`, after [`bodies`].
+#[inline(never)]
+pub(crate) fn orientations(d: &mut Data) {
+    let Frames { bodies, joints } = &d.work.frames;
+    let xquat = rows_mut::<4>(&mut d.xquat);
+    let (mocap_quat, qpos) = (rows::<4>(&d.mocap_quat), &d.qpos);
+    for (i, f) in bodies.iter().enumerate().skip(1) {
+        let mut quat = match f.mocap {
+            _ if f.free => IDENTITY,
+            Some(id) => quat_normalize(mocap_quat[id]),
+            None => f.quat,
+        };
+        if f.parent > 0 && !f.free {
+            quat = quat_mul(xquat[f.parent], quat);
         }
+        for joint in &joints[f.joints.clone()] {
+            quat = match joint.kind {
+                joint::SLIDE => continue,
+                joint::HINGE => {
+                    let (s, c) = joint.half;
+                    quat_mul(quat, [c, joint.axis[0] * s, joint.axis[1] * s, joint.axis[2] * s])
+                }
+                joint::FREE => quaternion(&qpos[joint.coordinate + 3..]),
+                _ => quat_mul(quat, quaternion(&qpos[joint.coordinate..])),
+            };
+        }
+        xquat[i] = quat_normalize(quat);
     }
 }
 
 /// The poses of bodies that something may be attached to.
 struct Poses<'a> {
     xpos: &'a [Vec3],
-    xquat: &'a [Quat],
     xmat: &'a [Mat3],
     xipos: &'a [Vec3],
     ximat: &'a [Mat3],
@@ -131,20 +237,14 @@ impl Poses<'_> {
         *out_mat = match same {
             sameframe::BODY | sameframe::BODYROT => self.xmat[b],
             sameframe::INERTIA | sameframe::INERTIAROT => self.ximat[b],
-            _ => quat_to_mat(quat_mul(self.xquat[b], quat)),
+            _ => mat_mul(&self.xmat[b], &quat_to_mat(quat)),
         };
     }
 }
 
 macro_rules! poses {
     ($d:ident) => {
-        Poses {
-            xpos: rows(&$d.xpos),
-            xquat: rows(&$d.xquat),
-            xmat: rows(&$d.xmat),
-            xipos: rows(&$d.xipos),
-            ximat: rows(&$d.ximat),
-        }
+        Poses { xpos: rows(&$d.xpos), xmat: rows(&$d.xmat), xipos: rows(&$d.xipos), ximat: rows(&$d.ximat) }
     };
 }
 

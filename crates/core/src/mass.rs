@@ -169,6 +169,74 @@ fn factor_root(n: usize, ld: &mut [f64], diag_inv: &mut [f64]) -> Option<usize> 
     }
 }
 
+/// Whether a tree has at most three degrees of freedom, one after the other from its root: its rows of M are a full lower
+/// triangle.
+pub(crate) fn is_serial(m: &Model, dofs: Range<usize>) -> bool {
+    !dofs.is_empty() && root_chain(m, dofs.end) == Some(dofs.len())
+}
+
+/// Calls a function of a serial tree with the sizes of its triangle as constants.
+macro_rules! by_size {
+    ($n:expr, $function:ident($($argument:expr),*)) => {
+        match $n {
+            1 => $function::<1, 1>($($argument),*),
+            2 => $function::<2, 3>($($argument),*),
+            _ => $function::<3, 6>($($argument),*),
+        }
+    };
+}
+
+/// The factorization of the rows of a serial tree.
+#[inline(always)]
+pub(crate) fn factor_serial(
+    m: &Model,
+    mass: &[f64],
+    ld: &mut [f64],
+    diag_inv: &mut [f64],
+    dofs: Range<usize>,
+) -> Option<usize> {
+    let at = m.M_rowadr[dofs.start] as usize;
+    let (mass, ld, diag_inv) = (&mass[at..], &mut ld[at..], &mut diag_inv[dofs.start..]);
+    by_size!(dofs.len(), factor_copy(mass, ld, diag_inv)).map(|k| dofs.start + k)
+}
+
+#[inline(always)]
+fn factor_copy<const N: usize, const T: usize>(
+    mass: &[f64],
+    ld: &mut [f64],
+    diag_inv: &mut [f64],
+) -> Option<usize> {
+    if let (Some(from), Some(to)) = (mass.first_chunk::<T>(), ld.first_chunk_mut::<T>()) {
+        *to = *from;
+    }
+    factor_small::<N, T>(ld, diag_inv)
+}
+
+/// x ← M⁻¹ x by what [`factor_serial`] has left.
+#[inline(always)]
+pub(crate) fn solve_serial(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs: Range<usize>) {
+    let (ld, diag_inv) = (&ld[m.M_rowadr[dofs.start] as usize..], &diag_inv[dofs.start..]);
+    by_size!(dofs.len(), solve_small(ld, diag_inv, &mut x[dofs.start..]));
+}
+
+/// x ← (M + B)⁻¹ x for a serial tree and a diagonal matrix B (nv).
+#[inline(always)]
+pub(crate) fn solve_serial_with(m: &Model, mass: &[f64], b: &[f64], x: &mut [f64], dofs: Range<usize>) {
+    let mass = &mass[m.M_rowadr[dofs.start] as usize..];
+    by_size!(dofs.len(), solve_direct(mass, &b[dofs.start..], &mut x[dofs.start..]));
+}
+
+#[inline(always)]
+fn solve_direct<const N: usize, const T: usize>(mass: &[f64], b: &[f64], x: &mut [f64]) {
+    let (Some(mass), Some(b)) = (mass.first_chunk::<T>(), b.first_chunk::<N>()) else { return };
+    let (mut ld, mut diag_inv) = (*mass, [0.0; N]);
+    for k in 0..N {
+        ld[k * (k + 1) / 2 + k] += b[k];
+    }
+    factor_small::<N, T>(&mut ld, &mut diag_inv);
+    solve_small::<N, T>(&ld, &diag_inv, x);
+}
+
 #[inline(always)]
 fn solve_root(n: usize, ld: &[f64], diag_inv: &[f64], x: &mut [f64]) {
     match n {

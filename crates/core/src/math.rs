@@ -230,6 +230,12 @@ pub fn mat_mul(a: &Mat3, b: &Mat3) -> Mat3 {
 #[inline]
 pub fn mat_turn(m: &Mat3, axis: Vec3, angle: f64) -> Mat3 {
     let (s, c) = libm::sincos(angle);
+    mat_turned(m, axis, s, c)
+}
+
+/// The same for an angle whose sine and cosine are known.
+#[inline]
+pub fn mat_turned(m: &Mat3, axis: Vec3, s: f64, c: f64) -> Mat3 {
     let mut out = *m;
     // About one of the axes themselves, the other two turn in their plane.
     for i in 0..3 {

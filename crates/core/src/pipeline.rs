@@ -93,6 +93,9 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Kinematics) {
         kinematics::bodies(m, d);
     }
+    if d.plan.keeps(Stage::Orientations) {
+        kinematics::orientations(d);
+    }
     if d.plan.keeps(Stage::GeomPoses) {
         kinematics::geoms(m, d);
     }
@@ -337,6 +340,7 @@ pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
     };
     d.plan = plan;
     d.work.chains.load(m);
+    d.work.frames.load(m);
     sleep::plan_changed(m, d);
     reset::clear_left_out(m, d);
 }

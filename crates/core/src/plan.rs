@@ -5,7 +5,10 @@
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
 use crate::reflect::{FieldId, FieldSet, Object, Stage, field};
-use crate::{Model, Obj, articulated, chain, collision, disable, enable, integrate, joint, sensor};
+use crate::{
+    Model, Obj, actuation, articulated, chain, collision, disable, enable, integrate, joint, kinematics,
+    sensor,
+};
 use crate::{biastype, dyntype, eqtype, gaintype, integrator, trntype, wraptype};
 
 /// What programs read and write.
@@ -51,8 +54,9 @@ pub struct Plan {
     pub(crate) mass_for_rows: bool,
     /// Whether some body is a simple one.
     pub(crate) simple_bodies: bool,
-    /// Whether the parameters of short chains may change.
+    /// Whether the parameters of short chains, or the frames of bodies and joints, may change.
     pub(crate) chains_may_change: bool,
+    pub(crate) frames_may_change: bool,
     /// Whether there can be equality constraints, dry friction, or limits of joints and tendons.
     pub(crate) equalities: bool,
     pub(crate) friction_loss: bool,
@@ -60,8 +64,14 @@ pub struct Plan {
     /// Whether contacts pull, and whether surfaces move by themselves.
     pub(crate) adhesion: bool,
     pub(crate) surfaces: bool,
-    /// Whether joints have dampers, where that is known once and for all.
+    /// Whether joints have dampers, where that is known once and for all; whether springs and dampers are looked at, and
+    /// whether some of the dampers belong to actuators.
     pub(crate) damped: Option<bool>,
+    pub(crate) springs: bool,
+    pub(crate) dampers: bool,
+    pub(crate) actuator_dampers: bool,
+    /// Whether all actuators are motors of slides and hinges: each makes a force in proportion to its control.
+    pub(crate) motors: bool,
     /// Whether the solver says more than forces: `efc_b` and `efc_state`.
     pub(crate) solver_details: bool,
     /// Whether bodies feel a medium or gravity compensation.
@@ -83,12 +93,17 @@ impl Default for Plan {
             mass_for_rows: false,
             simple_bodies: true,
             chains_may_change: true,
+            frames_may_change: true,
             equalities: true,
             friction_loss: true,
             limits: true,
             adhesion: true,
             surfaces: true,
             damped: None,
+            springs: true,
+            dampers: true,
+            actuator_dampers: true,
+            motors: false,
             solver_details: true,
             body_forces: true,
             applied_forces: true,
@@ -139,12 +154,17 @@ impl Plan {
             mass_for_rows: false,
             simple_bodies: m.dof_simplenum.iter().any(|&n| n > 0),
             chains_may_change: scene.writes(Object::Model, &chain::FIELDS),
+            frames_may_change: scene.writes(Object::Model, &kinematics::FIELDS),
             equalities: scene.equalities > 0,
             friction_loss: scene.friction > 0,
             limits: scene.limited > 0 || scene.limited_tendons > 0,
             adhesion: scene.adhesion,
             surfaces: scene.pairs > 0 && scene.some(&[SURFACES]),
             damped: scene.damped(),
+            springs: scene.some(&JOINT_FORCES[2..]) || scene.tendon_springs,
+            dampers: scene.damped() != Some(false) || scene.tendon_dampers,
+            actuator_dampers: scene.damped().is_none() || m.jnt_actuatorid.iter().any(|&i| i != -1),
+            motors: scene.motors(),
             solver_details: scene.reads_field("efc_b") || scene.reads_field("efc_state"),
             body_forces: scene.body_forces(),
             applied_forces: scene.writes(Object::Data, &["xfrc_applied"]),
@@ -180,9 +200,10 @@ impl Plan {
 }
 
 /// The stages of a forward pass, in order.
-const STAGES: [Stage; 25] = [
+const STAGES: [Stage; 26] = [
     Stage::Sleep,
     Stage::Kinematics,
+    Stage::Orientations,
     Stage::GeomPoses,
     Stage::SitePoses,
     Stage::ComPos,
@@ -264,6 +285,7 @@ const OVERRIDES: [&str; 5] = ["o_margin", "o_solref", "o_solimp", "o_friction", 
 /// A stage's name in words.
 fn name(stage: Stage) -> &'static str {
     match stage {
+        Stage::Orientations => "orientation",
         Stage::GeomPoses => "geom-pose",
         Stage::SitePoses => "site-pose",
         Stage::ComPos => "centre-of-mass",
@@ -450,18 +472,37 @@ impl<'a> Scene<'a> {
     /// Whether forces of actuators depend on their lengths or velocities, or their moments on the configuration.
     fn lengths_act(&self) -> bool {
         let m = self.m;
-        let motor = |i: usize| {
-            let joint = usize::try_from(m.actuator_trnid[2 * i]).ok().filter(|&j| j < m.njnt);
-            matches!(m.actuator_trntype[i], trntype::JOINT | trntype::JOINTINPARENT)
-                && joint.is_some_and(|j| matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE))
-                && m.actuator_gaintype[i] == gaintype::FIXED
-                && m.actuator_biastype[i] == biastype::NONE
-                && matches!(
-                    m.actuator_dyntype[i],
-                    dyntype::NONE | dyntype::INTEGRATOR | dyntype::FILTER | dyntype::FILTEREXACT
-                )
+        let dynamics = |i: usize| {
+            let without = [dyntype::NONE, dyntype::INTEGRATOR, dyntype::FILTER, dyntype::FILTEREXACT];
+            without.contains(&m.actuator_dyntype[i])
         };
-        self.sleeps || self.writes(Object::Model, &["actuator_gear"]) || !(0..m.nactuator).all(motor)
+        self.sleeps
+            || self.writes(Object::Model, &["actuator_gear"])
+            || !(0..m.nactuator).all(|i| self.is_motor(i) && dynamics(i))
+    }
+
+    /// Whether an actuator acts on a slide or a hinge, with a force in proportion to its input.
+    fn is_motor(&self, i: usize) -> bool {
+        let m = self.m;
+        let joint = usize::try_from(m.actuator_trnid[2 * i]).ok().filter(|&j| j < m.njnt);
+        matches!(m.actuator_trntype[i], trntype::JOINT | trntype::JOINTINPARENT)
+            && joint.is_some_and(|j| matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE))
+            && m.actuator_gaintype[i] == gaintype::FIXED
+            && m.actuator_biastype[i] == biastype::NONE
+    }
+
+    /// Whether all actuators are motors, each with one control and none of them ever switched off.
+    fn motors(&self) -> bool {
+        let m = self.m;
+        let plain = |i: usize| {
+            self.is_motor(i)
+                && m.actuator_dyntype[i] == dyntype::NONE
+                && m.actuator_ctrlnum[i] == 1
+                && !actuation::switched_off(m, i)
+        };
+        let switched = self.writes(Object::Option, &["disableactuator"])
+            || self.writes(Object::Model, &["actuator_group", "actuator_gear"]);
+        !self.sleeps && !switched && m.nhistory == 0 && m.nout == m.nactuator && (0..m.nactuator).all(plain)
     }
 
     /// Forces on bodies as such.
@@ -506,7 +547,9 @@ impl<'a> Scene<'a> {
             count(self.limited, "one joint is limited", "joints are limited")
                 .or_else(|| count(self.limited_tendons, "one tendon is limited", "tendons are limited"))
                 .or_else(|| count(self.friction, "one thing has dry friction", "things have dry friction"))
-                .or_else(|| count(self.equalities, "there is one equality constraint", "equality constraints hold"))
+                .or_else(|| {
+                    count(self.equalities, "there is one equality constraint", "equality constraints hold")
+                })
         };
         match stage {
             Stage::Sleep => because(self.sleeps, "trees at rest fall asleep"),
@@ -539,7 +582,20 @@ impl<'a> Scene<'a> {
     fn uses(&self, stage: Stage, of: Stage) -> bool {
         let m = self.m;
         match (stage, of) {
-            (Stage::GeomPoses | Stage::SitePoses | Stage::ComPos, Stage::Kinematics) => true,
+            (
+                Stage::Orientations | Stage::GeomPoses | Stage::SitePoses | Stage::ComPos,
+                Stage::Kinematics,
+            ) => true,
+            (Stage::CameraPoses, Stage::Orientations) => true,
+            (Stage::Constraint, Stage::Orientations) => self.ties_bodies(),
+            (Stage::Transmission, Stage::Orientations) => {
+                self.transmits(&[trntype::SITE, trntype::SLIDERCRANK, trntype::SO3])
+            }
+            (Stage::Sensors, Stage::Orientations) => {
+                [Stage::Kinematics, Stage::GeomPoses, Stage::SitePoses, Stage::CameraPoses]
+                    .into_iter()
+                    .any(|poses| sensor::needs(m, poses))
+            }
             (Stage::ComVel, Stage::ComPos) => true,
             (Stage::MassMatrix, Stage::ComPos) => self.large || self.reads_field("crb"),
             (Stage::CameraPoses, Stage::ComPos) => true,
@@ -599,6 +655,7 @@ impl<'a> Scene<'a> {
             Stage::Sleep if m.ntree == 0 => "nothing can move",
             Stage::Sleep => "the sleep flag is off",
             Stage::Kinematics => "nothing can touch and nothing reads a pose",
+            Stage::Orientations => "nothing reads an orientation as a quaternion",
             Stage::GeomPoses => "no contact is possible and nothing reads a geom's pose",
             Stage::SitePoses if m.nsite == 0 => "the model has no sites",
             Stage::SitePoses => "nothing reads a site's pose",

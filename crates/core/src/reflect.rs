@@ -47,6 +47,8 @@ pub enum Stage {
     User,
     /// Poses of bodies and joints.
     Kinematics,
+    /// Orientations of bodies as quaternions.
+    Orientations,
     /// Poses of geoms.
     GeomPoses,
     /// Poses of sites.

@@ -2,7 +2,9 @@
 
 use crate::math::*;
 use crate::reflect::Stage;
-use crate::{Data, Model, Warning, WarningStat, actuation, kinematics, mass, reflect, sensor, sleep, transmission};
+use crate::{
+    Data, Model, Warning, WarningStat, actuation, kinematics, mass, reflect, sensor, sleep, transmission,
+};
 
 /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
 /// what was written to it.
@@ -70,6 +72,12 @@ pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
     if !d.plan.keeps(Stage::Actuation) {
         d.actuator_force.fill(0.0);
         d.qfrc_actuator.fill(0.0);
+    }
+    if !d.plan.springs {
+        d.qfrc_spring.fill(0.0);
+    }
+    if !d.plan.dampers {
+        d.qfrc_damper.fill(0.0);
     }
     if !d.plan.body_forces {
         d.qfrc_gravcomp.fill(0.0);

@@ -52,6 +52,7 @@ pub(crate) fn set_const0(m: &mut Model) {
 
 fn positions(m: &Model, d: &mut Data) {
     kinematics::bodies(m, d);
+    kinematics::orientations(d);
     kinematics::geoms(m, d);
     kinematics::sites(m, d);
     com::com_pos(m, d);

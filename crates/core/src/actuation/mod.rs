@@ -53,6 +53,12 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
     }
     let mut ctrl = std::mem::take(&mut d.work.ctrl);
     control::effective(m, d, &mut ctrl);
+    if d.plan.motors {
+        motors(m, d, &ctrl);
+        d.work.ctrl = ctrl;
+        limit::joints(m, d);
+        return;
+    }
     if m.na > 0 {
         for i in 0..m.nactuator {
             activation::rates(m, d, i, &mut ctrl);
@@ -81,6 +87,24 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
     transmission::apply_forces(m, d);
     gravity_compensation(m, d);
     limit::joints(m, d);
+}
+
+/// Forces of motors of slides and hinges, each with one control and one degree of freedom: what most labs have.
+#[inline(always)]
+fn motors(m: &Model, d: &mut Data, ctrl: &[f64]) {
+    for (force, (gain, u)) in
+        d.actuator_force.iter_mut().zip(rows::<10>(&m.actuator_gainprm).iter().zip(ctrl))
+    {
+        // The bias is +0: so the force is, where the product is -0.
+        *force = gain[0] * u + 0.0;
+    }
+    limit::forces(m, d);
+    d.qfrc_actuator.fill(0.0);
+    let moments = d.moment_colind.iter().zip(&d.actuator_moment);
+    for (force, (&k, moment)) in d.actuator_force.iter().zip(moments) {
+        d.qfrc_actuator[k as usize] += moment * force;
+    }
+    gravity_compensation(m, d);
 }
 
 /// The force of an actuator with a law of its own.

@@ -7,6 +7,9 @@ use crate::{Data, Model, integrator};
 /// `efc_vel` = J v and `efc_aref` = -B J v - K d r, less the acceleration J̇ v that is there already.
 #[inline(never)]
 pub(crate) fn reference(m: &Model, d: &mut Data) {
+    if d.nefc == 0 {
+        return;
+    }
     d.work.jac.mul(&d.qvel, &mut d.efc_vel);
     if d.plan.surfaces {
         contact::surfaces(m, d);

@@ -17,12 +17,15 @@ pub(crate) fn make(m: &Model, d: &mut Data) {
     let friction = d.plan.friction_loss && on(disable::FRICTIONLOSS);
     let limits = d.plan.limits && on(disable::LIMIT);
     // Room for all that may come; the arrays keep their length from step to step as long as contacts stay.
-    let mut room = contact::count(m, d);
+    let limits = if limits { single::count_limits(m, d) } else { 0 };
+    let mut room = contact::count(m, d) + limits;
     room += if equal { equality::count(m, d) } else { 0 };
     room += if friction { single::count_friction(m) } else { 0 };
-    room += if limits { single::count_limits(m, d) } else { 0 };
     resize(d, room);
-    d.nefc = 0;
+    (d.nefc, d.ne, d.nf, d.nl) = (0, 0, 0, 0);
+    if room == 0 {
+        return;
+    }
     if equal {
         equality::make(m, d);
     }
@@ -31,7 +34,7 @@ pub(crate) fn make(m: &Model, d: &mut Data) {
         single::friction(m, d);
     }
     d.nf = d.nefc - d.ne;
-    if limits {
+    if limits > 0 {
         single::limits(m, d);
     }
     d.nl = d.nefc - d.ne - d.nf;

@@ -15,16 +15,27 @@ pub(super) fn count_friction(m: &Model) -> usize {
 
 /// Rows that the limits of joints and tendons have at most: what is within its range needs none.
 pub(super) fn count_limits(m: &Model, d: &Data) -> usize {
-    let near = |range: [f64; 2], value: f64, margin: f64| sides(range, value, margin).count();
-    let of_joint = |j: usize| match m.jnt_type[j] {
-        joint::SLIDE | joint::HINGE => {
-            near(rows::<2>(&m.jnt_range)[j], d.qpos[m.jnt_qposadr[j] as usize], m.jnt_margin[j])
-        }
-        _ => 1,
-    };
-    let of_tendon = |t: usize| near(rows::<2>(&m.tendon_range)[t], d.ten_length[t], m.tendon_margin[t]);
-    let joints = (0..m.njnt).filter(|&j| m.jnt_limited[j]).map(of_joint);
-    joints.sum::<usize>() + (0..m.ntendon).filter(|&t| m.tendon_limited[t]).map(of_tendon).sum::<usize>()
+    let joints = m.jnt_limited.iter().zip(&m.jnt_type).zip(&m.jnt_qposadr);
+    let joints = joints.zip(rows::<2>(&m.jnt_range).iter().zip(&m.jnt_margin));
+    let mut count = 0;
+    for (((&limited, &kind), &q), (range, &margin)) in joints {
+        count += match kind {
+            _ if !limited => 0,
+            joint::SLIDE | joint::HINGE => near(*range, d.qpos[q as usize], margin),
+            _ => 1,
+        };
+    }
+    let tendons = m.tendon_limited.iter().zip(&d.ten_length).zip(&m.tendon_margin);
+    for (((&limited, &length), &margin), range) in tendons.zip(rows::<2>(&m.tendon_range)) {
+        count += if limited { near(*range, length, margin) } else { 0 };
+    }
+    count
+}
+
+/// How many sides of a range are nearer than the margin: see [`sides`].
+#[inline(always)]
+fn near([lower, upper]: [f64; 2], value: f64, margin: f64) -> usize {
+    usize::from(value - lower < margin) + usize::from(upper - value < margin)
 }
 
 /// What a row is about: `efc_type`, `efc_id`, the violation with its margin, and the largest force of dry friction.

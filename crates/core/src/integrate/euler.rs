@@ -19,8 +19,9 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
         *a = f + c;
     }
     let mut damping = std::mem::take(&mut d.work.damping);
-    for (i, b) in damping.iter_mut().enumerate() {
-        *b = h * self::damping(m, d, i);
+    let laws = spring::joint_dampers(m, d.plan.actuator_dampers);
+    for (b, (law, v)) in damping.iter_mut().zip(laws.zip(&d.qvel)) {
+        *b = h * law.slope(v.abs());
     }
     articulated::solve_with(m, d, &damping, &mut acceleration);
     d.work.damping = damping;

@@ -15,9 +15,9 @@ pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
         }
         return;
     }
-    for j in 0..m.njnt {
-        let (mut q, mut k) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
-        match m.jnt_type[j] {
+    for (&kind, (&q, &k)) in m.jnt_type.iter().zip(m.jnt_qposadr.iter().zip(&m.jnt_dofadr)) {
+        let (mut q, mut k) = (q as usize, k as usize);
+        match kind {
             joint::SLIDE | joint::HINGE => qpos[q] += h * v[k],
             kind => {
                 if kind == joint::FREE {

@@ -11,14 +11,18 @@ use crate::{Data, Model, disable, joint};
 /// `qfrc_spring`, `qfrc_damper`, `qfrc_gravcomp`, `qfrc_fluid`, `qfrc_passive`. With springs and dampers both
 /// switched off there are no passive forces at all.
 pub(crate) fn passive(m: &Model, d: &mut Data) {
-    d.qfrc_spring.fill(0.0);
-    d.qfrc_damper.fill(0.0);
     let (springs, dampers) = (!m.opt.disabled(disable::SPRING), !m.opt.disabled(disable::DAMPER));
-    if springs {
-        spring::joint_springs(m, d);
+    if d.plan.springs {
+        d.qfrc_spring.fill(0.0);
+        if springs {
+            spring::joint_springs(m, d);
+        }
     }
-    if dampers {
-        spring::damp_joints(m, d);
+    if d.plan.dampers {
+        d.qfrc_damper.fill(0.0);
+        if dampers {
+            spring::damp_joints(m, d);
+        }
     }
     spring::tendons(m, d, springs, dampers);
     for ((f, s), b) in d.qfrc_passive.iter_mut().zip(&d.qfrc_spring).zip(&d.qfrc_damper) {

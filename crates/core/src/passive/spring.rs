@@ -55,8 +55,9 @@ impl Law {
 
 /// The springs of joints, by `qfrc_spring`.
 pub(super) fn joint_springs(m: &Model, d: &mut Data) {
-    for j in 0..m.njnt {
-        let law = Law::new(&m.jnt_stiffness, &m.jnt_stiffnesspoly, j);
+    let laws = m.jnt_stiffness.iter().zip(rows::<2>(&m.jnt_stiffnesspoly));
+    for (j, (&linear, &growth)) in laws.enumerate() {
+        let law = Law { linear, growth };
         if law.is_zero() {
             continue;
         }
@@ -99,13 +100,27 @@ fn ball_displacement(q: &[f64], reference: &[f64]) -> Vec3 {
 /// The damper of degree of freedom `i`, that of actuators included.
 #[inline(always)]
 pub(crate) fn joint_damper(m: &Model, i: usize) -> Law {
-    let own = Law::new(&m.dof_damping, &m.dof_dampingpoly, i);
+    with_actuators(m, i, Law::new(&m.dof_damping, &m.dof_dampingpoly, i))
+}
+
+#[inline(always)]
+fn with_actuators(m: &Model, i: usize, own: Law) -> Law {
     let joint = m.dof_jntid[i] as usize;
     // Few joints have a damper of an actuator.
     if m.jnt_actuatorid[joint] == -1 {
         return own;
     }
     own.plus(transmission::damping(m, On::Joint(joint)))
+}
+
+/// The dampers of all degrees of freedom, those of actuators included unless there are none.
+#[inline(always)]
+pub(crate) fn joint_dampers(m: &Model, actuators: bool) -> impl Iterator<Item = Law> + '_ {
+    let own = m.dof_damping.iter().zip(rows::<2>(&m.dof_dampingpoly));
+    own.enumerate().map(move |(i, (&linear, &growth))| {
+        let own = Law { linear, growth };
+        if actuators { with_actuators(m, i, own) } else { own }
+    })
 }
 
 /// The damper of tendon `t`, that of actuators included.
@@ -115,8 +130,8 @@ pub(crate) fn tendon_damper(m: &Model, t: usize) -> Law {
 
 /// What the dampers of joints do, by `qfrc_damper`.
 pub(super) fn damp_joints(m: &Model, d: &mut Data) {
-    for (i, (f, v)) in d.qfrc_damper.iter_mut().zip(&d.qvel).enumerate() {
-        let law = joint_damper(m, i);
+    let laws = joint_dampers(m, d.plan.actuator_dampers);
+    for (law, (f, v)) in laws.zip(d.qfrc_damper.iter_mut().zip(&d.qvel)) {
         // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.
         if !law.is_zero() {
             *f = -law.at(v.abs()) * v;

@@ -72,7 +72,7 @@ fn fixed(m: &Model, d: &Data, t: usize, jacobian: &mut [f64]) -> f64 {
 /// Adds a Jᵀ J to M for tendons with armature a, where M has an entry: trees stay independent.
 pub(crate) fn armature(m: &Model, d: &mut Data) {
     for t in 0..m.ntendon {
-        let a = m.tendon_armature[t] + transmission::armature(m, On::Tendon(t));
+        let a = inertia(m, t);
         if a == 0.0 {
             continue;
         }
@@ -83,22 +83,31 @@ pub(crate) fn armature(m: &Model, d: &mut Data) {
 
 /// Whether some tendon has inertia of its own or of an actuator.
 pub(crate) fn has_armature(m: &Model) -> bool {
-    (0..m.ntendon).any(|t| m.tendon_armature[t] + transmission::armature(m, On::Tendon(t)) != 0.0)
+    (0..m.ntendon).any(|t| inertia(m, t) != 0.0)
+}
+
+/// The inertia of tendon `t`, its own and that of actuators, kg.
+fn inertia(m: &Model, t: usize) -> f64 {
+    m.tendon_armature[t] + transmission::armature(m, On::Tendon(t))
 }
 
 /// `ten_velocity` = J v.
 pub(crate) fn velocities(m: &Model, d: &mut Data) {
     for t in 0..m.ntendon {
-        let row = row(m, t);
-        let terms = m.ten_J_colind[row.clone()].iter().zip(&d.ten_J[row]);
-        d.ten_velocity[t] = terms.map(|(&k, x)| x * d.qvel[k as usize]).sum();
+        d.ten_velocity[t] = along(m, d, t, &d.qvel);
     }
+}
+
+/// The rate at which tendon `t` lengthens when joints move with v (nv).
+fn along(m: &Model, d: &Data, t: usize, v: &[f64]) -> f64 {
+    let row = row(m, t);
+    m.ten_J_colind[row.clone()].iter().zip(&d.ten_J[row]).map(|(&k, x)| x * v[k as usize]).sum()
 }
 
 /// Adds a Jᵀ (J̇ v) to `qfrc_bias` for tendons with armature a.
 pub(crate) fn bias(m: &Model, d: &mut Data) {
     for t in 0..m.ntendon {
-        let a = m.tendon_armature[t] + transmission::armature(m, On::Tendon(t));
+        let a = inertia(m, t);
         if a != 0.0 && !is_fixed(m, t) {
             let force = a * path::acceleration(m, d, t);
             add_force(m, t, &d.ten_J, force, &mut d.qfrc_bias);

@@ -10,6 +10,7 @@ use crate::{Data, Model, constraint, disable, trntype};
 pub(crate) fn pulls(m: &Model, d: &Data, mut apply: impl FnMut(usize, Vec3, Vec3)) {
     for t in (0..m.ntendon).filter(|&t| !super::is_fixed(m, t)) {
         let force = passive(m, d, t) + actuators(m, d, t) + constraint::tendon_force(m, d, t);
+        let force = force - inertial(m, d, t);
         if force != 0.0 {
             path::pull(m, d, t, force, &mut apply);
         }
@@ -30,4 +31,10 @@ fn actuators(m: &Model, d: &Data, t: usize) -> f64 {
         m.actuator_gear[6 * o] * d.actuator_force[o]
     };
     if m.opt.disabled(disable::ACTUATION) { 0.0 } else { (0..m.nactuator).filter(on).map(force).sum() }
+}
+
+/// What accelerates the inertia of the tendon itself: a (J q̈ + J̇ v), N.
+fn inertial(m: &Model, d: &Data, t: usize) -> f64 {
+    let a = super::inertia(m, t);
+    if a == 0.0 { 0.0 } else { a * (super::along(m, d, t, &d.qacc) + path::acceleration(m, d, t)) }
 }

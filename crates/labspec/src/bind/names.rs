@@ -165,9 +165,11 @@ fn stage_phrase(stage: Stage) -> &'static str {
         Stage::Compile => "the model compiler",
         Stage::SetConst => "mj_setConst",
         Stage::User => "nothing",
-        Stage::Kinematics | Stage::GeomPoses | Stage::SitePoses | Stage::CameraPoses => {
-            "forward kinematics, inside mj_step and mj_forward"
-        }
+        Stage::Kinematics
+        | Stage::Orientations
+        | Stage::GeomPoses
+        | Stage::SitePoses
+        | Stage::CameraPoses => "forward kinematics, inside mj_step and mj_forward",
         Stage::ComPos | Stage::ComVel => "the centre-of-mass stage, inside mj_step and mj_forward",
         Stage::MassMatrix | Stage::Factor => "the mass-matrix stage, inside mj_step and mj_forward",
         Stage::Tendon | Stage::TendonVel => "the tendon stage, inside mj_step and mj_forward",
