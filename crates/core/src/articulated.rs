@@ -346,10 +346,9 @@ fn add_to(a: &mut [Wide; 6], b: &[Wide; 6]) {
 /// positive.
 #[inline(never)] // inlined into a loop, the compiler would not add lane by lane
 fn eliminate(i: &mut [Wide; 6], s: &Spatial, diagonal: f64, joint: &mut Joint) -> bool {
-    let mut u = scale(i[0], s[0]);
-    for c in 1..6 {
-        u = add_scaled(u, i[c], s[c]);
-    }
+    // In three sums, each of which is soon done: the next degree of freedom waits for U.
+    let part = |c: usize| add_scaled(scale(i[c], s[c]), i[c + 1], s[c + 1]);
+    let u = add(add(part(0), part(2)), part(4));
     let d = diagonal + dot(wide(s), u);
     let inv = 1.0 / d.max(MINVAL);
     let v = scale(u, -inv);

@@ -4,7 +4,7 @@
 //! (`subtree_com` of its root), in world axes: far from the origin nothing is lost to cancellation.
 
 use crate::math::*;
-use crate::{Data, Model, joint};
+use crate::{Data, Model, joint, lanes};
 
 /// `subtree_com`, `cinert`, `cdof`.
 #[inline(never)]
@@ -15,9 +15,12 @@ pub(crate) fn com_pos(m: &Model, d: &mut Data) {
     let moments = rows::<3>(&m.body_inertia);
     let cinert = rows_mut::<10>(&mut d.cinert);
     cinert[0] = [0.0; 10];
-    for i in 1..m.nbody {
-        let offset = sub(xipos[i], com[m.body_rootid[i] as usize]);
-        cinert[i] = inertia_about(moments[i], &ximat[i], offset, m.body_mass[i]);
+    for four in lanes::by_fours(m.nbody) {
+        let roots = four.map(|i| m.body_rootid[i] as usize);
+        let offset = sub(lanes::gather(xipos, four), lanes::gather(com, roots));
+        let (moments, axes) = (lanes::gather(moments, four), lanes::gather(ximat, four));
+        let mass = lanes::gather_one(&m.body_mass, four);
+        lanes::scatter(inertia_about(moments, &axes, offset, mass), cinert, four);
     }
 
     let (xanchor, xaxis, xmat) = (rows::<3>(&d.xanchor), rows::<3>(&d.xaxis), rows::<9>(&d.xmat));

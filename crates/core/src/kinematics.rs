@@ -2,6 +2,7 @@
 //!
 //! Each body's pose follows from its parent's, joint by joint (Featherstone 2008, section 4.4).
 
+use crate::lanes::{Axes, Lane3, along, axes, lane3, matrix, product, turned, vec3};
 use crate::math::*;
 use crate::{Data, Model, joint};
 use std::ops::Range;
@@ -34,6 +35,15 @@ pub(crate) fn world(d: &mut Data) {
 pub(crate) struct Frames {
     bodies: Vec<Frame>,
     joints: Vec<Joint>,
+    /// Where bodies are, as the bodies that they carry find it.
+    poses: Vec<Pose>,
+}
+
+/// The origin and the axes of a body, world.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Pose {
+    at: Lane3,
+    axes: Axes,
 }
 
 /// A body.
@@ -46,11 +56,11 @@ struct Frame {
     /// Its frame in its parent's, before its joints move it; `straight` when the axes are the same.
     at: Vec3,
     quat: Quat,
-    axes: Mat3,
+    axes: [Vec3; 3],
     straight: bool,
     /// Centre of mass and principal axes of inertia in its frame.
     com: Vec3,
-    principal: Mat3,
+    principal: [Vec3; 3],
     same: i32,
 }
 
@@ -93,8 +103,12 @@ impl Frames {
             coordinate: m.jnt_qposadr[j] as usize,
             ..Joint::default()
         };
-        let mut frames =
-            Frames { bodies: (0..m.nbody).map(body).collect(), joints: (0..m.njnt).map(joint).collect() };
+        let world = Pose { at: lane3([0.0; 3]), axes: axes(&EYE) };
+        let mut frames = Frames {
+            bodies: (0..m.nbody).map(body).collect(),
+            joints: (0..m.njnt).map(joint).collect(),
+            poses: vec![world; m.nbody],
+        };
         frames.load(m);
         frames
     }
@@ -107,8 +121,8 @@ impl Frames {
             self.bodies.iter_mut().zip(places.zip(inertial))
         {
             let quat = quat_normalize(quat);
-            (f.at, f.quat, f.axes, f.straight) = (at, quat, quat_to_mat(quat), quat == IDENTITY);
-            (f.com, f.principal, f.same) = (com, quat_to_mat(principal), same);
+            (f.at, f.quat, f.axes, f.straight) = (at, quat, columns(quat), quat == IDENTITY);
+            (f.com, f.principal, f.same) = (com, columns(principal), same);
         }
         let anchors = rows::<3>(&m.jnt_pos).iter().zip(rows::<3>(&m.jnt_axis));
         for (j, (&anchor, &axis)) in self.joints.iter_mut().zip(anchors) {
@@ -124,7 +138,7 @@ pub(crate) fn bodies(m: &Model, d: &mut Data) {
     if d.plan.frames_may_change {
         d.work.frames.load(m);
     }
-    let Frames { bodies, joints } = &mut d.work.frames;
+    let Frames { bodies, joints, poses } = &mut d.work.frames;
     let (xpos, xmat) = (rows_mut::<3>(&mut d.xpos), rows_mut::<9>(&mut d.xmat));
     let (xipos, ximat) = (rows_mut::<3>(&mut d.xipos), rows_mut::<9>(&mut d.ximat));
     let (xanchor, xaxis) = (rows_mut::<3>(&mut d.xanchor), rows_mut::<3>(&mut d.xaxis));
@@ -132,53 +146,62 @@ pub(crate) fn bodies(m: &Model, d: &mut Data) {
     let qpos = &d.qpos;
 
     for (i, f) in bodies.iter().enumerate().skip(1) {
-        let (mut pos, mut axes);
+        let mut here;
         if f.free {
             let (j, q) = (f.joints.start, joints[f.joints.start].coordinate);
-            pos = [qpos[q], qpos[q + 1], qpos[q + 2]];
-            axes = quat_to_mat(quaternion(&qpos[q + 3..]));
-            (xanchor[j], xaxis[j]) = (pos, joints[j].axis);
+            let at = [qpos[q], qpos[q + 1], qpos[q + 2]];
+            here = Pose { at: lane3(at), axes: axes(&quat_to_mat(quaternion(&qpos[q + 3..]))) };
+            (xanchor[j], xaxis[j]) = (at, joints[j].axis);
         } else {
-            (pos, axes) = match f.mocap {
-                Some(id) => (mocap_pos[id], quat_to_mat(quat_normalize(mocap_quat[id]))),
-                None => (f.at, f.axes),
+            let above = &poses[f.parent];
+            here = match f.mocap {
+                Some(id) => Pose {
+                    at: above.at + along(&above.axes, mocap_pos[id]),
+                    axes: product(&above.axes, &columns(quat_normalize(mocap_quat[id]))),
+                },
+                None => Pose {
+                    at: above.at + along(&above.axes, f.at),
+                    axes: if f.straight { above.axes } else { product(&above.axes, &f.axes) },
+                },
             };
-            if f.parent > 0 {
-                let above = &xmat[f.parent];
-                pos = add(mat_mul_vec(above, pos), xpos[f.parent]);
-                axes = if f.straight { *above } else { mat_mul(above, &axes) };
-            }
             let out = xanchor[f.joints.clone()].iter_mut().zip(&mut xaxis[f.joints.clone()]);
             for (joint, (xanchor, xaxis)) in joints[f.joints.clone()].iter_mut().zip(out) {
-                let axis = mat_mul_vec(&axes, joint.axis);
-                *xanchor = if joint.central { pos } else { add(mat_mul_vec(&axes, joint.anchor), pos) };
-                *xaxis = axis;
+                let axis = along(&here.axes, joint.axis);
+                let anchor = if joint.central { here.at } else { here.at + along(&here.axes, joint.anchor) };
+                (*xanchor, *xaxis) = (vec3(anchor), vec3(axis));
                 let displacement = qpos[joint.coordinate] - joint.reference;
                 match joint.kind {
                     joint::SLIDE => {
-                        pos = add_scaled(pos, axis, displacement);
+                        here.at += axis * displacement;
                         continue;
                     }
                     joint::HINGE => {
                         let (s, c) = libm::sincos(0.5 * displacement);
                         joint.half = (s, c);
-                        axes = mat_turned(&axes, joint.axis, 2.0 * s * c, 1.0 - 2.0 * s * s);
+                        here.axes = turned(&here.axes, joint.axis, 2.0 * s * c, 1.0 - 2.0 * s * s);
                     }
-                    _ => axes = mat_mul(&axes, &quat_to_mat(quaternion(&qpos[joint.coordinate..]))),
+                    _ => here.axes = product(&here.axes, &columns(quaternion(&qpos[joint.coordinate..]))),
                 }
                 // Rotating about an anchor off the origin moves the origin.
                 if !joint.central {
-                    pos = sub(*xanchor, mat_mul_vec(&axes, joint.anchor));
+                    here.at = anchor - along(&here.axes, joint.anchor);
                 }
             }
         }
-        xpos[i] = pos;
-        xmat[i] = axes;
+        poses[i] = here;
+        (xpos[i], xmat[i]) = (vec3(here.at), matrix(&here.axes));
         // Copies where frames coincide: they are exact.
         let same_axes = matches!(f.same, sameframe::BODY | sameframe::BODYROT);
-        xipos[i] = if f.same == sameframe::BODY { pos } else { add(mat_mul_vec(&axes, f.com), pos) };
-        ximat[i] = if same_axes { axes } else { mat_mul(&axes, &f.principal) };
+        xipos[i] = if f.same == sameframe::BODY { xpos[i] } else { vec3(here.at + along(&here.axes, f.com)) };
+        ximat[i] = if same_axes { xmat[i] } else { matrix(&product(&here.axes, &f.principal)) };
     }
+}
+
+/// The columns of the rotation matrix of a quaternion.
+#[inline(always)]
+fn columns(quat: Quat) -> [Vec3; 3] {
+    let m = quat_to_mat(quat);
+    [column(&m, 0), column(&m, 1), column(&m, 2)]
 }
 
 /// The unit quaternion that four coordinates stand for.
@@ -190,7 +213,7 @@ fn quaternion(q: &[f64]) -> Quat {
 /// Orientations of bodies as quaternions, `xquat`, after [`bodies`].
 #[inline(never)]
 pub(crate) fn orientations(d: &mut Data) {
-    let Frames { bodies, joints } = &d.work.frames;
+    let Frames { bodies, joints, .. } = &d.work.frames;
     let xquat = rows_mut::<4>(&mut d.xquat);
     let (mocap_quat, qpos) = (rows::<4>(&d.mocap_quat), &d.qpos);
     for (i, f) in bodies.iter().enumerate().skip(1) {

@@ -38,6 +38,7 @@ mod integrate;
 mod inverse;
 mod jacobian;
 mod kinematics;
+mod lanes;
 mod lengthrange;
 mod mass;
 pub mod math;

@@ -3,6 +3,8 @@
 //! Conventions: quaternions are `w x y z`, matrices row-major, spatial vectors angular part first
 //! (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2). `rows` looks at a flat array as rows.
 
+use std::ops::{Add, Mul, Sub};
+
 /// Floor of every guarded denominator.
 pub const MINVAL: f64 = 1e-15;
 
@@ -16,6 +18,12 @@ pub type Mat3 = [f64; 9];
 pub type Spatial = [f64; 6];
 /// Rigid-body inertia about a point: `Ixx Iyy Izz Ixy Ixz Iyz, m·dx m·dy m·dz, m`.
 pub type Inertia = [f64; 10];
+
+/// What formulas are written in: a number, or several at once in the lanes of a vector of the processor. The same
+/// operations in the same order give every lane the bits that the number alone would have.
+pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
+
+impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Real for T {}
 
 /// A flat array as rows of `N`.
 #[inline(always)]
@@ -36,20 +44,20 @@ pub const EYE: Mat3 = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
 /// a + b
 #[inline(always)]
-pub fn add<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
+pub fn add<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> [T; N] {
     let mut r = a;
     for i in 0..N {
-        r[i] += b[i];
+        r[i] = r[i] + b[i];
     }
     r
 }
 
 /// a - b
 #[inline(always)]
-pub fn sub<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
+pub fn sub<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> [T; N] {
     let mut r = a;
     for i in 0..N {
-        r[i] -= b[i];
+        r[i] = r[i] - b[i];
     }
     r
 }
@@ -76,10 +84,10 @@ pub fn add_scaled<const N: usize>(a: [f64; N], b: [f64; N], s: f64) -> [f64; N] 
 
 /// a · b
 #[inline(always)]
-pub fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
+pub fn dot<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> T {
     let mut s = a[0] * b[0];
     for i in 1..N {
-        s += a[i] * b[i];
+        s = s + a[i] * b[i];
     }
     s
 }
@@ -107,7 +115,7 @@ pub fn dot_slice(a: &[f64], b: &[f64]) -> f64 {
 
 /// a × b
 #[inline(always)]
-pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
+pub fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
@@ -230,12 +238,6 @@ pub fn mat_mul(a: &Mat3, b: &Mat3) -> Mat3 {
 #[inline]
 pub fn mat_turn(m: &Mat3, axis: Vec3, angle: f64) -> Mat3 {
     let (s, c) = libm::sincos(angle);
-    mat_turned(m, axis, s, c)
-}
-
-/// The same for an angle whose sine and cosine are known.
-#[inline]
-pub fn mat_turned(m: &Mat3, axis: Vec3, s: f64, c: f64) -> Mat3 {
     let mut out = *m;
     // About one of the axes themselves, the other two turn in their plane.
     for i in 0..3 {
@@ -293,13 +295,13 @@ pub fn column(m: &Mat3, i: usize) -> Vec3 {
 
 /// The angular part.
 #[inline(always)]
-pub fn angular(s: &Spatial) -> Vec3 {
+pub fn angular<T: Real>(s: &[T; 6]) -> [T; 3] {
     [s[0], s[1], s[2]]
 }
 
 /// The linear part.
 #[inline(always)]
-pub fn linear(s: &Spatial) -> Vec3 {
+pub fn linear<T: Real>(s: &[T; 6]) -> [T; 3] {
     [s[3], s[4], s[5]]
 }
 
@@ -312,8 +314,8 @@ pub fn cross_motion(v: &Spatial, m: &Spatial) -> Spatial {
 }
 
 /// v ×* f for forces: the derivative of the momentum f carried by the motion v.
-#[inline]
-pub fn cross_force(v: &Spatial, f: &Spatial) -> Spatial {
+#[inline(always)]
+pub fn cross_force<T: Real>(v: &[T; 6], f: &[T; 6]) -> [T; 6] {
     let t = add(cross(angular(v), angular(f)), cross(linear(v), linear(f)));
     let l = cross(angular(v), linear(f));
     [t[0], t[1], t[2], l[0], l[1], l[2]]
@@ -321,8 +323,8 @@ pub fn cross_force(v: &Spatial, f: &Spatial) -> Spatial {
 
 /// Inertia about a point, in world axes, of a body with principal moments `moments` along the columns of
 /// `axes`, mass `mass` and centre of mass at `d` from the point: R diag(I) Rᵀ + m (|d|² 1 - d dᵀ).
-#[inline]
-pub fn inertia_about(moments: Vec3, axes: &Mat3, d: Vec3, mass: f64) -> Inertia {
+#[inline(always)]
+pub fn inertia_about<T: Real>(moments: [T; 3], axes: &[T; 9], d: [T; 3], mass: T) -> [T; 10] {
     // t = diag(I) Rᵀ, one row per world axis.
     let t = |i: usize| [axes[3 * i] * moments[0], axes[3 * i + 1] * moments[1], axes[3 * i + 2] * moments[2]];
     let r = |i: usize| [axes[3 * i], axes[3 * i + 1], axes[3 * i + 2]];
@@ -342,8 +344,8 @@ pub fn inertia_about(moments: Vec3, axes: &Mat3, d: Vec3, mass: f64) -> Inertia 
 }
 
 /// Momentum of the motion v of a body with inertia i, both about the same point.
-#[inline]
-pub fn inertia_mul(i: &Inertia, v: &Spatial) -> Spatial {
+#[inline(always)]
+pub fn inertia_mul<T: Real>(i: &[T; 10], v: &[T; 6]) -> [T; 6] {
     [
         i[0] * v[0] + i[3] * v[1] + i[4] * v[2] - i[8] * v[4] + i[7] * v[5],
         i[3] * v[0] + i[1] * v[1] + i[5] * v[2] + i[8] * v[3] - i[6] * v[5],

@@ -1,7 +1,7 @@
 //! `qfrc_bias`: gravity, Coriolis and centrifugal force.
 
 use crate::math::*;
-use crate::{Data, Model, chain, disable, joint};
+use crate::{Data, Model, chain, disable, joint, lanes};
 
 /// `qfrc_bias`. Trees take recursive Newton–Euler, short chains a projection; a simple body, alone in its tree
 /// with its inertia along its own axes, takes the closed form.
@@ -94,8 +94,12 @@ fn recursion(m: &Model, d: &mut Data, gravity: Vec3, qacc: Option<&[f64]>, out: 
             }
         }
         cacc[i] = add(cacc[m.body_parentid[i] as usize], a);
-        let momentum = inertia_mul(&cinert[i], &cvel[i]);
-        cfrc[i] = add(inertia_mul(&cinert[i], &cacc[i]), cross_force(&cvel[i], &momentum));
+    }
+    for four in lanes::by_fours(m.nbody) {
+        let (inertia, v) = (lanes::gather(cinert, four), lanes::gather(cvel, four));
+        let force = inertia_mul(&inertia, &lanes::gather(cacc, four));
+        let turning = cross_force(&v, &inertia_mul(&inertia, &v));
+        lanes::scatter(add(force, turning), cfrc, four);
     }
     for i in (1..m.nbody).rev() {
         let parent = m.body_parentid[i] as usize;
