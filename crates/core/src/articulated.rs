@@ -138,7 +138,7 @@ impl Articulated {
 
 impl Tree<'_> {
     /// U and D of every degree of freedom, with what its joint adds to the diagonal of M. Returns the first degree of
-    /// freedom whose D is not positive.
+    /// freedom whose D is not positive. With `x`, the way up the tree of [`Tree::solve`] is gone at the same time.
     #[inline(always)]
     fn factor(
         &self,
@@ -146,10 +146,12 @@ impl Tree<'_> {
         diagonal: &[f64],
         bodies: &mut [Body],
         joints: &mut [Joint],
+        mut x: Option<&mut [f64]>,
     ) -> Option<usize> {
         let range = self.span.bodies.clone();
         for (body, inertia) in bodies[range.clone()].iter_mut().zip(&cinert[range]) {
             set_inertia(&mut body.inertia, inertia);
+            body.force = [0.0; 8];
         }
         for &(body, carrier) in &self.span.fixed {
             give(bodies, body, carrier);
@@ -161,6 +163,9 @@ impl Tree<'_> {
         for ((k, (link, s)), (joint, &added)) in dofs.zip(links).zip(joints).rev() {
             if eliminate(&mut bodies[link.body].inertia, s, added, joint) {
                 bad = Some(k);
+            }
+            if let Some(x) = &mut x {
+                rise(bodies, link, s, joint, &mut x[k]);
             }
             if let Some(carrier) = link.carrier {
                 give(bodies, link.body, carrier);
@@ -178,13 +183,17 @@ impl Tree<'_> {
         let dofs = self.span.dofs.clone();
         let x = &mut x[dofs.clone()];
         let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]).zip(&joints[dofs]);
-        for (x, ((link, s), joint)) in x.iter_mut().zip(links.clone()).rev() {
-            let mut force = bodies[link.body].force;
-            *x = (*x - dot(wide(s), force)) * joint.inv;
-            force = add_scaled(force, joint.u, *x);
-            let up = &mut bodies[link.carrier.unwrap_or(link.body)].force;
-            *up = if link.carrier.is_some() { add(*up, force) } else { force };
+        for (x, ((link, s), joint)) in x.iter_mut().zip(links).rev() {
+            rise(bodies, link, s, joint, x);
         }
+        self.fall(bodies, joints, x);
+    }
+
+    /// The way down, from the root to the leaves.
+    #[inline(always)]
+    fn fall(&self, bodies: &mut [Body], joints: &[Joint], x: &mut [f64]) {
+        let dofs = self.span.dofs.clone();
+        let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]).zip(&joints[dofs]);
         for (x, ((link, s), joint)) in x.iter_mut().zip(links) {
             // The bodies before this one are done.
             let before = match link.carrier {
@@ -198,6 +207,16 @@ impl Tree<'_> {
     }
 }
 
+/// One degree of freedom on the way up: what its joint takes of the force on its body, and what it passes on.
+#[inline(always)]
+fn rise(bodies: &mut [Body], link: &Link, s: &Spatial, joint: &Joint, x: &mut f64) {
+    let mut force = bodies[link.body].force;
+    *x = (*x - dot(wide(s), force)) * joint.inv;
+    force = add_scaled(force, joint.u, *x);
+    let up = &mut bodies[link.carrier.unwrap_or(link.body)].force;
+    *up = if link.carrier.is_some() { add(*up, force) } else { force };
+}
+
 /// Adds the inertia of a body to that of its carrier, which comes before it.
 #[inline(always)]
 fn give(bodies: &mut [Body], body: usize, carrier: usize) {
@@ -207,9 +226,15 @@ fn give(bodies: &mut [Body], body: usize, carrier: usize) {
     }
 }
 
-/// `qLD` and `qLDiagInv`, the factorization of M; of large trees only what solves with M, unless `rows` are asked for.
-/// Returns the first degree of freedom whose D is not positive.
-pub(crate) fn factor(m: &Model, d: &mut Data, rows_too: bool) -> Option<usize> {
+/// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive.
+pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
+    let bad = prepare(m, d, None);
+    rows_of_factor(m, d);
+    bad
+}
+
+/// What solves with M, of large trees without `qLD`; and with `x`, x ← M⁻¹ x.
+pub(crate) fn prepare(m: &Model, d: &mut Data, mut x: Option<&mut [f64]>) -> Option<usize> {
     let articulated = &mut d.work.articulated;
     articulated.untied = m.ntendon == 0 || !tendon::has_armature(m);
     let Articulated { spans, untied, links, bodies, joints, armature, .. } = articulated;
@@ -217,22 +242,31 @@ pub(crate) fn factor(m: &Model, d: &mut Data, rows_too: bool) -> Option<usize> {
     for span in spans.iter() {
         let dofs = span.dofs.clone();
         let found = if span.serial {
-            mass::factor_serial(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs)
+            let bad = mass::factor_serial(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
+            if let Some(x) = x.as_deref_mut() {
+                mass::solve_serial(m, &d.qLD, &d.qLDiagInv, x, dofs);
+            }
+            bad
         } else if *untied && !span.bodies.is_empty() {
             for k in dofs.clone() {
                 armature[k] = mass::armature(m, k);
             }
             let tree = Tree { span, links, cdof: rows(&d.cdof) };
-            tree.factor(rows(&d.cinert), armature, bodies, joints)
+            let bad = tree.factor(rows(&d.cinert), armature, bodies, joints, x.as_deref_mut());
+            if let Some(x) = x.as_deref_mut() {
+                tree.fall(bodies, joints, &mut x[dofs]);
+            }
+            bad
         } else {
             let entries = mass::rows_of(m, dofs.clone());
             d.qLD[entries.clone()].copy_from_slice(&d.M[entries]);
-            mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, dofs)
+            let bad = mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
+            if let Some(x) = x.as_deref_mut() {
+                mass::solve(m, &d.qLD, &d.qLDiagInv, x, dofs);
+            }
+            bad
         };
         bad = bad.or(found);
-    }
-    if rows_too {
-        rows_of_factor(m, d);
     }
     bad
 }
@@ -283,8 +317,8 @@ pub(crate) fn solve_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
                 *sum = armature + b;
             }
             let tree = Tree { span, links, cdof: rows(&d.cdof) };
-            tree.factor(rows(&d.cinert), diagonal, bodies, damped);
-            tree.solve(bodies, damped, x);
+            tree.factor(rows(&d.cinert), diagonal, bodies, damped, Some(x));
+            tree.fall(bodies, damped, &mut x[dofs]);
             continue;
         }
         let (ld, diag_inv) = (&mut d.work.ld, &mut d.work.diag_inv);

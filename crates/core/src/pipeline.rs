@@ -119,10 +119,9 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::MassMatrix) {
         mass_matrix(m, d, composite);
     }
-    if d.plan.keeps(Stage::Factor)
-        && let Some(dof) = articulated::factor(m, d, composite)
-    {
-        warn(d, Warning::Inertia, dof);
+    if d.plan.keeps(Stage::Factor) && !d.plan.mass_for_rows {
+        let bad = articulated::factor(m, d);
+        check_inertia(d, bad);
     }
     if d.plan.keeps(Stage::Collision) {
         if m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(disable::CONTACT) {
@@ -134,12 +133,22 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Constraint) {
         constraint::make(m, d);
         if d.plan.mass_for_rows && d.nefc > 0 {
-            mass_matrix(m, d, true);
-            articulated::rows_of_factor(m, d);
+            if d.plan.composite {
+                mass_matrix(m, d, true);
+            }
+            let bad = articulated::factor(m, d);
+            check_inertia(d, bad);
         }
     }
     if d.plan.keeps(Stage::Transmission) {
         transmission::transmissions(m, d);
+    }
+}
+
+/// Warns of a degree of freedom without inertia.
+fn check_inertia(d: &mut Data, bad: Option<usize>) {
+    if let Some(dof) = bad {
+        warn(d, Warning::Inertia, dof);
     }
 }
 
@@ -152,7 +161,9 @@ fn mass_matrix(m: &Model, d: &mut Data, composite: bool) {
         mass::simple_diagonal(m, d);
     }
     chain::mass_matrix(m, d);
-    tendon::armature(m, d);
+    if m.ntendon > 0 {
+        tendon::armature(m, d);
+    }
 }
 
 /// What depends on `qvel` as well.
@@ -188,10 +199,11 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
 /// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`.
 #[inline(never)]
 pub(crate) fn acceleration(m: &Model, d: &mut Data) {
-    let internal = d.qfrc_passive.iter().zip(&d.qfrc_bias);
-    let external = d.qfrc_applied.iter().zip(&d.qfrc_actuator);
-    for (f, ((passive, bias), (applied, actuator))) in d.qfrc_smooth.iter_mut().zip(internal.zip(external)) {
-        *f = passive - bias + applied + actuator;
+    let n = d.qfrc_smooth.len();
+    let (passive, bias) = (&d.qfrc_passive[..n], &d.qfrc_bias[..n]);
+    let (applied, actuator) = (&d.qfrc_applied[..n], &d.qfrc_actuator[..n]);
+    for (k, f) in d.qfrc_smooth.iter_mut().enumerate() {
+        *f = passive[k] - bias[k] + applied[k] + actuator[k];
     }
     if d.plan.applied_forces {
         applied_forces(m, d);
@@ -201,7 +213,12 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     } else if d.plan.some_general {
         let mut out = std::mem::take(&mut d.qacc_smooth);
         out.copy_from_slice(&d.qfrc_smooth);
-        articulated::solve(m, d, &mut out);
+        if d.plan.mass_for_rows && d.nefc == 0 {
+            let bad = articulated::prepare(m, d, Some(&mut out));
+            check_inertia(d, bad);
+        } else {
+            articulated::solve(m, d, &mut out);
+        }
         d.qacc_smooth = out;
     } else {
         for ((a, f), inv) in d.qacc_smooth.iter_mut().zip(&d.qfrc_smooth).zip(&d.qLDiagInv) {
@@ -288,7 +305,9 @@ pub(crate) fn bad(x: f64) -> bool {
 }
 
 fn first_bad(v: &[f64]) -> Option<usize> {
-    v.iter().position(|&x| bad(x))
+    // Nearly always there is none: all are looked at, by vectors of the processor.
+    let some = v.iter().fold(false, |some, &x| some | bad(x));
+    if some { v.iter().position(|&x| bad(x)) } else { None }
 }
 
 pub(crate) fn warn(d: &mut Data, warning: Warning, info: usize) {

@@ -72,6 +72,8 @@ pub struct Plan {
     pub(crate) actuator_dampers: bool,
     /// Whether all actuators are motors of slides and hinges: each makes a force in proportion to its control.
     pub(crate) motors: bool,
+    /// Whether forces of actuators are limited, one by one or by joint.
+    pub(crate) force_limits: bool,
     /// Whether the solver says more than forces: `efc_b` and `efc_state`.
     pub(crate) solver_details: bool,
     /// Whether bodies feel a medium or gravity compensation.
@@ -104,6 +106,7 @@ impl Default for Plan {
             dampers: true,
             actuator_dampers: true,
             motors: false,
+            force_limits: true,
             solver_details: true,
             body_forces: true,
             applied_forces: true,
@@ -165,6 +168,9 @@ impl Plan {
             dampers: scene.damped() != Some(false) || scene.tendon_dampers,
             actuator_dampers: scene.damped().is_none() || m.jnt_actuatorid.iter().any(|&i| i != -1),
             motors: scene.motors(),
+            force_limits: m.actuator_forcelimited.contains(&true)
+                || m.jnt_actfrclimited.contains(&true)
+                || scene.writes(Object::Model, &["actuator_forcelimited", "jnt_actfrclimited"]),
             solver_details: scene.reads_field("efc_b") || scene.reads_field("efc_state"),
             body_forces: scene.body_forces(),
             applied_forces: scene.writes(Object::Data, &["xfrc_applied"]),
@@ -457,7 +463,7 @@ impl<'a> Scene<'a> {
         let fields = ["M", "qLD", "qLDiagInv", "crb"];
         let integrates = matches!(m.opt.integrator, integrator::EULER | integrator::RK4);
         let changes = ["integrator", "enableflags"];
-        self.large
+        self.general
             && integrates
             && !self.writes(Object::Option, &changes)
             && !m.opt.enabled(enable::DIAGEXACT)

@@ -56,7 +56,6 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
     if d.plan.motors {
         motors(m, d, &ctrl);
         d.work.ctrl = ctrl;
-        limit::joints(m, d);
         return;
     }
     if m.na > 0 {
@@ -98,13 +97,18 @@ fn motors(m: &Model, d: &mut Data, ctrl: &[f64]) {
         // The bias is +0: so the force is, where the product is -0.
         *force = gain[0] * u + 0.0;
     }
-    limit::forces(m, d);
+    if d.plan.force_limits {
+        limit::forces(m, d);
+    }
     d.qfrc_actuator.fill(0.0);
     let moments = d.moment_colind.iter().zip(&d.actuator_moment);
     for (force, (&k, moment)) in d.actuator_force.iter().zip(moments) {
         d.qfrc_actuator[k as usize] += moment * force;
     }
     gravity_compensation(m, d);
+    if d.plan.force_limits {
+        limit::joints(m, d);
+    }
 }
 
 /// The force of an actuator with a law of its own.

@@ -21,7 +21,9 @@ pub(crate) fn make(m: &Model, d: &mut Data) {
     let mut room = contact::count(m, d) + limits;
     room += if equal { equality::count(m, d) } else { 0 };
     room += if friction { single::count_friction(m) } else { 0 };
-    resize(d, room);
+    if room > 0 || !d.efc_type.is_empty() {
+        resize(d, room);
+    }
     (d.nefc, d.ne, d.nf, d.nl) = (0, 0, 0, 0);
     if room == 0 {
         return;

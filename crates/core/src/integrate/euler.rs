@@ -15,8 +15,10 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
     }
     let h = m.opt.timestep;
     let mut acceleration = std::mem::take(&mut d.work.qacc);
-    for (a, (f, c)) in acceleration.iter_mut().zip(d.qfrc_smooth.iter().zip(&d.qfrc_constraint)) {
-        *a = f + c;
+    let n = acceleration.len();
+    let (smooth, constraint) = (&d.qfrc_smooth[..n], &d.qfrc_constraint[..n]);
+    for (k, a) in acceleration.iter_mut().enumerate() {
+        *a = smooth[k] + constraint[k];
     }
     let mut damping = std::mem::take(&mut d.work.damping);
     let laws = spring::joint_dampers(m, d.plan.actuator_dampers);
