@@ -21,6 +21,7 @@ pub mod ast;
 pub mod code;
 
 mod bind;
+mod columnar;
 mod diagnostic;
 mod effects;
 mod globals;
@@ -36,6 +37,7 @@ mod parse;
 mod prelude;
 mod print;
 mod program;
+mod reference;
 mod schema;
 mod suggest;
 mod value;
@@ -47,6 +49,7 @@ mod mock;
 mod tests;
 
 pub use bind::{Compiled, Compiler};
+pub use columnar::{Columnar, Recording};
 pub use diagnostic::{Diagnostic, Fix, Parsed, Severity, Span};
 pub use effects::{Access, Effects};
 pub use globals::{Globals, ProgramId};
@@ -58,7 +61,8 @@ pub use print::{print, print_statements};
 pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
 pub use schema::{
     CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Help, ObjectId, Param,
-    Schema, Touch, Type,
+    Role, Schema, Touch, Type,
 };
+pub use reference::language_page;
 pub use suggest::closest;
 pub use value::{Value, View};

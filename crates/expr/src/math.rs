@@ -47,7 +47,7 @@ const MATH: &[Row] = &[
     one("clz32", |x| f64::from((crate::number::to_int32(x) as u32).leading_zeros())),
     one("cos", libm::cos),
     one("cosh", libm::cosh),
-    one("exp", libm::exp),
+    one("exp", exp),
     one("expm1", libm::expm1),
     one("floor", f64::floor),
     one("fround", |x| f64::from(x as f32)),
@@ -199,6 +199,11 @@ pub(crate) fn pow(base: f64, exponent: f64) -> f64 {
         return f64::NAN;
     }
     libm::pow(base, exponent)
+}
+
+/// The exponential; of 1 it is `Math.E` in every engine, where libm is off by the last bit.
+fn exp(x: f64) -> f64 {
+    if x == 1.0 { std::f64::consts::E } else { libm::exp(x) }
 }
 
 /// The nearest whole number, ties towards +Infinity; keeps the sign of zero.

@@ -13,6 +13,7 @@ pub fn pages() -> Vec<(&'static str, String)> {
     vec![
         ("fields.md", fields()),
         ("functions.md", function_list()),
+        ("language.md", format!("{GENERATED}\n{}", labspec_expr::language_page())),
         ("codes.md", codes()),
         ("compatibility.md", compatibility()),
     ]
@@ -64,7 +65,7 @@ fn kind(kind: Kind, stage: Stage) -> String {
 
 fn function_list() -> String {
     let mut text =
-        format!("{GENERATED}\n# Functions\n\n`Math` has the functions and constants of JavaScript.\n");
+        format!("{GENERATED}\n# Functions\n\nThe language itself, its methods and `Math` are in [language.md](language.md).\n");
     for (title, measure) in [("In labs and in measures", false), ("In the measures of `verify` only", true)] {
         let _ = write!(text, "\n## {title}\n\n| function | meaning |\n|---|---|\n");
         for f in functions::reference().iter().filter(|f| f.measure == measure) {

@@ -171,6 +171,7 @@ impl<'a> Binder<'a> {
             match self.math_argument(&path, function, arg) {
                 Ok(ir) => {
                     self.expect_argument(&ir, &path);
+                    self.check_angle(function, &ir);
                     numbers.push(Ir::to_number(ir, arg.span));
                 }
                 Err(Reported) => failed = true,
@@ -382,6 +383,9 @@ impl<'a> Binder<'a> {
                 let ir = self.operand(arg)?;
                 if ir.ty == Type::String {
                     return self.wrong_type(info, i, &ir, "a number");
+                }
+                if info.name.ends_with(".deg") {
+                    self.check_quaternion(&ir, &format!("`{}` needs one", info.name));
                 }
                 Ok(Some(Ir::to_number(ir, span)))
             }

@@ -17,10 +17,11 @@ mod name;
 mod object;
 mod scope;
 mod statement;
+mod units;
 mod value;
 
 use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Fix, Span};
 use crate::effects::Effects;
 use crate::globals::{Globals, ProgramId};
 use crate::ir::{Ir, Shown, Step, Tree, Unit, UnitId};
@@ -52,6 +53,28 @@ pub struct Compiled {
     pub diagnostics: Vec<Diagnostic>,
     /// What the parts of the text are, for a person who points at them.
     pub help: Vec<(Span, Help)>,
+    /// Bare indexes that could be written by the name of their object: `data.qpos[9]` as
+    /// `data.joint("light_free").qpos[2]`. Both mean the same element of the model at hand.
+    pub named: Vec<Fix>,
+}
+
+impl Compiled {
+    /// The source with every bare index that belongs to a named object written by its name.
+    pub fn modernized(&self, source: &str) -> String {
+        let mut out = String::new();
+        let mut at = 0;
+        let mut fixes: Vec<&Fix> = self.named.iter().collect();
+        fixes.sort_by_key(|f| f.span);
+        for fix in fixes {
+            // An index inside an index stays.
+            if let Some(before) = source.get(at..fix.span.start) {
+                out.push_str(before);
+                out.push_str(&fix.text);
+                at = fix.span.end;
+            }
+        }
+        out + source.get(at..).unwrap_or("")
+    }
 }
 
 /// Passes over a text before every type that still changes is taken to be unknown.
@@ -116,7 +139,7 @@ impl<'s> Compiler<'s> {
             self.globals.back_to(mark);
             let mut binder = Binder::new(self, source, mode, id, facts);
             let done = work(&mut binder);
-            let Binder { mut diagnostics, mut effects, aggregates, tree, facts: seen, help, globals, .. } =
+            let Binder { mut diagnostics, mut effects, aggregates, tree, facts: seen, help, named, globals, .. } =
                 binder;
             *self.globals = globals;
             facts = seen;
@@ -133,7 +156,7 @@ impl<'s> Compiler<'s> {
                 let code = lower::program(&tree);
                 Program { code: code.into(), effects, result, aggregates }
             });
-            return Compiled { id, program, diagnostics: in_order(diagnostics), help };
+            return Compiled { id, program, diagnostics: in_order(diagnostics), help, named };
         }
     }
 }
@@ -218,6 +241,7 @@ struct Binder<'a> {
     aggregates: Vec<Aggregate>,
     next_aggregate: usize,
     help: Vec<(Span, Help)>,
+    named: Vec<Fix>,
     facts: Facts,
     tree: Tree,
     /// Names in reach, inner ones last.
@@ -256,6 +280,7 @@ impl<'a> Binder<'a> {
             aggregates: Vec::new(),
             next_aggregate: 0,
             help: Vec::new(),
+            named: Vec::new(),
             facts,
             tree: Tree { units: vec![Unit::default()], ..Tree::default() },
             variables: Vec::new(),

@@ -3,6 +3,7 @@
 
 use labspec_core::reflect::{self, FieldId, Object};
 use labspec_core::{Model, Obj, joint};
+use labspec_expr::Role;
 
 /// First element and number of elements of a field that belong to one object; `None` when the field has no rows
 /// of this kind.
@@ -148,17 +149,18 @@ fn rate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
     })
 }
 
-/// Whether an element of `data.qpos` is part of a quaternion.
-#[allow(dead_code)]
-pub(crate) fn is_quaternion(m: &Model, f: FieldId, index: usize) -> bool {
-    if f.info().object != Object::Data || f.info().name != "qpos" {
-        return false;
+/// What an element measures: coordinates of joints are angles, parts of quaternions, or neither.
+pub(super) fn role(m: &Model, f: FieldId, index: usize) -> Role {
+    let info = f.info();
+    if info.object != Object::Data || info.name != "qpos" {
+        return Role::Other;
     }
-    let Some((Obj::Joint, object)) = owner(m, f, index) else { return false };
-    let Some((first, _)) = row(m, f, Obj::Joint, object) else { return false };
+    let Some((Obj::Joint, object)) = owner(m, f, index) else { return Role::Other };
+    let Some((first, _)) = row(m, f, Obj::Joint, object) else { return Role::Other };
     match m.jnt_type.get(object) {
-        Some(&joint::FREE) => index - first >= 3,
-        Some(&joint::BALL) => true,
-        _ => false,
+        Some(&joint::HINGE) => Role::Angle,
+        Some(&joint::FREE) if index - first >= 3 => Role::Quaternion,
+        Some(&joint::BALL) => Role::Quaternion,
+        _ => Role::Other,
     }
 }

@@ -7,7 +7,7 @@ use super::handle::{self, KINDS, Side, Thing};
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_core::{Model, Obj};
 use labspec_expr::{
-    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Schema, Value,
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Role, Schema, Value,
 };
 
 /// Where a program stands: decides which functions exist.
@@ -373,6 +373,10 @@ impl Schema for ModelNames<'_> {
 
     fn element_help(&self, FieldKey(f): FieldKey, index: usize) -> Option<String> {
         elements::help(self.model, FieldId(f as u16), index)
+    }
+
+    fn role(&self, FieldKey(f): FieldKey, index: usize) -> Role {
+        elements::role(self.model, FieldId(f as u16), index)
     }
 
     fn named_element(&self, FieldKey(f): FieldKey, index: usize) -> Option<String> {
