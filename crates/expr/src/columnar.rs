@@ -60,7 +60,8 @@ impl Recording {
         if unit.result == Slot::Value || !self.columns.iter().all(Vec::is_empty) {
             return None;
         }
-        let mut build = Build { recording: self, steps: Vec::new(), args: Vec::new(), registers: BTreeMap::new() };
+        let mut build =
+            Build { recording: self, steps: Vec::new(), args: Vec::new(), registers: BTreeMap::new() };
         for &(register, x) in &unit.numbers {
             let at = build.step(Step::Constant(x));
             build.registers.insert(register.0, at);
@@ -201,7 +202,14 @@ impl Columnar {
 
     /// One operation over a block. Operands are results of operations before it.
     #[inline]
-    fn block(&self, step: &Step, before: &[[f64; BLOCK]], dst: &mut [f64; BLOCK], recording: &Recording, at: usize) {
+    fn block(
+        &self,
+        step: &Step,
+        before: &[[f64; BLOCK]],
+        dst: &mut [f64; BLOCK],
+        recording: &Recording,
+        at: usize,
+    ) {
         let mut two = |a: usize, b: usize, f: &dyn Fn(f64, f64) -> f64| {
             for ((d, a), b) in dst.iter_mut().zip(&before[a]).zip(&before[b]) {
                 *d = f(*a, *b);
@@ -271,7 +279,8 @@ mod tests {
             "~(data.qpos[0] | 5) + Math.max(data.qpos[1], NaN)",
             "2 * Math.PI",
         ];
-        let programs: Vec<Program> = sources.iter().map(|s| compiler.expression(s).program.unwrap()).collect();
+        let programs: Vec<Program> =
+            sources.iter().map(|s| compiler.expression(s).program.unwrap()).collect();
         let mut recording = Recording::new();
         let columnar: Vec<Columnar> = programs.iter().map(|p| recording.columns(p).unwrap()).collect();
         assert_eq!(recording.width(), 6); // time, three of qpos, a mass, a velocity
@@ -295,7 +304,9 @@ mod tests {
     fn what_depends_on_more_has_no_columns() {
         let mut globals = Globals::new();
         let mut compiler = Compiler::new(&Mock, &mut globals);
-        for source in ["ctx.a", "data.qpos[data.ncon]", "data.time > 1 ? 1 : 2", "'a' + data.time", "bodyId('light')"] {
+        for source in
+            ["ctx.a", "data.qpos[data.ncon]", "data.time > 1 ? 1 : 2", "'a' + data.time", "bodyId('light')"]
+        {
             let program = compiler.expression(source).program.unwrap();
             let columns = Recording::new().columns(&program);
             assert!(columns.is_none() || source.starts_with("bodyId"), "{source}");

@@ -59,10 +59,10 @@ pub use natives::to_fixed;
 pub use parse::{MAX_DEPTH, MAX_SOURCE, parse_expression, parse_statements};
 pub use print::{print, print_statements};
 pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
+pub use reference::language_page;
 pub use schema::{
     CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Help, ObjectId, Param,
     Role, Schema, Touch, Type,
 };
-pub use reference::language_page;
 pub use suggest::closest;
 pub use value::{Value, View};

@@ -64,8 +64,9 @@ fn kind(kind: Kind, stage: Stage) -> String {
 }
 
 fn function_list() -> String {
-    let mut text =
-        format!("{GENERATED}\n# Functions\n\nThe language itself, its methods and `Math` are in [language.md](language.md).\n");
+    let mut text = format!(
+        "{GENERATED}\n# Functions\n\nThe language itself, its methods and `Math` are in [language.md](language.md).\n"
+    );
     for (title, measure) in [("In labs and in measures", false), ("In the measures of `verify` only", true)] {
         let _ = write!(text, "\n## {title}\n\n| function | meaning |\n|---|---|\n");
         for f in functions::reference().iter().filter(|f| f.measure == measure) {

@@ -67,7 +67,8 @@ impl<'a> Binder<'a> {
         // Only an index of the whole array is worth a name.
         let whole = field.first == 0 && field.path.split('.').count() == 2 && !field.path.contains('(');
         let constant = self.text(span).ends_with(&format!("[{i}]"));
-        if whole && constant
+        if whole
+            && constant
             && let Some(named) = self.schema.named_element(field.key, *i)
         {
             self.named.push(Fix { span, text: named });

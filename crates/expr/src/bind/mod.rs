@@ -139,8 +139,17 @@ impl<'s> Compiler<'s> {
             self.globals.back_to(mark);
             let mut binder = Binder::new(self, source, mode, id, facts);
             let done = work(&mut binder);
-            let Binder { mut diagnostics, mut effects, aggregates, tree, facts: seen, help, named, globals, .. } =
-                binder;
+            let Binder {
+                mut diagnostics,
+                mut effects,
+                aggregates,
+                tree,
+                facts: seen,
+                help,
+                named,
+                globals,
+                ..
+            } = binder;
             *self.globals = globals;
             facts = seen;
             if facts != before {

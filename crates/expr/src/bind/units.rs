@@ -56,11 +56,17 @@ impl<'a> Binder<'a> {
         }
         let text = self.text(ir.span);
         let what = self.schema.element_help(view.field, at);
-        let what = what.map_or("a component of a quaternion".to_owned(), |w| format!("{w}, a component of a quaternion"));
+        let what = what.map_or("a component of a quaternion".to_owned(), |w| {
+            format!("{w}, a component of a quaternion")
+        });
         self.report(
-            Diagnostic::warning(code::QUATERNION_AS_ANGLE, ir.span, format!("`{text}` is no angle, and {needs}"))
-                .why(format!("it is {what}: four numbers that give the orientation together"))
-                .help("the whole angle of the turn is `2 * Math.acos(w)`, with w the first of the four numbers"),
+            Diagnostic::warning(
+                code::QUATERNION_AS_ANGLE,
+                ir.span,
+                format!("`{text}` is no angle, and {needs}"),
+            )
+            .why(format!("it is {what}: four numbers that give the orientation together"))
+            .help("the whole angle of the turn is `2 * Math.acos(w)`, with w the first of the four numbers"),
         );
     }
 

@@ -15,7 +15,10 @@ fn conditions_and_loops() {
     check(&[
         ("if (data.time > 1) ctx.out = 1; else if (data.ncon) ctx.out = 2; else ctx.out = 3", "2"),
         ("let s = 0; for (let i = 0; i < 5; i++) s += i; ctx.out = s", "10"),
-        ("let s = ''; for (const x of [1, 'a', null]) { if (x === 'a') continue; s += x } ctx.out = s", "1null"),
+        (
+            "let s = ''; for (const x of [1, 'a', null]) { if (x === 'a') continue; s += x } ctx.out = s",
+            "1null",
+        ),
         ("let n = 0; while (true) { n++; if (n > 7) break } ctx.out = n", "8"),
         ("let n = 9; do { n-- } while (n > 3); ctx.out = n", "3"),
         ("let s = 0; for (const v of data.qvel) s += v; ctx.out = s", "2466"),
@@ -32,15 +35,24 @@ fn functions() {
     check(&[
         ("const f = (x, k = 3) => x * k; ctx.out = [f(2), f(2, 5)]", "6,10"),
         ("function fact(n) { return n <= 1 ? 1 : n * fact(n - 1) } ctx.out = fact(10)", "3628800"),
-        ("const even = n => n === 0 ? true : odd(n - 1), odd = n => n === 0 ? false : even(n - 1); ctx.out = even(10)", "true"),
+        (
+            "const even = n => n === 0 ? true : odd(n - 1), odd = n => n === 0 ? false : even(n - 1); ctx.out = even(10)",
+            "true",
+        ),
         ("const make = k => x => k * x; const f = make(3); ctx.out = f(4)", "12"),
         ("let n = 0; const inc = () => { n += 2 }; inc(); inc(); ctx.out = n", "4"),
         ("const fs = []; for (let i = 0; i < 3; i++) fs.push(() => i); ctx.out = fs.map(f => f())", "0,1,2"),
-        ("const counter = () => { let n = 0; return {up: () => ++n, read: () => n} }; const c = counter(); c.up(); c.up(); ctx.out = c.read()", "2"),
+        (
+            "const counter = () => { let n = 0; return {up: () => ++n, read: () => n} }; const c = counter(); c.up(); c.up(); ctx.out = c.read()",
+            "2",
+        ),
         ("ctx.out = (() => { if (data.time > 1) { return 'late' } return 'early' })()", "early"),
         ("const compose = (f, g) => x => f(g(x)); ctx.out = compose(x => x + 1, x => x * 2)(5)", "11"),
         ("const f = ({a, b: [c, d = 9]}) => a + c + d; ctx.out = f({a: 1, b: [2]})", "12"),
-        ("const s = (x) => { x = Math.min(Math.max(x, 0), 1); return x * x * x * (10 - 15 * x + 6 * x * x); }; ctx.out = [s(0), s(0.5), s(2)]", "0,0.5,1"),
+        (
+            "const s = (x) => { x = Math.min(Math.max(x, 0), 1); return x * x * x * (10 - 15 * x + 6 * x * x); }; ctx.out = [s(0), s(0.5), s(2)]",
+            "0,0.5,1",
+        ),
         ("const f = (a, b) => b; ctx.out = [f(...[1, 2])]", "2"),
         ("const later = () => y + 1; const y = 4; ctx.out = later()", "5"),
     ]);
@@ -68,9 +80,15 @@ fn lists_and_records() {
         ("const [a, , b = 7] = [1, 2]; ctx.out = [a, b]", "1,7"),
         ("const {x, y: {z}} = {x: 1, y: {z: 2}}; ctx.out = [x, z]", "1,2"),
         ("const {potential, kinetic} = energy(); ctx.out = potential + kinetic", "4"),
-        ("ctx.r = {a: 1, ...{b: 2, a: 3}, ['c' + 1]: 4}; ctx.out = Object.entries(ctx.r).map(e => e.join('=')).join(' ')", "a=3 b=2 c1=4"),
+        (
+            "ctx.r = {a: 1, ...{b: 2, a: 3}, ['c' + 1]: 4}; ctx.out = Object.entries(ctx.r).map(e => e.join('=')).join(' ')",
+            "a=3 b=2 c1=4",
+        ),
         ("const r = {}; r.n ??= 4; r.n += 1; r['m'] = r.n; ctx.out = r.m", "5"),
-        ("ctx.out = [data.qpos.map(x => x / 2)[1], data.qpos.slice(0, 2).length, [...data.qvel].pop()]", "50.5,2,211"),
+        (
+            "ctx.out = [data.qpos.map(x => x / 2)[1], data.qpos.slice(0, 2).length, [...data.qvel].pop()]",
+            "50.5,2,211",
+        ),
         ("ctx.out = [norm([3, 4]), norm(data.efc_force) > 800]", "5,true"),
         ("ctx.out = data.qpos.filter((x, i) => i % 7 === 2).join(' ')", "102 109"),
         ("ctx.out = Math.hypot(...[3, 4]) + Math.max(...data.efc_force)", "606"),
@@ -78,11 +96,23 @@ fn lists_and_records() {
         ("ctx.a = {b: [1, {c: 2}]}; ctx.out = ctx.a?.b[1]?.c", "2"),
         ("ctx.out = `${1 + 1} of ${[1, 2]}: ${`<${'x'}>`}`", "2 of 1,2: <x>"),
         ("for (const i of [0, 1]) ctx['q' + i] = i + 5; ctx.out = ctx.q0 + ctx['q' + 1]", "11"),
-        ("let s = 0; for (const n of ['light_free', 'heavy_free']) s += data.joint(n).qvel[2]; ctx.out = s", "410"),
-        ("let s = 0; for (const n of ['heavy', 'light']) s += model.body(n).mass + bodyId(n); ctx.out = s", "1406"),
-        ("const v = data.time > 1 ? data.qpos : data.qvel; v[0] = 5; ctx.out = [v.length, data.qvel[0]]", "12,5"),
+        (
+            "let s = 0; for (const n of ['light_free', 'heavy_free']) s += data.joint(n).qvel[2]; ctx.out = s",
+            "410",
+        ),
+        (
+            "let s = 0; for (const n of ['heavy', 'light']) s += model.body(n).mass + bodyId(n); ctx.out = s",
+            "1406",
+        ),
+        (
+            "const v = data.time > 1 ? data.qpos : data.qvel; v[0] = 5; ctx.out = [v.length, data.qvel[0]]",
+            "12,5",
+        ),
         ("data.qpos.set([1, 2], data.ncon - 400 + 3); ctx.out = data.qpos.slice(3, 5)", "1,2"),
-        ("ctx.out = [typeof ctx.out, typeof (() => 1), typeof [], typeof null]", "undefined,function,object,object"),
+        (
+            "ctx.out = [typeof ctx.out, typeof (() => 1), typeof [], typeof null]",
+            "undefined,function,object,object",
+        ),
     ]);
 }
 
@@ -154,11 +184,72 @@ fn help_says_what_stands_there() {
 fn fuzzing_finds_no_panic_and_no_hang() {
     let seconds = std::env::var("LABSPEC_FUZZ_SECONDS").ok().and_then(|s| s.parse().ok()).unwrap_or(3);
     let pieces = [
-        "data", ".qpos", "[", "]", "2", "(", ")", "=", "==", "ctx.a", "const ", "let ", "x", ";", "\n", "+", "-", "**",
-        "?", ":", "'a'", "`", "${", "}", "{", "\"", "/", "/*", "//", "=>", "if (", "for (", "of ", "while (", "else ",
-        "function ", "return ", "value", ",", "...", "?.", "??", "&&=", "++", ".map(", "x => x", ".reduce((a, b) => a + b, 0)",
-        "Math.", "max", "data.joint('light_free')", "[1, 2]", "{a: 1}", ".push(", "break", "continue", "do ", "typeof ",
-        "ctx['q' + 1]", "data.qpos.length", "const [a, b] = ", "const {c} = ", "é", "0x", "1e", "async ", "new ",
+        "data",
+        ".qpos",
+        "[",
+        "]",
+        "2",
+        "(",
+        ")",
+        "=",
+        "==",
+        "ctx.a",
+        "const ",
+        "let ",
+        "x",
+        ";",
+        "\n",
+        "+",
+        "-",
+        "**",
+        "?",
+        ":",
+        "'a'",
+        "`",
+        "${",
+        "}",
+        "{",
+        "\"",
+        "/",
+        "/*",
+        "//",
+        "=>",
+        "if (",
+        "for (",
+        "of ",
+        "while (",
+        "else ",
+        "function ",
+        "return ",
+        "value",
+        ",",
+        "...",
+        "?.",
+        "??",
+        "&&=",
+        "++",
+        ".map(",
+        "x => x",
+        ".reduce((a, b) => a + b, 0)",
+        "Math.",
+        "max",
+        "data.joint('light_free')",
+        "[1, 2]",
+        "{a: 1}",
+        ".push(",
+        "break",
+        "continue",
+        "do ",
+        "typeof ",
+        "ctx['q' + 1]",
+        "data.qpos.length",
+        "const [a, b] = ",
+        "const {c} = ",
+        "é",
+        "0x",
+        "1e",
+        "async ",
+        "new ",
     ];
     let mut state = 88172645463325252u64;
     let mut next = |n: usize| {
@@ -178,7 +269,9 @@ fn fuzzing_finds_no_panic_and_no_hang() {
         let mut globals = Globals::new();
         let mut compiler = Compiler::new(&Mock, &mut globals);
         compiler.value = Some(Type::Any);
-        for compiled in [compiler.expression(&source), compiler.statements(&source), compiler.assignment(&source)] {
+        for compiled in
+            [compiler.expression(&source), compiler.statements(&source), compiler.assignment(&source)]
+        {
             if let Some(program) = compiled.program {
                 let _ = program.run(&mut World::new(), &mut Context::new(), Some(&Value::Number(1.0)));
             }

@@ -7,7 +7,8 @@ use super::handle::{self, KINDS, Side, Thing};
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_core::{Model, Obj};
 use labspec_expr::{
-    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Role, Schema, Value,
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Role, Schema,
+    Value,
 };
 
 /// Where a program stands: decides which functions exist.
