@@ -4,7 +4,7 @@
 //! Functions of the simulation are recorded here and played back there (`language.js`): it is the language that is
 //! compared. Without node the test says so.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::support::{model_text, workspace};
 use labspec::bind::scene::Models;
@@ -23,9 +23,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// All fields as numbers, in the order of the table.
-type Snapshot = Vec<Vec<f64>>;
+pub(crate) type Snapshot = Vec<Vec<f64>>;
 
-fn snapshot(world: &World) -> Snapshot {
+pub(crate) fn snapshot(world: &World) -> Snapshot {
     let numbers = |f| {
         let view = reflect::view(&world.model, &world.data, f);
         (0..view.len()).map(|i| view.get(i).unwrap()).collect()

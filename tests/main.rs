@@ -5,6 +5,7 @@ mod cli;
 mod cli_run;
 mod conformance;
 mod constrained;
+mod format;
 mod hostile;
 mod javascript;
 mod lessons;

@@ -7,10 +7,14 @@ use crate::math;
 use crate::operators::BinaryOp;
 use crate::program::{Host, Program};
 use crate::schema::FieldKey;
-use crate::vm::{Num, Op, Slot};
+use crate::value::truthy;
+use crate::vm::{CodeUnit, Num, Op, Slot};
 
 /// Samples that an operation takes at once: few enough that all registers stay in the nearest cache.
 const BLOCK: usize = 32;
+
+/// Most arguments of a function of `Math`; with more of them the expression goes by row.
+const ARGS: usize = 16;
 
 /// One operation; its result has its own number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +30,8 @@ enum Step {
     Negate(usize),
     Not(usize),
     BitNot(usize),
+    /// By the truth of the first: the second or the third.
+    Choose(usize, usize, usize),
     /// First and number of its arguments in the list of arguments.
     Math(math::Function, usize, usize),
 }
@@ -52,7 +58,7 @@ impl Recording {
     }
 
     /// The columns of an expression that gives a number or a truth value (as 1 or 0); `None` when its value depends
-    /// on more than elements of fields at known indexes, or when it chooses between operations.
+    /// on more than elements of fields at known indexes.
     ///
     /// To be asked before the first sample.
     pub fn columns(&mut self, program: &Program) -> Option<Columnar> {
@@ -60,20 +66,26 @@ impl Recording {
         if unit.result == Slot::Value || !self.columns.iter().all(Vec::is_empty) {
             return None;
         }
-        let mut build =
-            Build { recording: self, steps: Vec::new(), args: Vec::new(), registers: BTreeMap::new() };
+        let known = self.elements.len();
+        let mut build = Build { recording: self, unit, steps: Vec::new(), args: Vec::new(), choices: 0 };
+        let mut registers = BTreeMap::new();
         for &(register, x) in &unit.numbers {
-            let at = build.step(Step::Constant(x));
-            build.registers.insert(register.0, at);
+            registers.insert(register.0, build.step(Step::Constant(x)));
         }
-        for op in &unit.ops {
-            if matches!(op, Op::Return) {
-                let output = build.at(Num(0))?;
-                return Some(Columnar { steps: build.steps, args: build.args, output });
-            }
-            build.op(op)?;
+        let output = build.follow(0, registers);
+        let Build { steps, args, .. } = build;
+        if output.is_none() {
+            self.elements.truncate(known);
+            self.columns.truncate(known);
         }
-        None
+        Some(Columnar { steps, args, output: output? })
+    }
+
+    /// Makes room for so many samples, so that recording them allocates nothing.
+    pub fn reserve(&mut self, samples: usize) {
+        for column in &mut self.columns {
+            column.reserve_exact(samples);
+        }
     }
 
     /// Records the elements as they are now.
@@ -99,16 +111,46 @@ impl Recording {
     }
 }
 
+/// Most choices of an expression that goes by columns.
+const CHOICES: usize = 16;
+
+/// The operation that last stored into each register of the machine.
+type Registers = BTreeMap<u32, usize>;
+
 /// The work on one expression.
 struct Build<'r> {
     recording: &'r mut Recording,
+    unit: &'r CodeUnit,
     steps: Vec<Step>,
     args: Vec<usize>,
-    /// The operation that last stored into a register of the machine.
-    registers: BTreeMap<u32, usize>,
+    choices: usize,
 }
 
 impl Build<'_> {
+    /// The result of the code from an operation on. Where it may go two ways, both are computed and one is chosen for
+    /// each sample: nothing here has an effect, and what both have in common is one operation.
+    fn follow(&mut self, mut at: usize, mut registers: Registers) -> Option<usize> {
+        loop {
+            let op = self.unit.ops.get(at)?;
+            match *op {
+                Op::Return => return registers.get(&0).copied(),
+                Op::Jump(to) if to as usize > at => at = to as usize,
+                Op::JumpIf(when, test, to) if to as usize > at && self.choices < CHOICES => {
+                    self.choices += 1;
+                    let test = *registers.get(&test.0)?;
+                    let there = self.follow(to as usize, registers.clone())?;
+                    let here = self.follow(at + 1, registers)?;
+                    let (yes, no) = if when { (there, here) } else { (here, there) };
+                    return Some(self.step(Step::Choose(test, yes, no)));
+                }
+                _ => {
+                    self.op(op, &mut registers)?;
+                    at += 1;
+                }
+            }
+        }
+    }
+
     /// An operation, or the same one that is there already.
     fn step(&mut self, step: Step) -> usize {
         let same = |s: &Step| match (s, &step) {
@@ -122,11 +164,8 @@ impl Build<'_> {
         self.steps.len() - 1
     }
 
-    fn at(&self, register: Num) -> Option<usize> {
-        self.registers.get(&register.0).copied()
-    }
-
-    fn op(&mut self, op: &Op) -> Option<()> {
+    fn op(&mut self, op: &Op, registers: &mut Registers) -> Option<()> {
+        let at = |register: Num| registers.get(&register.0).copied();
         let (dst, step) = match *op {
             Op::Load(dst, field, index) => {
                 let elements = &mut self.recording.elements;
@@ -141,31 +180,31 @@ impl Build<'_> {
                 (dst, Step::Column(column))
             }
             Op::Move(dst, src) => {
-                let at = self.at(src)?;
-                self.registers.insert(dst.0, at);
+                let value = at(src)?;
+                registers.insert(dst.0, value);
                 return Some(());
             }
-            Op::Add(dst, a, b) => (dst, Step::Add(self.at(a)?, self.at(b)?)),
-            Op::Subtract(dst, a, b) => (dst, Step::Subtract(self.at(a)?, self.at(b)?)),
-            Op::Multiply(dst, a, b) => (dst, Step::Multiply(self.at(a)?, self.at(b)?)),
-            Op::Divide(dst, a, b) => (dst, Step::Divide(self.at(a)?, self.at(b)?)),
-            Op::Less(dst, a, b) => (dst, Step::Binary(BinaryOp::Less, self.at(a)?, self.at(b)?)),
-            Op::Binary(dst, op, a, b) => (dst, Step::Binary(op, self.at(a)?, self.at(b)?)),
-            Op::Negate(dst, a) => (dst, Step::Negate(self.at(a)?)),
-            Op::Not(dst, a) => (dst, Step::Not(self.at(a)?)),
-            Op::BitNot(dst, a) => (dst, Step::BitNot(self.at(a)?)),
+            Op::Add(dst, a, b) => (dst, Step::Add(at(a)?, at(b)?)),
+            Op::Subtract(dst, a, b) => (dst, Step::Subtract(at(a)?, at(b)?)),
+            Op::Multiply(dst, a, b) => (dst, Step::Multiply(at(a)?, at(b)?)),
+            Op::Divide(dst, a, b) => (dst, Step::Divide(at(a)?, at(b)?)),
+            Op::Less(dst, a, b) => (dst, Step::Binary(BinaryOp::Less, at(a)?, at(b)?)),
+            Op::Binary(dst, op, a, b) => (dst, Step::Binary(op, at(a)?, at(b)?)),
+            Op::Negate(dst, a) => (dst, Step::Negate(at(a)?)),
+            Op::Not(dst, a) => (dst, Step::Not(at(a)?)),
+            Op::BitNot(dst, a) => (dst, Step::BitNot(at(a)?)),
+            Op::Math(_, _, _, count) if count as usize > ARGS => return None,
             Op::Math(dst, function, first, count) => {
                 let from = self.args.len();
                 for i in 0..count {
-                    let at = self.at(Num(first.0 + i))?;
-                    self.args.push(at);
+                    self.args.push(at(Num(first.0 + i))?);
                 }
                 (dst, Step::Math(function, from, count as usize))
             }
             _ => return None,
         };
-        let at = self.step(step);
-        self.registers.insert(dst.0, at);
+        let value = self.step(step);
+        registers.insert(dst.0, value);
         Some(())
     }
 }
@@ -228,15 +267,22 @@ impl Columnar {
             Step::Divide(a, b) => divide(dst, &before[a], &before[b]),
             Step::Binary(op, a, b) => two(a, b, &|a, b| op.on_numbers(a, b)),
             Step::Negate(a) => two(a, a, &|a, _| -a),
-            Step::Not(a) => two(a, a, &|a, _| f64::from(u8::from(!crate::value::truthy(a)))),
+            Step::Not(a) => two(a, a, &|a, _| f64::from(u8::from(!truthy(a)))),
             Step::BitNot(a) => two(a, a, &|a, _| f64::from(!crate::number::to_int32(a))),
+            Step::Choose(test, yes, no) => {
+                let ways = before[yes].iter().zip(&before[no]);
+                for ((d, test), (yes, no)) in dst.iter_mut().zip(&before[test]).zip(ways) {
+                    *d = if truthy(*test) { *yes } else { *no };
+                }
+            }
             Step::Math(function, first, count) => {
                 let args = self.args.get(first..first + count).unwrap_or(&[]);
-                let mut row = Vec::new();
-                for i in 0..BLOCK {
-                    row.clear();
-                    row.extend(args.iter().map(|&a| before[a][i]));
-                    dst[i] = function.apply(&row);
+                let mut row = [0.0; ARGS];
+                for (i, d) in dst.iter_mut().enumerate() {
+                    for (x, &a) in row.iter_mut().zip(args) {
+                        *x = before[a][i];
+                    }
+                    *d = function.apply(&row[..args.len()]);
                 }
             }
         }
@@ -278,6 +324,10 @@ mod tests {
             "0.5 * model.body_mass[1] * data.qvel[0] ** 2",
             "~(data.qpos[0] | 5) + Math.max(data.qpos[1], NaN)",
             "2 * Math.PI",
+            "data.time > 20 ? data.qpos[2] : data.time > 10 ? -data.qpos[2] : 0.5",
+            "data.qpos[2] > 0 && data.time % 2 < 1",
+            "!(data.qpos[2] > 0) || data.time % 2 < 1",
+            "(data.qpos[2] || 7) + (data.time < 3 ? NaN : 1)",
         ];
         let programs: Vec<Program> =
             sources.iter().map(|s| compiler.expression(s).program.unwrap()).collect();
@@ -304,12 +354,16 @@ mod tests {
     fn what_depends_on_more_has_no_columns() {
         let mut globals = Globals::new();
         let mut compiler = Compiler::new(&Mock, &mut globals);
-        for source in
-            ["ctx.a", "data.qpos[data.ncon]", "data.time > 1 ? 1 : 2", "'a' + data.time", "bodyId('light')"]
-        {
+        let mut recording = Recording::new();
+        for source in [
+            "ctx.a + data.time",
+            "data.qpos[data.ncon]",
+            "data.time + (data.qpos[1] || 'a')",
+            "say('a', 1, 2)",
+        ] {
             let program = compiler.expression(source).program.unwrap();
-            let columns = Recording::new().columns(&program);
-            assert!(columns.is_none() || source.starts_with("bodyId"), "{source}");
+            assert!(recording.columns(&program).is_none(), "{source}");
+            assert_eq!(recording.width(), 0, "{source}");
         }
     }
 }

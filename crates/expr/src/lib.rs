@@ -57,7 +57,7 @@ pub use heap::{Full, Heap, Ref};
 pub use math::hypot;
 pub use natives::to_fixed;
 pub use parse::{MAX_DEPTH, MAX_SOURCE, parse_expression, parse_statements};
-pub use print::{print, print_statements};
+pub use print::{format_expression, format_statements, print, print_statements};
 pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
 pub use reference::language_page;
 pub use schema::{

@@ -389,10 +389,14 @@ impl Schema for ModelNames<'_> {
         };
         let (kind, object) = elements::owner(self.model, field, index)?;
         let (first, _) = elements::row(self.model, field, kind, object)?;
-        self.model.names.of(kind).get(object).filter(|n| !n.is_empty())?;
+        // A name that needs escapes is not worth it.
+        let plain = |n: &&String| !n.is_empty() && !n.contains(['\'', '\\']) && !n.contains(char::is_control);
+        let name = self.model.names.of(kind).get(object).filter(plain)?;
         let short = short_name(field.info().name);
         let short = if short == "sensordata" { "data" } else { short };
-        Some(format!("{}.{short}[{}]", self.path(side, kind, object), index - first))
+        let holder = if side == Side::Data { "data" } else { "model" };
+        // In single quotes, which need no escapes in the JSON of a lab.
+        Some(format!("{holder}.{}('{name}').{short}[{}]", noun(kind), index - first))
     }
 
     fn result_field(&self, FunctionId(i): FunctionId, object: ObjectId) -> Option<Field> {
