@@ -12,7 +12,8 @@
 //! | tokens to tree | `parse` | [`ast`], always, with the mistakes beside it |
 //! | tree to meaning | `bind` | typed tree of `ir`, every name resolved |
 //! | meaning to code | `lower` | [`Program`]: flat operations on registers |
-//! | running | `vm` | a [`Value`], or a [`RuntimeError`] |
+//! | running | `vm`, `formula` | a [`Value`], or a [`RuntimeError`] |
+//! | running over samples | `columnar` | a column of numbers |
 //!
 //! Values are JavaScript's to the last bit: see [`Value`] and the `math` module. Parsing and compiling never
 //! fail: they return what was understood and a list of [`Diagnostic`]s.
@@ -24,6 +25,7 @@ mod bind;
 mod columnar;
 mod diagnostic;
 mod effects;
+mod formula;
 mod globals;
 mod heap;
 mod ir;

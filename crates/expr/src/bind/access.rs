@@ -60,7 +60,7 @@ impl<'a> Binder<'a> {
     /// Notes what an element is and how it is written by name, when its index is known.
     pub(super) fn name_element(&mut self, field: &Field, index: &Index, span: Span) {
         let Index::At(i) = index else { return };
-        if self.site.is_some() {
+        if self.site.is_some() || !self.explains {
             return;
         }
         self.explain_element(field, *i, span);

@@ -7,7 +7,6 @@ use crate::ast::{Expr, ExprKind};
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Ir, Item, Kind, Step, Tree, Unit};
-use crate::lower;
 use crate::math;
 use crate::natives;
 use crate::prelude;
@@ -475,12 +474,7 @@ impl<'a> Binder<'a> {
             match bound {
                 Ok(Some(ir)) => {
                     super::note_views(&tree.views, &mut effects);
-                    programs.push(Program {
-                        code: lower::program(&tree).into(),
-                        effects,
-                        result: ir.ty,
-                        aggregates,
-                    });
+                    programs.push(Program::new(&tree, effects, ir.ty, aggregates));
                 }
                 Ok(None) => {}
                 Err(Reported) => failed = true,

@@ -29,7 +29,7 @@ use crate::natives;
 use crate::parse::in_order;
 use crate::program::{Aggregate, Program};
 use crate::schema::{CollectionId, Field, FunctionId, Help, ObjectId, Schema, Type};
-use crate::{lower, math, parse_expression, parse_statements};
+use crate::{math, parse_expression, parse_statements};
 
 pub(crate) use facts::Facts;
 use scope::{Known, Variable};
@@ -40,6 +40,8 @@ pub struct Compiler<'s> {
     globals: &'s mut Globals,
     /// The type of `value` in the next texts; `None` where no control gives one.
     pub value: Option<Type>,
+    /// Whether [`Compiled::help`] and [`Compiled::named`] are wanted, which take longer than the program itself.
+    pub explains: bool,
 }
 
 /// The result of compiling one text.
@@ -51,10 +53,10 @@ pub struct Compiled {
     pub program: Option<Program>,
     /// Findings in source order.
     pub diagnostics: Vec<Diagnostic>,
-    /// What the parts of the text are, for a person who points at them.
+    /// What the parts of the text are, for a person who points at them, if wanted.
     pub help: Vec<(Span, Help)>,
     /// Bare indexes that could be written by the name of their object: `data.qpos[9]` as
-    /// `data.joint("light_free").qpos[2]`. Both mean the same element of the model at hand.
+    /// `data.joint("light_free").qpos[2]`, if wanted. Both mean the same element of the model at hand.
     pub named: Vec<Fix>,
 }
 
@@ -83,7 +85,7 @@ const PASSES: usize = 8;
 impl<'s> Compiler<'s> {
     /// A compiler for texts that name things of `schema` and share the variables `globals`.
     pub fn new(schema: &'s dyn Schema, globals: &'s mut Globals) -> Compiler<'s> {
-        Compiler { schema, globals, value: None }
+        Compiler { schema, globals, value: None, explains: false }
     }
 
     /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.
@@ -161,10 +163,8 @@ impl<'s> Compiler<'s> {
             diagnostics.extend(read.iter().cloned());
             let failed = diagnostics.iter().any(Diagnostic::is_error);
             note_views(&tree.views, &mut effects);
-            let program = done.ok().filter(|_| !failed).map(|result| {
-                let code = lower::program(&tree);
-                Program { code: code.into(), effects, result, aggregates }
-            });
+            let program = done.ok().filter(|_| !failed);
+            let program = program.map(|result| Program::new(&tree, effects, result, aggregates));
             return Compiled { id, program, diagnostics: in_order(diagnostics), help, named };
         }
     }
@@ -249,6 +249,8 @@ struct Binder<'a> {
     effects: Effects,
     aggregates: Vec<Aggregate>,
     next_aggregate: usize,
+    /// Whether the next two are wanted.
+    explains: bool,
     help: Vec<(Span, Help)>,
     named: Vec<Fix>,
     facts: Facts,
@@ -288,6 +290,7 @@ impl<'a> Binder<'a> {
             effects: Effects::default(),
             aggregates: Vec::new(),
             next_aggregate: 0,
+            explains: compiler.explains,
             help: Vec::new(),
             named: Vec::new(),
             facts,
@@ -331,7 +334,7 @@ impl<'a> Binder<'a> {
     /// Notes what a part of the text is.
     fn explain(&mut self, span: Span, help: impl FnOnce() -> Help) {
         const MOST: usize = 1000;
-        if self.site.is_none() && self.help.len() < MOST {
+        if self.explains && self.site.is_none() && self.help.len() < MOST {
             self.help.push((span, help()));
         }
     }

@@ -73,7 +73,7 @@ impl<'a> Binder<'a> {
     /// Warns of degrees that are stored in an angle.
     pub(super) fn check_stored_angle(&mut self, view: View, index: &Index, value: &Ir) {
         let (Index::At(i), Some(Value::Number(x))) = (index, value.known()) else { return };
-        if self.schema.role(view.field, view.first as usize + i) != Role::Angle || !in_degrees(*x) {
+        if !in_degrees(*x) || self.schema.role(view.field, view.first as usize + i) != Role::Angle {
             return;
         }
         let meant = format!("{} * Math.PI / 180", self.text(value.span));

@@ -150,6 +150,7 @@ fn limits_have_their_own_errors() {
 fn bare_indexes_get_names_that_mean_the_same() {
     let mut globals = Globals::new();
     let mut compiler = Compiler::new(&Mock, &mut globals);
+    compiler.explains = true;
     let source = "data.qvel[8] = 2 * data.qpos[9] + data.time; data.qpos[0] += model.body_mass[1]";
     let compiled = compiler.statements(source);
     let named = compiled.modernized(source);
@@ -166,7 +167,9 @@ fn bare_indexes_get_names_that_mean_the_same() {
 fn help_says_what_stands_there() {
     let mut globals = Globals::new();
     let source = "2 * data.joint('light_free').qpos[2] + Math.sin(data.time)";
-    let help = Compiler::new(&Mock, &mut globals).expression(source).help;
+    let mut compiler = Compiler::new(&Mock, &mut globals);
+    compiler.explains = true;
+    let help = compiler.expression(source).help;
     let at = |text: &str| {
         let start = source.find(text).unwrap();
         let span = Span::new(start, start + text.len());

@@ -301,7 +301,8 @@ impl Generator {
             9 => match self.name(Holds::List, false) {
                 Some(name) => match self.next(4) {
                     0 => format!("{name}.push({}); ", self.anything(1)),
-                    1 => format!("{name}[{}] = {}; ", self.next(4), self.anything(1)),
+                    // Never beyond the end: a list has no holes here.
+                    1 => format!("if ({name}.length > 3) {name}[{}] = {}; ", self.next(4), self.anything(1)),
                     2 => format!("{name}.reverse(); "),
                     _ => format!("{name}.pop(); "),
                 },

@@ -129,6 +129,30 @@ fn short_name(name: &str) -> &str {
     PREFIXES.iter().find_map(|p| name.strip_prefix(p)).unwrap_or(name)
 }
 
+/// How a field of the table is written for one object that has a name: `data.joint('…').qpos`; `None` when it has no
+/// rows of one kind of object.
+pub(crate) fn named_field(object: Object, name: &'static str, dim: &str) -> Option<String> {
+    let holder = match object {
+        Object::Model => "model",
+        Object::Data => "data",
+        _ => return None,
+    };
+    let (kind, _) = KINDS.iter().find(|(kind, _)| elements::has_rows(*kind, dim))?;
+    Some(format!("{holder}.{}('…').{}", noun(*kind), member_name(object, name, *kind)))
+}
+
+/// What a field is called in a named object: in short, unless that means a field before it (`dof_solref` of a joint).
+fn member_name(object: Object, name: &'static str, kind: Obj) -> &'static str {
+    if name == "sensordata" {
+        return "data";
+    }
+    let short = short_name(name);
+    let has = |f: &FieldId| f.info().shape.first().is_some_and(|dim| elements::has_rows(kind, dim));
+    let all = reflect::fields().filter(|f| f.info().object == object && short_name(f.info().name) == short);
+    let first = all.filter(has).map(|f| f.info().name).next();
+    if first.is_none_or(|f| f == name) { short } else { name }
+}
+
 fn noun(kind: Obj) -> &'static str {
     KINDS.iter().find(|(k, _)| *k == kind).map_or("object", |(_, noun)| noun)
 }
@@ -392,8 +416,7 @@ impl Schema for ModelNames<'_> {
         // A name that needs escapes is not worth it.
         let plain = |n: &&String| !n.is_empty() && !n.contains(['\'', '\\']) && !n.contains(char::is_control);
         let name = self.model.names.of(kind).get(object).filter(plain)?;
-        let short = short_name(field.info().name);
-        let short = if short == "sensordata" { "data" } else { short };
+        let short = member_name(field.info().object, field.info().name, kind);
         let holder = if side == Side::Data { "data" } else { "model" };
         // In single quotes, which need no escapes in the JSON of a lab.
         Some(format!("{holder}.{}('{name}').{short}[{}]", noun(kind), index - first))
@@ -409,7 +432,7 @@ impl Schema for ModelNames<'_> {
     }
 
     fn function(&self, FunctionId(i): FunctionId) -> FunctionInfo {
-        functions::info(functions::TABLE.get(i as usize).copied().unwrap_or(&functions::ROW))
+        functions::INFO.get(i as usize).cloned().unwrap_or_else(functions::none)
     }
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
