@@ -100,7 +100,7 @@ pub fn language_page() -> String {
     let constants: Vec<String> =
         math::names().filter(|n| math::constant(n).is_some()).map(|n| format!("`Math.{n}`")).collect();
     out.push_str(&constants.join(", "));
-    out.push_str(".\n\nFunctions whose last digit the standard leaves open (`sin`, `log`, `**` with other exponents than 2, …) may differ from an engine's by one unit in the last place; they are the same on every platform here.\n\n## Limits\n\n");
+    out.push_str(".\n\nFunctions whose last digit the standard leaves open (`sin`, `log`, `**` with other exponents than 2, …) may differ from an engine's by one unit in the last place; they are the same on every platform here. A list has no holes: what lies between its end and an assignment beyond it is `undefined`.\n\n## Limits\n\n");
     let _ = writeln!(
         out,
         "A text has at most {} bytes and nests {} levels; a run takes at most {} steps (turns of loops, calls, elements that methods go through), functions call each other 200 deep, lists take 64 MB, a string 1 MB. Each limit has its own error.",
