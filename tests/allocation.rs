@@ -10,7 +10,7 @@ use crate::zoo::animals;
 use allocation_counter::measure;
 use labspec::bind::{ControlProgram, Programs};
 use labspec::lint::ModelFolder;
-use labspec::run::Session;
+use labspec::run::{Cell, Samples, Session};
 use labspec::source::SourceFile;
 use labspec::spec::load_lesson;
 use labspec_core::reflect::{FieldSet, Object, field};
@@ -186,6 +186,21 @@ fn programs_of_numbers() {
         let count = measure(|| value = session.evaluate(&bound.program, &bound.text));
         assert!(value.is_some(), "{}", probe.name);
         assert_eq!(count.count_total, 0, "{}", probe.name);
+    }
+    // All of them as a run samples them: by columns of what they read, where that is all that they depend on.
+    let mut samples = Samples::new(&programs, 20);
+    assert_eq!(
+        samples.columns(),
+        (2, 4),
+        "the height and whether they touch, of time, ncon and two coordinates"
+    );
+    let count = measure(|| (0..20).for_each(|_| samples.take(&mut session)));
+    assert_eq!(count.count_total, 0, "samples");
+    let rows = samples.rows();
+    for (i, probe) in programs.probes.iter().enumerate() {
+        let bound = probe.bound.as_ref().unwrap();
+        let value = session.evaluate(&bound.program, &bound.text).unwrap();
+        assert_eq!(rows[19][i + 1], Cell::from(value), "{}", probe.name);
     }
     // A slider's assignment.
     let (_, ControlProgram::Change(..)) = &programs.controls[0] else { panic!("a slider changes something") };

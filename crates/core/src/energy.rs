@@ -5,7 +5,7 @@ use crate::passive::spring;
 use crate::{Data, Model, disable, mass};
 
 /// `energy[0]`: gravity and springs, J. Zero where every centre of mass is at the origin.
-pub(crate) fn potential(m: &Model, d: &mut Data) {
+pub fn potential(m: &Model, d: &mut Data) {
     let mut e = 0.0;
     if !m.opt.disabled(disable::GRAVITY) {
         let xipos = rows::<3>(&d.xipos);
@@ -20,7 +20,7 @@ pub(crate) fn potential(m: &Model, d: &mut Data) {
 }
 
 /// `energy[1]` = ½ vᵀ M v, J.
-pub(crate) fn kinetic(m: &Model, d: &mut Data) {
+pub fn kinetic(m: &Model, d: &mut Data) {
     mass::mul(m, &d.M, &d.qvel, &mut d.work.mv, 0..m.nv);
     d.energy[1] = 0.5 * dot_slice(&d.work.mv, &d.qvel);
 }

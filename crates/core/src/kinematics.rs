@@ -132,6 +132,14 @@ impl Frames {
     }
 }
 
+/// Poses of bodies, joints, geoms and sites, as `mj_kinematics` computes them.
+pub fn kinematics(m: &Model, d: &mut Data) {
+    bodies(m, d);
+    orientations(d);
+    geoms(m, d);
+    sites(m, d);
+}
+
 /// Poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
 #[inline(never)]
 pub(crate) fn bodies(m: &Model, d: &mut Data) {

@@ -65,11 +65,13 @@ mod transmission;
 pub use collision::{can_collide, contact_force};
 pub use constraint::full_j;
 pub use data::{Contact, Data, Warning, WarningStat};
+pub use energy::{kinetic as energy_vel, potential as energy_pos};
 pub use integrate::{differentiate_pos, integrate_pos};
 pub use inverse::{InverseError, inverse};
 pub use jacobian::{
     Jacobian, apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,
 };
+pub use kinematics::kinematics;
 pub use mass::{full_m, mul_m, solve_m, solve_m2};
 pub use model::{Model, Names, Obj, Options, Statistic};
 pub use model::{

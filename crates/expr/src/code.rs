@@ -52,6 +52,8 @@ codes! {
     XOR_AS_POWER = "xor-as-power", "`^` between numbers: it is the bitwise exclusive or, not a power.";
     CHAINED_COMPARISON = "chained-comparison", "`a < b < c`: the second comparison gets a truth value.";
     COMPARE_NAN = "compare-nan", "A comparison with NaN, which is never equal to anything.";
+    QUATERNION_AS_ANGLE = "quaternion-as-angle", "A component of a quaternion is used as if it were an angle.";
+    DEGREES = "degrees-for-radians", "A number of degrees where radians are meant.";
     NOT_RANDOM = "not-random", "A random number: the same lesson must give the same numbers.";
 
     // Calls.

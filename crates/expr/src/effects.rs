@@ -1,5 +1,7 @@
 //! What a program touches: known before it runs, and all that plans and lints need.
 
+use std::collections::BTreeSet;
+
 use crate::schema::{FieldKey, FunctionId, Touch};
 
 /// Elements of a field that a program reads or writes.
@@ -96,9 +98,10 @@ fn touch(touch: &Touch, list: &mut Vec<Access>, everything: &mut bool) {
         Touch::Nothing => {}
         Touch::Everything => *everything = true,
         Touch::Fields(fields) => {
-            for &field in fields {
-                add(list, Access { field, first: 0, count: None });
-            }
+            let whole = |a: &&Access| a.first == 0 && a.count.is_none();
+            let known: BTreeSet<FieldKey> = list.iter().filter(whole).map(|a| a.field).collect();
+            let new = fields.iter().filter(|f| !known.contains(f));
+            list.extend(new.map(|&field| Access { field, first: 0, count: None }));
         }
     }
 }

@@ -12,7 +12,8 @@
 //! | tokens to tree | `parse` | [`ast`], always, with the mistakes beside it |
 //! | tree to meaning | `bind` | typed tree of `ir`, every name resolved |
 //! | meaning to code | `lower` | [`Program`]: flat operations on registers |
-//! | running | `vm` | a [`Value`], or a [`RuntimeError`] |
+//! | running | `vm`, `formula` | a [`Value`], or a [`RuntimeError`] |
+//! | running over samples | `columnar` | a column of numbers |
 //!
 //! Values are JavaScript's to the last bit: see [`Value`] and the `math` module. Parsing and compiling never
 //! fail: they return what was understood and a list of [`Diagnostic`]s.
@@ -21,8 +22,10 @@ pub mod ast;
 pub mod code;
 
 mod bind;
+mod columnar;
 mod diagnostic;
 mod effects;
+mod formula;
 mod globals;
 mod heap;
 mod ir;
@@ -36,6 +39,7 @@ mod parse;
 mod prelude;
 mod print;
 mod program;
+mod reference;
 mod schema;
 mod suggest;
 mod value;
@@ -47,6 +51,7 @@ mod mock;
 mod tests;
 
 pub use bind::{Compiled, Compiler};
+pub use columnar::{Columnar, Recording};
 pub use diagnostic::{Diagnostic, Fix, Parsed, Severity, Span};
 pub use effects::{Access, Effects};
 pub use globals::{Globals, ProgramId};
@@ -54,11 +59,12 @@ pub use heap::{Full, Heap, Ref};
 pub use math::hypot;
 pub use natives::to_fixed;
 pub use parse::{MAX_DEPTH, MAX_SOURCE, parse_expression, parse_statements};
-pub use print::{print, print_statements};
+pub use print::{format_expression, format_statements, print, print_statements};
 pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
+pub use reference::language_page;
 pub use schema::{
     CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Help, ObjectId, Param,
-    Schema, Touch, Type,
+    Role, Schema, Touch, Type,
 };
 pub use suggest::closest;
 pub use value::{Value, View};

@@ -40,14 +40,14 @@ const MATH: &[Row] = &[
     one("asin", libm::asin),
     one("asinh", libm::asinh),
     one("atan", libm::atan),
-    two("atan2", libm::atan2),
+    two("atan2", atan2),
     one("atanh", libm::atanh),
     one("cbrt", libm::cbrt),
     one("ceil", f64::ceil),
     one("clz32", |x| f64::from((crate::number::to_int32(x) as u32).leading_zeros())),
     one("cos", libm::cos),
     one("cosh", libm::cosh),
-    one("exp", libm::exp),
+    one("exp", exp),
     one("expm1", libm::expm1),
     one("floor", f64::floor),
     one("fround", |x| f64::from(x as f32)),
@@ -189,6 +189,14 @@ impl Function {
     }
 }
 
+/// `Math.atan2`. Where y is beyond x by more than 2^60, half a turn of the last digit is lost to x's sign in `libm`;
+/// engines give the nearest number to ±π/2 there.
+fn atan2(y: f64, x: f64) -> f64 {
+    let exponent = |v: f64| (v.to_bits() >> 52 & 0x7ff) as i32;
+    let beyond = x != 0.0 && exponent(y) - exponent(x) > 60 && !x.is_nan() && !y.is_nan();
+    if beyond { std::f64::consts::FRAC_PI_2.copysign(y) } else { libm::atan2(y, x) }
+}
+
 /// `**` and `Math.pow`: IEEE's pow, except that a NaN exponent and (±1) ** ±Infinity give NaN.
 pub(crate) fn pow(base: f64, exponent: f64) -> f64 {
     // The most frequent power, and exact: every engine rounds the product once.
@@ -199,6 +207,11 @@ pub(crate) fn pow(base: f64, exponent: f64) -> f64 {
         return f64::NAN;
     }
     libm::pow(base, exponent)
+}
+
+/// The exponential; of 1 it is `Math.E` in every engine, where libm is off by the last bit.
+fn exp(x: f64) -> f64 {
+    if x == 1.0 { std::f64::consts::E } else { libm::exp(x) }
 }
 
 /// The nearest whole number, ties towards +Infinity; keeps the sign of zero.
@@ -305,6 +318,7 @@ mod tests {
             ("hypot", &[1e300, 1e300], 1.4142135623730952e300),
             ("hypot", &[-0.0], 0.0),
             ("atan2", &[0.0, -0.0], std::f64::consts::PI),
+            ("atan2", &[1e21, -113.0], std::f64::consts::FRAC_PI_2),
             ("fround", &[5.5], 5.5),
             ("fround", &[5.05], 5.050000190734863),
             ("trunc", &[-0.9], -0.0),

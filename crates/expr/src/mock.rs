@@ -256,6 +256,24 @@ impl Schema for Mock {
         (field == FieldKey(1)).then(|| format!("coordinate {index}"))
     }
 
+    fn role(&self, field: FieldKey, index: usize) -> Role {
+        match (field.0, index) {
+            (1, 3..=6 | 10..=13) => Role::Quaternion,
+            (2, 11) => Role::Angle,
+            _ => Role::Other,
+        }
+    }
+
+    fn named_element(&self, field: FieldKey, index: usize) -> Option<String> {
+        let (name, n) = match field.0 {
+            1 => ("qpos", 7),
+            2 => ("qvel", 6),
+            _ => return None,
+        };
+        let joint = JOINTS.get(index / n)?;
+        Some(format!("data.joint(\"{joint}\").{name}[{}]", index % n))
+    }
+
     fn refresh(&self) -> Option<String> {
         Some("mj_forward".into())
     }
@@ -329,7 +347,7 @@ pub(crate) fn execute(source: &str) -> (World, Value) {
     let out = globals.define("out");
     let compiled = Compiler::new(&Mock, &mut globals).statements(source);
     let program = compiled.program.unwrap_or_else(|| panic!("{source}: {:#?}", compiled.diagnostics));
-    let (mut world, mut context) = (World::new(), Context::new());
+    let (mut world, mut context) = (World::new(), Context::of(&globals));
     program.run(&mut world, &mut context, None).unwrap_or_else(|e| panic!("{source}: {e:?}"));
     (world, context.get(out).clone())
 }

@@ -1,9 +1,12 @@
 //! Tree to text: one layout, parentheses only where the tree needs them. Reading the result gives the tree back.
+//! The formatter is this with two wishes of authors: numbers stay as they are written, and a text of one line stays on one.
 
 use crate::ast::{
     BinaryOp, Body, Element, Expr, ExprKind, Function, LogicalOp, Pattern, Property, Stmt, StmtKind, UnaryOp,
 };
-use crate::number;
+use crate::diagnostic::Diagnostic;
+use crate::lex::{Tok, tokens};
+use crate::{number, parse_expression, parse_statements};
 
 /// Binding powers beyond those of the operators, see [`BinaryOp::power`].
 const ASSIGNMENT: u8 = 1;
@@ -45,18 +48,68 @@ fn power(expr: &Expr) -> u8 {
     }
 }
 
-#[derive(Default)]
-struct Printer {
-    out: String,
-    indent: usize,
+/// An expression laid out anew. `None` when it has mistakes, or comments, which a tree does not hold.
+pub fn format_expression(source: &str) -> Option<String> {
+    let parsed = parse_expression(source);
+    if has_comments(source) || parsed.diagnostics.iter().any(Diagnostic::is_error) {
+        return None;
+    }
+    let mut printer = Printer { source, ..Printer::default() };
+    printer.expr(&parsed.tree, ASSIGNMENT);
+    let again = parse_expression(&printer.out);
+    (print(&again.tree) == print(&parsed.tree)).then_some(printer.out)
 }
 
-impl Printer {
+/// Statements laid out anew: one a line, or all on one line where the source is one line. `None` as above.
+pub fn format_statements(source: &str) -> Option<String> {
+    let parsed = parse_statements(source);
+    if has_comments(source) || parsed.diagnostics.iter().any(Diagnostic::is_error) {
+        return None;
+    }
+    let line = !source.trim().contains(['\n', '\r']);
+    let mut printer = Printer { source, line, ..Printer::default() };
+    printer.lines(&parsed.tree);
+    let last = parsed.tree.last().map(|s| &s.kind);
+    if line && matches!(last, Some(StmtKind::Expr(_) | StmtKind::Declare { .. } | StmtKind::Return(_))) {
+        printer.out.pop();
+    }
+    let again = parse_statements(&printer.out);
+    (print_statements(&again.tree) == print_statements(&parsed.tree)).then_some(printer.out)
+}
+
+/// Whether a comment stands between the tokens, or may stand in a template.
+fn has_comments(source: &str) -> bool {
+    let opens = |text: &str| text.contains("//") || text.contains("/*");
+    let mut at = 0;
+    for token in tokens(source, &mut Vec::new()) {
+        let template = matches!(token.kind, Tok::Template(..)) && opens(token.span.text(source));
+        if template || opens(source.get(at..token.span.start).unwrap_or("")) {
+            return true;
+        }
+        at = token.span.end;
+    }
+    false
+}
+
+#[derive(Default)]
+struct Printer<'s> {
+    out: String,
+    indent: usize,
+    /// All on one line.
+    line: bool,
+    /// Where the tree was read from, for numbers as they are written; empty when that does not matter.
+    source: &'s str,
+}
+
+impl Printer<'_> {
     fn put(&mut self, text: &str) {
         self.out.push_str(text);
     }
 
     fn new_line(&mut self) {
+        if self.line {
+            return self.put(" ");
+        }
         self.out.push('\n');
         for _ in 0..self.indent {
             self.out.push_str("  ");
@@ -288,15 +341,21 @@ impl Printer {
         if enclosed {
             self.put("(");
         }
-        self.kind(&expr.kind);
+        self.kind(expr);
         if enclosed {
             self.put(")");
         }
     }
 
-    fn kind(&mut self, kind: &ExprKind) {
-        match kind {
-            ExprKind::Number(x) => self.put(&number_text(*x)),
+    fn kind(&mut self, expr: &Expr) {
+        match &expr.kind {
+            ExprKind::Number(x) => match expr.span.text(self.source) {
+                "" => self.put(&number_text(*x)),
+                // The place of what stood in parentheses holds these.
+                written => {
+                    self.put(written.trim_matches(|c: char| matches!(c, '(' | ')') || c.is_whitespace()))
+                }
+            },
             ExprKind::String(text) => quote(text, &mut self.out),
             ExprKind::Boolean(b) => self.put(if *b { "true" } else { "false" }),
             ExprKind::Null => self.put("null"),
@@ -322,7 +381,7 @@ impl Printer {
                 self.items(args);
                 self.put(")");
             }
-            ExprKind::Chain(inner) => self.kind(&inner.kind),
+            ExprKind::Chain(inner) => self.kind(inner),
             ExprKind::Array(items) => {
                 self.put("[");
                 self.items(items);
@@ -493,11 +552,14 @@ fn is_word(key: &str) -> bool {
         && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '$')
 }
 
+/// In the quotes that need no escapes in JSON, unless the text holds them itself.
 fn quote(text: &str, out: &mut String) {
-    out.push('"');
+    let mark = if text.contains('\'') && !text.contains('"') { '"' } else { '\'' };
+    out.push(mark);
     for c in text.chars() {
         match c {
-            '"' | '\\' => out.extend(['\\', c]),
+            '\\' => out.push_str("\\\\"),
+            c if c == mark => out.extend(['\\', c]),
             '\n' => out.push_str("\\n"),
             '\t' => out.push_str("\\t"),
             '\r' => out.push_str("\\r"),
@@ -507,7 +569,7 @@ fn quote(text: &str, out: &mut String) {
             c => out.push(c),
         }
     }
-    out.push('"');
+    out.push(mark);
 }
 
 fn template_text(text: &str, out: &mut String) {

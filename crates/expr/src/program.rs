@@ -7,8 +7,11 @@ use std::sync::Arc;
 use crate::code;
 use crate::diagnostic::Span;
 use crate::effects::Effects;
+use crate::formula::Formula;
 use crate::globals::Globals;
 use crate::heap::Heap;
+use crate::ir::Tree;
+use crate::lower;
 use crate::schema::{FieldKey, FunctionId, Type};
 use crate::value::Value;
 use crate::vm::{self, Code};
@@ -221,9 +224,18 @@ pub struct Program {
     pub(crate) effects: Effects,
     pub(crate) result: Type,
     pub(crate) aggregates: Vec<Aggregate>,
+    /// The shorter way to run it, if it is a numeric expression without effects.
+    pub(crate) formula: Option<Arc<Formula>>,
 }
 
 impl Program {
+    /// The code of a tree.
+    pub(crate) fn new(tree: &Tree, effects: Effects, result: Type, aggregates: Vec<Aggregate>) -> Program {
+        let code = lower::program(tree);
+        let formula = code.units.first().and_then(Formula::of).map(Arc::new);
+        Program { code: code.into(), effects, result, aggregates, formula }
+    }
+
     /// What it touches.
     pub fn effects(&self) -> &Effects {
         &self.effects
@@ -250,6 +262,12 @@ impl Program {
         context: &mut Context,
         value: Option<&Value>,
     ) -> Result<Value, RuntimeError> {
+        if let Some(formula) = &self.formula
+            && let Some(x) = formula.value(host, &mut context.numbers)
+        {
+            context.events.clear();
+            return Ok(if formula.truth { Value::Boolean(x != 0.0) } else { Value::Number(x) });
+        }
         vm::run(&self.code, host, context, value)
     }
 }

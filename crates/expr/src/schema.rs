@@ -258,6 +258,18 @@ impl Type {
     }
 }
 
+/// What a single element of a field measures, as far as mistakes about it are known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Role {
+    /// Anything else.
+    #[default]
+    Other,
+    /// An angle in rad.
+    Angle,
+    /// A component of a unit quaternion, from -1 to 1.
+    Quaternion,
+}
+
 /// What a place in a text is, for a person who points at it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Help {
@@ -313,6 +325,12 @@ pub trait Schema {
     fn element_help(&self, field: FieldKey, index: usize) -> Option<String> {
         let _ = (field, index);
         None
+    }
+
+    /// What element `index` of a whole field measures.
+    fn role(&self, field: FieldKey, index: usize) -> Role {
+        let _ = (field, index);
+        Role::Other
     }
 
     /// How an author writes element `index` of a whole field by the name of the object that it belongs to:

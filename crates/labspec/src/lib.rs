@@ -7,12 +7,14 @@
 //! * [`json`]: JSON with a place for every value
 //! * [`spec`]: labs, quizzes and lessons as typed values; [`spec::load_lesson`] is the way in
 //! * [`lint`]: the table of rules and the checks of structure
+//! * [`format`](mod@format): the code of a lesson laid out anew
 //! * [`finding`], [`report`]: what is wrong, and how it is shown to people and programs
 
 pub mod bind;
 pub mod check;
 pub mod cli;
 pub mod finding;
+pub mod format;
 pub mod json;
 pub mod lint;
 pub mod markdown;

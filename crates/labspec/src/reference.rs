@@ -2,7 +2,7 @@
 //!
 //! `cargo run -p labspec -- reference docs/reference` writes them; a test fails when they are stale.
 
-use crate::bind::functions;
+use crate::bind::{functions, named_field as by_name};
 use crate::{lint, rules};
 use labspec_core::mjcf::{self, Status};
 use labspec_core::reflect::{self, Kind, Object, Stage};
@@ -13,6 +13,7 @@ pub fn pages() -> Vec<(&'static str, String)> {
     vec![
         ("fields.md", fields()),
         ("functions.md", function_list()),
+        ("language.md", format!("{GENERATED}\n{}", labspec_expr::language_page())),
         ("codes.md", codes()),
         ("compatibility.md", compatibility()),
     ]
@@ -35,13 +36,15 @@ fn fields() -> String {
     for (object, name, about) in objects {
         let _ = write!(
             text,
-            "\n## `{name}`\n\n{about}\n\n| field | shape | unit | kind | meaning |\n|---|---|---|---|---|\n"
+            "\n## `{name}`\n\n{about}\n\n| field | shape | by name | unit | kind | meaning |\n|---|---|---|---|---|---|\n"
         );
         for f in reflect::fields().map(|f| f.info()).filter(|f| f.object == object) {
             let shape = if f.shape.is_empty() { "–".to_string() } else { f.shape.join(" × ") };
             let unit = if f.unit.is_empty() { "–" } else { f.unit };
-            let _ =
-                writeln!(text, "| `{}` | {shape} | {unit} | {} | {} |", f.name, kind(f.kind, f.stage), f.doc);
+            let named = f.shape.first().and_then(|dim| by_name(f.object, f.name, dim));
+            let named = named.map_or("–".to_string(), |path| format!("`{path}`"));
+            let kind = kind(f.kind, f.stage);
+            let _ = writeln!(text, "| `{}` | {shape} | {named} | {unit} | {kind} | {} |", f.name, f.doc);
         }
     }
     text.push_str(
@@ -63,12 +66,14 @@ fn kind(kind: Kind, stage: Stage) -> String {
 }
 
 fn function_list() -> String {
-    let mut text =
-        format!("{GENERATED}\n# Functions\n\n`Math` has the functions and constants of JavaScript.\n");
+    let mut text = format!(
+        "{GENERATED}\n# Functions\n\nThe language itself, its methods and `Math` are in [language.md](language.md). Examples are of `specs/models/pendulum.xml`, measures of a run of 0.1 s.\n"
+    );
     for (title, measure) in [("In labs and in measures", false), ("In the measures of `verify` only", true)] {
-        let _ = write!(text, "\n## {title}\n\n| function | meaning |\n|---|---|\n");
+        let _ = write!(text, "\n## {title}\n\n| function | meaning | example | value |\n|---|---|---|---|\n");
         for f in functions::reference().iter().filter(|f| f.measure == measure) {
-            let _ = writeln!(text, "| `{}` | {} |", f.signature, f.doc);
+            let (code, value) = f.example;
+            let _ = writeln!(text, "| `{}` | {} | `{code}` | `{value}` |", f.signature, f.doc);
         }
     }
     text.push_str(
@@ -147,6 +152,63 @@ fn attributes<'a>(rows: impl Iterator<Item = &'a mjcf::SchemaRow>) -> String {
 
 #[cfg(test)]
 mod tests {
+    use crate::bind::functions::{self, FunctionDoc};
+    use crate::bind::scene::Models;
+    use crate::bind::{ModelNames, Scope, World};
+    use crate::check::{self, Depth};
+    use crate::lint::ModelFolder;
+    use crate::source::SourceFile;
+    use crate::spec::load_lesson;
+    use labspec_core::{self as core, Data, Model, mjcf};
+    use labspec_expr::{Compiler, Context, Globals};
+
+    const PENDULUM: &str = include_str!("../../../specs/models/pendulum.xml");
+
+    /// Statements and a last expression; gives its value.
+    fn run(model: &Model, code: &str) -> String {
+        let (statements, last) = code.rsplit_once("; ").unwrap_or(("", code));
+        let names = ModelNames { model, scope: Scope::Lab };
+        let mut globals = Globals::new();
+        let mut compiler = Compiler::new(&names, &mut globals);
+        let programs = [compiler.statements(statements), compiler.expression(last)];
+        let mut world = World { model: model.clone(), data: Data::new(model), key: None };
+        core::forward(&world.model, &mut world.data);
+        let mut context = Context::of(&globals);
+        let values = programs.map(|p| match p.program {
+            Some(program) => program.run(&mut world, &mut context, None).unwrap().to_string(),
+            None => format!("{:#?}", p.diagnostics),
+        });
+        values[1].clone()
+    }
+
+    /// The value of a measure over 0.1 s.
+    fn measure(code: &str) -> String {
+        let lab = serde_json::json!({"xml": PENDULUM, "verify": {
+            "runs": {"run": {"until": 0.1}}, "measure": {"m": code}, "says": [["0", "run.m"]], "options": ["true"],
+        }});
+        let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
+        let mut models = Models::new(ModelFolder::unknown());
+        let checked = check::check(lesson, &mut models, Depth { labs: false, claims: true });
+        let value = checked.claims.first().and_then(|c| c.measures.first()).map(|(_, x)| *x);
+        crate::verify::significant(value.unwrap_or_else(|| panic!("{code}: {:#?}", checked.findings)))
+    }
+
+    #[test]
+    fn the_examples_of_functions_give_what_they_say() {
+        let model = mjcf::compile(PENDULUM).unwrap();
+        let mut wrong = Vec::new();
+        for FunctionDoc { signature, example: (code, value), measure: over, .. } in functions::reference() {
+            let got = if over { measure(code) } else { run(&model, code) };
+            if got != value {
+                wrong.push(format!("{code} gives {got}"));
+            }
+            // It shows the function that it stands beside.
+            let name = signature.split('(').next().unwrap();
+            assert!(code.contains(name), "{signature}: {code}");
+        }
+        assert!(wrong.is_empty(), "{wrong:#?}");
+    }
+
     #[test]
     fn the_pages_are_up_to_date() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference");

@@ -4,7 +4,7 @@ use super::name::{list, quoted, view_of};
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Expr, ExprKind};
 use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Fix, Span};
 use crate::effects::Access;
 use crate::ir::{Index, Ir, Kind};
 use crate::number;
@@ -38,9 +38,7 @@ impl<'a> Binder<'a> {
         match thing {
             Ok(Thing::Field(field)) => {
                 let index = self.index(&field, index, span)?;
-                if let (Index::At(i), false) = (&index, self.site.is_some()) {
-                    self.explain_element(&field, *i, span);
-                }
+                self.name_element(&field, &index, span);
                 Ok(Thing::Value(self.load(&field, index, span)))
             }
             Ok(Thing::Value(ir)) if ir.ty.may_have_parts() || ir.ty == Type::String || optional => {
@@ -56,6 +54,24 @@ impl<'a> Binder<'a> {
                 let _ = self.value(index);
                 Err(Reported)
             }
+        }
+    }
+
+    /// Notes what an element is and how it is written by name, when its index is known.
+    pub(super) fn name_element(&mut self, field: &Field, index: &Index, span: Span) {
+        let Index::At(i) = index else { return };
+        if self.site.is_some() || !self.explains {
+            return;
+        }
+        self.explain_element(field, *i, span);
+        // Only an index of the whole array is worth a name.
+        let whole = field.first == 0 && field.path.split('.').count() == 2 && !field.path.contains('(');
+        let constant = self.text(span).ends_with(&format!("[{i}]"));
+        if whole
+            && constant
+            && let Some(named) = self.schema.named_element(field.key, *i)
+        {
+            self.named.push(Fix { span, text: named });
         }
     }
 

@@ -53,6 +53,9 @@ impl<'a> Binder<'a> {
         let (place, value) = (place?, value?);
         self.check_kept(&place, &value)?;
         self.check_stored_in(&place, op, &value);
+        if let (Place::Element(view, index), None) = (&place, op) {
+            self.check_stored_angle(*view, index, &value);
+        }
         let old = self.type_of_place(&place);
         let ty = match op {
             None => value.ty,
@@ -147,6 +150,7 @@ impl<'a> Binder<'a> {
                     let checked = self.check_assignable(&field, target.span);
                     let index = self.index(&field, index, target.span)?;
                     checked?;
+                    self.name_element(&field, &index, target.span);
                     Ok(self.element_place(&field, index, reads))
                 }
                 Ok(Thing::Value(ir)) if ir.ty.may_have_parts() => {

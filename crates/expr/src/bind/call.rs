@@ -7,7 +7,6 @@ use crate::ast::{Expr, ExprKind};
 use crate::code;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Ir, Item, Kind, Step, Tree, Unit};
-use crate::lower;
 use crate::math;
 use crate::natives;
 use crate::prelude;
@@ -171,6 +170,7 @@ impl<'a> Binder<'a> {
             match self.math_argument(&path, function, arg) {
                 Ok(ir) => {
                     self.expect_argument(&ir, &path);
+                    self.check_angle(function, &ir);
                     numbers.push(Ir::to_number(ir, arg.span));
                 }
                 Err(Reported) => failed = true,
@@ -383,6 +383,9 @@ impl<'a> Binder<'a> {
                 if ir.ty == Type::String {
                     return self.wrong_type(info, i, &ir, "a number");
                 }
+                if info.name.ends_with(".deg") {
+                    self.check_quaternion(&ir, &format!("`{}` needs one", info.name));
+                }
                 Ok(Some(Ir::to_number(ir, span)))
             }
             Param::Text => {
@@ -471,12 +474,7 @@ impl<'a> Binder<'a> {
             match bound {
                 Ok(Some(ir)) => {
                     super::note_views(&tree.views, &mut effects);
-                    programs.push(Program {
-                        code: lower::program(&tree).into(),
-                        effects,
-                        result: ir.ty,
-                        aggregates,
-                    });
+                    programs.push(Program::new(&tree, effects, ir.ty, aggregates));
                 }
                 Ok(None) => {}
                 Err(Reported) => failed = true,

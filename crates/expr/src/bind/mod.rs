@@ -17,10 +17,11 @@ mod name;
 mod object;
 mod scope;
 mod statement;
+mod units;
 mod value;
 
 use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Fix, Span};
 use crate::effects::Effects;
 use crate::globals::{Globals, ProgramId};
 use crate::ir::{Ir, Shown, Step, Tree, Unit, UnitId};
@@ -28,7 +29,7 @@ use crate::natives;
 use crate::parse::in_order;
 use crate::program::{Aggregate, Program};
 use crate::schema::{CollectionId, Field, FunctionId, Help, ObjectId, Schema, Type};
-use crate::{lower, math, parse_expression, parse_statements};
+use crate::{math, parse_expression, parse_statements};
 
 pub(crate) use facts::Facts;
 use scope::{Known, Variable};
@@ -39,6 +40,8 @@ pub struct Compiler<'s> {
     globals: &'s mut Globals,
     /// The type of `value` in the next texts; `None` where no control gives one.
     pub value: Option<Type>,
+    /// Whether [`Compiled::help`] and [`Compiled::named`] are wanted, which take longer than the program itself.
+    pub explains: bool,
 }
 
 /// The result of compiling one text.
@@ -50,8 +53,30 @@ pub struct Compiled {
     pub program: Option<Program>,
     /// Findings in source order.
     pub diagnostics: Vec<Diagnostic>,
-    /// What the parts of the text are, for a person who points at them.
+    /// What the parts of the text are, for a person who points at them, if wanted.
     pub help: Vec<(Span, Help)>,
+    /// Bare indexes that could be written by the name of their object: `data.qpos[9]` as
+    /// `data.joint("light_free").qpos[2]`, if wanted. Both mean the same element of the model at hand.
+    pub named: Vec<Fix>,
+}
+
+impl Compiled {
+    /// The source with every bare index that belongs to a named object written by its name.
+    pub fn modernized(&self, source: &str) -> String {
+        let mut out = String::new();
+        let mut at = 0;
+        let mut fixes: Vec<&Fix> = self.named.iter().collect();
+        fixes.sort_by_key(|f| f.span);
+        for fix in fixes {
+            // An index inside an index stays.
+            if let Some(before) = source.get(at..fix.span.start) {
+                out.push_str(before);
+                out.push_str(&fix.text);
+                at = fix.span.end;
+            }
+        }
+        out + source.get(at..).unwrap_or("")
+    }
 }
 
 /// Passes over a text before every type that still changes is taken to be unknown.
@@ -60,7 +85,7 @@ const PASSES: usize = 8;
 impl<'s> Compiler<'s> {
     /// A compiler for texts that name things of `schema` and share the variables `globals`.
     pub fn new(schema: &'s dyn Schema, globals: &'s mut Globals) -> Compiler<'s> {
-        Compiler { schema, globals, value: None }
+        Compiler { schema, globals, value: None, explains: false }
     }
 
     /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.
@@ -116,8 +141,17 @@ impl<'s> Compiler<'s> {
             self.globals.back_to(mark);
             let mut binder = Binder::new(self, source, mode, id, facts);
             let done = work(&mut binder);
-            let Binder { mut diagnostics, mut effects, aggregates, tree, facts: seen, help, globals, .. } =
-                binder;
+            let Binder {
+                mut diagnostics,
+                mut effects,
+                aggregates,
+                tree,
+                facts: seen,
+                help,
+                named,
+                globals,
+                ..
+            } = binder;
             *self.globals = globals;
             facts = seen;
             if facts != before {
@@ -129,11 +163,9 @@ impl<'s> Compiler<'s> {
             diagnostics.extend(read.iter().cloned());
             let failed = diagnostics.iter().any(Diagnostic::is_error);
             note_views(&tree.views, &mut effects);
-            let program = done.ok().filter(|_| !failed).map(|result| {
-                let code = lower::program(&tree);
-                Program { code: code.into(), effects, result, aggregates }
-            });
-            return Compiled { id, program, diagnostics: in_order(diagnostics), help };
+            let program = done.ok().filter(|_| !failed);
+            let program = program.map(|result| Program::new(&tree, effects, result, aggregates));
+            return Compiled { id, program, diagnostics: in_order(diagnostics), help, named };
         }
     }
 }
@@ -217,7 +249,10 @@ struct Binder<'a> {
     effects: Effects,
     aggregates: Vec<Aggregate>,
     next_aggregate: usize,
+    /// Whether the next two are wanted.
+    explains: bool,
     help: Vec<(Span, Help)>,
+    named: Vec<Fix>,
     facts: Facts,
     tree: Tree,
     /// Names in reach, inner ones last.
@@ -255,7 +290,9 @@ impl<'a> Binder<'a> {
             effects: Effects::default(),
             aggregates: Vec::new(),
             next_aggregate: 0,
+            explains: compiler.explains,
             help: Vec::new(),
+            named: Vec::new(),
             facts,
             tree: Tree { units: vec![Unit::default()], ..Tree::default() },
             variables: Vec::new(),
@@ -297,7 +334,7 @@ impl<'a> Binder<'a> {
     /// Notes what a part of the text is.
     fn explain(&mut self, span: Span, help: impl FnOnce() -> Help) {
         const MOST: usize = 1000;
-        if self.site.is_none() && self.help.len() < MOST {
+        if self.explains && self.site.is_none() && self.help.len() < MOST {
             self.help.push((span, help()));
         }
     }

@@ -393,10 +393,14 @@ impl<'a> Binder<'a> {
                     name.span,
                     format!("`{}` has no member `{text}`", field.path),
                 )
-                .why("it is one number")
-                .help(format!("remove `.{text}`"))
-                .fix(Span::new(object.end, name.span.end), "");
-                self.refuse(report)
+                .why("it is one number");
+                let methods = self.method_names(Type::Number);
+                self.refuse(match closest(text, methods.iter().map(String::as_str)) {
+                    Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(name.span, meant),
+                    None => report
+                        .help(format!("remove `.{text}`"))
+                        .fix(Span::new(object.end, name.span.end), ""),
+                })
             }
         }
     }

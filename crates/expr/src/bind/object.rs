@@ -28,7 +28,7 @@ impl<'a> Binder<'a> {
         }
         match ir.ty {
             Type::List | Type::View | Type::String if text == "length" => {
-                Ok(Thing::Value(match self.known_length(&ir) {
+                Ok(Thing::Value(match self.known_length(&ir).filter(|_| is_still(&ir)) {
                     Some(n) => Ir::number(n as f64, span),
                     None => Ir::new(Kind::Member(Box::new(ir), text.into()), Type::Number, span),
                 }))
@@ -210,5 +210,14 @@ impl<'a> Binder<'a> {
     pub(super) fn elements(&mut self, field: &Field, span: Span) -> Option<Vec<Ir>> {
         let n = field.len().filter(|n| *n <= MAX_WRITTEN_OUT)?;
         Some((0..n).map(|i| self.load(field, Index::At(i), span)).collect())
+    }
+}
+
+/// Whether computing a value does nothing else, so that it can be left out.
+fn is_still(ir: &Ir) -> bool {
+    match &ir.kind {
+        Kind::Constant(_) | Kind::Global(_) => true,
+        Kind::List(items) => items.iter().all(|i| !i.spread && is_still(&i.value)),
+        _ => false,
     }
 }

@@ -268,6 +268,7 @@ impl<'a> Binder<'a> {
         if !op.is_comparison() && op != BinaryOp::Add {
             self.expect_number(&a, op.symbol());
             self.expect_number(&b, op.symbol());
+            self.check_conversion(op, &a, &b);
         }
         if op == BinaryOp::BitXor {
             let meant = format!("{} ** {}", self.text(left.span), self.text(right.span));

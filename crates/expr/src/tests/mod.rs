@@ -2,6 +2,7 @@
 
 mod arithmetic;
 mod javascript;
+mod language;
 mod mistakes;
 mod node;
 mod programs;

@@ -215,7 +215,11 @@ impl Generator {
             ),
             2 => format!("{}.slice({})", self.numbers(d), self.next(3)),
             3 => format!("{}.filter(x => x > {})", self.numbers(d), self.number(0)),
-            4 => format!("[...{}].sort((a, b) => a - b)", self.numbers(d)),
+            // An order in which NaN equals everything is none: the standard leaves open what such a sort gives.
+            4 => format!(
+                "[...{}].sort((a, b) => a !== a ? (b !== b ? 0 : 1) : b !== b ? -1 : a - b)",
+                self.numbers(d)
+            ),
             5 => format!("[...{}].{}()", self.numbers(d), self.random.pick(&["reverse", "toReversed"])),
             _ => format!("Array.from({{length: {}}}, (_, i) => i * {})", self.next(5), self.number(d)),
         }
@@ -297,7 +301,8 @@ impl Generator {
             9 => match self.name(Holds::List, false) {
                 Some(name) => match self.next(4) {
                     0 => format!("{name}.push({}); ", self.anything(1)),
-                    1 => format!("{name}[{}] = {}; ", self.next(4), self.anything(1)),
+                    // Never beyond the end: a list has no holes here.
+                    1 => format!("if ({name}.length > 3) {name}[{}] = {}; ", self.next(4), self.anything(1)),
                     2 => format!("{name}.reverse(); "),
                     _ => format!("{name}.pop(); "),
                 },
@@ -447,7 +452,7 @@ fn numbers(list: &[f64], out: &mut String) {
     out.push(']');
 }
 
-/// What a program does here; `None` when the compiler refuses it.
+/// What a program does here; `None` when the compiler refuses it, or when it grows beyond a limit.
 fn here(source: &str) -> Option<String> {
     if std::env::var("LABSPEC_NODE_SHOW").is_ok() {
         eprintln!("{source}");
@@ -460,6 +465,10 @@ fn here(source: &str) -> Option<String> {
     let mut out = String::new();
     match program.run(&mut world, &mut context, None) {
         Ok(_) => show(&context.heap, context.get(slot), 0, &mut out),
+        // JavaScript has other limits.
+        Err(e) if [code::TEXT_TOO_LONG, code::MEMORY, code::BUDGET, code::CALL_DEPTH].contains(&e.code) => {
+            return None;
+        }
         Err(_) => out.push('E'),
     }
     out.push_str(" | ");

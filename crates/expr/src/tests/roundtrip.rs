@@ -330,7 +330,12 @@ proptest! {
         let parsed = parse_expression(&text);
         prop_assert!(parsed.diagnostics.is_empty(), "{text}: {:?}", parsed.diagnostics);
         prop_assert_eq!(bones(&parsed.tree), bones(&tree), "{}", text);
-        prop_assert_eq!(print(&parsed.tree), text);
+        prop_assert_eq!(print(&parsed.tree), text.as_str());
+        match format_expression(&text) {
+            Some(again) => prop_assert_eq!(again, text),
+            // What looks like a comment in a template is left alone.
+            None => prop_assert!(text.contains("//") || text.contains("/*"), "{}", text),
+        }
     }
 
     #[test]
@@ -339,7 +344,11 @@ proptest! {
         let parsed = parse_statements(&text);
         prop_assert!(parsed.diagnostics.is_empty(), "{text}: {:?}", parsed.diagnostics);
         prop_assert_eq!(bones(&parsed.tree), bones(&tree), "{}", text);
-        prop_assert_eq!(print_statements(&parsed.tree), text);
+        prop_assert_eq!(print_statements(&parsed.tree), text.as_str());
+        // On one line, the same statements.
+        let Some(line) = format_statements(&text.replace('\n', " ")) else { return Ok(()) };
+        prop_assert_eq!(bones(&parse_statements(&line).tree), bones(&tree), "{}", line);
+        prop_assert!(!line.contains('\n'));
     }
 
     #[test]
@@ -350,6 +359,33 @@ proptest! {
     #[test]
     fn no_characters_make_the_compiler_fail(source in any::<String>()) {
         compile_all(&source);
+    }
+}
+
+#[test]
+fn formatting_keeps_what_an_author_chose() {
+    for (source, expression) in [
+        ("1000*( data.qpos[2]-0.050 )", Some("1000 * (data.qpos[2] - 0.050)")),
+        ("lib.bodyPos(\"cube\")[ 2 ]", Some("lib.bodyPos('cube')[2]")),
+        ("(1e-3 ).toFixed( 2 )+'it\\'s'", Some("(1e-3).toFixed(2) + \"it's\"")),
+        ("data.time // seconds", None),
+        ("`${1 /* one */}`", None),
+        ("'http://here'", Some("'http://here'")),
+        ("data.time +", None),
+    ] {
+        assert_eq!(format_expression(source).as_deref(), expression, "{source}");
+    }
+    for (source, statements) in [
+        ("data.qpos[0]=1;data.qvel.fill(0);", Some("data.qpos[0] = 1; data.qvel.fill(0)")),
+        ("if(a){b();c()}else d()", Some("if (a) { b(); c(); } else d();")),
+        ("for(let i=0;i<3;i++);", Some("for (let i = 0; i < 3; i++) ;")),
+        (
+            "const f=(x)=>{return x*x}\nctx.a=f(2)",
+            Some("const f = (x) => {\n  return x * x;\n};\nctx.a = f(2);"),
+        ),
+        ("a = 1; /* why */ b = 2", None),
+    ] {
+        assert_eq!(format_statements(source).as_deref(), statements, "{source}");
     }
 }
 

@@ -3,6 +3,7 @@
 
 use labspec_core::reflect::{self, FieldId, Object};
 use labspec_core::{Model, Obj, joint};
+use labspec_expr::Role;
 
 /// First element and number of elements of a field that belong to one object; `None` when the field has no rows
 /// of this kind.
@@ -28,6 +29,19 @@ fn span(m: &Model, kind: Obj, dim: &str, index: usize) -> Option<(usize, usize)>
         (Obj::Tuple, "ntupledata") => Some((at(&m.tuple_adr)?, at(&m.tuple_size)?)),
         (kind, _) => one(size_of(kind)?),
     }
+}
+
+/// Whether a dimension has rows of the objects of a kind.
+pub(super) fn has_rows(kind: Obj, dim: &str) -> bool {
+    let parts: &[&str] = match kind {
+        Obj::Joint => &["nq", "nv"],
+        Obj::Sensor => &["nsensordata"],
+        Obj::Actuator => &["nu", "nout", "na"],
+        Obj::Numeric => &["nnumericdata"],
+        Obj::Tuple => &["ntupledata"],
+        _ => &[],
+    };
+    size_of(kind) == Some(dim) || parts.contains(&dim)
 }
 
 /// The size that counts the objects of a kind.
@@ -61,11 +75,7 @@ fn size_of(kind: Obj) -> Option<&'static str> {
 pub(super) fn owner(m: &Model, f: FieldId, index: usize) -> Option<(Obj, usize)> {
     let dim = *f.info().shape.first()?;
     let kinds = super::handle::KINDS.iter().map(|(kind, _)| *kind);
-    for kind in kinds {
-        // A quick look before all objects are asked.
-        if span(m, kind, dim, 0).is_none() {
-            continue;
-        }
+    for kind in kinds.filter(|kind| has_rows(*kind, dim)) {
         let count = m.names.of(kind).len();
         let holds =
             |i: &usize| row(m, f, kind, *i).is_some_and(|(first, n)| (first..first + n).contains(&index));
@@ -148,17 +158,104 @@ fn rate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
     })
 }
 
-/// Whether an element of `data.qpos` is part of a quaternion.
-#[allow(dead_code)]
-pub(crate) fn is_quaternion(m: &Model, f: FieldId, index: usize) -> bool {
-    if f.info().object != Object::Data || f.info().name != "qpos" {
-        return false;
+/// What an element measures: coordinates of joints are angles, parts of quaternions, or neither.
+pub(super) fn role(m: &Model, f: FieldId, index: usize) -> Role {
+    let info = f.info();
+    if info.object != Object::Data || info.name != "qpos" {
+        return Role::Other;
     }
-    let Some((Obj::Joint, object)) = owner(m, f, index) else { return false };
-    let Some((first, _)) = row(m, f, Obj::Joint, object) else { return false };
+    let Some((Obj::Joint, object)) = owner(m, f, index) else { return Role::Other };
+    let Some((first, _)) = row(m, f, Obj::Joint, object) else { return Role::Other };
     match m.jnt_type.get(object) {
-        Some(&joint::FREE) => index - first >= 3,
-        Some(&joint::BALL) => true,
-        _ => false,
+        Some(&joint::HINGE) => Role::Angle,
+        Some(&joint::FREE) if index - first >= 3 => Role::Quaternion,
+        Some(&joint::BALL) => Role::Quaternion,
+        _ => Role::Other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bind::handle::KINDS;
+    use crate::bind::{ModelNames, Scope};
+    use labspec_core::reflect::Object;
+    use labspec_core::{Data, mjcf};
+    use labspec_expr::{Compiler, Globals};
+    use std::path::Path;
+
+    /// Every field that has rows of one kind of object can be read by the name of each object that has one, and means
+    /// exactly the elements that belong to it; together they are the whole field.
+    #[test]
+    fn every_field_of_every_object_has_a_name() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/models/zoo");
+        let mut kinds = std::collections::BTreeSet::new();
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let Some(Ok(m)) = path.is_file().then(|| mjcf::compile_file(&path)) else { continue };
+            let d = Data::new(&m);
+            let names = ModelNames { model: &m, scope: Scope::Lab };
+            for f in reflect::fields() {
+                let info = f.info();
+                let Some(dim) = info.shape.first() else { continue };
+                let Some((kind, noun)) = KINDS.iter().find(|(kind, _)| has_rows(*kind, dim)) else {
+                    continue;
+                };
+                let holder = if info.object == Object::Data { "data" } else { "model" };
+                let objects = m.names.of(*kind);
+                let mut covered = 0;
+                for (i, name) in objects.iter().enumerate() {
+                    let Some((first, count)) = row(&m, f, *kind, i) else { continue };
+                    covered += count;
+                    if name.is_empty() || count == 0 || objects.iter().filter(|n| *n == name).count() > 1 {
+                        continue;
+                    }
+                    let short = crate::bind::named_field(info.object, info.name, dim).unwrap();
+                    let member = short.rsplit('.').next().unwrap();
+                    let text = format!("{holder}.{noun}('{name}').{member}[{}]", count - 1);
+                    let mut globals = Globals::new();
+                    let compiled = Compiler::new(&names, &mut globals).expression(&text);
+                    let program =
+                        compiled.program.unwrap_or_else(|| panic!("{text}: {:#?}", compiled.diagnostics));
+                    let reads = &program.effects().reads;
+                    assert_eq!(
+                        (reads[0].field.0, reads[0].first),
+                        (u32::from(f.0), first + count - 1),
+                        "{text}"
+                    );
+                    kinds.insert(*noun);
+                }
+                let whole = reflect::view(&m, &d, f).len();
+                assert!(covered == whole || objects.is_empty(), "{} of {}", info.name, path.display());
+            }
+        }
+        println!("{kinds:?}");
+        assert!(kinds.len() >= 16, "{kinds:?}");
+    }
+
+    #[test]
+    fn help_says_what_an_element_is() {
+        let xml = std::fs::read_to_string(
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/golden/models/ball_drop.xml"),
+        );
+        let m = mjcf::compile(&xml.unwrap()).unwrap();
+        let names = ModelNames { model: &m, scope: Scope::Lab };
+        let help = |source: &str| {
+            let mut globals = Globals::new();
+            let mut compiler = Compiler::new(&names, &mut globals);
+            compiler.explains = true;
+            let help = compiler.expression(source).help;
+            let whole = help.into_iter().find(|(span, _)| span.end - span.start == source.len());
+            whole.and_then(|(_, h)| h.lines.first().cloned()).unwrap_or_default()
+        };
+        for (source, line) in [
+            ("data.qpos[9]", "joint light_free (free): z position, m"),
+            ("data.qvel[8]", "joint light_free (free): along z, m/s"),
+            ("data.qpos[10]", "joint light_free (free): quaternion w (cosine of half the angle)"),
+            ("data.joint('heavy_free').qpos[2]", "joint heavy_free (free): z position, m"),
+            ("data.xpos[5]", "body heavy: z of position of the body frame, world, m"),
+        ] {
+            assert_eq!(help(source), line, "{source}");
+        }
     }
 }

@@ -85,6 +85,8 @@ pub(super) struct Function {
     pub(super) place: Place,
     pub(super) aggregate: bool,
     pub(super) doc: &'static str,
+    /// Statements and a last expression on `specs/models/pendulum.xml`, or a measure over 0.1 s of it, and its value.
+    pub(super) example: (&'static str, &'static str),
     pub(super) run: fn(&mut World, &mut Heap, &[Value]) -> Result<Value, String>,
 }
 
@@ -103,6 +105,7 @@ pub(super) const ROW: Function = Function {
     place: Place::Everywhere,
     aggregate: false,
     doc: "",
+    example: ("", ""),
     run: |_, _, _| NOTHING,
 };
 
@@ -122,8 +125,17 @@ fn number(args: &[Value]) -> Result<f64, String> {
     args.first().map(Value::to_number).ok_or_else(|| "a number is missing".into())
 }
 
+/// Signature and effects of every function, in the order of the table.
+pub(super) static INFO: LazyLock<Vec<FunctionInfo>> =
+    LazyLock::new(|| TABLE.iter().map(|f| info(f)).collect());
+
+/// Of no function.
+pub(super) fn none() -> FunctionInfo {
+    info(&ROW)
+}
+
 /// Signature and effects in the words of the language.
-pub(super) fn info(f: &Function) -> FunctionInfo {
+fn info(f: &Function) -> FunctionInfo {
     let param = |arg: &Arg| match arg {
         Arg::Model => Param::Object(handle::encode(handle::Thing::Struct(Object::Model))),
         Arg::Data => Param::Object(handle::encode(handle::Thing::Struct(Object::Data))),
@@ -191,6 +203,8 @@ pub struct FunctionDoc {
     pub doc: &'static str,
     /// Only in the measures of `verify`.
     pub measure: bool,
+    /// An example and what it gives.
+    pub example: (&'static str, &'static str),
 }
 
 /// Every function, in the order of the table.
@@ -211,6 +225,7 @@ pub fn reference() -> Vec<FunctionDoc> {
             signature: format!("{}({})", path(f), args.join(", ")),
             doc: f.doc,
             measure: f.place == Place::Measures,
+            example: f.example,
         }
     };
     TABLE.iter().map(|f| one(f)).collect()

@@ -7,7 +7,8 @@ use super::handle::{self, KINDS, Side, Thing};
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_core::{Model, Obj};
 use labspec_expr::{
-    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Schema, Value,
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Role, Schema,
+    Value,
 };
 
 /// Where a program stands: decides which functions exist.
@@ -126,6 +127,30 @@ fn short_name(name: &str) -> &str {
         "key_",
     ];
     PREFIXES.iter().find_map(|p| name.strip_prefix(p)).unwrap_or(name)
+}
+
+/// How a field of the table is written for one object that has a name: `data.joint('…').qpos`; `None` when it has no
+/// rows of one kind of object.
+pub(crate) fn named_field(object: Object, name: &'static str, dim: &str) -> Option<String> {
+    let holder = match object {
+        Object::Model => "model",
+        Object::Data => "data",
+        _ => return None,
+    };
+    let (kind, _) = KINDS.iter().find(|(kind, _)| elements::has_rows(*kind, dim))?;
+    Some(format!("{holder}.{}('…').{}", noun(*kind), member_name(object, name, *kind)))
+}
+
+/// What a field is called in a named object: in short, unless that means a field before it (`dof_solref` of a joint).
+fn member_name(object: Object, name: &'static str, kind: Obj) -> &'static str {
+    if name == "sensordata" {
+        return "data";
+    }
+    let short = short_name(name);
+    let has = |f: &FieldId| f.info().shape.first().is_some_and(|dim| elements::has_rows(kind, dim));
+    let all = reflect::fields().filter(|f| f.info().object == object && short_name(f.info().name) == short);
+    let first = all.filter(has).map(|f| f.info().name).next();
+    if first.is_none_or(|f| f == name) { short } else { name }
 }
 
 fn noun(kind: Obj) -> &'static str {
@@ -375,6 +400,10 @@ impl Schema for ModelNames<'_> {
         elements::help(self.model, FieldId(f as u16), index)
     }
 
+    fn role(&self, FieldKey(f): FieldKey, index: usize) -> Role {
+        elements::role(self.model, FieldId(f as u16), index)
+    }
+
     fn named_element(&self, FieldKey(f): FieldKey, index: usize) -> Option<String> {
         let field = FieldId(f as u16);
         let side = match field.info().object {
@@ -384,10 +413,13 @@ impl Schema for ModelNames<'_> {
         };
         let (kind, object) = elements::owner(self.model, field, index)?;
         let (first, _) = elements::row(self.model, field, kind, object)?;
-        self.model.names.of(kind).get(object).filter(|n| !n.is_empty())?;
-        let short = short_name(field.info().name);
-        let short = if short == "sensordata" { "data" } else { short };
-        Some(format!("{}.{short}[{}]", self.path(side, kind, object), index - first))
+        // A name that needs escapes is not worth it.
+        let plain = |n: &&String| !n.is_empty() && !n.contains(['\'', '\\']) && !n.contains(char::is_control);
+        let name = self.model.names.of(kind).get(object).filter(plain)?;
+        let short = member_name(field.info().object, field.info().name, kind);
+        let holder = if side == Side::Data { "data" } else { "model" };
+        // In single quotes, which need no escapes in the JSON of a lab.
+        Some(format!("{holder}.{}('{name}').{short}[{}]", noun(kind), index - first))
     }
 
     fn result_field(&self, FunctionId(i): FunctionId, object: ObjectId) -> Option<Field> {
@@ -400,7 +432,7 @@ impl Schema for ModelNames<'_> {
     }
 
     fn function(&self, FunctionId(i): FunctionId) -> FunctionInfo {
-        functions::info(functions::TABLE.get(i as usize).copied().unwrap_or(&functions::ROW))
+        functions::INFO.get(i as usize).cloned().unwrap_or_else(functions::none)
     }
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {

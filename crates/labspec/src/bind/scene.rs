@@ -5,8 +5,9 @@ use crate::lint::ModelFolder;
 use crate::source::{SourceFile, Text};
 use crate::spec::{Lab, Scene};
 use labspec_core::Model;
-use labspec_core::mjcf::{self, MjcfDiagnostic};
+use labspec_core::mjcf::{self, Folder, MjcfDiagnostic};
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Models by name, compiled once, and the files they came from.
@@ -75,10 +76,10 @@ impl Models {
         let model = match SourceFile::read(&path) {
             Ok(file) => {
                 let file = SourceFile::new(shown, file.text());
-                match mjcf::compile(file.text()) {
+                match compile_file(file.text(), &path) {
                     Ok(model) => Some(Arc::new(model)),
                     Err(list) => {
-                        self.findings.extend(list.iter().map(|d| from_mjcf(d, d.span.clone()).at(&file)));
+                        self.findings.extend(list.iter().map(|d| in_model(d).at(&file)));
                         self.files.push(file);
                         None
                     }
@@ -93,6 +94,25 @@ impl Models {
         };
         self.compiled.insert(name.to_string(), model.clone());
         model
+    }
+}
+
+/// Compiles the text of a model file. Files that it includes, attaches or takes shapes from come from its folder.
+pub(crate) fn compile_file(text: &str, path: &Path) -> Result<Model, Vec<MjcfDiagnostic>> {
+    match Folder::new(path.parent().unwrap_or(Path::new(""))) {
+        Ok(folder) => mjcf::compile_with(text, &folder, path.file_name().and_then(|name| name.to_str())),
+        Err(_) => mjcf::compile(text),
+    }
+}
+
+/// A mistake in a model file, or in a file that it names: then the model is the place, and the message says which.
+pub(crate) fn in_model(d: &MjcfDiagnostic) -> Finding {
+    match &d.file {
+        None => from_mjcf(d, d.span.clone()),
+        Some(other) => {
+            let found = from_mjcf(d, 0..0);
+            Finding { message: format!("{other}, line {}: {}", d.line, d.message), ..found }
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::functions;
 use labspec_core::reflect::{self, FieldId};
-use labspec_core::{Data, Model, integrator};
+use labspec_core::{Data, Model};
 use labspec_expr::{FieldKey, FunctionId, Heap, Host, Value};
 
 /// A model and its data, while a lab runs.
@@ -42,22 +42,19 @@ impl Host for World {
 
 /// Values that the engine has no meaning for are refused, not ignored.
 fn check(field: FieldId, value: f64) -> Result<(), String> {
+    let refused = |known: &str| Err(format!("`{}` cannot be {value}: {known}", field.info().name));
     let is = |allowed: &[i32]| allowed.iter().any(|&a| f64::from(a) == value);
     match field.info().name {
         "timestep" if !(value > 0.0 && value.is_finite()) => {
             Err(format!("the timestep must be greater than 0, not {value}"))
         }
-        "integrator"
-            if !is(&[integrator::EULER, integrator::RK4, integrator::IMPLICIT, integrator::IMPLICITFAST]) =>
-        {
-            Err(format!(
-                "integrator {value} does not exist: 0 is Euler, 1 is RK4, 2 is implicit, 3 is implicitfast"
-            ))
+        "integrator" if !is(&[0, 1, 2, 3, 4]) => {
+            refused("0 is Euler, 1 RK4, 2 implicit, 3 implicitfast, 4 discrete")
         }
-        "cone" if !is(&[0]) => Err(format!("friction cone {value} is not supported yet: 0 is pyramidal")),
-        "solver" if !is(&[2]) => Err(format!("solver {value} is not supported yet: 2 is Newton")),
-        "geom_condim" if !is(&[1, 3]) => {
-            Err(format!("condim {value} is not supported yet: 1 is frictionless, 3 slides"))
+        "cone" if !is(&[0, 1]) => refused("0 is pyramidal, 1 elliptic"),
+        "solver" if !is(&[0, 1, 2]) => refused("0 is PGS, 1 CG, 2 Newton"),
+        "geom_condim" if !is(&[1, 3, 4, 6]) => {
+            refused("1 is frictionless, 3 slides, 4 also twists, 6 also rolls")
         }
         _ => Ok(()),
     }

@@ -8,7 +8,7 @@ use crate::finding::{self, Finding, Severity};
 use crate::lint;
 use crate::report::{self, Summary};
 use crate::source::SourceFile;
-use crate::spec::load_lesson;
+use crate::spec::{Lesson, load_lesson};
 use crate::verify::{Verdict, significant};
 use clap::ValueEnum;
 use serde_json::{Value, json};
@@ -62,8 +62,7 @@ fn work(a: &Arguments, depth: Depth, measures: bool) -> Result<Outcome, Failure>
         let folder = model_folder(&a.models, path)?;
         let models = by_folder.entry(format!("{folder:?}")).or_insert_with(|| Models::new(folder));
         let lesson = load_lesson(file, models.folder());
-        // Other JSON lies in folders of lessons; a file that was named is always ours.
-        if !named && lesson.findings.iter().any(|f| f.code == "unknown-spec") {
+        if !named && is_other_json(&lesson) {
             continue;
         }
         checked.push(check::check(lesson, models, depth));
@@ -103,8 +102,13 @@ fn work(a: &Arguments, depth: Depth, measures: bool) -> Result<Outcome, Failure>
     Ok(if clean { Outcome::Clean } else { Outcome::Findings })
 }
 
+/// Other JSON lies in folders of lessons; a file that was named is always ours.
+pub(super) fn is_other_json(lesson: &Lesson) -> bool {
+    lesson.findings.iter().any(|f| f.code == "unknown-spec")
+}
+
 /// The files to check, in a fixed order, and whether each was named itself.
-fn collect(paths: &[PathBuf]) -> Result<Vec<(PathBuf, bool)>, Failure> {
+pub(super) fn collect(paths: &[PathBuf]) -> Result<Vec<(PathBuf, bool)>, Failure> {
     let mut files = Vec::new();
     for path in paths {
         let meta = std::fs::metadata(path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;

@@ -3,6 +3,7 @@
 mod bench;
 mod check;
 mod explain;
+mod fmt;
 mod plan;
 mod precision;
 mod record;
@@ -29,6 +30,8 @@ enum Command {
     Check(check::Arguments),
     /// Verify the claims of quizzes and labs only, with every measure
     Verify(check::Arguments),
+    /// Lay out the code in lessons; with --modernize, write bare indexes by name
+    Fmt(fmt::Arguments),
     /// Run one lab without a page: LAB.json, LESSON.md#2, LESSON.md#quiz-id.1
     Run(run::Arguments),
     /// Error against run time of integrators and timesteps, for one lab
@@ -99,6 +102,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let result = match &cli.command {
         Command::Check(a) => check::check(a),
         Command::Verify(a) => check::verify(a),
+        Command::Fmt(a) => fmt::fmt(a),
         Command::Run(a) => run::run(a),
         Command::Precision(a) => precision::precision(a),
         Command::Plan(a) => plan::plan(a),

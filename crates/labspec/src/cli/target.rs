@@ -2,7 +2,7 @@
 
 use super::{Failure, ModelOptions};
 use crate::bind::Programs;
-use crate::bind::scene::Models;
+use crate::bind::scene::{self, Models};
 use crate::finding::{Finding, Severity};
 use crate::lint::ModelFolder;
 use crate::report;
@@ -110,9 +110,8 @@ fn bare_model(path: &Path) -> Result<Target, Failure> {
 /// Compiles a model file.
 pub(super) fn load_model(path: &Path) -> Result<Model, Failure> {
     let file = SourceFile::read(path)?;
-    labspec_core::mjcf::compile(file.text()).map_err(|list| {
-        let findings: Vec<Finding> =
-            list.iter().map(|d| crate::bind::scene::from_mjcf(d, d.span.clone()).at(&file)).collect();
+    scene::compile_file(file.text(), path).map_err(|list| {
+        let findings: Vec<Finding> = list.iter().map(|d| scene::in_model(d).at(&file)).collect();
         format!(
             "the model {} does not load\n\n{}",
             path.display(),

@@ -1,8 +1,10 @@
 //! Running a lab without a page: the exact order of events, sampled into a table.
 
+mod samples;
 mod session;
 mod table;
 
+pub use samples::Samples;
 pub use session::{Numerics, Session, Trouble};
 pub use table::{Cell, Table, shown};
 
@@ -136,17 +138,19 @@ pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) 
         )));
     }
 
-    let mut table = Table::new(timestep, programs.probes.iter().map(|p| p.name.clone()));
+    let mut samples = Samples::new(programs, steps / every + 2);
     let mut pending = presses.as_slice();
     session.press_due(&mut pending);
-    table.push(session.sample());
+    samples.take(&mut session);
     for i in 1..=steps {
         session.press_due(&mut pending);
         session.step();
         if i % every == 0 || i == steps {
-            table.push(session.sample());
+            samples.take(&mut session);
         }
     }
+    let mut table = Table::new(timestep, programs.probes.iter().map(|p| p.name.clone()));
+    table.rows = samples.rows();
     table.finish(&session);
     Ok(table)
 }

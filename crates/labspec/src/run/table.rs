@@ -117,10 +117,6 @@ impl Table {
         Table { timestep, columns, rows: Vec::new(), warnings: Vec::new(), errors: Vec::new() }
     }
 
-    pub(super) fn push(&mut self, row: Vec<Cell>) {
-        self.rows.push(row);
-    }
-
     pub(super) fn finish(&mut self, session: &Session<'_>) {
         let raised = Warning::ALL.iter().zip(&session.world.data.warning).filter(|(_, s)| s.number > 0);
         self.warnings = raised.map(|(w, s)| (w.name(), s.number)).collect();

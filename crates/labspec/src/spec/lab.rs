@@ -149,21 +149,34 @@ impl Lab {
         self.plots.iter().flat_map(|p| &p.traces)
     }
 
-    /// Every text that is code (statements and expressions), in the order of the lab format's table.
-    pub fn code(&self) -> Vec<&Text> {
-        let mut all: Vec<&Text> = [&self.setup, &self.controller].into_iter().flatten().collect();
+    /// Every text that is code, with what it is, in the order of the lab format's table.
+    pub fn code(&self) -> Vec<(Form, &Text)> {
+        let own = [&self.setup, &self.controller].into_iter().flatten();
+        let mut all: Vec<(Form, &Text)> = own.map(|t| (Form::Statements, t)).collect();
         for control in &self.controls {
             if let super::ControlKind::Button { run } = &control.kind {
-                all.push(run);
+                all.push((Form::Statements, run));
             }
             if let Some(action) = control.action() {
-                all.extend([&action.set, &action.apply].into_iter().flatten());
+                all.extend(action.set.iter().map(|t| (Form::Target, t)));
+                all.extend(action.apply.iter().map(|t| (Form::Statements, t)));
             }
         }
-        all.extend(self.traces().map(|t| &t.expr));
-        all.extend(self.readouts.iter().map(|r| &r.expr));
+        let exprs = self.traces().map(|t| &t.expr).chain(self.readouts.iter().map(|r| &r.expr));
+        all.extend(exprs.map(|t| (Form::Expression, t)));
         all
     }
+}
+
+/// What a text of code is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A value: a trace, a readout, a measure.
+    Expression,
+    /// What is done: a setup, a controller, what a control applies or a button runs.
+    Statements,
+    /// What a control sets.
+    Target,
 }
 
 /// Reads a lab.

@@ -2,7 +2,7 @@
 //!
 //! Here it is only read; expressions stay texts with their places.
 
-use super::{Lab, LabAddress, lab};
+use super::{Form, Lab, LabAddress, lab};
 use crate::finding::Finding;
 use crate::json::{Fields, Json, Member, Node, Number, Scalar, read};
 use crate::lint::rules::keys::WRONG_TYPE;
@@ -66,6 +66,17 @@ pub struct Said {
     pub quote: Text,
     /// The expression whose value it states.
     pub expr: Text,
+}
+
+impl Verify {
+    /// Every text that is code, with what it is.
+    pub fn code(&self) -> Vec<(Form, &Text)> {
+        let setups = self.runs.iter().filter_map(|r| r.setup.as_ref());
+        let measures = self.measure.iter().chain(&self.exact).map(|(_, expr)| expr);
+        let values = self.options.iter().chain(&self.value).chain(self.says.iter().map(|s| &s.expr));
+        let values = measures.chain(values).map(|t| (Form::Expression, t));
+        setups.map(|t| (Form::Statements, t)).chain(values).collect()
+    }
 }
 
 /// Reads a `verify` object.

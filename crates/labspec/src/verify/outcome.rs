@@ -2,7 +2,9 @@
 
 use crate::bind::ModelNames;
 use crate::run::Numerics;
-use labspec_expr::{CollectionId, Entry, FunctionId, FunctionInfo, ObjectId, Schema, Value};
+use labspec_expr::{
+    CollectionId, Entry, Field, FieldKey, FunctionId, FunctionInfo, ObjectId, Role, Schema, Value,
+};
 
 /// The measures of one run.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,6 +131,22 @@ impl Schema for OutcomeNames<'_> {
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
         if self.run(object).is_some() { None } else { self.model.hint(object, name) }
+    }
+
+    fn role(&self, field: FieldKey, index: usize) -> Role {
+        self.model.role(field, index)
+    }
+
+    fn element_help(&self, field: FieldKey, index: usize) -> Option<String> {
+        self.model.element_help(field, index)
+    }
+
+    fn named_element(&self, field: FieldKey, index: usize) -> Option<String> {
+        self.model.named_element(field, index)
+    }
+
+    fn result_field(&self, function: FunctionId, object: ObjectId) -> Option<Field> {
+        self.model.result_field(function, object)
     }
 
     fn refresh(&self) -> Option<String> {

@@ -17,6 +17,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "bodyId",
         args: &[Arg::Name(Obj::Body)],
         doc: "index of a body",
+        example: ("lib.bodyId('bob')", "1"),
         run: |_, _, args| index(args).map(|i| Value::Number(i as f64)),
         ..ROW
     },
@@ -25,6 +26,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "jointId",
         args: &[Arg::Name(Obj::Joint)],
         doc: "index of a joint",
+        example: ("lib.jointId('swing')", "0"),
         run: |_, _, args| index(args).map(|i| Value::Number(i as f64)),
         ..ROW
     },
@@ -34,6 +36,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Name(Obj::Joint)],
         reads: Touches::State,
         doc: "first coordinate of a joint",
+        example: ("data.qpos[0] = 0.1; lib.qpos('swing')", "0.1"),
         run: |w, _, args| {
             let q = w.model.jnt_qposadr.get(index(args)?).map_or(0, |&a| a as usize);
             Ok(w.data.qpos.get(q).map_or(Value::Undefined, |&x| Value::Number(x)))
@@ -47,6 +50,7 @@ pub(super) const ROWS: &[Function] = &[
         optional: 1,
         reads: Touches::Contacts,
         doc: "normal force in N, summed over all contacts, or over those of one geom",
+        example: ("lib.normalForce()", "0"),
         run: |w, _, args| {
             let geom = if args.is_empty() { None } else { Some(index(args)?) };
             let touching = |c: &&core::Contact| geom.is_none_or(|g| c.geom1 == g || c.geom2 == g);
@@ -62,6 +66,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "deg",
         args: &[Arg::Number],
         doc: "radians to degrees",
+        example: ("lib.deg(Math.PI)", "180"),
         run: |_, _, args| number(args).map(|x| Value::Number(x * 180.0 / std::f64::consts::PI)),
         ..ROW
     },
@@ -70,6 +75,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "rad",
         args: &[Arg::Number],
         doc: "degrees to radians",
+        example: ("lib.rad(180)", "3.141592653589793"),
         run: |_, _, args| number(args).map(|x| Value::Number(x * std::f64::consts::PI / 180.0)),
         ..ROW
     },
@@ -80,6 +86,7 @@ pub(super) const ROWS: &[Function] = &[
         gives: Some(("site_xpos", Obj::Site)),
         reads: Touches::Places,
         doc: "place of a site in the world, m",
+        example: ("lib.sitePos('tip')[2]", "0.5"),
         run: |w, heap, args| place(heap, &w.data.site_xpos, index(args)?),
         ..LIST
     },
@@ -90,6 +97,7 @@ pub(super) const ROWS: &[Function] = &[
         gives: Some(("xpos", Obj::Body)),
         reads: Touches::Places,
         doc: "place of a body in the world, m",
+        example: ("lib.bodyPos('bob')[2]", "1"),
         run: |w, heap, args| place(heap, &w.data.xpos, index(args)?),
         ..LIST
     },
@@ -101,6 +109,7 @@ pub(super) const ROWS: &[Function] = &[
         reads: Touches::Energy,
         writes: &[Touches::Flags, Touches::Derived],
         doc: "potential, kinetic and total energy, J; switches the computation of energy on at its first use",
+        example: ("lib.energy().total", "4.905"),
         run: |w, heap, _| energy(w, heap),
         ..ROW
     },
@@ -108,6 +117,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "contactPairs",
         reads: Touches::Contacts,
         doc: "which geoms touch, each pair as text; a geom without a name shows its body's",
+        example: ("lib.contactPairs().length", "0"),
         run: |w, heap, _| {
             let pairs = w
                 .data
@@ -126,6 +136,7 @@ pub(super) const ROWS: &[Function] = &[
         length: Some(6),
         reads: Touches::Motion,
         doc: "how a site moves with each degree of freedom: three rows of velocity, three of turning; the second argument keeps only the first columns",
+        example: ("lib.jacobian('tip')[0][0]", "-0.5"),
         run: |w, heap, args| {
             let rows = jacobian(w, index(args)?, args.get(1).map(Value::to_number));
             matrix(heap, &rows)
@@ -138,6 +149,7 @@ pub(super) const ROWS: &[Function] = &[
         optional: 1,
         reads: Touches::Motion,
         doc: "singular values of the Jacobian of a site, largest first; the second argument is {cols, rows: \"full\" or \"pos\"}",
+        example: ("lib.jacobianSV('tip', {rows: 'pos'})[0]", "0.5"),
         run: |w, heap, args| {
             let option = |key| args.get(1).and_then(|o| heap.get(o, key)).filter(|v| !v.is_nothing());
             let only = option("rows").is_some_and(|v| v.to_string() == "pos");
@@ -154,6 +166,7 @@ pub(super) const ROWS: &[Function] = &[
         reads: Touches::Mass,
         writes: &[Touches::Derived],
         doc: "the mass matrix, nv rows of nv numbers; computes all derived fields first",
+        example: ("lib.massMatrix()[0][0].toFixed(5)", "0.25036"),
         run: |w, heap, _| {
             core::forward(&w.model, &mut w.data);
             let m = core::full_m(&w.model, &w.data);
@@ -167,6 +180,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "norm",
         args: &[Arg::Numbers],
         doc: "length of a vector: the root of the sum of its squares",
+        example: ("lib.norm([3, 4])", "5"),
         run: |_, heap, args| {
             let numbers = args.first().and_then(|v| heap.to_numbers(v)).unwrap_or_default();
             Ok(Value::Number(labspec_expr::hypot(&numbers)))

@@ -17,6 +17,7 @@ pub(super) const ROWS: &[Function] = &[
         reads: Touches::Contacts,
         place: Place::Measures,
         doc: "whether two geoms are in contact, or whether one touches anything",
+        example: ("max(contact('bob'))", "0"),
         run: |w, _, args| {
             let (a, b) = (index(args)?, args.get(1).map(|v| handle::index_of(v.to_number())));
             let touch = |c: &core::Contact| {
@@ -32,28 +33,52 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Number],
         place: Place::Measures,
         doc: "magnitude",
+        example: ("abs(-2)", "2"),
         run: |_, _, args| number(args).map(|x| Value::Number(x.abs())),
         ..ROW
     },
     Function {
         name: "first",
         doc: "time in s of the first sample at which a condition holds; NaN if it never does",
+        example: ("first(data.time > 0.049)", "0.05"),
         ..OVER_RUN
     },
     Function {
         name: "at",
         args: &[Arg::Lazy, Arg::Lazy],
         doc: "at(condition, x): x at the first sample at which the condition holds; NaN if it never does",
+        example: ("at(data.time > 0.049, data.qpos[0])", "0"),
         ..OVER_RUN
     },
     Function {
         name: "before",
         args: &[Arg::Lazy, Arg::Lazy],
         doc: "before(condition, x): x at the sample just before the condition first holds; NaN if there is none",
+        example: ("before(data.time > 0.049, data.time)", "0.048"),
         ..OVER_RUN
     },
-    Function { name: "initial", doc: "value at the first sample", ..OVER_RUN },
-    Function { name: "final", doc: "value at the last sample", ..OVER_RUN },
-    Function { name: "min", doc: "smallest value over the run", ..OVER_RUN },
-    Function { name: "max", doc: "largest value over the run", ..OVER_RUN },
+    Function {
+        name: "initial",
+        doc: "value at the first sample",
+        example: ("initial(data.time)", "0"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "final",
+        doc: "value at the last sample",
+        example: ("final(data.time)", "0.1"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "min",
+        doc: "smallest value over the run",
+        example: ("min(data.qpos[0])", "0"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "max",
+        doc: "largest value over the run",
+        example: ("max(data.time)", "0.1"),
+        ..OVER_RUN
+    },
 ];

@@ -13,6 +13,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_setConst",
         writes: &[Touches::Coordinates, Touches::Derived],
         doc: "recomputes the constants that follow from masses, inertias and poses; puts qpos back to the start",
+        example: ("model.body_mass[1] = 2; mj.mj_setConst(model, data); model.body_subtreemass[0]", "2"),
         run: |w, _, _| {
             core::set_const(&mut w.model, &mut w.data);
             NOTHING
@@ -23,6 +24,10 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_forward",
         writes: &[Touches::Derived],
         doc: "computes every derived field from the state, without advancing time",
+        example: (
+            "data.qpos[0] = Math.PI / 2; mj.mj_forward(model, data); data.site_xpos[0].toFixed(3)",
+            "-0.500",
+        ),
         run: |w, _, _| {
             core::forward(&w.model, &mut w.data);
             NOTHING
@@ -33,6 +38,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_step",
         writes: &[Touches::State, Touches::Derived],
         doc: "advances the simulation by one step",
+        example: ("mj.mj_step(model, data); data.time", "0.002"),
         run: |w, _, _| {
             core::step(&w.model, &mut w.data);
             NOTHING
@@ -43,6 +49,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_resetData",
         writes: &[Touches::State, Touches::Derived],
         doc: "puts the data back to the default configuration",
+        example: ("data.qpos[0] = 1; mj.mj_resetData(model, data); data.qpos[0]", "0"),
         run: |w, _, _| {
             core::reset_data(&w.model, &mut w.data);
             NOTHING
@@ -54,6 +61,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Model, Arg::Data, Arg::Number],
         writes: &[Touches::State, Touches::Derived],
         doc: "puts the data back to a keyframe, counted from 0",
+        example: ("mj.mj_resetDataKeyframe(model, data, 1); data.qpos[0]", "1.5"),
         run: |w, _, args| {
             let key = args.first().map_or(0.0, Value::to_number);
             if !(key >= 0.0 && key < w.model.nkey as f64) {
@@ -68,6 +76,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_step1",
         writes: &[Touches::Derived],
         doc: "computes what follows from position and velocity: the first half of a step",
+        example: ("mj.mj_step1(model, data); data.time", "0"),
         run: |w, _, _| {
             core::step1(&w.model, &mut w.data);
             NOTHING
@@ -78,8 +87,48 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_step2",
         writes: &[Touches::State, Touches::Derived],
         doc: "computes forces and advances the simulation: the second half of a step",
+        example: ("mj.mj_step1(model, data); mj.mj_step2(model, data); data.time", "0.002"),
         run: |w, _, _| {
             core::step2(&w.model, &mut w.data);
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_kinematics",
+        reads: Touches::Derived,
+        writes: &[Touches::Derived],
+        doc: "computes the poses of bodies, joints, geoms and sites from the coordinates",
+        example: (
+            "data.qpos[0] = Math.PI; mj.mj_kinematics(model, data); data.site_xpos[2].toFixed(2)",
+            "1.50",
+        ),
+        run: |w, _, _| {
+            core::kinematics(&w.model, &mut w.data);
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_energyPos",
+        reads: Touches::Derived,
+        writes: &[Touches::Energy],
+        doc: "computes the potential energy of the poses at hand into data.energy[0], J",
+        example: ("mj.mj_energyPos(model, data); data.energy[0]", "4.905"),
+        run: |w, _, _| {
+            core::energy_pos(&w.model, &mut w.data);
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_energyVel",
+        reads: Touches::Derived,
+        writes: &[Touches::Energy],
+        doc: "computes the kinetic energy of the velocities at hand into data.energy[1], J",
+        example: ("data.qvel[0] = 2; mj.mj_energyVel(model, data); data.energy[1].toFixed(5)", "0.50072"),
+        run: |w, _, _| {
+            core::energy_vel(&w.model, &mut w.data);
             NOTHING
         },
         ..ENGINE
@@ -88,6 +137,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_inverse",
         writes: &[Touches::Derived],
         doc: "computes qfrc_inverse, the generalized force that causes the acceleration in qacc",
+        example: ("mj.mj_inverse(model, data); Math.abs(data.qfrc_inverse[0]).toFixed(4)", "0.0000"),
         run: |w, _, _| {
             core::inverse(&w.model, &mut w.data).map_err(|e| e.to_string())?;
             NOTHING
@@ -98,6 +148,10 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_subtreeVel",
         writes: &[Touches::Derived],
         doc: "computes velocity and angular momentum of the subtrees",
+        example: (
+            "data.qvel[0] = 2; mj.mj_forward(model, data); mj.mj_subtreeVel(model, data); data.subtree_linvel[3].toFixed(3)",
+            "-1.000",
+        ),
         run: |w, _, _| {
             core::subtree_vel(&w.model, &mut w.data);
             NOTHING
@@ -108,6 +162,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_rnePostConstraint",
         writes: &[Touches::Derived],
         doc: "computes accelerations of bodies and the forces between them",
+        example: ("mj.mj_rnePostConstraint(model, data); data.cfrc_int[11].toFixed(2)", "9.81"),
         run: |w, _, _| {
             core::rne_post_constraint(&w.model, &mut w.data);
             NOTHING
@@ -119,6 +174,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Model, Arg::Number, Arg::Text],
         returns: Type::Number,
         doc: "index of the object of this kind (as mj.mjtObj.mjOBJ_BODY.value) and name; -1 when there is none",
+        example: ("mj.mj_name2id(model, mj.mjtObj.mjOBJ_BODY.value, 'bob')", "1"),
         run: |w, _, args| {
             let name = args.get(1).map(Value::to_string).unwrap_or_default();
             let id = kind(number(args)?).and_then(|kind| w.model.names.id(kind, &name));
@@ -131,6 +187,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Model, Arg::Number, Arg::Number],
         returns: Type::Any,
         doc: "name of the object of this kind and index; null when there is none",
+        example: ("mj.mj_id2name(model, mj.mjtObj.mjOBJ_SITE.value, 0)", "tip"),
         run: |w, _, args| {
             let index = args.get(1).map_or(-1.0, Value::to_number);
             let names = kind(number(args)?).map(|kind| w.model.names.of(kind)).unwrap_or(&[]);

@@ -8,13 +8,19 @@ use labspec_expr::{Type, Value};
 const SIM: Function = Function { object: "sim", returns: Type::Void, ..ROW };
 
 pub(super) const ROWS: &[Function] = &[
-    Function { name: "play", doc: "lets the page go on", ..SIM },
-    Function { name: "pause", doc: "stops the page", ..SIM },
-    Function { name: "toggle", doc: "stops the page, or lets it go on", ..SIM },
+    Function { name: "play", doc: "lets the page go on", example: ("sim.play(); data.time", "0"), ..SIM },
+    Function { name: "pause", doc: "stops the page", example: ("sim.pause(); data.time", "0"), ..SIM },
+    Function {
+        name: "toggle",
+        doc: "stops the page, or lets it go on",
+        example: ("sim.toggle(); data.time", "0"),
+        ..SIM
+    },
     Function {
         name: "forward",
         writes: &[Touches::Derived],
         doc: "computes every derived field from the state",
+        example: ("data.qpos[0] = Math.PI; sim.forward(); data.site_xpos[2].toFixed(2)", "1.50"),
         run: |w, _, _| {
             core::forward(&w.model, &mut w.data);
             NOTHING
@@ -25,6 +31,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "reset",
         writes: &[Touches::State, Touches::Derived],
         doc: "puts the data back to the start, or to the keyframe of the lab, and computes the derived fields",
+        example: ("data.qpos[0] = 1; sim.reset(); data.qpos[0]", "0"),
         run: |w, _, _| {
             match w.key.filter(|&k| k < w.model.nkey) {
                 Some(key) => core::reset_data_keyframe(&w.model, &mut w.data, key),
@@ -42,6 +49,7 @@ pub(super) const ROWS: &[Function] = &[
         reads: Touches::Energy,
         writes: &[Touches::Flags, Touches::Derived],
         doc: "potential, kinetic and total energy, J; switches the computation of energy on at its first use",
+        example: ("sim.energy().potential", "4.905"),
         run: |w, heap, _| energy(w, heap),
         ..SIM
     },
@@ -50,6 +58,7 @@ pub(super) const ROWS: &[Function] = &[
         returns: Type::List,
         reads: Touches::Contacts,
         doc: "the contacts, each a record of geom1, geom2, dist (m), pos (m), frame, force (N) and dim",
+        example: ("sim.contacts().length", "0"),
         run: |w, heap, _| {
             let full = |_| "the lists of this lab take too much memory".to_owned();
             let mut contacts = Vec::new();

@@ -19,7 +19,7 @@ pub(in crate::lint) const RULES: &[&Rule] = &[&TYPOGRAPHIC];
 
 /// Looks into the statements and expressions of a lab.
 pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
-    for code in lab.code() {
+    for (_, code) in lab.code() {
         let mut quoted = None;
         for (at, c) in code.value.char_indices() {
             match (quoted, c) {

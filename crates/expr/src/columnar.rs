@@ -1,0 +1,257 @@
+//! Numeric expressions over recorded samples: every operation runs over a block of samples at once, and what several
+//! expressions read is recorded once (Boncz, Zukowski and Nes, "MonetDB/X100: hyper-pipelining query execution", 2005).
+
+use std::sync::Arc;
+
+use crate::formula::{ARGS, Formula, Step};
+use crate::program::{Host, Program};
+use crate::schema::FieldKey;
+use crate::value::truthy;
+
+/// Samples that an operation takes at once: few enough that all registers stay in the nearest cache.
+const BLOCK: usize = 32;
+
+/// The values of all samples of a block.
+type Block = [f64; BLOCK];
+
+/// An expression over the columns of a recording.
+#[derive(Clone, Debug)]
+pub struct Columnar {
+    formula: Arc<Formula>,
+    /// The column that each operation loads, if it loads one.
+    columns: Vec<usize>,
+}
+
+/// The elements that several expressions read, recorded sample after sample.
+#[derive(Clone, Debug, Default)]
+pub struct Recording {
+    elements: Vec<(FieldKey, u32)>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Recording {
+    /// Nothing is recorded yet.
+    pub fn new() -> Recording {
+        Recording::default()
+    }
+
+    /// The columns of an expression that gives a number or a truth value (as 1 or 0); `None` when its value depends
+    /// on more than elements of fields at known indexes.
+    ///
+    /// To be asked before the first sample.
+    pub fn columns(&mut self, program: &Program) -> Option<Columnar> {
+        let formula = program.formula.clone()?;
+        if !self.columns.iter().all(Vec::is_empty) {
+            return None;
+        }
+        let mut column = |step: &Step| match *step {
+            Step::Load(field, index) => self.column(field, index),
+            _ => 0,
+        };
+        let columns = formula.steps.iter().map(&mut column).collect();
+        Some(Columnar { formula, columns })
+    }
+
+    /// The column of an element.
+    fn column(&mut self, field: FieldKey, index: u32) -> usize {
+        self.elements.iter().position(|e| *e == (field, index)).unwrap_or_else(|| {
+            self.elements.push((field, index));
+            self.columns.push(Vec::new());
+            self.elements.len() - 1
+        })
+    }
+
+    /// Makes room for so many samples, so that recording them allocates nothing.
+    pub fn reserve(&mut self, samples: usize) {
+        for column in &mut self.columns {
+            column.reserve_exact(samples);
+        }
+    }
+
+    /// Records the elements as they are now.
+    pub fn sample(&mut self, host: &dyn Host) {
+        for (&(field, index), column) in self.elements.iter().zip(&mut self.columns) {
+            column.push(host.get(field, index as usize).unwrap_or(f64::NAN));
+        }
+    }
+
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
+    }
+
+    /// Whether there is no sample.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Number of different elements that are recorded.
+    pub fn width(&self) -> usize {
+        self.elements.len()
+    }
+}
+
+impl Columnar {
+    /// The values at all samples of the recording that it was made for.
+    pub fn evaluate(&self, recording: &Recording) -> Vec<f64> {
+        let mut out = vec![0.0; recording.len()];
+        self.evaluate_into(recording, &mut Vec::new(), &mut out);
+        out
+    }
+
+    /// The same into a slice as long as the recording; `scratch` is kept from call to call, so that nothing is
+    /// allocated.
+    pub fn evaluate_into(&self, recording: &Recording, scratch: &mut Vec<Block>, out: &mut [f64]) {
+        scratch.resize(self.formula.steps.len(), [0.0; BLOCK]);
+        for (i, step) in self.formula.steps.iter().enumerate() {
+            if let (Step::Constant(x), Some(register)) = (step, scratch.get_mut(i)) {
+                *register = [*x; BLOCK];
+            }
+        }
+        for (block, out) in out.chunks_mut(BLOCK).enumerate() {
+            for i in 0..self.formula.steps.len() {
+                let (before, rest) = scratch.split_at_mut(i);
+                if let Some(dst) = rest.first_mut() {
+                    self.block(i, before, dst, recording, block * BLOCK);
+                }
+            }
+            if let Some(result) = scratch.get(self.formula.output as usize).and_then(|r| r.get(..out.len())) {
+                out.copy_from_slice(result);
+            }
+        }
+    }
+
+    /// One operation over a block that begins at a sample. Operands are results of operations before it.
+    #[inline]
+    fn block(&self, i: usize, before: &[Block], dst: &mut Block, recording: &Recording, start: usize) {
+        let of = |at: u32| &before[at as usize];
+        let each = |dst: &mut Block, a: u32, b: u32, f: &dyn Fn(f64, f64) -> f64| {
+            for ((d, a), b) in dst.iter_mut().zip(of(a)).zip(of(b)) {
+                *d = f(*a, *b);
+            }
+        };
+        match self.formula.steps[i] {
+            Step::Constant(_) => {}
+            Step::Load(..) => {
+                let column = self.columns.get(i).and_then(|&c| recording.columns.get(c));
+                let samples = column.and_then(|c| c.get(start..)).unwrap_or(&[]);
+                let n = samples.len().min(BLOCK);
+                dst[..n].copy_from_slice(&samples[..n]);
+            }
+            Step::Add(a, b) => add(dst, of(a), of(b)),
+            Step::Subtract(a, b) => subtract(dst, of(a), of(b)),
+            Step::Multiply(a, b) => multiply(dst, of(a), of(b)),
+            Step::Divide(a, b) => divide(dst, of(a), of(b)),
+            Step::AddConstant(a, k) => one(dst, of(a), |x| x + k),
+            Step::MultiplyConstant(a, k) => one(dst, of(a), |x| x * k),
+            Step::SubtractFrom(k, a) => one(dst, of(a), |x| k - x),
+            Step::Binary(op, a, b) => each(dst, a, b, &|a, b| op.on_numbers(a, b)),
+            Step::Negate(a) => one(dst, of(a), |x| -x),
+            Step::Not(a) => one(dst, of(a), |x| f64::from(u8::from(!truthy(x)))),
+            Step::BitNot(a) => one(dst, of(a), |x| f64::from(!crate::number::to_int32(x))),
+            Step::Choose(test, yes, no) => {
+                let ways = of(yes).iter().zip(of(no));
+                for ((d, test), (yes, no)) in dst.iter_mut().zip(of(test)).zip(ways) {
+                    *d = if truthy(*test) { *yes } else { *no };
+                }
+            }
+            Step::Math(function, first, count) => {
+                let args = self.formula.args(first, count);
+                let mut row = [0.0; ARGS];
+                for (sample, d) in dst.iter_mut().enumerate() {
+                    for (x, &a) in row.iter_mut().zip(args) {
+                        *x = of(a)[sample];
+                    }
+                    *d = function.apply(&row[..args.len()]);
+                }
+            }
+        }
+    }
+}
+
+/// A loop over a whole block.
+#[inline]
+fn one(dst: &mut Block, a: &Block, f: impl Fn(f64) -> f64) {
+    for (d, a) in dst.iter_mut().zip(a) {
+        *d = f(*a);
+    }
+}
+
+/// Loops over whole blocks, which the compiler turns into vector instructions.
+macro_rules! blocks {
+    ($($name:ident = $op:tt;)*) => { $(
+        #[inline]
+        fn $name(dst: &mut Block, a: &Block, b: &Block) {
+            for i in 0..BLOCK {
+                dst[i] = a[i] $op b[i];
+            }
+        }
+    )* };
+}
+blocks! {
+    add = +;
+    subtract = -;
+    multiply = *;
+    divide = /;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mock::{Mock, World};
+    use crate::{Compiler, Context, Globals};
+
+    #[test]
+    fn columns_give_what_rows_give() {
+        let mut globals = Globals::new();
+        let mut compiler = Compiler::new(&Mock, &mut globals);
+        let sources = [
+            "1000 * (data.qpos[2] - (1 - 0.5 * 9.81 * data.time * data.time))",
+            "Math.hypot(data.qpos[0], data.qpos[1], data.qpos[2]) % 7",
+            "-data.qpos[2] > data.time",
+            "0.5 * model.body_mass[1] * data.qvel[0] ** 2",
+            "~(data.qpos[0] | 5) + Math.max(data.qpos[1], NaN)",
+            "2 * Math.PI",
+            "data.time > 20 ? data.qpos[2] : data.time > 10 ? -data.qpos[2] : 0.5",
+            "data.qpos[2] > 0 && data.time % 2 < 1",
+            "!(data.qpos[2] > 0) || data.time % 2 < 1",
+            "(data.qpos[2] || 7) + (data.time < 3 ? NaN : 1)",
+        ];
+        let programs: Vec<Program> =
+            sources.iter().map(|s| compiler.expression(s).program.unwrap()).collect();
+        let mut recording = Recording::new();
+        let columnar: Vec<Columnar> = programs.iter().map(|p| recording.columns(p).unwrap()).collect();
+        assert_eq!(recording.width(), 6); // time, three of qpos, a mass, a velocity
+        let (mut world, mut context) = (World::new(), Context::new());
+        let mut rows: Vec<Vec<f64>> = vec![Vec::new(); sources.len()];
+        for i in 0..100 {
+            world.fields[0][0] = f64::from(i) * 0.37;
+            world.fields[1][2] = 3.0 - f64::from(i);
+            recording.sample(&world);
+            for (row, program) in rows.iter_mut().zip(&programs) {
+                row.push(program.run(&mut world, &mut context, None).unwrap().to_number());
+            }
+        }
+        for ((row, columnar), source) in rows.iter().zip(&columnar).zip(sources) {
+            let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(row), bits(&columnar.evaluate(&recording)), "{source}");
+        }
+    }
+
+    #[test]
+    fn what_depends_on_more_has_no_columns() {
+        let mut globals = Globals::new();
+        let mut compiler = Compiler::new(&Mock, &mut globals);
+        let mut recording = Recording::new();
+        for source in [
+            "ctx.a + data.time",
+            "data.qpos[data.ncon]",
+            "data.time + (data.qpos[1] || 'a')",
+            "say('a', 1, 2)",
+        ] {
+            let program = compiler.expression(source).program.unwrap();
+            assert!(recording.columns(&program).is_none(), "{source}");
+            assert_eq!(recording.width(), 0, "{source}");
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! The reference page of the language, written from the tables that compile and run it. Its examples are tests.
+
+use std::fmt::Write;
+
+use crate::ast::{BinaryOp, LogicalOp};
+use crate::natives::{self, On};
+use crate::{math, prelude};
+
+/// The grammar, in the notation of ISO 14977: `,` is left out, `{ }` repeats, `[ ]` may be missing.
+const GRAMMAR: &str = r#"
+text         = { statement } ;                                   (* setup, controller, apply, run *)
+value        = expression ;                                      (* traces, readouts, measures *)
+statement    = block | declaration | function | "if" "(" expression ")" statement [ "else" statement ]
+             | "for" "(" [ declaration | effects ] ";" [ expression ] ";" [ effects ] ")" statement
+             | "for" "(" ( "const" | "let" ) pattern "of" expression ")" statement
+             | "while" "(" expression ")" statement | "do" statement "while" "(" expression ")"
+             | "break" | "continue" | "return" [ expression ] | effects ;
+block        = "{" { statement } "}" ;
+declaration  = ( "const" | "let" ) pattern [ "=" expression ] { "," pattern [ "=" expression ] } ;
+function     = "function" name parameters block ;
+effects      = expression { "," expression } ;
+pattern      = name | "[" [ [ element ] { "," [ element ] } ] "]" | "{" [ entry { "," entry } ] "}" ;
+element      = pattern [ "=" expression ] ;
+entry        = name [ ":" pattern ] [ "=" expression ] ;
+expression   = arrow | choice | place ( "=" | "+=" | "&&=" | "||=" | "??=" | … ) expression ;
+arrow        = ( name | parameters ) "=>" ( expression | block ) ;
+parameters   = "(" [ element { "," element } ] ")" ;
+choice       = operation [ "?" expression ":" expression ] ;
+operation    = unary { operator unary } ;
+unary        = ( "-" | "+" | "!" | "~" | "typeof" | "++" | "--" ) unary | postfix [ "++" | "--" ] ;
+postfix      = primary { ( "." | "?." ) name | [ "?." ] "[" expression "]" | [ "?." ] "(" items ")" } ;
+primary      = number | string | template | "true" | "false" | "null" | name | "(" expression ")"
+             | "[" items "]" | "{" [ property { "," property } ] "}" | "function" parameters block ;
+items        = [ [ "..." ] expression { "," [ "..." ] expression } ] ;
+property     = name [ ":" expression ] | string ":" expression | "[" expression "]" ":" expression | "..." expression ;
+template     = "`" { character | "${" expression "}" } "`" ;
+place        = name | postfix "." name | postfix "[" expression "]" ;
+"#;
+
+/// A row of a table: how it is written, what it gives, an example with its value.
+struct Row {
+    name: String,
+    doc: &'static str,
+    example: (&'static str, &'static str),
+}
+
+fn rows(of: &[On]) -> Vec<Row> {
+    let natives = natives::rows().filter(|r| of.contains(&r.on));
+    let mut rows: Vec<Row> =
+        natives.map(|r| Row { name: r.name.to_owned(), doc: r.doc, example: r.example }).collect();
+    if of.contains(&On::List) {
+        let calling = prelude::DOCS.iter();
+        rows.extend(calling.map(|(n, doc, example)| Row { name: format!("{n}(f)"), doc, example: *example }));
+    }
+    rows.sort_by(|a, b| a.name.cmp(&b.name));
+    rows
+}
+
+/// The page, in Markdown.
+pub fn language_page() -> String {
+    let mut out = String::from(
+        "# The language of lessons\n\nThe core of JavaScript that lessons write. Values are JavaScript's, bit for bit: double arithmetic, `%`, `||` that gives an operand, numbers to text.\n\n## Grammar\n\n```ebnf",
+    );
+    out.push_str(GRAMMAR);
+    out.push_str("```\n\nA statement ends with `;`, with a line end where JavaScript ends it, or with `}`. Comments are `// …` and `/* … */`.\n\n## Operators\n\nFrom the loosest to the tightest:\n\n| level | operators |\n|---|---|\n");
+    let logical = [LogicalOp::Or, LogicalOp::Nullish, LogicalOp::And];
+    for power in 3..=14 {
+        let own = BinaryOp::ALL.iter().filter(|o| o.power() == power).map(|o| o.symbol());
+        let symbols: Vec<String> = logical
+            .iter()
+            .filter(|o| o.power() == power)
+            .map(|o| o.symbol())
+            .chain(own)
+            .map(|s| format!("`{}`", s.replace('|', "\\|")))
+            .collect();
+        if !symbols.is_empty() {
+            let _ = writeln!(out, "| {power} | {} |", symbols.join(" "));
+        }
+    }
+    out.push_str("\n`**` groups from the right, all others from the left; a sign directly before `**` is refused, as in JavaScript.\n");
+    let sections = [
+        ("Methods of lists and arrays", &[On::List, On::Growing][..]),
+        ("Methods of texts", &[On::Text]),
+        ("Methods of numbers", &[On::Number]),
+        ("Functions", &[On::Nothing]),
+    ];
+    for (title, of) in sections {
+        let _ = write!(out, "\n## {title}\n\n| name | gives | example | value |\n|---|---|---|---|\n");
+        for Row { name, doc, example: (source, value) } in rows(of) {
+            let cell = |s: &str| s.replace('|', "\\|");
+            let _ = writeln!(out, "| `{name}` | {} | `{}` | `{}` |", cell(doc), cell(source), cell(value));
+        }
+    }
+    out.push_str("\n## `Math`\n\n| name | gives |\n|---|---|\n");
+    for (name, doc) in math::DOCS {
+        let path = if name.starts_with("is") { (*name).to_owned() } else { format!("Math.{name}") };
+        let _ = writeln!(out, "| `{path}` | {doc} |");
+    }
+    out.push_str("\nConstants: ");
+    let constants: Vec<String> =
+        math::names().filter(|n| math::constant(n).is_some()).map(|n| format!("`Math.{n}`")).collect();
+    out.push_str(&constants.join(", "));
+    out.push_str(".\n\nFunctions whose last digit the standard leaves open (`sin`, `log`, `**` with other exponents than 2, …) may differ from an engine's by one unit in the last place; they are the same on every platform here. A list has no holes: what lies between its end and an assignment beyond it is `undefined`.\n\n## Limits\n\n");
+    let _ = writeln!(
+        out,
+        "A text has at most {} bytes and nests {} levels; a run takes at most {} steps (turns of loops, calls, elements that methods go through), functions call each other 200 deep, lists take 64 MB, a string 1 MB. Each limit has its own error.",
+        crate::MAX_SOURCE,
+        crate::MAX_DEPTH,
+        crate::vm::MAX_STEPS
+    );
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mock::execute;
+
+    #[test]
+    fn the_examples_give_what_they_say() {
+        for of in [On::List, On::Growing, On::Text, On::Number, On::Nothing] {
+            for Row { name, example: (source, value), .. } in rows(&[of]) {
+                let (_, got) = execute(&format!("ctx.out = String({source})"));
+                assert_eq!(got.to_string(), value, "{name}: {source}");
+            }
+        }
+        for (source, value) in prelude::DOCS.iter().map(|(_, _, example)| example) {
+            assert_eq!(execute(&format!("ctx.out = String({source})")).1.to_string(), *value, "{source}");
+        }
+        assert!(language_page().contains("| `map(f)` |"));
+    }
+}

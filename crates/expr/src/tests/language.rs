@@ -1,0 +1,286 @@
+//! Statements, functions, lists, records, methods and limits, as tables: text, `ctx.out`.
+
+use crate::mock::{Mock, World, execute};
+use crate::*;
+
+fn check(rows: &[(&str, &str)]) {
+    for (source, expected) in rows {
+        let source = format!("{source}; ctx.out = String(ctx.out)");
+        assert_eq!(execute(&source).1.to_string(), *expected, "{source}");
+    }
+}
+
+#[test]
+fn conditions_and_loops() {
+    check(&[
+        ("if (data.time > 1) ctx.out = 1; else if (data.ncon) ctx.out = 2; else ctx.out = 3", "2"),
+        ("let s = 0; for (let i = 0; i < 5; i++) s += i; ctx.out = s", "10"),
+        (
+            "let s = ''; for (const x of [1, 'a', null]) { if (x === 'a') continue; s += x } ctx.out = s",
+            "1null",
+        ),
+        ("let n = 0; while (true) { n++; if (n > 7) break } ctx.out = n", "8"),
+        ("let n = 9; do { n-- } while (n > 3); ctx.out = n", "3"),
+        ("let s = 0; for (const v of data.qvel) s += v; ctx.out = s", "2466"),
+        ("let s = ''; for (const c of 'aé😀') s = c + s; ctx.out = s", "😀éa"),
+        ("for (let i = 0, j = 10; i < j; i++, j--) ctx.out = i * 100 + j", "406"),
+    ]);
+    assert_eq!(execute("ctx.out = 1; if (data.time === 0) return; ctx.out = 2").1, Value::Number(1.0));
+    let (world, _) = execute("for (let g = 0; g < model.geom_solref.length; g++) model.geom_solref[g] = 7");
+    assert_eq!(world.fields[9], [7.0; 4]);
+}
+
+#[test]
+fn functions() {
+    check(&[
+        ("const f = (x, k = 3) => x * k; ctx.out = [f(2), f(2, 5)]", "6,10"),
+        ("function fact(n) { return n <= 1 ? 1 : n * fact(n - 1) } ctx.out = fact(10)", "3628800"),
+        (
+            "const even = n => n === 0 ? true : odd(n - 1), odd = n => n === 0 ? false : even(n - 1); ctx.out = even(10)",
+            "true",
+        ),
+        ("const make = k => x => k * x; const f = make(3); ctx.out = f(4)", "12"),
+        ("let n = 0; const inc = () => { n += 2 }; inc(); inc(); ctx.out = n", "4"),
+        ("const fs = []; for (let i = 0; i < 3; i++) fs.push(() => i); ctx.out = fs.map(f => f())", "0,1,2"),
+        (
+            "const counter = () => { let n = 0; return {up: () => ++n, read: () => n} }; const c = counter(); c.up(); c.up(); ctx.out = c.read()",
+            "2",
+        ),
+        ("ctx.out = (() => { if (data.time > 1) { return 'late' } return 'early' })()", "early"),
+        ("const compose = (f, g) => x => f(g(x)); ctx.out = compose(x => x + 1, x => x * 2)(5)", "11"),
+        ("const f = ({a, b: [c, d = 9]}) => a + c + d; ctx.out = f({a: 1, b: [2]})", "12"),
+        (
+            "const s = (x) => { x = Math.min(Math.max(x, 0), 1); return x * x * x * (10 - 15 * x + 6 * x * x); }; ctx.out = [s(0), s(0.5), s(2)]",
+            "0,0.5,1",
+        ),
+        ("const f = (a, b) => b; ctx.out = [f(...[1, 2])]", "2"),
+        ("const later = () => y + 1; const y = 4; ctx.out = later()", "5"),
+    ]);
+}
+
+#[test]
+fn functions_live_in_ctx() {
+    let mut globals = Globals::new();
+    let mut compiler = Compiler::new(&Mock, &mut globals);
+    let setup = compiler.statements("let n = 0; ctx.step = (x) => { n++; return n * x }").program.unwrap();
+    let run = compiler.statements("ctx.out = ctx.step(10)").program.unwrap();
+    let (mut world, mut context) = (World::new(), Context::of(&globals));
+    setup.run(&mut world, &mut context, None).unwrap();
+    for expected in [10.0, 20.0, 30.0] {
+        run.run(&mut world, &mut context, None).unwrap();
+        assert_eq!(context.get(globals.slot("out").unwrap()), &Value::Number(expected));
+    }
+    assert!(run.effects().calls_values && !run.effects().pure());
+}
+
+#[test]
+fn lists_and_records() {
+    check(&[
+        ("const v = [1, 2, 3]; v[5] = 9; ctx.out = v", "1,2,3,,,9"),
+        ("const [a, , b = 7] = [1, 2]; ctx.out = [a, b]", "1,7"),
+        ("const {x, y: {z}} = {x: 1, y: {z: 2}}; ctx.out = [x, z]", "1,2"),
+        ("const {potential, kinetic} = energy(); ctx.out = potential + kinetic", "4"),
+        (
+            "ctx.r = {a: 1, ...{b: 2, a: 3}, ['c' + 1]: 4}; ctx.out = Object.entries(ctx.r).map(e => e.join('=')).join(' ')",
+            "a=3 b=2 c1=4",
+        ),
+        ("const r = {}; r.n ??= 4; r.n += 1; r['m'] = r.n; ctx.out = r.m", "5"),
+        (
+            "ctx.out = [data.qpos.map(x => x / 2)[1], data.qpos.slice(0, 2).length, [...data.qvel].pop()]",
+            "50.5,2,211",
+        ),
+        ("ctx.out = [norm([3, 4]), norm(data.efc_force) > 800]", "5,true"),
+        ("ctx.out = data.qpos.filter((x, i) => i % 7 === 2).join(' ')", "102 109"),
+        ("ctx.out = Math.hypot(...[3, 4]) + Math.max(...data.efc_force)", "606"),
+        ("ctx.out = ctx.none?.a.b.c ?? 'nothing'", "nothing"),
+        ("ctx.a = {b: [1, {c: 2}]}; ctx.out = ctx.a?.b[1]?.c", "2"),
+        ("ctx.out = `${1 + 1} of ${[1, 2]}: ${`<${'x'}>`}`", "2 of 1,2: <x>"),
+        ("for (const i of [0, 1]) ctx['q' + i] = i + 5; ctx.out = ctx.q0 + ctx['q' + 1]", "11"),
+        (
+            "let s = 0; for (const n of ['light_free', 'heavy_free']) s += data.joint(n).qvel[2]; ctx.out = s",
+            "410",
+        ),
+        (
+            "let s = 0; for (const n of ['heavy', 'light']) s += model.body(n).mass + bodyId(n); ctx.out = s",
+            "1406",
+        ),
+        (
+            "const v = data.time > 1 ? data.qpos : data.qvel; v[0] = 5; ctx.out = [v.length, data.qvel[0]]",
+            "12,5",
+        ),
+        ("data.qpos.set([1, 2], data.ncon - 400 + 3); ctx.out = data.qpos.slice(3, 5)", "1,2"),
+        (
+            "ctx.out = [typeof ctx.out, typeof (() => 1), typeof [], typeof null]",
+            "undefined,function,object,object",
+        ),
+    ]);
+}
+
+#[test]
+fn limits_have_their_own_errors() {
+    let code = |source: &str| {
+        let mut globals = Globals::new();
+        let compiled = Compiler::new(&Mock, &mut globals).statements(source);
+        let program = compiled.program.unwrap_or_else(|| panic!("{:#?}", compiled.diagnostics));
+        program.run(&mut World::new(), &mut Context::of(&globals), None).map_err(|e| e.code)
+    };
+    for (source, expected) in [
+        ("let n = 0; while (n >= 0) n++", code::BUDGET),
+        ("const f = n => f(n + 1) + 1; ctx.a = f(0)", code::CALL_DEPTH),
+        ("const v = []; for (let i = 0; i < 1e7; i++) v.push([i, i, i])", code::MEMORY),
+        ("let s = 'x'; for (let i = 0; i < 60; i++) s += s", code::TEXT_TOO_LONG),
+        ("ctx.a = 'x'.repeat(1e9)", code::TEXT_TOO_LONG),
+        ("ctx.a = ctx.nothing.x", code::NO_PARTS),
+        ("ctx.nothing()", code::NOT_CALLABLE),
+        ("ctx.a = [].reduce((a, b) => a + b)", code::NO_PARTS),
+    ] {
+        assert_eq!(code(source), Err(expected), "{source}");
+    }
+    // A ring of lists is collected, and garbage does not add up.
+    let mut globals = Globals::new();
+    let source = "for (let i = 0; i < 20000; i++) { const a = [i, 'some text']; a.push(a) }";
+    let program = Compiler::new(&Mock, &mut globals).statements(source).program.unwrap();
+    let (mut world, mut context) = (World::new(), Context::of(&globals));
+    for _ in 0..30 {
+        program.run(&mut world, &mut context, None).unwrap();
+    }
+}
+
+#[test]
+fn bare_indexes_get_names_that_mean_the_same() {
+    let mut globals = Globals::new();
+    let mut compiler = Compiler::new(&Mock, &mut globals);
+    compiler.explains = true;
+    let source = "data.qvel[8] = 2 * data.qpos[9] + data.time; data.qpos[0] += model.body_mass[1]";
+    let compiled = compiler.statements(source);
+    let named = compiled.modernized(source);
+    assert_eq!(
+        named,
+        "data.joint(\"heavy_free\").qvel[2] = 2 * data.joint(\"heavy_free\").qpos[2] + data.time; \
+         data.joint(\"light_free\").qpos[0] += model.body_mass[1]"
+    );
+    let again = compiler.statements(&named);
+    assert_eq!(compiled.program.unwrap().effects(), again.program.unwrap().effects());
+}
+
+#[test]
+fn help_says_what_stands_there() {
+    let mut globals = Globals::new();
+    let source = "2 * data.joint('light_free').qpos[2] + Math.sin(data.time)";
+    let mut compiler = Compiler::new(&Mock, &mut globals);
+    compiler.explains = true;
+    let help = compiler.expression(source).help;
+    let at = |text: &str| {
+        let start = source.find(text).unwrap();
+        let span = Span::new(start, start + text.len());
+        help.iter().find(|(s, _)| *s == span).map(|(_, h)| (h.title.clone(), h.lines.first().cloned()))
+    };
+    assert_eq!(
+        at("data.joint('light_free').qpos[2]"),
+        Some(("data.joint(\"light_free\").qpos[2]".into(), Some("coordinate 2".into())))
+    );
+    assert_eq!(at("Math.sin(data.time)").unwrap().1.as_deref(), Some("sine of an angle in rad"));
+}
+
+/// LABSPEC_FUZZ_SECONDS says how long; every text is made of pieces near the language.
+#[test]
+fn fuzzing_finds_no_panic_and_no_hang() {
+    let seconds = std::env::var("LABSPEC_FUZZ_SECONDS").ok().and_then(|s| s.parse().ok()).unwrap_or(3);
+    let pieces = [
+        "data",
+        ".qpos",
+        "[",
+        "]",
+        "2",
+        "(",
+        ")",
+        "=",
+        "==",
+        "ctx.a",
+        "const ",
+        "let ",
+        "x",
+        ";",
+        "\n",
+        "+",
+        "-",
+        "**",
+        "?",
+        ":",
+        "'a'",
+        "`",
+        "${",
+        "}",
+        "{",
+        "\"",
+        "/",
+        "/*",
+        "//",
+        "=>",
+        "if (",
+        "for (",
+        "of ",
+        "while (",
+        "else ",
+        "function ",
+        "return ",
+        "value",
+        ",",
+        "...",
+        "?.",
+        "??",
+        "&&=",
+        "++",
+        ".map(",
+        "x => x",
+        ".reduce((a, b) => a + b, 0)",
+        "Math.",
+        "max",
+        "data.joint('light_free')",
+        "[1, 2]",
+        "{a: 1}",
+        ".push(",
+        "break",
+        "continue",
+        "do ",
+        "typeof ",
+        "ctx['q' + 1]",
+        "data.qpos.length",
+        "const [a, b] = ",
+        "const {c} = ",
+        "é",
+        "0x",
+        "1e",
+        "async ",
+        "new ",
+    ];
+    let mut state = 88172645463325252u64;
+    let mut next = |n: usize| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as usize % n
+    };
+    let started = std::time::Instant::now();
+    let mut texts = 0;
+    while started.elapsed().as_secs() < seconds {
+        let source = match next(8) {
+            0 => pieces[next(pieces.len())].repeat(next(4000)),
+            _ => (0..next(40)).map(|_| pieces[next(pieces.len())]).collect(),
+        };
+        let begun = std::time::Instant::now();
+        let mut globals = Globals::new();
+        let mut compiler = Compiler::new(&Mock, &mut globals);
+        compiler.value = Some(Type::Any);
+        for compiled in
+            [compiler.expression(&source), compiler.statements(&source), compiler.assignment(&source)]
+        {
+            if let Some(program) = compiled.program {
+                let _ = program.run(&mut World::new(), &mut Context::new(), Some(&Value::Number(1.0)));
+            }
+        }
+        assert!(begun.elapsed().as_secs() < 20, "{source}");
+        texts += 1;
+    }
+    println!("{texts} texts");
+}

@@ -1,0 +1,110 @@
+//! The formatter: the code in a lesson laid out anew, and bare indexes written by the names of their objects. The JSON
+//! and the Markdown around the code stay as they are, byte for byte.
+//!
+//! A text is left alone when it has mistakes or comments, or when the file does not hold it as plain JSON (a repaired
+//! quote): only what is certain to mean the same is changed.
+
+use crate::bind::scene::Models;
+use crate::bind::{ModelNames, Scope};
+use crate::source::Text;
+use crate::spec::{Form, Lab, Lesson};
+use labspec_core::Model;
+use labspec_expr::{Compiled, Compiler, Globals, Program, Type, format_expression, format_statements};
+use std::ops::Range;
+
+/// A lesson with its code laid out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Formatted {
+    /// The whole file.
+    pub text: String,
+    /// Texts of code that are different now.
+    pub changed: usize,
+    /// Texts of code.
+    pub total: usize,
+}
+
+/// Lays out all code of a lesson. With models, bare indexes become names: `data.qpos[9]` is written
+/// `data.joint('light_free').qpos[2]`, which is the same element of the model at hand.
+pub fn format(lesson: &Lesson, mut models: Option<&mut Models>) -> Formatted {
+    let mut edits: Vec<(Range<usize>, String)> = Vec::new();
+    let mut total = 0;
+    for lab in lesson.all_labs() {
+        let model = models.as_mut().and_then(|m| m.of(lab, &mut Vec::new()));
+        let mut globals = Globals::new();
+        for (form, text) in lab.code() {
+            let named = model.as_ref().and_then(|m| modernized(&text.value, form, m, &mut globals));
+            let code = named.as_deref().unwrap_or(&text.value);
+            edits.extend(edit(lesson, text, &laid_out(code, form).unwrap_or_else(|| code.to_owned())));
+            total += 1;
+        }
+    }
+    for (form, text) in claims(lesson) {
+        edits.extend(laid_out(&text.value, form).and_then(|code| edit(lesson, text, &code)));
+        total += 1;
+    }
+    // From the back, so that places stay where they are. A lab that is named twice is edited once.
+    edits.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
+    edits.dedup_by(|a, b| a.0 == b.0);
+    let changed = edits.len();
+    let mut text = lesson.file.text().to_owned();
+    for (span, code) in edits {
+        text.replace_range(span, &code);
+    }
+    Formatted { text, changed, total }
+}
+
+/// The code of all `verify` objects.
+fn claims(lesson: &Lesson) -> Vec<(Form, &Text)> {
+    let of_labs = lesson.all_labs().into_iter().filter_map(|lab: &Lab| lab.verify.as_ref());
+    let questions = lesson.quizzes.iter().flat_map(|q| q.numbered());
+    let of_questions = questions.filter_map(|(_, q)| q.verify.as_ref());
+    of_labs.chain(of_questions).flat_map(|v| v.code()).collect()
+}
+
+fn laid_out(code: &str, form: Form) -> Option<String> {
+    match form {
+        Form::Statements => format_statements(code),
+        Form::Expression | Form::Target => format_expression(code),
+    }
+}
+
+/// The bytes of the file behind a text and what replaces them; `None` when nothing changes, or when the file holds
+/// the text in another way than as plain JSON.
+fn edit(lesson: &Lesson, text: &Text, code: &str) -> Option<(Range<usize>, String)> {
+    let span = text.span();
+    let written = format!("\"{}\"", lesson.file.slice(span.clone()));
+    let plain = serde_json::from_str::<String>(&written).is_ok_and(|value| value == text.value);
+    if !plain || code == text.value {
+        return None;
+    }
+    let quoted = serde_json::to_string(code).ok()?;
+    Some((span, quoted.get(1..quoted.len() - 1)?.to_owned()))
+}
+
+/// A text with names for its bare indexes; `None` when it has none, or mistakes. Both versions read, write and call
+/// the same, element by element.
+pub fn modernized(code: &str, form: Form, model: &Model, globals: &mut Globals) -> Option<String> {
+    let names = ModelNames { model, scope: Scope::Lab };
+    let mut compile = |code: &str| compile(code, form, &names, globals);
+    let before = compile(code);
+    let named = before.modernized(code);
+    if named == code {
+        return None;
+    }
+    let after = compile(&named);
+    let same = |a: &Program, b: &Program| a.effects() == b.effects() && a.result_type() == b.result_type();
+    match (before.program, after.program) {
+        (Some(a), Some(b)) if same(&a, &b) => Some(named),
+        _ => None,
+    }
+}
+
+fn compile(code: &str, form: Form, names: &ModelNames<'_>, globals: &mut Globals) -> Compiled {
+    let mut compiler = Compiler::new(names, globals);
+    (compiler.value, compiler.explains) = (Some(Type::Any), true);
+    match form {
+        Form::Expression => compiler.expression(code),
+        Form::Statements => compiler.statements(code),
+        Form::Target => compiler.assignment(code),
+    }
+}

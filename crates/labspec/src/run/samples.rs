@@ -1,0 +1,95 @@
+//! The samples of a run while they are taken: traces that compute with numbers are recorded as columns of what they
+//! read, each element once, and computed when the run is over; all others are computed at every sample.
+
+use super::{Cell, Session};
+use crate::bind::{Bound, Programs};
+use labspec_expr::{Access, Columnar, Effects, Recording, Type};
+
+/// How the values of a trace or a readout are found.
+#[derive(Clone, Debug)]
+enum Way<'p> {
+    /// At the end, from recorded columns; `true` for a truth value.
+    Columns(Columnar, bool),
+    /// At every sample.
+    Rows(&'p Bound, Vec<Cell>),
+    /// It has mistakes.
+    Never,
+}
+
+/// Time and every probe of a lab, sample after sample.
+#[derive(Clone, Debug)]
+pub struct Samples<'p> {
+    times: Vec<f64>,
+    recording: Recording,
+    probes: Vec<Way<'p>>,
+}
+
+impl<'p> Samples<'p> {
+    /// No samples, and room for so many: taking them allocates nothing for numbers and truth values.
+    pub fn new(programs: &'p Programs, room: usize) -> Samples<'p> {
+        let mut recording = Recording::new();
+        let all = || programs.probes.iter().filter_map(|p| p.bound.as_ref());
+        let way = |bound: &'p Bound| {
+            // What another probe writes is read in the order of the probes.
+            let reads = &bound.program.effects().reads;
+            let fixed = !all().any(|other| may_write(other.program.effects(), reads));
+            match recording.columns(&bound.program).filter(|_| fixed) {
+                Some(columns) => Way::Columns(columns, bound.program.result_type() == Type::Boolean),
+                None => Way::Rows(bound, Vec::with_capacity(room)),
+            }
+        };
+        let mut way = way;
+        let probes = programs.probes.iter().map(|p| p.bound.as_ref().map_or(Way::Never, &mut way)).collect();
+        recording.reserve(room);
+        Samples { times: Vec::with_capacity(room), recording, probes }
+    }
+
+    /// Number of probes that are recorded as columns, and of the different elements that these read.
+    pub fn columns(&self) -> (usize, usize) {
+        let columns = self.probes.iter().filter(|p| matches!(p, Way::Columns(..)));
+        (columns.count(), self.recording.width())
+    }
+
+    /// Takes a sample. What throws is nothing, as on the page.
+    pub fn take(&mut self, session: &mut Session<'_>) {
+        self.times.push(session.world.data.time);
+        self.recording.sample(&session.world);
+        for probe in &mut self.probes {
+            if let Way::Rows(bound, cells) = probe {
+                let value = session.evaluate(&bound.program, &bound.text);
+                cells.push(value.map_or(Cell::Nothing, Cell::from));
+            }
+        }
+    }
+
+    /// The samples as rows: time, then every probe.
+    pub fn rows(self) -> Vec<Vec<Cell>> {
+        let mut scratch = Vec::new();
+        let columns: Vec<Vec<Cell>> = self
+            .probes
+            .into_iter()
+            .map(|probe| match probe {
+                Way::Rows(_, cells) => cells,
+                Way::Never => vec![Cell::Nothing; self.times.len()],
+                Way::Columns(columnar, truth) => {
+                    let mut numbers = vec![0.0; self.times.len()];
+                    columnar.evaluate_into(&self.recording, &mut scratch, &mut numbers);
+                    let cell = |x| if truth { Cell::Bool(x != 0.0) } else { Cell::Number(x) };
+                    numbers.into_iter().map(cell).collect()
+                }
+            })
+            .collect();
+        let mut columns: Vec<_> = columns.into_iter().map(Vec::into_iter).collect();
+        let row = |time| {
+            let probes = columns.iter_mut().map(|c| c.next().unwrap_or(Cell::Nothing));
+            std::iter::once(Cell::Number(time)).chain(probes).collect()
+        };
+        self.times.into_iter().map(row).collect()
+    }
+}
+
+/// Whether a program may change what another one reads.
+fn may_write(effects: &Effects, reads: &[Access]) -> bool {
+    let touches = |w: &Access| reads.iter().any(|r| r.field == w.field);
+    effects.writes_everything || effects.calls_values || effects.writes.iter().any(touches)
+}

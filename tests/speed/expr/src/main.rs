@@ -1,0 +1,238 @@
+//! The speed of the language beside other evaluators, in one table: `cargo run --release -- ../../../docs/speed-language.md`
+//! in this folder. Real labs are those of `../shared/corpus`.
+
+use fasteval::{Compiler as _, Evaler};
+use labspec::bind::scene::Models;
+use labspec::bind::{ModelNames, Programs, Scope, World};
+use labspec::lint::ModelFolder;
+use labspec::run::Session;
+use labspec::source::SourceFile;
+use labspec::spec::{Lab, load_lesson};
+use labspec_core::{Data, Demand, Model, mjcf};
+use labspec_expr::{Compiler, Context, FieldKey, FunctionId, Globals, Heap, Host, Program, Recording, Value};
+use std::fmt::Write;
+use std::hint::black_box;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+const ERROR: &str = "1000 * (data.qpos[2] - (1 - 0.5 * 9.81 * data.time * data.time))";
+const OTHERS: &str = "1000.0 * (q - (1.0 - 0.5 * 9.81 * t * t))";
+const MODEL: &str =
+    "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>";
+/// Samples of a column.
+const SAMPLES: usize = 4096;
+
+/// Time of one of `times` calls in ns: the best of 25 rounds, so that other programs on the machine do not count.
+fn time(times: usize, mut call: impl FnMut(usize)) -> f64 {
+    let round = |_| {
+        let clock = Instant::now();
+        (0..times).for_each(&mut call);
+        clock.elapsed().as_secs_f64() * 1e9 / times as f64
+    };
+    (0..25).map(round).fold(f64::INFINITY, f64::min)
+}
+
+/// A host of two fields, as small as a host can be.
+struct Small {
+    time: f64,
+    qpos: [f64; 7],
+    keys: [FieldKey; 2],
+}
+
+impl Host for Small {
+    fn get(&self, field: FieldKey, index: usize) -> Option<f64> {
+        if field == self.keys[0] { Some(self.time) } else { self.qpos.get(index).copied() }
+    }
+    fn set(&mut self, _: FieldKey, _: usize, _: f64) -> Result<(), String> {
+        Ok(())
+    }
+    fn len(&self, _: FieldKey) -> usize {
+        7
+    }
+    fn call(&mut self, _: &mut Heap, _: FunctionId, _: &[Value]) -> Result<Value, String> {
+        Ok(Value::Undefined)
+    }
+}
+
+fn program(model: &Model, text: &str) -> Program {
+    let names = ModelNames { model, scope: Scope::Lab };
+    let mut globals = Globals::new();
+    Compiler::new(&names, &mut globals).expression(text).program.expect("the expression is right")
+}
+
+/// The error expression, evaluated in every way: name and ns.
+fn error_expression() -> Vec<(&'static str, f64)> {
+    let model = mjcf::compile(MODEL).expect("the model is right");
+    let program = program(&model, ERROR);
+    let n = 200_000;
+    let at = |i: usize| (1.0 - 1e-6 * i as f64, 1e-5 * i as f64);
+    let mut rows = Vec::new();
+
+    rows.push((
+        "native Rust",
+        time(n, |i| {
+            let (q, t) = black_box(at(i));
+            black_box(1000.0 * (q - (1.0 - 0.5 * 9.81 * t * t)));
+        }),
+    ));
+
+    let mut recording = Recording::new();
+    let columnar = recording.columns(&program).expect("it computes with numbers");
+    let mut world = World { data: Data::new(&model), model: model.clone(), key: None };
+    for i in 0..SAMPLES {
+        (world.data.qpos[2], world.data.time) = at(i);
+        recording.sample(&world);
+    }
+    let (mut scratch, mut out) = (Vec::new(), vec![0.0; SAMPLES]);
+    let whole = time(200, |_| {
+        columnar.evaluate_into(black_box(&recording), &mut scratch, &mut out);
+        black_box(&out);
+    });
+    rows.push(("columnar, per sample", whole / SAMPLES as f64));
+
+    let reads = &program.effects().reads;
+    let key = |name: &str| {
+        let field = labspec_core::reflect::field(labspec_core::reflect::Object::Data, name).expect("a field");
+        FieldKey(u32::from(field.0))
+    };
+    let keys = [key("time"), key("qpos")];
+    assert_eq!(reads.len(), 2);
+    let mut small = Small { time: 0.0, qpos: [0.0; 7], keys };
+    let mut context = Context::new();
+    rows.push((
+        "by row, a host of two fields",
+        time(n, |i| {
+            (small.qpos[2], small.time) = at(i);
+            let _ = black_box(program.run(&mut small, &mut context, None));
+        }),
+    ));
+    rows.push((
+        "by row, in the engine",
+        time(n, |i| {
+            (world.data.qpos[2], world.data.time) = at(i);
+            let _ = black_box(program.run(&mut world, &mut context, None));
+        }),
+    ));
+
+    let parser = fasteval::Parser::new();
+    let mut slab = fasteval::Slab::new();
+    let compiled =
+        parser.parse(OTHERS, &mut slab.ps).expect("right").from(&slab.ps).compile(&slab.ps, &mut slab.cs);
+    rows.push((
+        "fasteval 0.2, compiled",
+        time(n, |i| {
+            let (q, t) = at(i);
+            let mut names = |name: &str, _: Vec<f64>| match name {
+                "q" => Some(q),
+                "t" => Some(t),
+                _ => None,
+            };
+            black_box(compiled.eval(&slab, &mut names).expect("right"));
+        }),
+    ));
+
+    let mut engine = rhai::Engine::new_raw();
+    engine.register_global_module(rhai::packages::Package::as_shared_module(
+        &rhai::packages::StandardPackage::new(),
+    ));
+    let tree = engine.compile_expression(OTHERS).expect("right");
+    let mut scope = rhai::Scope::new();
+    scope.push("q", 0.0f64).push("t", 0.0f64);
+    rows.push((
+        "rhai 1",
+        time(n / 10, |i| {
+            let (q, t) = at(i);
+            scope.set_value("q", q).set_value("t", t);
+            black_box(engine.eval_ast_with_scope::<f64>(&mut scope, &tree).expect("right"));
+        }),
+    ));
+
+    let tree = evalexpr::build_operator_tree(OTHERS).expect("right");
+    let mut names = evalexpr::HashMapContext::new();
+    rows.push((
+        "evalexpr 11.3.1",
+        time(n / 10, |i| {
+            use evalexpr::ContextWithMutableVariables;
+            let (q, t) = at(i);
+            names.set_value("q".into(), evalexpr::Value::Float(q)).expect("right");
+            names.set_value("t".into(), evalexpr::Value::Float(t)).expect("right");
+            black_box(tree.eval_float_with_context(&names).expect("right"));
+        }),
+    ));
+    rows
+}
+
+/// Every lab of the corpus with its model.
+fn corpus() -> Vec<(String, Lab, Arc<Model>)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../../shared/corpus");
+    let Ok(folder) = ModelFolder::open(&root.join("models")) else { return Vec::new() };
+    let mut labs = Vec::new();
+    for part in ["labs", "quizzes"] {
+        let mut files: Vec<_> =
+            std::fs::read_dir(root.join(part)).into_iter().flatten().flatten().map(|e| e.path()).collect();
+        files.sort();
+        for file in files {
+            let Ok(source) = SourceFile::read(&file) else { continue };
+            let lesson = load_lesson(source, &folder);
+            let mut models = Models::new(folder.clone());
+            for lab in lesson.all_labs() {
+                if let Some(model) = models.of(lab, &mut Vec::new()) {
+                    labs.push((lab.title().to_owned(), lab.clone(), model));
+                }
+            }
+        }
+    }
+    labs
+}
+
+fn main() {
+    let mut page = String::from(
+        "# Speed of the language\n\nMeasured by `cargo run --release -- ../../../docs/speed-language.md` in `tests/speed/expr`: the best of 25 rounds.\n\n## The error of a free fall\n\n",
+    );
+    let _ = write!(page, "    {ERROR}\n\n| evaluator | ns | beside native |\n|---|---:|---:|\n");
+    let rows = error_expression();
+    let native = rows[0].1;
+    for (name, ns) in &rows {
+        let _ = writeln!(page, "| {name} | {ns:.1} | {:.1} |", ns / native);
+    }
+    page.push_str("\n*Columnar*: over recorded samples, as traces of a run are computed. *By row*: one run of the program, which is what a\ncontroller pays. The others are compiled once and get their variables for every evaluation, as ours do.\n");
+
+    let labs = corpus();
+    let longest = labs
+        .iter()
+        .filter_map(|(title, lab, model)| Some((lab.controller.as_ref()?.value.clone(), title, lab, model)))
+        .max_by_key(|(text, ..)| text.len());
+    if let Some((text, title, lab, model)) = longest {
+        let programs = Programs::compile(lab, model, &mut Vec::new());
+        let mut session = Session::start(&programs, model, lab.keyframe(), &Demand::ANY);
+        (0..lab.controls.len()).for_each(|i| session.press(i));
+        (0..200).for_each(|_| session.step());
+        let controller = programs.controller.as_ref().expect("it has one");
+        let ns = time(50_000, |_| {
+            let _ = black_box(controller.program.run(&mut session.world, &mut session.context, None));
+        });
+        let _ = write!(
+            page,
+            "\n## The longest controller of real labs\n\n{title}: {ns:.0} ns per call.\n\n    {text}\n"
+        );
+    }
+
+    if !labs.is_empty() {
+        page.push_str("\n## Compiling\n\nAll texts of a lab, from text to program, with every check:\n\n| lab | texts | µs |\n|---|---:|---:|\n");
+        for (title, lab, model) in &labs {
+            let texts = Programs::compile(lab, model, &mut Vec::new()).bound().count();
+            if texts == 0 {
+                continue;
+            }
+            let ns = time(20, |_| {
+                black_box(Programs::compile(lab, model, &mut Vec::new()));
+            });
+            let _ = writeln!(page, "| {title} | {texts} | {:.0} |", ns / 1000.0);
+        }
+    }
+    match std::env::args().nth(1) {
+        Some(path) => std::fs::write(&path, page).expect("the page can be written"),
+        None => print!("{page}"),
+    }
+}
