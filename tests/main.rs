@@ -6,6 +6,7 @@ mod cli_run;
 mod conformance;
 mod constrained;
 mod hostile;
+mod labs;
 mod lessons;
 mod numbers;
 mod parity;
