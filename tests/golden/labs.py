@@ -5,7 +5,7 @@
     python3 labs.py NODE_MODULES [--shared ../shared] [--until 2] [--rows 25]
 
 Every lab as it opens, with each of its sliders and choices at either end, and with each of its buttons pressed at the
-start. JavaScript evaluates the expressions, on the official build of MuJoCo 3.14.0 (`../shared/oracle/lab_oracle.mjs`).
+start; where a lab grips something, also with the solver run to rounding ("tight"). JavaScript evaluates the expressions, on the official build of MuJoCo 3.14.0 (`../shared/oracle/lab_oracle.mjs`).
 Kept are a few rows of each run and the range of every column over all of its steps.
 """
 import argparse
@@ -13,8 +13,10 @@ import json
 import math
 import pathlib
 import subprocess
+import tempfile
 
 HERE = pathlib.Path(__file__).parent
+TIGHT = "model.opt.tolerance = 0; model.opt.ls_tolerance = 1e-10; model.opt.iterations = 200; model.opt.ls_iterations = 100; "
 
 
 def variants(lab):
@@ -39,7 +41,11 @@ def span(column):
     return max(1e-12, max(numbers) - min(numbers), 1e-9 * max(abs(v) for v in numbers))
 
 
-def run(a, path, set_, press):
+def run(a, lab, set_, press, tight):
+    if tight:
+        lab = {**lab, "setup": TIGHT + lab.get("setup", "")}
+    path = a.scratch / "lab.json"
+    path.write_text(json.dumps(lab))
     command = ["node", a.shared / "oracle/lab_oracle.mjs", path, "--models", a.shared / "corpus/models"]
     command += ["--mujoco", a.node_modules, "--until", str(a.until)]
     for label, value in set_:
@@ -48,21 +54,30 @@ def run(a, path, set_, press):
         command += ["--press", f"{label}@0"]
     done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
     if done.returncode:
-        raise SystemExit(f"{path.name} {set_} {press}: {done.stderr}")
+        raise SystemExit(f"{lab.get('title')} {set_} {press}: {done.stderr}")
     return json.loads(done.stdout)
 
 
 def record(a, path):
-    for set_, press in variants(json.loads(path.read_text())):
-        found = run(a, path, set_, press)
-        rows = found["rows"]
-        every = max(1, math.ceil((len(rows) - 1) / a.rows))
-        yield {
-            "lab": path.stem, "set": set_, "press": press, "steps": len(rows) - 1, "every": every,
-            "columns": found["columns"], "warnings": found["warnings"],
-            "span": [span(column) for column in zip(*rows)],
-            "rows": [row for i, row in enumerate(rows) if i % every == 0 or i == len(rows) - 1],
-        }
+    lab = json.loads(path.read_text())
+    for set_, press in variants(lab):
+        for tight in (False, True):
+            if tight and not grips(lab):
+                continue
+            found = run(a, lab, set_, press, tight)
+            rows = found["rows"]
+            every = max(1, math.ceil((len(rows) - 1) / a.rows))
+            yield {
+                "lab": path.stem, "set": set_, "press": press, "tight": tight, "steps": len(rows) - 1, "every": every,
+                "columns": found["columns"], "warnings": found["warnings"],
+                "span": [span(column) for column in zip(*rows)],
+                "rows": [row for i, row in enumerate(rows) if i % every == 0 or i == len(rows) - 1],
+            }
+
+
+def grips(lab):
+    """Whether the solver has work that it may leave early: two fingers, a cube and the floor at once."""
+    return "gripper" in lab.get("model", "")
 
 
 def main():
@@ -72,6 +87,7 @@ def main():
     arguments.add_argument("--until", type=float, default=2.0)
     arguments.add_argument("--rows", type=int, default=25)
     a = arguments.parse_args()
+    a.scratch = pathlib.Path(tempfile.mkdtemp())
     paths = sorted((a.shared / "corpus/labs").glob("*.json"))
     runs = [json.dumps(r, ensure_ascii=False) for path in paths for r in record(a, path)]
     (HERE / "labs.json").write_text("[\n" + ",\n".join(runs) + "\n]\n")
