@@ -16,6 +16,7 @@ mod readme;
 mod recorded;
 mod scenes;
 mod sleep;
+mod stability;
 mod standing;
 mod support;
 mod verify;
