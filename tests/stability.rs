@@ -75,7 +75,9 @@ fn words(outcome: &Json, bound: f64) -> String {
     if let Some(kind) = outcome["warning"].as_str() {
         return format!("bad {kind} at {} s", short(outcome["time"].as_f64().unwrap()));
     }
-    let [reach, speed] = ["reach", "speed"].map(|key| outcome[key].as_f64().unwrap());
+    let (Some(reach), Some(speed)) = (outcome["reach"].as_f64(), outcome["speed"].as_f64()) else {
+        return "not run".into();
+    };
     if reach > bound {
         return format!("**{} off, silently**", short(reach));
     }
