@@ -6,8 +6,8 @@
 
 use crate::reflect::{FieldId, FieldSet, Object, Stage, field};
 use crate::{
-    Model, Obj, actuation, articulated, chain, collision, disable, enable, integrate, joint, kinematics,
-    sensor,
+    Model, Obj, actuation, articulated, chain, collision, derivative, disable, enable, integrate, joint,
+    kinematics, sensor,
 };
 use crate::{biastype, dyntype, eqtype, gaintype, integrator, trntype, wraptype};
 
@@ -636,6 +636,7 @@ impl<'a> Scene<'a> {
             (Stage::Constraint, Stage::Tendon) => self.tendon_constraints(),
             (Stage::Reference, Stage::ComVel) => self.ties_bodies(),
             (Stage::Bias, Stage::ComVel) => self.large,
+            (Stage::Acceleration, Stage::ComVel) => self.bias_slopes(),
             (Stage::Bias, Stage::Kinematics) if self.large => true,
             // A simple body's weight acts along its slides.
             (Stage::Bias, Stage::Kinematics) => (0..m.njnt)
@@ -650,6 +651,17 @@ impl<'a> Scene<'a> {
             (Stage::Energy, Stage::Sensors) => sensor::measures_energy(m),
             (Stage::Energy, Stage::Kinematics) => true,
             (Stage::Energy, Stage::Tendon) => self.tendon_springs,
+            _ => false,
+        }
+    }
+
+    /// Whether an integrator asks how the bias force changes with velocities: that is found from composite bodies.
+    fn bias_slopes(&self) -> bool {
+        let free = || (0..self.m.ntree).any(|t| derivative::is_free_rigid(self.m, t));
+        match self.m.opt.integrator {
+            _ if self.writes(Object::Option, &["integrator"]) => true,
+            integrator::IMPLICIT => true,
+            integrator::IMPLICITFAST => free(),
             _ => false,
         }
     }

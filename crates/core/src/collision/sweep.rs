@@ -1,14 +1,16 @@
-//! Broad phase of large scenes: sort and sweep.
+//! Broad phase of large scenes: sort and sweep, in columns.
 //!
 //! Baraff, *Dynamic Simulation of Non-Penetrating Rigid Bodies* (1992): the shadows of two geoms on an axis must overlap.
-//! The axis is the one along which the geoms are spread widest; what remains is tested by bounding spheres.
+//! The axis is the one along which the geoms are spread widest. In a heap most shadows overlap many others; so space is cut into
+//! square columns along that axis, as wide as a usual geom, and the sweep runs in each (Ericson 2005, *Real-Time Collision
+//! Detection*, section 7.1). What remains is tested by bounding spheres. The cost of n geoms of like size is that of sorting them.
 
 use super::filter::{self, Pair};
 use super::params;
 use crate::math::*;
 use crate::{Data, Model};
 
-/// A geom's bounding sphere, wide enough for its margin, and its shadow on the axis.
+/// A geom's bounding sphere, wide enough for its margin, its shadow on the axis, and the columns that it meets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Shadow {
     low: f64,
@@ -16,6 +18,10 @@ struct Shadow {
     centre: Vec3,
     radius: f64,
     geom: u32,
+    /// First and last columns along both other axes.
+    columns: [[i32; 2]; 2],
+    /// Wider than a column.
+    wide: bool,
 }
 
 impl Shadow {
@@ -25,7 +31,22 @@ impl Shadow {
         let reach = self.radius + other.radius;
         dot(between, between) <= reach * reach
     }
+
+    /// The first column that two geoms share, given that they share some.
+    fn first_common(&self, other: &Shadow) -> [i32; 2] {
+        let [a, b] = [self.columns, other.columns];
+        [a[0][0].max(b[0][0]), a[1][0].max(b[1][0])]
+    }
+
+    /// How many columns it meets.
+    fn spans(&self) -> i64 {
+        let number = |[first, last]: [i32; 2]| 1 + i64::from(last) - i64::from(first);
+        self.columns.map(number).into_iter().fold(1, i64::saturating_mul)
+    }
 }
+
+/// A geom in a column: places of the column, place of the shadow in their order along the axis.
+type Entry = ([i32; 2], u32);
 
 /// What the broad phase keeps from step to step.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,12 +55,21 @@ pub(super) struct Sweep {
     shadows: Vec<Shadow>,
     /// Planes, which are everywhere.
     planes: Vec<u32>,
-    /// Geoms whose shadow has begun and not ended.
-    active: Vec<Shadow>,
+    /// Geoms wider than a column, by the lower end.
+    wide: Vec<u32>,
+    /// The others by columns, in each by the lower end.
+    entries: Vec<Entry>,
+    /// Shadows of the column that have begun and not ended.
+    active: Vec<u32>,
     /// Pairs whose bounds overlap, in the order in which they are tested.
     pub(super) near: Vec<Pair>,
     explicit: Vec<Pair>,
+    /// Pairs of spheres that were looked at in the last step.
+    pub(super) examined: usize,
 }
+
+/// Most columns that a geom no wider than a column can meet.
+const MOST_COLUMNS: usize = 4;
 
 impl Sweep {
     pub(super) fn new(m: &Model, may_change: bool) -> Sweep {
@@ -53,38 +83,140 @@ impl Sweep {
         Sweep {
             shadows: of(true).map(|geom| Shadow { geom, ..Shadow::default() }).collect(),
             planes: of(false).collect(),
+            wide: Vec::with_capacity(n),
+            entries: Vec::with_capacity(MOST_COLUMNS * n),
             active: Vec::with_capacity(n),
             near: Vec::with_capacity(8 * n),
             explicit: filter::explicit_pairs(m).collect(),
+            examined: 0,
         }
     }
 
     /// Finds the pairs whose bounds overlap now.
     pub(super) fn run(&mut self, m: &Model, d: &Data) {
-        let centres = rows::<3>(&d.geom_xpos);
+        let width = self.place(m, rows::<3>(&d.geom_xpos));
+        self.examined = 0;
+        self.near.clear();
+        self.near.extend_from_slice(&self.explicit);
+        self.in_columns(m);
+        self.wide_and_wide(m);
+        self.wide_and_others(m, width);
+        for s in &self.shadows {
+            let reach =
+                |plane: usize| s.radius - m.geom_rbound[s.geom as usize] + params::half_reach(m, plane);
+            let below = self.planes.iter().map(|&plane| plane as usize);
+            let below = below.filter(|&plane| !far_apart(m, d, plane, s.geom as usize, reach(plane)));
+            self.near.extend(below.filter_map(|plane| may_touch(m, plane, s.geom as usize)));
+        }
+        self.near.sort_unstable_by_key(|p| p.order(m));
+    }
+
+    /// Shadows and columns of all geoms, sorted; returns the width of a column.
+    fn place(&mut self, m: &Model, centres: &[Vec3]) -> f64 {
         let axis = widest(&self.shadows, centres);
+        let mut sum = 0.0;
         for s in &mut self.shadows {
             let g = s.geom as usize;
             s.centre = centres[g];
             s.radius = m.geom_rbound[g] + params::half_reach(m, g);
             (s.low, s.high) = (s.centre[axis] - s.radius, s.centre[axis] + s.radius);
+            sum += s.radius;
         }
-        self.shadows.sort_unstable_by(|a, b| a.low.total_cmp(&b.low));
-        self.near.clear();
-        self.near.extend_from_slice(&self.explicit);
-        self.active.clear();
-        for &s in &self.shadows {
-            self.active.retain(|other| other.high >= s.low);
-            let beside = self.active.iter().filter(|other| other.near(&s)).map(|other| other.geom as usize);
-            self.near.extend(beside.filter_map(|g| may_touch(m, g, s.geom as usize)));
-            self.active.push(s);
-            let below = self.planes.iter().map(|&plane| plane as usize);
-            let reach =
-                |plane: usize| s.radius - m.geom_rbound[s.geom as usize] + params::half_reach(m, plane);
-            let below = below.filter(|&plane| !far_apart(m, d, plane, s.geom as usize, reach(plane)));
-            self.near.extend(below.filter_map(|plane| may_touch(m, plane, s.geom as usize)));
+        // Twice the usual diameter: few geoms are wider, and most are in one column only.
+        let width = 4.0 * sum / self.shadows.len().max(1) as f64;
+        let others = [(axis + 1) % 3, (axis + 2) % 3];
+        for s in &mut self.shadows {
+            // Conversions saturate: geoms beyond all columns share the last one.
+            let column = |x: f64| (x / width).floor() as i32;
+            let both = |k: usize| [s.centre[k] - s.radius, s.centre[k] + s.radius].map(column);
+            s.columns = others.map(both);
+            // Also where a bound is no number.
+            s.wide = 2.0 * s.radius > width || s.radius.is_nan() || width.is_nan();
         }
-        self.near.sort_unstable_by_key(|p| p.order(m));
+        self.shadows.sort_unstable_by(|a, b| a.low.total_cmp(&b.low).then(a.geom.cmp(&b.geom)));
+        width
+    }
+
+    /// Sweeps through every column.
+    fn in_columns(&mut self, m: &Model) {
+        self.entries.clear();
+        self.wide.clear();
+        for (k, s) in self.shadows.iter().enumerate() {
+            if s.wide {
+                self.wide.push(k as u32);
+                continue;
+            }
+            let [along, across] = s.columns;
+            for i in along[0]..=along[1] {
+                self.entries.extend((across[0]..=across[1]).map(|j| ([i, j], k as u32)));
+            }
+        }
+        self.entries.sort_unstable();
+        for column in self.entries.chunk_by(|a, b| a.0 == b.0) {
+            self.active.clear();
+            for &(place, k) in column {
+                let s = &self.shadows[k as usize];
+                self.active.retain(|&other| self.shadows[other as usize].high >= s.low);
+                self.examined += self.active.len();
+                for &other in &self.active {
+                    let other = &self.shadows[other as usize];
+                    // In several columns together, they are a pair in the first.
+                    if other.near(s) && s.first_common(other) == place {
+                        self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
+                    }
+                }
+                self.active.push(k);
+            }
+        }
+    }
+
+    /// Sweeps through the geoms that are wider than a column: a plain sweep.
+    fn wide_and_wide(&mut self, m: &Model) {
+        for (i, &k) in self.wide.iter().enumerate() {
+            let s = &self.shadows[k as usize];
+            let later = self.wide[i + 1..].iter().map(|&other| &self.shadows[other as usize]);
+            for other in later.take_while(|other| other.low <= s.high) {
+                self.examined += 1;
+                if other.near(s) {
+                    self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
+                }
+            }
+        }
+    }
+
+    /// Holds wide geoms against what is in their columns beside them.
+    fn wide_and_others(&mut self, m: &Model, width: f64) {
+        for &k in &self.wide {
+            let s = &self.shadows[k as usize];
+            if s.spans() > self.shadows.len() as i64 {
+                // Looking into so many columns costs more than looking at every geom.
+                for other in self.shadows.iter().filter(|other| !other.wide) {
+                    self.examined += 1;
+                    if other.near(s) {
+                        self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
+                    }
+                }
+                continue;
+            }
+            let [along, across] = s.columns;
+            for place in (along[0]..=along[1]).flat_map(|i| (across[0]..=across[1]).map(move |j| [i, j])) {
+                // A narrow one that is beside begins at most a width earlier.
+                let first = s.low - width;
+                let before =
+                    |e: &Entry| e.0 < place || e.0 == place && self.shadows[e.1 as usize].low < first;
+                let beside = &self.entries[self.entries.partition_point(before)..];
+                for &(_, other) in beside.iter().take_while(|e| e.0 == place) {
+                    let other = &self.shadows[other as usize];
+                    if other.low > s.high {
+                        break;
+                    }
+                    self.examined += 1;
+                    if other.near(s) && s.first_common(other) == place {
+                        self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
+                    }
+                }
+            }
+        }
     }
 }
 

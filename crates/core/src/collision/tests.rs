@@ -6,13 +6,7 @@ use crate::reset_data;
 
 /// Free bodies of random shapes in a cube, on a plane. The shapes are written over compiled spheres.
 fn pile(bodies: usize, side: f64) -> Model {
-    let mut state = 0x2545_f491_4f6c_dd1d_u64;
-    let mut random = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1u64 << 53) as f64
-    };
+    let mut random = random(0x2545_f491_4f6c_dd1d);
     let mut xml = String::from("<mujoco><worldbody><geom type='plane' size='1 1 1'/>");
     for _ in 0..bodies {
         let [x, y, z] = [(); 3].map(|()| side * random());
@@ -78,4 +72,79 @@ fn contacts_are_in_order() {
 fn large_scenes_sweep() {
     assert!(pairs(&pile(20, 1.0), false, false).sweep.is_none());
     assert!(pairs(&pile(60, 1.0), false, false).sweep.is_some());
+}
+
+/// Spheres of one size at random in a box whose sides are given per cube root (square root, count) of their number.
+fn cloud(n: usize, sides: Vec3, sizes: impl Fn(usize) -> f64) -> Model {
+    let mut m = pile(4, 1.0);
+    let mut next = random(0x9e37_79b9_7f4a_7c15);
+    let body = |g: usize| (g % 4 + 1) as i32;
+    m.ngeom = n;
+    m.geom_rbound = (0..n).map(&sizes).collect();
+    m.geom_size = (0..n).flat_map(|g| [sizes(g), 0.0, 0.0]).collect();
+    m.geom_type = vec![geom::SPHERE; n];
+    m.geom_bodyid = (0..n).map(body).collect();
+    for bits in [&mut m.geom_contype, &mut m.geom_conaffinity] {
+        *bits = vec![1; n];
+    }
+    (m.geom_margin, m.geom_gap) = (vec![0.0; n], vec![0.0; n]);
+    m.geom_pos = (0..3 * n).map(|i| sides[i % 3] * next()).collect();
+    m
+}
+
+/// Numbers below one that look random.
+fn random(mut state: u64) -> impl FnMut() -> f64 {
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// Pairs that the sweep looks at for every geom, and pairs whose bounds overlap.
+fn examined(m: &Model) -> (f64, usize) {
+    let mut d = Data::unplanned(&pile(4, 1.0));
+    d.geom_xpos.clone_from(&m.geom_pos);
+    d.geom_xmat = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(m.ngeom);
+    let mut sweep = Sweep::new(m, false);
+    sweep.run(m, &d);
+    (sweep.examined as f64 / m.ngeom as f64, sweep.near.len())
+}
+
+/// From 10 to 10,000 geoms in a heap, a layer and a row, of one size or of very different ones: the pairs looked at grow
+/// with the number of geoms. `docs/contacts.md` has the table (`--nocapture`).
+#[test]
+fn cost_grows_with_the_number_of_geoms() {
+    for (name, dims) in [("heap", 3), ("layer", 2), ("row", 1)] {
+        for (kind, spread) in [("one size", 0.0), ("1 in 100 ten times as large", 1.0)] {
+            let size = |g: usize| if g % 100 == 99 && spread > 0.0 { 1.0 } else { 0.1 };
+            let mut rates = Vec::new();
+            for n in [10, 100, 1000, 10_000] {
+                let side = 0.25 * (n as f64).powf(1.0 / f64::from(dims));
+                let sides = std::array::from_fn(|k| if (k as i32) < dims { side } else { 0.05 });
+                let (rate, near) = examined(&cloud(n, sides, size));
+                println!("| {name}, {kind} | {n} | {:.0} | {rate:.1} | {near} |", rate * n as f64);
+                rates.push(rate);
+            }
+            // A plain sweep of a heap looks at 4.6 times as many for every geom when there are ten times as many, of a
+            // layer at 3.2 times as many. Those near a large geom are many, and each has to be looked at.
+            assert!(rates[3] < 1.5 * rates[2] + 5.0, "{name}, {kind}: {rates:?}");
+        }
+    }
+}
+
+/// The columns lose no pair: held against all pairs, with sizes over four decades.
+#[test]
+fn columns_find_what_all_pairs_do() {
+    for seed in 0..20 {
+        let size = |g: usize| 0.02 * [1.0, 0.01, 3.0, 30.0][(g * (seed + 3) / 7) % 4];
+        let m = cloud(300, [1.0, 0.5 + 0.1 * seed as f64, 0.3], size);
+        let (_, near) = examined(&m);
+        let at = rows::<3>(&m.geom_pos);
+        let touch = |a: usize, b: usize| norm(sub(at[a], at[b])) <= m.geom_rbound[a] + m.geom_rbound[b];
+        let all = (0..300).flat_map(|a| (0..a).map(move |b| (a, b)));
+        let expected = all.filter(|&(a, b)| m.geom_bodyid[a] != m.geom_bodyid[b] && touch(a, b)).count();
+        assert_eq!(near, expected);
+    }
 }

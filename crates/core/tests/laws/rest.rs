@@ -80,7 +80,7 @@ impl Rest {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 50, max_shrink_iters: 300, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 200, max_shrink_iters: 300, ..ProptestConfig::default() })]
 
     #[test]
     fn a_sphere_rests_as_deep_as_the_closed_form_says(rest in rest(true)) {

@@ -76,11 +76,11 @@ impl Models {
         let model = match SourceFile::read(&path) {
             Ok(file) => {
                 let file = SourceFile::new(shown, file.text());
-                match compile_file(file.text(), &path) {
+                match compile_file(&file, &path) {
                     Ok(model) => Some(Arc::new(model)),
-                    Err(list) => {
-                        self.findings.extend(list.iter().map(|d| in_model(d).at(&file)));
-                        self.files.push(file);
+                    Err(broken) => {
+                        self.findings.extend(broken.findings);
+                        self.files.extend(broken.files);
                         None
                     }
                 }
@@ -97,23 +97,48 @@ impl Models {
     }
 }
 
-/// Compiles the text of a model file. Files that it includes, attaches or takes shapes from come from its folder.
-pub(crate) fn compile_file(text: &str, path: &Path) -> Result<Model, Vec<MjcfDiagnostic>> {
-    match Folder::new(path.parent().unwrap_or(Path::new(""))) {
-        Ok(folder) => mjcf::compile_with(text, &folder, path.file_name().and_then(|name| name.to_str())),
-        Err(_) => mjcf::compile(text),
-    }
+/// A model that has mistakes: these, and the files they are in.
+#[derive(Debug)]
+pub(crate) struct Broken {
+    pub(crate) findings: Vec<Finding>,
+    pub(crate) files: Vec<SourceFile>,
 }
 
-/// A mistake in a model file, or in a file that it names: then the model is the place, and the message says which.
-pub(crate) fn in_model(d: &MjcfDiagnostic) -> Finding {
-    match &d.file {
-        None => from_mjcf(d, d.span.clone()),
-        Some(other) => {
-            let found = from_mjcf(d, 0..0);
-            Finding { message: format!("{other}, line {}: {}", d.line, d.message), ..found }
-        }
+/// Compiles the model of a file. What it names (included text, models to attach, meshes) is looked for beside `path`,
+/// and nowhere else.
+pub(crate) fn compile_file(file: &SourceFile, path: &Path) -> Result<Model, Broken> {
+    let root = path.parent().unwrap_or(Path::new(""));
+    let compiled = match Folder::new(root) {
+        Ok(folder) => mjcf::compile_with(file.text(), &folder, path.file_name().and_then(|n| n.to_str())),
+        Err(_) => mjcf::compile(file.text()),
+    };
+    compiled.map_err(|list| {
+        let mut files = vec![file.clone()];
+        let findings = list.iter().map(|d| {
+            let at = match &d.file {
+                None => 0,
+                Some(part) => part_of(&mut files, root, part),
+            };
+            from_mjcf(d, d.span.clone()).at(&files[at])
+        });
+        let findings = findings.collect();
+        Broken { findings, files }
+    })
+}
+
+/// The index of a file that a model names in the list, to which it is added the first time. A file that is no text
+/// (a mesh) is shown empty.
+fn part_of(files: &mut Vec<SourceFile>, root: &Path, part: &str) -> usize {
+    let shown = match files.first().and_then(|main| main.path().rsplit_once('/')) {
+        Some((folder, _)) => format!("{folder}/{part}"),
+        None => part.to_string(),
+    };
+    if let Some(known) = files.iter().position(|f| **f.path() == *shown) {
+        return known;
     }
+    let read = SourceFile::read(&root.join(part));
+    files.push(SourceFile::new(shown, read.as_ref().map_or("", |f| f.text())));
+    files.len() - 1
 }
 
 /// An error of a code that is not in the table of lesson rules: the model compiler's, the language's, ours.

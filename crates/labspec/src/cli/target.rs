@@ -2,7 +2,7 @@
 
 use super::{Failure, ModelOptions};
 use crate::bind::Programs;
-use crate::bind::scene::{self, Models};
+use crate::bind::scene::{Models, compile_file};
 use crate::finding::{Finding, Severity};
 use crate::lint::ModelFolder;
 use crate::report;
@@ -110,12 +110,12 @@ fn bare_model(path: &Path) -> Result<Target, Failure> {
 /// Compiles a model file.
 pub(super) fn load_model(path: &Path) -> Result<Model, Failure> {
     let file = SourceFile::read(path)?;
-    scene::compile_file(file.text(), path).map_err(|list| {
-        let findings: Vec<Finding> = list.iter().map(|d| scene::in_model(d).at(&file)).collect();
+    compile_file(&file, path).map_err(|broken| {
+        let files: Vec<&SourceFile> = broken.files.iter().collect();
         format!(
             "the model {} does not load\n\n{}",
             path.display(),
-            report::human(&findings, &[&file], false).trim_end()
+            report::human(&broken.findings, &files, false).trim_end()
         )
     })
 }

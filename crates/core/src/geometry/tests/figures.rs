@@ -1,0 +1,73 @@
+//! Figures of many pairs for `docs/contacts.md`, written when `LABSPEC_GEOMETRY` names a folder of recordings.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// The same number of a length, a position or a direction, m.
+const SAME: f64 = 1e-9;
+
+/// What many pairs of one kind came to.
+#[derive(Default)]
+struct Row {
+    cases: usize,
+    touching: usize,
+    number: usize,
+    same: usize,
+    /// Largest difference of the deepest distance where both found contacts, m.
+    depth: f64,
+    distances: usize,
+    near: usize,
+    /// Largest difference of the signed distance, m.
+    distance: f64,
+}
+
+/// A table of pairs of types.
+#[derive(Default)]
+pub(super) struct Figures(BTreeMap<String, Row>);
+
+impl Figures {
+    /// Contacts of ten numbers each: distance, position, normal, first tangent. Both lists in the same order.
+    pub(super) fn contacts(&mut self, pair: &str, theirs: &[f64], ours: &[f64]) {
+        let r = self.0.entry(pair.into()).or_default();
+        r.cases += 1;
+        r.touching += usize::from(!theirs.is_empty());
+        r.number += usize::from(theirs.len() == ours.len());
+        let apart = |(x, y): (&f64, &f64)| (x - y).abs() <= SAME;
+        r.same += usize::from(theirs.len() == ours.len() && theirs.iter().zip(ours).all(apart));
+        let deepest = |list: &[f64]| list.chunks(10).map(|c| c[0]).reduce(f64::min);
+        if let (Some(x), Some(y)) = (deepest(theirs), deepest(ours)) {
+            r.depth = r.depth.max((x - y).abs());
+        }
+    }
+
+    /// Signed distances.
+    pub(super) fn distance(&mut self, pair: &str, theirs: f64, ours: f64) {
+        let r = self.0.entry(pair.into()).or_default();
+        r.distances += 1;
+        r.near += usize::from((theirs - ours).abs() <= SAME);
+        r.distance = r.distance.max((theirs - ours).abs());
+    }
+
+    /// The rows as Markdown.
+    pub(super) fn contact_table(&self) -> String {
+        let mut text = String::from(
+            "| pair | cases | that touch | same number of contacts | all within 1e-9 | deepest, largest difference, m |\n\
+             |---|---:|---:|---:|---:|---:|\n",
+        );
+        for (pair, r) in &self.0 {
+            let Row { cases, touching, number, same, depth, .. } = r;
+            let _ = writeln!(text, "| {pair} | {cases} | {touching} | {number} | {same} | {depth:.0e} |");
+        }
+        text
+    }
+
+    /// The rows as Markdown.
+    pub(super) fn distance_table(&self) -> String {
+        let mut text =
+            String::from("| pair | cases | within 1e-9 | largest difference, m |\n|---|---:|---:|---:|\n");
+        for (pair, Row { distances, near, distance, .. }) in &self.0 {
+            let _ = writeln!(text, "| {pair} | {distances} | {near} | {distance:.0e} |");
+        }
+        text
+    }
+}

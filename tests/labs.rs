@@ -1,0 +1,149 @@
+//! The labs of `../shared` as we run them and as a page runs them on MuJoCo 3.14.0, JavaScript evaluating their
+//! expressions: `golden/labs.py` records. Each lab as it opens, with each slider at its ends, with each button pressed.
+//!
+//! A trace may be off by a millionth of its range. Beyond that it has to be no better known: our own trace moves as far when
+//! the start and gravity move by 1e-14, or when the solver runs on to rounding instead of stopping at its tolerance (then
+//! the recording made with a tight solver on both sides has to agree). The test prints these.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::support::{read_json, workspace};
+use labspec::bind::Programs;
+use labspec::bind::scene::Models;
+use labspec::lint::ModelFolder;
+use labspec::run::{self, RunOptions};
+use labspec::source::SourceFile;
+use labspec::spec::load_lesson;
+use labspec_core::Model;
+use labspec_expr::Value;
+use serde_json::Value as Json;
+use std::path::Path;
+
+/// Of the range of a trace.
+const TRACE: f64 = 1e-6;
+/// A few last bits.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// A few nudges show the order of what rounding does, not the worst of it.
+const WIDER: f64 = 4.0;
+/// The step of a perturbed start.
+const NUDGE: f64 = 1e-14;
+
+/// How a lab is run.
+#[derive(Clone, Copy, PartialEq)]
+enum How {
+    /// As it was recorded.
+    Recorded,
+    /// Coordinates and gravity moved, each by so many times [`NUDGE`].
+    Nudged(f64, f64),
+    /// The solver run to rounding.
+    Tight,
+}
+
+/// Every other way to run it that ought to give the same.
+const OTHERWISE: [How; 7] = [
+    How::Tight,
+    How::Nudged(1.0, 1.0),
+    How::Nudged(-1.0, -1.0),
+    How::Nudged(1.0, -1.0),
+    How::Nudged(-1.0, 1.0),
+    How::Nudged(0.0, 1.0),
+    How::Nudged(0.0, -1.0),
+];
+
+/// Runs a lab as a recording did, or a little otherwise.
+fn ours(shared: &Path, recording: &Json, how: How) -> Json {
+    let name = recording["lab"].as_str().unwrap();
+    let folder = ModelFolder::open(&shared.join("corpus/models")).unwrap();
+    let file = SourceFile::read(&shared.join(format!("corpus/labs/{name}.json"))).unwrap();
+    let lesson = load_lesson(file, &folder);
+    let lab = lesson.addressed()[0].1;
+    let mut findings = Vec::new();
+    let mut models = Models::new(folder);
+    let model =
+        models.of(lab, &mut findings).unwrap_or_else(|| panic!("{name}: {:?}", models.take_findings()));
+    let mut model: Model = (*model).clone();
+    let [moved, pulled] = if let How::Nudged(q, g) = how { [q * NUDGE, g * NUDGE] } else { [0.0; 2] };
+    model.qpos0.iter_mut().chain(&mut model.key_qpos).for_each(|q| *q += moved);
+    model.opt.gravity.iter_mut().for_each(|g| *g *= 1.0 + pulled);
+    if recording["tight"] == true || how == How::Tight {
+        (model.opt.tolerance, model.opt.ls_tolerance) = (0.0, 1e-10);
+        (model.opt.iterations, model.opt.ls_iterations) = (200, 100);
+    }
+    let programs = Programs::compile(lab, &model, &mut findings);
+    let pairs = |key: &str| recording[key].as_array().unwrap().clone();
+    let options = RunOptions {
+        until: None,
+        steps: recording["steps"].as_u64().map(|n| n as usize),
+        every: recording["every"].as_u64().unwrap() as usize,
+        set: pairs("set")
+            .iter()
+            .map(|p| (p[0].as_str().unwrap().into(), Value::Number(p[1].as_f64().unwrap())))
+            .collect(),
+        press: pairs("press").iter().map(|p| (p.as_str().unwrap().into(), 0.0)).collect(),
+    };
+    let table = run::run(lab, &model, &programs, &options).unwrap_or_else(|e| panic!("{name}: {e}"));
+    serde_json::from_str(&table.json().to_string()).unwrap()
+}
+
+/// The largest difference of a column over its range; infinite where something is not a number on one side, or another text.
+fn apart(recording: &Json, column: usize, a: &Json, b: &Json) -> f64 {
+    let (a, b) = (a["rows"].as_array().unwrap(), b["rows"].as_array().unwrap());
+    if a.len() != b.len() {
+        return f64::INFINITY;
+    }
+    // A sum that should be constant is all rounding: no less than a few bits of its largest number.
+    let largest = a.iter().filter_map(|row| row[column].as_f64()).fold(0.0, |s: f64, x| s.max(x.abs()));
+    let span = recording["span"][column].as_f64().unwrap().max(ROUNDING * largest / TRACE);
+    let difference = |(x, y): (&Json, &Json)| match (x[column].as_f64(), y[column].as_f64()) {
+        (Some(x), Some(y)) => (x - y).abs() / span,
+        _ if x[column] == y[column] => 0.0,
+        _ => f64::INFINITY,
+    };
+    a.iter().zip(b).map(difference).fold(0.0, f64::max)
+}
+
+#[test]
+fn labs_trace_what_they_trace_on_a_page() {
+    let shared = workspace().join("../shared");
+    if !shared.join("corpus/labs").is_dir() {
+        println!("skipped: there are no labs in {}", shared.display());
+        return;
+    }
+    let path = std::env::var_os("LABSPEC_LABS")
+        .map_or_else(|| workspace().join("tests/golden/labs.json"), std::path::PathBuf::from);
+    let (mut wrong, mut own, mut same) = (Vec::new(), 0, 0.0_f64);
+    let recordings = read_json(&path);
+    let recordings = recordings.as_array().unwrap();
+    for recording in recordings {
+        let found = ours(&shared, recording, How::Recorded);
+        let tight = if recording["tight"] == true { " tight" } else { "" };
+        let what = format!("{} {} {}{tight}", recording["lab"], recording["set"], recording["press"]);
+        if found["warnings"] != recording["warnings"] {
+            wrong.push(format!("{what}: warnings {}, theirs {}", found["warnings"], recording["warnings"]));
+        }
+        let columns = recording["columns"].as_array().unwrap();
+        assert_eq!(found["columns"].as_array().unwrap(), columns, "{what}");
+        let mut others = None;
+        for (i, name) in columns.iter().enumerate() {
+            let theirs = apart(recording, i, &found, recording);
+            if theirs <= TRACE {
+                same = same.max(theirs);
+                continue;
+            }
+            let others = others.get_or_insert_with(|| OTHERWISE.map(|how| ours(&shared, recording, how)));
+            let [solved, nudged @ ..] = others.each_ref().map(|other| apart(recording, i, &found, other));
+            let nudged = nudged.into_iter().fold(0.0, f64::max);
+            let line = format!(
+                "{what} {name}: {theirs:.1e} of its range from theirs; from itself {nudged:.1e} nudged, {solved:.1e} solved"
+            );
+            if theirs <= WIDER * nudged.max(solved) {
+                println!("{line}");
+                own += 1;
+            } else {
+                wrong.push(line);
+            }
+        }
+    }
+    println!("{} runs, traces within {same:.1e} of their range; {own} not known so well", recordings.len());
+    assert!(wrong.is_empty(), "labs that trace something else on MuJoCo 3.14.0:\n{}", wrong.join("\n"));
+}

@@ -1,0 +1,265 @@
+//! Stiff and extreme scenes, ours beside MuJoCo 3.14.0's: `golden/stability.py` states the cases and recorded theirs, this
+//! writes `docs/stability.md`.
+//!
+//! The scenes and searches run as a test. Long runs (10 million steps) are shortened there; `LABSPEC_STABILITY=long` with
+//! `LABSPEC_BLESS=1` runs them in full, best in a release build, and keeps what they came to in `golden/stability_long.json`.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::support::{compile, read_json, workspace};
+use labspec_core::{self as core, Data, Model, Warning, enable};
+use serde_json::{Value as Json, json};
+use std::fmt::Write;
+
+/// Coordinates that are compared at the end.
+const KEPT: usize = 7;
+/// Steps that a test affords of a long run.
+const SHORTENED: u64 = 2_000;
+
+/// What a run came to, in the words of the recording.
+fn run(xml: &str, steps: u64, long: u64) -> Json {
+    let mut m = compile(xml);
+    let mut d = Data::new(&m);
+    if m.nkey > 0 {
+        core::reset_data_keyframe(&m, &mut d, 0);
+    }
+    let start = energy(&mut m, &d);
+    let mut reach = largest(&d.qpos);
+    let (total, each) = if long > 0 { (long, (long / 1000).max(1)) } else { (steps, 1) };
+    let mut done = 0;
+    while done < total {
+        let before = d.time;
+        for _ in 0..each {
+            core::step(&m, &mut d);
+        }
+        done += each;
+        for which in [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc] {
+            let stat = d.warning[which as usize];
+            if stat.number > 0 {
+                return json!({"warning": which.name().trim_start_matches("bad"), "time": before, "dof": stat.lastinfo});
+            }
+        }
+        // Never a silent NaN: a step that left one would be told by the next.
+        reach = reach.max(largest(&d.qpos));
+    }
+    assert!(
+        d.qpos.iter().chain(&d.qvel).all(|x| x.is_finite()),
+        "a number that is none, and no warning:\n{xml}"
+    );
+    let mut out = json!({"reach": reach, "speed": largest(&d.qvel), "qpos": d.qpos.iter().take(KEPT).collect::<Vec<_>>()});
+    if long > 0 {
+        let end = energy(&mut m, &d);
+        out["energy"] = json!(if start == 0.0 { end } else { (end - start) / start.abs().max(1e-12) });
+        if m.nq == 7 {
+            out["norm"] = json!(d.qpos[3..7].iter().map(|q| q * q).sum::<f64>().sqrt() - 1.0);
+        }
+    }
+    out
+}
+
+/// Potential and kinetic energy of a state, J.
+fn energy(m: &mut Model, d: &Data) -> f64 {
+    let mut d = d.clone();
+    m.opt.enableflags |= enable::ENERGY;
+    core::forward(m, &mut d);
+    m.opt.enableflags &= !enable::ENERGY;
+    d.energy[0] + d.energy[1]
+}
+
+fn largest(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |s: f64, x| if x.is_nan() { f64::INFINITY } else { s.max(x.abs()) })
+}
+
+/// What a run came to, in words. A run that left its bounds went wrong and nobody said so.
+fn words(outcome: &Json, bound: f64) -> String {
+    if let Some(kind) = outcome["warning"].as_str() {
+        return format!("bad {kind} at {} s", short(outcome["time"].as_f64().unwrap()));
+    }
+    let (Some(reach), Some(speed)) = (outcome["reach"].as_f64(), outcome["speed"].as_f64()) else {
+        return "not run".into();
+    };
+    if reach > bound {
+        return format!("**{} off, silently**", short(reach));
+    }
+    if speed < 1e-3 { "at rest".into() } else { format!("moves at {}", short(speed)) }
+}
+
+/// Two digits.
+fn short(x: f64) -> String {
+    if x == 0.0 || (1e-3..1e4).contains(&x.abs()) {
+        let digits = (1 - x.abs().max(1e-3).log10().floor() as i32).max(0) as usize;
+        format!("{x:.digits$}")
+    } else {
+        format!("{x:.1e}")
+    }
+}
+
+/// How far apart two runs ended: the largest difference of coordinates.
+fn apart(a: &Json, b: &Json) -> String {
+    if a["warning"].is_string() || b["warning"].is_string() {
+        let same = a["warning"].is_string() == b["warning"].is_string();
+        return if same { "both say so".into() } else { "**one says so**".into() };
+    }
+    let list =
+        |x: &Json| x["qpos"].as_array().unwrap().iter().map(|q| q.as_f64().unwrap()).collect::<Vec<_>>();
+    let far = list(a).iter().zip(&list(b)).fold(0.0, |s: f64, (x, y)| s.max((x - y).abs()));
+    if far == 0.0 { "0".into() } else { format!("{far:.0e}") }
+}
+
+/// Whether a run went well.
+fn fine(outcome: &Json, bound: f64) -> bool {
+    outcome["reach"].as_f64().is_some_and(|reach| reach <= bound)
+}
+
+/// Cases side by side; the number of those that end well here and there.
+fn table(cases: &[Json], ours: impl Fn(&Json) -> Json, wrong: &mut Vec<String>) -> (String, [usize; 3]) {
+    let mut text = String::new();
+    let mut section = "";
+    let mut counts = [0; 3];
+    for case in cases {
+        let name = case["section"].as_str().unwrap();
+        if name != section {
+            section = name;
+            let _ = writeln!(text, "\n## {section}\n\n| case | MuJoCo | here | apart |\n|---|---|---|---:|");
+        }
+        let (bound, theirs, ours) = (case["bound"].as_f64().unwrap(), &case["theirs"], ours(case));
+        let well = [fine(theirs, bound), fine(&ours, bound)];
+        counts[0] += 1;
+        counts[1] += usize::from(well[0]);
+        counts[2] += usize::from(well[1]);
+        if well[0] && !well[1] {
+            wrong.push(format!("{section}, {}: {ours}, theirs {theirs}", case["case"]));
+        }
+        let words = |o: &Json| words(o, bound);
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} |",
+            case["case"].as_str().unwrap(),
+            words(theirs),
+            words(&ours),
+            apart(theirs, &ours)
+        );
+    }
+    (text, counts)
+}
+
+/// The longest timestep at which a family of models stays within its bound, all shorter ones included.
+fn longest(search: &Json, timesteps: &[f64]) -> Option<f64> {
+    let xml = search["xml"].as_str().unwrap();
+    let stays = |h: &f64| {
+        let outcome = run(&xml.replace("TIMESTEP", &h.to_string()), search["steps"].as_u64().unwrap(), 0);
+        fine(&outcome, search["bound"].as_f64().unwrap())
+    };
+    timesteps.iter().copied().take_while(stays).last()
+}
+
+/// Searches side by side: a row a stiffness, a column an integrator, "theirs / ours" where these differ.
+fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>) -> String {
+    const COLUMNS: [&str; 5] = ["Euler", "RK4", "implicit", "implicitfast", "discrete"];
+    let mut rows: Vec<&[Json]> = searches.chunks(COLUMNS.len()).collect();
+    rows.sort_by_key(|row| row[0]["section"].as_str());
+    let (mut text, mut section) = (String::new(), "");
+    for row in rows {
+        let [of, name] = ["section", "row"].map(|key| row[0][key].as_str().unwrap());
+        if of != section {
+            section = of;
+            let lines = "---:|".repeat(COLUMNS.len());
+            let _ = writeln!(text, "\n### {section}\n\n| | {} |\n|---|{lines}", COLUMNS.join(" | "));
+        }
+        let cells = row.iter().map(|search| {
+            let (theirs, ours) = (search["theirs"].as_f64(), longest(search, timesteps));
+            let word = |h: Option<f64>| h.map_or("none".into(), |h| format!("{} ms", short(1e3 * h)));
+            if theirs == ours {
+                return word(ours);
+            }
+            differ.push(format!("{of}, {name}, {}: theirs {theirs:?}, ours {ours:?}", search["column"]));
+            format!("**{} / {}**", word(theirs), word(ours))
+        });
+        let _ = writeln!(text, "| {name} | {} |", cells.collect::<Vec<_>>().join(" | "));
+    }
+    text
+}
+
+/// What a page has a line about: digits at the level of rounding come and go, scenes do not.
+fn subjects(page: &str) -> Vec<&str> {
+    page.lines()
+        .map(|line| line.split('|').nth(1).unwrap_or(line))
+        .filter(|s| !s.contains("end well"))
+        .collect()
+}
+
+#[test]
+fn stiff_and_extreme_scenes() {
+    let golden = workspace().join("tests/golden");
+    let recording = read_json(&golden.join("stability.json"));
+    let bless = std::env::var_os("LABSPEC_BLESS").is_some();
+    let kept = golden.join("stability_long.json");
+    let (long, cases): (Vec<Json>, Vec<Json>) =
+        recording["cases"].as_array().unwrap().iter().cloned().partition(|c| c["long"] != 0);
+    if bless && std::env::var("LABSPEC_STABILITY").is_ok_and(|v| v == "long") {
+        let runs: serde_json::Map<String, Json> = long
+            .iter()
+            .map(|c| {
+                (
+                    c["case"].as_str().unwrap().into(),
+                    run(c["xml"].as_str().unwrap(), 0, c["long"].as_u64().unwrap()),
+                )
+            })
+            .collect();
+        std::fs::write(&kept, serde_json::to_string_pretty(&runs).unwrap() + "\n").unwrap();
+    }
+    for case in &long {
+        // The beginning of a long run is a test that nothing breaks soon.
+        run(case["xml"].as_str().unwrap(), 0, SHORTENED);
+    }
+    let mut wrong = Vec::new();
+    let (sections, [all, theirs, ours]) =
+        table(&cases, |c| run(c["xml"].as_str().unwrap(), c["steps"].as_u64().unwrap(), 0), &mut wrong);
+    let timesteps: Vec<f64> =
+        recording["timesteps"].as_array().unwrap().iter().map(|h| h.as_f64().unwrap()).collect();
+    let mut differ = Vec::new();
+    let searches = recording["searches"].as_array().unwrap();
+    let largest = searched(searches, &timesteps, &mut differ);
+    let runs = read_json(&kept);
+    let mut text = format!(
+        "# Stiff and extreme scenes\n\nWritten by `tests/stability.rs` from the cases of `tests/golden/stability.py`: \
+         our engine beside MuJoCo 3.14.0.\n\n{all} scenes: {theirs} end well there, {ours} here. *Apart* is the largest difference of the \
+         first coordinates at the end (m, rad). **Silently** is a run that left every sensible bound without a warning: what a lesson \
+         has to be told by its own bounds. Stacks of very unequal boxes jitter by what the solver leaves at its tolerance, \
+         on both sides, not in the same steps.\n{sections}\n\
+         ## Longest stable timestep\n\nOf {}: the longest at which 2,000 steps stay within bounds, all shorter ones \
+         included; **MuJoCo's / ours** where they differ ({} of {}).\n{largest}\n## Long runs\n\nTen million steps. Energy: change relative to the start.\n\n\
+         | case | MuJoCo | here | energy | here | norm of the quaternion less 1 | here |\n|---|---|---|---:|---:|---:|---:|\n",
+        timesteps.iter().map(|h| format!("{} ms", short(1e3 * h))).collect::<Vec<_>>().join(", "),
+        differ.len(),
+        searches.len()
+    );
+    for case in &long {
+        let name = case["case"].as_str().unwrap();
+        let (theirs, ours, bound) = (&case["theirs"], &runs[name], case["bound"].as_f64().unwrap());
+        let number = |o: &Json, key: &str| o[key].as_f64().map_or("–".into(), |x| format!("{x:.1e}"));
+        let _ = writeln!(
+            text,
+            "| {name} | {} | {} | {} | {} | {} | {} |",
+            words(theirs, bound),
+            words(ours, bound),
+            number(theirs, "energy"),
+            number(ours, "energy"),
+            number(theirs, "norm"),
+            number(ours, "norm")
+        );
+    }
+    let path = workspace().join("docs/stability.md");
+    if bless {
+        std::fs::write(&path, &text).unwrap();
+    }
+    for line in wrong.iter().chain(&differ) {
+        println!("{line}");
+    }
+    assert!(wrong.is_empty(), "scenes that end well with MuJoCo and not here:\n{}", wrong.join("\n"));
+    let kept = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        kept == text,
+        "docs/stability.md is stale: LABSPEC_BLESS=1 cargo test -p labspec --test all stiff"
+    );
+}
