@@ -71,8 +71,8 @@ fn from_inputs(m: &Model, d: &mut Data, skip: Skip) {
     sleep::keep(m, d);
     actuation(m, d);
     acceleration(m, d);
-    constraints(m, d);
     sleep::put_back(m, d);
+    constraints(m, d);
     read(m, d, When::Acceleration, skip);
     sleep::passed(d);
 }
@@ -113,7 +113,7 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
         tendon::tendons(m, d);
     }
     if d.plan.keeps(Stage::Sleep) {
-        sleep::wake_tied(m, d);
+        sleep::wake_by_tendons(m, d);
     }
     let composite = d.plan.composite && !d.plan.mass_for_rows;
     if d.plan.keeps(Stage::MassMatrix) {
@@ -129,7 +129,13 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
             collision::none(d);
         } else {
             collision::collide(m, d);
+            if sleep::wake_touched(m, d) {
+                collision::collide(m, d);
+            }
         }
+    }
+    if d.plan.keeps(Stage::Sleep) {
+        sleep::wake_by_equalities(m, d);
     }
     if d.plan.keeps(Stage::Constraint) {
         constraint::make(m, d);

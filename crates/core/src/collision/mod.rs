@@ -13,7 +13,7 @@ use sweep::Sweep;
 
 use crate::geometry::{Shape, pair};
 use crate::math::*;
-use crate::{Contact, Data, Model, geom};
+use crate::{Contact, Data, Model, geom, sleep};
 
 /// The pairs that a plan tests, with their contact parameters when nothing can change these.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,12 +47,16 @@ pub(crate) fn collide(m: &Model, d: &mut Data) {
     if let Some(sweep) = &mut list.sweep {
         sweep.run(m, d);
         for pair in &sweep.near {
-            narrow(m, d, pair, &params::params(m, pair));
+            if !sleep::pair_sleeps(m, d, pair.geom1 as usize, pair.geom2 as usize) {
+                narrow(m, d, pair, &params::params(m, pair));
+            }
         }
     }
     for (i, pair) in list.pairs.iter().enumerate() {
         let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
-        if list.filter && pair.explicit == Pair::DYNAMIC && !filter::admitted(m, g1, g2) {
+        if list.filter && pair.explicit == Pair::DYNAMIC && !filter::admitted(m, g1, g2)
+            || sleep::pair_sleeps(m, d, g1, g2)
+        {
             continue;
         }
         match list.params.get(i) {

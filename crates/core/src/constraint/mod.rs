@@ -29,7 +29,7 @@ pub(crate) use island::Islands;
 pub(crate) use jacobian::Jacobian;
 pub use jacobian::full_j;
 pub(crate) use reference::reference;
-pub(crate) use rows::make;
+pub(crate) use rows::{make, none};
 pub(crate) use single::tendon_force;
 pub(crate) use solver::{Scratch, inverse, solve, unconstrained_residual};
 
