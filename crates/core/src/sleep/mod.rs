@@ -17,7 +17,7 @@ use crate::{Data, Model, constraint, enable, joint, pipeline};
 
 pub(crate) use rest::{advance, keep, put_back};
 pub(crate) use state::{
-    actuator_sleeps, body_sleeps, equality_sleeps, pair_sleeps, sensor_sleeps, tendon_sleeps,
+    actuator_sleeps, body_sleeps, equality_sleeps, pair_sleeps, sensor_sleeps, tendon_sleeps, tree_sleeps,
 };
 pub(crate) use wake::{wake, wake_by_equalities, wake_by_tendons, wake_touched};
 

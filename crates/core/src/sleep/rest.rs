@@ -2,7 +2,7 @@
 
 use super::{AWAKE, coordinates, dofs, on, policy, some, state};
 use crate::integrate::integrate_pos;
-use crate::{Data, Model, disable, integrator, pipeline};
+use crate::{Data, Model, constraint, disable, integrator, pipeline};
 
 /// Whether a tree may sleep at all.
 fn may_sleep(m: &Model, tree: usize) -> bool {
@@ -29,6 +29,10 @@ pub(crate) fn advance(m: &Model, d: &mut Data, acceleration: Option<&[f64]>, vel
     let mut w = std::mem::take(&mut d.work.sleep.acceleration);
     w.copy_from_slice(acceleration.unwrap_or(&d.qacc));
     if fall_asleep(m, d) {
+        if m.opt.integrator == integrator::DISCRETE {
+            // Its rows have been moved to the end of the step.
+            constraint::make(m, d);
+        }
         pipeline::from_velocities(m, d);
         state::update(m, d);
     }

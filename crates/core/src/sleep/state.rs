@@ -32,6 +32,11 @@ pub(crate) fn actuator_sleeps(m: &Model, d: &Data, i: usize) -> bool {
     some(m, d) && actuator(m, d, i) == awake::NO
 }
 
+/// Whether a tree sleeps.
+pub(crate) fn tree_sleeps(m: &Model, d: &Data, tree: usize) -> bool {
+    some(m, d) && d.tree_awake[tree] == 0
+}
+
 /// Whether a body sleeps.
 pub(crate) fn body_sleeps(m: &Model, d: &Data, b: usize) -> bool {
     some(m, d) && d.body_awake[b] == awake::NO
