@@ -26,7 +26,11 @@ fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
     }
     if m.opt.integrator == integrator::DISCRETE && m.opt.disabled(disable::ISLAND) {
         report
-            .error(code::NOT_SUPPORTED, span(), "trees cannot sleep with the discrete integrator without islands")
+            .error(
+                code::NOT_SUPPORTED,
+                span(),
+                "trees cannot sleep with the discrete integrator without islands",
+            )
             .why("nobody knows which of them hold each other; MuJoCo refuses such a model, too")
             .help("leave islands switched on, or choose another integrator");
         return;

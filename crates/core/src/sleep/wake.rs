@@ -31,7 +31,10 @@ pub(crate) fn wake_by_tendons(m: &Model, d: &mut Data) {
         let [lower, upper] = [m.tendon_range[2 * t], m.tendon_range[2 * t + 1]];
         let margin = m.tendon_margin[t];
         if m.tendon_limited[t] && (length < lower + margin || length > upper - margin) {
-            wake_one(d, [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]].map(|tree| tree.max(0) as usize));
+            wake_one(
+                d,
+                [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]].map(|tree| tree.max(0) as usize),
+            );
         }
     }
     state::update(m, d);
