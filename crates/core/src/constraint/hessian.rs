@@ -222,3 +222,70 @@ impl Order {
         }
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use crate::{Data, Model, mjcf, pipeline};
+    use std::fmt::Write;
+
+    /// Free boxes at these places, by name, on a floor.
+    fn boxes(list: impl Iterator<Item = (usize, [f64; 3], [f64; 3])>) -> Model {
+        let mut text = String::from("<mujoco><worldbody><geom type=\"plane\" size=\"9 9 1\"/>");
+        for (i, [x, y, z], [a, b, c]) in list {
+            let _ = write!(
+                text,
+                "<body name=\"b{i}\" pos=\"{x} {y} {z}\"><freejoint/><geom type=\"box\" size=\"{a} {b} {c}\"/></body>"
+            );
+        }
+        mjcf::compile(&(text + "</worldbody></mujoco>")).unwrap()
+    }
+
+    fn kept(m: &Model) -> (usize, Data) {
+        let mut d = Data::new(m);
+        pipeline::forward(m, &mut d);
+        let hessian = &d.work.solver.as_ref().unwrap().hessian;
+        (hessian.kept(), d)
+    }
+
+    const SMALL_BOX: [f64; 3] = [0.1; 3];
+
+    fn row(i: usize) -> (usize, [f64; 3], [f64; 3]) {
+        (i, [0.1995 * i as f64, 0.0, 0.0995], SMALL_BOX)
+    }
+
+    #[test]
+    fn a_row_of_boxes_takes_a_band() {
+        let (kept, d) = kept(&boxes((0..100).map(row)));
+        assert_eq!(d.nisland, 1);
+        assert!(kept <= 600 * 12, "{kept} numbers of {}", 600 * 601 / 2);
+    }
+
+    #[test]
+    fn a_plate_under_all_others_does_not_fill_the_matrix() {
+        let plate = (0, [10.0, 0.0, 0.0495], [12.0, 1.0, 0.05]);
+        let upon = (1..100).map(|i| (i, [0.25 * i as f64, 0.0, 0.1985], SMALL_BOX));
+        let (kept, d) = kept(&boxes(std::iter::once(plate).chain(upon)));
+        assert_eq!(d.nisland, 1);
+        assert!(kept <= 600 * 14, "{kept} numbers of {}", 600 * 601 / 2);
+    }
+
+    #[test]
+    fn boxes_apart_take_a_matrix_each() {
+        let apart = |i: usize| (i, [0.5 * i as f64, 0.0, 0.0995], SMALL_BOX);
+        let (kept, d) = kept(&boxes((0..300).map(apart)));
+        assert_eq!((d.nisland, kept), (300, 21));
+    }
+
+    #[test]
+    fn the_order_in_the_file_changes_rounding_alone() {
+        // By steps of 37 through a hundred: neighbours stand far from each other in the file.
+        let (near, far) = (boxes((0..100).map(row)), boxes((0..100).map(|i| row(i * 37 % 100))));
+        let ((_, a), (kept, b)) = (kept(&near), kept(&far));
+        assert!(kept <= 600 * 12, "{kept}");
+        for i in 0..600 {
+            let there = 6 * (i / 6 * 73 % 100) + i % 6;
+            assert!((a.qacc[i] - b.qacc[there]).abs() < 1e-9, "{i}: {} and {}", a.qacc[i], b.qacc[there]);
+        }
+    }
+}

@@ -11,6 +11,7 @@ mod discrete;
 mod dual;
 mod equality;
 mod exact;
+mod hessian;
 mod impedance;
 mod island;
 mod jacobian;
