@@ -311,6 +311,8 @@ pub(crate) fn warn(d: &mut Data, warning: Warning, info: usize) {
 fn reset_after(m: &Model, d: &mut Data, warning: Warning, info: usize) -> bool {
     warn(d, warning, info);
     if m.opt.disabled(disable::AUTORESET) {
+        // The library counts what it does not reset twice.
+        warn(d, warning, info);
         return false;
     }
     let stat = d.warning[warning as usize];
@@ -350,3 +352,7 @@ pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
     sleep::plan_changed(m, d);
     reset::clear_left_out(m, d);
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

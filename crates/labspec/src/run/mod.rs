@@ -1,8 +1,10 @@
 //! Running a lab without a page: the exact order of events, sampled into a table.
 
+mod breakdown;
 mod session;
 mod table;
 
+pub use breakdown::{Breakdown, owner, remedy};
 pub use session::{Numerics, Session, Trouble};
 pub use table::{Cell, Table, shown};
 
