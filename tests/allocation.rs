@@ -114,6 +114,38 @@ fn thirty_spheres_on_a_plane() {
 }
 
 #[test]
+fn trees_that_fall_asleep_and_wake() {
+    for name in ["sleep", "sleep_pile", "sleep_ties"] {
+        allocates_nothing(name, &model(name), 300);
+    }
+}
+
+/// Boxes that do not touch each other: four times as many take four times the memory, not sixteen.
+#[test]
+fn memory_of_a_thousand_boxes() {
+    let bytes = |n: usize| {
+        let mut xml = String::from("<mujoco><worldbody><geom type='plane' size='2 2 1'/>");
+        for i in 0..n {
+            let (x, y) = (0.5 * (i % 32) as f64, 0.5 * (i / 32) as f64);
+            let _ = write!(
+                xml,
+                "<body pos='{x} {y} 0.0995'><freejoint/><geom type='box' size='0.1 0.1 0.1'/></body>"
+            );
+        }
+        let m = compile(&(xml + "</worldbody></mujoco>"));
+        let count = measure(|| {
+            let mut d = Data::planned(&m, Plan::new(&m, &coordinates()));
+            core::step(&m, &mut d);
+            core::step(&m, &mut d);
+            assert_eq!(d.nisland, n);
+        });
+        count.bytes_max
+    };
+    let (few, many) = (bytes(250), bytes(1000));
+    assert!(many < 5 * few && many < 20 << 20, "{few} and {many} bytes");
+}
+
+#[test]
 fn runge_kutta() {
     for name in ["double_pendulum", "tree", "stack", "mocap"] {
         let mut m = model(name);

@@ -29,6 +29,13 @@ const PATH: f64 = 1e-6;
 const SOLUTION: [&str; 8] =
     ["qacc", "qfrc_constraint", "sensordata", "efc_force", "efc_state", "cfrc_ext", "cfrc_int", "cacc"];
 
+/// Why a trajectory differs that is no chaos.
+const REASONS: [(&str, &str); 1] = [(
+    "conformance/engine__solver__humanoid",
+    "the library's projected Gauss–Seidel stays at the apex of a cone where a push pays only with the friction that it \
+     allows; ours leaves it, for the answer of Newton's method",
+)];
+
 /// How a model came out.
 enum Outcome {
     Same { rows: f64, solution: f64 },
@@ -51,6 +58,12 @@ fn options(m: &mut Model, chosen: &Value) {
 fn tight(m: &mut Model) {
     (m.opt.tolerance, m.opt.ls_tolerance) = (0.0, 1e-10);
     (m.opt.iterations, m.opt.ls_iterations) = (200, 100);
+}
+
+/// What a sum of the forces of all rows is rounded by at least: where nothing but the smallest number makes rows soft,
+/// bodies stuck in each other push with 1e18 N.
+fn rounding_of_forces(d: &Data) -> f64 {
+    d.efc_force.iter().map(|f| f.abs() * f64::EPSILON).sum()
 }
 
 fn examine(path: &Path, recording: &Value) -> Outcome {
@@ -80,7 +93,11 @@ fn examine(path: &Path, recording: &Value) -> Outcome {
             for (name, values) in objects(&row["data"]) {
                 let Some(field) = reflect::field(Object::Data, name) else { continue };
                 let (ours, theirs) = (list(&m, &d, field), numbers(values));
-                let scale = theirs.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
+                let mut scale = theirs.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
+                if name == "qfrc_constraint" {
+                    // A sum is known to the rounding of its terms.
+                    scale = scale.max(rounding_of_forces(&d) / SOLVED);
+                }
                 let (index, apart) = worst(&ours, &theirs, scale);
                 let solved = SOLUTION.contains(&name.as_str());
                 let (most, limit) = if solved { (&mut solution, SOLVED) } else { (&mut rows, ROWS) };
@@ -142,7 +159,9 @@ fn shared_models_with_constraints() {
                     Verdict::Sensitive(..) => 1,
                     Verdict::Refused(_) => 2,
                     Verdict::Differs(list) => {
-                        let _ = writeln!(table, "| {kind}/{name} | trajectory | {} |", list[0]);
+                        let why = REASONS.iter().find(|(of, _)| *of == format!("{kind}/{name}"));
+                        let why = why.map_or(String::new(), |(_, why)| format!(": {why}"));
+                        let _ = writeln!(table, "| {kind}/{name} | trajectory | {}{why} |", list[0]);
                         3
                     }
                 };

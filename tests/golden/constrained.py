@@ -100,7 +100,7 @@ def main():
                 continue
             m = mujoco.MjModel.from_xml_path(str(path))
             # As the model is, before the solver is tightened.
-            path = recording.trajectory(m, m.opt.integrator, True, 0.1, 2, steps=100, every=50)
+            path = recording.trajectory(m, m.opt.integrator, True, 0.1, 2, steps=100, every=50, others=12)
             case = {"case": "", "options": {}, "states": record(m, a.shared, 0.1, RESULTS + ["ncon", "nefc"])}
             out = {"mujoco": mujoco.__version__, "cases": [case], "trajectory": path}
             size = recording.write(a.out / (name + ".json"), out)

@@ -259,12 +259,13 @@ def rollout(m, d, steps, every):
     return rows
 
 
-def trajectory(m, integrator, first, scale, seed, steps=200, every=40):
-    """A trajectory from the first of the states, or from the second, where everything moves. `spread` is how far, in the same rows, the library parts from itself
-    when its start is moved by 1e-14: chaos, beyond which nobody can follow it."""
+def trajectory(m, integrator, first, scale, seed, steps=200, every=40, others=3):
+    """A trajectory from the first of the states, or from the second, where everything moves. `spread` is how far, in the
+    same rows, the library parts from itself when its start is moved by 1e-14, `others` times: chaos, beyond which nobody
+    can follow it."""
     m.opt.integrator = integrator
     d, all_rows = mujoco.MjData(m), []
-    for k in range(4):
+    for k in range(1 + others):
         list(states(m, d, 1 if first else 2, scale, seed))
         if k:
             rng = np.random.default_rng(100 + k)

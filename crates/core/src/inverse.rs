@@ -43,7 +43,7 @@ pub fn inverse(m: &Model, d: &mut Data) -> Result<(), InverseError> {
 
 /// The same once position and velocity are known.
 fn from_velocity(m: &Model, d: &mut Data, skip: Skip) {
-    let mut given = std::mem::take(&mut d.work.rk.qacc);
+    let mut given = std::mem::take(&mut d.work.rk.slope);
     given.copy_from_slice(&d.qacc);
     if m.opt.enabled(enable::INVDISCRETE) {
         continuous(m, d);
@@ -63,7 +63,7 @@ fn from_velocity(m: &Model, d: &mut Data, skip: Skip) {
         *f += bias - passive - constraint;
     }
     d.qacc.copy_from_slice(&given);
-    d.work.rk.qacc = given;
+    d.work.rk.slope = given;
 }
 
 /// `qacc` of a step to that of the equations of motion: what the integrator adds to M acts on it.

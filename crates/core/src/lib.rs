@@ -57,6 +57,7 @@ pub mod save;
 pub mod sensor;
 mod setconst;
 mod sleep;
+pub mod stability;
 pub mod state;
 mod subtree;
 mod tendon;

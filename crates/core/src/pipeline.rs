@@ -71,8 +71,8 @@ fn from_inputs(m: &Model, d: &mut Data, skip: Skip) {
     sleep::keep(m, d);
     actuation(m, d);
     acceleration(m, d);
-    constraints(m, d);
     sleep::put_back(m, d);
+    constraints(m, d);
     read(m, d, When::Acceleration, skip);
     sleep::passed(d);
 }
@@ -113,7 +113,7 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
         tendon::tendons(m, d);
     }
     if d.plan.keeps(Stage::Sleep) {
-        sleep::wake_tied(m, d);
+        sleep::wake_by_tendons(m, d);
     }
     let composite = d.plan.composite && !d.plan.mass_for_rows;
     if d.plan.keeps(Stage::MassMatrix) {
@@ -128,7 +128,13 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
             collision::none(d);
         } else {
             collision::collide(m, d);
+            if sleep::wake_touched(m, d) {
+                collision::collide(m, d);
+            }
         }
+    }
+    if d.plan.keeps(Stage::Sleep) {
+        sleep::wake_by_equalities(m, d);
     }
     if d.plan.keeps(Stage::Constraint) {
         constraint::make(m, d);
@@ -324,6 +330,8 @@ pub(crate) fn warn(d: &mut Data, warning: Warning, info: usize) {
 fn reset_after(m: &Model, d: &mut Data, warning: Warning, info: usize) -> bool {
     warn(d, warning, info);
     if m.opt.disabled(disable::AUTORESET) {
+        // The library counts what it does not reset twice.
+        warn(d, warning, info);
         return false;
     }
     let stat = d.warning[warning as usize];
@@ -363,3 +371,7 @@ pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
     sleep::plan_changed(m, d);
     reset::clear_left_out(m, d);
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

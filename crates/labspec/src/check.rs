@@ -7,7 +7,7 @@ use crate::run::{self, RunOptions, Session, Trouble};
 use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson, Question, Verify, VerifyLab};
 use crate::verify::{self, BoundVerify, Claim, Verdict};
 use labspec_core::reflect::{Kind, Object};
-use labspec_core::{Model, Warning, joint};
+use labspec_core::{Model, stability};
 use labspec_expr::Value;
 use std::ops::Range;
 use std::sync::Arc;
@@ -230,7 +230,11 @@ fn attempt(ready: &Ready<'_>, trial: &Trial<'_>, findings: &mut Vec<Finding>) ->
     let troubles = session.troubles.iter().map(|t| trouble(t, &trial.done));
     let before = findings.len();
     findings.extend(troubles);
-    if let Some(f) = diverged(&session, &ready.model, &trial.done, place) {
+    if let Some(f) = diverged(&session, &trial.done, place.clone()) {
+        findings.push(f);
+    } else if trial.control.is_none()
+        && let Some(f) = too_stiff(&session, place)
+    {
         findings.push(f);
     }
     findings.len() > before
@@ -250,39 +254,26 @@ fn trouble(t: &Trouble, done: &str) -> Finding {
 }
 
 /// A simulation that met a bad number, with time, joint and likely cause.
-fn diverged(session: &Session<'_>, model: &Model, done: &str, place: Range<usize>) -> Option<Finding> {
-    let all = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
-    let (warning, stat) =
-        all.iter().map(|&w| (w, session.warnings[w as usize])).find(|(_, s)| s.number > 0)?;
-    let (what, joint) = match warning {
-        Warning::BadQpos => ("position", joint_of(model, stat.lastinfo, &model.jnt_qposadr, joint::nq)),
-        Warning::BadQvel => ("velocity", joint_of(model, stat.lastinfo, &model.jnt_dofadr, joint::nv)),
-        _ => ("acceleration", joint_of(model, stat.lastinfo, &model.jnt_dofadr, joint::nv)),
-    };
-    let message = format!(
-        "the simulation breaks {done}: the {what} of {joint} is not a number or above 1e10 at t = {:.4} s",
-        stat.first_time
-    );
+fn diverged(session: &Session<'_>, done: &str, place: Range<usize>) -> Option<Finding> {
+    let breakdown = run::Breakdown::of(session)?;
     Some(
-        crate::bind::warning("simulation-diverges", place, message)
-            .why("MuJoCo then resets the data and goes on from time 0: a student sees the scene jump back without a word")
-            .help(format!(
-                "try a smaller timestep than {} s, softer contacts or springs, or a smaller range of the control",
-                session.world.model.opt.timestep
-            )),
+        warning("simulation-diverges", place, format!("the simulation breaks {done}: {}", breakdown.what))
+            .why(breakdown.why)
+            .help(breakdown.help),
     )
 }
 
-fn joint_of(model: &Model, index: usize, adr: &[i32], width: fn(i32) -> usize) -> String {
-    let found = (0..model.njnt).find(|&j| {
-        let first = adr.get(j).map_or(0, |&a| a as usize);
-        (first..first + width(model.jnt_type.get(j).copied().unwrap_or(3))).contains(&index)
-    });
-    match found.and_then(|j| model.names.joint.get(j).map(|n| (j, n))) {
-        Some((_, name)) if !name.is_empty() => format!("joint \"{name}\""),
-        Some((j, _)) => format!("joint {j}"),
-        None => format!("degree of freedom {index}"),
-    }
+/// What of a lab's scene no step of its length can follow, whether or not a run shows it.
+fn too_stiff(session: &Session<'_>, place: Range<usize>) -> Option<Finding> {
+    let model = &session.world.model;
+    let worst = stability::suspects(model).into_iter().next()?;
+    let times = worst.excess;
+    let message = format!("{} is {times:.1} times too stiff for its timestep", run::owner(model, &worst));
+    Some(
+        warning("stiff-for-timestep", place, message)
+            .why("every step pushes farther than the last one missed: it oscillates ever wider, without a word from MuJoCo until a number is beyond 1e10")
+            .help(run::remedy(model, &worst)),
+    )
 }
 
 /// Checks every `verify` object; questions without one are listed as unverified.

@@ -33,6 +33,11 @@ pub const RUN_RULES: &[(&str, &str, &str)] = &[
         "MuJoCo resets the data and goes on from time 0: a student sees the scene jump back without a word.",
     ),
     (
+        "stiff-for-timestep",
+        "a servo, a spring or a contact is too stiff for the timestep",
+        "Every step pushes farther than the last one missed, without a word from MuJoCo until a number is beyond 1e10.",
+    ),
+    (
         "run-impossible",
         "a run cannot be made",
         "A control that it sets does not exist, or it would take too many steps.",

@@ -13,7 +13,8 @@ use sweep::Sweep;
 
 use crate::geometry::{Shape, pair};
 use crate::math::*;
-use crate::{Contact, Data, Model, geom};
+use crate::pipeline::warn;
+use crate::{Contact, Data, Model, Warning, geom, sleep};
 
 /// The pairs that a plan tests, with their contact parameters when nothing can change these.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,6 +40,9 @@ pub(crate) fn pairs(m: &Model, pairs_may_change: bool, params_may_change: bool) 
     Pairs { pairs, params, filter: pairs_may_change, sweep: None }
 }
 
+/// Contacts that are kept at most: what touches beyond that is left out with a warning.
+pub(crate) const MOST_CONTACTS: usize = 1 << 16;
+
 /// `contact`, `ncon`: tests the pairs of the plan in their order.
 #[inline(never)]
 pub(crate) fn collide(m: &Model, d: &mut Data) {
@@ -47,12 +51,19 @@ pub(crate) fn collide(m: &Model, d: &mut Data) {
     if let Some(sweep) = &mut list.sweep {
         sweep.run(m, d);
         for pair in &sweep.near {
-            narrow(m, d, pair, &params::params(m, pair));
+            if d.contact.len() > MOST_CONTACTS {
+                break;
+            }
+            if !sleep::pair_sleeps(m, d, pair.geom1 as usize, pair.geom2 as usize) {
+                narrow(m, d, pair, &params::params(m, pair));
+            }
         }
     }
     for (i, pair) in list.pairs.iter().enumerate() {
         let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
-        if list.filter && pair.explicit == Pair::DYNAMIC && !filter::admitted(m, g1, g2) {
+        if list.filter && pair.explicit == Pair::DYNAMIC && !filter::admitted(m, g1, g2)
+            || sleep::pair_sleeps(m, d, g1, g2)
+        {
             continue;
         }
         match list.params.get(i) {
@@ -61,6 +72,10 @@ pub(crate) fn collide(m: &Model, d: &mut Data) {
         }
     }
     d.work.pairs = list;
+    if d.contact.len() > MOST_CONTACTS {
+        d.contact.truncate(MOST_CONTACTS);
+        warn(d, Warning::ContactFull, MOST_CONTACTS);
+    }
     d.ncon = d.contact.len();
 }
 

@@ -148,3 +148,16 @@ fn columns_find_what_all_pairs_do() {
         assert_eq!(near, expected);
     }
 }
+
+/// More contacts than are kept: a warning says so, and the memory stays what it is.
+#[test]
+fn too_many_contacts_are_left_out_with_a_warning() {
+    let balls = "<body><freejoint/><geom size='.1'/></body>".repeat(400);
+    let m = compile(&format!("<mujoco><worldbody>{balls}</worldbody></mujoco>")).unwrap();
+    let mut d = Data::new(&m);
+    crate::kinematics::bodies(&m, &mut d);
+    crate::kinematics::geoms(&m, &mut d);
+    collide(&m, &mut d);
+    let stat = d.warning[Warning::ContactFull as usize];
+    assert_eq!((d.ncon, stat.number, stat.lastinfo), (MOST_CONTACTS, 1, MOST_CONTACTS));
+}

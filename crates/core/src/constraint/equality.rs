@@ -11,7 +11,7 @@ use super::rows::{Rows, push, regularization};
 use crate::equality::{self, End};
 use crate::jacobian::{self, Columns};
 use crate::math::*;
-use crate::{Data, Model, eqtype, tendon};
+use crate::{Data, Model, eqtype, sleep, tendon};
 
 /// Number of rows of the active constraints.
 pub(super) fn count(m: &Model, d: &Data) -> usize {
@@ -22,7 +22,7 @@ pub(super) fn count(m: &Model, d: &Data) -> usize {
 pub(super) fn make(m: &Model, d: &mut Data) {
     let mut columns = std::mem::take(&mut d.work.columns);
     for e in 0..m.neq {
-        if !d.eq_active[e] {
+        if !d.eq_active[e] || sleep::equality_sleeps(m, d, e) {
             continue;
         }
         match (m.eq_type[e], equality::ends(m, d, e)) {

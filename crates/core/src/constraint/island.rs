@@ -81,6 +81,16 @@ fn root(link: &mut [u32], mut i: usize) -> usize {
 }
 
 impl Islands {
+    /// The trees of an island, ascending.
+    pub(crate) fn trees_of(&self, island: usize) -> impl Iterator<Item = usize> + Clone + use<'_> {
+        self.trees.of(island)
+    }
+
+    /// Whether some constraint touches a tree.
+    pub(crate) fn has(&self, tree: usize) -> bool {
+        self.island.get(tree).is_some_and(|&island| island != NONE)
+    }
+
     /// Groups the blocks of the Jacobian; returns the number of islands, which are numbered by their first
     /// tree. Nothing is done while the blocks have the columns that they had at the last step.
     pub(super) fn find(&mut self, m: &Model, jac: &Jacobian) -> usize {

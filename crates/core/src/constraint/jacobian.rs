@@ -4,6 +4,7 @@
 //! frictional contact fill vector registers.
 
 use super::cost::Cost;
+use super::hessian::Hessian;
 use crate::math::dot;
 use crate::{Data, Model};
 use std::ops::Range;
@@ -357,47 +358,36 @@ impl Jacobian {
         }
     }
 
-    /// h ← h + Jᵀ diag(w) J for the rows of a block, lower triangle of a dense n × n matrix whose indices
-    /// are `local`.
+    /// h ← h + Jᵀ diag(w) J for the rows of a block.
     #[inline(always)]
-    pub(super) fn add_gram(&self, b: &Block, w: &[f64], local: &[u32], h: &mut [f64], n: usize) {
-        by_rows!(b.nrow, R => self.add_gram_rows::<R>(b, w, local, h, n))
+    pub(super) fn add_gram(&self, b: &Block, w: &[f64], h: &mut Hessian) {
+        by_rows!(b.nrow, R => self.add_gram_rows::<R>(b, w, h))
     }
 
     #[inline(always)]
-    fn add_gram_rows<const R: usize>(&self, b: &Block, w: &[f64], local: &[u32], h: &mut [f64], n: usize) {
+    fn add_gram_rows<const R: usize>(&self, b: &Block, w: &[f64], h: &mut Hessian) {
         let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
         let Some(w) = w[b.rows()].first_chunk::<R>() else { return };
         for (i, (&ci, vi)) in cols.iter().zip(vals).enumerate() {
             let wi: [f64; R] = std::array::from_fn(|r| w[r] * vi[r]);
-            let row = &mut h[local[ci as usize] as usize * n..][..n];
-            // Columns ascend, and so do their local indices: these are in the lower triangle.
             for (&cj, vj) in cols[..=i].iter().zip(vals) {
                 let mut sum = wi[0] * vj[0];
                 for r in 1..R {
                     sum += wi[r] * vj[r];
                 }
-                row[local[cj as usize] as usize] += sum;
+                *h.entry(ci, cj) += sum;
             }
         }
     }
 
-    /// h ← h + Jᵀ W J for the R rows of a block, with W symmetric; the rest as [`Jacobian::add_gram`].
+    /// h ← h + Jᵀ W J for the R rows of a block, with W symmetric.
     #[inline(never)]
-    pub(super) fn add_gram_full<const R: usize>(
-        &self,
-        b: &Block,
-        w: &[[f64; R]; R],
-        local: &[u32],
-        h: &mut [f64],
-        n: usize,
-    ) {
+    pub(super) fn add_gram_full<const R: usize>(&self, b: &Block, w: &[[f64; R]; R], h: &mut Hessian) {
         let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
         for (i, (&ci, vi)) in cols.iter().zip(vals).enumerate() {
             let wi: [f64; R] = std::array::from_fn(|r| dot(w[r], *vi));
-            let row = &mut h[local[ci as usize] as usize * n..][..n];
             for (&cj, vj) in cols[..=i].iter().zip(vals) {
-                row[local[cj as usize] as usize] += dot(wi, *vj);
+                *h.entry(ci, cj) += dot(wi, *vj);
             }
         }
     }

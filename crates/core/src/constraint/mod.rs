@@ -11,6 +11,7 @@ mod discrete;
 mod dual;
 mod equality;
 mod exact;
+mod hessian;
 mod impedance;
 mod island;
 mod jacobian;
@@ -29,7 +30,7 @@ pub(crate) use island::Islands;
 pub(crate) use jacobian::Jacobian;
 pub use jacobian::full_j;
 pub(crate) use reference::reference;
-pub(crate) use rows::make;
+pub(crate) use rows::{make, none};
 pub(crate) use single::tendon_force;
 pub(crate) use solver::{Scratch, inverse, solve, unconstrained_residual};
 

@@ -6,7 +6,6 @@
 use super::cost::{Cost, Curvature};
 use super::jacobian::{Block, by_rows};
 use super::primal::{Problem, Reached, shape};
-use crate::math::{MINVAL, dot_slice};
 
 impl Problem<'_> {
     #[inline(never)]
@@ -16,7 +15,7 @@ impl Problem<'_> {
         }
         let (tol, scale) = (self.m.opt.tolerance, self.scale());
         let Reached { mut cost, mut gradient, .. } = from;
-        self.number_dofs();
+        self.lay_out();
         self.newton_direction();
         if scale * gradient < tol && scale * self.decrement() < tol {
             return;
@@ -41,96 +40,64 @@ impl Problem<'_> {
         }
     }
 
-    fn number_dofs(&mut self) {
-        for (i, k) in self.dofs().flatten().enumerate() {
-            self.s.local[k] = i as u32;
-        }
+    fn lay_out(&mut self) {
+        let s = &mut *self.s;
+        s.hessian.lay_out(self.m, &self.d.work.jac, self.islands, self.island);
+        s.rhs.resize(s.hessian.len(), 0.0);
     }
 
     /// step ← H⁻¹ g; search ← -step.
     fn newton_direction(&mut self) {
         let (dofs, blocks) = (self.dofs(), self.blocks());
         let (m, d, s) = (self.m, &*self.d, &mut *self.s);
-        let n = dofs.clone().map(|r| r.len()).sum();
         s.hessian.clear();
-        s.hessian.resize(n * n, 0.0);
-        s.rhs.clear();
         for k in dofs.clone().flatten() {
-            let row = s.local[k] as usize * n;
             for a in m.M_rowadr[k] as usize..(m.M_rowadr[k] + m.M_rownnz[k]) as usize {
-                s.hessian[row + s.local[m.M_colind[a] as usize] as usize] = d.M[a];
+                *s.hessian.entry(k as u32, m.M_colind[a] as u32) = d.M[a];
             }
-            s.rhs.push(s.grad[k]);
+            s.rhs[s.hessian.local[k] as usize] = s.grad[k];
         }
         for b in blocks {
             let b = self.d.work.jac.blocks[b];
             if b.cost == Cost::Push {
-                self.add_push(&b, n);
+                self.add_push(&b);
             } else {
-                by_rows!(b.nrow, R => self.add_curvature::<R>(&b, n));
+                by_rows!(b.nrow, R => self.add_curvature::<R>(&b));
             }
         }
         let s = &mut *self.s;
-        cholesky(&mut s.hessian, n);
-        cholesky_solve(&s.hessian, n, &mut s.rhs);
-        for (k, &x) in dofs.flatten().zip(&s.rhs) {
-            s.step[k] = x;
-            s.search[k] = -x;
+        s.hessian.factor();
+        s.hessian.solve(&mut s.rhs);
+        for k in dofs.flatten() {
+            let x = s.rhs[s.hessian.local[k] as usize];
+            (s.step[k], s.search[k]) = (x, -x);
         }
     }
 
-    /// Adds the rows that push to the Hessian of n rows.
+    /// Adds the rows that push to the Hessian.
     #[inline(always)]
-    fn add_push(&mut self, b: &Block, n: usize) {
+    fn add_push(&mut self, b: &Block) {
         let (d, s) = (&*self.d, &mut *self.s);
         for r in b.rows() {
             s.weight[r] = if s.jar[r] < 0.0 { d.efc_D[r] } else { 0.0 };
         }
         if s.weight[b.rows()].iter().any(|&w| w > 0.0) {
-            d.work.jac.add_gram(b, &s.weight, &s.local, &mut s.hessian, n);
+            d.work.jac.add_gram(b, &s.weight, &mut s.hessian);
         }
     }
 
     /// Adds a constraint of any other kind.
     #[inline(never)]
-    fn add_curvature<const R: usize>(&mut self, b: &Block, n: usize) {
+    fn add_curvature<const R: usize>(&mut self, b: &Block) {
         let (d, s) = (&*self.d, &mut *self.s);
         let (Some(shape), Some(x)) = (shape::<R>(d, b), s.jar[b.rows()].first_chunk::<R>()) else { return };
         match shape.curvature(x) {
             Curvature::Flat => {}
             Curvature::Diagonal(w) => {
                 s.weight[b.rows()].copy_from_slice(&w);
-                d.work.jac.add_gram(b, &s.weight, &s.local, &mut s.hessian, n);
+                d.work.jac.add_gram(b, &s.weight, &mut s.hessian);
             }
-            Curvature::Full(w) => d.work.jac.add_gram_full(b, &w, &s.local, &mut s.hessian, n),
-        }
-    }
-}
-
-/// H = L Lᵀ in place, lower triangle by rows.
-fn cholesky(h: &mut [f64], n: usize) {
-    for i in 0..n {
-        let (above, row) = h.split_at_mut(i * n);
-        let row = &mut row[..=i];
-        for j in 0..i {
-            let lj = &above[j * n..j * n + j + 1];
-            row[j] = (row[j] - dot_slice(&row[..j], &lj[..j])) / lj[j];
-        }
-        let (off, diag) = row.split_at_mut(i);
-        diag[0] = (diag[0] - dot_slice(off, off)).max(MINVAL).sqrt();
-    }
-}
-
-/// x ← H⁻¹ x.
-fn cholesky_solve(l: &[f64], n: usize, x: &mut [f64]) {
-    for i in 0..n {
-        x[i] = (x[i] - dot_slice(&l[i * n..i * n + i], &x[..i])) / l[i * n + i];
-    }
-    for i in (0..n).rev() {
-        let xi = x[i] / l[i * n + i];
-        x[i] = xi;
-        for j in 0..i {
-            x[j] -= l[i * n + j] * xi;
+            Curvature::Full(w) => d.work.jac.add_gram_full(b, &w, &mut s.hessian),
         }
     }
 }

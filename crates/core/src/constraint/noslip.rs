@@ -15,7 +15,7 @@ const RIGID: f64 = 1e-10;
 impl Problem<'_> {
     /// Changes the forces of friction of the island.
     pub(super) fn remove_slip(&mut self) {
-        let (tol, scale) = (self.m.opt.noslip_tolerance, self.scale());
+        let (tol, scale) = (self.m.opt.noslip_tolerance, self.scale_of_all());
         self.accelerate();
         // Without regularization the cost is lower from the start.
         let d = &*self.d;

@@ -34,7 +34,7 @@ impl Random {
 impl Problem<'_> {
     /// Goes on from the forces that are there.
     pub(super) fn gauss_seidel(&mut self) {
-        let (tol, scale) = (self.m.opt.tolerance, self.scale());
+        let (tol, scale) = (self.m.opt.tolerance, self.scale_of_all());
         self.list_items();
         self.copy_forces(|w| &mut w.last);
         self.copy_forces(|w| &mut w.before);

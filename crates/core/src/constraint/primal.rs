@@ -57,10 +57,15 @@ impl<'a> Problem<'a> {
     pub(super) fn scale(&self) -> f64 {
         let m = self.m;
         if m.opt.disabled(disable::ISLAND) {
-            return 1.0 / (m.stat.meaninertia * m.nv.max(1) as f64).max(MINVAL);
+            return self.scale_of_all();
         }
         let sum: f64 = self.dofs().map(|dofs| mass::trace(m, &self.d.M, dofs)).sum();
         1.0 / sum.max(MINVAL)
+    }
+
+    /// The same for the whole scene: dual methods judge every island by it.
+    pub(super) fn scale_of_all(&self) -> f64 {
+        1.0 / (self.m.stat.meaninertia * self.m.nv.max(1) as f64).max(MINVAL)
     }
 
     /// Forces and gradient at the current acceleration; returns the cost and the norm of the gradient.

@@ -47,6 +47,14 @@ pub(crate) fn make(m: &Model, d: &mut Data) {
     }
 }
 
+/// No rows and no contacts.
+pub(crate) fn none(d: &mut Data) {
+    d.work.jac.clear();
+    resize(d, 0);
+    (d.nefc, d.ne, d.nf, d.nl, d.nisland) = (0, 0, 0, 0, 0);
+    crate::collision::none(d);
+}
+
 /// Gives the arrays a length.
 pub(super) fn resize(d: &mut Data, rows: usize) {
     if d.efc_type.len() == rows && d.efc_force.len() == rows {

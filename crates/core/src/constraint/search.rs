@@ -3,8 +3,6 @@
 //! Along a line the cost is convex and piecewise quadratic, so Newton steps on its derivative, kept inside
 //! a bracket, end in a few evaluations.
 
-use crate::math::MINVAL;
-
 /// Cost along the line, relative to its start: value, first and second derivative.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
@@ -22,66 +20,75 @@ impl Point {
     }
 }
 
-/// The step that minimizes `eval` to |slope| < `gtol`, in at most `budget` evaluations. 0 when no step
-/// lowers the cost.
+/// One side of the minimum, and where Newton's method goes from there.
+struct End {
+    at: Point,
+    next: Point,
+}
+
+impl End {
+    /// Moves to the nearest of the candidates on the same side; `false` when there is none nearer.
+    fn tighten(&mut self, candidates: &[Point; 3], eval: &mut impl FnMut(f64) -> Point) -> bool {
+        let before = self.at.slope;
+        for c in candidates {
+            let nearer = self.at.slope.abs() > c.slope.abs() && c.slope != 0.0;
+            if nearer && (c.slope < 0.0) == (before < 0.0) && before != 0.0 {
+                self.at = *c;
+            }
+        }
+        let moved = self.at.slope != before;
+        if moved {
+            self.next = eval(self.at.newton());
+        }
+        moved
+    }
+}
+
+/// The step that minimizes `eval` to |slope| < `gtol`, in about `budget` evaluations: the search ends where it would
+/// begin another round. 0 when no step lowers the cost.
 pub(super) fn minimize(gtol: f64, budget: usize, mut eval: impl FnMut(f64) -> Point) -> f64 {
     let start = eval(0.0);
-    let mut left = budget.saturating_sub(1);
     let mut p = eval(start.newton());
-    if start.cost < p.cost {
-        p = start;
-    }
     if p.slope.abs() < gtol {
         return p.alpha;
     }
 
     // One-sided: Newton steps in the direction of descent until the slope changes sign.
     let direction = if p.slope < 0.0 { 1.0 } else { -1.0 };
-    let mut behind = p;
-    while p.slope * direction <= -gtol && left > 0 {
+    let mut behind = start;
+    let mut used = 2;
+    while p.slope * direction <= -gtol && used < budget {
         behind = p;
         p = eval(p.newton());
-        left -= 1;
+        used += 1;
         if p.slope.abs() < gtol {
             return p.alpha;
         }
     }
-    if left == 0 {
+    if used >= budget {
         return p.alpha;
     }
 
-    // Bracketed: slopes of opposite sign at both ends.
-    let (mut low, mut high) = if behind.slope < p.slope { (behind, p) } else { (p, behind) };
-    while left > 0 {
-        let candidates = [low.newton(), high.newton(), 0.5 * (low.alpha + high.alpha)];
-        let mut best: Option<Point> = None;
-        let mut moved = false;
-        for alpha in candidates {
-            if left == 0 {
-                break;
-            }
-            left -= 1;
-            let c = eval(alpha);
-            if c.slope.abs() < gtol && best.is_none_or(|b| c.cost < b.cost) {
-                best = Some(c);
-            }
-            // Tighten the end on whose side the candidate lies.
-            if c.slope < 0.0 && c.slope > low.slope {
-                (low, moved) = (c, true);
-            } else if c.slope > 0.0 && c.slope < high.slope {
-                (high, moved) = (c, true);
-            }
+    // Bracketed: slopes of opposite sign at both ends. The one behind has been where its Newton step leads.
+    let mut ends = [End { at: p, next: eval(p.newton()) }, End { at: behind, next: p }];
+    used += 1;
+    while used < budget {
+        let middle = eval(0.5 * (ends[0].at.alpha + ends[1].at.alpha));
+        used += 1;
+        let candidates = [ends[0].next, ends[1].next, middle];
+        let flat = candidates.iter().filter(|c| c.slope.abs() < gtol);
+        if let Some(best) = flat.min_by(|a, b| a.cost.total_cmp(&b.cost)) {
+            return best.alpha;
         }
-        if let Some(b) = best {
-            return b.alpha;
-        }
-        if !moved {
-            break;
+        let moved = ends.each_mut().map(|end| usize::from(end.tighten(&candidates, &mut eval)));
+        used += moved[0] + moved[1];
+        if moved == [0, 0] {
+            // Rounding keeps the slope above the tolerance.
+            return middle.alpha;
         }
     }
-    // Rounding keeps the slope above the tolerance: the better end is as good as it gets.
-    let best = if low.cost < high.cost { low } else { high };
-    if best.cost < 0.0 || best.alpha.abs() < MINVAL { best.alpha } else { 0.0 }
+    let best = if ends[0].at.cost <= ends[1].at.cost { ends[0].at } else { ends[1].at };
+    if best.cost < start.cost { best.alpha } else { 0.0 }
 }
 
 #[cfg(test)]

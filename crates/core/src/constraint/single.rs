@@ -5,7 +5,7 @@ use super::impedance::{Acts, kbi};
 use super::rows::{Rows, push, regularization};
 use super::{equality, kind};
 use crate::math::*;
-use crate::{Data, Model, eqtype, joint, tendon};
+use crate::{Data, Model, eqtype, joint, sleep, tendon};
 
 /// Number of rows of dry friction.
 pub(super) fn count_friction(m: &Model) -> usize {
@@ -65,7 +65,7 @@ fn scalars(m: &Model, d: &mut Data, row: Row, solref: [f64; 2], solimp: [f64; 5]
 pub(super) fn friction(m: &Model, d: &mut Data) {
     for k in 0..m.nv {
         let loss = m.dof_frictionloss[k];
-        if loss > 0.0 {
+        if loss > 0.0 && !sleep::body_sleeps(m, d, m.dof_bodyid[k] as usize) {
             d.work.jac.push::<1>(Cost::DryFriction, d.nefc, &[k as u32], [[1.0]].into_iter());
             let row = Row { kind: kind::FRICTION_DOF, id: k, pos: 0.0, margin: 0.0, loss };
             let (solref, solimp) = (rows::<2>(&m.dof_solref)[k], rows::<5>(&m.dof_solimp)[k]);
@@ -74,7 +74,7 @@ pub(super) fn friction(m: &Model, d: &mut Data) {
     }
     for t in 0..m.ntendon {
         let loss = m.tendon_frictionloss[t];
-        if loss > 0.0 && along_tendon(m, d, Cost::DryFriction, t, 1.0) {
+        if loss > 0.0 && !sleep::tendon_sleeps(m, d, t) && along_tendon(m, d, Cost::DryFriction, t, 1.0) {
             let row = Row { kind: kind::FRICTION_TENDON, id: t, pos: 0.0, margin: 0.0, loss };
             let (solref, solimp) = (rows::<2>(&m.tendon_solref_fri)[t], rows::<5>(&m.tendon_solimp_fri)[t]);
             scalars(m, d, row, solref, solimp, m.tendon_invweight0[t]);
@@ -85,7 +85,7 @@ pub(super) fn friction(m: &Model, d: &mut Data) {
 /// A row for each violated side of a limit, lower side first; one for a ball's cone.
 pub(super) fn limits(m: &Model, d: &mut Data) {
     for j in 0..m.njnt {
-        if !m.jnt_limited[j] {
+        if !m.jnt_limited[j] || sleep::body_sleeps(m, d, m.jnt_bodyid[j] as usize) {
             continue;
         }
         let range = rows::<2>(&m.jnt_range)[j];
@@ -110,7 +110,7 @@ pub(super) fn limits(m: &Model, d: &mut Data) {
         }
     }
     for t in 0..m.ntendon {
-        if !m.tendon_limited[t] {
+        if !m.tendon_limited[t] || sleep::tendon_sleeps(m, d, t) {
             continue;
         }
         let margin = m.tendon_margin[t];

@@ -5,6 +5,7 @@
 
 use super::cost::Cost;
 use super::dual::Dual;
+use super::hessian::Hessian;
 use super::island::Islands;
 use super::jacobian::{Block, by_rows};
 use super::primal::{Problem, Reached, shape};
@@ -29,10 +30,8 @@ pub(crate) struct Scratch {
     pub(super) jar: Vec<f64>,
     pub(super) jv: Vec<f64>,
     pub(super) weight: Vec<f64>,
-    /// Position of each degree of freedom in its island.
-    pub(super) local: Vec<u32>,
-    /// Dense Hessian of the island, lower triangle by rows, and a right-hand side.
-    pub(super) hessian: Vec<f64>,
+    /// Hessian of an island, and a right-hand side.
+    pub(super) hessian: Hessian,
     pub(super) rhs: Vec<f64>,
     /// What the dual methods keep.
     pub(super) dual: Dual,
@@ -144,7 +143,6 @@ impl Scratch {
             for v in now.into_iter().chain(old) {
                 v.resize(nv, 0.0);
             }
-            self.local.resize(nv, 0);
         }
         if self.jar.len() != nefc {
             for v in [&mut self.jar, &mut self.jv, &mut self.weight] {

@@ -14,7 +14,7 @@ use super::implicit::solve_six;
 use crate::derivative::{self, Medium, actuator};
 use crate::math::{Spatial, dot, dot_slice, norm};
 use crate::passive::{fluid, spring, spring::Law};
-use crate::{Data, Model, constraint, disable, joint, mass, solver, tendon};
+use crate::{Data, Model, constraint, disable, joint, mass, sleep, solver, tendon};
 
 /// The metric and what follows from it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -87,6 +87,9 @@ pub(crate) fn turn_free_bodies(m: &Model, d: &mut Data) {
     let w = std::mem::take(&mut d.work.metric);
     let mut slopes = std::mem::take(&mut d.work.derivative);
     for tree in 0..m.ntree {
+        if sleep::tree_sleeps(m, d, tree) {
+            continue;
+        }
         if let Some((first, mut a)) = w.free_block(m, d, &mut slopes, tree) {
             let mut f: Spatial = std::array::from_fn(|r| w.force[first + r]);
             if solve_six(&mut a, &mut f) {

@@ -8,16 +8,15 @@ use crate::{Data, Model};
 /// What a step keeps between its stages.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct RungeKutta {
-    /// The state and acceleration at the start of the step.
+    /// The state at the start of the step.
     qpos: Vec<f64>,
     qvel: Vec<f64>,
     act: Vec<f64>,
-    pub(crate) qacc: Vec<f64>,
     /// Weighted sums of the stages' slopes, and the velocity of one stage.
     dpos: Vec<f64>,
     dvel: Vec<f64>,
     dact: Vec<f64>,
-    slope: Vec<f64>,
+    pub(crate) slope: Vec<f64>,
 }
 
 impl RungeKutta {
@@ -27,7 +26,6 @@ impl RungeKutta {
             qpos: q,
             qvel: v.clone(),
             act: a.clone(),
-            qacc: v.clone(),
             dpos: v.clone(),
             dvel: v.clone(),
             dact: a,
@@ -46,7 +44,6 @@ pub(super) fn rk4(m: &Model, d: &mut Data) {
     w.qpos.copy_from_slice(&d.qpos);
     w.qvel.copy_from_slice(&d.qvel);
     w.act.copy_from_slice(&d.act);
-    w.qacc.copy_from_slice(&d.qacc);
     weigh(&mut w.dpos, B[0], &d.qvel);
     weigh(&mut w.dvel, B[0], &d.qacc);
     weigh(&mut w.dact, B[0], &d.act_dot);
@@ -73,8 +70,6 @@ pub(super) fn rk4(m: &Model, d: &mut Data) {
         d,
         Slopes { activation: Some(&mut w.dact), acceleration: Some(&w.dvel), velocity: Some(&w.dpos) },
     );
-    // The warm start of the next step is the first stage's acceleration.
-    d.qacc_warmstart.copy_from_slice(&w.qacc);
     d.work.rk = w;
 }
 

@@ -101,12 +101,19 @@ pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     }
 }
 
-/// Collision tests every pair of geoms, and a pile is solved with a dense matrix: a model far beyond a lesson's
+/// Collision tests pairs of geoms, and every degree of freedom moves all of those above it: a model far beyond a lesson's
 /// would take memory and hours without a word.
 fn within_limits(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     let geoms: usize = bodies.iter().map(|b| b.geoms.len()).sum();
-    let counts =
-        [(layout.dofs.len(), super::MAX_DOFS, "degrees of freedom"), (geoms, super::MAX_GEOMS, "geoms")];
+    let mut depth: Vec<usize> = Vec::with_capacity(layout.dofs.len());
+    for dof in &layout.dofs {
+        depth.push(1 + dof.parent.and_then(|p| depth.get(p)).unwrap_or(&0));
+    }
+    let counts = [
+        (layout.dofs.len(), super::MAX_DOFS, "degrees of freedom"),
+        (depth.iter().sum(), super::MAX_MASS, "pairs of degrees of freedom that move each other"),
+        (geoms, super::MAX_GEOMS, "geoms"),
+    ];
     for (n, most, what) in counts {
         if n > most {
             report

@@ -74,7 +74,9 @@ pub const MAX_DEPTH: usize = 1000;
 /// Largest number of elements.
 pub const MAX_ELEMENTS: usize = 200_000;
 /// Largest number of degrees of freedom.
-pub const MAX_DOFS: usize = 1500;
+pub const MAX_DOFS: usize = 12_000;
+/// Largest number of entries of the mass matrix: a chain of 1500 degrees of freedom, or many trees.
+pub const MAX_MASS: usize = 1_200_000;
 /// Largest number of geoms.
 pub const MAX_GEOMS: usize = 5000;
 /// Largest number of attributes of an element.

@@ -1,8 +1,9 @@
-//! What compiles but cannot be simulated yet: it is refused.
+//! What compiles but cannot be simulated: it is refused.
 
 use super::diagnostic::{Report, code};
 use super::tree::Tree;
-use crate::{Model, collision, disable, enable, eqtype};
+use crate::sleep::policy;
+use crate::{Data, Model, Obj, disable, enable, eqtype, integrator};
 
 /// Reports what the model asks for and does not get.
 pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {
@@ -11,28 +12,40 @@ pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {
     }
 }
 
-/// Reports sleeping where it would have to know of constraints.
+/// Reports what cannot sleep as it should.
 fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
     let flag = || tree.nodes.iter().filter(|n| n.element.name == "flag").find_map(|n| n.attribute("sleep"));
     let span = || flag().map_or(0..0, |a| a.span.clone());
-    let off = |bit: i32| m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(bit);
     let acts = |e: usize| m.eq_type[e] == eqtype::TENDON && m.eq_active0[e];
     if (0..m.neq).any(acts) {
         report
             .error(code::NOT_SUPPORTED, span(), "trees cannot sleep while an equality ties tendons")
             .why("MuJoCo has no rule for what wakes them, and refuses such a model, too")
             .help("switch sleeping off, or remove the equality between tendons");
-    } else if !off(disable::LIMIT) && (m.jnt_limited.contains(&true) || m.tendon_limited.contains(&true))
-        || !off(disable::EQUALITY) && m.neq > 0
-        || !off(disable::CONTACT) && !collision::candidate_pairs(m, false).is_empty()
-    {
+        return;
+    }
+    if m.opt.integrator == integrator::DISCRETE && m.opt.disabled(disable::ISLAND) {
         report
             .error(
                 code::NOT_SUPPORTED,
                 span(),
-                "sleeping is not simulated yet where bodies can touch, or have limits",
+                "trees cannot sleep with the discrete integrator without islands",
             )
-            .why("trees that MuJoCo puts to sleep would go on moving a little")
-            .help("switch sleeping off: at rest the numbers differ by less than `sleep_tolerance`");
+            .why("nobody knows which of them hold each other; MuJoCo refuses such a model, too")
+            .help("leave islands switched on, or choose another integrator");
+        return;
+    }
+    if !m.tree_sleep_policy.contains(&policy::INIT) {
+        return;
+    }
+    let d = Data::new(m);
+    let awake = |t: &usize| m.tree_sleep_policy[*t] == policy::INIT && d.tree_asleep[*t] < 0;
+    for t in (0..m.ntree).filter(awake) {
+        let body = m.names.of(Obj::Body).get(m.tree_bodyadr[t] as usize).filter(|name| !name.is_empty());
+        let who = body.map_or("a body without a name".into(), |name| format!("body `{name}`"));
+        report
+            .error(code::JOINT, span(), format!("{who} cannot start asleep"))
+            .why("it touches, or is tied to, what does not start asleep: bodies that hold each other sleep together")
+            .help("give `sleep=\"init\"` to all that touch at the start, or move them apart");
     }
 }

@@ -1,12 +1,10 @@
 //! Sleeping: trees at rest are not simulated until something disturbs them.
 //!
-//! MuJoCo's documentation, "Computation: Sleeping islands"; details measured on MuJoCo 3.14.0. A tree whose degrees of
-//! freedom are slower than `opt.sleep_tolerance` for [`PATIENCE`] steps falls asleep: its velocity becomes zero, it does not
-//! move, and its forces and accelerations stay what they were. It wakes when its state or the forces applied to it change,
-//! or when an equality or a tendon at its limit ties it to a tree that is awake.
-//!
-//! Here trees sleep one by one, which is what they do without constraints; a scene whose constraints can act
-//! stays awake, and the compiler refuses it.
+//! MuJoCo's documentation, "Computation: Sleeping islands"; details measured on MuJoCo 3.14.0. An island of trees whose
+//! degrees of freedom are slower than `opt.sleep_tolerance` for [`PATIENCE`] steps falls asleep: its velocity becomes zero,
+//! it does not move, its smooth forces and accelerations stay what they were, and no constraint acts on it. It wakes as a
+//! whole when its state or the forces applied to it change, or when a contact, an equality or a tendon at its limit ties it
+//! to a tree that is awake.
 
 mod rest;
 mod state;
@@ -15,15 +13,18 @@ mod wake;
 use std::ops::Range;
 
 use crate::reflect::Stage;
-use crate::{Data, Model, disable, enable, joint, pipeline};
+use crate::{Data, Model, constraint, enable, joint, pipeline};
 
 pub(crate) use rest::{advance, keep, put_back};
-pub(crate) use state::{actuator_sleeps, body_sleeps, sensor_sleeps, tendon_sleeps};
-pub(crate) use wake::{wake, wake_tied};
+pub(crate) use state::{
+    actuator_sleeps, body_sleeps, equality_sleeps, pair_sleeps, sensor_sleeps, tendon_sleeps, tree_sleeps,
+};
+pub(crate) use wake::{wake, wake_by_equalities, wake_by_tendons, wake_touched};
 
 /// Steps that a tree has to be slow for.
 const PATIENCE: i32 = 10;
-/// `tree_asleep` of a tree that was not slow in the last step. It counts up to -1, and is a tree where it sleeps.
+/// `tree_asleep` of a tree that was not slow in the last step. It counts up to -1; where it sleeps it is the next tree of
+/// those that fell asleep together, which form a circle.
 const AWAKE: i32 = -(1 + PATIENCE);
 
 /// Values of `tree_sleep_policy`.
@@ -51,7 +52,6 @@ pub(crate) struct Work {
     /// What of a sleeping tree stays as it was.
     qfrc_smooth: Vec<f64>,
     qacc_smooth: Vec<f64>,
-    qacc: Vec<f64>,
     act_dot: Vec<f64>,
     /// The acceleration of this step.
     acceleration: Vec<f64>,
@@ -67,7 +67,6 @@ impl Work {
             start: q,
             qfrc_smooth: v.clone(),
             qacc_smooth: v.clone(),
-            qacc: v.clone(),
             acceleration: v,
             act_dot: a,
             fresh: true,
@@ -78,9 +77,7 @@ impl Work {
 /// Whether trees may sleep now.
 #[inline(always)]
 pub(crate) fn on(m: &Model, d: &Data) -> bool {
-    d.plan.keeps(Stage::Sleep)
-        && m.opt.enabled(enable::SLEEP)
-        && (m.opt.disabled(disable::CONSTRAINT) || !d.plan.keeps(Stage::Constraint))
+    d.plan.keeps(Stage::Sleep) && m.opt.enabled(enable::SLEEP)
 }
 
 /// Whether some tree sleeps.
@@ -116,22 +113,21 @@ fn coordinates(m: &Model, tree: usize) -> Range<usize> {
 }
 
 /// All trees are awake, but those that start asleep where sleeping is on: then the others are at rest, too. What
-/// sleeps shows what a forward pass makes of the start, without forces and accelerations.
+/// sleeps shows what a forward pass makes of the start, without forces, accelerations and contacts.
 pub(crate) fn reset(m: &Model, d: &mut Data) {
     d.tree_asleep.fill(AWAKE);
     state::update(m, d);
     if on(m, d) && m.tree_sleep_policy.contains(&policy::INIT) {
         pipeline::forward(m, d);
+        for (asleep, &policy) in d.tree_asleep.iter_mut().zip(&m.tree_sleep_policy) {
+            // Those are ready; whether they may sleep together with what they touch, their island decides.
+            *asleep = if policy == policy::INIT { -1 } else { AWAKE };
+        }
+        rest::fall_asleep(m, d);
         for v in [&mut d.qfrc_smooth, &mut d.qacc_smooth, &mut d.qacc, &mut d.act_dot] {
             v.fill(0.0);
         }
-        for t in 0..m.ntree {
-            d.tree_asleep[t] = match m.tree_sleep_policy[t] {
-                policy::INIT => t as i32,
-                _ if rest::may_sleep(m, t) => AWAKE + 1,
-                _ => AWAKE,
-            };
-        }
+        constraint::none(d);
         state::update(m, d);
     }
     d.work.sleep.seen.copy_from_slice(&d.qpos);

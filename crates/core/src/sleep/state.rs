@@ -2,7 +2,7 @@
 
 use super::{awake, some};
 use crate::sensor::kind;
-use crate::{Data, Model, Obj, trntype};
+use crate::{Data, Model, Obj, eqtype, trntype};
 
 /// `tree_awake`, `body_awake` and the counts, from `tree_asleep`.
 pub(super) fn update(m: &Model, d: &mut Data) {
@@ -32,6 +32,11 @@ pub(crate) fn actuator_sleeps(m: &Model, d: &Data, i: usize) -> bool {
     some(m, d) && actuator(m, d, i) == awake::NO
 }
 
+/// Whether a tree sleeps.
+pub(crate) fn tree_sleeps(m: &Model, d: &Data, tree: usize) -> bool {
+    some(m, d) && d.tree_awake[tree] == 0
+}
+
 /// Whether a body sleeps.
 pub(crate) fn body_sleeps(m: &Model, d: &Data, b: usize) -> bool {
     some(m, d) && d.body_awake[b] == awake::NO
@@ -40,6 +45,27 @@ pub(crate) fn body_sleeps(m: &Model, d: &Data, b: usize) -> bool {
 /// Whether the trees on the path of tendon `t` sleep.
 pub(crate) fn tendon_sleeps(m: &Model, d: &Data, t: usize) -> bool {
     some(m, d) && tendon(m, d, t) == awake::NO
+}
+
+/// Whether neither of two geoms is on a body that is awake: nothing new can come of them.
+#[inline(always)]
+pub(crate) fn pair_sleeps(m: &Model, d: &Data, geom1: usize, geom2: usize) -> bool {
+    let is_awake = |geom: usize| d.body_awake[m.geom_bodyid[geom] as usize] == awake::YES;
+    some(m, d) && !is_awake(geom1) && !is_awake(geom2)
+}
+
+/// Whether neither side of equality `e` is awake: it does not act.
+pub(crate) fn equality_sleeps(m: &Model, d: &Data, e: usize) -> bool {
+    let kind = match m.eq_type[e] {
+        eqtype::JOINT => Obj::Joint as i32,
+        eqtype::TENDON => Obj::Tendon as i32,
+        _ => m.eq_objtype[e],
+    };
+    let is_awake = |id: i32| {
+        let state = usize::try_from(id).ok().and_then(|id| of_object(m, d, kind, id));
+        state == Some(awake::YES)
+    };
+    some(m, d) && !is_awake(m.eq_obj1id[e]) && !is_awake(m.eq_obj2id[e])
 }
 
 /// Whether all that sensor `s` measures sleeps or cannot move: its values stay as they are.

@@ -21,8 +21,8 @@ pub(crate) fn wake(m: &Model, d: &mut Data) {
     }
 }
 
-/// Wakes what a tendon at its limit, then what an equality ties to a tree that is awake.
-pub(crate) fn wake_tied(m: &Model, d: &mut Data) {
+/// Wakes what a tendon at its limit ties to a tree that is awake.
+pub(crate) fn wake_by_tendons(m: &Model, d: &mut Data) {
     if !some(m, d) {
         return;
     }
@@ -31,21 +31,42 @@ pub(crate) fn wake_tied(m: &Model, d: &mut Data) {
         let [lower, upper] = [m.tendon_range[2 * t], m.tendon_range[2 * t + 1]];
         let margin = m.tendon_margin[t];
         if m.tendon_limited[t] && (length < lower + margin || length > upper - margin) {
-            let trees = [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]];
-            let [a, b] = trees.map(|tree| tree.max(0) as usize);
-            // The woken one has been slow for as long as the other.
-            match (d.tree_awake[a] != 0, d.tree_awake[b] != 0) {
-                (true, false) => wake_island(d, b, d.tree_asleep[a]),
-                (false, true) => wake_island(d, a, d.tree_asleep[b]),
-                _ => {}
-            }
+            wake_one(
+                d,
+                [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]].map(|tree| tree.max(0) as usize),
+            );
         }
     }
     state::update(m, d);
+}
+
+/// Wakes what touches a body that is awake; `true` when there is any, which may touch others in turn.
+pub(crate) fn wake_touched(m: &Model, d: &mut Data) -> bool {
+    if !some(m, d) {
+        return false;
+    }
+    let before = d.ntree_awake;
+    for c in 0..d.contact.len() {
+        let bodies = [d.contact[c].geom1, d.contact[c].geom2].map(|g| m.geom_bodyid[g] as usize);
+        match bodies.map(|body| usize::try_from(m.body_treeid[body]).ok()) {
+            [Some(a), Some(b)] => wake_one(d, [a, b]),
+            // A body that is placed from outside.
+            [Some(tree), None] | [None, Some(tree)] if d.tree_awake[tree] == 0 => wake_island(d, tree, AWAKE),
+            _ => {}
+        }
+    }
+    state::update(m, d);
+    d.ntree_awake > before
+}
+
+/// Wakes what an equality ties to a tree that is awake, or to one that fell asleep at another time.
+pub(crate) fn wake_by_equalities(m: &Model, d: &mut Data) {
+    if !some(m, d) {
+        return;
+    }
     for e in 0..m.neq {
         let Some([a, b]) = tied_trees(m, e).filter(|_| d.eq_active[e]) else { continue };
         let asleep = [d.tree_awake[a] == 0, d.tree_awake[b] == 0];
-        // Two that sleep wake unless they fell asleep together.
         if a != b && asleep != [false, false] && (asleep != [true, true] || !together(d, a, b)) {
             for (tree, _) in [a, b].into_iter().zip(asleep).filter(|&(_, asleep)| asleep) {
                 wake_island(d, tree, AWAKE);
@@ -53,6 +74,15 @@ pub(crate) fn wake_tied(m: &Model, d: &mut Data) {
         }
     }
     state::update(m, d);
+}
+
+/// Wakes the one of two trees that sleeps while the other does not. It has been slow for as long as the other.
+fn wake_one(d: &mut Data, [a, b]: [usize; 2]) {
+    match (d.tree_awake[a] != 0, d.tree_awake[b] != 0) {
+        (true, false) => wake_island(d, b, d.tree_asleep[a]),
+        (false, true) => wake_island(d, a, d.tree_asleep[b]),
+        _ => {}
+    }
 }
 
 /// The two trees that an equality ties, `None` when one side cannot move.

@@ -130,7 +130,10 @@ fn readouts(lab: &Lab, table: &Table) -> String {
         let _ = writeln!(text, "  {label}{}  {value}", " ".repeat(width - label.chars().count()));
     }
     for (name, n) in &table.warnings {
-        let _ = writeln!(text, "warning: {name} ({n} times): the simulation met a bad number and was reset");
+        let _ = writeln!(text, "warning: {name} ({n} times)");
+    }
+    if let Some(b) = &table.breakdown {
+        let _ = writeln!(text, "  {}\n  {}\n  help: {}", b.what, b.why, b.help);
     }
     for error in &table.errors {
         let _ = writeln!(text, "error: {error}");

@@ -1,9 +1,11 @@
 //! Running a lab without a page: the exact order of events, sampled into a table.
 
+mod breakdown;
 mod samples;
 mod session;
 mod table;
 
+pub use breakdown::{Breakdown, owner, remedy};
 pub use samples::Samples;
 pub use session::{Numerics, Session, Trouble};
 pub use table::{Cell, Table, shown};

@@ -1,6 +1,6 @@
 //! The samples of a run, and their written forms.
 
-use super::Session;
+use super::{Breakdown, Session};
 use labspec_core::Warning;
 use labspec_expr::Value;
 use serde_json::{Value as Json, json};
@@ -107,6 +107,8 @@ pub struct Table {
     pub rows: Vec<Vec<Cell>>,
     /// Warnings of the engine since the last reset: name and number.
     pub warnings: Vec<(&'static str, usize)>,
+    /// What they mean for the lesson.
+    pub breakdown: Option<Breakdown>,
     /// What threw.
     pub errors: Vec<String>,
 }
@@ -114,12 +116,20 @@ pub struct Table {
 impl Table {
     pub(super) fn new(timestep: f64, probes: impl Iterator<Item = String>) -> Table {
         let columns = std::iter::once("time".to_string()).chain(probes).collect();
-        Table { timestep, columns, rows: Vec::new(), warnings: Vec::new(), errors: Vec::new() }
+        Table {
+            timestep,
+            columns,
+            rows: Vec::new(),
+            warnings: Vec::new(),
+            breakdown: None,
+            errors: Vec::new(),
+        }
     }
 
     pub(super) fn finish(&mut self, session: &Session<'_>) {
         let raised = Warning::ALL.iter().zip(&session.world.data.warning).filter(|(_, s)| s.number > 0);
         self.warnings = raised.map(|(w, s)| (w.name(), s.number)).collect();
+        self.breakdown = Breakdown::of(session);
         self.errors = session.troubles.iter().map(|t| format!("{}: {}", t.text.value, t.message)).collect();
     }
 

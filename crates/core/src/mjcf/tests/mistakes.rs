@@ -116,7 +116,8 @@ mistakes! {
     geom_type_not_supported: world("<geom type=\"sdf\" size=\"1 1\"/>");
     keyword_misspelt: before("<option integrator=\"euler\"/>");
     integrator_unknown: before("<option integrator=\"midpoint\"/>");
-    sleep_not_simulated: before("<option><flag sleep=\"enable\"/></option>\n<worldbody><body><joint range=\"0 1\"/><geom size=\"1\"/></body></worldbody>");
+    sleep_start_touches: before("<option><flag sleep=\"enable\"/></option>\n<worldbody><body name=\"ball\" sleep=\"init\"><freejoint/><geom size=\"1\"/></body><body pos=\"1.9 0 0\"><freejoint/><geom size=\"1\"/></body></worldbody>");
+    sleep_without_islands: before("<option integrator=\"discrete\">\n<flag sleep=\"enable\" island=\"disable\"/></option>");
     sleep_of_tendons: tied("<option><flag sleep=\"enable\"/></option>\n<tendon><spatial name=\"rope\"><site site=\"s\"/><site site=\"t\"/></spatial></tendon><equality><tendon tendon1=\"rope\"/></equality>");
     boolean: world("<body mocap=\"True\"/>");
     stray_text: world("\n  geom size=\"1\"/>");

@@ -1,0 +1,112 @@
+//! What the engine's warnings mean for a lesson: what broke, when, the likely cause, and what to write instead.
+
+use super::Session;
+use labspec_core::stability::{self, Part, Suspect};
+use labspec_core::{Model, Obj, Warning, joint};
+
+/// A run that met a bad number, in a teacher's words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Breakdown {
+    /// What is no number, and when.
+    pub what: String,
+    /// What the page shows.
+    pub why: &'static str,
+    /// The likely cause and what to change.
+    pub help: String,
+}
+
+/// In the order in which one follows from the other.
+const WORST_FIRST: [(Warning, &str); 5] = [
+    (Warning::BadQpos, RESET),
+    (Warning::BadQvel, RESET),
+    (Warning::BadQacc, RESET),
+    (
+        Warning::BadCtrl,
+        "MuJoCo then takes all controls as 0: a student sees everything go limp without a word",
+    ),
+    (Warning::ContactFull, "what is not kept does not push: bodies sink into each other without a word"),
+];
+const RESET: &str =
+    "MuJoCo then resets the data and goes on from time 0: a student sees the scene jump back without a word";
+
+impl Breakdown {
+    /// The worst of what a session met; `None` when it met nothing.
+    pub fn of(session: &Session<'_>) -> Option<Breakdown> {
+        let met = |w: Warning| session.warnings.get(w as usize).filter(|stat| stat.number > 0);
+        let (warning, why, stat) = WORST_FIRST.iter().find_map(|&(w, why)| Some((w, why, met(w)?)))?;
+        let model = &session.world.model;
+        let joint = |adr: &[i32], width| joint_of(model, stat.lastinfo, adr, width);
+        let what = match warning {
+            Warning::BadQpos => format!("the position of {}", joint(&model.jnt_qposadr, joint::nq)),
+            Warning::BadQvel => format!("the velocity of {}", joint(&model.jnt_dofadr, joint::nv)),
+            Warning::BadQacc => format!("the acceleration of {}", joint(&model.jnt_dofadr, joint::nv)),
+            Warning::BadCtrl => format!("control {}", stat.lastinfo),
+            _ => {
+                let what = format!("more than {} contacts at t = {:.4} s", stat.lastinfo, stat.first_time);
+                let help = "let fewer bodies touch, or move them apart at the start".into();
+                return Some(Breakdown { what, why, help });
+            }
+        };
+        let what = format!("{what} is not a number or above 1e10 at t = {:.4} s", stat.first_time);
+        let help = match (warning, stability::suspects(model).first()) {
+            (Warning::BadCtrl, _) => {
+                "guard the expression that is written to `data.ctrl` with a condition".into()
+            }
+            (_, Some(worst)) => format!(
+                "the likely cause: {} is {:.1} times too stiff for a step of {} s; {}",
+                owner(model, worst),
+                worst.excess,
+                model.opt.timestep,
+                remedy(model, worst)
+            ),
+            _ => format!(
+                "try a smaller timestep than {} s, softer contacts or springs, or a smaller range of the control",
+                model.opt.timestep
+            ),
+        };
+        Some(Breakdown { what, why, help })
+    }
+}
+
+/// What is too stiff: `the servo "lift"`, `the spring of joint "knee"`.
+pub fn owner(model: &Model, s: &Suspect) -> String {
+    let names = model.names.of(s.object);
+    let name = match names.get(s.id) {
+        Some(name) if !name.is_empty() => format!("\"{name}\""),
+        _ => s.id.to_string(),
+    };
+    match (s.part, s.object) {
+        (Part::Servo, _) => format!("the servo {name}"),
+        (Part::Constraint, Obj::Geom) => format!("the contact of geom {name}"),
+        (Part::Constraint, Obj::Pair) => format!("the contact of pair {name}"),
+        (Part::Constraint, _) => format!("the equality {name}"),
+        (part, object) => {
+            let what = if part == Part::Limit { "limit" } else { "spring or damper" };
+            format!("the {what} of {} {name}", if object == Obj::Tendon { "tendon" } else { "joint" })
+        }
+    }
+}
+
+/// What to write instead.
+pub fn remedy(model: &Model, s: &Suspect) -> String {
+    let attribute = match (s.part, s.object) {
+        (Part::Servo, _) => "`kp` and `kv`",
+        (Part::Spring, _) => "`stiffness` and `damping`",
+        (Part::Limit, _) => "`solreflimit`",
+        (Part::Constraint, _) => "`solref`",
+    };
+    let shorter = format!("{:.1e}", 0.9 * s.timestep.min(model.opt.timestep));
+    format!("write a timestep of {shorter} s, or softer {attribute}, or `integrator=\"discrete\"`")
+}
+
+fn joint_of(model: &Model, index: usize, adr: &[i32], width: fn(i32) -> usize) -> String {
+    let found = (0..model.njnt).find(|&j| {
+        let first = adr.get(j).map_or(0, |&a| a as usize);
+        (first..first + width(model.jnt_type.get(j).copied().unwrap_or(3))).contains(&index)
+    });
+    match found.and_then(|j| model.names.joint.get(j).map(|n| (j, n))) {
+        Some((_, name)) if !name.is_empty() => format!("joint \"{name}\""),
+        Some((j, _)) => format!("joint {j}"),
+        None => format!("degree of freedom {index}"),
+    }
+}
