@@ -185,6 +185,9 @@ fn settings() -> Settings {
     Settings::of(&Model { opt: crate::Options::mujoco(), ..Model::default() })
 }
 
+/// The tolerance of the search for the nearest points of convex shapes (`ccd_tolerance`), m.
+const GRAZING: f64 = 1e-6;
+
 #[test]
 fn distances_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
@@ -209,8 +212,13 @@ fn distances_are_those_of_mujoco() {
         let shown = format!("{line}\n    got {got:?}");
         report.allow(&name("dist"), 1);
         report.allow(&name("fromto"), 2);
-        report.note(name("dist"), difference(&got[..1], &want[..1]), 1e-10 * scale, &shown);
-        report.note(name("fromto"), difference(&got[1..], &want[1..]), 1e-7 * scale, &shown);
+        // Where shapes graze, curved ones are followed to the tolerance of the search, in the library as here: which side
+        // of it the search stops at is decided by rounding.
+        let curved = a.kind.max(b.kind) > geom::CAPSULE && a.kind.min(b.kind) != geom::PLANE;
+        let grazing = curved && want[0].abs() < GRAZING;
+        let (close, near) = if grazing { (GRAZING, GRAZING.sqrt()) } else { (1e-10, 1e-7) };
+        report.note(name("dist"), difference(&got[..1], &want[..1]), close * scale, &shown);
+        report.note(name("fromto"), difference(&got[1..], &want[1..]), near * scale, &shown);
     }
     keep("distances.md", &figures.distance_table());
     report.finish(print);
