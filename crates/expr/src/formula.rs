@@ -140,35 +140,31 @@ impl Formula {
         let r = registers.get_mut(..self.steps.len())?;
         let known = self.constants.len();
         r.get_mut(..known)?.copy_from_slice(&self.constants);
-        // The last result is mostly the next operand: it need not come back from memory.
-        let mut last = self.constants.last().copied().unwrap_or(0.0);
         for (i, step) in self.steps.iter().enumerate().skip(known) {
-            let of = |at: At| if at as usize + 1 == i { last } else { r[at as usize] };
-            last = match *step {
+            r[i] = match *step {
                 Step::Constant(x) => x,
                 Step::Load(field, index) => host.get(field, index as usize)?,
-                Step::Add(a, b) => of(a) + of(b),
-                Step::Subtract(a, b) => of(a) - of(b),
-                Step::Multiply(a, b) => of(a) * of(b),
-                Step::Divide(a, b) => of(a) / of(b),
-                Step::AddConstant(a, k) => of(a) + k,
-                Step::MultiplyConstant(a, k) => of(a) * k,
-                Step::SubtractFrom(k, a) => k - of(a),
-                Step::Binary(op, a, b) => op.on_numbers(of(a), of(b)),
-                Step::Negate(a) => -of(a),
-                Step::Not(a) => f64::from(u8::from(!truthy(of(a)))),
-                Step::BitNot(a) => f64::from(!crate::number::to_int32(of(a))),
-                Step::Choose(test, yes, no) => of(if truthy(of(test)) { yes } else { no }),
+                Step::Add(a, b) => r[a as usize] + r[b as usize],
+                Step::Subtract(a, b) => r[a as usize] - r[b as usize],
+                Step::Multiply(a, b) => r[a as usize] * r[b as usize],
+                Step::Divide(a, b) => r[a as usize] / r[b as usize],
+                Step::AddConstant(a, k) => r[a as usize] + k,
+                Step::MultiplyConstant(a, k) => r[a as usize] * k,
+                Step::SubtractFrom(k, a) => k - r[a as usize],
+                Step::Binary(op, a, b) => op.on_numbers(r[a as usize], r[b as usize]),
+                Step::Negate(a) => -r[a as usize],
+                Step::Not(a) => f64::from(u8::from(!truthy(r[a as usize]))),
+                Step::BitNot(a) => f64::from(!crate::number::to_int32(r[a as usize])),
+                Step::Choose(test, yes, no) => r[if truthy(r[test as usize]) { yes } else { no } as usize],
                 Step::Math(function, first, count) => {
                     let mut row = [0.0; ARGS];
                     let args = self.args(first, count);
                     for (x, &a) in row.iter_mut().zip(args) {
-                        *x = of(a);
+                        *x = r[a as usize];
                     }
                     function.apply(&row[..args.len()])
                 }
             };
-            r[i] = last;
         }
         r.get(self.output as usize).copied()
     }
