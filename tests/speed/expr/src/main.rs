@@ -178,7 +178,8 @@ fn corpus() -> Vec<(String, Lab, Arc<Model>)> {
             let mut models = Models::new(folder.clone());
             for lab in lesson.all_labs() {
                 if let Some(model) = models.of(lab, &mut Vec::new()) {
-                    labs.push((lab.title().to_owned(), lab.clone(), model));
+                    let title = if lab.title().is_empty() { "(without a title)" } else { lab.title() };
+                    labs.push((title.to_owned(), lab.clone(), model));
                 }
             }
         }
