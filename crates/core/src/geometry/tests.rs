@@ -185,6 +185,9 @@ fn settings() -> Settings {
     Settings::of(&Model { opt: crate::Options::mujoco(), ..Model::default() })
 }
 
+/// `ccd_tolerance`, m.
+const CLOSE: f64 = 1e-6;
+
 #[test]
 fn distances_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
@@ -209,6 +212,12 @@ fn distances_are_those_of_mujoco() {
         let shown = format!("{line}\n    got {got:?}");
         report.allow(&name("dist"), 1);
         report.allow(&name("fromto"), 2);
+        // Nearer than the tolerance of the search, a distance is known to that, and its points are anywhere along the slit.
+        let searched = matches!(pair::method(least.kind, other.kind), Some(Method::Convex));
+        if searched && got[0].abs().max(want[0].abs()) < CLOSE {
+            report.note(name("dist"), difference(&got[..1], &want[..1]), CLOSE, &shown);
+            continue;
+        }
         report.note(name("dist"), difference(&got[..1], &want[..1]), 1e-10 * scale, &shown);
         report.note(name("fromto"), difference(&got[1..], &want[1..]), 1e-7 * scale, &shown);
     }
