@@ -251,7 +251,12 @@ fn stiff_and_extreme_scenes() {
     assert!(wrong.is_empty(), "scenes that end well with MuJoCo and not here:\n{}", wrong.join("\n"));
     let kept = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
-        kept == text,
+        differ.len() <= searches.len() / 20,
+        "longest stable timesteps that are not MuJoCo's:\n{}",
+        differ.join("\n")
+    );
+    assert!(
+        subjects(&kept) == subjects(&text),
         "docs/stability.md is stale: LABSPEC_BLESS=1 cargo test -p labspec --test all stiff"
     );
 }
