@@ -180,6 +180,14 @@ fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>) -> S
     text
 }
 
+/// What a page has a line about: digits at the level of rounding come and go, scenes do not.
+fn subjects(page: &str) -> Vec<&str> {
+    page.lines()
+        .map(|line| line.split('|').nth(1).unwrap_or(line))
+        .filter(|s| !s.contains("end well"))
+        .collect()
+}
+
 #[test]
 fn stiff_and_extreme_scenes() {
     let golden = workspace().join("tests/golden");

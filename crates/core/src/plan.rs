@@ -637,6 +637,10 @@ impl<'a> Scene<'a> {
             (Stage::Reference, Stage::ComVel) => self.ties_bodies(),
             (Stage::Bias, Stage::ComVel) => self.large,
             (Stage::Acceleration, Stage::ComVel) => self.bias_slopes(),
+            // The discrete integrator takes springs at the end of the step, where velocities lead.
+            (Stage::Acceleration, Stage::Tendon | Stage::TendonVel) => {
+                self.tendon_forces() && self.may_integrate_by(integrator::DISCRETE)
+            }
             (Stage::Bias, Stage::Kinematics) if self.large => true,
             // A simple body's weight acts along its slides.
             (Stage::Bias, Stage::Kinematics) => (0..m.njnt)
@@ -655,15 +659,16 @@ impl<'a> Scene<'a> {
         }
     }
 
+    /// Whether the options name an integrator, or may come to name it.
+    fn may_integrate_by(&self, kind: i32) -> bool {
+        self.m.opt.integrator == kind || self.writes(Object::Option, &["integrator"])
+    }
+
     /// Whether an integrator asks how the bias force changes with velocities: that is found from composite bodies.
     fn bias_slopes(&self) -> bool {
         let free = || (0..self.m.ntree).any(|t| derivative::is_free_rigid(self.m, t));
-        match self.m.opt.integrator {
-            _ if self.writes(Object::Option, &["integrator"]) => true,
-            integrator::IMPLICIT => true,
-            integrator::IMPLICITFAST => free(),
-            _ => false,
-        }
+        self.may_integrate_by(integrator::IMPLICIT)
+            || self.may_integrate_by(integrator::IMPLICITFAST) && free()
     }
 
     /// Why a stage is left out.
