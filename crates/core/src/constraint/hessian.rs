@@ -14,6 +14,11 @@ use crate::math::{MINVAL, dot_slice};
 /// Degrees of freedom up to which whole rows are kept.
 const SMALL: usize = 120;
 
+/// The sum of the squares of the lengths of rows up to which an island is solved with its Hessian: that of a thousand
+/// degrees of freedom, each tied to each. Beyond that a step would take minutes; conjugate gradients find the same
+/// solution without it.
+const MOST_WORK: usize = 330_000_000;
+
 /// A symmetric matrix: the lower triangle, row by row.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Hessian {
@@ -49,8 +54,9 @@ impl Hessian {
         self.values.len()
     }
 
-    /// Numbers the degrees of freedom of an island, and lays out its rows.
-    pub(super) fn lay_out(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
+    /// Numbers the degrees of freedom of an island, and lays out its rows. `false`, and no room is made, where to
+    /// factorize them would take more than [`MOST_WORK`].
+    pub(super) fn lay_out(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) -> bool {
         let trees = || islands.trees_of(island);
         let n: usize = trees().map(|t| tree_dofs(m, t).len()).sum();
         self.local.resize(m.nv, 0);
@@ -66,12 +72,18 @@ impl Hessian {
             self.shorten(m, jac, islands, island);
         }
         self.start.clear();
-        let mut end = 0;
+        let (mut end, mut work) = (0, 0);
         for (row, &first) in self.first.iter().enumerate() {
+            let length = row + 1 - first as usize;
             self.start.push(end);
-            end += row + 1 - first as usize;
+            end += length;
+            work += length * length;
+        }
+        if work > MOST_WORK {
+            return false;
         }
         self.values.resize(end, 0.0);
+        true
     }
 
     fn number(&mut self, m: &Model, trees: impl Iterator<Item = usize>) {
@@ -228,6 +240,22 @@ impl Order {
 mod tests {
     use crate::{Data, Model, mjcf, pipeline};
     use std::fmt::Write;
+
+    /// Two hundred balls in one place, each of which touches each: no room is made for the Hessian, and the step is done.
+    #[test]
+    fn an_island_that_is_too_large_is_solved_without_its_hessian() {
+        let ball = |i: usize| {
+            let at = 1e-3 * i as f64;
+            format!("<body pos='{at} {} 0'><freejoint/><geom size='0.3'/></body>", at * at)
+        };
+        let text: String = (0..200).map(ball).collect();
+        let m = mjcf::compile(&format!("<mujoco><worldbody>{text}</worldbody></mujoco>")).unwrap();
+        let mut d = Data::new(&m);
+        pipeline::step(&m, &mut d);
+        assert_eq!((d.ncon, d.nisland), (200 * 199 / 2, 1));
+        assert_eq!(d.work.solver.as_ref().unwrap().hessian.kept(), 0);
+        assert!(d.solver_niter > 0 && d.qacc.iter().all(|a| a.is_finite()));
+    }
 
     /// Free boxes at these places, by name, on a floor.
     fn boxes(list: impl Iterator<Item = (usize, [f64; 3], [f64; 3])>) -> Model {

@@ -15,7 +15,9 @@ impl Problem<'_> {
         }
         let (tol, scale) = (self.m.opt.tolerance, self.scale());
         let Reached { mut cost, mut gradient, .. } = from;
-        self.lay_out();
+        if !self.lay_out() {
+            return self.conjugate_gradient(from);
+        }
         self.newton_direction();
         if scale * gradient < tol && scale * self.decrement() < tol {
             return;
@@ -40,10 +42,12 @@ impl Problem<'_> {
         }
     }
 
-    fn lay_out(&mut self) {
+    /// Whether the Hessian of the island is worth its room.
+    fn lay_out(&mut self) -> bool {
         let s = &mut *self.s;
-        s.hessian.lay_out(self.m, &self.d.work.jac, self.islands, self.island);
+        let fits = s.hessian.lay_out(self.m, &self.d.work.jac, self.islands, self.island);
         s.rhs.resize(s.hessian.len(), 0.0);
+        fits
     }
 
     /// step ← H⁻¹ g; search ← -step.
