@@ -121,9 +121,9 @@ pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Searc
     let wanted: Vec<usize> = (0..m.nactuator).filter(|&i| search.wants(m, i)).collect();
     let pulled = wanted.iter().filter(|&&i| search.limits(m, i).is_none()).count();
     let Some(first) = wanted.first().and_then(|&i| list.get(i)) else { return };
-    // Where limits act, the cost of a step grows faster than the number of degrees of freedom.
+    // Where limits act, the cost of a step grows with the cube of the number of degrees of freedom.
     let nv = m.nv.max(1) as f64;
-    if pulled as f64 * search.steps(m) * nv * (1.0 + nv / 256.0) > MAX_SEARCH {
+    if pulled as f64 * search.steps(m) * nv * (1.0 + (nv / 64.0).powi(2)) > MAX_SEARCH {
         let message = format!("the ranges of lengths of {pulled} actuators take too many steps to find");
         report.error(code::LIMIT, first.span.clone(), message).help("write a `lengthrange` for each");
         return;
