@@ -50,6 +50,25 @@ struct Span {
     fixed: Vec<(usize, usize)>,
 }
 
+/// How the trees of a span are solved.
+enum How {
+    Serial,
+    Bodies,
+    Rows,
+}
+
+impl Span {
+    /// Bodies that a tendon's inertia ties together are solved by their rows.
+    #[inline(always)]
+    fn how(&self, untied: bool) -> How {
+        match self.serial {
+            true => How::Serial,
+            false if untied && !self.bodies.is_empty() => How::Bodies,
+            false => How::Rows,
+        }
+    }
+}
+
 /// Where a degree of freedom is in its tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Link {
@@ -241,32 +260,28 @@ pub(crate) fn prepare(m: &Model, d: &mut Data, mut x: Option<&mut [f64]>) -> Opt
     let mut bad = None;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
-        let found = if span.serial {
-            let bad = mass::factor_serial(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
-            if let Some(x) = x.as_deref_mut() {
-                mass::solve_serial(m, &d.qLD, &d.qLDiagInv, x, dofs);
+        let found = match span.how(*untied) {
+            How::Serial => mass::factor_serial(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs),
+            How::Bodies => {
+                for k in dofs {
+                    armature[k] = mass::armature(m, k);
+                }
+                let tree = Tree { span, links, cdof: rows(&d.cdof) };
+                tree.factor(rows(&d.cinert), armature, bodies, joints, x.as_deref_mut())
             }
-            bad
-        } else if *untied && !span.bodies.is_empty() {
-            for k in dofs.clone() {
-                armature[k] = mass::armature(m, k);
+            How::Rows => {
+                let entries = mass::rows_of(m, dofs.clone());
+                d.qLD[entries.clone()].copy_from_slice(&d.M[entries]);
+                mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, dofs)
             }
-            let tree = Tree { span, links, cdof: rows(&d.cdof) };
-            let bad = tree.factor(rows(&d.cinert), armature, bodies, joints, x.as_deref_mut());
-            if let Some(x) = x.as_deref_mut() {
-                tree.fall(bodies, joints, &mut x[dofs]);
-            }
-            bad
-        } else {
-            let entries = mass::rows_of(m, dofs.clone());
-            d.qLD[entries.clone()].copy_from_slice(&d.M[entries]);
-            let bad = mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
-            if let Some(x) = x.as_deref_mut() {
-                mass::solve(m, &d.qLD, &d.qLDiagInv, x, dofs);
-            }
-            bad
         };
         bad = bad.or(found);
+        let (Some(x), dofs) = (x.as_deref_mut(), span.dofs.clone()) else { continue };
+        match span.how(*untied) {
+            How::Serial => mass::solve_serial(m, &d.qLD, &d.qLDiagInv, x, dofs),
+            How::Bodies => Tree { span, links, cdof: rows(&d.cdof) }.fall(bodies, joints, &mut x[dofs]),
+            How::Rows => mass::solve(m, &d.qLD, &d.qLDiagInv, x, dofs),
+        }
     }
     bad
 }
@@ -275,7 +290,7 @@ pub(crate) fn prepare(m: &Model, d: &mut Data, mut x: Option<&mut [f64]>) -> Opt
 pub(crate) fn rows_of_factor(m: &Model, d: &mut Data) {
     let Articulated { spans, untied, joints, .. } = &d.work.articulated;
     let cdof = rows::<6>(&d.cdof);
-    for span in spans.iter().filter(|span| *untied && !span.bodies.is_empty()) {
+    for span in spans.iter().filter(|span| matches!(span.how(*untied), How::Bodies)) {
         for k in span.dofs.clone() {
             let Joint { u, inv } = &joints[k];
             d.qLDiagInv[k] = *inv;
@@ -292,12 +307,10 @@ pub(crate) fn rows_of_factor(m: &Model, d: &mut Data) {
 pub(crate) fn solve(m: &Model, d: &mut Data, x: &mut [f64]) {
     let Articulated { spans, untied, links, bodies, joints, .. } = &mut d.work.articulated;
     for span in spans.iter() {
-        if span.serial {
-            mass::solve_serial(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone());
-        } else if *untied && !span.bodies.is_empty() {
-            Tree { span, links, cdof: rows(&d.cdof) }.solve(bodies, joints, x);
-        } else {
-            mass::solve(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone());
+        match span.how(*untied) {
+            How::Serial => mass::solve_serial(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone()),
+            How::Bodies => Tree { span, links, cdof: rows(&d.cdof) }.solve(bodies, joints, x),
+            How::Rows => mass::solve(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone()),
         }
     }
 }
@@ -308,27 +321,27 @@ pub(crate) fn solve_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
         &mut d.work.articulated;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
-        if span.serial {
-            mass::solve_serial_with(m, &d.M, b, x, dofs);
-            continue;
-        }
-        if *untied && !span.bodies.is_empty() {
-            for (sum, (armature, b)) in diagonal.iter_mut().zip(armature.iter().zip(b)) {
-                *sum = armature + b;
+        match span.how(*untied) {
+            How::Serial => mass::solve_serial_with(m, &d.M, b, x, dofs),
+            How::Bodies => {
+                for (sum, (armature, b)) in diagonal.iter_mut().zip(armature.iter().zip(b)) {
+                    *sum = armature + b;
+                }
+                let tree = Tree { span, links, cdof: rows(&d.cdof) };
+                tree.factor(rows(&d.cinert), diagonal, bodies, damped, Some(x));
+                tree.fall(bodies, damped, &mut x[dofs]);
             }
-            let tree = Tree { span, links, cdof: rows(&d.cdof) };
-            tree.factor(rows(&d.cinert), diagonal, bodies, damped, Some(x));
-            tree.fall(bodies, damped, &mut x[dofs]);
-            continue;
+            How::Rows => {
+                let (ld, diag_inv) = (&mut d.work.ld, &mut d.work.diag_inv);
+                let entries = mass::rows_of(m, dofs.clone());
+                ld[entries.clone()].copy_from_slice(&d.M[entries]);
+                for k in dofs.clone() {
+                    ld[mass::diagonal(m, k)] += b[k];
+                }
+                mass::factor(m, ld, diag_inv, dofs.clone());
+                mass::solve(m, ld, diag_inv, x, dofs);
+            }
         }
-        let (ld, diag_inv) = (&mut d.work.ld, &mut d.work.diag_inv);
-        let entries = mass::rows_of(m, dofs.clone());
-        ld[entries.clone()].copy_from_slice(&d.M[entries]);
-        for k in dofs.clone() {
-            ld[mass::diagonal(m, k)] += b[k];
-        }
-        mass::factor(m, ld, diag_inv, dofs.clone());
-        mass::solve(m, ld, diag_inv, x, dofs);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::derivative::{self, Medium, sparse};
 use crate::math::Spatial;
+use crate::passive::spring;
 use crate::pipeline::{self, Skip};
 use crate::plan::Plan;
 use crate::sensor::When;
@@ -75,7 +76,7 @@ fn continuous(m: &Model, d: &mut Data) {
             mass::mul(m, &d.M, &d.qacc, &mut force, 0..m.nv);
             if integrate::damps(m, d) {
                 for i in 0..m.nv {
-                    force[i] += h * integrate::damping(m, d, i) * d.qacc[i];
+                    force[i] += h * spring::joint_damping(m, d, i) * d.qacc[i];
                 }
             }
         }

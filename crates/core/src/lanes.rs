@@ -76,6 +76,12 @@ pub(crate) fn product(axes: &Axes, columns: &[Vec3; 3]) -> Axes {
     columns.map(|c| along(axes, c))
 }
 
+/// A matrix whose columns, the axes, are turned by an angle, with sine s and cosine c, about a unit vector given along them.
+#[inline]
+pub(crate) fn matrix_turned(m: &Mat3, axis: Vec3, s: f64, c: f64) -> Mat3 {
+    matrix(&turned(&axes(m), axis, s, c))
+}
+
 /// Axes turned by an angle, with sine s and cosine c, about a unit vector given along them.
 #[inline(always)]
 pub(crate) fn turned(axes: &Axes, axis: Vec3, s: f64, c: f64) -> Axes {

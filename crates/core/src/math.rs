@@ -234,39 +234,6 @@ pub fn mat_mul(a: &Mat3, b: &Mat3) -> Mat3 {
     std::array::from_fn(|i| dot([a[i / 3 * 3], a[i / 3 * 3 + 1], a[i / 3 * 3 + 2]], column(b, i % 3)))
 }
 
-/// The axes m turned by `angle` (rad) about the unit vector `axis`, which is given along them.
-#[inline]
-pub fn mat_turn(m: &Mat3, axis: Vec3, angle: f64) -> Mat3 {
-    let (s, c) = libm::sincos(angle);
-    let mut out = *m;
-    // About one of the axes themselves, the other two turn in their plane.
-    for i in 0..3 {
-        if axis[i].abs() == 1.0 {
-            let (s, j, k) = (s * axis[i], (i + 1) % 3, (i + 2) % 3);
-            for row in 0..3 {
-                let (x, y) = (m[3 * row + j], m[3 * row + k]);
-                out[3 * row + j] = c * x + s * y;
-                out[3 * row + k] = c * y - s * x;
-            }
-            return out;
-        }
-    }
-    let t = 1.0 - c;
-    let [x, y, z] = axis;
-    let turn = [
-        c + t * x * x,
-        t * x * y - s * z,
-        t * x * z + s * y,
-        t * x * y + s * z,
-        c + t * y * y,
-        t * y * z - s * x,
-        t * x * z - s * y,
-        t * y * z + s * x,
-        c + t * z * z,
-    ];
-    mat_mul(m, &turn)
-}
-
 /// m v
 #[inline(always)]
 pub fn mat_mul_vec(m: &Mat3, v: Vec3) -> Vec3 {

@@ -1,6 +1,7 @@
 //! Short chains in space.
 
 use super::{Link, Motion, Pose};
+use crate::lanes::matrix_turned;
 use crate::math::*;
 
 /// The rows of M of a chain.
@@ -58,7 +59,8 @@ impl Link {
         if self.slides {
             pose.anchor = add_scaled(pose.anchor, pose.axis, displacement);
         } else {
-            pose.axes = mat_turn(&pose.axes, f.axis, displacement);
+            let (s, c) = libm::sincos(displacement);
+            pose.axes = matrix_turned(&pose.axes, f.axis, s, c);
         }
         pose.com = add(mat_mul_vec(&pose.axes, f.com), pose.anchor);
     }

@@ -236,7 +236,7 @@ impl Order {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a test that fails says why
 mod tests {
     use crate::{Data, Model, mjcf, pipeline};
     use std::fmt::Write;

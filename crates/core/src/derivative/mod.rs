@@ -112,7 +112,7 @@ pub(crate) fn is_free_rigid(m: &Model, tree: usize) -> bool {
 /// Dampers of joints and tendons.
 fn dampers(m: &Model, d: &Data, out: &mut [f64]) {
     for i in 0..m.nv {
-        out[sparse::diagonal(m, i)] -= spring::joint_damper(m, i).slope(d.qvel[i].abs());
+        out[sparse::diagonal(m, i)] -= spring::joint_damping(m, d, i);
     }
     for t in 0..m.ntendon {
         let law = spring::tendon_damper(m, t);

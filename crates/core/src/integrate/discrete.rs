@@ -192,7 +192,7 @@ impl Metric {
         }
         if !m.opt.disabled(disable::DAMPER) {
             for i in 0..m.nv {
-                let slope = spring::joint_damper(m, i).slope(d.qvel[i].abs());
+                let slope = spring::joint_damping(m, d, i);
                 self.matrix[mass::diagonal(m, i)] += m.opt.timestep * slope.max(0.0);
             }
         }

@@ -31,12 +31,6 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
     d.work.qacc = acceleration;
 }
 
-/// The derivative of the damping force of a degree of freedom.
-#[inline(always)]
-pub(crate) fn damping(m: &Model, d: &Data, i: usize) -> f64 {
-    spring::joint_damper(m, i).slope(d.qvel[i].abs())
-}
-
 /// Whether some degree of freedom has a damper, and dampers are on.
 pub(crate) fn damps(m: &Model, d: &Data) -> bool {
     d.plan.keeps(Stage::Passive)

@@ -97,10 +97,10 @@ fn ball_displacement(q: &[f64], reference: &[f64]) -> Vec3 {
     quat_to_vel(quat_mul(quat_conj(r), q))
 }
 
-/// The damper of degree of freedom `i`, that of actuators included.
+/// How fast the force of the damper of degree of freedom `i`, that of actuators included, falls with its velocity.
 #[inline(always)]
-pub(crate) fn joint_damper(m: &Model, i: usize) -> Law {
-    with_actuators(m, i, Law::new(&m.dof_damping, &m.dof_dampingpoly, i))
+pub(crate) fn joint_damping(m: &Model, d: &Data, i: usize) -> f64 {
+    with_actuators(m, i, Law::new(&m.dof_damping, &m.dof_dampingpoly, i)).slope(d.qvel[i].abs())
 }
 
 #[inline(always)]
