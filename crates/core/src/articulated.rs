@@ -13,7 +13,7 @@
 //! from body to body.
 
 use crate::math::*;
-use crate::{Data, Model, mass, tendon};
+use crate::{Data, Model, mass, serial, tendon};
 use std::ops::Range;
 
 /// Degrees of freedom of a tree up to which its rows of M are short enough to be eliminated one from the other.
@@ -25,6 +25,8 @@ type Wide = [f64; 8];
 /// The trees of a model by how they are solved, and scratch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Articulated {
+    /// Small ones; all others are in `spans`.
+    serial: Vec<serial::Tree>,
     spans: Vec<Span>,
     /// Whether no tendon's inertia ties bodies of a tree together.
     untied: bool,
@@ -42,30 +44,17 @@ pub(crate) struct Articulated {
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Span {
     dofs: Range<usize>,
-    /// Whether it is one tree of at most three degrees of freedom, one after the other from its root.
-    serial: bool,
     /// The bodies of a tree of many degrees of freedom, none otherwise.
     bodies: Range<usize>,
     /// Those that cannot move on the body that carries them, the last first: body and carrier.
     fixed: Vec<(usize, usize)>,
 }
 
-/// How the trees of a span are solved.
-enum How {
-    Serial,
-    Bodies,
-    Rows,
-}
-
 impl Span {
-    /// Bodies that a tendon's inertia ties together are solved by their rows.
+    /// Whether it is solved by its bodies. Those that a tendon's inertia ties together are solved by their rows.
     #[inline(always)]
-    fn how(&self, untied: bool) -> How {
-        match self.serial {
-            true => How::Serial,
-            false if untied && !self.bodies.is_empty() => How::Bodies,
-            false => How::Rows,
-        }
+    fn by_bodies(&self, untied: bool) -> bool {
+        untied && !self.bodies.is_empty()
     }
 }
 
@@ -115,7 +104,7 @@ fn is_large(m: &Model, mut dofs: Range<usize>) -> bool {
 impl Articulated {
     /// The trees of a model.
     pub(crate) fn new(m: &Model) -> Articulated {
-        let mut spans: Vec<Span> = Vec::new();
+        let (mut serial, mut spans) = (Vec::new(), Vec::<Span>::new());
         for t in 0..m.ntree {
             let first = m.tree_dofadr[t] as usize;
             let dofs = first..first + m.tree_dofnum[t] as usize;
@@ -125,13 +114,18 @@ impl Articulated {
                 let end = (root..m.nbody).find(|&b| m.body_treeid[b] != t as i32).unwrap_or(m.nbody);
                 let still = |&b: &usize| m.body_dofnum[b] == 0;
                 let fixed = (root..end).rev().filter(still).map(|b| (b, m.body_parentid[b] as usize));
-                spans.push(Span { dofs, bodies: root..end, fixed: fixed.collect(), serial: false });
+                spans.push(Span { dofs, bodies: root..end, fixed: fixed.collect() });
                 continue;
             }
-            let serial = mass::is_serial(m, dofs.clone());
+            if let Some(tree) = serial::Tree::new(m, dofs.clone()) {
+                serial.push(tree);
+                continue;
+            }
             match spans.last_mut() {
-                Some(last) if last.bodies.is_empty() && !last.serial && !serial => last.dofs.end = dofs.end,
-                _ => spans.push(Span { dofs, serial, ..Span::default() }),
+                Some(last) if last.bodies.is_empty() && last.dofs.end == dofs.start => {
+                    last.dofs.end = dofs.end
+                }
+                _ => spans.push(Span { dofs, ..Span::default() }),
             }
         }
         let any = spans.iter().any(|s| !s.bodies.is_empty());
@@ -143,6 +137,7 @@ impl Articulated {
             Link { body, carrier: carrier.filter(|_| first), first }
         };
         Articulated {
+            serial,
             spans,
             untied: true,
             links: (0..joints).map(link).collect(),
@@ -158,7 +153,7 @@ impl Articulated {
 impl Tree<'_> {
     /// U and D of every degree of freedom, with what its joint adds to the diagonal of M. Returns the first degree of
     /// freedom whose D is not positive. With `x`, the way up the tree of [`Tree::solve`] is gone at the same time.
-    #[inline(always)]
+    #[inline(never)]
     fn factor(
         &self,
         cinert: &[Inertia],
@@ -209,7 +204,7 @@ impl Tree<'_> {
     }
 
     /// The way down, from the root to the leaves.
-    #[inline(always)]
+    #[inline(never)]
     fn fall(&self, bodies: &mut [Body], joints: &[Joint], x: &mut [f64]) {
         let dofs = self.span.dofs.clone();
         let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]).zip(&joints[dofs]);
@@ -254,34 +249,41 @@ pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
 
 /// What solves with M, of large trees without `qLD`; and with `x`, x ← M⁻¹ x.
 pub(crate) fn prepare(m: &Model, d: &mut Data, mut x: Option<&mut [f64]>) -> Option<usize> {
+    let mut bad = None;
+    for tree in &d.work.articulated.serial {
+        bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, x.as_deref_mut()));
+    }
+    if d.work.articulated.spans.is_empty() { bad } else { bad.or(prepare_spans(m, d, x)) }
+}
+
+#[inline(never)] // scenes of small trees do not carry the set-up of the others: so below
+fn prepare_spans(m: &Model, d: &mut Data, mut x: Option<&mut [f64]>) -> Option<usize> {
     let articulated = &mut d.work.articulated;
     articulated.untied = m.ntendon == 0 || !tendon::has_armature(m);
     let Articulated { spans, untied, links, bodies, joints, armature, .. } = articulated;
     let mut bad = None;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
-        let found = match span.how(*untied) {
-            How::Serial => mass::factor_serial(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs),
-            How::Bodies => {
-                for k in dofs {
-                    armature[k] = mass::armature(m, k);
-                }
-                let tree = Tree { span, links, cdof: rows(&d.cdof) };
-                tree.factor(rows(&d.cinert), armature, bodies, joints, x.as_deref_mut())
+        let found = if span.by_bodies(*untied) {
+            for k in dofs.clone() {
+                armature[k] = mass::armature(m, k);
             }
-            How::Rows => {
-                let entries = mass::rows_of(m, dofs.clone());
-                d.qLD[entries.clone()].copy_from_slice(&d.M[entries]);
-                mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, dofs)
+            let tree = Tree { span, links, cdof: rows(&d.cdof) };
+            let bad = tree.factor(rows(&d.cinert), armature, bodies, joints, x.as_deref_mut());
+            if let Some(x) = x.as_deref_mut() {
+                tree.fall(bodies, joints, &mut x[dofs]);
             }
+            bad
+        } else {
+            let entries = mass::rows_of(m, dofs.clone());
+            d.qLD[entries.clone()].copy_from_slice(&d.M[entries]);
+            let bad = mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
+            if let Some(x) = x.as_deref_mut() {
+                mass::solve(m, &d.qLD, &d.qLDiagInv, x, dofs);
+            }
+            bad
         };
         bad = bad.or(found);
-        let (Some(x), dofs) = (x.as_deref_mut(), span.dofs.clone()) else { continue };
-        match span.how(*untied) {
-            How::Serial => mass::solve_serial(m, &d.qLD, &d.qLDiagInv, x, dofs),
-            How::Bodies => Tree { span, links, cdof: rows(&d.cdof) }.fall(bodies, joints, &mut x[dofs]),
-            How::Rows => mass::solve(m, &d.qLD, &d.qLDiagInv, x, dofs),
-        }
     }
     bad
 }
@@ -290,7 +292,7 @@ pub(crate) fn prepare(m: &Model, d: &mut Data, mut x: Option<&mut [f64]>) -> Opt
 pub(crate) fn rows_of_factor(m: &Model, d: &mut Data) {
     let Articulated { spans, untied, joints, .. } = &d.work.articulated;
     let cdof = rows::<6>(&d.cdof);
-    for span in spans.iter().filter(|span| matches!(span.how(*untied), How::Bodies)) {
+    for span in spans.iter().filter(|span| span.by_bodies(*untied)) {
         for k in span.dofs.clone() {
             let Joint { u, inv } = &joints[k];
             d.qLDiagInv[k] = *inv;
@@ -305,42 +307,58 @@ pub(crate) fn rows_of_factor(m: &Model, d: &mut Data) {
 
 /// x ← M⁻¹ x by what [`factor`] has left.
 pub(crate) fn solve(m: &Model, d: &mut Data, x: &mut [f64]) {
+    for tree in &d.work.articulated.serial {
+        tree.solve(d, x);
+    }
+    if !d.work.articulated.spans.is_empty() {
+        solve_spans(m, d, x);
+    }
+}
+
+#[inline(never)]
+fn solve_spans(m: &Model, d: &mut Data, x: &mut [f64]) {
     let Articulated { spans, untied, links, bodies, joints, .. } = &mut d.work.articulated;
     for span in spans.iter() {
-        match span.how(*untied) {
-            How::Serial => mass::solve_serial(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone()),
-            How::Bodies => Tree { span, links, cdof: rows(&d.cdof) }.solve(bodies, joints, x),
-            How::Rows => mass::solve(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone()),
+        if span.by_bodies(*untied) {
+            Tree { span, links, cdof: rows(&d.cdof) }.solve(bodies, joints, x);
+        } else {
+            mass::solve(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone());
         }
     }
 }
 
 /// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after [`factor`].
 pub(crate) fn solve_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
+    for tree in &d.work.articulated.serial {
+        tree.solve_with(&d.M, b, x);
+    }
+    if !d.work.articulated.spans.is_empty() {
+        solve_spans_with(m, d, b, x);
+    }
+}
+
+#[inline(never)]
+fn solve_spans_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
     let Articulated { spans, untied, links, bodies, damped, armature, diagonal, .. } =
         &mut d.work.articulated;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
-        match span.how(*untied) {
-            How::Serial => mass::solve_serial_with(m, &d.M, b, x, dofs),
-            How::Bodies => {
-                for (sum, (armature, b)) in diagonal.iter_mut().zip(armature.iter().zip(b)) {
-                    *sum = armature + b;
-                }
-                let tree = Tree { span, links, cdof: rows(&d.cdof) };
-                tree.factor(rows(&d.cinert), diagonal, bodies, damped, Some(x));
-                tree.fall(bodies, damped, &mut x[dofs]);
+        if span.by_bodies(*untied) {
+            for (sum, (armature, b)) in diagonal.iter_mut().zip(armature.iter().zip(b)) {
+                *sum = armature + b;
             }
-            How::Rows => {
-                let (ld, diag_inv) = (&mut d.work.ld, &mut d.work.diag_inv);
-                let entries = mass::rows_of(m, dofs.clone());
-                ld[entries.clone()].copy_from_slice(&d.M[entries]);
-                for k in dofs.clone() {
-                    ld[mass::diagonal(m, k)] += b[k];
-                }
-                mass::factor(m, ld, diag_inv, dofs.clone());
-                mass::solve(m, ld, diag_inv, x, dofs);
+            let tree = Tree { span, links, cdof: rows(&d.cdof) };
+            tree.factor(rows(&d.cinert), diagonal, bodies, damped, Some(x));
+            tree.fall(bodies, damped, &mut x[dofs]);
+        } else {
+            let (ld, diag_inv) = (&mut d.work.ld, &mut d.work.diag_inv);
+            let entries = mass::rows_of(m, dofs.clone());
+            ld[entries.clone()].copy_from_slice(&d.M[entries]);
+            for k in dofs.clone() {
+                ld[mass::diagonal(m, k)] += b[k];
             }
+            mass::factor(m, ld, diag_inv, dofs.clone());
+            mass::solve(m, ld, diag_inv, x, dofs);
         }
     }
 }

@@ -55,6 +55,7 @@ mod rne;
 mod rne_post;
 pub mod save;
 pub mod sensor;
+mod serial;
 mod setconst;
 mod sleep;
 pub mod stability;

@@ -7,7 +7,7 @@
 
 use crate::math::*;
 use crate::transmission::{self, On};
-use crate::{Data, Model};
+use crate::{Data, Model, serial};
 use std::ops::Range;
 
 /// `crb` and `M`. The diagonal of simple bodies is constant: with `constant` it is taken from `dof_M0`.
@@ -81,17 +81,18 @@ pub(crate) fn constant_mass(m: &Model, d: &mut Data) {
 /// From the last row to the first, each row is eliminated from those of its ancestors. The rows of a serial
 /// chain are taken four at a time, so that an ancestor's row is read and written once for four eliminations;
 /// every element sees the same operations in the same order.
+#[inline(never)]
 pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Range<usize>) -> Option<usize> {
     if let Some(n) = whole_chain(m) {
-        return factor_root(n, ld, diag_inv);
+        return serial::factor_rows(n, ld, diag_inv);
     }
     let mut bad = None;
     let mut end = dofs.end;
     while end > dofs.start {
-        if let Some(n) = root_chain(m, end) {
+        if let Some(n) = serial::size_before(m, end) {
             let first = end - n;
             let at = m.M_rowadr[first] as usize;
-            let failed = factor_root(n, &mut ld[at..], &mut diag_inv[first..]);
+            let failed = serial::factor_rows(n, &mut ld[at..], &mut diag_inv[first..]);
             bad = failed.map(|k| first + k).or(bad);
             end = first;
             continue;
@@ -145,154 +146,10 @@ pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Rang
     bad
 }
 
-/// Length of the serial chain that ends before `end` and begins at the root of a tree, when it is short: its
-/// rows of M are a packed triangle.
-#[inline(always)]
-fn root_chain(m: &Model, end: usize) -> Option<usize> {
-    let n = m.M_rownnz[end - 1] as usize;
-    // Columns ascend: they are consecutive when the first is where consecutive ones would begin.
-    (n <= 3 && m.M_colind[m.M_rowadr[end - 1] as usize] as usize == end - n).then_some(n)
-}
-
-/// Length of the chain when it is all that the model has.
+/// Size of the small serial tree that is all the model has.
 #[inline(always)]
 fn whole_chain(m: &Model) -> Option<usize> {
-    if m.nv > 3 || m.nv == 0 { None } else { root_chain(m, m.nv).filter(|&n| n == m.nv) }
-}
-
-#[inline(always)]
-fn factor_root(n: usize, ld: &mut [f64], diag_inv: &mut [f64]) -> Option<usize> {
-    match n {
-        1 => factor_small::<1, 1>(ld, diag_inv),
-        2 => factor_small::<2, 3>(ld, diag_inv),
-        _ => factor_small::<3, 6>(ld, diag_inv),
-    }
-}
-
-/// Whether a tree has at most three degrees of freedom, one after the other from its root: its rows of M are a full lower
-/// triangle.
-pub(crate) fn is_serial(m: &Model, dofs: Range<usize>) -> bool {
-    !dofs.is_empty() && root_chain(m, dofs.end) == Some(dofs.len())
-}
-
-/// Calls a function of a serial tree with the sizes of its triangle as constants.
-macro_rules! by_size {
-    ($n:expr, $function:ident($($argument:expr),*)) => {
-        match $n {
-            1 => $function::<1, 1>($($argument),*),
-            2 => $function::<2, 3>($($argument),*),
-            _ => $function::<3, 6>($($argument),*),
-        }
-    };
-}
-
-/// The factorization of the rows of a serial tree.
-#[inline(always)]
-pub(crate) fn factor_serial(
-    m: &Model,
-    mass: &[f64],
-    ld: &mut [f64],
-    diag_inv: &mut [f64],
-    dofs: Range<usize>,
-) -> Option<usize> {
-    let at = m.M_rowadr[dofs.start] as usize;
-    let (mass, ld, diag_inv) = (&mass[at..], &mut ld[at..], &mut diag_inv[dofs.start..]);
-    by_size!(dofs.len(), factor_copy(mass, ld, diag_inv)).map(|k| dofs.start + k)
-}
-
-#[inline(always)]
-fn factor_copy<const N: usize, const T: usize>(
-    mass: &[f64],
-    ld: &mut [f64],
-    diag_inv: &mut [f64],
-) -> Option<usize> {
-    if let (Some(from), Some(to)) = (mass.first_chunk::<T>(), ld.first_chunk_mut::<T>()) {
-        *to = *from;
-    }
-    factor_small::<N, T>(ld, diag_inv)
-}
-
-/// x ← M⁻¹ x by what [`factor_serial`] has left.
-#[inline(always)]
-pub(crate) fn solve_serial(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs: Range<usize>) {
-    let (ld, diag_inv) = (&ld[m.M_rowadr[dofs.start] as usize..], &diag_inv[dofs.start..]);
-    by_size!(dofs.len(), solve_small(ld, diag_inv, &mut x[dofs.start..]));
-}
-
-/// x ← (M + B)⁻¹ x for a serial tree and a diagonal matrix B (nv).
-#[inline(always)]
-pub(crate) fn solve_serial_with(m: &Model, mass: &[f64], b: &[f64], x: &mut [f64], dofs: Range<usize>) {
-    let mass = &mass[m.M_rowadr[dofs.start] as usize..];
-    by_size!(dofs.len(), solve_direct(mass, &b[dofs.start..], &mut x[dofs.start..]));
-}
-
-#[inline(always)]
-fn solve_direct<const N: usize, const T: usize>(mass: &[f64], b: &[f64], x: &mut [f64]) {
-    let (Some(mass), Some(b)) = (mass.first_chunk::<T>(), b.first_chunk::<N>()) else { return };
-    let (mut ld, mut diag_inv) = (*mass, [0.0; N]);
-    for k in 0..N {
-        ld[k * (k + 1) / 2 + k] += b[k];
-    }
-    factor_small::<N, T>(&mut ld, &mut diag_inv);
-    solve_small::<N, T>(&ld, &diag_inv, x);
-}
-
-#[inline(always)]
-fn solve_root(n: usize, ld: &[f64], diag_inv: &[f64], x: &mut [f64]) {
-    match n {
-        1 => solve_small::<1, 1>(ld, diag_inv, x),
-        2 => solve_small::<2, 3>(ld, diag_inv, x),
-        _ => solve_small::<3, 6>(ld, diag_inv, x),
-    }
-}
-
-/// The factorization of a packed triangle of N rows, T numbers.
-#[inline(always)]
-fn factor_small<const N: usize, const T: usize>(ld: &mut [f64], diag_inv: &mut [f64]) -> Option<usize> {
-    let (Some(ld), Some(diag_inv)) = (ld.first_chunk_mut::<T>(), diag_inv.first_chunk_mut::<N>()) else {
-        return None;
-    };
-    let mut bad = None;
-    for k in (0..N).rev() {
-        let row = k * (k + 1) / 2;
-        if ld[row + k] < MINVAL {
-            ld[row + k] = MINVAL;
-            bad = Some(k);
-        }
-        let inv = 1.0 / ld[row + k];
-        diag_inv[k] = inv;
-        for i in (0..k).rev() {
-            let factor = ld[row + i] * inv;
-            for c in 0..=i {
-                ld[i * (i + 1) / 2 + c] -= factor * ld[row + c];
-            }
-        }
-        for c in 0..k {
-            ld[row + c] *= inv;
-        }
-    }
-    bad
-}
-
-/// x ← M⁻¹ x for a packed triangle.
-#[inline(always)]
-fn solve_small<const N: usize, const T: usize>(ld: &[f64], diag_inv: &[f64], x: &mut [f64]) {
-    let (Some(ld), Some(diag_inv), Some(x)) =
-        (ld.first_chunk::<T>(), diag_inv.first_chunk::<N>(), x.first_chunk_mut::<N>())
-    else {
-        return;
-    };
-    for i in (0..N).rev() {
-        for j in 0..i {
-            x[j] -= ld[i * (i + 1) / 2 + j] * x[i];
-        }
-    }
-    for i in 0..N {
-        x[i] *= diag_inv[i];
-        for j in 0..i {
-            x[i] -= ld[i * (i + 1) / 2 + j] * x[j];
-        }
-    }
+    if m.nv > 3 || m.nv == 0 { None } else { serial::size_before(m, m.nv).filter(|&n| n == m.nv) }
 }
 
 /// Eliminates row `k` from those of its ancestors; whether its D is not positive.
@@ -357,7 +214,7 @@ fn subtract_four(target: &mut [f64], rows: [&[f64]; 4], f: [f64; 4]) {
 }
 
 /// x ← M⁻¹ x for the degrees of freedom `dofs` (ascending, whole trees).
-#[inline]
+#[inline(never)]
 pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs: Range<usize>) {
     if m.nC == m.nv {
         // A diagonal matrix.
@@ -369,7 +226,7 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
     // The part of a row below the diagonal, and where its columns begin: those of a serial chain are
     // consecutive.
     if let Some(n) = whole_chain(m) {
-        solve_root(n, ld, diag_inv, x);
+        serial::solve_rows(n, ld, diag_inv, x);
         return;
     }
     let row = |i: usize| {
@@ -378,9 +235,9 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
     };
     let mut end = dofs.end;
     while end > dofs.start {
-        if let Some(n) = root_chain(m, end) {
+        if let Some(n) = serial::size_before(m, end) {
             end -= n;
-            solve_root(n, &ld[m.M_rowadr[end] as usize..], &diag_inv[end..], &mut x[end..]);
+            serial::solve_rows(n, &ld[m.M_rowadr[end] as usize..], &diag_inv[end..], &mut x[end..]);
             continue;
         }
         end -= 1;
@@ -395,7 +252,7 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
         }
     }
     for i in dofs {
-        if root_chain(m, i + 1).is_some() {
+        if serial::size_before(m, i + 1).is_some() {
             continue; // done above
         }
         let (values, columns, serial) = row(i);

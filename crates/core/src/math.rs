@@ -37,6 +37,33 @@ pub fn rows_mut<const N: usize>(a: &mut [f64]) -> &mut [[f64; N]] {
     a.as_chunks_mut().0
 }
 
+/// Calls `f` with 0, 1, … n - 1: without a loop for the one or two numbers that the state of many labs has.
+#[inline(always)]
+pub(crate) fn each(n: usize, mut f: impl FnMut(usize)) {
+    match n {
+        1 => f(0),
+        2 => {
+            f(0);
+            f(1);
+        }
+        _ => (0..n).for_each(f),
+    }
+}
+
+/// Copies numbers; as many as the shorter array has.
+#[inline(always)]
+pub(crate) fn copy(from: &[f64], to: &mut [f64]) {
+    let n = from.len().min(to.len());
+    let (from, to) = (&from[..n], &mut to[..n]);
+    each(n, |k| to[k] = from[k]);
+}
+
+/// Sets all numbers to zero.
+#[inline(always)]
+pub(crate) fn zero(x: &mut [f64]) {
+    each(x.len(), |k| x[k] = 0.0);
+}
+
 /// The unit quaternion.
 pub const IDENTITY: Quat = [1.0, 0.0, 0.0, 0.0];
 /// The unit matrix.

@@ -1,6 +1,6 @@
 //! `mj_step` and `mj_forward`: the order of the stages, each a call to the module that holds its formula.
 
-use crate::math::rows;
+use crate::math::{copy, each, rows};
 use crate::plan::Plan;
 use crate::reflect::Stage;
 use crate::sensor::When;
@@ -87,6 +87,26 @@ pub(crate) fn from_velocities(m: &Model, d: &mut Data) {
 
 /// What depends on `qpos` alone.
 pub(crate) fn position(m: &Model, d: &mut Data) {
+    if POSES.iter().any(|&stage| d.plan.keeps(stage)) {
+        poses(m, d);
+    }
+    inertia_and_constraints(m, d);
+}
+
+/// Where things are: a scene whose trees have their equations in closed form needs none of it.
+const POSES: [Stage; 8] = [
+    Stage::Sleep,
+    Stage::Kinematics,
+    Stage::Orientations,
+    Stage::GeomPoses,
+    Stage::SitePoses,
+    Stage::ComPos,
+    Stage::CameraPoses,
+    Stage::Tendon,
+];
+
+#[inline(never)]
+fn poses(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Sleep) {
         sleep::wake(m, d);
     }
@@ -115,6 +135,9 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Sleep) {
         sleep::wake_by_tendons(m, d);
     }
+}
+
+fn inertia_and_constraints(m: &Model, d: &mut Data) {
     let composite = d.plan.composite && !d.plan.mass_for_rows;
     if d.plan.keeps(Stage::MassMatrix) {
         mass_matrix(m, d, composite);
@@ -205,12 +228,11 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
 /// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`.
 #[inline(never)]
 pub(crate) fn acceleration(m: &Model, d: &mut Data) {
-    let n = d.qfrc_smooth.len();
+    let out = d.qfrc_smooth.as_mut_slice();
+    let n = out.len();
     let (passive, bias) = (&d.qfrc_passive[..n], &d.qfrc_bias[..n]);
     let (applied, actuator) = (&d.qfrc_applied[..n], &d.qfrc_actuator[..n]);
-    for (k, f) in d.qfrc_smooth.iter_mut().enumerate() {
-        *f = passive[k] - bias[k] + applied[k] + actuator[k];
-    }
+    each(n, |k| out[k] = passive[k] - bias[k] + applied[k] + actuator[k]);
     if d.plan.applied_forces {
         applied_forces(m, d);
     }
@@ -218,7 +240,7 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
         integrate::discrete::acceleration(m, d);
     } else if d.plan.some_general {
         let mut out = std::mem::take(&mut d.qacc_smooth);
-        out.copy_from_slice(&d.qfrc_smooth);
+        copy(&d.qfrc_smooth, &mut out);
         if d.plan.mass_for_rows && d.nefc == 0 {
             let bad = articulated::prepare(m, d, Some(&mut out));
             check_inertia(d, bad);
@@ -251,7 +273,7 @@ pub(crate) fn constraints(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Solve) {
         if discrete { integrate::discrete::constraints(m, d) } else { constraint::solve(m, d) }
     } else {
-        d.qacc.copy_from_slice(&d.qacc_smooth);
+        copy(&d.qacc_smooth, &mut d.qacc);
     }
     if discrete {
         integrate::discrete::turn_free_bodies(m, d);
@@ -312,7 +334,8 @@ pub(crate) fn bad(x: f64) -> bool {
 
 fn first_bad(v: &[f64]) -> Option<usize> {
     // Nearly always there is none: all are looked at, by vectors of the processor.
-    let some = v.iter().fold(false, |some, &x| some | bad(x));
+    let mut some = false;
+    each(v.len(), |k| some |= bad(v[k]));
     if some { v.iter().position(|&x| bad(x)) } else { None }
 }
 

@@ -15,6 +15,7 @@ pub(crate) mod muscle;
 mod servo;
 
 use crate::math::*;
+use crate::pipeline::bad;
 use crate::{Data, Model, biastype, disable, dyntype, gaintype, joint, sleep, transmission};
 
 pub(crate) use activation::advance;
@@ -46,6 +47,9 @@ fn states(m: &Model, i: usize) -> std::ops::Range<usize> {
 
 /// `actuator_force`, `act_dot`, `qfrc_actuator`.
 pub(crate) fn actuation(m: &Model, d: &mut Data) {
+    if d.plan.motors && motors(m, d) {
+        return;
+    }
     d.actuator_force.fill(0.0);
     if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
         d.qfrc_actuator.fill(0.0);
@@ -53,11 +57,6 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
     }
     let mut ctrl = std::mem::take(&mut d.work.ctrl);
     control::effective(m, d, &mut ctrl);
-    if d.plan.motors {
-        motors(m, d, &ctrl);
-        d.work.ctrl = ctrl;
-        return;
-    }
     if m.na > 0 {
         for i in 0..m.nactuator {
             activation::rates(m, d, i, &mut ctrl);
@@ -88,27 +87,26 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
     limit::joints(m, d);
 }
 
-/// Forces of motors of slides and hinges, each with one control and one degree of freedom: what most labs have.
+/// The same for motors of slides and hinges alone, each with one control and one degree of freedom: what most labs have.
+/// False, and nothing is done, where there is more to it: limits of forces, a control that is no number.
 #[inline(always)]
-fn motors(m: &Model, d: &mut Data, ctrl: &[f64]) {
-    for (force, (gain, u)) in
-        d.actuator_force.iter_mut().zip(rows::<10>(&m.actuator_gainprm).iter().zip(ctrl))
-    {
+fn motors(m: &Model, d: &mut Data) -> bool {
+    let off = disable::ACTUATION | disable::CLAMPCTRL;
+    if d.plan.force_limits || m.opt.disabled(off) || d.ctrl.iter().any(|&u| bad(u)) {
+        return false;
+    }
+    zero(&mut d.qfrc_actuator);
+    let controls = d.ctrl.iter().zip(rows::<2>(&m.actuator_ctrlrange)).zip(&m.actuator_ctrllimited);
+    let moments = d.moment_colind.iter().zip(&d.actuator_moment);
+    let motors = rows::<10>(&m.actuator_gainprm).iter().zip(moments).zip(&mut d.actuator_force);
+    for (((u, range), &limited), ((gain, (&k, moment)), force)) in controls.zip(motors) {
+        let u = if limited { clip(*u, *range) } else { *u };
         // The bias is +0: so the force is, where the product is -0.
         *force = gain[0] * u + 0.0;
-    }
-    if d.plan.force_limits {
-        limit::forces(m, d);
-    }
-    d.qfrc_actuator.fill(0.0);
-    let moments = d.moment_colind.iter().zip(&d.actuator_moment);
-    for (force, (&k, moment)) in d.actuator_force.iter().zip(moments) {
-        d.qfrc_actuator[k as usize] += moment * force;
+        d.qfrc_actuator[k as usize] += moment * *force;
     }
     gravity_compensation(m, d);
-    if d.plan.force_limits {
-        limit::joints(m, d);
-    }
+    true
 }
 
 /// The force of an actuator with a law of its own.

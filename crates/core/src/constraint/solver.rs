@@ -9,6 +9,7 @@ use super::hessian::Hessian;
 use super::island::Islands;
 use super::jacobian::{Block, by_rows};
 use super::primal::{Problem, Reached, shape};
+use crate::math::{copy, zero};
 use crate::{Data, Model, disable, mass, solver};
 use std::ops::Range;
 
@@ -44,8 +45,8 @@ pub(crate) struct Scratch {
 pub(crate) fn solve(m: &Model, d: &mut Data) {
     d.solver_niter = 0;
     d.nisland = 0;
-    d.qacc.copy_from_slice(&d.qacc_smooth);
-    d.qfrc_constraint.fill(0.0);
+    copy(&d.qacc_smooth, &mut d.qacc);
+    zero(&mut d.qfrc_constraint);
     if d.nefc == 0 {
         return;
     }

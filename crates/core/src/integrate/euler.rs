@@ -1,6 +1,7 @@
 //! Semi-implicit Euler.
 
 use super::{Slopes, advance};
+use crate::math::each;
 use crate::passive::spring;
 use crate::reflect::Stage;
 use crate::{Data, Model, articulated, disable};
@@ -14,17 +15,14 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
         return;
     }
     let h = m.opt.timestep;
-    let mut acceleration = std::mem::take(&mut d.work.qacc);
-    let n = acceleration.len();
+    let (mut acceleration, mut damping) =
+        (std::mem::take(&mut d.work.qacc), std::mem::take(&mut d.work.damping));
+    let force = acceleration.as_mut_slice();
+    let n = force.len();
     let (smooth, constraint) = (&d.qfrc_smooth[..n], &d.qfrc_constraint[..n]);
-    for (k, a) in acceleration.iter_mut().enumerate() {
-        *a = smooth[k] + constraint[k];
-    }
-    let mut damping = std::mem::take(&mut d.work.damping);
-    let laws = spring::joint_dampers(m, d.plan.actuator_dampers);
-    for (b, (law, v)) in damping.iter_mut().zip(laws.zip(&d.qvel)) {
-        *b = h * law.slope(v.abs());
-    }
+    each(n, |k| force[k] = smooth[k] + constraint[k]);
+    let actuators = d.plan.actuator_dampers;
+    spring::of_dampers(m, actuators, &d.qvel, &mut damping, |law, v| h * law.slope(v.abs()));
     articulated::solve_with(m, d, &damping, &mut acceleration);
     d.work.damping = damping;
     advance(m, d, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });

@@ -6,6 +6,7 @@ mod implicit;
 mod position;
 mod runge_kutta;
 
+use crate::math::{copy, each};
 use crate::reflect::Stage;
 use crate::{Data, Model, actuation, integrator, sensor, sleep};
 
@@ -62,13 +63,14 @@ fn advance(m: &Model, d: &mut Data, slopes: Slopes) {
     if d.plan.keeps(Stage::Sleep) && sleep::on(m, d) {
         sleep::advance(m, d, acceleration, velocity);
     } else {
-        for (v, a) in d.qvel.iter_mut().zip(acceleration.unwrap_or(&d.qacc)) {
-            *v += h * a;
-        }
+        let v = d.qvel.as_mut_slice();
+        let n = v.len();
+        let a = &acceleration.unwrap_or(&d.qacc)[..n];
+        each(n, |k| v[k] += h * a[k]);
         integrate_pos(m, &mut d.qpos, velocity.unwrap_or(&d.qvel), h);
     }
     d.time += h;
-    d.qacc_warmstart.copy_from_slice(&d.qacc);
+    copy(&d.qacc, &mut d.qacc_warmstart);
 }
 
 /// Keeps the controls and values of this time for delayed actuators and sensors.

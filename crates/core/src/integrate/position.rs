@@ -7,14 +7,20 @@ use crate::math::*;
 use crate::{Model, joint};
 
 /// qpos ← qpos advanced for a time `h` with velocity `v` (`mj_integratePos`).
+#[inline]
 pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
     if m.nq == m.nv {
         // Slides and hinges only: coordinates and velocities are in the same places.
-        for (q, v) in qpos.iter_mut().zip(v) {
-            *q += h * v;
-        }
-        return;
+        let n = qpos.len().min(v.len());
+        let (qpos, v) = (&mut qpos[..n], &v[..n]);
+        each(n, |k| qpos[k] += h * v[k]);
+    } else {
+        along_joints(m, qpos, v, h);
     }
+}
+
+#[inline(never)] // scenes of slides and hinges alone do not carry its set-up
+fn along_joints(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
     for (&kind, (&q, &k)) in m.jnt_type.iter().zip(m.jnt_qposadr.iter().zip(&m.jnt_dofadr)) {
         let (mut q, mut k) = (q as usize, k as usize);
         match kind {

@@ -6,6 +6,7 @@ pub(crate) mod fluid;
 mod gravcomp;
 pub(crate) mod spring;
 
+use crate::math::each;
 use crate::{Data, Model, disable, joint};
 
 /// `qfrc_spring`, `qfrc_damper`, `qfrc_gravcomp`, `qfrc_fluid`, `qfrc_passive`. With springs and dampers both
@@ -19,15 +20,17 @@ pub(crate) fn passive(m: &Model, d: &mut Data) {
         }
     }
     if d.plan.dampers {
-        d.qfrc_damper.fill(0.0);
         if dampers {
             spring::damp_joints(m, d);
+        } else {
+            d.qfrc_damper.fill(0.0);
         }
     }
     spring::tendons(m, d, springs, dampers);
-    for ((f, s), b) in d.qfrc_passive.iter_mut().zip(&d.qfrc_spring).zip(&d.qfrc_damper) {
-        *f = s + b;
-    }
+    let out = d.qfrc_passive.as_mut_slice();
+    let n = out.len();
+    let (spring, damper) = (&d.qfrc_spring[..n], &d.qfrc_damper[..n]);
+    each(n, |k| out[k] = spring[k] + damper[k]);
     if d.plan.body_forces {
         body_forces(m, d, springs || dampers);
     }

@@ -113,14 +113,24 @@ fn with_actuators(m: &Model, i: usize, own: Law) -> Law {
     own.plus(transmission::damping(m, On::Joint(joint)))
 }
 
-/// The dampers of all degrees of freedom, those of actuators included unless there are none.
+/// Fills `out` (nv) with a number for the damper and the velocity of each degree of freedom. Dampers of actuators count
+/// unless there are none: `actuators`.
 #[inline(always)]
-pub(crate) fn joint_dampers(m: &Model, actuators: bool) -> impl Iterator<Item = Law> + '_ {
-    let own = m.dof_damping.iter().zip(rows::<2>(&m.dof_dampingpoly));
-    own.enumerate().map(move |(i, (&linear, &growth))| {
-        let own = Law { linear, growth };
-        if actuators { with_actuators(m, i, own) } else { own }
-    })
+pub(crate) fn of_dampers(
+    m: &Model,
+    actuators: bool,
+    qvel: &[f64],
+    out: &mut [f64],
+    number: impl Fn(Law, f64) -> f64,
+) {
+    let n = out.len();
+    let (linear, growth, v) = (&m.dof_damping[..n], &rows::<2>(&m.dof_dampingpoly)[..n], &qvel[..n]);
+    let own = |k: usize| Law { linear: linear[k], growth: growth[k] };
+    if actuators {
+        (0..n).for_each(|k| out[k] = number(with_actuators(m, k, own(k)), v[k]));
+    } else {
+        each(n, |k| out[k] = number(own(k), v[k]));
+    }
 }
 
 /// The damper of tendon `t`, that of actuators included.
@@ -128,15 +138,13 @@ pub(crate) fn tendon_damper(m: &Model, t: usize) -> Law {
     Law::new(&m.tendon_damping, &m.tendon_dampingpoly, t).plus(transmission::damping(m, On::Tendon(t)))
 }
 
-/// What the dampers of joints do, by `qfrc_damper`.
+/// What the dampers of joints do: `qfrc_damper`.
+#[inline(always)]
 pub(super) fn damp_joints(m: &Model, d: &mut Data) {
-    let laws = joint_dampers(m, d.plan.actuator_dampers);
-    for (law, (f, v)) in laws.zip(d.qfrc_damper.iter_mut().zip(&d.qvel)) {
+    of_dampers(m, d.plan.actuator_dampers, &d.qvel, &mut d.qfrc_damper, |law, v| {
         // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.
-        if !law.is_zero() {
-            *f = -law.at(v.abs()) * v;
-        }
-    }
+        if law.is_zero() { 0.0 } else { -law.at(v.abs()) * v }
+    });
 }
 
 /// The springs and dampers of tendons, added to `qfrc_spring` and `qfrc_damper`. A spring is relaxed between
