@@ -31,13 +31,10 @@ pub(crate) struct Articulated {
     /// Whether no tendon's inertia ties bodies of a tree together.
     untied: bool,
     links: Vec<Link>,
-    bodies: Vec<Body>,
-    /// Of M, and of M with something added to its diagonal: one for each degree of freedom.
-    joints: Vec<Joint>,
-    damped: Vec<Joint>,
-    /// What joints add to the diagonal of M, and to that of the other matrix.
-    armature: Vec<f64>,
-    diagonal: Vec<f64>,
+    /// One for each body, and one for each degree of freedom: first of M, then of M with something added to its
+    /// diagonal.
+    bodies: Vec<[Body; 2]>,
+    joints: Vec<[Joint; 2]>,
 }
 
 /// A tree, or any number of trees that are solved by their rows of M.
@@ -76,11 +73,13 @@ struct Body {
     acceleration: Wide,
 }
 
-/// U and 1/D.
+/// U and 1/D, what the joint adds to the diagonal of the matrix, and an element of the vector that is solved for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Joint {
     u: Wide,
     inv: f64,
+    diagonal: f64,
+    x: f64,
 }
 
 /// What the passes over a tree read.
@@ -141,48 +140,53 @@ impl Articulated {
             spans,
             untied: true,
             links: (0..joints).map(link).collect(),
-            bodies: vec![Body::default(); bodies],
-            joints: vec![Joint::default(); joints],
-            damped: vec![Joint::default(); joints],
-            armature: vec![0.0; joints],
-            diagonal: vec![0.0; joints],
+            bodies: vec![[Body::default(); 2]; bodies],
+            joints: vec![[Joint::default(); 2]; joints],
         }
     }
 }
 
+/// The passes go over matrices `A..B` at the same time: the sums of each do not wait for those of the other.
 impl Tree<'_> {
-    /// U and D of every degree of freedom, with what its joint adds to the diagonal of M. Returns the first degree of
-    /// freedom whose D is not positive. With `x`, the way up the tree of [`Tree::solve`] is gone at the same time.
+    /// U and D of every degree of freedom. Returns the first one whose D is not positive. With `X`, the way up the tree of
+    /// [`Tree::solve`] is gone as well.
     #[inline(never)]
-    fn factor(
+    fn factor<const A: usize, const B: usize, const X: bool>(
         &self,
         cinert: &[Inertia],
-        diagonal: &[f64],
-        bodies: &mut [Body],
-        joints: &mut [Joint],
-        mut x: Option<&mut [f64]>,
+        bodies: &mut [[Body; 2]],
+        joints: &mut [[Joint; 2]],
     ) -> Option<usize> {
         let range = self.span.bodies.clone();
         for (body, inertia) in bodies[range.clone()].iter_mut().zip(&cinert[range]) {
-            set_inertia(&mut body.inertia, inertia);
-            body.force = [0.0; 8];
+            for body in &mut body[A..B] {
+                set_inertia(&mut body.inertia, inertia);
+                body.force = [0.0; 8];
+            }
         }
         for &(body, carrier) in &self.span.fixed {
-            give(bodies, body, carrier);
+            let Some((own, up)) = with_carrier(bodies, body, carrier) else { continue };
+            for i in A..B {
+                add_to(&mut up[i].inertia, &own[i].inertia);
+            }
         }
         let mut bad = None;
         let dofs = self.span.dofs.clone();
         let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]);
-        let joints = joints[dofs.clone()].iter_mut().zip(&diagonal[dofs.clone()]);
-        for ((k, (link, s)), (joint, &added)) in dofs.zip(links).zip(joints).rev() {
-            if eliminate(&mut bodies[link.body].inertia, s, added, joint) {
-                bad = Some(k);
+        for ((k, joint), (link, s)) in dofs.clone().zip(&mut joints[dofs]).zip(links).rev() {
+            for i in A..B {
+                if eliminate(&mut bodies[link.body][i].inertia, s, &mut joint[i]) {
+                    bad = Some(k);
+                }
             }
-            if let Some(x) = &mut x {
-                rise(bodies, link, s, joint, &mut x[k]);
+            if X {
+                rise::<A, B>(bodies, link, s, joint);
             }
-            if let Some(carrier) = link.carrier {
-                give(bodies, link.body, carrier);
+            let Some((own, up)) = link.carrier.and_then(|c| with_carrier(bodies, link.body, c)) else {
+                continue;
+            };
+            for i in A..B {
+                add_to(&mut up[i].inertia, &own[i].inertia);
             }
         }
         bad
@@ -190,54 +194,73 @@ impl Tree<'_> {
 
     /// x ← M⁻¹ x.
     #[inline(always)]
-    fn solve(&self, bodies: &mut [Body], joints: &[Joint], x: &mut [f64]) {
+    fn solve<const A: usize, const B: usize>(&self, bodies: &mut [[Body; 2]], joints: &mut [[Joint; 2]]) {
         for body in &mut bodies[self.span.bodies.clone()] {
-            body.force = [0.0; 8];
+            for body in &mut body[A..B] {
+                body.force = [0.0; 8];
+            }
         }
         let dofs = self.span.dofs.clone();
-        let x = &mut x[dofs.clone()];
-        let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]).zip(&joints[dofs]);
-        for (x, ((link, s), joint)) in x.iter_mut().zip(links).rev() {
-            rise(bodies, link, s, joint, x);
+        let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]);
+        for (joint, (link, s)) in joints[dofs].iter_mut().zip(links).rev() {
+            rise::<A, B>(bodies, link, s, joint);
         }
-        self.fall(bodies, joints, x);
+        self.fall::<A, B>(bodies, joints);
     }
 
     /// The way down, from the root to the leaves.
     #[inline(never)]
-    fn fall(&self, bodies: &mut [Body], joints: &[Joint], x: &mut [f64]) {
+    fn fall<const A: usize, const B: usize>(&self, bodies: &mut [[Body; 2]], joints: &mut [[Joint; 2]]) {
         let dofs = self.span.dofs.clone();
-        let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]).zip(&joints[dofs]);
-        for (x, ((link, s), joint)) in x.iter_mut().zip(links) {
+        let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]);
+        for (joint, (link, s)) in joints[dofs].iter_mut().zip(links) {
             // The bodies before this one are done.
             let before = match link.carrier {
-                Some(carrier) => bodies[carrier].acceleration,
-                None if link.first => [0.0; 8],
-                None => bodies[link.body].acceleration,
+                Some(carrier) => bodies[carrier].map(|body| body.acceleration),
+                None if link.first => [[0.0; 8]; 2],
+                None => bodies[link.body].map(|body| body.acceleration),
             };
-            *x -= joint.inv * dot(joint.u, before);
-            bodies[link.body].acceleration = add_scaled(before, wide(s), *x);
+            let own = &mut bodies[link.body];
+            for i in A..B {
+                joint[i].x -= joint[i].inv * dot(joint[i].u, before[i]);
+                own[i].acceleration = add_scaled(before[i], wide(s), joint[i].x);
+            }
         }
     }
 }
 
 /// One degree of freedom on the way up: what its joint takes of the force on its body, and what it passes on.
 #[inline(always)]
-fn rise(bodies: &mut [Body], link: &Link, s: &Spatial, joint: &Joint, x: &mut f64) {
-    let mut force = bodies[link.body].force;
-    *x = (*x - dot(wide(s), force)) * joint.inv;
-    force = add_scaled(force, joint.u, *x);
-    let up = &mut bodies[link.carrier.unwrap_or(link.body)].force;
-    *up = if link.carrier.is_some() { add(*up, force) } else { force };
+fn rise<const A: usize, const B: usize>(
+    bodies: &mut [[Body; 2]],
+    link: &Link,
+    s: &Spatial,
+    joint: &mut [Joint; 2],
+) {
+    let own = &mut bodies[link.body];
+    let mut forces = [[0.0; 8]; 2];
+    for i in A..B {
+        joint[i].x = (joint[i].x - dot(wide(s), own[i].force)) * joint[i].inv;
+        forces[i] = add_scaled(own[i].force, joint[i].u, joint[i].x);
+    }
+    match link.carrier {
+        Some(carrier) => {
+            let up = &mut bodies[carrier];
+            (A..B).for_each(|i| up[i].force = add(up[i].force, forces[i]));
+        }
+        None => (A..B).for_each(|i| own[i].force = forces[i]),
+    }
 }
 
-/// Adds the inertia of a body to that of its carrier, which comes before it.
+/// A body, and the one that carries it and comes before it.
 #[inline(always)]
-fn give(bodies: &mut [Body], body: usize, carrier: usize) {
+fn with_carrier(
+    bodies: &mut [[Body; 2]],
+    body: usize,
+    carrier: usize,
+) -> Option<(&[Body; 2], &mut [Body; 2])> {
     let (above, rest) = bodies.split_at_mut(body);
-    if let (Some(up), Some(own)) = (above.get_mut(carrier), rest.first()) {
-        add_to(&mut up.inertia, &own.inertia);
-    }
+    Some((rest.first()?, above.get_mut(carrier)?))
 }
 
 /// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive.
@@ -260,32 +283,133 @@ pub(crate) fn prepare(m: &Model, d: &mut Data, mut x: Option<&mut [f64]>) -> Opt
 fn prepare_spans(m: &Model, d: &mut Data, mut x: Option<&mut [f64]>) -> Option<usize> {
     let articulated = &mut d.work.articulated;
     articulated.untied = m.ntendon == 0 || !tendon::has_armature(m);
-    let Articulated { spans, untied, links, bodies, joints, armature, .. } = articulated;
+    let Articulated { spans, untied, links, bodies, joints, .. } = articulated;
     let mut bad = None;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
+        let x = x.as_deref_mut();
         let found = if span.by_bodies(*untied) {
             for k in dofs.clone() {
-                armature[k] = mass::armature(m, k);
+                joints[k][0].diagonal = mass::armature(m, k);
             }
             let tree = Tree { span, links, cdof: rows(&d.cdof) };
-            let bad = tree.factor(rows(&d.cinert), armature, bodies, joints, x.as_deref_mut());
-            if let Some(x) = x.as_deref_mut() {
-                tree.fall(bodies, joints, &mut x[dofs]);
+            match x {
+                Some(x) => {
+                    put::<0>(joints, dofs.clone(), x);
+                    let bad = tree.factor::<0, 1, true>(rows(&d.cinert), bodies, joints);
+                    tree.fall::<0, 1>(bodies, joints);
+                    get::<0>(joints, dofs, x);
+                    bad
+                }
+                None => tree.factor::<0, 1, false>(rows(&d.cinert), bodies, joints),
             }
-            bad
         } else {
-            let entries = mass::rows_of(m, dofs.clone());
-            d.qLD[entries.clone()].copy_from_slice(&d.M[entries]);
-            let bad = mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
-            if let Some(x) = x.as_deref_mut() {
-                mass::solve(m, &d.qLD, &d.qLDiagInv, x, dofs);
-            }
-            bad
+            factor_rows(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs, x)
         };
         bad = bad.or(found);
     }
     bad
+}
+
+/// x ← M⁻¹ x and y ← (M + B)⁻¹ y for a diagonal matrix B (nv), and what solves with M: [`prepare`] and [`solve_with`] in
+/// less time than one after the other.
+pub(crate) fn prepare_both(
+    m: &Model,
+    d: &mut Data,
+    b: &[f64],
+    x: &mut [f64],
+    y: &mut [f64],
+) -> Option<usize> {
+    let mut bad = None;
+    for tree in &d.work.articulated.serial {
+        bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, Some(&mut *x)));
+        tree.solve_with(&d.M, b, y);
+    }
+    if d.work.articulated.spans.is_empty() { bad } else { bad.or(prepare_both_spans(m, d, b, x, y)) }
+}
+
+#[inline(never)]
+fn prepare_both_spans(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64], y: &mut [f64]) -> Option<usize> {
+    let articulated = &mut d.work.articulated;
+    articulated.untied = m.ntendon == 0 || !tendon::has_armature(m);
+    let Articulated { spans, untied, links, bodies, joints, .. } = articulated;
+    let mut bad = None;
+    for span in spans.iter() {
+        let dofs = span.dofs.clone();
+        let found = if span.by_bodies(*untied) {
+            let numbers = joints[dofs.clone()].iter_mut().zip(&b[dofs.clone()]);
+            for ((k, (joint, b)), (x, y)) in
+                dofs.clone().zip(numbers).zip(x[dofs.clone()].iter().zip(&y[dofs.clone()]))
+            {
+                let own = mass::armature(m, k);
+                (joint[0].diagonal, joint[0].x) = (own, *x);
+                (joint[1].diagonal, joint[1].x) = (own + b, *y);
+            }
+            let tree = Tree { span, links, cdof: rows(&d.cdof) };
+            let bad = tree.factor::<0, 2, true>(rows(&d.cinert), bodies, joints);
+            tree.fall::<0, 2>(bodies, joints);
+            get::<0>(joints, dofs.clone(), x);
+            get::<1>(joints, dofs, y);
+            bad
+        } else {
+            solve_rows_with(m, &d.M, b, [&mut d.work.ld, &mut d.work.diag_inv], dofs.clone(), y);
+            factor_rows(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs, Some(&mut *x))
+        };
+        bad = bad.or(found);
+    }
+    bad
+}
+
+/// A vector into the joints of matrix `I`.
+#[inline(always)]
+fn put<const I: usize>(joints: &mut [[Joint; 2]], dofs: Range<usize>, x: &[f64]) {
+    for (joint, x) in joints[dofs.clone()].iter_mut().zip(&x[dofs]) {
+        joint[I].x = *x;
+    }
+}
+
+/// A vector from the joints of matrix `I`.
+#[inline(always)]
+fn get<const I: usize>(joints: &[[Joint; 2]], dofs: Range<usize>, x: &mut [f64]) {
+    for (x, joint) in x[dofs.clone()].iter_mut().zip(&joints[dofs]) {
+        *x = joint[I].x;
+    }
+}
+
+/// `qLD` and `qLDiagInv` by rows of M; and with `x`, x ← M⁻¹ x.
+fn factor_rows(
+    m: &Model,
+    mass: &[f64],
+    ld: &mut [f64],
+    diag_inv: &mut [f64],
+    dofs: Range<usize>,
+    x: Option<&mut [f64]>,
+) -> Option<usize> {
+    let entries = mass::rows_of(m, dofs.clone());
+    ld[entries.clone()].copy_from_slice(&mass[entries]);
+    let bad = mass::factor(m, ld, diag_inv, dofs.clone());
+    if let Some(x) = x {
+        mass::solve(m, ld, diag_inv, x, dofs);
+    }
+    bad
+}
+
+/// x ← (M + B)⁻¹ x by rows of M, with scratch for a factorization.
+fn solve_rows_with(
+    m: &Model,
+    mass: &[f64],
+    b: &[f64],
+    [ld, diag_inv]: [&mut Vec<f64>; 2],
+    dofs: Range<usize>,
+    x: &mut [f64],
+) {
+    let entries = mass::rows_of(m, dofs.clone());
+    ld[entries.clone()].copy_from_slice(&mass[entries]);
+    for k in dofs.clone() {
+        ld[mass::diagonal(m, k)] += b[k];
+    }
+    mass::factor(m, ld, diag_inv, dofs.clone());
+    mass::solve(m, ld, diag_inv, x, dofs);
 }
 
 /// The rows of `qLD` that belong to articulated trees, and their `qLDiagInv`.
@@ -294,7 +418,7 @@ pub(crate) fn rows_of_factor(m: &Model, d: &mut Data) {
     let cdof = rows::<6>(&d.cdof);
     for span in spans.iter().filter(|span| span.by_bodies(*untied)) {
         for k in span.dofs.clone() {
-            let Joint { u, inv } = &joints[k];
+            let Joint { u, inv, .. } = &joints[k][0];
             d.qLDiagInv[k] = *inv;
             let row = &mut d.qLD[mass::row(m, k)];
             let depth = row.len() - 1;
@@ -320,7 +444,9 @@ fn solve_spans(m: &Model, d: &mut Data, x: &mut [f64]) {
     let Articulated { spans, untied, links, bodies, joints, .. } = &mut d.work.articulated;
     for span in spans.iter() {
         if span.by_bodies(*untied) {
-            Tree { span, links, cdof: rows(&d.cdof) }.solve(bodies, joints, x);
+            put::<0>(joints, span.dofs.clone(), x);
+            Tree { span, links, cdof: rows(&d.cdof) }.solve::<0, 1>(bodies, joints);
+            get::<0>(joints, span.dofs.clone(), x);
         } else {
             mass::solve(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone());
         }
@@ -339,26 +465,21 @@ pub(crate) fn solve_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
 
 #[inline(never)]
 fn solve_spans_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
-    let Articulated { spans, untied, links, bodies, damped, armature, diagonal, .. } =
-        &mut d.work.articulated;
+    let Articulated { spans, untied, links, bodies, joints, .. } = &mut d.work.articulated;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
         if span.by_bodies(*untied) {
-            for (sum, (armature, b)) in diagonal.iter_mut().zip(armature.iter().zip(b)) {
-                *sum = armature + b;
+            for (joint, (b, x)) in
+                joints[dofs.clone()].iter_mut().zip(b[dofs.clone()].iter().zip(&x[dofs.clone()]))
+            {
+                (joint[1].diagonal, joint[1].x) = (joint[0].diagonal + b, *x);
             }
             let tree = Tree { span, links, cdof: rows(&d.cdof) };
-            tree.factor(rows(&d.cinert), diagonal, bodies, damped, Some(x));
-            tree.fall(bodies, damped, &mut x[dofs]);
+            tree.factor::<1, 2, true>(rows(&d.cinert), bodies, joints);
+            tree.fall::<1, 2>(bodies, joints);
+            get::<1>(joints, dofs, x);
         } else {
-            let (ld, diag_inv) = (&mut d.work.ld, &mut d.work.diag_inv);
-            let entries = mass::rows_of(m, dofs.clone());
-            ld[entries.clone()].copy_from_slice(&d.M[entries]);
-            for k in dofs.clone() {
-                ld[mass::diagonal(m, k)] += b[k];
-            }
-            mass::factor(m, ld, diag_inv, dofs.clone());
-            mass::solve(m, ld, diag_inv, x, dofs);
+            solve_rows_with(m, &d.M, b, [&mut d.work.ld, &mut d.work.diag_inv], dofs, x);
         }
     }
 }
@@ -407,14 +528,14 @@ fn add_to(a: &mut [Wide; 6], b: &[Wide; 6]) {
     }
 }
 
-/// U and D of the degree of freedom s of a joint with inertia `diagonal`, and I ← I - U Uᵀ / D. Returns whether D is not
+/// U and D of the degree of freedom s of a joint, and I ← I - U Uᵀ / D. Returns whether D is not
 /// positive.
 #[inline(never)] // inlined into a loop, the compiler would not add lane by lane
-fn eliminate(i: &mut [Wide; 6], s: &Spatial, diagonal: f64, joint: &mut Joint) -> bool {
+fn eliminate(i: &mut [Wide; 6], s: &Spatial, joint: &mut Joint) -> bool {
     // In three sums, each of which is soon done: the next degree of freedom waits for U.
     let part = |c: usize| add_scaled(scale(i[c], s[c]), i[c + 1], s[c + 1]);
     let u = add(add(part(0), part(2)), part(4));
-    let d = diagonal + dot(wide(s), u);
+    let d = joint.diagonal + dot(wide(s), u);
     let inv = 1.0 / d.max(MINVAL);
     let v = scale(u, -inv);
     for c in 0..6 {

@@ -25,17 +25,17 @@ pub(crate) fn com_pos(m: &Model, d: &mut Data) {
 
     let (xanchor, xaxis, xmat) = (rows::<3>(&d.xanchor), rows::<3>(&d.xaxis), rows::<9>(&d.xmat));
     let cdof = rows_mut::<6>(&mut d.cdof);
-    for j in 0..m.njnt {
-        let body = m.jnt_bodyid[j] as usize;
-        let to_com = sub(com[m.body_rootid[body] as usize], xanchor[j]);
+    let joints = m.jnt_type.iter().zip(&m.jnt_bodyid).zip(&m.jnt_dofadr);
+    for (((&kind, &body), &first), (&anchor, &axis)) in joints.zip(xanchor.iter().zip(xaxis)) {
+        let (body, mut k) = (body as usize, first as usize);
+        let to_com = sub(com[m.body_rootid[body] as usize], anchor);
         let turning = |axis: Vec3| -> Spatial {
             let l = cross(axis, to_com);
             [axis[0], axis[1], axis[2], l[0], l[1], l[2]]
         };
-        let mut k = m.jnt_dofadr[j] as usize;
-        match m.jnt_type[j] {
-            joint::SLIDE => cdof[k] = [0.0, 0.0, 0.0, xaxis[j][0], xaxis[j][1], xaxis[j][2]],
-            joint::HINGE => cdof[k] = turning(xaxis[j]),
+        match kind {
+            joint::SLIDE => cdof[k] = [0.0, 0.0, 0.0, axis[0], axis[1], axis[2]],
+            joint::HINGE => cdof[k] = turning(axis),
             kind => {
                 if kind == joint::FREE {
                     for i in 0..3 {

@@ -146,6 +146,8 @@ pub(crate) struct Work {
     pub(crate) ld: Vec<f64>,
     pub(crate) diag_inv: Vec<f64>,
     pub(crate) qacc: Vec<f64>,
+    /// Whether `qacc` is that of Euler's method with implicit damping, for the forces of this step.
+    pub(crate) damped: bool,
     /// What implicit damping adds to the diagonal of M.
     pub(crate) damping: Vec<f64>,
     pub(crate) rk: RungeKutta,

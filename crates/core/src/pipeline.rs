@@ -236,13 +236,18 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     if d.plan.applied_forces {
         applied_forces(m, d);
     }
+    d.work.damped = false;
     if m.opt.integrator == integrator::DISCRETE {
         integrate::discrete::acceleration(m, d);
     } else if d.plan.some_general {
         let mut out = std::mem::take(&mut d.qacc_smooth);
         copy(&d.qfrc_smooth, &mut out);
         if d.plan.mass_for_rows && d.nefc == 0 {
-            let bad = articulated::prepare(m, d, Some(&mut out));
+            let euler = m.opt.integrator == integrator::EULER && integrate::damps(m, d);
+            let bad = match euler {
+                true => integrate::accelerate(m, d, &mut out),
+                false => articulated::prepare(m, d, Some(&mut out)),
+            };
             check_inertia(d, bad);
         } else {
             articulated::solve(m, d, &mut out);

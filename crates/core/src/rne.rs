@@ -83,10 +83,11 @@ fn recursion(m: &Model, d: &mut Data, gravity: Vec3, qacc: Option<&[f64]>, out: 
     cfrc[0] = [0.0; 6];
     for i in 1..m.nbody {
         let mut a = [0.0; 6];
-        let first = m.body_dofadr[i];
-        let dofs = first as usize..(first + m.body_dofnum[i]) as usize;
-        for k in dofs.clone() {
-            a = add_scaled(a, cdof_dot[k], d.qvel[k]);
+        // Without degrees of freedom the address is -1.
+        let first = m.body_dofadr[i].max(0) as usize;
+        let dofs = first..first + m.body_dofnum[i] as usize;
+        for (s, &v) in cdof_dot[dofs.clone()].iter().zip(&d.qvel[dofs.clone()]) {
+            a = add_scaled(a, *s, v);
         }
         if let Some(qacc) = qacc {
             for k in dofs {
@@ -105,7 +106,7 @@ fn recursion(m: &Model, d: &mut Data, gravity: Vec3, qacc: Option<&[f64]>, out: 
         let parent = m.body_parentid[i] as usize;
         cfrc[parent] = add(cfrc[parent], cfrc[i]);
     }
-    for k in 0..m.nv {
-        out[k] = dot(cdof[k], cfrc[m.dof_bodyid[k] as usize]);
+    for ((out, s), &body) in out.iter_mut().zip(cdof).zip(&m.dof_bodyid) {
+        *out = dot(*s, cfrc[body as usize]);
     }
 }

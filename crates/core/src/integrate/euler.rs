@@ -14,19 +14,45 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
         advance(m, d, Slopes::default());
         return;
     }
-    let h = m.opt.timestep;
-    let (mut acceleration, mut damping) =
-        (std::mem::take(&mut d.work.qacc), std::mem::take(&mut d.work.damping));
-    let force = acceleration.as_mut_slice();
+    if !d.work.damped {
+        damp(m, d);
+    }
+    let acceleration = std::mem::take(&mut d.work.qacc);
+    advance(m, d, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
+    d.work.qacc = acceleration;
+}
+
+/// The acceleration a', by `work.qacc`.
+#[inline(always)]
+fn damp(m: &Model, d: &mut Data) {
+    let (mut a, mut b) = (std::mem::take(&mut d.work.qacc), std::mem::take(&mut d.work.damping));
+    let force = a.as_mut_slice();
     let n = force.len();
     let (smooth, constraint) = (&d.qfrc_smooth[..n], &d.qfrc_constraint[..n]);
     each(n, |k| force[k] = smooth[k] + constraint[k]);
-    let actuators = d.plan.actuator_dampers;
-    spring::of_dampers(m, actuators, &d.qvel, &mut damping, |law, v| h * law.slope(v.abs()));
-    articulated::solve_with(m, d, &damping, &mut acceleration);
-    d.work.damping = damping;
-    advance(m, d, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
-    d.work.qacc = acceleration;
+    damping(m, d, &mut b);
+    articulated::solve_with(m, d, &b, &mut a);
+    (d.work.qacc, d.work.damping) = (a, b);
+}
+
+/// Both accelerations from `qfrc_smooth`, where no constraint acts: a, and a' by `work.qacc`. Returns the first degree of
+/// freedom without inertia.
+pub(crate) fn accelerate(m: &Model, d: &mut Data, acceleration: &mut [f64]) -> Option<usize> {
+    let (mut a, mut b) = (std::mem::take(&mut d.work.qacc), std::mem::take(&mut d.work.damping));
+    let (n, force) = (a.len(), &acceleration[..a.len()]);
+    // With the force of constraints, which is 0: -0 becomes 0, as everywhere.
+    each(n, |k| a[k] = force[k] + 0.0);
+    damping(m, d, &mut b);
+    let bad = articulated::prepare_both(m, d, &b, acceleration, &mut a);
+    (d.work.qacc, d.work.damping, d.work.damped) = (a, b, true);
+    bad
+}
+
+/// h B.
+#[inline(always)]
+fn damping(m: &Model, d: &Data, out: &mut [f64]) {
+    let h = m.opt.timestep;
+    spring::of_dampers(m, d.plan.actuator_dampers, &d.qvel, out, |law, v| h * law.slope(v.abs()));
 }
 
 /// Whether some degree of freedom has a damper, and dampers are on.

@@ -11,7 +11,7 @@ use crate::reflect::Stage;
 use crate::{Data, Model, actuation, integrator, sensor, sleep};
 
 pub(crate) use discrete::Metric;
-pub(crate) use euler::{damps, has_dampers};
+pub(crate) use euler::{accelerate, damps, has_dampers};
 pub use position::{differentiate_pos, integrate_pos};
 pub(crate) use runge_kutta::RungeKutta;
 
