@@ -279,14 +279,15 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
         return;
     }
     for i in dofs {
-        let start = m.M_rowadr[i] as usize;
-        let diag = start + m.M_rownnz[i] as usize - 1;
-        let mut s = mass[diag] * v[i];
-        for a in start..diag {
-            let j = m.M_colind[a] as usize;
-            s += mass[a] * v[j];
+        let row = row(m, i);
+        let Some((diagonal, before)) = mass[row.clone()].split_last() else { continue };
+        let vi = v[i];
+        let mut s = diagonal * vi;
+        for (&j, a) in m.M_colind[row].iter().zip(before) {
+            let j = j as usize;
+            s += a * v[j];
             // The upper triangle: j is an ancestor of i, so its own sum is already begun.
-            out[j] += mass[a] * v[i];
+            out[j] += a * vi;
         }
         out[i] = s;
     }

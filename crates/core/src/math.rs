@@ -50,18 +50,44 @@ pub(crate) fn each(n: usize, mut f: impl FnMut(usize)) {
     }
 }
 
+/// out ← f(out, inputs), number by number; the inputs are at least as long. Four at a time where there are many: the lanes
+/// of a vector.
+#[inline(always)]
+pub(crate) fn combine<const N: usize>(
+    out: &mut [f64],
+    inputs: [&[f64]; N],
+    f: impl Fn(f64, [f64; N]) -> f64,
+) {
+    let n = out.len();
+    let inputs = inputs.map(|x| &x[..n]);
+    if n <= 2 {
+        each(n, |k| out[k] = f(out[k], inputs.map(|x| x[k])));
+        return;
+    }
+    let (fours, rest) = out.as_chunks_mut::<4>();
+    let (inputs, ends) =
+        (inputs.map(|x| &x.as_chunks::<4>().0[..fours.len()]), inputs.map(|x| &x[n - rest.len()..]));
+    for (c, four) in fours.iter_mut().enumerate() {
+        let x = inputs.map(|x| x[c]);
+        *four = std::array::from_fn(|l| f(four[l], x.map(|x| x[l])));
+    }
+    for (l, out) in rest.iter_mut().enumerate() {
+        *out = f(*out, ends.map(|x| x[l]));
+    }
+}
+
 /// Copies numbers; as many as the shorter array has.
 #[inline(always)]
 pub(crate) fn copy(from: &[f64], to: &mut [f64]) {
     let n = from.len().min(to.len());
     let (from, to) = (&from[..n], &mut to[..n]);
-    each(n, |k| to[k] = from[k]);
+    if n <= 2 { each(n, |k| to[k] = from[k]) } else { to.copy_from_slice(from) }
 }
 
 /// Sets all numbers to zero.
 #[inline(always)]
 pub(crate) fn zero(x: &mut [f64]) {
-    each(x.len(), |k| x[k] = 0.0);
+    if x.len() <= 2 { each(x.len(), |k| x[k] = 0.0) } else { x.fill(0.0) }
 }
 
 /// The unit quaternion.

@@ -1,6 +1,6 @@
 //! `mj_step` and `mj_forward`: the order of the stages, each a call to the module that holds its formula.
 
-use crate::math::{copy, each, rows};
+use crate::math::{combine, copy, rows};
 use crate::plan::Plan;
 use crate::reflect::Stage;
 use crate::sensor::When;
@@ -228,11 +228,10 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
 /// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`.
 #[inline(never)]
 pub(crate) fn acceleration(m: &Model, d: &mut Data) {
-    let out = d.qfrc_smooth.as_mut_slice();
-    let n = out.len();
-    let (passive, bias) = (&d.qfrc_passive[..n], &d.qfrc_bias[..n]);
-    let (applied, actuator) = (&d.qfrc_applied[..n], &d.qfrc_actuator[..n]);
-    each(n, |k| out[k] = passive[k] - bias[k] + applied[k] + actuator[k]);
+    let forces = [&*d.qfrc_passive, &*d.qfrc_bias, &*d.qfrc_applied, &*d.qfrc_actuator];
+    combine(&mut d.qfrc_smooth, forces, |_, [passive, bias, applied, actuator]| {
+        passive - bias + applied + actuator
+    });
     if d.plan.applied_forces {
         applied_forces(m, d);
     }
@@ -254,9 +253,7 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
         }
         d.qacc_smooth = out;
     } else {
-        for ((a, f), inv) in d.qacc_smooth.iter_mut().zip(&d.qfrc_smooth).zip(&d.qLDiagInv) {
-            *a = f * inv;
-        }
+        combine(&mut d.qacc_smooth, [&*d.qfrc_smooth, &*d.qLDiagInv], |_, [f, inv]| f * inv);
     }
 }
 
@@ -339,8 +336,11 @@ pub(crate) fn bad(x: f64) -> bool {
 
 fn first_bad(v: &[f64]) -> Option<usize> {
     // Nearly always there is none: all are looked at, by vectors of the processor.
-    let mut some = false;
-    each(v.len(), |k| some |= bad(v[k]));
+    let some = match v {
+        [x] => bad(*x),
+        [x, y] => bad(*x) | bad(*y),
+        _ => v.iter().fold(false, |some, &x| some | bad(x)),
+    };
     if some { v.iter().position(|&x| bad(x)) } else { None }
 }
 

@@ -92,6 +92,7 @@ fn narrow(m: &Model, d: &mut Data, pair: &Pair, params: &Params) {
     let touch = match (m.geom_type[g1], m.geom_type[g2]) {
         (geom::PLANE, geom::SPHERE) => primitive::plane_sphere(m, d, g1, g2, params.reach),
         (geom::SPHERE, geom::SPHERE) => primitive::sphere_sphere(m, d, g1, g2, params.reach),
+        _ if sweep::far_apart(m, d, g1, g2, params.reach) => None,
         _ => return general(m, d, [g1, g2], params),
     };
     if let Some(t) = touch {
@@ -99,16 +100,13 @@ fn narrow(m: &Model, d: &mut Data, pair: &Pair, params: &Params) {
     }
 }
 
-/// The exact test of any pair, when their bounds are near.
+/// The exact test of any pair.
 #[inline(never)]
 fn general(m: &Model, d: &mut Data, [g1, g2]: [usize; 2], params: &Params) {
-    if sweep::far_apart(m, d, g1, g2, params.reach) {
-        return;
-    }
     let Some(method) = pair::method(m.geom_type[g1], m.geom_type[g2]) else { return };
     let mut work = std::mem::take(&mut d.work.narrow);
     work.touches.clear();
-    let [a, b] = [g1, g2].map(|g| Shape::geom(m, d, g));
+    let (a, b) = (Shape::geom(m, d, g1), Shape::geom(m, d, g2));
     pair::contacts(method, &a, &b, params.reach, &pair::Settings::of(m), &mut work.room, &mut work.touches);
     for t in &work.touches {
         d.contact.push(params::contact(params, g1, g2, t, frame_along(t.normal, t.tangent)));

@@ -240,7 +240,7 @@ fn widest(shadows: &[Shadow], centres: &[Vec3]) -> usize {
 }
 
 /// Whether the bounding spheres of two geoms, or a sphere and a plane, are farther apart than `reach`.
-#[inline]
+#[inline(always)]
 pub(super) fn far_apart(m: &Model, d: &Data, a: usize, b: usize, reach: f64) -> bool {
     let (pos, mat) = (rows::<3>(&d.geom_xpos), rows::<9>(&d.geom_xmat));
     let (ra, rb) = (m.geom_rbound[a], m.geom_rbound[b]);

@@ -1,15 +1,18 @@
 //! The Hessian of an island, M + Jᵀ C J, and its factorization H = L Lᵀ.
 //!
-//! Each row is kept from its first entry that is not zero up to the diagonal; L fills nothing outside of that (George and
-//! Liu 1981, *Computer Solution of Large Sparse Positive Definite Systems*, ch. 4). Small islands keep whole rows. In large
-//! ones, where most pairs of trees do not touch, trees are ordered so that rows are short: breadth first from an end of
-//! the island, reversed (Cuthill and McKee 1969, George 1971).
+//! The lower triangle is kept in blocks of four by four, the lanes of a vector. Each row of blocks is kept from its first
+//! block that is not zero up to the diagonal; L fills nothing outside of that (George and Liu 1981, *Computer Solution of
+//! Large Sparse Positive Definite Systems*, ch. 4). Small islands keep whole rows. In large ones, where most pairs of trees
+//! do not touch, trees are ordered so that rows are short: breadth first from an end of the island, reversed (Cuthill and
+//! McKee 1969, George 1971).
 
 use super::island::Islands;
 use super::jacobian::Jacobian;
 use super::solver::tree_dofs;
 use crate::Model;
-use crate::math::{MINVAL, dot_slice};
+use crate::math::MINVAL;
+use std::array::from_fn;
+use wide::f64x4;
 
 /// Degrees of freedom up to which whole rows are kept.
 const SMALL: usize = 120;
@@ -19,16 +22,31 @@ const SMALL: usize = 120;
 /// solution without it.
 const MOST_WORK: usize = 330_000_000;
 
-/// A symmetric matrix: the lower triangle, row by row.
+/// Four numbers of a row that follow each other.
+type Four = [f64; 4];
+
+/// A symmetric matrix: the lower triangle, by rows of blocks, row by row in each. Rows that fill the last one up are
+/// those of the identity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Hessian {
     /// Position of each degree of freedom of the model in its island.
     pub(super) local: Vec<u32>,
-    values: Vec<f64>,
-    /// Per row: its first column, and where that lies in `values`.
+    values: Vec<Four>,
+    /// Inverse diagonal of L.
+    inverse: Vec<Four>,
+    blocks: Vec<BlockRow>,
+    /// Number of rows without those that fill up.
+    len: usize,
+    /// Per row: its first column; scratch of large islands.
     first: Vec<u32>,
-    start: Vec<usize>,
     order: Order,
+}
+
+/// Four rows: their first block, and where that of the first row lies.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct BlockRow {
+    first: usize,
+    start: usize,
 }
 
 /// Scratch of the ordering of trees.
@@ -43,27 +61,26 @@ struct Order {
 }
 
 impl Hessian {
-    /// Number of rows.
-    pub(super) fn len(&self) -> usize {
-        self.first.len()
+    /// Room for a vector.
+    pub(super) fn room(&self) -> usize {
+        4 * self.blocks.len()
     }
 
     /// Numbers of the matrix that are kept.
     #[cfg(test)]
     pub(super) fn kept(&self) -> usize {
-        self.values.len()
+        4 * self.values.len()
     }
 
     /// Numbers the degrees of freedom of an island, and lays out its rows. `false`, and no room is made, where to
     /// factorize them would take more than [`MOST_WORK`].
     pub(super) fn lay_out(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) -> bool {
         let trees = || islands.trees_of(island);
-        let n: usize = trees().map(|t| tree_dofs(m, t).len()).sum();
+        self.len = trees().map(|t| tree_dofs(m, t).len()).sum();
         self.local.resize(m.nv, 0);
-        if n <= SMALL {
+        self.first.clear();
+        if self.len <= SMALL {
             self.number(m, trees());
-            self.first.clear();
-            self.first.resize(n, 0);
         } else {
             let mut order = std::mem::take(&mut self.order);
             order.sort(m, jac, islands, island);
@@ -71,18 +88,21 @@ impl Hessian {
             self.order = order;
             self.shorten(m, jac, islands, island);
         }
-        self.start.clear();
-        let (mut end, mut work) = (0, 0);
-        for (row, &first) in self.first.iter().enumerate() {
-            let length = row + 1 - first as usize;
-            self.start.push(end);
-            end += length;
-            work += length * length;
+        self.blocks.clear();
+        let (mut start, mut work) = (0, 0);
+        for i in 0..self.len.div_ceil(4) {
+            let rows = self.first.iter().skip(4 * i).take(4);
+            let first = rows.map(|&c| c as usize / 4).min().unwrap_or(0);
+            self.blocks.push(BlockRow { first, start });
+            let length = i + 1 - first;
+            start += 4 * length;
+            work += 4 * (4 * length) * (4 * length);
         }
         if work > MOST_WORK {
             return false;
         }
-        self.values.resize(end, 0.0);
+        self.values.resize(start, [0.0; 4]);
+        self.inverse.resize(self.blocks.len(), [0.0; 4]);
         true
     }
 
@@ -114,59 +134,160 @@ impl Hessian {
         }
     }
 
-    /// All numbers zero.
+    /// All numbers zero, but for the identity of the rows that fill up.
     pub(super) fn clear(&mut self) {
-        self.values.fill(0.0);
+        self.values.fill([0.0; 4]);
+        for i in self.len..self.room() {
+            let at = place(&self.blocks, i);
+            self.values.as_flattened_mut()[at + i] = 1.0;
+        }
     }
 
-    /// The entry of two degrees of freedom of the model.
+    /// Adds numbers to the entries of a degree of freedom of the model with others.
     #[inline(always)]
-    pub(super) fn entry(&mut self, i: u32, j: u32) -> &mut f64 {
-        let (i, j) = (self.local[i as usize], self.local[j as usize]);
-        let (row, column) = (i.max(j) as usize, i.min(j));
-        &mut self.values[self.start[row] + (column - self.first[row]) as usize]
+    pub(super) fn add(&mut self, i: usize, with: impl Iterator<Item = (usize, f64)>) {
+        let (local, blocks) = (self.local.as_slice(), self.blocks.as_slice());
+        let values = self.values.as_flattened_mut();
+        let i = local[i] as usize;
+        let row = place(blocks, i);
+        for (j, number) in with {
+            let j = local[j] as usize;
+            let at = if j <= i { row.wrapping_add(j) } else { place(blocks, j).wrapping_add(i) };
+            values[at] += number;
+        }
     }
 
     /// H = L Lᵀ, in place.
+    #[inline(never)]
     pub(super) fn factor(&mut self) {
-        for i in 0..self.len() {
-            let (above, row) = self.values.split_at_mut(self.start[i]);
-            let first = self.first[i] as usize;
-            let row = &mut row[..=i - first];
-            for j in first..i {
-                let from = first.max(self.first[j] as usize);
-                let lj = &above[self.start[j] + from - self.first[j] as usize..];
-                let (done, entry) = row.split_at_mut(j - first);
-                let done = &done[from - first..];
-                entry[0] = (entry[0] - dot_slice(done, &lj[..done.len()])) / lj[done.len()];
+        for (i, &BlockRow { first, start }) in self.blocks.iter().enumerate() {
+            let (above, below) = self.values.split_at_mut(start);
+            let n = i - first;
+            let mut done: [&[Four]; 4] = [&[]; 4];
+            let mut inverse = [0.0; 4];
+            let mut rest = &mut below[..4 * (n + 1)];
+            for r in 0..4 {
+                let (row, after) = rest.split_at_mut(n + 1);
+                rest = after;
+                for j in first..i {
+                    let up = self.blocks[j];
+                    let from = first.max(up.first);
+                    let length = j + 1 - up.first;
+                    let rows: [&[Four]; 4] = from_fn(|c| {
+                        let at = up.start + c * length;
+                        &above[at + from - up.first..at + length]
+                    });
+                    let (left, entry) = row.split_at_mut(j - first);
+                    let sums = products(&left[from - first..], rows);
+                    let triangle = rows.map(|row| row[j - from]);
+                    entry[0] = substitute(subtract(entry[0], sums), &triangle, &self.inverse[j]);
+                }
+                // The block of the diagonal: rows before this one are done, this one and those after it count as zero.
+                let (left, entry) = row.split_at_mut(n);
+                let mut own = [0.0; 4];
+                for c in 0..r {
+                    let (before, corner) = done[c].split_at(n);
+                    own[c] = entry[0][c] - product(left, before);
+                    for k in 0..c {
+                        own[c] -= corner[0][k] * own[k];
+                    }
+                    own[c] *= inverse[c];
+                }
+                let square = product(left, left) + own.map(|x| x * x).iter().sum::<f64>();
+                let diagonal = (entry[0][r] - square).max(MINVAL).sqrt();
+                own[r] = diagonal;
+                inverse[r] = 1.0 / diagonal;
+                entry[0] = own;
+                done[r] = row;
             }
-            let (off, diag) = row.split_at_mut(i - first);
-            diag[0] = (diag[0] - dot_slice(off, off)).max(MINVAL).sqrt();
+            self.inverse[i] = inverse;
         }
     }
 
     /// x ← H⁻¹ x, factorized.
+    #[inline(never)]
     pub(super) fn solve(&self, x: &mut [f64]) {
-        for i in 0..self.len() {
-            let (off, diag, first) = self.row(i);
-            x[i] = (x[i] - dot_slice(off, &x[first..i])) / diag;
+        let x = x.as_chunks_mut::<4>().0;
+        for (i, rows) in self.rows() {
+            let first = self.blocks[i].first;
+            let (before, here) = x.split_at_mut(i);
+            let sums = products(&before[first..], rows);
+            let triangle = rows.map(|row| row[i - first]);
+            here[0] = substitute(subtract(here[0], sums), &triangle, &self.inverse[i]);
         }
-        for i in (0..self.len()).rev() {
-            let (off, diag, first) = self.row(i);
-            let xi = x[i] / diag;
-            x[i] = xi;
-            for (x, l) in x[first..i].iter_mut().zip(off) {
-                *x -= l * xi;
+        for (i, rows) in self.rows().rev() {
+            let first = self.blocks[i].first;
+            let (before, here) = x.split_at_mut(i);
+            let mut own = here[0];
+            for r in (0..4).rev() {
+                own[r] *= self.inverse[i][r];
+                for c in 0..r {
+                    own[c] -= rows[r][i - first][c] * own[r];
+                }
+            }
+            here[0] = own;
+            for (k, x) in before[first..].iter_mut().enumerate() {
+                let all: f64x4 = (0..4).map(|r| f64x4::new(rows[r][k]) * own[r]).sum();
+                *x = (f64x4::new(*x) - all).to_array();
             }
         }
     }
 
-    /// A row: what is left of the diagonal, the diagonal, and the first column.
-    fn row(&self, i: usize) -> (&[f64], f64, usize) {
-        let first = self.first[i] as usize;
-        let row = &self.values[self.start[i]..=self.start[i] + i - first];
-        (&row[..i - first], row[i - first], first)
+    /// The rows of blocks, four rows each, from their first block to the diagonal.
+    fn rows(&self) -> impl DoubleEndedIterator<Item = (usize, [&[Four]; 4])> {
+        self.blocks.iter().enumerate().map(|(i, b)| {
+            let n = i + 1 - b.first;
+            (i, from_fn(|r| &self.values[b.start + r * n..b.start + (r + 1) * n]))
+        })
     }
+}
+
+/// What is added to a column to find its place in row `i`.
+#[inline(always)]
+fn place(blocks: &[BlockRow], i: usize) -> usize {
+    let BlockRow { first, start } = blocks[i / 4];
+    // The sum with a column of the row is never negative.
+    (4 * (start + (i % 4) * (i / 4 + 1 - first))).wrapping_sub(4 * first)
+}
+
+/// The products of a row with four others, which are at least as long.
+#[inline(always)]
+fn products(row: &[Four], others: [&[Four]; 4]) -> Four {
+    let n = row.len();
+    let others = others.map(|other| &other[..n]);
+    let mut sums = [f64x4::ZERO; 4];
+    for k in 0..n {
+        let x = f64x4::new(row[k]);
+        for c in 0..4 {
+            sums[c] += x * f64x4::new(others[c][k]);
+        }
+    }
+    sums.map(|sum| sum.reduce_add())
+}
+
+/// The product of two rows of the same length.
+#[inline(always)]
+fn product(a: &[Four], b: &[Four]) -> f64 {
+    let sum: f64x4 = a.iter().zip(b).map(|(x, y)| f64x4::new(*x) * f64x4::new(*y)).sum();
+    sum.reduce_add()
+}
+
+#[inline(always)]
+fn subtract(a: Four, b: Four) -> Four {
+    from_fn(|c| a[c] - b[c])
+}
+
+/// x with L x = a, for the lower triangle of a block and the inverse of its diagonal.
+#[inline(always)]
+fn substitute(a: Four, triangle: &[Four; 4], inverse: &Four) -> Four {
+    let mut x = a;
+    for r in 0..4 {
+        for c in 0..r {
+            x[r] -= triangle[r][c] * x[c];
+        }
+        x[r] *= inverse[r];
+    }
+    x
 }
 
 impl Order {
@@ -286,7 +407,8 @@ mod tests {
     fn a_row_of_boxes_takes_a_band() {
         let (kept, d) = kept(&boxes((0..100).map(row)));
         assert_eq!(d.nisland, 1);
-        assert!(kept <= 600 * 12, "{kept} numbers of {}", 600 * 601 / 2);
+        // Twelve columns and what fills up blocks of four.
+        assert!(kept <= 600 * 16, "{kept} numbers of {}", 600 * 601 / 2);
     }
 
     #[test]
@@ -295,14 +417,15 @@ mod tests {
         let upon = (1..100).map(|i| (i, [0.25 * i as f64, 0.0, 0.1985], SMALL_BOX));
         let (kept, d) = kept(&boxes(std::iter::once(plate).chain(upon)));
         assert_eq!(d.nisland, 1);
-        assert!(kept <= 600 * 14, "{kept} numbers of {}", 600 * 601 / 2);
+        assert!(kept <= 600 * 16, "{kept} numbers of {}", 600 * 601 / 2);
     }
 
     #[test]
     fn boxes_apart_take_a_matrix_each() {
         let apart = |i: usize| (i, [0.5 * i as f64, 0.0, 0.0995], SMALL_BOX);
         let (kept, d) = kept(&boxes((0..300).map(apart)));
-        assert_eq!((d.nisland, kept), (300, 21));
+        // Two rows of blocks: one block of four by four, then two.
+        assert_eq!((d.nisland, kept), (300, 48));
     }
 
     #[test]
@@ -310,7 +433,7 @@ mod tests {
         // By steps of 37 through a hundred: neighbours stand far from each other in the file.
         let (near, far) = (boxes((0..100).map(row)), boxes((0..100).map(|i| row(i * 37 % 100))));
         let ((_, a), (kept, b)) = (kept(&near), kept(&far));
-        assert!(kept <= 600 * 12, "{kept}");
+        assert!(kept <= 600 * 16, "{kept}");
         for i in 0..600 {
             let there = 6 * (i / 6 * 73 % 100) + i % 6;
             assert!((a.qacc[i] - b.qacc[there]).abs() < 1e-9, "{i}: {} and {}", a.qacc[i], b.qacc[there]);

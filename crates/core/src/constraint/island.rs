@@ -3,7 +3,9 @@
 //! Connected components by union-find with path halving (Tarjan and van Leeuwen 1984).
 
 use super::jacobian::Jacobian;
+use super::solver::tree_dofs;
 use crate::{Model, disable};
+use std::ops::Range;
 
 /// Which constraints and trees belong together.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,6 +14,10 @@ pub(crate) struct Islands {
     pub(super) trees: Lists,
     /// Blocks of the Jacobian of each island, ascending.
     pub(super) blocks: Lists,
+    /// Degrees of freedom of each island: those of trees that follow each other as one range.
+    runs: Vec<Range<usize>>,
+    /// Where those of each island end.
+    run_ends: Vec<usize>,
     /// Per tree: parent in the forest of the union-find.
     link: Vec<u32>,
     /// Per tree: its island, or [`NONE`].
@@ -25,45 +31,37 @@ pub(crate) struct Islands {
     count: usize,
 }
 
-/// Several lists of small numbers, each number in at most one of them.
+/// Several lists of small numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Lists {
-    /// Per list: first and last item.
-    ends: Vec<[u32; 2]>,
-    /// Per item: the next of its list.
-    next: Vec<u32>,
+    /// The items, list by list; and where each list begins.
+    items: Vec<u32>,
+    begin: Vec<usize>,
 }
 
 impl Lists {
-    fn clear(&mut self, lists: usize, items: usize) {
-        self.ends.resize(lists.max(self.ends.len()), [NONE; 2]);
-        self.ends[..lists].fill([NONE; 2]);
-        self.next.resize(items.max(self.next.len()), NONE);
-    }
-
-    #[inline(always)]
-    fn push(&mut self, list: usize, item: usize) {
-        let [first, last] = &mut self.ends[list];
-        if *first == NONE {
-            *first = item as u32;
-        } else {
-            self.next[*last as usize] = item as u32;
+    /// Lists the items, each given with its list, in the order in which they come.
+    fn fill(&mut self, lists: usize, items: impl Iterator<Item = (u32, usize)> + Clone) {
+        self.begin.clear();
+        self.begin.resize(lists + 2, 0);
+        for (list, _) in items.clone() {
+            self.begin[list as usize + 2] += 1;
         }
-        *last = item as u32;
-        self.next[item] = NONE;
+        for list in 0..lists {
+            self.begin[list + 2] += self.begin[list + 1];
+        }
+        self.items.resize(self.begin[lists + 1], 0);
+        for (list, item) in items {
+            let end = &mut self.begin[list as usize + 1];
+            self.items[*end] = item as u32;
+            *end += 1;
+        }
     }
 
-    /// The items of a list, in the order in which they came.
+    /// The items of a list.
     #[inline(always)]
     pub(super) fn of(&self, list: usize) -> impl Iterator<Item = usize> + Clone + use<'_> {
-        let mut at = self.ends[list][0];
-        std::iter::from_fn(move || {
-            let item = at;
-            (item != NONE).then(|| {
-                at = self.next[item as usize];
-                item as usize
-            })
-        })
+        self.items[self.begin[list]..self.begin[list + 1]].iter().map(|&item| item as usize)
     }
 }
 
@@ -105,19 +103,37 @@ impl Islands {
         self.island.fill(if together { 0 } else { NONE });
         self.count = if together { 1 } else { self.number(m, jac) };
 
-        self.trees.clear(self.count, m.ntree);
-        for t in 0..m.ntree {
-            if self.island[t] != NONE {
-                self.trees.push(self.island[t] as usize, t);
-            }
-        }
-        self.blocks.clear(self.count, jac.blocks.len());
-        for (i, b) in jac.blocks.iter().enumerate() {
-            if let Some(&c) = jac.columns(b).first() {
-                self.blocks.push(self.island[tree_of(c)] as usize, i);
-            }
-        }
+        let island = &self.island;
+        self.trees
+            .fill(self.count, (0..m.ntree).map(|t| (island[t], t)).filter(|(island, _)| *island != NONE));
+        let blocks = jac.blocks.iter().enumerate();
+        let blocks = blocks.filter_map(|(i, b)| Some((island[tree_of(*jac.columns(b).first()?)], i)));
+        self.blocks.fill(self.count, blocks);
+        self.find_runs(m);
         self.count
+    }
+
+    fn find_runs(&mut self, m: &Model) {
+        self.runs.clear();
+        self.run_ends.clear();
+        for island in 0..self.count {
+            let first = self.runs.len();
+            for t in self.trees.of(island) {
+                let dofs = tree_dofs(m, t);
+                match self.runs.get_mut(first..).and_then(|runs| runs.last_mut()) {
+                    Some(run) if run.end == dofs.start => run.end = dofs.end,
+                    _ => self.runs.push(dofs),
+                }
+            }
+            self.run_ends.push(self.runs.len());
+        }
+    }
+
+    /// The degrees of freedom of an island, ascending.
+    #[inline(always)]
+    pub(super) fn dofs(&self, island: usize) -> impl Iterator<Item = Range<usize>> + Clone + use<'_> {
+        let first = if island == 0 { 0 } else { self.run_ends[island - 1] };
+        self.runs[first..self.run_ends[island]].iter().cloned()
     }
 
     /// Gives each touched tree the number of its island; returns how many there are.
@@ -159,13 +175,10 @@ mod tests {
     #[test]
     fn lists_keep_order_and_can_be_reused() {
         let mut lists = Lists::default();
-        for of in [vec![2, 0, 1, 0, 3, 2, 1], vec![0, 0, 1]] {
-            lists.clear(4, of.len());
-            for (item, &list) in of.iter().enumerate() {
-                lists.push(list, item);
-            }
+        for of in [vec![2u32, 0, 1, 0, 3, 2, 1], vec![0, 0, 1]] {
+            lists.fill(4, of.iter().enumerate().map(|(item, &list)| (list, item)));
             for list in 0..4 {
-                let expected: Vec<usize> = (0..of.len()).filter(|&i| of[i] == list).collect();
+                let expected: Vec<usize> = (0..of.len()).filter(|&i| of[i] as usize == list).collect();
                 assert_eq!(lists.of(list).collect::<Vec<_>>(), expected);
             }
         }

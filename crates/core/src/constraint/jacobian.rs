@@ -370,13 +370,10 @@ impl Jacobian {
         let Some(w) = w[b.rows()].first_chunk::<R>() else { return };
         for (i, (&ci, vi)) in cols.iter().zip(vals).enumerate() {
             let wi: [f64; R] = std::array::from_fn(|r| w[r] * vi[r]);
-            for (&cj, vj) in cols[..=i].iter().zip(vals) {
-                let mut sum = wi[0] * vj[0];
-                for r in 1..R {
-                    sum += wi[r] * vj[r];
-                }
-                *h.entry(ci, cj) += sum;
-            }
+            h.add(
+                ci as usize,
+                cols[..=i].iter().map(|&c| c as usize).zip(vals.iter().map(|vj| dot(wi, *vj))),
+            );
         }
     }
 
@@ -386,9 +383,10 @@ impl Jacobian {
         let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
         for (i, (&ci, vi)) in cols.iter().zip(vals).enumerate() {
             let wi: [f64; R] = std::array::from_fn(|r| dot(w[r], *vi));
-            for (&cj, vj) in cols[..=i].iter().zip(vals) {
-                *h.entry(ci, cj) += dot(wi, *vj);
-            }
+            h.add(
+                ci as usize,
+                cols[..=i].iter().map(|&c| c as usize).zip(vals.iter().map(|vj| dot(wi, *vj))),
+            );
         }
     }
 }

@@ -6,6 +6,7 @@
 use super::cost::{Cost, Curvature};
 use super::jacobian::{Block, by_rows};
 use super::primal::{Problem, Reached, shape};
+use crate::mass;
 
 impl Problem<'_> {
     #[inline(never)]
@@ -46,7 +47,8 @@ impl Problem<'_> {
     fn lay_out(&mut self) -> bool {
         let s = &mut *self.s;
         let fits = s.hessian.lay_out(self.m, &self.d.work.jac, self.islands, self.island);
-        s.rhs.resize(s.hessian.len(), 0.0);
+        s.rhs.clear();
+        s.rhs.resize(s.hessian.room(), 0.0);
         fits
     }
 
@@ -56,9 +58,9 @@ impl Problem<'_> {
         let (m, d, s) = (self.m, &*self.d, &mut *self.s);
         s.hessian.clear();
         for k in dofs.clone().flatten() {
-            for a in m.M_rowadr[k] as usize..(m.M_rowadr[k] + m.M_rownnz[k]) as usize {
-                *s.hessian.entry(k as u32, m.M_colind[a] as u32) = d.M[a];
-            }
+            let row = mass::row(m, k);
+            let columns = m.M_colind[row.clone()].iter().map(|&j| j as usize);
+            s.hessian.add(k, columns.zip(d.M[row].iter().copied()));
             s.rhs[s.hessian.local[k] as usize] = s.grad[k];
         }
         for b in blocks {

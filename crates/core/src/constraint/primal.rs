@@ -5,7 +5,7 @@ use super::cost::{Cost, Shape};
 use super::island::Islands;
 use super::jacobian::{Block, by_rows};
 use super::search::{Point, minimize};
-use super::solver::{Scratch, tree_dofs};
+use super::solver::Scratch;
 use crate::math::{MINVAL, dot, dot_slice};
 use crate::{Data, Model, disable, mass, solver};
 use std::ops::Range;
@@ -36,15 +36,16 @@ impl<'a> Problem<'a> {
         let (tol, scale) = (self.m.opt.tolerance, self.scale());
         let (cost, gradient) = self.update();
         let small = scale * gradient < tol || self.m.opt.solver == solver::CG;
-        let minimum = small && scale * self.decrement_by_mass() < tol;
+        let diagonal = self.m.nC == self.m.nv;
+        let mut decrement = || if diagonal { self.decrement_by_diagonal() } else { self.decrement_by_mass() };
+        let minimum = small && scale * decrement() < tol;
         Reached { cost, gradient, minimum }
     }
 
-    /// The degrees of freedom of each tree.
+    /// The degrees of freedom.
     #[inline(always)]
     pub(super) fn dofs(&self) -> impl Iterator<Item = Range<usize>> + Clone + use<'a> {
-        let m = self.m;
-        self.islands.trees.of(self.island).map(move |t| tree_dofs(m, t))
+        self.islands.dofs(self.island)
     }
 
     /// The constraints, by their place in the Jacobian's blocks.
@@ -135,6 +136,18 @@ impl<'a> Problem<'a> {
             mass::solve(self.m, &self.d.qLD, &self.d.qLDiagInv, &mut self.s.step, dofs);
         }
         self.decrement()
+    }
+
+    /// ½ gᵀ M⁻¹ g where M is diagonal.
+    fn decrement_by_diagonal(&mut self) -> f64 {
+        let mut sum = 0.0;
+        for dofs in self.dofs() {
+            let inverse = &self.d.qLDiagInv[dofs.clone()];
+            for (inv, g) in inverse.iter().zip(&self.s.grad[dofs]) {
+                sum += inv * g * g;
+            }
+        }
+        0.5 * sum
     }
 
     /// ½ gᵀ step.

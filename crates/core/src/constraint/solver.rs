@@ -166,8 +166,7 @@ fn warm_start(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) -> bo
     let mut reached = std::mem::take(&mut s.reached);
     reached.clear();
     for island in 0..d.nisland {
-        for t in islands.trees.of(island) {
-            let dofs = tree_dofs(m, t);
+        for dofs in islands.dofs(island) {
             d.qacc[dofs.clone()].copy_from_slice(&d.qacc_warmstart[dofs]);
         }
         reached.push(Problem { m, d, s, islands, island }.reached());

@@ -1,7 +1,7 @@
 //! Semi-implicit Euler.
 
 use super::{Slopes, advance};
-use crate::math::each;
+use crate::math::combine;
 use crate::passive::spring;
 use crate::reflect::Stage;
 use crate::{Data, Model, articulated, disable};
@@ -26,10 +26,7 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
 #[inline(always)]
 fn damp(m: &Model, d: &mut Data) {
     let (mut a, mut b) = (std::mem::take(&mut d.work.qacc), std::mem::take(&mut d.work.damping));
-    let force = a.as_mut_slice();
-    let n = force.len();
-    let (smooth, constraint) = (&d.qfrc_smooth[..n], &d.qfrc_constraint[..n]);
-    each(n, |k| force[k] = smooth[k] + constraint[k]);
+    combine(&mut a, [&*d.qfrc_smooth, &*d.qfrc_constraint], |_, [smooth, constraint]| smooth + constraint);
     damping(m, d, &mut b);
     articulated::solve_with(m, d, &b, &mut a);
     (d.work.qacc, d.work.damping) = (a, b);
@@ -39,9 +36,8 @@ fn damp(m: &Model, d: &mut Data) {
 /// freedom without inertia.
 pub(crate) fn accelerate(m: &Model, d: &mut Data, acceleration: &mut [f64]) -> Option<usize> {
     let (mut a, mut b) = (std::mem::take(&mut d.work.qacc), std::mem::take(&mut d.work.damping));
-    let (n, force) = (a.len(), &acceleration[..a.len()]);
     // With the force of constraints, which is 0: -0 becomes 0, as everywhere.
-    each(n, |k| a[k] = force[k] + 0.0);
+    combine(&mut a, [&*acceleration], |_, [force]| force + 0.0);
     damping(m, d, &mut b);
     let bad = articulated::prepare_both(m, d, &b, acceleration, &mut a);
     (d.work.qacc, d.work.damping, d.work.damped) = (a, b, true);

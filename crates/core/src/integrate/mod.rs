@@ -6,7 +6,7 @@ mod implicit;
 mod position;
 mod runge_kutta;
 
-use crate::math::{copy, each};
+use crate::math::{combine, copy};
 use crate::reflect::Stage;
 use crate::{Data, Model, actuation, integrator, sensor, sleep};
 
@@ -63,10 +63,7 @@ fn advance(m: &Model, d: &mut Data, slopes: Slopes) {
     if d.plan.keeps(Stage::Sleep) && sleep::on(m, d) {
         sleep::advance(m, d, acceleration, velocity);
     } else {
-        let v = d.qvel.as_mut_slice();
-        let n = v.len();
-        let a = &acceleration.unwrap_or(&d.qacc)[..n];
-        each(n, |k| v[k] += h * a[k]);
+        combine(&mut d.qvel, [acceleration.unwrap_or(&d.qacc)], |v, [a]| v + h * a);
         integrate_pos(m, &mut d.qpos, velocity.unwrap_or(&d.qvel), h);
     }
     d.time += h;

@@ -12,8 +12,7 @@ pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
     if m.nq == m.nv {
         // Slides and hinges only: coordinates and velocities are in the same places.
         let n = qpos.len().min(v.len());
-        let (qpos, v) = (&mut qpos[..n], &v[..n]);
-        each(n, |k| qpos[k] += h * v[k]);
+        combine(&mut qpos[..n], [v], |q, [v]| q + h * v);
     } else {
         along_joints(m, qpos, v, h);
     }

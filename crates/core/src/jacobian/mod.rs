@@ -116,8 +116,8 @@ pub(crate) fn point_difference(
     }
 }
 
-/// Columns of one joint, the last degree of freedom first. A rotation about `a` moves the point by a × arm,
-/// and (a × arm) · f = a · (arm × f).
+/// Columns of one joint, the last degree of freedom first. A rotation about `a` moves the point by v = a × arm, and
+/// v · f = a · (arm × f).
 #[inline(always)]
 #[allow(clippy::too_many_arguments)] // one formula, called from one place
 fn joint_columns(
@@ -139,13 +139,13 @@ fn joint_columns(
         return;
     }
     let arm = sub(point, rows::<3>(&d.xanchor)[j]);
-    let w = [cross(arm, f[0]), cross(arm, f[1]), cross(arm, f[2])];
     if kind == joint::HINGE {
-        let a = rows::<3>(&d.xaxis)[j];
-        out.push(last, [[dot(a, w[0]), dot(a, w[1]), dot(a, w[2])]]);
+        let v = cross(rows::<3>(&d.xaxis)[j], arm);
+        out.push(last, [[dot(v, f[0]), dot(v, f[1]), dot(v, f[2])]]);
         return;
     }
-    // The body's own axes.
+    // The body's own axes, all three.
+    let w = [cross(arm, f[0]), cross(arm, f[1]), cross(arm, f[2])];
     let axes = &rows::<9>(&d.xmat)[m.jnt_bodyid[j] as usize];
     let t = w.map(|w| mat_t_mul_vec(axes, w));
     let turn = |i: usize| [t[0][i], t[1][i], t[2][i]];

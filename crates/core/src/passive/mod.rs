@@ -6,7 +6,7 @@ pub(crate) mod fluid;
 mod gravcomp;
 pub(crate) mod spring;
 
-use crate::math::each;
+use crate::math::combine;
 use crate::{Data, Model, disable, joint};
 
 /// `qfrc_spring`, `qfrc_damper`, `qfrc_gravcomp`, `qfrc_fluid`, `qfrc_passive`. With springs and dampers both
@@ -27,10 +27,7 @@ pub(crate) fn passive(m: &Model, d: &mut Data) {
         }
     }
     spring::tendons(m, d, springs, dampers);
-    let out = d.qfrc_passive.as_mut_slice();
-    let n = out.len();
-    let (spring, damper) = (&d.qfrc_spring[..n], &d.qfrc_damper[..n]);
-    each(n, |k| out[k] = spring[k] + damper[k]);
+    combine(&mut d.qfrc_passive, [&*d.qfrc_spring, &*d.qfrc_damper], |_, [spring, damper]| spring + damper);
     if d.plan.body_forces {
         body_forces(m, d, springs || dampers);
     }
