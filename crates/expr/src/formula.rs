@@ -1,5 +1,5 @@
 //! Numeric expressions without effects: a list of operations, each on results of operations before it. One list serves
-//! both ways to run it: once for the state at hand (here), or over columns of recorded samples (`columnar`).
+//! both ways to run it: once for the state at hand (`row`), or over columns of recorded samples (`columnar`).
 //!
 //! Made from the code of the machine by following it: where it may go two ways, both are computed and one is chosen.
 
@@ -7,9 +7,7 @@ use std::collections::BTreeMap;
 
 use crate::math;
 use crate::operators::BinaryOp;
-use crate::program::Host;
 use crate::schema::FieldKey;
-use crate::value::truthy;
 use crate::vm::{CodeUnit, Num, Op, Slot};
 
 /// Most arguments of a function of `Math`; expressions with more of them are left to the machine.
@@ -66,7 +64,6 @@ impl Step {
 pub(crate) struct Formula {
     /// Constants come first.
     pub(crate) steps: Vec<Step>,
-    constants: Vec<f64>,
     args: Vec<At>,
     pub(crate) output: At,
     /// It gives 1 or 0 for a truth value.
@@ -85,19 +82,18 @@ impl Formula {
         for &(register, x) in &unit.numbers {
             registers.insert(register.0, build.step(Step::Constant(x)));
         }
-        let constant = |s: &Step| if let Step::Constant(x) = s { Some(*x) } else { None };
-        let constants = build.steps.iter().filter_map(constant).collect();
+        let known = build.steps.len();
         let output = build.follow(0, registers)?;
         let truth = unit.result == Slot::Boolean;
-        let mut formula = Formula { steps: build.steps, constants, args: build.args, output, truth };
-        formula.drop_unused();
+        let mut formula = Formula { steps: build.steps, args: build.args, output, truth };
+        formula.drop_unused(known);
         Some(formula)
     }
 
-    /// Leaves out the constants that became part of operations.
-    fn drop_unused(&mut self) {
+    /// Leaves out those of the `known` constants in front that became part of operations.
+    fn drop_unused(&mut self, known: usize) {
         let mut used = vec![false; self.steps.len()];
-        let Formula { steps, constants, args, output, .. } = self;
+        let Formula { steps, args, output, .. } = self;
         let mut mark = |at: &mut At| {
             if let Some(place) = used.get_mut(*at as usize) {
                 *place = true;
@@ -111,62 +107,21 @@ impl Formula {
             .enumerate()
             .map(|(i, used)| {
                 let at = kept;
-                kept += At::from(*used || i >= constants.len());
+                kept += At::from(*used || i >= known);
                 at
             })
             .collect();
         let mut moved = |at: &mut At| *at = places.get(*at as usize).copied().unwrap_or(*at);
         steps.iter_mut().for_each(|s| s.operands().into_iter().flatten().for_each(&mut moved));
         args.iter_mut().chain([output]).for_each(&mut moved);
-        let known = constants.len();
         let keeps = |i: usize| i >= known || used.get(i).copied().unwrap_or(true);
         let mut at = 0..;
         steps.retain(|_| at.next().is_none_or(keeps));
-        let mut at = 0..;
-        constants.retain(|_| at.next().is_none_or(keeps));
     }
 
     /// The arguments of a function of `Math`.
     pub(crate) fn args(&self, first: u32, count: u32) -> &[At] {
         self.args.get(first as usize..(first + count) as usize).unwrap_or(&[])
-    }
-
-    /// The value now; `None` when an element does not exist.
-    #[inline]
-    pub(crate) fn value(&self, host: &dyn Host, registers: &mut Vec<f64>) -> Option<f64> {
-        if registers.len() < self.steps.len() {
-            registers.resize(self.steps.len(), 0.0);
-        }
-        let r = registers.get_mut(..self.steps.len())?;
-        let known = self.constants.len();
-        r.get_mut(..known)?.copy_from_slice(&self.constants);
-        for (i, step) in self.steps.iter().enumerate().skip(known) {
-            r[i] = match *step {
-                Step::Constant(x) => x,
-                Step::Load(field, index) => host.get(field, index as usize)?,
-                Step::Add(a, b) => r[a as usize] + r[b as usize],
-                Step::Subtract(a, b) => r[a as usize] - r[b as usize],
-                Step::Multiply(a, b) => r[a as usize] * r[b as usize],
-                Step::Divide(a, b) => r[a as usize] / r[b as usize],
-                Step::AddConstant(a, k) => r[a as usize] + k,
-                Step::MultiplyConstant(a, k) => r[a as usize] * k,
-                Step::SubtractFrom(k, a) => k - r[a as usize],
-                Step::Binary(op, a, b) => op.on_numbers(r[a as usize], r[b as usize]),
-                Step::Negate(a) => -r[a as usize],
-                Step::Not(a) => f64::from(u8::from(!truthy(r[a as usize]))),
-                Step::BitNot(a) => f64::from(!crate::number::to_int32(r[a as usize])),
-                Step::Choose(test, yes, no) => r[if truthy(r[test as usize]) { yes } else { no } as usize],
-                Step::Math(function, first, count) => {
-                    let mut row = [0.0; ARGS];
-                    let args = self.args(first, count);
-                    for (x, &a) in row.iter_mut().zip(args) {
-                        *x = r[a as usize];
-                    }
-                    function.apply(&row[..args.len()])
-                }
-            };
-        }
-        r.get(self.output as usize).copied()
     }
 }
 
@@ -207,7 +162,8 @@ impl Build<'_> {
         }
     }
 
-    /// An operation with a constant as part of it, where that gives the same bits: `x - k` is `x + -k`.
+    /// An operation with a constant as part of it, where that gives the same bits: `x - k` is `x + -k`,
+    /// and `x ** 2` is `x * x`.
     fn with_constant(&self, step: Step) -> Step {
         let known = |at: At| match self.steps.get(at as usize) {
             Some(Step::Constant(x)) if !x.is_nan() => Some(*x),
@@ -229,6 +185,7 @@ impl Build<'_> {
                 (Some(k), None) => Step::SubtractFrom(k, b),
                 _ => step,
             },
+            Step::Binary(BinaryOp::Power, a, b) if known(b) == Some(2.0) => Step::Multiply(a, a),
             _ => step,
         }
     }

@@ -12,7 +12,7 @@
 //! | tokens to tree | `parse` | [`ast`], always, with the mistakes beside it |
 //! | tree to meaning | `bind` | typed tree of `ir`, every name resolved |
 //! | meaning to code | `lower` | [`Program`]: flat operations on registers |
-//! | running | `vm`, `formula` | a [`Value`], or a [`RuntimeError`] |
+//! | running | `vm`, `row` | a [`Value`], or a [`RuntimeError`] |
 //! | running over samples | `columnar` | a column of numbers |
 //!
 //! Values are JavaScript's to the last bit: see [`Value`] and the `math` module. Parsing and compiling never
@@ -40,6 +40,7 @@ mod prelude;
 mod print;
 mod program;
 mod reference;
+mod row;
 mod schema;
 mod suggest;
 mod value;

@@ -15,7 +15,7 @@ struct Row {
 
 /// How a function takes its arguments.
 #[derive(Clone, Copy)]
-enum Apply {
+pub(crate) enum Apply {
     One(fn(f64) -> f64),
     Two(fn(f64, f64) -> f64),
     Many(fn(&[f64]) -> f64),
@@ -175,6 +175,11 @@ impl Function {
     /// Smallest and largest number of arguments that make sense.
     pub(crate) fn arity(self) -> (usize, Option<usize>) {
         (self.row().least, self.row().most)
+    }
+
+    /// What computes it.
+    pub(crate) fn apply_by(self) -> Apply {
+        self.row().apply
     }
 
     /// The value; a missing argument is `undefined`, so NaN.

@@ -12,6 +12,7 @@ use crate::globals::Globals;
 use crate::heap::Heap;
 use crate::ir::Tree;
 use crate::lower;
+use crate::row::Row;
 use crate::schema::{FieldKey, FunctionId, Type};
 use crate::value::Value;
 use crate::vm::{self, Code};
@@ -20,6 +21,18 @@ use crate::vm::{self, Code};
 pub trait Host {
     /// Element `index`; `None` past the end.
     fn get(&self, field: FieldKey, index: usize) -> Option<f64>;
+
+    /// Several elements at once, into as many numbers; `false` when one of them does not exist. This is how an
+    /// expression reads everything that it needs, sorted by field and index.
+    fn read(&self, elements: &[(FieldKey, u32)], out: &mut [f64]) -> bool {
+        out.iter_mut().zip(elements).all(|(x, &(field, index))| match self.get(field, index as usize) {
+            Some(now) => {
+                *x = now;
+                true
+            }
+            None => false,
+        })
+    }
 
     /// Stores an element that exists.
     ///
@@ -224,8 +237,10 @@ pub struct Program {
     pub(crate) effects: Effects,
     pub(crate) result: Type,
     pub(crate) aggregates: Vec<Aggregate>,
-    /// The shorter way to run it, if it is a numeric expression without effects.
+    /// What it computes, if it is a numeric expression without effects.
     pub(crate) formula: Option<Arc<Formula>>,
+    /// The shorter way to run that.
+    pub(crate) row: Option<Arc<Row>>,
 }
 
 impl Program {
@@ -233,7 +248,8 @@ impl Program {
     pub(crate) fn new(tree: &Tree, effects: Effects, result: Type, aggregates: Vec<Aggregate>) -> Program {
         let code = lower::program(tree);
         let formula = code.units.first().and_then(Formula::of).map(Arc::new);
-        Program { code: code.into(), effects, result, aggregates, formula }
+        let row = formula.as_deref().and_then(Row::of).map(Arc::new);
+        Program { code: code.into(), effects, result, aggregates, formula, row }
     }
 
     /// What it touches.
@@ -262,11 +278,11 @@ impl Program {
         context: &mut Context,
         value: Option<&Value>,
     ) -> Result<Value, RuntimeError> {
-        if let Some(formula) = &self.formula
-            && let Some(x) = formula.value(host, &mut context.numbers)
+        if let Some(row) = &self.row
+            && let Some(value) = row.value(host, &mut context.numbers)
         {
             context.events.clear();
-            return Ok(if formula.truth { Value::Boolean(x != 0.0) } else { Value::Number(x) });
+            return Ok(value);
         }
         vm::run(&self.code, host, context, value)
     }

@@ -30,7 +30,8 @@ const MAX_CALLS: usize = 200;
 /// Registers for what is handed to a function.
 const HANDED: usize = 64;
 
-/// Runs a program once.
+/// Runs a program once. Not inlined: the ways of a formula stay short.
+#[inline(never)]
 pub(crate) fn run(
     code: &Arc<Code>,
     host: &mut dyn Host,

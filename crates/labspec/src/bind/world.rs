@@ -21,6 +21,21 @@ impl Host for World {
         reflect::view(&self.model, &self.data, FieldId(f as u16)).get(index)
     }
 
+    fn read(&self, elements: &[(FieldKey, u32)], out: &mut [f64]) -> bool {
+        // Elements of one field stand side by side: it is looked up once.
+        let (mut of, mut view) = (None, reflect::View::Size(0));
+        for (x, &(field, index)) in out.iter_mut().zip(elements) {
+            if of != Some(field) {
+                (of, view) = (Some(field), reflect::view(&self.model, &self.data, FieldId(field.0 as u16)));
+            }
+            match view.get(index as usize) {
+                Some(now) => *x = now,
+                None => return false,
+            }
+        }
+        true
+    }
+
     fn set(&mut self, FieldKey(f): FieldKey, index: usize, value: f64) -> Result<(), String> {
         let field = FieldId(f as u16);
         check(field, value)?;
