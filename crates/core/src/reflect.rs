@@ -295,9 +295,25 @@ impl Cell for usize {
     }
 }
 
+/// Reads one element of a field.
+type Reader = fn(&Model, &Data, usize) -> Option<f64>;
+
+fn model<'a>(m: &'a Model, _: &'a Data) -> &'a Model {
+    m
+}
+fn options<'a>(m: &'a Model, _: &'a Data) -> &'a crate::model::Options {
+    &m.opt
+}
+fn statistic<'a>(m: &'a Model, _: &'a Data) -> &'a crate::model::Statistic {
+    &m.stat
+}
+fn data<'a>(_: &'a Model, d: &'a Data) -> &'a Data {
+    d
+}
+
 macro_rules! reflect {
-    ($infos:ident, $count:ident, $ids:ident, $object:ident, $struct:ty; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
-        const $infos: &[FieldInfo] = &[$(FieldInfo {
+    ($infos:ident, $readers:ident, $count:ident, $ids:ident, $object:ident, $struct:ty, $of:ident; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        const $infos: &[&FieldInfo] = &[$(&FieldInfo {
             object: Object::$object,
             name: stringify!($name),
             elem: <$ty as Cell>::ELEM,
@@ -308,6 +324,7 @@ macro_rules! reflect {
             doc: $doc,
         }),*];
         const $count: usize = $infos.len();
+        const $readers: &[Reader] = &[$(|m, d, i| $of(m, d).$name.view().get(i)),*];
         #[allow(non_camel_case_types)] // variants carry the fields' own names
         #[derive(Clone, Copy)]
         #[repr(u16)]
@@ -321,10 +338,10 @@ macro_rules! reflect {
         }
     };
 }
-macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_COUNT, ModelId, Model, Model; $($t)* } } }
-macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_COUNT, OptionId, Option, crate::model::Options; $($t)* } } }
-macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_COUNT, StatId, Statistic, crate::model::Statistic; $($t)* } } }
-macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_COUNT, DataId, Data, Data; $($t)* } } }
+macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_READERS, MODEL_COUNT, ModelId, Model, Model, model; $($t)* } } }
+macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_READERS, OPTION_COUNT, OptionId, Option, crate::model::Options, options; $($t)* } } }
+macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_READERS, STAT_COUNT, StatId, Statistic, crate::model::Statistic, statistic; $($t)* } } }
+macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_READERS, DATA_COUNT, DataId, Data, Data, data; $($t)* } } }
 /// Arrays get their lengths by field; options and statistics have none.
 macro_rules! allocation {
     ($ids:ident, $struct:ty; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
@@ -363,24 +380,30 @@ const DATA_AT: usize = STAT_AT + STAT_COUNT;
 /// Number of fields.
 pub const NFIELD: usize = DATA_AT + DATA_COUNT;
 
+/// The rows of the four parts of the table as one.
+macro_rules! whole_table {
+    ($model:ident, $option:ident, $stat:ident, $data:ident) => {{
+        let mut all = [$model[0]; NFIELD];
+        let mut i = 0;
+        while i < NFIELD {
+            all[i] = if i < OPTION_AT {
+                $model[i]
+            } else if i < STAT_AT {
+                $option[i - OPTION_AT]
+            } else if i < DATA_AT {
+                $stat[i - STAT_AT]
+            } else {
+                $data[i - DATA_AT]
+            };
+            i += 1;
+        }
+        all
+    }};
+}
+
 /// The whole table: model, options, statistics, data.
-pub static FIELDS: [&FieldInfo; NFIELD] = {
-    let mut all = [&MODEL[0]; NFIELD];
-    let mut i = 0;
-    while i < NFIELD {
-        all[i] = if i < OPTION_AT {
-            &MODEL[i]
-        } else if i < STAT_AT {
-            &OPTION[i - OPTION_AT]
-        } else if i < DATA_AT {
-            &STAT[i - STAT_AT]
-        } else {
-            &DATA[i - DATA_AT]
-        };
-        i += 1;
-    }
-    all
-};
+pub static FIELDS: [&FieldInfo; NFIELD] = whole_table!(MODEL, OPTION, STAT, DATA);
+static READERS: [Reader; NFIELD] = whole_table!(MODEL_READERS, OPTION_READERS, STAT_READERS, DATA_READERS);
 
 /// All field ids, in table order.
 pub fn fields() -> impl Iterator<Item = FieldId> {
@@ -413,6 +436,12 @@ pub fn view<'a>(m: &'a Model, d: &'a Data, field: FieldId) -> View<'a> {
     } else {
         d.cell(DataId::ALL[i - DATA_AT])
     }
+}
+
+/// Element `i` of a field, `None` past the end: the same as [`view`] gives, in one step.
+#[inline]
+pub fn element(m: &Model, d: &Data, field: FieldId, i: usize) -> Option<f64> {
+    READERS.get(field.0 as usize)?(m, d, i)
 }
 
 /// Writes a field of the model or the data. Nothing here asks whether writing makes sense: see [`Kind`].
@@ -541,5 +570,31 @@ impl FieldSet {
     /// Whether any field of the set satisfies `test`.
     pub fn any(&self, mut test: impl FnMut(&FieldInfo) -> bool) -> bool {
         self.iter().any(|f| test(f.info()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elements_are_those_of_views() {
+        let model = crate::mjcf::compile(
+            "<mujoco><option timestep='0.003'/><statistic extent='4'/>
+             <worldbody><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>",
+        );
+        let m = model.unwrap();
+        let mut d = Data::new(&m);
+        d.time = 0.25;
+        for f in fields() {
+            let whole = view(&m, &d, f);
+            for i in 0..=whole.len() {
+                let bits = |x: Option<f64>| x.map(f64::to_bits);
+                assert_eq!(bits(element(&m, &d, f, i)), bits(whole.get(i)), "{}[{i}]", f.info().name);
+            }
+        }
+        let time = field(Object::Data, "time").unwrap();
+        assert_eq!(element(&m, &d, time, 0), Some(0.25));
+        assert_eq!(element(&m, &d, FieldId(NFIELD as u16), 0), None);
     }
 }

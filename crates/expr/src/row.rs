@@ -80,6 +80,8 @@ impl Op {
 pub(crate) struct Row {
     /// What is read, in the order of the fields; it goes into the first registers.
     elements: Vec<(FieldKey, u32)>,
+    /// The register that is at hand first.
+    start: u8,
     ops: Vec<Op>,
     args: Vec<u8>,
     /// It gives a truth value.
@@ -102,26 +104,28 @@ impl Row {
             u8::try_from(at?).ok()
         };
         let homes = formula.steps.iter().map(place).collect::<Option<Vec<u8>>>()?;
-        let mut build = Build { formula, homes, ops: Vec::new(), args: Vec::new(), at_hand: None };
+        let loads = u8::try_from(elements.len()).ok()?;
+        let mut build = Build { formula, homes, loads, ops: Vec::new(), args: Vec::new(), at_hand: None };
         for (at, step) in (0..).zip(&formula.steps) {
             build.step(at, *step)?;
         }
         build.take(formula.output)?;
         build.drop_unread();
-        Some(Row { elements, ops: build.ops, args: build.args, truth: formula.truth })
+        let start = build.start();
+        Some(Row { elements, start, ops: build.ops, args: build.args, truth: formula.truth })
     }
 
     /// The value now; `None` when an element does not exist.
     #[inline]
     pub(crate) fn value(&self, host: &dyn Host, numbers: &mut Vec<f64>) -> Option<Value> {
         if numbers.len() < REGISTERS {
-            numbers.resize(REGISTERS, 0.0);
+            make_room(numbers);
         }
         let r: &mut Registers = numbers.first_chunk_mut()?;
         if !host.read(&self.elements, r.get_mut(..self.elements.len())?) {
             return None;
         }
-        let mut x = 0.0;
+        let mut x = r[usize::from(self.start)];
         for op in &self.ops {
             x = match *op {
                 Op::Take(a) => r[usize::from(a)],
@@ -157,6 +161,7 @@ impl Row {
         Some(if self.truth { Value::Boolean(x != 0.0) } else { Value::Number(x) })
     }
 
+    #[inline(never)]
     fn many(&self, f: fn(&[f64]) -> f64, first: u16, count: u8, r: &Registers) -> f64 {
         let args = self.args.get(usize::from(first)..).unwrap_or(&[]);
         let mut row = [0.0; ARGS];
@@ -167,11 +172,20 @@ impl Row {
     }
 }
 
+/// Once for all runs in a context.
+#[cold]
+#[inline(never)]
+fn make_room(numbers: &mut Vec<f64>) {
+    numbers.resize(REGISTERS, 0.0);
+}
+
 /// The work on one formula.
 struct Build<'f> {
     formula: &'f Formula,
     /// The register of each step.
     homes: Vec<u8>,
+    /// Registers below this one hold what was read.
+    loads: u8,
     ops: Vec<Op>,
     args: Vec<u8>,
     /// The step whose result is the number at hand.
@@ -261,6 +275,18 @@ impl Build<'_> {
             }
             // An argument is missing: rare enough for the machine.
             _ => None,
+        }
+    }
+
+    /// The register that the first operation on a number takes, if it does nothing else: that needs no operation.
+    fn start(&mut self) -> u8 {
+        let first = self.ops.iter().position(|op| !matches!(op, Op::Put(..)));
+        match first.and_then(|at| Some((at, *self.ops.get(at)?))) {
+            Some((at, Op::Take(r))) if r < self.loads => {
+                self.ops.remove(at);
+                r
+            }
+            _ => 0,
         }
     }
 
@@ -371,6 +397,6 @@ mod tests {
         let row = program.row.unwrap();
         assert_eq!(row.elements.len(), 2);
         assert!(!row.ops.iter().any(|op| matches!(op, Op::Keep(_) | Op::Put(..))), "{:?}", row.ops);
-        assert_eq!(row.ops.len(), 6);
+        assert_eq!(row.ops.len(), 5, "{:?}", row.ops);
     }
 }

@@ -17,23 +17,9 @@ pub struct World {
 }
 
 impl Host for World {
+    #[inline]
     fn get(&self, FieldKey(f): FieldKey, index: usize) -> Option<f64> {
-        reflect::view(&self.model, &self.data, FieldId(f as u16)).get(index)
-    }
-
-    fn read(&self, elements: &[(FieldKey, u32)], out: &mut [f64]) -> bool {
-        // Elements of one field stand side by side: it is looked up once.
-        let (mut of, mut view) = (None, reflect::View::Size(0));
-        for (x, &(field, index)) in out.iter_mut().zip(elements) {
-            if of != Some(field) {
-                (of, view) = (Some(field), reflect::view(&self.model, &self.data, FieldId(field.0 as u16)));
-            }
-            match view.get(index as usize) {
-                Some(now) => *x = now,
-                None => return false,
-            }
-        }
-        true
+        reflect::element(&self.model, &self.data, FieldId(f as u16), index)
     }
 
     fn set(&mut self, FieldKey(f): FieldKey, index: usize, value: f64) -> Result<(), String> {
