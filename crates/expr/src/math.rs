@@ -73,44 +73,51 @@ const MATH: &[Row] = &[
     one("isNaN", |x| f64::from(u8::from(x.is_nan()))),
 ];
 
+/// What a function gives, and an example with its value.
+type Doc = (&'static str, &'static str, (&'static str, &'static str));
+
 /// What the functions give, for help and the reference.
-pub(crate) const DOCS: &[(&str, &str)] = &[
-    ("abs", "magnitude"),
-    ("acos", "angle in rad from 0 to π whose cosine is x"),
-    ("acosh", "inverse of the hyperbolic cosine"),
-    ("asin", "angle in rad from -π/2 to π/2 whose sine is x"),
-    ("asinh", "inverse of the hyperbolic sine"),
-    ("atan", "angle in rad from -π/2 to π/2 whose tangent is x"),
-    ("atan2", "atan2(y, x): angle in rad from -π to π of the point (x, y)"),
-    ("atanh", "inverse of the hyperbolic tangent"),
-    ("cbrt", "cube root"),
-    ("ceil", "next whole number above"),
-    ("clz32", "leading zero bits of an integer of 32 bits"),
-    ("cos", "cosine of an angle in rad"),
-    ("cosh", "hyperbolic cosine"),
-    ("exp", "e to the power of x"),
-    ("expm1", "exp(x) - 1, exact for small x"),
-    ("floor", "next whole number below"),
-    ("fround", "nearest number of single precision"),
-    ("hypot", "root of the sum of squares"),
-    ("imul", "product of two integers of 32 bits"),
-    ("log", "natural logarithm"),
-    ("log10", "logarithm to base 10"),
-    ("log1p", "log(1 + x), exact for small x"),
-    ("log2", "logarithm to base 2"),
-    ("max", "largest argument; NaN when any is NaN"),
-    ("min", "smallest argument; NaN when any is NaN"),
-    ("pow", "pow(x, y): x to the power of y"),
-    ("round", "nearest whole number; a half goes up"),
-    ("sign", "1, 0 or -1"),
-    ("sin", "sine of an angle in rad"),
-    ("sinh", "hyperbolic sine"),
-    ("sqrt", "square root"),
-    ("tan", "tangent of an angle in rad"),
-    ("tanh", "hyperbolic tangent"),
-    ("trunc", "whole part"),
-    ("isFinite", "whether a number is neither infinite nor NaN"),
-    ("isNaN", "whether a number is NaN"),
+pub(crate) const DOCS: &[Doc] = &[
+    ("abs", "magnitude", ("Math.abs(-2)", "2")),
+    ("acos", "angle in rad from 0 to π whose cosine is x", ("Math.acos(-1)", "3.141592653589793")),
+    ("acosh", "inverse of the hyperbolic cosine", ("Math.acosh(1)", "0")),
+    ("asin", "angle in rad from -π/2 to π/2 whose sine is x", ("Math.asin(1)", "1.5707963267948966")),
+    ("asinh", "inverse of the hyperbolic sine", ("Math.asinh(0)", "0")),
+    ("atan", "angle in rad from -π/2 to π/2 whose tangent is x", ("Math.atan(1)", "0.7853981633974483")),
+    (
+        "atan2",
+        "atan2(y, x): angle in rad from -π to π of the point (x, y)",
+        ("Math.atan2(1, -1)", "2.356194490192345"),
+    ),
+    ("atanh", "inverse of the hyperbolic tangent", ("Math.atanh(0)", "0")),
+    ("cbrt", "cube root", ("Math.cbrt(27)", "3")),
+    ("ceil", "next whole number above", ("Math.ceil(1.2)", "2")),
+    ("clz32", "leading zero bits of an integer of 32 bits", ("Math.clz32(1)", "31")),
+    ("cos", "cosine of an angle in rad", ("Math.cos(Math.PI)", "-1")),
+    ("cosh", "hyperbolic cosine", ("Math.cosh(0)", "1")),
+    ("exp", "e to the power of x", ("Math.exp(1)", "2.718281828459045")),
+    ("expm1", "exp(x) - 1, exact for small x", ("Math.expm1(1e-20)", "1e-20")),
+    ("floor", "next whole number below", ("Math.floor(-1.2)", "-2")),
+    ("fround", "nearest number of single precision", ("Math.fround(0.1)", "0.10000000149011612")),
+    ("hypot", "root of the sum of squares", ("Math.hypot(2, 3, 6)", "7")),
+    ("imul", "product of two integers of 32 bits", ("Math.imul(2 ** 16 + 1, 2 ** 16)", "65536")),
+    ("log", "natural logarithm", ("Math.log(Math.E)", "1")),
+    ("log10", "logarithm to base 10", ("Math.log10(1000)", "3")),
+    ("log1p", "log(1 + x), exact for small x", ("Math.log1p(1e-20)", "1e-20")),
+    ("log2", "logarithm to base 2", ("Math.log2(8)", "3")),
+    ("max", "largest argument; NaN when any is NaN", ("Math.max(1, 3, 2)", "3")),
+    ("min", "smallest argument; NaN when any is NaN", ("Math.min(1, NaN)", "NaN")),
+    ("pow", "pow(x, y): x to the power of y", ("Math.pow(2, 10)", "1024")),
+    ("round", "nearest whole number; a half goes up", ("Math.round(-2.5)", "-2")),
+    ("sign", "1, 0 or -1", ("Math.sign(-9.81)", "-1")),
+    ("sin", "sine of an angle in rad", ("Math.sin(Math.PI / 2)", "1")),
+    ("sinh", "hyperbolic sine", ("Math.sinh(0)", "0")),
+    ("sqrt", "square root", ("Math.sqrt(2)", "1.4142135623730951")),
+    ("tan", "tangent of an angle in rad", ("Math.tan(Math.PI / 4).toFixed(3)", "1.000")),
+    ("tanh", "hyperbolic tangent", ("Math.tanh(Infinity)", "1")),
+    ("trunc", "whole part", ("Math.trunc(-1.7)", "-1")),
+    ("isFinite", "whether a number is neither infinite nor NaN", ("isFinite(1 / 0)", "false")),
+    ("isNaN", "whether a number is NaN", ("isNaN(0 / 0)", "true")),
 ];
 
 /// How many rows at the end of [`MATH`] are global names instead of members of `Math`.
@@ -164,7 +171,7 @@ impl Function {
 
     /// What it gives.
     pub(crate) fn doc(self) -> &'static str {
-        DOCS.iter().find(|(name, _)| *name == self.row().name).map_or("", |(_, doc)| doc)
+        DOCS.iter().find(|(name, ..)| *name == self.row().name).map_or("", |(_, doc, _)| doc)
     }
 
     /// Whether the result is `true` or `false`.

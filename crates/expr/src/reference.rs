@@ -56,6 +56,20 @@ fn rows(of: &[On]) -> Vec<Row> {
     rows
 }
 
+fn functions_of_math() -> Vec<Row> {
+    let name = |name: &str| if name.starts_with("is") { name.to_owned() } else { format!("Math.{name}") };
+    math::DOCS.iter().map(|&(n, doc, example)| Row { name: name(n), doc, example }).collect()
+}
+
+/// A section with a table.
+fn table(out: &mut String, title: &str, rows: Vec<Row>) {
+    let _ = write!(out, "\n## {title}\n\n| name | gives | example | value |\n|---|---|---|---|\n");
+    for Row { name, doc, example: (source, value) } in rows {
+        let cell = |s: &str| s.replace('|', "\\|");
+        let _ = writeln!(out, "| `{name}` | {} | `{}` | `{}` |", cell(doc), cell(source), cell(value));
+    }
+}
+
 /// The page, in Markdown.
 pub fn language_page() -> String {
     let mut out = String::from(
@@ -85,17 +99,9 @@ pub fn language_page() -> String {
         ("Functions", &[On::Nothing]),
     ];
     for (title, of) in sections {
-        let _ = write!(out, "\n## {title}\n\n| name | gives | example | value |\n|---|---|---|---|\n");
-        for Row { name, doc, example: (source, value) } in rows(of) {
-            let cell = |s: &str| s.replace('|', "\\|");
-            let _ = writeln!(out, "| `{name}` | {} | `{}` | `{}` |", cell(doc), cell(source), cell(value));
-        }
+        table(&mut out, title, rows(of));
     }
-    out.push_str("\n## `Math`\n\n| name | gives |\n|---|---|\n");
-    for (name, doc) in math::DOCS {
-        let path = if name.starts_with("is") { (*name).to_owned() } else { format!("Math.{name}") };
-        let _ = writeln!(out, "| `{path}` | {doc} |");
-    }
+    table(&mut out, "`Math`", functions_of_math());
     out.push_str("\nConstants: ");
     let constants: Vec<String> =
         math::names().filter(|n| math::constant(n).is_some()).map(|n| format!("`Math.{n}`")).collect();
@@ -118,11 +124,15 @@ mod tests {
 
     #[test]
     fn the_examples_give_what_they_say() {
-        for of in [On::List, On::Growing, On::Text, On::Number, On::Nothing] {
-            for Row { name, example: (source, value), .. } in rows(&[of]) {
-                let (_, got) = execute(&format!("ctx.out = String({source})"));
-                assert_eq!(got.to_string(), value, "{name}: {source}");
-            }
+        let all = rows(&[On::List, On::Growing, On::Text, On::Number, On::Nothing]);
+        for Row { name, example: (source, value), .. } in all.into_iter().chain(functions_of_math()) {
+            let (_, got) = execute(&format!("ctx.out = String({source})"));
+            assert_eq!(got.to_string(), value, "{name}: {source}");
+        }
+        // Every function of `Math` has an example, and its example shows it.
+        for name in math::names().filter(|n| math::constant(n).is_none()) {
+            let example = math::DOCS.iter().find(|(n, ..)| *n == name).map(|(.., (source, _))| *source);
+            assert!(example.is_some_and(|e| e.contains(&format!("Math.{name}("))), "{name}: {example:?}");
         }
         for (source, value) in prelude::DOCS.iter().map(|(_, _, example)| example) {
             assert_eq!(execute(&format!("ctx.out = String({source})")).1.to_string(), *value, "{source}");
