@@ -259,7 +259,7 @@ def rollout(m, d, steps, every):
     return rows
 
 
-def trajectory(m, integrator, first, scale, seed, steps=200, every=40, others=3):
+def trajectory(m, integrator, first, scale, seed, steps=200, every=40, others=15):
     """A trajectory from the first of the states, or from the second, where everything moves. `spread` is how far, in the
     same rows, the library parts from itself when its start is moved by 1e-14, `others` times: chaos, beyond which nobody
     can follow it."""
