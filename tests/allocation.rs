@@ -208,6 +208,15 @@ fn programs_of_numbers() {
     };
     run(&mut session);
     session.reset();
+    // Watching for growth, in a lab whose programs only look.
+    let still =
+        json!({"xml": model_text("ball_drop"), "readouts": [{"label": "height", "expr": "data.qpos[2]"}]});
+    let quiet = load_lesson(SourceFile::new("still.json", still.to_string()), &ModelFolder::unknown());
+    let quiet = Programs::compile(quiet.all_labs()[0], &m, &mut findings);
+    let mut watched = Session::start(&quiet, &m, None, &quiet.demand);
+    watched.watch(48);
+    run(&mut watched);
+    assert_eq!(measure(|| run(&mut watched)).count_total, 0, "a step of a run that is watched");
     // The controller and the step.
     assert_eq!(measure(|| run(&mut session)).count_total, 0, "a step with a controller");
     // Each trace and readout alone.

@@ -1,6 +1,7 @@
 //! Tests that cross crates.
 
 mod allocation;
+mod breaking;
 mod cli;
 mod cli_run;
 mod conformance;

@@ -127,7 +127,11 @@ pub(crate) fn json_of(arguments: &[&str]) -> Value {
 
 /// Command, exit code and everything printed.
 pub(crate) fn shown(arguments: &[&str]) -> String {
-    let done = run(arguments);
+    shown_in(folder().path(), arguments)
+}
+
+pub(crate) fn shown_in(folder: &Path, arguments: &[&str]) -> String {
+    let done = run_in(folder, arguments);
     let part = |name: &str, text: &str| match text {
         "" => String::new(),
         text => format!("--- {name}\n{text}"),

@@ -7,7 +7,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::support::{compile, read_json, workspace};
-use labspec_core::{self as core, Data, Model, Warning, enable};
+use labspec_core::{self as core, Data, Model, Warning, enable, growth};
 use serde_json::{Value as Json, json};
 use std::fmt::Write;
 
@@ -15,6 +15,9 @@ use std::fmt::Write;
 const KEPT: usize = 7;
 /// Steps that a test affords of a long run.
 const SHORTENED: u64 = 2_000;
+
+/// Times that a run is looked at for energy that nothing gave it.
+const LOOKS: u64 = 24;
 
 /// What a run came to, in the words of the recording.
 fn run(xml: &str, steps: u64, long: u64) -> Json {
@@ -27,16 +30,21 @@ fn run(xml: &str, steps: u64, long: u64) -> Json {
     let mut reach = largest(&d.qpos);
     let (total, each) = if long > 0 { (long, (long / 1000).max(1)) } else { (steps, 1) };
     let mut done = 0;
+    let looks = (total / LOOKS).max(each);
+    let (mut watch, mut grown) = (growth::watch(&m, &d), None);
     while done < total {
         let before = d.time;
         for _ in 0..each {
             core::step(&m, &mut d);
         }
         done += each;
+        if done % looks == 0 {
+            grown = growth::look(&mut watch, &m, &d).map(|g| g.time);
+        }
         for which in [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc] {
             let stat = d.warning[which as usize];
             if stat.number > 0 {
-                return json!({"warning": which.name().trim_start_matches("bad"), "time": before, "dof": stat.lastinfo});
+                return json!({"warning": which.name().trim_start_matches("bad"), "time": before, "dof": stat.lastinfo, "grown": grown});
             }
         }
         // Never a silent NaN: a step that left one would be told by the next.
@@ -47,6 +55,7 @@ fn run(xml: &str, steps: u64, long: u64) -> Json {
         "a number that is none, and no warning:\n{xml}"
     );
     let mut out = json!({"reach": reach, "speed": largest(&d.qvel), "qpos": d.qpos.iter().take(KEPT).collect::<Vec<_>>()});
+    out["grown"] = json!(grown);
     if long > 0 {
         let end = energy(&mut m, &d);
         out["energy"] = json!(if start == 0.0 { end } else { (end - start) / start.abs().max(1e-12) });
@@ -79,7 +88,9 @@ fn words(outcome: &Json, bound: f64) -> String {
         return "not run".into();
     };
     if reach > bound {
-        return format!("**{} off, silently**", short(reach));
+        let said =
+            outcome["grown"].as_f64().map_or(String::new(), |t| format!("; energy grows by {} s", short(t)));
+        return format!("**{} off, silently**{said}", short(reach));
     }
     if speed < 1e-3 { "at rest".into() } else { format!("moves at {}", short(speed)) }
 }
@@ -111,8 +122,38 @@ fn fine(outcome: &Json, bound: f64) -> bool {
     outcome["reach"].as_f64().is_some_and(|reach| reach <= bound)
 }
 
+/// Runs that go wrong here without a word, and those of them in which growth is found; runs that go well, and those with
+/// an alarm.
+#[derive(Default)]
+struct Watched {
+    silent: [usize; 2],
+    well: [usize; 2],
+    alarms: Vec<String>,
+    missed: Vec<String>,
+}
+
+impl Watched {
+    fn count(&mut self, name: impl Fn() -> String, outcome: &Json, bound: f64) {
+        let grown = outcome["grown"].is_number();
+        if fine(outcome, bound) {
+            self.well[0] += 1;
+            self.well[1] += usize::from(grown);
+            self.alarms.extend(grown.then(|| format!("{}: {outcome}", name())));
+        } else if !outcome["warning"].is_string() {
+            self.silent[0] += 1;
+            self.silent[1] += usize::from(grown);
+            self.missed.extend((!grown).then(|| format!("{}: {outcome}", name())));
+        }
+    }
+}
+
 /// Cases side by side; the number of those that end well here and there.
-fn table(cases: &[Json], ours: impl Fn(&Json) -> Json, wrong: &mut Vec<String>) -> (String, [usize; 3]) {
+fn table(
+    cases: &[Json],
+    ours: impl Fn(&Json) -> Json,
+    wrong: &mut Vec<String>,
+    watched: &mut Watched,
+) -> (String, [usize; 3]) {
     let mut text = String::new();
     let mut section = "";
     let mut counts = [0; 3];
@@ -124,6 +165,7 @@ fn table(cases: &[Json], ours: impl Fn(&Json) -> Json, wrong: &mut Vec<String>) 
         }
         let (bound, theirs, ours) = (case["bound"].as_f64().unwrap(), &case["theirs"], ours(case));
         let well = [fine(theirs, bound), fine(&ours, bound)];
+        watched.count(|| format!("{section}, {}", case["case"]), &ours, bound);
         counts[0] += 1;
         counts[1] += usize::from(well[0]);
         counts[2] += usize::from(well[1]);
@@ -144,17 +186,20 @@ fn table(cases: &[Json], ours: impl Fn(&Json) -> Json, wrong: &mut Vec<String>) 
 }
 
 /// The longest timestep at which a family of models stays within its bound, all shorter ones included.
-fn longest(search: &Json, timesteps: &[f64]) -> Option<f64> {
+fn longest(search: &Json, timesteps: &[f64], watched: &mut Watched) -> Option<f64> {
     let xml = search["xml"].as_str().unwrap();
-    let stays = |h: &f64| {
+    let mut stays = |h: &f64| {
         let outcome = run(&xml.replace("TIMESTEP", &h.to_string()), search["steps"].as_u64().unwrap(), 0);
-        fine(&outcome, search["bound"].as_f64().unwrap())
+        let bound = search["bound"].as_f64().unwrap();
+        let name = || format!("{}, {}, {}, {h} s", search["section"], search["row"], search["column"]);
+        watched.count(name, &outcome, bound);
+        fine(&outcome, bound)
     };
-    timesteps.iter().copied().take_while(stays).last()
+    timesteps.iter().copied().take_while(|h| stays(h)).last()
 }
 
 /// Searches side by side: a row a stiffness, a column an integrator, "theirs / ours" where these differ.
-fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>) -> String {
+fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>, watched: &mut Watched) -> String {
     const COLUMNS: [&str; 5] = ["Euler", "RK4", "implicit", "implicitfast", "discrete"];
     let mut rows: Vec<&[Json]> = searches.chunks(COLUMNS.len()).collect();
     rows.sort_by_key(|row| row[0]["section"].as_str());
@@ -167,7 +212,7 @@ fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>) -> S
             let _ = writeln!(text, "\n### {section}\n\n| | {} |\n|---|{lines}", COLUMNS.join(" | "));
         }
         let cells = row.iter().map(|search| {
-            let (theirs, ours) = (search["theirs"].as_f64(), longest(search, timesteps));
+            let (theirs, ours) = (search["theirs"].as_f64(), longest(search, timesteps, watched));
             let word = |h: Option<f64>| h.map_or("none".into(), |h| format!("{} ms", short(1e3 * h)));
             if theirs == ours {
                 return word(ours);
@@ -184,7 +229,7 @@ fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>) -> S
 fn subjects(page: &str) -> Vec<&str> {
     page.lines()
         .map(|line| line.split('|').nth(1).unwrap_or(line))
-        .filter(|s| !s.contains("end well"))
+        .filter(|s| !s.contains("end well") && !s.starts_with("**Growth**"))
         .collect()
 }
 
@@ -213,20 +258,28 @@ fn stiff_and_extreme_scenes() {
         run(case["xml"].as_str().unwrap(), 0, SHORTENED);
     }
     let mut wrong = Vec::new();
-    let (sections, [all, theirs, ours]) =
-        table(&cases, |c| run(c["xml"].as_str().unwrap(), c["steps"].as_u64().unwrap(), 0), &mut wrong);
+    let mut watched = Watched::default();
+    let (sections, [all, theirs, ours]) = table(
+        &cases,
+        |c| run(c["xml"].as_str().unwrap(), c["steps"].as_u64().unwrap(), 0),
+        &mut wrong,
+        &mut watched,
+    );
     let timesteps: Vec<f64> =
         recording["timesteps"].as_array().unwrap().iter().map(|h| h.as_f64().unwrap()).collect();
     let mut differ = Vec::new();
     let searches = recording["searches"].as_array().unwrap();
-    let largest = searched(searches, &timesteps, &mut differ);
+    let largest = searched(searches, &timesteps, &mut differ, &mut watched);
+    let ([silent, grown], [well, alarms]) = (watched.silent, watched.well);
     let runs = read_json(&kept);
     let mut text = format!(
         "# Stiff and extreme scenes\n\nWritten by `tests/stability.rs` from the cases of `tests/golden/stability.py`: \
          our engine beside MuJoCo 3.14.0.\n\n{all} scenes: {theirs} end well there, {ours} here. *Apart* is the largest difference of the \
          first coordinates at the end (m, rad). **Silently** is a run that left every sensible bound without a warning: what a lesson \
          has to be told by its own bounds. Stacks of very unequal boxes jitter by what the solver leaves at its tolerance, \
-         on both sides, not in the same steps.\n{sections}\n\
+         on both sides, not in the same steps.\n\n**Growth** (`labspec_core::growth`) looks at a run {LOOKS} times for energy that nothing gave it. \
+         Of {silent} runs here that go wrong silently, in this page's tables and in its searches for the longest timestep, it finds {grown}; of {well} that go well \
+         it calls {alarms}. The others jump through a joint's limit within one step and gain nothing.\n{sections}\n\
          ## Longest stable timestep\n\nOf {}: the longest at which 2,000 steps stay within bounds, all shorter ones \
          included; **MuJoCo's / ours** where they differ ({} of {}).\n{largest}\n## Long runs\n\nTen million steps. Energy: change relative to the start.\n\n\
          | case | MuJoCo | here | energy | here | norm of the quaternion less 1 | here |\n|---|---|---|---:|---:|---:|---:|\n",
@@ -253,9 +306,12 @@ fn stiff_and_extreme_scenes() {
     if bless {
         std::fs::write(&path, &text).unwrap();
     }
-    for line in wrong.iter().chain(&differ) {
+    for line in wrong.iter().chain(&differ).chain(&watched.alarms).chain(&watched.missed) {
         println!("{line}");
     }
+    assert!(alarms == 0, "runs that go well, said to grow:\n{}", watched.alarms.join("\n"));
+    let slams = watched.missed.iter().filter(|name| name.starts_with("Slam into a limit")).count();
+    assert!(slams == watched.missed.len(), "growth that is not found:\n{}", watched.missed.join("\n"));
     assert!(wrong.is_empty(), "scenes that end well with MuJoCo and not here:\n{}", wrong.join("\n"));
     let kept = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(

@@ -33,6 +33,7 @@ mod energy;
 mod equality;
 mod fields;
 pub mod geometry;
+pub mod growth;
 mod history;
 mod integrate;
 mod inverse;

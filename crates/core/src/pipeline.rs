@@ -137,6 +137,12 @@ fn poses(m: &Model, d: &mut Data) {
     }
 }
 
+/// Where things are and M, without what touches: what energies follow from.
+pub(crate) fn placed(m: &Model, d: &mut Data) {
+    poses(m, d);
+    mass_matrix(m, d, d.plan.composite);
+}
+
 fn inertia_and_constraints(m: &Model, d: &mut Data) {
     let composite = d.plan.composite && !d.plan.mass_for_rows;
     if d.plan.keeps(Stage::MassMatrix) {

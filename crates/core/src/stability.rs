@@ -10,6 +10,7 @@
 //! default configuration; what couples several joints may do so without being found. Constraints ask for accelerations:
 //! there w = 1.
 
+use crate::actuation::motor;
 use crate::math::{MINVAL, rows};
 use crate::{Model, Obj, biastype, disable, integrator, joint, trntype};
 
@@ -126,9 +127,10 @@ fn judge(
     let alone = |stiff: f64, damping: f64| stiff * m.opt.timestep + 2.0 * damping;
     let mut worst = (alone(stiff, if own_implicit { 0.0 } else { damping }), Part::Spring, object, id);
     if !m.opt.disabled(disable::ACTUATION) {
-        for a in (0..m.nactuator).filter(|&a| along(a) && m.actuator_biastype[a] == biastype::AFFINE) {
+        for a in (0..m.nactuator).filter(|&a| along(a)) {
+            let Some(gains) = gains(m, a) else { continue };
             let gear = rows::<6>(&m.actuator_gear).get(m.actuator_outadr[a] as usize).map_or(0.0, |g| g[0]);
-            let [_, kp, kv, ..] = rows::<10>(&m.actuator_biasprm)[a].map(|b| (-b * gear * gear).max(0.0));
+            let [kp, kv] = gains.map(|g| (g * gear * gear).max(0.0));
             sum.stiff += kp;
             *(if servo_implicit { &mut sum.implicit } else { &mut sum.explicit }) += kv;
             let servo = alone(kp, if servo_implicit { 0.0 } else { kv });
@@ -140,6 +142,18 @@ fn judge(
     let (excess, timestep) = sum.judge(m, inverse);
     let (_, part, object, id) = worst;
     list.push(Suspect { object, id, part, excess, timestep });
+}
+
+/// `kp` and `kv` of an actuator, along its own length; `None` when these do not follow from its parameters alone.
+fn gains(m: &Model, a: usize) -> Option<[f64; 2]> {
+    match m.actuator_biastype[a] {
+        // Servos and controllers of type pid: constant, -kp, -kv.
+        biastype::AFFINE => {
+            rows::<10>(&m.actuator_biasprm).get(a).map(|&[_, length, velocity, ..]| [-length, -velocity])
+        }
+        biastype::DCMOTOR => motor::gains(m, a),
+        _ => None,
+    }
 }
 
 /// Contacts, limits and equalities by their `solref`.
@@ -199,6 +213,15 @@ mod tests {
         mjcf::compile(&text).unwrap()
     }
 
+    /// The same with an actuator of another kind.
+    fn driven(option: &str, actuator: &str) -> Model {
+        let text = format!(
+            "<mujoco><option gravity=\"0 0 0\" {option}/><worldbody><body><joint name=\"j\" type=\"slide\"/>\
+             <geom size=\".1\" mass=\"2\"/></body></worldbody><actuator>{actuator}</actuator></mujoco>"
+        );
+        mjcf::compile(&text).unwrap()
+    }
+
     /// How far the slide gets from 1 mm in some steps.
     fn farthest(m: &Model) -> f64 {
         let mut d = Data::new(m);
@@ -235,6 +258,33 @@ mod tests {
                 assert!(farthest(&below) < 0.1, "{integrator} {kp} {kv}: {}", found.timestep);
                 assert!(suspects(&below).is_empty() && suspects(&above).len() == 1);
             }
+        }
+    }
+
+    #[test]
+    fn controllers_and_motors_are_servos_too() {
+        for integrator in ["Euler", "implicit", "implicitfast"] {
+            for actuator in [
+                "<pid joint=\"j\" kp=\"5e3\" kv=\"4\"/>",
+                "<pid joint=\"j\" kp=\"3e3\" kv=\"300\" gear=\"2\"/>",
+                "<dcmotor joint=\"j\" motorconst=\".5\" resistance=\"2\" input=\"pos\" controller=\"5e3 0 4\"/>",
+                "<dcmotor joint=\"j\" motorconst=\".5\" resistance=\"2\" input=\"pos\" controller=\"3e3 0 300\" gear=\"3\"/>",
+            ] {
+                let with =
+                    |h: f64| driven(&format!("integrator=\"{integrator}\" timestep=\"{h}\""), actuator);
+                let found = suspects(&with(0.5)).first().cloned().unwrap();
+                assert_eq!((found.object, found.id, found.part), (Obj::Actuator, 0, Part::Servo));
+                let (above, below) = (with(1.02 * found.timestep), with(0.98 * found.timestep));
+                assert!(farthest(&above) > 0.1, "{integrator} {actuator}: {}", found.timestep);
+                assert!(farthest(&below) < 0.1, "{integrator} {actuator}: {}", found.timestep);
+            }
+        }
+        // A motor that is given a voltage only brakes; one whose current takes time follows a law of another order.
+        for actuator in [
+            "<dcmotor joint=\"j\" motorconst=\".5\" resistance=\"2\"/>",
+            "<dcmotor joint=\"j\" motorconst=\".5\" resistance=\"2\" inductance=\".1\" input=\"pos\" controller=\"5e3 0 4\"/>",
+        ] {
+            assert_eq!(suspects(&driven("timestep=\".5\"", actuator)), []);
         }
     }
 

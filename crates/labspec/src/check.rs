@@ -219,6 +219,7 @@ fn attempt(ready: &Ready<'_>, trial: &Trial<'_>, findings: &mut Vec<Finding>) ->
     let mut pending = presses.as_slice();
     session.press_due(&mut pending);
     session.sample();
+    session.watch(steps);
     for i in 1..=steps {
         session.press_due(&mut pending);
         session.step();
@@ -253,11 +254,11 @@ fn trouble(t: &Trouble, done: &str) -> Finding {
         .help("correct the statement, or guard it with a condition")
 }
 
-/// A simulation that met a bad number, with time, joint and likely cause.
+/// A simulation that met a bad number, or gained energy from nothing, with time, joint and likely cause.
 fn diverged(session: &Session<'_>, done: &str, place: Range<usize>) -> Option<Finding> {
     let breakdown = run::Breakdown::of(session)?;
     Some(
-        warning("simulation-diverges", place, format!("the simulation breaks {done}: {}", breakdown.what))
+        warning(breakdown.code, place, format!("the simulation breaks {done}: {}", breakdown.what))
             .why(breakdown.why)
             .help(breakdown.help),
     )

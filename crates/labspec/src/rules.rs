@@ -33,6 +33,11 @@ pub const RUN_RULES: &[(&str, &str, &str)] = &[
         "MuJoCo resets the data and goes on from time 0: a student sees the scene jump back without a word.",
     ),
     (
+        "energy-grows",
+        "the simulation gains energy that nothing gives it",
+        "The steps make it, not physics: a student sees things leap or swing ever wider, without a word from MuJoCo.",
+    ),
+    (
         "stiff-for-timestep",
         "a servo, a spring or a contact is too stiff for the timestep",
         "Every step pushes farther than the last one missed, without a word from MuJoCo until a number is beyond 1e10.",

@@ -16,7 +16,7 @@ mod servo;
 
 use crate::math::*;
 use crate::pipeline::bad;
-use crate::{Data, Model, biastype, disable, dyntype, gaintype, joint, sleep, transmission};
+use crate::{Data, Model, biastype, disable, dyntype, gaintype, joint, sleep, transmission, trntype};
 
 pub(crate) use activation::advance;
 pub(crate) use control::{record, reset};
@@ -173,6 +173,54 @@ fn some_bias(m: &Model, d: &Data, i: usize) -> f64 {
         biastype::DCMOTOR => motor::back_emf(m, d, i),
         _ => 0.0,
     }
+}
+
+/// Fills `work.ctrl` with the controls that act now.
+pub(crate) fn controls(m: &Model, d: &mut Data) {
+    let mut ctrl = std::mem::take(&mut d.work.ctrl);
+    control::effective(m, d, &mut ctrl);
+    d.work.ctrl = ctrl;
+}
+
+/// Whether actuator `i` makes no force whatever moves: its control is 0 and it has nothing else.
+pub(crate) fn idle(m: &Model, d: &Data, i: usize) -> bool {
+    let plain = matches!(m.actuator_gaintype[i], gaintype::FIXED | gaintype::AFFINE | gaintype::MUSCLE);
+    let input = d.work.ctrl.get(m.actuator_ctrladr[i] as usize);
+    plain
+        && m.actuator_biastype[i] == biastype::NONE
+        && states(m, i).is_empty()
+        && (m.actuator_ctrlnum[i] == 0 || input == Some(&0.0))
+}
+
+/// The force of actuator `i` at its length and at rest, before limits, and how fast it falls with the length, where it
+/// follows from the length of a slide, hinge or tendon alone and does not push with the velocity. Controls are those of
+/// `work.ctrl`.
+pub(crate) fn along_length(m: &Model, d: &Data, i: usize) -> Option<[f64; 2]> {
+    let target = m.actuator_trnid[2 * i].max(0) as usize;
+    let simple = match m.actuator_trntype[i] {
+        trntype::JOINT | trntype::JOINTINPARENT => {
+            m.jnt_type.get(target).is_some_and(|&t| matches!(t, joint::SLIDE | joint::HINGE))
+        }
+        trntype::TENDON => true,
+        _ => false,
+    };
+    let [constant, length, velocity] = match m.actuator_biastype[i] {
+        biastype::NONE => [0.0; 3],
+        biastype::AFFINE => [0, 1, 2].map(|k| prm(&m.actuator_biasprm, i)[k]),
+        _ => return None,
+    };
+    if !simple || velocity > 0.0 || !states(m, i).is_empty() {
+        return None;
+    }
+    let x = d.actuator_length[m.actuator_outadr[i] as usize];
+    let force = match m.actuator_gaintype[i] {
+        gaintype::FIXED => m.actuator_gainprm[10 * i] * input(m, d, i, &d.work.ctrl) + constant + length * x,
+        gaintype::PID => {
+            servo::pid(m, d, i, &d.work.ctrl) - velocity * d.actuator_velocity[m.actuator_outadr[i] as usize]
+        }
+        _ => return None,
+    };
+    Some([force, -length])
 }
 
 /// Gravity compensation that acts as a force of actuators.

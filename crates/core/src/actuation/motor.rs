@@ -4,7 +4,7 @@
 //! i = (V - K ω)/R, or follows it with the electrical time constant, and makes the torque K i. Friction of the
 //! bearing is LuGre's (Canudas de Wit et al. 1995): bristles bend by z, ż = ω - σ₀ |ω| z/g(ω).
 
-use super::servo::{Inputs, unwound};
+use super::servo::{self, Inputs, unwound};
 use super::{activation, prm, states};
 use crate::math::*;
 use crate::{Data, Model, dyntype};
@@ -210,6 +210,17 @@ pub(crate) fn slopes(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> [f64; 2] {
     let [velocity, length] = voltage.map(|v| v * k / resistance * followed);
     let viscous = if motor.slots.bristle.is_some() { motor.dyn_[6] } else { 0.0 };
     [velocity - viscous, length]
+}
+
+/// `kp` and `kv` of a motor at its reference temperature: those of its controller, which makes up for the voltage that
+/// motion induces, or K²/R without one. `None` where the current or the temperature is a state: the force then follows the
+/// position late, or ever more weakly.
+pub(crate) fn gains(m: &Model, i: usize) -> Option<[f64; 2]> {
+    let [electric, _, thermal, ..] = *prm(&m.actuator_dynprm, i);
+    let [resistance, k, _, _, kp, _, kd, ..] = *prm(&m.actuator_gainprm, i);
+    let controller = m.actuator_ctrlnum[i] > 0 && servo::controls_motion(m.actuator_ctrlspec[i]);
+    let at_once = electric <= 0.0 && thermal <= 0.0;
+    at_once.then(|| if controller { [kp, kd] } else { [0.0, k * k / resistance.max(MINVAL)] })
 }
 
 /// Cogging and friction, which limits of the current do not touch.

@@ -16,6 +16,11 @@ const NONE: i32 = 16;
 /// The chart of an orientation that is a quaternion.
 const QUAT: i32 = 2;
 
+/// Whether inputs of this kind go to a controller of motion, not only to the winding.
+pub(super) fn controls_motion(spec: i32) -> bool {
+    spec & NONE == 0 && spec & (POS | VEL | FF) != 0
+}
+
 /// What the controls of a servo say.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Inputs {

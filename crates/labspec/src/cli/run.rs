@@ -79,7 +79,8 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
         Format::Json => print(&format!("{}\n", table.json()))?,
         Format::Csv => print(&table.csv())?,
     }
-    Ok(if table.errors.is_empty() && table.warnings.is_empty() { Outcome::Clean } else { Outcome::Findings })
+    let clean = table.errors.is_empty() && table.warnings.is_empty() && table.breakdown.is_none();
+    Ok(if clean { Outcome::Clean } else { Outcome::Findings })
 }
 
 /// `LABEL=VALUE`; the label may hold equals signs, the value not.

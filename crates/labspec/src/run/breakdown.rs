@@ -1,13 +1,17 @@
-//! What the engine's warnings mean for a lesson: what broke, when, the likely cause, and what to write instead.
+//! What the engine's warnings, and energy that grows without one, mean for a lesson: what broke, when, the likely cause,
+//! and what to write instead.
 
 use super::Session;
+use labspec_core::growth::Growth;
 use labspec_core::stability::{self, Part, Suspect};
 use labspec_core::{Model, Obj, Warning, joint};
 
-/// A run that met a bad number, in a teacher's words.
+/// A run that met a bad number or gained energy from nothing, in a teacher's words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Breakdown {
-    /// What is no number, and when.
+    /// The code of the finding.
+    pub code: &'static str,
+    /// What is no number, or what grows, and when.
     pub what: String,
     /// What the page shows.
     pub why: &'static str,
@@ -28,13 +32,17 @@ const WORST_FIRST: [(Warning, &str); 5] = [
 ];
 const RESET: &str =
     "MuJoCo then resets the data and goes on from time 0: a student sees the scene jump back without a word";
+const GROWS: &str = "the steps make it, not physics: a student sees things leap or swing ever wider, without a word from MuJoCo";
 
 impl Breakdown {
     /// The worst of what a session met; `None` when it met nothing.
     pub fn of(session: &Session<'_>) -> Option<Breakdown> {
         let met = |w: Warning| session.warnings.get(w as usize).filter(|stat| stat.number > 0);
-        let (warning, why, stat) = WORST_FIRST.iter().find_map(|&(w, why)| Some((w, why, met(w)?)))?;
-        let model = &session.world.model;
+        let Some((warning, why, stat)) = WORST_FIRST.iter().find_map(|&(w, why)| Some((w, why, met(w)?)))
+        else {
+            return session.growth().map(|growth| Breakdown::by_growth(&session.world.model, growth));
+        };
+        let (code, model) = ("simulation-diverges", &session.world.model);
         let joint = |adr: &[i32], width| joint_of(model, stat.lastinfo, adr, width);
         let what = match warning {
             Warning::BadQpos => format!("the position of {}", joint(&model.jnt_qposadr, joint::nq)),
@@ -44,27 +52,44 @@ impl Breakdown {
             _ => {
                 let what = format!("more than {} contacts at t = {:.4} s", stat.lastinfo, stat.first_time);
                 let help = "let fewer bodies touch, or move them apart at the start".into();
-                return Some(Breakdown { what, why, help });
+                return Some(Breakdown { code, what, why, help });
             }
         };
         let what = format!("{what} is not a number or above 1e10 at t = {:.4} s", stat.first_time);
-        let help = match (warning, stability::suspects(model).first()) {
-            (Warning::BadCtrl, _) => {
-                "guard the expression that is written to `data.ctrl` with a condition".into()
-            }
-            (_, Some(worst)) => format!(
-                "the likely cause: {} is {:.1} times too stiff for a step of {} s; {}",
-                owner(model, worst),
-                worst.excess,
-                model.opt.timestep,
-                remedy(model, worst)
-            ),
-            _ => format!(
-                "try a smaller timestep than {} s, softer contacts or springs, or a smaller range of the control",
-                model.opt.timestep
-            ),
+        let help = match warning {
+            Warning::BadCtrl => "guard the expression that is written to `data.ctrl` with a condition".into(),
+            _ => cause(model),
         };
-        Some(Breakdown { what, why, help })
+        Some(Breakdown { code, what, why, help })
+    }
+
+    /// Energy that nothing gave.
+    fn by_growth(model: &Model, g: Growth) -> Breakdown {
+        let what = format!(
+            "energy grows from t = {:.4} s: {:.2e} J that nothing gave, where all that the start held is {:.2e} J; the most of it moves {}",
+            g.time,
+            g.gain,
+            g.held,
+            joint_of(model, g.dof, &model.jnt_dofadr, joint::nv)
+        );
+        Breakdown { code: "energy-grows", what, why: GROWS, help: cause(model) }
+    }
+}
+
+/// The likely cause of a run that breaks, and what to write instead.
+fn cause(model: &Model) -> String {
+    match stability::suspects(model).first() {
+        Some(worst) => format!(
+            "the likely cause: {} is {:.1} times too stiff for a step of {} s; {}",
+            owner(model, worst),
+            worst.excess,
+            model.opt.timestep,
+            remedy(model, worst)
+        ),
+        None => format!(
+            "try a smaller timestep than {} s, softer contacts or springs, or a smaller range of the control",
+            model.opt.timestep
+        ),
     }
 }
 

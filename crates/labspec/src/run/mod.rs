@@ -144,6 +144,7 @@ pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) 
     let mut pending = presses.as_slice();
     session.press_due(&mut pending);
     samples.take(&mut session);
+    session.watch(steps);
     for i in 1..=steps {
         session.press_due(&mut pending);
         session.step();

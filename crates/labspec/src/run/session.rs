@@ -1,8 +1,9 @@
 //! One run of a lab: the order of events of the lab format, step by step.
 
 use super::table::Cell;
-use crate::bind::{ActionProgram, ControlProgram, Programs, World};
+use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
 use crate::source::Text;
+use labspec_core::growth::{self, Growth, Watch};
 use labspec_core::{self as core, Data, Demand, Model, Plan, Warning, WarningStat};
 use labspec_expr::{Context, EventKind, Program, Value};
 
@@ -50,6 +51,22 @@ pub struct Session<'p> {
     key: Option<usize>,
     /// The current value of each control.
     values: Vec<Value>,
+    watched: Option<Watched>,
+}
+
+/// How many times a run is looked at for growth: in a run of seconds, less than a hundredth of its steps' work.
+const LOOKS: usize = 24;
+
+/// A run that is watched for growth.
+#[derive(Debug)]
+struct Watched {
+    watch: Watch,
+    found: Option<Growth>,
+    /// Steps from one look to the next, and until the next one.
+    every: usize,
+    left: usize,
+    /// Something from outside changed the state or the model since the last step.
+    disturbed: bool,
 }
 
 impl<'p> Session<'p> {
@@ -71,6 +88,7 @@ impl<'p> Session<'p> {
             troubles: Vec::new(),
             warnings: [WarningStat::default(); Warning::COUNT],
             values: values.collect(),
+            watched: None,
             programs,
             key,
         };
@@ -127,8 +145,41 @@ impl<'p> Session<'p> {
         if let Some(bound) = &self.programs.controller {
             self.execute(&bound.program, &bound.text, None);
         }
-        core::step(&self.world.model, &mut self.world.data);
+        let World { model, data, .. } = &mut self.world;
+        if let Some(w) = self.watched.as_mut().filter(|w| w.disturbed) {
+            w.disturbed = false;
+            growth::restart(&mut w.watch, model, data);
+        }
+        core::step(model, data);
+        if let Some(w) = &mut self.watched {
+            w.left -= 1;
+            if w.left == 0 {
+                w.left = w.every;
+                w.found = growth::look(&mut w.watch, model, data);
+            }
+        }
         self.note_warnings();
+    }
+
+    /// Watches the run of so many steps that begins here for energy that nothing gave it. Programs that write in
+    /// every step may give any: such a run is not watched.
+    pub fn watch(&mut self, steps: usize) {
+        let probes = self.programs.probes.iter().filter_map(|p| p.bound.as_ref());
+        let writes = |bound: &Bound| {
+            let effects = bound.program.effects();
+            !effects.writes.is_empty() || effects.writes_everything || effects.calls_values
+        };
+        if probes.chain(&self.programs.controller).any(writes) {
+            return;
+        }
+        let watch = growth::watch(&self.world.model, &self.world.data);
+        let every = (steps / LOOKS).max(1);
+        self.watched = Some(Watched { watch, found: None, every, left: every, disturbed: false });
+    }
+
+    /// Energy that nothing gave, when the run was watched and has gained any.
+    pub fn growth(&self) -> Option<Growth> {
+        self.watched.as_ref()?.found
     }
 
     /// Time and every probe. What throws is nothing, as on the page.
@@ -173,6 +224,9 @@ impl<'p> Session<'p> {
 
     fn forward(&mut self) {
         core::forward(&self.world.model, &mut self.world.data);
+        if let Some(w) = &mut self.watched {
+            w.disturbed = true;
+        }
     }
 
     fn reset_data(&mut self) {

@@ -107,7 +107,7 @@ pub struct Table {
     pub rows: Vec<Vec<Cell>>,
     /// Warnings of the engine since the last reset: name and number.
     pub warnings: Vec<(&'static str, usize)>,
-    /// What they mean for the lesson.
+    /// What they mean for the lesson, or energy that the run gained from nothing.
     pub breakdown: Option<Breakdown>,
     /// What threw.
     pub errors: Vec<String>,
@@ -139,19 +139,23 @@ impl Table {
         self.rows.iter().map(|row| (at(row, 0), at(row, column))).collect()
     }
 
-    /// The layout of the reference runner: columns, rows, warnings, errors.
+    /// The layout of the reference runner: columns, rows, warnings, errors; and what broke, where something did.
     pub fn json(&self) -> Json {
         let rows: Vec<Json> = self.rows.iter().map(|row| row.iter().map(Cell::json).collect()).collect();
         let warnings: serde_json::Map<String, Json> =
             self.warnings.iter().map(|(name, n)| (name.to_string(), json!(n))).collect();
-        json!({
+        let mut table = json!({
             "version": concat!("labspec ", env!("CARGO_PKG_VERSION")),
             "timestep": self.timestep,
             "columns": self.columns,
             "rows": rows,
             "warnings": warnings,
             "errors": self.errors,
-        })
+        });
+        if let Some(b) = &self.breakdown {
+            table["breakdown"] = json!({"code": b.code, "what": b.what, "why": b.why, "help": b.help});
+        }
+        table
     }
 
     /// Comma-separated values with a header.

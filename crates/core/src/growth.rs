@@ -1,0 +1,360 @@
+//! Growth: whether a running simulation gains energy that nothing gave it.
+//!
+//! Where inputs stand still, the equations of motion lose energy or keep it. With the kinetic energy ½ vᵀ M v and the potential
+//! V of gravity, springs and servos,
+//!
+//! > d/dt (½ vᵀ M v + V) = -(power of dampers and friction) + (power of constraints) ≤ 0,
+//!
+//! as constraints give back no more than they took or were given by the start. What a run has beyond that was made by its
+//! steps. A step that is short enough makes little, and the energy of a symplectic method oscillates about its start (Hairer,
+//! Lubich, Wanner, "Geometric Numerical Integration", chapter IX): so widely just below its limit that a single look proves
+//! nothing. A gain is called growth when
+//!
+//! * it is [`FACTOR`] times all that the start held, and lifts everything by [`LIFTS`] times the size of the scene besides;
+//! * it is the larger part of what moves at all: a body that falls, or topples from where it stood, has its motion from
+//!   its potential;
+//! * it lasts for [`LASTS`] looks without falling back to half of what it was, or is [`SURE`] times as large as that.
+//!
+//! A servo or motor without states pulls along its length x with the force clip(a - k x), whose potential is closed. Whatever
+//! else may feed a scene (other actuators, applied forces, wind, moving surfaces, dampers that push) ends the watch: a false
+//! alarm is worse than none.
+
+use crate::math::*;
+use crate::passive::spring;
+use crate::{Data, Model, Plan, actuation, disable, mass, pipeline, transmission};
+
+/// How many times what the start held a gain has to be, and how many times the size of the scene it lifts everything.
+const FACTOR: f64 = 10.0;
+const LIFTS: f64 = 2.0;
+/// For how many looks a gain has to last, and how many times the smallest one needs no more than one.
+const LASTS: u32 = 6;
+const SURE: f64 = 1e3;
+/// A scene at rest may drift by this part of its size in a second.
+const DRIFT: f64 = 0.01;
+
+/// Energy that nothing gave.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Growth {
+    /// Since when, s.
+    pub time: f64,
+    /// How much more there is than at the start when that is certain, J.
+    pub gain: f64,
+    /// What the start held, with the weight of everything lifted by the size of the scene, J.
+    pub held: f64,
+    /// The degree of freedom that moves with the largest part of it.
+    pub dof: usize,
+}
+
+/// What a run is held against: its start, and data of its own so that looking leaves the run alone.
+#[derive(Debug)]
+pub struct Watch {
+    own: Data,
+    start: Option<Start>,
+    /// Looks for which a gain has lasted, the time of the first, and the largest gain.
+    lasted: u32,
+    since: f64,
+    largest: f64,
+    found: Option<Growth>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Start {
+    energy: Energy,
+    /// What it held, and what lifts everything by the size of the scene, J.
+    held: f64,
+    lift: f64,
+}
+
+/// ½ vᵀ M v, all that gravity and elastic things hold, and the latter alone, J.
+#[derive(Clone, Copy, Debug)]
+struct Energy {
+    kinetic: f64,
+    potential: f64,
+    elastic: f64,
+}
+
+/// A watch over a run that is now at `d`. The only call that allocates.
+pub fn watch(m: &Model, d: &Data) -> Watch {
+    let own = Data::planned(m, Plan::awake());
+    let mut w = Watch { own, start: None, lasted: 0, since: 0.0, largest: 0.0, found: None };
+    restart(&mut w, m, d);
+    w
+}
+
+/// From here on what was is forgotten but for what was found: something from outside has changed the state or the model.
+pub fn restart(w: &mut Watch, m: &Model, d: &Data) {
+    (w.start, w.lasted, w.largest) = (None, 0, 0.0);
+    if m.nv == 0 || fed(m, d) {
+        return;
+    }
+    w.own.ctrl.clone_from(&d.ctrl);
+    w.own.mocap_pos.clone_from(&d.mocap_pos);
+    w.own.mocap_quat.clone_from(&d.mocap_quat);
+    w.own.eq_active.clone_from(&d.eq_active);
+    take(&mut w.own, d);
+    pipeline::forward(m, &mut w.own);
+    w.start = energy(m, &mut w.own).map(|energy| start(m, &w.own, energy));
+}
+
+/// Looks at a run: a fraction of the work of a step, and nothing of the run is touched.
+pub fn look(w: &mut Watch, m: &Model, d: &Data) -> Option<Growth> {
+    let same = w.own.ctrl == d.ctrl
+        && w.own.mocap_pos == d.mocap_pos
+        && w.own.mocap_quat == d.mocap_quat
+        && w.own.eq_active == d.eq_active
+        && !applied(d);
+    if !same {
+        restart(w, m, d);
+        return w.found;
+    }
+    let Some(Start { energy: before, held, lift }) = w.start.filter(|_| w.found.is_none()) else {
+        return w.found;
+    };
+    take(&mut w.own, d);
+    place(m, &mut w.own);
+    let now = energy(m, &mut w.own)?;
+    let given = before.potential - now.potential;
+    let gain = now.kinetic - before.kinetic - given;
+    let least = FACTOR * held + LIFTS * lift;
+    // A gain that is no number is not above anything.
+    if gain > least && 2.0 * gain > w.largest && 2.0 * gain > now.kinetic + given.abs() {
+        if w.lasted == 0 {
+            w.since = d.time;
+        }
+        w.lasted += 1;
+        w.largest = w.largest.max(gain);
+        if w.lasted >= LASTS || gain > SURE * least {
+            w.found = Some(Growth { time: w.since, gain, held: held + lift, dof: liveliest(&w.own) });
+        }
+    } else {
+        w.lasted = 0;
+    }
+    w.found
+}
+
+/// The state of a run.
+fn take(own: &mut Data, d: &Data) {
+    copy(&d.qpos, &mut own.qpos);
+    copy(&d.qvel, &mut own.qvel);
+    own.time = d.time;
+}
+
+/// Where things are, how long, and how heavy: what energies follow from.
+fn place(m: &Model, d: &mut Data) {
+    pipeline::placed(m, d);
+    transmission::transmissions(m, d);
+}
+
+/// Energies of data whose places are known; `None` where some actuator may feed the scene.
+fn energy(m: &Model, d: &mut Data) -> Option<Energy> {
+    let mut gravity = 0.0;
+    if !m.opt.disabled(disable::GRAVITY) {
+        for (b, &x) in rows::<3>(&d.xipos).iter().enumerate().skip(1) {
+            gravity -= m.body_mass[b] * (1.0 - m.body_gravcomp[b]) * dot(m.opt.gravity, x);
+        }
+    }
+    let springs = if m.opt.disabled(disable::SPRING) { 0.0 } else { spring::energy(m, d) };
+    let elastic = springs + servos(m, d)?;
+    mass::mul(m, &d.M, &d.qvel, &mut d.work.mv, 0..m.nv);
+    Some(Energy { kinetic: 0.5 * dot_slice(&d.work.mv, &d.qvel), potential: gravity + elastic, elastic })
+}
+
+/// The potential of all actuators; `None` where one of them has none.
+///
+/// A force clip(u) with u = a - k x has the potential Φ(u)/k, where Φ' = clip: a parabola with its tangents beyond the limits.
+/// With k = 0 the force c is constant: -c x.
+fn servos(m: &Model, d: &mut Data) -> Option<f64> {
+    if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
+        return Some(0.0);
+    }
+    let mut sum = 0.0;
+    actuation::controls(m, d);
+    for i in (0..m.nactuator).filter(|&i| !actuation::switched_off(m, i)) {
+        if actuation::idle(m, d, i) {
+            continue;
+        }
+        let [u, k] = actuation::along_length(m, d, i)?;
+        let c = if m.actuator_forcelimited[i] { clip(u, rows::<2>(&m.actuator_forcerange)[i]) } else { u };
+        let length = d.actuator_length[m.actuator_outadr[i] as usize];
+        sum += if k != 0.0 { c * (u - 0.5 * c) / k } else { -c * length };
+    }
+    Some(sum)
+}
+
+/// A start with what it holds: its motion, what is elastic, and what the constraints that it violates push back with.
+fn start(m: &Model, d: &Data, energy: Energy) -> Start {
+    let places = d.efc_pos.iter().zip(&d.efc_margin).map(|(pos, margin)| pos - margin);
+    let stored = places.zip(rows::<4>(&d.efc_KBIP)).zip(&d.efc_diagA);
+    let stored: f64 = stored.map(|((x, kbip), a)| 0.5 * kbip[0] * x * x / a.max(MINVAL)).sum();
+    let (mass, size) = (m.body_mass.iter().sum::<f64>(), size(m, d));
+    let drift = 0.5 * mass * (DRIFT * size) * (DRIFT * size);
+    let weight = if m.opt.disabled(disable::GRAVITY) { 0.0 } else { mass * norm(m.opt.gravity) };
+    let held = energy.kinetic + energy.elastic.abs() + stored + drift;
+    Start { energy, held, lift: weight * size }
+}
+
+/// The diagonal of a box around all bodies and the origin, and the radius of the largest geom that moves, m.
+fn size(m: &Model, d: &Data) -> f64 {
+    let along = |k: usize| {
+        let ends = rows::<3>(&d.xipos).iter().fold([0.0_f64; 2], |[lo, hi], x| [lo.min(x[k]), hi.max(x[k])]);
+        ends[1] - ends[0]
+    };
+    let radii = m.geom_rbound.iter().zip(&m.geom_bodyid).filter(|&(_, &b)| b > 0).map(|(&r, _)| r);
+    norm([0, 1, 2].map(along)) + radii.fold(0.0, f64::max)
+}
+
+/// The degree of freedom whose part v (M v) of the kinetic energy is the largest.
+fn liveliest(d: &Data) -> usize {
+    let part = |k: usize| (d.qvel[k] * d.work.mv[k]).abs();
+    (0..d.qvel.len()).max_by(|&a, &b| part(a).total_cmp(&part(b))).unwrap_or(0)
+}
+
+/// Whether forces are applied from outside.
+fn applied(d: &Data) -> bool {
+    d.qfrc_applied.iter().chain(&d.xfrc_applied).any(|&f| f != 0.0)
+}
+
+/// Whether something but actuators may feed the scene, or limits of joints and tendons cut what actuators do.
+fn fed(m: &Model, d: &Data) -> bool {
+    let some = |list: &[f64]| list.iter().any(|&x| x != 0.0);
+    let pushes = |list: &[f64]| list.iter().any(|&x| x < 0.0);
+    let wind = some(&m.opt.wind) && (m.opt.density != 0.0 || m.opt.viscosity != 0.0);
+    let dampers = [
+        &m.dof_damping,
+        &m.dof_dampingpoly,
+        &m.tendon_damping,
+        &m.tendon_dampingpoly,
+        &m.actuator_damping,
+        &m.actuator_dampingpoly,
+    ];
+    let cut =
+        m.nactuator > 0 && (m.jnt_actfrclimited.contains(&true) || m.tendon_actfrclimited.contains(&true));
+    applied(d)
+        || wind
+        || cut
+        || some(&m.geom_surfacevel)
+        || some(&m.geom_adhesion)
+        || some(&m.actuator_delay)
+        || dampers.iter().any(|list| pushes(list))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::{mjcf, reset_data, step};
+
+    /// What is found in a run of so many steps, looked at 24 times, from a start.
+    fn run(text: &str, steps: usize, start: impl Fn(&mut Data)) -> Option<Growth> {
+        let m = mjcf::compile(text).unwrap();
+        let mut d = Data::new(&m);
+        start(&mut d);
+        let mut w = watch(&m, &d);
+        for i in 1..=steps {
+            step(&m, &mut d);
+            if i % (steps / 24) == 0 {
+                look(&mut w, &m, &d);
+            }
+        }
+        assert!(d.warning.iter().all(|w| w.number == 0), "a run that breaks is not what is tested");
+        w.found
+    }
+
+    fn cart(option: &str, joint: &str, actuator: &str) -> String {
+        format!(
+            "<mujoco><option gravity=\"0 0 0\" {option}/><worldbody><body><joint name=\"j\" type=\"slide\" {joint}/>\
+             <geom size=\".1\" mass=\"1\"/></body></worldbody><actuator>{actuator}</actuator></mujoco>"
+        )
+    }
+
+    /// A double pendulum of 1 kg links that starts level.
+    fn pendulum(option: &str, joint: &str) -> String {
+        let link = |inner: &str| {
+            format!(
+                "<body pos=\".5 0 0\"><joint axis=\"0 1 0\" {joint}/><geom type=\"capsule\" fromto=\"0 0 0 .5 0 0\" \
+                 size=\".02\" mass=\"1\" contype=\"0\" conaffinity=\"0\"/>{inner}</body>"
+            )
+        };
+        format!("<mujoco><option {option}/><worldbody>{}</worldbody></mujoco>", link(&link("")))
+    }
+
+    #[test]
+    fn a_spring_just_beyond_its_limit_grows_and_below_it_does_not() {
+        for integrator in ["Euler", "implicit", "implicitfast"] {
+            // The longest step that follows k = 1e4 N/m on 1 kg is 2/ω = 0.02 s. Just below it energy oscillates widely.
+            for (h, grows) in
+                [(0.0201, true), (0.01999, false), (0.019, false), (0.015, false), (0.002, false)]
+            {
+                let text =
+                    cart(&format!("integrator=\"{integrator}\" timestep=\"{h}\""), "stiffness=\"1e4\"", "");
+                for steps in [72, 120, 480] {
+                    let found = run(&text, if grows { 72 } else { steps }, |d| d.qpos[0] = 1e-3);
+                    assert_eq!(found.is_some(), grows, "{integrator} {h} {steps}: {found:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_servo_whose_amplitude_doubles_with_each_step_grows() {
+        for servo in ["<position joint=\"j\" kp=\"4.5\"/>", "<pid joint=\"j\" kp=\"4.5\"/>"] {
+            let text = cart("integrator=\"implicitfast\" timestep=\"1\"", "", servo);
+            let found = run(&text, 24, |d| (d.qpos[0], d.ctrl[0]) = (0.01, 0.02)).unwrap();
+            assert!(found.dof == 0 && found.time < 8.0 && found.gain > 100.0 * found.held, "{found:?}");
+            let discrete = text.replace("implicitfast", "discrete");
+            assert_eq!(run(&discrete, 24, |d| d.qpos[0] = 0.01), None);
+        }
+    }
+
+    #[test]
+    fn what_nature_feeds_does_not_grow() {
+        // Falls, topples, swings and spins up: the motion comes from what gravity or a constant force holds.
+        for integrator in ["Euler", "RK4", "implicit", "implicitfast", "discrete"] {
+            let option = format!("integrator=\"{integrator}\"");
+            assert_eq!(run(&pendulum(&option, ""), 4800, |_| ()), None, "{integrator}");
+            let upright = |d: &mut Data| d.qpos[0] = -1.56;
+            assert_eq!(run(&pendulum(&option, ""), 4800, upright), None, "{integrator}");
+            let motor = cart(&option, "", "<motor joint=\"j\"/>");
+            assert_eq!(run(&motor, 4800, |d| d.ctrl[0] = 50.0), None, "{integrator}");
+            let held = cart(&option, "", "<position joint=\"j\" kp=\"500\" forcerange=\"-2 2\"/>");
+            assert_eq!(run(&held, 4800, |d| d.ctrl[0] = 50.0), None, "{integrator}");
+        }
+    }
+
+    #[test]
+    fn what_may_be_fed_is_not_watched() {
+        let still = |_: &mut Data| ();
+        // A damper that pushes, a force from outside, a servo that looks back in time.
+        assert_eq!(run(&pendulum("", "").replace("axis", "damping=\"-.5\" axis"), 2400, still), None);
+        assert_eq!(run(&cart("", "", ""), 2400, |d| d.qfrc_applied[0] = 50.0), None);
+        let late = "<position joint=\"j\" kp=\"100\" delay=\".1\" nsample=\"60\"/>";
+        assert_eq!(run(&cart("", "", late), 2400, |d| d.qpos[0] = 0.1), None);
+    }
+
+    #[test]
+    fn a_start_that_is_pressed_together_may_fly_apart() {
+        let text = "<mujoco><worldbody><geom type=\"plane\" size=\"1 1 1\" solref=\"-1e6 -10\"/><body pos=\"0 0 .05\">\
+                    <freejoint/><geom size=\".1\" mass=\"1\" solref=\"-1e6 -10\"/></body></worldbody><option timestep=\"1e-4\"/></mujoco>";
+        assert_eq!(run(text, 9600, |_| ()), None);
+        // The same from a height: its steps throw it up.
+        let text = text.replace("0 0 .05", "0 0 .3").replace("-1e6 -10", "-1e8 -1").replace("1e-4", ".002");
+        let found = run(&text, 960, |_| ()).unwrap();
+        assert!(found.dof == 2 && found.time > 0.2 && found.time < 0.4, "{found:?}");
+    }
+
+    #[test]
+    fn a_change_from_outside_is_a_new_start() {
+        let m = mjcf::compile(&cart("", "", "<motor joint=\"j\"/>")).unwrap();
+        let mut d = Data::new(&m);
+        d.qvel[0] = 1e-3;
+        let mut w = watch(&m, &d);
+        d.qvel[0] = 1e5;
+        assert!(look(&mut w, &m, &d).is_some());
+        let mut w = watch(&m, &d);
+        (d.qvel[0], d.ctrl[0]) = (1e9, 1.0);
+        assert_eq!(look(&mut w, &m, &d), None);
+        reset_data(&m, &mut d);
+        restart(&mut w, &m, &d);
+        assert_eq!(look(&mut w, &m, &d), None);
+    }
+}

@@ -1,0 +1,62 @@
+//! What the program says about labs that break, that gain energy from nothing, or that are too stiff for their timestep: the
+//! lessons of `tests/lessons/runs`. And that it says so of no lab that is well: our own lessons and those beside the repository.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::program::{run_in, shown_in, snapshot};
+use crate::support::workspace;
+use serde_json::Value;
+use std::path::Path;
+
+fn lessons() -> std::path::PathBuf {
+    workspace().join("tests/lessons/runs")
+}
+
+#[test]
+fn run_a_lab_that_breaks() {
+    let told = |lab: &str| shown_in(&lessons(), &["run", lab]);
+    snapshot("run-diverges", told("diverges.md"));
+    snapshot("run-grows", ["grows.md#1", "grows.md#2", "grows.md#3"].map(told).join("\n"));
+}
+
+#[test]
+fn run_a_lab_that_breaks_for_programs() {
+    for (name, lab) in [("run-diverges-json", "diverges.md"), ("run-grows-json", "grows.md#3")] {
+        let done = run_in(&lessons(), &["run", lab, "--every", "100000", "--format", "json"]);
+        let mut table: Value = serde_json::from_str(&done.stdout).unwrap();
+        table["version"] = Value::Null;
+        snapshot(name, format!("exit {}\n{}", done.code, serde_json::to_string_pretty(&table).unwrap()));
+    }
+}
+
+#[test]
+fn check_labs_that_break() {
+    for name in ["diverges", "grows", "stiff"] {
+        snapshot(&format!("check-{name}"), shown_in(&lessons(), &["check", &format!("{name}.md")]));
+    }
+}
+
+/// Codes of what a check finds, with the files.
+fn found(folder: &Path, arguments: &[&str]) -> Vec<(String, String)> {
+    let done = run_in(folder, &[&["check", "--format", "json"], arguments].concat());
+    let report: Value = serde_json::from_str(&done.stdout).unwrap();
+    let text = |f: &Value, key: &str| f[key].as_str().unwrap_or_default().to_string();
+    report["findings"].as_array().unwrap().iter().map(|f| (text(f, "code"), text(f, "message"))).collect()
+}
+
+#[test]
+fn no_lab_that_is_well_is_said_to_gain_energy() {
+    let grows = |list: Vec<(String, String)>| {
+        list.into_iter().filter(|(code, _)| code == "energy-grows").collect::<Vec<_>>()
+    };
+    assert_eq!(grows(found(&lessons(), &["grows.md"])).len(), 3);
+    assert_eq!(grows(found(&workspace(), &["specs/lessons", "--models", "specs/models"])), []);
+    let shared = workspace().join("../shared");
+    if !shared.exists() {
+        println!("skipped: {} is not there", shared.display());
+        return;
+    }
+    for folder in ["corpus/labs", "corpus/quizzes", "lesson-0.1"] {
+        assert_eq!(grows(found(&shared, &[folder, "--models", "corpus/models"])), [], "{folder}");
+    }
+}
