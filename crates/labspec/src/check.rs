@@ -268,8 +268,8 @@ fn diverged(session: &Session<'_>, done: &str, place: Range<usize>) -> Option<Fi
 fn too_stiff(session: &Session<'_>, place: Range<usize>) -> Option<Finding> {
     let model = &session.world.model;
     let worst = stability::suspects(model).into_iter().next()?;
-    let times = worst.excess;
-    let message = format!("{} is {times:.1} times too stiff for its timestep", run::owner(model, &worst));
+    let [owner, times] = [run::owner(model, &worst), run::times(&worst)];
+    let message = format!("{owner} is {times} times too stiff for its timestep");
     Some(
         warning("stiff-for-timestep", place, message)
             .why("every step pushes farther than the last one missed: it oscillates ever wider, without a word from MuJoCo until a number is beyond 1e10")

@@ -1,7 +1,7 @@
 //! What the engine's warnings, and energy that grows without one, mean for a lesson: what broke, when, the likely cause,
 //! and what to write instead.
 
-use super::Session;
+use super::{Session, shown};
 use labspec_core::growth::Growth;
 use labspec_core::stability::{self, Part, Suspect};
 use labspec_core::{Model, Obj, Warning, joint};
@@ -66,10 +66,10 @@ impl Breakdown {
     /// Energy that nothing gave.
     fn by_growth(model: &Model, g: Growth) -> Breakdown {
         let what = format!(
-            "energy grows from t = {:.4} s: {:.2e} J that nothing gave, where all that the start held is {:.2e} J; the most of it moves {}",
+            "energy grows from t = {:.4} s: {} J that nothing gave, where all that the start held is {} J; the most of it moves {}",
             g.time,
-            g.gain,
-            g.held,
+            shown(g.gain, 2),
+            shown(g.held, 2),
             joint_of(model, g.dof, &model.jnt_dofadr, joint::nv)
         );
         Breakdown { code: "energy-grows", what, why: GROWS, help: cause(model) }
@@ -80,9 +80,9 @@ impl Breakdown {
 fn cause(model: &Model) -> String {
     match stability::suspects(model).first() {
         Some(worst) => format!(
-            "the likely cause: {} is {:.1} times too stiff for a step of {} s; {}",
+            "the likely cause: {} is {} times too stiff for a step of {} s; {}",
             owner(model, worst),
-            worst.excess,
+            times(worst),
             model.opt.timestep,
             remedy(model, worst)
         ),
@@ -110,6 +110,11 @@ pub fn owner(model: &Model, s: &Suspect) -> String {
             format!("the {what} of {} {name}", if object == Obj::Tendon { "tendon" } else { "joint" })
         }
     }
+}
+
+/// How many times too stiff: never "1.0 times".
+pub fn times(s: &Suspect) -> String {
+    if s.excess < 1.1 { "slightly more than 1".into() } else { format!("{:.1}", s.excess) }
 }
 
 /// What to write instead.

@@ -5,7 +5,7 @@ mod samples;
 mod session;
 mod table;
 
-pub use breakdown::{Breakdown, owner, remedy};
+pub use breakdown::{Breakdown, owner, remedy, times};
 pub use samples::Samples;
 pub use session::{Numerics, Session, Trouble};
 pub use table::{Cell, Table, shown};
