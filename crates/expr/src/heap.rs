@@ -136,6 +136,24 @@ impl Heap {
         }
     }
 
+    /// Writes numbers over the first elements of a list; `false`, and nothing is written, where it is none, is shorter, or
+    /// holds integers.
+    pub fn overwrite(&mut self, value: &Value, numbers: &[f64]) -> bool {
+        match self.object_mut(value) {
+            Some(Object::List(items)) if items.len() >= numbers.len() => {
+                for (item, x) in items.iter_mut().zip(numbers) {
+                    *item = Value::Number(*x);
+                }
+                true
+            }
+            Some(Object::Numbers(items, Elem::Double)) if items.len() >= numbers.len() => {
+                items.iter_mut().zip(numbers).for_each(|(item, x)| *item = *x);
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// A member of a record.
     pub fn get(&self, value: &Value, key: &str) -> Option<Value> {
         match self.object(value) {

@@ -210,6 +210,15 @@ mod tests {
     }
 
     #[test]
+    fn the_force_of_a_contact_goes_into_a_list() {
+        let ball = "<mujoco><worldbody><geom type='plane' size='1 1 .1'/><body pos='0 0 .1'><freejoint/>\
+                    <geom size='.1' mass='2'/></body></worldbody></mujoco>";
+        let code = "for (let i = 0; i < 1000; i++) { mj.mj_step(model, data) } ctx.f = [7, 7, 7, 7, 7, 7]; \
+                    mj.mj_contactForce(model, data, 0, ctx.f); ctx.f.map(x => Math.round(100 * x) / 100 + 0).join()";
+        assert_eq!(run(&mjcf::compile(ball).unwrap(), code), "19.62,0,0,0,0,0");
+    }
+
+    #[test]
     fn the_pages_are_up_to_date() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference");
         for (name, text) in super::pages() {

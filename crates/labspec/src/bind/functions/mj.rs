@@ -170,6 +170,32 @@ pub(super) const ROWS: &[Function] = &[
         ..ENGINE
     },
     Function {
+        name: "mj_contactForce",
+        args: &[Arg::Model, Arg::Data, Arg::Number, Arg::Any],
+        reads: Touches::Contacts,
+        doc: "writes force and torque of a contact, counted from 0, into a list of six: N along the normal and two tangents, then N m about them; zeros where the contact has no constraint",
+        example: (
+            "ctx.f = [0, 0, 0, 0, 0, 0]; if (data.ncon > 0) { mj.mj_contactForce(model, data, 0, ctx.f) }; ctx.f[0]",
+            "0",
+        ),
+        run: |w, heap, args| {
+            let id = number(args)?;
+            let found = if id >= 0.0 { w.data.contact.get(id as usize) } else { None };
+            let Some(contact) = found else {
+                return Err(format!(
+                    "there is no contact {id}: there are {} now; test `data.ncon` first",
+                    w.data.ncon
+                ));
+            };
+            let force = core::contact_force(&w.model, &w.data, contact);
+            if !args.get(1).is_some_and(|list| heap.overwrite(list, &force)) {
+                return Err("the fourth argument takes the result: write `const f = [0, 0, 0, 0, 0, 0]` before, and `f` here".into());
+            }
+            NOTHING
+        },
+        ..ENGINE
+    },
+    Function {
         name: "mj_name2id",
         args: &[Arg::Model, Arg::Number, Arg::Text],
         returns: Type::Number,
