@@ -30,17 +30,14 @@ fn run(xml: &str, steps: u64, long: u64) -> Json {
     let mut reach = largest(&d.qpos);
     let (total, each) = if long > 0 { (long, (long / 1000).max(1)) } else { (steps, 1) };
     let mut done = 0;
-    let looks = (total / LOOKS).max(each);
-    let (mut watch, mut grown) = (growth::watch(&m, &d), None);
+    let (mut watch, mut grown) = (growth::watch(&m, &d, (total / LOOKS) as usize), None);
     while done < total {
         let before = d.time;
         for _ in 0..each {
             core::step(&m, &mut d);
-        }
-        done += each;
-        if done % looks == 0 {
             grown = growth::look(&mut watch, &m, &d).map(|g| g.time);
         }
+        done += each;
         for which in [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc] {
             let stat = d.warning[which as usize];
             if stat.number > 0 {

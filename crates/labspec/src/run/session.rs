@@ -62,9 +62,6 @@ const LOOKS: usize = 24;
 struct Watched {
     watch: Watch,
     found: Option<Growth>,
-    /// Steps from one look to the next, and until the next one.
-    every: usize,
-    left: usize,
     /// Something from outside changed the state or the model since the last step.
     disturbed: bool,
 }
@@ -152,11 +149,7 @@ impl<'p> Session<'p> {
         }
         core::step(model, data);
         if let Some(w) = &mut self.watched {
-            w.left -= 1;
-            if w.left == 0 {
-                w.left = w.every;
-                w.found = growth::look(&mut w.watch, model, data);
-            }
+            w.found = growth::look(&mut w.watch, model, data);
         }
         self.note_warnings();
     }
@@ -172,9 +165,8 @@ impl<'p> Session<'p> {
         if probes.chain(&self.programs.controller).any(writes) {
             return;
         }
-        let watch = growth::watch(&self.world.model, &self.world.data);
-        let every = (steps / LOOKS).max(1);
-        self.watched = Some(Watched { watch, found: None, every, left: every, disturbed: false });
+        let watch = growth::watch(&self.world.model, &self.world.data, steps / LOOKS);
+        self.watched = Some(Watched { watch, found: None, disturbed: false });
     }
 
     /// Energy that nothing gave, when the run was watched and has gained any.
