@@ -334,7 +334,7 @@ pub(crate) fn add_outer(m: &Model, dofs: &[i32], values: &[f64], s: f64, out: &m
 #[inline]
 pub(crate) fn trace(m: &Model, mass: &[f64], dofs: Range<usize>) -> f64 {
     if m.nC == m.nv {
-        return mass[dofs].iter().sum();
+        return sum([&mass[dofs]], |[x]| x);
     }
     dofs.map(|k| mass[diagonal(m, k)]).sum()
 }

@@ -50,6 +50,9 @@ pub(crate) fn each(n: usize, mut f: impl FnMut(usize)) {
     }
 }
 
+/// Degrees of freedom of a free body: loops over them are worth code of their own, without a loop.
+const FREE: usize = 6;
+
 /// out ← f(out, inputs), number by number; the inputs are at least as long. Four at a time where there are many: the lanes
 /// of a vector.
 #[inline(always)]
@@ -58,12 +61,19 @@ pub(crate) fn combine<const N: usize>(
     inputs: [&[f64]; N],
     f: impl Fn(f64, [f64; N]) -> f64,
 ) {
-    let n = out.len();
-    let inputs = inputs.map(|x| &x[..n]);
-    if n <= 2 {
-        each(n, |k| out[k] = f(out[k], inputs.map(|x| x[k])));
-        return;
+    match out.len() {
+        n @ 0..=2 => {
+            let inputs = inputs.map(|x| &x[..n]);
+            each(n, |k| out[k] = f(out[k], inputs.map(|x| x[k])));
+        }
+        FREE => combine_fours(&mut out[..FREE], inputs.map(|x| &x[..FREE]), f),
+        n => combine_fours(out, inputs.map(|x| &x[..n]), f),
     }
+}
+
+#[inline(always)]
+fn combine_fours<const N: usize>(out: &mut [f64], inputs: [&[f64]; N], f: impl Fn(f64, [f64; N]) -> f64) {
+    let n = out.len();
     let (fours, rest) = out.as_chunks_mut::<4>();
     let (inputs, ends) =
         (inputs.map(|x| &x.as_chunks::<4>().0[..fours.len()]), inputs.map(|x| &x[n - rest.len()..]));
@@ -76,18 +86,51 @@ pub(crate) fn combine<const N: usize>(
     }
 }
 
+/// Σ f(inputs), number by number; all are as long as the first.
+#[inline(always)]
+pub(crate) fn sum<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f64) -> f64 {
+    match inputs[0].len() {
+        FREE => sum_fours(inputs.map(|x| &x[..FREE]), f),
+        n => sum_fours(inputs.map(|x| &x[..n]), f),
+    }
+}
+
+#[inline(always)]
+fn sum_fours<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f64) -> f64 {
+    let parts = inputs.map(|x| x.as_chunks::<4>());
+    let mut sums = [0.0; 4];
+    for c in 0..parts[0].0.len() {
+        let x = parts.map(|(fours, _)| fours[c]);
+        for l in 0..4 {
+            sums[l] += f(x.map(|x| x[l]));
+        }
+    }
+    for l in 0..parts[0].1.len() {
+        sums[l] += f(parts.map(|(_, rest)| rest[l]));
+    }
+    (sums[0] + sums[2]) + (sums[1] + sums[3])
+}
+
 /// Copies numbers; as many as the shorter array has.
 #[inline(always)]
 pub(crate) fn copy(from: &[f64], to: &mut [f64]) {
     let n = from.len().min(to.len());
     let (from, to) = (&from[..n], &mut to[..n]);
-    if n <= 2 { each(n, |k| to[k] = from[k]) } else { to.copy_from_slice(from) }
+    match n {
+        0..=2 => each(n, |k| to[k] = from[k]),
+        FREE => to[..FREE].copy_from_slice(&from[..FREE]),
+        _ => to.copy_from_slice(from),
+    }
 }
 
 /// Sets all numbers to zero.
 #[inline(always)]
 pub(crate) fn zero(x: &mut [f64]) {
-    if x.len() <= 2 { each(x.len(), |k| x[k] = 0.0) } else { x.fill(0.0) }
+    match x.len() {
+        n @ 0..=2 => each(n, |k| x[k] = 0.0),
+        FREE => x[..FREE].fill(0.0),
+        _ => x.fill(0.0),
+    }
 }
 
 /// The unit quaternion.

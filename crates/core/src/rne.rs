@@ -15,9 +15,10 @@ pub(crate) fn bias(m: &Model, d: &mut Data) {
     if !d.plan.simple_bodies {
         return;
     }
-    for j in 0..m.njnt {
-        if m.body_simple[m.jnt_bodyid[j] as usize] > 0 {
-            simple(m, d, j, gravity);
+    for (j, &body) in m.jnt_bodyid.iter().enumerate() {
+        let body = body as usize;
+        if m.body_simple[body] > 0 {
+            simple(m, d, j, body, gravity);
         }
     }
 }
@@ -25,27 +26,19 @@ pub(crate) fn bias(m: &Model, d: &mut Data) {
 /// One joint of a simple body: weight along translations, ω × I ω for rotations in the body's frame. A
 /// hinge turns about a principal axis and feels nothing.
 #[inline(always)]
-fn simple(m: &Model, d: &mut Data, j: usize, gravity: Vec3) {
-    let body = m.jnt_bodyid[j] as usize;
-    let mass = m.body_mass[body];
+fn simple(m: &Model, d: &mut Data, j: usize, body: usize, gravity: Vec3) {
+    let (mass, &[a, b, c]) = (m.body_mass[body], &rows::<3>(&m.body_inertia)[body]);
     let k = m.jnt_dofadr[j] as usize;
-    let kind = m.jnt_type[j];
-    if kind == joint::SLIDE || kind == joint::HINGE {
-        let slides = kind == joint::SLIDE;
-        d.qfrc_bias[k] = if slides { -mass * dot(gravity, rows::<3>(&d.xaxis)[j]) } else { 0.0 };
-        return;
-    }
-    let first = if kind == joint::FREE { k + 3 } else { k };
-    let Some(&w) = d.qvel[first..].first_chunk::<3>() else { return };
-    let inertia = rows::<3>(&m.body_inertia)[body];
-    let torque = cross(w, [inertia[0] * w[0], inertia[1] * w[1], inertia[2] * w[2]]);
-    if let Some(out) = d.qfrc_bias[first..].first_chunk_mut::<3>() {
-        *out = torque;
-    }
-    if kind == joint::FREE
-        && let Some(out) = d.qfrc_bias[k..].first_chunk_mut::<3>()
-    {
-        *out = scale(gravity, -mass);
+    let turning = |w: Vec3| cross(w, [a * w[0], b * w[1], c * w[2]]);
+    match (m.jnt_type[j], &d.qvel[k..], &mut d.qfrc_bias[k..]) {
+        (joint::SLIDE, _, [out, ..]) => *out = -mass * dot(gravity, rows::<3>(&d.xaxis)[j]),
+        (joint::HINGE, _, [out, ..]) => *out = 0.0,
+        (joint::BALL, &[x, y, z, ..], [tx, ty, tz, ..]) => [*tx, *ty, *tz] = turning([x, y, z]),
+        (joint::FREE, &[_, _, _, x, y, z, ..], [fx, fy, fz, tx, ty, tz, ..]) => {
+            [*fx, *fy, *fz] = scale(gravity, -mass);
+            [*tx, *ty, *tz] = turning([x, y, z]);
+        }
+        _ => {}
     }
 }
 

@@ -136,6 +136,13 @@ impl Islands {
         self.runs[first..self.run_ends[island]].iter().cloned()
     }
 
+    /// The degrees of freedom of an island whose trees follow each other without a gap.
+    #[inline(always)]
+    pub(super) fn one_run(&self, island: usize) -> Option<Range<usize>> {
+        let mut runs = self.dofs(island);
+        runs.next().filter(|_| runs.next().is_none())
+    }
+
     /// Gives each touched tree the number of its island; returns how many there are.
     fn number(&mut self, m: &Model, jac: &Jacobian) -> usize {
         self.link.clear();

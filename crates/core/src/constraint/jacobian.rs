@@ -53,6 +53,8 @@ pub(super) struct Block {
     /// First column index, and their number.
     col: u32,
     ncol: u32,
+    /// The first of its degrees of freedom when they are six that follow each other, as those of a free body.
+    six: Option<u32>,
 }
 
 impl Block {
@@ -73,6 +75,17 @@ fn contiguous(columns: &[u32]) -> Option<Range<usize>> {
     let (&first, &last) = (columns.first()?, columns.last()?);
     let range = first as usize..last as usize + 1;
     (range.len() == columns.len()).then_some(range)
+}
+
+/// Columns and what belongs to them, the last first.
+#[inline(always)]
+fn reversed<T>(columns: &[u32], values: impl Iterator<Item = T>, to: &mut [u32], values_to: &mut [T]) {
+    for (to, &k) in to.iter_mut().rev().zip(columns) {
+        *to = k;
+    }
+    for (to, value) in values_to.iter_mut().rev().zip(values) {
+        *to = value;
+    }
 }
 
 /// All blocks, in row order.
@@ -117,13 +130,24 @@ impl Jacobian {
             adr: adr as u32,
             col: col as u32,
             ncol: n as u32,
+            six: match descending {
+                &[last, .., first] if n == FREE && last - first + 1 == FREE as u32 => Some(first),
+                _ => None,
+            },
         });
-        for (c, &k) in self.columns[col..col + n].iter_mut().rev().zip(descending) {
-            *c = k;
+        let columns = &mut self.columns[col..col + n];
+        let rows = &mut self.values[adr..adr + R * n].as_chunks_mut::<R>().0[..n];
+        if n == FREE {
+            reversed(descending, values, &mut columns[..FREE], &mut rows[..FREE]);
+        } else {
+            reversed(descending, values, columns, rows);
         }
-        for (v, value) in self.values[adr..adr + R * n].as_chunks_mut::<R>().0.iter_mut().rev().zip(values) {
-            *v = value;
-        }
+    }
+
+    /// The values of a block whose columns are six that follow each other.
+    #[inline(always)]
+    fn values_of_six<const R: usize>(&self, b: &Block) -> Option<&[[f64; R]; FREE]> {
+        self.values[b.adr as usize..].as_chunks::<R>().0.first_chunk::<FREE>()
     }
 
     /// The degrees of freedom of a block, ascending.
@@ -228,7 +252,7 @@ impl Jacobian {
     /// Begins a block of one row.
     fn open(&mut self, cost: Cost, row: usize) {
         let (adr, col) = (self.used_values as u32, self.used_columns as u32);
-        self.blocks.push(Block { row: row as u32, nrow: 1, cost, adr, col, ncol: 0 });
+        self.blocks.push(Block { row: row as u32, nrow: 1, cost, adr, col, ncol: 0, six: None });
     }
 
     /// Adds a column to it.
@@ -308,24 +332,18 @@ impl Jacobian {
                 sum[r] += v[r] * x;
             }
         };
-        let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
-        match contiguous(cols) {
-            Some(range) => match (vals.first_chunk::<FREE>(), x[range.clone()].first_chunk::<FREE>()) {
-                (Some(v), Some(x)) if range.len() == FREE => {
-                    for c in 0..FREE {
-                        accumulate(&v[c], x[c]);
-                    }
+        if let Some(first) = b.six {
+            let x = x[first as usize..].first_chunk::<FREE>();
+            if let (Some(v), Some(x)) = (self.values_of_six::<R>(b), x) {
+                for c in 0..FREE {
+                    accumulate(&v[c], x[c]);
                 }
-                _ => {
-                    for (v, &x) in vals.iter().zip(&x[range]) {
-                        accumulate(v, x);
-                    }
-                }
-            },
-            None => {
-                for (v, &c) in vals.iter().zip(cols) {
-                    accumulate(v, x[c as usize]);
-                }
+            }
+        } else {
+            let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
+            match contiguous(cols) {
+                Some(range) => vals.iter().zip(&x[range]).for_each(|(v, &x)| accumulate(v, x)),
+                None => vals.iter().zip(cols).for_each(|(v, &c)| accumulate(v, x[c as usize])),
             }
         }
         if let Some(out) = out[b.rows()].first_chunk_mut::<R>() {
@@ -336,25 +354,19 @@ impl Jacobian {
     /// out ← out + Jᵀ f for the R rows of a block.
     #[inline(always)]
     pub(super) fn add_transposed<const R: usize>(&self, b: &Block, f: &[f64; R], out: &mut [f64]) {
-        let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
-        match contiguous(cols) {
-            Some(range) => match (vals.first_chunk::<FREE>(), out[range.clone()].first_chunk_mut::<FREE>()) {
-                (Some(v), Some(out)) if range.len() == FREE => {
-                    for c in 0..FREE {
-                        out[c] += dot(v[c], *f);
-                    }
-                }
-                _ => {
-                    for (v, out) in vals.iter().zip(&mut out[range]) {
-                        *out += dot(*v, *f);
-                    }
-                }
-            },
-            None => {
-                for (v, &c) in vals.iter().zip(cols) {
-                    out[c as usize] += dot(*v, *f);
+        if let Some(first) = b.six {
+            let out = out[first as usize..].first_chunk_mut::<FREE>();
+            if let (Some(v), Some(out)) = (self.values_of_six::<R>(b), out) {
+                for c in 0..FREE {
+                    out[c] += dot(v[c], *f);
                 }
             }
+            return;
+        }
+        let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
+        match contiguous(cols) {
+            Some(range) => vals.iter().zip(&mut out[range]).for_each(|(v, out)| *out += dot(*v, *f)),
+            None => vals.iter().zip(cols).for_each(|(v, &c)| out[c as usize] += dot(*v, *f)),
         }
     }
 

@@ -23,6 +23,7 @@ mod reference;
 mod rows;
 mod search;
 mod single;
+mod six;
 mod solver;
 
 pub(crate) use discrete::{at_end_of_step, pop_metric, push_metric};

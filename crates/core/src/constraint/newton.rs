@@ -6,7 +6,11 @@
 use super::cost::{Cost, Curvature};
 use super::jacobian::{Block, by_rows};
 use super::primal::{Problem, Reached, shape};
+use super::six::{self, Six};
 use crate::mass;
+use crate::math::dot;
+use std::array::from_fn;
+use std::ops::Range;
 
 impl Problem<'_> {
     #[inline(never)]
@@ -16,10 +20,11 @@ impl Problem<'_> {
         }
         let (tol, scale) = (self.m.opt.tolerance, self.scale());
         let Reached { mut cost, mut gradient, .. } = from;
-        if !self.lay_out() {
+        let six = self.islands.one_run(self.island).filter(|dofs| dofs.len() == six::N);
+        if six.is_none() && !self.lay_out() {
             return self.conjugate_gradient(from);
         }
-        self.newton_direction();
+        self.newton_direction(&six);
         if scale * gradient < tol && scale * self.decrement() < tol {
             return;
         }
@@ -36,7 +41,7 @@ impl Problem<'_> {
             if (improvement > 0.0 && improvement < tol) || scale * gradient < tol {
                 break;
             }
-            self.newton_direction();
+            self.newton_direction(&six);
             if scale * self.decrement() < tol {
                 break;
             }
@@ -53,7 +58,16 @@ impl Problem<'_> {
     }
 
     /// step ← H⁻¹ g; search ← -step.
-    fn newton_direction(&mut self) {
+    #[inline(always)]
+    fn newton_direction(&mut self, six: &Option<Range<usize>>) {
+        match six {
+            Some(dofs) => self.newton_direction_of_six(dofs.start),
+            None => self.newton_direction_of_many(),
+        }
+    }
+
+    #[inline(never)]
+    fn newton_direction_of_many(&mut self) {
         let (dofs, blocks) = (self.dofs(), self.blocks());
         let (m, d, s) = (self.m, &*self.d, &mut *self.s);
         s.hessian.clear();
@@ -77,6 +91,48 @@ impl Problem<'_> {
         for k in dofs.flatten() {
             let x = s.rhs[s.hessian.local[k] as usize];
             (s.step[k], s.search[k]) = (x, -x);
+        }
+    }
+
+    #[inline(never)]
+    fn newton_direction_of_six(&mut self, start: usize) {
+        let mut h = Six::new(self.m, &self.d.M, start);
+        for b in self.blocks() {
+            let b = self.d.work.jac.blocks[b];
+            match (b.cost, b.nrow) {
+                (Cost::Push, 4) => self.add_push_to_six::<4>(&b, &mut h),
+                _ => by_rows!(b.nrow, R => self.add_curvature_to_six::<R>(&b, &mut h)),
+            }
+        }
+        let s = &mut *self.s;
+        let vectors = (
+            s.grad[start..].first_chunk(),
+            s.step[start..].first_chunk_mut(),
+            s.search[start..].first_chunk_mut(),
+        );
+        if let (Some(grad), Some(step), Some(search)) = vectors {
+            *step = h.solve(*grad);
+            *search = step.map(|x| -x);
+        }
+    }
+
+    #[inline(always)]
+    fn add_push_to_six<const R: usize>(&self, b: &Block, h: &mut Six) {
+        let (x, stiff) = (&self.s.jar[b.rows()], &self.d.efc_D[b.rows()]);
+        let (Some(x), Some(stiff)) = (x.first_chunk::<R>(), stiff.first_chunk::<R>()) else { return };
+        let w: [f64; R] = from_fn(|r| if x[r] < 0.0 { stiff[r] } else { 0.0 });
+        h.add_gram::<R>(&self.d.work.jac, b, |v| from_fn(|r| w[r] * v[r]));
+    }
+
+    #[inline(never)]
+    fn add_curvature_to_six<const R: usize>(&self, b: &Block, h: &mut Six) {
+        let (Some(shape), Some(x)) = (shape::<R>(self.d, b), self.s.jar[b.rows()].first_chunk::<R>()) else {
+            return;
+        };
+        match shape.curvature(x) {
+            Curvature::Flat => {}
+            Curvature::Diagonal(w) => h.add_gram::<R>(&self.d.work.jac, b, |v| from_fn(|r| w[r] * v[r])),
+            Curvature::Full(w) => h.add_gram::<R>(&self.d.work.jac, b, |v| w.map(|w| dot(w, *v))),
         }
     }
 

@@ -6,7 +6,7 @@ use super::island::Islands;
 use super::jacobian::{Block, by_rows};
 use super::search::{Point, minimize};
 use super::solver::Scratch;
-use crate::math::{MINVAL, dot, dot_slice};
+use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
 use crate::{Data, Model, disable, mass, solver};
 use std::ops::Range;
 
@@ -73,7 +73,7 @@ impl<'a> Problem<'a> {
     pub(super) fn update(&mut self) -> (f64, f64) {
         let mut cost = 0.0;
         for dofs in self.dofs() {
-            self.d.qfrc_constraint[dofs].fill(0.0);
+            zero(&mut self.d.qfrc_constraint[dofs]);
         }
         for b in self.blocks() {
             let b = self.d.work.jac.blocks[b];
@@ -86,15 +86,12 @@ impl<'a> Problem<'a> {
         let mut square = 0.0;
         for dofs in self.dofs() {
             let (d, s) = (&*self.d, &mut *self.s);
-            let ma = s.ma[dofs.clone()].iter().zip(&d.qfrc_smooth[dofs.clone()]);
-            let a = d.qacc[dofs.clone()].iter().zip(&d.qacc_smooth[dofs.clone()]);
-            let grad = s.grad[dofs.clone()].iter_mut().zip(&d.qfrc_constraint[dofs]);
-            for (((ma, smooth), (a, a0)), (g, constraint)) in ma.zip(a).zip(grad) {
-                let residual = ma - smooth;
-                cost += 0.5 * residual * (a - a0);
-                *g = residual - constraint;
-                square += *g * *g;
-            }
+            let (ma, smooth, grad) =
+                (&s.ma[dofs.clone()], &d.qfrc_smooth[dofs.clone()], &mut s.grad[dofs.clone()]);
+            combine(grad, [ma, smooth, &d.qfrc_constraint[dofs.clone()]], |_, [ma, f0, f]| ma - f0 - f);
+            square += sum([grad], |[g]| g * g);
+            let (a, a0) = (&d.qacc[dofs.clone()], &d.qacc_smooth[dofs]);
+            cost += 0.5 * sum([ma, smooth, a, a0], |[ma, f0, a, a0]| (ma - f0) * (a - a0));
         }
         (cost, square.sqrt())
     }
@@ -140,14 +137,9 @@ impl<'a> Problem<'a> {
 
     /// ½ gᵀ M⁻¹ g where M is diagonal.
     fn decrement_by_diagonal(&mut self) -> f64 {
-        let mut sum = 0.0;
-        for dofs in self.dofs() {
-            let inverse = &self.d.qLDiagInv[dofs.clone()];
-            for (inv, g) in inverse.iter().zip(&self.s.grad[dofs]) {
-                sum += inv * g * g;
-            }
-        }
-        0.5 * sum
+        let of =
+            |r: Range<usize>| sum([&self.d.qLDiagInv[r.clone()], &self.s.grad[r]], |[inv, g]| inv * g * g);
+        0.5 * self.dofs().map(of).sum::<f64>()
     }
 
     /// ½ gᵀ step.

@@ -167,7 +167,7 @@ fn warm_start(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) -> bo
     reached.clear();
     for island in 0..d.nisland {
         for dofs in islands.dofs(island) {
-            d.qacc[dofs.clone()].copy_from_slice(&d.qacc_warmstart[dofs]);
+            copy(&d.qacc_warmstart[dofs.clone()], &mut d.qacc[dofs]);
         }
         reached.push(Problem { m, d, s, islands, island }.reached());
     }

@@ -21,19 +21,17 @@ pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
 #[inline(never)] // scenes of slides and hinges alone do not carry its set-up
 fn along_joints(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
     for (&kind, (&q, &k)) in m.jnt_type.iter().zip(m.jnt_qposadr.iter().zip(&m.jnt_dofadr)) {
-        let (mut q, mut k) = (q as usize, k as usize);
-        match kind {
-            joint::SLIDE | joint::HINGE => qpos[q] += h * v[k],
-            kind => {
-                if kind == joint::FREE {
-                    for i in 0..3 {
-                        qpos[q + i] += h * v[k + i];
-                    }
-                    (q, k) = (q + 3, k + 3);
-                }
-                let q = &mut qpos[q..q + 4];
-                q.copy_from_slice(&quat_integrate([q[0], q[1], q[2], q[3]], [v[k], v[k + 1], v[k + 2]], h));
+        let (to, v) = (&mut qpos[q as usize..], &v[k as usize..]);
+        match (kind, to, v) {
+            (joint::SLIDE | joint::HINGE, [q, ..], [v, ..]) => *q += h * v,
+            (joint::BALL, [a, b, c, d, ..], &[wx, wy, wz, ..]) => {
+                [*a, *b, *c, *d] = quat_integrate([*a, *b, *c, *d], [wx, wy, wz], h);
             }
+            (joint::FREE, [x, y, z, a, b, c, d, ..], &[vx, vy, vz, wx, wy, wz, ..]) => {
+                [*x, *y, *z] = [*x + h * vx, *y + h * vy, *z + h * vz];
+                [*a, *b, *c, *d] = quat_integrate([*a, *b, *c, *d], [wx, wy, wz], h);
+            }
+            _ => {}
         }
     }
 }

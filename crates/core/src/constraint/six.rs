@@ -1,0 +1,108 @@
+//! Newton's direction of an island of six degrees of freedom, one free body as a rule: all of the Hessian fits in registers
+//! and needs no layout.
+
+use super::jacobian::{Block, Jacobian};
+use crate::math::{MINVAL, dot};
+use crate::{Model, mass};
+
+pub(super) const N: usize = 6;
+
+/// The lower triangle of H = M + Jᵀ C J.
+pub(super) struct Six {
+    /// The first degree of freedom.
+    start: usize,
+    values: [[f64; N]; N],
+}
+
+impl Six {
+    /// M of the degrees of freedom from `start` on.
+    #[inline(always)]
+    pub(super) fn new(m: &Model, inertia: &[f64], start: usize) -> Six {
+        let mut values = [[0.0; N]; N];
+        for (i, to) in values.iter_mut().enumerate() {
+            let row = mass::row(m, start + i);
+            for (&j, &x) in m.M_colind[row.clone()].iter().zip(&inertia[row]) {
+                to[j as usize - start] = x;
+            }
+        }
+        Six { start, values }
+    }
+
+    /// H ← H + Jᵀ W J for the R rows of a block, where `weigh` gives W v.
+    #[inline(always)]
+    pub(super) fn add_gram<const R: usize>(
+        &mut self,
+        jac: &Jacobian,
+        b: &Block,
+        weigh: impl Fn(&[f64; R]) -> [f64; R],
+    ) {
+        let (columns, values) = (jac.columns(b), jac.values(b).as_chunks::<R>().0);
+        if let (N, Some(v)) = (columns.len(), values.first_chunk::<N>()) {
+            for i in 0..N {
+                let w = weigh(&v[i]);
+                for j in 0..=i {
+                    self.values[i][j] += dot(w, v[j]);
+                }
+            }
+            return;
+        }
+        for (i, (&ci, vi)) in columns.iter().zip(values).enumerate() {
+            let (w, row) = (weigh(vi), &mut self.values[ci as usize - self.start]);
+            for (&cj, vj) in columns[..=i].iter().zip(values) {
+                row[cj as usize - self.start] += dot(w, *vj);
+            }
+        }
+    }
+
+    /// H⁻¹ g by H = L Lᵀ.
+    #[inline(always)]
+    pub(super) fn solve(&mut self, g: [f64; N]) -> [f64; N] {
+        let l = &mut self.values;
+        let mut inverse = [0.0; N];
+        let mut x = g;
+        for i in 0..N {
+            for j in 0..i {
+                let mut sum = l[i][j];
+                for k in 0..j {
+                    sum -= l[i][k] * l[j][k];
+                }
+                l[i][j] = sum * inverse[j];
+            }
+            let mut square = l[i][i];
+            for k in 0..i {
+                square -= l[i][k] * l[i][k];
+                x[i] -= l[i][k] * x[k];
+            }
+            inverse[i] = 1.0 / square.max(MINVAL).sqrt();
+            x[i] *= inverse[i];
+        }
+        for i in (0..N).rev() {
+            x[i] *= inverse[i];
+            for k in 0..i {
+                x[k] -= l[i][k] * x[i];
+            }
+        }
+        x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::array::from_fn;
+
+    /// H x = g, for matrices of any condition.
+    #[test]
+    fn the_solution_solves() {
+        for scale in [1.0, 1e3, 1e6] {
+            let a: [[f64; N]; N] =
+                from_fn(|i| from_fn(|j| ((3 * i + 5 * j * j) % 7) as f64 + scale * f64::from(i == j)));
+            let values: [[f64; N]; N] = from_fn(|i| from_fn(|j| dot(a[i], a[j])));
+            let g = from_fn(|i| i as f64 - 2.5);
+            let x = Six { start: 0, values }.solve(g);
+            for i in 0..N {
+                assert!((dot(values[i], x) - g[i]).abs() < 1e-9, "{scale}: {x:?}");
+            }
+        }
+    }
+}
