@@ -273,9 +273,7 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
 pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Range<usize>) {
     if m.nC == m.nv {
         // A diagonal matrix.
-        for ((out, mass), v) in out[dofs.clone()].iter_mut().zip(&mass[dofs.clone()]).zip(&v[dofs]) {
-            *out = mass * v;
-        }
+        combine(&mut out[dofs.clone()], [&mass[dofs.clone()], &v[dofs]], |_, [mass, v]| mass * v);
         return;
     }
     for i in dofs {

@@ -69,12 +69,10 @@ impl<'a> Problem<'a> {
         1.0 / (self.m.stat.meaninertia * self.m.nv.max(1) as f64).max(MINVAL)
     }
 
-    /// Forces and gradient at the current acceleration; returns the cost and the norm of the gradient.
+    /// Forces, which are added to the zeros of `qfrc_constraint`, and gradient at the current acceleration; returns the cost
+    /// and the norm of the gradient.
     pub(super) fn update(&mut self) -> (f64, f64) {
         let mut cost = 0.0;
-        for dofs in self.dofs() {
-            zero(&mut self.d.qfrc_constraint[dofs]);
-        }
         for b in self.blocks() {
             let b = self.d.work.jac.blocks[b];
             cost += match (b.cost, b.nrow) {
@@ -187,19 +185,14 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// a ← a + α search.
+    /// a ← a + α search, where there are no forces yet.
     pub(super) fn advance(&mut self, alpha: f64) {
         let (dofs, blocks) = (self.dofs(), self.blocks());
         let (d, s) = (&mut *self.d, &mut *self.s);
         for k in dofs {
-            for ((a, ma), (step, mstep)) in d.qacc[k.clone()]
-                .iter_mut()
-                .zip(&mut s.ma[k.clone()])
-                .zip(s.search[k.clone()].iter().zip(&s.mv[k]))
-            {
-                *a += alpha * step;
-                *ma += alpha * mstep;
-            }
+            zero(&mut d.qfrc_constraint[k.clone()]);
+            combine(&mut d.qacc[k.clone()], [&s.search[k.clone()]], |a, [step]| a + alpha * step);
+            combine(&mut s.ma[k.clone()], [&s.mv[k]], |ma, [step]| ma + alpha * step);
         }
         for b in blocks {
             let rows = d.work.jac.blocks[b].rows();

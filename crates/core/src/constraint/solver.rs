@@ -89,8 +89,9 @@ fn primal(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) {
     if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, islands) {
         return;
     }
-    d.qacc.copy_from_slice(&d.qacc_smooth);
-    s.ma.copy_from_slice(&d.qfrc_smooth);
+    copy(&d.qacc_smooth, &mut d.qacc);
+    zero(&mut d.qfrc_constraint);
+    copy(&d.qfrc_smooth, &mut s.ma);
     d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jar);
     for island in 0..d.nisland {
         let mut problem = Problem { m, d, s, islands, island };

@@ -22,16 +22,19 @@ pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
 fn along_joints(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
     for (&kind, (&q, &k)) in m.jnt_type.iter().zip(m.jnt_qposadr.iter().zip(&m.jnt_dofadr)) {
         let (to, v) = (&mut qpos[q as usize..], &v[k as usize..]);
-        match (kind, to, v) {
-            (joint::SLIDE | joint::HINGE, [q, ..], [v, ..]) => *q += h * v,
-            (joint::BALL, [a, b, c, d, ..], &[wx, wy, wz, ..]) => {
-                [*a, *b, *c, *d] = quat_integrate([*a, *b, *c, *d], [wx, wy, wz], h);
+        let (quat, turn) = match (kind, to, v) {
+            (joint::SLIDE | joint::HINGE, [q, ..], [v, ..]) => {
+                *q += h * v;
+                continue;
             }
-            (joint::FREE, [x, y, z, a, b, c, d, ..], &[vx, vy, vz, wx, wy, wz, ..]) => {
+            (joint::FREE, [x, y, z, quat @ ..], &[vx, vy, vz, ref turn @ ..]) => {
                 [*x, *y, *z] = [*x + h * vx, *y + h * vy, *z + h * vz];
-                [*a, *b, *c, *d] = quat_integrate([*a, *b, *c, *d], [wx, wy, wz], h);
+                (quat, turn)
             }
-            _ => {}
+            (_, quat, turn) => (quat, turn),
+        };
+        if let (Some(quat), Some(&turn)) = (quat.first_chunk_mut(), turn.first_chunk()) {
+            *quat = quat_integrate(*quat, turn, h);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod points;
 
+use crate::lanes::{Axes, Lane3, along, axes, vec3};
 use crate::math::*;
 use crate::{Data, Model, joint};
 
@@ -80,14 +81,14 @@ impl Columns {
 
     /// Appends N columns, of which the first belongs to degree of freedom `last`.
     #[inline(always)]
-    fn push<const N: usize>(&mut self, last: usize, values: [Vec3; N]) {
+    fn push<const N: usize>(&mut self, last: usize, values: [Lane3; N]) {
         let range = self.len..self.len + N;
         self.len += N;
         for (i, k) in self.dofs[range.clone()].iter_mut().enumerate() {
             *k = (last - i) as u32;
         }
-        if let Some(to) = self.values[range].first_chunk_mut::<N>() {
-            *to = values;
+        for (to, value) in self.values[range].iter_mut().zip(values) {
+            *to = vec3(value);
         }
     }
 }
@@ -104,14 +105,16 @@ pub(crate) fn point_difference(
     out: &mut Columns,
 ) {
     out.len = 0;
-    let mut last = bodies.map(|b| last_dof(m, b));
+    let mut last = [last_dof(m, bodies[0]), last_dof(m, bodies[1])];
+    // The frame by columns: each lane is a row of it.
+    let frame = axes(frame);
     while last[0] != last[1] {
         // The chain that reaches farther down goes one joint up.
         let side = usize::from(last[1] > last[0]);
         let sign = if side == 1 { 1.0 } else { -1.0 };
         let end = last[side] as usize;
         let j = m.dof_jntid[end] as usize;
-        joint_columns(m, d, j, end, point, frame, sign, out);
+        joint_columns(m, d, j, end, point, frame.map(|f| f * sign), out);
         last[side] = m.dof_parentid[m.jnt_dofadr[j] as usize];
     }
 }
@@ -119,39 +122,23 @@ pub(crate) fn point_difference(
 /// Columns of one joint, the last degree of freedom first. A rotation about `a` moves the point by v = a × arm, and
 /// v · f = a · (arm × f).
 #[inline(always)]
-#[allow(clippy::too_many_arguments)] // one formula, called from one place
-fn joint_columns(
-    m: &Model,
-    d: &Data,
-    j: usize,
-    last: usize,
-    point: Vec3,
-    frame: &Mat3,
-    sign: f64,
-    out: &mut Columns,
-) {
-    let f: [Vec3; 3] =
-        std::array::from_fn(|r| scale([frame[3 * r], frame[3 * r + 1], frame[3 * r + 2]], sign));
+fn joint_columns(m: &Model, d: &Data, j: usize, last: usize, point: Vec3, f: Axes, out: &mut Columns) {
     let kind = m.jnt_type[j];
     if kind == joint::SLIDE {
-        let a = rows::<3>(&d.xaxis)[j];
-        out.push(last, [[dot(a, f[0]), dot(a, f[1]), dot(a, f[2])]]);
+        out.push(last, [along(&f, rows::<3>(&d.xaxis)[j])]);
         return;
     }
     let arm = sub(point, rows::<3>(&d.xanchor)[j]);
     if kind == joint::HINGE {
-        let v = cross(rows::<3>(&d.xaxis)[j], arm);
-        out.push(last, [[dot(v, f[0]), dot(v, f[1]), dot(v, f[2])]]);
+        out.push(last, [along(&f, cross(rows::<3>(&d.xaxis)[j], arm))]);
         return;
     }
     // The body's own axes, all three.
-    let w = [cross(arm, f[0]), cross(arm, f[1]), cross(arm, f[2])];
+    let w = [f[2] * arm[1] - f[1] * arm[2], f[0] * arm[2] - f[2] * arm[0], f[1] * arm[0] - f[0] * arm[1]];
     let axes = &rows::<9>(&d.xmat)[m.jnt_bodyid[j] as usize];
-    let t = w.map(|w| mat_t_mul_vec(axes, w));
-    let turn = |i: usize| [t[0][i], t[1][i], t[2][i]];
-    let shift = |i: usize| [f[0][i], f[1][i], f[2][i]];
+    let turn = |i: usize| along(&w, column(axes, i));
     if kind == joint::FREE {
-        out.push(last, [turn(2), turn(1), turn(0), shift(2), shift(1), shift(0)]);
+        out.push(last, [turn(2), turn(1), turn(0), f[2], f[1], f[0]]);
     } else {
         out.push(last, [turn(2), turn(1), turn(0)]);
     }
