@@ -421,11 +421,11 @@ mod tests {
     }
 
     #[test]
-    fn boxes_apart_take_a_matrix_each() {
-        let apart = |i: usize| (i, [0.5 * i as f64, 0.0, 0.0995], SMALL_BOX);
-        let (kept, d) = kept(&boxes((0..300).map(apart)));
-        // Two rows of blocks: one block of four by four, then two.
-        assert_eq!((d.nisland, kept), (300, 48));
+    fn pairs_apart_take_a_matrix_each() {
+        let pair = |i: usize| (i, [0.5 * (i / 2) as f64 + 0.1995 * (i % 2) as f64, 0.0, 0.0995], SMALL_BOX);
+        let (kept, d) = kept(&boxes((0..300).map(pair)));
+        // Three rows of blocks: one block of four by four, then two, then three.
+        assert_eq!((d.nisland, kept), (150, 96));
     }
 
     #[test]
