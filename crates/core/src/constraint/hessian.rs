@@ -10,7 +10,7 @@ use super::island::Islands;
 use super::jacobian::Jacobian;
 use super::solver::tree_dofs;
 use crate::Model;
-use crate::math::MINVAL;
+use crate::math::{MINVAL, dot};
 use std::array::from_fn;
 use wide::f64x4;
 
@@ -39,6 +39,9 @@ pub(super) struct Hessian {
     len: usize,
     /// Per row: its first column; scratch of large islands.
     first: Vec<u32>,
+    /// Scratch of a block of the Jacobian: where its columns are in the island, and its rows by fours of columns.
+    at: Vec<u32>,
+    fours: Vec<Four>,
     order: Order,
 }
 
@@ -157,50 +160,109 @@ impl Hessian {
         }
     }
 
-    /// H = L Lᵀ, in place.
+    /// H ← H + Jᵀ W J for the R rows of a block of the Jacobian, column by column, where `weigh` gives W v: four columns at a
+    /// time.
+    #[inline(always)]
+    pub(super) fn add_gram<const R: usize>(
+        &mut self,
+        columns: &[u32],
+        v: &[[f64; R]],
+        weigh: impl Fn(&[f64; R]) -> [f64; R],
+    ) {
+        let (at, fours, local) = (&mut self.at, &mut self.fours, &self.local);
+        at.clear();
+        at.extend(columns.iter().map(|&c| local[c as usize]));
+        if !at.is_sorted() {
+            // Trees of a large island in another order than in the file.
+            for (i, (&ci, vi)) in columns.iter().zip(v).enumerate() {
+                let w = weigh(vi);
+                self.add(
+                    ci as usize,
+                    columns[..=i].iter().map(|&c| c as usize).zip(v.iter().map(|v| dot(w, *v))),
+                );
+            }
+            return;
+        }
+        fours.clear();
+        for v in v.chunks(4) {
+            fours.extend((0..R).map(|r| from_fn(|l| v.get(l).map_or(0.0, |v| v[r]))));
+        }
+        let fours = fours.as_chunks::<R>().0;
+        let values = self.values.as_flattened_mut();
+        for (i, (&row, vi)) in at.iter().zip(v).enumerate() {
+            let w = weigh(vi);
+            let (from, row) = row_of(&self.blocks, values, row as usize);
+            for (at, four) in at.chunks(4).zip(fours).take(i / 4 + 1) {
+                let mut sums = f64x4::ZERO;
+                for r in 0..R {
+                    sums += f64x4::new(four[r]) * w[r];
+                }
+                let first = (at[0] as usize).wrapping_sub(from);
+                match (at, row.get_mut(first..first.wrapping_add(4))) {
+                    // Beyond the diagonal of its last block a row counts as zero, whatever is there.
+                    (&[a, _, _, b], Some(row)) if b - a == 3 => {
+                        for (x, sum) in row.iter_mut().zip(sums.to_array()) {
+                            *x += sum;
+                        }
+                    }
+                    _ => {
+                        for (&j, sum) in at.iter().zip(sums.to_array()) {
+                            if let Some(x) = row.get_mut((j as usize).wrapping_sub(from)) {
+                                *x += sum;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// H = L Lᵀ, in place: each block of L takes that of H, transposed, so that its lanes are the rows of the block.
     #[inline(never)]
     pub(super) fn factor(&mut self) {
         for (i, &BlockRow { first, start }) in self.blocks.iter().enumerate() {
+            let n = i + 1 - first;
             let (above, below) = self.values.split_at_mut(start);
-            let n = i - first;
-            let mut done: [&[Four]; 4] = [&[]; 4];
-            let mut inverse = [0.0; 4];
-            let mut rest = &mut below[..4 * (n + 1)];
-            for r in 0..4 {
-                let (row, after) = rest.split_at_mut(n + 1);
-                rest = after;
-                for j in first..i {
-                    let up = self.blocks[j];
-                    let from = first.max(up.first);
-                    let length = j + 1 - up.first;
-                    let rows: [&[Four]; 4] = from_fn(|c| {
-                        let at = up.start + c * length;
-                        &above[at + from - up.first..at + length]
-                    });
-                    let (left, entry) = row.split_at_mut(j - first);
-                    let sums = products(&left[from - first..], rows);
-                    let triangle = rows.map(|row| row[j - from]);
-                    entry[0] = substitute(subtract(entry[0], sums), &triangle, &self.inverse[j]);
-                }
-                // The block of the diagonal: rows before this one are done, this one and those after it count as zero.
-                let (left, entry) = row.split_at_mut(n);
-                let mut own = [0.0; 4];
-                for c in 0..r {
-                    let (before, corner) = done[c].split_at(n);
-                    own[c] = entry[0][c] - product(left, before);
-                    for k in 0..c {
-                        own[c] -= corner[0][k] * own[k];
+            let own = &mut below[..4 * n];
+            for j in first..=i {
+                let mut block = transposed(from_fn(|r| own[r * n + j - first]));
+                // Less the products of what is to the left of it in both rows.
+                let (row, begin) = if j < i { (&*above, self.blocks[j].start) } else { (&*own, 0) };
+                let up = self.blocks[j].first;
+                let from = first.max(up);
+                let left = parts(own, n, from - first, j - from);
+                let right = parts(&row[begin..], j + 1 - up, from - up, j - from);
+                for k in 0..j - from {
+                    for (left, right) in left.iter().zip(&right) {
+                        let x = f64x4::new(left[k]);
+                        for (b, y) in block.iter_mut().zip(right[k]) {
+                            *b -= x * y;
+                        }
                     }
-                    own[c] *= inverse[c];
                 }
-                let square = product(left, left) + own.map(|x| x * x).iter().sum::<f64>();
-                let diagonal = (entry[0][r] - square).max(MINVAL).sqrt();
-                own[r] = diagonal;
-                inverse[r] = 1.0 / diagonal;
-                entry[0] = own;
-                done[r] = row;
+                if j < i {
+                    let corner: [Four; 4] = from_fn(|c| row[begin + (c + 1) * (j + 1 - up) - 1]);
+                    for b in 0..4 {
+                        block[b] *= self.inverse[j][b];
+                        for c in b + 1..4 {
+                            block[c] = block[c] - block[b] * corner[b][c];
+                        }
+                    }
+                } else {
+                    for b in 0..4 {
+                        let diagonal = block[b].to_array()[b].max(MINVAL).sqrt();
+                        self.inverse[i][b] = 1.0 / diagonal;
+                        block[b] *= self.inverse[i][b];
+                        let column = block[b].to_array();
+                        for c in b + 1..4 {
+                            block[c] = block[c] - block[b] * column[c];
+                        }
+                    }
+                }
+                for (r, b) in block.into_iter().enumerate() {
+                    own[r * n + j - first] = b.to_array();
+                }
             }
-            self.inverse[i] = inverse;
         }
     }
 
@@ -208,38 +270,70 @@ impl Hessian {
     #[inline(never)]
     pub(super) fn solve(&self, x: &mut [f64]) {
         let x = x.as_chunks_mut::<4>().0;
-        for (i, rows) in self.rows() {
+        for (i, columns) in self.columns() {
             let first = self.blocks[i].first;
             let (before, here) = x.split_at_mut(i);
-            let sums = products(&before[first..], rows);
-            let triangle = rows.map(|row| row[i - first]);
-            here[0] = substitute(subtract(here[0], sums), &triangle, &self.inverse[i]);
-        }
-        for (i, rows) in self.rows().rev() {
-            let first = self.blocks[i].first;
-            let (before, here) = x.split_at_mut(i);
-            let mut own = here[0];
-            for r in (0..4).rev() {
-                own[r] *= self.inverse[i][r];
-                for c in 0..r {
-                    own[c] -= rows[r][i - first][c] * own[r];
+            let mut own = f64x4::new(here[0]);
+            for (k, x) in before[first..].iter().enumerate() {
+                for (column, x) in columns.iter().zip(x) {
+                    own -= f64x4::new(column[k]) * *x;
+                }
+            }
+            let mut own = own.to_array();
+            for b in 0..4 {
+                own[b] *= self.inverse[i][b];
+                for c in b + 1..4 {
+                    own[c] -= columns[b][i - first][c] * own[b];
                 }
             }
             here[0] = own;
+        }
+        for (i, columns) in self.columns().rev() {
+            let first = self.blocks[i].first;
+            let (before, here) = x.split_at_mut(i);
+            let mut own = here[0];
+            for b in (0..4).rev() {
+                for c in b + 1..4 {
+                    own[b] -= columns[b][i - first][c] * own[c];
+                }
+                own[b] *= self.inverse[i][b];
+            }
+            here[0] = own;
+            let own = f64x4::new(own);
             for (k, x) in before[first..].iter_mut().enumerate() {
-                let all: f64x4 = (0..4).map(|r| f64x4::new(rows[r][k]) * own[r]).sum();
-                *x = (f64x4::new(*x) - all).to_array();
+                for (column, x) in columns.iter().zip(x) {
+                    *x -= (f64x4::new(column[k]) * own).reduce_add();
+                }
             }
         }
     }
 
-    /// The rows of blocks, four rows each, from their first block to the diagonal.
-    fn rows(&self) -> impl DoubleEndedIterator<Item = (usize, [&[Four]; 4])> {
+    /// The rows of blocks of L, by the four columns of their blocks, from their first block to the diagonal.
+    fn columns(&self) -> impl DoubleEndedIterator<Item = (usize, [&[Four]; 4])> {
         self.blocks.iter().enumerate().map(|(i, b)| {
             let n = i + 1 - b.first;
-            (i, from_fn(|r| &self.values[b.start + r * n..b.start + (r + 1) * n]))
+            (i, parts(&self.values[b.start..], n, 0, n))
         })
     }
+}
+
+/// Four rows or columns of blocks, each of `n` blocks: `len` of these from `from` on.
+#[inline(always)]
+fn parts(of: &[Four], n: usize, from: usize, len: usize) -> [&[Four]; 4] {
+    from_fn(|r| &of[r * n + from..][..len])
+}
+
+#[inline(always)]
+fn transposed(rows: [Four; 4]) -> [f64x4; 4] {
+    from_fn(|c| f64x4::new(rows.map(|row| row[c])))
+}
+
+/// Row `i`: its first column, and its numbers up to the end of the block of the diagonal.
+#[inline(always)]
+fn row_of<'a>(blocks: &[BlockRow], values: &'a mut [f64], i: usize) -> (usize, &'a mut [f64]) {
+    let BlockRow { first, start } = blocks[i / 4];
+    let n = i / 4 + 1 - first;
+    (4 * first, &mut values[4 * (start + (i % 4) * n)..][..4 * n])
 }
 
 /// What is added to a column to find its place in row `i`.
@@ -248,46 +342,6 @@ fn place(blocks: &[BlockRow], i: usize) -> usize {
     let BlockRow { first, start } = blocks[i / 4];
     // The sum with a column of the row is never negative.
     (4 * (start + (i % 4) * (i / 4 + 1 - first))).wrapping_sub(4 * first)
-}
-
-/// The products of a row with four others, which are at least as long.
-#[inline(always)]
-fn products(row: &[Four], others: [&[Four]; 4]) -> Four {
-    let n = row.len();
-    let others = others.map(|other| &other[..n]);
-    let mut sums = [f64x4::ZERO; 4];
-    for k in 0..n {
-        let x = f64x4::new(row[k]);
-        for c in 0..4 {
-            sums[c] += x * f64x4::new(others[c][k]);
-        }
-    }
-    sums.map(|sum| sum.reduce_add())
-}
-
-/// The product of two rows of the same length.
-#[inline(always)]
-fn product(a: &[Four], b: &[Four]) -> f64 {
-    let sum: f64x4 = a.iter().zip(b).map(|(x, y)| f64x4::new(*x) * f64x4::new(*y)).sum();
-    sum.reduce_add()
-}
-
-#[inline(always)]
-fn subtract(a: Four, b: Four) -> Four {
-    from_fn(|c| a[c] - b[c])
-}
-
-/// x with L x = a, for the lower triangle of a block and the inverse of its diagonal.
-#[inline(always)]
-fn substitute(a: Four, triangle: &[Four; 4], inverse: &Four) -> Four {
-    let mut x = a;
-    for r in 0..4 {
-        for c in 0..r {
-            x[r] -= triangle[r][c] * x[c];
-        }
-        x[r] *= inverse[r];
-    }
-    x
 }
 
 impl Order {

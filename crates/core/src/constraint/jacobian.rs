@@ -378,28 +378,15 @@ impl Jacobian {
 
     #[inline(always)]
     fn add_gram_rows<const R: usize>(&self, b: &Block, w: &[f64], h: &mut Hessian) {
-        let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
         let Some(w) = w[b.rows()].first_chunk::<R>() else { return };
-        for (i, (&ci, vi)) in cols.iter().zip(vals).enumerate() {
-            let wi: [f64; R] = std::array::from_fn(|r| w[r] * vi[r]);
-            h.add(
-                ci as usize,
-                cols[..=i].iter().map(|&c| c as usize).zip(vals.iter().map(|vj| dot(wi, *vj))),
-            );
-        }
+        let weigh = |v: &[f64; R]| std::array::from_fn(|r| w[r] * v[r]);
+        h.add_gram::<R>(self.columns(b), self.values(b).as_chunks().0, weigh);
     }
 
     /// h ← h + Jᵀ W J for the R rows of a block, with W symmetric.
     #[inline(never)]
     pub(super) fn add_gram_full<const R: usize>(&self, b: &Block, w: &[[f64; R]; R], h: &mut Hessian) {
-        let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
-        for (i, (&ci, vi)) in cols.iter().zip(vals).enumerate() {
-            let wi: [f64; R] = std::array::from_fn(|r| dot(w[r], *vi));
-            h.add(
-                ci as usize,
-                cols[..=i].iter().map(|&c| c as usize).zip(vals.iter().map(|vj| dot(wi, *vj))),
-            );
-        }
+        h.add_gram::<R>(self.columns(b), self.values(b).as_chunks().0, |v| w.map(|w| dot(w, *v)));
     }
 }
 
