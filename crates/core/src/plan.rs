@@ -236,7 +236,8 @@ const STAGES: [Stage; 26] = [
 ];
 
 /// What the parameters of a contact are mixed from.
-const CONTACT_PARAMS: [&str; 17] = [
+const CONTACT_PARAMS: [&str; 18] = [
+    "geom_rbound",
     "geom_condim",
     "geom_priority",
     "geom_solmix",

@@ -21,6 +21,9 @@ use crate::{Contact, Data, Model, Warning, geom, sleep};
 pub(crate) struct Pairs {
     pairs: Vec<Pair>,
     params: Vec<Params>,
+    /// Together with these, the squared distance of centres beyond which bounding spheres are out of reach; infinite where a
+    /// pair has a test of its own.
+    limits: Vec<f64>,
     /// Filters are asked at every step, because what they look at may be written.
     filter: bool,
     /// Too many pairs for a list: the near ones are found at every step.
@@ -35,9 +38,19 @@ pub(crate) fn pairs(m: &Model, pairs_may_change: bool, params_may_change: bool) 
         let sweep = Some(Box::new(Sweep::new(m, pairs_may_change)));
         return Pairs { sweep, ..Pairs::default() };
     }
-    let params =
-        if params_may_change { Vec::new() } else { pairs.iter().map(|p| params::params(m, p)).collect() };
-    Pairs { pairs, params, filter: pairs_may_change, sweep: None }
+    let mut list = Pairs { pairs, filter: pairs_may_change, ..Pairs::default() };
+    if !params_may_change {
+        list.params = list.pairs.iter().map(|p| params::params(m, p)).collect();
+        let limit = |(pair, params): (&Pair, &Params)| {
+            let [a, b] = [pair.geom1, pair.geom2].map(|g| g as usize);
+            let both = m.geom_rbound[a] > 0.0 && m.geom_rbound[b] > 0.0;
+            let spheres = m.geom_type[a] == geom::SPHERE && m.geom_type[b] == geom::SPHERE;
+            let limit = m.geom_rbound[a] + m.geom_rbound[b] + params.reach;
+            if both && !spheres { limit * limit } else { f64::INFINITY }
+        };
+        list.limits = list.pairs.iter().zip(&list.params).map(limit).collect();
+    }
+    list
 }
 
 /// Contacts that are kept at most: what touches beyond that is left out with a warning.
@@ -55,20 +68,20 @@ pub(crate) fn collide(m: &Model, d: &mut Data) {
                 break;
             }
             if !sleep::pair_sleeps(m, d, pair.geom1 as usize, pair.geom2 as usize) {
-                narrow(m, d, pair, &params::params(m, pair));
+                narrow_mixed(m, d, pair);
             }
         }
     }
-    for (i, pair) in list.pairs.iter().enumerate() {
-        let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
-        if list.filter && pair.explicit == Pair::DYNAMIC && !filter::admitted(m, g1, g2)
-            || sleep::pair_sleeps(m, d, g1, g2)
-        {
-            continue;
+    if list.params.is_empty() {
+        for pair in &list.pairs {
+            if !list.leaves_out(m, d, pair) {
+                narrow_mixed(m, d, pair);
+            }
         }
-        match list.params.get(i) {
-            Some(params) => narrow(m, d, pair, params),
-            None => narrow(m, d, pair, &params::params(m, pair)),
+    }
+    for ((pair, params), &limit) in list.pairs.iter().zip(&list.params).zip(&list.limits) {
+        if !(limit < f64::INFINITY && apart(d, pair) > limit) && !list.leaves_out(m, d, pair) {
+            narrow(m, d, pair, params);
         }
     }
     d.work.pairs = list;
@@ -85,8 +98,32 @@ pub(crate) fn none(d: &mut Data) {
     d.ncon = 0;
 }
 
+impl Pairs {
+    /// Whether filters or sleep keep a pair of the list from touching.
+    #[inline(always)]
+    fn leaves_out(&self, m: &Model, d: &Data, pair: &Pair) -> bool {
+        let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
+        self.filter && pair.explicit == Pair::DYNAMIC && !filter::admitted(m, g1, g2)
+            || sleep::pair_sleeps(m, d, g1, g2)
+    }
+}
+
+/// The squared distance of the centres of two geoms.
+#[inline(always)]
+fn apart(d: &Data, pair: &Pair) -> f64 {
+    let centres = rows::<3>(&d.geom_xpos);
+    let between = sub(centres[pair.geom2 as usize], centres[pair.geom1 as usize]);
+    dot(between, between)
+}
+
+/// The exact test of one pair whose parameters may have been written.
+#[inline(never)]
+fn narrow_mixed(m: &Model, d: &mut Data, pair: &Pair) {
+    narrow(m, d, pair, &params::params(m, pair));
+}
+
 /// The exact test of one pair. Spheres, the commonest, have a short way.
-#[inline]
+#[inline(never)]
 fn narrow(m: &Model, d: &mut Data, pair: &Pair, params: &Params) {
     let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
     let touch = match (m.geom_type[g1], m.geom_type[g2]) {

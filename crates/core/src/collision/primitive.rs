@@ -5,6 +5,7 @@ use crate::math::*;
 use crate::{Data, Model};
 
 /// Signed distance of the sphere's centre from the plane, minus the radius.
+#[inline(always)]
 pub(super) fn plane_sphere(m: &Model, d: &Data, plane: usize, sphere: usize, reach: f64) -> Option<Touch> {
     let (pos, mat) = (rows::<3>(&d.geom_xpos), rows::<9>(&d.geom_xmat));
     let normal = column(&mat[plane], 2);
@@ -21,6 +22,7 @@ pub(super) fn plane_sphere(m: &Model, d: &Data, plane: usize, sphere: usize, rea
 
 /// Distance of the centres minus both radii. Coincident centres have no direction: the normal is taken
 /// across the two z axes, or along x when these are parallel.
+#[inline(always)]
 pub(super) fn sphere_sphere(m: &Model, d: &Data, g1: usize, g2: usize, reach: f64) -> Option<Touch> {
     let (pos, size) = (rows::<3>(&d.geom_xpos), rows::<3>(&m.geom_size));
     let (r1, r2) = (size[g1][0], size[g2][0]);

@@ -40,7 +40,7 @@ pub(super) struct Hessian {
     /// Per row: its first column; scratch of large islands.
     first: Vec<u32>,
     /// Scratch of a block of the Jacobian: where its columns are in the island, and its rows by fours of columns.
-    at: Vec<u32>,
+    at: Vec<[u32; 4]>,
     fours: Vec<Four>,
     order: Order,
 }
@@ -169,44 +169,43 @@ impl Hessian {
         v: &[[f64; R]],
         weigh: impl Fn(&[f64; R]) -> [f64; R],
     ) {
-        let (at, fours, local) = (&mut self.at, &mut self.fours, &self.local);
-        at.clear();
-        at.extend(columns.iter().map(|&c| local[c as usize]));
-        if !at.is_sorted() {
+        if self.len > SMALL && !columns.is_sorted_by_key(|&c| self.local[c as usize]) {
             // Trees of a large island in another order than in the file.
             for (i, (&ci, vi)) in columns.iter().zip(v).enumerate() {
                 let w = weigh(vi);
-                self.add(
-                    ci as usize,
-                    columns[..=i].iter().map(|&c| c as usize).zip(v.iter().map(|v| dot(w, *v))),
-                );
+                let row = columns[..=i].iter().zip(v).map(|(&c, v)| (c as usize, dot(w, *v)));
+                self.add(ci as usize, row);
             }
             return;
         }
+        let (at, fours, local) = (&mut self.at, &mut self.fours, &self.local);
+        at.clear();
         fours.clear();
-        for v in v.chunks(4) {
+        for (c, v) in columns.chunks(4).zip(v.chunks(4)) {
+            at.push(from_fn(|l| c.get(l).map_or(u32::MAX, |&c| local[c as usize])));
             fours.extend((0..R).map(|r| from_fn(|l| v.get(l).map_or(0.0, |v| v[r]))));
         }
         let fours = fours.as_chunks::<R>().0;
         let values = self.values.as_flattened_mut();
-        for (i, (&row, vi)) in at.iter().zip(v).enumerate() {
+        for (i, (&row, vi)) in at.as_flattened().iter().zip(v).enumerate() {
             let w = weigh(vi);
             let (from, row) = row_of(&self.blocks, values, row as usize);
-            for (at, four) in at.chunks(4).zip(fours).take(i / 4 + 1) {
-                let mut sums = f64x4::ZERO;
-                for r in 0..R {
+            for (at, four) in at[..=i / 4].iter().zip(fours) {
+                let mut sums = f64x4::new(four[0]) * w[0];
+                for r in 1..R {
                     sums += f64x4::new(four[r]) * w[r];
                 }
+                let sums = sums.to_array();
                 let first = (at[0] as usize).wrapping_sub(from);
-                match (at, row.get_mut(first..first.wrapping_add(4))) {
+                match row.get_mut(first..first.wrapping_add(4)) {
                     // Beyond the diagonal of its last block a row counts as zero, whatever is there.
-                    (&[a, _, _, b], Some(row)) if b - a == 3 => {
-                        for (x, sum) in row.iter_mut().zip(sums.to_array()) {
+                    Some(row) if at[3].wrapping_sub(at[0]) == 3 => {
+                        for (x, sum) in row.iter_mut().zip(sums) {
                             *x += sum;
                         }
                     }
                     _ => {
-                        for (&j, sum) in at.iter().zip(sums.to_array()) {
+                        for (&j, sum) in at.iter().zip(sums) {
                             if let Some(x) = row.get_mut((j as usize).wrapping_sub(from)) {
                                 *x += sum;
                             }
