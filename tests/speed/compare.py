@@ -153,6 +153,9 @@ What makes the difference:
   with the square of the depth, and the implicit damping of Euler's method costs one more pass instead of one more
   factorization of M.
 * Rows of M and of its factorization are products along the path to the root, eight columns at a time (`path.rs`).
+* The Hessian of the constraints is kept and factorized in blocks of four by four (`constraint/hessian.rs`); that of a free
+  body alone is a matrix of six by six on the stack (`constraint/six.rs`).
+* Pairs of geoms whose bounding spheres are apart cost one comparison with a number known when the plan is made.
 * What a scene does not have costs nothing (`labspec plan`).
 """
 

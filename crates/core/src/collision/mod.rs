@@ -80,7 +80,8 @@ pub(crate) fn collide(m: &Model, d: &mut Data) {
         }
     }
     for ((pair, params), &limit) in list.pairs.iter().zip(&list.params).zip(&list.limits) {
-        if !(limit < f64::INFINITY && apart(d, pair) > limit) && !list.leaves_out(m, d, pair) {
+        let far = limit < f64::INFINITY && apart(d, pair) > limit;
+        if !far && !list.leaves_out(m, d, pair) {
             narrow(m, d, pair, params);
         }
     }

@@ -243,8 +243,9 @@ impl Hessian {
                     let corner: [Four; 4] = from_fn(|c| row[begin + (c + 1) * (j + 1 - up) - 1]);
                     for b in 0..4 {
                         block[b] *= self.inverse[j][b];
+                        let left = block[b];
                         for c in b + 1..4 {
-                            block[c] = block[c] - block[b] * corner[b][c];
+                            block[c] -= left * corner[b][c];
                         }
                     }
                 } else {
@@ -252,9 +253,9 @@ impl Hessian {
                         let diagonal = block[b].to_array()[b].max(MINVAL).sqrt();
                         self.inverse[i][b] = 1.0 / diagonal;
                         block[b] *= self.inverse[i][b];
-                        let column = block[b].to_array();
+                        let (left, column) = (block[b], block[b].to_array());
                         for c in b + 1..4 {
-                            block[c] = block[c] - block[b] * column[c];
+                            block[c] -= left * column[c];
                         }
                     }
                 }
