@@ -2,19 +2,19 @@
 //!
 //! The lower triangle is kept in blocks of four by four, the lanes of a vector. Each row of blocks is kept from its first
 //! block that is not zero up to the diagonal; L fills nothing outside of that (George and Liu 1981, *Computer Solution of
-//! Large Sparse Positive Definite Systems*, ch. 4). Small islands keep whole rows. In large ones, where most pairs of trees
-//! do not touch, trees are ordered so that rows are short: breadth first from an end of the island, reversed (Cuthill and
-//! McKee 1969, George 1971).
+//! Large Sparse Positive Definite Systems*, ch. 4). Each tree comes from its leaves to its root, so that its branches do not meet
+//! before the bodies that carry them. In large islands, where most pairs of trees do not touch, trees are ordered so that
+//! rows are short: breadth first from an end of the island, reversed (Cuthill and McKee 1969, George 1971).
 
 use super::island::Islands;
 use super::jacobian::Jacobian;
 use super::solver::tree_dofs;
 use crate::Model;
-use crate::math::{MINVAL, dot};
+use crate::math::MINVAL;
 use std::array::from_fn;
 use wide::f64x4;
 
-/// Degrees of freedom up to which whole rows are kept.
+/// Degrees of freedom up to which trees stay in the order of the file.
 const SMALL: usize = 120;
 
 /// The sum of the squares of the lengths of rows up to which an island is solved with its Hessian: that of a thousand
@@ -37,9 +37,15 @@ pub(super) struct Hessian {
     blocks: Vec<BlockRow>,
     /// Number of rows without those that fill up.
     len: usize,
-    /// Per row: its first column; scratch of large islands.
+    /// What the layout was made for: how many times islands had been found, the island, and whether there is room.
+    made_for: (u64, usize),
+    fits: bool,
+    /// Per row: its first column, and what is added to a column to find its place.
     first: Vec<u32>,
-    /// Scratch of a block of the Jacobian: where its columns are in the island, and its rows by fours of columns.
+    places: Vec<usize>,
+    /// Scratch of a block of the Jacobian: its columns as they follow each other in the island, where they are there, and its rows
+    /// by fours of columns.
+    order_of: Vec<usize>,
     at: Vec<[u32; 4]>,
     fours: Vec<Four>,
     order: Order,
@@ -78,61 +84,73 @@ impl Hessian {
     /// Numbers the degrees of freedom of an island, and lays out its rows. `false`, and no room is made, where to
     /// factorize them would take more than [`MOST_WORK`].
     pub(super) fn lay_out(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) -> bool {
+        if self.made_for == (islands.found, island) {
+            return self.fits;
+        }
+        self.made_for = (islands.found, island);
         let trees = || islands.trees_of(island);
         self.len = trees().map(|t| tree_dofs(m, t).len()).sum();
         self.local.resize(m.nv, 0);
-        self.first.clear();
         if self.len <= SMALL {
             self.number(m, trees());
         } else {
             let mut order = std::mem::take(&mut self.order);
             order.sort(m, jac, islands, island);
-            self.number(m, order.list.iter().map(|&t| t as usize));
+            self.number(m, order.list.iter().rev().map(|&t| t as usize));
             self.order = order;
-            self.shorten(m, jac, islands, island);
         }
+        self.find_first(m, jac, islands, island);
         self.blocks.clear();
+        self.places.clear();
         let (mut start, mut work) = (0, 0);
         for i in 0..self.len.div_ceil(4) {
             let rows = self.first.iter().skip(4 * i).take(4);
             let first = rows.map(|&c| c as usize / 4).min().unwrap_or(0);
             self.blocks.push(BlockRow { first, start });
             let length = i + 1 - first;
+            // The sum with a column of the row is never negative.
+            self.places.extend((0..4).map(|r| (4 * (start + r * length)).wrapping_sub(4 * first)));
             start += 4 * length;
             work += 4 * (4 * length) * (4 * length);
         }
-        if work > MOST_WORK {
-            return false;
+        self.fits = work <= MOST_WORK;
+        if self.fits {
+            self.values.resize(start, [0.0; 4]);
+            self.inverse.resize(self.blocks.len(), [0.0; 4]);
         }
-        self.values.resize(start, [0.0; 4]);
-        self.inverse.resize(self.blocks.len(), [0.0; 4]);
-        true
+        self.fits
     }
 
+    /// Numbers the degrees of freedom from the last to the first.
     fn number(&mut self, m: &Model, trees: impl Iterator<Item = usize>) {
-        for (i, k) in trees.flat_map(|t| tree_dofs(m, t)).enumerate() {
-            self.local[k] = i as u32;
+        let mut left = self.len as u32;
+        for k in trees.flat_map(|t| tree_dofs(m, t)) {
+            left -= 1;
+            self.local[k] = left;
         }
     }
 
-    /// The first column of every row: that of its tree, or of a tree that some block ties to it.
-    fn shorten(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
-        self.first.clear();
-        for t in islands.trees_of(island) {
-            self.first.extend(tree_dofs(m, t).map(|_| u32::MAX));
-        }
-        for t in islands.trees_of(island) {
-            let lowest = self.local[tree_dofs(m, t).start];
-            for k in tree_dofs(m, t) {
-                self.first[self.local[k] as usize] = lowest;
+    /// The first column of every row: those of M begin with the first descendant, those of a block of the Jacobian together.
+    fn find_first(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
+        let (first, local) = (&mut self.first, &self.local);
+        first.clear();
+        first.extend(0..self.len as u32);
+        let mut lower = |k: usize, column: u32| {
+            let first = &mut first[local[k] as usize];
+            *first = column.min(*first);
+            *first
+        };
+        for k in islands.dofs(island).flat_map(|dofs| dofs.rev()) {
+            let column = lower(k, local[k]);
+            if let Ok(parent) = usize::try_from(m.dof_parentid[k]) {
+                lower(parent, column);
             }
         }
         for i in islands.blocks.of(island) {
             let columns = jac.columns(&jac.blocks[i]);
-            let lowest = columns.iter().map(|&k| self.local[k as usize]).min().unwrap_or(0);
+            let lowest = columns.iter().map(|&k| local[k as usize]).min().unwrap_or(0);
             for &k in columns {
-                let first = &mut self.first[self.local[k as usize] as usize];
-                *first = lowest.min(*first);
+                lower(k as usize, lowest);
             }
         }
     }
@@ -141,22 +159,18 @@ impl Hessian {
     pub(super) fn clear(&mut self) {
         self.values.fill([0.0; 4]);
         for i in self.len..self.room() {
-            let at = place(&self.blocks, i);
-            self.values.as_flattened_mut()[at + i] = 1.0;
+            self.values.as_flattened_mut()[self.places[i].wrapping_add(i)] = 1.0;
         }
     }
 
-    /// Adds numbers to the entries of a degree of freedom of the model with others.
+    /// Adds numbers to the entries of a degree of freedom of the model with others before it in its tree.
     #[inline(always)]
     pub(super) fn add(&mut self, i: usize, with: impl Iterator<Item = (usize, f64)>) {
-        let (local, blocks) = (self.local.as_slice(), self.blocks.as_slice());
-        let values = self.values.as_flattened_mut();
+        let (local, values) = (self.local.as_slice(), self.values.as_flattened_mut());
+        // It comes before them here.
         let i = local[i] as usize;
-        let row = place(blocks, i);
         for (j, number) in with {
-            let j = local[j] as usize;
-            let at = if j <= i { row.wrapping_add(j) } else { place(blocks, j).wrapping_add(i) };
-            values[at] += number;
+            values[self.places[local[j] as usize].wrapping_add(i)] += number;
         }
     }
 
@@ -169,28 +183,47 @@ impl Hessian {
         v: &[[f64; R]],
         weigh: impl Fn(&[f64; R]) -> [f64; R],
     ) {
-        if self.len > SMALL && !columns.is_sorted_by_key(|&c| self.local[c as usize]) {
-            // Trees of a large island in another order than in the file.
-            for (i, (&ci, vi)) in columns.iter().zip(v).enumerate() {
-                let w = weigh(vi);
-                let row = columns[..=i].iter().zip(v).map(|(&c, v)| (c as usize, dot(w, *v)));
-                self.add(ci as usize, row);
-            }
-            return;
+        let n = columns.len();
+        let local = |p: usize| self.local[columns[p] as usize];
+        if self.len <= SMALL || (1..n).all(|p| local(p) < local(p - 1)) {
+            return self.add_gram_by(columns, v, weigh, |i| n - 1 - i);
         }
-        let (at, fours, local) = (&mut self.at, &mut self.fours, &self.local);
-        at.clear();
-        fours.clear();
-        for (c, v) in columns.chunks(4).zip(v.chunks(4)) {
-            at.push(from_fn(|l| c.get(l).map_or(u32::MAX, |&c| local[c as usize])));
-            fours.extend((0..R).map(|r| from_fn(|l| v.get(l).map_or(0.0, |v| v[r]))));
+        // Trees of a large island in another order than in the file.
+        let mut order = std::mem::take(&mut self.order_of);
+        order.clear();
+        order.extend(0..n);
+        order.sort_unstable_by_key(|&p| local(p));
+        self.add_gram_by(columns, v, weigh, |i| order[i]);
+        self.order_of = order;
+    }
+
+    /// The same, given the column that is the `i`-th in the island.
+    #[inline(always)]
+    fn add_gram_by<const R: usize>(
+        &mut self,
+        columns: &[u32],
+        v: &[[f64; R]],
+        weigh: impl Fn(&[f64; R]) -> [f64; R],
+        ith: impl Fn(usize) -> usize,
+    ) {
+        let n = columns.len();
+        let fours = n.div_ceil(4);
+        if self.at.len() < fours || self.fours.len() < R * fours {
+            self.at.resize(fours, [0; 4]);
+            self.fours.resize(R * fours, [0.0; 4]);
         }
-        let fours = fours.as_chunks::<R>().0;
+        let (at, fours) = (&mut self.at[..fours], &mut self.fours.as_chunks_mut::<R>().0[..fours]);
+        for (q, (at, four)) in at.iter_mut().zip(fours.iter_mut()).enumerate() {
+            // Beyond the last column is no place.
+            let of: [usize; 4] = from_fn(|l| ith((4 * q + l).min(n - 1)));
+            *at = from_fn(|l| if 4 * q + l < n { self.local[columns[of[l]] as usize] } else { u32::MAX });
+            *four = from_fn(|r| from_fn(|l| v[of[l]][r]));
+        }
         let values = self.values.as_flattened_mut();
-        for (i, (&row, vi)) in at.as_flattened().iter().zip(v).enumerate() {
-            let w = weigh(vi);
+        for (i, &row) in at.as_flattened()[..n].iter().enumerate() {
+            let w = weigh(&v[ith(i)]);
             let (from, row) = row_of(&self.blocks, values, row as usize);
-            for (at, four) in at[..=i / 4].iter().zip(fours) {
+            for (at, four) in at[..=i / 4].iter().zip(&*fours) {
                 let mut sums = f64x4::new(four[0]) * w[0];
                 for r in 1..R {
                     sums += f64x4::new(four[r]) * w[r];
@@ -336,14 +369,6 @@ fn row_of<'a>(blocks: &[BlockRow], values: &'a mut [f64], i: usize) -> (usize, &
     (4 * first, &mut values[4 * (start + (i % 4) * n)..][..4 * n])
 }
 
-/// What is added to a column to find its place in row `i`.
-#[inline(always)]
-fn place(blocks: &[BlockRow], i: usize) -> usize {
-    let BlockRow { first, start } = blocks[i / 4];
-    // The sum with a column of the row is never negative.
-    (4 * (start + (i % 4) * (i / 4 + 1 - first))).wrapping_sub(4 * first)
-}
-
 impl Order {
     /// The trees of an island, breadth first from one that is far from the others, reversed.
     fn sort(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
@@ -472,6 +497,20 @@ mod tests {
         let (kept, d) = kept(&boxes(std::iter::once(plate).chain(upon)));
         assert_eq!(d.nisland, 1);
         assert!(kept <= 600 * 16, "{kept} numbers of {}", 600 * 601 / 2);
+    }
+
+    /// Four hundred twigs on one stem, which a constraint holds: the twigs do not meet, and only the stem meets all.
+    #[test]
+    fn branches_meet_in_the_body_that_carries_them() {
+        let twigs = "<body><joint/><geom size='0.1'/></body>".repeat(400);
+        let m = mjcf::compile(&format!(
+            "<mujoco><option><flag contact='disable'/></option><worldbody><body name='stem'><freejoint/><geom size='1'/>{twigs}</body>\
+             </worldbody><equality><weld body1='stem'/></equality></mujoco>"
+        ));
+        let (kept, d) = kept(&m.unwrap());
+        assert_eq!((d.nisland, d.nefc), (1, 6));
+        // A block on the diagonal for each four twigs, and whole rows for the stem's two.
+        assert!(kept <= 16 * (100 + 2 * 102), "{kept} numbers of {}", 203 * 407);
     }
 
     #[test]

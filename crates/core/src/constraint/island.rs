@@ -27,8 +27,9 @@ pub(crate) struct Islands {
     ends: Vec<u32>,
     columns: Vec<u32>,
     together: bool,
-    /// Number of islands.
+    /// Number of islands, and how many times they were found: what was derived from them holds as long as that stays.
     count: usize,
+    pub(super) found: u64,
 }
 
 /// Several lists of small numbers.
@@ -98,6 +99,7 @@ impl Islands {
         }
         jac.copy_columns(&mut self.ends, &mut self.columns);
         self.together = together;
+        self.found += 1;
         let tree_of = |c: u32| m.dof_treeid[c as usize] as usize;
         self.island.resize(m.ntree, NONE);
         self.island.fill(if together { 0 } else { NONE });
