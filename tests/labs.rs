@@ -24,7 +24,7 @@ const TRACE: f64 = 1e-6;
 /// A few last bits.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// A few nudges show the order of what rounding does, not the worst of it.
-const WIDER: f64 = 4.0;
+const WIDER: f64 = 2.0;
 /// The step of a perturbed start.
 const NUDGE: f64 = 1e-14;
 
