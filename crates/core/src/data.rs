@@ -126,7 +126,7 @@ pub(crate) struct Work {
     /// Jacobian of the constraints.
     pub(crate) jac: Jacobian,
     /// Columns of one contact's Jacobian.
-    pub(crate) columns: Columns,
+    pub(crate) columns: Option<Box<Columns>>,
     /// Taken out while the solver works with them.
     pub(crate) islands: Option<Box<Islands>>,
     pub(crate) solver: Option<Box<Scratch>>,
@@ -194,7 +194,7 @@ impl Data {
         w.cfrc = vec![0.0; 6 * m.nbody];
         w.islands = Some(Box::default());
         w.solver = Some(Box::default());
-        w.columns = Columns::with_room(m.nv);
+        w.columns = Some(Box::new(Columns::with_room(m.nv)));
         w.ld = vec![0.0; m.nC];
         (w.ctrl, w.tendon_force) = (vec![0.0; m.nu], vec![0.0; m.ntendon]);
         w.moment = vec![0.0; m.nv];

@@ -15,8 +15,8 @@ impl Problem<'_> {
         if from.minimum {
             return;
         }
-        let (tol, scale) = (self.m.opt.tolerance, self.scale());
-        let Reached { mut cost, mut gradient, .. } = from;
+        let tol = self.m.opt.tolerance;
+        let Reached { mut cost, mut gradient, scale, .. } = from;
         self.decrement_by_mass();
         for k in self.dofs().flatten() {
             self.s.search[k] = -self.s.step[k];

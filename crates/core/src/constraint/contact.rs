@@ -25,7 +25,7 @@ pub(super) fn count(m: &Model, d: &Data) -> usize {
 /// Rows of all contacts that touch, in their order.
 pub(super) fn make(m: &Model, d: &mut Data) {
     let mut list = std::mem::take(&mut d.contact);
-    let mut columns = std::mem::take(&mut d.work.columns);
+    let mut columns = d.work.columns.take().unwrap_or_default();
     for (id, c) in list.iter_mut().enumerate() {
         c.efc_address = None;
         if c.exclude != 0 {
@@ -44,7 +44,7 @@ pub(super) fn make(m: &Model, d: &mut Data) {
         }
     }
     d.contact = list;
-    d.work.columns = columns;
+    d.work.columns = Some(columns);
 }
 
 /// Sum over both bodies of the inverse inertia, for translation (0) or rotation (1).

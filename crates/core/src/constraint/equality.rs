@@ -20,7 +20,7 @@ pub(super) fn count(m: &Model, d: &Data) -> usize {
 
 /// Rows of all active constraints, by id.
 pub(super) fn make(m: &Model, d: &mut Data) {
-    let mut columns = std::mem::take(&mut d.work.columns);
+    let mut columns = d.work.columns.take().unwrap_or_default();
     for e in 0..m.neq {
         if !d.eq_active[e] || sleep::equality_sleeps(m, d, e) {
             continue;
@@ -33,7 +33,7 @@ pub(super) fn make(m: &Model, d: &mut Data) {
             _ => {}
         }
     }
-    d.work.columns = columns;
+    d.work.columns = Some(columns);
 }
 
 /// Appends the scalars of a constraint; its impedance is that of the distance `off` from where it should be.

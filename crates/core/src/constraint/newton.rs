@@ -18,8 +18,8 @@ impl Problem<'_> {
         if from.minimum {
             return;
         }
-        let (tol, scale) = (self.m.opt.tolerance, self.scale());
-        let Reached { mut cost, mut gradient, .. } = from;
+        let tol = self.m.opt.tolerance;
+        let Reached { mut cost, mut gradient, scale, .. } = from;
         let six = self.islands.one_run(self.island).filter(|dofs| dofs.len() == six::N);
         if six.is_none() && !self.lay_out() {
             return self.conjugate_gradient(from);

@@ -16,6 +16,8 @@ pub(super) struct Reached {
     pub(super) cost: f64,
     /// Norm of the gradient.
     pub(super) gradient: f64,
+    /// What makes costs and gradients comparable between scenes.
+    pub(super) scale: f64,
     /// Certified to be the minimum.
     pub(super) minimum: bool,
 }
@@ -39,7 +41,7 @@ impl<'a> Problem<'a> {
         let diagonal = self.m.nC == self.m.nv;
         let mut decrement = || if diagonal { self.decrement_by_diagonal() } else { self.decrement_by_mass() };
         let minimum = small && scale * decrement() < tol;
-        Reached { cost, gradient, minimum }
+        Reached { cost, gradient, scale, minimum }
     }
 
     /// The degrees of freedom.

@@ -8,7 +8,7 @@ use crate::{Data, Model, jacobian};
 pub(super) fn adhesion(m: &Model, d: &mut Data, b: usize, dense: &mut [f64], out: &mut Rows) -> f64 {
     dense.fill(0.0);
     let mut count = 0;
-    let mut columns = std::mem::take(&mut d.work.columns);
+    let mut columns = d.work.columns.take().unwrap_or_default();
     for contact in &d.contact {
         let bodies = [contact.geom1, contact.geom2].map(|g| m.geom_bodyid[g] as usize);
         // Those that are detected in the gap count, those that move nothing do not.
@@ -21,7 +21,7 @@ pub(super) fn adhesion(m: &Model, d: &mut Data, b: usize, dense: &mut [f64], out
             dense[k as usize] += v[0];
         }
     }
-    d.work.columns = columns;
+    d.work.columns = Some(columns);
     if count > 0 {
         let mean = -1.0 / f64::from(count);
         for (k, x) in dense.iter().enumerate() {
