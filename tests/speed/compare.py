@@ -29,16 +29,16 @@ SCENES = [
     f"pendulum={BENCH}pendulum.xml,100,200000",
     f"double pendulum={BENCH}double_pendulum.xml,100,200000",
     f"cart and pole={BENCH}cartpole.xml,100,200000",
-    f"chain of 100 hinges={BENCH}chain100.xml,100,1500",
+    f"chain of 100 hinges={BENCH}chain100.xml,100,3000",
     f"humanoid, constraints off={MODELS}benchmark__humanoid.xml,100,10000,constraint",
     f"humanoid, contacts off={MODELS}mjx__humanoid__humanoid.xml,100,10000,contact",
     "two balls at rest=../shared/corpus/models/ball_drop.xml,2000,50000",
     "cube on a table=../shared/corpus/models/cube_table.xml,2000,20000",
     "gripper=../shared/corpus/models/gripper.xml,1000,10000",
-    f"humanoid on the floor={MODELS}benchmark__humanoid.xml,1000,2000",
-    f"27 boxes piled={BENCH}boxes27.xml,1000,300",
+    f"humanoid on the floor={MODELS}benchmark__humanoid.xml,1000,8000",
+    f"27 boxes piled={BENCH}boxes27.xml,1000,2000",
 ]
-PAIRS = 7
+PAIRS = 9
 
 
 def cpu_seconds(command):
