@@ -10,10 +10,10 @@
 //! Lubich, Wanner, "Geometric Numerical Integration", chapter IX): so widely just below its limit that a single look proves
 //! nothing. A gain is called growth when
 //!
-//! * it is [`FACTOR`] times all that the start held, and lifts everything by [`LIFTS`] times the size of the scene besides;
+//! * it is ten times all that the start held, and lifts everything by twice the size of the scene besides;
 //! * it is the larger part of what moves at all: a body that falls, or topples from where it stood, has its motion from
 //!   its potential;
-//! * it lasts for [`LASTS`] steps without falling back to half of what it was, or is [`SURE`] times as large as that. Looks
+//! * it lasts for 32 steps without falling back to half of what it was, or is a thousand times as large as that. Looks
 //!   are far apart until one sees a gain; from there on each step is looked at, as looks in step with a swing would see it last.
 //!
 //! A servo or motor without states pulls along its length x with the force clip(a - k x), whose potential is closed. Whatever
