@@ -51,7 +51,7 @@ pub(crate) fn each(n: usize, mut f: impl FnMut(usize)) {
 }
 
 /// Degrees of freedom of a free body: loops over them are worth code of their own, without a loop.
-const FREE: usize = 6;
+pub(crate) const FREE_DOFS: usize = 6;
 
 /// out ← f(out, inputs), number by number; the inputs are at least as long. Four at a time where there are many: the lanes
 /// of a vector.
@@ -66,7 +66,7 @@ pub(crate) fn combine<const N: usize>(
             let inputs = inputs.map(|x| &x[..n]);
             each(n, |k| out[k] = f(out[k], inputs.map(|x| x[k])));
         }
-        FREE => combine_fours(&mut out[..FREE], inputs.map(|x| &x[..FREE]), f),
+        FREE_DOFS => combine_fours(&mut out[..FREE_DOFS], inputs.map(|x| &x[..FREE_DOFS]), f),
         n => combine_fours(out, inputs.map(|x| &x[..n]), f),
     }
 }
@@ -90,7 +90,7 @@ fn combine_fours<const N: usize>(out: &mut [f64], inputs: [&[f64]; N], f: impl F
 #[inline(always)]
 pub(crate) fn sum<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f64) -> f64 {
     match inputs[0].len() {
-        FREE => sum_fours(inputs.map(|x| &x[..FREE]), f),
+        FREE_DOFS => sum_fours(inputs.map(|x| &x[..FREE_DOFS]), f),
         n => sum_fours(inputs.map(|x| &x[..n]), f),
     }
 }
@@ -118,7 +118,7 @@ pub(crate) fn copy(from: &[f64], to: &mut [f64]) {
     let (from, to) = (&from[..n], &mut to[..n]);
     match n {
         0..=2 => each(n, |k| to[k] = from[k]),
-        FREE => to[..FREE].copy_from_slice(&from[..FREE]),
+        FREE_DOFS => to[..FREE_DOFS].copy_from_slice(&from[..FREE_DOFS]),
         _ => to.copy_from_slice(from),
     }
 }
@@ -128,7 +128,7 @@ pub(crate) fn copy(from: &[f64], to: &mut [f64]) {
 pub(crate) fn zero(x: &mut [f64]) {
     match x.len() {
         n @ 0..=2 => each(n, |k| x[k] = 0.0),
-        FREE => x[..FREE].fill(0.0),
+        FREE_DOFS => x[..FREE_DOFS].fill(0.0),
         _ => x.fill(0.0),
     }
 }

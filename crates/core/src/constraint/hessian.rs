@@ -7,7 +7,7 @@
 //! rows are short: breadth first from an end of the island, reversed (Cuthill and McKee 1969, George 1971).
 
 use super::island::Islands;
-use super::jacobian::Jacobian;
+use super::jacobian::{Gram, Jacobian};
 use super::solver::tree_dofs;
 use crate::Model;
 use crate::math::MINVAL;
@@ -45,7 +45,7 @@ pub(super) struct Hessian {
     places: Vec<usize>,
     /// Scratch of a block of the Jacobian: its columns as they follow each other in the island, where they are there, and its rows
     /// by fours of columns.
-    order_of: Vec<usize>,
+    by_place: Vec<usize>,
     at: Vec<[u32; 4]>,
     fours: Vec<Four>,
     order: Order,
@@ -174,30 +174,7 @@ impl Hessian {
         }
     }
 
-    /// H ← H + Jᵀ W J for the R rows of a block of the Jacobian, column by column, where `weigh` gives W v: four columns at a
-    /// time.
-    #[inline(always)]
-    pub(super) fn add_gram<const R: usize>(
-        &mut self,
-        columns: &[u32],
-        v: &[[f64; R]],
-        weigh: impl Fn(&[f64; R]) -> [f64; R],
-    ) {
-        let n = columns.len();
-        let local = |p: usize| self.local[columns[p] as usize];
-        if self.len <= SMALL || (1..n).all(|p| local(p) < local(p - 1)) {
-            return self.add_gram_by(columns, v, weigh, |i| n - 1 - i);
-        }
-        // Trees of a large island in another order than in the file.
-        let mut order = std::mem::take(&mut self.order_of);
-        order.clear();
-        order.extend(0..n);
-        order.sort_unstable_by_key(|&p| local(p));
-        self.add_gram_by(columns, v, weigh, |i| order[i]);
-        self.order_of = order;
-    }
-
-    /// The same, given the column that is the `i`-th in the island.
+    /// H ← H + Jᵀ W J, four columns at a time, given the column that is the `i`-th in the island.
     #[inline(always)]
     fn add_gram_by<const R: usize>(
         &mut self,
@@ -347,6 +324,29 @@ impl Hessian {
             let n = i + 1 - b.first;
             (i, parts(&self.values[b.start..], n, 0, n))
         })
+    }
+}
+
+impl Gram for Hessian {
+    #[inline(always)]
+    fn add_gram<const R: usize>(
+        &mut self,
+        columns: &[u32],
+        v: &[[f64; R]],
+        weigh: impl Fn(&[f64; R]) -> [f64; R],
+    ) {
+        let n = columns.len();
+        let local = |p: usize| self.local[columns[p] as usize];
+        if self.len <= SMALL || (1..n).all(|p| local(p) < local(p - 1)) {
+            return self.add_gram_by(columns, v, weigh, |i| n - 1 - i);
+        }
+        // Trees of a large island in another order than in the file.
+        let mut order = std::mem::take(&mut self.by_place);
+        order.clear();
+        order.extend(0..n);
+        order.sort_unstable_by_key(|&p| local(p));
+        self.add_gram_by(columns, v, weigh, |i| order[i]);
+        self.by_place = order;
     }
 }
 

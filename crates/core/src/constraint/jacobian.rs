@@ -4,8 +4,7 @@
 //! frictional contact fill vector registers.
 
 use super::cost::Cost;
-use super::hessian::Hessian;
-use crate::math::dot;
+use crate::math::{FREE_DOFS, dot};
 use crate::{Data, Model};
 use std::ops::Range;
 
@@ -39,6 +38,17 @@ macro_rules! by_rows {
 }
 pub(super) use by_rows;
 
+/// A matrix over the degrees of freedom of an island, to which second derivatives of costs are added.
+pub(super) trait Gram {
+    /// H ← H + Jᵀ W J for the R rows of a block, given by its columns, ascending, where `weigh` gives W v.
+    fn add_gram<const R: usize>(
+        &mut self,
+        columns: &[u32],
+        v: &[[f64; R]],
+        weigh: impl Fn(&[f64; R]) -> [f64; R],
+    );
+}
+
 /// The rows of one constraint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Block {
@@ -64,10 +74,6 @@ impl Block {
         self.row as usize..(self.row + self.nrow) as usize
     }
 }
-
-/// Degrees of freedom of a free body: against the static world it is the commonest block, worth its own
-/// unrolled loops.
-const FREE: usize = 6;
 
 /// The range of the columns when there is no gap between them: one body's, as a rule.
 #[inline(always)]
@@ -131,14 +137,14 @@ impl Jacobian {
             col: col as u32,
             ncol: n as u32,
             six: match descending {
-                &[last, .., first] if n == FREE && last - first + 1 == FREE as u32 => Some(first),
+                &[last, .., first] if n == FREE_DOFS && last - first + 1 == FREE_DOFS as u32 => Some(first),
                 _ => None,
             },
         });
         let columns = &mut self.columns[col..col + n];
         let rows = &mut self.values[adr..adr + R * n].as_chunks_mut::<R>().0[..n];
-        if n == FREE {
-            reversed(descending, values, &mut columns[..FREE], &mut rows[..FREE]);
+        if n == FREE_DOFS {
+            reversed(descending, values, &mut columns[..FREE_DOFS], &mut rows[..FREE_DOFS]);
         } else {
             reversed(descending, values, columns, rows);
         }
@@ -146,8 +152,8 @@ impl Jacobian {
 
     /// The values of a block whose columns are six that follow each other.
     #[inline(always)]
-    fn values_of_six<const R: usize>(&self, b: &Block) -> Option<&[[f64; R]; FREE]> {
-        self.values[b.adr as usize..].as_chunks::<R>().0.first_chunk::<FREE>()
+    fn values_of_six<const R: usize>(&self, b: &Block) -> Option<&[[f64; R]; FREE_DOFS]> {
+        self.values[b.adr as usize..].as_chunks::<R>().0.first_chunk::<FREE_DOFS>()
     }
 
     /// The degrees of freedom of a block, ascending.
@@ -333,9 +339,9 @@ impl Jacobian {
             }
         };
         if let Some(first) = b.six {
-            let x = x[first as usize..].first_chunk::<FREE>();
+            let x = x[first as usize..].first_chunk::<FREE_DOFS>();
             if let (Some(v), Some(x)) = (self.values_of_six::<R>(b), x) {
-                for c in 0..FREE {
+                for c in 0..FREE_DOFS {
                     accumulate(&v[c], x[c]);
                 }
             }
@@ -355,9 +361,9 @@ impl Jacobian {
     #[inline(always)]
     pub(super) fn add_transposed<const R: usize>(&self, b: &Block, f: &[f64; R], out: &mut [f64]) {
         if let Some(first) = b.six {
-            let out = out[first as usize..].first_chunk_mut::<FREE>();
+            let out = out[first as usize..].first_chunk_mut::<FREE_DOFS>();
             if let (Some(v), Some(out)) = (self.values_of_six::<R>(b), out) {
-                for c in 0..FREE {
+                for c in 0..FREE_DOFS {
                     out[c] += dot(v[c], *f);
                 }
             }
@@ -368,25 +374,6 @@ impl Jacobian {
             Some(range) => vals.iter().zip(&mut out[range]).for_each(|(v, out)| *out += dot(*v, *f)),
             None => vals.iter().zip(cols).for_each(|(v, &c)| out[c as usize] += dot(*v, *f)),
         }
-    }
-
-    /// h ← h + Jᵀ diag(w) J for the rows of a block.
-    #[inline(always)]
-    pub(super) fn add_gram(&self, b: &Block, w: &[f64], h: &mut Hessian) {
-        by_rows!(b.nrow, R => self.add_gram_rows::<R>(b, w, h))
-    }
-
-    #[inline(always)]
-    fn add_gram_rows<const R: usize>(&self, b: &Block, w: &[f64], h: &mut Hessian) {
-        let Some(w) = w[b.rows()].first_chunk::<R>() else { return };
-        let weigh = |v: &[f64; R]| std::array::from_fn(|r| w[r] * v[r]);
-        h.add_gram::<R>(self.columns(b), self.values(b).as_chunks().0, weigh);
-    }
-
-    /// h ← h + Jᵀ W J for the R rows of a block, with W symmetric.
-    #[inline(never)]
-    pub(super) fn add_gram_full<const R: usize>(&self, b: &Block, w: &[[f64; R]; R], h: &mut Hessian) {
-        h.add_gram::<R>(self.columns(b), self.values(b).as_chunks().0, |v| w.map(|w| dot(w, *v)));
     }
 }
 

@@ -4,11 +4,11 @@
 //! (Nocedal and Wright 2006, ch. 3).
 
 use super::cost::{Cost, Curvature};
-use super::jacobian::{Block, by_rows};
+use super::jacobian::{Block, Gram, by_rows};
 use super::primal::{Problem, Reached, shape};
-use super::six::{self, Six};
-use crate::mass;
-use crate::math::dot;
+use super::six::Six;
+use crate::math::{FREE_DOFS, dot};
+use crate::{Data, mass};
 use std::array::from_fn;
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ impl Problem<'_> {
         }
         let tol = self.m.opt.tolerance;
         let Reached { mut cost, mut gradient, scale, .. } = from;
-        let six = self.islands.one_run(self.island).filter(|dofs| dofs.len() == six::N);
+        let six = self.islands.one_run(self.island).filter(|dofs| dofs.len() == FREE_DOFS);
         if six.is_none() && !self.lay_out() {
             return self.conjugate_gradient(from);
         }
@@ -77,15 +77,7 @@ impl Problem<'_> {
             s.hessian.add(k, columns.zip(d.M[row].iter().copied()));
             s.rhs[s.hessian.local[k] as usize] = s.grad[k];
         }
-        for b in blocks {
-            let b = self.d.work.jac.blocks[b];
-            if b.cost == Cost::Push {
-                self.add_push(&b);
-            } else {
-                by_rows!(b.nrow, R => self.add_curvature::<R>(&b));
-            }
-        }
-        let s = &mut *self.s;
+        add_curvatures(d, &s.jar, blocks, &mut s.hessian);
         s.hessian.factor();
         s.hessian.solve(&mut s.rhs);
         for k in dofs.flatten() {
@@ -97,13 +89,7 @@ impl Problem<'_> {
     #[inline(never)]
     fn newton_direction_of_six(&mut self, start: usize) {
         let mut h = Six::new(self.m, &self.d.M, start);
-        for b in self.blocks() {
-            let b = self.d.work.jac.blocks[b];
-            match (b.cost, b.nrow) {
-                (Cost::Push, 4) => self.add_push_to_six::<4>(&b, &mut h),
-                _ => by_rows!(b.nrow, R => self.add_curvature_to_six::<R>(&b, &mut h)),
-            }
-        }
+        add_curvatures(self.d, &self.s.jar, self.blocks(), &mut h);
         let s = &mut *self.s;
         let vectors = (
             s.grad[start..].first_chunk(),
@@ -115,51 +101,44 @@ impl Problem<'_> {
             *search = step.map(|x| -x);
         }
     }
+}
 
-    #[inline(always)]
-    fn add_push_to_six<const R: usize>(&self, b: &Block, h: &mut Six) {
-        let (x, stiff) = (&self.s.jar[b.rows()], &self.d.efc_D[b.rows()]);
-        let (Some(x), Some(stiff)) = (x.first_chunk::<R>(), stiff.first_chunk::<R>()) else { return };
+/// H ← H + Jᵀ C J over blocks, where C is the second derivative of their costs at x = `jar`.
+#[inline(always)]
+fn add_curvatures(d: &Data, jar: &[f64], blocks: impl Iterator<Item = usize>, h: &mut impl Gram) {
+    for b in blocks {
+        let b = &d.work.jac.blocks[b];
+        match (b.cost, b.nrow) {
+            (Cost::Push, 1) => add_push::<1>(d, jar, b, h),
+            (Cost::Push, 4) => add_push::<4>(d, jar, b, h),
+            _ => by_rows!(b.nrow, R => add_curvature::<R>(d, jar, b, h)),
+        }
+    }
+}
+
+/// One block whose rows push.
+#[inline(always)]
+fn add_push<const R: usize>(d: &Data, jar: &[f64], b: &Block, h: &mut impl Gram) {
+    let (Some(x), Some(stiff)) = (jar[b.rows()].first_chunk::<R>(), d.efc_D[b.rows()].first_chunk::<R>())
+    else {
+        return;
+    };
+    if x.iter().any(|&x| x < 0.0) {
         let w: [f64; R] = from_fn(|r| if x[r] < 0.0 { stiff[r] } else { 0.0 });
-        h.add_gram::<R>(&self.d.work.jac, b, |v| from_fn(|r| w[r] * v[r]));
+        h.add_gram::<R>(d.work.jac.columns(b), d.work.jac.values(b).as_chunks().0, |v| {
+            from_fn(|r| w[r] * v[r])
+        });
     }
+}
 
-    #[inline(never)]
-    fn add_curvature_to_six<const R: usize>(&self, b: &Block, h: &mut Six) {
-        let (Some(shape), Some(x)) = (shape::<R>(self.d, b), self.s.jar[b.rows()].first_chunk::<R>()) else {
-            return;
-        };
-        match shape.curvature(x) {
-            Curvature::Flat => {}
-            Curvature::Diagonal(w) => h.add_gram::<R>(&self.d.work.jac, b, |v| from_fn(|r| w[r] * v[r])),
-            Curvature::Full(w) => h.add_gram::<R>(&self.d.work.jac, b, |v| w.map(|w| dot(w, *v))),
-        }
-    }
-
-    /// Adds the rows that push to the Hessian.
-    #[inline(always)]
-    fn add_push(&mut self, b: &Block) {
-        let (d, s) = (&*self.d, &mut *self.s);
-        for r in b.rows() {
-            s.weight[r] = if s.jar[r] < 0.0 { d.efc_D[r] } else { 0.0 };
-        }
-        if s.weight[b.rows()].iter().any(|&w| w > 0.0) {
-            d.work.jac.add_gram(b, &s.weight, &mut s.hessian);
-        }
-    }
-
-    /// Adds a constraint of any other kind.
-    #[inline(never)]
-    fn add_curvature<const R: usize>(&mut self, b: &Block) {
-        let (d, s) = (&*self.d, &mut *self.s);
-        let (Some(shape), Some(x)) = (shape::<R>(d, b), s.jar[b.rows()].first_chunk::<R>()) else { return };
-        match shape.curvature(x) {
-            Curvature::Flat => {}
-            Curvature::Diagonal(w) => {
-                s.weight[b.rows()].copy_from_slice(&w);
-                d.work.jac.add_gram(b, &s.weight, &mut s.hessian);
-            }
-            Curvature::Full(w) => d.work.jac.add_gram_full(b, &w, &mut s.hessian),
-        }
+/// One block of any other kind.
+#[inline(never)]
+fn add_curvature<const R: usize>(d: &Data, jar: &[f64], b: &Block, h: &mut impl Gram) {
+    let (Some(shape), Some(x)) = (shape::<R>(d, b), jar[b.rows()].first_chunk::<R>()) else { return };
+    let (columns, v) = (d.work.jac.columns(b), d.work.jac.values(b).as_chunks().0);
+    match shape.curvature(x) {
+        Curvature::Flat => {}
+        Curvature::Diagonal(w) => h.add_gram::<R>(columns, v, |v| from_fn(|r| w[r] * v[r])),
+        Curvature::Full(w) => h.add_gram::<R>(columns, v, |v| w.map(|w| dot(w, *v))),
     }
 }

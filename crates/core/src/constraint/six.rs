@@ -1,11 +1,9 @@
 //! Newton's direction of an island of six degrees of freedom, one free body as a rule: all of the Hessian fits in registers
 //! and needs no layout.
 
-use super::jacobian::{Block, Jacobian};
-use crate::math::{MINVAL, dot};
+use super::jacobian::Gram;
+use crate::math::{FREE_DOFS as N, MINVAL, dot};
 use crate::{Model, mass};
-
-pub(super) const N: usize = 6;
 
 /// The lower triangle of H = M + Jᵀ C J.
 pub(super) struct Six {
@@ -26,32 +24,6 @@ impl Six {
             }
         }
         Six { start, values }
-    }
-
-    /// H ← H + Jᵀ W J for the R rows of a block, where `weigh` gives W v.
-    #[inline(always)]
-    pub(super) fn add_gram<const R: usize>(
-        &mut self,
-        jac: &Jacobian,
-        b: &Block,
-        weigh: impl Fn(&[f64; R]) -> [f64; R],
-    ) {
-        let (columns, values) = (jac.columns(b), jac.values(b).as_chunks::<R>().0);
-        if let (N, Some(v)) = (columns.len(), values.first_chunk::<N>()) {
-            for i in 0..N {
-                let w = weigh(&v[i]);
-                for j in 0..=i {
-                    self.values[i][j] += dot(w, v[j]);
-                }
-            }
-            return;
-        }
-        for (i, (&ci, vi)) in columns.iter().zip(values).enumerate() {
-            let (w, row) = (weigh(vi), &mut self.values[ci as usize - self.start]);
-            for (&cj, vj) in columns[..=i].iter().zip(values) {
-                row[cj as usize - self.start] += dot(w, *vj);
-            }
-        }
     }
 
     /// H⁻¹ g by H = L Lᵀ.
@@ -83,6 +55,32 @@ impl Six {
             }
         }
         x
+    }
+}
+
+impl Gram for Six {
+    #[inline(always)]
+    fn add_gram<const R: usize>(
+        &mut self,
+        columns: &[u32],
+        v: &[[f64; R]],
+        weigh: impl Fn(&[f64; R]) -> [f64; R],
+    ) {
+        if let (N, Some(v)) = (columns.len(), v.first_chunk::<N>()) {
+            for i in 0..N {
+                let w = weigh(&v[i]);
+                for j in 0..=i {
+                    self.values[i][j] += dot(w, v[j]);
+                }
+            }
+            return;
+        }
+        for (i, (&ci, vi)) in columns.iter().zip(v).enumerate() {
+            let (w, row) = (weigh(vi), &mut self.values[ci as usize - self.start]);
+            for (&cj, vj) in columns[..=i].iter().zip(v) {
+                row[cj as usize - self.start] += dot(w, *vj);
+            }
+        }
     }
 }
 

@@ -27,10 +27,9 @@ pub(crate) struct Scratch {
     /// Search direction and M times it.
     pub(super) search: Vec<f64>,
     pub(super) mv: Vec<f64>,
-    /// J a - aref, J search, and D where a row pushes.
+    /// J a - aref, and J search.
     pub(super) jar: Vec<f64>,
     pub(super) jv: Vec<f64>,
-    pub(super) weight: Vec<f64>,
     /// Hessian of an island, and a right-hand side.
     pub(super) hessian: Hessian,
     pub(super) rhs: Vec<f64>,
@@ -147,7 +146,7 @@ impl Scratch {
             }
         }
         if self.jar.len() != nefc {
-            for v in [&mut self.jar, &mut self.jv, &mut self.weight] {
+            for v in [&mut self.jar, &mut self.jv] {
                 v.resize(nefc, 0.0);
             }
         }
