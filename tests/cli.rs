@@ -59,12 +59,15 @@ fn check_for_programs() {
     let report = run(&["check", "wrong.md", "--format", "json"]);
     assert_eq!(report.code, 1);
     let report: Value = serde_json::from_str(&report.stdout).unwrap();
-    assert!(keys(&report).ends_with(&["lessons"]), "{:?}", keys(&report));
+    assert_eq!(keys(&report), ["findings", "summary", "lessons", "ledger"]);
     let lesson = &report["lessons"][0];
     assert_eq!(keys(lesson), ["file", "labs", "claims"]);
-    assert_eq!(keys(&lesson["labs"][0]), ["address", "title", "runs", "ran"]);
-    assert_eq!(keys(&lesson["claims"][0]), ["name", "line", "verdict", "measures", "quotes"]);
-    assert_eq!(lesson["claims"][0]["verdict"], "refuted");
+    assert_eq!(keys(&lesson["labs"][0]), ["address", "title", "runs", "ran", "broke"]);
+    let claim = &lesson["claims"][0];
+    assert_eq!(keys(claim), ["name", "line", "answer", "quotes", "closed_forms", "runs", "measures"]);
+    assert_eq!(claim["answer"]["verdict"], "refuted");
+    assert_eq!(claim["quotes"][0]["verdict"], "refuted");
+    assert_eq!(report["summary"]["outcome"], "findings");
     let findings = report["findings"].as_array().unwrap();
     let codes: Vec<&str> = findings.iter().filter_map(|f| f["code"].as_str()).collect();
     for code in ["unknown-field", "answer-refuted", "quote-wrong"] {

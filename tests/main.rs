@@ -22,5 +22,6 @@ mod sleep;
 mod stability;
 mod standing;
 mod support;
+mod trust;
 mod verify;
 mod zoo;

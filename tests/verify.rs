@@ -44,16 +44,25 @@ fn expect(name: &str, verdict: Verdict, prose: &str, question: &str) {
     let text = lesson(prose, question);
     let checked = check_text("fall.md", &text);
     let claim = &checked.claims[0];
-    let mut shown = format!("{}: {}, {} quoted\n", claim.name, claim.verdict.as_str(), claim.quotes);
-    for (measure, value) in &claim.measures {
+    let answer = claim.judgement.answer.as_ref().unwrap();
+    let mut shown = format!("{}: {} {}\n", claim.name, answer.verdict.as_str(), answer.reason);
+    for quote in &claim.judgement.quotes {
+        let _ = writeln!(shown, "  {}: {} {}", quote.text, quote.verdict(), quote.reason);
+    }
+    for m in &claim.judgement.measures {
         // Nine digits: the last bits are no promise to a reader.
-        let _ = writeln!(shown, "  {measure} = {value:.9}");
+        let halved = m.halved.map_or(String::new(), |x| format!(", {x:.9} at half the timestep"));
+        let _ = writeln!(shown, "  {} = {:.9}{halved}", m.name, m.value);
+    }
+    for weight in &answer.weights {
+        let margin = weight.margin.map_or("-".into(), |m| format!("{m:.9}"));
+        let _ = writeln!(shown, "  option {}: {}, margin {margin}", weight.option, weight.holds);
     }
     let _ = write!(shown, "\n{}", report::human(&checked.findings, &[&checked.lesson.file], false));
     insta::with_settings!({prepend_module_to_snapshot => false, omit_expression => true}, {
         insta::assert_snapshot!(format!("verify-{name}"), shown);
     });
-    assert_eq!(claim.verdict, verdict);
+    assert_eq!(answer.verdict, verdict);
     assert_eq!(checked.claims.len(), 1);
 }
 

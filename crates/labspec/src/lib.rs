@@ -8,6 +8,7 @@
 //! * [`spec`]: labs, quizzes and lessons as typed values; [`spec::load_lesson`] is the way in
 //! * [`lint`]: the table of rules and the checks of structure
 //! * [`format`](mod@format): the code of a lesson laid out anew
+//! * [`ledger`]: every claim with what became of it, from which all verdicts and exit codes follow
 //! * [`finding`], [`report`]: what is wrong, and how it is shown to people and programs
 
 pub mod bind;
@@ -16,6 +17,7 @@ pub mod cli;
 pub mod finding;
 pub mod format;
 pub mod json;
+pub mod ledger;
 pub mod lint;
 pub mod markdown;
 pub mod precision;

@@ -177,7 +177,7 @@ fn targets<'a>(
     for (trace, probe) in lab.traces().zip(&programs.probes) {
         let Some(bound) = &probe.bound else { continue };
         let closed =
-            exact.iter().find(|(label, _)| label.value == trace.label.value).and_then(|(_, text)| {
+            exact.iter().find(|e| e.trace.value == trace.label.value).map(|e| &e.form).and_then(|text| {
                 let mut globals = programs.globals.clone();
                 let compiled = Compiler::new(&names, &mut globals).expression(&text.value);
                 findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));

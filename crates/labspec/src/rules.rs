@@ -48,6 +48,57 @@ pub const RUN_RULES: &[(&str, &str, &str)] = &[
         "A control that it sets does not exist, or it would take too many steps.",
     ),
     (
+        "run-breaks",
+        "a run of a `verify` object breaks",
+        "It met a bad number, gained energy from nothing, or something in it threw: what it measures is evidence of nothing.",
+    ),
+    (
+        "does-not-break",
+        "a run that the lesson expects to break does not",
+        "The lesson shows something else than it says.",
+    ),
+    (
+        "constant-claim",
+        "a condition, a value or a number's expression is a bare constant",
+        "It is the same whatever the simulation does, so nothing is checked by it.",
+    ),
+    (
+        "compares-nan",
+        "a condition is decided by what is no number",
+        "A comparison with NaN never holds: it says nothing about the answer. A measure is NaN when its event never happens.",
+    ),
+    (
+        "claim-without-number",
+        "an expression that should give a number gives none",
+        "Nothing can be compared with it.",
+    ),
+    (
+        "unknown-trace",
+        "a closed form is given for a trace that the lab does not have",
+        "It is held to nothing.",
+    ),
+    (
+        "closed-form-wrong",
+        "a trace does not follow its closed form",
+        "The formula in the lesson describes something else than the lab.",
+    ),
+    (
+        "closed-form-untried",
+        "a closed form cannot be tried",
+        "Nothing says whether the trace follows it.",
+    ),
+    (
+        "closed-form-undecided",
+        "the runs do not tell whether a trace follows its closed form",
+        "The difference between them neither vanishes nor stays as the timestep shrinks. State a tolerance.",
+    ),
+    (
+        "no-model-folder",
+        "there is no folder of models",
+        "A lab that names its model cannot run, and nothing about it can be checked.",
+    ),
+    ("unreadable-file", "a file cannot be read", "Nothing in it was checked."),
+    (
         "answer-refuted",
         "the simulation refutes the keyed answer",
         "A student who predicts right is told that they are wrong.",

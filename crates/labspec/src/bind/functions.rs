@@ -121,6 +121,11 @@ fn index(args: &[Value]) -> Result<usize, String> {
     args.first().map(|v| handle::index_of(v.to_number())).ok_or_else(|| "a name is missing".into())
 }
 
+/// Whether a function looks at the simulation: `abs` does not.
+pub(crate) fn reads(FunctionId(f): FunctionId) -> bool {
+    TABLE.get(f as usize).is_some_and(|function| function.reads != Touches::Nothing)
+}
+
 fn number(args: &[Value]) -> Result<f64, String> {
     args.first().map(Value::to_number).ok_or_else(|| "a number is missing".into())
 }

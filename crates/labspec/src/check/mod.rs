@@ -1,13 +1,18 @@
 //! The whole check of a lesson: structure, names, runs of every lab, verdicts of every question.
 
+mod claims;
+mod entries;
 mod programs;
 mod trial;
 
+pub use claims::Claim;
+pub(crate) use entries::evidence;
+pub use entries::ledger;
+
 use crate::bind::Programs;
 use crate::bind::scene::{Models, finding};
-use crate::finding::{self, Finding};
-use crate::spec::{Lab, LabAddress, Lesson, Question, Verify, VerifyLab};
-use crate::verify::{self, BoundVerify, Claim, Verdict};
+use crate::finding::{self, Finding, Severity};
+use crate::spec::{Lab, LabAddress, Lesson, Scene};
 use labspec_core::Model;
 use std::sync::Arc;
 
@@ -22,6 +27,10 @@ pub struct RanLab {
     pub runs: usize,
     /// `false` when it could not be run.
     pub ran: bool,
+    /// Something broke in a run.
+    pub broke: bool,
+    /// Mistakes in its code: what these texts would do was not run.
+    pub mistakes: usize,
 }
 
 /// A lesson with everything that is known about it.
@@ -51,6 +60,8 @@ struct Ready<'l> {
     lab: &'l Lab,
     model: Arc<Model>,
     programs: Programs,
+    /// Errors in its code.
+    mistakes: usize,
 }
 
 /// Checks a lesson that has been read. Findings of model files are left in `models`.
@@ -60,7 +71,7 @@ pub fn check(lesson: Lesson, models: &mut Models, depth: Depth) -> Checked {
         let ready: Vec<Ready<'_>> =
             lesson.all_labs().into_iter().filter_map(|lab| prepare(lab, models, &mut findings)).collect();
         let labs = if depth.labs { trial::run_labs(&lesson, &ready, &mut findings) } else { Vec::new() };
-        let claims = if depth.claims { claims(&lesson, &ready, &mut findings) } else { Vec::new() };
+        let claims = if depth.claims { claims::check(&lesson, &ready, &mut findings) } else { Vec::new() };
         (labs, claims)
     };
     let mut all = lesson.findings.clone();
@@ -71,7 +82,17 @@ pub fn check(lesson: Lesson, models: &mut Models, depth: Depth) -> Checked {
 
 /// Loads the model of a lab and binds its programs.
 fn prepare<'l>(lab: &'l Lab, models: &mut Models, findings: &mut Vec<Finding>) -> Option<Ready<'l>> {
-    let model = models.of(lab, findings)?;
+    let Some(model) = models.of(lab, findings) else {
+        // A folder that has no such model is a matter of the lesson's structure, which knows what the folder has.
+        if let (Some(Scene::Model(name)), None) = (lab.scene(), models.folder().names()) {
+            findings.push(
+                finding("no-model-folder", name.span(), "there is no folder of models, so this lab cannot run")
+                    .why("its expressions, its runs and every claim about it could not be checked")
+                    .help(format!("put {}.xml into a folder `models` beside or above the lesson, or name the folder: --models DIR", name.value)),
+            );
+        }
+        return None;
+    };
     if let Some(key) = lab.key.as_ref().filter(|k| k.value >= model.nkey as f64) {
         findings.push(
             finding("keyframe-missing", key.span.clone(), format!("the model has no keyframe {}", key.value))
@@ -82,60 +103,9 @@ fn prepare<'l>(lab: &'l Lab, models: &mut Models, findings: &mut Vec<Finding>) -
                 }),
         );
     }
+    let before = findings.len();
     let programs = Programs::compile(lab, &model, findings);
+    let mistakes = findings.iter().skip(before).filter(|f| f.severity == Severity::Error).count();
     programs::check(lab, &programs, findings);
-    Some(Ready { lab, model, programs })
-}
-
-/// Checks every `verify` object; questions without one are listed as unverified.
-fn claims(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> Vec<Claim> {
-    let mut list = Vec::new();
-    for (address, lab) in lesson.addressed() {
-        if let Some(verify) = &lab.verify {
-            let name = format!("lab {address}");
-            list.push(claim(name, verify, Some(lab), None, lesson, ready, findings));
-        }
-    }
-    for quiz in &lesson.quizzes {
-        let id = quiz.id.as_ref().map_or("", |t| t.as_str());
-        for (number, question) in quiz.numbered() {
-            let name = format!("quiz {id}, question {number}");
-            match &question.verify {
-                Some(verify) => {
-                    list.push(claim(name, verify, question.sim(), Some(question), lesson, ready, findings))
-                }
-                None => list.push(Claim {
-                    name,
-                    span: question.span.clone(),
-                    verdict: Verdict::Unverified,
-                    measures: Vec::new(),
-                    quotes: 0,
-                }),
-            }
-        }
-    }
-    list
-}
-
-fn claim(
-    name: String,
-    verify: &Verify,
-    own: Option<&Lab>,
-    question: Option<&Question>,
-    lesson: &Lesson,
-    ready: &[Ready<'_>],
-    findings: &mut Vec<Finding>,
-) -> Claim {
-    let lab = match &verify.lab {
-        None => own,
-        Some(VerifyLab::Inline(lab)) => Some(&**lab),
-        Some(VerifyLab::Reference(_, address)) => lesson.lab(address),
-        Some(VerifyLab::Broken) => None,
-    };
-    let target = lab.and_then(|lab| ready.iter().find(|r| std::ptr::eq(r.lab, lab)));
-    let bound = target.and_then(|r| BoundVerify::new(verify, r.lab, &r.model, &r.programs, findings));
-    let judgement = bound.map(|b| verify::check(&b, verify, question, lesson, findings));
-    let (verdict, measures, quotes) =
-        judgement.map_or((Verdict::Failed, Vec::new(), 0), |j| (j.verdict, j.measures, j.quotes));
-    Claim { name, span: verify.span.clone(), verdict, measures, quotes }
+    Some(Ready { lab, model, programs, mistakes })
 }

@@ -20,8 +20,11 @@ const TRIAL_STEPS: usize = 20_000;
 /// Runs every lab that has an address, as it stands and with each control at its ends.
 pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> Vec<RanLab> {
     let each = |(address, lab): (LabAddress, &Lab)| {
-        let runs = ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map_or(0, |r| try_lab(r, findings));
-        RanLab { address, title: lab.title().to_string(), runs, ran: runs > 0 }
+        let before = findings.len();
+        let ready = ready.iter().find(|r| std::ptr::eq(r.lab, lab));
+        let runs = ready.map_or(0, |r| try_lab(r, findings));
+        let (broke, mistakes) = (findings.len() > before, ready.map_or(0, |r| r.mistakes));
+        RanLab { address, title: lab.title().to_string(), runs, ran: runs > 0, broke, mistakes }
     };
     lesson.addressed().into_iter().map(each).collect()
 }

@@ -2,25 +2,26 @@
 
 use super::target::model_folder;
 use super::{Color, Failure, ModelOptions, Outcome, print};
-use crate::bind::scene::Models;
+use crate::bind::scene::{Models, finding};
 use crate::check::{self, Checked, Depth};
-use crate::finding::{self, Finding, Severity};
+use crate::finding::{self, Finding};
+use crate::ledger::{self, Entry, Evidence, Ledger, State, Subject};
 use crate::lint;
 use crate::report::{self, Summary};
 use crate::source::SourceFile;
 use crate::spec::{Lesson, load_lesson};
-use crate::verify::{Verdict, significant};
 use clap::ValueEnum;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::fmt::Write;
-use std::io::IsTerminal;
+use std::fmt::Write as _;
+use std::io::{IsTerminal, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Arguments of `check` and `verify`.
 #[derive(clap::Args, Debug)]
 pub(super) struct Arguments {
-    /// Lessons (.md), labs and quizzes (.json), or folders of them
+    /// Lessons (.md), labs and quizzes (.json), models (.xml), or folders of lessons
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     #[command(flatten)]
@@ -48,58 +49,154 @@ pub(super) fn verify(a: &Arguments) -> Result<Outcome, Failure> {
     work(a, Depth { labs: false, claims: true }, true)
 }
 
-fn work(a: &Arguments, depth: Depth, measures: bool) -> Result<Outcome, Failure> {
-    let files = collect(&a.paths)?;
+/// Everything that was checked, and what it came to.
+#[derive(Default)]
+struct Course {
+    checked: Vec<Checked>,
+    findings: Vec<Finding>,
+    ledger: Ledger,
+    /// Files that are shown with findings, besides the lessons.
+    sources: Vec<SourceFile>,
+}
+
+fn work(a: &Arguments, depth: Depth, evidence: bool) -> Result<Outcome, Failure> {
+    let course = look(a, depth)?;
+    let outcome = course.ledger.outcome();
+    let named = || a.paths.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(", ");
+    let claimed = |e: &Entry| {
+        let claims = [Subject::Answer, Subject::Quote, Subject::ClosedForm, Subject::Run];
+        claims.contains(&e.subject) && e.state != State::NotClaimed
+    };
+    let idle = evidence && !course.ledger.entries().iter().any(claimed);
+    let mut sources: Vec<&SourceFile> = course.checked.iter().map(|c| &c.lesson.file).collect();
+    sources.extend(&course.sources);
+    match a.format {
+        Format::Human => {
+            let mut text = report::human(&course.findings, &sources, a.color.on());
+            text.push_str(&overview(&course, evidence));
+            let _ = writeln!(text, "{}", last_line(&course));
+            print(&text)?;
+        }
+        Format::Json => {
+            let mut value = report::json(&course.findings, &sources);
+            value["summary"]["outcome"] = json!(word(outcome));
+            value["summary"]["claims"] = counts(&course.ledger);
+            value["lessons"] = course.checked.iter().map(lesson_json).collect();
+            value["ledger"] = course.ledger.entries().iter().map(|e| entry_json(e, &sources)).collect();
+            let text = serde_json::to_string_pretty(&value).map_err(|e| e.to_string())?;
+            print(&format!("{text}\n"))?;
+        }
+    }
+    match outcome {
+        ledger::Outcome::Findings => Ok(Outcome::Findings),
+        ledger::Outcome::Nothing => {
+            Err(format!("there is nothing to check in {}: no lab, no question and no model", named()))
+        }
+        ledger::Outcome::Clean if idle => Err(format!(
+            "there is nothing to verify in {}: no question and no lab carries a `verify` object",
+            named()
+        )),
+        ledger::Outcome::Clean => Ok(Outcome::Clean),
+    }
+}
+
+/// Reads and checks every file. One that cannot be read is a finding and hides nothing of the others.
+fn look(a: &Arguments, depth: Depth) -> Result<Course, Failure> {
+    let (files, problems) = collect(&a.paths);
+    if files.is_empty() {
+        return Err(nothing(&a.paths, &problems));
+    }
     let progress = a.format == Format::Human && std::io::stderr().is_terminal();
+    let mut course = Course::default();
+    let mut read = 0;
     // Models are shared by the lessons of a folder, and compiled once.
     let mut by_folder: BTreeMap<String, Models> = BTreeMap::new();
-    let mut checked: Vec<Checked> = Vec::new();
+    let mut refused: Vec<(PathBuf, String)> = problems;
     for (path, named) in &files {
         if progress {
-            eprint!("\r\x1b[Kchecking {}", path.display());
+            let _ = write!(std::io::stderr(), "\r\x1b[Kchecking {}", path.display());
         }
-        let file = SourceFile::read(path)?;
+        if is_model(path) {
+            read += usize::from(check_model(path, &mut course));
+            continue;
+        }
+        let file = match SourceFile::read(path) {
+            Ok(file) => file,
+            Err(why) => {
+                refused.push((path.clone(), why));
+                continue;
+            }
+        };
+        read += 1;
         let folder = model_folder(&a.models, path)?;
         let models = by_folder.entry(format!("{folder:?}")).or_insert_with(|| Models::new(folder));
         let lesson = load_lesson(file, models.folder());
         if !named && is_other_json(&lesson) {
             continue;
         }
-        checked.push(check::check(lesson, models, depth));
+        course.checked.push(check::check(lesson, models, depth));
     }
     if progress {
-        eprint!("\r\x1b[K");
+        let _ = write!(std::io::stderr(), "\r\x1b[K");
     }
-
-    let mut findings: Vec<Finding> = Vec::new();
-    let lessons: Vec<_> = checked.iter().map(|c| &c.lesson).collect();
-    findings.extend(lint::check_course(&lessons));
-    for c in &checked {
-        findings.extend(c.findings.iter().cloned());
+    if read == 0 {
+        return Err(nothing(&a.paths, &refused));
     }
+    for (path, why) in refused {
+        let mut f = finding("unreadable-file", 0..0, why)
+            .why("nothing in it was checked")
+            .help("mend the file, or leave it out");
+        f.path = Arc::from(path.display().to_string());
+        course.findings.push(f);
+    }
+    let lessons: Vec<_> = course.checked.iter().map(|c| &c.lesson).collect();
+    course.findings.extend(lint::check_course(&lessons));
+    course.findings.extend(course.checked.iter().flat_map(|c| c.findings.iter().cloned()));
     for models in by_folder.values_mut() {
-        findings.extend(models.take_findings());
+        course.findings.extend(models.take_findings());
+        course.sources.extend(models.files().iter().cloned());
     }
-    finding::sort(&mut findings);
-    let mut sources: Vec<&SourceFile> = checked.iter().map(|c| &c.lesson.file).collect();
-    sources.extend(by_folder.values().flat_map(|m| m.files()));
+    finding::sort(&mut course.findings);
+    let models = std::mem::take(&mut course.ledger);
+    course.ledger = check::ledger(&course.checked, &course.findings);
+    course.ledger.append(models);
+    Ok(course)
+}
 
-    match a.format {
-        Format::Human => {
-            let mut text = report::human(&findings, &sources, a.color.on());
-            text.push_str(&overview(&checked, measures));
-            let _ = writeln!(text, "{}", last_line(&checked, &findings));
-            print(&text)?;
-        }
-        Format::Json => {
-            let mut value = report::json(&findings, &sources);
-            value["lessons"] = checked.iter().map(lesson_json).collect();
-            let text = serde_json::to_string_pretty(&value).map_err(|e| e.to_string())?;
-            print(&format!("{text}\n"))?;
-        }
+fn is_model(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xml"))
+}
+
+/// Checks a model that was named itself; `false` when it cannot be read.
+fn check_model(path: &Path, course: &mut Course) -> bool {
+    let shown: Arc<str> = Arc::from(path.display().to_string());
+    let mut entry = Entry {
+        subject: Subject::Model,
+        owner: shown.to_string(),
+        path: shown.clone(),
+        span: 0..0,
+        state: State::True(Evidence::Computed),
+        word: "loads",
+        what: String::new(),
+        remark: String::new(),
+    };
+    let done = super::target::load_model_file(path);
+    if done.model.is_none() {
+        (entry.state, entry.word) = (State::False, "refused");
     }
-    let clean = findings.iter().all(|f| f.severity == Severity::Note);
-    Ok(if clean { Outcome::Clean } else { Outcome::Findings })
+    course.findings.extend(done.findings);
+    course.sources.extend(done.files);
+    course.ledger.add(entry);
+    true
+}
+
+/// Why nothing was checked, and what to do.
+fn nothing(paths: &[PathBuf], problems: &[(PathBuf, String)]) -> Failure {
+    let names: Vec<String> = paths.iter().map(|p| p.display().to_string()).collect();
+    match problems {
+        [] => format!("no lessons in {}: name .md or .json files, or a folder of them", names.join(", ")),
+        all => all.iter().map(|(_, why)| why.as_str()).collect::<Vec<_>>().join("\nlabspec: "),
+    }
 }
 
 /// Other JSON lies in folders of lessons; a file that was named is always ours.
@@ -107,40 +204,38 @@ pub(super) fn is_other_json(lesson: &Lesson) -> bool {
     lesson.findings.iter().any(|f| f.code == "unknown-spec")
 }
 
-/// The files to check, in a fixed order, and whether each was named itself.
-pub(super) fn collect(paths: &[PathBuf]) -> Result<Vec<(PathBuf, bool)>, Failure> {
-    let mut files = Vec::new();
+/// The files to check, in a fixed order, and whether each was named itself; and what could not be read.
+#[allow(clippy::type_complexity)]
+pub(super) fn collect(paths: &[PathBuf]) -> (Vec<(PathBuf, bool)>, Vec<(PathBuf, String)>) {
+    let (mut files, mut problems) = (Vec::new(), Vec::new());
     for path in paths {
-        let meta = std::fs::metadata(path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
-        if meta.is_dir() {
-            walk(path, &mut files, 0)?;
-        } else {
-            files.push((path.clone(), true));
+        match std::fs::metadata(path) {
+            Err(e) => problems.push((path.clone(), format!("cannot read {}: {e}", path.display()))),
+            Ok(meta) if meta.is_dir() => walk(path, &mut files, &mut problems, 0),
+            Ok(_) => files.push((path.clone(), true)),
         }
     }
-    if files.is_empty() {
-        let names: Vec<String> = paths.iter().map(|p| p.display().to_string()).collect();
-        return Err(format!(
-            "no lessons in {}: name .md or .json files, or a folder of them",
-            names.join(", ")
-        ));
-    }
-    Ok(files)
+    (files, problems)
 }
 
 /// Deepest nesting of folders.
 const MAX_DEPTH: usize = 32;
 
-fn walk(folder: &Path, files: &mut Vec<(PathBuf, bool)>, depth: usize) -> Result<(), Failure> {
+fn walk(
+    folder: &Path,
+    files: &mut Vec<(PathBuf, bool)>,
+    problems: &mut Vec<(PathBuf, String)>,
+    depth: usize,
+) {
+    let mut problem = |why: String| problems.push((folder.to_path_buf(), why));
     if depth > MAX_DEPTH {
-        return Err(format!("{} is nested more than {MAX_DEPTH} folders deep", folder.display()));
+        return problem(format!("{} is nested more than {MAX_DEPTH} folders deep", folder.display()));
     }
-    let cannot = |e: std::io::Error| format!("cannot read {}: {e}", folder.display());
-    let mut entries: Vec<PathBuf> = std::fs::read_dir(folder)
-        .map_err(cannot)?
-        .map(|e| e.map(|e| e.path()))
-        .collect::<Result<_, _>>()
-        .map_err(cannot)?;
+    let list = std::fs::read_dir(folder).and_then(|all| all.map(|e| e.map(|e| e.path())).collect());
+    let mut entries: Vec<PathBuf> = match list {
+        Ok(entries) => entries,
+        Err(e) => return problem(format!("cannot read {}: {e}", folder.display())),
+    };
     entries.sort();
     for path in entries {
         let hidden = path
@@ -153,42 +248,45 @@ fn walk(folder: &Path, files: &mut Vec<(PathBuf, bool)>, depth: usize) -> Result
             continue;
         }
         if meta.is_dir() {
-            walk(&path, files, depth + 1)?;
+            walk(&path, files, problems, depth + 1);
         } else if path.extension().is_some_and(|e| e == "md" || e == "json") {
             files.push((path, false));
         }
     }
-    Ok(())
 }
 
-/// What was run and what was verified, lesson by lesson.
-fn overview(checked: &[Checked], measures: bool) -> String {
+/// What was run and what was verified, lesson by lesson. Claims that are true stand together; each of the others stands
+/// alone, with its reason.
+fn overview(course: &Course, with_evidence: bool) -> String {
     let mut text = String::new();
-    for c in checked {
-        if c.labs.is_empty() && c.claims.is_empty() {
+    for c in &course.checked {
+        let path = c.lesson.file.path();
+        let all: Vec<&Entry> = course
+            .ledger
+            .entries()
+            .iter()
+            .filter(|e| e.path == *path && e.subject != Subject::File)
+            .collect();
+        if all.is_empty() {
             continue;
         }
-        let _ = writeln!(text, "{}", c.lesson.file.path());
-        for lab in &c.labs {
-            let title = if lab.title.is_empty() { String::new() } else { format!(" \"{}\"", lab.title) };
-            let what = match lab.runs {
-                0 => "could not run".to_string(),
-                1 => "1 run".to_string(),
-                n => format!("{n} runs"),
-            };
-            let _ = writeln!(text, "  {:<10} lab {}{title}", what, lab.address);
-        }
-        for claim in &c.claims {
-            let quotes = match claim.quotes {
-                0 => String::new(),
-                1 => ", 1 quoted number".to_string(),
-                n => format!(", {n} quoted numbers"),
-            };
-            let _ = writeln!(text, "  {:<10} {}{quotes}", claim.verdict.as_str(), claim.name);
-            if measures {
-                for (name, value) in &claim.measures {
-                    let _ = writeln!(text, "  {:<10}   {name} = {}", "", significant(*value));
-                }
+        let _ = writeln!(text, "{path}");
+        let mut told = 0;
+        while let Some(entry) = all.get(told) {
+            // Claims of the same kind, owner and state that follow each other are told together.
+            let same = |e: &&&Entry| e.subject == entry.subject && e.owner == entry.owner && e.word == entry.word;
+            let together = all.iter().skip(told).take_while(same).count().max(1);
+            let good = matches!(entry.state, State::True(_));
+            let n = if good && entry.subject != Subject::Lab { together } else { 1 };
+            told += n;
+            if let Some(line) = line(entry, n) {
+                let _ = writeln!(text, "  {line}");
+            }
+            let last = all.get(told).is_none_or(|next| next.owner != entry.owner);
+            let claim = c.claims.iter().find(|claim| last && claim.name == entry.owner);
+            let shown = claim.filter(|claim| with_evidence || claim.is_doubtful());
+            for evidence in shown.into_iter().flat_map(check::evidence) {
+                let _ = writeln!(text, "  {:<10}   {evidence}", "");
             }
         }
         text.push('\n');
@@ -196,45 +294,121 @@ fn overview(checked: &[Checked], measures: bool) -> String {
     text
 }
 
-/// The last line: everything in numbers.
-fn last_line(checked: &[Checked], findings: &[Finding]) -> String {
-    let plural = |n: usize, one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
-    let runs: usize = checked.iter().flat_map(|c| &c.labs).map(|l| l.runs).sum();
-    let claims: Vec<Verdict> = checked.iter().flat_map(|c| &c.claims).map(|c| c.verdict).collect();
-    let count = |v: Verdict| claims.iter().filter(|&&c| c == v).count();
-    let mut parts = vec![plural(checked.len(), "file")];
-    if runs > 0 {
-        parts.push(plural(runs, "run"));
-    }
-    for verdict in [
-        Verdict::Verified,
-        Verdict::Fragile,
-        Verdict::Ambiguous,
-        Verdict::Refuted,
-        Verdict::Failed,
-        Verdict::Unverified,
-    ] {
-        if count(verdict) > 0 {
-            parts.push(format!("{} {}", count(verdict), verdict.as_str()));
+/// A line of the overview for so many claims of the same kind and state; `None` for what goes without saying.
+fn line(entry: &Entry, n: usize) -> Option<String> {
+    let remark = if entry.remark.is_empty() { String::new() } else { format!(": {}", entry.remark) };
+    let good = matches!(entry.state, State::True(_));
+    let Entry { owner, what, word, .. } = entry;
+    let many = |one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
+    Some(match entry.subject {
+        Subject::File => return None,
+        Subject::Run if good && *word == "made" => return None,
+        Subject::Lab => {
+            let title = if what.is_empty() { String::new() } else { format!(" \"{what}\"") };
+            if good {
+                format!("{:<10} {owner}{title}", entry.remark)
+            } else {
+                format!("{word:<10} {owner}{title}{remark}")
+            }
         }
+        Subject::Answer if good => format!("{word:<10} {owner}"),
+        Subject::Answer => format!("{word:<10} {owner}{remark}"),
+        Subject::Quote | Subject::ClosedForm if good => {
+            format!("{word:<10} {owner}, {}", many(entry.subject.as_str()))
+        }
+        Subject::Quote | Subject::ClosedForm | Subject::Run => {
+            format!("{word:<10} {owner}, {} \"{what}\"{remark}", entry.subject.as_str())
+        }
+        Subject::Model | Subject::Widget => format!("{word:<10} {owner}{remark}"),
+    })
+}
+
+/// The last line: everything in numbers, and a judgement.
+fn last_line(course: &Course) -> String {
+    let found = Summary::of(&course.findings);
+    let judgement = match (found.errors + found.warnings, course.ledger.outcome()) {
+        (0, ledger::Outcome::Clean) if found.notes > 0 => format!("nothing to complain about, {found}"),
+        (0, ledger::Outcome::Clean) => "nothing to complain about".into(),
+        (0, ledger::Outcome::Nothing) => "nothing to check".into(),
+        (0, ledger::Outcome::Findings) => "not everything could be checked".into(),
+        _ => found.to_string(),
+    };
+    format!("{}: {judgement}", course.ledger.summary())
+}
+
+fn word(outcome: ledger::Outcome) -> &'static str {
+    match outcome {
+        ledger::Outcome::Clean => "clean",
+        ledger::Outcome::Findings => "findings",
+        ledger::Outcome::Nothing => "nothing",
     }
-    format!("{}: {}", parts.join(", "), Summary::of(findings))
+}
+
+fn counts(ledger: &Ledger) -> Value {
+    let mut all = serde_json::Map::new();
+    for subject in Subject::ALL {
+        let c = ledger.count(subject);
+        let counted = json!({"simulated": c.simulated, "computed": c.computed, "false": c.wrong, "unchecked": c.unchecked, "not claimed": c.not_claimed});
+        all.insert(subject.as_str().to_string(), counted);
+    }
+    Value::Object(all)
+}
+
+fn entry_json(e: &Entry, sources: &[&SourceFile]) -> Value {
+    let evidence = match e.state {
+        State::True(Evidence::Simulated) => json!("simulated"),
+        State::True(Evidence::Computed) => json!("computed"),
+        _ => Value::Null,
+    };
+    let line = sources.iter().find(|f| *f.path() == e.path).map(|f| f.position(e.span.start).line);
+    json!({
+        "subject": e.subject.as_str(), "owner": e.owner, "what": e.what, "file": &*e.path, "line": line,
+        "state": e.state.as_str(), "evidence": evidence, "word": e.word, "remark": e.remark,
+    })
+}
+
+/// A number, or its name where JSON has none.
+fn number(x: f64) -> Value {
+    if x.is_finite() { json!(x) } else { json!(labspec_expr::Value::Number(x).to_string()) }
 }
 
 fn lesson_json(c: &Checked) -> Value {
     let labs: Vec<Value> = c
         .labs
         .iter()
-        .map(|l| json!({"address": l.address.to_string(), "title": l.title, "runs": l.runs, "ran": l.ran}))
+        .map(|l| json!({"address": l.address.to_string(), "title": l.title, "runs": l.runs, "ran": l.ran, "broke": l.broke}))
         .collect();
-    let claims: Vec<Value> = c
-        .claims
-        .iter()
-        .map(|claim| {
-            let measures: serde_json::Map<String, Value> = claim.measures.iter().map(|(n, x)| (n.clone(), json!(x))).collect();
-            let line = c.lesson.file.position(claim.span.start).line;
-            json!({"name": claim.name, "line": line, "verdict": claim.verdict.as_str(), "measures": measures, "quotes": claim.quotes})
-        })
-        .collect();
+    let claims: Vec<Value> = c.claims.iter().map(|claim| claim_json(claim, c)).collect();
     json!({"file": &**c.lesson.file.path(), "labs": labs, "claims": claims})
+}
+
+fn claim_json(claim: &check::Claim, c: &Checked) -> Value {
+    let j = &claim.judgement;
+    let line = c.lesson.file.position(claim.span.start).line;
+    let answer = j.answer.as_ref().map_or(Value::Null, |a| {
+        let options: Vec<Value> = a
+            .weights
+            .iter()
+            .map(|w| json!({"option": w.option, "holds": w.holds, "margin": w.margin.map(number)}))
+            .collect();
+        json!({"verdict": a.verdict.as_str(), "reason": a.reason, "options": options})
+    });
+    let quotes: Vec<Value> = j
+        .quotes
+        .iter()
+        .map(|q| json!({"text": q.text, "verdict": q.verdict(), "reason": q.reason, "computed": number(q.computed)}))
+        .collect();
+    let exact: Vec<Value> = j
+        .exact
+        .iter()
+        .map(|e| json!({"trace": e.trace, "state": e.state.as_str(), "reason": e.remark}))
+        .collect();
+    let runs: Vec<Value> =
+        j.runs.iter().map(|r| json!({"name": r.name, "broke": r.broke, "expected": r.expected})).collect();
+    let measures: serde_json::Map<String, Value> = j
+        .measures
+        .iter()
+        .map(|m| (m.name.clone(), json!({"value": number(m.value), "halved": m.halved.map(number)})))
+        .collect();
+    json!({"name": claim.name, "line": line, "answer": answer, "quotes": quotes, "closed_forms": exact, "runs": runs, "measures": measures})
 }

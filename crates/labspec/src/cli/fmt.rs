@@ -27,7 +27,11 @@ pub(super) struct Arguments {
 
 pub(super) fn fmt(a: &Arguments) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::Clean;
-    for (path, named) in collect(&a.paths)? {
+    let (files, problems) = collect(&a.paths);
+    if let Some((_, why)) = problems.into_iter().next() {
+        return Err(why);
+    }
+    for (path, named) in files {
         let file = SourceFile::read(&path)?;
         let folder = model_folder(&a.models, &path)?;
         let lesson = load_lesson(file, &folder);

@@ -2,7 +2,7 @@
 
 use super::{Failure, ModelOptions};
 use crate::bind::Programs;
-use crate::bind::scene::{Models, compile_file};
+use crate::bind::scene::{Models, compile_file, finding};
 use crate::finding::{Finding, Severity};
 use crate::lint::ModelFolder;
 use crate::report;
@@ -105,6 +105,29 @@ fn bare_model(path: &Path) -> Result<Target, Failure> {
     let lab = Lab::of_model(text);
     let programs = Programs::compile(&lab, &model, &mut Vec::new());
     Ok(Target { lab, model, programs })
+}
+
+/// A model file on its own: the model, and everything that is wrong with it.
+pub(super) struct LoadedFile {
+    pub(super) model: Option<Model>,
+    pub(super) findings: Vec<Finding>,
+    pub(super) files: Vec<SourceFile>,
+}
+
+/// Compiles a model file and keeps what is wrong for a report.
+pub(super) fn load_model_file(path: &Path) -> LoadedFile {
+    let file = match SourceFile::read(path) {
+        Ok(file) => file,
+        Err(why) => {
+            let file = SourceFile::new(path.display().to_string(), "");
+            let findings = vec![finding("model-unreadable", 0..0, why).at(&file)];
+            return LoadedFile { model: None, findings, files: vec![file] };
+        }
+    };
+    match compile_file(&file, path) {
+        Ok(model) => LoadedFile { model: Some(model), findings: Vec::new(), files: vec![file] },
+        Err(broken) => LoadedFile { model: None, findings: broken.findings, files: broken.files },
+    }
 }
 
 /// Compiles a model file.

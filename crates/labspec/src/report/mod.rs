@@ -33,7 +33,7 @@ impl Summary {
 }
 
 impl std::fmt::Display for Summary {
-    /// `2 errors, 1 warning`; `nothing to complain about` when there is nothing.
+    /// `2 errors, 1 warning`; `no findings` when there is nothing, which is no verdict: see [`crate::ledger`].
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let parts: Vec<String> = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")]
             .into_iter()
@@ -41,7 +41,7 @@ impl std::fmt::Display for Summary {
             .map(|(n, word)| format!("{n} {word}{}", if n == 1 { "" } else { "s" }))
             .collect();
         match parts.is_empty() {
-            true => f.write_str("nothing to complain about"),
+            true => f.write_str("no findings"),
             false => f.write_str(&parts.join(", ")),
         }
     }

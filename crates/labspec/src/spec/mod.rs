@@ -16,4 +16,4 @@ pub use lab::{Camera, Form, Lab, OVERLAYS, Scene};
 pub use lesson::{LabAddress, LabEntry, Lesson, MAX_FINDINGS, Widget, load_lesson};
 pub use plot::{Plot, Readout, RefLine, Trace};
 pub use quiz::{ChoiceStyle, Question, QuestionKind, Quiz};
-pub use verify::{Run, Said, Verify, VerifyLab};
+pub use verify::{Exact, Run, Said, Verify, VerifyLab};

@@ -27,8 +27,8 @@ pub struct Verify {
     pub value: Option<Text>,
     /// Numbers quoted in the text, each with the expression it must equal as printed.
     pub says: Vec<Said>,
-    /// Label or name of a trace, and the closed form it must follow.
-    pub exact: Vec<(Text, Text)>,
+    /// Closed forms that traces must follow.
+    pub exact: Vec<Exact>,
 }
 
 /// The lab of a [`Verify`].
@@ -57,6 +57,19 @@ pub struct Run {
     pub until: Option<Number>,
     /// Length in steps.
     pub steps: Option<Number>,
+    /// The lesson says that this run breaks, and then it must.
+    pub breaks: bool,
+}
+
+/// A closed form of a trace.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exact {
+    /// Label of the trace.
+    pub trace: Text,
+    /// The closed form, in the language of the lab.
+    pub form: Text,
+    /// How far the trace may be from it at most, in the trace's unit; `None` to judge by convergence.
+    pub tol: Option<Number>,
 }
 
 /// A number quoted in the text and where it comes from.
@@ -72,7 +85,7 @@ impl Verify {
     /// Every text that is code, with what it is.
     pub fn code(&self) -> Vec<(Form, &Text)> {
         let setups = self.runs.iter().filter_map(|r| r.setup.as_ref());
-        let measures = self.measure.iter().chain(&self.exact).map(|(_, expr)| expr);
+        let measures = self.measure.iter().map(|(_, expr)| expr).chain(self.exact.iter().map(|e| &e.form));
         let values = self.options.iter().chain(&self.value).chain(self.says.iter().map(|s| &s.expr));
         let values = measures.chain(values).map(|t| (Form::Expression, t));
         setups.map(|t| (Form::Statements, t)).chain(values).collect()
@@ -94,7 +107,7 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Verify> {
         options: f.list("options").iter().filter_map(|n| read::text(n, "a condition", f.findings)).collect(),
         value: f.text("value"),
         says: f.list("says").iter().filter_map(|n| said(n, f.findings)).collect(),
-        exact: expressions(f, "exact"),
+        exact: f.map("exact").iter().filter_map(|m| exact(m, f.findings)).collect(),
     };
     fields.finish();
     Some(verify)
@@ -143,9 +156,35 @@ fn run(member: &Member, findings: &mut Vec<Finding>) -> Option<Run> {
         setup: f.text("setup"),
         until: f.number("until"),
         steps: f.whole("steps"),
+        breaks: f.text("expect").is_some_and(|t| breaks(&t, f.findings)),
     };
     fields.finish();
     Some(run)
+}
+
+/// What a run is expected to do.
+fn breaks(text: &Text, findings: &mut Vec<Finding>) -> bool {
+    if text.value != "breaks" {
+        findings.push(
+            Finding::new(&WRONG_TYPE, text.span(), format!("a run cannot be expected to be `{}`", read::shorten(&text.value)))
+                .help("write \"expect\": \"breaks\" for a run that the lesson shows breaking, or leave it out"),
+        );
+    }
+    text.value == "breaks"
+}
+
+/// The closed form of a trace: an expression, or an object with a tolerance.
+fn exact(member: &Member, findings: &mut Vec<Finding>) -> Option<Exact> {
+    let trace = member.key.clone();
+    if !matches!(member.value.json, Json::Object(_)) {
+        let form = read::text(&member.value, &read::shorten(&trace.value), findings)?;
+        return Some(Exact { trace, form, tol: None });
+    }
+    let mut fields = Fields::open(&member.value, "a closed form", findings)?;
+    let form = fields.need_text("is", "without it there is nothing that the trace is held to");
+    let tol = fields.number("tol");
+    fields.finish();
+    Some(Exact { trace, form: form?, tol })
 }
 
 fn press(node: &Node, findings: &mut Vec<Finding>) -> Option<(Text, Number)> {

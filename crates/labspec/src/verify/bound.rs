@@ -1,19 +1,43 @@
 //! A `verify` object bound to its lab and model, ready to run.
 
+use super::condition::{self, Weighed};
 use super::measure::Measure;
 use super::outcome::{Outcome, OutcomeNames, RunOutcome};
 use crate::bind::scene::finding;
-use crate::bind::{ModelNames, Programs, Scope, include, scalar, to_finding};
+use crate::bind::{ModelNames, Programs, Scope, functions, include, scalar, to_finding};
 use crate::finding::Finding;
-use crate::run::{self, Numerics, Session};
+use crate::ledger::Evidence;
+use crate::run::{self, Breakdown, Numerics, Session};
 use crate::source::Text;
 use crate::spec::{Lab, Run, Verify};
-use labspec_core::reflect::{self, Object};
+use labspec_core::reflect::{self, FieldId, Object};
 use labspec_core::{Demand, Model};
 use labspec_expr::{Compiled, Compiler, Effects, Globals, Program, Value};
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 
 /// Most steps of one run of a `verify` object.
 const MAX_VERIFY_STEPS: usize = 2_000_000;
+
+/// What the runs of all `verify` objects of a lesson may take together: a step counts one, and so does every measure that
+/// looks at it.
+#[derive(Debug)]
+pub struct Allowance(Cell<u64>);
+
+impl Default for Allowance {
+    fn default() -> Allowance {
+        Allowance(Cell::new(40_000_000))
+    }
+}
+
+impl Allowance {
+    /// Takes so much; `false` when there is not enough left.
+    fn take(&self, work: u64) -> bool {
+        let left = self.0.get().checked_sub(work);
+        self.0.set(left.unwrap_or(self.0.get()));
+        left.is_some()
+    }
+}
 
 /// A program with the text that it came from.
 #[derive(Debug)]
@@ -40,6 +64,21 @@ pub struct BoundVerify<'a> {
     runs: Vec<BoundRun<'a>>,
     measures: Vec<(&'a str, Named<'a>)>,
     place: std::ops::Range<usize>,
+    allowance: &'a Allowance,
+    /// A lab at its start, for expressions over measures: they read nothing of it.
+    idle: RefCell<Option<Session<'a>>>,
+    /// What was measured on the spot, by the numerics and the text.
+    spot: RefCell<BTreeMap<String, (f64, Option<String>)>>,
+}
+
+/// The value of an expression over the measures, and what it rests on.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    pub(super) value: Value,
+    /// Whether a simulation says it.
+    pub(super) evidence: Evidence,
+    /// A run that it rests on broke: its name and how, unless the expression reads the warnings of that run.
+    pub(super) broke: Option<String>,
 }
 
 impl<'a> BoundVerify<'a> {
@@ -49,6 +88,7 @@ impl<'a> BoundVerify<'a> {
         lab: &'a Lab,
         model: &'a Model,
         programs: &'a Programs,
+        allowance: &'a Allowance,
         findings: &mut Vec<Finding>,
     ) -> Option<BoundVerify<'a>> {
         let mut globals = programs.globals.clone();
@@ -85,7 +125,15 @@ impl<'a> BoundVerify<'a> {
             runs,
             measures,
             place: verify.span.clone(),
+            allowance,
+            idle: RefCell::default(),
+            spot: RefCell::default(),
         })
+    }
+
+    /// The lab, its model and its programs.
+    pub(super) fn lab(&self) -> (&'a Lab, &'a Model, &'a Programs) {
+        (self.lab, self.model, self.programs)
     }
 
     /// Makes every run and takes every measure. `None` when a run cannot be made.
@@ -93,49 +141,94 @@ impl<'a> BoundVerify<'a> {
         let measures: Vec<&Named<'_>> = self.measures.iter().map(|(_, m)| m).collect();
         let mut runs = Vec::new();
         for run in &self.runs {
-            let (values, warnings) = self.perform(run, numerics, &measures, findings)?;
-            let measures = self.measures.iter().map(|(name, _)| name.to_string()).zip(values).collect();
-            runs.push(RunOutcome { name: run.name.to_string(), measures, warnings });
+            let made = self.perform(run, numerics, &measures, findings)?;
+            let measures = self.measures.iter().map(|(name, _)| name.to_string()).zip(made.values).collect();
+            runs.push(RunOutcome {
+                name: run.name.to_string(),
+                measures,
+                warnings: made.warnings,
+                broke: made.broke,
+            });
         }
         Some(Outcome { runs, numerics })
     }
 
-    /// Whether each condition holds. `None` when one cannot be evaluated.
-    pub(super) fn conditions(
-        &self,
-        outcome: &Outcome,
-        verify: &Verify,
-        findings: &mut Vec<Finding>,
-    ) -> Option<Vec<bool>> {
-        verify.options.iter().map(|text| self.value(outcome, text, findings).map(|v| v.truthy())).collect()
+    /// The place of a run in the lesson, and whether the lesson says that it breaks.
+    pub(super) fn run_place(&self, index: usize) -> (std::ops::Range<usize>, bool) {
+        let spec = self.runs.get(index).and_then(|r| r.spec);
+        (spec.map_or(self.place.clone(), |r| r.name.span()), spec.is_some_and(|r| r.breaks))
     }
 
-    /// The value of an expression over the outcome, as a number.
-    pub(super) fn number(&self, outcome: &Outcome, text: &Text, findings: &mut Vec<Finding>) -> Option<f64> {
-        self.value(outcome, text, findings).map(|v| v.to_number())
+    /// Whether every run states its own timestep, so that half of it says nothing new.
+    pub(super) fn states_every_timestep(&self) -> bool {
+        self.runs.iter().all(|run| self.states_timestep(run))
     }
 
-    fn value(&self, outcome: &Outcome, text: &Text, findings: &mut Vec<Finding>) -> Option<Value> {
+    /// The value of an expression over the outcome. What is wrong with it goes to `findings`.
+    pub(super) fn find(&self, outcome: &Outcome, text: &Text, findings: &mut Vec<Finding>) -> Option<Found> {
         let names = OutcomeNames::new(outcome, ModelNames { model: self.model, scope: Scope::Measure });
         let mut globals = self.globals.clone();
         let compiled = Compiler::new(&names, &mut globals).expression(&text.value);
         findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
+        let used = names.used();
         let program = compiled.program?;
-        match self.runs.as_slice() {
+        let mut broke = used.runs().iter().find_map(|&place| {
+            let run = outcome.runs.get(place)?;
+            let (_, expected) = self.run_place(place);
+            let excused = expected || used.warnings.contains(&place);
+            run.broke.as_ref().filter(|_| !excused).map(|how| format!("the run `{}` breaks: {how}", run.name))
+        });
+        let measured = |name: &String| self.measures.iter().find(|(n, _)| n == name).map(|(_, m)| &m.program);
+        let simulated = !used.warnings.is_empty()
+            || used.measures.iter().filter_map(|(_, name)| measured(name)).any(looks_at_data)
+            || looks_at_data(&program);
+        let value = match self.runs.as_slice() {
             // Measured on the spot, as a lesson with one run may write it: the same run once more.
             [run] if !program.aggregates().is_empty() => {
-                let named = Named { text, program };
-                let (values, _) = self.perform(run, outcome.numerics, &[&named], findings)?;
-                values.first().map(|&x| Value::Number(x))
+                let key = format!("{:?} {}", outcome.numerics, text.value);
+                let known = self.spot.borrow().get(&key).cloned();
+                let (x, how) = match known {
+                    Some(found) => found,
+                    None => {
+                        let named = Named { text, program };
+                        let made = self.perform(run, outcome.numerics, &[&named], findings)?;
+                        let found = (made.values.first().copied()?, made.broke);
+                        self.spot.borrow_mut().insert(key, found.clone());
+                        found
+                    }
+                };
+                let expected = run.spec.is_some_and(|r| r.breaks);
+                broke = broke.or(how.filter(|_| !expected).map(|how| format!("the run breaks: {how}")));
+                Value::Number(x)
             }
-            _ => self.constant(&program, text),
-        }
+            _ => self.constant(&program, text, findings)?,
+        };
+        let evidence = if simulated { Evidence::Simulated } else { Evidence::Computed };
+        Some(Found { value, evidence, broke })
     }
 
-    /// The value of a program over known measures.
-    fn constant(&self, program: &Program, text: &Text) -> Option<Value> {
-        let mut session = Session::start(self.programs, self.model, None, &Demand::ANY);
-        session.evaluate(program, text)
+    /// A condition, taken apart.
+    pub(super) fn weigh(&self, outcome: &Outcome, text: &Text, holds: bool) -> Weighed {
+        let part = |code: &str| {
+            let text = Text { value: code.to_string(), map: text.map.clone() };
+            self.find(outcome, &text, &mut Vec::new()).map(|found| found.value)
+        };
+        condition::weigh(&text.value, holds, &part)
+    }
+
+    /// The value of a program over known measures. What it throws goes to `findings`.
+    fn constant(&self, program: &Program, text: &Text, findings: &mut Vec<Finding>) -> Option<Value> {
+        let mut idle = self.idle.borrow_mut();
+        let start = || Session::start(self.programs, self.model, None, &Demand::ANY);
+        let session = idle.get_or_insert_with(start);
+        session.troubles.clear();
+        let value = session.evaluate(program, text);
+        findings.extend(session.troubles.iter().map(|t| {
+            finding(t.code, t.text.span_of(t.span.clone()), t.message.clone())
+                .why("the claim cannot be checked: this expression has no value")
+                .help("correct the expression, or guard it with a condition")
+        }));
+        value
     }
 
     /// One run: the order of events of the lab, then the run's own controls and setup.
@@ -145,7 +238,7 @@ impl<'a> BoundVerify<'a> {
         numerics: Numerics,
         measures: &[&Named<'_>],
         findings: &mut Vec<Finding>,
-    ) -> Option<(Vec<f64>, usize)> {
+    ) -> Option<Made> {
         let mut demand = self.programs.demand;
         for program in measures.iter().map(|m| &m.program).chain(run.setup.as_ref().map(|s| &s.program)) {
             include(program.effects(), &mut demand);
@@ -190,11 +283,19 @@ impl<'a> BoundVerify<'a> {
             )));
             return None;
         }
+        let looks: usize = measures.iter().map(|m| 1 + m.program.aggregates().len()).sum();
+        if !self.allowance.take(count as u64 * (1 + looks as u64)) {
+            refuse(run::RunError(
+                "the runs of this lesson take too many steps and measures together; shorten them, or measure less".into(),
+            ));
+            return None;
+        }
         let mut running: Vec<Measure<'_>> =
             measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
         let mut pending = press.as_slice();
         session.press_due(&mut pending);
         running.iter_mut().for_each(|m| m.sample(&mut session));
+        session.watch(count);
         for _ in 0..count {
             session.press_due(&mut pending);
             session.step();
@@ -209,7 +310,12 @@ impl<'a> BoundVerify<'a> {
                 format!("{} (in the run `{}`, at t = {} s)", t.message, run.name, t.time),
             ));
         }
-        Some((values, session.warnings.iter().map(|w| w.number).sum()))
+        let broke = match (Breakdown::of(&session), session.troubles.first()) {
+            (Some(breakdown), _) => Some(breakdown.what),
+            (None, Some(t)) => Some(format!("{}, at t = {} s", t.message, t.time)),
+            (None, None) => None,
+        };
+        Some(Made { values, warnings: session.warnings.iter().map(|w| w.number).sum(), broke })
     }
 
     /// Whether the lesson itself states the timestep of a run: in the run, or in the lab's setup.
@@ -225,4 +331,20 @@ impl<'a> BoundVerify<'a> {
         let own = self.programs.setup.iter().map(|b| b.program.effects());
         set.chain(setups).chain(own).any(writes)
     }
+}
+
+/// What came of one run.
+struct Made {
+    values: Vec<f64>,
+    warnings: usize,
+    broke: Option<String>,
+}
+
+/// Whether a program looks at the data of a simulation, itself or in what it measures.
+fn looks_at_data(program: &Program) -> bool {
+    let of = |e: &Effects| {
+        let data = |a: &labspec_expr::Access| FieldId(a.field.0 as u16).info().object == Object::Data;
+        e.reads_everything || e.calls.iter().any(|&f| functions::reads(f)) || e.calls_values || e.reads.iter().any(data)
+    };
+    of(program.effects()) || program.aggregates().iter().flat_map(|a| &a.args).any(|p| of(p.effects()))
 }

@@ -1,70 +1,129 @@
 //! The truth of what a lesson claims: runs, measures over them, and verdicts.
+//!
+//! | stage | module |
+//! |---|---|
+//! | runs and measures, bound to the lab | `bound`, `measure` |
+//! | what conditions read | `outcome` |
+//! | whether and how well a condition holds | `condition` |
+//! | the answer of a question | `answer` |
+//! | numbers in the text | `quote` |
+//! | closed forms | `exact` |
 
+mod answer;
 mod bound;
+mod condition;
+mod exact;
 mod measure;
 mod outcome;
 mod quote;
 
-pub use bound::BoundVerify;
-pub use quote::{Quoted, quoted};
+pub use answer::{Answer, Verdict, Weight};
+pub use bound::{Allowance, BoundVerify};
+pub use exact::ClosedForm;
+pub use quote::{QuoteOutcome, QuoteState, Quoted, quoted};
 
 use crate::bind::scene::finding;
 use crate::finding::Finding;
+use crate::ledger::Evidence;
 use crate::run::Numerics;
-use crate::spec::{Lesson, Question, QuestionKind, Verify};
+use crate::source::Text;
+use crate::spec::{Lesson, Question, Verify};
+use outcome::Outcome;
+use quote::Other;
 use std::ops::Range;
 
-/// What became of a question or of a lab's claims.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verdict {
-    /// Exactly the keyed answer holds, and every quoted number is right.
-    Verified,
-    /// It holds, but not when the timestep is halved or the solver tightened.
-    Fragile,
-    /// The keyed answer holds, and another one too.
-    Ambiguous,
-    /// The keyed answer does not hold, or a quoted number is wrong.
-    Refuted,
-    /// It could not be checked: something is wrong with the runs or the conditions.
-    Failed,
-    /// There is nothing to check.
-    Unverified,
+/// Everything that came of one `verify` object.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Judgement {
+    /// The answer of the question, when the object says how to check it.
+    pub answer: Option<Answer>,
+    /// The numbers under `says`, in order.
+    pub quotes: Vec<Quote>,
+    /// The closed forms under `exact`, in order.
+    pub exact: Vec<ClosedForm>,
+    /// The runs, in order.
+    pub runs: Vec<RunReport>,
+    /// Every measure of every run, named as conditions read it.
+    pub measures: Vec<Measured>,
+    /// Why no run was made, where none could be.
+    pub unmade: Option<String>,
 }
 
-impl Verdict {
+/// A quoted number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quote {
+    /// The text that is quoted.
+    pub text: String,
+    /// Where it is claimed: under `says`.
+    pub span: Range<usize>,
+    /// What became of it.
+    pub state: QuoteState,
+    /// How its value was found.
+    pub evidence: Evidence,
+    /// Why it is not right.
+    pub reason: String,
+    /// What the simulation gives; NaN when nothing could be computed.
+    pub computed: f64,
+}
+
+impl Quote {
     /// In one word.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Verdict::Verified => "verified",
-            Verdict::Fragile => "fragile",
-            Verdict::Ambiguous => "ambiguous",
-            Verdict::Refuted => "refuted",
-            Verdict::Failed => "failed",
-            Verdict::Unverified => "unverified",
+    pub fn verdict(&self) -> &'static str {
+        match (self.state, self.evidence) {
+            (QuoteState::Right, Evidence::Simulated) => "verified",
+            (QuoteState::Right, Evidence::Computed) => "computed",
+            (QuoteState::Wrong, _) => "refuted",
+            (QuoteState::Unclear, _) => "failed",
         }
     }
 }
 
-/// A checked claim, for the report.
+/// A run of a `verify` object.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Claim {
-    /// What claims it: `quiz 0.1-predict, question 2`, `lab #2`.
+pub struct RunReport {
+    /// Its name.
     pub name: String,
-    /// Bytes of the lesson.
+    /// Its place in the lesson.
     pub span: Range<usize>,
-    /// What became of it.
-    pub verdict: Verdict,
-    /// Values of all measures, as `run.measure`.
-    pub measures: Vec<(String, f64)>,
-    /// Number of quoted numbers that were compared.
-    pub quotes: usize,
+    /// What broke in it.
+    pub broke: Option<String>,
+    /// The lesson says that it breaks.
+    pub expected: bool,
 }
 
-/// The two changes of the numerics that an answer must survive, and how to call them.
-const PERTURBED: [(Numerics, &str); 2] = [
-    (Numerics { timestep: 0.5, tight: false }, "with half the timestep"),
-    (Numerics { timestep: 1.0, tight: true }, "with the solver run to convergence"),
+/// A measure under the numerics of the lesson, and under others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// `run.measure`, or the measure alone where there is one run.
+    pub name: String,
+    /// Its value.
+    pub value: f64,
+    /// Its value at half the timestep; `None` when that was not needed, or the lesson states every timestep itself.
+    pub halved: Option<f64>,
+}
+
+const HALVED: Numerics = Numerics { timestep: 0.5, ..Numerics::NOMINAL };
+const TIGHT: Numerics = Numerics { tight: true, ..Numerics::NOMINAL };
+/// Far below what anybody could set or measure; a system that shows it after seconds is chaotic.
+const NUDGE: f64 = 1e-14;
+const NUDGED: Numerics = Numerics { nudge: NUDGE, ..Numerics::NOMINAL };
+const NUDGED_BACK: Numerics = Numerics { nudge: -NUDGE, ..Numerics::NOMINAL };
+
+/// The changes of the numerics that an answer must survive, and how to call them.
+const PERTURBED: [(Numerics, &str); 3] = [
+    (HALVED, "at half the timestep"),
+    (TIGHT, "with the solver run to convergence"),
+    (NUDGED, "with a start moved by 1e-14"),
 ];
+
+/// The runs of a `verify` object under every numerics that its claims need.
+struct Outcomes {
+    nominal: Outcome,
+    /// In the order of [`PERTURBED`]; `None` where nothing needs them.
+    perturbed: [Option<Outcome>; 3],
+    /// The other direction, for a value that the first one moved.
+    nudged_back: Option<Outcome>,
+}
 
 /// Checks the claims of one `verify` object. `question` is what carries it, unless a lab does.
 pub fn check(
@@ -74,152 +133,156 @@ pub fn check(
     lesson: &Lesson,
     findings: &mut Vec<Finding>,
 ) -> Judgement {
-    let mut failed = Judgement { verdict: Verdict::Failed, measures: Vec::new(), quotes: 0 };
-    let Some(outcome) = bound.outcome(Numerics::NOMINAL, findings) else { return failed };
-    failed.measures = outcome.list();
-    let mut judgement = Judgement { verdict: Verdict::Verified, quotes: verify.says.len(), ..failed.clone() };
-
-    if let Some(question) = question
-        && !verify.options.is_empty()
-    {
-        let Some(holds) = bound.conditions(&outcome, verify, findings) else { return failed };
-        judgement.verdict = judge_options(bound, &holds, verify, question, findings);
-    }
-    if let (Some(question), Some(value)) = (question, &verify.value) {
-        let Some(computed) = bound.number(&outcome, value, findings) else { return failed };
-        judgement.verdict = judge_value(bound, computed, verify, question, findings);
+    let Some(outcomes) = outcomes(bound, verify, findings) else {
+        return unmade(verify, question, "a run cannot be made");
+    };
+    let mut judgement = Judgement {
+        runs: runs(bound, &outcomes.nominal, findings),
+        measures: measures(&outcomes),
+        ..Judgement::default()
+    };
+    if let Some(question) = question {
+        judgement.answer = answer::check(bound, &outcomes, verify, question, findings);
     }
     for said in &verify.says {
-        let Some(computed) = bound.number(&outcome, &said.expr, findings) else {
-            judgement.verdict = Verdict::Failed;
-            continue;
+        let [text, expr] = [&said.quote, &said.expr];
+        let quote = |state, evidence, reason, computed| Quote {
+            text: text.value.clone(),
+            span: text.span(),
+            state,
+            evidence,
+            reason,
+            computed,
         };
-        if !quote::check(said, computed, question, lesson, findings) {
-            judgement.verdict = judgement.verdict.max(Verdict::Refuted);
-        }
+        let unclear = |reason: String| quote(QuoteState::Unclear, Evidence::Computed, reason, f64::NAN);
+        judgement.quotes.push(match grounded(bound, &outcomes.nominal, expr, findings) {
+            Err(reason) => unclear(reason),
+            Ok(found) => {
+                let other = |n: usize, how| value_of(bound, outcomes.perturbed[n].as_ref()?, expr, how);
+                let halved: Vec<Other> = other(0, "at half the timestep").into_iter().collect();
+                let back = "with a start moved by -1e-14";
+                let mut nudged: Vec<Other> = other(2, "with a start moved by 1e-14").into_iter().collect();
+                nudged.extend(outcomes.nudged_back.as_ref().and_then(|o| value_of(bound, o, expr, back)));
+                let x = found.value.to_number();
+                let o = quote::check(said, x, &halved, &nudged, question, lesson, findings);
+                quote(o.state, found.evidence, o.reason, x)
+            }
+        });
     }
+    judgement.exact = verify.exact.iter().map(|claim| exact::check(bound, claim, findings)).collect();
     judgement
 }
 
-/// The result of [`check`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct Judgement {
-    /// What became of the claim.
-    pub verdict: Verdict,
-    /// Values of all measures.
-    pub measures: Vec<(String, f64)>,
-    /// Number of quoted numbers that were compared.
-    pub quotes: usize,
+/// What remains of a `verify` object whose runs cannot be made: claims that could not be checked.
+pub fn unmade(verify: &Verify, question: Option<&Question>, reason: &str) -> Judgement {
+    let claims_answer = !verify.options.is_empty() || verify.value.is_some();
+    let quote = |said: &crate::spec::Said| Quote {
+        text: said.quote.value.clone(),
+        span: said.quote.span(),
+        state: QuoteState::Unclear,
+        evidence: Evidence::Computed,
+        reason: reason.to_string(),
+        computed: f64::NAN,
+    };
+    let run = |run: &crate::spec::Run| RunReport {
+        name: run.name.value.clone(),
+        span: run.name.span(),
+        broke: None,
+        expected: run.breaks,
+    };
+    Judgement {
+        answer: question.filter(|_| claims_answer).map(|_| Answer::failed(reason)),
+        quotes: verify.says.iter().map(quote).collect(),
+        exact: verify.exact.iter().map(|e| ClosedForm::unchecked(e, reason)).collect(),
+        runs: verify.runs.iter().map(run).collect(),
+        measures: Vec::new(),
+        unmade: Some(reason.to_string()),
+    }
 }
 
-/// Which options hold, and so whether the keyed one is the only one.
-fn judge_options(
-    bound: &BoundVerify<'_>,
-    holds: &[bool],
-    verify: &Verify,
-    question: &Question,
-    findings: &mut Vec<Finding>,
-) -> Verdict {
-    let (Some(answer), QuestionKind::Choice { options, answer: Some(keyed), .. }) =
-        (question.right_option(), &question.kind)
-    else {
-        return Verdict::Failed;
-    };
-    let name =
-        |i: usize| format!("{} (\"{}\")", i, options.get(i).map_or(String::new(), |o| shorten(&o.value)));
-    let held: Vec<usize> = (0..holds.len()).filter(|&i| holds[i]).collect();
-    let condition = |i: usize| verify.options.get(i).map_or(verify.span.clone(), |c| c.span());
-    if !holds.get(answer).copied().unwrap_or(false) {
-        let others = held.iter().map(|&i| name(i)).collect::<Vec<_>>().join(", ");
-        let mut f = finding(
-            "answer-refuted",
-            keyed.span.clone(),
-            format!("the simulation refutes answer {}", name(answer)),
-        )
-        .why("a student who predicts right is told that they are wrong")
-        .related(condition(answer), "this condition does not hold");
-        f = match held.as_slice() {
-            [] => f.help("no condition holds: correct the conditions, or the model that they are about"),
-            [one] => {
-                f.help(format!("what holds is answer {others}")).fix(keyed.span.clone(), one.to_string())
-            }
-            _ => f.help(format!("what holds is {others}")),
-        };
-        findings.push(f);
-        return Verdict::Refuted;
-    }
-    if held.len() > 1 {
-        let others = held.iter().filter(|&&i| i != answer).map(|&i| name(i)).collect::<Vec<_>>().join(", ");
-        let mut f = finding(
-            "answer-ambiguous",
-            keyed.span.clone(),
-            format!("besides answer {}, {others} holds too", name(answer)),
-        )
-        .why("a student who chooses the other one is right and is told otherwise")
-        .help("word the options, or write their conditions, so that exactly one can hold");
-        for &i in held.iter().filter(|&&i| i != answer) {
-            f = f.related(condition(i), "this condition holds too");
-        }
-        findings.push(f);
-        return Verdict::Ambiguous;
-    }
-    for (numerics, how) in PERTURBED {
-        let again = bound
-            .outcome(numerics, &mut Vec::new())
-            .and_then(|o| bound.conditions(&o, verify, &mut Vec::new()));
-        if again.as_deref() != Some(holds) {
-            findings.push(fragile(keyed.span.clone(), how));
-            return Verdict::Fragile;
+/// Every run under every numerics that is needed.
+fn outcomes(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) -> Option<Outcomes> {
+    let nominal = bound.outcome(Numerics::NOMINAL, findings)?;
+    let answers = !verify.options.is_empty() || verify.value.is_some();
+    let needed = [answers || !verify.says.is_empty(), answers, answers || !verify.says.is_empty()];
+    let mut perturbed = [None, None, None];
+    for (i, (numerics, how)) in PERTURBED.into_iter().enumerate().filter(|(i, _)| needed[*i]) {
+        let same = i == 0 && bound.states_every_timestep();
+        let mut said = Vec::new();
+        perturbed[i] = if same { Some(nominal.clone()) } else { bound.outcome(numerics, &mut said) };
+        if perturbed[i].is_none() {
+            // What stops the run here does not stop the nominal one: it takes too long.
+            findings.extend(said.into_iter().take(1).map(|f| {
+                let message = format!("{how}: {}", f.message);
+                Finding { message, ..f }
+            }));
+            return None;
         }
     }
-    Verdict::Verified
+    let moved = perturbed[2].as_ref().is_some_and(|o| o.list() != nominal.list());
+    let nudged_back = moved.then(|| bound.outcome(NUDGED_BACK, &mut Vec::new())).flatten();
+    Some(Outcomes { nominal, perturbed, nudged_back })
 }
 
-fn judge_value(
+/// What became of the runs. One that breaks is a finding, and so is one that does not although the lesson says so.
+fn runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>) -> Vec<RunReport> {
+    let mut all = Vec::new();
+    for (i, run) in outcome.runs.iter().enumerate() {
+        let (span, expected) = bound.run_place(i);
+        let [name, broke] = [run.name.as_str(), run.broke.as_deref().unwrap_or("")];
+        if run.broke.is_some() && !expected {
+            findings.push(
+                finding("run-breaks", span.clone(), format!("the run `{name}` breaks: {broke}"))
+                    .why("what it measures is evidence of nothing")
+                    .help("mend the run; if the lesson is about this, write \"expect\": \"breaks\" in the run, or a condition that reads its `warnings`"),
+            );
+        }
+        if run.broke.is_none() && expected {
+            findings.push(
+                finding("does-not-break", span.clone(), format!("the run `{name}` is expected to break, and does not"))
+                    .why("the lesson shows something else than it says")
+                    .help("remove \"expect\": \"breaks\", or set the run up so that it breaks"),
+            );
+        }
+        all.push(RunReport { name: name.to_string(), span, broke: run.broke.clone(), expected });
+    }
+    all
+}
+
+fn measures(outcomes: &Outcomes) -> Vec<Measured> {
+    let halved = outcomes.perturbed[0].as_ref().map(Outcome::list);
+    let at = |i: usize, value: f64| halved.as_ref().and_then(|h| h.get(i)).map(|(_, x)| *x).filter(|x| *x != value);
+    let list = outcomes.nominal.list().into_iter().enumerate();
+    list.map(|(i, (name, value))| Measured { name, value, halved: at(i, value) }).collect()
+}
+
+/// The value of an expression that a claim may rest on: it has one, it is no bare constant, and the runs that it reads did
+/// not break. Otherwise why not, which is reported.
+fn grounded(
     bound: &BoundVerify<'_>,
-    computed: f64,
-    verify: &Verify,
-    question: &Question,
+    outcome: &Outcome,
+    text: &Text,
     findings: &mut Vec<Finding>,
-) -> Verdict {
-    let (Some((answer, tol)), Some(value), QuestionKind::Numeric { answer: Some(keyed), .. }) =
-        (question.numeric(), &verify.value, &question.kind)
-    else {
-        return Verdict::Failed;
-    };
-    let right = |x: f64| (x - answer).abs() <= tol;
-    if !right(computed) {
+) -> Result<bound::Found, String> {
+    if condition::is_bare_constant(&text.value) {
+        let message = format!("`{}` is a bare constant: evidence of nothing", text.value.trim());
         findings.push(
-            finding(
-                "answer-refuted",
-                keyed.span.clone(),
-                format!("the answer is {answer}, the simulation gives {}", significant(computed)),
-            )
-            .why(format!(
-                "they differ by {}, the tolerance is {}",
-                significant((computed - answer).abs()),
-                significant(tol)
-            ))
-            .help("correct the answer, or the expression that it is compared with")
-            .related(value.span(), format!("this is {}", significant(computed))),
+            finding("constant-claim", text.span(), message.clone())
+                .why("it is the same whatever the simulation does, so nothing is checked by it")
+                .help("compare something that a run measures, or write the formula that gives the number"),
         );
-        return Verdict::Refuted;
+        return Err(message);
     }
-    for (numerics, how) in PERTURBED {
-        let again =
-            bound.outcome(numerics, &mut Vec::new()).and_then(|o| bound.number(&o, value, &mut Vec::new()));
-        if !again.is_some_and(right) {
-            findings.push(fragile(keyed.span.clone(), how));
-            return Verdict::Fragile;
-        }
+    let found = bound.find(outcome, text, findings).ok_or("the expression cannot be evaluated")?;
+    match &found.broke {
+        Some(broke) => Err(broke.clone()),
+        None => Ok(found),
     }
-    Verdict::Verified
 }
 
-fn fragile(span: Range<usize>, how: &str) -> Finding {
-    crate::bind::warning("answer-fragile", span, format!("the answer holds, but not {how}"))
-        .why("it depends on numerics that the question does not mention: a student with another setting sees something else")
-        .help("state the setting in the question and `set` it in the run, or ask about what does not depend on it")
+fn value_of(bound: &BoundVerify<'_>, outcome: &Outcome, expr: &Text, how: &'static str) -> Option<Other> {
+    let found = bound.find(outcome, expr, &mut Vec::new())?;
+    Some(Other { how, value: found.value.to_number() })
 }
 
 /// A number with six significant digits, without trailing zeros.

@@ -2,6 +2,9 @@
 
 use crate::bind::ModelNames;
 use crate::run::Numerics;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
 use labspec_expr::{
     CollectionId, Entry, Field, FieldKey, FunctionId, FunctionInfo, ObjectId, Role, Schema, Value,
 };
@@ -13,6 +16,8 @@ pub(super) struct RunOutcome {
     pub(super) measures: Vec<(String, f64)>,
     /// Number of warnings of the engine.
     pub(super) warnings: usize,
+    /// What broke in it, in one clause; what it measured is then evidence of nothing.
+    pub(super) broke: Option<String>,
 }
 
 /// The measures of all runs.
@@ -34,6 +39,22 @@ impl Outcome {
     }
 }
 
+/// What an expression over an outcome looked at.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Used {
+    /// Runs by their place in the list, and the measures read of each.
+    pub(super) measures: BTreeSet<(usize, String)>,
+    /// Runs whose warnings it read.
+    pub(super) warnings: BTreeSet<usize>,
+}
+
+impl Used {
+    /// The runs that it depends on.
+    pub(super) fn runs(&self) -> BTreeSet<usize> {
+        self.measures.iter().map(|(run, _)| *run).collect()
+    }
+}
+
 /// Numbers of run objects start here: below are the model's own.
 const RUNS: u32 = 0x2000;
 
@@ -41,11 +62,17 @@ const RUNS: u32 = 0x2000;
 pub(super) struct OutcomeNames<'a> {
     outcome: &'a Outcome,
     model: ModelNames<'a>,
+    used: RefCell<Used>,
 }
 
 impl<'a> OutcomeNames<'a> {
     pub(super) fn new(outcome: &'a Outcome, model: ModelNames<'a>) -> OutcomeNames<'a> {
-        OutcomeNames { outcome, model }
+        OutcomeNames { outcome, model, used: RefCell::default() }
+    }
+
+    /// What was looked up until now.
+    pub(super) fn used(self) -> Used {
+        self.used.into_inner()
     }
 
     fn only(&self) -> Option<&RunOutcome> {
@@ -55,17 +82,21 @@ impl<'a> OutcomeNames<'a> {
         }
     }
 
-    fn run(&self, ObjectId(id): ObjectId) -> Option<&RunOutcome> {
-        self.outcome.runs.get(id.checked_sub(RUNS)? as usize)
+    /// The place of a run in the list, and the run.
+    fn run(&self, ObjectId(id): ObjectId) -> Option<(usize, &RunOutcome)> {
+        let place = id.checked_sub(RUNS)? as usize;
+        Some((place, self.outcome.runs.get(place)?))
     }
-}
 
-fn measure(run: &RunOutcome, name: &str) -> Option<Entry> {
-    if name == "warnings" {
-        return Some(Entry::Constant(Value::Number(run.warnings as f64)));
+    fn measure(&self, place: usize, run: &RunOutcome, name: &str) -> Option<Entry> {
+        if name == "warnings" {
+            self.used.borrow_mut().warnings.insert(place);
+            return Some(Entry::Constant(Value::Number(run.warnings as f64)));
+        }
+        let (_, x) = run.measures.iter().find(|(m, _)| m == name)?;
+        self.used.borrow_mut().measures.insert((place, name.to_string()));
+        Some(Entry::Constant(Value::Number(*x)))
     }
-    let (_, x) = run.measures.iter().find(|(m, _)| m == name)?;
-    Some(Entry::Constant(Value::Number(*x)))
 }
 
 fn measures(run: &RunOutcome) -> impl Iterator<Item = String> + '_ {
@@ -78,7 +109,7 @@ impl Schema for OutcomeNames<'_> {
             return Some(Entry::Object(ObjectId(RUNS + i as u32)));
         }
         match self.only() {
-            Some(run) => measure(run, name).or_else(|| self.model.root(name)),
+            Some(run) => self.measure(0, run, name).or_else(|| self.model.root(name)),
             None if name == "abs" => self.model.root(name),
             None => None,
         }
@@ -94,21 +125,21 @@ impl Schema for OutcomeNames<'_> {
 
     fn member(&self, object: ObjectId, name: &str) -> Option<Entry> {
         match self.run(object) {
-            Some(run) => measure(run, name),
+            Some((place, run)) => self.measure(place, run, name),
             None => self.model.member(object, name),
         }
     }
 
     fn member_names(&self, object: ObjectId) -> Vec<String> {
         match self.run(object) {
-            Some(run) => measures(run).collect(),
+            Some((_, run)) => measures(run).collect(),
             None => self.model.member_names(object),
         }
     }
 
     fn describe(&self, object: ObjectId) -> String {
         match self.run(object) {
-            Some(run) => format!("the run `{}`", run.name),
+            Some((_, run)) => format!("the run `{}`", run.name),
             None => self.model.describe(object),
         }
     }

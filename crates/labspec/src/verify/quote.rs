@@ -73,9 +73,62 @@ pub fn quoted(text: &str) -> Option<Quoted> {
     Some(Quoted { value, half_unit, decimals, exponent })
 }
 
+/// The value of the same expression under other numerics.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Other {
+    /// Which, in words: `at half the timestep`.
+    pub how: &'static str,
+    /// The value.
+    pub value: f64,
+}
+
+/// What became of a quote.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum QuoteState {
+    /// It is what the simulation gives.
+    Right,
+    /// It is not.
+    Wrong,
+    /// It could not be checked.
+    Unclear,
+}
+
+/// A quote that was compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QuoteOutcome {
+    /// What became of it.
+    pub state: QuoteState,
+    /// Why it is not right.
+    pub reason: String,
+    /// The number that was read.
+    pub read: Option<Quoted>,
+    /// What the simulation gives.
+    pub computed: f64,
+    /// Where the text says it.
+    pub places: Vec<Range<usize>>,
+    /// Other values whose printed digits differ.
+    pub moved: Vec<(&'static str, String)>,
+}
+
+pub(super) fn check(
+    said: &Said,
+    computed: f64,
+    _: &[Other],
+    _: &[Other],
+    question: Option<&Question>,
+    lesson: &Lesson,
+    findings: &mut Vec<Finding>,
+) -> QuoteOutcome {
+    let before = findings.len();
+    let right = check_old(said, computed, question, lesson, findings);
+    let state = if right { QuoteState::Right } else { QuoteState::Wrong };
+    let reason = findings.get(before).map_or(String::new(), |f| f.message.clone());
+    QuoteOutcome { state, reason, read: None, computed, places: Vec::new(), moved: Vec::new() }
+}
+
 /// Compares a quoted number with what the simulation gives, and looks for it in the text. `false` when it is
 /// wrong.
-pub(super) fn check(
+fn check_old(
     said: &Said,
     computed: f64,
     question: Option<&Question>,

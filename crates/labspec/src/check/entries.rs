@@ -1,0 +1,165 @@
+//! From what was checked to the ledger: one entry per claim.
+
+use super::{Checked, Claim, RanLab};
+use crate::finding::{Finding, Severity};
+use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
+use crate::verify::{Measured, Quote, QuoteState, RunReport, Weight, significant};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The ledger of a course. `findings` are all that was found, in lessons and in models: a file with an error or a warning in
+/// it is not in order, whatever else is true of it.
+pub fn ledger(checked: &[Checked], findings: &[Finding]) -> Ledger {
+    let mut ledger = Ledger::default();
+    let mut faults: BTreeMap<&Arc<str>, usize> = BTreeMap::new();
+    for finding in findings.iter().filter(|f| f.severity != Severity::Note) {
+        *faults.entry(&finding.path).or_default() += 1;
+    }
+    for c in checked {
+        let path = c.lesson.file.path();
+        ledger.add(file(path, faults.remove(path).unwrap_or(0)));
+        lesson(c, &mut ledger);
+    }
+    // Model files, and files that could not be read at all.
+    for (path, count) in faults {
+        ledger.add(file(path, count));
+    }
+    ledger
+}
+
+fn file(path: &Arc<str>, faults: usize) -> Entry {
+    let (state, word) = match faults {
+        0 => (State::True(Evidence::Computed), "in order"),
+        _ => (State::False, "has faults"),
+    };
+    let remark = match faults {
+        0 => String::new(),
+        1 => "1 finding".into(),
+        n => format!("{n} findings"),
+    };
+    Entry {
+        subject: Subject::File,
+        owner: path.to_string(),
+        path: path.clone(),
+        span: 0..0,
+        state,
+        word,
+        what: String::new(),
+        remark,
+    }
+}
+
+/// Everything that stands in one lesson.
+fn lesson(c: &Checked, ledger: &mut Ledger) {
+    let path = c.lesson.file.path();
+    let entry = |subject, owner: &str, span: &Range<usize>, state, word| Entry {
+        subject,
+        owner: owner.to_string(),
+        path: path.clone(),
+        span: span.clone(),
+        state,
+        word,
+        what: String::new(),
+        remark: String::new(),
+    };
+    for ran in &c.labs {
+        let span = c.lesson.lab(&ran.address).map_or(0..0, |lab| lab.span.clone());
+        let (state, word, remark) = lab(ran);
+        let owner = format!("lab {}", ran.address);
+        ledger.add(Entry { what: ran.title.clone(), remark, ..entry(Subject::Lab, &owner, &span, state, word) });
+    }
+    for lab in c.lesson.labs.iter().filter(|entry| entry.lab.is_none()) {
+        let owner = format!("lab #{}", lab.number);
+        let remark = "it cannot be read".into();
+        ledger.add(Entry { remark, ..entry(Subject::Lab, &owner, &lab.span, State::Unchecked, "unread") });
+    }
+    for quiz in &c.lesson.quizzes {
+        let id = quiz.id.as_ref().map_or("", |t| t.as_str());
+        for (i, _) in quiz.questions.iter().enumerate().filter(|(_, q)| q.is_none()) {
+            let owner = format!("quiz {id}, question {}", i + 1);
+            let remark = "it cannot be read".into();
+            ledger.add(Entry { remark, ..entry(Subject::Answer, &owner, &quiz.span, State::Unchecked, "unread") });
+        }
+    }
+    for widget in &c.lesson.widgets {
+        let owner = format!("widget {}", widget.name);
+        ledger.add(entry(Subject::Widget, &owner, &widget.span, State::NotClaimed, "not run"));
+    }
+    for claim in &c.claims {
+        let judgement = &claim.judgement;
+        if let Some(answer) = &judgement.answer {
+            let (state, word) = (answer.verdict.state(), answer.verdict.as_str());
+            let remark = answer.reason.clone();
+            ledger.add(Entry { remark, ..entry(Subject::Answer, &claim.name, &claim.span, state, word) });
+        }
+        for q in &judgement.quotes {
+            let (state, word) = quote(q);
+            let (what, remark) = (q.text.clone(), q.reason.clone());
+            ledger.add(Entry { what, remark, ..entry(Subject::Quote, &claim.name, &q.span, state, word) });
+        }
+        for form in &judgement.exact {
+            let word = match form.state {
+                State::True(_) => "verified",
+                State::False => "refuted",
+                _ => "failed",
+            };
+            let (what, remark) = (form.trace.clone(), form.remark.clone());
+            let about = entry(Subject::ClosedForm, &claim.name, &form.span, form.state, word);
+            ledger.add(Entry { what, remark, ..about });
+        }
+        for r in &judgement.runs {
+            let (state, word, remark) = run(r, judgement.unmade.as_deref());
+            let what = r.name.clone();
+            ledger.add(Entry { what, remark, ..entry(Subject::Run, &claim.name, &r.span, state, word) });
+        }
+    }
+}
+
+fn lab(ran: &RanLab) -> (State, &'static str, String) {
+    let runs = if ran.runs == 1 { "1 run".to_string() } else { format!("{} runs", ran.runs) };
+    match ran {
+        RanLab { ran: false, .. } => (State::Unchecked, "not run", "it could not run".into()),
+        RanLab { broke: true, .. } => (State::False, "broken", runs),
+        RanLab { mistakes: 1, .. } => (State::Unchecked, "in part", format!("{runs}, 1 mistake in its code")),
+        RanLab { mistakes, .. } if *mistakes > 0 => {
+            (State::Unchecked, "in part", format!("{runs}, {mistakes} mistakes in its code"))
+        }
+        _ => (State::True(Evidence::Simulated), "run", runs),
+    }
+}
+
+fn quote(q: &Quote) -> (State, &'static str) {
+    let state = match q.state {
+        QuoteState::Right => State::True(q.evidence),
+        QuoteState::Wrong => State::False,
+        QuoteState::Unclear => State::Unchecked,
+    };
+    (state, q.verdict())
+}
+
+fn run(r: &RunReport, unmade: Option<&str>) -> (State, &'static str, String) {
+    if let Some(reason) = unmade {
+        return (State::Unchecked, "not made", reason.to_string());
+    }
+    match (&r.broke, r.expected) {
+        (Some(how), true) => (State::True(Evidence::Simulated), "breaks", how.clone()),
+        (Some(how), false) => (State::False, "broken", how.clone()),
+        (None, true) => (State::False, "does not break", String::new()),
+        (None, false) => (State::True(Evidence::Simulated), "made", String::new()),
+    }
+}
+
+/// The lines under a claim that show how it was found: measures with their value at half the timestep, and how each
+/// condition held.
+pub(crate) fn evidence(claim: &Claim) -> Vec<String> {
+    let measure = |m: &Measured| match m.halved {
+        Some(x) => {
+            format!("{} = {}   ({} at half the timestep)", m.name, significant(m.value), significant(x))
+        }
+        None => format!("{} = {}", m.name, significant(m.value)),
+    };
+    let weights = claim.judgement.answer.iter().flat_map(|a| &a.weights);
+    let weight = |w: &Weight| format!("option {} {}", w.option, w.words());
+    claim.judgement.measures.iter().map(measure).chain(weights.map(weight)).collect()
+}

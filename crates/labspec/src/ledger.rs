@@ -1,0 +1,285 @@
+//! The ledger of claims: everything that a course says and that a check could say about it, each with what became of it.
+//!
+//! Summaries, verdicts and exit codes are computed from the ledger and from nothing else. A claim is true only if it was
+//! found true in this run; what could not be checked is not silently true, it stands here with its reason.
+
+use std::fmt::Write;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// What a claim is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Subject {
+    /// A file was read, and nothing in it is wrong.
+    File,
+    /// A model that was given on its own loads.
+    Model,
+    /// A lab runs: as it stands, and with its controls moved, for as long as a student watches it.
+    Lab,
+    /// A block of another widget: not ours to run.
+    Widget,
+    /// A run of a `verify` object can be made, and does not break.
+    Run,
+    /// The keyed answer of a question is right.
+    Answer,
+    /// A number quoted in the text is what the simulation gives.
+    Quote,
+    /// A trace follows its closed form.
+    ClosedForm,
+}
+
+impl Subject {
+    /// Every subject, in the order of summaries.
+    pub const ALL: [Subject; 8] = [
+        Subject::File,
+        Subject::Model,
+        Subject::Lab,
+        Subject::Widget,
+        Subject::Run,
+        Subject::Answer,
+        Subject::Quote,
+        Subject::ClosedForm,
+    ];
+
+    /// One of it, in words.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Subject::File => "file",
+            Subject::Model => "model",
+            Subject::Lab => "lab",
+            Subject::Widget => "other widget",
+            Subject::Run => "run",
+            Subject::Answer => "answer",
+            Subject::Quote => "quoted number",
+            Subject::ClosedForm => "closed form",
+        }
+    }
+}
+
+/// How a claim was found true.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Evidence {
+    /// Worked out without a simulation: a formula, a structure.
+    Computed,
+    /// A simulation of this run shows it.
+    Simulated,
+}
+
+/// What became of a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum State {
+    /// Checked, and true.
+    True(Evidence),
+    /// Checked, and false.
+    False,
+    /// Could not be checked.
+    Unchecked,
+    /// Nobody claims it, so nothing was checked.
+    NotClaimed,
+}
+
+impl State {
+    /// In words, for programs: `true`, `false`, `unchecked`, `not claimed`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            State::True(_) => "true",
+            State::False => "false",
+            State::Unchecked => "unchecked",
+            State::NotClaimed => "not claimed",
+        }
+    }
+}
+
+/// One claim.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// What it is about.
+    pub subject: Subject,
+    /// Who claims it: a path, `lab #1`, `quiz fall, question 2`.
+    pub owner: String,
+    /// The file, as it is shown to people.
+    pub path: Arc<str>,
+    /// Bytes of that file.
+    pub span: Range<usize>,
+    /// What became of it.
+    pub state: State,
+    /// In one word: `verified`, `refuted`, `ran`, …
+    pub word: &'static str,
+    /// What is claimed, where the owner claims several: a quote, the name of a run, a trace.
+    pub what: String,
+    /// Why it is not true, or what was covered; empty when there is nothing to add.
+    pub remark: String,
+}
+
+/// All claims of a check, in the order of the files.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ledger {
+    entries: Vec<Entry>,
+}
+
+/// How many claims of a subject are in which state.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Count {
+    /// Found true by a simulation.
+    pub simulated: usize,
+    /// Found true without one.
+    pub computed: usize,
+    /// Found false.
+    pub wrong: usize,
+    /// Could not be checked.
+    pub unchecked: usize,
+    /// Not claimed.
+    pub not_claimed: usize,
+}
+
+/// What a whole check comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Every claim was checked and is true.
+    Clean,
+    /// A claim is false, or could not be checked.
+    Findings,
+    /// There was nothing to check.
+    Nothing,
+}
+
+impl Ledger {
+    /// Adds a claim.
+    pub fn add(&mut self, entry: Entry) {
+        self.entries.push(entry);
+    }
+
+    /// Adds all claims of another ledger.
+    pub fn append(&mut self, other: Ledger) {
+        self.entries.extend(other.entries);
+    }
+
+    /// The claims, in order.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// The claims about a subject, counted.
+    pub fn count(&self, subject: Subject) -> Count {
+        let mut count = Count::default();
+        for entry in self.entries.iter().filter(|e| e.subject == subject) {
+            *match entry.state {
+                State::True(Evidence::Simulated) => &mut count.simulated,
+                State::True(Evidence::Computed) => &mut count.computed,
+                State::False => &mut count.wrong,
+                State::Unchecked => &mut count.unchecked,
+                State::NotClaimed => &mut count.not_claimed,
+            } += 1;
+        }
+        count
+    }
+
+    /// What it all comes to. A file in which nothing stands that could be checked is no evidence of anything.
+    pub fn outcome(&self) -> Outcome {
+        let bad = |e: &Entry| matches!(e.state, State::False | State::Unchecked);
+        let good = |e: &Entry| e.subject != Subject::File && e.subject != Subject::Widget;
+        if self.entries.iter().any(bad) {
+            Outcome::Findings
+        } else if self.entries.iter().any(good) {
+            Outcome::Clean
+        } else {
+            Outcome::Nothing
+        }
+    }
+
+    /// Everything in numbers: `2 files, 4 labs run, 3 answers verified, 2 without a check, 29 quoted numbers verified`.
+    pub fn summary(&self) -> String {
+        let mut parts = Vec::new();
+        for subject in Subject::ALL {
+            let c = self.count(subject);
+            let total = c.simulated + c.computed + c.wrong + c.unchecked;
+            match subject {
+                Subject::File => parts.push(plural(total, subject)),
+                // Runs are the means of the claims that read them: they are told where one breaks.
+                Subject::Run => tell(&mut parts, subject, [(c.wrong, "broken"), (c.unchecked, "impossible")]),
+                Subject::Widget => tell(&mut parts, subject, [(c.not_claimed, "not run"), (0, "")]),
+                Subject::Model => {
+                    tell(&mut parts, subject, [(c.computed, "loaded"), (c.wrong + c.unchecked, "refused")])
+                }
+                Subject::Lab => {
+                    tell(&mut parts, subject, [(c.simulated, "run"), (c.wrong, "broken")]);
+                    tell(&mut parts, subject, [(c.unchecked, "not or not wholly run"), (0, "")]);
+                }
+                Subject::Answer | Subject::Quote | Subject::ClosedForm => {
+                    tell(&mut parts, subject, [(c.simulated, "verified"), (c.computed, "computed")]);
+                    tell(&mut parts, subject, [(c.wrong, "wrong"), (c.unchecked, "could not be checked")]);
+                    tell(&mut parts, subject, [(c.not_claimed, "without a check"), (0, "")]);
+                }
+            }
+        }
+        parts.join(", ")
+    }
+}
+
+fn tell(parts: &mut Vec<String>, subject: Subject, counts: [(usize, &str); 2]) {
+    for (n, word) in counts.into_iter().filter(|(n, _)| *n > 0) {
+        let mut part = plural(n, subject);
+        let _ = write!(part, " {word}");
+        parts.push(part);
+    }
+}
+
+fn plural(n: usize, subject: Subject) -> String {
+    format!("{n} {}{}", subject.as_str(), if n == 1 { "" } else { "s" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entry(subject: Subject, state: State) -> Entry {
+        Entry {
+            subject,
+            owner: String::new(),
+            path: Arc::from("a.md"),
+            span: 0..0,
+            state,
+            word: "",
+            what: String::new(),
+            remark: String::new(),
+        }
+    }
+
+    #[test]
+    fn the_outcome_is_that_of_the_worst_claim() {
+        let of = |states: &[(Subject, State)]| {
+            let mut ledger = Ledger::default();
+            states.iter().for_each(|&(subject, state)| ledger.add(entry(subject, state)));
+            ledger.outcome()
+        };
+        let file = (Subject::File, State::True(Evidence::Computed));
+        let answer = |state| (Subject::Answer, state);
+        assert_eq!(of(&[]), Outcome::Nothing);
+        assert_eq!(of(&[file]), Outcome::Nothing);
+        assert_eq!(of(&[file, (Subject::Widget, State::NotClaimed)]), Outcome::Nothing);
+        assert_eq!(of(&[file, answer(State::NotClaimed)]), Outcome::Clean);
+        assert_eq!(of(&[file, answer(State::True(Evidence::Simulated))]), Outcome::Clean);
+        assert_eq!(of(&[file, answer(State::Unchecked)]), Outcome::Findings);
+        assert_eq!(of(&[(Subject::File, State::Unchecked)]), Outcome::Findings);
+        assert_eq!(of(&[answer(State::True(Evidence::Simulated)), answer(State::False)]), Outcome::Findings);
+    }
+
+    #[test]
+    fn the_summary_tells_what_was_simulated_from_what_was_not() {
+        let mut ledger = Ledger::default();
+        for state in [
+            State::True(Evidence::Simulated),
+            State::True(Evidence::Simulated),
+            State::True(Evidence::Computed),
+            State::False,
+            State::Unchecked,
+            State::NotClaimed,
+        ] {
+            ledger.add(entry(Subject::Answer, state));
+        }
+        assert_eq!(
+            ledger.summary(),
+            "0 files, 2 answers verified, 1 answer computed, 1 answer wrong, 1 answer could not be checked, 1 answer without a check"
+        );
+    }
+}

@@ -1,0 +1,314 @@
+//! The answer of a question: one condition per option, or the value of a number, under the numerics of the lesson and under
+//! others that it does not mention.
+
+use super::bound::Found;
+use super::condition::Weighed;
+use super::outcome::Outcome;
+use super::{BoundVerify, Outcomes, PERTURBED, grounded, shorten, significant};
+use crate::bind::scene::finding;
+use crate::bind::warning;
+use crate::finding::Finding;
+use crate::ledger::{Evidence, State};
+use crate::source::Text;
+use crate::spec::{Question, QuestionKind, Verify};
+use std::ops::Range;
+
+/// What became of an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// The simulation shows that exactly the keyed answer holds.
+    Verified,
+    /// Exactly the keyed answer holds, by formulas alone: nothing was simulated for it.
+    Computed,
+    /// It holds, but not when the timestep is halved, the solver tightened or the start moved by 1e-14.
+    Fragile,
+    /// The keyed answer holds, and another one too.
+    Ambiguous,
+    /// The keyed answer does not hold.
+    Refuted,
+    /// It could not be checked: something is wrong with the runs or the conditions.
+    Failed,
+    /// There is nothing to check.
+    Unverified,
+}
+
+impl Verdict {
+    /// In one word.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Verdict::Verified => "verified",
+            Verdict::Computed => "computed",
+            Verdict::Fragile => "fragile",
+            Verdict::Ambiguous => "ambiguous",
+            Verdict::Refuted => "refuted",
+            Verdict::Failed => "failed",
+            Verdict::Unverified => "unverified",
+        }
+    }
+
+    /// The state of the claim in the ledger.
+    pub fn state(self) -> State {
+        match self {
+            Verdict::Verified => State::True(Evidence::Simulated),
+            Verdict::Computed => State::True(Evidence::Computed),
+            Verdict::Fragile | Verdict::Ambiguous | Verdict::Refuted => State::False,
+            Verdict::Failed => State::Unchecked,
+            Verdict::Unverified => State::NotClaimed,
+        }
+    }
+}
+
+/// A checked answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// What became of it.
+    pub verdict: Verdict,
+    /// Why, unless it is verified.
+    pub reason: String,
+    /// Every option with its condition, or the value of a number.
+    pub weights: Vec<Weight>,
+}
+
+/// An option and how well its condition holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weight {
+    /// Its index, from 0.
+    pub option: usize,
+    /// The condition holds.
+    pub holds: bool,
+    /// How far the comparison that decides is from turning over; negative where the condition does not hold.
+    pub margin: Option<f64>,
+}
+
+impl Weight {
+    /// `holds, by 0.02`; `does not hold, by 0.6`.
+    pub fn words(&self) -> String {
+        let verb = if self.holds { "holds" } else { "does not hold" };
+        match self.margin {
+            Some(margin) => format!("{verb}, by {}", significant(margin.abs())),
+            None => verb.to_string(),
+        }
+    }
+}
+
+impl Answer {
+    /// An answer that nobody says how to check.
+    pub(crate) fn unverified(reason: impl Into<String>) -> Answer {
+        Answer { verdict: Verdict::Unverified, reason: reason.into(), weights: Vec::new() }
+    }
+
+    /// An answer that could not be checked.
+    pub(super) fn failed(reason: impl Into<String>) -> Answer {
+        Answer { verdict: Verdict::Failed, reason: reason.into(), weights: Vec::new() }
+    }
+}
+
+/// Checks the answer of a question; `None` when the object does not say how.
+pub(super) fn check(
+    bound: &BoundVerify<'_>,
+    outcomes: &Outcomes,
+    verify: &Verify,
+    question: &Question,
+    findings: &mut Vec<Finding>,
+) -> Option<Answer> {
+    let by_options = (!verify.options.is_empty()).then(|| options(bound, outcomes, verify, question, findings));
+    let by_value = verify.value.as_ref().map(|text| value(bound, outcomes, text, question, findings));
+    // An object may hold both only by mistake, which is reported: the worse of the two counts.
+    by_options.into_iter().chain(by_value).max_by_key(|a| a.verdict)
+}
+
+/// The conditions of all options, each with what it rests on.
+fn conditions(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    verify: &Verify,
+    findings: &mut Vec<Finding>,
+) -> Result<Vec<(Found, Weighed)>, String> {
+    let mut all = Vec::new();
+    let mut reason = None;
+    for text in &verify.options {
+        match grounded(bound, outcome, text, findings) {
+            Err(why) => reason = reason.or(Some(why)),
+            Ok(found) => {
+                let weighed = bound.weigh(outcome, text, found.value.truthy());
+                if let Some(part) = &weighed.without_number {
+                    findings.push(no_number(text, part));
+                    reason = reason.or_else(|| Some(format!("`{part}` compares with what is no number")));
+                }
+                all.push((found, weighed));
+            }
+        }
+    }
+    reason.map_or(Ok(all), Err)
+}
+
+/// A comparison that was decided by NaN.
+fn no_number(text: &Text, part: &str) -> Finding {
+    finding("compares-nan", text.span(), format!("`{part}` compares with what is no number"))
+        .why("a comparison with NaN never holds, whatever the other side is: here it says nothing about the answer. A measure is NaN when its event never happens in the run")
+        .help("make the run longer, correct the measure, or ask for it: `isNaN(x)`")
+}
+
+/// Which options hold, and so whether the keyed one is the only one.
+fn options(
+    bound: &BoundVerify<'_>,
+    outcomes: &Outcomes,
+    verify: &Verify,
+    question: &Question,
+    findings: &mut Vec<Finding>,
+) -> Answer {
+    let (Some(answer), QuestionKind::Choice { options, answer: Some(keyed), .. }) =
+        (question.right_option(), &question.kind)
+    else {
+        return Answer::failed("the question has no right option");
+    };
+    if verify.options.len() != options.len() {
+        return Answer::failed("there is not one condition per option");
+    }
+    let found = match conditions(bound, &outcomes.nominal, verify, findings) {
+        Ok(found) => found,
+        Err(reason) => return Answer::failed(reason),
+    };
+    let weights: Vec<Weight> = found
+        .iter()
+        .enumerate()
+        .map(|(option, (_, w))| Weight { option, holds: w.holds, margin: w.margin })
+        .collect();
+    let name =
+        |i: usize| format!("{} (\"{}\")", i, options.get(i).map_or(String::new(), |o| shorten(&o.value)));
+    let names = |list: &[usize]| list.iter().map(|&i| name(i)).collect::<Vec<_>>().join(", ");
+    let held: Vec<usize> = weights.iter().filter(|w| w.holds).map(|w| w.option).collect();
+    let condition = |i: usize| verify.options.get(i).map_or(verify.span.clone(), |c| c.span());
+    let words = |i: usize| weights.get(i).map_or(String::new(), Weight::words);
+    let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
+
+    if !held.contains(&answer) {
+        let message = format!("the simulation refutes answer {}", name(answer));
+        let mut f = finding("answer-refuted", keyed.span.clone(), message.clone())
+            .why("a student who predicts right is told that they are wrong")
+            .related(condition(answer), format!("this condition {}", words(answer)));
+        f = match held.as_slice() {
+            [] => f.help("no condition holds: correct the conditions, or the model that they are about"),
+            [one] => f
+                .help(format!("what holds is answer {}", name(*one)))
+                .related(condition(*one), format!("this one {}", words(*one)))
+                .fix(keyed.span.clone(), one.to_string()),
+            all => f.help(format!("what holds is {}", names(all))),
+        };
+        findings.push(f);
+        return done(Verdict::Refuted, message);
+    }
+    if held.len() > 1 {
+        let others: Vec<usize> = held.iter().copied().filter(|&i| i != answer).collect();
+        let message = format!("besides answer {}, {} holds too", name(answer), names(&others));
+        let mut f = finding("answer-ambiguous", keyed.span.clone(), message.clone())
+            .why("a student who chooses the other one is right and is told otherwise")
+            .help("word the options, or write their conditions, so that exactly one can hold");
+        for i in others {
+            f = f.related(condition(i), format!("this condition {}, too", words(i)));
+        }
+        findings.push(f);
+        return done(Verdict::Ambiguous, message);
+    }
+    let holds: Vec<bool> = weights.iter().map(|w| w.holds).collect();
+    for (outcome, how) in perturbed(outcomes) {
+        let again = conditions(bound, outcome, verify, &mut Vec::new());
+        let turned = match &again {
+            Err(reason) => Some((answer, reason.clone())),
+            Ok(now) => now.iter().enumerate().find(|(i, (_, w))| holds.get(*i) != Some(&w.holds)).map(|(i, (_, w))| {
+                let weight = Weight { option: i, holds: w.holds, margin: w.margin };
+                (i, format!("then the condition of {} {}", name(i), weight.words()))
+            }),
+        };
+        if let Some((i, what)) = turned {
+            let now = format!("this condition {} with the lesson's own numerics", words(i));
+            findings.push(fragile(keyed.span.clone(), how, &what).related(condition(i), now));
+            return done(Verdict::Fragile, format!("it does not hold {how}"));
+        }
+    }
+    let evidence = found.iter().map(|(f, _)| f.evidence).min();
+    done(held_by(evidence), String::new())
+}
+
+/// The outcomes under other numerics, with their names.
+fn perturbed(outcomes: &Outcomes) -> impl Iterator<Item = (&Outcome, &'static str)> {
+    outcomes.perturbed.iter().zip(PERTURBED).filter_map(|(o, (_, how))| Some((o.as_ref()?, how)))
+}
+
+fn held_by(evidence: Option<Evidence>) -> Verdict {
+    if evidence == Some(Evidence::Simulated) { Verdict::Verified } else { Verdict::Computed }
+}
+
+/// Whether the keyed number is what the expression gives.
+fn value(
+    bound: &BoundVerify<'_>,
+    outcomes: &Outcomes,
+    text: &Text,
+    question: &Question,
+    findings: &mut Vec<Finding>,
+) -> Answer {
+    let (Some((answer, tol)), QuestionKind::Numeric { answer: Some(keyed), .. }) =
+        (question.numeric(), &question.kind)
+    else {
+        return Answer::failed("the question asks for no number");
+    };
+    let found = match grounded(bound, &outcomes.nominal, text, findings) {
+        Ok(found) => found,
+        Err(reason) => return Answer::failed(reason),
+    };
+    let computed = found.value.to_number();
+    if !computed.is_finite() {
+        findings.push(no_value(text, computed));
+        return Answer::failed("the simulation gives no number");
+    }
+    let margin = |x: f64| tol - (x - answer).abs();
+    let right = |x: f64| margin(x) >= 0.0;
+    let weights = vec![Weight { option: 0, holds: right(computed), margin: Some(margin(computed)) }];
+    let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
+    if !right(computed) {
+        let message = format!("the answer is {answer}, the simulation gives {}", significant(computed));
+        findings.push(
+            finding("answer-refuted", keyed.span.clone(), message.clone())
+                .why(format!(
+                    "they differ by {}, the tolerance is {}",
+                    significant((computed - answer).abs()),
+                    significant(tol)
+                ))
+                .help("correct the answer, or the expression that it is compared with")
+                .related(text.span(), format!("this is {}", significant(computed))),
+        );
+        return done(Verdict::Refuted, message);
+    }
+    for (outcome, how) in perturbed(outcomes) {
+        let again = grounded(bound, outcome, text, &mut Vec::new());
+        let what = match again.map(|f| f.value.to_number()) {
+            Err(reason) => reason,
+            Ok(x) if right(x) => continue,
+            Ok(x) => format!("then it is {}, and the tolerance is {}", significant(x), significant(tol)),
+        };
+        findings.push(
+            fragile(keyed.span.clone(), how, &what)
+                .related(text.span(), format!("this is {} with the lesson's own numerics", significant(computed))),
+        );
+        return done(Verdict::Fragile, format!("it does not hold {how}"));
+    }
+    done(held_by(Some(found.evidence)), String::new())
+}
+
+/// An expression that gives no number where one is claimed.
+fn no_value(text: &Text, x: f64) -> Finding {
+    let message = format!("this expression gives {}, which is no number to compare with", shown(x));
+    finding("claim-without-number", text.span(), message)
+        .why("nothing can be compared with it: its event may never happen in the run, or something is divided by zero")
+        .help("make the run longer, or correct the expression")
+}
+
+fn shown(x: f64) -> &'static str {
+    if x.is_nan() { "NaN" } else { "infinity" }
+}
+
+fn fragile(span: Range<usize>, how: &str, what: &str) -> Finding {
+    warning("answer-fragile", span, format!("the answer holds, but not {how}: {what}"))
+        .why("it depends on numerics that the question does not mention: a student with another setting sees something else")
+        .help("state the setting in the question and `set` it in the run, or ask about what does not depend on it")
+}

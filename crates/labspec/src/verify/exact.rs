@@ -1,0 +1,262 @@
+//! Closed forms: does a trace follow the formula that the author gives?
+//!
+//! With a tolerance the trace must stay within it. Without one the lab's own convergence decides: the error of a method of
+//! order p shrinks as hᵖ when the timestep h shrinks, so what remains of the difference after Richardson extrapolation
+//! (Richardson 1911) is the error of the formula. A right formula leaves less than the extrapolations differ among
+//! themselves; a wrong one leaves itself.
+
+use super::{BoundVerify, significant};
+use crate::bind::scene::finding;
+use crate::bind::{Bound, ModelNames, Programs, Scope, include, to_finding};
+use crate::finding::Finding;
+use crate::json::nearest;
+use crate::ledger::{Evidence, State};
+use crate::run::{self, Breakdown, Session};
+use crate::spec::{Exact, Lab};
+use labspec_core::{Model, integrator};
+use labspec_expr::Compiler;
+use std::ops::Range;
+
+/// Most steps of the run at the lab's own timestep; the others take two and four times as many.
+const MAX_STEPS: usize = 50_000;
+/// Samples of a run.
+const SAMPLES: usize = 500;
+/// Part of a trace's size that rounding may make of it.
+const ROUNDING: f64 = 1e-9;
+
+/// What became of the closed form of a trace.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClosedForm {
+    /// Label of the trace.
+    pub trace: String,
+    /// Its place in the lesson.
+    pub span: Range<usize>,
+    /// What became of it.
+    pub state: State,
+    /// Why it is not true, or what shows that it is.
+    pub remark: String,
+}
+
+impl ClosedForm {
+    /// One that could not be checked.
+    pub(super) fn unchecked(exact: &Exact, reason: &str) -> ClosedForm {
+        ClosedForm {
+            trace: exact.trace.value.clone(),
+            span: exact.trace.span(),
+            state: State::Unchecked,
+            remark: reason.to_string(),
+        }
+    }
+}
+
+/// Differences between the trace and its closed form at common times, and the largest magnitude of either.
+struct Differences {
+    times: Vec<f64>,
+    values: Vec<[f64; 2]>,
+}
+
+impl Differences {
+    fn difference(&self, i: usize) -> f64 {
+        self.values.get(i).map_or(f64::NAN, |[trace, form]| trace - form)
+    }
+
+    fn size(&self) -> f64 {
+        self.values.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()))
+    }
+}
+
+/// Holds a trace to its closed form. What is wrong goes to `findings`.
+pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<Finding>) -> ClosedForm {
+    let (lab, model, programs) = bound.lab();
+    let unchecked = |reason: &str| ClosedForm::unchecked(claim, reason);
+    let mut traces = lab.traces().zip(&programs.probes);
+    let Some((_, probe)) = traces.find(|(trace, _)| trace.label.value == claim.trace.value) else {
+        findings.push(no_such_trace(claim, lab));
+        return unchecked("the lab has no such trace");
+    };
+    let names = ModelNames { model, scope: Scope::Lab };
+    let mut globals = programs.globals.clone();
+    let compiled = Compiler::new(&names, &mut globals).expression(&claim.form.value);
+    findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, &claim.form)));
+    let form = compiled.program.map(|program| Bound { text: claim.form.clone(), program });
+    let (Some(trace), Some(form)) = (&probe.bound, form) else {
+        return unchecked("the trace or its closed form has mistakes");
+    };
+    let case = Case { lab, model, programs, trace, form: &form };
+    let mut runs = Vec::new();
+    for parts in [1, 2, 4] {
+        match case.run(parts) {
+            Ok(run) => runs.push(run),
+            Err(reason) => {
+                findings.push(
+                    finding("closed-form-untried", claim.form.span(), format!("the closed form cannot be tried: {reason}"))
+                        .why("nothing says whether the trace follows it")
+                        .help("mend the run, or the expression"),
+                );
+                return unchecked(&reason);
+            }
+        }
+        if claim.tol.is_some() {
+            break;
+        }
+    }
+    let (state, remark, wrong) = match (&claim.tol, runs.as_slice()) {
+        (Some(tol), [run, ..]) => within(tol.value, run),
+        (None, [h, half, quarter]) => converges(case.order(), h, half, quarter),
+        _ => (State::Unchecked, "no run was made".to_string(), None),
+    };
+    if let Some(wrong) = wrong {
+        findings.push(wrong.finding(claim));
+    } else if state == State::Unchecked {
+        findings.push(
+            finding("closed-form-undecided", claim.form.span(), format!("the runs do not tell whether this is \"{}\": {remark}", claim.trace.value))
+                .why("the difference between trace and formula neither vanishes nor stays as the timestep shrinks")
+                .help("state how far they may be apart: {\"is\": \"…\", \"tol\": 0.001}"),
+        );
+    }
+    ClosedForm { trace: claim.trace.value.clone(), span: claim.trace.span(), state, remark }
+}
+
+fn no_such_trace(claim: &Exact, lab: &Lab) -> Finding {
+    let labels: Vec<&str> = lab.traces().map(|t| t.label.as_str()).collect();
+    let message = format!("the lab has no trace \"{}\"", claim.trace.value);
+    let finding = finding("unknown-trace", claim.trace.span(), message)
+        .why("a closed form belongs to a trace; this one is held to nothing");
+    match nearest(&claim.trace.value, labels.iter().copied()) {
+        Some(right) => finding.help(format!("did you mean \"{right}\"?")),
+        None if labels.is_empty() => finding.help("add a plot with a trace of this label"),
+        None => finding.help(format!("its traces are \"{}\"", labels.join("\", \""))),
+    }
+}
+
+/// Where a trace leaves its closed form.
+struct Wrong {
+    time: f64,
+    trace: f64,
+    form: f64,
+    how: String,
+}
+
+impl Wrong {
+    fn finding(&self, claim: &Exact) -> Finding {
+        let message = format!(
+            "\"{}\" is not this: at t = {} s it is {}, and the formula gives {}",
+            claim.trace.value,
+            significant(self.time),
+            significant(self.trace),
+            significant(self.form)
+        );
+        finding("closed-form-wrong", claim.form.span(), message)
+            .why(self.how.clone())
+            .help("correct the formula, or the lab that it describes")
+    }
+}
+
+type Judged = (State, String, Option<Wrong>);
+
+/// Whether the trace stays within a tolerance.
+fn within(tol: f64, run: &Differences) -> Judged {
+    let (i, worst) = largest(run.times.len(), |i| run.difference(i));
+    let apart = format!("they are at most {} apart, the tolerance is {}", significant(worst), significant(tol));
+    if worst <= tol {
+        return (State::True(Evidence::Simulated), apart, None);
+    }
+    (State::False, apart.clone(), wrong(run, i, run.difference(i), apart))
+}
+
+/// Whether the difference vanishes with the timestep.
+fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differences) -> Judged {
+    let n = h.times.len();
+    let power = f64::from(2_i32.pow(order.unsigned_abs()));
+    let extrapolated = |coarse: &Differences, fine: &Differences, i: usize| {
+        (power * fine.difference(i) - coarse.difference(i)) / (power - 1.0)
+    };
+    let errors = [h, half, quarter].map(|run| largest(n, |i| run.difference(i)).1);
+    let rounding = ROUNDING * quarter.size().max(h.size());
+    let list = errors.map(significant).join(", ");
+    let shrinks = format!("{list} apart at the lab's timestep, half and a quarter of it");
+    if errors.iter().all(|e| *e <= rounding) {
+        return (State::True(Evidence::Simulated), "the same but for rounding".into(), None);
+    }
+    let (i, left) = largest(n, |i| extrapolated(half, quarter, i));
+    let (_, unsure) = largest(n, |i| extrapolated(half, quarter, i) - extrapolated(h, half, i));
+    let vanishing = errors[2] <= 0.75 * errors[0];
+    if vanishing && left <= unsure + rounding {
+        return (State::True(Evidence::Simulated), shrinks, None);
+    }
+    if left > 3.0 * unsure + rounding {
+        let how = format!(
+            "as the timestep shrinks the difference does not vanish, {} remains of it: the two are {shrinks}",
+            significant(left)
+        );
+        let difference = extrapolated(half, quarter, i);
+        return (State::False, how.clone(), wrong(quarter, i, difference, how));
+    }
+    (State::Unchecked, shrinks, None)
+}
+
+/// The trace as it would be, and the formula, where they differ most.
+fn wrong(run: &Differences, i: usize, difference: f64, how: String) -> Option<Wrong> {
+    let [_, form] = *run.values.get(i)?;
+    Some(Wrong { time: *run.times.get(i)?, trace: form + difference, form, how })
+}
+
+/// The place and the size of the largest of `n` numbers.
+fn largest(n: usize, x: impl Fn(usize) -> f64) -> (usize, f64) {
+    (0..n).map(|i| (i, x(i).abs())).fold((0, 0.0), |best, now| if now.1 > best.1 { now } else { best })
+}
+
+/// What the runs share.
+struct Case<'a> {
+    lab: &'a Lab,
+    model: &'a Model,
+    programs: &'a Programs,
+    trace: &'a Bound,
+    form: &'a Bound,
+}
+
+impl Case<'_> {
+    /// Order of the integrator that the lab runs with.
+    fn order(&self) -> i32 {
+        if self.start().world.model.opt.integrator == integrator::RK4 { 4 } else { 1 }
+    }
+
+    fn start(&self) -> Session<'_> {
+        let mut demand = self.programs.demand;
+        include(self.form.program.effects(), &mut demand);
+        Session::start(self.programs, self.model, self.lab.keyframe(), &demand)
+    }
+
+    /// The lab as it stands with its timestep in so many parts, sampled at the same times whatever the parts.
+    fn run(&self, parts: usize) -> Result<Differences, String> {
+        let mut session = self.start();
+        let h = session.world.model.opt.timestep;
+        let count = run::count_steps(self.lab, None, None, h).map_err(|e| e.0)?.clamp(1, MAX_STEPS);
+        let every = count.div_ceil(SAMPLES);
+        session.world.model.opt.timestep = h / parts as f64;
+        let mut found = Differences { times: Vec::new(), values: Vec::new() };
+        session.watch(count * parts);
+        for step in 0..=count {
+            if step > 0 {
+                (0..parts).for_each(|_| session.step());
+            }
+            if step % every == 0 || step == count {
+                let mut value = |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
+                let pair = [value(self.trace), value(self.form)];
+                if pair.iter().any(|x| !x.is_finite()) {
+                    let time = significant(session.world.data.time);
+                    return Err(format!("at t = {time} s the trace or the formula is no number"));
+                }
+                found.times.push(session.world.data.time);
+                found.values.push(pair);
+            }
+        }
+        if let Some(trouble) = session.troubles.first() {
+            return Err(trouble.message.clone());
+        }
+        match Breakdown::of(&session) {
+            Some(breakdown) => Err(format!("the run breaks: {}", breakdown.what)),
+            None => Ok(found),
+        }
+    }
+}
