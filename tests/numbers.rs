@@ -13,6 +13,7 @@ use labspec::lint::ModelFolder;
 use labspec::run::Session;
 use labspec::source::SourceFile;
 use labspec::spec::load_lesson;
+use labspec::verify::QuoteState;
 use labspec_core::{self as core, Data, Demand, Model};
 use labspec_expr::Value;
 use serde_json::{Value as Json, json};
@@ -31,7 +32,7 @@ fn verified(xml: &str, controls: Json, verify: Json, says: &[(&str, &str)]) {
     let checked = check(xml, controls, verify, says);
     assert_eq!(codes(&checked), [""; 0], "{:#?}", checked.findings);
     let claim = &checked.claims[0];
-    let right = claim.judgement.quotes.iter().filter(|q| q.verdict() == "verified").count();
+    let right = claim.judgement.quotes.iter().filter(|q| q.state == QuoteState::Right).count();
     assert_eq!((right, claim.judgement.quotes.len()), (says.len(), says.len()), "{claim:?}");
 }
 

@@ -194,7 +194,7 @@ impl Ledger {
             let c = self.count(subject);
             let total = c.simulated + c.computed + c.wrong + c.unchecked;
             match subject {
-                Subject::File => parts.push(plural(total, subject)),
+                Subject::File => tell(&mut parts, subject, [(total, ""), (0, "")]),
                 // Runs are the means of the claims that read them: they are told where one breaks.
                 Subject::Run => tell(&mut parts, subject, [(c.wrong, "broken"), (c.unchecked, "impossible")]),
                 Subject::Widget => tell(&mut parts, subject, [(c.not_claimed, "not run"), (0, "")]),
@@ -203,7 +203,7 @@ impl Ledger {
                 }
                 Subject::Lab => {
                     tell(&mut parts, subject, [(c.simulated, "run"), (c.wrong, "broken")]);
-                    tell(&mut parts, subject, [(c.unchecked, "not or not wholly run"), (0, "")]);
+                    tell(&mut parts, subject, [(c.unchecked, "not run in full"), (0, "")]);
                 }
                 Subject::Answer | Subject::Quote | Subject::ClosedForm => {
                     tell(&mut parts, subject, [(c.simulated, "verified"), (c.computed, "computed")]);
@@ -219,7 +219,8 @@ impl Ledger {
 fn tell(parts: &mut Vec<String>, subject: Subject, counts: [(usize, &str); 2]) {
     for (n, word) in counts.into_iter().filter(|(n, _)| *n > 0) {
         let mut part = plural(n, subject);
-        let _ = write!(part, " {word}");
+        let space = if word.is_empty() { "" } else { " " };
+        let _ = write!(part, "{space}{word}");
         parts.push(part);
     }
 }
@@ -279,7 +280,7 @@ mod tests {
         }
         assert_eq!(
             ledger.summary(),
-            "0 files, 2 answers verified, 1 answer computed, 1 answer wrong, 1 answer could not be checked, 1 answer without a check"
+            "2 answers verified, 1 answer computed, 1 answer wrong, 1 answer could not be checked, 1 answer without a check"
         );
     }
 }

@@ -160,6 +160,9 @@ pub(crate) fn evidence(claim: &Claim) -> Vec<String> {
         None => format!("{} = {}", m.name, significant(m.value)),
     };
     let weights = claim.judgement.answer.iter().flat_map(|a| &a.weights);
-    let weight = |w: &Weight| format!("option {} {}", w.option, w.words());
+    let weight = |w: &Weight| match w.option {
+        Some(i) => format!("option {i} {}", w.words()),
+        None => format!("the answer {}", w.words()),
+    };
     claim.judgement.measures.iter().map(measure).chain(weights.map(weight)).collect()
 }

@@ -74,7 +74,9 @@ fn work(a: &Arguments, depth: Depth, evidence: bool) -> Result<Outcome, Failure>
         Format::Human => {
             let mut text = report::human(&course.findings, &sources, a.color.on());
             text.push_str(&overview(&course, evidence));
-            let _ = writeln!(text, "{}", last_line(&course));
+            if !(idle && outcome == ledger::Outcome::Clean) {
+                let _ = writeln!(text, "{}", last_line(&course));
+            }
             print(&text)?;
         }
         Format::Json => {

@@ -72,8 +72,8 @@ pub struct Answer {
 /// An option and how well its condition holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weight {
-    /// Its index, from 0.
-    pub option: usize,
+    /// Its index, from 0; `None` for the value of a number.
+    pub option: Option<usize>,
     /// The condition holds.
     pub holds: bool,
     /// How far the comparison that decides is from turning over; negative where the condition does not hold.
@@ -83,10 +83,13 @@ pub struct Weight {
 impl Weight {
     /// `holds, by 0.02`; `does not hold, by 0.6`.
     pub fn words(&self) -> String {
-        let verb = if self.holds { "holds" } else { "does not hold" };
-        match self.margin {
-            Some(margin) => format!("{verb}, by {}", significant(margin.abs())),
-            None => verb.to_string(),
+        match (self.holds, self.margin) {
+            (true, Some(0.0)) => "holds exactly".to_string(),
+            (false, Some(0.0)) => "does not hold: both sides are equal".to_string(),
+            (true, Some(margin)) => format!("holds, by {}", significant(margin.abs())),
+            (false, Some(margin)) => format!("does not hold, by {}", significant(margin.abs())),
+            (true, None) => "holds".to_string(),
+            (false, None) => "does not hold".to_string(),
         }
     }
 }
@@ -172,12 +175,12 @@ fn options(
     let weights: Vec<Weight> = found
         .iter()
         .enumerate()
-        .map(|(option, (_, w))| Weight { option, holds: w.holds, margin: w.margin })
+        .map(|(i, (_, w))| Weight { option: Some(i), holds: w.holds, margin: w.margin })
         .collect();
     let name =
         |i: usize| format!("{} (\"{}\")", i, options.get(i).map_or(String::new(), |o| shorten(&o.value)));
     let names = |list: &[usize]| list.iter().map(|&i| name(i)).collect::<Vec<_>>().join(", ");
-    let held: Vec<usize> = weights.iter().filter(|w| w.holds).map(|w| w.option).collect();
+    let held: Vec<usize> = (0..weights.len()).filter(|&i| weights[i].holds).collect();
     let condition = |i: usize| verify.options.get(i).map_or(verify.span.clone(), |c| c.span());
     let words = |i: usize| weights.get(i).map_or(String::new(), Weight::words);
     let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
@@ -205,7 +208,7 @@ fn options(
             .why("a student who chooses the other one is right and is told otherwise")
             .help("word the options, or write their conditions, so that exactly one can hold");
         for i in others {
-            f = f.related(condition(i), format!("this condition {}, too", words(i)));
+            f = f.related(condition(i), format!("this condition {} too", words(i)));
         }
         findings.push(f);
         return done(Verdict::Ambiguous, message);
@@ -216,12 +219,12 @@ fn options(
         let turned = match &again {
             Err(reason) => Some((answer, reason.clone())),
             Ok(now) => now.iter().enumerate().find(|(i, (_, w))| holds.get(*i) != Some(&w.holds)).map(|(i, (_, w))| {
-                let weight = Weight { option: i, holds: w.holds, margin: w.margin };
+                let weight = Weight { option: Some(i), holds: w.holds, margin: w.margin };
                 (i, format!("then the condition of {} {}", name(i), weight.words()))
             }),
         };
         if let Some((i, what)) = turned {
-            let now = format!("this condition {} with the lesson's own numerics", words(i));
+            let now = format!("with the lesson's own numerics this {}", words(i));
             findings.push(fragile(keyed.span.clone(), how, &what).related(condition(i), now));
             return done(Verdict::Fragile, format!("it does not hold {how}"));
         }
@@ -263,7 +266,7 @@ fn value(
     }
     let margin = |x: f64| tol - (x - answer).abs();
     let right = |x: f64| margin(x) >= 0.0;
-    let weights = vec![Weight { option: 0, holds: right(computed), margin: Some(margin(computed)) }];
+    let weights = vec![Weight { option: None, holds: right(computed), margin: Some(margin(computed)) }];
     let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
     if !right(computed) {
         let message = format!("the answer is {answer}, the simulation gives {}", significant(computed));
@@ -288,7 +291,7 @@ fn value(
         };
         findings.push(
             fragile(keyed.span.clone(), how, &what)
-                .related(text.span(), format!("this is {} with the lesson's own numerics", significant(computed))),
+                .related(text.span(), format!("with the lesson's own numerics this is {}", significant(computed))),
         );
         return done(Verdict::Fragile, format!("it does not hold {how}"));
     }
