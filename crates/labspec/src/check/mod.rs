@@ -3,6 +3,8 @@
 mod programs;
 mod trial;
 
+pub use trial::Tried;
+
 use crate::bind::Programs;
 use crate::bind::scene::{Models, finding};
 use crate::finding::{self, Finding};
@@ -18,10 +20,12 @@ pub struct RanLab {
     pub address: LabAddress,
     /// Its title, possibly empty.
     pub title: String,
-    /// Number of runs: as it stands, and with each control moved to its ends.
+    /// Number of runs that were made: as it stands, and with each control moved to its ends.
     pub runs: usize,
     /// `false` when it could not be run.
     pub ran: bool,
+    /// What its runs covered; `None` when it could not be run.
+    pub tried: Option<Tried>,
 }
 
 /// A lesson with everything that is known about it.

@@ -1,29 +1,42 @@
-//! The runs that look for what breaks: every lab as it stands, and with each control at its ends.
+//! The runs that look for what breaks: every lab as it stands, and with each control at its ends, within a budget of work
+//! for the whole file.
+
+mod attempt;
+mod seen;
 
 use super::{RanLab, Ready};
-use crate::bind::scene::finding;
 use crate::bind::warning;
 use crate::finding::Finding;
-use crate::run::{self, RunOptions, Session, Trouble};
+use crate::run::{self, Budget, RunOptions};
 use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson};
-use labspec_core::stability;
+use attempt::{Attempt, Ended};
+use labspec_core::{Model, stability};
 use labspec_expr::Value;
+use seen::Seen;
 use std::ops::Range;
 
-/// Length of the runs that look for what breaks, s.
-const TRIAL: f64 = 2.0;
-/// When buttons are pressed in them, s.
+/// When buttons are pressed, s.
 const PRESS: f64 = 0.1;
-/// Most steps of such a run.
-const TRIAL_STEPS: usize = 20_000;
+/// Length of the runs of a lab that says nothing of it, s.
+const LENGTH: f64 = 10.0;
+/// What is kept for each lab that is still to be run as it stands.
+const RESERVE: u64 = 50_000_000;
 
-/// Runs every lab that has an address, as it stands and with each control at its ends.
-pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> Vec<RanLab> {
-    let each = |(address, lab): (LabAddress, &Lab)| {
-        let runs = ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map_or(0, |r| try_lab(r, findings));
-        RanLab { address, title: lab.title().to_string(), runs, ran: runs > 0 }
-    };
-    lesson.addressed().into_iter().map(each).collect()
+/// What the runs of a lab covered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tried {
+    /// Runs that were made.
+    pub runs: usize,
+    /// How long each was meant to be, s.
+    pub wanted: f64,
+    /// How long the shortest was, s.
+    pub covered: f64,
+    /// Runs that were not made, because the budget was spent or the lab breaks as it stands.
+    pub skipped: usize,
+    /// Something broke.
+    pub broke: bool,
+    /// Why a run ended before its time: one short sentence.
+    pub ended: Option<String>,
 }
 
 /// One thing that a student may do before pressing play.
@@ -35,10 +48,144 @@ struct Trial<'a> {
     control: Option<&'a Control>,
 }
 
-fn try_lab(ready: &Ready<'_>, findings: &mut Vec<Finding>) -> usize {
+/// A lab on its way through its runs.
+struct Tour<'a> {
+    ready: &'a Ready<'a>,
+    wanted: f64,
+    /// Those with controls, in order.
+    left: std::vec::IntoIter<Trial<'a>>,
+    seen: Seen<'a>,
+    tried: Option<Tried>,
+    /// It breaks as it stands, or never begins to run: it would with every control.
+    hopeless: bool,
+}
+
+/// Runs every lab that has an address, as it stands and with each control at its ends.
+pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> Vec<RanLab> {
+    let addressed = lesson.addressed();
+    let mut left = Budget::FILE.left;
+    let mut tours: Vec<(&LabAddress, &Lab, Option<Tour<'_>>)> = Vec::new();
+    for (i, (address, lab)) in addressed.iter().enumerate() {
+        let later = (addressed.len() - i - 1) as u64;
+        let share = left.saturating_sub(RESERVE * later).clamp(RESERVE.min(left), Budget::TRIAL.left);
+        let found = ready.iter().find(|r| std::ptr::eq(r.lab, *lab));
+        tours.push((address, lab, found.map(|r| begin(r, Budget { left: share }, &mut left, findings))));
+    }
+    // What is left is shared by the labs as they come.
+    let mut others = tours.len() as u64;
+    for tour in tours.iter_mut().filter_map(|(.., tour)| tour.as_mut()) {
+        let mut share = left / others.max(1);
+        others = others.saturating_sub(1);
+        let before = share;
+        go_on(tour, &mut share, findings);
+        left -= before - share;
+        findings.extend(tour.seen.never(tour.tried.as_ref().is_some_and(|t| t.skipped == 0)));
+    }
+    let ran = |(address, lab, tour): (&LabAddress, &Lab, Option<Tour<'_>>)| {
+        let tried = tour.and_then(|t| t.tried);
+        let runs = tried.as_ref().map_or(0, |t| t.runs);
+        RanLab { address: address.clone(), title: lab.title().to_string(), runs, ran: runs > 0, tried }
+    };
+    tours.into_iter().map(ran).collect()
+}
+
+/// How long a student looks at a lab: until it stops, or as far as its plots show.
+fn length(lab: &Lab) -> f64 {
+    let longest = lab.plots.iter().map(|p| p.window()).filter(|w| w.is_finite()).fold(0.0, f64::max);
+    match &lab.stop_at {
+        Some(stop) => stop.value,
+        None if longest > 0.0 => longest,
+        None => LENGTH,
+    }
+}
+
+/// The lab as it stands.
+fn begin<'a>(ready: &'a Ready<'a>, budget: Budget, left: &mut u64, findings: &mut Vec<Finding>) -> Tour<'a> {
+    let wanted = length(ready.lab);
+    let trials = trials(ready.lab, wanted);
+    let mut tour = Tour {
+        ready,
+        wanted,
+        left: trials.into_iter(),
+        seen: Seen::new(ready),
+        tried: None,
+        hopeless: false,
+    };
+    let Some(first) = tour.left.next() else { return tour };
+    match attempt::make(ready, &first, wanted, budget, &mut tour.seen, findings) {
+        Ok(attempt) => {
+            *left = left.saturating_sub(attempt.spent);
+            if !attempt.broke
+                && let Some(f) = too_stiff(&attempt.model, lab_place(ready.lab), attempt.covered)
+            {
+                findings.push(f);
+            }
+            tour.hopeless = attempt.broke || attempt.covered == 0.0 && wanted > 0.0;
+            tour.tried =
+                Some(Tried { runs: 0, wanted, covered: wanted, skipped: 0, broke: false, ended: None });
+            count(&mut tour, &attempt);
+        }
+        Err(finding) => {
+            findings.push(finding);
+            tour.hopeless = true;
+        }
+    }
+    if tour.hopeless {
+        let skipped = tour.left.by_ref().count();
+        if let Some(tried) = &mut tour.tried {
+            tried.skipped = skipped;
+        }
+    }
+    tour
+}
+
+/// The runs with each control at its ends, while something is left.
+fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
+    while let Some(trial) = tour.left.next() {
+        if *left == 0 {
+            let skipped = 1 + tour.left.by_ref().count();
+            if let Some(tried) = &mut tour.tried {
+                tried.skipped = skipped;
+            }
+            return;
+        }
+        let budget = Budget { left: Budget::TRIAL.left.min(*left) };
+        match attempt::make(tour.ready, &trial, tour.wanted, budget, &mut tour.seen, findings) {
+            Ok(attempt) => {
+                *left = left.saturating_sub(attempt.spent);
+                count(tour, &attempt);
+            }
+            Err(finding) => findings.push(finding),
+        }
+    }
+}
+
+/// Counts a run that was made.
+fn count(tour: &mut Tour<'_>, attempt: &Attempt) {
+    let Some(tried) = &mut tour.tried else { return };
+    tried.runs += 1;
+    tried.broke |= attempt.broke;
+    if attempt.covered < tried.covered {
+        tried.covered = attempt.covered;
+        let [covered, wanted] = [attempt.covered, tour.wanted].map(seconds);
+        tried.ended = match attempt.ended {
+            Some(Ended::Threw) => Some(format!("frozen after {covered} of {wanted} s")),
+            Some(Ended::Spent) => Some(format!("first {covered} of {wanted} s")),
+            None => None,
+        };
+    }
+}
+
+/// A time as a report names it: `4.0`, `0.25`, `20`.
+fn seconds(t: f64) -> String {
+    if t >= 10.0 && t.fract() == 0.0 || t == 0.0 { format!("{t:.0}") } else { run::two_digits(t) }
+}
+
+/// As it stands, then with each control at its ends.
+fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
     let mut trials =
         vec![Trial { options: RunOptions::default(), done: "as it stands".into(), control: None }];
-    for control in &ready.lab.controls {
+    for control in &lab.controls {
         let label = &control.label.value;
         let mut set = |value: Value| {
             trials.push(Trial {
@@ -57,63 +204,15 @@ fn try_lab(ready: &Ready<'_>, findings: &mut Vec<Finding>) -> usize {
             }
             ControlKind::Button { .. } => trials.push(Trial {
                 done: format!("after \"{label}\" is pressed"),
-                options: RunOptions { press: vec![(label.clone(), PRESS)], ..RunOptions::default() },
+                options: RunOptions {
+                    press: vec![(label.clone(), PRESS.min(0.5 * wanted))],
+                    ..RunOptions::default()
+                },
                 control: Some(control),
             }),
         }
     }
-    let mut broken_anyway = false;
-    for trial in &trials {
-        // A lab that breaks as it stands breaks with every control: say it once.
-        if broken_anyway {
-            break;
-        }
-        let broken = attempt(ready, trial, findings);
-        broken_anyway |= broken && trial.control.is_none();
-    }
-    trials.len()
-}
-
-/// Makes one run and reports what broke; `true` when something did.
-fn attempt(ready: &Ready<'_>, trial: &Trial<'_>, findings: &mut Vec<Finding>) -> bool {
-    let lab = ready.lab;
-    let key = lab.keyframe();
-    let mut session = Session::start(&ready.programs, &ready.model, key, &ready.programs.demand);
-    let place = trial.control.map_or(lab_place(lab), |c| c.label.span());
-    let prepared = run::set_controls(&mut session, &ready.programs, &trial.options.set)
-        .and_then(|()| run::presses(&ready.programs, &trial.options.press));
-    let timestep = session.world.model.opt.timestep;
-    let steps = run::count_steps(lab, lab.stop_at.is_none().then_some(TRIAL), None, timestep);
-    let (presses, steps) = match (prepared, steps) {
-        (Ok(p), Ok(n)) => (p, n.min(TRIAL_STEPS)),
-        (Err(e), _) | (_, Err(e)) => {
-            findings.push(finding("run-impossible", place, e.0));
-            return true;
-        }
-    };
-    let mut pending = presses.as_slice();
-    session.press_due(&mut pending);
-    session.sample();
-    session.watch(steps);
-    for i in 1..=steps {
-        session.press_due(&mut pending);
-        session.step();
-        // Expressions rarely start to throw in mid-run: look at them now and then.
-        if i % 50 == 0 || i == steps {
-            session.sample();
-        }
-    }
-    let troubles = session.troubles.iter().map(|t| trouble(t, &trial.done));
-    let before = findings.len();
-    findings.extend(troubles);
-    if let Some(f) = diverged(&session, &trial.done, place.clone()) {
-        findings.push(f);
-    } else if trial.control.is_none()
-        && let Some(f) = too_stiff(&session, place)
-    {
-        findings.push(f);
-    }
-    findings.len() > before
+    trials
 }
 
 /// Where to point when a whole lab is meant: at its model.
@@ -122,32 +221,16 @@ fn lab_place(lab: &Lab) -> Range<usize> {
     scene.map_or(lab.span.start..lab.span.start + 1, |t| t.span())
 }
 
-/// A program that threw, at its place.
-fn trouble(t: &Trouble, done: &str) -> Finding {
-    finding(t.code, t.text.span_of(t.span.clone()), format!("{} ({done}, at t = {} s)", t.message, t.time))
-        .why("on the page an error in `setup` or `controller` freezes the lab, and one in a trace shows nan")
-        .help("correct the statement, or guard it with a condition")
-}
-
-/// A simulation that met a bad number, or gained energy from nothing, with time, joint and likely cause.
-fn diverged(session: &Session<'_>, done: &str, place: Range<usize>) -> Option<Finding> {
-    let breakdown = run::Breakdown::of(session)?;
-    Some(
-        warning(breakdown.code, place, format!("the simulation breaks {done}: {}", breakdown.what))
-            .why(breakdown.why)
-            .help(breakdown.help),
-    )
-}
-
-/// What of a lab's scene no step of its length can follow, whether or not a run shows it.
-fn too_stiff(session: &Session<'_>, place: Range<usize>) -> Option<Finding> {
-    let model = &session.world.model;
+/// What of a lab's scene no step of its length can follow, though its run did not show it.
+fn too_stiff(model: &Model, place: Range<usize>, covered: f64) -> Option<Finding> {
     let worst = stability::suspects(model).into_iter().next()?;
-    let [owner, times] = [run::owner(model, &worst), run::times(&worst)];
-    let message = format!("{owner} is {times} times too stiff for its timestep");
+    let [owner, how] = [run::owner(model, &worst), run::how_stiff(&worst)];
     Some(
-        warning("stiff-for-timestep", place, message)
-            .why("every step pushes farther than the last one missed: it oscillates ever wider, without a word from MuJoCo until a number is beyond 1e10")
+        warning("stiff-for-timestep", place, format!("{owner} is {how} for its timestep"))
+            .why(format!(
+                "the {} s that were run are well, but once it is pushed, every step pushes back farther than the last one missed: it swings ever wider, without a word from MuJoCo until a number is beyond 1e10",
+                seconds(covered)
+            ))
             .help(run::remedy(model, &worst)),
     )
 }
