@@ -62,7 +62,8 @@ fn check_for_programs() {
     assert_eq!(keys(&report), ["findings", "summary", "lessons", "ledger"]);
     let lesson = &report["lessons"][0];
     assert_eq!(keys(lesson), ["file", "labs", "claims"]);
-    assert_eq!(keys(&lesson["labs"][0]), ["address", "title", "runs", "ran", "broke"]);
+    let lab = ["address", "title", "runs", "ran", "broke", "seconds", "covered", "skipped", "ended"];
+    assert_eq!(keys(&lesson["labs"][0]), lab);
     let claim = &lesson["claims"][0];
     assert_eq!(keys(claim), ["name", "line", "answer", "quotes", "closed_forms", "runs", "measures"]);
     assert_eq!(claim["answer"]["verdict"], "refuted");

@@ -2,6 +2,7 @@
 
 mod allocation;
 mod breaking;
+mod budget;
 mod cli;
 mod cli_run;
 mod conformance;

@@ -8,6 +8,7 @@ use crate::model::define;
 use crate::path::Path;
 use crate::plan::{Demand, Plan};
 use crate::sensor::Match;
+use crate::work::Meter;
 use crate::{Model, articulated, chain, collision, derivative, kinematics, pipeline, reset, sleep};
 
 macro_rules! define_data {
@@ -119,6 +120,8 @@ pub struct WarningStat {
 /// Intermediate results of the stages.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Work {
+    /// What was done.
+    pub(crate) meter: Meter,
     /// Pairs of geoms to test.
     pub(crate) pairs: collision::Pairs,
     /// Contacts of one pair of geoms.
@@ -186,6 +189,7 @@ impl Data {
     pub(crate) fn unplanned(m: &Model) -> Data {
         let mut d = Data { plan: Plan::awake(), ..Data::default() };
         let w = &mut d.work;
+        w.meter = Meter::new(m);
         w.chains = chain::Chains::new(m);
         w.frames = kinematics::Frames::new(m);
         w.articulated = articulated::Articulated::new(m);

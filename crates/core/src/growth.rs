@@ -98,8 +98,11 @@ pub fn restart(w: &mut Watch, m: &Model, d: &Data) {
     w.own.mocap_quat.clone_from(&d.mocap_quat);
     w.own.eq_active.clone_from(&d.eq_active);
     take(&mut w.own, d);
+    crate::limit(&mut w.own, d.work.meter.left());
     pipeline::forward(m, &mut w.own);
-    w.start = energy(m, &mut w.own).map(|energy| start(m, &w.own, energy));
+    if !crate::exhausted(&w.own) {
+        w.start = energy(m, &mut w.own).map(|energy| start(m, &w.own, energy));
+    }
 }
 
 /// To be called after each step. Looks at the run when it is time: a fraction of the work of a step, and nothing of the run is

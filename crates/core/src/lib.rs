@@ -64,6 +64,7 @@ pub mod state;
 mod subtree;
 mod tendon;
 mod transmission;
+mod work;
 
 pub use collision::{can_collide, contact_force};
 pub use constraint::full_j;
@@ -88,3 +89,4 @@ pub use rne::rne;
 pub use rne_post::rne_post_constraint;
 pub use setconst::set_const;
 pub use subtree::subtree_vel;
+pub use work::{charge, cost, cost_of_pass, exhausted, limit};

@@ -58,6 +58,7 @@ pub(crate) fn forward_skip(m: &Model, d: &mut Data, skip: Skip) {
 
 /// What follows from positions and velocities, with the sensors and the energy that they determine.
 pub(crate) fn from_state(m: &Model, d: &mut Data, skip: Skip) {
+    d.work.meter.add(d.work.meter.half);
     position(m, d);
     read(m, d, When::Position, skip);
     potential_energy(m, d, skip);
@@ -68,6 +69,7 @@ pub(crate) fn from_state(m: &Model, d: &mut Data, skip: Skip) {
 
 /// What follows from inputs as well: forces, accelerations and the other sensors.
 fn from_inputs(m: &Model, d: &mut Data, skip: Skip) {
+    d.work.meter.add(d.work.meter.half);
     sleep::keep(m, d);
     actuation(m, d);
     acceleration(m, d);
@@ -153,7 +155,7 @@ fn inertia_and_constraints(m: &Model, d: &mut Data) {
         check_inertia(d, bad);
     }
     if d.plan.keeps(Stage::Collision) {
-        if m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(disable::CONTACT) {
+        if m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(disable::CONTACT) || d.work.meter.over() {
             collision::none(d);
         } else {
             collision::collide(m, d);

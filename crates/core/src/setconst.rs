@@ -14,6 +14,8 @@ use crate::{
 /// call in mid-flight therefore puts bodies back where they started and keeps their speed.
 pub fn set_const(m: &mut Model, d: &mut Data) {
     let plan = std::mem::replace(&mut d.plan, Plan::full());
+    let solves = (m.nbody + m.njnt + m.ntendon) * (6 * m.nC / m.ntree.max(1) + 100);
+    d.work.meter.add(8 * d.work.meter.half + solves as u64);
     subtree_mass(m);
     same_frames(m);
     trees(m);

@@ -49,6 +49,11 @@ pub trait Host {
     /// # Errors
     /// The call fails: the text becomes the message of a [`RuntimeError`].
     fn call(&mut self, heap: &mut Heap, function: FunctionId, args: &[Value]) -> Result<Value, String>;
+
+    /// The work that calls did so far, in units of about a nanosecond: it counts as work of the program that calls.
+    fn work(&self) -> u64 {
+        0
+    }
 }
 
 /// Why a run ended early.
@@ -135,6 +140,9 @@ pub struct Context {
     pub(crate) numbers: Vec<f64>,
     pub(crate) values: Vec<Value>,
     pub(crate) events: Vec<RuntimeEvent>,
+    /// Work of all runs but that of the host, and what the next run may do.
+    pub(crate) work: u64,
+    pub(crate) allowed: Option<u64>,
 }
 
 /// Variables with computed names.
@@ -153,6 +161,17 @@ impl Context {
     /// of the lab are compiled.
     pub fn of(globals: &Globals) -> Context {
         Context { named: globals.named().clone(), ..Context::default() }
+    }
+
+    /// Lets the next run do so much work and no more, in units of about a nanosecond; work of the host counts too. A run
+    /// has a limit of its own besides, see [`code::BUDGET`].
+    pub fn allow(&mut self, units: u64) {
+        self.allowed = Some(units);
+    }
+
+    /// The work that programs did in this context, without that of the host. Formulas are too short to be counted.
+    pub fn work(&self) -> u64 {
+        self.work
     }
 
     /// A variable by its name.

@@ -109,10 +109,10 @@ pub fn language_page() -> String {
     out.push_str(".\n\nFunctions whose last digit the standard leaves open (`sin`, `log`, `**` with other exponents than 2, …) may differ from an engine's by one unit in the last place; they are the same on every platform here. A list has no holes: what lies between its end and an assignment beyond it is `undefined`.\n\n## Limits\n\n");
     let _ = writeln!(
         out,
-        "A text has at most {} bytes and nests {} levels; a run takes at most {} steps (turns of loops, calls, elements that methods go through), functions call each other 200 deep, lists take 64 MB, a string 1 MB. Each limit has its own error.",
+        "A text has at most {} bytes and nests {} levels; a run does at most {} operations (an element that a method goes through counts as five, a step of the simulation as what it takes), functions call each other 200 deep, lists take 64 MB, a string 1 MB. Each limit has its own error.",
         crate::MAX_SOURCE,
         crate::MAX_DEPTH,
-        crate::vm::MAX_STEPS
+        crate::vm::MAX_WORK / crate::vm::OPERATION
     );
     out
 }

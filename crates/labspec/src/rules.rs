@@ -33,6 +33,22 @@ pub const RUN_RULES: &[(&str, &str, &str)] = &[
         "MuJoCo resets the data and goes on from time 0: a student sees the scene jump back without a word.",
     ),
     (
+        "engine-warning",
+        "the engine warns while a lab runs",
+        "A body that moves has no inertia, or more things touch than are kept: what follows is not physics, and the page says nothing.",
+    ),
+    (
+        "shows-nan",
+        "a trace or a readout shows nan",
+        "A student cannot tell whether the lab or the physics is broken. A gap that is meant says `NaN` itself, or reads a variable that is stored later.",
+    ),
+    ("shows-infinite", "a trace or a readout shows inf", "Something is divided by 0 there."),
+    (
+        "text-in-plot",
+        "a trace of a plot is a text",
+        "A plot draws numbers: the curve is missing, or drawn from what the page makes of the text.",
+    ),
+    (
         "energy-grows",
         "the simulation gains energy that nothing gives it",
         "The steps make it, not physics: a student sees things leap or swing ever wider, without a word from MuJoCo.",

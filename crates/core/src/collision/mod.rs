@@ -62,9 +62,10 @@ pub(crate) fn collide(m: &Model, d: &mut Data) {
     d.contact.clear();
     let mut list = std::mem::take(&mut d.work.pairs);
     if let Some(sweep) = &mut list.sweep {
-        sweep.run(m, d);
+        let work = sweep.run(m, d);
+        d.work.meter.add(work);
         for pair in &sweep.near {
-            if d.contact.len() > MOST_CONTACTS {
+            if d.contact.len() > MOST_CONTACTS || d.work.meter.over() {
                 break;
             }
             if !sleep::pair_sleeps(m, d, pair.geom1 as usize, pair.geom2 as usize) {
@@ -85,7 +86,9 @@ pub(crate) fn collide(m: &Model, d: &mut Data) {
             narrow(m, d, pair, params);
         }
     }
+    let looked_at = 8 * list.pairs.len() + 100 * d.contact.len();
     d.work.pairs = list;
+    d.work.meter.add(looked_at as u64);
     if d.contact.len() > MOST_CONTACTS {
         d.contact.truncate(MOST_CONTACTS);
         warn(d, Warning::ContactFull, MOST_CONTACTS);
@@ -130,7 +133,7 @@ fn narrow(m: &Model, d: &mut Data, pair: &Pair, params: &Params) {
     let touch = match (m.geom_type[g1], m.geom_type[g2]) {
         (geom::PLANE, geom::SPHERE) => primitive::plane_sphere(m, d, g1, g2, params.reach),
         (geom::SPHERE, geom::SPHERE) => primitive::sphere_sphere(m, d, g1, g2, params.reach),
-        _ if sweep::far_apart(m, d, g1, g2, params.reach) => None,
+        _ if sweep::far_apart(m, d, g1, g2, params.reach) || d.work.meter.over() => None,
         _ => return general(m, d, [g1, g2], params),
     };
     if let Some(t) = touch {
@@ -144,11 +147,13 @@ fn general(m: &Model, d: &mut Data, [g1, g2]: [usize; 2], params: &Params) {
     let Some(method) = pair::method(m.geom_type[g1], m.geom_type[g2]) else { return };
     let mut work = std::mem::take(&mut d.work.narrow);
     work.touches.clear();
+    work.room.cost = 0;
     let (a, b) = (Shape::geom(m, d, g1), Shape::geom(m, d, g2));
     pair::contacts(method, &a, &b, params.reach, &pair::Settings::of(m), &mut work.room, &mut work.touches);
     for t in &work.touches {
         d.contact.push(params::contact(params, g1, g2, t, frame_along(t.normal, t.tangent)));
     }
+    d.work.meter.add(100 + work.room.cost);
     d.work.narrow = work;
 }
 

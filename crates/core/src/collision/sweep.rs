@@ -64,12 +64,15 @@ pub(super) struct Sweep {
     /// Pairs whose bounds overlap, in the order in which they are tested.
     pub(super) near: Vec<Pair>,
     explicit: Vec<Pair>,
-    /// Pairs of spheres that were looked at in the last step.
+    /// Pairs of spheres that were looked at in the last step, and those of them that were near.
     pub(super) examined: usize,
+    asked: usize,
 }
 
 /// Most columns that a geom no wider than a column can meet.
 const MOST_COLUMNS: usize = 4;
+/// Most pairs that are kept: a scene whose bounds overlap so often has more contacts than are kept long before.
+const MOST_NEAR: usize = 1 << 22;
 
 impl Sweep {
     pub(super) fn new(m: &Model, may_change: bool) -> Sweep {
@@ -89,13 +92,14 @@ impl Sweep {
             near: Vec::with_capacity(8 * n),
             explicit: filter::explicit_pairs(m).collect(),
             examined: 0,
+            asked: 0,
         }
     }
 
-    /// Finds the pairs whose bounds overlap now.
-    pub(super) fn run(&mut self, m: &Model, d: &Data) {
+    /// Finds the pairs whose bounds overlap now; returns what that cost.
+    pub(super) fn run(&mut self, m: &Model, d: &Data) -> u64 {
         let width = self.place(m, rows::<3>(&d.geom_xpos));
-        self.examined = 0;
+        (self.examined, self.asked) = (0, 0);
         self.near.clear();
         self.near.extend_from_slice(&self.explicit);
         self.in_columns(m);
@@ -109,6 +113,9 @@ impl Sweep {
             self.near.extend(below.filter_map(|plane| may_touch(m, plane, s.geom as usize)));
         }
         self.near.sort_unstable_by_key(|p| p.order(m));
+        let listed = m.npair + m.nexclude;
+        let rest = self.shadows.len() * (100 + 10 * self.planes.len()) + 5 * self.examined;
+        (rest + self.asked * (20 + listed) + 100 * self.near.len()) as u64
     }
 
     /// Shadows and columns of all geoms, sorted; returns the width of a column.
@@ -162,7 +169,10 @@ impl Sweep {
                     let other = &self.shadows[other as usize];
                     // In several columns together, they are a pair in the first.
                     if other.near(s) && s.first_common(other) == place {
-                        self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
+                        self.asked += 1;
+                        if self.near.len() < MOST_NEAR {
+                            self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
+                        }
                     }
                 }
                 self.active.push(k);
@@ -178,7 +188,10 @@ impl Sweep {
             for other in later.take_while(|other| other.low <= s.high) {
                 self.examined += 1;
                 if other.near(s) {
-                    self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
+                    self.asked += 1;
+                    if self.near.len() < MOST_NEAR {
+                        self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
+                    }
                 }
             }
         }
@@ -193,7 +206,10 @@ impl Sweep {
                 for other in self.shadows.iter().filter(|other| !other.wide) {
                     self.examined += 1;
                     if other.near(s) {
-                        self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
+                        self.asked += 1;
+                        if self.near.len() < MOST_NEAR {
+                            self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
+                        }
                     }
                 }
                 continue;
@@ -212,7 +228,10 @@ impl Sweep {
                     }
                     self.examined += 1;
                     if other.near(s) && s.first_common(other) == place {
-                        self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
+                        self.asked += 1;
+                        if self.near.len() < MOST_NEAR {
+                            self.near.extend(may_touch(m, other.geom as usize, s.geom as usize));
+                        }
                     }
                 }
             }

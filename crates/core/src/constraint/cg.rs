@@ -17,13 +17,16 @@ impl Problem<'_> {
         }
         let tol = self.m.opt.tolerance;
         let Reached { mut cost, mut gradient, scale, .. } = from;
+        let [rows, _] = self.prices();
+        let price = 6 * rows + 4 * self.m.nC as u64 / self.d.nisland.max(1) as u64;
         self.decrement_by_mass();
         for k in self.dofs().flatten() {
             self.s.search[k] = -self.s.step[k];
         }
         for _ in 0..self.m.opt.iterations.max(0) {
             let alpha = self.line_search(scale);
-            if alpha == 0.0 {
+            self.d.work.meter.add(price);
+            if alpha == 0.0 || self.d.work.meter.over() {
                 break;
             }
             self.advance(alpha);

@@ -95,6 +95,13 @@ impl Dual {
 }
 
 impl Problem<'_> {
+    /// What a sweep over the forces of the island costs.
+    pub(super) fn price_of_sweep(&self) -> u64 {
+        let [blocks, _, values] = self.s.dual.inverse.size();
+        let mine = self.islands.blocks.len(self.island) as u64;
+        6 * self.prices()[0] + mine * (100 + 4 * values / blocks.max(1))
+    }
+
     /// `acceleration` ← M⁻¹ Jᵀ f of the island.
     pub(super) fn accelerate(&mut self) {
         for dofs in self.dofs() {

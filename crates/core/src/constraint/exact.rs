@@ -8,6 +8,10 @@ use crate::{Data, Model, mass};
 /// Replaces `efc_R` and what follows from it.
 pub(super) fn regularize(m: &Model, d: &mut Data) {
     for i in 0..d.work.jac.blocks.len() {
+        d.work.meter.add(u64::from(d.work.jac.blocks[i].nrow) * (m.nv + 2 * m.nC) as u64);
+        if d.work.meter.over() {
+            break;
+        }
         let b = d.work.jac.blocks[i];
         by_rows!(b.nrow, R => block::<R>(m, d, i));
     }

@@ -40,6 +40,8 @@ pub(super) struct Hessian {
     /// What the layout was made for: how many times islands had been found, the island, and whether there is room.
     made_for: (u64, usize),
     fits: bool,
+    /// What a factorization costs.
+    pub(super) work: u64,
     /// Per row: its first column, and what is added to a column to find its place.
     first: Vec<u32>,
     places: Vec<usize>,
@@ -114,6 +116,7 @@ impl Hessian {
             work += 4 * (4 * length) * (4 * length);
         }
         self.fits = work <= MOST_WORK;
+        self.work = (work / 2 + 50 * self.len) as u64;
         if self.fits {
             self.values.resize(start, [0.0; 4]);
             self.inverse.resize(self.blocks.len(), [0.0; 4]);

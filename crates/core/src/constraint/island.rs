@@ -59,6 +59,11 @@ impl Lists {
         }
     }
 
+    /// How many items a list has.
+    pub(super) fn len(&self, list: usize) -> usize {
+        self.begin[list + 1] - self.begin[list]
+    }
+
     /// The items of a list.
     #[inline(always)]
     pub(super) fn of(&self, list: usize) -> impl Iterator<Item = usize> + Clone + use<'_> {

@@ -106,6 +106,11 @@ pub(crate) struct Jacobian {
 }
 
 impl Jacobian {
+    /// Numbers of blocks, of columns and of values.
+    pub(super) fn size(&self) -> [u64; 3] {
+        [self.blocks.len(), self.used_columns, self.used_values].map(|n| n as u64)
+    }
+
     pub(super) fn clear(&mut self) {
         self.blocks.clear();
         (self.used_values, self.used_columns) = (0, 0);

@@ -24,13 +24,17 @@ impl Problem<'_> {
         if six.is_none() && !self.lay_out() {
             return self.conjugate_gradient(from);
         }
+        let [rows, products] = self.prices();
+        let price = 4 * rows + products + if six.is_some() { 200 } else { self.s.hessian.work };
+        self.d.work.meter.add(price);
         self.newton_direction(&six);
         if scale * gradient < tol && scale * self.decrement() < tol {
             return;
         }
         for _ in 0..self.m.opt.iterations.max(0) {
             let alpha = self.line_search(scale);
-            if alpha == 0.0 {
+            self.d.work.meter.add(price);
+            if alpha == 0.0 || self.d.work.meter.over() {
                 break;
             }
             self.advance(alpha);

@@ -21,7 +21,12 @@ impl Problem<'_> {
         let d = &*self.d;
         let rows = self.blocks().flat_map(|i| d.work.jac.blocks[i].rows());
         let mut improvement: f64 = rows.map(|r| 0.5 * d.efc_force[r] * d.efc_force[r] * d.efc_R[r]).sum();
+        let price = self.price_of_sweep();
         for _ in 0..self.m.opt.noslip_iterations.max(0) {
+            self.d.work.meter.add(price);
+            if self.d.work.meter.over() {
+                break;
+            }
             for i in self.blocks() {
                 let b = self.d.work.jac.blocks[i];
                 let item = Item { block: i as u32, first: 0 };

@@ -39,7 +39,12 @@ impl Problem<'_> {
         self.copy_forces(|w| &mut w.last);
         self.copy_forces(|w| &mut w.before);
         let (mut random, mut since) = (Random::new(), 0u32);
+        let price = self.price_of_sweep();
         for _ in 0..self.m.opt.iterations.max(0) {
+            self.d.work.meter.add(price);
+            if self.d.work.meter.over() {
+                break;
+            }
             for i in (1..self.s.dual.order.len()).rev() {
                 let j = random.next() as usize % (i + 1);
                 self.s.dual.order.swap(i, j);

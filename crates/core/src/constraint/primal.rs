@@ -44,6 +44,14 @@ impl<'a> Problem<'a> {
         Reached { cost, gradient, scale, minimum }
     }
 
+    /// What going once through the rows and degrees of freedom of the island costs, and products of columns.
+    pub(super) fn prices(&self) -> [u64; 2] {
+        let [blocks, columns, values] = self.d.work.jac.size();
+        let (mine, all) = (self.islands.blocks.len(self.island) as u64, blocks.max(1));
+        let dofs: usize = self.dofs().map(|r| r.len()).sum();
+        [50 + mine * (15 + 2 * values / all) + 5 * dofs as u64, mine * (values / all) * (columns / all) / 2]
+    }
+
     /// The degrees of freedom.
     #[inline(always)]
     pub(super) fn dofs(&self) -> impl Iterator<Item = Range<usize>> + Clone + use<'a> {
@@ -149,6 +157,9 @@ impl<'a> Problem<'a> {
 
     /// The best step along `search`.
     pub(super) fn line_search(&mut self, scale: f64) -> f64 {
+        let price = 20 + 12 * self.islands.blocks.len(self.island) as u64;
+        let most = (self.d.work.meter.left() / price).max(16);
+        let mut evaluations = 0;
         let (dofs, blocks) = (self.dofs(), self.blocks());
         let (m, d, s) = (self.m, &*self.d, &mut *self.s);
         let (mut length, mut linear, mut quadratic) = (0.0, 0.0, 0.0);
@@ -168,7 +179,9 @@ impl<'a> Problem<'a> {
             d.work.jac.mul_block(&d.work.jac.blocks[b], &s.search, &mut s.jv);
         }
         let gtol = m.opt.tolerance * m.opt.ls_tolerance * length / scale;
-        minimize(gtol, m.opt.ls_iterations.max(0) as usize, |alpha| {
+        let most = most.min(m.opt.ls_iterations.max(0) as u64) as usize;
+        let best = minimize(gtol, most, |alpha| {
+            evaluations += 1;
             let mut p = Point {
                 alpha,
                 cost: alpha * (linear + alpha * quadratic),
@@ -184,7 +197,9 @@ impl<'a> Problem<'a> {
                 }
             }
             p
-        })
+        });
+        self.d.work.meter.add(evaluations * price);
+        best
     }
 
     /// a ← a + α search, where there are no forces yet.

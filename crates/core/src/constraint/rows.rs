@@ -42,6 +42,8 @@ pub(crate) fn make(m: &Model, d: &mut Data) {
     d.nl = d.nefc - d.ne - d.nf;
     contact::make(m, d);
     resize(d, d.nefc);
+    let [_, columns, values] = d.work.jac.size();
+    d.work.meter.add(60 * d.nefc as u64 + 8 * columns + 2 * values);
     if d.nefc > 0 && m.opt.enabled(enable::DIAGEXACT) {
         exact::regularize(m, d);
     }

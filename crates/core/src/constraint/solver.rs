@@ -49,11 +49,20 @@ pub(crate) fn solve(m: &Model, d: &mut Data) {
     if d.nefc == 0 {
         return;
     }
+    let [_, columns, values] = d.work.jac.size();
+    d.work.meter.add(8 * (columns + values) + 40 * d.nefc as u64);
+    let dual = m.opt.solver == solver::PGS || m.opt.noslip_iterations > 0;
+    if dual {
+        // Each row is solved with M over its trees.
+        d.work.meter.add(d.nefc as u64 * 2 * m.nC as u64 / m.ntree.max(1) as u64);
+    }
+    if d.work.meter.over() {
+        return;
+    }
     let mut islands = d.work.islands.take().unwrap_or_default();
     d.nisland = islands.find(m, &d.work.jac);
     let mut s = d.work.solver.take().unwrap_or_default();
     s.resize(m.nv, d.nefc);
-    let dual = m.opt.solver == solver::PGS || m.opt.noslip_iterations > 0;
     if dual {
         unconstrained_residual(d);
         s.dual.build(m, d);

@@ -55,22 +55,26 @@ pub(crate) fn nearest(
     limits: Limits,
     room: &mut Scratch,
 ) -> Nearest {
+    let price = 60 + a.price() + b.price();
     if a.round() || b.round() {
         let radii = [a.radius(), b.radius()];
         (a.core, b.core) = (a.round(), b.round());
         let cores = gjk(a, b, cutoff + radii[0] + radii[1], limits);
         (a.core, b.core) = (false, false);
+        room.cost += (1 + cores.steps as u64) * price;
         if cores.dist > limits.tolerance {
             return thicken(&cores, radii, cutoff);
         }
     }
     let mut found = gjk(a, b, cutoff, limits);
+    room.cost += (1 + found.steps as u64) * price;
     if found.dist > limits.tolerance || found.size < 2 {
         return Nearest::at(found.dist, found.witness);
     }
     if cutoff > 0.0 && found.dist > MINVAL {
         // Nearer than distances are known: whether they overlap is another question, with a sharper answer.
         let overlap = gjk(a, b, 0.0, limits);
+        room.cost += (1 + overlap.steps as u64) * price;
         if overlap.dist > limits.tolerance {
             return Nearest::at(found.dist, found.witness);
         }

@@ -20,8 +20,10 @@ pub struct Distance {
 /// Shapes with closed forms use those, at their deepest contact; two planes or height fields have no distance.
 pub fn geom_distance(m: &Model, d: &mut Data, geom1: usize, geom2: usize, most: f64) -> Distance {
     let mut work = std::mem::take(&mut d.work.narrow);
+    work.room.cost = 0;
     let (a, b) = (Shape::geom(m, d, geom1), Shape::geom(m, d, geom2));
     let distance = shape_distance(&a, &b, most, &Settings::of(m), &mut work);
+    d.work.meter.add(100 + work.room.cost);
     d.work.narrow = work;
     distance
 }

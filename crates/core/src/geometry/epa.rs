@@ -49,6 +49,8 @@ pub(crate) struct Scratch {
     horizon: Vec<(u32, u8)>,
     /// Edges still to be crossed while the border is found.
     pending: Vec<(u32, u8)>,
+    /// Work done with it.
+    pub(crate) cost: u64,
 }
 
 /// The nearest face: its corners, its distance and the points of both bodies there.
@@ -253,6 +255,7 @@ impl Scratch {
         let mut nearest = None;
         for _ in 0..limits.iterations {
             let before = nearest;
+            self.cost += 200 + self.candidates.len() as u64;
             let mut lower2 = f64::MAX;
             for &f in &self.candidates {
                 if self.faces[f as usize].dist2 < lower2 {

@@ -42,6 +42,8 @@ pub(super) struct Gjk {
     pub(super) witness: Option<[Vec3; 2]>,
     pub(super) simplex: [Vertex; 4],
     pub(super) size: usize,
+    /// Iterations.
+    pub(super) steps: usize,
 }
 
 /// Distance up to `cutoff`; a cutoff of zero or less asks only whether the bodies touch.
@@ -55,7 +57,8 @@ pub(super) fn gjk(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> Gj
     let (mut n, mut k) = (0, 0);
     let mut x = sub(a.centre(), b.centre());
     let mut length = 0.0;
-    let apart = Gjk { dist: f64::MAX, witness: None, simplex, size: 0 };
+    let apart =
+        |steps: usize| Gjk { dist: f64::MAX, witness: None, simplex: [Vertex::default(); 4], size: 0, steps };
     while k < limits.iterations {
         let length2 = dot(x, x);
         length = length2.sqrt();
@@ -71,12 +74,12 @@ pub(super) fn gjk(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> Gj
         // The plane through s across x separates the bodies.
         let ahead = dot(x, s.point);
         if ahead > 0.0 && (!measure || (cutoff < f64::MAX && ahead * ahead / length2 >= cutoff * cutoff)) {
-            return apart;
+            return apart(k);
         }
         if n == 3 && search {
             match enclose(&mut simplex, a, b, &mut k, limits.iterations) {
-                Some(true) => return Gjk { dist: 0.0, witness: None, simplex, size: 4 },
-                Some(false) => return apart,
+                Some(true) => return Gjk { dist: 0.0, witness: None, simplex, size: 4, steps: k },
+                Some(false) => return apart(k),
                 None => search = false,
             }
         }
@@ -89,7 +92,7 @@ pub(super) fn gjk(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> Gj
             }
         }
         if n == 0 {
-            return apart;
+            return apart(k);
         }
         let next = combine(&coef[..n], simplex.iter().map(|v| v.point));
         if sub(next, x).iter().all(|d| d.abs() < MINVAL) {
@@ -105,11 +108,11 @@ pub(super) fn gjk(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> Gj
     }
     if n == 0 {
         // Coincident centres.
-        return Gjk { dist: length, witness: Some([a.centre(), b.centre()]), simplex, size: 0 };
+        return Gjk { dist: length, witness: Some([a.centre(), b.centre()]), simplex, size: 0, steps: k };
     }
     let on_a = combine(&coef[..n], simplex.iter().map(|v| v.on_a));
     let on_b = combine(&coef[..n], simplex.iter().map(|v| v.on_b));
-    Gjk { dist: length, witness: Some([on_a, on_b]), simplex, size: n }
+    Gjk { dist: length, witness: Some([on_a, on_b]), simplex, size: n, steps: k }
 }
 
 /// Moves a tetrahedron towards the origin, one corner at a time: whether it came to hold the origin, or `None`

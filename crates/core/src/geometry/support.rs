@@ -39,6 +39,14 @@ impl<'a> Body<'a> {
         Body { form: Form::Prism(corners), margin: 0.0, core: false, corner: -1, hull_vertex: 0 }
     }
 
+    /// What a support point costs.
+    pub(super) fn price(&self) -> u64 {
+        match self.form {
+            Form::Shape(s) if s.kind == geom::MESH && s.mesh.hull.is_none() => 20 + s.mesh.vert.len() as u64,
+            _ => 40,
+        }
+    }
+
     /// The type of its geom.
     pub(crate) fn kind(&self) -> i32 {
         match self.form {

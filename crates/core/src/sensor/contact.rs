@@ -12,6 +12,7 @@ use crate::{Contact, Data, Model, Obj};
 pub(super) fn touch(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
     let site = m.sensor_objid[s].max(0) as usize;
     let body = m.site_bodyid[site];
+    d.work.meter.add(10 * d.contact.len() as u64);
     let zone = Shape::site(m, d, site);
     let mut sum = 0.0;
     for c in d.contact.iter().filter(|c| c.efc_address.is_some()) {
@@ -55,6 +56,7 @@ pub(crate) struct Match {
 /// The contacts of a filter, one slot of data fields each, as many as there are slots; zeros where there are no more.
 pub(super) fn contacts(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
     out.fill(0.0);
+    d.work.meter.add(20 * d.contact.len() as u64);
     let [mask, reduction] = [m.sensor_intprm[3 * s], m.sensor_intprm[3 * s + 1]];
     // Scratch that is kept from step to step.
     let mut list = std::mem::take(&mut d.work.matches);

@@ -25,7 +25,7 @@ use crate::{Data, Model, Obj, disable, sleep};
 
 /// The sensors whose values are known at a stage. While sensors are switched off values stay as they are.
 pub(crate) fn evaluate(m: &Model, d: &mut Data, when: When) {
-    if m.opt.disabled(disable::SENSOR) {
+    if m.opt.disabled(disable::SENSOR) || d.work.meter.over() {
         return;
     }
     // Taken out, because reading a sensor uses scratch of the data; nothing is allocated.

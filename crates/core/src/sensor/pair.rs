@@ -23,6 +23,9 @@ fn nearest(m: &Model, d: &mut Data, s: usize) -> (f64, [Vec3; 2]) {
     let mut best = (cutoff, [[0.0; 3]; 2]);
     for g1 in geoms(m, m.sensor_objtype[s], m.sensor_objid[s]) {
         for g2 in geoms(m, m.sensor_reftype[s], m.sensor_refid[s]) {
+            if d.work.meter.over() {
+                return best;
+            }
             let found = geometry::geom_distance(m, d, g1, g2, cutoff);
             if found.dist < best.0 {
                 best = (found.dist, found.fromto);

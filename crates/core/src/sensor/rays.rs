@@ -21,6 +21,8 @@ pub(super) fn rangefinder(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
     let Ok(id) = usize::try_from(m.sensor_objid[s]) else { return };
     let Some(f) = object::frame(m, d, m.sensor_objtype[s], id) else { return };
     let mask = m.sensor_intprm[3 * s];
+    let price = (20 * m.ngeom + m.nmeshface / 8) as u64;
+    d.work.meter.add(price);
     if m.sensor_objtype[s] != Obj::Camera as i32 {
         let ray = Ray { from: f.pos, along: column(&f.mat, 2) };
         return cast(m, d, &ray, &f, false, mask, out);
@@ -29,6 +31,10 @@ pub(super) fn rangefinder(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
     let [width, _] = camera.resolution;
     let size = fields::size(&RAY_DATA, mask).max(1);
     for (pixel, out) in out.chunks_exact_mut(size).enumerate() {
+        d.work.meter.add(price);
+        if d.work.meter.over() {
+            return;
+        }
         let (row, col) = (pixel / width.max(1), pixel % width.max(1));
         cast(m, d, &camera.ray(&f, row, col), &f, true, mask, out);
     }

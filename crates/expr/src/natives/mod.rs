@@ -78,7 +78,7 @@ pub(crate) struct Env<'a> {
     pub(crate) heap: &'a mut Heap,
     pub(crate) host: &'a mut dyn Host,
     pub(crate) views: &'a [Shown],
-    /// Steps that the run may still take.
+    /// Work that the run may still do.
     pub(crate) budget: &'a mut u64,
 }
 
@@ -172,16 +172,20 @@ pub(crate) fn call_free(env: &mut Env<'_>, function: Free, args: &[Value]) -> Re
     (function.row().run)(env, &Value::Undefined, args)
 }
 
+/// What an element counts.
+const ELEMENT: u64 = 10;
+
+/// Counts work. Where it is too much, nothing is left.
+pub(crate) fn charge(budget: &mut u64, units: u64) -> Result<(), Trouble> {
+    let rest = budget.checked_sub(units);
+    *budget = rest.unwrap_or(0);
+    rest.map(|_| ()).ok_or_else(out_of_steps)
+}
+
 impl Env<'_> {
-    /// Counts steps.
-    pub(crate) fn spend(&mut self, steps: usize) -> Result<(), Trouble> {
-        match self.budget.checked_sub(steps as u64) {
-            Some(rest) => {
-                *self.budget = rest;
-                Ok(())
-            }
-            None => Err(out_of_steps()),
-        }
+    /// Counts elements that are gone through.
+    pub(crate) fn spend(&mut self, elements: usize) -> Result<(), Trouble> {
+        charge(self.budget, ELEMENT * elements as u64)
     }
 
     /// Number of elements of a view, now.
@@ -235,7 +239,7 @@ impl Env<'_> {
         }
     }
 
-    /// All elements of a list or array, counted as steps.
+    /// All elements of a list or array, counted.
     pub(crate) fn items(&mut self, value: &Value) -> Result<Vec<Value>, Trouble> {
         let n = self.len(value);
         self.spend(n)?;

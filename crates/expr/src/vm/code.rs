@@ -137,6 +137,13 @@ pub(crate) struct CodeUnit {
     pub(crate) result: Slot,
 }
 
+impl CodeUnit {
+    /// What running it once costs, without the turns of its loops.
+    pub(crate) fn cost(&self) -> u64 {
+        super::OPERATION * (self.ops.len() + self.numbers.len() + self.values.len()) as u64
+    }
+}
+
 /// How a value is handed over.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Slot {

@@ -1,7 +1,8 @@
 //! The machine: flat operations on two files of registers, one of doubles and one of values of any type.
 //!
 //! A boolean lives in a number register as 1 or 0; `lower` knows which it is. Constants stand in registers
-//! before the first operation of a function. Every jump back and every call counts as a step, so every run ends.
+//! before the first operation of a function. Every jump back counts the operations that it repeats, every call those of the
+//! function, so every run ends, and what it cost is known.
 
 mod code;
 mod parts;
@@ -21,10 +22,12 @@ use crate::program::{Context, EventKind, Host, RuntimeError, RuntimeEvent};
 use crate::schema::FieldKey;
 use crate::value::{Value, View, truthy};
 
-/// Steps that a run may take: turns of loops, calls, elements that methods go through.
-pub(crate) const MAX_STEPS: u64 = 10_000_000;
-/// What a call of the host counts, which may be a whole step of the simulation.
-const HOST_CALL: usize = 100;
+/// Work that a run may do. A unit is about a nanosecond of a fast machine.
+pub(crate) const MAX_WORK: u64 = 200_000_000;
+/// What an operation counts.
+pub(crate) const OPERATION: u64 = 2;
+/// What a call of the host counts besides the work of the host itself, in elements.
+const HOST_CALL: usize = 10;
 /// Functions that may call each other, one inside the other.
 const MAX_CALLS: usize = 200;
 /// Registers for what is handed to a function.
@@ -45,9 +48,11 @@ pub(crate) fn run(
     // Registers are taken out while running, so that the rest of the context stays usable.
     let numbers = std::mem::take(&mut context.numbers);
     let values = std::mem::take(&mut context.values);
-    let mut machine = Machine { host, context, input, numbers, values, budget: MAX_STEPS, depth: 0 };
+    let budget = context.allowed.map_or(MAX_WORK, |left| left.min(MAX_WORK));
+    let mut machine = Machine { host, context, input, numbers, values, budget, depth: 0, of_host: 0 };
     let result = machine.whole(code);
-    let Machine { numbers, values, .. } = machine;
+    let Machine { numbers, values, budget: left, of_host, .. } = machine;
+    context.work += budget.saturating_sub(left).saturating_sub(of_host);
     context.numbers = numbers;
     context.values = values;
     result
@@ -67,8 +72,11 @@ struct Machine<'a> {
     input: Option<&'a Value>,
     numbers: Vec<f64>,
     values: Vec<Value>,
+    /// Work that may still be done.
     budget: u64,
     depth: usize,
+    /// Work that the host did.
+    of_host: u64,
 }
 
 /// Where something went wrong.
@@ -79,6 +87,7 @@ impl Machine<'_> {
         let Some(unit) = code.units.first() else { return Ok(Value::Undefined) };
         let frame = Frame { n: 0, v: 0 };
         self.make_room(unit, frame);
+        self.budget = self.budget.saturating_sub(unit.cost());
         self.execute(code, unit, frame).map_err(|e| *e)?;
         Ok(self.taken(unit.result, frame))
     }
@@ -147,10 +156,12 @@ impl Machine<'_> {
                     }
                 }
                 Op::Again(to) => {
-                    if self.budget == 0 {
+                    let turn = OPERATION * (at as u64).saturating_sub(u64::from(to));
+                    if self.budget < turn {
+                        self.budget = 0;
                         return Err(failure(natives::out_of_steps(), unit, at - 1));
                     }
-                    self.budget -= 1;
+                    self.budget -= turn;
                     at = to as usize;
                 }
                 Op::Return => return Ok(()),
@@ -216,7 +227,7 @@ impl Machine<'_> {
     fn call(&mut self, code: &Arc<Code>, callee: u32, unit: &CodeUnit, f: Frame, at: usize) -> Failed {
         let frame = Frame { n: f.n + unit.number_count as usize, v: f.v + unit.value_count as usize };
         let Some(callee) = code.units.get(callee as usize) else { return Ok(()) };
-        if let Err(trouble) = self.enter() {
+        if let Err(trouble) = self.enter(callee) {
             return Err(failure(trouble, unit, at));
         }
         self.make_room(callee, frame);
@@ -226,15 +237,20 @@ impl Machine<'_> {
     }
 
     /// Counts a call.
-    fn enter(&mut self) -> Result<(), Trouble> {
+    fn enter(&mut self, callee: &CodeUnit) -> Result<(), Trouble> {
         if self.depth >= MAX_CALLS {
             let message =
                 format!("functions call each other more than {MAX_CALLS} times, one inside the other");
             return Err(Trouble::new(codes::CALL_DEPTH, message));
         }
-        self.budget = self.budget.checked_sub(1).ok_or_else(natives::out_of_steps)?;
+        self.charge(callee.cost())?;
         self.depth += 1;
         Ok(())
+    }
+
+    /// Counts work.
+    fn charge(&mut self, units: u64) -> Result<(), Trouble> {
+        natives::charge(&mut self.budget, units)
     }
 
     /// What natives work with.
@@ -317,7 +333,11 @@ impl Machine<'_> {
                 self.env(code).spend(HOST_CALL)?;
                 let first = f.v + first.0 as usize;
                 let args = &self.values[first..first + count as usize];
+                let before = self.host.work();
                 let result = self.host.call(&mut self.context.heap, function, args);
+                let done = self.host.work().saturating_sub(before).min(self.budget);
+                self.of_host += done;
+                self.charge(done)?;
                 let result = result.map_err(|message| Trouble::new(codes::HOST_CALL, message))?;
                 self.put_value(f, dst, result);
             }

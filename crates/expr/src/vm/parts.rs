@@ -422,7 +422,7 @@ impl Machine<'_> {
             }
         };
         let Some(function) = code.units.get(at as usize) else { return Ok(Value::Undefined) };
-        self.enter()?;
+        self.enter(function)?;
         let frame = Frame { n: f.n + unit.number_count as usize, v: f.v + unit.value_count as usize };
         self.make_room(function, frame);
         let (mut n, mut v) = (frame.n + 1, frame.v + 1);

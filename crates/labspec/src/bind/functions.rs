@@ -116,6 +116,20 @@ pub(super) static TABLE: LazyLock<Vec<&'static Function>> =
 /// The result of a function that gives nothing back.
 const NOTHING: Result<Value, String> = Ok(Value::Undefined);
 
+/// What a call costs when it is no pass of the engine, in the unit of [`labspec_core::cost`].
+pub(super) fn price(f: &Function, w: &World) -> u64 {
+    let (nv, ncon) = (w.model.nv as u64, w.data.contact.len() as u64);
+    let reads = match f.reads {
+        Touches::Contacts => 50 * ncon,
+        Touches::Derived => labspec_core::cost_of_pass(&w.data),
+        Touches::Mass => 4 * nv * nv,
+        Touches::Motion => 100 * nv,
+        _ => 0,
+    };
+    let writes = if f.writes.is_empty() { 0 } else { labspec_core::cost_of_pass(&w.data) };
+    50 + reads + writes
+}
+
 /// The first argument, the name of an object, as its index.
 fn index(args: &[Value]) -> Result<usize, String> {
     args.first().map(|v| handle::index_of(v.to_number())).ok_or_else(|| "a name is missing".into())

@@ -2,7 +2,7 @@
 
 use super::functions;
 use labspec_core::reflect::{self, FieldId};
-use labspec_core::{Data, Model};
+use labspec_core::{self as core, Data, Model};
 use labspec_expr::{FieldKey, FunctionId, Heap, Host, Value};
 
 /// A model and its data, while a lab runs.
@@ -35,9 +35,21 @@ impl Host for World {
 
     fn call(&mut self, heap: &mut Heap, FunctionId(f): FunctionId, args: &[Value]) -> Result<Value, String> {
         match functions::TABLE.get(f as usize) {
-            Some(function) => (function.run)(self, heap, args),
+            Some(function) => {
+                let before = core::cost(&self.data);
+                let result = (function.run)(self, heap, args);
+                // Passes of the engine have counted themselves.
+                let price =
+                    if core::cost(&self.data) == before { functions::price(function, self) } else { 0 };
+                core::charge(&mut self.data, price);
+                result
+            }
             None => Err("there is no such function".into()),
         }
+    }
+
+    fn work(&self) -> u64 {
+        core::cost(&self.data)
     }
 }
 

@@ -33,11 +33,7 @@ fn file(path: &Arc<str>, faults: usize) -> Entry {
         0 => (State::True(Evidence::Computed), "in order"),
         _ => (State::False, "has faults"),
     };
-    let remark = match faults {
-        0 => String::new(),
-        1 => "1 finding".into(),
-        n => format!("{n} findings"),
-    };
+    let remark = if faults == 0 { String::new() } else { plural(faults, "finding") };
     Entry {
         subject: Subject::File,
         owner: path.to_string(),
@@ -117,16 +113,30 @@ fn lesson(c: &Checked, ledger: &mut Ledger) {
 }
 
 fn lab(ran: &RanLab) -> (State, &'static str, String) {
-    let runs = if ran.runs == 1 { "1 run".to_string() } else { format!("{} runs", ran.runs) };
-    match ran {
-        RanLab { ran: false, .. } => (State::Unchecked, "not run", "it could not run".into()),
-        RanLab { broke: true, .. } => (State::False, "broken", runs),
-        RanLab { mistakes: 1, .. } => (State::Unchecked, "in part", format!("{runs}, 1 mistake in its code")),
-        RanLab { mistakes, .. } if *mistakes > 0 => {
-            (State::Unchecked, "in part", format!("{runs}, {mistakes} mistakes in its code"))
-        }
-        _ => (State::True(Evidence::Simulated), "run", runs),
+    let Some(tried) = ran.tried.as_ref().filter(|_| ran.ran) else {
+        return (State::Unchecked, "not run", "it could not run".into());
+    };
+    let mut remark = plural(tried.runs, "run");
+    let mut missing = tried.ended.iter().cloned().collect::<Vec<_>>();
+    if tried.skipped > 0 {
+        missing.push(format!("{} not made", plural(tried.skipped, "run")));
     }
+    if ran.mistakes > 0 {
+        missing.push(format!("{} in its code", plural(ran.mistakes, "mistake")));
+    }
+    for part in &missing {
+        remark.push_str(", ");
+        remark.push_str(part);
+    }
+    match (tried.broke, missing.is_empty()) {
+        (true, _) => (State::False, "broken", remark),
+        (false, false) => (State::Unchecked, "in part", remark),
+        (false, true) => (State::True(Evidence::Simulated), "run", remark),
+    }
+}
+
+fn plural(n: usize, one: &str) -> String {
+    if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") }
 }
 
 fn quote(q: &Quote) -> (State, &'static str) {

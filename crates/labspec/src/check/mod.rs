@@ -8,6 +8,7 @@ mod trial;
 pub use claims::Claim;
 pub(crate) use entries::evidence;
 pub use entries::ledger;
+pub use trial::Tried;
 
 use crate::bind::Programs;
 use crate::bind::scene::{Models, finding};
@@ -23,12 +24,12 @@ pub struct RanLab {
     pub address: LabAddress,
     /// Its title, possibly empty.
     pub title: String,
-    /// Number of runs: as it stands, and with each control moved to its ends.
+    /// Number of runs that were made: as it stands, and with each control moved to its ends.
     pub runs: usize,
     /// `false` when it could not be run.
     pub ran: bool,
-    /// Something broke in a run.
-    pub broke: bool,
+    /// What its runs covered; `None` when it could not be run.
+    pub tried: Option<Tried>,
     /// Mistakes in its code: what these texts would do was not run.
     pub mistakes: usize,
 }

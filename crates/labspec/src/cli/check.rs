@@ -378,7 +378,15 @@ fn lesson_json(c: &Checked) -> Value {
     let labs: Vec<Value> = c
         .labs
         .iter()
-        .map(|l| json!({"address": l.address.to_string(), "title": l.title, "runs": l.runs, "ran": l.ran, "broke": l.broke}))
+        .map(|l| {
+            let tried = l.tried.as_ref();
+            json!({
+                "address": l.address.to_string(), "title": l.title, "runs": l.runs, "ran": l.ran,
+                "broke": tried.map(|t| t.broke), "seconds": tried.map(|t| number(t.wanted)),
+                "covered": tried.map(|t| number(t.covered)), "skipped": tried.map(|t| t.skipped),
+                "ended": tried.and_then(|t| t.ended.clone()),
+            })
+        })
         .collect();
     let claims: Vec<Value> = c.claims.iter().map(|claim| claim_json(claim, c)).collect();
     json!({"file": &**c.lesson.file.path(), "labs": labs, "claims": claims})

@@ -1,10 +1,10 @@
 //! What the engine's warnings, and energy that grows without one, mean for a lesson: what broke, when, the likely cause,
 //! and what to write instead.
 
-use super::{Session, shown};
+use super::Session;
 use labspec_core::growth::Growth;
 use labspec_core::stability::{self, Part, Suspect};
-use labspec_core::{Model, Obj, Warning, joint};
+use labspec_core::{Model, Obj, Warning, WarningStat, joint};
 
 /// A run that met a bad number or gained energy from nothing, in a teacher's words.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,70 +19,126 @@ pub struct Breakdown {
     pub help: String,
 }
 
-/// In the order in which one follows from the other.
-const WORST_FIRST: [(Warning, &str); 5] = [
-    (Warning::BadQpos, RESET),
-    (Warning::BadQvel, RESET),
-    (Warning::BadQacc, RESET),
-    (
-        Warning::BadCtrl,
-        "MuJoCo then takes all controls as 0: a student sees everything go limp without a word",
-    ),
-    (Warning::ContactFull, "what is not kept does not push: bodies sink into each other without a word"),
-];
 const RESET: &str =
     "MuJoCo then resets the data and goes on from time 0: a student sees the scene jump back without a word";
 const GROWS: &str = "the steps make it, not physics: a student sees things leap or swing ever wider, without a word from MuJoCo";
 
+/// Warnings that may follow from each other, the cause first: only the first of them is told.
+const STATE: [Warning; 4] = [Warning::Inertia, Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
+/// Warnings that stand for themselves.
+const OTHERS: [Warning; 3] = [Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull];
+
 impl Breakdown {
     /// The worst of what a session met; `None` when it met nothing.
     pub fn of(session: &Session<'_>) -> Option<Breakdown> {
-        let met = |w: Warning| session.warnings.get(w as usize).filter(|stat| stat.number > 0);
-        let Some((warning, why, stat)) = WORST_FIRST.iter().find_map(|&(w, why)| Some((w, why, met(w)?)))
-        else {
-            return session.growth().map(|growth| Breakdown::by_growth(&session.world.model, growth));
+        Breakdown::all(session).into_iter().next()
+    }
+
+    /// Everything that a session met, the worst first; without what follows from something else.
+    pub fn all(session: &Session<'_>) -> Vec<Breakdown> {
+        let met = |w: &Warning| {
+            let stat = session.warnings.get(*w as usize).filter(|stat| stat.number > 0)?;
+            Some(Breakdown::by_warning(&session.world.model, *w, stat))
         };
-        let (code, model) = ("simulation-diverges", &session.world.model);
+        let mut all: Vec<Breakdown> = STATE.iter().find_map(met).into_iter().collect();
+        if all.is_empty() {
+            all.extend(session.growth().map(|growth| Breakdown::by_growth(&session.world.model, growth)));
+        }
+        all.extend(OTHERS.iter().filter_map(met));
+        all
+    }
+
+    /// A warning of the engine.
+    fn by_warning(model: &Model, warning: Warning, stat: &WarningStat) -> Breakdown {
         let joint = |adr: &[i32], width| joint_of(model, stat.lastinfo, adr, width);
-        let what = match warning {
-            Warning::BadQpos => format!("the position of {}", joint(&model.jnt_qposadr, joint::nq)),
-            Warning::BadQvel => format!("the velocity of {}", joint(&model.jnt_dofadr, joint::nv)),
-            Warning::BadQacc => format!("the acceleration of {}", joint(&model.jnt_dofadr, joint::nv)),
-            Warning::BadCtrl => format!("control {}", stat.lastinfo),
-            _ => {
-                let what = format!("more than {} contacts at t = {:.4} s", stat.lastinfo, stat.first_time);
-                let help = "let fewer bodies touch, or move them apart at the start".into();
-                return Some(Breakdown { code, what, why, help });
-            }
+        let at = format!("at t = {} s", time(stat.first_time));
+        let no_number = |what: String| format!("{what} is not a number or above 1e10 {at}");
+        let (code, what, why, help) = match warning {
+            Warning::BadQpos => (
+                "simulation-diverges",
+                no_number(format!("the position of {}", joint(&model.jnt_qposadr, joint::nq))),
+                RESET,
+                cause(model),
+            ),
+            Warning::BadQvel => (
+                "simulation-diverges",
+                no_number(format!("the velocity of {}", joint(&model.jnt_dofadr, joint::nv))),
+                RESET,
+                cause(model),
+            ),
+            Warning::BadQacc => (
+                "simulation-diverges",
+                no_number(format!("the acceleration of {}", joint(&model.jnt_dofadr, joint::nv))),
+                RESET,
+                cause(model),
+            ),
+            Warning::BadCtrl => (
+                "simulation-diverges",
+                no_number(format!("control {}", stat.lastinfo)),
+                "MuJoCo then takes all controls as 0: a student sees everything go limp without a word",
+                "guard the expression that is written to `data.ctrl` with a condition".into(),
+            ),
+            Warning::Inertia => (
+                "engine-warning",
+                format!("what {} moves has no inertia above zero {at}", joint(&model.jnt_dofadr, joint::nv)),
+                "a push then gives no acceleration that means anything: things do not move, move backwards or vanish",
+                "give every body that moves a mass and inertia above 0: look at the model, and at what writes `body_mass`, `body_inertia` or `dof_armature`".into(),
+            ),
+            Warning::ContactFull => (
+                "engine-warning",
+                format!("there are more contacts than the {} that are kept {at}", stat.lastinfo),
+                "what is not kept does not push: bodies sink into each other without a word",
+                "let fewer bodies touch, or move them apart at the start".into(),
+            ),
+            Warning::ConstraintFull => (
+                "engine-warning",
+                format!("there are more contacts, limits and other constraints than are kept {at}"),
+                "what is not kept does not push or hold: bodies sink into each other, joints pass their limits without a word",
+                "let fewer bodies touch, or move them apart at the start".into(),
+            ),
         };
-        let what = format!("{what} is not a number or above 1e10 at t = {:.4} s", stat.first_time);
-        let help = match warning {
-            Warning::BadCtrl => "guard the expression that is written to `data.ctrl` with a condition".into(),
-            _ => cause(model),
-        };
-        Some(Breakdown { code, what, why, help })
+        Breakdown { code, what, why, help }
     }
 
     /// Energy that nothing gave.
     fn by_growth(model: &Model, g: Growth) -> Breakdown {
         let what = format!(
-            "energy grows from t = {:.4} s: {} J that nothing gave, where all that the start held is {} J; the most of it moves {}",
-            g.time,
-            shown(g.gain, 2),
-            shown(g.held, 2),
+            "energy grows from t = {} s on: {} J that nothing put in, while the start held {} J; most of it moves {}",
+            time(g.time),
+            two_digits(g.gain),
+            two_digits(g.held),
             joint_of(model, g.dof, &model.jnt_dofadr, joint::nv)
         );
         Breakdown { code: "energy-grows", what, why: GROWS, help: cause(model) }
     }
 }
 
+/// A time to a tenth of a millisecond.
+pub fn time(t: f64) -> String {
+    without_zeros(format!("{t:.4}"))
+}
+
+/// Two digits as plain decimals: `0.85`, `0.00018`; larger numbers whole. Only what is too long for that has an exponent.
+pub fn two_digits(x: f64) -> String {
+    let size = x.abs();
+    if size == 0.0 || !(1e-6..1e7).contains(&size) {
+        return super::shown(x, 2);
+    }
+    let places = (1.0 - size.log10().floor()).clamp(0.0, 9.0) as usize;
+    without_zeros(format!("{x:.places$}"))
+}
+
+fn without_zeros(text: String) -> String {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
 /// The likely cause of a run that breaks, and what to write instead.
 fn cause(model: &Model) -> String {
     match stability::suspects(model).first() {
         Some(worst) => format!(
-            "the likely cause: {} is {} times too stiff for a step of {} s; {}",
+            "the likely cause: {} is {} for a step of {} s; {}",
             owner(model, worst),
-            times(worst),
+            how_stiff(worst),
             model.opt.timestep,
             remedy(model, worst)
         ),
@@ -112,9 +168,13 @@ pub fn owner(model: &Model, s: &Suspect) -> String {
     }
 }
 
-/// How many times too stiff: never "1.0 times".
-pub fn times(s: &Suspect) -> String {
-    if s.excess < 1.1 { "slightly more than 1".into() } else { format!("{:.1}", s.excess) }
+/// How much too stiff: `1.8 times too stiff`, `just too stiff`.
+pub fn how_stiff(s: &Suspect) -> String {
+    match s.excess {
+        x if x < 1.1 => "just too stiff".into(),
+        x if x < 10.0 => format!("{} times too stiff", without_zeros(format!("{x:.1}"))),
+        x => format!("{x:.0} times too stiff"),
+    }
 }
 
 /// What to write instead.
@@ -125,7 +185,7 @@ pub fn remedy(model: &Model, s: &Suspect) -> String {
         (Part::Limit, _) => "`solreflimit`",
         (Part::Constraint, _) => "`solref`",
     };
-    let shorter = format!("{:.1e}", 0.9 * s.timestep.min(model.opt.timestep));
+    let shorter = two_digits(0.9 * s.timestep.min(model.opt.timestep));
     format!("write a timestep of {shorter} s, or softer {attribute}, or `integrator=\"discrete\"`")
 }
 

@@ -1,11 +1,13 @@
 //! Running a lab without a page: the exact order of events, sampled into a table.
 
 mod breakdown;
+mod budget;
 mod samples;
 mod session;
 mod table;
 
-pub use breakdown::{Breakdown, owner, remedy, times};
+pub use breakdown::{Breakdown, how_stiff, owner, remedy, time, two_digits};
+pub use budget::{Budget, End};
 pub use samples::Samples;
 pub use session::{Numerics, Session, Trouble};
 pub use table::{Cell, Table, shown};
@@ -148,6 +150,10 @@ pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) 
     for i in 1..=steps {
         session.press_due(&mut pending);
         session.step();
+        // What the page shows does not change any more, or is not known.
+        if session.ended().is_some() {
+            break;
+        }
         if i % every == 0 || i == steps {
             samples.take(&mut session);
         }

@@ -1,11 +1,12 @@
 //! One run of a lab: the order of events of the lab format, step by step.
 
+use super::budget::{Budget, End};
 use super::table::Cell;
 use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
 use crate::source::Text;
 use labspec_core::growth::{self, Growth, Watch};
 use labspec_core::{self as core, Data, Demand, Model, Plan, Warning, WarningStat};
-use labspec_expr::{Context, EventKind, Program, Value};
+use labspec_expr::{Context, EventKind, Program, RuntimeError, Value, code};
 
 /// Something that went wrong in a program while the lab ran; JavaScript would have thrown, or said nothing.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,10 +55,20 @@ pub struct Session<'p> {
     /// The current value of each control.
     values: Vec<Value>,
     watched: Option<Watched>,
+    /// Work that may be done from the start on, that of the data before, and that of samples.
+    budget: u64,
+    before: u64,
+    sampled: u64,
+    end: Option<End>,
 }
 
-/// How many times a run is looked at for growth: in a run of seconds, less than a hundredth of its steps' work.
+/// What a sample of a trace counts besides its own work.
+const SAMPLE: u64 = 100;
+
+/// How many times a run is looked at for growth, at least, and for how many steps it is not, at most: in a run of seconds,
+/// less than a hundredth of its steps' work.
 const LOOKS: usize = 24;
+const BETWEEN: usize = 50;
 
 /// A run that is watched for growth.
 #[derive(Debug)]
@@ -71,12 +82,34 @@ struct Watched {
 impl<'p> Session<'p> {
     /// Loads the lab: steps 1 to 3 of the order of events.
     pub fn start(programs: &'p Programs, model: &Model, key: Option<usize>, demand: &Demand) -> Session<'p> {
+        Session::start_within(programs, model, key, demand, Budget::ASKED)
+    }
+
+    /// The same with another budget.
+    pub fn start_within(
+        programs: &'p Programs,
+        model: &Model,
+        key: Option<usize>,
+        demand: &Demand,
+        budget: Budget,
+    ) -> Session<'p> {
         let data = Data::planned(model, Plan::new(model, demand));
-        Session::start_with(programs, model, key, data)
+        Session::load(programs, model, key, data, budget)
     }
 
     /// The same with data whose plan is already decided.
     pub fn start_with(programs: &'p Programs, model: &Model, key: Option<usize>, data: Data) -> Session<'p> {
+        Session::load(programs, model, key, data, Budget::ASKED)
+    }
+
+    fn load(
+        programs: &'p Programs,
+        model: &Model,
+        key: Option<usize>,
+        data: Data,
+        budget: Budget,
+    ) -> Session<'p> {
+        let before = core::cost(&data);
         let values = programs.controls.iter().map(|(_, c)| match c {
             ControlProgram::Change(value, _) => value.clone(),
             ControlProgram::Press(_) => Value::Undefined,
@@ -88,6 +121,10 @@ impl<'p> Session<'p> {
             warnings: [WarningStat::default(); Warning::COUNT],
             values: values.collect(),
             watched: None,
+            budget: budget.left,
+            before,
+            sampled: 0,
+            end: None,
             programs,
             key,
         };
@@ -102,6 +139,38 @@ impl<'p> Session<'p> {
         }
         session.after_reset();
         session
+    }
+
+    /// The work that was done, in units of about a nanosecond.
+    pub fn spent(&self) -> u64 {
+        (core::cost(&self.world.data) - self.before) + self.context.work() + self.sampled
+    }
+
+    /// Why the run has ended, if it has: from there on nothing happens any more.
+    pub fn ended(&self) -> Option<&End> {
+        self.end.as_ref()
+    }
+
+    fn left(&self) -> u64 {
+        self.budget.saturating_sub(self.spent())
+    }
+
+    /// Lets the engine and the next program do what is left; `false` when the run has ended.
+    fn go(&mut self) -> bool {
+        if self.end.is_none() {
+            let left = self.left();
+            core::limit(&mut self.world.data, left);
+            self.context.allow(left);
+        }
+        self.end.is_none()
+    }
+
+    /// Ends the run when its budget is spent; what it did since this time is of no use then.
+    fn settle(&mut self, time: f64) -> bool {
+        if self.end.is_none() && (core::exhausted(&self.world.data) || self.left() == 0) {
+            self.end = Some(End::Budget { time });
+        }
+        self.end.is_none()
     }
 
     /// A control changes: step 5.
@@ -139,10 +208,19 @@ impl<'p> Session<'p> {
         self.after_reset();
     }
 
-    /// The controller, then one step of the engine.
+    /// The controller, then one step of the engine. Nothing when the run has ended.
     pub fn step(&mut self) {
-        if let Some(bound) = &self.programs.controller {
-            self.execute(&bound.program, &bound.text, None);
+        if self.end.is_some() {
+            return;
+        }
+        let time = self.world.data.time;
+        if let Some(bound) = &self.programs.controller
+            && !self.execute(&bound.program, &bound.text, None)
+        {
+            self.end.get_or_insert(End::Threw);
+        }
+        if !self.go() {
+            return;
         }
         let World { model, data, .. } = &mut self.world;
         if let Some(w) = self.watched.as_mut().filter(|w| w.disturbed) {
@@ -150,6 +228,10 @@ impl<'p> Session<'p> {
             growth::restart(&mut w.watch, model, data);
         }
         core::step(model, data);
+        if !self.settle(time) {
+            return;
+        }
+        let World { model, data, .. } = &self.world;
         if let Some(w) = &mut self.watched {
             w.found = growth::look(&mut w.watch, model, data);
         }
@@ -159,6 +241,9 @@ impl<'p> Session<'p> {
     /// Watches the run of so many steps that begins here for energy that nothing gave it. Programs that write in
     /// every step may give any: such a run is not watched.
     pub fn watch(&mut self, steps: usize) {
+        if self.end.is_some() {
+            return;
+        }
         let probes = self.programs.probes.iter().filter_map(|p| p.bound.as_ref());
         let writes = |bound: &Bound| {
             let effects = bound.program.effects();
@@ -167,7 +252,7 @@ impl<'p> Session<'p> {
         if probes.chain(&self.programs.controller).any(writes) {
             return;
         }
-        let watch = growth::watch(&self.world.model, &self.world.data, steps / LOOKS);
+        let watch = growth::watch(&self.world.model, &self.world.data, (steps / LOOKS).min(BETWEEN));
         self.watched = Some(Watched { watch, found: None, disturbed: false });
     }
 
@@ -187,14 +272,33 @@ impl<'p> Session<'p> {
         row
     }
 
-    /// The value of an expression now; `None` when it throws.
+    /// The value of an expression now; `None` when it throws, and when the budget is spent. One that came to no end before is
+    /// not tried again.
     pub fn evaluate(&mut self, program: &Program, text: &Text) -> Option<Value> {
+        let endless = |t: &Trouble| t.code == code::BUDGET && t.text == *text;
+        if matches!(self.end, Some(End::Budget { .. })) || self.troubles.iter().any(endless) {
+            return None;
+        }
+        self.sampled += SAMPLE;
+        let (time, left) = (self.world.data.time, self.left());
+        core::limit(&mut self.world.data, left);
+        self.context.allow(left.min(Budget::SAMPLE.left));
         match program.run(&mut self.world, &mut self.context, None) {
-            Ok(value) => Some(value),
+            Ok(value) => self.settle(time).then_some(value),
             Err(e) => {
-                self.note(e.code, text, e.span.start..e.span.end, e.message);
+                self.threw(e, text, time);
                 None
             }
+        }
+    }
+
+    /// Notes what threw, unless it is the budget of the run that was spent.
+    fn threw(&mut self, e: RuntimeError, text: &Text, time: f64) {
+        let spent = e.code == code::BUDGET && (self.left() == 0 || core::exhausted(&self.world.data));
+        if spent {
+            self.end.get_or_insert(End::Budget { time });
+        } else {
+            self.note(e.code, text, e.span.start..e.span.end, e.message);
         }
     }
 
@@ -221,7 +325,12 @@ impl<'p> Session<'p> {
     }
 
     fn forward(&mut self) {
+        if !self.go() {
+            return;
+        }
+        let time = self.world.data.time;
         core::forward(&self.world.model, &mut self.world.data);
+        self.settle(time);
         if let Some(w) = &mut self.watched {
             w.disturbed = true;
         }
@@ -240,8 +349,11 @@ impl<'p> Session<'p> {
     /// Step 3: setup, the `init` controls, forward.
     fn after_reset(&mut self) {
         let programs = self.programs;
-        if let Some(bound) = &programs.setup {
-            self.execute(&bound.program, &bound.text, None);
+        if let Some(bound) = &programs.setup
+            && self.end.is_none()
+            && !self.execute(&bound.program, &bound.text, None)
+        {
+            self.end.get_or_insert(End::Threw);
         }
         for i in 0..programs.controls.len() {
             if let ControlProgram::Change(_, action) = &programs.controls[i].1
@@ -272,10 +384,19 @@ impl<'p> Session<'p> {
         }
     }
 
-    fn execute(&mut self, program: &Program, text: &Text, value: Option<&Value>) {
+    /// Runs statements, unless the run has ended; `false` when they throw.
+    fn execute(&mut self, program: &Program, text: &Text, value: Option<&Value>) -> bool {
+        if !self.go() {
+            return false;
+        }
+        let time = self.world.data.time;
         let result = program.run(&mut self.world, &mut self.context, value);
+        let good = result.is_ok();
         if let Err(e) = result {
-            self.note(e.code, text, e.span.start..e.span.end, e.message);
+            self.threw(e, text, time);
+        }
+        if !self.settle(time) {
+            return good;
         }
         // Reading past the end gives `undefined`, which a lesson may mean; a lost store it cannot.
         let lost = self.context.events().iter().find(|e| e.kind == EventKind::StorePastEnd).copied();
@@ -283,6 +404,7 @@ impl<'p> Session<'p> {
             self.note(event.code(), text, event.span.start..event.span.end, event.to_string());
         }
         self.note_warnings();
+        good
     }
 
     fn note(&mut self, code: &'static str, text: &Text, span: std::ops::Range<usize>, message: String) {

@@ -1,6 +1,6 @@
 //! The samples of a run, and their written forms.
 
-use super::{Breakdown, Session};
+use super::{Breakdown, End, Session};
 use labspec_core::Warning;
 use labspec_expr::Value;
 use serde_json::{Value as Json, json};
@@ -131,6 +131,11 @@ impl Table {
         self.warnings = raised.map(|(w, s)| (w.name(), s.number)).collect();
         self.breakdown = Breakdown::of(session);
         self.errors = session.troubles.iter().map(|t| format!("{}: {}", t.text.value, t.message)).collect();
+        if let Some(End::Budget { time }) = session.ended() {
+            self.errors.push(format!(
+                "the run was stopped at t = {time} s: it does more work than a run may; simplify the scene or its programs"
+            ));
+        }
     }
 
     /// The points of a column over time.

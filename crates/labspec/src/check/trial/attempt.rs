@@ -1,0 +1,113 @@
+//! One run that looks for what breaks.
+
+use super::super::Ready;
+use super::seen::Seen;
+use super::{Trial, lab_place};
+use crate::bind::scene::finding;
+use crate::bind::warning;
+use crate::finding::Finding;
+use crate::run::{self, Breakdown, Budget, End, Session, Trouble};
+use labspec_core::Model;
+use std::ops::Range;
+
+/// How often what a lab shows is looked at, at least, besides its start.
+const SAMPLES: usize = 200;
+
+/// Why a run ended before its time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ended {
+    /// A program of the lab threw.
+    Threw,
+    /// The budget was spent.
+    Spent,
+}
+
+/// A run that was made.
+pub(super) struct Attempt {
+    /// Length of what was run, s.
+    pub(super) covered: f64,
+    /// Work that it took.
+    pub(super) spent: u64,
+    pub(super) broke: bool,
+    pub(super) ended: Option<Ended>,
+    /// The model as the lab left it.
+    pub(super) model: Model,
+}
+
+/// Makes one run and reports what broke.
+///
+/// # Errors
+/// The run cannot be made.
+pub(super) fn make(
+    ready: &Ready<'_>,
+    trial: &Trial<'_>,
+    wanted: f64,
+    budget: Budget,
+    seen: &mut Seen<'_>,
+    findings: &mut Vec<Finding>,
+) -> Result<Attempt, Finding> {
+    let (lab, programs) = (ready.lab, &ready.programs);
+    let mut session = Session::start_within(programs, &ready.model, lab.keyframe(), &programs.demand, budget);
+    let place = trial.control.map_or(lab_place(lab), |c| c.label.span());
+    let impossible = |e: run::RunError| finding("run-impossible", place.clone(), e.0);
+    run::set_controls(&mut session, programs, &trial.options.set).map_err(impossible)?;
+    let presses = run::presses(programs, &trial.options.press).map_err(impossible)?;
+    let timestep = session.world.model.opt.timestep;
+    // As long as plots show costs what it costs; what an author asks for has a limit.
+    let until = lab.stop_at.is_none().then(|| wanted.min(timestep * (run::MAX_STEPS - 1) as f64));
+    let steps = run::count_steps(lab, until, None, timestep).map_err(impossible)?;
+
+    let mut pending = presses.as_slice();
+    session.press_due(&mut pending);
+    seen.look(&mut session, &trial.done);
+    session.watch(steps);
+    let every = (steps / SAMPLES).max(1);
+    let mut made = 0;
+    for i in 1..=steps {
+        session.press_due(&mut pending);
+        session.step();
+        if session.ended().is_some() {
+            break;
+        }
+        made = i;
+        if i % every == 0 || i == steps {
+            seen.look(&mut session, &trial.done);
+        }
+    }
+    let ended = match session.ended() {
+        None => None,
+        Some(End::Threw) => Some(Ended::Threw),
+        Some(End::Budget { .. }) => Some(Ended::Spent),
+    };
+    let covered = if made == steps { wanted } else { made as f64 * timestep };
+    let before = findings.len();
+    for t in &session.troubles {
+        if seen.is_new(t) {
+            findings.push(trouble(t, &trial.done));
+        }
+    }
+    findings.extend(broken(&session, &trial.done, place));
+    let broke = findings.len() > before;
+    findings.extend(seen.take());
+    let spent = session.spent();
+    Ok(Attempt { covered, spent, broke, ended, model: session.world.model })
+}
+
+/// A program that threw, at its place.
+fn trouble(t: &Trouble, done: &str) -> Finding {
+    finding(t.code, t.text.span_of(t.span.clone()), format!("{} ({done}, at t = {} s)", t.message, t.time))
+        .why("on the page an error in `setup` or `controller` freezes the lab, and one in a trace shows nan")
+        .help("correct the statement, or guard it with a condition")
+}
+
+/// What the engine warned of, or energy from nothing, with time, joint and likely cause.
+fn broken(session: &Session<'_>, done: &str, place: Range<usize>) -> Vec<Finding> {
+    let told = |b: Breakdown| {
+        let what = match b.code {
+            "engine-warning" => format!("the engine warns {done}: {}", b.what),
+            _ => format!("the simulation breaks {done}: {}", b.what),
+        };
+        warning(b.code, place.clone(), what).why(b.why).help(b.help)
+    };
+    Breakdown::all(session).into_iter().map(told).collect()
+}

@@ -1,0 +1,237 @@
+//! The runs that look for what breaks: every lab as it stands, and with each control at its ends, within a budget of work
+//! for the whole file.
+
+mod attempt;
+mod seen;
+
+use super::{RanLab, Ready};
+use crate::bind::warning;
+use crate::finding::Finding;
+use crate::run::{self, Budget, RunOptions};
+use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson};
+use attempt::{Attempt, Ended};
+use labspec_core::{Model, stability};
+use labspec_expr::Value;
+use seen::Seen;
+use std::ops::Range;
+
+/// When buttons are pressed, s.
+const PRESS: f64 = 0.1;
+/// Length of the runs of a lab that says nothing of it, s.
+const LENGTH: f64 = 10.0;
+/// What is kept for each lab that is still to be run as it stands.
+const RESERVE: u64 = 50_000_000;
+
+/// What the runs of a lab covered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tried {
+    /// Runs that were made.
+    pub runs: usize,
+    /// How long each was meant to be, s.
+    pub wanted: f64,
+    /// How long the shortest was, s.
+    pub covered: f64,
+    /// Runs that were not made, because the budget was spent or the lab breaks as it stands.
+    pub skipped: usize,
+    /// Something broke.
+    pub broke: bool,
+    /// Why a run ended before its time: one short sentence.
+    pub ended: Option<String>,
+}
+
+/// One thing that a student may do before pressing play.
+struct Trial<'a> {
+    options: RunOptions,
+    /// What was done, for the message.
+    done: String,
+    /// The control, unless it is the lab as it stands.
+    control: Option<&'a Control>,
+}
+
+/// A lab on its way through its runs.
+struct Tour<'a> {
+    ready: &'a Ready<'a>,
+    wanted: f64,
+    /// Those with controls, in order.
+    left: std::vec::IntoIter<Trial<'a>>,
+    seen: Seen<'a>,
+    tried: Option<Tried>,
+    /// It breaks as it stands, or never begins to run: it would with every control.
+    hopeless: bool,
+}
+
+/// Runs every lab that has an address, as it stands and with each control at its ends.
+pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> Vec<RanLab> {
+    let addressed = lesson.addressed();
+    let mut left = Budget::FILE.left;
+    let mut tours: Vec<(&LabAddress, &Lab, Option<Tour<'_>>)> = Vec::new();
+    for (i, (address, lab)) in addressed.iter().enumerate() {
+        let later = (addressed.len() - i - 1) as u64;
+        let share = left.saturating_sub(RESERVE * later).clamp(RESERVE.min(left), Budget::TRIAL.left);
+        let found = ready.iter().find(|r| std::ptr::eq(r.lab, *lab));
+        tours.push((address, lab, found.map(|r| begin(r, Budget { left: share }, &mut left, findings))));
+    }
+    // What is left is shared by the labs as they come.
+    let mut others = tours.len() as u64;
+    for tour in tours.iter_mut().filter_map(|(.., tour)| tour.as_mut()) {
+        let mut share = left / others.max(1);
+        others = others.saturating_sub(1);
+        let before = share;
+        go_on(tour, &mut share, findings);
+        left -= before - share;
+        findings.extend(tour.seen.never(tour.tried.as_ref().is_some_and(|t| t.skipped == 0)));
+    }
+    let ran = |(address, lab, tour): (&LabAddress, &Lab, Option<Tour<'_>>)| {
+        let tried = tour.and_then(|t| t.tried);
+        let runs = tried.as_ref().map_or(0, |t| t.runs);
+        let mistakes = ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map_or(0, |r| r.mistakes);
+        RanLab { address: address.clone(), title: lab.title().to_string(), runs, ran: runs > 0, tried, mistakes }
+    };
+    tours.into_iter().map(ran).collect()
+}
+
+/// How long a student looks at a lab: until it stops, or as far as its plots show.
+fn length(lab: &Lab) -> f64 {
+    let longest = lab.plots.iter().map(|p| p.window()).filter(|w| w.is_finite()).fold(0.0, f64::max);
+    match &lab.stop_at {
+        Some(stop) => stop.value,
+        None if longest > 0.0 => longest,
+        None => LENGTH,
+    }
+}
+
+/// The lab as it stands.
+fn begin<'a>(ready: &'a Ready<'a>, budget: Budget, left: &mut u64, findings: &mut Vec<Finding>) -> Tour<'a> {
+    let wanted = length(ready.lab);
+    let trials = trials(ready.lab, wanted);
+    let mut tour = Tour {
+        ready,
+        wanted,
+        left: trials.into_iter(),
+        seen: Seen::new(ready),
+        tried: None,
+        hopeless: false,
+    };
+    let Some(first) = tour.left.next() else { return tour };
+    match attempt::make(ready, &first, wanted, budget, &mut tour.seen, findings) {
+        Ok(attempt) => {
+            *left = left.saturating_sub(attempt.spent);
+            if !attempt.broke
+                && let Some(f) = too_stiff(&attempt.model, lab_place(ready.lab), attempt.covered)
+            {
+                findings.push(f);
+            }
+            tour.hopeless = attempt.broke || attempt.covered == 0.0 && wanted > 0.0;
+            tour.tried =
+                Some(Tried { runs: 0, wanted, covered: wanted, skipped: 0, broke: false, ended: None });
+            count(&mut tour, &attempt);
+        }
+        Err(finding) => {
+            findings.push(finding);
+            tour.hopeless = true;
+        }
+    }
+    if tour.hopeless {
+        let skipped = tour.left.by_ref().count();
+        if let Some(tried) = &mut tour.tried {
+            tried.skipped = skipped;
+        }
+    }
+    tour
+}
+
+/// The runs with each control at its ends, while something is left.
+fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
+    while let Some(trial) = tour.left.next() {
+        if *left == 0 {
+            let skipped = 1 + tour.left.by_ref().count();
+            if let Some(tried) = &mut tour.tried {
+                tried.skipped = skipped;
+            }
+            return;
+        }
+        let budget = Budget { left: Budget::TRIAL.left.min(*left) };
+        match attempt::make(tour.ready, &trial, tour.wanted, budget, &mut tour.seen, findings) {
+            Ok(attempt) => {
+                *left = left.saturating_sub(attempt.spent);
+                count(tour, &attempt);
+            }
+            Err(finding) => findings.push(finding),
+        }
+    }
+}
+
+/// Counts a run that was made.
+fn count(tour: &mut Tour<'_>, attempt: &Attempt) {
+    let Some(tried) = &mut tour.tried else { return };
+    tried.runs += 1;
+    tried.broke |= attempt.broke;
+    if attempt.covered < tried.covered {
+        tried.covered = attempt.covered;
+        let [covered, wanted] = [attempt.covered, tour.wanted].map(seconds);
+        tried.ended = match attempt.ended {
+            Some(Ended::Threw) => Some(format!("frozen after {covered} of {wanted} s")),
+            Some(Ended::Spent) => Some(format!("first {covered} of {wanted} s")),
+            None => None,
+        };
+    }
+}
+
+/// A time as a report names it: `4.0`, `0.25`, `20`.
+fn seconds(t: f64) -> String {
+    if t >= 10.0 && t.fract() == 0.0 || t == 0.0 { format!("{t:.0}") } else { run::two_digits(t) }
+}
+
+/// As it stands, then with each control at its ends.
+fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
+    let mut trials =
+        vec![Trial { options: RunOptions::default(), done: "as it stands".into(), control: None }];
+    for control in &lab.controls {
+        let label = &control.label.value;
+        let mut set = |value: Value| {
+            trials.push(Trial {
+                done: format!("with \"{label}\" at {value}"),
+                options: RunOptions { set: vec![(label.clone(), value)], ..RunOptions::default() },
+                control: Some(control),
+            });
+        };
+        match &control.kind {
+            ControlKind::Slider { min, max, .. } => {
+                set(Value::Number(min.value));
+                set(Value::Number(max.value));
+            }
+            ControlKind::Select { options, .. } => {
+                options.iter().for_each(|o| set(crate::bind::scalar(&o.value)))
+            }
+            ControlKind::Button { .. } => trials.push(Trial {
+                done: format!("after \"{label}\" is pressed"),
+                options: RunOptions {
+                    press: vec![(label.clone(), PRESS.min(0.5 * wanted))],
+                    ..RunOptions::default()
+                },
+                control: Some(control),
+            }),
+        }
+    }
+    trials
+}
+
+/// Where to point when a whole lab is meant: at its model.
+fn lab_place(lab: &Lab) -> Range<usize> {
+    let scene = lab.model.as_ref().or(lab.xml.as_ref());
+    scene.map_or(lab.span.start..lab.span.start + 1, |t| t.span())
+}
+
+/// What of a lab's scene no step of its length can follow, though its run did not show it.
+fn too_stiff(model: &Model, place: Range<usize>, covered: f64) -> Option<Finding> {
+    let worst = stability::suspects(model).into_iter().next()?;
+    let [owner, how] = [run::owner(model, &worst), run::how_stiff(&worst)];
+    Some(
+        warning("stiff-for-timestep", place, format!("{owner} is {how} for its timestep"))
+            .why(format!(
+                "the {} s that were run are well, but once it is pushed, every step pushes back farther than the last one missed: it swings ever wider, without a word from MuJoCo until a number is beyond 1e10",
+                seconds(covered)
+            ))
+            .help(run::remedy(model, &worst)),
+    )
+}

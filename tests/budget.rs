@@ -1,0 +1,296 @@
+//! Every run ends: what a lab may cost is counted in work, for a run and for a file, and a check says what it covered.
+//! And what is looked at in these runs: everything that a lab shows, over all the time that it shows.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::support::{check_text, codes, compile};
+use labspec::check::{Checked, Tried};
+use labspec_core::{self as core, Data};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::time::Duration;
+
+/// What a check may take of the processor here, in a build that is hardly optimized.
+const LONGEST: Duration = Duration::from_secs(60);
+
+/// Time that this thread has used, where that is known.
+fn used() -> Option<Duration> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    text.split(' ').next()?.parse().ok().map(Duration::from_nanos)
+}
+
+/// A pendulum, 1000 steps in 10 s.
+const PENDULUM: &str = "<mujoco><option timestep='.01'/><worldbody><body><joint name='swing' type='hinge' axis='0 1 0'/><geom size='.1' pos='.5 0 0' mass='1'/></body></worldbody></mujoco>";
+
+/// There is no contact.
+const THROWS: &str = "mj.mj_contactForce(model, data, 0, [0, 0, 0, 0, 0, 0])";
+
+/// The check of a lab over a scene with more keys.
+fn check(xml: &str, more: Value) -> Checked {
+    let mut lab = json!({"xml": xml});
+    for (key, value) in more.as_object().unwrap() {
+        lab[key] = value.clone();
+    }
+    let before = used();
+    let checked = check_text("lab.md", &format!("```lab simlab\n{lab}\n```\n"));
+    if let (Some(before), Some(after)) = (before, used()) {
+        println!("{:?}", after - before);
+        assert!(after - before < LONGEST, "{:?}", after - before);
+    }
+    checked
+}
+
+fn tried(checked: &Checked) -> Tried {
+    checked.labs[0].tried.clone().unwrap()
+}
+
+fn shown(checked: &Checked) -> Vec<(&'static str, String)> {
+    checked.findings.iter().map(|f| (f.code, f.message.clone())).collect()
+}
+
+fn count(checked: &Checked, code: &str) -> usize {
+    codes(checked).iter().filter(|c| **c == code).count()
+}
+
+#[test]
+fn the_first_throw_of_a_controller_ends_the_run() {
+    for controller in ["for (;;) {}", "let n = 1; while (n > 0) n++", THROWS] {
+        let checked = check(
+            PENDULUM,
+            json!({"controller": controller, "controls": [{"label": "g", "set": "model.opt.gravity[2]", "min": -10, "max": -1, "value": -9}]}),
+        );
+        let t = tried(&checked);
+        assert_eq!((t.runs, t.skipped, t.covered, t.broke), (1, 2, 0.0, true), "{controller}: {t:?}");
+        assert_eq!(t.ended.as_deref(), Some("frozen after 0 of 10 s"));
+        assert_eq!(codes(&checked).len(), 1, "{:?}", shown(&checked));
+    }
+    // Later, too, and what was covered is said.
+    let checked = check(PENDULUM, json!({"controller": format!("if (data.time > 3.995) {{ {THROWS} }}")}));
+    assert_eq!(tried(&checked).ended.as_deref(), Some("frozen after 4 of 10 s"));
+}
+
+#[test]
+fn a_setup_that_does_not_end() {
+    let checked = check(
+        PENDULUM,
+        json!({"setup": "let n = 1; while (n > 0) n++", "readouts": [{"label": "t", "expr": "data.time"}]}),
+    );
+    assert_eq!(tried(&checked).covered, 0.0);
+    assert_eq!(codes(&checked), ["too-many-steps"], "{:?}", shown(&checked));
+}
+
+#[test]
+fn steps_in_programs_cost_what_steps_cost() {
+    let steps = "for (let i = 0; i < 1e6; i++) mj.mj_step(model, data)";
+    let checked = check(PENDULUM, json!({"controller": steps}));
+    assert_eq!(codes(&checked), ["too-many-steps"], "{:?}", shown(&checked));
+    let checked = check(PENDULUM, json!({"controls": [{"type": "button", "label": "On", "run": steps}]}));
+    assert_eq!(count(&checked, "too-many-steps"), 1, "{:?}", shown(&checked));
+    assert_eq!((tried(&checked).runs, tried(&checked).covered), (2, 10.0));
+    let readout = format!("(() => {{ {steps}; return data.time }})()");
+    let checked = check(PENDULUM, json!({"readouts": [{"label": "t", "expr": readout}]}));
+    assert_eq!(count(&checked, "too-many-steps"), 1, "{:?}", shown(&checked));
+    // It is not tried again, so the run goes on.
+    assert_eq!(tried(&checked).covered, 10.0);
+}
+
+#[test]
+fn ten_traces_that_do_not_end() {
+    let readouts: Vec<Value> = (0..10)
+        .map(|i| json!({"label": i.to_string(), "expr": format!("(() => {{ let n = {i}; while (n >= 0) n++; return n }})()")}))
+        .collect();
+    let checked = check(PENDULUM, json!({"readouts": readouts}));
+    assert_eq!(count(&checked, "too-many-steps"), 10, "{:?}", shown(&checked));
+    assert_eq!((tried(&checked).runs, tried(&checked).covered), (1, 10.0));
+}
+
+#[test]
+fn a_hundred_sliders_with_a_slow_loop() {
+    let controls = |turns: &str| -> Value {
+        (0..100)
+            .map(|i| json!({"label": i.to_string(), "min": 0, "max": 1, "value": 0, "apply": format!("let s = value; for (let i = 0; i < {turns}; i++) s += value; ctx.s{i} = s")}))
+            .collect()
+    };
+    let checked = check(PENDULUM, json!({"controls": controls("2e5")}));
+    let t = tried(&checked);
+    assert!(t.runs > 1 && t.runs + t.skipped == 201, "{t:?}");
+    // Each of these alone is too much; the run does not come to its start.
+    let checked = check(PENDULUM, json!({"controls": controls("1e9")}));
+    let t = tried(&checked);
+    assert_eq!((t.runs, t.skipped, t.covered), (1, 200, 0.0), "{t:?}");
+    assert_eq!(tried(&check(PENDULUM, json!({"controls": controls("1e9")}))), t);
+}
+
+#[test]
+fn two_thousand_balls_in_one_place() {
+    let mut xml = String::from("<mujoco><worldbody>");
+    for i in 0..2000 {
+        let _ = write!(xml, "<body pos='0 0 {}'><freejoint/><geom size='.1'/></body>", f64::from(i) * 1e-6);
+    }
+    xml.push_str("</worldbody></mujoco>");
+    let checked = check(&xml, json!({"stopAt": 20}));
+    let t = tried(&checked);
+    println!("{t:?}");
+    assert!(t.covered < 1.0 && t.ended.unwrap().starts_with("first "));
+    assert!(!codes(&checked).contains(&"simulation-diverges"), "{:?}", shown(&checked));
+}
+
+#[test]
+fn a_thousand_sensors_of_four_million_pairs() {
+    let side = |name: &str, x: f64| {
+        let mut body = format!("<body name='{name}' pos='{x} 0 0'>");
+        for i in 0..2000 {
+            let _ = write!(
+                body,
+                "<geom type='ellipsoid' size='.1 .2 .3' pos='0 0 {i}' contype='0' conaffinity='0'/>"
+            );
+        }
+        body + "</body>"
+    };
+    let sensors = "<distance body1='a' body2='b' cutoff='1000'/>".repeat(1000);
+    let xml = format!(
+        "<mujoco><worldbody>{}{}</worldbody><sensor>{sensors}</sensor></mujoco>",
+        side("a", 0.0),
+        side("b", 5.0)
+    );
+    let checked = check(&xml, json!({"readouts": [{"label": "d", "expr": "data.sensordata[0]"}]}));
+    let t = tried(&checked);
+    assert_eq!(t.covered, 0.0, "{t:?}");
+    assert!(t.ended.unwrap().starts_with("first 0 of 10 s"));
+}
+
+#[test]
+fn iterations_without_number_end() {
+    let boxes = |option: &str| {
+        let mut xml = format!("<mujoco><option {option}/><worldbody><geom type='plane' size='1 1 1'/>");
+        for i in 0..8 {
+            let _ = write!(
+                xml,
+                "<body pos='.0{i} 0 {}'><freejoint/><geom type='box' size='.1 .1 .1' friction='2 .1 .1'/></body>",
+                0.1 + 0.199 * f64::from(i)
+            );
+        }
+        xml + "</worldbody></mujoco>"
+    };
+    for solver in ["PGS", "CG", "Newton"] {
+        let many = format!(
+            "solver='{solver}' tolerance='0' ls_tolerance='0' iterations='1000000000' ls_iterations='1000000000' noslip_iterations='1000000000' noslip_tolerance='0' ccd_iterations='1000000000' sdf_iterations='1000000000'"
+        );
+        let t = tried(&check(&boxes(&many), json!({})));
+        println!("{solver} {t:?}");
+        assert!(t.covered == t.wanted || t.ended.unwrap().starts_with("first "), "{solver}");
+    }
+    let setup = "model.opt.tolerance = 0; model.opt.noslip_tolerance = 0; model.opt.noslip_iterations = 1e9; model.opt.iterations = 1e9";
+    let t = tried(&check(&boxes(""), json!({"setup": setup})));
+    assert!(t.covered == t.wanted || t.ended.unwrap().starts_with("first "));
+}
+
+#[test]
+fn a_lab_is_run_for_as_long_as_it_is_looked_at() {
+    let late = |t: f64| json!(format!("if (data.time > {t}) {{ data.qvel[0] = 1e11 }}"));
+    for (more, t, found) in [
+        (json!({}), 5.01, true),
+        (json!({}), 9.9, true),
+        (json!({"stopAt": 20}), 19.9, true),
+        (json!({"stopAt": 1}), 1.1, false),
+        (json!({"plots": [{"window": 30, "traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 29.0, true),
+        (json!({"plots": [{"traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 4.9, true),
+        (json!({"plots": [{"traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 5.1, false),
+    ] {
+        let mut lab = more.clone();
+        lab["controller"] = late(t);
+        let checked = check(PENDULUM, lab);
+        assert_eq!(
+            codes(&checked).contains(&"simulation-diverges"),
+            found,
+            "{more} {t}: {:?}",
+            shown(&checked)
+        );
+        let t = tried(&checked);
+        assert_eq!((t.covered, t.ended, t.broke), (t.wanted, None, found), "{more}");
+    }
+}
+
+#[test]
+fn everything_that_is_shown_is_looked_at() {
+    let readout = |expr: &str| json!({"readouts": [{"label": "x", "expr": expr}]});
+    let trace = |expr: &str| json!({"plots": [{"traces": [{"label": "x", "expr": expr}]}]});
+    for (lab, expected) in [
+        (readout("Math.sqrt(data.time - 5)"), vec!["shows-nan"]),
+        (readout("data.time > 9.99 ? Math.sqrt(-1 - data.time) : 1"), vec!["shows-nan"]),
+        (trace("1 / (data.time - data.time)"), vec!["shows-infinite"]),
+        (trace("data.time.toFixed(2)"), vec!["text-in-plot"]),
+        (readout("data.time.toFixed(2)"), vec![]),
+        (trace("data.time > 1 ? data.time : NaN"), vec![]),
+        (readout("data.time > 1 ? Math.sqrt(-data.time) : NaN"), vec![]),
+        (readout("data.time > 1 ? Infinity : 0"), vec![]),
+        (trace("data.time"), vec![]),
+    ] {
+        let checked = check(PENDULUM, lab.clone());
+        assert_eq!(codes(&checked), expected, "{lab}: {:?}", shown(&checked));
+    }
+}
+
+#[test]
+fn gaps_that_are_meant_are_silent() {
+    let trace = json!([{"traces": [{"label": "x", "expr": "ctx.x"}]}]);
+    // Until a button is pressed; until a routine has finished, which says so itself.
+    let checked = check(
+        PENDULUM,
+        json!({"plots": trace, "controls": [{"type": "button", "label": "Go", "run": "ctx.x = data.time"}]}),
+    );
+    assert_eq!(codes(&checked), Vec::<&str>::new(), "{:?}", shown(&checked));
+    let checked = check(
+        PENDULUM,
+        json!({"plots": trace, "setup": "ctx.x = NaN", "controller": "if (data.time > 3) { ctx.x = 1 }"}),
+    );
+    assert_eq!(codes(&checked), Vec::<&str>::new(), "{:?}", shown(&checked));
+    // A gap that nothing ever fills.
+    let checked =
+        check(PENDULUM, json!({"plots": trace, "controller": "if (data.time > 300) { ctx.x = 1 }"}));
+    assert_eq!(codes(&checked), ["shows-nan"], "{:?}", shown(&checked));
+    // No number that is computed.
+    let checked = check(PENDULUM, json!({"plots": trace, "controller": "ctx.x = Math.sqrt(-1 - data.time)"}));
+    assert_eq!(codes(&checked), ["shows-nan"], "{:?}", shown(&checked));
+}
+
+#[test]
+fn with_each_setting_of_a_control() {
+    let lab = json!({
+        "controls": [{"label": "k", "param": "k", "min": 0, "max": 2, "step": 1, "value": 1}],
+        "readouts": [{"label": "x", "expr": "1 / ctx.k"}],
+    });
+    let checked = check(PENDULUM, lab);
+    assert_eq!(codes(&checked), ["shows-infinite"]);
+    assert!(checked.findings[0].message.contains("with \"k\" at 0"), "{:?}", shown(&checked));
+    assert_eq!((tried(&checked).runs, tried(&checked).skipped), (3, 0));
+}
+
+#[test]
+fn every_warning_of_the_engine_is_a_finding() {
+    let checked = check(PENDULUM, json!({"setup": "model.body_mass[1] = -1; model.body_inertia.fill(-1)"}));
+    assert!(codes(&checked).contains(&"engine-warning"), "{:?}", shown(&checked));
+    assert!(tried(&checked).broke);
+}
+
+#[test]
+fn counting_changes_no_number() {
+    let xml = "<mujoco><worldbody><geom type='plane' size='1 1 1'/><body pos='0 0 .15'><freejoint/><geom type='box' size='.1 .1 .1'/></body></worldbody></mujoco>";
+    let m = compile(xml);
+    let (mut free, mut limited) = (Data::new(&m), Data::new(&m));
+    core::limit(&mut limited, u64::MAX);
+    for _ in 0..200 {
+        core::step(&m, &mut free);
+        core::step(&m, &mut limited);
+    }
+    assert_eq!(free.qpos, limited.qpos);
+    assert_eq!(core::cost(&free), core::cost(&limited));
+    assert!(!core::exhausted(&limited) && core::cost(&free) > 200 * core::cost_of_pass(&free));
+    // Beyond the limit steps cost next to nothing.
+    core::limit(&mut limited, 0);
+    core::step(&m, &mut limited);
+    assert!(core::exhausted(&limited));
+    let before = core::cost(&limited);
+    core::step(&m, &mut limited);
+    assert!(core::cost(&limited) - before <= 2 * core::cost_of_pass(&limited));
+}
