@@ -1,6 +1,8 @@
 //! The whole check of a lesson: structure, names, runs of every lab, verdicts of every question.
 
+mod expect;
 mod programs;
+mod refresh;
 mod trial;
 
 use crate::bind::Programs;
@@ -83,7 +85,7 @@ fn prepare<'l>(lab: &'l Lab, models: &mut Models, findings: &mut Vec<Finding>) -
         );
     }
     let programs = Programs::compile(lab, &model, findings);
-    programs::check(lab, &programs, findings);
+    programs::check(lab, &model, &programs, findings);
     Some(Ready { lab, model, programs })
 }
 
@@ -133,6 +135,7 @@ fn claim(
         Some(VerifyLab::Broken) => None,
     };
     let target = lab.and_then(|lab| ready.iter().find(|r| std::ptr::eq(r.lab, lab)));
+    target.iter().for_each(|r| refresh::check_runs(verify, r.lab, &r.model, &r.programs, findings));
     let bound = target.and_then(|r| BoundVerify::new(verify, r.lab, &r.model, &r.programs, findings));
     let judgement = bound.map(|b| verify::check(&b, verify, question, lesson, findings));
     let (verdict, measures, quotes) =

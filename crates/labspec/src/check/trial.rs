@@ -20,7 +20,9 @@ const TRIAL_STEPS: usize = 20_000;
 /// Runs every lab that has an address, as it stands and with each control at its ends.
 pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> Vec<RanLab> {
     let each = |(address, lab): (LabAddress, &Lab)| {
+        let before = findings.len();
         let runs = ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map_or(0, |r| try_lab(r, findings));
+        super::expect::settle(lab, runs, findings, before);
         RanLab { address, title: lab.title().to_string(), runs, ran: runs > 0 }
     };
     lesson.addressed().into_iter().map(each).collect()
@@ -80,7 +82,7 @@ fn attempt(ready: &Ready<'_>, trial: &Trial<'_>, findings: &mut Vec<Finding>) ->
     let key = lab.keyframe();
     let mut session = Session::start(&ready.programs, &ready.model, key, &ready.programs.demand);
     let place = trial.control.map_or(lab_place(lab), |c| c.label.span());
-    let prepared = run::set_controls(&mut session, &ready.programs, &trial.options.set)
+    let prepared = run::set_controls(&mut session, ready.lab, &ready.programs, &trial.options.set)
         .and_then(|()| run::presses(&ready.programs, &trial.options.press));
     let timestep = session.world.model.opt.timestep;
     let steps = run::count_steps(lab, lab.stop_at.is_none().then_some(TRIAL), None, timestep);
