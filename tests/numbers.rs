@@ -124,8 +124,7 @@ fn resting_depth_and_mass_and_gravity() {
         "label": "mass", "apply": "model.body_mass[2] = value; mj.mj_setConst(model, data)",
         "min": 0.01, "max": 5, "step": 0.01, "value": 0.1
     });
-    let gravity =
-        json!({"label": "gravity", "set": "model.opt.gravity[2]", "min": -20, "max": 0, "step": 0.005, "value": -9.81});
+    let gravity = json!({"label": "gravity", "set": "model.opt.gravity[2]", "min": -20, "max": 0, "step": 0.005, "value": -9.81});
     verified(
         &model_text("ball_drop"),
         json!([mass, gravity]),

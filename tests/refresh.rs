@@ -101,7 +101,8 @@ fn an_arm_posed_by_a_key_keeps_its_pose() {
 #[test]
 fn the_plain_call_is_advised_where_it_was_seen_to_be_right() {
     // From the reference, and reset after every change: qpos is not there to be lost.
-    let lab = drop(&json!([slider(&json!({"apply": "model.body_mass[2] = value;", "value": 0.1, "reset": true}))]));
+    let lab =
+        drop(&json!([slider(&json!({"apply": "model.body_mass[2] = value;", "value": 0.1, "reset": true}))]));
     let help = only(&lab).help.unwrap();
     assert!(help.starts_with("add `mj.mj_setConst(model, data)`; tried"), "{help}");
     assert!(!fixed(&lab).contains("slice"));
@@ -189,7 +190,12 @@ fn pushed(more: &Json, lab: &Json) -> Vec<&'static str> {
 #[test]
 fn lost_at_reset_is_not_hidden_by_an_unrelated_call() {
     let lost = |apply: &str| pushed(&json!({"apply": apply}), &json!({}));
-    for call in ["", "; mj.mj_forward(model, data)", "; mj.mj_kinematics(model, data)", "; mj.mj_setConst(model, data)"] {
+    for call in [
+        "",
+        "; mj.mj_forward(model, data)",
+        "; mj.mj_kinematics(model, data)",
+        "; mj.mj_setConst(model, data)",
+    ] {
         assert_eq!(lost(&format!("data.ctrl[0] = value{call}")), ["lost-at-reset"], "{call}");
     }
     // A start of its own, and what mj_setConst moves and an author puts back.
@@ -213,7 +219,8 @@ fn lost_at_reset_is_shown_by_a_run() {
 
 #[test]
 fn apply_beside_set_is_dead() {
-    let codes = pushed(&json!({"set": "model.dof_damping[0]", "apply": "mj.mj_forward(model, data)"}), &json!({}));
+    let codes =
+        pushed(&json!({"set": "model.dof_damping[0]", "apply": "mj.mj_forward(model, data)"}), &json!({}));
     assert_eq!(codes, ["apply-unused"]);
 }
 

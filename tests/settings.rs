@@ -63,7 +63,11 @@ fn the_text_of_an_option_means_its_value_in_a_verified_run() {
 #[test]
 fn a_verified_run_with_a_setting_that_no_student_can_make_is_refused_at_its_value() {
     let cases = [
-        (json!({"integrator": 3}), "3", "3 is no option of \"integrator\"; its options are 0 (\"Euler\"), 4 (\"discrete\")"),
+        (
+            json!({"integrator": 3}),
+            "3",
+            "3 is no option of \"integrator\"; its options are 0 (\"Euler\"), 4 (\"discrete\")",
+        ),
         (json!({"integrator": "RK4"}), "RK4", "the text \"RK4\" is no option"),
         (json!({"gravity": -25}), "-25", "\"gravity\" goes from -20 to 0: -25 cannot be chosen"),
         (json!({"gravity": -4.9}), "-4.9", "the nearest values are -5 and -4.75"),
@@ -93,7 +97,10 @@ fn a_press_that_never_happens_is_refused() {
 
 /// The same lab run by the library, as `labspec run` does.
 fn run_with(set: &[(&str, Value)], press: &[(&str, f64)]) -> Result<f64, String> {
-    let lesson = load_lesson(SourceFile::new("lab.json", lab(&json!({"says": []})).to_string()), &ModelFolder::unknown());
+    let lesson = load_lesson(
+        SourceFile::new("lab.json", lab(&json!({"says": []})).to_string()),
+        &ModelFolder::unknown(),
+    );
     let lab: &Lab = lesson.all_labs()[0];
     let model = compile(FALL);
     let programs = Programs::compile(lab, &model, &mut Vec::new());

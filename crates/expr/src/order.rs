@@ -173,7 +173,8 @@ impl Walk<'_> {
                 self.ir(on, certain);
                 self.items(items, certain);
                 if name.rows().any(|row| row.changes) {
-                    let known = if let Kind::Constant(Value::View(view)) = &on.kind { Some(*view) } else { None };
+                    let known =
+                        if let Kind::Constant(Value::View(view)) = &on.kind { Some(*view) } else { None };
                     self.through_values(known);
                 }
             }
@@ -213,8 +214,7 @@ impl Walk<'_> {
         value.into_iter().for_each(|x| self.ir(x, around));
         match place {
             Place::Element(view, Index::At(i)) => {
-                let access =
-                    Access { field: view.field, first: view.first as usize + i, count: Some(1) };
+                let access = Access { field: view.field, first: view.first as usize + i, count: Some(1) };
                 self.events.push((Event::Write(access), certain));
             }
             Place::Element(view, Index::Computed(_)) => self.write(*view, certain),
@@ -293,6 +293,9 @@ mod tests {
         assert_eq!(of("data.qvel[2] = 1; mj_setConst"), [(2, 2, Some(1))]);
         assert_eq!(of("if (data.time > 0) data.qvel[2] = 1"), [(2, 2, Some(1))]);
         assert_eq!(of("ctx.kept = data.qvel.slice()"), []);
-        assert_eq!(of("const q = data.qvel.slice(); data.qvel.set(q)").first().map(|a| (a.0, a.1)), Some((2, 0)));
+        assert_eq!(
+            of("const q = data.qvel.slice(); data.qvel.set(q)").first().map(|a| (a.0, a.1)),
+            Some((2, 0))
+        );
     }
 }

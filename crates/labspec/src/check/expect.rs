@@ -25,7 +25,13 @@ pub(super) fn settle(lab: &Lab, runs: usize, findings: &mut Vec<Finding>, first:
         finding("does-not-break", place.clone(), "this lab is said to break, and it does not")
             .why(format!(
                 "{}: a student who waits for what the text speaks of sees a simulation that goes well",
-                if runs == 1 { "it was run, and every number stayed one".into() } else { format!("it was run {runs} times, with every control at its ends, and every number stayed one") }
+                if runs == 1 {
+                    "it was run, and every number stayed one".into()
+                } else {
+                    format!(
+                        "it was run {runs} times, with every control at its ends, and every number stayed one"
+                    )
+                }
             ))
             .help("make it break (a larger timestep, a stiffer spring, a longer run), or leave `expect` out"),
     );

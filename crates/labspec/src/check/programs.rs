@@ -18,13 +18,17 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
         let Some(field) = sets(bound, model) else { continue };
         let Some(shown) = lost(control, index, field, lab, model, programs) else { continue };
         findings.push(
-            warning("lost-at-reset", bound.text.span(), format!("what \"{label}\" sets is lost at the next reset"))
-                .why(format!(
-                    "a reset puts data.{} back, while the control still shows the chosen value: {shown}",
-                    field.info().name
-                ))
-                .help("add \"init\": true, so that it is applied again after every reset")
-                .related(control.label.span(), "the control"),
+            warning(
+                "lost-at-reset",
+                bound.text.span(),
+                format!("what \"{label}\" sets is lost at the next reset"),
+            )
+            .why(format!(
+                "a reset puts data.{} back, while the control still shows the chosen value: {shown}",
+                field.info().name
+            ))
+            .help("add \"init\": true, so that it is applied again after every reset")
+            .related(control.label.span(), "the control"),
         );
     }
 }
@@ -87,7 +91,10 @@ fn lost(
         let name = format!("data.{}[{at}]", field.info().name);
         let [set, reset] =
             [&set, &reset].map(|list| refresh::digits(list.get(at).copied().unwrap_or(f64::NAN), 6));
-        Some(format!("with \"{}\" at {chosen}, {name} is {set}, and {reset} after a reset", control.label.value))
+        Some(format!(
+            "with \"{}\" at {chosen}, {name} is {set}, and {reset} after a reset",
+            control.label.value
+        ))
     };
     choices(control).iter().find_map(with)
 }

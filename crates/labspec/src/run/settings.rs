@@ -69,7 +69,9 @@ pub fn written(lab: &Lab, label: &str, text: &str) -> Value {
         other => other.parse::<f64>().map_or_else(|_| Value::from(other), Value::Number),
     };
     match lab.control(label).map(|c| &c.kind) {
-        Some(ControlKind::Select { options, .. }) if !options.iter().any(|o| same(&o.value_given(), &plain)) => {
+        Some(ControlKind::Select { options, .. })
+            if !options.iter().any(|o| same(&o.value_given(), &plain)) =>
+        {
             Value::from(text)
         }
         _ => plain,
@@ -142,7 +144,11 @@ fn option(label: &str, options: &[Choice], given: &Value) -> Result<Value, RunEr
     if options.len() > MOST_LISTED {
         list.push(format!("and {} more", options.len() - MOST_LISTED));
     }
-    Err(RunError(format!("{} is no option of \"{label}\"; its options are {}", shown(given), list.join(", "))))
+    Err(RunError(format!(
+        "{} is no option of \"{label}\"; its options are {}",
+        shown(given),
+        list.join(", ")
+    )))
 }
 
 impl Choice {
@@ -175,7 +181,9 @@ impl Grid {
         }
         // A step that is none is a finding of its own.
         let steps = (x - min) / step;
-        if !(step > 0.0 && steps.is_finite()) || (steps - steps.round()).abs() <= ON_GRID.max(steps * f64::EPSILON) {
+        if !(step > 0.0 && steps.is_finite())
+            || (steps - steps.round()).abs() <= ON_GRID.max(steps * f64::EPSILON)
+        {
             return Ok(());
         }
         let [below, above] = [steps.floor(), steps.ceil()].map(|k| (min + k * step).min(max));
@@ -268,7 +276,9 @@ mod tests {
 
     #[test]
     fn the_command_line_means_what_the_control_offers() {
-        let select = lab(r#"{"type": "select", "label": "n", "param": "n", "options": [["1", 10], ["2", 20]], "value": 10}"#);
+        let select = lab(
+            r#"{"type": "select", "label": "n", "param": "n", "options": [["1", 10], ["2", 20]], "value": 10}"#,
+        );
         assert_eq!(value(&select.controls[0], &written(&select, "n", "2")).unwrap(), Value::Number(20.0));
         assert_eq!(written(&select, "n", "20"), Value::Number(20.0));
         assert_eq!(written(&select, "other", "2"), Value::Number(2.0));

@@ -233,7 +233,9 @@ fn expected(text: &Text, findings: &mut Vec<Finding>) -> Option<Expect> {
         .why("it says what is meant to happen when the lab runs; there is one thing that it can say");
     findings.push(match crate::json::nearest(text.as_str(), ["breaks"]) {
         Some(right) => finding.help(format!("did you mean `{right}`?")).fix(text.span(), right),
-        None => finding.help("write \"breaks\" when the lab is about a simulation that breaks, else leave it out"),
+        None => {
+            finding.help("write \"breaks\" when the lab is about a simulation that breaks, else leave it out")
+        }
     });
     None
 }

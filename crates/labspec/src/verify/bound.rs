@@ -187,9 +187,7 @@ impl<'a> BoundVerify<'a> {
         session.perturb(numerics, stated);
         let mut refuse = |e: run::RunError| refuse_at(place.clone(), e);
         let timestep = session.world.model.opt.timestep;
-        let count = run::count_steps(self.lab, until, steps, timestep)
-            .map_err(&mut refuse)
-            .ok()?;
+        let count = run::count_steps(self.lab, until, steps, timestep).map_err(&mut refuse).ok()?;
         run::presses_within(self.programs, &press, count, timestep).map_err(&mut refuse).ok()?;
 
         if count > MAX_VERIFY_STEPS {
