@@ -37,7 +37,7 @@ fn verified(xml: &str, controls: Json, verify: Json, says: &[(&str, &str)]) {
 }
 
 fn timestep() -> Json {
-    json!({"label": "h", "set": "model.opt.timestep", "min": 0.0005, "max": 0.02, "value": 0.002, "reset": true})
+    json!({"label": "h", "set": "model.opt.timestep", "min": 0.0005, "max": 0.02, "step": 0.0005, "value": 0.002, "reset": true})
 }
 
 #[test]
@@ -123,10 +123,9 @@ fn touchdown_and_rest() {
 fn resting_depth_and_mass_and_gravity() {
     let mass = json!({
         "label": "mass", "apply": "model.body_mass[2] = value; mj.mj_setConst(model, data)",
-        "min": 0.01, "max": 5, "value": 0.1
+        "min": 0.01, "max": 5, "step": 0.01, "value": 0.1
     });
-    let gravity =
-        json!({"label": "gravity", "set": "model.opt.gravity[2]", "min": -20, "max": 0, "value": -9.81});
+    let gravity = json!({"label": "gravity", "set": "model.opt.gravity[2]", "min": -20, "max": 0, "step": 0.005, "value": -9.81});
     verified(
         &model_text("ball_drop"),
         json!([mass, gravity]),

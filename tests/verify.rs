@@ -19,7 +19,7 @@ fn lesson(prose: &str, question: &str) -> String {
   "title": "A ball above a floor",
   "xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' type='sphere' size='0.05' mass='1'/></body></worldbody></mujoco>",
   "controls": [
-    {{"label": "gravity", "unit": "m/s^2", "set": "model.opt.gravity[2]", "min": -20, "max": -1, "step": 0.01, "value": -9.81, "reset": true}},
+    {{"label": "gravity", "unit": "m/s^2", "set": "model.opt.gravity[2]", "min": -20, "max": -1, "step": 0.005, "value": -9.81, "reset": true}},
     {{"label": "timestep", "unit": "s", "set": "model.opt.timestep", "min": 0.001, "max": 0.02, "step": 0.001, "value": 0.002, "reset": true}},
     {{"type": "button", "label": "Kick", "run": "data.qvel[2] = 3"}}
   ],

@@ -35,6 +35,7 @@ mod math;
 mod natives;
 mod number;
 mod operators;
+mod order;
 mod parse;
 mod prelude;
 mod print;

@@ -6,12 +6,13 @@ use std::sync::Arc;
 
 use crate::code;
 use crate::diagnostic::Span;
-use crate::effects::Effects;
+use crate::effects::{Access, Effects};
 use crate::formula::Formula;
 use crate::globals::Globals;
 use crate::heap::Heap;
 use crate::ir::Tree;
 use crate::lower;
+use crate::order::Order;
 use crate::row::Row;
 use crate::schema::{FieldKey, FunctionId, Type};
 use crate::value::Value;
@@ -256,6 +257,7 @@ pub struct Program {
     pub(crate) effects: Effects,
     pub(crate) result: Type,
     pub(crate) aggregates: Vec<Aggregate>,
+    pub(crate) order: Order,
     /// What it computes, if it is a numeric expression without effects.
     pub(crate) formula: Option<Arc<Formula>>,
     /// The shorter way to run that.
@@ -268,12 +270,24 @@ impl Program {
         let code = lower::program(tree);
         let formula = code.units.first().and_then(Formula::of).map(Arc::new);
         let row = formula.as_deref().and_then(Row::of).map(Arc::new);
-        Program { code: code.into(), effects, result, aggregates, formula, row }
+        let order = Order::of(tree, &effects);
+        Program { code: code.into(), effects, result, aggregates, order, formula, row }
     }
 
     /// What it touches.
     pub fn effects(&self) -> &Effects {
         &self.effects
+    }
+
+    /// What every run stores after the last call of a function of the host that it may make; `None` when it never
+    /// calls it. What stands in a condition or a loop, or may be skipped, is not certain and left out.
+    pub fn writes_after(&self, function: FunctionId) -> Option<Vec<Access>> {
+        self.order.writes_after(function)
+    }
+
+    /// What the text may store itself, rather than a function of the host that it calls.
+    pub fn own_writes(&self) -> Vec<Access> {
+        self.order.own_writes()
     }
 
     /// The type of its value; [`Type::Void`] for statements.

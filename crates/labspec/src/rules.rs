@@ -20,7 +20,7 @@ pub const RUN_RULES: &[(&str, &str, &str)] = &[
     (
         "missing-setconst",
         "a mass or an inertia is changed without `mj_setConst`",
-        "Constants that follow from it keep the old value, so contacts are as soft as for the old mass.",
+        "Constants that follow from it keep the old value, so contacts are as soft as for the old mass. The lab was run with and without: what differs is stated.",
     ),
     (
         "lost-at-reset",
@@ -59,9 +59,14 @@ pub const RUN_RULES: &[(&str, &str, &str)] = &[
         "Every step pushes farther than the last one missed, without a word from MuJoCo until a number is beyond 1e10.",
     ),
     (
+        "does-not-break",
+        "a lab that is about a simulation that breaks does not break",
+        "The author says `\"expect\": \"breaks\"`, and no run does: a student sees nothing of what the text speaks of.",
+    ),
+    (
         "run-impossible",
         "a run cannot be made",
-        "A control that it sets does not exist, or it would take too many steps.",
+        "It does what no student can do (a control that does not exist, a value that a slider cannot stand at, a press after the end), or it would take too many steps.",
     ),
     (
         "run-breaks",

@@ -207,6 +207,8 @@ impl Work<'_> {
         let apply = action.apply.as_ref().and_then(|t| self.statements(t, Some(given)));
         if let (Some(text), Some(bound)) = (&action.apply, &apply)
             && !bound.program.effects().uses_value
+            // Beside `set` it never runs: a finding of its own.
+            && action.set.is_none()
         {
             self.findings.push(
                 warning("value-unused", text.span(), "these statements never use `value`")

@@ -1,6 +1,6 @@
 //! What a lesson claims: every `verify` object judged, every question without one named.
 
-use super::Ready;
+use super::{Ready, refresh};
 use crate::finding::Finding;
 use crate::spec::{Lab, Lesson, Question, QuestionKind, Verify, VerifyLab};
 use crate::ledger::State;
@@ -103,6 +103,7 @@ impl Court<'_> {
             return verify::unmade(verify, question, "its lab cannot run");
         };
         let Ready { lab, model, programs, .. } = target;
+        refresh::check_runs(verify, lab, model, programs, findings);
         match BoundVerify::new(verify, lab, model, programs, &self.allowance, findings) {
             Some(bound) => verify::check(&bound, verify, question, self.lesson, findings),
             None => verify::unmade(verify, question, "its runs or measures have mistakes"),

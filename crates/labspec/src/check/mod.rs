@@ -2,7 +2,9 @@
 
 mod claims;
 mod entries;
+mod expect;
 mod programs;
+mod refresh;
 mod trial;
 
 pub use claims::Claim;
@@ -32,6 +34,8 @@ pub struct RanLab {
     pub tried: Option<Tried>,
     /// Mistakes in its code: what these texts would do was not run.
     pub mistakes: usize,
+    /// The lesson says that it breaks.
+    pub expected: bool,
 }
 
 /// A lesson with everything that is known about it.
@@ -107,6 +111,6 @@ fn prepare<'l>(lab: &'l Lab, models: &mut Models, findings: &mut Vec<Finding>) -
     let before = findings.len();
     let programs = Programs::compile(lab, &model, findings);
     let mistakes = findings.iter().skip(before).filter(|f| f.severity == Severity::Error).count();
-    programs::check(lab, &programs, findings);
+    programs::check(lab, &model, &programs, findings);
     Some(Ready { lab, model, programs, mistakes })
 }

@@ -1,53 +1,114 @@
 //! What the programs of a lab do that a page lets pass in silence.
 
-use crate::bind::{Bound, ControlProgram, Programs, functions, warning, writes_kind};
+use super::refresh;
+use crate::bind::{Bound, ControlProgram, Programs, functions, scalar, warning};
 use crate::finding::Finding;
-use crate::spec::Lab;
-use labspec_core::reflect::{Kind, Object};
+use crate::run::Session;
+use crate::spec::{Control, ControlKind, Lab};
+use labspec_core::Model;
+use labspec_core::reflect::{FieldId, Kind, Object};
+use labspec_expr::{FieldKey, Host, Value};
 
 /// What programs do that a page lets pass in silence.
-pub(super) fn check(lab: &Lab, programs: &Programs, findings: &mut Vec<Finding>) {
-    for bound in programs.bound() {
-        let calls_set_const =
-            bound.program.effects().calls.iter().any(|&f| functions::name(f) == Some("mj_setConst"));
-        if let Some(field) = writes_kind(bound, Object::Model, &[Kind::Inertial])
-            && !calls_set_const
-        {
-            let name = field.info().name;
-            findings.push(
-                warning("missing-setconst", bound.text.span(), format!("`model.{name}` is changed without `mj.mj_setConst(model, data)`"))
-                    .why("constants that follow from it (subtree masses, inverse weights of contacts) keep the old value: a heavier ball then sinks deeper into the floor than any real one")
-                    .help("add `; mj.mj_setConst(model, data)`; it also puts qpos back to the start"),
-            );
-        }
-    }
-    for (control, (label, program)) in lab.controls.iter().zip(&programs.controls) {
-        let ControlProgram::Change(_, action) = program else { continue };
-        let Some(bound) = &action.run else { continue };
-        if action.init {
-            continue;
-        }
-        if let Some(field) =
-            writes_kind(bound, Object::Data, &[Kind::State, Kind::Input]).filter(|_| !calls_reset(bound))
-        {
-            findings.push(
-                warning(
-                    "lost-at-reset",
-                    bound.text.span(),
-                    format!("what \"{label}\" sets is lost at the next reset"),
-                )
-                .why(format!(
-                    "a reset puts data.{} back, while the control still shows the chosen value",
-                    field.info().name
-                ))
-                .help("add \"init\": true, so that it is applied again after every reset")
-                .related(control.label.span(), "the control"),
-            );
-        }
+pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
+    refresh::check(lab, model, programs, findings);
+    for (index, control) in lab.controls.iter().enumerate() {
+        let Some((label, ControlProgram::Change(_, action))) = programs.controls.get(index) else { continue };
+        let Some(bound) = action.run.as_ref().filter(|b| !action.init && !resets(b)) else { continue };
+        let Some(field) = sets(bound, model) else { continue };
+        let Some(shown) = lost(control, index, field, lab, model, programs) else { continue };
+        findings.push(
+            warning(
+                "lost-at-reset",
+                bound.text.span(),
+                format!("what \"{label}\" sets is lost at the next reset"),
+            )
+            .why(format!(
+                "a reset puts data.{} back, while the control still shows the chosen value: {shown}",
+                field.info().name
+            ))
+            .help("add \"init\": true, so that it is applied again after every reset")
+            .related(control.label.span(), "the control"),
+        );
     }
 }
 
-/// Whether a program resets or recomputes the data itself, so that its writes to it are a consequence.
-fn calls_reset(bound: &Bound) -> bool {
-    bound.program.effects().calls.iter().any(|&f| functions::name(f).is_some_and(|n| n.starts_with("mj_")))
+/// The first field of the data that a program sets itself, of those that a reset puts back.
+fn sets(bound: &Bound, model: &Model) -> Option<FieldId> {
+    let set_const = bound.program.effects().calls.iter().any(|&f| functions::name(f) == Some("mj_setConst"));
+    let writes = bound.program.own_writes();
+    let mut set = writes.iter().filter(|w| {
+        let info = FieldId(w.field.0 as u16).info();
+        // Beside mj_setConst, all of qpos is put back to what it was: no choice of the student.
+        let put_back =
+            set_const && info.name == "qpos" && w.first == 0 && w.count.is_none_or(|n| n == model.nq);
+        info.object == Object::Data && matches!(info.kind, Kind::State | Kind::Input) && !put_back
+    });
+    set.next().map(|w| FieldId(w.field.0 as u16))
+}
+
+/// Whether a program starts the simulation anew itself, so that what it sets is the start that it wants.
+fn resets(bound: &Bound) -> bool {
+    let reset = |name| matches!(name, "mj_resetData" | "mj_resetDataKeyframe" | "reset");
+    bound.program.effects().calls.iter().any(|&f| functions::name(f).is_some_and(reset))
+}
+
+/// Moves the control, then resets: what of the field is lost, in words. `None` when a setup, a controller or another
+/// control sets it again.
+fn lost(
+    control: &Control,
+    index: usize,
+    field: FieldId,
+    lab: &Lab,
+    model: &Model,
+    programs: &Programs,
+) -> Option<String> {
+    let mut programs = programs.clone();
+    if let Some((_, ControlProgram::Change(_, action))) = programs.controls.get_mut(index) {
+        // What it sets is looked at before the reset.
+        action.reset = false;
+    }
+    let key = FieldKey(u32::from(field.0));
+    let now = |session: &Session<'_>| -> Vec<f64> {
+        (0..session.world.len(key)).map_while(|i| session.world.get(key, i)).collect()
+    };
+    let differs = |a: &[f64], b: &[f64]| a.iter().zip(b).position(|(x, y)| x.to_bits() != y.to_bits());
+    let with = |chosen: &Value| {
+        let mut session = Session::start(&programs, model, lab.keyframe(), &programs.demand);
+        session.set_control(index, chosen.clone());
+        let set = now(&session);
+        session.reset();
+        let reset = now(&session);
+        let at = differs(&set, &reset)?;
+        // A controller may set an input again before the first step.
+        if field.info().kind == Kind::Input && programs.controller.is_some() {
+            session.step();
+            let after_reset = now(&session);
+            session.set_control(index, chosen.clone());
+            session.step();
+            differs(&now(&session), &after_reset)?;
+        }
+        let name = format!("data.{}[{at}]", field.info().name);
+        let [set, reset] =
+            [&set, &reset].map(|list| refresh::digits(list.get(at).copied().unwrap_or(f64::NAN), 6));
+        Some(format!(
+            "with \"{}\" at {chosen}, {name} is {set}, and {reset} after a reset",
+            control.label.value
+        ))
+    };
+    choices(control).iter().find_map(with)
+}
+
+/// Most options of a select that are tried.
+const MOST_OPTIONS: usize = 8;
+
+/// What a student may choose: the ends of a slider, the options of a select.
+pub(super) fn choices(control: &Control) -> Vec<Value> {
+    match &control.kind {
+        ControlKind::Slider { min, max, .. } => [max, min].map(|end| Value::Number(end.value)).to_vec(),
+        ControlKind::Select { options, .. } => {
+            options.iter().take(MOST_OPTIONS).map(|o| scalar(&o.value)).collect()
+        }
+        ControlKind::Button { .. } => Vec::new(),
+    }
 }

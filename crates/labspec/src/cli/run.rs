@@ -1,7 +1,7 @@
 //! `labspec run`.
 
 use super::{Failure, ModelOptions, Outcome, print, target, write_file};
-use crate::run::{self, Cell, RunOptions, Table, shown};
+use crate::run::{self, Cell, RunOptions, Table, settings, shown};
 use crate::spec::{Lab, Plot};
 use crate::svg::{Chart, Series, line_chart};
 use clap::ValueEnum;
@@ -61,8 +61,8 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
         until: a.until,
         steps: a.steps,
         every: a.every,
-        set: a.set.iter().map(|s| assignment(s)).collect::<Result<_, _>>()?,
-        press: a.press.iter().map(|s| press(s)).collect::<Result<_, _>>()?,
+        set: a.set.iter().map(|s| assignment(&target.lab, s)).collect::<Result<_, _>>()?,
+        press: a.press.iter().map(|s| press(&target.lab, s)).collect::<Result<_, _>>()?,
     };
     let table = run::run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
     if let Some(file) = &a.csv {
@@ -83,26 +83,28 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
     Ok(if clean { Outcome::Clean } else { Outcome::Findings })
 }
 
-/// `LABEL=VALUE`; the label may hold equals signs, the value not.
-fn assignment(text: &str) -> Result<(String, Value), Failure> {
-    let (label, value) = text.rsplit_once('=').ok_or_else(|| format!("--set {text}: write LABEL=VALUE"))?;
-    let value = match value.trim() {
-        "true" => Value::Boolean(true),
-        "false" => Value::Boolean(false),
-        other => other.parse::<f64>().map_or_else(|_| Value::String(other.into()), Value::Number),
-    };
-    Ok((label.to_string(), value))
+/// `LABEL=VALUE`. Both may hold equals signs: it is split where the label of a control ends, else at the last sign.
+fn assignment(lab: &Lab, text: &str) -> Result<(String, Value), Failure> {
+    let (label, value) = split(lab, text, '=').ok_or_else(|| format!("--set {text}: write LABEL=VALUE"))?;
+    Ok((label.to_string(), settings::written(lab, label, value.trim())))
 }
 
 /// `LABEL@TIME`, or a label alone for the start.
-fn press(text: &str) -> Result<(String, f64), Failure> {
-    match text.rsplit_once('@') {
+fn press(lab: &Lab, text: &str) -> Result<(String, f64), Failure> {
+    match split(lab, text, '@').filter(|_| lab.control(text).is_none()) {
         None => Ok((text.to_string(), 0.0)),
         Some((label, time)) => match time.trim().parse::<f64>() {
-            Ok(t) if t >= 0.0 => Ok((label.to_string(), t)),
+            Ok(t) if t >= 0.0 && t.is_finite() => Ok((label.to_string(), t)),
             _ => Err(format!("--press {text}: `{time}` is not a time in seconds; write LABEL@TIME")),
         },
     }
+}
+
+/// The label of a control and what stands behind the mark after it.
+fn split<'t>(lab: &Lab, text: &'t str, mark: char) -> Option<(&'t str, &'t str)> {
+    let places = text.match_indices(mark).map(|(i, m)| (&text[..i], &text[i + m.len()..]));
+    let known = places.into_iter().find(|(label, _)| lab.control(label).is_some());
+    known.or_else(|| text.rsplit_once(mark))
 }
 
 /// The end of the run as the page shows it: readouts, traces of labs without readouts, warnings.

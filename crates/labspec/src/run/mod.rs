@@ -4,15 +4,17 @@ mod breakdown;
 mod budget;
 mod samples;
 mod session;
+pub mod settings;
 mod table;
 
 pub use breakdown::{Breakdown, how_stiff, owner, remedy, time, two_digits};
 pub use budget::{Budget, End};
 pub use samples::Samples;
 pub use session::{Numerics, Session, Trouble};
+pub use settings::{presses, presses_within, set_controls};
 pub use table::{Cell, Table, shown};
 
-use crate::bind::{ControlProgram, Programs};
+use crate::bind::Programs;
 use crate::spec::Lab;
 use labspec_core::Model;
 use labspec_expr::Value;
@@ -51,57 +53,6 @@ impl std::fmt::Display for RunError {
 
 impl std::error::Error for RunError {}
 
-/// Sets the controls of the options, by label.
-///
-/// # Errors
-/// There is no such control, or it is a button.
-pub fn set_controls(
-    session: &mut Session<'_>,
-    programs: &Programs,
-    set: &[(String, Value)],
-) -> Result<(), RunError> {
-    for (label, value) in set {
-        match programs.control(label) {
-            Some((i, ControlProgram::Change(..))) => session.set_control(i, value.clone()),
-            Some(_) => {
-                return Err(RunError(format!("\"{label}\" is a button: press it instead of setting it")));
-            }
-            None => return Err(unknown(label, programs)),
-        }
-    }
-    Ok(())
-}
-
-/// The buttons of the options with their times, in order of time.
-///
-/// # Errors
-/// There is no such control, or it is not a button.
-pub fn presses(programs: &Programs, press: &[(String, f64)]) -> Result<Vec<(usize, f64)>, RunError> {
-    let mut list = Vec::new();
-    for (label, time) in press {
-        match programs.control(label) {
-            Some((i, ControlProgram::Press(_))) => list.push((i, *time)),
-            Some(_) => {
-                return Err(RunError(format!("\"{label}\" is not a button: set it instead of pressing it")));
-            }
-            None => return Err(unknown(label, programs)),
-        }
-    }
-    list.sort_by(|a, b| a.1.total_cmp(&b.1));
-    Ok(list)
-}
-
-fn unknown(label: &str, programs: &Programs) -> RunError {
-    let labels: Vec<&str> = programs.controls.iter().map(|(l, _)| l.as_str()).collect();
-    let known = match labels.as_slice() {
-        [] => "this lab has no controls".to_string(),
-        all => format!("the controls are: \"{}\"", all.join("\", \"")),
-    };
-    let hint =
-        crate::json::nearest(label, labels).map_or(String::new(), |l| format!("; did you mean \"{l}\"?"));
-    RunError(format!("there is no control \"{label}\"{hint} ({known})"))
-}
-
 /// Number of steps that a length comes to.
 ///
 /// # Errors
@@ -127,14 +78,15 @@ pub fn count_steps(
 /// last.
 ///
 /// # Errors
-/// A control that does not exist, or a run that is too long.
+/// A control that does not exist, a setting that no student can make, or a run that is too long.
 pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
     let key = lab.keyframe();
     let mut session = Session::start(programs, model, key, &programs.demand);
-    set_controls(&mut session, programs, &options.set)?;
+    set_controls(&mut session, lab, programs, &options.set)?;
     let presses = presses(programs, &options.press)?;
     let timestep = session.world.model.opt.timestep;
     let steps = count_steps(lab, options.until, options.steps, timestep)?;
+    presses_within(programs, &presses, steps, timestep)?;
     let every = options.every.max(1);
     if steps / every * (programs.probes.len() + 1) > MAX_CELLS {
         return Err(RunError(format!(

@@ -60,6 +60,16 @@ pub struct Lab {
     pub readouts: Vec<Readout>,
     /// What the lesson claims about this lab.
     pub verify: Option<Verify>,
+    /// What the author expects of its runs.
+    pub expect: Option<Expect>,
+}
+
+/// What an author expects of the runs of a lab, where it is not that they go well.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Expect {
+    /// `"breaks"`: the simulation meets a bad number or gains energy from nothing, and that is the lesson. With the
+    /// place where it says so.
+    Breaks(Range<usize>),
 }
 
 /// The view of a lab.
@@ -117,6 +127,7 @@ impl Lab {
             plots: Vec::new(),
             readouts: Vec::new(),
             verify: None,
+            expect: None,
         }
     }
 
@@ -207,9 +218,26 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Lab> {
         plots: f.list("plots").iter().filter_map(|n| plot::read(n, f.findings)).collect(),
         readouts: f.list("readouts").iter().filter_map(|n| plot::readout(n, f.findings)).collect(),
         verify: f.node("verify").and_then(|n| verify::read(n, f.findings)),
+        expect: f.text("expect").and_then(|t| expected(&t, f.findings)),
     };
     fields.finish();
     Some(lab)
+}
+
+fn expected(text: &Text, findings: &mut Vec<Finding>) -> Option<Expect> {
+    if text.as_str() == "breaks" {
+        return Some(Expect::Breaks(text.span()));
+    }
+    let what = format!("`expect` cannot be `{}`", read::shorten(text.as_str()));
+    let finding = Finding::new(&WRONG_TYPE, text.span(), what)
+        .why("it says what is meant to happen when the lab runs; there is one thing that it can say");
+    findings.push(match crate::json::nearest(text.as_str(), ["breaks"]) {
+        Some(right) => finding.help(format!("did you mean `{right}`?")).fix(text.span(), right),
+        None => {
+            finding.help("write \"breaks\" when the lab is about a simulation that breaks, else leave it out")
+        }
+    });
+    None
 }
 
 fn camera(node: &Node, findings: &mut Vec<Finding>) -> Option<Camera> {

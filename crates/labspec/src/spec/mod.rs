@@ -12,7 +12,7 @@ mod quiz;
 mod verify;
 
 pub use control::{Action, Choice, Control, ControlKind};
-pub use lab::{Camera, Form, Lab, OVERLAYS, Scene};
+pub use lab::{Camera, Expect, Form, Lab, OVERLAYS, Scene};
 pub use lesson::{LabAddress, LabEntry, Lesson, MAX_FINDINGS, Widget, load_lesson};
 pub use plot::{Plot, Readout, RefLine, Trace};
 pub use quiz::{ChoiceStyle, Question, QuestionKind, Quiz};

@@ -249,10 +249,10 @@ impl<'a> BoundVerify<'a> {
         let key = self.lab.keyframe();
         let mut session = Session::start(self.programs, self.model, key, &demand);
         let place = run.spec.map_or(self.place.clone(), |r| r.name.span());
-        let mut refuse = |e: run::RunError| {
+        let mut refuse_at = |place: std::ops::Range<usize>, e: run::RunError| {
             findings.push(finding(
                 "run-impossible",
-                place.clone(),
+                place,
                 format!("the run `{}` cannot be made: {e}", run.name),
             ));
         };
@@ -260,10 +260,15 @@ impl<'a> BoundVerify<'a> {
         let mut press = Vec::new();
         let (mut until, mut steps) = (None, None);
         if let Some(spec) = run.spec {
-            let set: Vec<_> = spec.set.iter().map(|(label, v)| (label.value.clone(), scalar(v))).collect();
-            run::set_controls(&mut session, self.programs, &set).map_err(&mut refuse).ok()?;
+            for (label, v) in &spec.set {
+                let known = self.lab.control(&label.value).is_some();
+                let at = if known { v.span() } else { label.span() };
+                let one = [(label.value.clone(), scalar(v))];
+                let made = run::set_controls(&mut session, self.lab, self.programs, &one);
+                made.map_err(|e| refuse_at(at, e)).ok()?;
+            }
             let list: Vec<_> = spec.press.iter().map(|(label, t)| (label.value.clone(), t.value)).collect();
-            press = run::presses(self.programs, &list).map_err(&mut refuse).ok()?;
+            press = run::presses(self.programs, &list).map_err(|e| refuse_at(place.clone(), e)).ok()?;
             until = spec.until.as_ref().map(|n| n.value);
             // As many steps as reach as far.
             let shorter = if stated { 1.0 } else { numerics.timestep };
@@ -273,9 +278,10 @@ impl<'a> BoundVerify<'a> {
             session.run_statements(&setup.program, setup.text);
         }
         session.perturb(numerics, stated);
-        let count = run::count_steps(self.lab, until, steps, session.world.model.opt.timestep)
-            .map_err(&mut refuse)
-            .ok()?;
+        let mut refuse = |e: run::RunError| refuse_at(place.clone(), e);
+        let timestep = session.world.model.opt.timestep;
+        let count = run::count_steps(self.lab, until, steps, timestep).map_err(&mut refuse).ok()?;
+        run::presses_within(self.programs, &press, count, timestep).map_err(&mut refuse).ok()?;
 
         if count > MAX_VERIFY_STEPS {
             refuse(run::RunError(format!(

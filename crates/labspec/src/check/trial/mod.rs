@@ -65,27 +65,36 @@ pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<
     let addressed = lesson.addressed();
     let mut left = Budget::FILE.left;
     let mut tours: Vec<(&LabAddress, &Lab, Option<Tour<'_>>)> = Vec::new();
+    // What is found in each lab: its author may expect some of it.
+    let mut found = vec![Vec::new(); addressed.len()];
     for (i, (address, lab)) in addressed.iter().enumerate() {
         let later = (addressed.len() - i - 1) as u64;
         let share = left.saturating_sub(RESERVE * later).clamp(RESERVE.min(left), Budget::TRIAL.left);
-        let found = ready.iter().find(|r| std::ptr::eq(r.lab, *lab));
-        tours.push((address, lab, found.map(|r| begin(r, Budget { left: share }, &mut left, findings))));
+        let one = ready.iter().find(|r| std::ptr::eq(r.lab, *lab));
+        let begin = |r| begin(r, Budget { left: share }, &mut left, &mut found[i]);
+        tours.push((address, lab, one.map(begin)));
     }
     // What is left is shared by the labs as they come.
     let mut others = tours.len() as u64;
-    for tour in tours.iter_mut().filter_map(|(.., tour)| tour.as_mut()) {
+    for (tour, found) in tours.iter_mut().map(|(.., tour)| tour).zip(&mut found) {
+        let Some(tour) = tour else { continue };
         let mut share = left / others.max(1);
         others = others.saturating_sub(1);
         let before = share;
-        go_on(tour, &mut share, findings);
+        go_on(tour, &mut share, found);
         left -= before - share;
-        findings.extend(tour.seen.never(tour.tried.as_ref().is_some_and(|t| t.skipped == 0)));
+        found.extend(tour.seen.never(tour.tried.as_ref().is_some_and(|t| t.skipped == 0)));
+    }
+    for ((_, lab, tour), mut found) in tours.iter().zip(found) {
+        let runs = tour.as_ref().and_then(|t| t.tried.as_ref()).map_or(0, |t| t.runs);
+        super::expect::settle(lab, runs, &mut found, 0);
+        findings.extend(found);
     }
     let ran = |(address, lab, tour): (&LabAddress, &Lab, Option<Tour<'_>>)| {
         let tried = tour.and_then(|t| t.tried);
         let runs = tried.as_ref().map_or(0, |t| t.runs);
         let mistakes = ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map_or(0, |r| r.mistakes);
-        RanLab { address: address.clone(), title: lab.title().to_string(), runs, ran: runs > 0, tried, mistakes }
+        RanLab { address: address.clone(), title: lab.title().to_string(), runs, ran: runs > 0, tried, mistakes, expected: lab.expect.is_some() }
     };
     tours.into_iter().map(ran).collect()
 }

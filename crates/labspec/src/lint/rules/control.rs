@@ -103,6 +103,20 @@ pub static DUPLICATE_CONTROL: Rule = Rule {
     ),
 };
 
+/// A control with `set` and `apply`.
+pub static APPLY_UNUSED: Rule = Rule {
+    code: "apply-unused",
+    severity: Severity::Warning,
+    summary: "a control has both `set` and `apply`",
+    why: "the page does what `set` says and never looks at `apply`: those statements do nothing",
+    bad: Example::Lab(
+        r#"{"model": "ball", "controls": [{"label": "mass", "set": "model.body_mass[1]", "apply": "mj.mj_setConst(model, data)", "min": 1, "max": 5, "value": 1}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"model": "ball", "controls": [{"label": "mass", "apply": "model.body_mass[1] = value; mj.mj_setConst(model, data)", "min": 1, "max": 5, "value": 1, "reset": true}]}"#,
+    ),
+};
+
 pub(in crate::lint) const RULES: &[&Rule] = &[
     &EMPTY_RANGE,
     &SLIDER_VALUE,
@@ -111,6 +125,7 @@ pub(in crate::lint) const RULES: &[&Rule] = &[
     &SELECT_OPTIONS,
     &NO_EFFECT,
     &DUPLICATE_CONTROL,
+    &APPLY_UNUSED,
 ];
 
 /// A select without options, found while it is read.
@@ -187,6 +202,22 @@ pub(in crate::lint) fn check(lab: &Lab, findings: &mut Vec<Finding>) {
                 }
             }
             ControlKind::Button { .. } => {}
+        }
+        if let Some(action) = control.action()
+            && let (Some(set), Some(apply)) = (&action.set, &action.apply)
+        {
+            findings.push(
+                Finding::new(
+                    &APPLY_UNUSED,
+                    apply.span(),
+                    format!("`{}` never does this: it also has `set`", control.label.as_str()),
+                )
+                .related(set.span(), "what it does instead")
+                .help(format!(
+                    "leave `set` out, and begin these statements with `{} = value;`",
+                    crate::json::read::shorten(set.as_str())
+                )),
+            );
         }
         if let Some(action) = control.action()
             && action.set.is_none()

@@ -1,0 +1,246 @@
+//! Runs of a lab as it is, and with other statements behind a program: what is tried, and what is sampled.
+
+use super::difference::Columns;
+use super::{Advice, Place, Suspect};
+use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include};
+use crate::check::programs::choices;
+use crate::run::{self, Breakdown, Cell, Session, settings};
+use crate::source::Text;
+use crate::spec::{ControlKind, Lab, Run};
+use labspec_core::reflect::FieldSet;
+use labspec_core::{Demand, Model};
+use labspec_expr::{Compiler, Type, Value};
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+/// Most steps of one of these runs.
+const STEPS: usize = 2_000;
+/// Most work of all runs of one lab, in steps of a scene of one coordinate.
+const WORK: usize = 4_000_000;
+/// Most cells of one run.
+const CELLS: usize = 200_000;
+/// Longest text that is compared letter by letter.
+const LONG: usize = 64;
+/// Most runs that show one program.
+const MOST_TRIALS: usize = 12;
+
+/// What a student does at a step.
+#[derive(Clone)]
+enum Move {
+    Set(usize, Value),
+    Press(usize),
+}
+
+/// One run: what is done, and how a message calls it.
+pub(super) struct Trial {
+    moves: Vec<(usize, Move)>,
+    pub(super) said: String,
+}
+
+/// What is run.
+pub(super) struct Bench<'a> {
+    lab: &'a Lab,
+    model: &'a Model,
+    programs: &'a Programs,
+    work_left: usize,
+}
+
+/// A run: its samples, or why it says nothing.
+pub(super) type Record = Result<Vec<Vec<Cell>>, String>;
+
+impl<'a> Bench<'a> {
+    pub(super) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> Bench<'a> {
+        Bench { lab, model, programs, work_left: WORK }
+    }
+
+    /// What the samples of its runs are.
+    pub(super) fn columns(&self) -> Columns<'a> {
+        Columns { lab: self.lab, programs: self.programs }
+    }
+
+    /// Number of steps of the lab, or of the run of a question, within bounds.
+    pub(super) fn steps(&self, s: &Suspect<'_>) -> Result<usize, String> {
+        let session = Session::start(self.programs, self.model, self.lab.keyframe(), &self.programs.demand);
+        let timestep = session.world.model.opt.timestep;
+        let (until, steps) = match s.place {
+            Place::Run(run) => {
+                (run.until.as_ref().map(|n| n.value), run.steps.as_ref().map(|n| n.value.max(0.0) as usize))
+            }
+            _ => (None, None),
+        };
+        run::count_steps(self.lab, until, steps, timestep).map(|n| n.min(STEPS)).map_err(|e| e.0)
+    }
+
+    /// The runs that could show it.
+    pub(super) fn trials(&self, s: &Suspect<'_>, steps: usize) -> Vec<Trial> {
+        let mut all = vec![Trial { moves: Vec::new(), said: "as it stands".into() }];
+        let half = steps / 2;
+        let mut add = |at: usize, index: usize, value: Option<Value>| {
+            let label = self.lab.controls.get(index).map_or("", |c| c.label.as_str());
+            let later = if at > 0 { " in mid-run" } else { "" };
+            let said = match &value {
+                Some(value) => format!("with \"{label}\" at {value}{later}"),
+                None => format!("after \"{label}\" is pressed{later}"),
+            };
+            let what = value.map_or(Move::Press(index), |v| Move::Set(index, v));
+            all.push(Trial { moves: vec![(at, what)], said });
+        };
+        match s.place {
+            Place::Run(run) => return vec![self.as_asked(run)],
+            Place::Control(own) => {
+                let Some(control) = self.lab.controls.get(own) else { return all };
+                let values = choices(control);
+                if let ControlKind::Button { .. } = control.kind {
+                    add(0, own, None);
+                    add(half, own, None);
+                }
+                for value in &values {
+                    add(0, own, Some(value.clone()));
+                }
+                if let ControlKind::Slider { min, max, .. } = &control.kind {
+                    let step = control.step().unwrap_or(0.0);
+                    let middle = min.value + (0.5 * (max.value - min.value) / step).round() * step;
+                    if middle.is_finite() {
+                        add(0, own, Some(Value::Number(middle)));
+                    }
+                }
+                for value in &values {
+                    add(half, own, Some(value.clone()));
+                }
+            }
+            // What other controls choose may be what it writes.
+            Place::Setup | Place::Controller => {
+                for (i, control) in self.lab.controls.iter().enumerate() {
+                    choices(control).into_iter().for_each(|value| add(0, i, Some(value)));
+                }
+            }
+        }
+        all.truncate(MOST_TRIALS);
+        all
+    }
+
+    /// The run of a question: its settings, then its setup, then its presses.
+    fn as_asked(&self, run: &Run) -> Trial {
+        let index = |label: &Text| self.lab.controls.iter().position(|c| c.label.value == label.value);
+        let set = run.set.iter().filter_map(|(label, value)| {
+            let i = index(label)?;
+            let value = settings::value(self.lab.controls.get(i)?, &crate::bind::scalar(value)).ok()?;
+            Some((0, Move::Set(i, value)))
+        });
+        let timestep = self.model.opt.timestep;
+        let press = run.press.iter().filter_map(|(label, time)| {
+            Some(((time.value / timestep).ceil().max(0.0) as usize, Move::Press(index(label)?)))
+        });
+        Trial { moves: set.chain(press).collect(), said: format!("in the run `{}`", run.name.value) }
+    }
+
+    /// Makes a run, as it is or amended, sampled after every step.
+    pub(super) fn record(
+        &mut self,
+        s: &Suspect<'_>,
+        amended: Option<&Amended>,
+        trial: &Trial,
+        steps: usize,
+    ) -> Record {
+        let programs = amended.map_or(self.programs, |a| &a.programs);
+        let setup = match s.place {
+            Place::Run(_) => Some(amended.map_or(s.bound, |a| &a.bound)),
+            _ => None,
+        };
+        let mut demand = programs.demand;
+        setup.into_iter().for_each(|b| include(b.program.effects(), &mut demand));
+        let whole = matches!(s.place, Place::Run(_)) || programs.probes.is_empty();
+        let mut session = Session::start(programs, self.model, self.lab.keyframe(), &demand);
+        let sets = |m: &Move| matches!(m, Move::Set(..));
+        let width = 1 + programs.probes.len() + if whole { self.model.nq } else { 0 };
+        let every = (steps + 1).saturating_mul(width).div_ceil(CELLS).max(1);
+        let mut rows = Vec::new();
+        for step in 0..=steps {
+            let due = trial.moves.iter().filter(|(at, _)| *at == step).map(|(_, m)| m);
+            let (set, press): (Vec<&Move>, Vec<&Move>) = due.partition(|m| sets(m));
+            set.into_iter().for_each(|m| act(&mut session, m));
+            if let Some(bound) = setup.filter(|_| step == 0) {
+                session.run_statements(&bound.program, &bound.text);
+            }
+            press.into_iter().for_each(|m| act(&mut session, m));
+            if step % every == 0 || step == steps {
+                let mut row: Vec<Cell> = session.sample().into_iter().map(short).collect();
+                if whole {
+                    row.extend(session.world.data.qpos.iter().map(|q| Cell::Number(*q)));
+                }
+                rows.push(row);
+            }
+            if step < steps {
+                session.step();
+                let (nv, rows) = (self.model.nv, session.world.data.nefc);
+                let work = 1 + nv + self.model.ngeom + rows.saturating_mul(nv) / 8;
+                self.work_left = self.work_left.checked_sub(work).ok_or("it would take too long")?;
+            }
+        }
+        let probe = |t: &Text| programs.probes.iter().any(|p| p.bound.as_ref().is_some_and(|b| b.text == *t));
+        if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {
+            return Err(format!("its statements fail: {}", trouble.message));
+        }
+        match Breakdown::of(&session) {
+            Some(broken) => Err(format!("the simulation breaks: {}", broken.what)),
+            None => Ok(rows),
+        }
+    }
+
+    /// The lab with what is advised behind the statements.
+    pub(super) fn amended(&self, s: &Suspect<'_>, advice: Advice) -> Option<Amended> {
+        let text = &s.bound.text.value;
+        let source = if s.target { format!("{text} = value") } else { text.clone() };
+        let bound = self.compile(&s.bound.text, &format!("{source}{}", advice.tail(&source)), s.given)?;
+        let mut programs = self.programs.clone();
+        match s.place {
+            Place::Setup => programs.setup = Some(bound.clone()),
+            Place::Controller => programs.controller = Some(bound.clone()),
+            Place::Control(i) => match programs.controls.get_mut(i).map(|(_, c)| c) {
+                Some(ControlProgram::Change(_, action)) => action.run = Some(bound.clone()),
+                Some(ControlProgram::Press(run)) => *run = Some(bound.clone()),
+                None => return None,
+            },
+            Place::Run(_) => {}
+        }
+        let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        programs.bound().for_each(|b| include(b.program.effects(), &mut demand));
+        programs.demand = demand;
+        Some(Amended { programs, bound })
+    }
+
+    /// Statements of the lab, with the place of the text that they stand for.
+    pub(super) fn compile(&self, place: &Text, source: &str, given: Option<Type>) -> Option<Bound> {
+        let names = ModelNames { model: self.model, scope: Scope::Lab };
+        let mut globals = self.programs.globals.clone();
+        let mut compiler = Compiler::new(&names, &mut globals);
+        compiler.value = given;
+        let program = compiler.statements(source).program?;
+        Some(Bound { text: place.clone(), program })
+    }
+}
+
+/// A lab with other statements.
+pub(super) struct Amended {
+    programs: Programs,
+    bound: Bound,
+}
+
+/// A long text as its beginning and a number that stands for all of it.
+fn short(cell: Cell) -> Cell {
+    match cell {
+        Cell::Text(t) if t.len() > LONG => {
+            let start: String = t.chars().take(LONG / 2).collect();
+            let mut hash = DefaultHasher::new();
+            t.hash(&mut hash);
+            Cell::Text(format!("{start}… ({:016x})", hash.finish()))
+        }
+        other => other,
+    }
+}
+
+fn act(session: &mut Session<'_>, what: &Move) {
+    match what {
+        Move::Set(i, value) => session.set_control(*i, value.clone()),
+        Move::Press(i) => session.press(*i),
+    }
+}
