@@ -15,6 +15,7 @@ pub mod check;
 pub mod cli;
 pub mod finding;
 pub mod format;
+mod interrupt;
 pub mod json;
 pub mod lint;
 pub mod markdown;

@@ -121,7 +121,7 @@ fn expression() -> BoxedStrategy<Expr> {
 }
 
 fn function(params: Vec<Element>, body: Body) -> Expr {
-    bare(ExprKind::Function(Box::new(Function { params, body, span: Span::default() })))
+    bare(ExprKind::Function(Box::new(Function { name: None, params, body, span: Span::default() })))
 }
 
 /// Names, lists of names and records of names, with defaults.
@@ -170,7 +170,7 @@ fn statements(value: impl Strategy<Value = Expr> + Clone + 'static) -> impl Stra
         Just(stmt(StmtKind::Continue)),
         (name(), elements(v()), v()).prop_map(|(name, params, value)| {
             let body = Body::Block(vec![stmt(StmtKind::Return(Some(value)))]);
-            let function = Box::new(Function { params, body, span: Span::default() });
+            let function = Box::new(Function { name: None, params, body, span: Span::default() });
             stmt(StmtKind::Function { name, function })
         }),
     ];

@@ -63,6 +63,13 @@ pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<Target, Fai
     }
 }
 
+/// The files that [`open`] read for a lab, as far as they have names: no output may overwrite them.
+pub(super) fn read_for(argument: &str, options: &ModelOptions, lab: &Lab) -> Vec<PathBuf> {
+    let Ok((path, _)) = split(argument) else { return Vec::new() };
+    let model = lab.model.as_ref().and_then(|name| model_folder(options, &path).ok()?.path(&name.value));
+    std::iter::once(path).chain(model).collect()
+}
+
 fn within(lab: &Lab, f: &Finding) -> bool {
     lab.span.start <= f.span.start && f.span.end <= lab.span.end
 }
