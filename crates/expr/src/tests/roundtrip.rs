@@ -383,6 +383,12 @@ fn formatting_keeps_what_an_author_chose() {
             "const f=(x)=>{return x*x}\nctx.a=f(2)",
             Some("const f = (x) => {\n  return x * x;\n};\nctx.a = f(2);"),
         ),
+        // A function that calls itself keeps the name by which it does; one without a name becomes an arrow.
+        (
+            "const g=function f(x){return f(x-1)};const h=function(x){return x}",
+            Some("const g = function f(x) { return f(x - 1); }; const h = (x) => { return x; }"),
+        ),
+        ("(function f(){f()})()", Some("(function f() { f(); })()")),
         ("a = 1; /* why */ b = 2", None),
     ] {
         assert_eq!(format_statements(source).as_deref(), statements, "{source}");

@@ -1,12 +1,13 @@
 //! `labspec check` and `labspec verify`.
 
+use super::stdio::{complain, print_json};
 use super::target::model_folder;
-use super::{Color, Failure, ModelOptions, Outcome, print};
+use super::{Color, Failure, ModelOptions, Outcome, interrupted, print};
 use crate::bind::scene::Models;
 use crate::check::{self, Checked, Depth};
 use crate::finding::{self, Finding, Severity};
 use crate::lint;
-use crate::report::{self, Summary};
+use crate::report::{self, Summary, printable, printable_path};
 use crate::source::SourceFile;
 use crate::spec::{Lesson, load_lesson};
 use crate::verify::{Verdict, significant};
@@ -55,8 +56,11 @@ fn work(a: &Arguments, depth: Depth, measures: bool) -> Result<Outcome, Failure>
     let mut by_folder: BTreeMap<String, Models> = BTreeMap::new();
     let mut checked: Vec<Checked> = Vec::new();
     for (path, named) in &files {
+        if interrupted() {
+            break;
+        }
         if progress {
-            eprint!("\r\x1b[Kchecking {}", path.display());
+            complain(&format!("\r\x1b[Kchecking {}", printable_path(path)));
         }
         let file = SourceFile::read(path)?;
         let folder = model_folder(&a.models, path)?;
@@ -68,7 +72,7 @@ fn work(a: &Arguments, depth: Depth, measures: bool) -> Result<Outcome, Failure>
         checked.push(check::check(lesson, models, depth));
     }
     if progress {
-        eprint!("\r\x1b[K");
+        complain("\r\x1b[K");
     }
 
     let mut findings: Vec<Finding> = Vec::new();
@@ -94,8 +98,7 @@ fn work(a: &Arguments, depth: Depth, measures: bool) -> Result<Outcome, Failure>
         Format::Json => {
             let mut value = report::json(&findings, &sources);
             value["lessons"] = checked.iter().map(lesson_json).collect();
-            let text = serde_json::to_string_pretty(&value).map_err(|e| e.to_string())?;
-            print(&format!("{text}\n"))?;
+            print_json(&value, true)?;
         }
     }
     let clean = findings.iter().all(|f| f.severity == Severity::Note);
@@ -168,15 +171,16 @@ fn overview(checked: &[Checked], measures: bool) -> String {
         if c.labs.is_empty() && c.claims.is_empty() {
             continue;
         }
-        let _ = writeln!(text, "{}", c.lesson.file.path());
+        let _ = writeln!(text, "{}", printable(c.lesson.file.path()));
         for lab in &c.labs {
-            let title = if lab.title.is_empty() { String::new() } else { format!(" \"{}\"", lab.title) };
+            let title =
+                if lab.title.is_empty() { String::new() } else { format!(" \"{}\"", printable(&lab.title)) };
             let what = match lab.runs {
                 0 => "could not run".to_string(),
                 1 => "1 run".to_string(),
                 n => format!("{n} runs"),
             };
-            let _ = writeln!(text, "  {:<10} lab {}{title}", what, lab.address);
+            let _ = writeln!(text, "  {:<10} lab {}{title}", what, printable(&lab.address.to_string()));
         }
         for claim in &c.claims {
             let quotes = match claim.quotes {
@@ -184,10 +188,10 @@ fn overview(checked: &[Checked], measures: bool) -> String {
                 1 => ", 1 quoted number".to_string(),
                 n => format!(", {n} quoted numbers"),
             };
-            let _ = writeln!(text, "  {:<10} {}{quotes}", claim.verdict.as_str(), claim.name);
+            let _ = writeln!(text, "  {:<10} {}{quotes}", claim.verdict.as_str(), printable(&claim.name));
             if measures {
                 for (name, value) in &claim.measures {
-                    let _ = writeln!(text, "  {:<10}   {name} = {}", "", significant(*value));
+                    let _ = writeln!(text, "  {:<10}   {} = {}", "", printable(name), significant(*value));
                 }
             }
         }

@@ -5,7 +5,7 @@ use crate::bind::Programs;
 use crate::bind::scene::{Models, compile_file};
 use crate::finding::{Finding, Severity};
 use crate::lint::ModelFolder;
-use crate::report;
+use crate::report::{self, printable};
 use crate::source::{SourceFile, SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson, load_lesson};
 use labspec_core::Model;
@@ -91,7 +91,9 @@ fn split(argument: &str) -> Result<(PathBuf, Option<LabAddress>), Failure> {
 }
 
 fn choose<'l>(lesson: &'l Lesson, address: Option<&LabAddress>, argument: &str) -> Result<&'l Lab, Failure> {
-    let known: Vec<String> = lesson.addressed().iter().map(|(a, _)| a.to_string()).collect();
+    let known: Vec<String> =
+        lesson.addressed().iter().map(|(a, _)| printable(&a.to_string()).into_owned()).collect();
+    let argument = printable(argument);
     match address {
         Some(address) => lesson.lab(address).ok_or_else(|| match known.as_slice() {
             [] => format!("{argument}: the file has no lab that can be read; `labspec check` says why"),

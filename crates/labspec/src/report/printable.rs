@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// A piece of text for one line of output: what cannot be seen, or acts on the terminal, is written out.
 pub fn printable(text: &str) -> Cow<'_, str> {
-    written_out(text, |c| is_hidden(c), |c, out| out.extend(c.escape_default()))
+    written_out(text, is_hidden, |c, out| out.extend(c.escape_default()))
 }
 
 /// The same for a whole output whose line breaks are our own.

@@ -12,6 +12,7 @@ pub use table::{Cell, Table, shown};
 
 use crate::bind::{ControlProgram, Programs};
 use crate::interrupt;
+use crate::report::printable;
 use crate::spec::Lab;
 use labspec_core::Model;
 use labspec_expr::Value;
@@ -96,11 +97,11 @@ fn unknown(label: &str, programs: &Programs) -> RunError {
     let labels: Vec<&str> = programs.controls.iter().map(|(l, _)| l.as_str()).collect();
     let known = match labels.as_slice() {
         [] => "this lab has no controls".to_string(),
-        all => format!("the controls are: \"{}\"", all.join("\", \"")),
+        all => format!("the controls are: \"{}\"", printable(&all.join("\", \""))),
     };
-    let hint =
-        crate::json::nearest(label, labels).map_or(String::new(), |l| format!("; did you mean \"{l}\"?"));
-    RunError(format!("there is no control \"{label}\"{hint} ({known})"))
+    let hint = crate::json::nearest(label, labels)
+        .map_or(String::new(), |l| format!("; did you mean \"{}\"?", printable(l)));
+    RunError(format!("there is no control \"{}\"{hint} ({known})", printable(label)))
 }
 
 /// Number of steps that a length comes to.
