@@ -82,7 +82,9 @@ fn ours(shared: &Path, recording: &Json, how: How) -> Json {
         press: pairs("press").iter().map(|p| (p.as_str().unwrap().into(), 0.0)).collect(),
     };
     let table = run::run(lab, &model, &programs, &options).unwrap_or_else(|e| panic!("{name}: {e}"));
-    serde_json::from_str(&table.json().to_string()).unwrap()
+    let mut text = Vec::new();
+    table.write_json(&mut text).unwrap();
+    serde_json::from_slice(&text).unwrap()
 }
 
 /// The largest difference of a column over its range; infinite where something is not a number on one side, or another text.

@@ -10,7 +10,6 @@ use labspec::lint::ModelFolder;
 use labspec::run::{self, RunOptions};
 use labspec::source::SourceFile;
 use labspec::spec::{Lab, load_lesson};
-use labspec::verify::Verdict;
 use labspec_expr::Value;
 use serde_json::{Value as Json, json};
 
@@ -41,14 +40,14 @@ fn checked(run: &Json) -> (Checked, String) {
 fn measured(run: &Json, name: &str) -> f64 {
     let (checked, _) = checked(run);
     assert_eq!(codes(&checked), Vec::<&str>::new(), "{run}");
-    checked.claims[0].measures.iter().find(|(n, _)| n == name).unwrap().1
+    checked.claims[0].judgement.measures.iter().find(|m| m.name == name).unwrap().value
 }
 
 /// The text of the lesson that a refused run points at, and the message.
 fn refused(run: &Json) -> (String, String) {
     let (checked, text) = checked(run);
     assert_eq!(codes(&checked), ["run-impossible"], "{run}: {:?}", checked.findings);
-    assert_eq!(checked.claims[0].verdict, Verdict::Failed);
+    assert!(checked.claims[0].judgement.unmade.is_some());
     let finding = &checked.findings[0];
     (text[finding.span.clone()].to_string(), finding.message.clone())
 }

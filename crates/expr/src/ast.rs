@@ -174,6 +174,8 @@ pub enum Property {
 /// A function of the text's own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Function {
+    /// The name by which a `function` that is a value can call itself. A declaration holds its own.
+    pub name: Option<Name>,
     /// In order.
     pub params: Vec<Element>,
     /// What it does.

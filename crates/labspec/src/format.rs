@@ -53,6 +53,20 @@ pub fn format(lesson: &Lesson, mut models: Option<&mut Models>) -> Formatted {
     Formatted { text, changed, total }
 }
 
+/// Whether two versions of a lesson hold the same labs and claims, and are at fault in the same things.
+pub fn says_the_same(before: &Lesson, after: &Lesson) -> bool {
+    let texts = |lesson: &Lesson| {
+        let labs = lesson.all_labs().into_iter().flat_map(|lab| lab.code()).map(|(form, _)| form);
+        labs.chain(claims(lesson).into_iter().map(|(form, _)| form)).collect::<Vec<_>>()
+    };
+    let codes = |lesson: &Lesson| {
+        let mut codes: Vec<&str> = lesson.findings.iter().map(|f| f.code).collect();
+        codes.sort_unstable();
+        codes
+    };
+    texts(before) == texts(after) && codes(before) == codes(after)
+}
+
 /// The code of all `verify` objects.
 fn claims(lesson: &Lesson) -> Vec<(Form, &Text)> {
     let of_labs = lesson.all_labs().into_iter().filter_map(|lab: &Lab| lab.verify.as_ref());

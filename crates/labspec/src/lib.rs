@@ -16,6 +16,7 @@ pub mod check;
 pub mod cli;
 pub mod finding;
 pub mod format;
+mod interrupt;
 pub mod json;
 pub mod ledger;
 pub mod lint;

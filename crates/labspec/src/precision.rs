@@ -6,6 +6,7 @@
 
 use crate::bind::{Bound, ModelNames, Programs, Scope, to_finding};
 use crate::finding::Finding;
+use crate::interrupt;
 use crate::run::{self, RunError, Session};
 use crate::spec::Lab;
 use crate::svg::{Method, MethodPoint, WorkPrecision, work_precision};
@@ -116,10 +117,13 @@ pub fn compare(
         })
         .collect();
     let mut rows: Vec<Row> = Vec::new();
-    for (kind, name) in INTEGRATORS {
+    'runs: for (kind, name) in INTEGRATORS {
         for factor in STEPS {
             let h = own * factor;
             let s = sample(kind, h);
+            if interrupt::requested() {
+                break 'runs;
+            }
             let truth =
                 |i: usize| if targets[i].exact.is_some() { &s.exact[i] } else { &reference.values[i] };
             let errors: Vec<f64> =
@@ -222,6 +226,9 @@ fn samples(case: &Case<'_>, kind: i32, h: f64) -> Samples {
     for _ in 0..*count {
         let clock = Instant::now();
         for _ in 0..per_sample {
+            if interrupt::requested() {
+                return s;
+            }
             session.step();
         }
         s.seconds += clock.elapsed().as_secs_f64();

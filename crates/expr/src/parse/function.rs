@@ -46,14 +46,17 @@ impl Parser<'_> {
             };
             p.eat("=>");
             let body = if p.is("{") { Body::Block(p.block()?) } else { Body::Value(p.assignment()?) };
-            Ok(Function { params, body, span: start.to(p.last_span()) })
+            Ok(Function { name: None, params, body, span: start.to(p.last_span()) })
         });
         self.function_node(function?, height)
     }
 
     /// `function (x) { … }` as a value.
     pub(super) fn function_expression(&mut self) -> Attempt<Node> {
-        let (function, height) = self.measured(|p| Ok(p.function()?.1));
+        let (function, height) = self.measured(|p| {
+            let (name, function) = p.function()?;
+            Ok(Function { name, ..function })
+        });
         self.function_node(function?, height)
     }
 
@@ -106,7 +109,7 @@ impl Parser<'_> {
             return self.refuse(report);
         }
         let body = Body::Block(self.block()?);
-        Ok((name, Function { params, body, span: start.to(self.last_span()) }))
+        Ok((name, Function { name: None, params, body, span: start.to(self.last_span()) }))
     }
 
     /// Parameters behind their opening parenthesis, with the closing one.

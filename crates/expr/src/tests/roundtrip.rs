@@ -121,7 +121,7 @@ fn expression() -> BoxedStrategy<Expr> {
 }
 
 fn function(params: Vec<Element>, body: Body) -> Expr {
-    bare(ExprKind::Function(Box::new(Function { params, body, span: Span::default() })))
+    bare(ExprKind::Function(Box::new(Function { name: None, params, body, span: Span::default() })))
 }
 
 /// Names, lists of names and records of names, with defaults.
@@ -170,7 +170,7 @@ fn statements(value: impl Strategy<Value = Expr> + Clone + 'static) -> impl Stra
         Just(stmt(StmtKind::Continue)),
         (name(), elements(v()), v()).prop_map(|(name, params, value)| {
             let body = Body::Block(vec![stmt(StmtKind::Return(Some(value)))]);
-            let function = Box::new(Function { params, body, span: Span::default() });
+            let function = Box::new(Function { name: None, params, body, span: Span::default() });
             stmt(StmtKind::Function { name, function })
         }),
     ];
@@ -383,6 +383,12 @@ fn formatting_keeps_what_an_author_chose() {
             "const f=(x)=>{return x*x}\nctx.a=f(2)",
             Some("const f = (x) => {\n  return x * x;\n};\nctx.a = f(2);"),
         ),
+        // A function that calls itself keeps the name by which it does; one without a name becomes an arrow.
+        (
+            "const g=function f(x){return f(x-1)};const h=function(x){return x}",
+            Some("const g = function f(x) { return f(x - 1); }; const h = (x) => { return x; }"),
+        ),
+        ("(function f(){f()})()", Some("(function f() { f(); })()")),
         ("a = 1; /* why */ b = 2", None),
     ] {
         assert_eq!(format_statements(source).as_deref(), statements, "{source}");

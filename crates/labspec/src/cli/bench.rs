@@ -1,6 +1,7 @@
 //! `labspec bench`: the cost of a step, as JSON. This is also what an instruction counter runs.
 
-use super::{Failure, ModelOptions, Outcome, print, target};
+use super::stdio::print_json;
+use super::{Failure, ModelOptions, Outcome, interrupted, target};
 use crate::run::Session;
 use labspec_core::reflect::FieldSet;
 use labspec_core::{Data, Demand, Plan};
@@ -50,11 +51,18 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     let start = session.world.data.clone();
     let mut nanoseconds = Vec::new();
     for _ in 0..a.repeat.clamp(1, 1000) {
+        if interrupted() {
+            break;
+        }
         if a.reset {
             session.world.data.clone_from(&start);
         }
         let clock = Instant::now();
         advance(&mut session, steps, lab);
+        // A repetition that was cut short is no measurement.
+        if interrupted() {
+            break;
+        }
         nanoseconds.push(clock.elapsed().as_nanos() as f64 / steps as f64);
     }
     nanoseconds.sort_by(f64::total_cmp);
@@ -68,7 +76,7 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
         "nefc": d.nefc,
         "time": d.time,
     });
-    print(&format!("{value}\n"))?;
+    print_json(&value, false)?;
     Ok(Outcome::Clean)
 }
 
@@ -81,9 +89,16 @@ fn advance(session: &mut Session<'_>, steps: usize, lab: bool) {
 /// Whole steps: of the engine for a model alone, of the session with its controller for a lab.
 #[inline(always)]
 fn run_steps(session: &mut Session<'_>, steps: usize, lab: bool) {
-    if lab {
-        (0..steps).for_each(|_| session.step());
-    } else {
-        (0..steps).for_each(|_| labspec_core::step(&session.world.model, &mut session.world.data));
+    // Ctrl-C is asked for now and then, so that asking costs nothing that can be measured.
+    for first in (0..steps).step_by(256) {
+        let some = 256.min(steps - first);
+        if lab {
+            (0..some).for_each(|_| session.step());
+        } else {
+            (0..some).for_each(|_| labspec_core::step(&session.world.model, &mut session.world.data));
+        }
+        if interrupted() {
+            break;
+        }
     }
 }

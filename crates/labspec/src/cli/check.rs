@@ -1,20 +1,21 @@
 //! `labspec check` and `labspec verify`.
 
+use super::stdio::{complain, print_json};
 use super::target::model_folder;
-use super::{Color, Failure, ModelOptions, Outcome, print};
+use super::{Color, Failure, ModelOptions, Outcome, interrupted, print};
 use crate::bind::scene::{Models, finding};
 use crate::check::{self, Checked, Depth};
 use crate::finding::{self, Finding};
 use crate::ledger::{self, Entry, Evidence, Ledger, State, Subject};
 use crate::lint;
-use crate::report::{self, Summary};
+use crate::report::{self, Summary, printable, printable_path};
 use crate::source::SourceFile;
 use crate::spec::{Lesson, load_lesson};
 use clap::ValueEnum;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::{IsTerminal, Write as _};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -62,7 +63,7 @@ struct Course {
 fn work(a: &Arguments, depth: Depth, evidence: bool) -> Result<Outcome, Failure> {
     let course = look(a, depth)?;
     let outcome = course.ledger.outcome();
-    let named = || a.paths.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(", ");
+    let named = || a.paths.iter().map(|p| printable_path(p)).collect::<Vec<_>>().join(", ");
     let claimed = |e: &Entry| {
         let claims = [Subject::Answer, Subject::Quote, Subject::ClosedForm, Subject::Run];
         claims.contains(&e.subject) && e.state != State::NotClaimed
@@ -85,8 +86,7 @@ fn work(a: &Arguments, depth: Depth, evidence: bool) -> Result<Outcome, Failure>
             value["summary"]["claims"] = counts(&course.ledger);
             value["lessons"] = course.checked.iter().map(lesson_json).collect();
             value["ledger"] = course.ledger.entries().iter().map(|e| entry_json(e, &sources)).collect();
-            let text = serde_json::to_string_pretty(&value).map_err(|e| e.to_string())?;
-            print(&format!("{text}\n"))?;
+            print_json(&value, true)?;
         }
     }
     match outcome {
@@ -114,9 +114,14 @@ fn look(a: &Arguments, depth: Depth) -> Result<Course, Failure> {
     // Models are shared by the lessons of a folder, and compiled once.
     let mut by_folder: BTreeMap<String, Models> = BTreeMap::new();
     let mut refused: Vec<(PathBuf, String)> = problems;
-    for (path, named) in &files {
+    for (i, (path, named)) in files.iter().enumerate() {
+        if interrupted() {
+            // What was asked for and not looked at is no silence.
+            refused.extend(files.iter().skip(i).map(|(path, _)| (path.clone(), "interrupted before it was read".into())));
+            break;
+        }
         if progress {
-            let _ = write!(std::io::stderr(), "\r\x1b[Kchecking {}", path.display());
+            complain(&format!("\r\x1b[Kchecking {}", printable_path(path)));
         }
         if is_model(path) {
             read += usize::from(check_model(path, &mut course));
@@ -139,7 +144,7 @@ fn look(a: &Arguments, depth: Depth) -> Result<Course, Failure> {
         course.checked.push(check::check(lesson, models, depth));
     }
     if progress {
-        let _ = write!(std::io::stderr(), "\r\x1b[K");
+        complain("\r\x1b[K");
     }
     if read == 0 {
         return Err(nothing(&a.paths, &refused));
@@ -194,7 +199,7 @@ fn check_model(path: &Path, course: &mut Course) -> bool {
 
 /// Why nothing was checked, and what to do.
 fn nothing(paths: &[PathBuf], problems: &[(PathBuf, String)]) -> Failure {
-    let names: Vec<String> = paths.iter().map(|p| p.display().to_string()).collect();
+    let names: Vec<String> = paths.iter().map(|p| printable_path(p)).collect();
     match problems {
         [] => format!("no lessons in {}: name .md or .json files, or a folder of them", names.join(", ")),
         all => all.iter().map(|(_, why)| why.as_str()).collect::<Vec<_>>().join("\nlabspec: "),
@@ -212,7 +217,7 @@ pub(super) fn collect(paths: &[PathBuf]) -> (Vec<(PathBuf, bool)>, Vec<(PathBuf,
     let (mut files, mut problems) = (Vec::new(), Vec::new());
     for path in paths {
         match std::fs::metadata(path) {
-            Err(e) => problems.push((path.clone(), format!("cannot read {}: {e}", path.display()))),
+            Err(e) => problems.push((path.clone(), format!("cannot read {}: {e}", printable_path(path)))),
             Ok(meta) if meta.is_dir() => walk(path, &mut files, &mut problems, 0),
             Ok(_) => files.push((path.clone(), true)),
         }
@@ -231,12 +236,12 @@ fn walk(
 ) {
     let mut problem = |why: String| problems.push((folder.to_path_buf(), why));
     if depth > MAX_DEPTH {
-        return problem(format!("{} is nested more than {MAX_DEPTH} folders deep", folder.display()));
+        return problem(format!("{} is nested more than {MAX_DEPTH} folders deep", printable_path(folder)));
     }
     let list = std::fs::read_dir(folder).and_then(|all| all.map(|e| e.map(|e| e.path())).collect());
     let mut entries: Vec<PathBuf> = match list {
         Ok(entries) => entries,
-        Err(e) => return problem(format!("cannot read {}: {e}", folder.display())),
+        Err(e) => return problem(format!("cannot read {}: {e}", printable_path(folder))),
     };
     entries.sort();
     for path in entries {
@@ -272,7 +277,7 @@ fn overview(course: &Course, with_evidence: bool) -> String {
         if all.is_empty() {
             continue;
         }
-        let _ = writeln!(text, "{path}");
+        let _ = writeln!(text, "{}", printable(path));
         let mut told = 0;
         while let Some(entry) = all.get(told) {
             // Claims of the same kind, owner and state that follow each other are told together.
@@ -282,13 +287,13 @@ fn overview(course: &Course, with_evidence: bool) -> String {
             let n = if good && entry.subject != Subject::Lab { together } else { 1 };
             told += n;
             if let Some(line) = line(entry, n) {
-                let _ = writeln!(text, "  {line}");
+                let _ = writeln!(text, "  {}", printable(&line));
             }
             let last = all.get(told).is_none_or(|next| next.owner != entry.owner);
             let claim = c.claims.iter().find(|claim| last && claim.name == entry.owner);
             let shown = claim.filter(|claim| with_evidence || claim.is_doubtful());
             for evidence in shown.into_iter().flat_map(check::evidence) {
-                let _ = writeln!(text, "  {:<10}   {evidence}", "");
+                let _ = writeln!(text, "  {:<10}   {}", "", printable(&evidence));
             }
         }
         text.push('\n');

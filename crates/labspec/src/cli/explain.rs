@@ -24,6 +24,7 @@ pub(super) fn explain(a: &Arguments) -> Result<Outcome, Failure> {
         None => {
             let near = json::nearest(code, rules::all().map(|(c, _)| c));
             let near = near.map_or(String::new(), |c| format!("; did you mean `{c}`?"));
+            let code = crate::report::printable(code);
             Err(format!("there is no code `{code}`{near}\n`labspec explain` lists all codes"))
         }
     }

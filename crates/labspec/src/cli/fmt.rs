@@ -2,12 +2,13 @@
 
 use super::check::{collect, is_other_json};
 use super::target::model_folder;
-use super::{Failure, ModelOptions, Outcome, print, write_file};
+use super::{Failure, ModelOptions, Outcome, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::format;
+use crate::report::printable_path;
 use crate::source::SourceFile;
 use crate::spec::load_lesson;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `fmt`.
 #[derive(clap::Args, Debug)]
@@ -27,30 +28,53 @@ pub(super) struct Arguments {
 
 pub(super) fn fmt(a: &Arguments) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::Clean;
+    let mut failures: Vec<String> = Vec::new();
     let (files, problems) = collect(&a.paths);
-    if let Some((_, why)) = problems.into_iter().next() {
-        return Err(why);
-    }
+    failures.extend(problems.into_iter().map(|(_, why)| why));
     for (path, named) in files {
-        let file = SourceFile::read(&path)?;
-        let folder = model_folder(&a.models, &path)?;
-        let lesson = load_lesson(file, &folder);
-        if !named && is_other_json(&lesson) {
-            continue;
+        if interrupted() {
+            break;
         }
-        let mut models = Models::new(folder);
-        let done = format::format(&lesson, a.modernize.then_some(&mut models));
-        if done.changed == 0 {
-            continue;
-        }
-        let of = format!("{} of {} texts", done.changed, done.total);
-        if a.check {
-            outcome = Outcome::Findings;
-            print(&format!("{}: {of} would change\n", path.display()))?;
-        } else {
-            write_file(&path, &done.text)?;
-            print(&format!("{}: {of} changed\n", path.display()))?;
+        match one(a, &path, named) {
+            Ok(None) => {}
+            Ok(Some(text)) => {
+                if a.check {
+                    outcome = Outcome::Findings;
+                }
+                print(&format!("{}: {text}\n", printable_path(&path)))?;
+            }
+            // One file that cannot be read or written says nothing about the others.
+            Err(failure) => failures.push(failure),
         }
     }
-    Ok(outcome)
+    if failures.is_empty() { Ok(outcome) } else { Err(failures.join("\nlabspec: ")) }
+}
+
+/// Lays out one file; what to say about it, when there is anything to say.
+fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failure> {
+    let file = SourceFile::read(path)?;
+    let folder = model_folder(&a.models, path)?;
+    let lesson = load_lesson(file, &folder);
+    if !named && is_other_json(&lesson) {
+        return Ok(None);
+    }
+    let mut models = Models::new(folder.clone());
+    let done = format::format(&lesson, a.modernize.then_some(&mut models));
+    if done.changed == 0 {
+        return Ok(None);
+    }
+    // The file as it would be is read once more before anything is replaced.
+    let again = load_lesson(SourceFile::new(lesson.file.path().clone(), done.text.as_str()), &folder);
+    if !format::says_the_same(&lesson, &again) {
+        return Err(format!(
+            "{} is left alone: laid out anew it would not be read as before; please report this lesson",
+            printable_path(path)
+        ));
+    }
+    let of = format!("{} of {} texts", done.changed, done.total);
+    if a.check {
+        return Ok(Some(format!("{of} would change")));
+    }
+    write_file(path, &done.text)?;
+    Ok(Some(format!("{of} changed")))
 }

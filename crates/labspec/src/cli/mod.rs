@@ -4,17 +4,23 @@ mod bench;
 mod check;
 mod explain;
 mod fmt;
+mod output;
 mod plan;
 mod precision;
 mod record;
 mod run;
+mod stdio;
 mod target;
 
+use crate::interrupt;
+use crate::report::{printable_lines, printable_path};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use output::write_file;
 use std::ffi::OsString;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use stdio::{complain, print};
 
 /// Checks that physics lessons tell the truth.
 #[derive(Parser, Debug)]
@@ -94,11 +100,12 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(e) => {
-            // clap's own text; help and version are not errors.
-            let _ = e.print();
-            return ExitCode::from(if e.use_stderr() { 2 } else { 0 });
+            return usage(&e);
         }
     };
+    if cli.command.prints_what_is_finished() {
+        interrupt::listen();
+    }
     let result = match &cli.command {
         Command::Check(a) => check::check(a),
         Command::Verify(a) => check::verify(a),
@@ -112,32 +119,49 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Reference { folder } => reference(folder),
     };
     match result {
+        Ok(_) if interrupted() => ExitCode::from(130),
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
         Ok(Outcome::Findings) => ExitCode::from(1),
         Err(message) => {
-            eprintln!("labspec: {message}");
+            complain(&format!("labspec: {}\n", printable_lines(&message)));
+            ExitCode::from(2)
+        }
+    }
+}
+
+impl Command {
+    /// Whether Ctrl-C is asked for between pieces of work. All other commands it ends at once.
+    fn prints_what_is_finished(&self) -> bool {
+        use Command::{Bench, Check, Fmt, Precision, Record, Run, Verify};
+        matches!(self, Check(_) | Verify(_) | Fmt(_) | Run(_) | Precision(_) | Record(_) | Bench(_))
+    }
+}
+
+/// Whether the person at the terminal has pressed Ctrl-C: print what is finished and stop. The exit code is then 130.
+fn interrupted() -> bool {
+    interrupt::requested()
+}
+
+/// Help and version, which are no errors, or what is wrong with the arguments.
+fn usage(e: &clap::Error) -> ExitCode {
+    if e.use_stderr() {
+        // An argument may be the name of a file that someone else chose.
+        complain(&printable_lines(&e.render().to_string()));
+        return ExitCode::from(2);
+    }
+    match stdio::outcome(e.print().and_then(|()| std::io::stdout().flush())) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            complain(&format!("labspec: {message}\n"));
             ExitCode::from(2)
         }
     }
 }
 
 fn reference(folder: &std::path::Path) -> Result<Outcome, Failure> {
-    std::fs::create_dir_all(folder).map_err(|e| format!("cannot make {}: {e}", folder.display()))?;
+    std::fs::create_dir_all(folder).map_err(|e| format!("cannot make {}: {e}", printable_path(folder)))?;
     for (name, text) in crate::reference::pages() {
         write_file(&folder.join(name), &text)?;
     }
     Ok(Outcome::Clean)
-}
-
-/// Prints to standard output. A reader that has gone away (`| head`) ends the program quietly.
-fn print(text: &str) -> Result<(), Failure> {
-    use std::io::Write;
-    match std::io::stdout().lock().write_all(text.as_bytes()) {
-        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(format!("cannot write: {e}")),
-        _ => Ok(()),
-    }
-}
-
-fn write_file(path: &std::path::Path, text: &str) -> Result<(), Failure> {
-    std::fs::write(path, text).map_err(|e| format!("cannot write {}: {e}", path.display()))
 }

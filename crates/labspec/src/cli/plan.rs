@@ -1,6 +1,8 @@
 //! `labspec plan`.
 
+use super::stdio::print_json;
 use super::{Failure, ModelOptions, Outcome, print, target};
+use crate::report::printable;
 use clap::ValueEnum;
 use labspec_core::Plan;
 use serde_json::{Value, json};
@@ -44,7 +46,7 @@ pub(super) fn plan(a: &Arguments) -> Result<Outcome, Failure> {
                     "{}  {:<14} {}",
                     if d.keep { "keep " } else { "leave" },
                     stage(d.stage),
-                    d.reason
+                    printable(&d.reason)
                 );
             }
             let kept = plan.decisions().iter().filter(|d| d.keep).count();
@@ -59,7 +61,7 @@ pub(super) fn plan(a: &Arguments) -> Result<Outcome, Failure> {
                 .collect();
             let value =
                 json!({"reads": list(&demand.reads), "writes": list(&demand.writes), "stages": stages});
-            print(&format!("{}\n", serde_json::to_string_pretty(&value).map_err(|e| e.to_string())?))?;
+            print_json(&value, true)?;
         }
     }
     Ok(Outcome::Clean)

@@ -1,7 +1,10 @@
 //! `labspec precision`.
 
-use super::{Failure, ModelOptions, Outcome, print, target, write_file};
+use super::output::{Wanted, look_ahead};
+use super::stdio::print_json;
+use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
 use crate::precision::{Report, Truth, compare};
+use crate::report::printable;
 use crate::verify::significant;
 use clap::ValueEnum;
 use serde_json::{Value, json};
@@ -34,21 +37,24 @@ enum Format {
 
 pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
+    let wanted: Vec<Wanted> =
+        a.svg.iter().map(|path| Wanted { option: "--svg", path: path.clone() }).collect();
+    look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &wanted)?;
     let mut findings = Vec::new();
     let report =
         compare(&target.lab, &target.model, &target.programs, a.until, &mut findings).map_err(|e| e.0)?;
     if let Some(f) = findings.first() {
-        return Err(format!("a closed form has a mistake: {}; `labspec check` shows where", f.message));
+        return Err(format!(
+            "a closed form has a mistake: {}; `labspec check` shows where",
+            printable(&f.message)
+        ));
     }
     if let Some(file) = &a.svg {
         write_file(file, &report.chart(0, target.lab.title()))?;
     }
     match a.format {
         Format::Human => print(&table(&report))?,
-        Format::Json => print(&format!(
-            "{}\n",
-            serde_json::to_string_pretty(&value(&report)).map_err(|e| e.to_string())?
-        ))?,
+        Format::Json => print_json(&value(&report), true)?,
     }
     let diverged = report.rows.iter().any(|r| r.diverged);
     Ok(if diverged { Outcome::Findings } else { Outcome::Clean })
@@ -61,8 +67,12 @@ fn table(report: &Report) -> String {
             Some(Truth::ClosedForm) => "the closed form".to_string(),
             _ => format!("RK4 with tiny steps (itself off by about {})", significant(report.uncertainty[i])),
         };
-        let _ =
-            writeln!(text, "{trace}: largest error over {} s against {against}", significant(report.length));
+        let _ = writeln!(
+            text,
+            "{}: largest error over {} s against {against}",
+            printable(trace),
+            significant(report.length)
+        );
         let _ = writeln!(text, "  integrator   timestep        error   order   µs per s");
         for r in &report.rows {
             let order = r.orders[i].map_or("–".to_string(), |o| format!("{o:.2}"));
@@ -71,6 +81,9 @@ fn table(report: &Report) -> String {
             let _ = writeln!(text, "  {:<10} {h:>10} {error:>12} {order:>7} {:>10.0}", r.integrator, r.cost);
         }
         text.push('\n');
+    }
+    if interrupted() {
+        text.push_str("stopped by Ctrl-C: the runs above are those that were finished\n");
     }
     text
 }

@@ -1,6 +1,10 @@
 //! `labspec record`: our engine's numbers in the layout of a recording of MuJoCo, for the same states.
 
-use super::{Failure, Outcome, print, target};
+use super::stdio::print_json;
+use super::{Failure, Outcome, interrupted, target};
+use crate::report::{printable, printable_path};
+use crate::run::MAX_STEPS;
+use crate::source::read_text;
 use labspec_core::reflect::{self, Object, View};
 use labspec_core::{self as core, Data, Demand, Model, Plan, Warning};
 use serde_json::{Map, Value, json};
@@ -28,6 +32,11 @@ pub(super) struct Arguments {
     option: Vec<String>,
 }
 
+/// Largest recording that is read, in bytes.
+const MAX_RECORDING: u64 = 64 << 20;
+/// Most numbers that are written.
+const MAX_NUMBERS: usize = 5_000_000;
+
 /// What is recorded of each state besides the arrays that the recording names.
 const STATE: [&str; 6] = ["qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_quat"];
 
@@ -40,14 +49,23 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
     if a.tight {
         (m.opt.tolerance, m.opt.ls_tolerance, m.opt.iterations, m.opt.ls_iterations) = (0.0, 1e-10, 200, 100);
     }
-    let text =
-        std::fs::read_to_string(&a.states).map_err(|e| format!("cannot read {}: {e}", a.states.display()))?;
+    let text = read_text(&a.states, MAX_RECORDING, "a recording")?;
     let oracle: Value =
-        serde_json::from_str(&text).map_err(|e| format!("{} is not JSON: {e}", a.states.display()))?;
+        serde_json::from_str(&text).map_err(|e| format!("{} is not JSON: {e}", printable_path(&a.states)))?;
+    drop(text);
+    let every = a.every.max(1);
+    let rows = (a.steps / every).saturating_add(1);
+    if a.steps > MAX_STEPS || rows.saturating_mul(m.nq + m.nv + m.na + 3) > MAX_NUMBERS {
+        return Err(format!(
+            "a trajectory of {} steps with a row after every {every} is too long; ask for fewer steps, or fewer rows with --every",
+            a.steps
+        ));
+    }
     let mut d = Data::planned(&m, Plan::new(&m, &Demand::OBSERVE));
 
     let model = names(&oracle["model"], |name| field(&m, &d, Object::Model, name));
     let mut forward = Vec::new();
+    let mut written = 0;
     for state in oracle["forward"].as_array().into_iter().flatten() {
         start(&m, &mut d);
         for name in STATE {
@@ -62,13 +80,26 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
         for name in STATE {
             row.insert(name.into(), state[name].clone());
         }
-        forward.push(Value::Object(row));
+        let row = Value::Object(row);
+        written += size(&row);
+        if written > MAX_NUMBERS {
+            return Err(format!(
+                "the states of {} ask for more than {MAX_NUMBERS} numbers; name fewer fields or fewer states",
+                printable_path(&a.states)
+            ));
+        }
+        forward.push(row);
+        if interrupted() {
+            break;
+        }
     }
 
     start(&m, &mut d);
     let mut trajectory = Vec::new();
-    let every = a.every.max(1);
     for i in 0..=a.steps {
+        if interrupted() {
+            break;
+        }
         if i % every == 0 {
             trajectory.push(json!({
                 "time": d.time, "qpos": numbers(&d.qpos), "qvel": numbers(&d.qvel), "act": numbers(&d.act),
@@ -90,8 +121,17 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
         "sizes": names(&oracle["sizes"], |name| reflect::size(&m, name).map(|n| json!(n))),
         "names": {}, "model": model, "forward": forward, "trajectory": trajectory, "warnings": warnings,
     });
-    print(&format!("{value}\n"))?;
+    print_json(&value, false)?;
     Ok(Outcome::Clean)
+}
+
+/// How many values a recorded value holds.
+fn size(value: &Value) -> usize {
+    match value {
+        Value::Array(items) => items.iter().map(size).sum(),
+        Value::Object(entries) => entries.values().map(size).sum(),
+        _ => 1,
+    }
 }
 
 fn start(m: &Model, d: &mut Data) {
@@ -154,13 +194,17 @@ fn set_array(m: &mut Model, d: &mut Data, name: &str, values: &Value) -> Result<
 }
 
 fn set_option(m: &mut Model, d: &mut Data, text: &str) -> Result<(), Failure> {
-    let (name, values) = text.split_once('=').ok_or_else(|| format!("--option {text}: write NAME=VALUE"))?;
-    let f = reflect::field(Object::Option, name)
-        .ok_or_else(|| format!("--option {text}: model.opt has no field `{name}`"))?;
+    let (name, values) =
+        text.split_once('=').ok_or_else(|| format!("--option {}: write NAME=VALUE", printable(text)))?;
+    let f = reflect::field(Object::Option, name).ok_or_else(|| {
+        format!("--option {}: model.opt has no field `{}`", printable(text), printable(name))
+    })?;
     for (i, value) in values.split_whitespace().enumerate() {
-        let x = value.parse::<f64>().map_err(|_| format!("--option {text}: `{value}` is not a number"))?;
+        let x = value
+            .parse::<f64>()
+            .map_err(|_| format!("--option {}: `{}` is not a number", printable(text), printable(value)))?;
         if !reflect::view_mut(m, d, f).set(i, x) {
-            return Err(format!("--option {text}: too many numbers"));
+            return Err(format!("--option {}: too many numbers", printable(text)));
         }
     }
     Ok(())

@@ -1,6 +1,9 @@
 //! `labspec run`.
 
-use super::{Failure, ModelOptions, Outcome, print, target, write_file};
+use super::output::{Wanted, look_ahead, write_with};
+use super::stdio::stream;
+use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
+use crate::report::{printable, printable_path};
 use crate::run::{self, Cell, RunOptions, Table, settings, shown};
 use crate::spec::{Lab, Plot};
 use crate::svg::{Chart, Series, line_chart};
@@ -40,8 +43,8 @@ pub(super) struct Arguments {
     /// Write all samples as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write the plots; further plots go to FILE-2.svg, FILE-3.svg, …
-    #[arg(long, value_name = "FILE")]
+    /// Write the plots; further plots go to FILE-2.svg, FILE-3.svg, …; into a folder as plot-1.svg, plot-2.svg, …
+    #[arg(long, value_name = "FILE|DIR/")]
     svg: Option<PathBuf>,
 }
 
@@ -64,20 +67,25 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
         set: a.set.iter().map(|s| assignment(&target.lab, s)).collect::<Result<_, _>>()?,
         press: a.press.iter().map(|s| press(&target.lab, s)).collect::<Result<_, _>>()?,
     };
+    let plots = a.svg.as_ref().map(|file| plot_files(&target.lab, file)).transpose()?.unwrap_or_default();
+    let wanted = |option: &'static str, path: &PathBuf| Wanted { option, path: path.clone() };
+    let files = a.csv.iter().map(|p| wanted("--csv", p)).chain(a.json.iter().map(|p| wanted("--json", p)));
+    let files: Vec<Wanted> = files.chain(plots.iter().map(|p| wanted("--svg", p))).collect();
+    look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &files)?;
     let table = run::run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
     if let Some(file) = &a.csv {
-        write_file(file, &table.csv())?;
+        write_with(file, |out| table.write_csv(out))?;
     }
     if let Some(file) = &a.json {
-        write_file(file, &format!("{}\n", table.json()))?;
+        write_with(file, |out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?;
     }
-    if let Some(file) = &a.svg {
-        write_plots(&target.lab, &table, file)?;
+    for (i, (plot, file)) in target.lab.plots.iter().zip(&plots).enumerate() {
+        write_file(file, &line_chart(&chart(&target.lab, plot, i, &table)))?;
     }
     match a.format {
         Format::Human => print(&readouts(&target.lab, &table))?,
-        Format::Json => print(&format!("{}\n", table.json()))?,
-        Format::Csv => print(&table.csv())?,
+        Format::Json => stream(|out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?,
+        Format::Csv => stream(|out| table.write_csv(out))?,
     }
     let clean = table.errors.is_empty() && table.warnings.is_empty() && table.breakdown.is_none();
     Ok(if clean { Outcome::Clean } else { Outcome::Findings })
@@ -113,19 +121,26 @@ fn readouts(lab: &Lab, table: &Table) -> String {
     let Some(last) = table.rows.last() else { return text };
     let time = last.first().map_or(f64::NAN, Cell::number);
     let title = if lab.title().is_empty() { "the lab" } else { lab.title() };
-    let _ = writeln!(text, "{title}, after {} s ({} samples)", shown(time, 3), table.rows.len());
+    let samples = match table.rows.len() {
+        1 => "1 sample".to_string(),
+        n => format!("{n} samples"),
+    };
+    let _ = writeln!(text, "{}, after {} s ({samples})", printable(title), shown(time, 3));
+    if interrupted() {
+        let _ = writeln!(text, "stopped by Ctrl-C before its end");
+    }
     let digits = |name: &str| {
         let label = name.strip_prefix("readout/")?;
         lab.readouts.iter().find(|r| r.label.value == label).map(|r| r.digits())
     };
-    let rows: Vec<(&str, String)> = table
+    let rows: Vec<(String, String)> = table
         .columns
         .iter()
         .zip(last)
         .skip(1)
         .map(|(name, cell)| {
             let label = name.strip_prefix("readout/").or_else(|| name.splitn(3, '/').nth(2)).unwrap_or(name);
-            (label, cell.shown(digits(name).unwrap_or(4)))
+            (printable(label).into_owned(), printable(&cell.shown(digits(name).unwrap_or(4))).into_owned())
         })
         .collect();
     let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
@@ -133,32 +148,42 @@ fn readouts(lab: &Lab, table: &Table) -> String {
         let _ = writeln!(text, "  {label}{}  {value}", " ".repeat(width - label.chars().count()));
     }
     for (name, n) in &table.warnings {
-        let _ = writeln!(text, "warning: {name} ({n} times)");
+        let often = if *n == 1 { "once".to_string() } else { format!("{n} times") };
+        let _ = writeln!(text, "warning: {name} ({often})");
     }
     if let Some(b) = &table.breakdown {
-        let _ = writeln!(text, "  {}\n  {}\n  help: {}", b.what, b.why, b.help);
+        let _ = writeln!(text, "  {}\n  {}\n  help: {}", printable(&b.what), b.why, printable(&b.help));
     }
     for error in &table.errors {
-        let _ = writeln!(text, "error: {error}");
+        let _ = writeln!(text, "error: {}", printable(error));
     }
     text
 }
 
-fn write_plots(lab: &Lab, table: &Table, file: &Path) -> Result<(), Failure> {
-    if lab.plots.is_empty() {
+/// Most plots that go beside one another into a folder that holds other things.
+const MAX_LOOSE: usize = 50;
+
+/// The files of a lab's plots: FILE, FILE-2.svg, FILE-3.svg, …, or plot-1.svg, plot-2.svg, … in a folder.
+fn plot_files(lab: &Lab, file: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let count = lab.plots.len();
+    if count == 0 {
         return Err("this lab has no plots to write".into());
     }
-    for (i, plot) in lab.plots.iter().enumerate() {
-        let name = match i {
-            0 => file.to_path_buf(),
-            _ => {
-                let stem = file.file_stem().and_then(|s| s.to_str()).unwrap_or("plot");
-                file.with_file_name(format!("{stem}-{}.svg", i + 1))
-            }
-        };
-        write_file(&name, &line_chart(&chart(lab, plot, i, table)))?;
+    let shown = printable_path(file);
+    if file.is_dir() || shown.ends_with(std::path::is_separator) {
+        std::fs::create_dir_all(file).map_err(|e| format!("cannot make the folder {shown}: {e}"))?;
+        return Ok((1..=count).map(|i| file.join(format!("plot-{i}.svg"))).collect());
     }
-    Ok(())
+    if count > MAX_LOOSE {
+        let folder = printable_path(&file.with_extension(""));
+        return Err(format!("this lab has {count} plots; name a folder for them: --svg {folder}/"));
+    }
+    let further = |i: usize| {
+        let mut name = file.file_stem().unwrap_or("plot".as_ref()).to_os_string();
+        name.push(format!("-{i}.svg"));
+        file.with_file_name(name)
+    };
+    Ok((1..=count).map(|i| if i == 1 { file.to_path_buf() } else { further(i) }).collect())
 }
 
 /// A plot of the lab with its samples.

@@ -5,7 +5,7 @@ use crate::bind::Programs;
 use crate::bind::scene::{Models, compile_file, finding};
 use crate::finding::{Finding, Severity};
 use crate::lint::ModelFolder;
-use crate::report;
+use crate::report::{self, printable};
 use crate::source::{SourceFile, SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson, load_lesson};
 use labspec_core::Model;
@@ -63,6 +63,13 @@ pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<Target, Fai
     }
 }
 
+/// The files that [`open`] read for a lab, as far as they have names: no output may overwrite them.
+pub(super) fn read_for(argument: &str, options: &ModelOptions, lab: &Lab) -> Vec<PathBuf> {
+    let Ok((path, _)) = split(argument) else { return Vec::new() };
+    let model = lab.model.as_ref().and_then(|name| model_folder(options, &path).ok()?.path(&name.value));
+    std::iter::once(path).chain(model).collect()
+}
+
 fn within(lab: &Lab, f: &Finding) -> bool {
     lab.span.start <= f.span.start && f.span.end <= lab.span.end
 }
@@ -84,7 +91,9 @@ fn split(argument: &str) -> Result<(PathBuf, Option<LabAddress>), Failure> {
 }
 
 fn choose<'l>(lesson: &'l Lesson, address: Option<&LabAddress>, argument: &str) -> Result<&'l Lab, Failure> {
-    let known: Vec<String> = lesson.addressed().iter().map(|(a, _)| a.to_string()).collect();
+    let known: Vec<String> =
+        lesson.addressed().iter().map(|(a, _)| printable(&a.to_string()).into_owned()).collect();
+    let argument = printable(argument);
     match address {
         Some(address) => lesson.lab(address).ok_or_else(|| match known.as_slice() {
             [] => format!("{argument}: the file has no lab that can be read; `labspec check` says why"),

@@ -25,6 +25,10 @@ use std::ops::Range;
 pub const MAX_BLOCKS: usize = 2000;
 /// Most bytes that are read again after damage. Every damaged fence means one more pass over what follows it.
 const MAX_REREAD: usize = 64 << 20;
+/// Most characters of markup in a lesson: the Markdown parser keeps some sixty bytes for each.
+const MAX_MARKUP: usize = 4 << 20;
+/// Most names of model elements that are reported one by one.
+const MAX_TAGS: usize = 500;
 
 /// What a fence holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -64,12 +68,23 @@ pub struct Scan {
     pub findings: Vec<Finding>,
     /// Every stretch that is code and therefore not prose.
     code: Vec<Range<usize>>,
+    /// Names of model elements that stand as tags.
+    tags: usize,
 }
 
 /// Finds all fences of a lesson.
 pub fn scan(file: &SourceFile) -> Scan {
     let text = file.text();
     let mut scan = Scan::default();
+    let is_markup = |b: u8| b"[]()*_~`<>&!|\\".contains(&b);
+    if text.bytes().filter(|&b| is_markup(b)).take(MAX_MARKUP + 1).count() > MAX_MARKUP {
+        scan.findings.push(
+            Finding::new(&rules::fence::LIMIT, 0..0, "nothing of this lesson is checked")
+                .why(format!("it has more than {MAX_MARKUP} characters of markup"))
+                .help("split the lesson"),
+        );
+        return scan;
+    }
     let (mut from, mut read) = (0, 0);
     loop {
         read += text.len() - from;
@@ -120,7 +135,12 @@ fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
                 }
             }
             Event::Html(_) | Event::InlineHtml(_) => {
-                scan.findings.extend(rules::html::in_markdown(text, range));
+                let left = MAX_TAGS - scan.tags;
+                if left > 0 {
+                    let found = rules::html::in_markdown(text, range, left);
+                    scan.tags += found.len();
+                    scan.findings.extend(found);
+                }
             }
             _ => {}
         }

@@ -4,9 +4,10 @@
 //! one. Drawn by annotate-snippets, in the manner of rustc.
 
 use super::file_of;
+use super::printable::{printable, printable_line};
 use crate::finding::{Finding, Severity};
 use crate::source::SourceFile;
-use annotate_snippets::{AnnotationKind, Element, Level, Origin, Renderer, Snippet, normalize_untrusted_str};
+use annotate_snippets::{AnnotationKind, Element, Level, Origin, Renderer, Snippet};
 use std::ops::Range;
 
 /// Characters shown on each side of a mark, and most characters of the mark itself.
@@ -33,19 +34,19 @@ fn one(finding: &Finding, files: &[&SourceFile], renderer: &Renderer) -> String 
         Severity::Note => Level::NOTE,
     };
     let mut group = level
-        .primary_title(normalize_untrusted_str(&finding.message))
+        .primary_title(printable(&finding.message).into_owned())
         .id(finding.code)
         .elements(place(files, &finding.path, &finding.span, AnnotationKind::Primary, None));
     for related in &finding.related {
-        let label = normalize_untrusted_str(&related.label);
+        let label = printable(&related.label).into_owned();
         group =
             group.elements(place(files, &related.path, &related.span, AnnotationKind::Context, Some(label)));
     }
     if let Some(why) = &finding.why {
-        group = group.element(Level::NOTE.with_name("why").message(normalize_untrusted_str(why)));
+        group = group.element(Level::NOTE.with_name("why").message(printable(why).into_owned()));
     }
     if let Some(help) = &finding.help {
-        group = group.element(Level::HELP.message(normalize_untrusted_str(help)));
+        group = group.element(Level::HELP.message(printable(help).into_owned()));
     }
     let drawn = renderer.render(&[group]);
     drawn.lines().filter(|line| !is_nameless(line)).collect::<Vec<_>>().join("\n")
@@ -76,10 +77,10 @@ fn place<'a>(
     label: Option<String>,
 ) -> Vec<Element<'a>> {
     let Some(file) = file_of(files, path) else {
-        return vec![Origin::path(path.to_string()).into()];
+        return vec![Origin::path(printable(path).into_owned()).into()];
     };
     let position = file.position(span.start);
-    let origin = Origin::path(path.to_string()).line(position.line).char_column(position.column);
+    let origin = Origin::path(printable(path).into_owned()).line(position.line).char_column(position.column);
     let line = file.line_span(position.line).unwrap_or(0..0);
     let (text, mark) =
         window(file.slice(line.clone()), &(file.floor(span.start)..file.floor(span.end)), line.start);
@@ -99,28 +100,32 @@ fn window(line: &str, span: &Range<usize>, line_start: usize) -> (String, Range<
     let (before, inside) = (line.get(..start).unwrap_or(""), line.get(start..end).unwrap_or(""));
     let after = line.get(end..).unwrap_or("");
     if line.chars().take(WHOLE + 1).count() <= WHOLE {
-        return (line.to_string(), start..end);
+        return written([before, inside, after]);
     }
     let left: Vec<char> = before.chars().rev().take(CONTEXT).collect();
-    let mut text = String::new();
+    let mut begin = String::new();
     if left.iter().map(|c| c.len_utf8()).sum::<usize>() < before.len() {
-        text.push('…');
+        begin.push('…');
     }
-    text.extend(left.iter().rev());
-    let from = text.len();
+    begin.extend(left.iter().rev());
     let shown: String = inside.chars().take(CONTEXT).collect();
-    text.push_str(&shown);
-    let to = text.len();
+    let mut end = String::new();
     if shown.len() == inside.len() {
-        let right: String = after.chars().take(CONTEXT).collect();
-        text.push_str(&right);
-        if right.len() < after.len() {
-            text.push('…');
+        end.extend(after.chars().take(CONTEXT));
+        if end.len() < after.len() {
+            end.push('…');
         }
     } else {
-        text.push('…');
+        end.push('…');
     }
-    (text, from..to)
+    written([&begin, &shown, &end])
+}
+
+/// The three parts of a line, safe to print, and where the middle one stands.
+fn written(parts: [&str; 3]) -> (String, Range<usize>) {
+    let [before, inside, after] = parts.map(printable_line);
+    let mark = before.len()..before.len() + inside.len();
+    ([before, inside, after].concat(), mark)
 }
 
 #[cfg(test)]

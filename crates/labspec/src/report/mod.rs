@@ -2,9 +2,11 @@
 
 mod human;
 mod machine;
+mod printable;
 
 pub use human::human;
 pub use machine::json;
+pub use printable::{printable, printable_json, printable_lines, printable_path};
 
 use crate::finding::{Finding, Severity};
 use crate::source::SourceFile;

@@ -15,6 +15,7 @@ pub use settings::{presses, presses_within, set_controls};
 pub use table::{Cell, Table, shown};
 
 use crate::bind::Programs;
+use crate::interrupt;
 use crate::spec::Lab;
 use labspec_core::Model;
 use labspec_expr::Value;
@@ -38,6 +39,8 @@ pub struct RunOptions {
 pub const MAX_STEPS: usize = 20_000_000;
 /// Most cells of a table.
 const MAX_CELLS: usize = 10_000_000;
+/// Most bytes of the texts in it.
+const MAX_TEXT: usize = 64 << 20;
 /// Length of a run when nothing states one, s.
 const DEFAULT_LENGTH: f64 = 2.0;
 
@@ -63,13 +66,32 @@ pub fn count_steps(
     steps: Option<usize>,
     timestep: f64,
 ) -> Result<usize, RunError> {
+    if let Some(n) = steps {
+        return match n <= MAX_STEPS {
+            true => Ok(n),
+            false => Err(RunError(format!("a run of {n} steps is too long; the limit is {MAX_STEPS}"))),
+        };
+    }
     let length = until.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(DEFAULT_LENGTH);
-    // JavaScript's Math.round, as the page's own clock would count.
-    let count = steps.map_or((length / timestep + 0.5).floor(), |n| n as f64);
-    if !(0.0..=MAX_STEPS as f64).contains(&count) {
+    let text = |x: f64| Value::Number(x).to_string();
+    if !(0.0..f64::INFINITY).contains(&length) {
         return Err(RunError(format!(
-            "a run of {length} s at a timestep of {timestep} s would take {count} steps; the limit is {MAX_STEPS}"
+            "a run cannot last {} s; its length is a number of seconds, 0 or more",
+            text(length)
         )));
+    }
+    // JavaScript's Math.round, as the page's own clock would count.
+    let count = (length / timestep + 0.5).floor();
+    if !(0.0..=MAX_STEPS as f64).contains(&count) {
+        return Err(RunError(match timestep > 0.0 {
+            true => format!(
+                "a run of {} s at a timestep of {} s would take {} steps; the limit is {MAX_STEPS}",
+                text(length),
+                text(timestep),
+                text(count)
+            ),
+            false => format!("the timestep is {} s, with which time does not pass", text(timestep)),
+        }));
     }
     Ok(count as usize)
 }
@@ -88,9 +110,17 @@ pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) 
     let steps = count_steps(lab, options.until, options.steps, timestep)?;
     presses_within(programs, &presses, steps, timestep)?;
     let every = options.every.max(1);
-    if steps / every * (programs.probes.len() + 1) > MAX_CELLS {
+    if (steps / every).saturating_mul(programs.probes.len() + 1) > MAX_CELLS {
         return Err(RunError(format!(
             "{steps} steps give too large a table; sample less often with --every"
+        )));
+    }
+
+    // What the traces read is recorded in columns of numbers, and may be much more than the traces.
+    let (_, width) = Samples::new(programs, 0).columns();
+    if (steps / every).saturating_mul(width) > 4 * MAX_CELLS {
+        return Err(RunError(format!(
+            "{steps} steps of {width} numbers that the traces read are too many; sample less often with --every"
         )));
     }
 
@@ -106,8 +136,18 @@ pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) 
         if session.ended().is_some() {
             break;
         }
-        if i % every == 0 || i == steps {
+        let stopped = interrupt::requested();
+        if i % every == 0 || i == steps || stopped {
             samples.take(&mut session);
+            if samples.text() > MAX_TEXT {
+                return Err(RunError(format!(
+                    "the texts that the readouts show come to more than {} MB after {i} steps; show numbers or short texts, or sample less often with --every",
+                    MAX_TEXT >> 20
+                )));
+            }
+        }
+        if stopped {
+            break;
         }
     }
     let mut table = Table::new(timestep, programs.probes.iter().map(|p| p.name.clone()));

@@ -22,6 +22,8 @@ pub struct Samples<'p> {
     times: Vec<f64>,
     recording: Recording,
     probes: Vec<Way<'p>>,
+    /// Bytes of all texts.
+    text: usize,
 }
 
 impl<'p> Samples<'p> {
@@ -41,13 +43,18 @@ impl<'p> Samples<'p> {
         let mut way = way;
         let probes = programs.probes.iter().map(|p| p.bound.as_ref().map_or(Way::Never, &mut way)).collect();
         recording.reserve(room);
-        Samples { times: Vec::with_capacity(room), recording, probes }
+        Samples { times: Vec::with_capacity(room), recording, probes, text: 0 }
     }
 
     /// Number of probes that are recorded as columns, and of the different elements that these read.
     pub fn columns(&self) -> (usize, usize) {
         let columns = self.probes.iter().filter(|p| matches!(p, Way::Columns(..)));
         (columns.count(), self.recording.width())
+    }
+
+    /// Bytes of the texts among the samples so far.
+    pub fn text(&self) -> usize {
+        self.text
     }
 
     /// Takes a sample. What throws is nothing, as on the page.
@@ -57,7 +64,11 @@ impl<'p> Samples<'p> {
         for probe in &mut self.probes {
             if let Way::Rows(bound, cells) = probe {
                 let value = session.evaluate(&bound.program, &bound.text);
-                cells.push(value.map_or(Cell::Nothing, Cell::from));
+                let cell = value.map_or(Cell::Nothing, Cell::from);
+                if let Cell::Text(text) = &cell {
+                    self.text += text.len();
+                }
+                cells.push(cell);
             }
         }
     }

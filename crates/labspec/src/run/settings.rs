@@ -3,6 +3,7 @@
 
 use super::{RunError, Session};
 use crate::bind::{ControlProgram, Programs, scalar};
+use crate::report::printable;
 use crate::spec::{Choice, Control, ControlKind, Lab};
 use labspec_expr::Value;
 
@@ -226,11 +227,11 @@ fn unknown(label: &str, programs: &Programs) -> RunError {
     let labels: Vec<&str> = programs.controls.iter().map(|(l, _)| l.as_str()).collect();
     let known = match labels.as_slice() {
         [] => "this lab has no controls".to_string(),
-        all => format!("the controls are: \"{}\"", all.join("\", \"")),
+        all => format!("the controls are: \"{}\"", printable(&all.join("\", \""))),
     };
     let hint =
-        crate::json::nearest(label, labels).map_or(String::new(), |l| format!("; did you mean \"{l}\"?"));
-    RunError(format!("there is no control \"{label}\"{hint} ({known})"))
+        crate::json::nearest(label, labels).map_or(String::new(), |l| format!("; did you mean \"{}\"?", printable(l)));
+    RunError(format!("there is no control \"{}\"{hint} ({known})", printable(label)))
 }
 
 #[cfg(test)]

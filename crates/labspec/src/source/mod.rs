@@ -6,6 +6,7 @@
 
 mod map;
 
+use crate::report::printable_path;
 pub use map::{Piece, SourceMap};
 use std::ops::Range;
 use std::path::Path;
@@ -46,25 +47,8 @@ impl SourceFile {
     /// # Errors
     /// A sentence for the author: the file cannot be read, is too large, or is not UTF-8 (and where).
     pub fn read(path: &Path) -> Result<SourceFile, String> {
-        use std::io::Read;
-        let shown = path.display();
-        let cannot = |e: std::io::Error| format!("cannot read {shown}: {e}");
-        let file = std::fs::File::open(path).map_err(cannot)?;
-        // Not a regular file (a pipe, a device): its end may never come.
-        if !file.metadata().map_err(cannot)?.is_file() {
-            return Err(format!("{shown} is not a file"));
-        }
-        let mut bytes = Vec::new();
-        file.take(MAX_FILE + 1).read_to_end(&mut bytes).map_err(cannot)?;
-        if bytes.len() as u64 > MAX_FILE {
-            return Err(format!("{shown} is larger than {} MB, the limit for a lesson", MAX_FILE >> 20));
-        }
-        let text = String::from_utf8(bytes).map_err(|e| {
-            let good = e.utf8_error().valid_up_to();
-            let line = 1 + e.as_bytes().iter().take(good).filter(|&&b| b == b'\n').count();
-            format!("{shown}, line {line}: not UTF-8; save the file with the encoding UTF-8")
-        })?;
-        Ok(SourceFile::new(shown.to_string(), text))
+        let text = read_text(path, MAX_FILE, "a lesson or a model")?;
+        Ok(SourceFile::new(path.display().to_string(), text))
     }
 
     /// The path as it is shown to people.
@@ -116,6 +100,38 @@ impl SourceFile {
         }
         offset
     }
+}
+
+/// Reads a file of at most `limit` bytes of UTF-8, `what` being what it should hold.
+///
+/// # Errors
+/// A sentence for the author: the file cannot be read, is too large, or is not UTF-8 (and where).
+pub fn read_text(path: &Path, limit: u64, what: &str) -> Result<String, String> {
+    use std::io::Read;
+    let shown = printable_path(path);
+    let cannot = |e: std::io::Error| format!("cannot read {shown}: {e}");
+    let check = |meta: std::fs::Metadata| {
+        if meta.is_file() {
+            return Ok(());
+        }
+        let kind = if meta.is_dir() { "it is a folder" } else { "it is a device or a pipe" };
+        Err(format!("{shown} is not a file: {kind}"))
+    };
+    // Opening a pipe waits for somebody to write, and opening a device may do anything: the kind is looked at first.
+    // Who swaps the file between the two looks owns the folder and can stop the program in simpler ways.
+    check(std::fs::metadata(path).map_err(cannot)?)?;
+    let file = std::fs::File::open(path).map_err(cannot)?;
+    check(file.metadata().map_err(cannot)?)?;
+    let mut bytes = Vec::new();
+    file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(cannot)?;
+    if bytes.len() as u64 > limit {
+        return Err(format!("{shown} is larger than {} MB, the limit for {what}", limit >> 20));
+    }
+    String::from_utf8(bytes).map_err(|e| {
+        let good = e.utf8_error().valid_up_to();
+        let line = 1 + e.as_bytes().iter().take(good).filter(|&&b| b == b'\n').count();
+        format!("{shown}, line {line}: not UTF-8; save the file with the encoding UTF-8")
+    })
 }
 
 /// A piece of text that was taken out of a file, with the way back: code, HTML, a label.

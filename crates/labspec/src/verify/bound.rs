@@ -7,7 +7,7 @@ use crate::bind::scene::finding;
 use crate::bind::{ModelNames, Programs, Scope, functions, include, scalar, to_finding};
 use crate::finding::Finding;
 use crate::ledger::Evidence;
-use crate::run::{self, Breakdown, Numerics, Session};
+use crate::run::{self, Breakdown, End, Numerics, Session};
 use crate::source::Text;
 use crate::spec::{Lab, Run, Verify};
 use labspec_core::reflect::{self, FieldId, Object};
@@ -305,6 +305,9 @@ impl<'a> BoundVerify<'a> {
         for _ in 0..count {
             session.press_due(&mut pending);
             session.step();
+            if session.ended().is_some() {
+                break;
+            }
             running.iter_mut().for_each(|m| m.sample(&mut session));
         }
         let values = running.into_iter().map(|m| m.finish(&mut session)).collect();
@@ -319,7 +322,12 @@ impl<'a> BoundVerify<'a> {
         let broke = match (Breakdown::of(&session), session.troubles.first()) {
             (Some(breakdown), _) => Some(breakdown.what),
             (None, Some(t)) => Some(format!("{}, at t = {} s", t.message, t.time)),
-            (None, None) => None,
+            (None, None) => session.ended().map(|end| match end {
+                End::Threw => "an error froze it".to_string(),
+                End::Budget { time } => {
+                    format!("it takes more work than a run may and ends at t = {} s", run::time(*time))
+                }
+            }),
         };
         Some(Made { values, warnings: session.warnings.iter().map(|w| w.number).sum(), broke })
     }

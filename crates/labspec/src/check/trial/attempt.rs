@@ -50,7 +50,7 @@ pub(super) fn make(
     let mut session = Session::start_within(programs, &ready.model, lab.keyframe(), &programs.demand, budget);
     let place = trial.control.map_or(lab_place(lab), |c| c.label.span());
     let impossible = |e: run::RunError| finding("run-impossible", place.clone(), e.0);
-    run::set_controls(&mut session, programs, &trial.options.set).map_err(impossible)?;
+    run::set_controls(&mut session, ready.lab, programs, &trial.options.set).map_err(impossible)?;
     let presses = run::presses(programs, &trial.options.press).map_err(impossible)?;
     let timestep = session.world.model.opt.timestep;
     // As long as plots show costs what it costs; what an author asks for has a limit.

@@ -121,11 +121,15 @@ fn finding(tag: &str, span: Range<usize>) -> Finding {
         .fix(span, escaped)
 }
 
-/// Looks into HTML that stands in the Markdown text.
-pub(crate) fn in_markdown(text: &str, range: Range<usize>) -> Vec<Finding> {
+/// Most findings in one text of a lab or a quiz.
+const MAX_IN_TEXT: usize = 100;
+
+/// Looks into HTML that stands in the Markdown text, for so many findings at most.
+pub(crate) fn in_markdown(text: &str, range: Range<usize>, most: usize) -> Vec<Finding> {
     let html = text.get(range.clone()).unwrap_or("");
     tags(html)
         .into_iter()
+        .take(most)
         .map(|(tag, _)| {
             let span = range.start + tag.start..range.start + tag.end;
             let shown = html.get(tag).unwrap_or("");
@@ -138,7 +142,7 @@ pub(crate) fn in_markdown(text: &str, range: Range<usize>) -> Vec<Finding> {
 }
 
 fn in_text(text: &Text, findings: &mut Vec<Finding>) {
-    for (tag, _) in tags(text.as_str()) {
+    for (tag, _) in tags(text.as_str()).into_iter().take(MAX_IN_TEXT) {
         let mut found = finding(text.value.get(tag.clone()).unwrap_or(""), text.span_of(tag));
         // Inside of JSON the quotes of attributes are escaped; the replacement must be so too.
         if let Some(fix) = &mut found.fix {

@@ -1,0 +1,204 @@
+//! Files that are written: beside the old one and renamed, so that a full disk or a crash loses nothing; and never
+//! over a file that was read, nor two outputs into one file.
+
+use super::Failure;
+use crate::report::printable_path;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Files that labspec reads: an output never replaces one of these, whoever wrote it.
+const READ: [&str; 13] =
+    ["md", "markdown", "mdx", "qmd", "rmd", "xml", "mjcf", "urdf", "stl", "obj", "msh", "png", "toml"];
+
+/// Writes a file whole or not at all.
+pub(super) fn write_file(path: &Path, text: &str) -> Result<(), Failure> {
+    write_with(path, |out| out.write_all(text.as_bytes()))
+}
+
+/// The same, piece by piece.
+pub(super) fn write_with(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Failure> {
+    replace(path, write)
+        .map_err(|e| format!("cannot write {}: {e}; what was there is unchanged", printable_path(path)))
+}
+
+fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let place = place(path)?;
+    let old = writable(&place)?;
+    let (mut temporary, file) = Temporary::beside(&place)?;
+    if let Some(old) = &old {
+        keep_owner(&temporary.path, old);
+        fs::set_permissions(&temporary.path, old.permissions())?;
+    }
+    let mut out = BufWriter::with_capacity(1 << 16, file);
+    let done = write(&mut out).and_then(|()| out.flush());
+    // Dropping the buffer would write once more to a disk that has just failed.
+    let (file, _) = out.into_parts();
+    done?;
+    file.sync_all()?;
+    drop(file);
+    fs::rename(&temporary.path, &place)?;
+    temporary.renamed = true;
+    // The name itself lies in the folder; not every system can sync one.
+    if let Some(folder) = place.parent() {
+        let _ = File::open(folder).and_then(|f| f.sync_all());
+    }
+    Ok(())
+}
+
+/// A file that is removed again unless it got its name.
+struct Temporary {
+    path: PathBuf,
+    renamed: bool,
+}
+
+impl Temporary {
+    fn beside(place: &Path) -> io::Result<(Temporary, File)> {
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let mut last = None;
+        for _ in 0..100 {
+            let n = COUNT.fetch_add(1, Ordering::Relaxed);
+            let path = place.with_file_name(format!(".labspec-{}-{n}.tmp", std::process::id()));
+            match OpenOptions::new().write(true).create_new(true).open(&path) {
+                Ok(file) => return Ok((Temporary { path, renamed: false }, file)),
+                Err(e) if e.kind() == io::ErrorKind::AlreadyExists => last = Some(e),
+                Err(e) => return Err(e),
+            }
+        }
+        Err(last.unwrap_or_else(|| io::ErrorKind::AlreadyExists.into()))
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        if !self.renamed {
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// What an administrator writes stays its owner's, where that is allowed.
+fn keep_owner(path: &Path, old: &fs::Metadata) {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        if fs::metadata(path).is_ok_and(|new| (new.uid(), new.gid()) != (old.uid(), old.gid())) {
+            let _ = std::os::unix::fs::chown(path, Some(old.uid()), Some(old.gid()));
+        }
+    }
+    #[cfg(not(unix))]
+    let _ = (path, old);
+}
+
+/// Where a path leads: links are followed, so that they stay links, also one to a file that does not exist yet.
+fn place(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_path_buf();
+    for _ in 0..40 {
+        match fs::symlink_metadata(&path) {
+            Ok(meta) if meta.is_symlink() => {
+                let to = fs::read_link(&path)?;
+                path = path.parent().unwrap_or(Path::new("")).join(to);
+            }
+            _ => {
+                let name = path.file_name().ok_or_else(|| {
+                    io::Error::new(io::ErrorKind::InvalidInput, "it is not the name of a file")
+                })?;
+                let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+                return Ok(folder.canonicalize()?.join(name));
+            }
+        }
+    }
+    Err(io::Error::new(io::ErrorKind::InvalidInput, "its links go round in a circle"))
+}
+
+/// What is there now, if it is a file that may be written. A pipe or a device is never opened: it may block.
+fn writable(place: &Path) -> io::Result<Option<fs::Metadata>> {
+    let meta = match fs::metadata(place) {
+        Ok(meta) => meta,
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(e) => return Err(e),
+    };
+    if !meta.is_file() {
+        let what = if meta.is_dir() { "it is a folder" } else { "it is a device or a pipe, not a file" };
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
+    }
+    // Renaming would replace a file that is read-only.
+    OpenOptions::new().write(true).open(place)?;
+    Ok(Some(meta))
+}
+
+/// A file, known by its place and, where it exists, by what the system knows it by.
+#[derive(Debug, PartialEq, Eq)]
+struct Identity {
+    place: PathBuf,
+    number: Option<(u64, u64)>,
+}
+
+impl Identity {
+    fn of(path: &Path) -> io::Result<Identity> {
+        let place = place(path)?;
+        let number = fs::metadata(&place).ok().and_then(|m| number(&m));
+        Ok(Identity { place, number })
+    }
+
+    fn is(&self, other: &Identity) -> bool {
+        self.place == other.place || (self.number.is_some() && self.number == other.number)
+    }
+}
+
+fn number(meta: &fs::Metadata) -> Option<(u64, u64)> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        Some((meta.dev(), meta.ino()))
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = meta;
+        None
+    }
+}
+
+/// An output that was asked for: the option, and the file.
+pub(super) struct Wanted {
+    pub(super) option: &'static str,
+    pub(super) path: PathBuf,
+}
+
+/// Looks at all outputs of a command before it begins.
+///
+/// # Errors
+/// One would overwrite a file that is read or another output, or cannot be written.
+pub(super) fn look_ahead(read: &[PathBuf], outputs: &[Wanted]) -> Result<(), Failure> {
+    let inputs: Vec<Identity> = read.iter().filter_map(|p| Identity::of(p).ok()).collect();
+    let mut taken: Vec<(Identity, String)> = Vec::new();
+    // Where standard output itself goes to a file.
+    #[cfg(unix)]
+    if let Some(meta) = fs::metadata("/dev/stdout").ok().filter(fs::Metadata::is_file) {
+        taken.push((Identity { place: PathBuf::new(), number: number(&meta) }, "what is printed".into()));
+    }
+    for Wanted { option, path } in outputs {
+        let named = format!("{option} {}", printable_path(path));
+        let cannot = |e: io::Error| format!("cannot write {named}: {e}");
+        let identity = Identity::of(path).map_err(cannot)?;
+        let old = writable(&identity.place).map_err(cannot)?;
+        let ending = identity.place.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+        let is_read = old.is_some() && ending.is_some_and(|e| READ.contains(&e.as_str()));
+        if is_read || inputs.iter().any(|input| input.is(&identity)) {
+            return Err(format!(
+                "{named} would overwrite a lesson or a model; name another file, nothing was written"
+            ));
+        }
+        if let Some((_, other)) = taken.iter().find(|(t, _)| t.is(&identity)) {
+            return Err(format!(
+                "{named} and {other} are the same file; name different ones, nothing was written"
+            ));
+        }
+        taken.push((identity, named));
+    }
+    Ok(())
+}

@@ -1,0 +1,94 @@
+//! Text from lessons, models and file names, made safe to print.
+//!
+//! A terminal obeys control characters, turns text around at bidirectional marks and draws nothing for invisible ones:
+//! a title that holds them could write a verdict over the true one. Here each of them becomes text that says what it
+//! is: `\u{1b}`.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+/// A piece of text for one line of output: what cannot be seen, or acts on the terminal, is written out.
+pub fn printable(text: &str) -> Cow<'_, str> {
+    written_out(text, is_hidden, |c, out| out.extend(c.escape_default()))
+}
+
+/// The same for a whole output whose line breaks are our own.
+pub fn printable_lines(text: &str) -> Cow<'_, str> {
+    written_out(text, |c| c != '\n' && is_hidden(c), |c, out| out.extend(c.escape_default()))
+}
+
+/// The same for a line of a lesson, which may hold tabs.
+pub(super) fn printable_line(text: &str) -> Cow<'_, str> {
+    written_out(text, |c| c != '\t' && is_hidden(c), |c, out| out.extend(c.escape_default()))
+}
+
+/// A path as it is shown to people.
+pub fn printable_path(path: &Path) -> String {
+    printable(&path.display().to_string()).into_owned()
+}
+
+/// JSON with the same meaning whose texts hold no such characters raw: `\u009b`.
+pub fn printable_json(json: &str) -> Cow<'_, str> {
+    // Outside of its texts JSON holds line breaks and nothing else of this kind.
+    written_out(
+        json,
+        |c| c != '\n' && is_hidden(c),
+        |c, out| {
+            for unit in c.encode_utf16(&mut [0; 2]) {
+                out.push_str(&format!("\\u{unit:04x}"));
+            }
+        },
+    )
+}
+
+fn written_out(text: &str, hidden: impl Fn(char) -> bool, write: impl Fn(char, &mut String)) -> Cow<'_, str> {
+    if !text.contains(&hidden) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len() + 16);
+    for c in text.chars() {
+        if hidden(c) { write(c, &mut out) } else { out.push(c) }
+    }
+    Cow::Owned(out)
+}
+
+/// Control characters, bidirectional marks, line separators, and what is drawn as nothing. The selectors behind
+/// emoji (U+FE00 to U+FE0F) are left alone.
+fn is_hidden(c: char) -> bool {
+    c.is_control()
+        || matches!(c,
+            '\u{ad}' | '\u{34f}' | '\u{61c}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}'
+            | '\u{180b}'..='\u{180f}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
+            | '\u{3164}' | '\u{feff}' | '\u{ffa0}' | '\u{fff0}'..='\u{fffb}' | '\u{1bca0}'..='\u{1bca3}'
+            | '\u{1d173}'..='\u{1d17a}' | '\u{e0000}'..='\u{e0fff}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_acts_on_a_terminal_is_written_out() {
+        for (text, shown) in [
+            ("plain – “α” ⚠️ 日本", "plain – “α” ⚠️ 日本"),
+            ("a\u{1b}[2Jb", "a\\u{1b}[2Jb"),
+            ("refuted\rverified", "refuted\\rverified"),
+            ("two\nlines\t.", "two\\nlines\\t."),
+            ("\u{9b}31m\u{7f}\0", "\\u{9b}31m\\u{7f}\\u{0}"),
+            ("\u{202e}deifirev\u{2066}\u{200f}\u{61c}", "\\u{202e}deifirev\\u{2066}\\u{200f}\\u{61c}"),
+            ("a\u{2028}b\u{200b}c\u{feff}\u{e0041}", "a\\u{2028}b\\u{200b}c\\u{feff}\\u{e0041}"),
+        ] {
+            assert_eq!(printable(text), shown);
+        }
+        assert_eq!(printable_lines("a\nb\r\u{1b}"), "a\nb\\r\\u{1b}");
+    }
+
+    #[test]
+    fn json_keeps_its_meaning() {
+        let value = serde_json::json!({"a\u{9b}": ["\u{202e}x\u{e0041}\n\u{1b}", 1.5]});
+        let json = serde_json::to_string_pretty(&value).unwrap();
+        let shown = printable_json(&json);
+        assert!(shown.is_ascii(), "{shown}");
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&shown).unwrap(), value);
+    }
+}

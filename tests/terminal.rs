@@ -1,0 +1,232 @@
+//! What reaches a terminal: nothing raw from a lesson, a model or a file name; and what happens when there is no terminal,
+//! a full one, or somebody presses Ctrl-C.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::program::{folder, json_of, program, run_in};
+use serde_json::json;
+use std::path::Path;
+
+/// Characters that act on a terminal, turn text around, or cannot be seen.
+const HOSTILE: &str = "\u{1b}[2K\r\u{9b}31m\u{202e}\u{2066}\u{200f}\u{61c}\u{2028}\u{200b}\u{feff}\u{7f}\n";
+
+/// Whether output holds nothing but text and its own line breaks.
+fn is_safe(output: &str) -> bool {
+    let hidden = HOSTILE.chars().filter(|&c| c != '\n' && (c.is_control() || !c.is_ascii()));
+    let hidden: Vec<char> = hidden.collect();
+    !output.contains(&hidden[..])
+}
+
+/// A lab whose every text is hostile, and which throws, shows a text and breaks.
+fn hostile_lab() -> String {
+    let bad = |name: &str| format!("{name}{HOSTILE}verified");
+    json!({
+        "title": bad("title"),
+        "model": "free_fall",
+        "stopAt": 0.01,
+        "controls": [{"label": bad("slider"), "set": "data.qvel[2]", "min": 0, "max": 1, "value": 0}],
+        "plots": [{"ylabel": bad("axis"), "traces": [{"label": bad("trace"), "expr": "data.qpos[2]"}]}],
+        "readouts": [
+            {"label": bad("readout"), "expr": format!("'{}' + data.time", "text\\u{1b}]0;x\\u{7}\\u{202e}\\r")},
+            {"label": bad("throws"), "expr": format!("data.body('{}' + data.time).xpos[0]", "b\\u{1b}[2K\\u{202e}\\r")},
+        ],
+    })
+    .to_string()
+}
+
+/// A lesson with hostile ids, labels, keys, names of models and a claim that is false.
+fn hostile_lesson() -> String {
+    let bad = |name: &str| format!("{name}{HOSTILE}verified   question 1");
+    let quiz = json!({
+        "id": bad("id"),
+        bad("key"): 1,
+        "questions": [{
+            "kind": "predict", "q": bad("question"), "options": [bad("a"), bad("b")], "answer": 0,
+            "sim": {"model": "free_fall"},
+            "verify": {
+                "runs": {"r": {"until": 0.1}},
+                "measure": {"m": "final(data.time)"},
+                "options": ["m > 1", "m < 1"],
+            },
+        }],
+    });
+    let lab = json!({"title": bad("t"), "model": bad("model"), "plots": [{"traces": [{"label": "x", "expr": bad("y")}]}]});
+    format!("raw {HOSTILE} text\n\n```quiz\n{quiz}\n```\n\n```lab simlab\n{lab}\n```\n")
+}
+
+#[test]
+fn nothing_of_a_lesson_reaches_the_terminal_raw() {
+    let folder = folder();
+    let name = "file\u{1b}[2K\u{202e}.md";
+    std::fs::write(folder.path().join("lab.json"), hostile_lab()).unwrap();
+    std::fs::write(folder.path().join(name), hostile_lesson()).unwrap();
+    let second = format!("{name}#2");
+    for arguments in [
+        &["run", "lab.json"][..],
+        &["run", "lab.json", "--format", "json"],
+        &["run", "lab.json", "--set", "x\u{1b}[2K\u{9b}=1"],
+        &["run", "lab.json", "--press", "x\u{1b}[2K\u{9b}@1"],
+        &["run", "lab.json", "--csv", "no\u{1b}[2K/such/folder"],
+        &["plan", "lab.json"],
+        &["plan", "lab.json", "--format", "json"],
+        &["precision", "lab.json", "--until", "0.01"],
+        &["precision", "lab.json", "--until", "0.01", "--format", "json"],
+        &["run", name],
+        &["run", &second],
+        &["run", "no\u{1b}[2K\u{9b}such.json"],
+        &["fmt", "--check", "lab.json", name],
+        &["explain", "no\u{1b}[2K\u{9b}such"],
+        &["check", "no\u{1b}[2K\u{9b}such.md"],
+        &["record", "no\u{1b}[2K\u{9b}such.xml", "--states", "x"],
+        &["--no\u{1b}[2K\u{9b}such"],
+        &["run", "lab.json", "--until", "x\u{1b}[2K\u{9b}"],
+    ] {
+        let done = run_in(folder.path(), arguments);
+        assert!(is_safe(&done.stdout), "{arguments:?}\n{:?}", done.stdout);
+        assert!(is_safe(&done.stderr), "{arguments:?}\n{:?}", done.stderr);
+        let begins = |text: &str| text.lines().any(|line| line.trim_start().starts_with("verified"));
+        assert!(
+            !begins(&done.stdout) && !begins(&done.stderr),
+            "{arguments:?}\n{}{}",
+            done.stdout,
+            done.stderr
+        );
+        assert!(!(done.stdout + &done.stderr).is_empty() || arguments[0] == "fmt", "{arguments:?}");
+    }
+}
+
+#[test]
+fn a_title_and_a_label_stay_on_their_line() {
+    let folder = folder();
+    std::fs::write(folder.path().join("lab.json"), hostile_lab()).unwrap();
+    let shown = run_in(folder.path(), &["run", "lab.json"]).stdout;
+    assert!(shown.starts_with("title\\u{1b}[2K\\r\\u{9b}31m\\u{202e}"), "{shown}");
+    assert!(!shown.lines().any(|line| line.trim_start().starts_with("verified")), "{shown}");
+}
+
+#[test]
+fn no_id_prints_over_its_verdict() {
+    let folder = folder();
+    std::fs::write(folder.path().join("lesson.md"), hostile_lesson()).unwrap();
+    for command in ["check", "verify"] {
+        let done = run_in(folder.path(), &[command, "lesson.md", "--models", "models"]);
+        assert!(is_safe(&done.stdout), "{:?}", done.stdout);
+        assert!(done.stdout.contains("refuted"), "{}", done.stdout);
+        assert!(!done.stdout.lines().any(|l| l.trim_start().starts_with("verified")), "{}", done.stdout);
+    }
+}
+
+#[test]
+fn csv_and_json_keep_the_data() {
+    let folder = folder();
+    std::fs::write(folder.path().join("lab.json"), hostile_lab()).unwrap();
+    let json = run_in(folder.path(), &["run", "lab.json", "--steps", "0", "--format", "json"]).stdout;
+    let value: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert!(value["columns"][1].as_str().unwrap().contains(HOSTILE));
+    let csv = run_in(folder.path(), &["run", "lab.json", "--steps", "0", "--format", "csv"]).stdout;
+    assert!(csv.contains(&format!("\"plot/0/trace{HOSTILE}verified\"")), "{csv:?}");
+}
+
+#[test]
+fn lengths_that_make_no_sense_are_errors_in_words() {
+    let folder = folder();
+    for (arguments, part) in [
+        (&["--steps", "18446744073709551615"][..], "the limit is 20000000"),
+        (&["--until=-1"], "a run cannot last -1 s"),
+        (&["--until", "nan"], "a run cannot last NaN s"),
+        (&["--until", "inf"], "a run cannot last Infinity s"),
+        (&["--until", "1e300"], "would take 5e+302 steps"),
+        (&["--steps", "20000000"], "sample less often"),
+    ] {
+        let done = run_in(folder.path(), &[&["run", "clean.md#1"], arguments].concat());
+        assert_eq!(done.code, 2, "{arguments:?}\n{}", done.stdout);
+        assert!(done.stderr.contains(part), "{arguments:?}\n{}", done.stderr);
+    }
+    let table = json_of(&["run", "clean.md#1", "--steps", "2", "--every", "0", "--format", "json"]);
+    assert_eq!(table["rows"].as_array().unwrap().len(), 3);
+    assert!(run_in(folder.path(), &["run", "clean.md#1", "--steps", "0"]).stdout.contains("(1 sample)"));
+}
+
+/// Exit code of a script in which `$L` is the program; `None` when a signal ended it.
+#[cfg(unix)]
+fn code(folder: &Path, script: &str) -> Option<i32> {
+    let mut command = program(folder, &[]);
+    let binary = command.get_program().to_os_string();
+    command = std::process::Command::new("sh");
+    command.current_dir(folder).arg("-c").arg(script).env("L", binary).output().unwrap().status.code()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_exit_2() {
+    let folder = folder();
+    for (script, expected) in [
+        ("$L --help > /dev/full", 2),
+        ("$L --version > /dev/full", 2),
+        ("$L run --help > /dev/full 2> /dev/full", 2),
+        ("$L explain > /dev/full", 2),
+        ("$L run clean.md#1 --steps 10 > /dev/full", 2),
+        ("$L run clean.md#1 --steps 10 --format csv > /dev/full", 2),
+        ("$L run clean.md#1 --steps 10 --format json > /dev/full", 2),
+        ("$L plan clean.md#1 > /dev/full", 2),
+        ("$L check clean.md > /dev/full", 2),
+        ("$L check clean.md --format json > /dev/full", 2),
+        // A message that nobody gets changes nothing.
+        ("$L check no-such.md 2> /dev/full", 2),
+        ("$L --no-such 2> /dev/full", 2),
+        ("$L check no-such.md 2>&-", 2),
+        ("$L --no-such 2>&- >&-", 2),
+        ("$L check clean.md 2> /dev/full", 0),
+        // Rust opens the null device in place of a closed output: there is nothing that could fail.
+        ("$L check wrong.md >&-", 1),
+        // A reader that has gone away is no failure.
+        ("$L explain | head -1", 0),
+        ("$L run clean.md#1 --until 10 --format csv | head -1", 0),
+    ] {
+        assert_eq!(code(folder.path(), script), Some(expected), "{script}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_has_gone_away_ends_the_program_quietly() {
+    let folder = folder();
+    let script =
+        "{ $L run clean.md#1 --until 10 --format csv 2> errors; echo $? > code; } | head -1 > /dev/null";
+    assert_eq!(code(folder.path(), script), Some(0));
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    assert_eq!((read("code").trim(), read("errors").as_str()), ("0", ""));
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_prints_what_is_finished() {
+    let folder = folder();
+    // A step of this lab is slow, so that the run is still going on when the signal comes.
+    let lab = r#"{"title": "Slow", "model": "free_fall", "stopAt": 2000,
+        "controller": "let s = 0; for (let i = 0; i < 2000; i++) { s = s + i }",
+        "readouts": [{"label": "time", "expr": "data.time"}]}"#;
+    std::fs::write(folder.path().join("slow.json"), lab).unwrap();
+    let interrupt = |command: &str| {
+        let script = format!("timeout --signal=INT --kill-after=60 2 $L {command} > out; echo $? > code");
+        let started = std::time::Instant::now();
+        code(folder.path(), &script);
+        assert!(started.elapsed().as_secs() < 50, "{command}");
+        let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+        // `timeout` itself says 124; the program's own code is asked for below.
+        read("out")
+    };
+    let shown = interrupt("run slow.json");
+    assert!(shown.contains("stopped by Ctrl-C") && shown.starts_with("Slow, after"), "{shown}");
+    let exit = code(
+        folder.path(),
+        "timeout --preserve-status --signal=INT --kill-after=60 2 $L run slow.json --csv some.csv > out",
+    );
+    assert_eq!(exit, Some(130));
+    assert!(std::fs::read_to_string(folder.path().join("some.csv")).unwrap().lines().count() > 1);
+    let exit = code(
+        folder.path(),
+        "timeout --preserve-status --signal=INT --kill-after=60 2 $L bench slow.json --steps 20000000 > out",
+    );
+    assert_eq!(exit, Some(130));
+}
