@@ -1,6 +1,6 @@
 //! `labspec check` and `labspec verify`.
 
-use super::target::model_folder;
+use super::target::model_folder_within;
 use super::{Color, Failure, ModelOptions, Outcome, print};
 use crate::bind::scene::Models;
 use crate::check::{self, Checked, Depth};
@@ -59,7 +59,7 @@ fn work(a: &Arguments, depth: Depth, measures: bool) -> Result<Outcome, Failure>
             eprint!("\r\x1b[Kchecking {}", path.display());
         }
         let file = SourceFile::read(path)?;
-        let folder = model_folder(&a.models, path)?;
+        let folder = model_folder_within(&a.models, path, &a.paths)?;
         let models = by_folder.entry(format!("{folder:?}")).or_insert_with(|| Models::new(folder));
         let lesson = load_lesson(file, models.folder());
         if !named && is_other_json(&lesson) {

@@ -1,6 +1,6 @@
 //! `labspec record`: our engine's numbers in the layout of a recording of MuJoCo, for the same states.
 
-use super::{Failure, Outcome, print, target};
+use super::{Failure, ModelOptions, Outcome, print, target};
 use labspec_core::reflect::{self, Object, View};
 use labspec_core::{self as core, Data, Demand, Model, Plan, Warning};
 use serde_json::{Map, Value, json};
@@ -11,6 +11,8 @@ use std::path::PathBuf;
 pub(super) struct Arguments {
     /// MODEL.xml
     model: PathBuf,
+    #[command(flatten)]
+    models: ModelOptions,
     /// A recording whose states are used
     #[arg(long, value_name = "ORACLE.json")]
     states: PathBuf,
@@ -32,7 +34,7 @@ pub(super) struct Arguments {
 const STATE: [&str; 6] = ["qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_quat"];
 
 pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
-    let mut m = target::load_model(&a.model)?;
+    let mut m = target::load_model(&a.model, &a.models)?;
     let mut scratch = Data::new(&m);
     for option in &a.option {
         set_option(&mut m, &mut scratch, option)?;
