@@ -28,6 +28,8 @@ macro_rules! define_model {
             pub names: Names,
             /// Custom texts, in the order of `names.text`.
             pub texts: Vec<String>,
+            /// The bodies of each exclusion, the smaller first, in ascending order: signatures of many bodies meet.
+            pub exclude_bodies: Vec<[i32; 2]>,
             /// Flat sides of the hull of each mesh, their normals more precise than its vertices.
             pub mesh_sides: Vec<crate::geometry::Sides>,
         }

@@ -54,8 +54,7 @@ fn bodies_may_touch(m: &Model, b1: usize, b2: usize) -> bool {
 
 /// Whether the model keeps two bodies apart.
 fn excluded(m: &Model, b1: usize, b2: usize) -> bool {
-    let signature = (b1.min(b2) << 16) + b1.max(b2);
-    m.exclude_signature.iter().any(|&s| s as u32 as usize == signature)
+    m.exclude_bodies.binary_search(&[b1.min(b2) as i32, b1.max(b2) as i32]).is_ok()
 }
 
 /// Whether the parent filter keeps two geoms apart: parent and child overlap on purpose, unless the parent is

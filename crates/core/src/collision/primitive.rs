@@ -29,7 +29,7 @@ pub(super) fn sphere_sphere(m: &Model, d: &Data, g1: usize, g2: usize, reach: f6
     let between = sub(pos[g2], pos[g1]);
     let apart = dot(between, between);
     let limit = reach + r1 + r2;
-    if limit < 0.0 || apart > limit * limit {
+    if apart > limit * limit {
         return None;
     }
     let (mut normal, length) = normalize(between);

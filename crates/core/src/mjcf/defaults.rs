@@ -3,8 +3,10 @@
 //! One rule for all: a class starts as its parent, and every attribute overlays what stands below it. A list
 //! overlays number by number from the front, so `friction="0.5"` keeps the class's other two coefficients.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::rc::Rc;
 
 use super::diagnostic::{Report, code};
 use super::schema::Kind;
@@ -33,6 +35,11 @@ impl Props {
 
     /// Puts the attributes of an element over these. Names stay with their element.
     pub(crate) fn overlay(&mut self, node: &Node) {
+        self.overlay_within(node, &Room::default());
+    }
+
+    /// The same, as long as there is room for lists that are partly the element's own.
+    fn overlay_within(&mut self, node: &Node, room: &Room) {
         let own = |a: &&Attribute| matches!(a.attr.kind, Kind::Name(_) | Kind::Class);
         for a in node.attributes.iter().filter(|a| !own(a)) {
             if ALTERNATIVES.contains(&a.attr.name) {
@@ -40,7 +47,9 @@ impl Props {
             }
             let below = self.values.get(a.attr.name).map(|(v, _)| v);
             let value = match (below, &a.value) {
-                (Some(Value::Reals(below)), Value::Reals(over)) => Value::Reals(overlaid(below, over)),
+                (Some(Value::Reals(below)), Value::Reals(over)) if below.len() > over.len() => {
+                    Value::Reals(room.overlaid(below, over, a))
+                }
                 (_, over) => over.clone(),
             };
             self.values.insert(a.attr.name, (value, a.span.clone()));
@@ -60,7 +69,7 @@ impl Props {
     /// Numbers of a list: as many as are given.
     pub(crate) fn list(&self, name: &str) -> Option<&[f64]> {
         match self.values.get(name) {
-            Some((Value::Reals(list), _)) => Some(list),
+            Some((Value::Reals(list), _)) => Some(list.as_slice()),
             _ => None,
         }
     }
@@ -84,10 +93,18 @@ impl Props {
         self.ints(name)?.first().copied()
     }
 
+    /// The numbers of a list, shared with all that has the same.
+    pub(crate) fn shared(&self, name: &str) -> Rc<Vec<f64>> {
+        match self.values.get(name) {
+            Some((Value::Reals(list), _)) => list.clone(),
+            _ => Rc::default(),
+        }
+    }
+
     /// Integers.
     pub(crate) fn ints(&self, name: &str) -> Option<&[i32]> {
         match self.values.get(name) {
-            Some((Value::Ints(list), _)) => Some(list),
+            Some((Value::Ints(list), _)) => Some(list.as_slice()),
             _ => None,
         }
     }
@@ -109,16 +126,40 @@ impl Props {
     }
 }
 
-/// `over` laid over `below` from the front.
-fn overlaid(below: &[f64], over: &[f64]) -> Vec<f64> {
-    over.iter().chain(below.iter().skip(over.len())).copied().collect()
+/// More numbers are not taken from defaults to complete lists: a small text could ask for any amount.
+const MAX_COMPLETED: usize = 10_000_000;
+
+/// What completing lists takes.
+#[derive(Debug, Default)]
+struct Room {
+    taken: Cell<usize>,
+    /// The first list that there was no room for.
+    exceeded: Cell<Option<usize>>,
 }
+
+impl Room {
+    /// `over` laid over `below` from the front.
+    fn overlaid(&self, below: &[f64], over: &Rc<Vec<f64>>, a: &Attribute) -> Rc<Vec<f64>> {
+        // Short lists are kept in no place of their own.
+        let taken = self.taken.get() + if below.len() > SHORT { below.len() } else { 0 };
+        if taken > MAX_COMPLETED {
+            self.exceeded.set(self.exceeded.get().or(Some(a.span.start)));
+            return over.clone();
+        }
+        self.taken.set(taken);
+        Rc::new(over.iter().chain(below.iter().skip(over.len())).copied().collect())
+    }
+}
+
+/// Lists of parameters are no longer than this.
+const SHORT: usize = 20;
 
 /// A class: what it says about each kind of element, its parents included.
 #[derive(Debug, Default)]
 struct Class {
     parent: usize,
-    entries: BTreeMap<&'static str, Props>,
+    /// Shared with the classes that say nothing else.
+    entries: BTreeMap<&'static str, Rc<Props>>,
     /// The elements of the class itself, in the order of the text.
     nodes: Vec<usize>,
 }
@@ -129,6 +170,7 @@ pub(crate) struct Classes {
     list: Vec<Class>,
     names: BTreeMap<String, usize>,
     main: usize,
+    room: Room,
 }
 
 impl Classes {
@@ -138,7 +180,8 @@ impl Classes {
     /// they copied from it, as in MuJoCo. A model that is attached has a main class of its own, under the name that
     /// its section has by now.
     pub(crate) fn read(tree: &Tree, report: &mut Report) -> Classes {
-        let mut classes = Classes { list: vec![Class::default()], names: BTreeMap::new(), main: 0 };
+        let mut classes =
+            Classes { list: vec![Class::default()], names: BTreeMap::new(), main: 0, room: Room::default() };
         let mut of_node: BTreeMap<usize, usize> = BTreeMap::new();
         for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
             let nested_in = node.parent.and_then(|p| of_node.get(&p)).copied();
@@ -151,7 +194,8 @@ impl Classes {
             let mut entries = classes.list.get(parent).map_or_else(BTreeMap::new, |c| c.entries.clone());
             let mut nodes = Vec::new();
             for (at, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
-                entries.entry(entry.element.name).or_default().overlay(entry);
+                let props = Rc::make_mut(entries.entry(entry.element.name).or_default());
+                props.overlay_within(entry, &classes.room);
                 nodes.push(at);
             }
             let index = classes.list.len();
@@ -200,6 +244,17 @@ impl Classes {
         self.list.iter().map(|c| (c.parent, c.nodes.as_slice()))
     }
 
+    /// Reports the first list that was too much to complete from its defaults.
+    pub(crate) fn check_room(&self, report: &mut Report) {
+        if let Some(at) = self.room.exceeded.get() {
+            let message = format!("lists that defaults complete have more than {MAX_COMPLETED} numbers");
+            report
+                .error(code::LIMIT, at..at, message)
+                .why("each element would have a long list of its own")
+                .help("write the lists out, or shorten that of the default");
+        }
+    }
+
     /// The attributes that hold for an element: its own over those of its class.
     pub(crate) fn props(&self, node: &Node, childclass: Option<usize>) -> Props {
         self.props_of(node.element.name, node, childclass)
@@ -208,8 +263,8 @@ impl Classes {
     /// The same for an element whose defaults stand under another name: all tendons share `tendon`.
     pub(crate) fn props_of(&self, entry: &str, node: &Node, childclass: Option<usize>) -> Props {
         let entry = self.list.get(self.class_of(node, childclass)).and_then(|c| c.entries.get(entry));
-        let mut props = entry.cloned().unwrap_or_default();
-        props.overlay(node);
+        let mut props = entry.map_or_else(Props::default, |p| Props::clone(p));
+        props.overlay_within(node, &self.room);
         props
     }
 }

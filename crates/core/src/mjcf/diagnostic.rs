@@ -11,12 +11,25 @@ use std::rc::Rc;
 
 /// More findings than this are not listed: the first mistakes explain the rest.
 const MAX_DIAGNOSTICS: usize = 100;
+/// Numbers that a model may ask for: 200 MB, which are copied once or twice on their way.
+const MAX_NUMBERS: usize = 25_000_000;
+
+/// How bad a finding is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Severity {
+    /// The model does not load.
+    Error,
+    /// The model loads, and probably is not what its author meant.
+    Warning,
+}
 
 /// One finding in an MJCF file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MjcfDiagnostic {
     /// Stable code, one of [`code`].
     pub code: &'static str,
+    /// Whether the model loads all the same.
+    pub severity: Severity,
     /// The file, seen from the folder of the model; `None` for the model itself.
     pub file: Option<String>,
     /// Bytes of the file's text.
@@ -52,7 +65,11 @@ impl fmt::Display for MjcfDiagnostic {
         if let Some(file) = &self.file {
             write!(f, "{file}:")?;
         }
-        write!(f, "{}:{}: error[{}]: {}", self.line, self.column, self.code, self.message)?;
+        let severity = match self.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        };
+        write!(f, "{}:{}: {severity}[{}]: {}", self.line, self.column, self.code, self.message)?;
         if let Some(why) = &self.why {
             write!(f, "\n  why: {why}")?;
         }
@@ -153,7 +170,9 @@ pub mod code {
         XML = "mjcf-xml", "The text is not well-formed XML.";
         LIMIT = "mjcf-limit", "The model is larger or more deeply nested than the limits allow.";
         FILE = "mjcf-file", "A file that the model names cannot be read, or may not be.";
+        OUTSIDE = "mjcf-file-outside", "A file that the model names lies outside of what may be opened.";
         TEXT = "mjcf-text", "There is text where only elements belong.";
+        NO_EFFECT = "mjcf-no-effect", "What is written there has no effect.";
         UNKNOWN_ELEMENT = "mjcf-unknown-element", "MJCF has no such element.";
         MISPLACED_ELEMENT = "mjcf-misplaced-element", "The element does not belong here.";
         REPEATED_ELEMENT = "mjcf-repeated-element", "The element may stand only once.";
@@ -197,7 +216,11 @@ struct Source {
 /// Collects findings about the texts of one model.
 pub(crate) struct Report {
     sources: Vec<Source>,
+    /// Errors.
     list: Vec<MjcfDiagnostic>,
+    warnings: Vec<MjcfDiagnostic>,
+    /// Numbers that the model has room for, by now.
+    numbers: usize,
     /// Something was left out because it is not supported: names that it would define are missing, and
     /// saying so again would only repeat the first message.
     pub(crate) incomplete: bool,
@@ -205,7 +228,7 @@ pub(crate) struct Report {
 
 impl Report {
     pub(crate) fn new() -> Report {
-        Report { sources: Vec::new(), list: Vec::new(), incomplete: false }
+        Report { sources: Vec::new(), list: Vec::new(), warnings: Vec::new(), numbers: 0, incomplete: false }
     }
 
     /// Takes a text; returns where its spans begin. The first is the model itself.
@@ -228,25 +251,37 @@ impl Report {
         span: Range<usize>,
         message: impl Into<String>,
     ) -> &mut MjcfDiagnostic {
-        if self.list.len() > MAX_DIAGNOSTICS {
-            self.list.pop(); // one beyond the limit stands for all that follow
-        }
-        let d = MjcfDiagnostic {
-            code,
-            file: None,
-            span,
-            line: 0,
-            column: 0,
-            message: message.into(),
-            why: None,
-            help: None,
-        };
-        let at = self.list.len();
-        self.list.push(d);
-        &mut self.list[at] // just pushed
+        add(&mut self.list, Severity::Error, code, span, message.into())
     }
 
-    /// Whether nothing is wrong so far.
+    /// Adds a warning at a range of bytes: the model loads all the same.
+    pub(crate) fn warning(
+        &mut self,
+        code: &'static str,
+        span: Range<usize>,
+        message: impl Into<String>,
+    ) -> &mut MjcfDiagnostic {
+        add(&mut self.warnings, Severity::Warning, code, span, message.into())
+    }
+
+    /// Counts numbers that the arrays of a model take, beyond those that stand in its text. `false` when all together are
+    /// too many: that is reported at the element that asks for them.
+    pub(crate) fn take(&mut self, numbers: usize, span: Range<usize>, what: &str) -> bool {
+        self.numbers = self.numbers.saturating_add(numbers);
+        if self.numbers <= MAX_NUMBERS {
+            return true;
+        }
+        if !self.list.iter().any(|d| d.code == code::LIMIT) {
+            let message =
+                format!("{what} would be {numbers} numbers, and a model may have {MAX_NUMBERS} in all");
+            self.error(code::LIMIT, span, message)
+                .why("a short text could ask for more memory than a computer has")
+                .help("ask for fewer here, or elsewhere in the model");
+        }
+        false
+    }
+
+    /// Whether nothing is wrong so far, warnings aside.
     pub(crate) fn is_clean(&self) -> bool {
         self.list.is_empty()
     }
@@ -260,6 +295,8 @@ impl Report {
     /// have in common is said once.
     pub(crate) fn finish(mut self) -> Vec<MjcfDiagnostic> {
         self.list.truncate(MAX_DIAGNOSTICS);
+        self.warnings.truncate(MAX_DIAGNOSTICS);
+        self.list.append(&mut self.warnings);
         self.list.sort_by_key(|d| (d.span.start, d.span.end));
         self.list.dedup_by(|a, b| (a.code, &a.span, &a.message) == (b.code, &b.span, &b.message));
         let (mut source, mut at, mut line, mut column) = (usize::MAX, 0, 1, 1);
@@ -286,6 +323,33 @@ impl Report {
         }
         self.list
     }
+}
+
+/// Adds a finding to a list; one beyond the limit stands for all that follow.
+fn add<'l>(
+    list: &'l mut Vec<MjcfDiagnostic>,
+    severity: Severity,
+    code: &'static str,
+    span: Range<usize>,
+    message: String,
+) -> &'l mut MjcfDiagnostic {
+    if list.len() > MAX_DIAGNOSTICS {
+        list.pop();
+    }
+    let d = MjcfDiagnostic {
+        code,
+        severity,
+        file: None,
+        span,
+        line: 0,
+        column: 0,
+        message,
+        why: None,
+        help: None,
+    };
+    let at = list.len();
+    list.push(d);
+    &mut list[at] // just pushed
 }
 
 /// The start of the character that holds a byte; the end of the text for a byte beyond it.

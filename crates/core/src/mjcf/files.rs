@@ -1,8 +1,8 @@
 //! Files that a model names: included text, other models, meshes, height fields.
 //!
-//! A model may read what lies in its own folder and below, and nothing else: lessons come from strangers. The
-//! compiler only ever asks for a path that [`inside`] has cleaned; where the bytes come from is decided by
-//! whoever implements [`Files`].
+//! A model may read what lies under one root, and nothing else: lessons come from strangers. The compiler only ever
+//! asks for a path that [`clean`] has brought to one form; where the bytes come from, and where the root is, is decided
+//! by whoever implements [`Files`].
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -13,8 +13,8 @@ pub const MAX_FILE: usize = 64 << 20;
 
 /// Where the files of a model come from.
 pub trait Files {
-    /// The bytes of a file. `path` is relative to the folder of the model, its parts joined by `/`, and never
-    /// leads out of that folder.
+    /// The bytes of a file. `path` is relative to the folder of the model, its parts joined by `/`. It may begin with
+    /// `..`, which stands nowhere else: whether a file outside of the model's folder may be read is decided here.
     ///
     /// # Errors
     ///
@@ -29,7 +29,7 @@ pub enum FileProblem {
     NoFolder,
     /// There is no such file.
     Missing,
-    /// A link leads out of the folder of the model.
+    /// It lies outside of the root, or a link leads out of it.
     Outside,
     /// It has more bytes than the limit allows.
     TooLarge,
@@ -63,17 +63,39 @@ impl Files for BTreeMap<String, Vec<u8>> {
 pub struct Folder {
     /// Without links: what a file's real path must begin with.
     root: PathBuf,
+    /// Where paths are seen from: a folder below the root.
+    place: PathBuf,
 }
 
 impl Folder {
-    /// The files below `root`.
+    /// The files below `root`, for a model that lies in `root` itself.
     ///
     /// # Errors
     ///
     /// There is no such folder, or it cannot be reached.
     pub fn new(root: &Path) -> std::io::Result<Folder> {
-        let root = if root.as_os_str().is_empty() { Path::new(".") } else { root };
-        Ok(Folder { root: root.canonicalize()? })
+        Folder::at(root, root)
+    }
+
+    /// The files below `root`, for a model that lies in the folder `place`. When `place` is not below `root`, only
+    /// the files below `place` are.
+    ///
+    /// # Errors
+    ///
+    /// There is no such folder, or it cannot be reached.
+    pub fn at(root: &Path, place: &Path) -> std::io::Result<Folder> {
+        let real =
+            |path: &Path| if path.as_os_str().is_empty() { Path::new(".") } else { path }.canonicalize();
+        let (root, place) = (real(root)?, real(place)?);
+        let root = if place.starts_with(&root) { root } else { place.clone() };
+        Ok(Folder { root, place })
+    }
+
+    /// Whether a path leaves the root, as far as its letters tell: what lies beyond is not even looked for.
+    fn leads_out(&self, path: &str) -> bool {
+        let up = path.split('/').take_while(|part| *part == "..").count();
+        let deep = self.place.strip_prefix(&self.root).map_or(0, |below| below.components().count());
+        up > deep
     }
 }
 
@@ -83,7 +105,10 @@ impl Files for Folder {
             std::io::ErrorKind::NotFound => FileProblem::Missing,
             _ => FileProblem::Unreadable(e.to_string()),
         };
-        let real = self.root.join(path).canonicalize().map_err(problem)?;
+        if self.leads_out(path) {
+            return Err(FileProblem::Outside);
+        }
+        let real = self.place.join(path).canonicalize().map_err(problem)?;
         if !real.starts_with(&self.root) {
             return Err(FileProblem::Outside);
         }
@@ -99,24 +124,24 @@ impl Files for Folder {
     }
 }
 
-/// The clean form of a path that an author wrote, seen from `folder`: relative to the folder of the model, parts
-/// joined by `/`. `None` when it is empty, absolute, or leads out.
-pub(crate) fn inside(folder: &str, written: &str) -> Option<String> {
-    let mut parts: Vec<&str> = folder.split('/').filter(|p| !p.is_empty()).collect();
+/// One form of a path that an author wrote, seen from `folder`: relative to the folder of the model, parts joined by
+/// `/`, `..` only in front. `None` when it is empty or absolute.
+pub(crate) fn clean(folder: &str, written: &str) -> Option<String> {
     // Drives and streams (`C:`, `file:x`) are absolute in other words.
     if written.is_empty() || written.starts_with(['/', '\\']) || written.contains([':', '\0']) {
         return None;
     }
-    for part in written.split(['/', '\\']) {
+    let mut parts: Vec<&str> = Vec::new();
+    for part in folder.split('/').chain(written.split(['/', '\\'])) {
         match part {
             "" | "." => {}
-            ".." => {
-                parts.pop()?;
+            ".." if parts.last().is_some_and(|last| *last != "..") => {
+                parts.pop();
             }
             part => parts.push(part),
         }
     }
-    if parts.is_empty() { None } else { Some(parts.join("/")) }
+    if parts.last().is_none_or(|last| *last == "..") { None } else { Some(parts.join("/")) }
 }
 
 /// The folder of a clean path.
@@ -129,16 +154,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn paths_stay_inside() {
-        for (folder, written, clean) in [
+    fn paths_have_one_form() {
+        for (folder, written, expected) in [
             ("", "a.xml", Some("a.xml")),
             ("", "./parts//a.xml", Some("parts/a.xml")),
             ("parts", "a.xml", Some("parts/a.xml")),
             ("parts", "../b\\c.stl", Some("b/c.stl")),
             ("", "parts/../a.xml", Some("a.xml")),
-            ("", "../a.xml", None),
-            ("parts", "../../a.xml", None),
-            ("", "parts/../../parts/a.xml", None),
+            ("", "../a.xml", Some("../a.xml")),
+            ("parts", "../../a.xml", Some("../a.xml")),
+            ("../parts", "../a.xml", Some("../a.xml")),
+            ("", "parts/../../parts/a.xml", Some("../parts/a.xml")),
+            ("", "..", None),
             ("", "/etc/passwd", None),
             ("", "\\\\server\\share", None),
             ("", "C:/a.xml", None),
@@ -146,8 +173,29 @@ mod tests {
             ("", "", None),
             ("", ".", None),
         ] {
-            assert_eq!(inside(folder, written).as_deref(), clean, "{folder} {written}");
+            assert_eq!(clean(folder, written).as_deref(), expected, "{folder} {written}");
         }
+    }
+
+    #[test]
+    fn a_sister_folder_below_the_root_is_open_and_nothing_above_it() {
+        let outer = tempfile::tempdir().unwrap();
+        let root = outer.path().join("course");
+        std::fs::create_dir_all(root.join("models/deep")).unwrap();
+        std::fs::create_dir(root.join("stls")).unwrap();
+        std::fs::write(root.join("stls/x.stl"), "x").unwrap();
+        std::fs::write(outer.path().join("secret"), "s").unwrap();
+        let files = Folder::at(&root, &root.join("models")).unwrap();
+        assert_eq!(files.read("../stls/x.stl", 9), Ok(b"x".to_vec()));
+        assert_eq!(files.read("deep/../../stls/x.stl", 9), Ok(b"x".to_vec()));
+        // What lies above the root is not told from what does not.
+        for path in ["../../secret", "../../nothing", "deep/../../../secret"] {
+            let read = files.read(path, 9);
+            assert!(matches!(read, Err(FileProblem::Outside)), "{path}: {read:?}");
+        }
+        // A root that does not hold the model opens nothing but the model's own folder.
+        let apart = Folder::at(&root.join("stls"), &root.join("models")).unwrap();
+        assert_eq!(apart.read("../stls/x.stl", 9), Err(FileProblem::Outside));
     }
 
     #[cfg(unix)]

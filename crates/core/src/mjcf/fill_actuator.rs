@@ -7,9 +7,6 @@ use super::spec::{ActuatorSpec, List, RangeSpec};
 use crate::lengthrange::{self, Failure, Search};
 use crate::{Data, Model, history, transmission};
 
-/// More entries than this in the moments of all actuators, or numbers in their histories, are refused.
-const MAX_ENTRIES: usize = 20_000_000;
-
 /// Steps times degrees of freedom for all ranges of lengths: more would take minutes.
 const MAX_SEARCH: f64 = 2e7;
 
@@ -32,10 +29,8 @@ pub(crate) fn count(list: &[ActuatorSpec], report: &mut Report) -> Counts {
         n.na += activations(a);
         n.nhistory = n.nhistory.saturating_add(history::size(samples(a), nu));
     }
-    if n.nhistory > MAX_ENTRIES {
-        let span = list.iter().find(|a| a.nsample > 0).map_or(0..0, |a| a.span.clone());
-        let message = format!("the histories of all actuators hold more than {MAX_ENTRIES} numbers");
-        report.error(code::LIMIT, span, message).help("write a smaller `nsample`");
+    let span = list.iter().find(|a| a.nsample > 0).map_or(0..0, |a| a.span.clone());
+    if !report.take(n.nhistory, span, "what all actuators remember, by their `nsample`,") {
         n.nhistory = 0;
     }
     n
@@ -107,13 +102,8 @@ pub(crate) fn user(a: &ActuatorSpec) -> List {
 /// Room for the moments; `None` after reporting that it is too much.
 pub(crate) fn pattern(m: &mut Model, list: &[ActuatorSpec], report: &mut Report) -> Option<()> {
     m.nJmom = transmission::entries(m);
-    if m.nJmom <= MAX_ENTRIES {
-        return Some(());
-    }
     let span = list.first().map_or(0..0, |a| a.span.clone());
-    let message = format!("the moments of all actuators have more than {MAX_ENTRIES} entries");
-    report.error(code::LIMIT, span, message).help("leave out what the lesson does not need");
-    None
+    report.take(2 * m.nJmom, span, "the moments of all actuators").then_some(())
 }
 
 /// The ranges of lengths that actuators can reach, where they are needed and not given.

@@ -30,4 +30,5 @@ pub(crate) fn contacts(m: &mut Model, pairs: &[PairSpec], excludes: &[ExcludeSpe
     m.pair_adhesion = flat(pairs, |p| [p.adhesion]);
     m.pair_friction = flat(pairs, |p| p.friction);
     m.exclude_signature = ints(excludes, |e| e.signature);
+    m.exclude_bodies = excludes.iter().map(|e| e.bodies).collect();
 }

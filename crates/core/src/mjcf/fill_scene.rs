@@ -3,6 +3,7 @@
 use super::fill::{flat, ints};
 use super::spec::{CameraSpec, GeomSpec, LightSpec, List, MaterialSpec, NumericSpec, SiteSpec, TupleSpec};
 use crate::Model;
+use std::collections::BTreeMap;
 
 /// What the functions of this file fill in.
 pub(crate) struct Scene {
@@ -19,9 +20,19 @@ fn single<const N: usize>(x: [f64; N]) -> [f64; N] {
     x.map(|x| f64::from(x as f32))
 }
 
-/// The place of a name in a list, -1 when it is not there.
-fn index<'n>(name: Option<&String>, mut names: impl Iterator<Item = &'n String>) -> i32 {
-    name.and_then(|name| names.position(|n| n == name)).map_or(-1, |i| i as i32)
+/// The places of names in a list.
+struct Places<'n>(BTreeMap<&'n str, usize>);
+
+impl<'n> Places<'n> {
+    /// Of two objects with one name, the first counts.
+    fn of(names: impl DoubleEndedIterator<Item = &'n String> + ExactSizeIterator) -> Places<'n> {
+        Places(names.enumerate().rev().map(|(i, name)| (name.as_str(), i)).collect())
+    }
+
+    /// The place of a name, -1 when it is not there.
+    fn find(&self, name: Option<&String>) -> i32 {
+        name.and_then(|name| self.0.get(name.as_str())).map_or(-1, |&i| i as i32)
+    }
 }
 
 /// User values of one object, as many as all have.
@@ -38,13 +49,14 @@ pub(crate) fn count(m: &mut Model, scene: &Scene) {
 }
 
 pub(crate) fn geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)], scene: &Scene) {
+    let materials = Places::of(scene.materials.iter().map(|m| &m.name));
     m.geom_type = ints(geoms, |(_, g)| g.kind);
     m.geom_contype = ints(geoms, |(_, g)| g.contype);
     m.geom_conaffinity = ints(geoms, |(_, g)| g.conaffinity);
     m.geom_condim = ints(geoms, |(_, g)| g.condim);
     m.geom_bodyid = ints(geoms, |&(b, _)| b as i32);
     m.geom_dataid = ints(geoms, |(_, g)| g.data);
-    m.geom_matid = ints(geoms, |(_, g)| index(g.material.as_ref(), scene.materials.iter().map(|m| &m.name)));
+    m.geom_matid = ints(geoms, |(_, g)| materials.find(g.material.as_ref()));
     m.geom_group = ints(geoms, |(_, g)| g.group);
     m.geom_priority = ints(geoms, |(_, g)| g.priority);
     m.geom_solmix = flat(geoms, |(_, g)| [g.solmix]);
@@ -66,10 +78,11 @@ pub(crate) fn geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)], scene: &Scene) 
 }
 
 pub(crate) fn sites(m: &mut Model, sites: &[(usize, &SiteSpec)], scene: &Scene) {
+    let materials = Places::of(scene.materials.iter().map(|m| &m.name));
     m.site_type = ints(sites, |(_, s)| s.kind);
     m.site_dataid = ints(sites, |(_, s)| s.data);
     m.site_bodyid = ints(sites, |&(b, _)| b as i32);
-    m.site_matid = ints(sites, |(_, s)| index(s.material.as_ref(), scene.materials.iter().map(|m| &m.name)));
+    m.site_matid = ints(sites, |(_, s)| materials.find(s.material.as_ref()));
     m.site_group = ints(sites, |(_, s)| s.group);
     m.site_size = flat(sites, |(_, s)| s.size);
     m.site_pos = flat(sites, |(_, s)| s.pos);
@@ -80,9 +93,10 @@ pub(crate) fn sites(m: &mut Model, sites: &[(usize, &SiteSpec)], scene: &Scene) 
 
 /// `bodies` are the names of all bodies.
 pub(crate) fn cameras(m: &mut Model, cameras: &[(usize, &CameraSpec)], bodies: &[String]) {
+    let places = Places::of(bodies.iter());
     m.cam_mode = ints(cameras, |(_, c)| c.mode);
     m.cam_bodyid = ints(cameras, |&(b, _)| b as i32);
-    m.cam_targetbodyid = ints(cameras, |(_, c)| index(c.target.as_ref(), bodies.iter()));
+    m.cam_targetbodyid = ints(cameras, |(_, c)| places.find(c.target.as_ref()));
     m.cam_pos = flat(cameras, |(_, c)| c.pos);
     m.cam_quat = flat(cameras, |(_, c)| c.quat);
     m.cam_projection = ints(cameras, |(_, c)| c.projection);
@@ -97,9 +111,10 @@ pub(crate) fn cameras(m: &mut Model, cameras: &[(usize, &CameraSpec)], bodies: &
 
 /// `bodies` are the names of all bodies.
 pub(crate) fn lights(m: &mut Model, lights: &[(usize, &LightSpec)], bodies: &[String]) {
+    let places = Places::of(bodies.iter());
     m.light_mode = ints(lights, |(_, l)| l.mode);
     m.light_bodyid = ints(lights, |&(b, _)| b as i32);
-    m.light_targetbodyid = ints(lights, |(_, l)| index(l.target.as_ref(), bodies.iter()));
+    m.light_targetbodyid = ints(lights, |(_, l)| places.find(l.target.as_ref()));
     m.light_type = ints(lights, |(_, l)| l.kind);
     m.light_texid = ints(lights, |_| -1);
     m.light_castshadow = lights.iter().map(|(_, l)| l.castshadow).collect();
@@ -116,8 +131,9 @@ pub(crate) fn lights(m: &mut Model, lights: &[(usize, &LightSpec)], bodies: &[St
 
 pub(crate) fn materials(m: &mut Model, scene: &Scene) {
     let list = &scene.materials;
+    let places = Places::of(scene.textures.iter());
     let textures = list.iter().flat_map(|material| &material.textures);
-    m.mat_texid = textures.map(|name| index(name.as_ref(), scene.textures.iter())).collect();
+    m.mat_texid = textures.map(|name| places.find(name.as_ref())).collect();
     m.mat_texuniform = list.iter().map(|x| x.texuniform).collect();
     m.mat_texrepeat = flat(list, |x| single(x.texrepeat));
     let number = |i: usize| flat(list, |x| single([x.numbers[i]]));

@@ -6,7 +6,7 @@ use super::spec::{ActuatorSpec, BodySpec, TendonSpec};
 use crate::{Model, tendon, trntype, wraptype};
 
 /// More entries than this in the Jacobians of all tendons are refused.
-const MAX_JACOBIAN: usize = 20_000_000;
+const MAX_JACOBIAN: usize = 10_000_000;
 
 /// Sizes.
 pub(crate) fn count(m: &mut Model, list: &[TendonSpec]) {
@@ -77,10 +77,10 @@ pub(crate) fn tendons(m: &mut Model, list: &[TendonSpec]) {
 
 /// The pattern of the Jacobians; `None` after reporting that it is too large.
 pub(crate) fn pattern(m: &mut Model, list: &[TendonSpec], report: &mut Report) -> Option<()> {
-    if tendon::set_pattern(m, MAX_JACOBIAN).is_some() {
-        return Some(());
-    }
     let span = list.first().map_or(0..0, |t| t.span.clone());
+    if tendon::set_pattern(m, MAX_JACOBIAN).is_some() {
+        return report.take(2 * m.nJten, span, "the Jacobians of all tendons").then_some(());
+    }
     let message = format!("the Jacobians of all tendons have more than {MAX_JACOBIAN} entries");
     report.error(code::LIMIT, span, message).help("leave out what the lesson does not need");
     None

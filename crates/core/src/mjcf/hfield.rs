@@ -1,5 +1,6 @@
 //! Height fields: samples of a ground on a grid, from text or a file, brought to 0 to 1.
 
+use super::diagnostic::shown;
 use super::mesh::{Bytes, Problem};
 
 /// Most samples of a field.
@@ -112,17 +113,68 @@ pub(crate) fn written(nrow: i32, ncol: i32, elevation: &[f64]) -> Result<Samples
     Ok(Samples { nrow, ncol, data })
 }
 
-/// MuJoCo's own file: numbers of rows and columns, then the elevations in single precision, from the smallest y.
-pub(crate) fn decode(path: &str, bytes: &[u8]) -> Result<Samples, Problem> {
-    if bytes.starts_with(b"\x89PNG") || path.to_ascii_lowercase().ends_with(".png") {
-        return Err(Problem::new(
-            "file",
-            "has a PNG picture as its file",
-            "pictures are not decoded here",
-            "write the heights into `elevation`, or into a binary file: two 32-bit integers for rows and columns, then \
-             32-bit floats row by row",
-        ));
+/// The kinds of file.
+const PNG: &str = "image/png";
+const OWN: &str = "image/vnd.mujoco.hfield";
+
+/// Reads a file: a PNG picture or MuJoCo's own format. The name's ending tells which, or `content_type`, by the rules that
+/// were measured on MuJoCo 3.14.0: another kind is refused, what does not look like the name of a kind means its own.
+pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Samples, Problem> {
+    let kind = match content_type {
+        "" if path.to_ascii_lowercase().ends_with(".png") => PNG,
+        "" => OWN,
+        kind if kind.contains('/') => kind,
+        _ => OWN,
+    };
+    match kind {
+        PNG => picture(bytes),
+        OWN => own(bytes),
+        _ => Err(Problem::new(
+            "content_type",
+            format!("has a file of the kind {}", shown(kind)),
+            "heights can be read from a picture or from MuJoCo's own format",
+            "write `content_type=\"image/png\"`, or leave it out",
+        )),
     }
+}
+
+/// A PNG picture: the elevation is what is red, in 8 bits, and the last row of the picture has the smallest y.
+fn picture(bytes: &[u8]) -> Result<Samples, Problem> {
+    let bad = |what: String| {
+        Problem::file(
+            format!("has a file that cannot be read as a PNG picture: {what}"),
+            "export the picture again",
+        )
+    };
+    let mut decoder = png::Decoder::new_with_limits(
+        std::io::Cursor::new(bytes),
+        // Colours of 16 bits and four channels at most.
+        png::Limits { bytes: 16 * MAX_SAMPLES },
+    );
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    decoder.ignore_checksums(false);
+    let mut reader = decoder.read_info().map_err(|e| bad(e.to_string()))?;
+    let (width, height) = (reader.info().width, reader.info().height);
+    let to_int = |n: u32| i32::try_from(n).unwrap_or(i32::MAX);
+    let (nrow, ncol) = grid(to_int(height), to_int(width), "file")?;
+    let size = reader.output_buffer_size().unwrap_or(usize::MAX);
+    if size > 8 * MAX_SAMPLES {
+        return Err(bad("it is too large".into()));
+    }
+    let mut pixels = vec![0; size];
+    let frame = reader.next_frame(&mut pixels).map_err(|e| bad(e.to_string()))?;
+    let step = frame.color_type.samples();
+    let rows = pixels.chunks_exact(frame.line_size.max(1)).take(nrow).rev();
+    let red = rows.flat_map(|row| row.chunks_exact(step.max(1)).take(ncol).filter_map(|p| p.first()));
+    let data: Vec<f64> = red.map(|&x| f64::from(x)).collect();
+    if data.len() != nrow * ncol {
+        return Err(bad("it is cut off".into()));
+    }
+    Ok(Samples { nrow, ncol, data })
+}
+
+/// MuJoCo's own file: numbers of rows and columns, then the elevations in single precision, from the smallest y.
+fn own(bytes: &[u8]) -> Result<Samples, Problem> {
     let mut numbers = Bytes(bytes);
     let Some([nrow, ncol]) = numbers.ints() else {
         return Err(Problem::file(

@@ -19,6 +19,8 @@ pub(crate) struct Ids {
     cameras: BTreeMap<String, i32>,
     /// Number of pixels of each camera.
     pixels: Vec<usize>,
+    /// Those whose resolution has a zero.
+    blind: Vec<i32>,
 }
 
 impl Ids {
@@ -31,6 +33,7 @@ impl Ids {
             outputs: Vec::new(),
             cameras: BTreeMap::new(),
             pixels: Vec::new(),
+            blind: Vec::new(),
         };
         let mut sites = 0;
         for (i, body) in bodies.iter().enumerate() {
@@ -51,6 +54,9 @@ impl Ids {
         for (i, camera) in bodies.iter().flat_map(|b| &b.cameras).enumerate() {
             ids.cameras.insert(camera.name.clone(), i as i32);
             ids.pixels.push(camera.resolution.iter().map(|&n| n.max(0) as usize).product());
+            if camera.resolution.contains(&0) {
+                ids.blind.push(i as i32);
+            }
         }
         for section in ["tendon", "actuator"] {
             let nodes = tree.sections(section).flat_map(|(at, _)| tree.children(at));
@@ -95,6 +101,11 @@ impl Ids {
             Ok(id) if objects.objtype == Obj::Camera as i32 => self.pixels.get(id).copied().unwrap_or(1),
             _ => 1,
         }
+    }
+
+    /// Whether a camera has no pixels to see with.
+    pub(crate) fn is_blind(&self, camera: i32) -> bool {
+        self.blind.contains(&camera)
     }
 
     /// Type of a geom.

@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use super::diagnostic::{Report, code, shown};
-use super::files::{FileProblem, Files, folder_of, inside};
+use super::files::{FileProblem, Files, clean, folder_of};
 use super::tree::{self, Tree};
 use super::xml::{self, Element};
 use super::{MAX_TEXT, names, scan};
@@ -32,7 +32,7 @@ pub(crate) struct Written {
 /// Reads models and counts what they take.
 pub(crate) struct Loader<'f> {
     files: &'f dyn Files,
-    elements: usize,
+    counts: scan::Counts,
     files_read: usize,
     /// The files of the models that are being read, each attached by the one before.
     open: Vec<String>,
@@ -40,7 +40,7 @@ pub(crate) struct Loader<'f> {
 
 impl<'f> Loader<'f> {
     pub(crate) fn new(files: &'f dyn Files) -> Loader<'f> {
-        Loader { files, elements: 0, files_read: 0, open: Vec::new() }
+        Loader { files, counts: scan::Counts::default(), files_read: 0, open: Vec::new() }
     }
 
     /// Reads a model. `file` is its path, where it has one. `None` when it is not XML or not a model at all.
@@ -72,10 +72,8 @@ impl<'f> Loader<'f> {
         list: &mut Vec<Element>,
         report: &mut Report,
     ) -> Option<usize> {
-        if !scan::within_limits(text, base, &mut self.elements, report) {
-            return None;
-        }
-        xml::parse(text, base, list, report)
+        let text = scan::prepare(text, base, &mut self.counts, report)?;
+        xml::parse(&text, base, list, report)
     }
 
     /// Puts what files hold below the elements that include them. Those files may include others.
@@ -204,16 +202,15 @@ pub(crate) fn read(
     span: &Range<usize>,
     report: &mut Report,
 ) -> Option<(String, Vec<u8>)> {
-    let outside = "a model may read only its own folder and what is in it: it may come from a stranger";
-    let Some(path) = inside(folder, written) else {
+    let Some(path) = clean(folder, written) else {
         report
             .error(
                 code::FILE,
                 span.clone(),
-                format!("the path {} leads out of the folder of the model", shown(written)),
+                format!("{} is not a path from the folder of the model", shown(written)),
             )
-            .why(outside)
-            .help("put the file beside the model or into a folder there, and write its path from the model");
+            .why("a path that begins at the top of a disk is right on one computer only")
+            .help("write the path as it is seen from the folder of the model");
         return None;
     };
     let name = shown(&path);
@@ -231,12 +228,11 @@ pub(crate) fn read(
             .error(code::FILE, span.clone(), format!("there is no file {name}"))
             .why("paths are seen from the folder of the model, also those in included files"),
         Err(FileProblem::Outside) => report
-            .error(
-                code::FILE,
-                span.clone(),
-                format!("{name} is a link that leads out of the folder of the model"),
+            .error(code::OUTSIDE, span.clone(), format!("the file {name} lies outside of what may be opened"))
+            .why(
+                "a model may read only what lies under one root, links resolved: it may come from a stranger",
             )
-            .why(outside),
+            .help("put the file into the folder of the model, or choose a root that holds both"),
         Err(FileProblem::TooLarge) => report
             .error(code::LIMIT, span.clone(), format!("the file {name} is too large"))
             .why("all texts of a model together have a limit, and so has every other file"),

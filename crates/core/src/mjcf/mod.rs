@@ -63,7 +63,7 @@ use std::path::Path;
 use crate::Model;
 use diagnostic::Report;
 
-pub use diagnostic::{MjcfDiagnostic, MjcfFileError, code};
+pub use diagnostic::{MjcfDiagnostic, MjcfFileError, Severity, code};
 pub use files::{FileProblem, Files, Folder, MAX_FILE, NoFiles};
 pub use schema::{Attr, Element, Kind, SchemaRow, Status, Word, schema_rows};
 
@@ -81,6 +81,8 @@ pub const MAX_MASS: usize = 1_200_000;
 pub const MAX_GEOMS: usize = 5000;
 /// Largest number of attributes of an element.
 pub const MAX_ATTRIBUTES: usize = 200;
+/// Largest number of attributes of all elements.
+pub const MAX_ALL_ATTRIBUTES: usize = 1_000_000;
 
 /// Compiles a model from its text. It can name no files: [`compile_with`] and [`compile_file`] let it.
 ///
@@ -96,16 +98,30 @@ pub fn compile(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
 ///
 /// # Errors
 ///
-/// All mistakes that were found, in the order of the texts.
+/// All mistakes that were found, in the order of the texts. [`examine`] tells warnings, too.
 pub fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<MjcfDiagnostic>> {
+    let Examined { model, mut findings } = examine(xml, files, path);
+    findings.retain(|d| d.severity == Severity::Error);
+    model.ok_or(findings)
+}
+
+/// What came of a model's text.
+#[derive(Clone, Debug)]
+pub struct Examined {
+    /// The model; `None` when there are errors.
+    pub model: Option<Model>,
+    /// Errors and warnings in the order of the texts.
+    pub findings: Vec<MjcfDiagnostic>,
+}
+
+/// Compiles a model as [`compile_with`] does, and tells what it may not be meant to be, besides what is wrong.
+pub fn examine(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
     let mut report = Report::new();
-    match build(xml, files, path, &mut report) {
-        Some((tree, model)) => {
-            unsimulated::check(&tree, &model, &mut report);
-            if report.is_clean() { Ok(model) } else { Err(report.finish()) }
-        }
-        None => Err(report.finish()),
-    }
+    let model = build(xml, files, path, &mut report).and_then(|(tree, model)| {
+        unsimulated::check(&tree, &model, &mut report);
+        report.is_clean().then_some(model)
+    });
+    Examined { model, findings: report.finish() }
 }
 
 /// Compiles a model that may hold what is not simulated yet.
@@ -155,7 +171,7 @@ fn build(
 
     let options = settings::options(&tree, report);
     let statistic = settings::StatisticOverride::read(&tree, report);
-    let min_keys = settings::min_keys(&tree, report);
+    let min_keys = settings::min_keys(&tree);
     let compiler = &parts.first()?.compiler;
     let mut assets = read_asset::Assets::read(&tree, &classes, &parts, files, report);
     let mut cx = read_body::Context {
@@ -201,6 +217,7 @@ fn build(
         (scene.materials, scene.textures) = Default::default();
     }
     assets.hulls(&bodies, &pairs, report);
+    classes.check_room(report);
     let sensors = read_sensor::sensors(&tree, refs, &tendons, report);
     let actuator_users: Vec<_> = actuators.iter().map(fill_actuator::user).collect();
     let users = fill::Users {

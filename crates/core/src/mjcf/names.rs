@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::defaults::Classes;
 use super::diagnostic::{Report, closest, code, shown};
 use super::schema::Kind;
-use super::tree::{Attribute, Tree};
+use super::tree::{Attribute, Node, Tree};
 use super::values::Value;
 
 /// Named elements by kind and name.
@@ -75,10 +75,11 @@ impl<'t> NameTable<'t> {
     }
 }
 
-/// Names meshes, height fields and textures without a name after their files.
+/// Names meshes, height fields, textures and skins without a name after their files.
 pub(crate) fn after_files(tree: &mut Tree) {
     for node in &mut tree.nodes {
-        if !matches!(node.element.name, "mesh" | "hfield" | "texture") || node.text("name").is_some() {
+        if !matches!(node.element.name, "mesh" | "hfield" | "texture" | "skin") || node.text("name").is_some()
+        {
             continue;
         }
         let (Some(attr), Some(file)) = (node.element.attribute("name"), node.attribute("file")) else {
@@ -99,8 +100,10 @@ fn stem(path: &str) -> &str {
 /// Checks that references and classes exist.
 pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes, report: &mut Report) {
     let mut defined: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut dangling = Vec::new();
     for node in &tree.nodes {
         let is_default = node.element.name == "default";
+        let entry = is_entry(tree, node);
         if is_default {
             check_class(tree, node, &mut defined, report);
         }
@@ -111,7 +114,11 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
             let Value::Text(name) = &a.value else { continue };
             match a.attr.kind {
                 Kind::Ref(kind) if !name.is_empty() && names.find(kind, name).is_none() => {
-                    names.unknown(kind, name, a.span.clone(), report);
+                    if entry {
+                        dangling.push(Dangling { entry: node.element.name, attribute: a, kind, name });
+                    } else {
+                        names.unknown(kind, name, a.span.clone(), report);
+                    }
                 }
                 Kind::Class if !is_default && classes.find(name).is_none() => {
                     let error = report.error(
@@ -128,12 +135,71 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
             }
         }
     }
+    check_dangling(tree, names, classes, dangling, report);
+}
+
+/// Whether an element stands in a default class.
+fn is_entry(tree: &Tree, node: &Node) -> bool {
+    node.parent.and_then(|p| tree.nodes.get(p)).is_some_and(|p| p.element.name == "default")
+}
+
+/// A default that names an object that does not exist.
+struct Dangling<'t> {
+    /// The kind of element that it is about.
+    entry: &'static str,
+    attribute: &'t Attribute,
+    kind: &'static str,
+    name: &'t str,
+}
+
+/// A default that names what does not exist is an error for the elements that take it, and nothing otherwise: as in
+/// MuJoCo, which looks for the name where an element needs it.
+fn check_dangling(
+    tree: &Tree,
+    names: &NameTable,
+    classes: &Classes,
+    mut dangling: Vec<Dangling>,
+    report: &mut Report,
+) {
+    let mut childclass: Vec<Option<usize>> = Vec::with_capacity(tree.nodes.len());
+    for node in &tree.nodes {
+        let above = node.parent.and_then(|p| childclass.get(p).copied().flatten());
+        let own = node.text("childclass").and_then(|name| classes.find(name));
+        childclass.push(own.or(above));
+        let entry = match node.element.name {
+            "spatial" | "fixed" => "tendon",
+            name => name,
+        };
+        let may_use =
+            |d: &Dangling| d.entry == entry && node.element.attribute(d.attribute.attr.name).is_some();
+        if dangling.is_empty() {
+            return;
+        }
+        if !dangling.iter().any(may_use) || is_entry(tree, node) {
+            continue;
+        }
+        let p = classes.props_of(entry, node, above);
+        dangling.retain(|d| {
+            let used = may_use(d) && p.span(d.attribute.attr.name).as_ref() == Some(&d.attribute.span);
+            if used {
+                names.unknown(d.kind, d.name, d.attribute.span.clone(), report);
+            }
+            !used
+        });
+    }
+    for d in dangling {
+        let message = format!("there is no {} named {}, which this default gives", d.kind, shown(d.name));
+        report
+            .warning(code::UNKNOWN_NAME, d.attribute.span.clone(), message)
+            .why("nothing takes it now; the first element that does would not load")
+            .help("remove it, or name one that exists");
+    }
 }
 
 /// A nested class needs a name of its own; the outer one is `main`.
 fn check_class<'t>(
     tree: &'t Tree,
-    node: &'t super::tree::Node,
+    node: &'t Node,
     defined: &mut BTreeMap<&'t str, usize>,
     report: &mut Report,
 ) {

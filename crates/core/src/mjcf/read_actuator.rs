@@ -1,5 +1,7 @@
 //! Actuators: what their classes and elements say, and what they act on.
 
+use std::rc::Rc;
+
 use super::defaults::Props;
 use super::diagnostic::{Report, code};
 use super::ids::References;
@@ -76,7 +78,7 @@ fn unset() -> ActuatorSpec {
         nsample: 0,
         interp: 0,
         delay: 0.0,
-        user: Vec::new(),
+        user: Rc::default(),
         user_span: 0..0,
         transmission: None,
     }
@@ -113,8 +115,8 @@ fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Report) {
     a.nsample = p.int("nsample").unwrap_or(a.nsample);
     a.interp = p.word("interp").unwrap_or(a.interp);
     a.delay = p.real("delay").unwrap_or(a.delay);
-    if let Some(user) = p.list("user") {
-        a.user = user.to_vec();
+    if p.has("user") {
+        a.user = p.shared("user");
         a.user_span = p.span("user").unwrap_or(node.span.clone());
     }
     set(a, &mut shortcut::Element { node, p, report });

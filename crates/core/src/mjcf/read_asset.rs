@@ -220,7 +220,7 @@ impl Reader<'_> {
             (Some(rule), _) => mesh::builtin::make(rule, p.list("params").unwrap_or(&[])),
             (_, Some(_)) => {
                 let (path, bytes) = self.file(node, p)?;
-                mesh::decode(&path, &bytes).map(|raw| (raw, false))
+                mesh::decode(&path, p.text("content_type").unwrap_or(""), &bytes).map(|raw| (raw, false))
             }
             _ => written(p).map(|raw| (raw, false)),
         };
@@ -269,7 +269,7 @@ impl Reader<'_> {
         let p = Props::own(node);
         let samples = if p.text("file").is_some() {
             let (path, bytes) = self.file(node, &p)?;
-            super::hfield::decode(&path, &bytes)
+            super::hfield::decode(&path, p.text("content_type").unwrap_or(""), &bytes)
         } else {
             let (nrow, ncol) = (p.int("nrow").unwrap_or(0), p.int("ncol").unwrap_or(0));
             super::hfield::written(nrow, ncol, p.list("elevation").unwrap_or(&[]))
@@ -278,7 +278,17 @@ impl Reader<'_> {
             .and_then(|samples| HField::new(samples, p.list("size").unwrap_or(&[])))
             .and_then(|field| self.take(EACH / 2 * field.data.len()).map(|()| field));
         match made {
-            Ok(field) => Some(field),
+            Ok(field) => {
+                if field.nrow < 2 || field.ncol < 2 {
+                    let message =
+                        format!("{} has {} row(s) and {} column(s)", node.shown(), field.nrow, field.ncol);
+                    self.report
+                        .warning(code::NO_EFFECT, node.span.clone(), message)
+                        .why("its surface lies between rows and columns: everything falls through it, in MuJoCo, too")
+                        .help("give it two rows and two columns at least, or use a plane");
+                }
+                Some(field)
+            }
             Err(problem) => self.wrong(problem, code::HFIELD, node, &p),
         }
     }

@@ -23,16 +23,21 @@ pub(crate) fn contacts(
             let body1 = refs.required("body", node, "body1", cx.report);
             let body2 = refs.required("body", node, "body2", cx.report);
             if let (Some(a), Some(b)) = (body1, body2) {
-                excludes.push(ExcludeSpec { name: name(node), signature: signature(a.min(b), a.max(b)) });
+                let bodies = [a.min(b), a.max(b)];
+                excludes.push(ExcludeSpec {
+                    name: name(node),
+                    bodies,
+                    signature: signature(bodies[0], bodies[1]),
+                });
             }
         }
     }
-    pairs.sort_by_key(|p| p.signature);
-    excludes.sort_by_key(|e| e.signature);
+    pairs.sort_by_key(|p| p.bodies);
+    excludes.sort_by_key(|e| e.bodies);
     (pairs, excludes)
 }
 
-/// Two bodies in one number, the smaller first.
+/// Two bodies in one number, the smaller first: MuJoCo's. Beyond 65,535 bodies two pairs can have the same.
 fn signature(body1: i32, body2: i32) -> i32 {
     body1.wrapping_shl(16).wrapping_add(body2)
 }
@@ -56,6 +61,7 @@ fn pair(cx: &mut Context, refs: References, node: &Node, body_of: &[i32]) -> Opt
     Some(PairSpec {
         name: name(node),
         geoms,
+        bodies: geoms.map(body),
         signature: signature(body(geoms[0]), body(geoms[1])),
         condim,
         friction: p.reals("friction", [1.0, 1.0, 0.005, 0.0001, 0.0001]),

@@ -7,9 +7,6 @@ use super::read_body::name;
 use super::spec::KeySpec;
 use super::tree::{Node, Tree};
 
-/// More numbers than this in all keyframes together are refused.
-const MAX_NUMBERS: usize = 20_000_000;
-
 /// All keyframes in the order of the text, at least `min` of them.
 pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) -> Vec<KeySpec> {
     let given: Vec<&Node> = tree
@@ -18,9 +15,8 @@ pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) 
         .map(|(_, node)| node)
         .collect();
     let numbers = 1 + sizes.nq + sizes.nv + sizes.na + sizes.nu + 7 * sizes.nmocap;
-    if given.len().max(min).saturating_mul(numbers) > MAX_NUMBERS {
-        let span = given.first().map_or(0..0, |n| n.span.clone());
-        report.error(code::LIMIT, span, format!("the keyframes hold more than {MAX_NUMBERS} numbers"));
+    let span = given.first().map_or(0..0, |n| n.span.clone());
+    if !report.take(given.len().max(min).saturating_mul(numbers), span, "what all keyframes hold") {
         return Vec::new();
     }
     let mut list: Vec<KeySpec> = given.into_iter().map(|node| key(node, sizes, report)).collect();

@@ -12,8 +12,8 @@ use super::{read_form, shapes};
 use crate::geom;
 use crate::math::normalize;
 
-/// A custom list longer than this is refused.
-const MAX_NUMBERS: i32 = 1_000_000;
+/// Most numbers of a custom list, as in MuJoCo.
+const MAX_NUMBERS: i32 = 500;
 
 /// A site: a marked frame, with a volume for sensors that look inside.
 pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> SiteSpec {
@@ -88,6 +88,14 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
             _ => own,
         }
     };
+    if sensorsize[1] > 0.0 && resolution.iter().any(|&n| n <= 0) {
+        let [w, h] = resolution;
+        let message = format!("{} has a `sensorsize`, but its resolution is {w} by {h}", node.shown());
+        cx.report
+            .error(code::VALUE, p.span("resolution").unwrap_or(node.span.clone()), message)
+            .why("the size of a pixel follows from both")
+            .help("write `resolution=\"WIDTH HEIGHT\"`, in pixels");
+    }
     let [fx, fy] = metres("focal", "focalpixel", [0.01; 2]);
     let [px, py] = metres("principal", "principalpixel", [0.0; 2]);
     let fovy = match sensorsize[1] > 0.0 {

@@ -194,6 +194,12 @@ impl Context<'_> {
             },
             Senses::SiteInImage => {
                 let (site, camera) = (self.required("site", "site"), self.required("camera", "camera"));
+                if camera.is_some_and(|camera| self.refs.ids.is_blind(camera)) {
+                    let message = format!("the camera of {} has no resolution", self.node.shown());
+                    self.error_at("camera", code::SENSOR, message)
+                        .why("the place in the image is counted in pixels")
+                        .help("give the camera a `resolution` without zeros");
+                }
                 Some(attached(Obj::Site, site?).with_reference(Obj::Camera as i32, camera?))
             }
             Senses::Frame => self.frame("objtype", "objname"),

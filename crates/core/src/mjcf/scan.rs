@@ -1,14 +1,86 @@
-//! Limits that must hold before a text reaches the XML parser: size, nesting, elements, attributes.
+//! What happens to a text before it reaches the XML parser: limits hold (size, nesting, elements, attributes), and text
+//! between elements is passed over with a warning.
 //!
 //! The scan understands just enough of XML to count tags. A text that is not well-formed passes it and is
 //! explained by the parser.
 
-use super::diagnostic::{Report, code};
-use super::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_ELEMENTS, MAX_TEXT};
+use std::borrow::Cow;
+use std::ops::Range;
 
-/// Checks the limits of a text whose spans begin at `base`; `elements` counts those of all texts of a model.
-/// `false` after reporting the first limit that is exceeded.
-pub(crate) fn within_limits(text: &str, base: usize, elements: &mut usize, report: &mut Report) -> bool {
+use super::diagnostic::{Report, code};
+use super::{MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH, MAX_ELEMENTS, MAX_TEXT};
+
+/// What all texts of a model hold so far.
+#[derive(Debug, Default)]
+pub(crate) struct Counts {
+    elements: usize,
+    attributes: usize,
+}
+
+/// Checks the limits of a text whose spans begin at `base`; returns the text with blanks in the place of what stands
+/// between elements and means nothing, as in MuJoCo 3.14.0 (measured: `golden/texts.py`). `None` after reporting the
+/// first limit that is exceeded.
+pub(crate) fn prepare<'t>(
+    text: &'t str,
+    base: usize,
+    counts: &mut Counts,
+    report: &mut Report,
+) -> Option<Cow<'t, str>> {
+    let mut blanks = Vec::new();
+    if !within_limits(text, base, counts, &mut blanks, report) {
+        return None;
+    }
+    Some(if blanks.is_empty() { Cow::Borrowed(text) } else { Cow::Owned(blanked(text, &blanks)) })
+}
+
+/// The text with blanks in these places, which begin and end with characters; lines stay lines.
+fn blanked(text: &str, places: &[Range<usize>]) -> String {
+    let (mut out, mut at) = (String::with_capacity(text.len()), 0);
+    for place in places {
+        out.push_str(text.get(at..place.start).unwrap_or(""));
+        let passed = text.get(place.clone()).unwrap_or("").bytes();
+        out.extend(passed.map(|b| if b == b'\n' { '\n' } else { ' ' }));
+        at = place.end;
+    }
+    out.push_str(text.get(at..).unwrap_or(""));
+    out
+}
+
+/// Passes over the text of a range, with a warning when it is not blank.
+fn pass_over(
+    text: &str,
+    range: Range<usize>,
+    base: usize,
+    blanks: &mut Vec<Range<usize>>,
+    report: &mut Report,
+) {
+    let Some(between) = text.get(range.clone()) else { return };
+    // A byte order mark may begin a text.
+    let between = between.strip_prefix('\u{feff}').filter(|_| range.start == 0).unwrap_or(between);
+    let start = range.end - between.trim_start().len();
+    let first = between.trim().lines().next().unwrap_or("").trim_end();
+    if first.is_empty() {
+        return;
+    }
+    blanks.push(start..range.end);
+    report
+        .warning(
+            code::TEXT,
+            base + start..base + start + first.len(),
+            "this text stands between elements, where it has no effect",
+        )
+        .why("MuJoCo passes over it, too; a tag that lost its `<`, or a `>` too many, looks like this")
+        .help("begin a tag with `<`; write a remark as a comment, <!-- … -->; remove the rest");
+}
+
+/// Whether the limits hold. Text between elements is added to `blanks`.
+fn within_limits(
+    text: &str,
+    base: usize,
+    counts: &mut Counts,
+    blanks: &mut Vec<Range<usize>>,
+    report: &mut Report,
+) -> bool {
     let size = report.bytes();
     if size > MAX_TEXT {
         let message = format!("the model has {size} bytes, at most {MAX_TEXT} are read");
@@ -16,13 +88,21 @@ pub(crate) fn within_limits(text: &str, base: usize, elements: &mut usize, repor
         return false;
     }
     let bytes = text.as_bytes();
-    let (mut at, mut depth) = (0, 0usize);
+    let (mut at, mut depth, mut ended) = (0, 0usize, false);
     while let Some(open) = find(bytes, at, b"<") {
+        // After the root element no text may stand, in MuJoCo either: the parser says so.
+        if !ended {
+            pass_over(text, at..open, base, blanks, report);
+        }
         let rest = bytes.get(open..).unwrap_or_default();
         at = if rest.starts_with(b"<!--") {
             after(bytes, open + 4, b"-->")
         } else if rest.starts_with(b"<![CDATA[") {
-            after(bytes, open + 9, b"]]>")
+            let end = after(bytes, open + 9, b"]]>");
+            if depth > 0 {
+                pass_over(text, open..end, base, blanks, report);
+            }
+            end
         } else if rest.starts_with(b"<?") {
             after(bytes, open + 2, b"?>")
         } else if rest.starts_with(b"<!") {
@@ -37,10 +117,12 @@ pub(crate) fn within_limits(text: &str, base: usize, elements: &mut usize, repor
             return false;
         } else if rest.starts_with(b"</") {
             depth = depth.saturating_sub(1);
+            ended |= depth == 0;
             after(bytes, open + 2, b">")
         } else {
             let tag = tag(bytes, open + 1);
-            *elements += 1;
+            counts.elements += 1;
+            counts.attributes += tag.attributes;
             let name = base + open..base + open + 1;
             if tag.attributes > MAX_ATTRIBUTES {
                 report.error(
@@ -63,14 +145,20 @@ pub(crate) fn within_limits(text: &str, base: usize, elements: &mut usize, repor
             if !tag.closed {
                 depth += 1;
             }
+            ended |= depth == 0;
             if depth > MAX_DEPTH {
                 report
                     .error(code::LIMIT, name, format!("elements are nested more than {MAX_DEPTH} deep"))
                     .help("a kinematic chain this long can be cut into several trees");
                 return false;
             }
-            if *elements > MAX_ELEMENTS {
+            if counts.elements > MAX_ELEMENTS {
                 report.error(code::LIMIT, name, format!("the model has more than {MAX_ELEMENTS} elements"));
+                return false;
+            }
+            if counts.attributes > MAX_ALL_ATTRIBUTES {
+                let message = format!("the model has more than {MAX_ALL_ATTRIBUTES} attributes");
+                report.error(code::LIMIT, name, message);
                 return false;
             }
             tag.end
@@ -126,7 +214,7 @@ mod tests {
     fn code_of(text: &str) -> Option<&'static str> {
         let mut report = Report::new();
         let base = report.source(None, text.into());
-        within_limits(text, base, &mut 0, &mut report);
+        prepare(text, base, &mut Counts::default(), &mut report);
         report.finish().first().map(|d| d.code)
     }
 
@@ -139,5 +227,25 @@ mod tests {
         assert_eq!(code_of("<!DOCTYPE x [<!ENTITY a 'b'>]><a/>"), Some(code::XML));
         assert_eq!(code_of("<a b='"), None);
         assert_eq!(code_of("<a  xmlns:b='c'/>"), Some(code::XML));
+    }
+
+    #[test]
+    fn text_between_elements_becomes_blanks_of_the_same_length() {
+        for (text, expected) in [
+            ("<a><b/>> <c/></a>", "<a><b/>  <c/></a>"),
+            ("é<a>\n x=\"1\"\n é/></a>", "  <a>\n      \n    </a>"),
+            ("<a><![CDATA[<b/>]]>&no;</a>", "<a>                   </a>"),
+            ("<a> \n </a>", "<a> \n </a>"),
+            // No text may stand behind the root.
+            ("<a/>>", "<a/>>"),
+            ("<a></a>x<!-- y -->z", "<a></a>x<!-- y -->z"),
+            ("<a b='>'>x</a", "<a b='>'> </a"),
+        ] {
+            let mut report = Report::new();
+            let base = report.source(None, text.into());
+            let blanked = prepare(text, base, &mut Counts::default(), &mut report).unwrap();
+            assert_eq!(blanked, expected);
+            assert!(report.is_clean());
+        }
     }
 }

@@ -8,9 +8,6 @@ use super::values::Value;
 use crate::lengthrange::{Mode, Search};
 use crate::model::{Options, Statistic, disable, enable};
 
-/// More user values of all objects of a kind than this are refused.
-const MAX_USER: usize = 20_000_000;
-
 /// All sections of one name, later ones over earlier ones.
 fn section(tree: &Tree, name: &str) -> Props {
     let mut props = Props::default();
@@ -326,18 +323,14 @@ impl StatisticOverride {
 }
 
 /// The smallest number of keyframes, `size nkey`.
-pub(crate) fn min_keys(tree: &Tree, report: &mut Report) -> usize {
+pub(crate) fn min_keys(tree: &Tree) -> usize {
     let p = section(tree, "size");
-    let n = p.int("nkey").unwrap_or(0);
-    usize::try_from(n).unwrap_or_else(|_| {
-        let span = p.span("nkey").unwrap_or(0..0);
-        report.error(code::VALUE, span, format!("`nkey` of size is {n}, it must be zero or more"));
-        0
-    })
+    // As in MuJoCo, a negative number is as good as none.
+    usize::try_from(p.int("nkey").unwrap_or(0)).unwrap_or(0)
 }
 
-/// How many user values each object of a kind has: as many as `size` says, else as the longest list. `lists` has
-/// one for each object.
+/// How many user values each object of a kind has: as many as `size` says, else, and for -1, as the longest list.
+/// `lists` has one for each object.
 pub(crate) fn user_width<'l>(
     tree: &Tree,
     size: &str,
@@ -345,11 +338,20 @@ pub(crate) fn user_width<'l>(
     report: &mut Report,
 ) -> usize {
     let p = section(tree, "size");
+    let span = p.span(size).unwrap_or(0..0);
+    if let Some(n) = p.int(size).filter(|&n| n < -1) {
+        report
+            .error(code::VALUE, span.clone(), format!("`{size}` of size is {n}"))
+            .help("write how many numbers each may have, or -1 for as many as the longest list");
+    }
     let given = p.int(size).and_then(|n| usize::try_from(n).ok());
-    let (mut longest, mut count) = (0, 0);
+    let (mut longest, mut count, mut longest_at) = (0, 0, 0..0);
     for list in lists {
         let n = list.numbers.len();
-        (longest, count) = (longest.max(n), count + 1);
+        count += 1;
+        if n > longest {
+            (longest, longest_at) = (n, list.span.clone());
+        }
         if let Some(most) = given.filter(|&most| n > most) {
             let message = format!("`user` has {n} numbers, but `{size}` of size is {most}");
             report
@@ -358,24 +360,25 @@ pub(crate) fn user_width<'l>(
         }
     }
     let width = given.unwrap_or(longest);
-    if width.saturating_mul(count) > MAX_USER {
-        let span = p.span(size).unwrap_or(0..0);
-        report.error(code::LIMIT, span, format!("the user values are more than {MAX_USER} numbers"));
-        return 0;
+    // Without `size`, the longest list says how long all are.
+    let span = if given.is_some() { span } else { longest_at };
+    if report.take(width.saturating_mul(count), span, "the user values of all objects of a kind") {
+        width
+    } else {
+        0
     }
-    width
 }
 
 /// The number of values that `size nuserdata` reserves.
 pub(crate) fn userdata(tree: &Tree, report: &mut Report) -> usize {
     let p = section(tree, "size");
     let n = p.int("nuserdata").unwrap_or(0);
+    let span = p.span("nuserdata").unwrap_or(0..0);
     match usize::try_from(n) {
-        Ok(n) if n <= MAX_USER => n,
-        _ => {
-            let span = p.span("nuserdata").unwrap_or(0..0);
-            let message = format!("`nuserdata` of size is {n}, it must be between 0 and {MAX_USER}");
-            report.error(code::VALUE, span, message);
+        Ok(n) if report.take(n, span.clone(), "`nuserdata`") => n,
+        Ok(_) => 0,
+        Err(_) => {
+            report.error(code::VALUE, span, format!("`nuserdata` of size is {n}, it must be zero or more"));
             0
         }
     }

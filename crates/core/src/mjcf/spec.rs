@@ -2,6 +2,7 @@
 //! applied, angles in radians, every object with its place in the text.
 
 use std::ops::Range;
+use std::rc::Rc;
 
 use super::defaults::Props;
 use super::frame::Pose;
@@ -286,14 +287,14 @@ impl SensorSpec {
 /// A list of numbers as long as its author likes, with its place.
 #[derive(Debug, Default)]
 pub(crate) struct List {
-    pub(crate) numbers: Vec<f64>,
+    pub(crate) numbers: Rc<Vec<f64>>,
     pub(crate) span: Range<usize>,
 }
 
 impl List {
     /// The numbers of an attribute; none when it is absent.
     pub(crate) fn read(p: &Props, name: &str) -> List {
-        List { numbers: p.list(name).unwrap_or(&[]).to_vec(), span: p.span(name).unwrap_or(0..0) }
+        List { numbers: p.shared(name), span: p.span(name).unwrap_or(0..0) }
     }
 }
 
@@ -359,6 +360,7 @@ pub(crate) struct EqualitySpec {
 pub(crate) struct PairSpec {
     pub(crate) name: String,
     pub(crate) geoms: [i32; 2],
+    pub(crate) bodies: [i32; 2],
     /// Both bodies in one number.
     pub(crate) signature: i32,
     pub(crate) condim: i32,
@@ -376,6 +378,8 @@ pub(crate) struct PairSpec {
 #[derive(Debug)]
 pub(crate) struct ExcludeSpec {
     pub(crate) name: String,
+    /// The smaller id first.
+    pub(crate) bodies: [i32; 2],
     pub(crate) signature: i32,
 }
 
@@ -434,7 +438,7 @@ pub(crate) struct ActuatorSpec {
     pub(crate) nsample: i32,
     pub(crate) interp: i32,
     pub(crate) delay: f64,
-    pub(crate) user: Vec<f64>,
+    pub(crate) user: Rc<Vec<f64>>,
     pub(crate) user_span: Range<usize>,
     /// `None` in a class, and where it is wrong.
     pub(crate) transmission: Option<TransmissionSpec>,

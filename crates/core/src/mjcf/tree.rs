@@ -161,9 +161,6 @@ fn children(
     element: &'static Element,
     report: &mut Report,
 ) -> Vec<(usize, &'static Element)> {
-    for span in &xml.stray {
-        stray_text(span.clone(), element, report);
-    }
     let mut known_children: Vec<(usize, &'static Element)> = Vec::new();
     let mut seen: Vec<&'static str> = Vec::new();
     for (at, child) in content(list, xml, report) {
@@ -207,14 +204,6 @@ fn children(
         known_children.push((at, known));
     }
     known_children
-}
-
-/// Text between elements means nothing and is passed over, unless it looks like a tag without its `<`.
-fn stray_text(span: Range<usize>, element: &Element, report: &mut Report) {
-    report
-        .error(code::TEXT, span, format!("text between the elements of `{}`", element.name))
-        .why("it looks like a tag, but without its `<` it would be passed over")
-        .help("begin the tag with `<`, or write the text as a comment, <!-- … -->");
 }
 
 fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, report: &mut Report) {

@@ -2,17 +2,18 @@
 //! that exist.
 
 use std::ops::Range;
+use std::rc::Rc;
 
 use super::diagnostic::{closest, code, shown};
 use super::schema::{Kind, Word};
 
-/// The value of an attribute.
+/// The value of an attribute. Lists are shared by all copies of an element and all that takes a default.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Value {
     /// Real numbers, all finite.
-    Reals(Vec<f64>),
+    Reals(Rc<Vec<f64>>),
     /// Integers.
-    Ints(Vec<i32>),
+    Ints(Rc<Vec<i32>>),
     /// MuJoCo's number of a keyword.
     Word(i32),
     /// A name or free text.
@@ -20,6 +21,9 @@ pub(crate) enum Value {
     /// Wrong, and already reported: there, but not to be read.
     Bad,
 }
+
+/// Longest name, bytes: what refers to an object holds its name, and defaults give it to many.
+const LONGEST_NAME: usize = 1000;
 
 /// What is wrong with a value.
 #[derive(Debug)]
@@ -43,13 +47,17 @@ pub(crate) fn parse(kind: Kind, text: &str) -> Result<Value, Problem> {
     match kind {
         Kind::Reals(min, max) => {
             let numbers = numbers(text, real)?;
-            check_count(numbers.len(), min, max, "number").map(|()| Value::Reals(numbers))
+            check_count(numbers.len(), min, max, "number").map(|()| Value::Reals(numbers.into()))
         }
         Kind::Ints(min, max) => {
             let numbers = numbers(text, integer)?;
-            check_count(numbers.len(), min, max, "integer").map(|()| Value::Ints(numbers))
+            check_count(numbers.len(), min, max, "integer").map(|()| Value::Ints(numbers.into()))
         }
         Kind::Words(words) => keyword(words, text),
+        Kind::Name(_) | Kind::Ref(_) | Kind::Class if text.len() > LONGEST_NAME => Err(Problem::new(
+            code::LIMIT,
+            format!("has {} bytes, a name may have {LONGEST_NAME}", text.len()),
+        )),
         Kind::Name(_) | Kind::Ref(_) | Kind::Class | Kind::Text => Ok(Value::Text(text.to_string())),
     }
 }
@@ -163,7 +171,7 @@ mod tests {
 
     fn reals(text: &str) -> Option<Vec<f64>> {
         match parse(Kind::Reals(0, 9), text) {
-            Ok(Value::Reals(v)) => Some(v),
+            Ok(Value::Reals(v)) => Some(v.to_vec()),
             _ => None,
         }
     }

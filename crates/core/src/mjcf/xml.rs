@@ -32,8 +32,6 @@ pub(crate) struct Element {
     pub(crate) namespace: bool,
     pub(crate) attributes: Vec<Attribute>,
     pub(crate) children: Vec<usize>,
-    /// Text between the children that looks like a tag without its `<`.
-    pub(crate) stray: Vec<Range<usize>>,
 }
 
 impl Element {
@@ -86,19 +84,7 @@ fn element(text: &str, base: usize, xml: &Node) -> Element {
         namespace: name.namespace().is_some(),
         attributes: xml.attributes().map(attribute).collect(),
         children: Vec::new(),
-        stray: xml.children().filter(Node::is_text).filter_map(|t| stray(&t)).map(shifted).collect(),
     }
-}
-
-/// The first line of a text that looks like a tag without its `<`.
-fn stray(xml: &Node) -> Option<Range<usize>> {
-    let text = xml.text()?;
-    let first = text.trim().lines().next()?;
-    if !text.contains(['=', '>']) {
-        return None;
-    }
-    let start = xml.range().start + (text.len() - text.trim_start().len());
-    Some(start..(start + first.trim_end().len()).min(xml.range().end))
 }
 
 /// A syntax error of the XML in plain words.

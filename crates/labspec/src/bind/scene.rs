@@ -1,11 +1,11 @@
 //! The model of a lab: from the model folder or from the lab itself, with every mistake at its place.
 
 use crate::finding::{Finding, Severity};
-use crate::lint::ModelFolder;
+use crate::lint::{ModelFolder, lesson_folder, root_of};
 use crate::source::{SourceFile, Text};
 use crate::spec::{Lab, Scene};
 use labspec_core::Model;
-use labspec_core::mjcf::{self, Folder, MjcfDiagnostic};
+use labspec_core::mjcf::{self, Files, Folder, MjcfDiagnostic, NoFiles};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -45,13 +45,11 @@ impl Models {
     /// `findings`, those in a model file to the findings of the models, once.
     pub fn of(&mut self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
         match lab.scene()? {
-            Scene::Xml(text) => match mjcf::compile(&text.value) {
-                Ok(model) => Some(Arc::new(model)),
-                Err(list) => {
-                    findings.extend(list.iter().map(|d| inline(d, text)));
-                    None
-                }
-            },
+            Scene::Xml(text) => {
+                let examined = mjcf::examine(&text.value, &NoFiles, None);
+                findings.extend(examined.findings.iter().map(|d| inline(d, text)));
+                examined.model.map(Arc::new)
+            }
             Scene::Model(name) => {
                 let known = self.compiled.get(&name.value).cloned();
                 let model = known.unwrap_or_else(|| self.load(&name.value));
@@ -76,14 +74,10 @@ impl Models {
         let model = match SourceFile::read(&path) {
             Ok(file) => {
                 let file = SourceFile::new(shown, file.text());
-                match compile_file(&file, &path) {
-                    Ok(model) => Some(Arc::new(model)),
-                    Err(broken) => {
-                        self.findings.extend(broken.findings);
-                        self.files.extend(broken.files);
-                        None
-                    }
-                }
+                let compiled = compile_file(&file, &path, self.folder.root());
+                self.findings.extend(compiled.findings);
+                self.files.extend(compiled.files);
+                compiled.model.map(Arc::new)
             }
             Err(message) => {
                 let file = SourceFile::new(shown, "");
@@ -97,48 +91,84 @@ impl Models {
     }
 }
 
-/// A model that has mistakes: these, and the files they are in.
+/// What came of a model file: the model, what is wrong with it or doubtful, and the files that this is about.
 #[derive(Debug)]
-pub(crate) struct Broken {
+pub(crate) struct Compiled {
+    /// `None` when there are errors.
+    pub(crate) model: Option<Model>,
     pub(crate) findings: Vec<Finding>,
+    /// Empty when there are no findings.
     pub(crate) files: Vec<SourceFile>,
 }
 
-/// Compiles the model of a file. What it names (included text, models to attach, meshes) is looked for beside `path`,
-/// and nowhere else.
-pub(crate) fn compile_file(file: &SourceFile, path: &Path) -> Result<Model, Broken> {
-    let root = path.parent().unwrap_or(Path::new(""));
-    let compiled = match Folder::new(root) {
-        Ok(folder) => mjcf::compile_with(file.text(), &folder, path.file_name().and_then(|n| n.to_str())),
-        Err(_) => mjcf::compile(file.text()),
+/// Compiles the model of a file. What it names (included text, models to attach, meshes) is looked for from the folder of
+/// `path`, and opened when it lies below `root`.
+pub(crate) fn compile_file(file: &SourceFile, path: &Path, root: &Path) -> Compiled {
+    let place = path.parent().unwrap_or(Path::new(""));
+    let folder = Folder::at(root, place).ok();
+    let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
+    let examined = mjcf::examine(file.text(), files, path.file_name().and_then(|n| n.to_str()));
+    let mut sources = Vec::new();
+    if !examined.findings.is_empty() {
+        sources.push(file.clone());
+    }
+    let place_of = |d: &MjcfDiagnostic| {
+        let at = d.file.as_ref().map_or(0, |part| part_of(&mut sources, files, part));
+        let finding = from_mjcf(d, d.span.clone());
+        sources.get(at).map_or(finding.clone(), |source| finding.at(source))
     };
-    compiled.map_err(|list| {
-        let mut files = vec![file.clone()];
-        let findings = list.iter().map(|d| {
-            let at = match &d.file {
-                None => 0,
-                Some(part) => part_of(&mut files, root, part),
-            };
-            from_mjcf(d, d.span.clone()).at(&files[at])
-        });
-        let findings = findings.collect();
-        Broken { findings, files }
-    })
+    let findings = examined.findings.iter().map(place_of).collect();
+    Compiled { model: examined.model, findings, files: sources }
+}
+
+/// Compiles a model file, for itself: the model, what is to be said of it, and the files that this is about. A file that
+/// cannot be read is a finding, too. `root` is what it may read; by default what [`root_of`] finds.
+pub(crate) fn check_model_file(
+    path: &Path,
+    root: Option<&Path>,
+) -> (Option<Arc<Model>>, Vec<Finding>, Vec<SourceFile>) {
+    let file = match SourceFile::read(path) {
+        Ok(file) => file,
+        Err(message) => {
+            let file = SourceFile::new(path.display().to_string(), "");
+            return (None, vec![finding("model-unreadable", 0..0, message).at(&file)], vec![file]);
+        }
+    };
+    let root = root.map_or_else(|| root_of(&lesson_folder(path), &[]), Path::to_path_buf);
+    let Compiled { model, findings, mut files } = compile_file(&file, path, &root);
+    if files.is_empty() {
+        files.push(file);
+    }
+    (model.map(Arc::new), findings, files)
 }
 
 /// The index of a file that a model names in the list, to which it is added the first time. A file that is no text
 /// (a mesh) is shown empty.
-fn part_of(files: &mut Vec<SourceFile>, root: &Path, part: &str) -> usize {
-    let shown = match files.first().and_then(|main| main.path().rsplit_once('/')) {
-        Some((folder, _)) => format!("{folder}/{part}"),
+fn part_of(sources: &mut Vec<SourceFile>, files: &dyn Files, part: &str) -> usize {
+    let shown = match sources.first().and_then(|main| main.path().rsplit_once('/')) {
+        Some((folder, _)) => joined(folder, part),
         None => part.to_string(),
     };
-    if let Some(known) = files.iter().position(|f| **f.path() == *shown) {
+    if let Some(known) = sources.iter().position(|f| **f.path() == *shown) {
         return known;
     }
-    let read = SourceFile::read(&root.join(part));
-    files.push(SourceFile::new(shown, read.as_ref().map_or("", |f| f.text())));
-    files.len() - 1
+    let read = files.read(part, mjcf::MAX_TEXT).ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    sources.push(SourceFile::new(shown, read.unwrap_or_default()));
+    sources.len() - 1
+}
+
+/// A path from a folder, without the steps that only lead back.
+fn joined(folder: &str, path: &str) -> String {
+    let (mut folder, mut path) = (folder, path);
+    while let Some(rest) = path.strip_prefix("../") {
+        match folder.rsplit_once('/') {
+            _ if folder.is_empty() || folder == "." || folder.ends_with("..") => break,
+            Some((above, _)) => folder = above,
+            None => folder = "",
+        }
+        path = rest;
+    }
+    if folder.is_empty() { path.to_string() } else { format!("{folder}/{path}") }
 }
 
 /// An error of a code that is not in the table of lesson rules: the model compiler's, the language's, ours.
@@ -160,11 +190,24 @@ pub(crate) fn finding(
     }
 }
 
+/// How to open more.
+const WIDEN: &str =
+    "put an empty file `labspec.toml` into the folder that holds both, or name that folder with --root";
+
 fn inline(d: &MjcfDiagnostic, text: &Text) -> Finding {
     from_mjcf(d, text.span_of(d.span.clone()))
 }
 
 /// A mistake in a model, at a place of the file that holds it.
 pub fn from_mjcf(d: &MjcfDiagnostic, span: std::ops::Range<usize>) -> Finding {
-    Finding { why: d.why.clone(), help: d.help.clone(), ..finding(d.code, span, d.message.clone()) }
+    let severity = match d.severity {
+        mjcf::Severity::Error => Severity::Error,
+        mjcf::Severity::Warning => Severity::Warning,
+    };
+    let help = match d.code {
+        // The engine knows no program: how to widen the root is said here.
+        mjcf::code::OUTSIDE => Some(WIDEN.to_string()),
+        _ => d.help.clone(),
+    };
+    Finding { severity, why: d.why.clone(), help, ..finding(d.code, span, d.message.clone()) }
 }

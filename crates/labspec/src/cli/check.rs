@@ -1,9 +1,9 @@
 //! `labspec check` and `labspec verify`.
 
 use super::stdio::{complain, print_json};
-use super::target::model_folder;
+use super::target::{model_folder_within, root};
 use super::{Color, Failure, ModelOptions, Outcome, interrupted, print};
-use crate::bind::scene::{Models, finding};
+use crate::bind::scene::{Models, check_model_file, finding};
 use crate::check::{self, Checked, Depth};
 use crate::finding::{self, Finding};
 use crate::ledger::{self, Entry, Evidence, Ledger, State, Subject};
@@ -124,7 +124,8 @@ fn look(a: &Arguments, depth: Depth) -> Result<Course, Failure> {
             complain(&format!("\r\x1b[Kchecking {}", printable_path(path)));
         }
         if is_model(path) {
-            read += usize::from(check_model(path, &mut course));
+            check_model(a, path, &mut course)?;
+            read += 1;
             continue;
         }
         let file = match SourceFile::read(path) {
@@ -135,7 +136,7 @@ fn look(a: &Arguments, depth: Depth) -> Result<Course, Failure> {
             }
         };
         read += 1;
-        let folder = model_folder(&a.models, path)?;
+        let folder = model_folder_within(&a.models, path, &a.paths)?;
         let models = by_folder.entry(format!("{folder:?}")).or_insert_with(|| Models::new(folder));
         let lesson = load_lesson(file, models.folder());
         if !named && is_other_json(&lesson) {
@@ -174,27 +175,28 @@ fn is_model(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xml"))
 }
 
-/// Checks a model that was named itself; `false` when it cannot be read.
-fn check_model(path: &Path, course: &mut Course) -> bool {
-    let shown: Arc<str> = Arc::from(path.display().to_string());
-    let mut entry = Entry {
+/// Checks a model that was named itself.
+fn check_model(a: &Arguments, path: &Path, course: &mut Course) -> Result<(), Failure> {
+    let root = root(&a.models, &lint::lesson_folder(path), &[])?;
+    let (model, findings, files) = check_model_file(path, Some(&root));
+    let (state, word) = match model {
+        Some(_) => (State::True(Evidence::Computed), "loads"),
+        None => (State::False, "refused"),
+    };
+    let path: Arc<str> = Arc::from(path.display().to_string());
+    course.ledger.add(Entry {
         subject: Subject::Model,
-        owner: shown.to_string(),
-        path: shown.clone(),
+        owner: path.to_string(),
+        path,
         span: 0..0,
-        state: State::True(Evidence::Computed),
-        word: "loads",
+        state,
+        word,
         what: String::new(),
         remark: String::new(),
-    };
-    let done = super::target::load_model_file(path);
-    if done.model.is_none() {
-        (entry.state, entry.word) = (State::False, "refused");
-    }
-    course.findings.extend(done.findings);
-    course.sources.extend(done.files);
-    course.ledger.add(entry);
-    true
+    });
+    course.findings.extend(findings);
+    course.sources.extend(files);
+    Ok(())
 }
 
 /// Why nothing was checked, and what to do.

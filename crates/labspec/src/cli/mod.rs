@@ -64,6 +64,11 @@ struct ModelOptions {
     /// The folder of models [default: `models/` beside or above the lesson]
     #[arg(long, value_name = "DIR")]
     models: Option<PathBuf>,
+    /// What models may read, meshes and included files, lies in this folder [default: the nearest folder around the
+    /// models with `labspec.toml`, else their repository or environment of packages, else the folder that is checked,
+    /// else their own folder]
+    #[arg(long, value_name = "DIR")]
+    root: Option<PathBuf>,
 }
 
 /// When to use colours.

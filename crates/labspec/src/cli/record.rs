@@ -1,7 +1,7 @@
 //! `labspec record`: our engine's numbers in the layout of a recording of MuJoCo, for the same states.
 
 use super::stdio::print_json;
-use super::{Failure, Outcome, interrupted, target};
+use super::{Failure, ModelOptions, Outcome, interrupted, target};
 use crate::report::{printable, printable_path};
 use crate::run::MAX_STEPS;
 use crate::source::read_text;
@@ -15,6 +15,8 @@ use std::path::PathBuf;
 pub(super) struct Arguments {
     /// MODEL.xml
     model: PathBuf,
+    #[command(flatten)]
+    models: ModelOptions,
     /// A recording whose states are used
     #[arg(long, value_name = "ORACLE.json")]
     states: PathBuf,
@@ -41,7 +43,7 @@ const MAX_NUMBERS: usize = 5_000_000;
 const STATE: [&str; 6] = ["qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_quat"];
 
 pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
-    let mut m = target::load_model(&a.model)?;
+    let mut m = target::load_model(&a.model, &a.models)?;
     let mut scratch = Data::new(&m);
     for option in &a.option {
         set_option(&mut m, &mut scratch, option)?;

@@ -2,9 +2,9 @@
 
 use super::{Failure, ModelOptions};
 use crate::bind::Programs;
-use crate::bind::scene::{Models, compile_file, finding};
+use crate::bind::scene::{Compiled, Models, compile_file};
 use crate::finding::{Finding, Severity};
-use crate::lint::ModelFolder;
+use crate::lint::{ModelFolder, lesson_folder, root_of};
 use crate::report::{self, printable};
 use crate::source::{SourceFile, SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson, load_lesson};
@@ -12,13 +12,41 @@ use labspec_core::Model;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The folder of models for a file.
+/// The folder of models for a file that was named itself.
 pub(super) fn model_folder(options: &ModelOptions, file: &Path) -> Result<ModelFolder, Failure> {
-    match &options.models {
-        Some(folder) => ModelFolder::open(folder).map_err(|e| {
-            format!("cannot read the model folder {}: {e}; state another one with --models", folder.display())
-        }),
-        None => Ok(ModelFolder::near(file)),
+    model_folder_within(options, file, &[])
+}
+
+/// The folder of models for a file; `named` are the files and folders that the user named.
+pub(super) fn model_folder_within(
+    options: &ModelOptions,
+    file: &Path,
+    named: &[PathBuf],
+) -> Result<ModelFolder, Failure> {
+    let Some(folder) = options.models.clone().or_else(|| ModelFolder::find_near(file)) else {
+        return Ok(ModelFolder::unknown());
+    };
+    let mut around: Vec<PathBuf> = named.iter().filter(|p| p.is_dir()).cloned().collect();
+    if options.models.is_none() {
+        around.push(lesson_folder(file));
+    }
+    let root = root(options, &folder, &around)?;
+    ModelFolder::below(&root, &folder).map_err(|e| {
+        format!("cannot read the model folder {}: {e}; state another one with --models", folder.display())
+    })
+}
+
+/// What the models of a folder may read: what `--root` says, else what the folders around them say.
+pub(super) fn root(options: &ModelOptions, models: &Path, named: &[PathBuf]) -> Result<PathBuf, Failure> {
+    let Some(root) = &options.root else { return Ok(root_of(models, named)) };
+    let real = root.canonicalize().map_err(|e| format!("cannot read the root {}: {e}", root.display()))?;
+    match models.canonicalize() {
+        Ok(models) if !models.starts_with(&real) => Err(format!(
+            "the models in {} do not lie in the root {}; name a folder that holds both with --root",
+            models.display(),
+            root.display()
+        )),
+        _ => Ok(real),
     }
 }
 
@@ -33,7 +61,7 @@ pub(super) struct Target {
 pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<Target, Failure> {
     let (path, address) = split(argument)?;
     if path.extension().is_some_and(|e| e == "xml") {
-        return bare_model(&path);
+        return bare_model(&path, options);
     }
     let file = SourceFile::read(&path)?;
     let folder = model_folder(options, &path)?;
@@ -108,46 +136,23 @@ fn choose<'l>(lesson: &'l Lesson, address: Option<&LabAddress>, argument: &str) 
 }
 
 /// A model alone, as a lab that shows nothing.
-fn bare_model(path: &Path) -> Result<Target, Failure> {
-    let model = Arc::new(load_model(path)?);
+fn bare_model(path: &Path, options: &ModelOptions) -> Result<Target, Failure> {
+    let model = Arc::new(load_model(path, options)?);
     let text = Text { value: String::new(), map: SourceMap::point(0) };
     let lab = Lab::of_model(text);
     let programs = Programs::compile(&lab, &model, &mut Vec::new());
     Ok(Target { lab, model, programs })
 }
 
-/// A model file on its own: the model, and everything that is wrong with it.
-pub(super) struct LoadedFile {
-    pub(super) model: Option<Model>,
-    pub(super) findings: Vec<Finding>,
-    pub(super) files: Vec<SourceFile>,
-}
-
-/// Compiles a model file and keeps what is wrong for a report.
-pub(super) fn load_model_file(path: &Path) -> LoadedFile {
-    let file = match SourceFile::read(path) {
-        Ok(file) => file,
-        Err(why) => {
-            let file = SourceFile::new(path.display().to_string(), "");
-            let findings = vec![finding("model-unreadable", 0..0, why).at(&file)];
-            return LoadedFile { model: None, findings, files: vec![file] };
-        }
-    };
-    match compile_file(&file, path) {
-        Ok(model) => LoadedFile { model: Some(model), findings: Vec::new(), files: vec![file] },
-        Err(broken) => LoadedFile { model: None, findings: broken.findings, files: broken.files },
-    }
-}
-
-/// Compiles a model file.
-pub(super) fn load_model(path: &Path) -> Result<Model, Failure> {
+/// Compiles a model file. Warnings are for `check`.
+pub(super) fn load_model(path: &Path, options: &ModelOptions) -> Result<Model, Failure> {
     let file = SourceFile::read(path)?;
-    compile_file(&file, path).map_err(|broken| {
-        let files: Vec<&SourceFile> = broken.files.iter().collect();
-        format!(
-            "the model {} does not load\n\n{}",
-            path.display(),
-            report::human(&broken.findings, &files, false).trim_end()
-        )
+    let root = root(options, &lesson_folder(path), &[])?;
+    let Compiled { model, mut findings, files } = compile_file(&file, path, &root);
+    findings.retain(|f| f.severity == Severity::Error);
+    model.ok_or_else(|| {
+        let files: Vec<&SourceFile> = files.iter().collect();
+        let list = report::human(&findings, &files, false);
+        format!("the model {} does not load\n\n{}", path.display(), list.trim_end())
     })
 }

@@ -7,6 +7,7 @@ mod models;
 pub mod rules;
 
 pub use models::ModelFolder;
+pub(crate) use models::{lesson_folder, root_of};
 
 use crate::finding::{Finding, Severity};
 use crate::spec::Lesson;

@@ -1,4 +1,4 @@
-//! The folder of models that lessons name. It is listed once; nothing outside it is ever opened.
+//! The folder of models that lessons name, and the root below which files may be opened. The folder is listed once.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, Default)]
 pub struct ModelFolder {
     /// `None` when models are only known by name, or not at all.
-    root: Option<PathBuf>,
+    folder: Option<PathBuf>,
+    /// What the models may read: nothing outside of it is ever opened.
+    root: PathBuf,
     /// Names without extension, sorted; `None` when nothing is known, so that nothing can be missing.
     names: Option<Vec<String>>,
 }
@@ -21,17 +23,27 @@ impl ModelFolder {
     pub fn with_names<S: Into<String>>(names: impl IntoIterator<Item = S>) -> ModelFolder {
         let mut names: Vec<String> = names.into_iter().map(Into::into).collect();
         names.sort();
-        ModelFolder { root: None, names: Some(names) }
+        ModelFolder { names: Some(names), ..ModelFolder::default() }
     }
 
-    /// Lists the `.xml` files of a folder. Links that lead out of it are left out.
+    /// Lists the `.xml` files of a folder, which is the root, too.
     ///
     /// # Errors
     /// The folder cannot be read.
     pub fn open(folder: &Path) -> std::io::Result<ModelFolder> {
-        let root = folder.canonicalize()?;
+        ModelFolder::below(folder, folder)
+    }
+
+    /// Lists the `.xml` files of a folder below a root. Links that lead out of the root are left out. A root that does
+    /// not hold the folder is no root: then the folder is.
+    ///
+    /// # Errors
+    /// The folder cannot be read.
+    pub fn below(root: &Path, folder: &Path) -> std::io::Result<ModelFolder> {
+        let folder = folder.canonicalize()?;
+        let root = root.canonicalize().ok().filter(|root| folder.starts_with(root)).unwrap_or(folder.clone());
         let mut names = Vec::new();
-        for entry in std::fs::read_dir(&root)? {
+        for entry in std::fs::read_dir(&folder)? {
             let path = entry?.path();
             let inside = path.canonicalize().is_ok_and(|real| real.starts_with(&root) && real.is_file());
             if inside
@@ -42,14 +54,26 @@ impl ModelFolder {
             }
         }
         names.sort();
-        Ok(ModelFolder { root: Some(root), names: Some(names) })
+        Ok(ModelFolder { folder: Some(folder), root, names: Some(names) })
     }
 
-    /// The folder `models` beside a lesson or above it, whichever is nearer; unknown when there is none.
+    /// The folder `models` beside a lesson or above it, whichever is nearer; unknown when there is none. The root is
+    /// what [`root_of`] finds.
     pub fn near(lesson: &Path) -> ModelFolder {
+        let open = |folder: PathBuf| ModelFolder::below(&root_of(&folder, &[lesson_folder(lesson)]), &folder);
+        ModelFolder::find_near(lesson).and_then(|folder| open(folder).ok()).unwrap_or_default()
+    }
+
+    /// The folder `models` beside a lesson or above it.
+    pub(crate) fn find_near(lesson: &Path) -> Option<PathBuf> {
         let absolute = lesson.canonicalize().unwrap_or_else(|_| lesson.to_path_buf());
         let mut folders = absolute.ancestors().skip(1).map(|folder| folder.join("models"));
-        folders.find(|f| f.is_dir()).and_then(|f| ModelFolder::open(&f).ok()).unwrap_or_default()
+        folders.find(|f| f.is_dir())
+    }
+
+    /// The root: what the models may read lies below it. Empty when no folder is known.
+    pub fn root(&self) -> &Path {
+        &self.root
     }
 
     /// The names, sorted; `None` when no folder is known.
@@ -62,9 +86,41 @@ impl ModelFolder {
         let names = self.names.as_ref()?;
         // Only what was listed is opened: no separators, no `..`, no absolute paths can get here.
         let found = names.iter().find(|n| *n == name)?;
-        Some(self.root.as_ref()?.join(format!("{found}.xml")))
+        Some(self.folder.as_ref()?.join(format!("{found}.xml")))
     }
 }
+
+/// The folder that a file lies in.
+pub(crate) fn lesson_folder(file: &Path) -> PathBuf {
+    let absolute = file.canonicalize().unwrap_or_else(|_| file.to_path_buf());
+    absolute.parent().unwrap_or(Path::new("")).to_path_buf()
+}
+
+/// The file that marks the root of a course.
+pub(crate) const ROOT_FILE: &str = "labspec.toml";
+
+/// The root for models of a folder: the nearest folder around them that holds `labspec.toml`; else the nearest that is a
+/// repository (`.git`) or into which packages are unpacked (`*.dist-info`); else the widest of the folders that the user
+/// named, where the models lie in it; else the models' own folder.
+pub(crate) fn root_of(models: &Path, named: &[PathBuf]) -> PathBuf {
+    let real = models.canonicalize().unwrap_or_else(|_| models.to_path_buf());
+    let marked = real.ancestors().find(|folder| folder.join(ROOT_FILE).is_file());
+    let project = || real.ancestors().find(|folder| folder.join(".git").exists() || holds_packages(folder));
+    if let Some(found) = marked.or_else(project) {
+        return found.to_path_buf();
+    }
+    let around = named.iter().filter_map(|folder| folder.canonicalize().ok()).filter(|f| real.starts_with(f));
+    around.min_by_key(|f| f.components().count()).unwrap_or(real)
+}
+
+/// Whether packages are unpacked in a folder, as a Python environment has them: models come with their meshes there.
+fn holds_packages(folder: &Path) -> bool {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.take(MOST_ENTRIES).any(|entry| entry.path().extension().is_some_and(|e| e == "dist-info"))
+}
+
+/// More entries of a folder are not looked at.
+const MOST_ENTRIES: usize = 100_000;
 
 #[cfg(test)]
 mod tests {
@@ -88,5 +144,42 @@ mod tests {
         }
         let near = ModelFolder::near(&outside.path().join("lesson.md"));
         assert_eq!(near.names().unwrap(), ["ball"]);
+    }
+
+    #[test]
+    fn the_root_is_what_the_user_named() {
+        let outer = tempfile::tempdir().unwrap();
+        let top = outer.path().canonicalize().unwrap();
+        let models = top.join("course/week/models");
+        std::fs::create_dir_all(&models).unwrap();
+        // Nothing is known: the models' own folder, or the folder that was named and holds it.
+        assert_eq!(root_of(&models, &[]), models);
+        assert_eq!(
+            root_of(&models, &[top.join("course/week"), top.join("elsewhere")]),
+            top.join("course/week")
+        );
+        assert_eq!(root_of(&models, &[top.join("course"), top.join("course/week")]), top.join("course"));
+        // A package that is unpacked, a repository; the file that says so wins wherever it is.
+        std::fs::create_dir(top.join("course/robot-1.0.dist-info")).unwrap();
+        assert_eq!(root_of(&models, &[]), top.join("course"));
+        std::fs::create_dir(top.join("course/week/.git")).unwrap();
+        assert_eq!(root_of(&models, &[]), top.join("course/week"));
+        std::fs::write(top.join("labspec.toml"), "").unwrap();
+        assert_eq!(root_of(&models, &[]), top);
+        assert_eq!(ModelFolder::near(&top.join("course/week/a.md")).root(), top);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_below_the_root_are_models() {
+        let outer = tempfile::tempdir().unwrap();
+        let top = outer.path().canonicalize().unwrap();
+        std::fs::create_dir_all(top.join("course/models")).unwrap();
+        std::fs::write(top.join("course/shared.xml"), "").unwrap();
+        std::fs::write(top.join("secret.xml"), "").unwrap();
+        std::os::unix::fs::symlink("../shared.xml", top.join("course/models/link.xml")).unwrap();
+        std::os::unix::fs::symlink("../../secret.xml", top.join("course/models/leak.xml")).unwrap();
+        let models = ModelFolder::below(&top.join("course"), &top.join("course/models")).unwrap();
+        assert_eq!(models.names().unwrap(), ["link"]);
     }
 }

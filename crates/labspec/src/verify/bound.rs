@@ -7,7 +7,7 @@ use crate::bind::scene::finding;
 use crate::bind::{ModelNames, Programs, Scope, functions, include, scalar, to_finding};
 use crate::finding::Finding;
 use crate::ledger::Evidence;
-use crate::run::{self, Breakdown, End, Numerics, Session};
+use crate::run::{self, Breakdown, Budget, End, Numerics, Session};
 use crate::source::Text;
 use crate::spec::{Lab, Run, Verify};
 use labspec_core::reflect::{self, FieldId, Object};
@@ -19,23 +19,13 @@ use std::collections::BTreeMap;
 /// Most steps of one run of a `verify` object.
 const MAX_VERIFY_STEPS: usize = 2_000_000;
 
-/// What the runs of all `verify` objects of a lesson may take together: a step counts one, and so does every measure that
-/// looks at it.
+/// The work that the runs of all `verify` objects of a lesson may do together.
 #[derive(Debug)]
 pub struct Allowance(Cell<u64>);
 
 impl Default for Allowance {
     fn default() -> Allowance {
-        Allowance(Cell::new(40_000_000))
-    }
-}
-
-impl Allowance {
-    /// Takes so much; `false` when there is not enough left.
-    fn take(&self, work: u64) -> bool {
-        let left = self.0.get().checked_sub(work);
-        self.0.set(left.unwrap_or(self.0.get()));
-        left.is_some()
+        Allowance(Cell::new(6_000_000_000))
     }
 }
 
@@ -247,7 +237,8 @@ impl<'a> BoundVerify<'a> {
             }
         }
         let key = self.lab.keyframe();
-        let mut session = Session::start(self.programs, self.model, key, &demand);
+        let budget = Budget { left: self.allowance.0.get() };
+        let mut session = Session::start_within(self.programs, self.model, key, &demand, budget);
         let place = run.spec.map_or(self.place.clone(), |r| r.name.span());
         let mut refuse_at = |place: std::ops::Range<usize>, e: run::RunError| {
             findings.push(finding(
@@ -289,13 +280,6 @@ impl<'a> BoundVerify<'a> {
             )));
             return None;
         }
-        let looks: usize = measures.iter().map(|m| 1 + m.program.aggregates().len()).sum();
-        if !self.allowance.take(count as u64 * (1 + looks as u64)) {
-            refuse(run::RunError(
-                "the runs of this lesson take too many steps and measures together; shorten them, or measure less".into(),
-            ));
-            return None;
-        }
         let mut running: Vec<Measure<'_>> =
             measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
         let mut pending = press.as_slice();
@@ -310,6 +294,7 @@ impl<'a> BoundVerify<'a> {
             }
             running.iter_mut().for_each(|m| m.sample(&mut session));
         }
+        self.allowance.0.set(budget.left.saturating_sub(session.spent()));
         let values = running.into_iter().map(|m| m.finish(&mut session)).collect();
         for t in &session.troubles {
             let span = t.text.span_of(t.span.clone());
@@ -325,7 +310,7 @@ impl<'a> BoundVerify<'a> {
             (None, None) => session.ended().map(|end| match end {
                 End::Threw => "an error froze it".to_string(),
                 End::Budget { time } => {
-                    format!("it takes more work than a run may and ends at t = {} s", run::time(*time))
+                    format!("the runs of this lesson take more work than a check may do, and this one ends at t = {} s", run::time(*time))
                 }
             }),
         };

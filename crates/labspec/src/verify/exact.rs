@@ -11,7 +11,7 @@ use crate::bind::{Bound, ModelNames, Programs, Scope, include, to_finding};
 use crate::finding::Finding;
 use crate::json::nearest;
 use crate::ledger::{Evidence, State};
-use crate::run::{self, Breakdown, Session};
+use crate::run::{self, Breakdown, Budget, End, Session};
 use crate::spec::{Exact, Lab};
 use labspec_core::{Model, integrator};
 use labspec_expr::Compiler;
@@ -224,7 +224,7 @@ impl Case<'_> {
     fn start(&self) -> Session<'_> {
         let mut demand = self.programs.demand;
         include(self.form.program.effects(), &mut demand);
-        Session::start(self.programs, self.model, self.lab.keyframe(), &demand)
+        Session::start_within(self.programs, self.model, self.lab.keyframe(), &demand, Budget::TRIAL)
     }
 
     /// The lab as it stands with its timestep in so many parts, sampled at the same times whatever the parts.
@@ -250,6 +250,9 @@ impl Case<'_> {
                 found.times.push(session.world.data.time);
                 found.values.push(pair);
             }
+        }
+        if let Some(End::Budget { time }) = session.ended() {
+            return Err(format!("the run takes more work than a check may do, and ends at t = {} s", run::time(*time)));
         }
         if let Some(trouble) = session.troubles.first() {
             return Err(trouble.message.clone());

@@ -227,8 +227,8 @@ impl Expander {
             let rename = Rename { prefix: "", suffix: &suffix, other_model: None };
             let quat = orientation::euler(euler.map(|x| f64::from(i) * x), &compiler);
             let attributes = vec![
-                written(&node, "pos", Value::Reals(pos.to_vec()))?,
-                written(&node, "quat", Value::Reals(quat.to_vec()))?,
+                written(&node, "pos", Value::Reals(pos.to_vec().into()))?,
+                written(&node, "quat", Value::Reals(quat.to_vec().into()))?,
             ];
             pos = add(pos, rotate(offset, quat));
 
@@ -577,10 +577,9 @@ fn members(nodes: &[Node], section: &str) -> Vec<usize> {
 /// About how many bytes an element takes.
 fn weight(node: &Node) -> usize {
     let value = |a: &Attribute| match &a.value {
-        Value::Reals(list) => 8 * list.len(),
-        Value::Ints(list) => 4 * list.len(),
         Value::Text(text) => text.len(),
-        Value::Word(_) | Value::Bad => 0,
+        // Lists of numbers are shared.
+        _ => 0,
     };
     128 + node.attributes.iter().map(|a| 80 + value(a)).sum::<usize>()
 }

@@ -166,10 +166,15 @@ impl Problem {
     }
 }
 
-/// Reads a mesh from the bytes of a file; the ending of its name says what it is.
-pub(crate) fn decode(path: &str, bytes: &[u8]) -> Result<Raw, Problem> {
+/// The kind of MuJoCo's own files.
+const MSH: &str = "model/vnd.mujoco.msh";
+
+/// Reads a mesh from the bytes of a file; the ending of its name says what it is. A `content_type` only decides whether
+/// it is MuJoCo's own format where the ending says nothing better, as in MuJoCo 3.14.0 (measured).
+pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Raw, Problem> {
     let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
-    match ending.as_str() {
+    let ending = if content_type == MSH { "msh" } else { ending.as_str() };
+    match ending {
         "stl" => stl::read(bytes),
         "obj" => obj::read(bytes),
         "msh" => msh::read(bytes),

@@ -154,7 +154,7 @@ pub(super) static SKIN: Element = Element::new(
     }],
 )
 .children(&[&BONE])
-.refused();
+.status(super::Status::Ignored("drawn only: physics does not know it"));
 static BONE: Element = Element::new(
     "bone",
     &[attributes! {
