@@ -12,6 +12,7 @@ mod format;
 mod hostile;
 mod javascript;
 mod labs;
+mod ledger;
 mod lessons;
 mod numbers;
 mod parity;
