@@ -40,12 +40,18 @@ impl Breakdown {
             let stat = session.warnings.get(*w as usize).filter(|stat| stat.number > 0)?;
             Some(Breakdown::by_warning(&session.world.model, *w, stat))
         };
-        let mut all: Vec<Breakdown> = STATE.iter().find_map(met).into_iter().collect();
-        if all.is_empty() {
-            all.extend(session.growth().map(|growth| Breakdown::by_growth(&session.world.model, growth)));
+        let mut state = STATE.iter().find_map(met);
+        if let Some(growth) = session.growth() {
+            let first = |w: &Warning| session.warnings.get(*w as usize).filter(|stat| stat.number > 0);
+            let warned = STATE.iter().find_map(first).map_or(f64::INFINITY, |stat| stat.first_time);
+            // What has grown for a while becomes no number in the end.
+            if growth.time < warned {
+                let grows = Breakdown::by_growth(&session.world.model, growth);
+                let then = state.map_or(String::new(), |s| format!("; in the end {}", s.what));
+                state = Some(Breakdown { what: grows.what + &then, ..grows });
+            }
         }
-        all.extend(OTHERS.iter().filter_map(met));
-        all
+        state.into_iter().chain(OTHERS.iter().filter_map(met)).collect()
     }
 
     /// A warning of the engine.

@@ -1,8 +1,8 @@
 //! One run that looks for what breaks.
 
 use super::super::Ready;
+use super::Trial;
 use super::seen::Seen;
-use super::{Trial, lab_place};
 use crate::bind::scene::finding;
 use crate::bind::warning;
 use crate::finding::Finding;
@@ -45,17 +45,16 @@ pub(super) fn make(
     budget: Budget,
     seen: &mut Seen<'_>,
     findings: &mut Vec<Finding>,
-) -> Result<Attempt, Finding> {
+) -> Result<Attempt, run::RunError> {
     let (lab, programs) = (ready.lab, &ready.programs);
     let mut session = Session::start_within(programs, &ready.model, lab.keyframe(), &programs.demand, budget);
-    let place = trial.control.map_or(lab_place(lab), |c| c.label.span());
-    let impossible = |e: run::RunError| finding("run-impossible", place.clone(), e.0);
-    run::set_controls(&mut session, ready.lab, programs, &trial.options.set).map_err(impossible)?;
-    let presses = run::presses(programs, &trial.options.press).map_err(impossible)?;
+    let place = trial.place(lab);
+    run::set_controls(&mut session, lab, programs, &trial.options.set)?;
+    let presses = run::presses(programs, &trial.options.press)?;
     let timestep = session.world.model.opt.timestep;
     // As long as plots show costs what it costs; what an author asks for has a limit.
     let until = lab.stop_at.is_none().then(|| wanted.min(timestep * (run::MAX_STEPS - 1) as f64));
-    let steps = run::count_steps(lab, until, None, timestep).map_err(impossible)?;
+    let steps = run::count_steps(lab, until, None, timestep)?;
 
     let mut pending = presses.as_slice();
     session.press_due(&mut pending);

@@ -5,6 +5,7 @@ mod attempt;
 mod seen;
 
 use super::{RanLab, Ready};
+use crate::bind::scene::finding;
 use crate::bind::warning;
 use crate::finding::Finding;
 use crate::run::{self, Budget, RunOptions};
@@ -48,6 +49,18 @@ struct Trial<'a> {
     control: Option<&'a Control>,
 }
 
+impl Trial<'_> {
+    /// Where to point.
+    fn place(&self, lab: &Lab) -> Range<usize> {
+        self.control.map_or(lab_place(lab), |c| c.label.span())
+    }
+}
+
+/// A run that cannot be made.
+fn impossible(place: Range<usize>, e: run::RunError) -> Finding {
+    finding("run-impossible", place, e.0)
+}
+
 /// A lab on its way through its runs.
 struct Tour<'a> {
     ready: &'a Ready<'a>,
@@ -83,7 +96,7 @@ pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<
         let before = share;
         go_on(tour, &mut share, found);
         left -= before - share;
-        found.extend(tour.seen.never(tour.tried.as_ref().is_some_and(|t| t.skipped == 0)));
+        found.extend(tour.seen.never(tour.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none())));
     }
     for ((_, lab, tour), mut found) in tours.iter().zip(found) {
         let runs = tour.as_ref().and_then(|t| t.tried.as_ref()).map_or(0, |t| t.runs);
@@ -135,8 +148,8 @@ fn begin<'a>(ready: &'a Ready<'a>, budget: Budget, left: &mut u64, findings: &mu
                 Some(Tried { runs: 0, wanted, covered: wanted, skipped: 0, broke: false, ended: None });
             count(&mut tour, &attempt);
         }
-        Err(finding) => {
-            findings.push(finding);
+        Err(e) => {
+            findings.push(impossible(first.place(ready.lab), e));
             tour.hopeless = true;
         }
     }
@@ -165,7 +178,7 @@ fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
                 *left = left.saturating_sub(attempt.spent);
                 count(tour, &attempt);
             }
-            Err(finding) => findings.push(finding),
+            Err(e) => findings.push(impossible(trial.place(tour.ready.lab), e)),
         }
     }
 }
@@ -238,7 +251,7 @@ fn too_stiff(model: &Model, place: Range<usize>, covered: f64) -> Option<Finding
     Some(
         warning("stiff-for-timestep", place, format!("{owner} is {how} for its timestep"))
             .why(format!(
-                "the {} s that were run are well, but once it is pushed, every step pushes back farther than the last one missed: it swings ever wider, without a word from MuJoCo until a number is beyond 1e10",
+                "nothing goes wrong in the {} s that were run, but once it is pushed, every step pushes back farther than the last one missed: it swings ever wider, without a word from MuJoCo until a number is beyond 1e10",
                 seconds(covered)
             ))
             .help(run::remedy(model, &worst)),
