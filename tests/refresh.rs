@@ -14,7 +14,7 @@ use labspec_core::{Data, forward, set_const, state};
 use serde_json::{Value as Json, json};
 
 /// An arm of two links whose fore end rests on a floor, posed by a keyframe away from qpos0.
-const ARM: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='2 2 1'/>
+const ARM: &str = "<mujoco><compiler angle='radian'/><worldbody><geom name='floor' type='plane' size='2 2 1'/>
   <body name='upper' pos='0 0 0.5'><joint name='a' axis='0 1 0' damping='1'/><geom type='capsule' fromto='0 0 0 0.4 0 0' size='0.03' mass='1'/>
   <body name='fore' pos='0.4 0 0'><joint name='b' axis='0 1 0' damping='1' range='-1 1' limited='true'/><geom type='capsule' fromto='0 0 0 0.4 0 0' size='0.03' mass='1'/>
   </body></body></worldbody><keyframe><key qpos='0.5 0.3'/></keyframe></mujoco>";
