@@ -69,9 +69,7 @@ pub fn written(lab: &Lab, label: &str, text: &str) -> Value {
         other => other.parse::<f64>().map_or_else(|_| Value::from(other), Value::Number),
     };
     match lab.control(label).map(|c| &c.kind) {
-        Some(ControlKind::Select { options, .. })
-            if !options.iter().any(|o| same(&given_by(o), &plain)) =>
-        {
+        Some(ControlKind::Select { options, .. }) if !options.iter().any(|o| same(&given_by(o), &plain)) => {
             Value::from(text)
         }
         _ => plain,
