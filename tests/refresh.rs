@@ -14,7 +14,7 @@ use labspec_core::{Data, forward, set_const, state};
 use serde_json::{Value as Json, json};
 
 /// An arm of two links whose fore end rests on a floor, posed by a keyframe away from qpos0.
-const ARM: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='2 2 1'/>
+const ARM: &str = "<mujoco><compiler angle='radian'/><worldbody><geom name='floor' type='plane' size='2 2 1'/>
   <body name='upper' pos='0 0 0.5'><joint name='a' axis='0 1 0' damping='1'/><geom type='capsule' fromto='0 0 0 0.4 0 0' size='0.03' mass='1'/>
   <body name='fore' pos='0.4 0 0'><joint name='b' axis='0 1 0' damping='1' range='-1 1' limited='true'/><geom type='capsule' fromto='0 0 0 0.4 0 0' size='0.03' mass='1'/>
   </body></body></worldbody><keyframe><key qpos='0.5 0.3'/></keyframe></mujoco>";
@@ -144,8 +144,20 @@ fn the_setup_of_a_verified_run_is_held_to_the_same() {
     let finding = only(&lab);
     assert!(finding.why.unwrap().contains("in the run `heavy`, "), "{:?}", finding.help);
     fixed(&lab);
-    // A mass that nothing touches.
-    lab["verify"]["runs"]["heavy"] = json!({"setup": "model.body_mass[2] = 5", "until": 0.1});
+    // Beside the run that does it right, the difference is what is shown.
+    let right = "model.body_mass[2] = 5; mj.mj_setConst(model, data)";
+    lab["verify"]["runs"] = json!({
+        "right": {"setup": right, "until": 1}, "forgotten": {"setup": "model.body_mass[2] = 5", "until": 1}
+    });
+    assert_eq!(found(&lab), []);
+    lab["verify"]["runs"]["right"]["setup"] = json!(right.replace('5', "4"));
+    only(&lab);
+    // Nothing is read that follows from this one.
+    lab["verify"]["runs"] = json!({});
+    lab["xml"] = json!(PENDULUM);
+    lab["readouts"] = json!([]);
+    lab["verify"]["runs"]["heavy"] = json!({"setup": "model.dof_armature[0] = 5", "until": 1});
+    lab["verify"]["measure"] = json!({"q": "final(data.qpos[0])"});
     assert_eq!(found(&lab), []);
 }
 

@@ -70,9 +70,7 @@ pub fn written(lab: &Lab, label: &str, text: &str) -> Value {
         other => other.parse::<f64>().map_or_else(|_| Value::from(other), Value::Number),
     };
     match lab.control(label).map(|c| &c.kind) {
-        Some(ControlKind::Select { options, .. })
-            if !options.iter().any(|o| same(&o.value_given(), &plain)) =>
-        {
+        Some(ControlKind::Select { options, .. }) if !options.iter().any(|o| same(&given_by(o), &plain)) => {
             Value::from(text)
         }
         _ => plain,
@@ -128,19 +126,19 @@ pub fn presses_within(
 }
 
 fn option(label: &str, options: &[Choice], given: &Value) -> Result<Value, RunError> {
-    let values = options.iter().map(Choice::value_given);
+    let values = options.iter().map(given_by);
     if let Some(value) = values.into_iter().find(|v| same(v, given)) {
         return Ok(value);
     }
     if let Value::String(text) = given
         && let Some(choice) = options.iter().find(|o| o.text.value.as_str() == &**text)
     {
-        return Ok(choice.value_given());
+        return Ok(given_by(choice));
     }
     let mut list: Vec<String> = options
         .iter()
         .take(MOST_LISTED)
-        .map(|o| format!("{} (\"{}\")", shown(&o.value_given()), o.text.value))
+        .map(|o| format!("{} (\"{}\")", shown(&given_by(o)), o.text.value))
         .collect();
     if options.len() > MOST_LISTED {
         list.push(format!("and {} more", options.len() - MOST_LISTED));
@@ -152,11 +150,9 @@ fn option(label: &str, options: &[Choice], given: &Value) -> Result<Value, RunEr
     )))
 }
 
-impl Choice {
-    /// The value that it gives.
-    fn value_given(&self) -> Value {
-        scalar(&self.value)
-    }
+/// The value that an option gives.
+fn given_by(choice: &Choice) -> Value {
+    scalar(&choice.value)
 }
 
 /// The values of a slider: `min`, then step after step, and `max`.

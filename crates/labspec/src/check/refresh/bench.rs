@@ -6,7 +6,7 @@ use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include};
 use crate::check::programs::choices;
 use crate::run::{self, Breakdown, Cell, Session, settings};
 use crate::source::Text;
-use crate::spec::{ControlKind, Lab, Run};
+use crate::spec::{ControlKind, Lab, Run, Verify};
 use labspec_core::reflect::FieldSet;
 use labspec_core::{Demand, Model};
 use labspec_expr::{Compiler, Type, Value};
@@ -146,9 +146,21 @@ impl<'a> Bench<'a> {
             Place::Run(_) => Some(amended.map_or(s.bound, |a| &a.bound)),
             _ => None,
         };
+        let whole = matches!(s.place, Place::Run(_)) || programs.probes.is_empty();
+        self.perform(programs, setup, whole, trial, steps)
+    }
+
+    /// Makes a run with these programs; `whole` samples all coordinates too.
+    fn perform(
+        &mut self,
+        programs: &Programs,
+        setup: Option<&Bound>,
+        whole: bool,
+        trial: &Trial,
+        steps: usize,
+    ) -> Record {
         let mut demand = programs.demand;
         setup.into_iter().for_each(|b| include(b.program.effects(), &mut demand));
-        let whole = matches!(s.place, Place::Run(_)) || programs.probes.is_empty();
         let mut session = Session::start(programs, self.model, self.lab.keyframe(), &demand);
         let sets = |m: &Move| matches!(m, Move::Set(..));
         let width = 1 + programs.probes.len() + if whole { self.model.nq } else { 0 };
@@ -184,6 +196,24 @@ impl<'a> Bench<'a> {
             Some(broken) => Err(format!("the simulation breaks: {}", broken.what)),
             None => Ok(rows),
         }
+    }
+
+    /// Whether another run of the same object is what this one would be with its constants computed anew: then the
+    /// author shows the difference on purpose.
+    pub(super) fn contrasted(&mut self, s: &Suspect<'_>, verify: &Verify) -> bool {
+        let (Place::Run(own), Some(refreshed)) = (s.place, self.amended(s, Advice::Keep)) else {
+            return false;
+        };
+        let Ok(steps) = self.steps(s) else { return false };
+        let trial = self.as_asked(own);
+        let Ok(anew) = self.record(s, Some(&refreshed), &trial, steps) else { return false };
+        verify.runs.iter().filter(|run| run.name != own.name).any(|run| {
+            let setup = run.setup.as_ref().map(|text| self.compile(text, &text.value, None));
+            let Some(setup) = setup.map_or(Some(None), |bound| bound.map(Some)) else { return false };
+            let trial = self.as_asked(run);
+            let other = self.perform(self.programs, setup.as_ref(), true, &trial, steps);
+            other.is_ok_and(|other| self.columns().difference(&anew, &other).is_none())
+        })
     }
 
     /// The lab with what is advised behind the statements.

@@ -105,9 +105,8 @@ pub(super) fn check_runs(
     let mut bench = Bench::new(lab, model, programs);
     for run in &verify.runs {
         let bound = run.setup.as_ref().and_then(|text| bench.compile(text, &text.value, None));
-        let found =
-            bound.and_then(|b| suspect(Place::Run(run), &b, false, None).and_then(|s| bench.judge(&s)));
-        findings.extend(found);
+        let Some(s) = bound.as_ref().and_then(|b| suspect(Place::Run(run), b, false, None)) else { continue };
+        findings.extend(bench.judge(&s).filter(|_| !bench.contrasted(&s, verify)));
     }
 }
 
