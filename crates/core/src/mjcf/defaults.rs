@@ -23,6 +23,9 @@ pub(crate) const ALTERNATIVES: [&str; 4] = ["euler", "axisangle", "xyaxes", "zax
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Props {
     values: BTreeMap<&'static str, (Value, Range<usize>)>,
+    /// The elements that these are the attributes of.
+    #[cfg(test)]
+    elements: Vec<&'static super::schema::Element>,
 }
 
 impl Props {
@@ -40,6 +43,8 @@ impl Props {
 
     /// The same, as long as there is room for lists that are partly the element's own.
     fn overlay_within(&mut self, node: &Node, room: &Room) {
+        #[cfg(test)]
+        self.elements.push(node.element);
         let own = |a: &&Attribute| matches!(a.attr.kind, Kind::Name(_) | Kind::Class);
         for a in node.attributes.iter().filter(|a| !own(a)) {
             if ALTERNATIVES.contains(&a.attr.name) {
@@ -56,9 +61,16 @@ impl Props {
         }
     }
 
+    /// The value of an attribute.
+    fn get(&self, name: &str) -> Option<&Value> {
+        #[cfg(test)]
+        self.elements.iter().for_each(|element| super::seen::note(element, name));
+        self.values.get(name).map(|(value, _)| value)
+    }
+
     /// Whether the attribute is there, right or wrong.
     pub(crate) fn has(&self, name: &str) -> bool {
-        self.values.contains_key(name)
+        self.get(name).is_some()
     }
 
     /// Bytes of the attribute's value, in the element or in a class.
@@ -68,8 +80,8 @@ impl Props {
 
     /// Numbers of a list: as many as are given.
     pub(crate) fn list(&self, name: &str) -> Option<&[f64]> {
-        match self.values.get(name) {
-            Some((Value::Reals(list), _)) => Some(list.as_slice()),
+        match self.get(name) {
+            Some(Value::Reals(list)) => Some(list.as_slice()),
             _ => None,
         }
     }
@@ -95,32 +107,32 @@ impl Props {
 
     /// The numbers of a list, shared with all that has the same.
     pub(crate) fn shared(&self, name: &str) -> Rc<Vec<f64>> {
-        match self.values.get(name) {
-            Some((Value::Reals(list), _)) => list.clone(),
+        match self.get(name) {
+            Some(Value::Reals(list)) => list.clone(),
             _ => Rc::default(),
         }
     }
 
     /// Integers.
     pub(crate) fn ints(&self, name: &str) -> Option<&[i32]> {
-        match self.values.get(name) {
-            Some((Value::Ints(list), _)) => Some(list.as_slice()),
+        match self.get(name) {
+            Some(Value::Ints(list)) => Some(list.as_slice()),
             _ => None,
         }
     }
 
     /// MuJoCo's number of a keyword.
     pub(crate) fn word(&self, name: &str) -> Option<i32> {
-        match self.values.get(name) {
-            Some((Value::Word(n), _)) => Some(*n),
+        match self.get(name) {
+            Some(Value::Word(n)) => Some(*n),
             _ => None,
         }
     }
 
     /// A text, `None` when it is absent or empty.
     pub(crate) fn text(&self, name: &str) -> Option<&str> {
-        match self.values.get(name) {
-            Some((Value::Text(text), _)) if !text.is_empty() => Some(text),
+        match self.get(name) {
+            Some(Value::Text(text)) if !text.is_empty() => Some(text),
             _ => None,
         }
     }

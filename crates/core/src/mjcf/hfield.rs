@@ -175,6 +175,12 @@ fn picture(bytes: &[u8]) -> Result<Samples, Problem> {
 
 /// MuJoCo's own file: numbers of rows and columns, then the elevations in single precision, from the smallest y.
 fn own(bytes: &[u8]) -> Result<Samples, Problem> {
+    if bytes.starts_with(b"\x89PNG") {
+        return Err(Problem::file(
+            "has a PNG picture as its file, and nothing says so",
+            "let the name end in .png, or write `content_type=\"image/png\"`",
+        ));
+    }
     let mut numbers = Bytes(bytes);
     let Some([nrow, ncol]) = numbers.ints() else {
         return Err(Problem::file(

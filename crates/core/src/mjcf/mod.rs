@@ -28,6 +28,7 @@ mod limits;
 mod load;
 mod mesh;
 mod names;
+mod nearest;
 mod orientation;
 mod read_actuator;
 mod read_asset;
@@ -44,6 +45,8 @@ mod read_tendon;
 mod reshape;
 mod scan;
 mod schema;
+#[cfg(test)]
+mod seen;
 mod settings;
 mod shapes;
 mod shortcut;

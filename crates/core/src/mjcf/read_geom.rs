@@ -102,7 +102,7 @@ pub(crate) fn fromto(
     let owner = node.shown();
     let problem = if length.is_none() {
         format!("{owner} has `fromto`, but a {shape} has no length")
-    } else if p.has("pos") {
+    } else if p.reals("pos", [0.0; 3]) != [0.0; 3] {
         format!("{owner} has both `pos` and `fromto`")
     } else if distance < MINVAL || !distance.is_finite() {
         format!("the two points of `fromto` of {owner} are the same")

@@ -1,5 +1,5 @@
 //! What happens to a text before it reaches the XML parser: limits hold (size, nesting, elements, attributes), and text
-//! between elements is passed over with a warning.
+//! between elements is passed over with a warning, as is a blank that is missing between two attributes.
 //!
 //! The scan understands just enough of XML to count tags. A text that is not well-formed passes it and is
 //! explained by the parser.
@@ -17,20 +17,65 @@ pub(crate) struct Counts {
     attributes: usize,
 }
 
+/// A text that the XML parser can read.
+#[derive(Debug)]
+pub(crate) struct Prepared<'t> {
+    pub(crate) text: Cow<'t, str>,
+    /// Bytes of the text as it is written in front of which a blank was put.
+    inserted: Vec<usize>,
+}
+
+impl Prepared<'_> {
+    /// Where a byte stands in the text as it is written.
+    pub(crate) fn written(&self, byte: usize) -> usize {
+        if self.inserted.is_empty() {
+            return byte;
+        }
+        // The nth blank stands n bytes behind the place that it was put at.
+        let (mut low, mut high) = (0, self.inserted.len());
+        while low < high {
+            let n = (low + high) / 2;
+            if self.inserted.get(n).is_some_and(|at| at + n < byte) { low = n + 1 } else { high = n }
+        }
+        byte - low
+    }
+}
+
+/// What is changed in a text before it is parsed.
+#[derive(Debug, Default)]
+struct Changes {
+    /// Text that becomes blank.
+    blanks: Vec<Range<usize>>,
+    /// Where a blank is missing.
+    inserted: Vec<usize>,
+}
+
 /// Checks the limits of a text whose spans begin at `base`; returns the text with blanks in the place of what stands
-/// between elements and means nothing, as in MuJoCo 3.14.0 (measured: `golden/texts.py`). `None` after reporting the
-/// first limit that is exceeded.
+/// between elements and means nothing, and between attributes, as MuJoCo 3.14.0 reads them (measured: `golden/cases.py`).
+/// `None` after reporting the first limit that is exceeded.
 pub(crate) fn prepare<'t>(
     text: &'t str,
     base: usize,
     counts: &mut Counts,
     report: &mut Report,
-) -> Option<Cow<'t, str>> {
-    let mut blanks = Vec::new();
-    if !within_limits(text, base, counts, &mut blanks, report) {
+) -> Option<Prepared<'t>> {
+    let mut changes = Changes::default();
+    if !within_limits(text, base, counts, &mut changes, report) {
         return None;
     }
-    Some(if blanks.is_empty() { Cow::Borrowed(text) } else { Cow::Owned(blanked(text, &blanks)) })
+    let Changes { blanks, inserted } = changes;
+    let mut text = if blanks.is_empty() { Cow::Borrowed(text) } else { Cow::Owned(blanked(text, &blanks)) };
+    if !inserted.is_empty() {
+        let (mut out, mut at) = (String::with_capacity(text.len() + inserted.len()), 0);
+        for &place in &inserted {
+            out.push_str(text.get(at..place).unwrap_or(""));
+            out.push(' ');
+            at = place;
+        }
+        out.push_str(text.get(at..).unwrap_or(""));
+        text = Cow::Owned(out);
+    }
+    Some(Prepared { text, inserted })
 }
 
 /// The text with blanks in these places, which begin and end with characters; lines stay lines.
@@ -47,13 +92,7 @@ fn blanked(text: &str, places: &[Range<usize>]) -> String {
 }
 
 /// Passes over the text of a range, with a warning when it is not blank.
-fn pass_over(
-    text: &str,
-    range: Range<usize>,
-    base: usize,
-    blanks: &mut Vec<Range<usize>>,
-    report: &mut Report,
-) {
+fn pass_over(text: &str, range: Range<usize>, base: usize, changes: &mut Changes, report: &mut Report) {
     let Some(between) = text.get(range.clone()) else { return };
     // A byte order mark may begin a text.
     let between = between.strip_prefix('\u{feff}').filter(|_| range.start == 0).unwrap_or(between);
@@ -62,7 +101,7 @@ fn pass_over(
     if first.is_empty() {
         return;
     }
-    blanks.push(start..range.end);
+    changes.blanks.push(start..range.end);
     report
         .warning(
             code::TEXT,
@@ -73,12 +112,12 @@ fn pass_over(
         .help("begin a tag with `<`; write a remark as a comment, <!-- … -->; remove the rest");
 }
 
-/// Whether the limits hold. Text between elements is added to `blanks`.
+/// Whether the limits hold. What must change is added to `changes`.
 fn within_limits(
     text: &str,
     base: usize,
     counts: &mut Counts,
-    blanks: &mut Vec<Range<usize>>,
+    changes: &mut Changes,
     report: &mut Report,
 ) -> bool {
     let size = report.bytes();
@@ -92,7 +131,7 @@ fn within_limits(
     while let Some(open) = find(bytes, at, b"<") {
         // After the root element no text may stand, in MuJoCo either: the parser says so.
         if !ended {
-            pass_over(text, at..open, base, blanks, report);
+            pass_over(text, at..open, base, changes, report);
         }
         let rest = bytes.get(open..).unwrap_or_default();
         at = if rest.starts_with(b"<!--") {
@@ -100,7 +139,7 @@ fn within_limits(
         } else if rest.starts_with(b"<![CDATA[") {
             let end = after(bytes, open + 9, b"]]>");
             if depth > 0 {
-                pass_over(text, open..end, base, blanks, report);
+                pass_over(text, open..end, base, changes, report);
             }
             end
         } else if rest.starts_with(b"<?") {
@@ -122,6 +161,12 @@ fn within_limits(
         } else {
             let tag = tag(bytes, open + 1);
             counts.elements += 1;
+            for &at in &tag.joined {
+                report
+                    .warning(code::TEXT, base + at..base + at, "a blank is missing between two attributes")
+                    .help("put a space here");
+            }
+            changes.inserted.extend(&tag.joined);
             counts.attributes += tag.attributes;
             let name = base + open..base + open + 1;
             if tag.attributes > MAX_ATTRIBUTES {
@@ -173,19 +218,27 @@ struct Tag {
     closed: bool,
     /// Where a namespace is declared.
     namespace: Option<usize>,
+    /// Where an attribute begins right behind the quotes of another.
+    joined: Vec<usize>,
 }
 
 /// A start tag from its name on: to the `>` outside of quotes.
 fn tag(bytes: &[u8], start: usize) -> Tag {
     let (mut quote, mut attributes, mut last, mut namespace) = (None, 0, b'<', None);
+    let mut joined = Vec::new();
     for (i, &b) in bytes.iter().enumerate().skip(start) {
         match quote {
-            Some(q) if b == q => quote = None,
+            Some(q) if b == q => {
+                quote = None;
+                if begins_attribute(bytes.get(i + 1..).unwrap_or_default()) {
+                    joined.push(i + 1);
+                }
+            }
             Some(_) => {}
             None => match b {
                 b'"' | b'\'' => quote = Some(b),
                 b'=' => attributes += 1,
-                b'>' => return Tag { end: i + 1, attributes, closed: last == b'/', namespace },
+                b'>' => return Tag { end: i + 1, attributes, closed: last == b'/', namespace, joined },
                 b'x' if last.is_ascii_whitespace()
                     && bytes.get(i..).is_some_and(|b| b.starts_with(b"xmlns")) =>
                 {
@@ -196,7 +249,16 @@ fn tag(bytes: &[u8], start: usize) -> Tag {
         }
         last = b;
     }
-    Tag { end: bytes.len(), attributes, closed: true, namespace }
+    Tag { end: bytes.len(), attributes, closed: true, namespace, joined }
+}
+
+/// Whether a name, an equals sign and a quote stand here.
+fn begins_attribute(bytes: &[u8]) -> bool {
+    let name = bytes.iter().take_while(|b| b.is_ascii_alphanumeric() || **b == b'_').count();
+    let mut rest = bytes.iter().skip(name).filter(|b| !b.is_ascii_whitespace());
+    bytes.first().is_some_and(u8::is_ascii_alphabetic)
+        && rest.next() == Some(&b'=')
+        && rest.next().is_some_and(|b| matches!(b, b'"' | b'\''))
 }
 
 fn find(bytes: &[u8], from: usize, what: &[u8]) -> Option<usize> {
@@ -244,8 +306,22 @@ mod tests {
             let mut report = Report::new();
             let base = report.source(None, text.into());
             let blanked = prepare(text, base, &mut Counts::default(), &mut report).unwrap();
-            assert_eq!(blanked, expected);
+            assert_eq!(blanked.text, expected);
             assert!(report.is_clean());
         }
+    }
+
+    #[test]
+    fn blanks_between_attributes_move_no_place() {
+        let text = "<a b='1'c=\"2\"d ='3'>x<e f='1'2'/></a>";
+        let mut report = Report::new();
+        let base = report.source(None, text.into());
+        let prepared = prepare(text, base, &mut Counts::default(), &mut report).unwrap();
+        assert_eq!(prepared.text, "<a b='1' c=\"2\" d ='3'> <e f='1'2'/></a>");
+        for (byte, c) in prepared.text.char_indices().filter(|(_, c)| !c.is_whitespace()) {
+            let written = prepared.written(byte);
+            assert_eq!(text.get(written..).and_then(|rest| rest.chars().next()), Some(c), "{byte} {written}");
+        }
+        assert_eq!(report.finish().len(), 3);
     }
 }

@@ -241,19 +241,21 @@ pub struct SchemaRow {
 /// may hold itself (`body`, `default`, `frame`) is listed once.
 pub fn schema_rows() -> Vec<SchemaRow> {
     let mut rows = Vec::new();
-    let mut stack = vec![(String::new(), &ROOT)];
-    while let Some((parent, element)) = stack.pop() {
+    let mut stack = vec![(String::new(), &ROOT, false)];
+    while let Some((parent, element, refused)) = stack.pop() {
+        // What stands in something refused is refused with it.
+        let element_status = if refused { Status::Unsupported } else { element.status };
         let path =
             if parent.is_empty() { element.name.to_string() } else { format!("{parent}/{}", element.name) };
-        rows.push(SchemaRow { path: path.clone(), attribute: None, status: element.status });
+        rows.push(SchemaRow { path: path.clone(), attribute: None, status: element_status });
         rows.extend(element.attributes().map(|a| SchemaRow {
             path: path.clone(),
             attribute: Some(a),
-            status: if element.status == Status::Supported { a.status } else { element.status },
+            status: if element_status == Status::Supported { a.status } else { element_status },
         }));
         for child in element.children.iter().rev() {
             if !path.split('/').any(|name| name == child.name) {
-                stack.push((path.clone(), child));
+                stack.push((path.clone(), child, element_status == Status::Unsupported));
             }
         }
     }

@@ -3,7 +3,9 @@
 mod assets;
 mod golden;
 mod hostile;
+mod measured;
 mod mistakes;
+mod supported;
 
 /// A model with this in its world.
 pub(crate) fn world(inside: &str) -> String {

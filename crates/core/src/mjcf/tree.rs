@@ -35,6 +35,8 @@ pub(crate) struct Node {
 impl Node {
     /// The attribute of this name.
     pub(crate) fn attribute(&self, name: &str) -> Option<&Attribute> {
+        #[cfg(test)]
+        super::seen::note(self.element, name);
         self.attributes.iter().find(|a| a.attr.name == name)
     }
 

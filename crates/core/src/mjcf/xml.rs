@@ -8,6 +8,7 @@ use std::ops::Range;
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
 use super::diagnostic::{Report, code, shown};
+use super::scan::Prepared;
 
 /// An attribute as it is written.
 #[derive(Debug)]
@@ -41,14 +42,20 @@ impl Element {
     }
 }
 
-/// Adds the elements of a text, whose spans begin at `base`, to a list; returns the place of the root. `None` after
+/// Adds the elements of a text, whose spans as it is written begin at `base`, to a list; returns the place of the root. `None` after
 /// reporting that the text is not XML.
-pub(crate) fn parse(text: &str, base: usize, list: &mut Vec<Element>, report: &mut Report) -> Option<usize> {
+pub(crate) fn parse(
+    prepared: &Prepared,
+    base: usize,
+    list: &mut Vec<Element>,
+    report: &mut Report,
+) -> Option<usize> {
+    let text = &*prepared.text;
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
     let document = match Document::parse_with_options(text, options) {
         Ok(document) => document,
         Err(error) => {
-            explain(text, base, &error, report);
+            explain(prepared, base, &error, report);
             return None;
         }
     };
@@ -59,17 +66,18 @@ pub(crate) fn parse(text: &str, base: usize, list: &mut Vec<Element>, report: &m
         if let Some(parent) = parent.and_then(|p: usize| list.get_mut(p)) {
             parent.children.push(at);
         }
-        list.push(element(text, base, &xml));
+        list.push(element(prepared, base, &xml));
         let below: Vec<_> = xml.children().filter(Node::is_element).map(|x| (x, Some(at))).collect();
         stack.extend(below.into_iter().rev());
     }
     Some(root)
 }
 
-fn element(text: &str, base: usize, xml: &Node) -> Element {
-    let shifted = |span: Range<usize>| base + span.start..base + span.end;
+fn element(prepared: &Prepared, base: usize, xml: &Node) -> Element {
+    let text = &*prepared.text;
+    let shifted = |span: Range<usize>| base + prepared.written(span.start)..base + prepared.written(span.end);
     let name = xml.tag_name();
-    let start = base + xml.range().start + 1;
+    let start = base + prepared.written(xml.range().start + 1);
     let attribute = |a: roxmltree::Attribute| Attribute {
         name: a.name().to_string(),
         value: a.value().to_string(),
@@ -88,7 +96,8 @@ fn element(text: &str, base: usize, xml: &Node) -> Element {
 }
 
 /// A syntax error of the XML in plain words.
-fn explain(text: &str, base: usize, error: &Error, report: &mut Report) {
+fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Report) {
+    let text = &*prepared.text;
     let at = match error {
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream | Error::NoRootNode => text.len(),
         _ => offset(text, error.pos().row, error.pos().col),
@@ -133,6 +142,7 @@ fn explain(text: &str, base: usize, error: &Error, report: &mut Report) {
             (format!("not well-formed XML: {words}"), "compare this tag with a working one".into())
         }
     };
+    let (at, end) = (prepared.written(at), prepared.written(end));
     report.error(code::XML, base + at..base + end, message).help(help);
 }
 

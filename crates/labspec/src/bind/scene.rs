@@ -211,3 +211,76 @@ pub fn from_mjcf(d: &MjcfDiagnostic, span: std::ops::Range<usize>) -> Finding {
     };
     Finding { severity, why: d.why.clone(), help, ..finding(d.code, span, d.message.clone()) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+    fn model(mesh: &str) -> String {
+        format!(
+            "<mujoco><asset><mesh name='m' file='{mesh}'/></asset>\n<worldbody>> <geom type='mesh' mesh='m'/></worldbody></mujoco>"
+        )
+    }
+
+    /// A mesh in a sister folder is opened when the root holds both; what lies outside is refused with the way to widen it.
+    #[test]
+    fn a_model_reads_what_lies_below_the_root() {
+        let top = tempfile::tempdir().unwrap();
+        for folder in ["robot/models", "robot/meshes"] {
+            std::fs::create_dir_all(top.path().join(folder)).unwrap();
+        }
+        std::fs::write(top.path().join("robot/meshes/a.obj"), TETRAHEDRON).unwrap();
+        let path = top.path().join("robot/models/arm.xml");
+        std::fs::write(&path, model("../meshes/a.obj")).unwrap();
+
+        let (none, findings, files) = check_model_file(&path, None);
+        assert!(none.is_none());
+        let outside = findings.iter().find(|f| f.code == "mjcf-file-outside").unwrap();
+        assert_eq!(outside.severity, Severity::Error);
+        assert!(outside.help.as_ref().unwrap().contains("labspec.toml"), "{outside:?}");
+        assert_eq!(files.len(), 1);
+
+        let (some, _, _) = check_model_file(&path, Some(&top.path().join("robot")));
+        assert!(some.is_some());
+        std::fs::write(top.path().join("robot/labspec.toml"), "").unwrap();
+        let (some, findings, files) = check_model_file(&path, None);
+        assert_eq!(some.unwrap().nmesh, 1);
+        // What is doubtful is said, and stops nothing.
+        let [warning] = findings.as_slice() else { panic!("{findings:?}") };
+        assert_eq!((warning.code, warning.severity), ("mjcf-text", Severity::Warning));
+        assert_eq!(files[0].slice(warning.span.clone()), ">");
+    }
+
+    /// The warnings of a lab's model are findings of the model's file, once, and the lab has its model.
+    #[test]
+    fn warnings_of_a_model_do_not_stop_its_lab() {
+        let top = tempfile::tempdir().unwrap();
+        let folder = top.path().join("models");
+        std::fs::create_dir(&folder).unwrap();
+        std::fs::write(folder.join("odd.xml"), "<mujoco>x<worldbody><geom size='1'/></worldbody></mujoco>")
+            .unwrap();
+        let mut models = Models::new(ModelFolder::open(&folder).unwrap());
+        assert!(models.load("odd").is_some());
+        let findings = models.take_findings();
+        assert_eq!(findings.len(), 1);
+        assert_eq!((findings[0].code, &*findings[0].path), ("mjcf-text", "models/odd.xml"));
+        assert!(models.take_findings().is_empty());
+        assert_eq!(models.files().len(), 1);
+    }
+
+    #[test]
+    fn shown_paths_are_short() {
+        for (folder, path, shown) in [
+            ("models", "a.xml", "models/a.xml"),
+            ("models", "../stls/a.stl", "stls/a.stl"),
+            ("a/b", "../../c/d", "c/d"),
+            ("a", "../../c/d", "../c/d"),
+            ("../a", "../c", "../c"),
+            ("..", "../c", "../../c"),
+        ] {
+            assert_eq!(joined(folder, path), shown, "{folder} {path}");
+        }
+    }
+}

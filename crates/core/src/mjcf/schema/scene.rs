@@ -154,7 +154,9 @@ pub(super) static SKIN: Element = Element::new(
     }],
 )
 .children(&[&BONE])
-.status(super::Status::Ignored("drawn only: physics does not know it"));
+.status(DRAWN);
+/// What a frontend may draw.
+const DRAWN: super::Status = super::Status::Ignored("drawn only: physics does not know it");
 static BONE: Element = Element::new(
     "bone",
     &[attributes! {
@@ -164,6 +166,13 @@ static BONE: Element = Element::new(
         INTS => vertid;
         LIST => vertweight;
     }],
+)
+.status(DRAWN);
+static MODEL: Element = Element::new(
+    "model",
+    &[attributes! {
+        Kind::Name("model") => name;
+        TEXT => file;
+        TEXT => content_type [super::Status::Ignored("a model is MJCF, whatever it says; MuJoCo ignores it, too")];
+    }],
 );
-static MODEL: Element =
-    Element::new("model", &[attributes! { Kind::Name("model") => name; TEXT => file content_type; }]);

@@ -101,7 +101,7 @@ macro_rules! golden {
 golden! {
     chain classes defaults_of_everything extrinsic free_bodies inertia inertia_options near_frames orientations sections
     sensors_and_keys simple_bodies trees tendons constraints passive frames
-    replicas attached included
+    replicas attached included hfields
 }
 
 /// The schema has exactly the elements and attributes that the library prints.

@@ -68,7 +68,8 @@ fn spans_are_slices_of_the_text() {
     for xml in
         ["<mujoco>&#9;é€=&#9;&#9;é</mujoco>", "<mujoco><xml:éé€/></mujoco>", "<mujoco xml:éé€='1'/>", "<é€/>"]
     {
-        let list = compile(xml).unwrap_err();
+        let list = crate::mjcf::examine(xml, &crate::mjcf::NoFiles, None).findings;
+        assert!(!list.is_empty(), "{xml}");
         assert!(list.iter().all(|d| xml.get(d.span.clone()).is_some()), "{list:?}");
     }
 }
@@ -152,4 +153,48 @@ fn ranges_of_lengths_cannot_ask_for_time() {
     let muscles = "<muscle joint='j000'/>".repeat(6);
     let xml = format!("<mujoco><worldbody>{bodies}</worldbody><actuator>{muscles}</actuator></mujoco>");
     assert_eq!(first_code(&xml), Some(code::LIMIT));
+}
+
+/// What a short text asks for is counted over the whole model, and the element where it becomes too much is named.
+#[test]
+fn numbers_have_one_budget() {
+    let lists = "<numeric name='n' size='1000000'/>".repeat(1000);
+    assert_eq!(first_code(&format!("<mujoco><custom>{lists}</custom></mujoco>")), Some(code::COUNT));
+    let sites = "<site/>".repeat(2000);
+    let each = |size: &str, n: usize| {
+        format!("<mujoco><size {size}='{n}'/><worldbody><camera/>{sites}</worldbody></mujoco>")
+    };
+    assert_eq!(first_code(&each("nuser_site", 20_000)), Some(code::LIMIT));
+    assert_eq!(first_code(&each("nuserdata", 2_000_000_000)), Some(code::LIMIT));
+    // Each is within the budget, all together are not.
+    let both = "<mujoco><size nuserdata='15000000' nuser_site='7500'/><worldbody>".to_string()
+        + &sites
+        + "</worldbody></mujoco>";
+    assert_eq!(first_code(&both), Some(code::LIMIT));
+    let d = compile(&both).unwrap_err().remove(0);
+    assert!(d.message.contains("nuserdata") || d.message.contains("user values"), "{d}");
+    // A default gives its list to every element: once, as long as they say nothing else.
+    let list = "1 ".repeat(100_000);
+    let shared =
+        format!("<mujoco><default><site user='{list}'/></default><worldbody>{sites}</worldbody></mujoco>");
+    assert_eq!(first_code(&shared), Some(code::LIMIT));
+    let sites = "<site user='2'/>".repeat(2000);
+    let own =
+        format!("<mujoco><default><site user='{list}'/></default><worldbody>{sites}</worldbody></mujoco>");
+    assert_eq!(first_code(&own), Some(code::LIMIT));
+    let classes = (0..1900).map(|i| format!("<default class='c{i}'/>")).collect::<String>();
+    let inherited = format!("<mujoco><default><site user='{list}'/>{classes}</default></mujoco>");
+    assert!(compile(&inherited).is_ok());
+}
+
+/// Names are found by looking them up, not by looking through all.
+#[test]
+fn many_names_are_found_quickly() {
+    let materials: String = (0..40_000).map(|i| format!("<material name='m{i}'/>")).collect();
+    let sites = "<site material='m39999'/>".repeat(40_000);
+    let start = std::time::Instant::now();
+    let m = compile(&format!("<mujoco><asset>{materials}</asset><worldbody>{sites}</worldbody></mujoco>"))
+        .unwrap();
+    assert_eq!(m.site_matid[39_999], 39_999);
+    assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
 }

@@ -1,11 +1,14 @@
 //! Wrong models and what an author reads about them.
 
 use super::world;
-use crate::mjcf::{FileProblem, Files, compile, compile_with};
+use crate::mjcf::{FileProblem, Files, NoFiles, compile_with, examine};
 
 /// Each finding with the line it is about, the place underlined.
 fn explained(xml: &str) -> String {
-    let Err(list) = compile(xml) else { return "no finding\n".into() };
+    let list = examine(xml, &NoFiles, None).findings;
+    if list.is_empty() {
+        return "no finding\n".into();
+    }
     let mut out = String::new();
     for d in list {
         let line = xml.lines().nth(d.line - 1).unwrap_or("");
@@ -121,6 +124,14 @@ mistakes! {
     sleep_of_tendons: tied("<option><flag sleep=\"enable\"/></option>\n<tendon><spatial name=\"rope\"><site site=\"s\"/><site site=\"t\"/></spatial></tendon><equality><tendon tendon1=\"rope\"/></equality>");
     boolean: world("<body mocap=\"True\"/>");
     stray_text: world("\n  geom size=\"1\"/>");
+    // Warnings
+    default_of_nothing: "<mujoco><default>\n<default class=\"u\"><geom material=\"steel\"/></default></default><worldbody/></mujoco>";
+    hfield_one_row: "<mujoco><asset>\n<hfield name=\"h\" nrow=\"1\" ncol=\"5\" size=\"1 1 1 1\"/></asset><worldbody><geom type=\"hfield\" hfield=\"h\"/></worldbody></mujoco>";
+    // Sizes
+    user_size_negative: before("<size nuser_geom=\"-2\"/>");
+    numeric_too_long: before("<custom>\n<numeric name=\"n\" size=\"1000000\"/></custom>");
+    camera_without_pixels: world("\n<camera resolution=\"0 5\" sensorsize=\"1 1\"/>");
+    name_too_long: world(&format!("\n<geom name=\"{}\"/>", "n".repeat(1001)));
     // Numbers
     number_comma: world("<geom size=\"1\" pos=\"0,0,1\"/>");
     number_word: world("<geom size=\"1\" pos=\"0 0 up\"/>");

@@ -1,0 +1,87 @@
+//! Small texts against what MuJoCo 3.14.0 says of them: `golden/cases.py` recorded it.
+
+use crate::mjcf::{NoFiles, Severity, code, compile, examine};
+use crate::{Data, forward};
+
+/// Recorded lines: what MuJoCo says, and the text.
+fn cases(recorded: &'static str) -> impl Iterator<Item = (&'static str, String)> {
+    recorded.lines().map(|line| {
+        let (answer, text) = line.split_once('|').unwrap();
+        (answer, text.replace("\\n", "\n"))
+    })
+}
+
+/// Text between elements never decides whether a model loads: it does where it does in MuJoCo, with a warning.
+#[test]
+fn text_between_elements_loads_where_mujoco_loads_it() {
+    let (mut wrong, mut warned) = (Vec::new(), 0);
+    for (answer, text) in cases(include_str!("../golden/texts.txt")) {
+        let examined = examine(&text, &NoFiles, None);
+        let ours = if examined.model.is_some() { "loads" } else { "refused" };
+        let texts: Vec<_> = examined.findings.iter().filter(|d| d.code == code::TEXT).collect();
+        if ours != answer || texts.iter().any(|d| d.severity == Severity::Error) {
+            wrong.push(format!("{answer} there, {ours} here: {text:?}: {:?}", examined.findings.first()));
+        }
+        for d in texts {
+            assert!(text.get(d.span.clone()).is_some_and(|s| !s.trim().is_empty()), "{text:?}: {:?}", d.span);
+            warned += 1;
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(warned > 150, "{warned}");
+}
+
+/// Sizes and references at the edge of what they may be.
+#[test]
+fn sizes_are_refused_where_mujoco_refuses_them() {
+    let mut wrong = Vec::new();
+    for (answer, text) in cases(include_str!("../golden/sizes.txt")) {
+        let ours = if compile(&text).is_ok() { "loads" } else { "refused" };
+        if ours != answer {
+            wrong.push(format!("{answer} there, {ours} here: {text}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Shapes with a negative margin touch, and push, where they do in MuJoCo.
+#[test]
+fn negative_margins_are_those_of_mujoco() {
+    let mut wrong = Vec::new();
+    for (recorded, text) in cases(include_str!("../golden/margins.txt")) {
+        let m = compile(&text).unwrap();
+        let mut d = Data::new(&m);
+        forward(&m, &mut d);
+        let want: Vec<f64> = recorded.split(' ').map(|x| x.parse().unwrap()).collect();
+        let mut ours = vec![d.ncon as f64, d.nefc as f64];
+        ours.extend(d.contact.iter().map(|c| c.dist));
+        let same = want.len() == ours.len() && want.iter().zip(&ours).all(|(a, b)| (a - b).abs() < 1e-9);
+        if !same {
+            wrong.push(format!("want {want:?}, got {ours:?}: {text}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Exclusions keep apart the bodies that they name and no others, however many bodies there are: MuJoCo's signature of
+/// two bodies, 65,536 times the first plus the second, meets others beyond 65,535.
+#[test]
+fn exclusions_of_many_bodies_keep_only_theirs_apart() {
+    // Bodies 1 and 2 are excluded where they are; 65,540 = 65,536 + 4, so that (1, 65,540) and (2, 4) have one number.
+    let filler = "<body/>".repeat(65_535);
+    let ball = |name: &str| format!("<body name='{name}'><joint type='slide'/><geom size='1'/></body>");
+    let text = format!(
+        "<mujoco><worldbody>{}{}<body/>{}{filler}{}</worldbody><contact><exclude body1='a' body2='z'/></contact></mujoco>",
+        ball("a"),
+        ball("b"),
+        ball("c"),
+        ball("z"),
+    );
+    let m = compile(&text).unwrap();
+    assert_eq!(m.exclude_bodies, [[1, 65_540]]);
+    assert_eq!(m.exclude_signature, [(2 << 16) + 4]);
+    let mut d = Data::new(&m);
+    forward(&m, &mut d);
+    // Four balls in one place: all six pairs but the one that is excluded.
+    assert_eq!(d.ncon, 5);
+}

@@ -1,0 +1,50 @@
+//! What the schema calls supported is read: every attribute of every element is looked up by some pass.
+
+use crate::mjcf::schema::{Element, ROOT, Status};
+use crate::mjcf::{Folder, examine, seen};
+
+/// Elements that no model of the folders below has, written out here.
+const OTHERS: &str = "";
+
+#[test]
+fn every_supported_attribute_is_looked_up() {
+    let here = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    for folder in ["src/mjcf/golden", "../../specs/models/zoo", "../../tests/golden/models"] {
+        let folder = here.join(folder);
+        let files = Folder::new(&folder).unwrap();
+        for entry in std::fs::read_dir(&folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|e| e == "xml") {
+                examine(&std::fs::read_to_string(&path).unwrap(), &files, path.file_name().unwrap().to_str());
+            }
+        }
+    }
+    if !OTHERS.is_empty() {
+        assert!(crate::mjcf::compile(OTHERS).is_ok());
+    }
+
+    let (mut unread, mut visited, mut count) = (Vec::new(), Vec::<&'static Element>::new(), 0);
+    let mut stack = vec![("mujoco".to_string(), &ROOT)];
+    while let Some((path, element)) = stack.pop() {
+        if element.status == Status::Unsupported || visited.iter().any(|e| std::ptr::eq(*e, element)) {
+            continue;
+        }
+        visited.push(element);
+        if !matches!(element.status, Status::Ignored(what) if !what.contains("programs")) {
+            for a in element.attributes().filter(|a| a.status == Status::Supported) {
+                count += 1;
+                if !seen::was(element, a.name) {
+                    unread.push(format!("{path} {}", a.name));
+                }
+            }
+        }
+        stack.extend(element.children.iter().map(|c| (format!("{path}/{}", c.name), *c)));
+    }
+    assert!(count > 700, "{count}");
+    assert!(
+        unread.is_empty(),
+        "{} are called supported, and nothing reads them:\n{}",
+        unread.len(),
+        unread.join("\n")
+    );
+}
