@@ -6,7 +6,7 @@ mod outcome;
 mod quote;
 
 pub use bound::BoundVerify;
-pub use quote::{Quoted, quoted};
+pub use quote::{Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Style, Unread, quoted};
 
 use crate::bind::scene::finding;
 use crate::finding::Finding;
@@ -77,7 +77,7 @@ pub fn check(
     let mut failed = Judgement { verdict: Verdict::Failed, measures: Vec::new(), quotes: 0 };
     let Some(outcome) = bound.outcome(Numerics::NOMINAL, findings) else { return failed };
     failed.measures = outcome.list();
-    let mut judgement = Judgement { verdict: Verdict::Verified, quotes: verify.says.len(), ..failed.clone() };
+    let mut judgement = Judgement { verdict: Verdict::Verified, ..failed.clone() };
 
     if let Some(question) = question
         && !verify.options.is_empty()
@@ -89,13 +89,22 @@ pub fn check(
         let Some(computed) = bound.number(&outcome, value, findings) else { return failed };
         judgement.verdict = judge_value(bound, computed, verify, question, findings);
     }
+    let half = (!verify.says.is_empty()).then(|| bound.outcome(PERTURBED[0].0, &mut Vec::new())).flatten();
+    let shown = if verify.says.is_empty() { ShownText::default() } else { ShownText::of(lesson) };
+    judgement.quotes = 0;
     for said in &verify.says {
         let Some(computed) = bound.number(&outcome, &said.expr, findings) else {
             judgement.verdict = Verdict::Failed;
             continue;
         };
-        if !quote::check(said, computed, question, lesson, findings) {
-            judgement.verdict = judgement.verdict.max(Verdict::Refuted);
+        let halved = half.as_ref().and_then(|o| bound.number(o, &said.expr, &mut Vec::new()));
+        let others: Vec<Other> =
+            halved.map(|value| Other { how: "at half the timestep", value }).into_iter().collect();
+        let checked = quote::check(said, computed, &others, &[], question, &shown, findings);
+        match checked.state {
+            QuoteState::Right => judgement.quotes += 1,
+            QuoteState::Wrong => judgement.verdict = judgement.verdict.max(Verdict::Refuted),
+            QuoteState::Unclear => judgement.verdict = Verdict::Failed,
         }
     }
     judgement
