@@ -146,3 +146,7 @@ fn own_first(places: &[Range<usize>], question: Option<&Question>) -> Vec<Range<
     let (own, others): (Vec<_>, Vec<_>) = places.iter().partition(own);
     own.into_iter().chain(others).cloned().collect()
 }
+
+#[cfg(test)]
+#[path = "check_tests.rs"]
+mod tests;

@@ -8,7 +8,7 @@ use std::ops::Range;
 const MAX_PLACES: usize = 1000;
 
 /// Longest text that is looked for, in bytes: so much may be walked at every number.
-const MAX_LENGTH: usize = 400;
+const MAX_LENGTH: usize = 120;
 
 /// A text as it is looked for.
 #[derive(Debug)]

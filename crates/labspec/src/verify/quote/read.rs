@@ -29,7 +29,7 @@ pub enum Unread {
 }
 
 /// Longest quote that is read, in characters.
-const MAX_QUOTE: usize = 200;
+const MAX_QUOTE: usize = 120;
 
 /// The number that a quote states: the first one behind the last `=`, else the first one.
 ///
