@@ -69,7 +69,7 @@ pub const RUN_RULES: &[(&str, &str, &str)] = &[
     ),
     (
         "quote-not-found",
-        "a quoted text stands nowhere in the lesson",
+        "a quoted text stands nowhere that a reader sees, as a number of its own",
         "The check is about a number that no reader sees.",
     ),
     ("quote-without-number", "a quote holds no number", "There is nothing to compare."),

@@ -98,7 +98,8 @@ impl Trail {
 
     /// Takes a sample in as a part of an oscillation.
     fn oscillate(&mut self, time: f64, value: f64) {
-        if !(self.time < time) || value.is_nan() {
+        let goes_on = self.time < time;
+        if !goes_on || value.is_nan() {
             // Nothing is known of what was before a gap or a reset.
             (self.below, self.reached) = (false, None);
         }

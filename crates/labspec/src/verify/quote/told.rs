@@ -206,7 +206,7 @@ pub(super) fn other_unit(said: &Said, outcome: &QuoteOutcome, read: &Quoted, shi
     };
     let action = if shift.power > 0 { "multiply" } else { "divide" };
     let message = format!(
-        "the text says {}{}, the expression gives {value}: the numbers differ by exactly a power of ten",
+        "the text says {}{}, the expression gives {value}; the numbers differ by exactly a power of ten",
         shown(said),
         as_read(said, read)
     );
