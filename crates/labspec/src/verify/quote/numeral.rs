@@ -124,7 +124,7 @@ pub(super) fn numeral(chars: Chars<'_>, from: usize, negative: bool) -> Numeral 
         end = chars.digits(whole_end + 1);
         let mut after = chars.text(whole_end + 1, end);
         // 0.000 833: decimals in groups of three.
-        while after.len() % 3 == 0
+        while after.len().is_multiple_of(3)
             && let Some(more) = chars.group(end, ' ')
         {
             doubts.extend(format!("{digits}.{after}").parse::<f64>());

@@ -154,8 +154,9 @@ fn begins(text: &str, range: &Range<usize>, quote: &str, joined: &impl Fn(usize)
             c => !(c.is_alphanumeric() || matches!(c, '^' | '_' | '#')),
         };
     }
-    !(first.is_alphanumeric() && last.is_alphanumeric())
-        && !(matches!(first, '-' | '+') && matches!(last, '^' | 'e' | 'E') && is_digit(second))
+    let word = first.is_alphanumeric() && last.is_alphanumeric();
+    let exponent = matches!(first, '-' | '+') && matches!(last, '^' | 'e' | 'E') && is_digit(second);
+    !(word || exponent)
 }
 
 /// The `e` of 1e-3, or the `^` of 10^-3, stands behind a digit.
@@ -172,7 +173,7 @@ fn ends(text: &str, range: &Range<usize>, quote: &str, joined: &impl Fn(usize) -
     if last.is_ascii_digit() {
         return match next {
             '.' | ',' | '\'' => !digit(second),
-            ' ' => !(digit(second) && joined(range.end)) && !power(rest.trim_start()),
+            ' ' => !(digit(second) && joined(range.end) || power(rest.trim_start())),
             'e' | 'E' => !exponent(rest),
             '(' => !digit(second),
             '×' | '·' | '*' | 'x' => !power(rest),

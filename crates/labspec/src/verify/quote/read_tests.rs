@@ -207,7 +207,7 @@ fn printed() -> impl Strategy<Value = (String, f64, f64)> {
             let text = whole.to_string();
             let mut out = String::new();
             for (i, c) in text.chars().enumerate() {
-                if i > 0 && (text.len() - i) % 3 == 0 {
+                if i > 0 && (text.len() - i).is_multiple_of(3) {
                     out += separator;
                 }
                 out.push(c);

@@ -92,9 +92,9 @@ fn unseen(quote: &str, file: &str, lesson: &Lesson) -> Option<Range<usize>> {
     found.find(|r| {
         let before = file.get(..r.start).and_then(|t| t.chars().next_back());
         let after = file.get(r.end..).and_then(|t| t.chars().next());
-        !own.iter().any(|o| o.start <= r.start && r.end <= o.end)
-            && !(digit(before) && digit(quote.chars().next()))
-            && !(digit(after) && digit(quote.chars().next_back()))
+        let claimed = own.iter().any(|o| o.start <= r.start && r.end <= o.end);
+        let goes_on = digit(before) && digit(quote.chars().next());
+        !(claimed || goes_on || digit(after) && digit(quote.chars().next_back()))
     })
 }
 
@@ -105,7 +105,7 @@ fn join(pieces: Vec<Piece>) -> (String, SourceMap) {
     for piece in pieces {
         let number = |c: char| c.is_numeric();
         // `&frac12;` and `&#49;` are numbers too.
-        if !piece.text.value.contains(number) && !(piece.html && piece.text.value.contains("&frac")) {
+        if !(piece.text.value.contains(number) || piece.html && piece.text.value.contains("&frac")) {
             continue;
         }
         let mut back = piece.text.map;
