@@ -141,10 +141,35 @@ pub const RUN_RULES: &[(&str, &str, &str)] = &[
     ),
     (
         "quote-not-found",
-        "a quoted text stands nowhere in the lesson",
+        "a quoted text stands nowhere that a reader sees, as a number of its own",
         "The check is about a number that no reader sees.",
     ),
     ("quote-without-number", "a quote holds no number", "There is nothing to compare."),
+    (
+        "quote-unclear",
+        "a quoted number can be read in two ways, or in none",
+        "Nothing was compared: a number that is guessed would make the verdict a guess.",
+    ),
+    (
+        "quote-unit",
+        "a quoted number and its expression differ by a power of ten",
+        "The text is in another unit than the expression, so that the two cannot be compared.",
+    ),
+    (
+        "quote-without-value",
+        "the expression of a quoted number has no value",
+        "What it waits for never happens in the run, so nothing was compared.",
+    ),
+    (
+        "quote-of-timestep",
+        "the digits of a quoted number change with half the timestep",
+        "It is right for this timestep only; a reader with another one finds another number.",
+    ),
+    (
+        "quote-chaotic",
+        "the digits of a quoted number change with a start that is within rounding of the lesson's own",
+        "No reader can reproduce them, on no other computer and with no other version of the simulator.",
+    ),
 ];
 
 /// All codes with a one-line summary: rules of lessons, then of runs, of the language, of models.

@@ -4,7 +4,7 @@ use super::{Ready, refresh};
 use crate::finding::Finding;
 use crate::spec::{Lab, Lesson, Question, QuestionKind, Verify, VerifyLab};
 use crate::ledger::State;
-use crate::verify::{self, Allowance, Answer, BoundVerify, Judgement, QuoteState};
+use crate::verify::{self, Allowance, Answer, BoundVerify, Judgement, QuoteState, ShownText};
 use std::ops::Range;
 
 /// A question, or a lab with a `verify` object, and what became of its claims.
@@ -31,7 +31,8 @@ impl Claim {
 
 /// Judges every `verify` object of a lesson; questions without one are listed with an unverified answer.
 pub(super) fn check(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> Vec<Claim> {
-    let mut court = Court { lesson, ready, allowance: Allowance::default(), list: Vec::new() };
+    let shown = ShownText::of(lesson);
+    let mut court = Court { lesson, ready, shown, allowance: Allowance::default(), list: Vec::new() };
     let addressed = lesson.addressed();
     for (address, lab) in &addressed {
         court.judge_lab(format!("lab {address}"), lab, findings);
@@ -55,6 +56,7 @@ pub(super) fn check(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Fin
 struct Court<'a> {
     lesson: &'a Lesson,
     ready: &'a [Ready<'a>],
+    shown: ShownText,
     allowance: Allowance,
     list: Vec<Claim>,
 }
@@ -105,7 +107,7 @@ impl Court<'_> {
         let Ready { lab, model, programs, .. } = target;
         refresh::check_runs(verify, lab, model, programs, findings);
         match BoundVerify::new(verify, lab, model, programs, &self.allowance, findings) {
-            Some(bound) => verify::check(&bound, verify, question, self.lesson, findings),
+            Some(bound) => verify::check(&bound, verify, question, &self.shown, findings),
             None => verify::unmade(verify, question, "its runs or measures have mistakes"),
         }
     }

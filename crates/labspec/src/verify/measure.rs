@@ -14,6 +14,9 @@ enum How {
     Final,
     Min,
     Max,
+    Mean,
+    Crossing,
+    Period,
 }
 
 impl How {
@@ -26,6 +29,9 @@ impl How {
             "final" => How::Final,
             "min" => How::Min,
             "max" => How::Max,
+            "mean" => How::Mean,
+            "crossing" => How::Crossing,
+            "period" => How::Period,
             _ => return None,
         })
     }
@@ -43,6 +49,97 @@ struct Running<'a> {
     done: bool,
     /// The value at the sample before.
     previous: f64,
+    /// What the measures between samples remember.
+    trail: Trail,
+}
+
+/// What is remembered of a curve from sample to sample.
+#[derive(Debug)]
+struct Trail {
+    /// Time and value at the sample before; NaN before the first one.
+    time: f64,
+    value: f64,
+    /// The last value that was not zero was below it.
+    below: bool,
+    /// When the curve reached zero exactly, coming from below.
+    reached: Option<f64>,
+    /// First and last time at which it passed zero upwards, and how often it did.
+    first: f64,
+    last: f64,
+    count: usize,
+    /// Area under the curve, and the time that it covers.
+    area: f64,
+    covered: f64,
+}
+
+impl Trail {
+    const START: Trail = Trail {
+        time: f64::NAN,
+        value: f64::NAN,
+        below: false,
+        reached: None,
+        first: f64::NAN,
+        last: f64::NAN,
+        count: 0,
+        area: 0.0,
+        covered: 0.0,
+    };
+
+    /// The time at which a straight line from the sample before to this one is zero. A sample that is zero is one at
+    /// its own time.
+    fn zero(&self, time: f64, value: f64) -> Option<f64> {
+        if value == 0.0 {
+            return Some(time);
+        }
+        // Not across a reset, which turns time back.
+        let passes = self.time < time && self.value * value < 0.0;
+        passes.then(|| self.time + (time - self.time) * (self.value / (self.value - value)))
+    }
+
+    /// Takes a sample in as a part of an oscillation.
+    fn oscillate(&mut self, time: f64, value: f64) {
+        let goes_on = self.time < time;
+        if !goes_on || value.is_nan() {
+            // Nothing is known of what was before a gap or a reset.
+            (self.below, self.reached) = (false, None);
+        }
+        let zero = self.zero(time, value);
+        if value == 0.0 && self.below {
+            self.reached = self.reached.or(zero);
+        } else if value > 0.0 && self.below {
+            if let Some(at) = self.reached.or(zero) {
+                self.first = if self.count == 0 { at } else { self.first };
+                (self.last, self.count) = (at, self.count + 1);
+            }
+            (self.below, self.reached) = (false, None);
+        } else if value < 0.0 {
+            (self.below, self.reached) = (true, None);
+        }
+        self.remember(time, value);
+    }
+
+    /// Adds the area between the sample before and this one.
+    fn add_area(&mut self, time: f64, value: f64) {
+        if self.time < time {
+            self.area += 0.5 * (self.value + value) * (time - self.time);
+            self.covered += time - self.time;
+        }
+        self.remember(time, value);
+    }
+
+    fn remember(&mut self, time: f64, value: f64) {
+        (self.time, self.value) = (time, value);
+    }
+
+    /// Mean time from one upward passage to the next; NaN with fewer than two.
+    fn period(&self) -> f64 {
+        if self.count < 2 { f64::NAN } else { (self.last - self.first) / (self.count - 1) as f64 }
+    }
+
+    /// The mean over time; the value itself when there is one sample.
+    fn mean(&self) -> f64 {
+        if self.covered > 0.0 { self.area / self.covered } else { self.value }
+    }
 }
 
 /// The aggregates of one measure.
@@ -65,6 +162,7 @@ impl<'a> Measure<'a> {
                 result: f64::NAN,
                 done: false,
                 previous: f64::NAN,
+                trail: Trail::START,
             })
         };
         Measure { program, text, running: program.aggregates().iter().filter_map(start).collect() }
@@ -78,7 +176,7 @@ impl<'a> Measure<'a> {
                 r.args.get(i).and_then(|p| session.evaluate(p, self.text)).unwrap_or(Value::Undefined)
             };
             match r.how {
-                How::First | How::At | How::Before if r.done => {}
+                How::First | How::At | How::Before | How::Crossing if r.done => {}
                 How::First => {
                     if value(0).truthy() {
                         (r.result, r.done) = (time, true);
@@ -105,6 +203,22 @@ impl<'a> Measure<'a> {
                 // The extremes of what is a number: a NaN among the samples says nothing.
                 How::Min => r.result = r.result.min(value(0).to_number()),
                 How::Max => r.result = r.result.max(value(0).to_number()),
+                How::Mean => {
+                    r.trail.add_area(time, value(0).to_number());
+                    r.result = r.trail.mean();
+                }
+                How::Crossing => {
+                    let x = above(&mut value, r.args);
+                    if let Some(at) = r.trail.zero(time, x) {
+                        (r.result, r.done) = (at, true);
+                    }
+                    r.trail.remember(time, x);
+                }
+                How::Period => {
+                    let x = above(&mut value, r.args);
+                    r.trail.oscillate(time, x);
+                    r.result = r.trail.period();
+                }
             }
         }
     }
@@ -115,5 +229,92 @@ impl<'a> Measure<'a> {
             session.context.set_aggregate(r.slot, r.result);
         }
         session.evaluate(self.program, self.text).map_or(f64::NAN, |v| v.to_number())
+    }
+}
+
+/// How far the first argument is above the second one, the level; above zero when there is no level.
+fn above(value: &mut impl FnMut(usize) -> Value, args: &[Program]) -> f64 {
+    let level = if args.len() > 1 { value(1).to_number() } else { 0.0 };
+    value(0).to_number() - level
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn crossing(samples: &[(f64, f64)]) -> f64 {
+        let mut trail = Trail::START;
+        for &(time, value) in samples {
+            if let Some(at) = trail.zero(time, value) {
+                return at;
+            }
+            trail.remember(time, value);
+        }
+        f64::NAN
+    }
+
+    fn period(samples: &[(f64, f64)]) -> f64 {
+        let mut trail = Trail::START;
+        samples.iter().for_each(|&(t, x)| trail.oscillate(t, x));
+        trail.period()
+    }
+
+    fn mean(samples: &[(f64, f64)]) -> f64 {
+        let mut trail = Trail::START;
+        samples.iter().for_each(|&(t, x)| trail.add_area(t, x));
+        trail.mean()
+    }
+
+    #[test]
+    fn a_crossing_lies_between_two_samples() {
+        assert_eq!(crossing(&[(0.0, 1.0), (1.0, -3.0)]), 0.25);
+        assert_eq!(crossing(&[(0.0, -3.0), (1.0, 1.0)]), 0.75);
+        // A sample that is zero counts, a start too.
+        assert_eq!(crossing(&[(0.0, 1.0), (1.0, 0.0), (2.0, 1.0)]), 1.0);
+        assert_eq!(crossing(&[(0.0, 0.0), (1.0, 1.0)]), 0.0);
+        for never in [&[(0.0, 1.0), (1.0, 2.0)][..], &[(0.0, 1.0), (1.0, f64::NAN), (2.0, -1.0)], &[]] {
+            assert!(crossing(never).is_nan(), "{never:?}");
+        }
+        // A reset turns time back: nothing happened between the two.
+        assert!(crossing(&[(5.0, 1.0), (0.0, -1.0)]).is_nan());
+    }
+
+    #[test]
+    fn a_period_is_from_upward_passage_to_upward_passage() {
+        let saw = |n: usize| -> Vec<(f64, f64)> {
+            (0..n).map(|i| (i as f64, [-1.0, 1.0, 1.0, -1.0][i % 4])).collect()
+        };
+        assert_eq!(period(&saw(9)), 4.0);
+        assert!(period(&saw(5)).is_nan());
+        // Zeros on the way count once, and a touch from below does not.
+        assert_eq!(period(&[(0.0, -1.0), (1.0, 0.0), (2.0, 0.0), (3.0, 1.0), (4.0, -1.0), (5.0, 1.0)]), 3.5);
+        assert!(period(&[(0.0, -1.0), (1.0, 0.0), (2.0, -1.0), (3.0, 0.0), (4.0, -1.0)]).is_nan());
+        // What was before a gap is not known.
+        assert!(period(&[(0.0, -1.0), (1.0, 1.0), (2.0, -1.0), (3.0, f64::NAN), (4.0, 1.0)]).is_nan());
+    }
+
+    #[test]
+    fn a_mean_is_over_time() {
+        assert_eq!(mean(&[(0.0, 0.0), (1.0, 1.0), (3.0, 1.0)]), 2.5 / 3.0);
+        assert_eq!(mean(&[(0.0, 7.0)]), 7.0);
+        assert!(mean(&[(0.0, f64::NAN), (1.0, 1.0)]).is_nan() && mean(&[]).is_nan());
+    }
+
+    proptest! {
+        /// A zero between two samples is missed by O(h^2) when it is interpolated (and by h when it is not).
+        #[test]
+        fn the_period_of_a_sine_is_found_between_samples(omega in 1.0f64..20.0, phase in 0.0f64..6.2, h in 1e-4f64..5e-3) {
+            let true_period = 2.0 * std::f64::consts::PI / omega;
+            let n = (5.2 * true_period / h) as usize;
+            let samples: Vec<_> = (0..n).map(|i| i as f64 * h).map(|t| (t, (omega * t + phase).sin())).collect();
+            let found = period(&samples);
+            // A chord misses a zero of a sine by less than (omega h)^3 / 15 of a radian.
+            let bound = (omega * h).powi(3) / omega + 1e-12;
+            prop_assert!((found - true_period).abs() <= bound, "{} and not {}", found, true_period);
+            let first = crossing(&samples);
+            let exact = (std::f64::consts::PI - phase).rem_euclid(std::f64::consts::PI) / omega;
+            prop_assert!((first - exact).abs() <= bound || (first - exact).abs() > true_period / 2.0 - bound, "{} and not {}", first, exact);
+        }
     }
 }

@@ -20,16 +20,15 @@ mod quote;
 pub use answer::{Answer, Verdict, Weight};
 pub use bound::{Allowance, BoundVerify};
 pub use exact::ClosedForm;
-pub use quote::{QuoteOutcome, QuoteState, Quoted, quoted};
+pub use quote::{Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Style, Unread, quoted};
 
 use crate::bind::scene::finding;
 use crate::finding::Finding;
 use crate::ledger::Evidence;
 use crate::run::Numerics;
 use crate::source::Text;
-use crate::spec::{Lesson, Question, Verify};
+use crate::spec::{Question, Verify};
 use outcome::Outcome;
-use quote::Other;
 use std::ops::Range;
 
 /// Everything that came of one `verify` object.
@@ -125,12 +124,13 @@ struct Outcomes {
     nudged_back: Option<Outcome>,
 }
 
-/// Checks the claims of one `verify` object. `question` is what carries it, unless a lab does.
+/// Checks the claims of one `verify` object. `question` is what carries it, unless a lab does; `shown` is what a reader of
+/// the lesson sees.
 pub fn check(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     question: Option<&Question>,
-    lesson: &Lesson,
+    shown: &ShownText,
     findings: &mut Vec<Finding>,
 ) -> Judgement {
     let Some(outcomes) = outcomes(bound, verify, findings) else {
@@ -164,7 +164,7 @@ pub fn check(
                 let mut nudged: Vec<Other> = other(2, "with a start moved by 1e-14").into_iter().collect();
                 nudged.extend(outcomes.nudged_back.as_ref().and_then(|o| value_of(bound, o, expr, back)));
                 let x = found.value.to_number();
-                let o = quote::check(said, x, &halved, &nudged, question, lesson, findings);
+                let o = quote::check(said, x, &halved, &nudged, question, shown, findings);
                 quote(o.state, found.evidence, o.reason, x)
             }
         });

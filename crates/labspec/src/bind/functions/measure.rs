@@ -58,6 +58,28 @@ pub(super) const ROWS: &[Function] = &[
         ..OVER_RUN
     },
     Function {
+        name: "crossing",
+        args: &[Arg::Lazy, Arg::Lazy],
+        optional: 1,
+        doc: "crossing(x) or crossing(x, level): time in s at which x first passes through zero, or through a level, on a straight line between the two samples around it; a sample at the level counts; NaN if it never does",
+        example: ("crossing(0.0495 - data.time)", "0.0495"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "period",
+        args: &[Arg::Lazy, Arg::Lazy],
+        optional: 1,
+        doc: "period(x) or period(x, level): mean time in s from one upward passage of x through zero, or through a level, to the next, each on a straight line between two samples; NaN with fewer than two",
+        example: ("period(Math.abs(data.time % 0.04 - 0.02), 0.01)", "0.04"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "mean",
+        doc: "mean over time, by the trapezoid rule",
+        example: ("mean(data.time)", "0.05"),
+        ..OVER_RUN
+    },
+    Function {
         name: "initial",
         doc: "value at the first sample",
         example: ("initial(data.time)", "0"),

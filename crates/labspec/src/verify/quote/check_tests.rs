@@ -1,0 +1,135 @@
+//! What becomes of a quote, and what is said about it, with other runs at hand.
+
+use super::*;
+use crate::finding::Severity;
+use crate::lint::ModelFolder;
+use crate::source::SourceFile;
+use crate::spec::load_lesson;
+
+/// Checks a quote in a lesson that says it in its prose.
+fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOutcome, Vec<Finding>) {
+    let lab = serde_json::json!({"xml": "<mujoco/>", "verify": {"says": [[quote, "x"]]}});
+    let text = format!("It is {quote} here, and {quote} there.\n\n```lab simlab\n{lab}\n```\n");
+    let lesson = load_lesson(SourceFile::new("a.md", text), &ModelFolder::unknown());
+    let said = &lesson.labs[0].lab.as_ref().unwrap().verify.as_ref().unwrap().says[0];
+    let other = |how| move |&value: &f64| Other { how, value };
+    let half: Vec<_> = half.iter().map(other("at half the timestep")).collect();
+    let starts: Vec<_> = starts.iter().map(other("with a start moved by 1e-14")).collect();
+    let mut findings = Vec::new();
+    let shown = ShownText::of(&lesson);
+    let outcome = check(said, computed, &half, &starts, None, &shown, &mut findings);
+    (outcome, findings)
+}
+
+/// The code and everything that is said.
+fn told(findings: &[Finding]) -> (&'static str, String) {
+    assert_eq!(findings.len(), 1, "{findings:#?}");
+    let f = &findings[0];
+    let words = [Some(f.message.clone()), f.why.clone(), f.help.clone()];
+    (f.code, words.into_iter().flatten().collect::<Vec<_>>().join(" | "))
+}
+
+/// Issue 12, line 8: the energy error of a double pendulum after 20 s.
+#[test]
+fn digits_that_no_reader_can_reproduce_are_never_to_be_written() {
+    let (outcome, findings) = checked("-10.05 %", -10.05, &[-8.2], &[-20.75, -13.58]);
+    let (code, words) = told(&findings);
+    assert_eq!(
+        (outcome.state, code, findings[0].severity),
+        (QuoteState::Unclear, "quote-chaotic", Severity::Warning)
+    );
+    assert!(
+        words.contains("-10.05 as the lesson stands, -20.75 with a start moved by 1e-14, -13.58"),
+        "{words}"
+    );
+    assert!(
+        words.contains("quote a shorter run") && !words.contains("write") && !words.contains("fewer digits"),
+        "{words}"
+    );
+    assert_eq!(outcome.moved.len(), 2);
+    // Also where the lesson's own run gives another number.
+    let (outcome, findings) = checked("-10.05 %", -20.75, &[], &[-13.58]);
+    assert_eq!((outcome.state, told(&findings).0), (QuoteState::Unclear, "quote-chaotic"));
+    assert!(!told(&findings).1.contains("write"));
+}
+
+#[test]
+fn fewer_digits_are_advised_where_all_runs_agree_on_them() {
+    let (_, findings) = checked("1.4237 s", 1.4237, &[], &[1.4241, 1.4239]);
+    assert!(
+        told(&findings).1.contains("print fewer digits: 1.424 is what all of these runs give"),
+        "{findings:#?}"
+    );
+    let (_, findings) = checked("0.012 m", 0.012, &[], &[0.034]);
+    assert!(!told(&findings).1.contains("fewer digits"), "a zero that is none");
+    // A change below the printed digits is none.
+    let (outcome, findings) = checked("1.42 s", 1.4237, &[1.4238], &[1.4241]);
+    assert_eq!((outcome.state, findings.len()), (QuoteState::Right, 0));
+}
+
+#[test]
+fn digits_of_a_timestep_are_noted_or_explained() {
+    let (outcome, findings) = checked("0.442 s", 0.442, &[0.4405], &[0.442]);
+    let (code, words) = told(&findings);
+    assert_eq!(
+        (outcome.state, code, findings[0].severity),
+        (QuoteState::Right, "quote-of-timestep", Severity::Note)
+    );
+    assert!(
+        words.contains("0.442 as the lesson stands") && words.contains("at half the timestep"),
+        "{words}"
+    );
+    assert!(words.contains("state it with its timestep") && !words.contains("| write"), "{words}");
+    assert_eq!(outcome.moved.len(), 1);
+    let (outcome, findings) = checked("0.438 s", 0.442, &[0.4405], &[]);
+    let (code, words) = told(&findings);
+    assert_eq!((outcome.state, code), (QuoteState::Wrong, "quote-wrong"));
+    assert!(words.contains("state the timestep") && !words.contains("| write"), "{words}");
+    assert_eq!(outcome.moved.len(), 1);
+}
+
+#[test]
+fn every_place_is_reported_and_what_was_read_is_said() {
+    let (outcome, findings) = checked("$L^2 = 2.4 \\times 10^{-4}$", 3e-4, &[], &[]);
+    let (code, words) = told(&findings);
+    assert_eq!((outcome.state, code, outcome.places.len()), (QuoteState::Wrong, "quote-wrong", 2));
+    assert!(words.contains("(read as 2.4×10^-4), the simulation gives 3.0×10^-4"), "{words}");
+    assert_eq!(findings[0].related[0].span, outcome.places[1]);
+    assert_eq!(outcome.read.unwrap().to_string(), "2.4×10^-4");
+    assert!(outcome.reason.contains("the simulation gives 3.0×10^-4"), "{}", outcome.reason);
+}
+
+#[test]
+fn a_percentage_says_which_number_was_read() {
+    assert_eq!(checked("50 %", 50.2, &[], &[]).0.read.unwrap().to_string(), "50");
+    assert_eq!(checked("50 %", 0.502, &[], &[]).0.read.unwrap().to_string(), "0.50");
+}
+
+#[test]
+fn a_value_that_is_none_is_never_advised() {
+    for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for quote in ["0.442 s", "3.0e-7", "1.5×10³", "0.4 to 0.5"] {
+            let (outcome, findings) = checked(quote, value, &[value], &[value]);
+            let (code, words) = told(&findings);
+            assert_eq!((outcome.state, code), (QuoteState::Unclear, "quote-without-value"), "{quote}");
+            assert!(!words.contains("NaN") && !words.contains("0.0e") && !words.contains("write"), "{words}");
+        }
+    }
+    // No value in another run is a change.
+    let (outcome, findings) = checked("0.442 s", 0.442, &[f64::NAN], &[]);
+    assert_eq!(outcome.moved, [("at half the timestep", "no value".to_string())]);
+    assert!(told(&findings).1.contains("no value at half the timestep"));
+}
+
+#[test]
+fn another_unit_is_no_wrong_number() {
+    let (outcome, findings) = checked("0.83 mm", 0.000831, &[], &[]);
+    let (code, words) = told(&findings);
+    assert_eq!((outcome.state, code), (QuoteState::Unclear, "quote-unit"));
+    assert!(
+        words
+            .contains("the numbers differ by exactly a power of ten: the text is in mm, the expression in m"),
+        "{words}"
+    );
+    assert!(words.ends_with("multiply the expression by 1000"), "{words}");
+}

@@ -1,0 +1,236 @@
+//! One way of writing for many: spaces, dashes, superscripts and the TeX of numbers, so that a quote may be written
+//! as the source or as the page has it.
+
+use super::html::APART;
+use crate::source::SourceMap;
+use std::ops::Range;
+
+/// The folded text and the way back. Pieces that a page shows apart are lines. With `flat`, a dash is a minus:
+/// so texts are compared; without it, `0.4–0.5` can still be told from `0.4-0.5`: so numbers are read.
+pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
+    let mut out = Out {
+        text: String::with_capacity(text.len()),
+        map: SourceMap::default(),
+        space: None,
+        glue: true,
+        row: None,
+    };
+    let mut at = 0;
+    while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty()) {
+        let plain = rest.bytes().take_while(|&b| is_plain(b)).count();
+        if plain > 0 {
+            out.run(rest.get(..plain).unwrap_or(""), at);
+            at += plain;
+            continue;
+        }
+        let c = rest.chars().next().unwrap_or(' ');
+        let (what, length) = if c == '\\' { command(rest) } else { (meaning(c, flat), c.len_utf8()) };
+        let range = at..at + length;
+        match what {
+            Meaning::Space => out.wait(range),
+            Meaning::Nothing => {}
+            Meaning::Apart => out.apart(at),
+            Meaning::Tilde if out.text.ends_with(|c: char| c.is_ascii_digit()) && out.space.is_none() => {
+                out.wait(range)
+            }
+            Meaning::Tilde => out.push('~', range, text),
+            Meaning::Letter(c) => out.push(c, range, text),
+            Meaning::Script(mark, digit) => out.script(mark, digit, range, text),
+            Meaning::Operator(c) => {
+                out.space = None;
+                out.push(c, range, text);
+                out.glue = true;
+            }
+            Meaning::Verbatim => {
+                let word = rest.get(..length).unwrap_or("");
+                out.run(word, at);
+            }
+        }
+        at += length;
+    }
+    (out.text, out.map)
+}
+
+/// What a character or a command stands for.
+enum Meaning {
+    Space,
+    Nothing,
+    /// Shown apart from what stands before.
+    Apart,
+    /// A space behind a digit, else "about".
+    Tilde,
+    Letter(char),
+    /// A superscript or subscript, with the mark that begins a row of them.
+    Script(char, char),
+    /// Spaces around it do not matter.
+    Operator(char),
+    /// As it stands.
+    Verbatim,
+}
+
+/// Whether a byte stands for itself, whatever is around it.
+fn is_plain(b: u8) -> bool {
+    b.is_ascii_graphic() && !matches!(b, b'$' | b'{' | b'}' | b'\\' | b'~')
+}
+
+fn meaning(c: char, flat: bool) -> Meaning {
+    match c {
+        APART => Meaning::Apart,
+        '$' | '{' | '}' | '\u{200b}'..='\u{200d}' | '\u{2060}' | '\u{feff}' | '\u{ad}' => Meaning::Nothing,
+        '~' | '∼' => Meaning::Tilde,
+        '−' | '‐' | '‑' => Meaning::Letter('-'),
+        '‒' | '–' | '—' => Meaning::Letter(if flat { '-' } else { '–' }),
+        '×' | '✕' => Meaning::Operator('×'),
+        '·' | '⋅' | '∙' => Meaning::Operator('·'),
+        '±' => Meaning::Operator('±'),
+        '≈' | '≃' | '≅' => Meaning::Letter('≈'),
+        'µ' => Meaning::Letter('μ'),
+        '\u{2126}' => Meaning::Letter('Ω'),
+        '’' => Meaning::Letter('\''),
+        '⁺' => Meaning::Script('^', '+'),
+        '⁻' => Meaning::Script('^', '-'),
+        '²' => Meaning::Script('^', '2'),
+        '³' => Meaning::Script('^', '3'),
+        '¹' => Meaning::Script('^', '1'),
+        '⁰' | '⁴'..='⁹' => Meaning::Script('^', digit(c, '⁰')),
+        '₀'..='₉' => Meaning::Script('_', digit(c, '₀')),
+        c if c.is_whitespace() || c.is_control() => Meaning::Space,
+        c => Meaning::Letter(c),
+    }
+}
+
+fn digit(c: char, zero: char) -> char {
+    char::from_digit(u32::from(c).wrapping_sub(u32::from(zero)), 10).unwrap_or(c)
+}
+
+/// The TeX command that `text` begins with, and its length with the spaces behind its name.
+fn command(text: &str) -> (Meaning, usize) {
+    let letters = text.bytes().skip(1).take_while(u8::is_ascii_alphabetic).count();
+    if letters == 0 {
+        let c = text.chars().nth(1);
+        let meaning = match c {
+            Some(',' | ';' | ':' | ' ' | '\\' | '\n') => Meaning::Space,
+            Some('!' | '(' | ')' | '[' | ']') => Meaning::Nothing,
+            Some(c @ ('%' | '$' | '{' | '}' | '#' | '&' | '_')) => Meaning::Letter(c),
+            _ => return (Meaning::Letter('\\'), 1),
+        };
+        return (meaning, 1 + c.map_or(0, char::len_utf8));
+    }
+    let meaning = match text.get(1..1 + letters).unwrap_or("") {
+        "times" => Meaning::Operator('×'),
+        "cdot" => Meaning::Operator('·'),
+        "pm" => Meaning::Operator('±'),
+        "approx" | "simeq" | "cong" => Meaning::Letter('≈'),
+        "sim" => Meaning::Letter('~'),
+        "to" | "rightarrow" => Meaning::Letter('→'),
+        "le" | "leq" => Meaning::Letter('≤'),
+        "ge" | "geq" => Meaning::Letter('≥'),
+        "lt" => Meaning::Letter('<'),
+        "gt" => Meaning::Letter('>'),
+        "mu" => Meaning::Letter('μ'),
+        "Omega" => Meaning::Letter('Ω'),
+        "pi" => Meaning::Letter('π'),
+        "circ" | "degree" => Meaning::Letter('°'),
+        "ldots" | "dots" => Meaning::Letter('…'),
+        "quad" | "qquad" => Meaning::Space,
+        "mathrm" | "mathit" | "mathbf" | "mathsf" | "text" | "textrm" | "textbf" | "operatorname" | "rm"
+        | "bf" | "left" | "right" | "displaystyle" | "big" | "Big" => Meaning::Nothing,
+        _ => return (Meaning::Verbatim, 1 + letters),
+    };
+    let spaces = text.bytes().skip(1 + letters).take_while(|&b| b == b' ').count();
+    (meaning, 1 + letters + spaces)
+}
+
+struct Out {
+    text: String,
+    map: SourceMap,
+    /// Spaces that have been seen and not yet written.
+    space: Option<Range<usize>>,
+    /// Nothing, or an operator, stands before: a space is not written.
+    glue: bool,
+    /// The mark of the row of raised or lowered digits that stands before.
+    row: Option<char>,
+}
+
+impl Out {
+    fn wait(&mut self, range: Range<usize>) {
+        let start = self.space.as_ref().map_or(range.start, |s| s.start);
+        self.space = Some(start..range.end);
+    }
+
+    fn settle(&mut self) {
+        if let Some(space) = self.space.take()
+            && !self.glue
+        {
+            self.text.push(' ');
+            self.map.push_whole(1, space);
+        }
+        self.glue = false;
+        self.row = None;
+    }
+
+    fn run(&mut self, word: &str, at: usize) {
+        self.settle();
+        self.text.push_str(word);
+        self.map.push_verbatim(at..at + word.len());
+    }
+
+    fn push(&mut self, c: char, range: Range<usize>, source: &str) {
+        self.settle();
+        self.text.push(c);
+        let mut bytes = [0; 4];
+        if source.get(range.clone()) == Some(&*c.encode_utf8(&mut bytes)) {
+            self.map.push_verbatim(range);
+        } else {
+            self.map.push_whole(c.len_utf8(), range);
+        }
+    }
+
+    /// A raised or lowered digit: the first of a row gets the mark.
+    fn script(&mut self, mark: char, digit: char, range: Range<usize>, source: &str) {
+        if self.row != Some(mark) || self.space.is_some() {
+            self.push(mark, range.clone(), source);
+        }
+        self.push(digit, range, source);
+        self.row = Some(mark);
+    }
+
+    fn apart(&mut self, at: usize) {
+        self.space = None;
+        self.glue = true;
+        if !self.text.is_empty() && !self.text.ends_with('\n') {
+            self.text.push('\n');
+            self.map.push_whole(1, at..at);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_ways_of_writing_are_one() {
+        let f = |text: &str| fold(text, true).0;
+        for text in ["2.4 × 10⁻⁴", "$2.4 \\times 10^{-4}$", "2.4\\times10^{-4}", "2.4×10^\u{2212}4"] {
+            assert_eq!(f(text), "2.4×10^-4", "{text}");
+        }
+        for text in ["0.442\u{202f}s", "0.442\n s", "$0.442\\,\\mathrm{s}$", "0.442~s", "$0.442$ s"] {
+            assert_eq!(f(text), "0.442 s", "{text}");
+        }
+        assert_eq!(f("0.44 ± 0.01 and ~5"), "0.44±0.01 and ~5");
+        assert_eq!(f("0.4–0.5, \u{2212}2, m², x₁₂, 1{,}500"), "0.4-0.5, -2, m^2, x_12, 1,500");
+        assert_eq!(fold("0.4–0.5", false).0, "0.4–0.5");
+        assert_eq!(f("a\u{1} \u{1}b"), "a\nb");
+        assert_eq!(f("\\frac{1}{2} \\"), "\\frac12 \\");
+    }
+
+    #[test]
+    fn places_are_kept() {
+        let text = "takes $2.4 \\times 10^{-4}$ s";
+        let (folded, map) = fold(text, true);
+        assert_eq!(folded, "takes 2.4×10^-4 s");
+        let at = folded.find("2.4").unwrap();
+        assert_eq!(&text[map.span(at..folded.len())], "2.4 \\times 10^{-4}$ s");
+    }
+}

@@ -1,0 +1,152 @@
+//! Numbers quoted in the text: found where a reader sees them, read, and compared with what the simulation gives at
+//! the precision that they are printed with.
+
+mod fold;
+mod html;
+mod number;
+mod numeral;
+mod places;
+mod prose;
+mod read;
+mod shown;
+mod told;
+mod unit;
+
+pub use number::{Form, Quoted, Style};
+pub use read::{Unread, quoted};
+pub use shown::ShownText;
+
+use crate::finding::Finding;
+use crate::spec::{Question, Said};
+use std::ops::Range;
+
+/// The value of the same expression in another run: with half the timestep, or from a start that is a hair away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Other {
+    /// What was changed: "at half the timestep", "with the solver run to convergence", "with a start moved by 1e-14".
+    pub how: &'static str,
+    /// What the expression then gives.
+    pub value: f64,
+}
+
+/// What became of a quote.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum QuoteState {
+    /// The text stands in the lesson, and its number is what the expression gives.
+    Right,
+    /// The text stands in the lesson, and its number is another one.
+    Wrong,
+    /// It could not be checked; a finding says why.
+    Unclear,
+}
+
+/// A quote that was checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QuoteOutcome {
+    /// What became of it.
+    pub state: QuoteState,
+    /// A short sentence when it is not right.
+    pub reason: String,
+    /// The number that was read. Of `50 %` that is 50 or 0.5, whichever the expression gives.
+    pub read: Option<Quoted>,
+    /// What the expression gives in the lesson's own runs.
+    pub computed: f64,
+    /// Where the text stands, in bytes of the file.
+    pub places: Vec<Range<usize>>,
+    /// Other runs in which the printed digits change, and what they print.
+    pub moved: Vec<(&'static str, String)>,
+}
+
+/// Compares a quoted number with what its expression gives, at every place where it is shown.
+///
+/// `timestep_others` are the values of the expression with finer numerics, `start_others` those from starts that no
+/// reader could tell from the lesson's own.
+pub(super) fn check(
+    said: &Said,
+    computed: f64,
+    timestep_others: &[Other],
+    start_others: &[Other],
+    question: Option<&Question>,
+    shown: &ShownText,
+    findings: &mut Vec<Finding>,
+) -> QuoteOutcome {
+    let mut outcome = QuoteOutcome {
+        state: QuoteState::Unclear,
+        reason: String::new(),
+        read: None,
+        computed,
+        places: own_first(shown.places(said.quote.as_str()), question),
+        moved: Vec::new(),
+    };
+    let unclear = |mut outcome: QuoteOutcome, reason: &str, finding: Finding, findings: &mut Vec<Finding>| {
+        outcome.reason = reason.to_string();
+        findings.push(finding);
+        outcome
+    };
+    let reading = match read::reading(said.quote.as_str()) {
+        Ok(reading) => reading,
+        Err(Unread::NoNumber) => {
+            return unclear(outcome, "the quote holds no number", told::no_number(said), findings);
+        }
+        Err(Unread::Form(form)) => {
+            let reason = format!("the quote is {form}, which is not read");
+            return unclear(outcome, &reason, told::unread(said, form), findings);
+        }
+    };
+    let fits = [Some(reading.read), reading.share].into_iter().flatten().find(|q| q.is(computed));
+    let read = fits.unwrap_or(reading.read);
+    outcome.read = Some(read);
+    if outcome.places.is_empty() {
+        let hidden = shown.hidden(said.quote.as_str());
+        return unclear(outcome, "no reader sees this text", told::not_found(said, hidden), findings);
+    }
+    if !computed.is_finite() {
+        return unclear(outcome, "the expression has no value", told::no_value(said, computed), findings);
+    }
+    let moved = |others: &[Other]| -> Vec<(&'static str, String)> {
+        let differs = others.iter().filter(|o| read.differ(computed, o.value));
+        differs.map(|o| (o.how, told::printed(&read, o.value))).collect()
+    };
+    let chaotic = moved(start_others);
+    if !chaotic.is_empty() {
+        let values: Vec<f64> = start_others.iter().map(|o| o.value).chain([computed]).collect();
+        outcome.moved = chaotic;
+        let finding = told::chaotic(said, &outcome, &read, &values);
+        return unclear(outcome, "no reader can reproduce these digits", finding, findings);
+    }
+    outcome.moved = moved(timestep_others);
+    if fits.is_some() {
+        if !outcome.moved.is_empty() {
+            findings.push(told::of_timestep(said, &outcome, &read));
+        }
+        outcome.state = QuoteState::Right;
+        return outcome;
+    }
+    if let Some((other, why)) = reading.doubts.iter().find(|(q, _)| q.is(computed)) {
+        let finding = told::doubtful(said, &outcome, &read, why, Some(other));
+        return unclear(outcome, "the quote can be read in two ways", finding, findings);
+    }
+    if let Some(why) = reading.unsure {
+        let finding = told::doubtful(said, &outcome, &read, why, None);
+        return unclear(outcome, "the quote can be read in two ways", finding, findings);
+    }
+    if let Some(shift) = unit::shift(&read, &reading.unit, computed) {
+        let finding = told::other_unit(said, &outcome, &read, &shift);
+        return unclear(outcome, "text and expression differ by a power of ten", finding, findings);
+    }
+    findings.push(told::wrong(said, &outcome, &read));
+    outcome.reason = format!("the text says {read}, the simulation gives {}", told::printed(&read, computed));
+    outcome.state = QuoteState::Wrong;
+    outcome
+}
+
+/// The places of a question itself, then the others.
+fn own_first(places: &[Range<usize>], question: Option<&Question>) -> Vec<Range<usize>> {
+    let own = |p: &&Range<usize>| question.is_some_and(|q| q.span.start <= p.start && p.end <= q.span.end);
+    let (own, others): (Vec<_>, Vec<_>) = places.iter().partition(own);
+    own.into_iter().chain(others).cloned().collect()
+}
+
+#[cfg(test)]
+#[path = "check_tests.rs"]
+mod tests;

@@ -1,0 +1,178 @@
+//! A number as a text prints it: its value, its precision, and other numbers printed like it.
+
+use std::fmt;
+
+/// A number as it is printed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quoted {
+    /// Its value; the middle of a range.
+    pub value: f64,
+    /// Half a unit of its last digit.
+    pub half_unit: f64,
+    /// Decimals of the mantissa.
+    pub decimals: usize,
+    /// The power of ten, 0 without an exponent.
+    pub exponent: i32,
+    /// How it is written.
+    pub form: Form,
+}
+
+/// How a number is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    /// Digits, perhaps with a power of ten.
+    Plain(Style),
+    /// `½`, `1¾`: compared to two decimals.
+    Fraction,
+    /// `50 %` or `5 ‰`, read as the fraction 0.5 or 0.005.
+    Share,
+    /// `0.44 ± 0.01`: everything from one end to the other is right.
+    PlusMinus(f64, f64),
+    /// `0.4 to 0.5`: everything from one end to the other is right.
+    Range(f64, f64),
+}
+
+/// How digits and powers of ten are written, so that another number can be written in the same way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Style {
+    /// What stands between groups of three digits.
+    pub group: Option<char>,
+    /// `×10^3` rather than `e3`.
+    pub times: bool,
+}
+
+impl Quoted {
+    /// Whether this number says what `x` is, at the precision that it is printed with.
+    pub fn is(&self, x: f64) -> bool {
+        match self.form {
+            // The ends belong to it; their rounding errors must not decide.
+            Form::PlusMinus(low, high) | Form::Range(low, high) => {
+                let slack = 1e-9 * low.abs().max(high.abs());
+                low - slack <= x && x <= high + slack
+            }
+            // A value half way may be rounded either way; its own rounding error must not decide.
+            _ => (x - self.value).abs() <= self.half_unit * (1.0 + 1e-6) + 1e-12 * self.value.abs(),
+        }
+    }
+
+    /// Another number, printed with the same precision.
+    pub fn print(&self, x: f64) -> String {
+        let style = match self.form {
+            Form::Plain(style) => style,
+            Form::Fraction | Form::Share => Style::default(),
+            Form::PlusMinus(..) | Form::Range(..) => return crate::verify::significant(x),
+        };
+        if !x.is_finite() || x.abs() >= 1e15 && self.exponent == 0 {
+            return crate::verify::significant(x);
+        }
+        if self.exponent == 0 {
+            return group(&without_minus_zero(format!("{x:.*}", self.decimals)), style.group);
+        }
+        let mantissa = self.value.abs() / ten(self.exponent);
+        let mut exponent = self.exponent;
+        // A mantissa from 1 to 10 stays one: 4.4e-2 and not 44000.0e-6.
+        if (0.9999..10.0).contains(&mantissa) && x != 0.0 {
+            let printed = format!("{x:.*e}", self.decimals);
+            exponent = printed.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(exponent);
+        }
+        let digits = without_minus_zero(format!("{:.*}", self.decimals, x / ten(exponent)));
+        if style.times { format!("{digits}×10^{exponent}") } else { format!("{digits}e{exponent}") }
+    }
+
+    /// Whether two computed numbers are told apart by what is printed: where this number is right for one of them, it
+    /// is not for the other; else they print differently.
+    pub fn differ(&self, a: f64, b: f64) -> bool {
+        if self.is(a) || self.is(b) { self.is(a) != self.is(b) } else { self.print(a) != self.print(b) }
+    }
+}
+
+/// `10^n` to the last bit, as a text is read.
+pub(super) fn ten(n: i32) -> f64 {
+    format!("1e{n}").parse().unwrap_or(f64::NAN)
+}
+
+fn without_minus_zero(text: String) -> String {
+    let zero = text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.'));
+    if zero { text.trim_start_matches('-').to_string() } else { text }
+}
+
+/// Groups of three digits before the point.
+fn group(text: &str, separator: Option<char>) -> String {
+    let Some(separator) = separator else { return text.to_string() };
+    let (sign, rest) = text.strip_prefix('-').map_or(("", text), |rest| ("-", rest));
+    let (whole, decimals) = rest.find('.').map_or((rest, ""), |point| rest.split_at(point));
+    let mut grouped = String::from(sign);
+    for (i, c) in whole.chars().enumerate() {
+        if i > 0 && (whole.len() - i).is_multiple_of(3) {
+            grouped.push(separator);
+        }
+        grouped.push(c);
+    }
+    grouped + decimals
+}
+
+impl fmt::Display for Quoted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let short = crate::verify::significant;
+        match self.form {
+            Form::PlusMinus(low, high) => {
+                write!(f, "{} ± {}", short((low + high) / 2.0), short((high - low) / 2.0))
+            }
+            Form::Range(low, high) => write!(f, "{} to {}", short(low), short(high)),
+            // The digits, without what parts them.
+            Form::Plain(style) => {
+                let plain = Quoted { form: Form::Plain(Style { group: None, ..style }), ..*self };
+                f.write_str(&plain.print(self.value))
+            }
+            Form::Fraction | Form::Share => f.write_str(&self.print(self.value)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plain(value: f64, decimals: usize, exponent: i32) -> Quoted {
+        let half_unit = 0.5 * ten(exponent - decimals as i32);
+        Quoted { value, half_unit, decimals, exponent, form: Form::Plain(Style::default()) }
+    }
+
+    #[test]
+    fn precision_is_that_of_the_print() {
+        let q = plain(0.442, 3, 0);
+        assert!(q.is(0.4424) && q.is(0.4415) && !q.is(0.4426) && !q.is(f64::NAN));
+        assert_eq!(q.print(0.46), "0.460");
+        assert_eq!(q.print(-0.0001), "0.000");
+        assert_eq!(plain(3e-7, 1, -7).print(4.44e-7), "4.4e-7");
+        assert_eq!(plain(3e-7, 1, -7).print(0.0444), "4.4e-2");
+        assert_eq!(plain(3e-7, 1, -7).print(9.97e-7), "1.0e-6");
+        assert_eq!(plain(30e-7, 0, -7).print(0.0), "0e-7");
+        // 12.2625 is half way between two prints of three decimals.
+        assert!(plain(12.263, 3, 0).is(12.2625) && plain(12.262, 3, 0).is(12.2625));
+        let thousands =
+            Quoted { form: Form::Plain(Style { group: Some(','), times: false }), ..plain(1500.0, 0, 0) };
+        assert_eq!(thousands.print(-1234567.0), "-1,234,567");
+        assert_eq!(thousands.print(123.0), "123");
+        assert_eq!(thousands.to_string(), "1500");
+        for x in [f64::NAN, f64::INFINITY, 1e300, -1e-300] {
+            assert!(thousands.print(x).len() < 40);
+        }
+    }
+
+    #[test]
+    fn what_prints_alike_does_not_differ() {
+        let q = plain(0.442, 3, 0);
+        assert!(!q.differ(0.4419, 0.44249) && q.differ(0.44249, 0.44251) && q.differ(0.442, f64::NAN));
+        assert!(!q.differ(0.5001, 0.5002) && q.differ(0.5001, 0.5009));
+        // Half way: right for both.
+        assert!(!q.differ(0.4425, 0.44249));
+    }
+
+    #[test]
+    fn a_range_holds_what_lies_in_it() {
+        let q = Quoted { form: Form::Range(0.4, 0.5), ..plain(0.45, 1, 0) };
+        assert!(q.is(0.4) && q.is(0.5) && !q.is(0.501) && !q.is(f64::NAN) && q.differ(0.45, 0.51));
+        assert_eq!(q.to_string(), "0.4 to 0.5");
+    }
+}

@@ -1,0 +1,229 @@
+//! Digits with their separators, decimals and power of ten, at one place of a text.
+
+use super::number::{Form, Quoted, Style, ten};
+
+/// A number and where it stands, in characters.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Numeral {
+    pub(super) quoted: Quoted,
+    /// First character, the sign included.
+    pub(super) start: usize,
+    /// Behind the last character.
+    pub(super) end: usize,
+    /// What else it could mean.
+    pub(super) doubts: Vec<f64>,
+    /// Why it should not be called wrong, or not be read at all.
+    pub(super) unsure: Option<&'static str>,
+    pub(super) refused: Option<&'static str>,
+}
+
+/// Most digits of a number: more than any computation has.
+const MAX_DIGITS: usize = 30;
+/// Largest power of ten, so that no print of it overflows.
+const MAX_EXPONENT: i32 = 290;
+
+/// What stands for a fraction.
+pub(super) fn fraction(c: char) -> Option<f64> {
+    Some(match c {
+        '½' => 0.5,
+        '¼' => 0.25,
+        '¾' => 0.75,
+        '⅓' => 1.0 / 3.0,
+        '⅔' => 2.0 / 3.0,
+        '⅕' => 0.2,
+        '⅖' => 0.4,
+        '⅗' => 0.6,
+        '⅘' => 0.8,
+        '⅙' => 1.0 / 6.0,
+        '⅚' => 5.0 / 6.0,
+        '⅛' => 0.125,
+        '⅜' => 0.375,
+        '⅝' => 0.625,
+        '⅞' => 0.875,
+        _ => return None,
+    })
+}
+
+/// Characters of a text, and what stands at each of them.
+#[derive(Clone, Copy)]
+pub(super) struct Chars<'a>(pub(super) &'a [char]);
+
+impl Chars<'_> {
+    pub(super) fn at(&self, i: usize) -> Option<char> {
+        self.0.get(i).copied()
+    }
+
+    pub(super) fn before(&self, i: usize) -> Option<char> {
+        self.at(i.checked_sub(1)?)
+    }
+
+    pub(super) fn digit(&self, i: usize) -> bool {
+        self.at(i).is_some_and(|c| c.is_ascii_digit())
+    }
+
+    /// Behind the spaces that begin at `i`.
+    pub(super) fn skip_spaces(&self, mut i: usize) -> usize {
+        while self.at(i).is_some_and(char::is_whitespace) {
+            i += 1;
+        }
+        i
+    }
+
+    /// Whether this word begins at `i`.
+    pub(super) fn has(&self, i: usize, word: &str) -> bool {
+        word.chars().enumerate().all(|(k, c)| self.at(i + k).is_some_and(|x| x.eq_ignore_ascii_case(&c)))
+    }
+
+    /// Behind the digits that begin at `i`.
+    fn digits(&self, mut i: usize) -> usize {
+        while self.digit(i) {
+            i += 1;
+        }
+        i
+    }
+
+    fn text(&self, from: usize, to: usize) -> String {
+        self.0.get(from..to).unwrap_or_default().iter().collect()
+    }
+
+    /// Behind a separator at `i` and exactly three digits.
+    fn group(&self, i: usize, separator: char) -> Option<usize> {
+        let end = self.digits(i + 1);
+        (self.at(i) == Some(separator) && end == i + 4).then_some(end)
+    }
+}
+
+/// Reads the number whose first digit, point or fraction stands at `from`.
+pub(super) fn numeral(chars: Chars<'_>, from: usize, negative: bool) -> Numeral {
+    let mut whole_end = chars.digits(from);
+    let first = chars.text(from, whole_end);
+    let mut digits = first.clone();
+    let mut style = Style::default();
+    let (mut doubts, mut unsure, mut refused) = (Vec::new(), None, None);
+    let mut decimals = 0;
+
+    // Groups of three digits.
+    let groups = !first.is_empty() && first.len() <= 3 && !first.starts_with('0');
+    for separator in [',', ' ', '\''] {
+        if !groups || style.group.is_some() {
+            break;
+        }
+        while let Some(end) = chars.group(whole_end, separator) {
+            digits += &chars.text(whole_end + 1, end);
+            whole_end = end;
+            style.group = Some(separator);
+        }
+    }
+    if style.group == Some(' ') {
+        doubts.extend(first.parse::<f64>());
+        doubts.extend(chars.text(whole_end - 3, whole_end).parse::<f64>());
+    }
+
+    let mut end = whole_end;
+    if chars.at(end) == Some('.') && chars.digit(end + 1) {
+        end = chars.digits(whole_end + 1);
+        let mut after = chars.text(whole_end + 1, end);
+        // 0.000 833: decimals in groups of three.
+        while after.len().is_multiple_of(3)
+            && let Some(more) = chars.group(end, ' ')
+        {
+            doubts.extend(format!("{digits}.{after}").parse::<f64>());
+            after += &chars.text(end + 1, more);
+            end = more;
+        }
+        decimals = after.len();
+        digits = format!("{digits}.{after}");
+        if chars.at(end) == Some('.') && chars.digit(end + 1) {
+            refused = Some("digits with several points");
+        } else if chars.at(end) == Some(',') && chars.digit(end + 1) {
+            refused = Some("digits with a point and a comma behind it");
+        }
+    } else if chars.at(end) == Some(',') && chars.digit(end + 1) {
+        // No thousands: a decimal comma, or a list.
+        let stop = chars.digits(end + 1);
+        let again = matches!(chars.at(stop), Some(',' | '.')) && chars.digit(stop + 1);
+        if style.group.is_some() || again {
+            refused = Some("digits with several commas");
+        } else {
+            let after = chars.text(end + 1, stop);
+            decimals = after.len();
+            if first != "0" {
+                unsure = Some("its comma may part decimals or two numbers");
+            }
+            digits = format!("{digits}.{after}");
+        }
+        end = stop;
+    } else if style.group == Some(',') && digits.len() == first.len() + 3 {
+        // 1,500: thousands in English, decimals elsewhere.
+        doubts.extend(format!("{first}.{}", digits.get(first.len()..).unwrap_or("")).parse::<f64>());
+    }
+
+    let mut form = Form::Plain(style);
+    let mut extra = 0.0;
+    let mark = if first.is_empty() { end } else { chars.skip_spaces(end) };
+    if let Some(x) = chars.at(mark).and_then(fraction)
+        && decimals == 0
+        && style.group.is_none()
+    {
+        (form, extra, end, decimals) = (Form::Fraction, x, mark + 1, 2);
+    }
+
+    let mut exponent = 0;
+    if let Some((power, behind, times)) = power(chars, end, &digits).filter(|_| form != Form::Fraction) {
+        exponent = power;
+        // A power of ten alone: 10^-3 is 1e-3.
+        if behind > end && digits == "10" && chars.at(end) == Some('^') {
+            digits = "1".into();
+        }
+        end = behind;
+        style.times = times;
+        form = Form::Plain(style);
+    }
+    let count = digits.bytes().filter(u8::is_ascii_digit).count();
+    if count > MAX_DIGITS || exponent.abs() > MAX_EXPONENT {
+        refused = Some("a number of more digits than a computation has");
+        (exponent, decimals) = (0, 0);
+    }
+    let sign = if negative { -1.0 } else { 1.0 };
+    let digits = if digits.is_empty() { "0" } else { &digits };
+    let value = sign * (format!("{digits}e{exponent}").parse::<f64>().unwrap_or(f64::NAN) + extra);
+    let half_unit = 0.5 * ten(exponent.saturating_sub(decimals as i32));
+    doubts.iter_mut().for_each(|x| *x *= sign);
+    let quoted = Quoted { value, half_unit, decimals, exponent, form };
+    Numeral { quoted, start: from, end, doubts, unsure, refused }
+}
+
+/// The power of ten that follows at `at`, where it ends, and whether it is written out (`×10^3`).
+fn power(chars: Chars<'_>, at: usize, digits: &str) -> Option<(i32, usize, bool)> {
+    let signed = |i: usize| -> Option<(i32, usize)> {
+        let negative = matches!(chars.at(i), Some('-' | '–'));
+        let from = i + usize::from(negative || chars.at(i) == Some('+'));
+        let end = chars.digits(from);
+        let n: i32 = chars.text(from, end).parse().ok().filter(|_| end > from && end - from < 9)?;
+        Some((if negative { -n } else { n }, end))
+    };
+    if matches!(chars.at(at), Some('e' | 'E'))
+        && let Some((n, end)) = signed(at + 1)
+        && !chars.at(end).is_some_and(char::is_alphanumeric)
+    {
+        return Some((n, end, false));
+    }
+    // The base, with its sign of multiplication unless it is all there is.
+    let mark = chars.skip_spaces(at);
+    let base = if digits == "10" && chars.at(at) == Some('^') {
+        at
+    } else {
+        let from = chars.skip_spaces(mark + 1);
+        let times = matches!(chars.at(mark), Some('×' | '·' | '*' | 'x' | 'X'));
+        if !(times && chars.has(from, "10")) {
+            return None;
+        }
+        from + 2
+    };
+    let raised = if chars.has(base, "**") { base + 2 } else { base + 1 };
+    if raised == base + 1 && chars.at(base) != Some('^') {
+        return None;
+    }
+    let (n, end) = signed(raised)?;
+    Some((n, end, true))
+}

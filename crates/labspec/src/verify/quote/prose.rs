@@ -1,0 +1,200 @@
+//! The prose of a Markdown lesson, paragraph by paragraph, cell by cell: what is left when labs, quizzes, listings
+//! and tags are taken out. A fence without a language, or of printed output, is shown as it stands.
+
+use super::html;
+use super::shown::Piece;
+use crate::markdown::{self, Block, BlockKind};
+use crate::source::{SourceMap, Text};
+use crate::spec::Lesson;
+use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
+use std::ops::Range;
+
+/// Languages of a fence whose text is what a program printed.
+const OUTPUT: [&str; 5] = ["", "text", "txt", "console", "output"];
+
+/// Most bytes that are read, again and again behind damaged fences.
+const MAX_REREAD: usize = 64 << 20;
+
+/// What a page may show that plain CommonMark does not know.
+const OPTIONS: Options = Options::ENABLE_TABLES
+    .union(Options::ENABLE_FOOTNOTES)
+    .union(Options::ENABLE_MATH)
+    .union(Options::ENABLE_YAML_STYLE_METADATA_BLOCKS);
+
+/// The pieces of shown prose, in order.
+pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {
+    if lesson.file.path().to_ascii_lowercase().ends_with(".json") {
+        return Vec::new();
+    }
+    let text = lesson.file.text();
+    let blocks = markdown::scan(&lesson.file).blocks;
+    let mut reader = Reader { text, blocks: &blocks, pieces: Vec::new(), open: empty(), html: false };
+    let (mut from, mut read) = (0, text.len());
+    while let Some(resume) = reader.pass(from).filter(|&at| at > from && read < MAX_REREAD) {
+        from = resume;
+        read += text.len() - from;
+    }
+    reader.pieces
+}
+
+fn empty() -> Text {
+    Text { value: String::new(), map: SourceMap::default() }
+}
+
+struct Reader<'t> {
+    text: &'t str,
+    blocks: &'t [Block],
+    pieces: Vec<Piece>,
+    /// The piece that is being read.
+    open: Text,
+    html: bool,
+}
+
+impl Reader<'_> {
+    /// Reads from `from` on. Gives where to go on when a damaged fence has swallowed what follows it.
+    fn pass(&mut self, from: usize) -> Option<usize> {
+        // In a fence: whether its text is shown. In what stands before the lesson (its metadata): not.
+        let mut fence: Option<bool> = None;
+        for (event, range) in Parser::new_ext(self.text.get(from..)?, OPTIONS).into_offset_iter() {
+            let range = range.start + from..range.end + from;
+            match event {
+                Event::Start(Tag::CodeBlock(kind)) => {
+                    self.close();
+                    let (shown, resume) = self.fence(&kind, &range);
+                    if resume.is_some() {
+                        return resume;
+                    }
+                    fence = Some(shown);
+                }
+                Event::Start(Tag::MetadataBlock(_)) => fence = Some(false),
+                Event::End(TagEnd::CodeBlock | TagEnd::MetadataBlock(_)) => {
+                    self.close();
+                    fence = None;
+                }
+                Event::Start(Tag::HtmlBlock) => {
+                    self.close();
+                    self.html = true;
+                }
+                Event::Start(ref tag) if is_inline(tag) => {}
+                Event::End(ref tag) if is_inline_end(tag) => {}
+                Event::Start(_) | Event::End(_) | Event::Rule => self.close(),
+                _ if fence == Some(false) || self.is_taken(&range) => {}
+                Event::Text(part) if fence == Some(true) => self.lines(&part, range),
+                Event::Text(part) | Event::Html(part) => self.add(&part, range),
+                Event::Code(part) | Event::InlineMath(part) | Event::DisplayMath(part) => {
+                    self.inside(&part, range)
+                }
+                Event::InlineHtml(tag) => match html::tag(&tag) {
+                    Some((Some(html::APART), _)) | None => {}
+                    Some((shown, _)) => self.whole(shown, range),
+                },
+                Event::SoftBreak | Event::HardBreak => self.whole(Some(' '), range),
+                _ => {}
+            }
+        }
+        self.close();
+        None
+    }
+
+    /// Whether the text of a fence is shown, and where to go on if it ends before Markdown thinks so.
+    fn fence(&self, kind: &CodeBlockKind<'_>, range: &Range<usize>) -> (bool, Option<usize>) {
+        let i = self.blocks.partition_point(|b| b.span.start < range.start);
+        let Some(block) = self.blocks.get(i).filter(|b| b.span.start == range.start) else {
+            return match kind {
+                CodeBlockKind::Indented => (true, None),
+                CodeBlockKind::Fenced(info) => {
+                    (is_output(info.split_whitespace().next().unwrap_or("")), None)
+                }
+            };
+        };
+        let resume = (block.span.end < range.end).then_some(block.span.end);
+        match &block.kind {
+            BlockKind::Code { language, file } => (is_output(language) && file.is_none(), resume),
+            _ => (false, resume),
+        }
+    }
+
+    /// Whether this belongs to a lab or a quiz that Markdown takes for prose.
+    fn is_taken(&self, range: &Range<usize>) -> bool {
+        let i = self.blocks.partition_point(|b| b.span.start <= range.start);
+        let before = i.checked_sub(1).and_then(|i| self.blocks.get(i));
+        before.is_some_and(|b| !matches!(b.kind, BlockKind::Code { .. }) && range.start < b.span.end)
+    }
+
+    fn close(&mut self) {
+        let text = std::mem::replace(&mut self.open, empty());
+        if !text.value.is_empty() {
+            self.pieces.push(Piece { text, html: self.html });
+        }
+        self.html = false;
+    }
+
+    /// Adds what stands at a range: its bytes, or what Markdown made of them.
+    fn add(&mut self, part: &str, range: Range<usize>) {
+        self.open.value.push_str(part);
+        if self.text.get(range.clone()) == Some(part) {
+            self.open.map.push_verbatim(range);
+        } else {
+            self.open.map.push_whole(part.len(), range);
+        }
+    }
+
+    /// Adds code or a formula, whose range holds its marks too.
+    fn inside(&mut self, part: &str, range: Range<usize>) {
+        let outer = self.text.get(range.clone()).unwrap_or("");
+        let at = outer.find(part).map(|i| range.start + i);
+        let inner = at.map_or(range, |at| at..at + part.len());
+        self.add(part, inner);
+    }
+
+    fn whole(&mut self, shown: Option<char>, range: Range<usize>) {
+        if let Some(c) = shown {
+            self.open.value.push(c);
+            self.open.map.push_whole(c.len_utf8(), range);
+        }
+    }
+
+    /// Printed output: every line stands alone.
+    fn lines(&mut self, part: &str, range: Range<usize>) {
+        if self.text.get(range.clone()) != Some(part) {
+            self.add(part, range);
+            self.close();
+            return;
+        }
+        let mut at = range.start;
+        for line in part.split_inclusive('\n') {
+            self.add(line, at..at + line.len());
+            self.close();
+            at += line.len();
+        }
+    }
+}
+
+fn is_output(language: &str) -> bool {
+    OUTPUT.contains(&language.to_ascii_lowercase().as_str())
+}
+
+/// Tags within a line, which part nothing.
+fn is_inline(tag: &Tag<'_>) -> bool {
+    matches!(
+        tag,
+        Tag::Emphasis
+            | Tag::Strong
+            | Tag::Strikethrough
+            | Tag::Link { .. }
+            | Tag::Superscript
+            | Tag::Subscript
+    )
+}
+
+fn is_inline_end(tag: &TagEnd) -> bool {
+    matches!(
+        tag,
+        TagEnd::Emphasis
+            | TagEnd::Strong
+            | TagEnd::Strikethrough
+            | TagEnd::Link
+            | TagEnd::Superscript
+            | TagEnd::Subscript
+    )
+}

@@ -1,0 +1,182 @@
+//! The text of a lesson that a reader sees: prose, headings, cells, captions, printed output, and the shown texts of
+//! labs and quizzes. Keys, code, listings, attributes and comments are none of it.
+
+use super::places::Search;
+use super::{fold, html, prose};
+use crate::source::{SourceMap, Text};
+use crate::spec::{Control, ControlKind, Lab, Lesson, Question, QuestionKind, Quiz, Verify};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Where the quotes of a lesson stand in what is shown of it. Made once for a lesson.
+#[derive(Debug, Default)]
+pub struct ShownText {
+    places: BTreeMap<String, Vec<Range<usize>>>,
+    /// Where a quote stands that no reader sees: in code, a key, a listing.
+    hidden: BTreeMap<String, Range<usize>>,
+}
+
+/// Most quotes that are looked for where nobody sees them: each is a walk through the file.
+const MAX_HIDDEN: usize = 16;
+
+/// A piece of text that is shown apart from others.
+#[derive(Debug)]
+pub(super) struct Piece {
+    pub(super) text: Text,
+    /// It holds tags and entities.
+    pub(super) html: bool,
+}
+
+impl ShownText {
+    /// Looks for all quotes of a lesson.
+    pub fn of(lesson: &Lesson) -> ShownText {
+        let file = lesson.file.text();
+        let mut search = Search::new();
+        let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
+        for verify in verifies(lesson) {
+            for said in &verify.says {
+                let quote = said.quote.as_str();
+                numbers.entry(quote).or_insert_with(|| search.add(quote));
+            }
+        }
+        if numbers.is_empty() {
+            return ShownText::default();
+        }
+        let (text, map) = join(pieces(lesson));
+        let plain = |origin: &str| {
+            let rest = origin.trim_matches([' ', '\n', '\r', '\t']);
+            rest.is_empty() || matches!(rest, "\\n" | "\\t" | "\\r")
+        };
+        search.walk(&text, |at| !plain(file.get(map.span(at..at + 1)).unwrap_or("")));
+        let mut shown = ShownText::default();
+        for (&quote, &number) in &numbers {
+            let mut places: Vec<_> =
+                search.found(number).iter().map(|r| lesson.file.snap(&map.span(r.clone()))).collect();
+            places.sort_by_key(|r| (r.start, r.end));
+            places.dedup();
+            if places.is_empty() && shown.hidden.len() < MAX_HIDDEN {
+                let place = unseen(quote, file, lesson);
+                shown.hidden.extend(place.map(|place| (quote.to_string(), place)));
+            }
+            shown.places.insert(quote.to_string(), places);
+        }
+        shown
+    }
+
+    /// The bytes of the file at which a quote stands as a number of its own.
+    pub fn places(&self, quote: &str) -> &[Range<usize>] {
+        self.places.get(quote).map_or(&[], Vec::as_slice)
+    }
+
+    /// Where it stands instead, when it stands only where no reader sees it.
+    pub(super) fn hidden(&self, quote: &str) -> Option<Range<usize>> {
+        self.hidden.get(quote).cloned()
+    }
+}
+
+/// Every `verify` object of a lesson.
+fn verifies(lesson: &Lesson) -> Vec<&Verify> {
+    let labs = lesson.all_labs().into_iter().filter_map(|l| l.verify.as_ref());
+    let questions = lesson.quizzes.iter().flat_map(Quiz::numbered).filter_map(|(_, q)| q.verify.as_ref());
+    labs.chain(questions).collect()
+}
+
+/// Where a quote stands outside of `verify` objects. Only asked when no reader sees it.
+fn unseen(quote: &str, file: &str, lesson: &Lesson) -> Option<Range<usize>> {
+    if quote.is_empty() {
+        return None;
+    }
+    let own: Vec<Range<usize>> = verifies(lesson).into_iter().map(|v| v.span.clone()).collect();
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit() || c == '.');
+    let mut found = file.match_indices(quote).take(1000).map(|(i, _)| i..i + quote.len());
+    found.find(|r| {
+        let before = file.get(..r.start).and_then(|t| t.chars().next_back());
+        let after = file.get(r.end..).and_then(|t| t.chars().next());
+        let claimed = own.iter().any(|o| o.start <= r.start && r.end <= o.end);
+        let goes_on = digit(before) && digit(quote.chars().next());
+        !(claimed || goes_on || digit(after) && digit(quote.chars().next_back()))
+    })
+}
+
+/// Everything shown in one text, a line for each piece, with the way back to the file. Pieces without a digit hold no
+/// quote.
+fn join(pieces: Vec<Piece>) -> (String, SourceMap) {
+    let (mut all, mut map) = (String::new(), SourceMap::default());
+    for piece in pieces {
+        let number = |c: char| c.is_numeric();
+        // `&frac12;` and `&#49;` are numbers too.
+        if !(piece.text.value.contains(number) || piece.html && piece.text.value.contains("&frac")) {
+            continue;
+        }
+        let mut back = piece.text.map;
+        let mut text = piece.text.value;
+        if piece.html {
+            let (shown, inner) = html::strip(&text);
+            (text, back) = (shown, inner.then(&back));
+        }
+        let (folded, inner) = fold::fold(&text, true);
+        let at = back.span(0..0).start;
+        all.push_str(&folded);
+        for part in inner.then(&back).pieces() {
+            if part.verbatim {
+                map.push_verbatim(part.origin.clone());
+            } else {
+                map.push_whole(part.derived.len(), part.origin.clone());
+            }
+        }
+        all.push('\n');
+        map.push_whole(1, at..at);
+    }
+    (all, map)
+}
+
+fn pieces(lesson: &Lesson) -> Vec<Piece> {
+    let mut all = prose::pieces(lesson);
+    for (_, lab) in lesson.addressed() {
+        lab_texts(lab, &mut all);
+    }
+    for quiz in &lesson.quizzes {
+        plain(&quiz.title, &mut all);
+        for (_, question) in quiz.numbered() {
+            question_texts(question, &mut all);
+        }
+    }
+    all
+}
+
+fn plain<'a>(texts: impl IntoIterator<Item = &'a Text>, all: &mut Vec<Piece>) {
+    all.extend(texts.into_iter().map(|text| Piece { text: text.clone(), html: false }));
+}
+
+fn question_texts(question: &Question, all: &mut Vec<Piece>) {
+    plain(&question.label, all);
+    if let QuestionKind::Numeric { unit, .. } = &question.kind {
+        plain(unit, all);
+    }
+    all.extend(question.html().into_iter().map(|text| Piece { text: text.clone(), html: true }));
+}
+
+fn lab_texts(lab: &Lab, all: &mut Vec<Piece>) {
+    plain(lab.title.iter().chain(&lab.kind), all);
+    all.extend(lab.note.iter().map(|text| Piece { text: text.clone(), html: true }));
+    lab.controls.iter().for_each(|control| control_texts(control, all));
+    for plot in &lab.plots {
+        plain(plot.ylabel.iter().chain(&plot.xlabel), all);
+        plain(plot.ref_lines.iter().filter_map(|line| line.label.as_ref()), all);
+        plain(plot.traces.iter().map(|trace| &trace.label), all);
+    }
+    plain(lab.readouts.iter().map(|readout| &readout.label), all);
+}
+
+fn control_texts(control: &Control, all: &mut Vec<Piece>) {
+    plain([&control.label], all);
+    match &control.kind {
+        ControlKind::Slider { unit, .. } => plain(unit, all),
+        ControlKind::Select { options, .. } => plain(options.iter().map(|choice| &choice.text), all),
+        ControlKind::Button { .. } => {}
+    }
+}
+
+#[cfg(test)]
+#[path = "shown_tests.rs"]
+mod tests;

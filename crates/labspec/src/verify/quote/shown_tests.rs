@@ -1,0 +1,160 @@
+//! What counts as shown, and what does not.
+
+use super::*;
+use crate::lint::ModelFolder;
+use crate::source::SourceFile;
+use crate::spec::load_lesson;
+
+/// A lesson whose first lab quotes "0.442 s" and whatever else, around some Markdown.
+fn lesson(markdown: &str, quotes: &[&str]) -> Lesson {
+    let says: Vec<_> = quotes.iter().map(|q| serde_json::json!([q, "1"])).collect();
+    let lab = serde_json::json!({
+        "xml": "<mujoco/>", "setup": "ctx.x = '0.442 s'", "title": "Title 1.1 s", "note": "<b>2.2</b>&nbsp;s <!-- 3.3 s -->",
+        "controls": [{"label": "4.4 s", "unit": "5.5 s", "param": "p", "min": 0, "max": 1, "value": 0},
+                     {"type": "select", "label": "s", "param": "q", "options": [["6.6 s", 1]], "value": 1}],
+        "plots": [{"ylabel": "7.7 s", "xlabel": "8.8 s", "refLines": [{"y": 1, "label": "9.9 s"}], "traces": [{"label": "1.2 s", "expr": "1.3"}]}],
+        "readouts": [{"label": "1.4 s", "expr": "'1.5 s'"}],
+        "verify": {"says": says},
+    });
+    let text = format!("{markdown}\n\n```lab simlab\n{lab}\n```\n");
+    load_lesson(SourceFile::new("a.md", text), &ModelFolder::unknown())
+}
+
+/// The shown places of a quote, as they stand in the file.
+fn places(markdown: &str, quote: &str) -> Vec<String> {
+    let lesson = lesson(markdown, &[quote]);
+    let shown = ShownText::of(&lesson);
+    shown.places(quote).iter().map(|r| lesson.file.slice(r.clone()).to_string()).collect()
+}
+
+#[test]
+fn prose_is_shown_as_a_reader_sees_it() {
+    for markdown in [
+        "It takes 0.442 s.",
+        "# After 0.442 s",
+        "- in a list: 0.442 s",
+        "> quoted: 0.442 s",
+        "| a | b |\n|---|---|\n| 0.442 s | c |\n",
+        "`0.442 s`",
+        "It takes\n0.442 s",
+        "```\nt = 0.442 s\n```",
+        "```text\nt = 0.442 s\n```",
+        "> ```console\n> t = 0.442 s\n> ```",
+        "<p>It takes 0.442 s</p>",
+        "![0.442 s](fall.png)",
+        "Note.[^1]\n\n[^1]: After 0.442 s.\n",
+    ] {
+        assert_eq!(places(markdown, "0.442 s"), ["0.442 s"], "{markdown}");
+    }
+    for (markdown, place) in [
+        ("It takes **0.442** s.", "0.442** s"),
+        ("It takes 0.442&nbsp;s.", "0.442&nbsp;s"),
+        ("It takes 0.442\u{a0}s.", "0.442\u{a0}s"),
+        ("It takes <b>0.442</b> s.", "0.442</b> s"),
+        ("It takes 0.442\ns.", "0.442\ns"),
+        ("It takes $0.442\\,\\mathrm{s}$.", "0.442\\,\\mathrm{s"),
+        ("It takes $0.442$ s.", "0.442$ s"),
+        ("<div>It takes <b>0.442</b>\n s</div>", "0.442</b>\n s"),
+    ] {
+        assert_eq!(places(markdown, "0.442 s"), [place], "{markdown}");
+    }
+    let twice = "0.442 s\n\n0.442 s";
+    assert_eq!(places(twice, "0.442 s").len(), 2);
+    assert_eq!(places("x $2.4 \\times 10^{-4}$ m", "2.4×10⁻⁴ m"), ["2.4 \\times 10^{-4}$ m"]);
+    assert_eq!(places("y \u{2212}0.5 m", "-0.5 m"), ["\u{2212}0.5 m"]);
+}
+
+#[test]
+fn what_no_reader_sees_is_no_place() {
+    for markdown in [
+        "It takes 0.443 s.",
+        "```python\nt = 0.442 s\n```",
+        "```python file=a.py\nt = 0.442 s\n```",
+        "```text file=a.txt\nt = 0.442 s\n```",
+        "```json\n{\"0.442 s\": 1}\n```",
+        "<!-- 0.442 s -->",
+        "a <!-- 0.442 s --> b",
+        "<img alt=\"0.442 s\">",
+        "a <span title=\"0.442 s\">b</span>",
+        "[link](https://example.org/ \"0.442 s\")",
+        "---\nt: 0.442 s\n---\n",
+        "<script>\n0.442 s\n</script>",
+        "{\"model\": \"a\", \"controls\": [{\"type\": \"button\", \"label\": \"0.442 s\", \"run\": \"0.442 s\"}]}",
+        "-0.442 s",
+        "10.442 s",
+        "0.442 seconds",
+        "| 0.442 | s |\n|---|---|\n| 1 | 2 |\n",
+    ] {
+        let found = places(markdown, "0.442 s");
+        // A loose lab is a lab: its labels are shown, its code is not.
+        let shown = usize::from(markdown.starts_with('{'));
+        assert_eq!(found.len(), shown, "{markdown}: {found:?}");
+    }
+}
+
+#[test]
+fn labs_show_their_labels_and_not_their_code() {
+    let lesson = |quote| places("", quote);
+    for quote in ["1.1 s", "2.2 s", "4.4 s", "5.5 s", "6.6 s", "7.7 s", "8.8 s", "9.9 s", "1.2 s", "1.4 s"] {
+        assert_eq!(lesson(quote).len(), 1, "{quote}");
+    }
+    for quote in ["0.442 s", "3.3 s", "1.3", "1.5 s"] {
+        assert!(lesson(quote).is_empty(), "{quote}");
+    }
+    assert_eq!(lesson("2.2 s"), ["2.2</b>&nbsp;s"]);
+}
+
+#[test]
+fn what_stands_only_in_code_is_told() {
+    let lesson = lesson("```python\nt = '0.4425 s'\n```", &["0.4425 s", "0.442 s", "7.5 s"]);
+    let shown = ShownText::of(&lesson);
+    assert_eq!(lesson.file.slice(shown.hidden("0.4425 s").unwrap()), "0.4425 s");
+    assert!(shown.hidden("7.5 s").is_none());
+}
+
+#[test]
+fn prose_behind_a_damaged_fence_is_shown() {
+    let markdown =
+        "```lab\n{\"model\": \"a\"}\nIt takes 0.442 s.\n\n```quiz\n{\"id\": \"q\", \"questions\": []}\n```\n";
+    assert_eq!(places(markdown, "0.442 s"), ["0.442 s"]);
+}
+
+/// Hundreds of quotes in a large lesson are one walk through it, whatever their number: the walk is counted in
+/// `places`, here every place is found. (14 MB and 400 quotes take well under a second in a release build.)
+#[test]
+fn many_quotes_in_a_large_lesson_are_found() {
+    let line =
+        "After 0.442 s it is at -1.5 m, with $v = 3.0\\times10^{-3}$ m/s and 50 % of **its** energy.\n\n";
+    let markdown = line.repeat((1 << 20) / line.len());
+    let quotes: Vec<String> = (0..400).map(|i| format!("0.44{i} s")).collect();
+    let lesson = lesson(&markdown, &quotes.iter().map(String::as_str).collect::<Vec<_>>());
+    let shown = ShownText::of(&lesson);
+    let found: Vec<usize> = quotes.iter().map(|q| shown.places(q).len()).filter(|&n| n > 0).collect();
+    assert_eq!(found, [1000]);
+}
+
+#[test]
+fn hostile_texts_are_survived() {
+    for text in [
+        "<a <a <a",
+        "&#;&#;&#",
+        "$$$$$",
+        "²²²²₁₁₁",
+        "\\\\\\",
+        "0 0 0 0",
+        "1,1,1,",
+        "½½½",
+        "<!--",
+        "```",
+        "~~~\n0",
+    ] {
+        let lesson = lesson(&text.repeat(2000), &["0.442 s", "1", "0 0", "²", "½"]);
+        let shown = ShownText::of(&lesson);
+        for quote in ["1", "0 0", "½"] {
+            assert!(
+                shown.places(quote).iter().all(|r| lesson.file.text().get(r.clone()).is_some()),
+                "{text}"
+            );
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! What is told to an author about a quoted number.
+
+use super::QuoteOutcome;
+use super::number::{Form, Quoted, ten};
+use super::unit::Shift;
+use crate::bind::scene::finding;
+use crate::bind::warning;
+use crate::finding::{Finding, Severity};
+use crate::spec::Said;
+use crate::verify::significant;
+use std::ops::Range;
+
+/// Most further places that a finding points at.
+const MAX_RELATED: usize = 12;
+
+/// A value as the quote would print it.
+pub(super) fn printed(read: &Quoted, x: f64) -> String {
+    if x.is_nan() {
+        "no value".into()
+    } else if x.is_infinite() {
+        "infinity".into()
+    } else {
+        read.print(x)
+    }
+}
+
+/// The quote as a message may show it.
+fn shown(said: &Said) -> String {
+    crate::json::read::shorten(said.quote.as_str())
+}
+
+pub(super) fn no_number(said: &Said) -> Finding {
+    finding("quote-without-number", said.quote.span(), "there is no number in this quote")
+        .why("nothing was compared: digits of names, indexes and exponents, as in t2, x_1 or L^2, are no numbers")
+        .help("quote the number as the text prints it, such as \"0.442 s\"")
+}
+
+pub(super) fn unread(said: &Said, form: &str) -> Finding {
+    finding("quote-unclear", said.quote.span(), format!("\"{}\" is {form}, which is not read", shown(said)))
+        .why("nothing was compared: it is better to say so than to guess which number is meant")
+        .help(match form {
+            "a bound and not a number" => "quote the number alone, or state the bound as a condition under `options`",
+            _ => "quote only the number that the expression gives, as in \"0.442 s\", \"1.5×10^3\", \"0.44 ± 0.01 s\" or \"0.4 to 0.5 s\"",
+        })
+}
+
+pub(super) fn not_found(said: &Said, hidden: Option<Range<usize>>) -> Finding {
+    let found = warning(
+        "quote-not-found",
+        said.quote.span(),
+        format!("no reader sees \"{}\" as a number of its own", shown(said)),
+    )
+    .why("nothing was compared: the text was changed, or says it in other words")
+    .help("quote what the text now says, with its sign and its whole unit, or remove this line");
+    match hidden {
+        Some(place) => {
+            found.related(place, "it stands here, which is no shown text, or only a part of a number")
+        }
+        None => found,
+    }
+}
+
+pub(super) fn no_value(said: &Said, computed: f64) -> Finding {
+    let (message, why) = if computed.is_nan() {
+        (
+            "this expression has no value in this run, so the quoted number was not checked",
+            "an event that it waits for never happened (`first`, `at`, `crossing`, `period`), it divides zero by zero, or it gives something that is no number",
+        )
+    } else {
+        (
+            "this expression is infinite in this run, so the quoted number was not checked",
+            "it divides by zero, or something grows without end",
+        )
+    };
+    finding("quote-without-value", said.expr.span(), message)
+        .why(why)
+        .help("make the run long enough for the event, or correct the expression")
+        .related(said.quote.span(), "the number that it is about")
+}
+
+/// A finding at the places where the quote stands: the first one, and the others as related places.
+fn at_places(
+    code: &'static str,
+    severity: Severity,
+    said: &Said,
+    outcome: &QuoteOutcome,
+    message: String,
+) -> Finding {
+    let mut places = outcome.places.iter();
+    let first = places.next().cloned().unwrap_or(said.quote.span());
+    let mut found = finding(code, first, message).severity(severity);
+    for place in places.by_ref().take(MAX_RELATED) {
+        found = found.related(place.clone(), "the text says it here too");
+    }
+    let more = places.count();
+    let value = significant(outcome.computed);
+    let label = match more {
+        0 => format!("this is {value}"),
+        n => format!("this is {value}; the text says it at {n} more places"),
+    };
+    found.related(said.expr.span(), label)
+}
+
+/// "0.443 at half the timestep, 0.441 with the solver run to convergence"
+fn list(outcome: &QuoteOutcome) -> String {
+    outcome.moved.iter().map(|(how, text)| format!("{text} {how}")).collect::<Vec<_>>().join(", ")
+}
+
+/// What was read, when that is not plain from the quote.
+fn as_read(said: &Said, read: &Quoted) -> String {
+    let text = read.to_string();
+    let plain = said.quote.value.replace('\u{2212}', "-");
+    if plain.contains(&text) { String::new() } else { format!(" (read as {text})") }
+}
+
+pub(super) fn wrong(said: &Said, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
+    let right = printed(read, outcome.computed);
+    let within = match read.form {
+        Form::PlusMinus(..) | Form::Range(..) => ", which does not lie in it",
+        _ => "",
+    };
+    let message =
+        format!("the text says {}{}, the simulation gives {right}{within}", shown(said), as_read(said, read));
+    let found = at_places("quote-wrong", Severity::Error, said, outcome, message)
+        .why("a reader who measures it finds another number");
+    if !outcome.moved.is_empty() {
+        return found.help(format!(
+            "these digits depend on the timestep: {right} as the lesson stands, {}; state the timestep beside the number, and `set` it in the run",
+            list(outcome)
+        ));
+    }
+    found.help(match read.form {
+        Form::PlusMinus(..) | Form::Range(..) => {
+            format!("write a range that holds {right}, or correct the expression that it is compared with")
+        }
+        _ => format!("write {right}, or correct the expression that it is compared with"),
+    })
+}
+
+pub(super) fn of_timestep(said: &Said, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
+    let message = format!(
+        "the digits of {} depend on the timestep: {} as the lesson stands, {}",
+        shown(said),
+        printed(read, outcome.computed),
+        list(outcome)
+    );
+    at_places("quote-of-timestep", Severity::Note, said, outcome, message)
+        .why("the number is right for this timestep only; a reader with another one finds another number")
+        .help("state it with its timestep, and `set` the timestep in the run; there is nothing to rewrite")
+}
+
+pub(super) fn chaotic(said: &Said, outcome: &QuoteOutcome, read: &Quoted, values: &[f64]) -> Finding {
+    let message = format!(
+        "no reader can reproduce the digits of {}: {} as the lesson stands, {}",
+        shown(said),
+        printed(read, outcome.computed),
+        list(outcome)
+    );
+    at_places("quote-chaotic", Severity::Warning, said, outcome, message)
+        .why("such a start is within rounding of the lesson's own: another computer, or another version of the simulator, prints other digits")
+        .help(match agreed(read, values) {
+            Some(text) => format!("print fewer digits: {text} is what all of these runs give; or quote a shorter run"),
+            None => "quote a shorter run, before such starts part, or say in words what all of these runs share".into(),
+        })
+}
+
+/// The longest print on which all values agree, with fewer decimals than the quote; `None` when there is none.
+fn agreed(read: &Quoted, values: &[f64]) -> Option<String> {
+    let Form::Plain(_) = read.form else { return None };
+    let fewer = (0..read.decimals).rev().map(|decimals| Quoted { decimals, ..*read });
+    let mut prints = fewer.map(|q| values.iter().map(|&x| printed(&q, x)).collect::<Vec<_>>());
+    let same = prints.find(|all| all.iter().all(|text| Some(text) == all.first()))?;
+    // A zero says nothing of a number that is none.
+    let text = same.into_iter().next()?;
+    let mantissa = text.split(['e', '×']).next().unwrap_or("");
+    mantissa.contains(|c: char| matches!(c, '1'..='9')).then_some(text)
+}
+
+pub(super) fn doubtful(
+    said: &Said,
+    outcome: &QuoteOutcome,
+    read: &Quoted,
+    why: &str,
+    other: Option<&Quoted>,
+) -> Finding {
+    let value = significant(outcome.computed);
+    let message = match other {
+        Some(other) => format!(
+            "\"{}\" was read as {read}, but {why}: the expression gives {value}, as {other} would say",
+            shown(said)
+        ),
+        None => format!("\"{}\" was read as {read}, but {why}: the expression gives {value}", shown(said)),
+    };
+    finding("quote-unclear", said.quote.span(), message)
+        .why("nothing is called right or wrong that can be read in two ways")
+        .help("quote only the number that the expression gives, with a point before its decimals")
+        .related(said.expr.span(), format!("this is {value}"))
+}
+
+pub(super) fn other_unit(said: &Said, outcome: &QuoteOutcome, read: &Quoted, shift: &Shift) -> Finding {
+    let value = significant(outcome.computed);
+    let factor = ten(shift.power.abs());
+    let what = match &shift.units {
+        Some((text, other)) => format!(": the text is in {text}, the expression in {other}"),
+        None => String::new(),
+    };
+    let action = if shift.power > 0 { "multiply" } else { "divide" };
+    let message = format!(
+        "the text says {}{}, the expression gives {value}; the numbers differ by exactly a power of ten",
+        shown(said),
+        as_read(said, read)
+    );
+    finding("quote-unit", said.expr.span(), format!("{message}{what}"))
+        .why("only numbers in the same unit can be compared")
+        .help(format!("{action} the expression by {factor}"))
+        .related(outcome.places.first().cloned().unwrap_or(said.quote.span()), "the text says it here")
+}
