@@ -247,12 +247,8 @@ mod tests {
         ];
         table.warnings = vec![("badqacc", 1), ("inertia", 20)];
         table.errors = vec!["x: y".into(), "data\t".into()];
-        table.breakdown = Some(Breakdown {
-            code: "simulation-diverges",
-            what: "a".into(),
-            why: "b".into(),
-            help: "c".into(),
-        });
+        table.breakdown =
+            Some(Breakdown { code: "simulation-diverges", what: "a".into(), why: "b", help: "c".into() });
         assert_eq!(streamed(&table), whole(&table).to_string());
         let mut csv = Vec::new();
         table.write_csv(&mut csv).unwrap();
