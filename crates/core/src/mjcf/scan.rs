@@ -129,18 +129,18 @@ fn within_limits(
     let bytes = text.as_bytes();
     let (mut at, mut depth, mut ended) = (0, 0usize, false);
     while let Some(open) = find(bytes, at, b"<") {
-        // After the root element no text may stand, in MuJoCo either: the parser says so.
+        // Right behind the root element no text may stand, in MuJoCo either: the parser says so.
         if !ended {
             pass_over(text, at..open, base, changes, report);
         }
         let rest = bytes.get(open..).unwrap_or_default();
         at = if rest.starts_with(b"<!--") {
+            ended = false;
             after(bytes, open + 4, b"-->")
         } else if rest.starts_with(b"<![CDATA[") {
             let end = after(bytes, open + 9, b"]]>");
-            if depth > 0 {
-                pass_over(text, open..end, base, changes, report);
-            }
+            pass_over(text, open..end, base, changes, report);
+            ended = false;
             end
         } else if rest.starts_with(b"<?") {
             after(bytes, open + 2, b"?>")
@@ -208,6 +208,9 @@ fn within_limits(
             }
             tag.end
         };
+    }
+    if !ended && depth == 0 && counts.elements > 0 {
+        pass_over(text, at..text.len(), base, changes, report);
     }
     true
 }
@@ -295,12 +298,12 @@ mod tests {
     fn text_between_elements_becomes_blanks_of_the_same_length() {
         for (text, expected) in [
             ("<a><b/>> <c/></a>", "<a><b/>  <c/></a>"),
-            ("é<a>\n x=\"1\"\n é/></a>", "  <a>\n      \n    </a>"),
+            ("é<a>\n x=\"1\"\n é/></a>", "  <a>\n      \n     </a>"),
             ("<a><![CDATA[<b/>]]>&no;</a>", "<a>                   </a>"),
             ("<a> \n </a>", "<a> \n </a>"),
             // No text may stand behind the root.
             ("<a/>>", "<a/>>"),
-            ("<a></a>x<!-- y -->z", "<a></a>x<!-- y -->z"),
+            ("<a></a>x<!-- y -->z", "<a></a>x<!-- y --> "),
             ("<a b='>'>x</a", "<a b='>'> </a"),
         ] {
             let mut report = Report::new();
