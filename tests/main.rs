@@ -6,6 +6,7 @@ mod cli;
 mod cli_run;
 mod conformance;
 mod constrained;
+mod fixes;
 mod format;
 mod hostile;
 mod javascript;

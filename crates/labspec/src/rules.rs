@@ -10,6 +10,11 @@ pub const RUN_RULES: &[(&str, &str, &str)] = &[
         "the model of a lab has mistakes",
         "The lab cannot run, and its expressions cannot be checked, until the model loads.",
     ),
+    (
+        "not-utf8",
+        "a file is not UTF-8",
+        "A page reads lessons as UTF-8: letters beyond plain English are shown as a black diamond.",
+    ),
     ("model-unreadable", "a model file cannot be read", "The page would show an empty scene."),
     (
         "keyframe-missing",
