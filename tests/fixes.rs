@@ -40,6 +40,26 @@ impl Case {
     }
 }
 
+/// Repairs that make a second mistake of the same text visible: what is repaired, and what then shows.
+const REVEALED: [(&str, &str); 10] = [
+    // 2x is 2 * x, and x has no meaning either.
+    ("bad-number", "unknown-name"),
+    // [1, 2 is closed, and is a list.
+    ("unclosed", "whole-array"),
+    // The name is found; what is done with it is wrong too.
+    ("unknown-object", "assign-array"),
+    ("unknown-field", "whole-array"),
+    ("unknown-function", "unknown-object"),
+    // The number is a number, and does not fit the tolerance.
+    ("wrong-type", "impossible-tolerance"),
+    // Guesses of the language by the name alone, that are not what was meant: `mat` for `model.mat`, `energy()` for
+    // `data.energy`, `fail()` for `model.pair`.
+    ("unknown-name", "not-a-value"),
+    ("unknown-name", "argument-type"),
+    ("unknown-function", "argument-type"),
+    ("unknown-function", "not-callable"),
+];
+
 fn apply(text: &str, fix: &Fix) -> String {
     let mut text = text.to_string();
     text.replace_range(fix.span.clone(), &fix.text);
@@ -79,17 +99,23 @@ fn fault(case: &Case, finding: &Finding, before: &(Vec<Finding>, usize)) -> Opti
             && (f.span.start == shift(finding.span.start) || f.span.start == finding.span.start)
     });
     // The same text may stand there by right: deleting one of two equal commas leaves the other at its place.
-    let fewer = after.len() < before.0.len();
+    let is_syntax = |f: &&Finding| matches!(f.code, "json-syntax" | "typographic-quote");
+    let syntax = |list: &[Finding]| list.iter().filter(is_syntax).count();
+    let of_syntax = is_syntax(&finding);
+    let fewer = if of_syntax { syntax(&after) < syntax(&before.0) } else { after.len() < before.0.len() };
     if !gone && !fewer {
         return Some(format!("does not go away\n{}", shown()));
     }
     let errors = |list: &[Finding]| list.iter().filter(|f| f.severity == Severity::Error).count();
-    // What the mistake has hidden may show itself now; by itself it counts one.
+    // What a mistake has hidden shows itself now: behind broken JSON anything can be; else it is named below.
     let new = after.iter().find(|f| {
-        f.severity == Severity::Error && !before.0.iter().any(|b| b.code == f.code && b.message == f.message)
+        f.severity == Severity::Error
+            && (!of_syntax || is_syntax(f))
+            && !REVEALED.contains(&(finding.code, f.code))
+            && !before.0.iter().any(|b| b.code == f.code && b.message == f.message)
     });
     if let Some(new) = new
-        && errors(&after) >= errors(&before.0)
+        && (of_syntax || errors(&after) >= errors(&before.0))
     {
         return Some(format!("a new error: {}\n{}", told(new), shown()));
     }
@@ -137,7 +163,7 @@ fn fixes_of_the_bad_examples_of_rules_hold() {
         let (name, text) = rule.bad.file();
         Case::new(name, &text)
     });
-    all_hold(examples, 15);
+    all_hold(examples, 10);
 }
 
 #[test]

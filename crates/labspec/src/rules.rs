@@ -110,7 +110,8 @@ mod tests {
         for (code, summary) in super::all() {
             assert!(seen.insert(code, summary).is_none(), "{code} twice");
             assert!(
-                !summary.is_empty() && code.chars().all(|c| c.is_ascii_lowercase() || c == '-'),
+                !summary.is_empty()
+                    && code.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'),
                 "{code}"
             );
         }

@@ -29,8 +29,40 @@ pub fn parse(text: &str, below: &SourceMap) -> Parsed {
     let mut parser = Parser::new(text, below);
     let node = parser.root().unwrap_or(None);
     let broken = parser.broken;
-    let findings = parser.finish();
+    let mut findings = std::mem::take(&mut parser.placed);
+    let mut said = parser.finish();
+    if broken {
+        try_repairs(text, &mut said);
+    }
+    findings.extend(said.into_iter().map(|f| say::place(f, below)));
+    findings.sort_by_key(|f| f.span.start);
     Parsed { node, findings, broken }
+}
+
+/// Most repairs that are tried, and the longest text.
+const MAX_TRIES: usize = 50;
+const MAX_TRIED: usize = 128 << 10;
+
+/// Keeps the repairs that repair: each is made by itself and the text is read again; there must be fewer mistakes
+/// then, and none that was not there before.
+fn try_repairs(text: &str, said: &mut [Finding]) {
+    let before: Vec<String> = said.iter().map(|f| f.message.clone()).collect();
+    for (i, finding) in said.iter_mut().enumerate() {
+        let Some(fix) = &finding.fix else { continue };
+        let mut repaired = text.to_string();
+        let fits = i < MAX_TRIES && text.len() <= MAX_TRIED && text.get(fix.span.clone()).is_some();
+        if fits {
+            repaired.replace_range(fix.span.clone(), &fix.text);
+            let below = SourceMap::verbatim(0..repaired.len());
+            let mut parser = Parser::new(&repaired, &below);
+            let _ = parser.root();
+            let left = parser.finish();
+            if left.len() < before.len() && left.iter().all(|f| before.contains(&f.message)) {
+                continue;
+            }
+        }
+        finding.fix = None;
+    }
 }
 
 /// Reading is over: a limit is reached, which is reported.
@@ -152,9 +184,9 @@ impl<'a> Parser<'a> {
         }
     }
 
+    /// What was said, in order; spans are bytes of the text.
     fn finish(mut self) -> Vec<Finding> {
-        let mut all = std::mem::take(&mut self.placed);
-        all.extend(std::mem::take(&mut self.said).into_iter().map(|f| say::place(f, self.below)));
+        let mut all = std::mem::take(&mut self.said);
         for kind in [Kind::Typographic, Kind::Single, Kind::Invisible] {
             let list = self.changes.get(kind as usize).map_or(&[][..], Vec::as_slice);
             all.extend(say::together(kind, list, self.text, self.below));
@@ -258,6 +290,7 @@ impl<'a> Parser<'a> {
                 Some('}') => {
                     if self.closes_too_early() {
                         self.stray_bracket();
+                        self.separator(true);
                         continue;
                     }
                     self.bump();
@@ -267,6 +300,7 @@ impl<'a> Parser<'a> {
                     if self.wrong_bracket('}', ']') {
                         break;
                     }
+                    self.separator(true);
                     continue;
                 }
                 Some(',') => {
@@ -375,6 +409,7 @@ impl<'a> Parser<'a> {
         self.enter('[', start)?;
         let mut items = Vec::new();
         let mut first = true;
+        let mut end = self.at;
         loop {
             self.gap();
             match self.peek() {
@@ -387,16 +422,27 @@ impl<'a> Parser<'a> {
                     if self.wrong_bracket(']', '}') {
                         break;
                     }
+                    self.separator(false);
                     continue;
                 }
                 Some(',') => {
                     self.extra_comma(first);
                     continue;
                 }
+                // A key: the list was meant to end before it.
+                Some(_) if !first && self.key_ahead() && self.open.iter().any(|(c, _)| *c == '{') => {
+                    let key = self.at;
+                    self.at = end;
+                    self.mend(']', 1);
+                    self.say(say::list_goes_on(end, key));
+                    break;
+                }
                 Some(_) => {}
             }
             first = false;
-            match self.value()? {
+            let item = self.value()?;
+            end = self.at;
+            match item {
                 Some(item) => items.push(item),
                 None => {
                     let range = self.stray();
@@ -427,6 +473,8 @@ impl<'a> Parser<'a> {
                             self.bump();
                         }
                         self.say(say::decimal_comma(start));
+                        end = self.before();
+                        self.gap();
                         continue;
                     }
                     self.gap();

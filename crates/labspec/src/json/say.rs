@@ -143,6 +143,14 @@ pub(super) fn missing_bracket(mine: char, found: char, end: usize, at: usize) ->
         .fix(end..end, mine)
 }
 
+/// A list that ends at `end` without its bracket: a key follows.
+pub(super) fn list_goes_on(end: usize, key: usize) -> Finding {
+    syntax(end..end, "a `]` is missing here")
+        .related(key..key + 1, "here a key begins, which cannot stand in a list")
+        .help("write `]`")
+        .fix(end..end, "]")
+}
+
 pub(super) fn behind(rest: Range<usize>, text: &str) -> Finding {
     let shown = text.get(rest.clone()).unwrap_or("");
     let line = rest.start + shown.find(['\n', '\r']).unwrap_or(shown.len());
@@ -301,13 +309,13 @@ pub(super) fn together(kind: Kind, list: &[Vec<Change>], text: &str, below: &Sou
         if let Some((last, _)) = all.last().filter(|_| count > 1) {
             finding = finding.related(last.clone(), "the last one");
         }
-        return vec![place(finding, below)];
+        return vec![finding];
     }
     let each = |changes: &Vec<Change>| {
         let (region, right) = rewritten(&changes.iter().collect::<Vec<_>>(), text)?;
         let count = if kind == Kind::Typographic { changes.len() } else { 1 };
         let at = first(std::slice::from_ref(changes), text);
-        Some(place(crowd(kind, count, at, text).fix(region, right), below))
+        Some(crowd(kind, count, at, text).fix(region, right))
     };
     list.iter().take(super::MAX_MISTAKES).filter_map(each).collect()
 }

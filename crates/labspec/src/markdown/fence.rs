@@ -72,6 +72,9 @@ fn belongs_below(info: &str) -> Option<usize> {
     if first == "lab" || first == "quiz" || first.starts_with("lab{") || first.starts_with("quiz{") {
         return info.find(['{', '[']).filter(|&at| !is_attributes(info.get(at..).unwrap_or("")));
     }
+    if first.starts_with("{.") || first.starts_with("{lab") || first.starts_with("{quiz") {
+        return None;
+    }
     // Attributes are words, key=value pairs and {…}; anything else is code.
     let mut at = info.len() - info.trim_start().len() + first.len();
     let mut plain = 0;

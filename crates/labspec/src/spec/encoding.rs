@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn a_latin_1_lesson_is_named_and_checked() {
         let lesson = load(b"# A caf\xe9\n\n```lab simlab\n{\"model\": \"bal\", \"title\": \"\xfc\"}\n```\n");
-        assert_eq!(places(&lesson), [("not-utf8", 1, 6), ("unknown-model", 4, 12)]);
+        assert_eq!(places(&lesson), [("not-utf8", 1, 8), ("unknown-model", 4, 12)]);
         assert!(lesson.findings[0].message.contains("0xE9; in Latin-1 it is `é`"));
     }
 
