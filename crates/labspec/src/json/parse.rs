@@ -36,6 +36,7 @@ pub fn parse(text: &str, below: &SourceMap) -> Parsed {
     }
     findings.extend(said.into_iter().map(|f| say::place(f, below)));
     findings.sort_by_key(|f| f.span.start);
+    findings.truncate(MAX_MISTAKES);
     Parsed { node, findings, broken }
 }
 
