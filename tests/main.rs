@@ -8,6 +8,7 @@ mod cli_run;
 mod conformance;
 mod constrained;
 mod files;
+mod fixes;
 mod format;
 mod hostile;
 mod javascript;

@@ -20,9 +20,11 @@ pub(crate) fn ranked<'a>(
     }
     // One edit for short words, more for longer ones.
     let allowed = written.chars().count().div_ceil(3).min(3);
+    // A single letter is one edit away from every other one: only its own capital was meant.
+    let most = if written.chars().nth(1).is_none() { 1 } else { 10 * allowed };
     let scored = candidates.into_iter().filter(|c| c.len() <= LONGEST && *c != written).filter_map(|c| {
         let cost = cost(written, c);
-        (cost <= 10 * allowed).then_some((cost, c))
+        (cost <= most).then_some((cost, c))
     });
     scored.min_by_key(|(cost, _)| *cost)
 }
@@ -84,6 +86,7 @@ mod tests {
             ("mass_body", Some("body_mass")),
             ("geom_frction", Some("geom_friction")),
             ("tiem", Some("time")),
+            ("q", None),
             ("banana", None),
             ("", None),
         ] {

@@ -10,6 +10,11 @@ pub const RUN_RULES: &[(&str, &str, &str)] = &[
         "the model of a lab has mistakes",
         "The lab cannot run, and its expressions cannot be checked, until the model loads.",
     ),
+    (
+        "not-utf8",
+        "a file is not UTF-8",
+        "A page reads lessons as UTF-8: letters beyond plain English are shown as a black diamond.",
+    ),
     ("model-unreadable", "a model file cannot be read", "The page would show an empty scene."),
     (
         "keyframe-missing",
@@ -202,7 +207,8 @@ mod tests {
         for (code, summary) in super::all() {
             assert!(seen.insert(code, summary).is_none(), "{code} twice");
             assert!(
-                !summary.is_empty() && code.chars().all(|c| c.is_ascii_lowercase() || c == '-'),
+                !summary.is_empty()
+                    && code.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'),
                 "{code}"
             );
         }

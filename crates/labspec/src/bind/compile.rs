@@ -2,8 +2,9 @@
 
 use super::names::{ModelNames, Scope};
 use super::scene::finding;
-use crate::finding::{Finding, Fix, Severity};
-use crate::json::Scalar;
+use crate::finding::{Finding, Severity};
+use crate::json::{Scalar, fix_in_code};
+use crate::markdown::is_typographic;
 use crate::source::Text;
 use crate::spec::{Action, Control, ControlKind, Lab};
 use labspec_core::reflect::{FieldId, FieldSet, Kind, Object};
@@ -178,7 +179,13 @@ impl Work<'_> {
     }
 
     fn keep(&mut self, text: &Text, compiled: Compiled) -> Option<Bound> {
-        self.findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
+        // Typographic quotes are told once for a whole text, by their own rule.
+        let quote = |d: &&expr::Diagnostic| {
+            d.code == expr::code::BAD_CHARACTER
+                && text.value.get(d.span.start..).is_some_and(|t| t.starts_with(is_typographic))
+        };
+        let said = compiled.diagnostics.iter().filter(|d| !quote(d));
+        self.findings.extend(said.map(|d| to_finding(d, text)));
         self.texts.push((compiled.id, text.clone()));
         compiled.program.map(|program| Bound { text: text.clone(), program })
     }
@@ -248,7 +255,7 @@ pub fn to_finding(d: &expr::Diagnostic, text: &Text) -> Finding {
         severity: if d.severity == expr::Severity::Error { Severity::Error } else { Severity::Warning },
         why: d.why.clone(),
         help: d.help.clone(),
-        fix: d.fix.as_ref().map(|f| Fix { span: span(f.span), text: f.text.clone() }),
+        fix: d.fix.as_ref().map(|f| fix_in_code(text, f.span.start..f.span.end, &f.text)),
         ..finding(d.code, span(d.span), d.message.clone())
     }
 }

@@ -80,6 +80,7 @@ pub fn check(lesson: Lesson, models: &mut Models, depth: Depth) -> Checked {
         (labs, claims)
     };
     let mut all = lesson.findings.clone();
+    lesson.withhold_fixes(&mut findings);
     all.extend(findings.into_iter().map(|f| f.at(&lesson.file)));
     finding::sort(&mut all);
     Checked { lesson, findings: all, labs, claims }

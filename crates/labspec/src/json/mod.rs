@@ -1,21 +1,31 @@
-//! JSON with a place for every value.
+//! JSON with a place for every value, read to its end whatever is wrong with it.
 //!
-//! Authors write strict JSON (the page reads it with `JSON.parse`), so every leniency of the parser is off and
-//! what it would still let through is refused here: acceptance is that of `serde_json`, by a property test.
-//! An error is told in the words of a person who does not know what a token is.
+//! The page reads a block with `JSON.parse`: one wrong character and the whole block is gone. So acceptance is strict
+//! (that of `serde_json`, by a property test), but reading goes on behind every mistake: each is told at its place,
+//! in the words of a person who does not know what a token is, and what was meant is read as a value, so that the
+//! rest of the block is checked too.
 
-mod explain;
-mod guard;
+mod gaps;
+pub(crate) mod literal;
 mod nearest;
+mod node;
 mod parse;
+mod quoted;
 pub(crate) mod read;
+mod say;
 mod strings;
+#[cfg(test)]
+mod tests;
 
 pub use nearest::nearest;
-pub use parse::{Json, Member, Node, parse};
+pub use node::{Json, Member, Node};
+pub use parse::{Parsed, parse};
 pub use read::{Fields, Number, Scalar};
+pub(crate) use strings::{encode, fix_in, fix_in_code};
 
 /// Deepest nesting of arrays and objects. Labs need about 8.
 pub const MAX_DEPTH: usize = 64;
 /// Most values in one JSON text. Labs have a few hundred.
 pub const MAX_VALUES: usize = 20_000;
+/// Most mistakes that are told of one JSON text.
+pub const MAX_MISTAKES: usize = 200;

@@ -1,396 +1,628 @@
-//! From JSON text to a tree whose every node knows its place in the author's file.
+//! From JSON text to a tree whose every node knows its place in the author's file: objects and lists, and how
+//! reading goes on when a comma, a colon or a bracket is missing or too many.
+//!
+//! A recursive descent over the characters. Every mistake is resolved where it is met, by the least change that lets
+//! the rest be read; nothing is read twice, so the time is that of one pass (looking ahead goes to the next quote or
+//! line end, and both are remembered).
 
-use super::explain::{explain, missing_comma};
-use super::{guard, strings};
+use super::node::{Json, Member, Node};
+use super::{MAX_DEPTH, MAX_MISTAKES, MAX_VALUES, say};
 use crate::finding::Finding;
-use crate::lint::rules::json::{DUPLICATE_KEY, SYNTAX};
+use crate::lint::rules::json::DUPLICATE_KEY;
 use crate::source::{SourceMap, Text};
-use jsonc_parser::ast;
-use jsonc_parser::errors::ParseError;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// A value and its bytes in the author's file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Node {
-    /// The value.
-    pub json: Json,
-    /// Bytes of the file, quotes and brackets included.
-    pub span: Range<usize>,
+/// What was read.
+#[derive(Clone, Debug)]
+pub struct Parsed {
+    /// The tree; `None` when there is nothing to read, or too much.
+    pub node: Option<Node>,
+    /// What there is to say: mistakes, duplicate keys.
+    pub findings: Vec<Finding>,
+    /// Whether a page cannot read it: it is not JSON.
+    pub broken: bool,
 }
 
-/// A JSON value.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Json {
-    /// `null`
-    Null,
-    /// `true` or `false`
-    Bool(bool),
-    /// A finite number.
-    Number(f64),
-    /// A string, decoded.
-    Text(Text),
-    /// An array.
-    Array(Vec<Node>),
-    /// An object, in the author's order, duplicates included.
-    Object(Vec<Member>),
-}
-
-/// A key and its value.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Member {
-    /// The key, decoded.
-    pub key: Text,
-    /// The value.
-    pub value: Node,
-}
-
-impl Node {
-    /// The value of a key, if this is an object that has it.
-    pub fn get(&self, key: &str) -> Option<&Node> {
-        match &self.json {
-            Json::Object(members) => members.iter().find(|m| m.key.value == key).map(|m| &m.value),
-            _ => None,
-        }
+/// Parses strict JSON, and on behind every mistake. `below` maps bytes of `text` to bytes of the file.
+pub fn parse(text: &str, below: &SourceMap) -> Parsed {
+    let mut parser = Parser::new(text, below);
+    let node = parser.root().unwrap_or(None);
+    let broken = parser.broken;
+    let mut findings = std::mem::take(&mut parser.placed);
+    let mut said = parser.finish();
+    if broken {
+        try_repairs(text, &mut said);
     }
+    findings.extend(said.into_iter().map(|f| say::place(f, below)));
+    findings.sort_by_key(|f| f.span.start);
+    findings.truncate(MAX_MISTAKES);
+    Parsed { node, findings, broken }
+}
 
-    /// What it is, in an author's words.
-    pub fn describe(&self) -> &'static str {
-        match &self.json {
-            Json::Null => "null",
-            Json::Bool(_) => "true or false",
-            Json::Number(_) => "a number",
-            Json::Text(_) => "a text",
-            Json::Array(_) => "a list",
-            Json::Object(_) => "an object",
+/// Most repairs that are tried, and the longest text.
+const MAX_TRIES: usize = 50;
+const MAX_TRIED: usize = 128 << 10;
+
+/// Keeps the repairs that repair: each is made by itself and the text is read again; there must be fewer mistakes
+/// then, and none that was not there before.
+fn try_repairs(text: &str, said: &mut [Finding]) {
+    let before: Vec<String> = said.iter().map(|f| f.message.clone()).collect();
+    for (i, finding) in said.iter_mut().enumerate() {
+        let Some(fix) = &finding.fix else { continue };
+        let mut repaired = text.to_string();
+        let fits = i < MAX_TRIES && text.len() <= MAX_TRIED && text.get(fix.span.clone()).is_some();
+        if fits {
+            repaired.replace_range(fix.span.clone(), &fix.text);
+            let below = SourceMap::verbatim(0..repaired.len());
+            let mut parser = Parser::new(&repaired, &below);
+            let _ = parser.root();
+            let left = parser.finish();
+            if left.len() < before.len() && left.iter().all(|f| before.contains(&f.message)) {
+                continue;
+            }
         }
+        finding.fix = None;
     }
 }
 
-/// Parses strict JSON. `below` maps bytes of `text` to bytes of the file.
-///
-/// Returns the tree, unless the syntax is wrong, and what there is to say: one syntax error, or duplicate keys.
-pub fn parse(text: &str, below: &SourceMap) -> (Option<Node>, Vec<Finding>) {
-    let mut builder = Builder { text, below, findings: Vec::new() };
-    let node = builder.build();
-    (node, builder.findings)
+/// Reading is over: a limit is reached, which is reported.
+pub(super) struct Stop;
+
+/// A replacement of some bytes.
+pub(super) type Change = (Range<usize>, String);
+
+/// Mistakes that come in crowds and are told once for a whole text.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Typographic,
+    Single,
+    Invisible,
 }
 
-/// The parser, as strict as it gets.
-fn strict(text: &str) -> Result<Option<ast::Value<'_>>, ParseError> {
-    let options = jsonc_parser::ParseOptions {
-        allow_comments: false,
-        allow_loose_object_property_names: false,
-        allow_trailing_commas: false,
-        allow_missing_commas: false,
-        allow_single_quoted_strings: false,
-        allow_hexadecimal_numbers: false,
-        allow_unary_plus_numbers: false,
-        allow_bare_decimal_point_numbers: false,
-        allow_non_finite_numbers: false,
-        allow_extended_string_escapes: false,
-    };
-    jsonc_parser::parse_to_ast(text, &jsonc_parser::CollectOptions::default(), &options)
-        .map(|parsed| parsed.value)
+pub(super) struct Parser<'a> {
+    pub(super) text: &'a str,
+    pub(super) below: &'a SourceMap,
+    pub(super) at: usize,
+    /// The brackets that are open, with their places.
+    open: Vec<(char, usize)>,
+    values: usize,
+    /// How many of `{ } [ ]` there are in the text, outside of strings; mended as brackets are.
+    brackets: [i64; 4],
+    pub(super) broken: bool,
+    /// Spans are bytes of `text`.
+    said: Vec<Finding>,
+    pub(super) changes: [Vec<Vec<Change>>; 3],
+    /// Findings whose spans are bytes of the file.
+    placed: Vec<Finding>,
+    /// The end of the text was met inside of brackets, and said.
+    ended: bool,
+    pub(super) comment_open: bool,
+    next_quote: Option<usize>,
+    next_line: usize,
 }
 
-struct Builder<'a> {
-    text: &'a str,
-    below: &'a SourceMap,
-    findings: Vec<Finding>,
-}
+impl<'a> Parser<'a> {
+    fn new(text: &'a str, below: &'a SourceMap) -> Parser<'a> {
+        Parser {
+            text,
+            below,
+            at: 0,
+            open: Vec::new(),
+            values: 0,
+            brackets: count(text),
+            broken: false,
+            said: Vec::new(),
+            changes: [Vec::new(), Vec::new(), Vec::new()],
+            placed: Vec::new(),
+            ended: false,
+            comment_open: false,
+            next_quote: Some(0),
+            next_line: 0,
+        }
+    }
 
-impl Builder<'_> {
-    fn build(&mut self) -> Option<Node> {
-        if let Some(problem) = guard::check(self.text) {
-            self.fail(problem);
+    // Looking and walking.
+
+    pub(super) fn rest(&self) -> &'a str {
+        self.text.get(self.at..).unwrap_or("")
+    }
+
+    pub(super) fn peek(&self) -> Option<char> {
+        self.rest().chars().next()
+    }
+
+    pub(super) fn starts(&self, with: &str) -> bool {
+        self.rest().starts_with(with)
+    }
+
+    pub(super) fn bump(&mut self) {
+        self.at += self.peek().map_or(0, char::len_utf8);
+    }
+
+    /// The end of the line that is being read.
+    pub(super) fn line_end(&mut self) -> usize {
+        self.line_from(self.at)
+    }
+
+    /// The end of the line of `from`. Places asked for do not go back to an earlier line.
+    pub(super) fn line_from(&mut self, from: usize) -> usize {
+        if self.next_line <= from {
+            let rest = self.text.get(from..).unwrap_or("");
+            self.next_line = rest.find(['\n', '\r']).map_or(self.text.len(), |i| from + i);
+        }
+        self.next_line
+    }
+
+    /// The first double quote at or behind `from`. Places asked for only grow.
+    pub(super) fn quote_from(&mut self, from: usize) -> Option<usize> {
+        if self.next_quote.is_some_and(|q| q < from || q == 0) {
+            self.next_quote = self.text.get(from..).and_then(|t| t.find('"')).map(|i| from + i);
+        }
+        self.next_quote
+    }
+
+    /// The end of what was read last, without the spaces behind it.
+    fn before(&self) -> usize {
+        self.text.get(..self.at).map_or(self.at, |t| t.trim_end().len())
+    }
+
+    // Saying.
+
+    /// A mistake. Its spans are bytes of the text.
+    pub(super) fn say(&mut self, finding: Finding) {
+        self.broken = true;
+        if self.said.len() < MAX_MISTAKES {
+            self.said.push(finding);
+        }
+    }
+
+    /// A mistake that is told together with others of its kind: the changes that repair it.
+    pub(super) fn change(&mut self, kind: Kind, changes: Vec<Change>) {
+        self.broken = true;
+        if let Some(list) = self.changes.get_mut(kind as usize) {
+            list.push(changes);
+        }
+    }
+
+    /// What was said, in order; spans are bytes of the text.
+    fn finish(mut self) -> Vec<Finding> {
+        let mut all = std::mem::take(&mut self.said);
+        for kind in [Kind::Typographic, Kind::Single, Kind::Invisible] {
+            let list = self.changes.get(kind as usize).map_or(&[][..], Vec::as_slice);
+            all.extend(say::together(kind, list, self.text, self.below));
+        }
+        all.sort_by_key(|f| f.span.start);
+        all.truncate(MAX_MISTAKES);
+        all
+    }
+
+    // Values.
+
+    fn root(&mut self) -> Result<Option<Node>, Stop> {
+        self.gap();
+        if self.rest().is_empty() {
+            if !self.broken {
+                self.say(say::nothing());
+            }
+            return Ok(None);
+        }
+        let node = if self.key_ahead() {
+            let start = self.at;
+            self.say(say::opening_missing(start));
+            self.mend('{', 1);
+            Some(self.members(start)?)
+        } else {
+            self.value()?
+        };
+        self.gap();
+        if !self.rest().trim().is_empty() {
+            let rest = self.at..self.at + self.rest().trim_end().len();
+            self.say(say::behind(rest, self.text));
+        }
+        Ok(node)
+    }
+
+    /// Whether a key and its colon stand here, where a value should.
+    fn key_ahead(&self) -> bool {
+        let Some(first) = self.peek() else { return false };
+        let inside = self.rest().get(first.len_utf8()..).unwrap_or("");
+        let name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '$');
+        let behind = if matches!(first, '"' | '\'') {
+            inside.trim_start_matches(name).strip_prefix(first)
+        } else if first.is_alphabetic() {
+            Some(inside.trim_start_matches(name))
+        } else {
+            None
+        };
+        behind.is_some_and(|b| b.trim_start_matches([' ', '\t']).starts_with(':'))
+    }
+
+    /// A value, or `None` where none begins: at a comma, a colon, a closing bracket, the end.
+    pub(super) fn value(&mut self) -> Result<Option<Node>, Stop> {
+        self.gap();
+        let Some(c) = self.peek() else { return Ok(None) };
+        self.values += 1;
+        if self.values > MAX_VALUES {
+            self.say(say::too_many(self.at));
+            return Err(Stop);
+        }
+        Ok(match c {
+            '{' => {
+                let start = self.at;
+                self.bump();
+                Some(self.members(start)?)
+            }
+            '[' => Some(self.items()?),
+            ',' | ':' | '=' | ';' | '}' | ']' => None,
+            _ if self.is_quote(c) => {
+                let start = self.at;
+                let text = self.string(false);
+                Some(self.node(Json::Text(text), start))
+            }
+            _ => Some(self.literal()),
+        })
+    }
+
+    /// A node from `start` to here.
+    pub(super) fn node(&self, json: Json, start: usize) -> Node {
+        Node { json, span: self.below.span(start..self.at) }
+    }
+
+    fn enter(&mut self, bracket: char, start: usize) -> Result<(), Stop> {
+        self.open.push((bracket, start));
+        if self.open.len() > MAX_DEPTH {
+            self.say(say::too_deep(start));
+            return Err(Stop);
+        }
+        Ok(())
+    }
+
+    /// The members of an object whose bracket stood at `start`.
+    fn members(&mut self, start: usize) -> Result<Node, Stop> {
+        self.enter('{', start)?;
+        let mut members: Vec<Member> = Vec::new();
+        let mut seen: HashMap<String, Range<usize>> = HashMap::new();
+        let mut first = true;
+        loop {
+            self.gap();
+            match self.peek() {
+                None => break self.unclosed(),
+                Some('}') => {
+                    if self.closes_too_early() {
+                        self.stray_bracket();
+                        self.separator(true);
+                        continue;
+                    }
+                    self.bump();
+                    break;
+                }
+                Some(']') => {
+                    if self.wrong_bracket('}', ']') {
+                        break;
+                    }
+                    self.separator(true);
+                    continue;
+                }
+                Some(',') => {
+                    self.extra_comma(first);
+                    continue;
+                }
+                Some(_) => {}
+            }
+            first = false;
+            if let Some(member) = self.member()? {
+                if let Some(earlier) = seen.insert(member.key.value.clone(), member.key.span()) {
+                    self.twice(&member.key, earlier);
+                }
+                members.push(member);
+            }
+            self.separator(true);
+        }
+        self.open.pop();
+        Ok(self.node(Json::Object(members), start))
+    }
+
+    fn twice(&mut self, key: &Text, earlier: Range<usize>) {
+        let shown = super::read::shorten(&key.value);
+        if self.placed.len() < MAX_MISTAKES {
+            self.placed.push(
+                Finding::new(&DUPLICATE_KEY, key.span(), format!("`{shown}` is written twice in one object"))
+                    .related(earlier, "the first one, which is ignored")
+                    .help("keep one of the two"),
+            );
+        }
+    }
+
+    /// A key with its value; `None` for something that is neither, which is reported.
+    fn member(&mut self) -> Result<Option<Member>, Stop> {
+        let start = self.at;
+        let Some(key) = self.key() else {
+            if matches!(self.peek(), Some('{' | '[')) {
+                self.say(say::key_missing(start));
+                self.value()?;
+            } else {
+                let range = self.stray();
+                self.say(say::stray(range, self.text));
+            }
+            return Ok(None);
+        };
+        let end = self.at;
+        self.gap();
+        let colon = self.colon(end);
+        let value = match self.value()? {
+            Some(value) => value,
+            None => {
+                self.say(say::value_missing(start..end, colon));
+                Node { json: Json::Broken, span: self.below.span(start..end) }
+            }
+        };
+        Ok(Some(Member { key, value }))
+    }
+
+    /// A key: a text, or a word that lacks its quotes.
+    fn key(&mut self) -> Option<Text> {
+        let c = self.peek()?;
+        if self.is_quote(c) {
+            return Some(self.string(true));
+        }
+        let length = self.word_length();
+        let behind = self.rest().get(length..)?.trim_start_matches([' ', '\t']);
+        if length == 0 || !behind.starts_with([':', '=', '"']) {
             return None;
         }
-        match strict(self.text) {
-            Ok(Some(value)) => self.node(&value),
-            Ok(None) => {
-                self.fail(Finding::new(&SYNTAX, 0..0, "nothing here").help("write one JSON object: { … }"));
-                None
+        let range = self.at..self.at + length;
+        self.at = range.end;
+        self.say(say::bare_key(range.clone(), self.text));
+        Some(self.verbatim(range))
+    }
+
+    /// The colon behind a key that ends at `end`. Whether there is one, or something like it.
+    fn colon(&mut self, end: usize) -> bool {
+        let start = self.at;
+        if self.starts(":") {
+            self.bump();
+        } else if self.starts("=") {
+            let length = if self.starts("=>") || self.starts("==") { 2 } else { 1 };
+            self.at += length;
+            self.say(say::not_a_colon(start..self.at));
+        } else {
+            if !matches!(self.peek(), None | Some(',' | ';' | '}' | ']')) {
+                self.say(say::colon_missing(end));
             }
-            Err(error) => {
-                let problem = explain(self.text, &error);
-                self.fail(problem);
-                None
+            return false;
+        }
+        loop {
+            self.gap();
+            let again = self.at;
+            if !matches!(self.peek(), Some(':' | '=')) {
+                return true;
+            }
+            self.bump();
+            self.say(say::second_colon(again..self.at));
+        }
+    }
+
+    /// A list.
+    fn items(&mut self) -> Result<Node, Stop> {
+        let start = self.at;
+        self.bump();
+        self.enter('[', start)?;
+        let mut items = Vec::new();
+        let mut first = true;
+        let mut end = self.at;
+        loop {
+            self.gap();
+            match self.peek() {
+                None => break self.unclosed(),
+                Some(']') => {
+                    self.bump();
+                    break;
+                }
+                Some('}') => {
+                    if self.wrong_bracket(']', '}') {
+                        break;
+                    }
+                    self.separator(false);
+                    continue;
+                }
+                Some(',') => {
+                    self.extra_comma(first);
+                    continue;
+                }
+                // A key: the list was meant to end before it.
+                Some(_) if !first && self.key_ahead() && self.open.iter().any(|(c, _)| *c == '{') => {
+                    let key = self.at;
+                    self.at = end;
+                    self.mend(']', 1);
+                    self.say(say::list_goes_on(end, key));
+                    break;
+                }
+                Some(_) => {}
+            }
+            first = false;
+            let item = self.value()?;
+            end = self.at;
+            match item {
+                Some(item) => items.push(item),
+                None => {
+                    let range = self.stray();
+                    self.say(say::stray(range, self.text));
+                }
+            }
+            self.separator(false);
+        }
+        self.open.pop();
+        Ok(self.node(Json::Array(items), start))
+    }
+
+    // What stands between values, and what should.
+
+    /// Behind a value: a comma, or the end of what it stands in.
+    fn separator(&mut self, object: bool) {
+        let mut end = self.before();
+        self.gap();
+        loop {
+            let start = self.at;
+            match self.peek() {
+                None | Some('}' | ']') => return,
+                Some(',') => {
+                    self.bump();
+                    // Half of a number that is written with a comma.
+                    if object && self.peek().is_some_and(|c| c.is_ascii_digit()) && self.digit_before(start) {
+                        while self.peek().is_some_and(|c| c.is_ascii_digit()) {
+                            self.bump();
+                        }
+                        self.say(say::decimal_comma(start));
+                        end = self.before();
+                        self.gap();
+                        continue;
+                    }
+                    self.gap();
+                    if matches!(self.peek(), None | Some('}' | ']')) {
+                        self.say(say::trailing_comma(start));
+                    }
+                    return;
+                }
+                Some(';') => {
+                    self.bump();
+                    self.say(say::semicolon(start));
+                    return;
+                }
+                Some(c) if self.begins(c, object) => {
+                    self.say(say::missing_comma(end));
+                    return;
+                }
+                Some(_) => {
+                    let range = self.stray();
+                    self.say(say::stray(range, self.text));
+                    end = self.before();
+                    self.gap();
+                }
             }
         }
     }
 
-    /// Records a problem whose spans are bytes of `text`.
-    fn fail(&mut self, mut finding: Finding) {
-        finding.span = self.below.span(finding.span);
-        if let Some(fix) = &mut finding.fix {
-            fix.span = self.below.span(fix.span.clone());
-        }
-        self.findings.push(finding);
+    fn digit_before(&self, at: usize) -> bool {
+        self.text.get(..at).is_some_and(|t| t.ends_with(|c: char| c.is_ascii_digit()))
     }
 
-    fn node(&mut self, value: &ast::Value<'_>) -> Option<Node> {
-        use jsonc_parser::common::Ranged;
-        let range = value.range().start..value.range().end;
-        let json = match value {
-            ast::Value::NullKeyword(_) => Json::Null,
-            ast::Value::BooleanLit(b) => Json::Bool(b.value),
-            ast::Value::NumberLit(n) => match n.value.parse::<f64>() {
-                Ok(x) if x.is_finite() => Json::Number(x),
-                _ => {
-                    self.fail(
-                        Finding::new(&SYNTAX, range, "this number is too large to compute with")
-                            .help("the largest is about 1.8e308"),
-                    );
-                    return None;
-                }
-            },
-            ast::Value::StringLit(s) => Json::Text(self.string(&s.range)?),
-            ast::Value::Array(array) => {
-                let mut items = Vec::with_capacity(array.elements.len());
-                let mut end = None;
-                for element in &array.elements {
-                    self.comma(end, element.range().start)?;
-                    end = Some(element.range().end);
-                    items.push(self.node(element)?);
-                }
-                Json::Array(items)
+    /// Whether the next item begins with this character.
+    fn begins(&self, c: char, object: bool) -> bool {
+        if self.is_quote(c) {
+            return true;
+        }
+        if object {
+            let behind = self.rest().get(self.word_length()..).unwrap_or("");
+            self.word_length() > 0 && behind.trim_start_matches([' ', '\t']).starts_with([':', '='])
+        } else {
+            c.is_alphanumeric() || matches!(c, '{' | '[' | '-' | '+' | '.')
+        }
+    }
+
+    /// Walks over something that belongs nowhere: to the next comma, bracket, quote or line end.
+    fn stray(&mut self) -> Range<usize> {
+        let start = self.at;
+        self.bump();
+        while let Some(c) = self.peek() {
+            if matches!(c, ',' | ';' | '\n' | '\r' | '{' | '}' | '[' | ']') || self.is_quote(c) {
+                break;
             }
-            ast::Value::Object(object) => self.object(object)?,
+            if c.is_whitespace() && self.is_comment(self.at + c.len_utf8()) {
+                break;
+            }
+            self.bump();
+        }
+        start..start + self.text.get(start..self.at).map_or(0, |t| t.trim_end().len())
+    }
+
+    fn extra_comma(&mut self, first: bool) {
+        let start = self.at;
+        self.bump();
+        self.say(say::extra_comma(start, first));
+    }
+
+    /// The text ends inside of brackets: said once, with all that is missing.
+    fn unclosed(&mut self) {
+        if std::mem::replace(&mut self.ended, true) {
+            return;
+        }
+        let end = self.text.trim_end().len();
+        self.say(say::unclosed(&self.open, end));
+    }
+
+    /// A `}` that ends the whole value although its members go on behind it.
+    fn closes_too_early(&self) -> bool {
+        let [open, close, ..] = self.brackets;
+        self.open.len() == 1
+            && close > open
+            && self.rest().get(1..).is_some_and(|t| t.trim_start().starts_with(','))
+    }
+
+    fn stray_bracket(&mut self) {
+        let start = self.at;
+        let c = self.peek().unwrap_or('}');
+        self.bump();
+        self.mend(c, -1);
+        self.say(say::stray_bracket(c, start));
+    }
+
+    /// A bracket that closes the other kind. Whether what is being read ends here.
+    fn wrong_bracket(&mut self, mine: char, found: char) -> bool {
+        let start = self.at;
+        let [braces, closed_braces, lists, closed_lists] = self.brackets;
+        let (mine_missing, found_extra) = match mine {
+            '}' => (braces > closed_braces, closed_lists > lists),
+            _ => (lists > closed_lists, closed_braces > braces),
         };
-        Some(Node { json, span: self.below.span(range) })
-    }
-
-    fn object(&mut self, object: &ast::Object<'_>) -> Option<Json> {
-        let mut members: Vec<Member> = Vec::with_capacity(object.properties.len());
-        let mut seen: HashMap<String, Range<usize>> = HashMap::new();
-        let mut end = None;
-        for property in &object.properties {
-            self.comma(end, property.range.start)?;
-            end = Some(property.range.end);
-            let ast::ObjectPropName::String(name) = &property.name else { return None };
-            let key = self.string(&name.range)?;
-            if let Some(first) = seen.insert(key.value.clone(), key.span()) {
-                self.findings.push(
-                    Finding::new(
-                        &DUPLICATE_KEY,
-                        key.span(),
-                        format!("`{}` is written twice in one object", key.value),
-                    )
-                    .related(first, "the first one, which is ignored")
-                    .help("keep one of the two"),
-                );
+        let outer = self.open.iter().any(|(c, _)| (*c == '[') == (found == ']'));
+        match (outer, mine_missing, found_extra) {
+            // The other bracket was meant.
+            (_, true, true) | (false, true, _) => {
+                self.bump();
+                self.mend(found, -1);
+                self.mend(mine, 1);
+                self.say(say::other_bracket(mine, found, start));
+                true
             }
-            members.push(Member { key, value: self.node(&property.value)? });
-        }
-        Some(Json::Object(members))
-    }
-
-    /// A string literal whose range includes its quotes.
-    fn string(&mut self, range: &jsonc_parser::common::Range) -> Option<Text> {
-        let inside = range.start + 1..range.end.saturating_sub(1);
-        match self.text.get(inside.clone()).and_then(strings::decode) {
-            Some((value, map)) => {
-                let map = if map.derived_len() == 0 {
-                    SourceMap::point(inside.start)
-                } else {
-                    map.shifted(inside.start)
-                };
-                Some(Text { value, map: map.then(self.below) })
+            (true, true, false) | (true, false, false) => {
+                let end = self.before();
+                self.mend(mine, 1);
+                self.say(say::missing_bracket(mine, found, end, start));
+                true
             }
-            None => {
-                self.fail(
-                    Finding::new(
-                        &SYNTAX,
-                        range.start..range.end,
-                        "a `\\u` escape in this text is not a character",
-                    )
-                    .help("write the character itself: JSON is UTF-8"),
-                );
-                None
+            (true, false, true) | (false, false, _) => {
+                self.stray_bracket();
+                false
             }
         }
     }
 
-    /// A comma between the end of the last item and the start of the next one. The parser does not miss it
-    /// everywhere.
-    fn comma(&mut self, end: Option<usize>, start: usize) -> Option<()> {
-        let Some(end) = end else { return Some(()) };
-        if self.text.get(end..start).is_some_and(|between| between.contains(',')) {
-            return Some(());
+    fn mend(&mut self, bracket: char, by: i64) {
+        let i = ['{', '}', '[', ']'].iter().position(|c| *c == bracket);
+        if let Some(n) = i.and_then(|i| self.brackets.get_mut(i)) {
+            *n += by;
         }
-        self.fail(missing_comma(self.text, end));
-        None
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn run(text: &str) -> (Option<Node>, Vec<Finding>) {
-        parse(text, &SourceMap::verbatim(0..text.len()))
-    }
-
-    /// The message and the text under the span of the only finding.
-    fn complaint(text: &str) -> (String, String) {
-        let (node, findings) = run(text);
-        assert!(node.is_none(), "{text} was accepted");
-        assert_eq!(findings.len(), 1, "{findings:?}");
-        (findings[0].message.clone(), text[findings[0].span.clone()].to_string())
-    }
-
-    #[test]
-    fn mistakes_are_told_in_plain_words() {
-        for (text, message, place) in [
-            (r#"{"a": 1 "b": 2}"#, "a comma is missing here", ""),
-            (r#"[1 {"b": 2}]"#, "a comma is missing here", ""),
-            (r#"{"a": 1,}"#, "a comma before a closing bracket", ","),
-            (r#"{'a': 1}"#, "a single quote where JSON needs a double quote", "'"),
-            (r#"{"a": 1} // note"#, "JSON has no comments", "//"),
-            (r#"{a: 1}"#, "the key `a` has no quotes", "a"),
-            (r#"{"a": "b"#, "this string is never closed", "\""),
-            ("{\"a\": \"b\n\"}", "this string is not closed on its line", "\"b"),
-            ("{\"a\": \"b\tc\"}", "a control character (U+0009) inside a string", "\t"),
-            (r#"{"a": NaN}"#, "`NaN` is not a number that JSON knows", "NaN"),
-            (r#"{"a": -Infinity}"#, "`-Infinity` is not a number that JSON knows", "-Infinity"),
-            (r#"{"a": True}"#, "`True` is written `true` in JSON", "True"),
-            (r#"{"a": .5}"#, "`.5` is not a number as JSON writes it", ".5"),
-            (r#"{"a": "\tau \alpha"}"#, "`\\a` is not an escape of JSON", "\\a"),
-            (r#"{"a" 1}"#, "a colon is missing after this key", "1"),
-            (r#"{"a": {"b": 1}"#, "this object is never closed", "{"),
-            (r#"{"a": [1, 2}"#, "a `}` that closes nothing here", "}"),
-            (r#"{"a": 1}}"#, "text after the end of the JSON value", "}"),
-            ("{\"a\":\u{a0}1}", "an invisible character (U+00A0) between values", "\u{a0}"),
-            ("", "nothing here", ""),
-            (r#"{"a": 1e999}"#, "this number is too large to compute with", "1e999"),
-        ] {
-            assert_eq!(complaint(text), (message.to_string(), place.to_string()), "{text}");
+/// How many of `{ } [ ]` stand outside of strings in double quotes.
+fn count(text: &str) -> [i64; 4] {
+    let mut n = [0; 4];
+    let (mut inside, mut escaped) = (false, false);
+    for b in text.bytes() {
+        match b {
+            _ if escaped => escaped = false,
+            b'\\' if inside => escaped = true,
+            b'"' => inside = !inside,
+            // Strings do not cross lines.
+            b'\n' => inside = false,
+            b'{' if !inside => n[0] += 1,
+            b'}' if !inside => n[1] += 1,
+            b'[' if !inside => n[2] += 1,
+            b']' if !inside => n[3] += 1,
+            _ => {}
         }
     }
-
-    #[test]
-    fn deep_nesting_is_refused_before_it_can_hurt() {
-        let deep = "[".repeat(1_000_000);
-        assert!(complaint(&deep).0.contains("brackets inside each other"));
-    }
-
-    #[test]
-    fn too_many_values_are_refused() {
-        let long = format!("[{}1]", "1,".repeat(super::super::MAX_VALUES + 1));
-        assert!(complaint(&long).0.contains("values in one JSON text"));
-    }
-
-    #[test]
-    fn duplicate_keys_are_found_and_strings_know_their_place() {
-        let text = r#"{"a": "x\ny", "a": ""}"#;
-        let (node, findings) = run(text);
-        assert_eq!(findings[0].code, "duplicate-key");
-        assert_eq!(findings[0].span, 15..16);
-        let node = node.unwrap();
-        let Json::Object(members) = &node.json else { panic!() };
-        let Json::Text(first) = &members[0].value.json else { panic!() };
-        assert_eq!(&text[first.span_of(1..3)], "\\ny");
-        let Json::Text(second) = &members[1].value.json else { panic!() };
-        assert_eq!(second.span(), 20..20);
-    }
-
-    fn to_serde(node: &Node) -> serde_json::Value {
-        use serde_json::Value;
-        match &node.json {
-            Json::Null => Value::Null,
-            Json::Bool(b) => (*b).into(),
-            Json::Number(x) => (*x).into(),
-            Json::Text(t) => t.value.clone().into(),
-            Json::Array(items) => items.iter().map(to_serde).collect(),
-            Json::Object(members) => {
-                Value::Object(members.iter().map(|m| (m.key.value.clone(), to_serde(&m.value))).collect())
-            }
-        }
-    }
-
-    /// Fragments that make JSON and nearly-JSON often.
-    fn nearly_json() -> impl Strategy<Value = String> {
-        let piece = prop::sample::select(vec![
-            "{",
-            "}",
-            "[",
-            "]",
-            ",",
-            ":",
-            "\"a\"",
-            "\"b\\n\"",
-            "\"\\u00e9\"",
-            "\"\\ud83d\"",
-            "1",
-            "-2.5",
-            "1e5",
-            "01",
-            "-",
-            "+1",
-            ".5",
-            "5.",
-            "0x1",
-            "1e",
-            "1e999",
-            "true",
-            "null",
-            "nul",
-            "falsee",
-            "NaN",
-            " ",
-            "\n",
-            "\u{b}",
-            "\u{a0}",
-            "'a'",
-            "a",
-            "\"",
-            "\\",
-            "//x\n",
-            "/**/",
-            "“",
-            "\"\t\"",
-            "\u{feff}",
-            "\"é\u{7f}\"",
-            "{}",
-            "[]",
-            "{\"a\":1}",
-            "[1,2]",
-            "\"a\":",
-            ",\"a\":",
-        ]);
-        prop::collection::vec(piece, 0..9).prop_map(|pieces| pieces.concat())
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(4000))]
-        /// What we accept is what serde_json accepts, with the same values.
-        #[test]
-        fn acceptance_is_that_of_serde(text in nearly_json()) {
-            let ours = run(&text).0;
-            let theirs: Option<serde_json::Value> = serde_json::from_str(&text).ok();
-            prop_assert_eq!(ours.is_some(), theirs.is_some(), "{:?}", text);
-            if let (Some(ours), Some(theirs)) = (ours, theirs) {
-                let numbers_as_floats: serde_json::Value = floats(theirs);
-                prop_assert_eq!(to_serde(&ours), numbers_as_floats);
-            }
-        }
-
-        #[test]
-        fn any_text_is_survived(text in any::<String>()) {
-            let ours = run(&text).0;
-            prop_assert_eq!(ours.is_some(), serde_json::from_str::<serde_json::Value>(&text).is_ok());
-        }
-    }
-
-    fn floats(value: serde_json::Value) -> serde_json::Value {
-        use serde_json::Value;
-        match value {
-            Value::Number(n) => n.as_f64().unwrap().into(),
-            Value::Array(items) => items.into_iter().map(floats).collect(),
-            Value::Object(map) => Value::Object(map.into_iter().map(|(k, v)| (k, floats(v))).collect()),
-            other => other,
-        }
-    }
+    n
 }

@@ -1,5 +1,6 @@
 //! Reads typed values out of JSON objects and collects what is wrong instead of stopping at the first mistake.
 
+use super::literal::repaired;
 use super::{Json, Member, Node, nearest};
 use crate::finding::{Finding, Severity};
 use crate::lint::rules::keys::{MISSING_KEY, UNKNOWN_KEY, WRONG_TYPE};
@@ -72,6 +73,8 @@ pub struct Fields<'n, 'f> {
     members: &'n [Member],
     span: Range<usize>,
     known: Vec<&'static str>,
+    /// Misspelt keys: what was meant, and the index of the member.
+    meant: Vec<(&'static str, usize)>,
     missing: Vec<(&'static str, Finding)>,
     /// Where findings go.
     pub findings: &'f mut Vec<Finding>,
@@ -90,12 +93,30 @@ impl<'n, 'f> Fields<'n, 'f> {
                 members,
                 span: node.span.clone(),
                 known: Vec::new(),
+                meant: Vec::new(),
                 missing: Vec::new(),
                 findings,
             }),
             _ => {
                 wrong(findings, node, what, "an object { … }");
                 None
+            }
+        }
+    }
+
+    /// The keys that the object may have. One that is misspelt is then read as what was meant (and reported by
+    /// [`Fields::finish`]), so that one letter does not make everything else wrong.
+    pub fn keys(&mut self, keys: &[&'static str]) {
+        for (i, member) in self.members.iter().enumerate().take(200) {
+            let key = member.key.as_str();
+            if keys.contains(&key) || self.meant.len() >= 20 {
+                continue;
+            }
+            let fitting = keys.iter().copied().filter(|k| fits(k, &member.value.json));
+            if let Some(right) = nearest(key, fitting)
+                && !self.has(right)
+            {
+                self.meant.push((right, i));
             }
         }
     }
@@ -115,12 +136,15 @@ impl<'n, 'f> Fields<'n, 'f> {
         if !self.known.contains(&key) {
             self.known.push(key);
         }
-        self.members.iter().rev().find(|m| m.key.value == key).map(|m| &m.value)
+        let exact = self.members.iter().rev().find(|m| m.key.value == key);
+        let meant =
+            || self.meant.iter().find(|(right, _)| *right == key).and_then(|(_, i)| self.members.get(*i));
+        exact.or_else(meant).map(|m| &m.value)
     }
 
-    /// Whether the object has this key.
+    /// Whether the object has this key, perhaps misspelt.
     pub fn has(&self, key: &str) -> bool {
-        self.members.iter().any(|m| m.key.value == key)
+        self.members.iter().any(|m| m.key.value == key) || self.meant.iter().any(|(right, _)| *right == key)
     }
 
     /// A key that must be there.
@@ -226,7 +250,7 @@ impl<'n, 'f> Fields<'n, 'f> {
     /// Reports every key that nobody asked for, and those that are missing unless they are only misspelt.
     pub fn finish(self) {
         let (mut misspelt, mut reported) = (Vec::new(), 0);
-        for member in self.members {
+        for (i, member) in self.members.iter().enumerate() {
             let key = member.key.as_str();
             if self.known.contains(&key) {
                 continue;
@@ -237,19 +261,70 @@ impl<'n, 'f> Fields<'n, 'f> {
                 format!("{} has no key `{}`", self.what, shorten(key)),
             );
             // Suggestions for the first ones only: a hostile object can have thousands.
-            let known = self.known.iter().copied().take(if reported < 20 { usize::MAX } else { 0 });
-            reported += 1;
-            self.findings.push(match nearest(key, known) {
-                Some(right) => {
+            let known = || self.known.iter().copied().take(if reported < 20 { usize::MAX } else { 0 });
+            let meant = self.meant.iter().find(|(right, at)| *at == i && self.known.contains(right));
+            let there =
+                |right: &str| self.members.iter().any(|m| m.key.value == right) || misspelt.contains(&right);
+            let fitting = || nearest(key, known().filter(|k| fits(k, &member.value.json)));
+            let near = meant.map(|(right, _)| *right).or_else(fitting);
+            self.findings.push(match near.or_else(|| nearest(key, known())) {
+                Some(right) if there(right) => finding.help(format!(
+                    "did you mean `{right}`? the object has it already: delete one of the two"
+                )),
+                Some(right) if near.is_some() => {
                     misspelt.push(right);
                     finding.help(format!("did you mean `{right}`?")).fix(member.key.span(), right)
                 }
+                Some(right) => {
+                    misspelt.push(right);
+                    finding.help(format!("did you mean `{right}`? {}", takes(right)))
+                }
                 None => finding.help(format!("its keys are {}", self.known.join(", "))),
             });
+            reported += 1;
         }
         let missing = self.missing.into_iter().filter(|(key, _)| !misspelt.contains(key));
         self.findings.extend(missing.map(|(_, finding)| finding));
     }
+}
+
+/// Keys whose value is a list, and those whose value is an object, wherever they stand.
+const LISTS: [&str; 12] = [
+    "controls",
+    "plots",
+    "readouts",
+    "toggles",
+    "speeds",
+    "traces",
+    "refLines",
+    "options",
+    "questions",
+    "says",
+    "press",
+    "target",
+];
+const OBJECTS: [&str; 7] = ["camera", "overlays", "verify", "sim", "runs", "measure", "exact"];
+/// Keys that take an object in one place and a text in another.
+const EITHER: [&str; 2] = ["lab", "set"];
+
+/// Whether a key can have such a value.
+pub(crate) fn fits(key: &str, value: &Json) -> bool {
+    match value {
+        Json::Broken => true,
+        Json::Array(_) => LISTS.contains(&key),
+        Json::Object(_) => OBJECTS.contains(&key) || EITHER.contains(&key),
+        _ => !LISTS.contains(&key) && !OBJECTS.contains(&key),
+    }
+}
+
+/// What a key takes, as a sentence.
+fn takes(key: &str) -> String {
+    let what = match key {
+        _ if LISTS.contains(&key) => "a list [ … ]",
+        _ if OBJECTS.contains(&key) => "an object { … }",
+        _ => "a single value",
+    };
+    format!("it takes {what}")
 }
 
 /// A text, or a finding.
@@ -308,6 +383,9 @@ fn wrong_key(findings: &mut Vec<Finding>, node: &Node, key: &str, expected: &str
 }
 
 fn wrong(findings: &mut Vec<Finding>, node: &Node, what: &str, expected: &str) {
+    if node.is_broken() {
+        return;
+    }
     let finding = Finding::new(
         &WRONG_TYPE,
         node.span.clone(),
@@ -315,16 +393,23 @@ fn wrong(findings: &mut Vec<Finding>, node: &Node, what: &str, expected: &str) {
     );
     // "5" for 5 is the common case, and it has one repair.
     findings.push(match &node.json {
-        Json::Text(text)
-            if expected.starts_with("a number")
-                && text.value.trim().parse::<f64>().is_ok_and(f64::is_finite) =>
-        {
+        Json::Text(text) if expected.starts_with("a number") => match repaired(text.value.trim()) {
+            Some(bare) => {
+                finding.help(format!("write {bare} without the quotes")).fix(node.span.clone(), bare)
+            }
+            None => finding.help(format!("write {expected}")),
+        },
+        Json::Text(text) if expected.starts_with("true or false") && is_flag(&text.value) => {
             let bare = text.value.trim().to_string();
             finding.help(format!("write {bare} without the quotes")).fix(node.span.clone(), bare)
         }
         Json::Number(_) if expected.starts_with("a text") => finding.help("put quotes around it"),
         _ => finding.help(format!("write {expected}")),
     });
+}
+
+fn is_flag(text: &str) -> bool {
+    matches!(text.trim(), "true" | "false")
 }
 
 /// A key as it may be shown: a hostile one can be long.

@@ -1,26 +1,116 @@
-//! Decodes a JSON string and remembers where every byte came from.
+//! Decodes the inside of a string and remembers where every byte came from.
 
-use crate::source::SourceMap;
+use crate::finding::Fix;
+use crate::source::{SourceMap, Text};
+use std::ops::Range;
 
-/// The text of a string literal and the map to its source. `raw` stands between the quotes; the map is
-/// relative to the first byte of `raw`. `None` when an escape is wrong (half of a surrogate pair).
-pub(super) fn decode(raw: &str) -> Option<(String, SourceMap)> {
-    let (mut value, mut map) = (String::with_capacity(raw.len()), SourceMap::default());
+/// The inside of a string.
+pub(super) struct Decoded {
+    /// What it says.
+    pub(super) value: String,
+    /// From the value to the bytes of the inside.
+    pub(super) map: SourceMap,
+    /// What JSON does not allow in it, and where.
+    pub(super) troubles: Vec<(Range<usize>, Trouble)>,
+}
+
+/// Something that JSON does not allow inside of a string.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Trouble {
+    /// A backslash before a letter that is no escape: LaTeX, as a rule.
+    Escape(char),
+    /// An escaped quote that needs no backslash in JSON: `\'`.
+    Needless(char),
+    /// `\u` with half of a pair.
+    Half,
+    /// A control character.
+    Control(char),
+    /// A line break.
+    Line,
+    /// A backslash at the end of a line: JavaScript joins the two.
+    Joined,
+    /// A double quote.
+    Quote,
+}
+
+/// Decodes `raw`, which stands between quotes. What is wrong is kept as what was probably meant.
+pub(super) fn decode(raw: &str) -> Decoded {
+    let mut d =
+        Decoded { value: String::with_capacity(raw.len()), map: SourceMap::default(), troubles: Vec::new() };
     let mut at = 0;
     while let Some(rest) = raw.get(at..).filter(|rest| !rest.is_empty()) {
-        let plain = rest.find('\\').unwrap_or(rest.len());
+        let plain = rest.find(|c: char| c == '\\' || c == '"' || c < ' ').unwrap_or(rest.len());
         if plain > 0 {
-            value.push_str(rest.get(..plain)?);
-            map.push_verbatim(at..at + plain);
+            d.verbatim(raw, at..at + plain);
             at += plain;
             continue;
         }
-        let (c, len) = escape(rest)?;
-        value.push(c);
-        map.push_whole(c.len_utf8(), at..at + len);
-        at += len;
+        at += d.special(raw, at, rest);
     }
-    Some((value, map))
+    d
+}
+
+impl Decoded {
+    fn verbatim(&mut self, raw: &str, range: Range<usize>) {
+        self.value.push_str(raw.get(range.clone()).unwrap_or(""));
+        self.map.push_verbatim(range);
+    }
+
+    fn whole(&mut self, c: char, range: Range<usize>) {
+        self.value.push(c);
+        self.map.push_whole(c.len_utf8(), range);
+    }
+
+    /// Takes in what begins at `at` and is no ordinary character; returns its length.
+    fn special(&mut self, raw: &str, at: usize, rest: &str) -> usize {
+        let mut chars = rest.chars();
+        let first = chars.next().unwrap_or(' ');
+        if first != '\\' {
+            let trouble = match first {
+                '"' => Trouble::Quote,
+                '\n' | '\r' => Trouble::Line,
+                c => Trouble::Control(c),
+            };
+            let length = if rest.starts_with("\r\n") { 2 } else { 1 };
+            self.troubles.push((at..at + length, trouble));
+            self.verbatim(raw, at..at + length);
+            return length;
+        }
+        if let Some((c, length)) = escape(rest) {
+            self.whole(c, at..at + length);
+            return length;
+        }
+        let Some(c) = chars.next() else {
+            // A backslash at the very end: there is nothing that it could escape.
+            self.troubles.push((at..at + 1, Trouble::Escape('\\')));
+            self.verbatim(raw, at..at + 1);
+            return 1;
+        };
+        let length = 1 + c.len_utf8();
+        match c {
+            '\n' | '\r' => {
+                let length = if rest.starts_with("\\\r\n") { 3 } else { length };
+                self.troubles.push((at..at + length, Trouble::Joined));
+                length
+            }
+            '\'' | '`' => {
+                self.troubles.push((at..at + length, Trouble::Needless(c)));
+                self.whole(c, at..at + length);
+                length
+            }
+            'u' if rest.get(2..6).and_then(hex).is_some() => {
+                self.troubles.push((at..at + 6, Trouble::Half));
+                self.whole('\u{fffd}', at..at + 6);
+                6
+            }
+            _ => {
+                // The letter behind the backslash is read as what it is.
+                self.troubles.push((at..at + length, Trouble::Escape(c)));
+                self.verbatim(raw, at..at + 1);
+                1
+            }
+        }
+    }
 }
 
 /// The character of the escape that `text` begins with, and its length in bytes.
@@ -55,23 +145,60 @@ fn hex(digits: &str) -> Option<u32> {
     digits.bytes().all(|b| b.is_ascii_hexdigit()).then(|| u32::from_str_radix(digits, 16).ok())?
 }
 
+/// A text as it stands inside of a JSON string: with its escapes, without quotes around it.
+pub(crate) fn encode(text: &str) -> String {
+    let quoted = serde_json::Value::from(text).to_string();
+    quoted.get(1..quoted.len().saturating_sub(1)).unwrap_or("").to_string()
+}
+
+/// The change that puts `replacement` in the place of a part of a text that stands in JSON.
+pub(crate) fn fix_in(text: &Text, part: Range<usize>, replacement: &str) -> Fix {
+    Fix { span: text.span_of(part), text: encode(replacement) }
+}
+
+/// The same for code: quotes of its own are single ones, as nearly all lessons write them, unless this text uses
+/// double ones already.
+pub(crate) fn fix_in_code(text: &Text, part: Range<usize>, replacement: &str) -> Fix {
+    let doubles = text.value.contains('"');
+    let plain = !replacement.contains(['\'', '\\', '`']) && replacement.matches('"').count() % 2 == 0;
+    let replacement = if plain && !doubles { replacement.replace('"', "'") } else { replacement.to_string() };
+    fix_in(text, part, &replacement)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn escapes_decode_with_their_places() {
-        let (value, map) = decode(r#"a\u00e9\n\ud83d\ude00b"#).unwrap();
-        assert_eq!(value, "aé\n😀b");
-        let b = value.find('b').unwrap();
-        assert_eq!(map.span(b..b + 1), 21..22);
-        assert_eq!(map.span(1..3), 1..7);
+        let d = decode(r#"a\u00e9\n\ud83d\ude00b"#);
+        assert_eq!((d.value.as_str(), d.troubles.len()), ("aé\n😀b", 0));
+        let b = d.value.find('b').unwrap();
+        assert_eq!(d.map.span(b..b + 1), 21..22);
+        assert_eq!(d.map.span(1..3), 1..7);
     }
 
     #[test]
-    fn half_a_pair_is_no_character() {
-        assert_eq!(decode(r"\ud83d"), None);
-        assert_eq!(decode(r"\ude00\ud83d"), None);
-        assert_eq!(decode(r"\u12é"), None);
+    fn what_json_does_not_allow_is_kept_as_it_was_meant() {
+        for (raw, value, trouble) in [
+            (r"\ud83d", "\u{fffd}", Trouble::Half),
+            (r"\ude00", "\u{fffd}", Trouble::Half),
+            (r"\u12é", r"\u12é", Trouble::Escape('u')),
+            (r"$\alpha$", r"$\alpha$", Trouble::Escape('a')),
+            (r"it\'s", "it's", Trouble::Needless('\'')),
+            ("a\tb", "a\tb", Trouble::Control('\t')),
+            ("a\r\nb", "a\r\nb", Trouble::Line),
+            ("a\\\nb", "ab", Trouble::Joined),
+            ("a\"b", "a\"b", Trouble::Quote),
+        ] {
+            let d = decode(raw);
+            assert_eq!((d.value.as_str(), d.troubles.len(), d.troubles[0].1), (value, 1, trouble), "{raw}");
+            assert_eq!(d.map.derived_len(), d.value.len(), "{raw}");
+        }
+    }
+
+    #[test]
+    fn a_text_is_encoded_for_the_string_it_stands_in() {
+        assert_eq!(encode("a \"b\" \\tau\n"), r#"a \"b\" \\tau\n"#);
     }
 }

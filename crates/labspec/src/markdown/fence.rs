@@ -33,6 +33,13 @@ impl Opener {
         }
     }
 
+    /// What the lines below the opening line begin with: the `> ` of a quote, the indentation of a list.
+    pub(crate) fn prefix(&self, text: &str) -> String {
+        let line = super::line_start(text, self.line.start);
+        let before = text.get(line..self.line.start).unwrap_or("");
+        before.chars().map(|c| if c == '>' || c.is_whitespace() { c } else { ' ' }).collect()
+    }
+
     /// The line that closes this fence.
     pub(crate) fn closing(&self) -> String {
         self.mark.to_string().repeat(self.count)
@@ -63,7 +70,10 @@ pub(super) fn opener(text: &str, at: usize) -> Option<Opener> {
 fn belongs_below(info: &str) -> Option<usize> {
     let first = info.split_whitespace().next()?;
     if first == "lab" || first == "quiz" || first.starts_with("lab{") || first.starts_with("quiz{") {
-        return info.find(['{', '[']);
+        return info.find(['{', '[']).filter(|&at| !is_attributes(info.get(at..).unwrap_or("")));
+    }
+    if first.starts_with("{.") || first.starts_with("{lab") || first.starts_with("{quiz") {
+        return None;
     }
     // Attributes are words, key=value pairs and {…}; anything else is code.
     let mut at = info.len() - info.trim_start().len() + first.len();
@@ -86,17 +96,52 @@ fn belongs_below(info: &str) -> Option<usize> {
     candidate.filter(|_| plain >= if info.contains("file=") { 2 } else { 3 })
 }
 
+/// Whether these are the attributes of some Markdown dialects, `{.class #id key=value}`, and no JSON.
+fn is_attributes(text: &str) -> bool {
+    let Some(inside) =
+        text.strip_prefix('{').and_then(|t| t.split_once('}')).map(|(inside, _)| inside.trim())
+    else {
+        return false;
+    };
+    let key = inside.split('=').next().unwrap_or("");
+    let is_name = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_'));
+    inside.starts_with(['.', '#']) || (is_name && inside.contains('='))
+}
+
+/// `lab` or `quiz`, where a fence says so in the way of another Markdown dialect: ```{lab}, ```{.lab}, ```json lab.
+fn in_other_words(words: &[String]) -> Option<&'static str> {
+    let bare =
+        |word: &String| word.trim_start_matches(['{', '.']).trim_end_matches([',', '}']).to_ascii_lowercase();
+    let ours = |word: &String| ["lab", "quiz"].into_iter().find(|w| bare(word) == *w);
+    let first = words.first()?;
+    match bare(first).as_str() {
+        "json" | "json5" | "jsonc" | "js" | "javascript" => ours(words.get(1)?),
+        _ => ours(first),
+    }
+}
+
 /// The kind that a misspelt fence was meant to have, and how it is written.
-pub(super) fn meant(kind: &BlockKind, body: &str) -> Option<(&'static str, BlockKind)> {
+pub(super) fn meant(open: &Opener, kind: &BlockKind, body: &str) -> Option<(&'static str, BlockKind)> {
     let lab = ("lab simlab", BlockKind::Lab("simlab".into()));
+    let quiz = ("quiz", BlockKind::Quiz);
     match kind {
-        BlockKind::Lab(widget) if widget != "simlab" => nearest(widget, ["simlab"]).map(|_| lab),
-        BlockKind::Code { language, .. } => match nearest(language, ["lab", "quiz", "simlab"])? {
-            // A language of a similar name is none of our business, unless it holds what we know.
-            _ if super::loose::bare_json(body).next().is_none() => None,
-            "quiz" => Some(("quiz", BlockKind::Quiz)),
-            _ => Some(lab),
-        },
+        BlockKind::Lab(widget) if widget != "simlab" => {
+            (widget.starts_with('{') || nearest(widget, ["simlab"]).is_some()).then_some(lab)
+        }
+        BlockKind::Code { language, .. } => {
+            let holds_json = body.trim_start().starts_with(['{', '[']);
+            match in_other_words(&open.words).filter(|_| holds_json) {
+                Some("quiz") => return Some(quiz),
+                Some(_) => return Some(lab),
+                None => {}
+            }
+            match nearest(language, ["lab", "quiz", "simlab"])? {
+                // A language of a similar name is none of our business, unless it holds what we know.
+                _ if super::loose::bare_json(body).next().is_none() => None,
+                "quiz" => Some(quiz),
+                _ => Some(lab),
+            }
+        }
         _ => None,
     }
 }

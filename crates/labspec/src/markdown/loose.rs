@@ -83,7 +83,7 @@ pub(super) fn find(text: &str, scan: &mut Scan) {
         for bare in bare_json(part) {
             let object = bare.object.start + range.start..bare.object.end + range.start;
             let kind = if bare.is_quiz { BlockKind::Quiz } else { BlockKind::Lab("simlab".into()) };
-            scan.findings.push(fence::missing(&object, &kind));
+            scan.findings.push(fence::missing(text, &object, &kind));
             let head = object.start..object.start + 1;
             scan.blocks.push(loose_block(text, kind, object.clone(), head, object));
         }
@@ -122,6 +122,24 @@ pub(super) fn unseen_fence(text: &str, within: Range<usize>, scan: &mut Scan) ->
         return Some(resume);
     }
     None
+}
+
+/// Opening lines of labs and quizzes within an indented code block: Markdown shows such lines as they are.
+pub(super) fn indented_fence(text: &str, within: Range<usize>, scan: &mut Scan) {
+    let mut at = within.start;
+    let lines = text.get(within).unwrap_or("").split_inclusive('\n');
+    for line in lines {
+        let start = at;
+        at += line.len();
+        let Some(open) = opener(text, start) else { continue };
+        // A page that explains the format shows a fence like this; what holds a lab was meant to be one.
+        let below = text.get(at..ceil(text, at.saturating_add(200))).unwrap_or("").trim_start();
+        let holds_json =
+            below.strip_prefix('{').is_some_and(|t| t.trim_start().starts_with(extent::is_quote));
+        if holds_json && !matches!(open.kind(), BlockKind::Code { .. }) {
+            scan.findings.push(fence::indented(&open));
+        }
+    }
 }
 
 fn loose_block(

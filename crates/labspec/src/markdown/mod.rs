@@ -8,11 +8,9 @@
 mod extent;
 mod fence;
 mod loose;
-mod quotes;
 
 pub(crate) use extent::is_typographic;
 pub(crate) use fence::Opener;
-pub use quotes::{Repaired, repair_quotes};
 
 use crate::finding::Finding;
 use crate::lint::rules;
@@ -112,7 +110,10 @@ fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
     for (event, range) in Parser::new(text.get(from..)?).into_offset_iter() {
         let range = range.start + from..range.end + from;
         match event {
-            Event::Start(Tag::CodeBlock(CodeBlockKind::Indented)) => scan.code.push(range),
+            Event::Start(Tag::CodeBlock(CodeBlockKind::Indented)) => {
+                loose::indented_fence(text, range.clone(), scan);
+                scan.code.push(range);
+            }
             Event::Start(Tag::CodeBlock(CodeBlockKind::Fenced(_))) => {
                 raw = Some((range, Text { value: String::new(), map: SourceMap::default() }));
             }
@@ -167,7 +168,7 @@ fn block(text: &str, span: Range<usize>, body: Text, scan: &mut Scan) -> Option<
     let closed = fence::is_closed(text, &span, &open);
     let body = with_first_line(text, &open, body);
     let mut kind = open.kind();
-    if let Some((right, meant)) = fence::meant(&kind, &body.value) {
+    if let Some((right, meant)) = fence::meant(&open, &kind, &body.value) {
         scan.findings.push(rules::fence::misspelt(&open, right));
         kind = meant;
     }

@@ -33,6 +33,20 @@ pub struct Position {
     pub column: usize,
 }
 
+/// Why the text of a file is not what its author wrote.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BadText {
+    /// A byte that is not UTF-8, and the offset of its replacement in the text.
+    Byte {
+        /// Offset.
+        at: usize,
+        /// The byte.
+        byte: u8,
+    },
+    /// The whole file is UTF-16.
+    Utf16,
+}
+
 impl SourceFile {
     /// A file with this display path and text. No file system is touched.
     pub fn new(path: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> SourceFile {
@@ -49,6 +63,50 @@ impl SourceFile {
     pub fn read(path: &Path) -> Result<SourceFile, String> {
         let text = read_text(path, MAX_FILE, "a lesson or a model")?;
         Ok(SourceFile::new(path.display().to_string(), text))
+    }
+
+    /// A file from its bytes, whatever they are: what is not UTF-8 is replaced, and the first place where it is not is
+    /// told, so that the rest can be checked all the same. UTF-16 is read by its byte order mark.
+    pub fn from_bytes(path: impl Into<Arc<str>>, bytes: &[u8]) -> (SourceFile, Option<BadText>) {
+        let wide = |from: fn([u8; 2]) -> u16| {
+            let units = bytes.get(2..).unwrap_or(&[]).chunks_exact(2);
+            let units = units.filter_map(|pair| Some(from([*pair.first()?, *pair.get(1)?])));
+            char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect::<String>()
+        };
+        match bytes {
+            [0xff, 0xfe, ..] => (SourceFile::new(path, wide(u16::from_le_bytes)), Some(BadText::Utf16)),
+            [0xfe, 0xff, ..] => (SourceFile::new(path, wide(u16::from_be_bytes)), Some(BadText::Utf16)),
+            _ => match std::str::from_utf8(bytes) {
+                Ok(text) => (SourceFile::new(path, text), None),
+                Err(e) => {
+                    let at = e.valid_up_to();
+                    let byte = bytes.get(at).copied().unwrap_or(0);
+                    let text = String::from_utf8_lossy(bytes).into_owned();
+                    (SourceFile::new(path, text), Some(BadText::Byte { at, byte }))
+                }
+            },
+        }
+    }
+
+    /// Reads a file of at most [`MAX_FILE`] bytes as [`SourceFile::from_bytes`] does.
+    ///
+    /// # Errors
+    /// A sentence for the author: the file cannot be read, is no file, or is too large.
+    pub fn read_lossy(path: &Path) -> Result<(SourceFile, Option<BadText>), String> {
+        use std::io::Read;
+        let shown = path.display();
+        let cannot = |e: std::io::Error| format!("cannot read {shown}: {e}");
+        // Asked for before it is opened: to open a pipe may wait for ever.
+        if !std::fs::metadata(path).map_err(cannot)?.is_file() {
+            return Err(format!("{shown} is not a file"));
+        }
+        let mut bytes = Vec::new();
+        let file = std::fs::File::open(path).map_err(cannot)?;
+        file.take(MAX_FILE + 1).read_to_end(&mut bytes).map_err(cannot)?;
+        if bytes.len() as u64 > MAX_FILE {
+            return Err(format!("{shown} is larger than {} MB, the limit for a lesson", MAX_FILE >> 20));
+        }
+        Ok(SourceFile::from_bytes(shown.to_string(), &bytes))
     }
 
     /// The path as it is shown to people.

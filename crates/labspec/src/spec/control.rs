@@ -114,6 +114,7 @@ pub(super) fn decimals(digits: Option<&Number>) -> u32 {
 /// Reads a control.
 pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Control> {
     let mut fields = Fields::open(node, "a control", findings)?;
+    fields.keys(super::keys::CONTROL);
     let kind = fields.text("type");
     let control = match kind.as_ref().map(Text::as_str) {
         None => slider(&mut fields),
@@ -173,6 +174,9 @@ fn select(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
 }
 
 fn choice(node: &Node, findings: &mut Vec<Finding>) -> Option<Choice> {
+    if node.is_broken() {
+        return None;
+    }
     if let Json::Array(pair) = &node.json
         && let [text, value] = pair.as_slice()
     {

@@ -54,6 +54,8 @@ pub struct Lab {
     pub controller: Option<Text>,
     /// Sliders, selects and buttons.
     pub controls: Vec<Control>,
+    /// Whether one of the controls could not be read, which is reported.
+    pub unread_controls: bool,
     /// Plots.
     pub plots: Vec<Plot>,
     /// Readouts.
@@ -124,6 +126,7 @@ impl Lab {
             setup: None,
             controller: None,
             controls: Vec::new(),
+            unread_controls: false,
             plots: Vec::new(),
             readouts: Vec::new(),
             verify: None,
@@ -193,6 +196,7 @@ pub enum Form {
 /// Reads a lab.
 pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Lab> {
     let mut fields = Fields::open(node, "a lab", findings)?;
+    fields.keys(super::keys::LAB);
     let f = &mut fields;
     let lab = Lab {
         span: f.span(),
@@ -214,14 +218,21 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Lab> {
         stop_at: f.number("stopAt"),
         setup: f.text("setup"),
         controller: f.text("controller"),
+        unread_controls: false,
         controls: f.list("controls").iter().filter_map(|n| control::read(n, f.findings)).collect(),
         plots: f.list("plots").iter().filter_map(|n| plot::read(n, f.findings)).collect(),
         readouts: f.list("readouts").iter().filter_map(|n| plot::readout(n, f.findings)).collect(),
         verify: f.node("verify").and_then(|n| verify::read(n, f.findings)),
         expect: f.text("expect").and_then(|t| expected(&t, f.findings)),
     };
+    let listed = f.list("controls").len();
     fields.finish();
-    Some(lab)
+    Some(Lab { unread_controls: lab.controls.len() < listed || no_list_of_controls(node), ..lab })
+}
+
+/// Whether the list of controls itself could not be read.
+fn no_list_of_controls(node: &Node) -> bool {
+    node.get("controls").is_some_and(|n| !matches!(n.json, Json::Array(_)))
 }
 
 fn expected(text: &Text, findings: &mut Vec<Finding>) -> Option<Expect> {
@@ -242,6 +253,7 @@ fn expected(text: &Text, findings: &mut Vec<Finding>) -> Option<Expect> {
 
 fn camera(node: &Node, findings: &mut Vec<Finding>) -> Option<Camera> {
     let mut fields = Fields::open(node, "a camera", findings)?;
+    fields.keys(super::keys::CAMERA);
     let standard = Camera::default();
     let camera = Camera {
         azimuth: fields.number("azimuth").map_or(standard.azimuth, |n| n.value),
@@ -261,6 +273,9 @@ fn point(node: &Node, findings: &mut Vec<Finding>) -> Option<[f64; 3]> {
     {
         return Some([*x, *y, *z]);
     }
+    if node.is_broken() || matches!(&node.json, Json::Array(items) if items.iter().any(Node::is_broken)) {
+        return None;
+    }
     findings.push(
         Finding::new(&WRONG_TYPE, node.span.clone(), "`target` must be three numbers, in metres")
             .help("write \"target\": [0, 0, 0.5]"),
@@ -273,6 +288,7 @@ fn overlays(fields: &mut Fields<'_, '_>) -> Vec<(Text, bool)> {
     for member in fields.map("overlays") {
         match member.value.json {
             Json::Bool(on) => all.push((member.key.clone(), on)),
+            Json::Broken => {}
             _ => fields.findings.push(
                 Finding::new(
                     &WRONG_TYPE,

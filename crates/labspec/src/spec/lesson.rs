@@ -1,14 +1,17 @@
 //! A lesson: what its fences hold, in order, and how labs are addressed.
 
+use super::kind::{FileKind, Nature, kind_of, nature};
 use super::{Lab, Quiz, VerifyLab, lab, quiz};
 use crate::finding::{self, Finding};
 use crate::json::{self, Json, Node};
 use crate::lint::rules::fence::{LIMIT, UNKNOWN_SPEC, WRONG_FENCE};
 use crate::lint::rules::json as json_rules;
+use crate::lint::rules::quotes::TYPOGRAPHIC;
 use crate::lint::{self, ModelFolder};
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::{MAX_FILE, SourceFile, SourceMap, Text};
 use std::ops::Range;
+use std::path::Path;
 
 /// Most findings that are kept per file. Whoever has more fixes the first ones first.
 pub const MAX_FINDINGS: usize = 1000;
@@ -24,6 +27,8 @@ pub struct Lesson {
     pub quizzes: Vec<Quiz>,
     /// Blocks of widgets that are not ours to run.
     pub widgets: Vec<Widget>,
+    /// Bytes of the blocks whose JSON a page cannot read. What they were meant to be is read and checked all the same.
+    pub broken: Vec<Range<usize>>,
     /// What is wrong, in order.
     pub findings: Vec<Finding>,
 }
@@ -35,7 +40,9 @@ pub struct LabEntry {
     pub number: usize,
     /// Bytes of the fence, or of the object in a JSON file.
     pub span: Range<usize>,
-    /// The lab; `None` when its JSON is broken, which is reported.
+    /// Its JSON is broken: a page cannot read it. No verdict about it may say that it is clean.
+    pub broken: bool,
+    /// The lab; `None` when it could not be read, which is reported.
     pub lab: Option<Lab>,
 }
 
@@ -128,6 +135,23 @@ impl Lesson {
         all
     }
 
+    /// Whether a page cannot read the block that holds these bytes: its JSON is broken.
+    pub fn is_broken(&self, span: &Range<usize>) -> bool {
+        self.broken.iter().any(|b| b.start <= span.start && span.end <= b.end)
+    }
+
+    /// Takes the fixes of findings away that lie in a block whose JSON is broken. They were made for JSON: between
+    /// quotes that are none they would break more. The fixes of the JSON itself stay.
+    pub fn withhold_fixes(&self, findings: &mut [Finding]) {
+        for finding in
+            findings.iter_mut().filter(|f| f.fix.as_ref().is_some_and(|fix| self.is_broken(&fix.span)))
+        {
+            if ![json_rules::SYNTAX.code, TYPOGRAPHIC.code].contains(&finding.code) {
+                finding.fix = None;
+            }
+        }
+    }
+
     /// Whether anything is an error.
     pub fn has_errors(&self) -> bool {
         self.findings.iter().any(|f| f.severity == finding::Severity::Error)
@@ -144,18 +168,25 @@ fn inline(lab: Option<&VerifyLab>) -> Option<&Lab> {
 /// Reads a lesson (Markdown) or, when the path ends in `.json`, a lab, a quiz or a list of them, and checks its
 /// structure. Nothing is run; this never fails, findings say what is wrong.
 pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
-    let mut lesson =
-        Lesson { file, labs: Vec::new(), quizzes: Vec::new(), widgets: Vec::new(), findings: Vec::new() };
+    let mut lesson = Lesson {
+        file,
+        labs: Vec::new(),
+        quizzes: Vec::new(),
+        widgets: Vec::new(),
+        broken: Vec::new(),
+        findings: Vec::new(),
+    };
     if lesson.file.text().len() as u64 > MAX_FILE {
         let limit = MAX_FILE >> 20;
         lesson.findings.push(Finding::new(&LIMIT, 0..0, format!("this file is larger than {limit} MB")));
-    } else if lesson.file.path().to_ascii_lowercase().ends_with(".json") {
+    } else if kind_of(Path::new(&**lesson.file.path())) == FileKind::Json {
         json_file(&mut lesson);
     } else {
         markdown_file(&mut lesson, models);
     }
     let mut findings = std::mem::take(&mut lesson.findings);
     lint::check(&lesson, models, &mut findings);
+    lesson.withhold_fixes(&mut findings);
     lesson.findings = findings.into_iter().map(|f| f.at(&lesson.file)).collect();
     finding::sort(&mut lesson.findings);
     if lesson.findings.len() > MAX_FINDINGS {
@@ -172,7 +203,8 @@ pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
 }
 
 fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
-    let scan = markdown::scan(&lesson.file);
+    let file = lesson.file.clone();
+    let (scan, text) = (markdown::scan(&file), file.text());
     lesson.findings.extend(scan.findings);
     for block in &scan.blocks {
         // More than anybody reads: what follows would be cut off anyway.
@@ -181,9 +213,9 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
         }
         match &block.kind {
             BlockKind::Lab(widget) if widget == "simlab" => {
-                let node = body(block, &mut lesson.findings);
+                let node = body(block, lesson);
                 if let Some(node) = &node
-                    && node.get("questions").is_some()
+                    && nature(node) == Nature::Quiz
                 {
                     lesson.findings.push(
                         Finding::new(
@@ -191,7 +223,8 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
                             block.info.clone(),
                             "this fence says `lab`, but it holds a quiz",
                         )
-                        .help("write ```quiz"),
+                        .help("write ```quiz")
+                        .fix(block.info.clone(), head(text, block, "quiz")),
                     );
                     lesson.quizzes.extend(quiz::read(node, &mut lesson.findings));
                     continue;
@@ -200,7 +233,7 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
                 push_lab(lesson, block.span.clone(), lab);
             }
             BlockKind::Lab(widget) => {
-                let node = body(block, &mut lesson.findings);
+                let node = body(block, lesson);
                 let model = node.as_ref().and_then(|n| match &n.get("model")?.json {
                     Json::Text(text) => Some(text.clone()),
                     _ => None,
@@ -211,15 +244,16 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
                 lesson.widgets.push(Widget { name: widget.clone(), span: block.span.clone(), model });
             }
             BlockKind::Quiz => {
-                let Some(node) = body(block, &mut lesson.findings) else { continue };
-                if node.get("questions").is_none() && looks_like_lab(&node) {
+                let Some(node) = body(block, lesson) else { continue };
+                if nature(&node) == Nature::Lab {
                     lesson.findings.push(
                         Finding::new(
                             &WRONG_FENCE,
                             block.info.clone(),
                             "this fence says `quiz`, but it holds a lab",
                         )
-                        .help("write ```lab simlab"),
+                        .help("write ```lab simlab")
+                        .fix(block.info.clone(), head(text, block, "lab simlab")),
                     );
                     let lab = lab::read(&node, &mut lesson.findings);
                     push_lab(lesson, block.span.clone(), lab);
@@ -232,38 +266,40 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
     }
 }
 
+/// The opening line of a block, for another kind.
+fn head(text: &str, block: &Block, kind: &str) -> String {
+    let old = text.get(block.info.clone()).unwrap_or("");
+    let marks: String = old.chars().take_while(|c| matches!(c, '`' | '~')).collect();
+    format!("{marks}{kind}")
+}
+
 /// The JSON of a block.
-fn body(block: &Block, findings: &mut Vec<Finding>) -> Option<Node> {
+fn body(block: &Block, lesson: &mut Lesson) -> Option<Node> {
     if block.body.value.trim().is_empty() {
-        findings.push(
+        lesson.broken.push(block.span.clone());
+        lesson.findings.push(
             Finding::new(&json_rules::SYNTAX, block.info.clone(), "this fence is empty")
                 .help("write one JSON object between the two ``` lines: { … }"),
         );
         return None;
     }
-    read_json(&block.body.value, &block.body.map, findings)
+    read_json(&block.body.value, &block.body.map, block.span.clone(), lesson)
 }
 
-/// Parses JSON after repairing typographic quotes; positions stay those of the file.
-fn read_json(text: &str, map: &SourceMap, findings: &mut Vec<Finding>) -> Option<Node> {
-    let (node, said) = match markdown::repair_quotes(text, map) {
-        Some(repaired) => {
-            findings.push(repaired.finding);
-            json::parse(&repaired.text, &repaired.map)
-        }
-        None => json::parse(text, map),
-    };
-    findings.extend(said);
-    node
+/// Parses JSON, which may be broken: what can be read of it is read.
+fn read_json(text: &str, map: &SourceMap, span: Range<usize>, lesson: &mut Lesson) -> Option<Node> {
+    let parsed = json::parse(text, map);
+    if parsed.broken {
+        lesson.broken.push(span);
+    }
+    lesson.findings.extend(parsed.findings);
+    parsed.node
 }
 
 fn push_lab(lesson: &mut Lesson, span: Range<usize>, lab: Option<Lab>) {
     let number = lesson.labs.len() + 1;
-    lesson.labs.push(LabEntry { number, span, lab });
-}
-
-fn looks_like_lab(node: &Node) -> bool {
-    ["model", "xml", "controls", "plots", "readouts"].iter().any(|key| node.get(key).is_some())
+    let broken = lab.is_none() || lesson.is_broken(&span);
+    lesson.labs.push(LabEntry { number, span, broken, lab });
 }
 
 /// A lab, a quiz, or a list of them, told apart by their keys.
@@ -271,8 +307,9 @@ fn json_file(lesson: &mut Lesson) {
     let text = lesson.file.text();
     // A byte order mark is no part of JSON, and editors hide it.
     let start = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
-    let map = SourceMap::verbatim(start..text.len());
-    let Some(node) = read_json(text.get(start..).unwrap_or(""), &map, &mut lesson.findings) else { return };
+    let (map, whole) = (SourceMap::verbatim(start..text.len()), 0..text.len());
+    let text = text.get(start..).unwrap_or("").to_string();
+    let Some(node) = read_json(&text, &map, whole, lesson) else { return };
     match &node.json {
         Json::Array(items) => items.iter().for_each(|item| json_item(lesson, item)),
         _ => json_item(lesson, &node),
@@ -280,17 +317,20 @@ fn json_file(lesson: &mut Lesson) {
 }
 
 fn json_item(lesson: &mut Lesson, node: &Node) {
-    if node.get("questions").is_some() {
-        lesson.quizzes.extend(quiz::read(node, &mut lesson.findings));
-    } else if looks_like_lab(node) {
-        let lab = lab::read(node, &mut lesson.findings);
-        push_lab(lesson, node.span.clone(), lab);
-    } else {
-        let open = node.span.start..node.span.end.min(node.span.start + 1);
-        lesson.findings.push(
-            Finding::new(&UNKNOWN_SPEC, open, "neither a lab nor a quiz")
-                .help("a lab has a `model` or an `xml`; a quiz has `questions`"),
-        );
+    match nature(node) {
+        Nature::Quiz => lesson.quizzes.extend(quiz::read(node, &mut lesson.findings)),
+        Nature::Lab => {
+            let lab = lab::read(node, &mut lesson.findings);
+            push_lab(lesson, node.span.clone(), lab);
+        }
+        Nature::Neither if node.is_broken() => {}
+        Nature::Neither => {
+            let open = node.span.start..node.span.end.min(node.span.start + 1);
+            lesson.findings.push(
+                Finding::new(&UNKNOWN_SPEC, open, "neither a lab nor a quiz")
+                    .help("a lab has a `model` or an `xml`; a quiz has `questions`"),
+            );
+        }
     }
 }
 

@@ -5,6 +5,9 @@
 //! a finding, and what is right is still there for the other checks.
 
 mod control;
+mod encoding;
+mod keys;
+mod kind;
 mod lab;
 mod lesson;
 mod plot;
@@ -12,6 +15,8 @@ mod quiz;
 mod verify;
 
 pub use control::{Action, Choice, Control, ControlKind};
+pub use encoding::{NOT_UTF8, load_lesson_file, not_utf8};
+pub use kind::{FileKind, kind_of};
 pub use lab::{Camera, Expect, Form, Lab, OVERLAYS, Scene};
 pub use lesson::{LabAddress, LabEntry, Lesson, MAX_FINDINGS, Widget, load_lesson};
 pub use plot::{Plot, Readout, RefLine, Trace};

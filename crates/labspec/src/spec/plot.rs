@@ -86,6 +86,7 @@ impl Readout {
 /// Reads a plot.
 pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Plot> {
     let mut fields = Fields::open(node, "a plot", findings)?;
+    fields.keys(super::keys::PLOT);
     let nodes = fields.list("traces");
     if nodes.is_empty() {
         fields.findings.push(empty(fields.span()));
@@ -115,6 +116,7 @@ fn ref_line(node: &Node, findings: &mut Vec<Finding>) -> Option<RefLine> {
 
 fn trace(node: &Node, findings: &mut Vec<Finding>) -> Option<Trace> {
     let mut fields = Fields::open(node, "a trace", findings)?;
+    fields.keys(super::keys::TRACE);
     let label = fields.need_text("label", "the legend and the written table name the curve by it");
     let expr = fields.need_text("expr", "it is the expression that is drawn");
     let dash = fields.flag("dash");
@@ -126,6 +128,7 @@ fn trace(node: &Node, findings: &mut Vec<Finding>) -> Option<Trace> {
 /// Reads a readout.
 pub(super) fn readout(node: &Node, findings: &mut Vec<Finding>) -> Option<Readout> {
     let mut fields = Fields::open(node, "a readout", findings)?;
+    fields.keys(super::keys::READOUT);
     let label = fields.need_text("label", "a number without a name tells nothing");
     let expr = fields.need_text("expr", "it is the expression that is shown");
     let digits = fields.whole("digits");

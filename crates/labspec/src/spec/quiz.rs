@@ -132,6 +132,7 @@ impl Quiz {
 /// Reads a quiz.
 pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Quiz> {
     let mut fields = Fields::open(node, "a quiz", findings)?;
+    fields.keys(super::keys::QUIZ);
     let id = fields.need_text("id", "the page stores a student's answers under the id of the quiz");
     let title = fields.text("title");
     let questions = fields.need_list("questions", "a quiz is a list of questions");
@@ -145,6 +146,7 @@ const KINDS: [&str; 6] = ["mcq", "debug", "predict", "numeric", "open", "code"];
 
 fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
     let mut fields = Fields::open(node, "a question", findings)?;
+    fields.keys(super::keys::QUESTION);
     let kind = fields.text("kind");
     let q = fields.need_text("q", "it is the text of the question");
     let explain = fields.text("explain");

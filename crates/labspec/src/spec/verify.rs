@@ -5,7 +5,7 @@
 use super::{Form, Lab, LabAddress, lab};
 use crate::finding::Finding;
 use crate::json::{Fields, Json, Member, Node, Number, Scalar, read};
-use crate::lint::rules::keys::WRONG_TYPE;
+use crate::lint::rules::keys::{UNKNOWN_KEY, WRONG_TYPE};
 use crate::lint::rules::verify::claims_nothing;
 use crate::source::Text;
 use std::ops::Range;
@@ -94,7 +94,9 @@ impl Verify {
 
 /// Reads a `verify` object.
 pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Verify> {
+    let before = findings.len();
     let mut fields = Fields::open(node, "a verify object", findings)?;
+    fields.keys(super::keys::VERIFY);
     let f = &mut fields;
     if !["options", "value", "says", "exact"].iter().any(|key| f.has(key)) {
         f.findings.push(claims_nothing(f.span()));
@@ -110,6 +112,16 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Verify> {
         exact: f.map("exact").iter().filter_map(|m| exact(m, f.findings)).collect(),
     };
     fields.finish();
+    // The page does not read this object: it is nothing to the student, and everything to the check.
+    for finding in
+        findings.iter_mut().skip(before).filter(|f| [UNKNOWN_KEY.code, WRONG_TYPE.code].contains(&f.code))
+    {
+        if finding.why.as_deref() == Some(UNKNOWN_KEY.why) || finding.why.as_deref() == Some(WRONG_TYPE.why) {
+            finding.why = Some(
+                "`verify` is read by this checker only: what it does not understand is not checked".into(),
+            );
+        }
+    }
     Some(verify)
 }
 
@@ -126,6 +138,7 @@ fn which(node: &Node, findings: &mut Vec<Finding>) -> Option<VerifyLab> {
             }
         },
         Json::Object(_) => lab::read(node, findings).map(|l| VerifyLab::Inline(Box::new(l))),
+        Json::Broken => None,
         _ => {
             findings.push(
                 Finding::new(
@@ -142,6 +155,7 @@ fn which(node: &Node, findings: &mut Vec<Finding>) -> Option<VerifyLab> {
 
 fn run(member: &Member, findings: &mut Vec<Finding>) -> Option<Run> {
     let mut fields = Fields::open(&member.value, "a run", findings)?;
+    fields.keys(super::keys::RUN);
     let f = &mut fields;
     let run = Run {
         name: member.key.clone(),
@@ -188,6 +202,9 @@ fn exact(member: &Member, findings: &mut Vec<Finding>) -> Option<Exact> {
 }
 
 fn press(node: &Node, findings: &mut Vec<Finding>) -> Option<(Text, Number)> {
+    if node.is_broken() {
+        return None;
+    }
     if let Json::Array(pair) = &node.json
         && let [label, time] = pair.as_slice()
     {
@@ -203,6 +220,9 @@ fn press(node: &Node, findings: &mut Vec<Finding>) -> Option<(Text, Number)> {
 }
 
 fn said(node: &Node, findings: &mut Vec<Finding>) -> Option<Said> {
+    if node.is_broken() {
+        return None;
+    }
     if let Json::Array(pair) = &node.json
         && let [quote, expr] = pair.as_slice()
     {

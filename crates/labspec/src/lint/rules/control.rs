@@ -145,6 +145,7 @@ pub(in crate::lint) fn check(lab: &Lab, findings: &mut Vec<Finding>) {
                             max.span.clone(),
                             format!("`max` is {}, not above `min`, which is {}", max.value, min.value),
                         )
+                        .why("the slider cannot move")
                         .related(min.span.clone(), "the lower end")
                         .help(if min.value > max.value {
                             "swap the two ends"

@@ -126,7 +126,7 @@ pub(crate) fn unclosed(
         _ => finding
             .related(end..end, "its content ends here")
             .help(format!("put a line {closing} below that place"))
-            .fix(end..end, format!("\n{closing}")),
+            .fix(end..end, line_below(text, end, &open.prefix(text), &closing)),
     }
 }
 
@@ -147,11 +147,11 @@ pub(crate) fn text_on_line(text: &str, open: &Opener, rest: Range<usize>, kind: 
     let head = text.get(open.head.clone()).unwrap_or("");
     Finding::new(&ON_LINE, rest.start..rest.start + first, what)
         .help(format!("break the line behind \"{}\"", crate::json::read::shorten(head)))
-        .fix(open.head.end..rest.start, "\n")
+        .fix(open.head.end..rest.start, format!("\n{}", open.prefix(text)))
 }
 
 /// A lab or a quiz without a fence.
-pub(crate) fn missing(object: &Range<usize>, kind: &BlockKind) -> Finding {
+pub(crate) fn missing(text: &str, object: &Range<usize>, kind: &BlockKind) -> Finding {
     let (what, fence) = match kind {
         BlockKind::Quiz => ("a quiz", "```quiz"),
         _ => ("a lab", "```lab simlab"),
@@ -159,7 +159,27 @@ pub(crate) fn missing(object: &Range<usize>, kind: &BlockKind) -> Finding {
     Finding::new(&MISSING, object.start..object.start + 1, format!("{what} without a fence"))
         .related(object.end..object.end, "it ends here")
         .help(format!("put a line {fence} above it and a line ``` below it"))
-        .fix(object.start..object.start, format!("{fence}\n"))
+        .fix(object.clone(), {
+            let line = text.get(..object.start).map_or(0, |t| t.rfind('\n').map_or(0, |i| i + 1));
+            let indent = text.get(line..object.start).unwrap_or("");
+            let json = text.get(object.clone()).unwrap_or("");
+            format!("{fence}\n{indent}{json}{}", line_below(text, object.end, indent, "```"))
+        })
+}
+
+/// A line to put in behind what ends at `end`; what follows there goes to the line after it.
+fn line_below(text: &str, end: usize, prefix: &str, line: &str) -> String {
+    let rest = text.get(end..).and_then(|t| t.lines().next()).unwrap_or("");
+    let after = if rest.trim().is_empty() { String::new() } else { format!("\n{prefix}") };
+    format!("\n{prefix}{line}{after}")
+}
+
+/// A fence inside of an indented code block.
+pub(crate) fn indented(open: &Opener) -> Finding {
+    Finding::new(&UNSEEN, open.head.clone(), "a lab or a quiz that is indented like code: it is not read")
+        .why("Markdown shows lines that are indented by four spaces as they are")
+        .help("take the indentation away, down to that of the list it stands in")
+        .severity(Severity::Warning)
 }
 
 /// A fence that Markdown does not see.

@@ -1,7 +1,7 @@
 //! The model of a lab: exactly one, and it exists.
 
 use crate::finding::{Finding, Severity};
-use crate::json::{nearest, read::shorten};
+use crate::json::{encode, nearest, read::shorten};
 use crate::lint::{Example, ModelFolder, Rule};
 use crate::source::Text;
 use crate::spec::{Lab, Scene};
@@ -74,7 +74,7 @@ pub(crate) fn missing(name: &Text, models: &ModelFolder) -> Option<Finding> {
         } else {
             finding
                 .help(format!("write the file's name without folder and extension: {}", shorten(stem)))
-                .fix(name.span(), stem)
+                .fix(name.span(), encode(stem))
         });
     }
     let names = models.names()?;
@@ -83,7 +83,7 @@ pub(crate) fn missing(name: &Text, models: &ModelFolder) -> Option<Finding> {
     }
     let finding = Finding::new(&UNKNOWN_MODEL, name.span(), format!("there is no model `{}`", shorten(text)));
     Some(match nearest(text, names.iter().map(String::as_str)) {
-        Some(right) => finding.help(format!("did you mean `{right}`?")).fix(name.span(), right),
+        Some(right) => finding.help(format!("did you mean `{right}`?")).fix(name.span(), encode(right)),
         None if names.is_empty() => finding.help("the folder of models is empty"),
         None => {
             let some: Vec<&str> = names.iter().map(String::as_str).take(12).collect();

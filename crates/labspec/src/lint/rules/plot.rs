@@ -70,6 +70,7 @@ pub(in crate::lint) fn check(lab: &Lab, findings: &mut Vec<Finding>) {
                     max.span.clone(),
                     format!("`ymax` is {}, not above `ymin`, which is {}", max.value, min.value),
                 )
+                .why("the plot has no height")
                 .related(min.span.clone(), "the lower end")
                 .help("swap the two, or leave both out: the axis then follows the data"),
             );

@@ -1,6 +1,7 @@
 //! Typographic quotes where a program reads: in JSON, in listings, in expressions.
 
 use crate::finding::{Finding, Severity};
+use crate::json::fix_in;
 use crate::lint::{Example, Rule};
 use crate::markdown::is_typographic;
 use crate::spec::Lab;
@@ -17,30 +18,32 @@ pub static TYPOGRAPHIC: Rule = Rule {
 
 pub(in crate::lint) const RULES: &[&Rule] = &[&TYPOGRAPHIC];
 
-/// Looks into the statements and expressions of a lab.
+/// Looks into the statements and expressions of a lab: one finding for all quotes of a text, with one repair.
 pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     for (_, code) in lab.code() {
-        let mut quoted = None;
+        let (mut quoted, mut found) = (None, Vec::new());
         for (at, c) in code.value.char_indices() {
             match (quoted, c) {
                 (None, '\'' | '"' | '`') => quoted = Some(c),
                 (Some(open), _) if open == c => quoted = None,
-                (None, _) if is_typographic(c) => {
-                    let span = code.span_of(at..at + c.len_utf8());
-                    findings.push(
-                        Finding::new(
-                            &TYPOGRAPHIC,
-                            span.clone(),
-                            format!("the typographic quote {c} in an expression"),
-                        )
-                        .help("write ' around names: data.body('ball')")
-                        .fix(span, "'"),
-                    );
-                    // One is enough to find the others.
-                    break;
-                }
+                (None, _) if is_typographic(c) => found.push(at..at + c.len_utf8()),
                 _ => {}
             }
         }
+        let (Some(first), Some(last)) = (found.first(), found.last()) else { continue };
+        let shown = code.value.get(first.clone()).unwrap_or("");
+        let message = match found.len() {
+            1 => format!("the typographic quote {shown} in an expression"),
+            n => format!("{n} typographic quotes in an expression, {shown} the first"),
+        };
+        let part = first.start..last.end;
+        let right = code.value.get(part.clone()).unwrap_or("").replace(is_typographic, "'");
+        let mut finding = Finding::new(&TYPOGRAPHIC, code.span_of(first.clone()), message)
+            .help("write ' around names: data.body('ball')");
+        // What stands in plain quotes between them keeps its own.
+        if !right.contains(['"', '`']) && found.len() == right.matches('\'').count() && found.len() % 2 == 0 {
+            finding.fix = Some(fix_in(code, part, &right));
+        }
+        findings.push(finding);
     }
 }

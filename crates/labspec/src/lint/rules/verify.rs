@@ -2,7 +2,7 @@
 
 use super::ranges::positive;
 use crate::finding::{Finding, Severity};
-use crate::json::{nearest, read::shorten};
+use crate::json::{encode, nearest, read::shorten};
 use crate::lint::{Example, Rule};
 use crate::source::Text;
 use crate::spec::{ControlKind, Lab, Lesson, QuestionKind, Verify, VerifyLab};
@@ -209,7 +209,8 @@ fn check_one(verify: &Verify, lab: Option<&Lab>, findings: &mut Vec<Finding>) {
 /// Whether the lab has a control of this label that can be set, or pressed.
 fn control(label: &Text, lab: &Lab, press: bool, findings: &mut Vec<Finding>) {
     let fits = |kind: &ControlKind| matches!(kind, ControlKind::Button { .. }) == press;
-    if lab.control(label.as_str()).is_some_and(|c| fits(&c.kind)) {
+    // A control that could not be read may be the one that is meant.
+    if lab.unread_controls || lab.control(label.as_str()).is_some_and(|c| fits(&c.kind)) {
         return;
     }
     let what = if press { "button" } else { "slider or select" };
@@ -221,7 +222,7 @@ fn control(label: &Text, lab: &Lab, press: bool, findings: &mut Vec<Finding>) {
         format!("the lab has no {what} `{}`", shorten(label.as_str())),
     );
     findings.push(match nearest(label.as_str(), labels.iter().copied()) {
-        Some(right) => finding.help(format!("did you mean `{right}`?")),
+        Some(right) => finding.help(format!("did you mean `{right}`?")).fix(label.span(), encode(right)),
         None if labels.is_empty() => finding.help(format!("the lab has no {what} at all")),
         None => finding.help(format!("it has {}", labels.join(", "))),
     });

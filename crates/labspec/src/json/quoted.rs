@@ -1,0 +1,248 @@
+//! Texts in quotes: where one ends that is damaged, and what is wrong inside.
+//!
+//! A quote ends a text when JSON goes on behind it. One that does not was meant as part of the text, or the quote that
+//! should have ended it is missing; which of the two is decided by what surrounds it.
+
+use super::parse::{Change, Kind, Parser};
+use super::say;
+use super::strings::{Trouble, decode, encode};
+use crate::markdown::is_typographic;
+use crate::source::{SourceMap, Text};
+use std::ops::Range;
+
+/// How many bytes behind a quote are looked at.
+const FAR: usize = 4096;
+
+/// Where a text ends.
+struct End {
+    /// What stands between its quotes.
+    inside: Range<usize>,
+    /// Where reading goes on.
+    next: usize,
+    /// It has no closing quote.
+    open: bool,
+}
+
+impl Parser<'_> {
+    /// Whether a text begins with this character, in JSON or in what people take for it.
+    pub(super) fn is_quote(&self, c: char) -> bool {
+        matches!(c, '"' | '\'' | '`') || is_typographic(c)
+    }
+
+    /// Reads the text that begins here: a key, or a value.
+    pub(super) fn string(&mut self, key: bool) -> Text {
+        let start = self.at;
+        let quote = self.peek().unwrap_or('"');
+        let end = self.string_end(quote, key);
+        self.at = end.next;
+        let inside = end.inside.clone();
+        if end.open {
+            let last = inside.end == self.text.trim_end().len();
+            self.say(say::string_open(start, inside.end, last, quote == '"'));
+        }
+        let decoded = decode(self.text.get(inside.clone()).unwrap_or(""));
+        let mut lines: Vec<Change> = Vec::new();
+        let mut inner: Vec<Change> = Vec::new();
+        let mut changes: Vec<Change> = Vec::new();
+        if quote != '"' {
+            changes.push((start..inside.start, "\"".into()));
+        }
+        for (range, trouble) in &decoded.troubles {
+            let range = range.start + inside.start..range.end + inside.start;
+            match trouble {
+                Trouble::Line => lines.push((range, "\\n".into())),
+                Trouble::Quote if quote == '"' => inner.push((range, "\\\"".into())),
+                Trouble::Quote => changes.push((range, "\\\"".into())),
+                Trouble::Needless(c) if quote != '"' => changes.push((range, c.to_string())),
+                _ => self.say(say::in_string(range, *trouble)),
+            }
+        }
+        if quote != '"' && self.text.get(inside.end..end.next) != Some("\"") {
+            changes.push((inside.end..end.next, "\"".into()));
+        }
+        if !lines.is_empty() {
+            self.say(say::line_breaks(&lines, self.text));
+        }
+        if !inner.is_empty() {
+            self.say(say::inner_quotes(&inner, self.text));
+        }
+        if !changes.is_empty() {
+            self.change(if is_typographic(quote) { Kind::Typographic } else { Kind::Single }, changes);
+        }
+        let map = if decoded.map.derived_len() == 0 {
+            SourceMap::point(inside.start)
+        } else {
+            decoded.map.shifted(inside.start)
+        };
+        Text { value: decoded.value, map: map.then(self.below) }
+    }
+
+    fn string_end(&mut self, quote: char, key: bool) -> End {
+        let from = self.at + quote.len_utf8();
+        let mut at = from;
+        while let Some(c) = self.text.get(at..).and_then(|t| t.chars().next()) {
+            let next = at + c.len_utf8();
+            match c {
+                '\\' => {
+                    let escaped = self.text.get(next..).and_then(|t| t.chars().next());
+                    at = next + escaped.filter(|c| !matches!(c, '\n' | '\r')).map_or(0, char::len_utf8);
+                    continue;
+                }
+                '\n' | '\r' if !self.goes_on(quote, next, key) => return self.line_ends(from, at, key),
+                _ if quote == '"' && c == '"' => {
+                    if self.json_follows(next) {
+                        return End { inside: from..at, next, open: false };
+                    }
+                    if let Some(end) = self.lost_quote(from, at, key) {
+                        return End { inside: from..end, next: end, open: true };
+                    }
+                    if !self.is_inner(next) {
+                        return End { inside: from..at, next, open: false };
+                    }
+                }
+                _ if closes(quote, c) && self.json_follows(next) => {
+                    return End { inside: from..at, next, open: false };
+                }
+                _ => {}
+            }
+            at = next;
+        }
+        self.line_ends(from, self.text.len(), key)
+    }
+
+    /// Whether a text goes on in the next line: the next quote ends it. Keys never do.
+    fn goes_on(&mut self, quote: char, next: usize, key: bool) -> bool {
+        match quote {
+            '`' => true,
+            '"' if !key => self.quote_from(next).is_some_and(|q| self.json_follows(q + 1)),
+            _ => false,
+        }
+    }
+
+    /// A text that has no closing quote on its line: where it was meant to end.
+    fn line_ends(&mut self, from: usize, line: usize, key: bool) -> End {
+        let content = self.text.get(from..line).unwrap_or("").trim_end();
+        let content = match content.find([':', '=']).filter(|_| key) {
+            Some(colon) => content.get(..colon).unwrap_or("").trim_end(),
+            None => {
+                // What ends the line of a list or an object does not belong to the text.
+                let mut rest = content.strip_suffix(',').unwrap_or(content).trim_end();
+                let count = |c: char| rest.matches(c).count();
+                let mut more = [count('}').saturating_sub(count('{')), count(']').saturating_sub(count('['))];
+                while let Some(i) = ['}', ']'].iter().position(|c| rest.ends_with(*c))
+                    && let Some(n) = more.get_mut(i).filter(|n| **n > 0)
+                {
+                    *n -= 1;
+                    rest = rest.get(..rest.len() - 1).unwrap_or("").trim_end();
+                }
+                rest
+            }
+        };
+        let end = from + content.len();
+        End { inside: from..end, next: end, open: true }
+    }
+
+    /// Whether this is how JSON, or what is meant as JSON, goes on behind a text.
+    fn json_follows(&self, at: usize) -> bool {
+        let all = self.text.get(at..).unwrap_or("");
+        // Far enough; a long run of spaces must not be walked again and again.
+        let mut far = FAR.min(all.len());
+        while !all.is_char_boundary(far) {
+            far += 1;
+        }
+        let behind = all.get(..far).unwrap_or(all);
+        let next = behind.trim_start();
+        let crossed = behind.get(..behind.len() - next.len()).is_some_and(|s| s.contains(['\n', '\r']));
+        match next.chars().next() {
+            None | Some(':' | ']' | '}' | '=' | ';' | '#') => true,
+            Some('/') => next.starts_with("//") || next.starts_with("/*"),
+            Some(',') => value_follows(next.get(1..).unwrap_or("").trim_start()),
+            _ => crossed,
+        }
+    }
+
+    /// Whether the double quote before `next`, behind which JSON does not go on, stands inside of a text.
+    fn is_inner(&mut self, next: usize) -> bool {
+        let behind = self.text.get(next..).unwrap_or("");
+        let word = behind.trim_start_matches([' ', '\t']);
+        let adjacent = word.len() == behind.len();
+        let Some(c) = word.chars().next() else { return false };
+        let again = self.quote_from(next);
+        let line = self.line_from(next);
+        match c {
+            // …said "hi""}: the second one closes.
+            '"' => adjacent && self.json_follows(next + 1),
+            '{' | '[' => false,
+            '0'..='9' | '-' | '+' | '.' if !adjacent => false,
+            _ if c.is_alphabetic() && (begins_key(word) || begins_word(word)) => false,
+            _ => again.is_some_and(|q| q < line),
+        }
+    }
+
+    /// Where a text ends whose closing quote is missing, when the double quote at `at` begins the next one.
+    fn lost_quote(&mut self, from: usize, at: usize, key: bool) -> Option<usize> {
+        let content = self.text.get(from..at)?.trim_end();
+        if key {
+            // {"model: "ball"}
+            let word = content.strip_suffix([':', '='])?.trim_end();
+            let is_name = !word.is_empty() && word.chars().all(|c| c.is_alphanumeric() || c == '_');
+            return is_name.then_some(from + word.len());
+        }
+        // {"model": "ball, "stopAt": 2}
+        let before = content.strip_suffix(',')?;
+        let name = self.text.get(at + 1..)?;
+        let length = name.find(|c: char| !(c.is_alphanumeric() || c == '_'))?;
+        let behind = name.get(length..)?.strip_prefix('"')?.trim_start();
+        (length > 0 && behind.starts_with(':')).then_some(from + before.len())
+    }
+}
+
+/// Whether `c` can close a text that `open` has opened: single ones close single ones only, so that an apostrophe
+/// does not end a text.
+fn closes(open: char, c: char) -> bool {
+    let single = |c| matches!(c, '‘' | '’' | '‚' | '‛');
+    match open {
+        '"' => false,
+        '\'' | '`' => c == open,
+        _ => (is_typographic(c) || c == '"') && single(c) == single(open),
+    }
+}
+
+/// Whether a value, a key, or the end may begin like this: what stands behind a comma.
+fn value_follows(text: &str) -> bool {
+    match text.chars().next() {
+        None | Some('"' | '\'' | '`' | '{' | '[' | '}' | ']' | '-' | '+' | '.' | ',' | '#' | '/') => true,
+        Some(c) if c.is_ascii_digit() || is_typographic(c) => true,
+        Some(_) => begins_key(text) || begins_word(text),
+    }
+}
+
+/// A name without quotes, and a colon.
+fn begins_key(text: &str) -> bool {
+    let behind = text.trim_start_matches(|c: char| c.is_alphanumeric() || matches!(c, '_' | '$'));
+    behind.len() < text.len() && behind.trim_start_matches([' ', '\t']).starts_with([':', '='])
+}
+
+/// `true` and its like, alone.
+fn begins_word(text: &str) -> bool {
+    let behind = text.trim_start_matches(|c: char| c.is_alphanumeric());
+    let token = text.get(..text.len() - behind.len()).unwrap_or("");
+    super::literal::is_word(token) && behind.trim_start().starts_with([',', '}', ']'])
+}
+
+/// The changes of several texts as one text, from the first to the last.
+pub(super) fn rewritten(changes: &[&Change], text: &str) -> Option<Change> {
+    let range = changes.first()?.0.start..changes.last()?.0.end;
+    let (mut new, mut at) = (String::new(), range.start);
+    for (span, right) in changes {
+        new.push_str(text.get(at..span.start)?);
+        new.push_str(right);
+        at = span.end;
+    }
+    Some((range, new))
+}
+
+/// A text as JSON writes it, quotes included.
+pub(super) fn quoted(text: &str) -> String {
+    format!("\"{}\"", encode(text))
+}

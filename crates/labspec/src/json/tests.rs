@@ -1,0 +1,516 @@
+//! What the parser says of broken JSON, and laws: acceptance is that of `serde_json`, places are those of
+//! `jsonc-parser`, and nothing is a panic, a hang, or silence.
+
+use super::*;
+use crate::finding::Finding;
+use crate::source::SourceMap;
+use proptest::prelude::*;
+use std::ops::Range;
+
+fn run(text: &str) -> Parsed {
+    parse(text, &SourceMap::verbatim(0..text.len()))
+}
+
+/// Message, and the text under the span, of every finding.
+fn complaints(text: &str) -> Vec<(String, String)> {
+    let parsed = run(text);
+    assert!(parsed.broken, "{text} was accepted");
+    let told = |f: &Finding| (f.message.clone(), text[f.span.clone()].to_string());
+    parsed.findings.iter().map(told).collect()
+}
+
+/// The text with all fixes applied, from the back.
+fn fixed(text: &str) -> String {
+    let mut fixes: Vec<_> = run(text).findings.into_iter().filter_map(|f| f.fix).collect();
+    fixes.sort_by_key(|f| (f.span.start, f.span.end));
+    let mut text = text.to_string();
+    for fix in fixes.into_iter().rev() {
+        text.replace_range(fix.span, &fix.text);
+    }
+    text
+}
+
+/// The value that was read, as JSON; what could not be read is missing.
+fn value(text: &str) -> serde_json::Value {
+    run(text).node.map_or(serde_json::Value::Null, |n| to_serde(&n))
+}
+
+/// One mistake: its message, its place, what was read, and the repaired text (the same when there is no repair).
+#[test]
+fn mistakes_are_told_in_plain_words_and_reading_goes_on() {
+    for (text, message, place, read, repaired) in [
+        (r#"{"a": 1 "b": 2}"#, "a comma is missing here", "", r#"{"a":1,"b":2}"#, r#"{"a": 1, "b": 2}"#),
+        (r#"[1 {"b": 2}]"#, "a comma is missing here", "", r#"[1,{"b":2}]"#, r#"[1, {"b": 2}]"#),
+        (r#"{"a": 1,}"#, "a comma before a closing bracket", ",", r#"{"a":1}"#, r#"{"a": 1}"#),
+        (r#"[1, 2, ]"#, "a comma before a closing bracket", ",", "[1,2]", "[1, 2 ]"),
+        (r#"{"a": 1,, "b": 2}"#, "a comma too many", ",", r#"{"a":1,"b":2}"#, r#"{"a": 1, "b": 2}"#),
+        (r#"[, 1]"#, "a comma without a value before it", ",", "[1]", "[ 1]"),
+        (
+            r#"{"a": 1; "b": 2}"#,
+            "a semicolon where JSON needs a comma",
+            ";",
+            r#"{"a":1,"b":2}"#,
+            r#"{"a": 1, "b": 2}"#,
+        ),
+        (r#"{'a': 1}"#, "a single quote where JSON needs a double quote", "'", r#"{"a":1}"#, r#"{"a": 1}"#),
+        (
+            r#"{'a': 'it\'s "x"'}"#,
+            "2 texts in single quotes where JSON needs double quotes",
+            "'",
+            r#"{"a":"it's \"x\""}"#,
+            r#"{"a": "it's \"x\""}"#,
+        ),
+        (r#"{"a": 1} // note"#, "JSON has no comments", "// note", r#"{"a":1}"#, r#"{"a": 1} "#),
+        (
+            "{\"a\": 1, # note\n \"b\": 2}",
+            "JSON has no comments",
+            "# note",
+            r#"{"a":1,"b":2}"#,
+            "{\"a\": 1, \n \"b\": 2}",
+        ),
+        (r#"{"a": /* x */ 1}"#, "JSON has no comments", "/* x */", r#"{"a":1}"#, r#"{"a":  1}"#),
+        (r#"{a: 1}"#, "the key `a` has no quotes", "a", r#"{"a":1}"#, r#"{"a": 1}"#),
+        (
+            "{\"a\": \"b,\n\"c\": 1}",
+            "this string is not closed",
+            "\"b",
+            r#"{"a":"b","c":1}"#,
+            "{\"a\": \"b\",\n\"c\": 1}",
+        ),
+        ("{\"a\": \"b\nc\"}", "a line break inside of a text", "\n", r#"{"a":"b\nc"}"#, r#"{"a": "b\nc"}"#),
+        (
+            r#"{"model": "ball, "stopAt": 2}"#,
+            "this string is not closed",
+            "\"ball",
+            r#"{"model":"ball","stopAt":2}"#,
+            r#"{"model": "ball", "stopAt": 2}"#,
+        ),
+        (
+            r#"{"model: "ball"}"#,
+            "this string is not closed",
+            "\"model",
+            r#"{"model":"ball"}"#,
+            r#"{"model": "ball"}"#,
+        ),
+        (
+            r#"{"a": "the "heavy" ball"}"#,
+            "2 double quotes inside of a text",
+            "\"",
+            r#"{"a":"the \"heavy\" ball"}"#,
+            r#"{"a": "the \"heavy\" ball"}"#,
+        ),
+        (
+            "{\"a\": \"b\tc\"}",
+            "a control character (U+0009) inside a string",
+            "\t",
+            r#"{"a":"b\tc"}"#,
+            r#"{"a": "b\tc"}"#,
+        ),
+        (r#"{"a": NaN}"#, "`NaN` is not a number that JSON knows", "NaN", "{}", r#"{"a": NaN}"#),
+        (
+            r#"{"a": -Infinity}"#,
+            "`-Infinity` is not a number that JSON knows",
+            "-Infinity",
+            "{}",
+            r#"{"a": -Infinity}"#,
+        ),
+        (r#"{"a": True}"#, "`True` is written `true` in JSON", "True", r#"{"a":true}"#, r#"{"a": true}"#),
+        (r#"{"a": None}"#, "`None` is written `null` in JSON", "None", r#"{"a":null}"#, r#"{"a": null}"#),
+        (r#"{"a": .5}"#, "`.5` is not a number as JSON writes it", ".5", r#"{"a":0.5}"#, r#"{"a": 0.5}"#),
+        (r#"{"a": 5.}"#, "`5.` is not a number as JSON writes it", "5.", r#"{"a":5.0}"#, r#"{"a": 5}"#),
+        (r#"{"a": +1}"#, "`+1` is not a number as JSON writes it", "+1", r#"{"a":1.0}"#, r#"{"a": 1}"#),
+        (
+            r#"{"a": 0x10}"#,
+            "`0x10` is not a number as JSON writes it",
+            "0x10",
+            r#"{"a":16.0}"#,
+            r#"{"a": 16}"#,
+        ),
+        (r#"{"a": 0,5}"#, "a number with a comma", ",", r#"{"a":0.0}"#, r#"{"a": 0.5}"#),
+        (
+            r#"{"a": "\tau \alpha"}"#,
+            "`\\a` is not an escape of JSON",
+            "\\a",
+            r#"{"a":"\tau \\alpha"}"#,
+            r#"{"a": "\tau \\alpha"}"#,
+        ),
+        (r#"{"a": "it\'s"}"#, "`\\'` is not an escape of JSON", "\\'", r#"{"a":"it's"}"#, r#"{"a": "it's"}"#),
+        (r#"{"a" 1}"#, "a colon is missing after this key", "", r#"{"a":1}"#, r#"{"a": 1}"#),
+        (r#"{"a" = 1}"#, "an equals sign where JSON needs a colon", "=", r#"{"a":1}"#, r#"{"a" : 1}"#),
+        (r#"{"a":: 1}"#, "one colon is enough", ":", r#"{"a":1}"#, r#"{"a": 1}"#),
+        (r#"{"a": }"#, "the value of this key is missing", "\"a\"", "{}", r#"{"a": }"#),
+        (r#"{"a": {"b": 1}"#, "this object is never closed", "{", r#"{"a":{"b":1}}"#, r#"{"a": {"b": 1}}"#),
+        (
+            r#"{"a": [{"b": 1"#,
+            "this object is never closed",
+            "{",
+            r#"{"a":[{"b":1}]}"#,
+            r#"{"a": [{"b": 1}]}"#,
+        ),
+        (r#"{"a": [1, 2}"#, "a `]` is missing here", "", r#"{"a":[1,2]}"#, r#"{"a": [1, 2]}"#),
+        (
+            r#"{"a": [1, 2}, "b": 3}"#,
+            "`}` where a list ends",
+            "}",
+            r#"{"a":[1,2],"b":3}"#,
+            r#"{"a": [1, 2], "b": 3}"#,
+        ),
+        (
+            r#"{"a": [{"b": 1], "c": 2}"#,
+            "a `}` is missing here",
+            "",
+            r#"{"a":[{"b":1}],"c":2}"#,
+            r#"{"a": [{"b": 1}], "c": 2}"#,
+        ),
+        (
+            r#"{"a": [1]], "b": 2}"#,
+            "a `]` that closes nothing here",
+            "]",
+            r#"{"a":[1],"b":2}"#,
+            r#"{"a": [1], "b": 2}"#,
+        ),
+        (
+            r#"{"a": {"b": 1}}, "c": 2}"#,
+            "a `}` that closes nothing here",
+            "}",
+            r#"{"a":{"b":1},"c":2}"#,
+            r#"{"a": {"b": 1}, "c": 2}"#,
+        ),
+        (r#"{"a": 1}}"#, "a `}` that closes nothing here", "}", r#"{"a":1}"#, r#"{"a": 1}"#),
+        (r#""a": 1}"#, "the opening `{` is missing", "", r#"{"a":1}"#, r#"{"a": 1}"#),
+        (r#"{"a": 1} x"#, "text after the end of the JSON value", "x", r#"{"a":1}"#, r#"{"a": 1} x"#),
+        (
+            "{\"a\":\u{a0}1}",
+            "an invisible character (U+00A0) between values",
+            "\u{a0}",
+            r#"{"a":1}"#,
+            r#"{"a": 1}"#,
+        ),
+        ("", "nothing here", "", "null", ""),
+        (r#"{"a": 1e999}"#, "this number is too large to compute with", "1e999", "{}", r#"{"a": 1e999}"#),
+        (
+            r#"{"a": ball}"#,
+            "`ball` is neither a number nor a text in quotes",
+            "ball",
+            r#"{"a":"ball"}"#,
+            r#"{"a": "ball"}"#,
+        ),
+        (
+            r#"{"a": data.body("ball").xpos[2], "b": 1}"#,
+            "`data.body(\"ball\").xpos[2]` is neither a number nor a text in quotes",
+            "data.body(\"ball\").xpos[2]",
+            r#"{"a":"data.body(\"ball\").xpos[2]","b":1}"#,
+            r#"{"a": "data.body(\"ball\").xpos[2]", "b": 1}"#,
+        ),
+        (
+            r#"{"a": 2 * 3}"#,
+            "`2 * 3` is neither a number nor a text in quotes",
+            "2 * 3",
+            "{}",
+            r#"{"a": 2 * 3}"#,
+        ),
+        (
+            r#"{"a": 5 kg, "b": 1}"#,
+            "`kg` does not belong here",
+            "kg",
+            r#"{"a":5,"b":1}"#,
+            r#"{"a": 5 kg, "b": 1}"#,
+        ),
+        (r#"{“a”: “b”}"#, "4 typographic quotes where JSON needs \"", "“", r#"{"a":"b"}"#, r#"{"a": "b"}"#),
+    ] {
+        assert_eq!(complaints(text), [(message.to_string(), place.to_string())], "{text}");
+        let read: serde_json::Value = serde_json::from_str(read).unwrap();
+        assert_eq!(value(text), floats(read), "{text}");
+        assert_eq!(fixed(text), repaired, "{text}");
+        assert!(
+            repaired == text || serde_json::from_str::<serde_json::Value>(repaired).is_ok(),
+            "{repaired}"
+        );
+    }
+}
+
+#[test]
+fn all_mistakes_of_a_block_are_told_at_once() {
+    let text = r#"{
+  'model': "ball",
+  stopAt: 2
+  "dock": True,  // beside the text
+  "note": "the angle $\alpha$",
+  "camera": {"azimuth": +90, "elevation" 10,},
+  "readouts": [{"label": "z", "expr": "data.qpos[2]"}
+}"#;
+    let said: Vec<_> = complaints(text).into_iter().map(|(message, _)| message).collect();
+    insta::assert_debug_snapshot!(said, @r#"
+    [
+        "a single quote where JSON needs a double quote",
+        "the key `stopAt` has no quotes",
+        "a comma is missing here",
+        "`True` is written `true` in JSON",
+        "JSON has no comments",
+        "`\\a` is not an escape of JSON",
+        "`+90` is not a number as JSON writes it",
+        "a colon is missing after this key",
+        "a comma before a closing bracket",
+        "a `]` is missing here",
+    ]
+    "#);
+    let repaired: serde_json::Value = serde_json::from_str(&fixed(text)).unwrap();
+    assert_eq!(floats(repaired), value(text));
+}
+
+#[test]
+fn deep_nesting_is_refused_before_it_can_hurt() {
+    let deep = "[".repeat(1_000_000);
+    assert!(complaints(&deep)[0].0.contains("brackets inside each other"));
+}
+
+#[test]
+fn too_many_values_are_refused() {
+    let long = format!("[{}1]", "1,".repeat(MAX_VALUES + 1));
+    assert!(complaints(&long)[0].0.contains("values in one JSON text"));
+}
+
+#[test]
+fn duplicate_keys_are_found_and_strings_know_their_place() {
+    let text = r#"{"a": "x\ny", "a": ""}"#;
+    let parsed = run(text);
+    assert_eq!((parsed.findings[0].code, parsed.broken), ("duplicate-key", false));
+    assert_eq!(parsed.findings[0].span, 15..16);
+    let node = parsed.node.unwrap();
+    let Json::Text(first) = &node.members()[0].value.json else { panic!() };
+    assert_eq!(&text[first.span_of(1..3)], "\\ny");
+    let Json::Text(second) = &node.members()[1].value.json else { panic!() };
+    assert_eq!(second.span(), 20..20);
+}
+
+/// Long and hostile texts: the time grows with the length, not with its square.
+#[test]
+fn hostile_texts_are_read_in_one_pass() {
+    for piece in [
+        "\"",
+        "'",
+        "\"\n",
+        "\" ",
+        "\"a",
+        "\"a\"",
+        "{\"",
+        "/*",
+        "//",
+        "#",
+        "{",
+        "}",
+        "]",
+        ",",
+        ":",
+        "\"a\":",
+        "“",
+        "“a”,",
+        "\\",
+        "\"\\",
+        "a",
+        "a ",
+        "(",
+        "1",
+        "1 ",
+        "\u{a0}",
+        "[1]",
+        "\"a\"b\"",
+        "\"x, \"y\"",
+        "\n",
+        "‘’",
+        "`",
+        "\"}",
+        "=",
+        "é",
+    ] {
+        for (before, behind) in [("", ""), ("{\"a\": ", "\"}"), ("[\"", "\"]"), ("{\"a\": \"\n", " \n\" \n")]
+        {
+            let text = format!("{before}{}{behind}", piece.repeat(400_000 / piece.len()));
+            let start = std::time::Instant::now();
+            let parsed = run(&text);
+            assert!(parsed.findings.len() <= MAX_MISTAKES, "{piece}");
+            assert!(start.elapsed().as_secs() < 5, "{before}{piece}: {:?}", start.elapsed());
+        }
+    }
+}
+
+fn to_serde(node: &Node) -> serde_json::Value {
+    use serde_json::Value;
+    match &node.json {
+        Json::Null | Json::Broken => Value::Null,
+        Json::Bool(b) => (*b).into(),
+        Json::Number(x) => (*x).into(),
+        Json::Text(t) => t.value.clone().into(),
+        Json::Array(items) => items.iter().filter(|n| !n.is_broken()).map(to_serde).collect(),
+        Json::Object(members) => {
+            let read = members.iter().filter(|m| !m.value.is_broken());
+            Value::Object(read.map(|m| (m.key.value.clone(), to_serde(&m.value))).collect())
+        }
+    }
+}
+
+fn floats(value: serde_json::Value) -> serde_json::Value {
+    use serde_json::Value;
+    match value {
+        Value::Number(n) => n.as_f64().unwrap().into(),
+        Value::Array(items) => items.into_iter().map(floats).collect(),
+        Value::Object(map) => Value::Object(map.into_iter().map(|(k, v)| (k, floats(v))).collect()),
+        other => other,
+    }
+}
+
+/// Places of all values and keys, in order.
+fn places(node: &Node, all: &mut Vec<Range<usize>>) {
+    all.push(node.span.clone());
+    if let Json::Array(items) = &node.json {
+        items.iter().for_each(|n| places(n, all));
+    }
+    for member in node.members() {
+        let key = member.key.span();
+        all.push(key.start - 1..key.end + 1);
+        places(&member.value, all);
+    }
+}
+
+/// The same, as `jsonc-parser` sees them.
+fn their_places(value: &jsonc_parser::ast::Value<'_>, all: &mut Vec<Range<usize>>) {
+    use jsonc_parser::ast::{ObjectPropName, Value};
+    use jsonc_parser::common::Ranged;
+    all.push(value.range().start..value.range().end);
+    match value {
+        Value::Array(array) => array.elements.iter().for_each(|v| their_places(v, all)),
+        Value::Object(object) => {
+            for property in &object.properties {
+                let ObjectPropName::String(name) = &property.name else { panic!() };
+                all.push(name.range.start..name.range.end);
+                their_places(&property.value, all);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Fragments that make JSON and nearly-JSON often.
+fn nearly_json() -> impl Strategy<Value = String> {
+    let piece = prop::sample::select(vec![
+        "{",
+        "}",
+        "[",
+        "]",
+        ",",
+        ":",
+        "\"a\"",
+        "\"b\\n\"",
+        "\"\\u00e9\"",
+        "\"\\ud83d\"",
+        "1",
+        "-2.5",
+        "1e5",
+        "01",
+        "-",
+        "+1",
+        ".5",
+        "5.",
+        "0x1",
+        "1e",
+        "1e999",
+        "true",
+        "null",
+        "nul",
+        "falsee",
+        "NaN",
+        " ",
+        "\n",
+        "\u{b}",
+        "\u{a0}",
+        "'a'",
+        "a",
+        "\"",
+        "\\",
+        "//x\n",
+        "/**/",
+        "“",
+        "\"\t\"",
+        "\u{feff}",
+        "\"é\u{7f}\"",
+        "{}",
+        "[]",
+        "{\"a\":1}",
+        "[1,2]",
+        "\"a\":",
+        ",\"a\":",
+        "“b”",
+        "‘",
+        "=",
+        ";",
+        "\r\n",
+        "\"a, \"",
+        "x y",
+        "(1, 2)",
+    ]);
+    prop::collection::vec(piece, 0..12).prop_map(|pieces| pieces.concat())
+}
+
+/// JSON, with all its spaces.
+fn strict_json() -> impl Strategy<Value = String> {
+    let text = prop::sample::select(vec![
+        r#""""#,
+        r#""a""#,
+        r#""a, \"b\": “c” 'd' // #""#,
+        r#""é\ud83d\ude00\n}]""#,
+        r#""\\""#,
+        r#""x: y = {z}, ""#,
+        r#"" , ""#,
+    ]);
+    let leaf = prop_oneof![
+        text.clone().prop_map(str::to_string),
+        prop::sample::select(vec!["1", "-0.5e-3", "0", "true", "false", "null", "12E+2"])
+            .prop_map(str::to_string),
+    ];
+    let space = || prop::sample::select(vec!["", " ", "\n  ", "\t", "\r\n"]);
+    leaf.prop_recursive(4, 40, 5, move |inner| {
+        let item = (space(), inner.clone(), space()).prop_map(|(a, v, b)| format!("{a}{v}{b}"));
+        let member =
+            (space(), text.clone(), space(), item.clone()).prop_map(|(a, k, b, v)| format!("{a}{k}{b}:{v}"));
+        prop_oneof![
+            prop::collection::vec(item, 0..5).prop_map(|all| format!("[{}]", all.join(","))),
+            prop::collection::vec(member, 0..5).prop_map(|all| format!("{{{}}}", all.join(","))),
+        ]
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4000))]
+    /// What is not broken is what serde_json accepts, with the same values; all else has a finding.
+    #[test]
+    fn acceptance_is_that_of_serde(text in nearly_json()) {
+        let ours = run(&text);
+        let theirs: Option<serde_json::Value> = serde_json::from_str(&text).ok();
+        prop_assert_eq!(!ours.broken, theirs.is_some(), "{:?}", text);
+        prop_assert_eq!(ours.broken, ours.findings.iter().any(|f| f.code != "duplicate-key"));
+        if let Some(theirs) = theirs {
+            prop_assert_eq!(to_serde(&ours.node.unwrap()), floats(theirs));
+        }
+    }
+
+    /// Strict JSON: the values of serde_json, the places of jsonc-parser.
+    #[test]
+    fn strict_json_is_read_exactly(text in strict_json()) {
+        let ours = run(&text);
+        prop_assert!(!ours.broken, "{:?}: {:?}", text, ours.findings);
+        let node = ours.node.unwrap();
+        prop_assert_eq!(to_serde(&node), floats(serde_json::from_str(&text).unwrap()));
+        let theirs = jsonc_parser::parse_to_ast(&text, &Default::default(), &Default::default()).unwrap().value.unwrap();
+        let (mut a, mut b) = (Vec::new(), Vec::new());
+        places(&node, &mut a);
+        their_places(&theirs, &mut b);
+        prop_assert_eq!(a, b);
+    }
+
+    #[test]
+    fn any_text_is_survived(text in any::<String>()) {
+        let ours = run(&text);
+        prop_assert_eq!(ours.broken, serde_json::from_str::<serde_json::Value>(&text).is_err());
+        prop_assert_eq!(ours.broken, !ours.findings.is_empty());
+    }
+}

@@ -1,0 +1,105 @@
+//! A lesson whose text is not UTF-8: told, and checked all the same.
+
+use super::{Lesson, load_lesson};
+use crate::finding::{Finding, Severity};
+use crate::lint::ModelFolder;
+use crate::source::{BadText, SourceFile};
+use std::path::Path;
+use std::sync::Arc;
+
+/// The code of a file that is not UTF-8.
+pub const NOT_UTF8: &str = "not-utf8";
+
+/// Reads a lesson or a JSON file whatever its encoding: a file that is not UTF-8 has a finding that says where, and is
+/// checked with what cannot be read replaced.
+///
+/// # Errors
+/// A sentence for the author: the file cannot be read, is no file, or is too large.
+pub fn load_lesson_file(path: &Path, models: &ModelFolder) -> Result<Lesson, String> {
+    let (file, bad) = SourceFile::read_lossy(path)?;
+    Ok(load_bytes(file, bad, models))
+}
+
+fn load_bytes(file: SourceFile, bad: Option<BadText>, models: &ModelFolder) -> Lesson {
+    let mut lesson = load_lesson(file, models);
+    if let Some(bad) = bad {
+        let finding = not_utf8(bad).at(&lesson.file);
+        lesson.findings.push(finding);
+        // Its places are not those of the bytes, or would be gone once it is saved in another encoding.
+        lesson.findings.iter_mut().for_each(|f| f.fix = None);
+        crate::finding::sort(&mut lesson.findings);
+    }
+    lesson
+}
+
+/// The finding about a text that is not UTF-8. The path is filled in by whoever collects it.
+pub fn not_utf8(bad: BadText) -> Finding {
+    let (span, message) = match bad {
+        BadText::Utf16 => (0..0, "this file is UTF-16".to_string()),
+        BadText::Byte { at, byte } => {
+            let old = if byte >= 0xa0 {
+                format!("; in Latin-1 it is `{}`", char::from(byte))
+            } else {
+                String::new()
+            };
+            (at..at + 1, format!("here is a byte that is not UTF-8 (0x{byte:02X}{old})"))
+        }
+    };
+    Finding {
+        code: NOT_UTF8,
+        severity: Severity::Error,
+        path: Arc::from(""),
+        span,
+        message,
+        why: Some("a page reads lessons as UTF-8, so such characters are shown as �".into()),
+        help: Some("save the file with the encoding UTF-8".into()),
+        fix: None,
+        related: Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn load(bytes: &[u8]) -> Lesson {
+        let (file, bad) = SourceFile::from_bytes("t.md", bytes);
+        load_bytes(file, bad, &ModelFolder::with_names(["ball"]))
+    }
+
+    fn places(lesson: &Lesson) -> Vec<(&'static str, usize, usize)> {
+        let place = |f: &Finding| {
+            let at = lesson.file.position(f.span.start);
+            (f.code, at.line, at.column)
+        };
+        lesson.findings.iter().map(place).collect()
+    }
+
+    #[test]
+    fn a_latin_1_lesson_is_named_and_checked() {
+        let lesson = load(b"# A caf\xe9\n\n```lab simlab\n{\"model\": \"bal\", \"title\": \"\xfc\"}\n```\n");
+        assert_eq!(places(&lesson), [("not-utf8", 1, 8), ("unknown-model", 4, 12)]);
+        assert!(lesson.findings[0].message.contains("0xE9; in Latin-1 it is `é`"));
+    }
+
+    #[test]
+    fn a_utf_16_lesson_is_named_and_checked() {
+        let text = "```lab simlab\n{\"model\": \"bal\"}\n```\n";
+        for from in [u16::to_le_bytes, u16::to_be_bytes] {
+            let units = std::iter::once(0xfeff).chain(text.encode_utf16());
+            let bytes: Vec<u8> = units.flat_map(from).collect();
+            let lesson = load(&bytes);
+            assert_eq!(places(&lesson), [("not-utf8", 1, 1), ("unknown-model", 2, 12)]);
+            assert_eq!(lesson.findings[0].message, "this file is UTF-16");
+        }
+    }
+
+    #[test]
+    fn what_is_no_file_is_an_error() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(load_lesson_file(folder.path(), &ModelFolder::unknown()).unwrap_err().contains("not a file"));
+        std::fs::write(folder.path().join("a.md"), b"\xe9").unwrap();
+        let lesson = load_lesson_file(&folder.path().join("a.md"), &ModelFolder::unknown()).unwrap();
+        assert_eq!(places(&lesson), [("not-utf8", 1, 1)]);
+    }
+}
