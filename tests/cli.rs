@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use crate::needs::needs;
 use crate::program::{folder, json_of, keys, program, run, run_in, shown, snapshot};
 use crate::support::workspace;
 use serde_json::{Value, json};
@@ -34,8 +35,7 @@ fn check_a_folder() {
 #[test]
 fn check_the_real_lesson() {
     let shared = workspace().join("../shared");
-    if !shared.exists() {
-        println!("skipped: {} is not there", shared.display());
+    if !needs("../shared/lesson-0.1") {
         return;
     }
     let arguments = ["check", "lesson-0.1/lesson-0.1.md", "--models", "corpus/models", "--format", "json"];

@@ -5,6 +5,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use crate::needs::needs;
 use crate::recorded::examine;
 use crate::standing::{Exception, Standing};
 use crate::support::{models, read_json, workspace};
@@ -41,8 +42,7 @@ fn ask(recorder: &str, arguments: &[&str]) -> Option<tempfile::TempDir> {
 #[test]
 fn every_shared_model_is_as_recorded() {
     let shared = workspace().join("../shared");
-    if !shared.join("conformance").is_dir() {
-        println!("skipped: there are no models in {}", shared.display());
+    if !needs("../shared/conformance") {
         return;
     }
     let fresh = ask("conformance.py", &["--states", "8", "--out", "."]);
@@ -62,13 +62,11 @@ fn every_shared_model_is_as_recorded() {
 
 /// Random models that use everything at once. `LABSPEC_SEED` chooses others.
 #[test]
+#[ignore = "LABSPEC_ORACLE names a Python with mujoco 3.14.0: cargo test -- --ignored"]
 fn random_models_are_as_the_library_has_them() {
     let seed = std::env::var("LABSPEC_SEED").unwrap_or_else(|_| "1".into());
     let arguments = [".", "--count", &RANDOM.to_string(), "--seed", &seed];
-    let Some(folder) = ask("menagerie.py", &arguments) else {
-        println!("skipped: LABSPEC_ORACLE names no Python with mujoco 3.14.0");
-        return;
-    };
+    let folder = ask("menagerie.py", &arguments).unwrap_or_else(|| panic!("LABSPEC_ORACLE names no Python"));
     let mut standing = Standing::default();
     for name in models(folder.path()) {
         let at = |ending: &str| folder.path().join(format!("{name}.{ending}"));

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::javascript::snapshot;
+use crate::needs::needs;
 use crate::program::{folder, run_in};
 use crate::support::workspace;
 use labspec::bind::scene::Models;
@@ -28,11 +29,12 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 fn lessons() -> Vec<(PathBuf, ModelFolder)> {
     let (specs, corpus) = (workspace().join("specs"), workspace().join("../shared/corpus"));
     let mut all = Vec::new();
-    for (root, parts) in [(specs, &["lessons"][..]), (corpus, &["labs", "quizzes"])] {
-        let Ok(models) = ModelFolder::open(&root.join("models")) else {
-            println!("skipped: {} is not there", root.display());
-            continue;
-        };
+    let mut roots = vec![(specs, &["lessons"][..])];
+    if needs("../shared/corpus") {
+        roots.push((corpus, &["labs", "quizzes"]));
+    }
+    for (root, parts) in roots {
+        let models = ModelFolder::open(&root.join("models")).unwrap();
         for part in parts {
             all.extend(files(&root.join(part)).into_iter().map(|path| (path, models.clone())));
         }

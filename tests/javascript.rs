@@ -2,10 +2,11 @@
 //! by node, and the values, all fields and all `ctx` variables afterwards agree to the bit.
 //!
 //! Functions of the simulation are recorded here and played back there (`language.js`): it is the language that is
-//! compared. Without node the test says so.
+//! compared.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use crate::needs::needs;
 use crate::support::{model_text, workspace};
 use labspec::bind::scene::Models;
 use labspec::bind::{ControlProgram, ModelNames, Programs, Scope, World};
@@ -178,15 +179,15 @@ impl Work {
         }));
     }
 
-    fn ask(&self, objects: Json) -> Option<Vec<String>> {
+    fn ask(&self, objects: Json) -> Vec<String> {
         let script = workspace().join("tests/language.js");
         let started = Command::new("node").arg(script).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
-        let mut child = started.ok()?;
+        let mut child = started.unwrap();
         let input = json!({"states": self.states, "objects": objects, "jobs": self.jobs}).to_string();
         child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
         let output = child.wait_with_output().unwrap();
         assert!(output.status.success());
-        Some(String::from_utf8(output.stdout).unwrap().lines().map(String::from).collect())
+        String::from_utf8(output.stdout).unwrap().lines().map(String::from).collect()
     }
 }
 
@@ -257,8 +258,8 @@ struct Count {
     compared: usize,
 }
 
-/// Compares every text of a lab on four states that it goes through; `false` without node.
-fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) -> bool {
+/// Compares every text of a lab on four states that it goes through.
+fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) {
     let mut findings = Vec::new();
     let programs = Programs::compile(lab, model, &mut findings);
     assert!(
@@ -296,7 +297,7 @@ fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) -> bool {
         }
     }
     let names = ModelNames { model, scope: Scope::Lab };
-    let Some(found) = work.ask(objects(&names)) else { return false };
+    let found = work.ask(objects(&names));
     assert!(found.len() >= work.jobs.len(), "{name}: {found:#?}");
     let wrong: Vec<String> = found
         .iter()
@@ -309,7 +310,6 @@ fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) -> bool {
     count.texts += jobs.len();
     count.distinct.extend(jobs.iter().map(|j| j.text.to_string()));
     count.compared += work.jobs.len();
-    true
 }
 
 fn files(folder: &Path) -> Vec<PathBuf> {
@@ -330,10 +330,7 @@ fn compare_lessons(lessons: &[PathBuf], models: &Path) {
         for lab in lesson.all_labs() {
             let name = format!("{} {}", path.display(), lab.title());
             let Some(model) = models.of(lab, &mut Vec::new()) else { panic!("{name} has no model") };
-            if !compare(&name, lab, &model, &mut count) {
-                println!("node is not installed: nothing was compared with JavaScript");
-                return;
-            }
+            compare(&name, lab, &model, &mut count);
         }
     }
     println!(
@@ -348,8 +345,7 @@ fn compare_lessons(lessons: &[PathBuf], models: &Path) {
 #[test]
 fn the_corpus_means_what_javascript_means() {
     let corpus = workspace().join("../shared/corpus");
-    if !corpus.is_dir() {
-        println!("skipped: {} is not there", corpus.display());
+    if !needs("../shared/corpus") || !needs("node") {
         return;
     }
     let lessons = [files(&corpus.join("labs")), files(&corpus.join("quizzes"))].concat();
@@ -358,12 +354,18 @@ fn the_corpus_means_what_javascript_means() {
 
 #[test]
 fn our_lessons_mean_what_javascript_means() {
+    if !needs("node") {
+        return;
+    }
     compare_lessons(&files(&workspace().join("specs/lessons")), &workspace().join("specs/models"));
 }
 
 /// The forms that real labs have and these lessons do not: names, loops, closures, views as values.
 #[test]
 fn a_lab_of_everything_means_what_javascript_means() {
+    if !needs("node") {
+        return;
+    }
     let lab = json!({
         "xml": model_text("ball_drop"),
         "setup": "ctx.x = [1, 2, 3]; const v = data.qvel; v[2] = -0.5; data.joint('light_free').qvel[2] = v[2] / 3; data.xfrc_applied.fill(0)",
@@ -391,7 +393,5 @@ fn a_lab_of_everything_means_what_javascript_means() {
     let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
     let lab = lesson.all_labs()[0];
     let model = labspec_core::mjcf::compile(&lab.xml.as_ref().unwrap().value).unwrap();
-    if !compare("everything", lab, &model, &mut Count::default()) {
-        println!("node is not installed: nothing was compared with JavaScript");
-    }
+    compare("everything", lab, &model, &mut Count::default());
 }

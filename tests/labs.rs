@@ -7,6 +7,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use crate::needs::needs;
 use crate::support::{read_json, workspace};
 use labspec::bind::Programs;
 use labspec::bind::scene::Models;
@@ -17,6 +18,7 @@ use labspec::spec::load_lesson;
 use labspec_core::Model;
 use labspec_expr::Value;
 use serde_json::Value as Json;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Of the range of a trace.
@@ -27,6 +29,28 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 const WIDER: f64 = 2.0;
 /// The step of a perturbed start.
 const NUDGE: f64 = 1e-14;
+
+/// Traces that are not known so well, and why: lab, trace, in so many runs at most. Beyond this list nothing is excused.
+const EXCUSED: &[(&str, &str, usize, &str)] = &[
+    (
+        "1.2_01_simlab",
+        "readout/|free quat|",
+        1,
+        "a length that is 1 but for rounding: its range is a few last bits",
+    ),
+    ("5.3_01_simlab", "readout/normal force, left pad (N)", 1, GRIP),
+    ("5.3_01_simlab", "readout/friction capacity 2μN/g (kg)", 1, GRIP),
+    (
+        "physics-lab_04_simlab",
+        "readout/total momentum (kg m/s)",
+        2,
+        "a sum that is constant but for what the solver leaves: its range is the solver's tolerance",
+    ),
+];
+
+/// Two pads that hold a body.
+const GRIP: &str =
+    "moves by 5e-4 of its range when the start moves by 1e-14, by 3e-4 when the solver runs to rounding";
 
 /// How a lab is run.
 #[derive(Clone, Copy, PartialEq)]
@@ -107,13 +131,12 @@ fn apart(recording: &Json, column: usize, a: &Json, b: &Json) -> f64 {
 #[test]
 fn labs_trace_what_they_trace_on_a_page() {
     let shared = workspace().join("../shared");
-    if !shared.join("corpus/labs").is_dir() {
-        println!("skipped: there are no labs in {}", shared.display());
+    if !needs("../shared/corpus/labs") {
         return;
     }
     let path = std::env::var_os("LABSPEC_LABS")
         .map_or_else(|| workspace().join("tests/golden/labs.json"), std::path::PathBuf::from);
-    let (mut wrong, mut own, mut same) = (Vec::new(), 0, 0.0_f64);
+    let (mut wrong, mut own, mut same) = (Vec::new(), BTreeMap::new(), 0.0_f64);
     let recordings = read_json(&path);
     let recordings = recordings.as_array().unwrap();
     for recording in recordings {
@@ -140,12 +163,29 @@ fn labs_trace_what_they_trace_on_a_page() {
             );
             if theirs <= WIDER * nudged.max(solved) {
                 println!("{line}");
-                own += 1;
+                *own.entry((recording["lab"].as_str().unwrap(), name.as_str().unwrap()))
+                    .or_insert(0_usize) += 1;
             } else {
                 wrong.push(line);
             }
         }
     }
-    println!("{} runs, traces within {same:.1e} of their range; {own} not known so well", recordings.len());
+    let excused: usize = own.values().sum();
+    println!(
+        "{} runs, traces within {same:.1e} of their range; {excused} not known so well",
+        recordings.len()
+    );
+    // Another file of recordings has other runs.
+    if std::env::var_os("LABSPEC_LABS").is_none() {
+        for ((lab, trace), runs) in &own {
+            let listed = EXCUSED.iter().find(|(l, t, ..)| l == lab && t == trace).map_or(0, |e| e.2);
+            if *runs > listed {
+                wrong.push(format!("{lab}, {trace}: excused in {runs} runs, listed for {listed}"));
+            }
+        }
+        for (lab, trace, ..) in EXCUSED.iter().filter(|(l, t, ..)| !own.contains_key(&(*l, *t))) {
+            wrong.push(format!("{lab}, {trace}: is listed as excused, and is as on the page"));
+        }
+    }
     assert!(wrong.is_empty(), "labs that trace something else on MuJoCo 3.14.0:\n{}", wrong.join("\n"));
 }

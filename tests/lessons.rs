@@ -4,6 +4,7 @@
 // A test that cannot read its own inputs has to fail.
 #![allow(clippy::unwrap_used)]
 
+use crate::needs::needs;
 use labspec::finding::Finding;
 use labspec::lint::ModelFolder;
 use labspec::source::SourceFile;
@@ -18,12 +19,7 @@ fn workspace() -> PathBuf {
 
 /// A folder of material beside the repository; says so when it is not there.
 fn beside(path: &str) -> Option<PathBuf> {
-    let folder = workspace().join("../shared").join(path);
-    if folder.exists() {
-        return Some(folder);
-    }
-    println!("skipped: {} is not there", folder.display());
-    None
+    needs(&format!("../shared/{path}")).then(|| workspace().join("../shared").join(path))
 }
 
 fn load(path: &Path, shown: &str, models: &ModelFolder) -> Lesson {

@@ -135,9 +135,10 @@ fn compiled(m: &Model, recording: &Value) -> Verdict {
         ("stat", Object::Statistic, COMPILED),
         ("single", Object::Model, SINGLE),
     ];
+    assert!(objects(&recording["model"]).next().is_some(), "no constant is recorded");
     for (part, object, tolerance) in parts {
         for (field, values) in objects(&recording[part]) {
-            let Some(id) = reflect::field(object, field) else { continue };
+            let id = named(object, field);
             let (ours, theirs) = (list(m, &d, id), numbers(values));
             let [ours, theirs] = [ours, theirs].map(|list| without_order(field, list));
             let scale = largest(&theirs).max(COMPILED_ZERO / tolerance);
@@ -219,6 +220,7 @@ fn forward(m: &Model, states: &Value) -> Verdict {
     let mut found = Vec::new();
     let mut worst: f64 = 0.0;
     let mut sensitive: Option<(f64, f64)> = None;
+    assert!(states.as_array().is_some_and(|list| !list.is_empty()), "no state is recorded");
     for (k, row) in states.as_array().into_iter().flatten().enumerate() {
         set(m, &mut d, &row["state"]);
         core::forward(m, &mut d);
@@ -234,13 +236,12 @@ fn forward(m: &Model, states: &Value) -> Verdict {
             }
         };
         for (field, values) in objects(&row["data"]).filter(|(name, _)| !MOMENTS.contains(&name.as_str())) {
-            let Some(id) = reflect::field(Object::Data, field) else { continue };
+            let id = named(Object::Data, field);
             hold(field, &list(m, &d, id), &numbers(values));
         }
         let theirs = MOMENTS.map(|name| row["data"].get(name).map(numbers).unwrap_or_default());
         if theirs.iter().any(|list| !list.is_empty()) {
-            let ours = MOMENTS
-                .map(|name| reflect::field(Object::Data, name).map(|id| list(m, &d, id)).unwrap_or_default());
+            let ours = MOMENTS.map(|name| list(m, &d, named(Object::Data, name)));
             hold("actuator_moment", &dense(&ours, m.nv), &dense(&theirs, m.nv));
         }
         for (field, ours, theirs) in on_request(m, &mut d, row) {
@@ -265,7 +266,7 @@ fn on_request(m: &Model, d: &mut Data, row: &Value) -> Vec<(String, Vec<f64>, Ve
     core::subtree_vel(m, d);
     core::rne_post_constraint(m, d);
     for (name, values) in objects(post).filter(|(name, _)| *name != "qfrc_inverse") {
-        let Some(id) = reflect::field(Object::Data, name) else { continue };
+        let id = named(Object::Data, name);
         out.push((name.clone(), list(m, d, id), numbers(values)));
     }
     if let Some(theirs) = recorded(post, "qfrc_inverse") {
@@ -357,13 +358,14 @@ pub(crate) fn trajectory(m: &Model, start: &Value, recording: &Value, tolerance:
     let every = recording["every"].as_u64().unwrap_or(1);
     let spread = numbers(&recording["spread"]);
     let mut worst: f64 = 0.0;
+    assert!(recording["rows"].as_array().is_some_and(|list| !list.is_empty()), "no step is recorded");
     for (k, row) in recording["rows"].as_array().into_iter().flatten().enumerate() {
         (0..every).for_each(|_| core::step(m, &mut d));
         let place = format!("step {}", every * (k as u64 + 1));
         let mut found = Vec::new();
         let mut apart: f64 = 0.0;
         for (field, values) in objects(row) {
-            let Some(id) = reflect::field(Object::Data, field) else { continue };
+            let id = named(Object::Data, field);
             let (ours, theirs) = (list(m, &d, id), numbers(values));
             let scale = largest(&theirs).max(1.0);
             apart = apart.max(note(&mut found, &place, field, &ours, &theirs, scale, tolerance));
@@ -402,7 +404,7 @@ pub(crate) fn set(m: &Model, d: &mut Data, state: &Value) {
     // Only data are written, but reflection wants both.
     let mut m = m.clone();
     for (field, values) in objects(state) {
-        let Some(id) = reflect::field(Object::Data, field) else { continue };
+        let id = named(Object::Data, field);
         for (i, x) in numbers(values).into_iter().enumerate() {
             // A model that was not compiled to the same sizes is told elsewhere.
             reflect::view_mut(&mut m, d, id).set(i, x);
@@ -413,6 +415,12 @@ pub(crate) fn set(m: &Model, d: &mut Data, state: &Value) {
 /// The first keyframe, or the default configuration.
 pub(crate) fn start(m: &Model, d: &mut Data) {
     if m.nkey > 0 { core::reset_data_keyframe(m, d, 0) } else { core::reset_data(m, d) }
+}
+
+/// The field of a recording; a recording that has what ours lacks says so, or nobody would look at it.
+pub(crate) fn named(object: Object, name: &str) -> FieldId {
+    reflect::field(object, name)
+        .unwrap_or_else(|| panic!("the recording has `{name}`, which is no field here"))
 }
 
 /// All numbers of a field.

@@ -101,43 +101,61 @@ fn keep(file: &str, table: &str) {
     }
 }
 
-/// Differences by pair of types: number of cases, those beyond the bound, the largest, an example, and how many may be
-/// beyond the bound.
+/// Cases that are beyond the bound, and why that is no mistake: quantity or pair, numbers of the cases, reason. A case that
+/// is not listed fails, and a listed one that is within the bound, too.
+type Known = (&'static str, &'static [usize], &'static str);
+
+/// Cases of one pair of types.
 #[derive(Default)]
-struct Report(BTreeMap<String, (usize, usize, f64, String, usize)>);
+struct Cases {
+    number: usize,
+    /// Beyond the bound: number of the case, difference, what was given and found.
+    beyond: Vec<(usize, f64, String)>,
+    /// The largest difference of the others.
+    worst: f64,
+}
+
+#[derive(Default)]
+struct Report(BTreeMap<String, Cases>);
 
 impl Report {
-    fn note(&mut self, name: String, difference: f64, bound: f64, line: &str) {
+    fn note(&mut self, name: String, case: usize, difference: f64, bound: f64, line: &str) {
         let r = self.0.entry(name).or_default();
-        r.0 += 1;
+        r.number += 1;
         if difference.is_nan() || difference > bound {
-            r.1 += 1;
-            if r.3.is_empty() {
-                r.3 = line.to_string();
-            }
+            r.beyond.push((case, difference, line.to_string()));
         } else {
-            r.2 = r.2.max(difference);
+            r.worst = r.worst.max(difference);
         }
     }
 
-    /// Where several answers are equally right, rounding chooses: so many cases may differ.
-    fn allow(&mut self, name: &str, most: usize) {
-        self.0.entry(name.to_string()).or_default().4 = most;
-    }
-
-    fn finish(self, print: bool) {
-        let mut text = String::new();
-        for (name, (cases, wrong, worst, line, _)) in &self.0 {
-            text +=
-                &format!("{name:24} {cases:6} cases, {wrong} beyond the bound, else within {worst:.1e}\n");
-            if *wrong > 0 {
-                text += &format!("    {line}\n");
+    /// Fails where the cases beyond the bound are not those that are known; other recordings are printed alone.
+    fn finish(self, print: bool, known: &[Known]) {
+        let (mut text, mut wrong) = (String::new(), String::new());
+        for (name, r) in &self.0 {
+            let (number, worst) = (r.number, r.worst);
+            text += &format!(
+                "{name:24} {number:6} cases, {} beyond the bound, else within {worst:.1e}\n",
+                r.beyond.len()
+            );
+            for (case, apart, line) in &r.beyond {
+                if !known.iter().any(|(of, cases, _)| of == name && cases.contains(case)) {
+                    wrong += &format!("{name}, case {case}: {apart:.1e} apart\n    {line}\n");
+                }
+            }
+        }
+        for (name, cases, _) in known {
+            for case in *cases {
+                if !self.0.get(*name).is_some_and(|r| r.beyond.iter().any(|(k, ..)| k == case)) {
+                    wrong += &format!("{name}, case {case}: is listed, and is within the bound\n");
+                }
             }
         }
         if print {
             println!("{text}");
+        } else {
+            assert!(wrong.is_empty(), "{text}{wrong}");
         }
-        assert!(print || self.0.values().all(|r| r.1 <= r.4), "{text}");
     }
 }
 
@@ -146,7 +164,8 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
     if a.len() != b.len() {
         return f64::INFINITY;
     }
-    a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, |m, d| if d.is_nan() { d } else { m.max(d) })
+    let apart = a.iter().zip(b).map(|(x, y)| (x - y).abs());
+    apart.fold(0.0, |m, d| if d.is_nan() { f64::INFINITY } else { m.max(d) })
 }
 
 /// The contacts of one list in the order of another, each next to the nearest that is left.
@@ -167,7 +186,7 @@ fn rays_hit_where_they_do_in_mujoco() {
     let (text, print) = cases("rays.txt", include_str!("golden/rays.txt"));
     let assets = Assets::read(&text);
     let mut report = Report::default();
-    for line in text.lines().filter(|l| l.starts_with("ray ")) {
+    for (case, line) in text.lines().filter(|l| l.starts_with("ray ")).enumerate() {
         let (given, want) = line.split_once('|').unwrap();
         let mut words = given.split_whitespace();
         words.next();
@@ -176,9 +195,9 @@ fn rays_hit_where_they_do_in_mujoco() {
         let hit = ray_shape(&shape, [v[0], v[1], v[2]], [v[3], v[4], v[5]]);
         let got = hit.map_or([-1.0, 0.0, 0.0, 0.0], |h| [h.distance, h.normal[0], h.normal[1], h.normal[2]]);
         let name = KINDS[shape.kind as usize].to_string();
-        report.note(name, difference(&got, &floats(want)), 1e-10, &format!("{line}\n    got {got:?}"));
+        report.note(name, case, difference(&got, &floats(want)), 1e-10, &format!("{line}\n    got {got:?}"));
     }
-    report.finish(print);
+    report.finish(print, &[]);
 }
 
 fn settings() -> Settings {
@@ -188,13 +207,33 @@ fn settings() -> Settings {
 /// `ccd_tolerance`, m.
 const CLOSE: f64 = 1e-6;
 
+/// What a search over round sides finds is known to its tolerance alone.
+const SEARCHED: &str =
+    "the search stops within `ccd_tolerance`, 1e-6 m: depths less than 5e-7 m apart, points 1e-3 m";
+const LED_AWAY: &str = "a depth of 464 m between bodies of a metre means nothing on either side: the search from inside of a prism of the \
+                        ground is led away";
+
+const DISTANCES: &[Known] = &[
+    ("cylinder-mesh dist", &[1182], SEARCHED),
+    ("cylinder-mesh fromto", &[1182], SEARCHED),
+    ("mesh-cylinder dist", &[1177], SEARCHED),
+    ("mesh-cylinder fromto", &[1177], SEARCHED),
+    (
+        "cylinder-mesh fromto",
+        &[1161],
+        "a line lies along a face: all of its points are as near, and each side names another",
+    ),
+    ("ellipsoid-hfield dist", &[341], LED_AWAY),
+    ("ellipsoid-hfield fromto", &[341], LED_AWAY),
+];
+
 #[test]
 fn distances_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
     let assets = Assets::read(&text);
     let (mut report, mut figures) = (Report::default(), Figures::default());
     let mut work = Narrow::default();
-    for line in text.lines().filter(|l| l.starts_with("distance ")) {
+    for (case, line) in text.lines().filter(|l| l.starts_with("distance ")).enumerate() {
         let (given, want) = line.split_once('|').unwrap();
         let mut words = given.split_whitespace();
         words.next();
@@ -210,20 +249,32 @@ fn distances_are_those_of_mujoco() {
         figures.distance(&kinds(least, other), want[0], got[0]);
         let scale = 1.0 + norm(a.size).min(norm(b.size));
         let shown = format!("{line}\n    got {got:?}");
-        report.allow(&name("dist"), 1);
-        report.allow(&name("fromto"), 2);
         // Nearer than the tolerance of the search, a distance is known to that, and its points are anywhere along the slit.
         let searched = matches!(pair::method(least.kind, other.kind), Some(Method::Convex));
         if searched && got[0].abs().max(want[0].abs()) < CLOSE {
-            report.note(name("dist"), difference(&got[..1], &want[..1]), CLOSE, &shown);
+            report.note(name("dist"), case, difference(&got[..1], &want[..1]), CLOSE, &shown);
             continue;
         }
-        report.note(name("dist"), difference(&got[..1], &want[..1]), 1e-10 * scale, &shown);
-        report.note(name("fromto"), difference(&got[1..], &want[1..]), 1e-7 * scale, &shown);
+        report.note(name("dist"), case, difference(&got[..1], &want[..1]), 1e-10 * scale, &shown);
+        report.note(name("fromto"), case, difference(&got[1..], &want[1..]), 1e-7 * scale, &shown);
     }
     keep("distances.md", &figures.distance_table());
-    report.finish(print);
+    report.finish(print, DISTANCES);
 }
+
+const CONTACTS: &[Known] = &[
+    ("box-mesh", &[1248], "the library lists one point twice, 1e-16 m apart; ours once, 2e-8 m deeper"),
+    (
+        "cylinder-cylinder",
+        &[1102],
+        "faces that are parallel: tilted by 3e-7 as found here they touch in one point, not along two",
+    ),
+    (
+        "hfield-cylinder",
+        &[377],
+        "one of 17 contacts, with a prism whose side the cylinder's round side meets: found within `ccd_tolerance`",
+    ),
+];
 
 #[test]
 fn contacts_are_those_of_mujoco() {
@@ -231,7 +282,7 @@ fn contacts_are_those_of_mujoco() {
     let assets = Assets::read(&text);
     let (mut report, mut figures) = (Report::default(), Figures::default());
     let mut work = Narrow::default();
-    for line in text.lines().filter(|l| l.starts_with("contact ")) {
+    for (case, line) in text.lines().filter(|l| l.starts_with("contact ")).enumerate() {
         let (given, want) = line.split_once('|').unwrap();
         let mut words = given.split_whitespace();
         words.next();
@@ -251,14 +302,13 @@ fn contacts_are_those_of_mujoco() {
         let bound = if matches!(method, Method::Direct(_)) { 1e-10 } else { 1e-7 };
         if !matches!(method, Method::Direct(_)) {
             got = in_order_of(&want, &got);
-            report.allow(&name, 3);
         }
         figures.contacts(&name, &want, &got);
         let scale = 1.0 + norm(a.size).min(norm(b.size));
-        report.note(name, difference(&got, &want), bound * scale, &format!("{line}\n    got {got:?}"));
+        report.note(name, case, difference(&got, &want), bound * scale, &format!("{line}\n    got {got:?}"));
     }
     keep("contacts.md", &figures.contact_table());
-    report.finish(print);
+    report.finish(print, CONTACTS);
 }
 
 /// Distances of random convex bodies do not depend on which one is first.
@@ -279,7 +329,7 @@ fn distance_is_symmetric() {
             nearest(&mut u, &mut v, 1e3, settings().effort, &mut work.room).dist
         };
         let (x, y) = (there(&a, &b), there(&b, &a));
-        assert!((x - y).abs() < 1e-4 * (1.0 + norm(a.size) + norm(b.size)), "{x} {y}: {line}");
+        assert!((x - y).abs() < 1e-5 * (1.0 + norm(a.size) + norm(b.size)), "{x} {y}: {line}");
     }
 }
 
@@ -323,7 +373,9 @@ fn hostile_numbers_are_harmless() {
                         &mut work.room,
                         &mut work.touches,
                     );
-                    assert!(work.touches.len() <= pair::MOST);
+                    // Over a ground of many prisms as many as MuJoCo keeps; two bodies touch along a face at most.
+                    let most = if b == 1 || a == 1 { pair::MOST } else { 8 };
+                    assert!(work.touches.len() <= most, "{}-{}, {k}", KINDS[a], KINDS[b]);
                 }
             }
         }

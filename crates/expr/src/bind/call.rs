@@ -69,6 +69,7 @@ impl<'a> Binder<'a> {
     /// A function of the language: `Number(x)`, `Array.from(v, f)`.
     fn native_call(&mut self, function: natives::Free, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let row = function.row();
+        let args = self.taken(args, row.most);
         if row.name == "Array.from"
             && args.len() == 2
             && let (Some(method), [first, rest @ ..]) = (prelude::method(row.name, 1), args)
@@ -88,6 +89,11 @@ impl<'a> Binder<'a> {
         }
         self.effects.can_throw = true;
         Ok(Ir::new(Kind::Native(function, items), row.returns, span))
+    }
+
+    /// The arguments that a function takes of those that a method of the prelude hands over: element, index and list.
+    fn taken(&self, args: &'a [Expr], most: usize) -> &'a [Expr] {
+        if self.site.is_some() { args.get(..most).unwrap_or(args) } else { args }
     }
 
     /// What is called. A name that nothing defines is looked for among functions.
@@ -158,6 +164,19 @@ impl<'a> Binder<'a> {
     fn math_call(&mut self, function: math::Function, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let path = function.path();
         let title = path.clone();
+        let args = self.taken(args, function.arity().1.unwrap_or(usize::MAX));
+        // `f(v[i], i, v)` in the prelude, which calls functions of its own, too.
+        let handed = matches!(args.last().map(|a| &a.kind), Some(ExprKind::Name(list)) if list == "v");
+        if self.site.is_some() && handed && function.arity().1.is_none() {
+            let report = Diagnostic::error(
+                code::ARGUMENT_TYPE,
+                span,
+                format!("`{path}` would get the index and the whole list as well"),
+            )
+            .why("a function that is called for every element gets these behind the element, and of a list JavaScript makes NaN")
+            .help(format!("write `(a, b) => {path}(a, b)` in place of `{path}`; of all elements of a list it is `{path}(...list)`"));
+            return self.refuse(report);
+        }
         self.explain(span, || Help {
             title: format!("{title}(…)"), lines: vec![function.doc().to_owned()]
         });
@@ -181,7 +200,7 @@ impl<'a> Binder<'a> {
             let message = format!("`{path}` needs {}", count(least, "argument"));
             return self.refuse(
                 Diagnostic::error(code::ARGUMENT_COUNT, span, message)
-                    .why(format!("it gets {}, and JavaScript then gives NaN", args.len()))
+                    .why("what is missing is `undefined`, and of that JavaScript makes NaN")
                     .help(format!("write `{path}({})`", if least == 2 { "a, b" } else { "x" })),
             );
         }
@@ -311,7 +330,8 @@ impl<'a> Binder<'a> {
             count(n, "argument")
         };
         let message = format!("`{}` takes {wanted}, not {}", info.name, args.len());
-        let report = Diagnostic::error(code::ARGUMENT_COUNT, span, message).why(info.doc.clone());
+        let report =
+            Diagnostic::error(code::ARGUMENT_COUNT, span, message).why(format!("what it does: {}", info.doc));
         let only_objects =
             !info.params.is_empty() && info.params.iter().all(|p| matches!(p, Param::Object(_)));
         if only_objects {

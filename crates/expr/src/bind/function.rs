@@ -296,6 +296,11 @@ impl<'a> Binder<'a> {
         match self.thing(arg)? {
             closure @ Thing::Closure(_) => Ok(closure),
             function @ (Thing::MathFunction(_) | Thing::Native(_)) => Ok(function),
+            // `Number`, which is a function and holds some.
+            Thing::Namespace(name) => match crate::natives::free(name) {
+                Some(function) => Ok(Thing::Native(function)),
+                None => self.value_of(Thing::Namespace(name), arg.span).map(Thing::Value),
+            },
             other => self.value_of(other, arg.span).map(Thing::Value),
         }
     }

@@ -122,8 +122,12 @@ impl<'a> Binder<'a> {
                 let report = Diagnostic::error(
                     code::ARGUMENT_COUNT,
                     span,
-                    format!("`.{text}` does not take {} arguments", args.len()),
-                );
+                    match args.len() {
+                        0 => format!("`.{text}` needs a function"),
+                        n => format!("`.{text}` does not take {n} arguments"),
+                    },
+                )
+                .why("it is called for every element");
                 self.refuse(match wanted {
                     1 if text.starts_with("reduce") => {
                         report.help(format!("write `.{text}((sum, x) => sum + x, 0)`"))
@@ -174,8 +178,8 @@ impl<'a> Binder<'a> {
                 span,
                 format!("`{point}{text}` takes {wanted}, not {}", args.len()),
             )
-            .why(row.doc)
-            .help(format!("an example: `{}`", row.example.0)),
+            .why(format!("what it gives: {}", row.doc))
+            .help(format!("an example: `{}` is `{}`", row.example.0, row.example.1)),
         )
     }
 

@@ -326,9 +326,9 @@ impl<'a> Binder<'a> {
         Err(Reported)
     }
 
-    /// The source of a part.
+    /// The source of a part; in a method of the prelude, whose text nobody wrote here, that of the call.
     fn text(&self, span: Span) -> &'a str {
-        span.text(self.source)
+        self.site.unwrap_or(span).text(self.source)
     }
 
     /// Notes what a part of the text is.

@@ -510,7 +510,9 @@ fn from_entry(entry: Entry, span: Span) -> Thing {
 
 pub(super) fn machinery(name: &str, span: Span) -> Diagnostic {
     Diagnostic::error(code::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
-        .why("values have no prototypes and no methods of objects here; this is also what keeps a lesson harmless")
+        .why(
+            "it leads behind the values, into JavaScript itself; that this is closed keeps a lesson harmless",
+        )
         .help("use another name")
 }
 

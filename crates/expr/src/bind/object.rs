@@ -78,11 +78,12 @@ impl<'a> Binder<'a> {
     fn no_member(&self, ty: Type, name: &Name, span: Span, object: Span) -> Diagnostic {
         let text = name.text.as_str();
         let what = self.text(object);
-        let report = Diagnostic::error(
-            code::UNKNOWN_FIELD,
-            name.span,
-            format!("`{what}` is {}; it has no member `{text}`", ty.describe()),
-        );
+        let message = if what == ty.describe() {
+            format!("`{what}` has no member `{text}`")
+        } else {
+            format!("`{what}` is {}; it has no member `{text}`", ty.describe())
+        };
+        let report = Diagnostic::error(code::UNKNOWN_FIELD, name.span, message);
         let xyz = ["x", "y", "z"].iter().position(|n| *n == text);
         match (ty, xyz) {
             (Type::List | Type::View, Some(i)) => {

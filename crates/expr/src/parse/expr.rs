@@ -274,6 +274,9 @@ impl Parser<'_> {
                 "null" => ExprKind::Null,
                 // A declaration in the middle of an expression.
                 "const" | "let" | "var" => return self.expected_value(),
+                "new" if *self.peek_at(1) == Tok::Word("Date".into()) => {
+                    return self.refuse(refuse::new_date(span));
+                }
                 word => match refuse::word(word, span) {
                     Some(report) => return self.refuse(report),
                     None => ExprKind::Name(word.to_owned()),

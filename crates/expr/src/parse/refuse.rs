@@ -55,8 +55,8 @@ pub(super) fn word(word: &str, span: Span) -> Option<Diagnostic> {
         "instanceof" | "in" => never(
             span,
             &format!("{name} tests"),
-            "what a value is follows from where it comes from",
-            "compare with a value, as `ctx.start == null`",
+            "a variable that nothing has stored yet is `undefined`, which a comparison tells as well",
+            "to ask whether there is a value, write `ctx.start != null`",
         ),
         "with" => {
             never(span, "`with` statements", "names must mean the same everywhere", "write the names in full")
@@ -79,6 +79,16 @@ pub(super) fn word(word: &str, span: Span) -> Option<Diagnostic> {
         "else" => misplaced("`else` follows directly behind the statement of its `if`"),
         _ => return None,
     })
+}
+
+/// `new Date()`
+pub(super) fn new_date(span: Span) -> Diagnostic {
+    never(
+        span,
+        "dates",
+        "a lesson must give the same numbers whenever it is run, and the clock on the wall is no part of it",
+        "the time of the simulation is `data.time`, in seconds",
+    )
 }
 
 /// Whether a word means something of its own, so that it cannot be the name of a variable.
@@ -126,8 +136,8 @@ pub(super) fn rest(span: Span) -> Diagnostic {
     never(
         span,
         "parameters that collect the rest",
-        "the size of everything should be known before the run",
-        "pass one list, as `f([a, b])`",
+        "how many there are would be known in the run only, and could not be checked before it",
+        "give the function one list, as `f([a, b])`",
     )
 }
 

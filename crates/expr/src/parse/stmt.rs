@@ -503,8 +503,8 @@ impl Parser<'_> {
                 let left = shorten(before.text(self.source));
                 Some(
                     Diagnostic::error(code::UNEXPECTED, span, format!("{shown} stands directly behind `{left}`"))
-                        .why("there is no operator between them, so it is neither one expression nor two statements")
-                        .help("write the operator, as `*` for a product, or a `;` or a line end between statements"),
+                        .why("nothing between them says how they belong together")
+                        .help("write what is missing: an operator, as `*` for a product, a comma in a list, or `;` between statements"),
                 )
             }
         }

@@ -3,6 +3,7 @@
 mod arithmetic;
 mod javascript;
 mod language;
+mod math;
 mod mistakes;
 mod node;
 mod programs;

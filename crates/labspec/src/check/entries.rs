@@ -48,6 +48,19 @@ fn file(path: &Arc<str>, faults: usize) -> Entry {
 
 /// Everything that stands in one lesson.
 fn lesson(c: &Checked, ledger: &mut Ledger) {
+    let mut all = Vec::new();
+    claimed(c, &mut all);
+    for mut entry in all {
+        // A page cannot read a block whose JSON is broken, whatever was found by reading on behind the mistakes.
+        if matches!(entry.state, State::True(_)) && c.lesson.is_broken(&entry.span) {
+            (entry.state, entry.word) = (State::Unchecked, "broken JSON");
+            entry.remark = "a page cannot read it".into();
+        }
+        ledger.add(entry);
+    }
+}
+
+fn claimed(c: &Checked, ledger: &mut Vec<Entry>) {
     let path = c.lesson.file.path();
     let entry = |subject, owner: &str, span: &Range<usize>, state, word| Entry {
         subject,
@@ -63,36 +76,36 @@ fn lesson(c: &Checked, ledger: &mut Ledger) {
         let span = c.lesson.lab(&ran.address).map_or(0..0, |lab| lab.span.clone());
         let (state, word, remark) = lab(ran);
         let owner = format!("lab {}", ran.address);
-        ledger.add(Entry { what: ran.title.clone(), remark, ..entry(Subject::Lab, &owner, &span, state, word) });
+        ledger.push(Entry { what: ran.title.clone(), remark, ..entry(Subject::Lab, &owner, &span, state, word) });
     }
     for lab in c.lesson.labs.iter().filter(|entry| entry.lab.is_none()) {
         let owner = format!("lab #{}", lab.number);
         let remark = "it cannot be read".into();
-        ledger.add(Entry { remark, ..entry(Subject::Lab, &owner, &lab.span, State::Unchecked, "unread") });
+        ledger.push(Entry { remark, ..entry(Subject::Lab, &owner, &lab.span, State::Unchecked, "unread") });
     }
     for quiz in &c.lesson.quizzes {
         let id = quiz.id.as_ref().map_or("", |t| t.as_str());
         for (i, _) in quiz.questions.iter().enumerate().filter(|(_, q)| q.is_none()) {
             let owner = format!("quiz {id}, question {}", i + 1);
             let remark = "it cannot be read".into();
-            ledger.add(Entry { remark, ..entry(Subject::Answer, &owner, &quiz.span, State::Unchecked, "unread") });
+            ledger.push(Entry { remark, ..entry(Subject::Answer, &owner, &quiz.span, State::Unchecked, "unread") });
         }
     }
     for widget in &c.lesson.widgets {
         let owner = format!("widget {}", widget.name);
-        ledger.add(entry(Subject::Widget, &owner, &widget.span, State::NotClaimed, "not run"));
+        ledger.push(entry(Subject::Widget, &owner, &widget.span, State::NotClaimed, "not run"));
     }
     for claim in &c.claims {
         let judgement = &claim.judgement;
         if let Some(answer) = &judgement.answer {
             let (state, word) = (answer.verdict.state(), answer.verdict.as_str());
             let remark = answer.reason.clone();
-            ledger.add(Entry { remark, ..entry(Subject::Answer, &claim.name, &claim.span, state, word) });
+            ledger.push(Entry { remark, ..entry(Subject::Answer, &claim.name, &claim.span, state, word) });
         }
         for q in &judgement.quotes {
             let (state, word) = quote(q);
             let (what, remark) = (q.text.clone(), q.reason.clone());
-            ledger.add(Entry { what, remark, ..entry(Subject::Quote, &claim.name, &q.span, state, word) });
+            ledger.push(Entry { what, remark, ..entry(Subject::Quote, &claim.name, &q.span, state, word) });
         }
         for form in &judgement.exact {
             let word = match form.state {
@@ -102,12 +115,12 @@ fn lesson(c: &Checked, ledger: &mut Ledger) {
             };
             let (what, remark) = (form.trace.clone(), form.remark.clone());
             let about = entry(Subject::ClosedForm, &claim.name, &form.span, form.state, word);
-            ledger.add(Entry { what, remark, ..about });
+            ledger.push(Entry { what, remark, ..about });
         }
         for r in &judgement.runs {
             let (state, word, remark) = run(r, judgement.unmade.as_deref());
             let what = r.name.clone();
-            ledger.add(Entry { what, remark, ..entry(Subject::Run, &claim.name, &r.span, state, word) });
+            ledger.push(Entry { what, remark, ..entry(Subject::Run, &claim.name, &r.span, state, word) });
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::ledger::{self, Entry, Evidence, Ledger, State, Subject};
 use crate::lint;
 use crate::report::{self, Summary, printable, printable_path};
 use crate::source::SourceFile;
-use crate::spec::{Lesson, load_lesson};
+use crate::spec::{FileKind, Lesson, kind_of, load_lesson_file};
 use clap::ValueEnum;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -123,22 +123,29 @@ fn look(a: &Arguments, depth: Depth) -> Result<Course, Failure> {
         if progress {
             complain(&format!("\r\x1b[Kchecking {}", printable_path(path)));
         }
-        if is_model(path) {
-            check_model(a, path, &mut course)?;
-            read += 1;
-            continue;
+        match kind_of(path) {
+            FileKind::Lesson | FileKind::Json => {}
+            FileKind::Model => {
+                check_model(a, path, &mut course)?;
+                read += 1;
+                continue;
+            }
+            FileKind::Unknown => {
+                let shown = printable_path(path);
+                refused.push((path.clone(), format!("{shown} is no lesson: lessons are Markdown (.md, .markdown, .mdx, .qmd, .Rmd) or JSON, models are .xml")));
+                continue;
+            }
         }
-        let file = match SourceFile::read(path) {
-            Ok(file) => file,
+        let folder = model_folder_within(&a.models, path, &a.paths)?;
+        let models = by_folder.entry(format!("{folder:?}")).or_insert_with(|| Models::new(folder));
+        let lesson = match load_lesson_file(path, models.folder()) {
+            Ok(lesson) => lesson,
             Err(why) => {
                 refused.push((path.clone(), why));
                 continue;
             }
         };
         read += 1;
-        let folder = model_folder_within(&a.models, path, &a.paths)?;
-        let models = by_folder.entry(format!("{folder:?}")).or_insert_with(|| Models::new(folder));
-        let lesson = load_lesson(file, models.folder());
         if !named && is_other_json(&lesson) {
             continue;
         }
@@ -169,10 +176,6 @@ fn look(a: &Arguments, depth: Depth) -> Result<Course, Failure> {
     course.ledger = check::ledger(&course.checked, &course.findings);
     course.ledger.append(models);
     Ok(course)
-}
-
-fn is_model(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xml"))
 }
 
 /// Checks a model that was named itself.
@@ -258,7 +261,7 @@ fn walk(
         }
         if meta.is_dir() {
             walk(&path, files, problems, depth + 1);
-        } else if path.extension().is_some_and(|e| e == "md" || e == "json") {
+        } else if matches!(kind_of(&path), FileKind::Lesson | FileKind::Json) {
             files.push((path, false));
         }
     }

@@ -1,0 +1,7 @@
+//! The last test of a binary: tests start in the order of their names, and ask for what they need before anything else.
+
+#[test]
+fn zz_what_was_skipped() {
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    crate::needs::summary();
+}
