@@ -56,7 +56,8 @@ const ALL: [Damage; 13] = [
     Damage::VerifyRemoved,
 ];
 
-const MODEL: &str = "<mujoco><worldbody><body pos='0 0 HEIGHT'><freejoint/><geom size='0.05'/></body></worldbody></mujoco>";
+const MODEL: &str =
+    "<mujoco><worldbody><body pos='0 0 HEIGHT'><freejoint/><geom size='0.05'/></body></worldbody></mujoco>";
 
 /// A lesson about a fall from a height, of so many steps of 4 ms, in which everything is true but for the damage.
 fn lesson(height: f64, steps: u32, damage: &[Damage]) -> String {

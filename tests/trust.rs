@@ -74,7 +74,8 @@ fn a_lab_that_did_not_run_is_a_finding() {
     }
     let good = run_in(here, &["check", "alone/clean.md", "--models", "alone/elsewhere"]);
     assert_eq!(good.code, 0, "{}", good.stdout);
-    let text = std::fs::read_to_string(here.join("clean.md")).unwrap().replace("\"ball_drop\"", "\"ball_dorp\"");
+    let text =
+        std::fs::read_to_string(here.join("clean.md")).unwrap().replace("\"ball_drop\"", "\"ball_dorp\"");
     std::fs::write(here.join("alone/typo.md"), text).unwrap();
     let typo = run_in(here, &["check", "alone/typo.md", "--models", "alone/elsewhere"]);
     assert_eq!(typo.code, 1, "{}", typo.stdout);
@@ -88,7 +89,12 @@ fn closed_forms_are_held_to_their_traces() {
     let state = |checked: &Checked| entries(checked, Subject::ClosedForm)[0].state;
     let right = "2 - 0.5 * 9.81 * data.time * data.time";
     let good = exact(json!({"b": right}));
-    assert_eq!((codes(&good), state(&good)), (vec![], State::True(Evidence::Simulated)), "{:#?}", good.findings);
+    assert_eq!(
+        (codes(&good), state(&good)),
+        (vec![], State::True(Evidence::Simulated)),
+        "{:#?}",
+        good.findings
+    );
     for (form, code) in [
         (json!({"b": "2 - 0.5 * 9.71 * data.time * data.time"}), "closed-form-wrong"),
         (json!({"b": "2 - 0.5 * 9.8099 * data.time * data.time"}), "closed-form-wrong"),
@@ -118,7 +124,9 @@ fn closed_forms_are_held_to_their_traces() {
 fn closed_forms_are_judged_at_the_order_of_the_integrator() {
     let xml = "<mujoco><option integrator='RK4' timestep='0.01'><flag contact='disable'/></option><worldbody><body><joint name='s' type='slide' axis='1 0 0' stiffness='10'/><geom size='0.1' mass='1'/></body></worldbody><keyframe><key qpos='0.1'/></keyframe></mujoco>";
     let exact = |form: &str| {
-        let lab = lab(json!({"xml": xml, "key": 0, "controls": [], "stopAt": 2, "plots": [{"traces": [{"label": "b", "expr": "data.qpos[0]"}]}], "readouts": [], "verify": {"exact": {"b": form}}}));
+        let lab = lab(
+            json!({"xml": xml, "key": 0, "controls": [], "stopAt": 2, "plots": [{"traces": [{"label": "b", "expr": "data.qpos[0]"}]}], "readouts": [], "verify": {"exact": {"b": form}}}),
+        );
         entries(&check_json(&lab), Subject::ClosedForm)[0].state
     };
     assert_eq!(exact("0.1 * Math.cos(Math.sqrt(10) * data.time)"), State::True(Evidence::Simulated));
@@ -129,7 +137,7 @@ fn closed_forms_are_judged_at_the_order_of_the_integrator() {
 /// Line 3: only `says`: the numbers are verified, the answer is not, and the two are told apart.
 #[test]
 fn numbers_do_not_verify_an_answer() {
-    let verify = json!({"runs": {"run": {"until": 0.5}}, "measure": {"fall": "2 - final(data.qpos[2])"}, "says": [["1.231 m", "fall"]]});
+    let verify = json!({"runs": {"run": {"set": {"h": 0.002}, "until": 0.5}}, "measure": {"fall": "2 - final(data.qpos[2])"}, "says": [["1.231 m", "fall"]]});
     let checked = check_json(&question(1, verify));
     assert_eq!(codes(&checked), [""; 0], "{:#?}", checked.findings);
     assert_eq!(answer(&checked).verdict, Verdict::Unverified);
@@ -155,13 +163,18 @@ fn constants_and_nan_are_evidence_of_nothing() {
     let measured = judged(json!(["five < 6", "five >= 6"]), json!({"five": "final(2 + 3)"}));
     assert_eq!(measured, (Verdict::Computed, vec![]), "a measure that looks at nothing is no simulation");
     let never = json!({"never": "first(data.qpos[2] < -99)"});
-    for options in [json!(["!(never < 1)", "never < 1"]), json!(["abs(never - 1) >= 0 ? false : true", "never < 1"])] {
+    for options in
+        [json!(["!(never < 1)", "never < 1"]), json!(["abs(never - 1) >= 0 ? false : true", "never < 1"])]
+    {
         let (verdict, found) = judged(options, never.clone());
         assert_eq!(verdict, Verdict::Failed);
         assert!(found.contains(&"compares-nan"), "{found:?}");
     }
     assert_eq!(judged(json!(["isNaN(never)", "never < 1"]), never).0, Verdict::Failed);
-    let asked = judged(json!(["isNaN(never)", "!isNaN(never) && never < 1"]), json!({"never": "first(data.qpos[2] < -99)"}));
+    let asked = judged(
+        json!(["isNaN(never)", "!isNaN(never) && never < 1"]),
+        json!({"never": "first(data.qpos[2] < -99)"}),
+    );
     assert_eq!(asked, (Verdict::Verified, vec![]));
 }
 
@@ -216,7 +229,13 @@ fn doubtful_answers_show_what_was_measured() {
     let verify = json!({"runs": {"run": {"until": 0.5}}, "measure": {"fall": "2 - final(data.qpos[2])"}, "options": ["fall < 1", "fall >= 1"]});
     std::fs::write(folder.path().join("q.json"), question(0, verify).to_string()).unwrap();
     let shown = run_in(folder.path(), &["check", "q.json"]).stdout;
-    for part in ["refuted", "fall = 1.23116   (1.2287", "at half the timestep)", "option 0 does not hold, by 0.231", "option 1 holds, by 0.231"] {
+    for part in [
+        "refuted",
+        "fall = 1.23116   (1.2287",
+        "at half the timestep)",
+        "option 0 does not hold, by 0.231",
+        "option 1 holds, by 0.231",
+    ] {
         assert!(shown.contains(part), "{part} is not in\n{shown}");
     }
 }
@@ -226,7 +245,9 @@ fn doubtful_answers_show_what_was_measured() {
 fn nothing_to_check_is_no_success() {
     let folder = folder();
     std::fs::write(folder.path().join("prose.md"), "# Only prose\n").unwrap();
-    for arguments in [&["check", "prose.md"][..], &["verify", "prose.md"], &["verify", "models/free_fall.xml"]] {
+    for arguments in
+        [&["check", "prose.md"][..], &["verify", "prose.md"], &["verify", "models/free_fall.xml"]]
+    {
         let done = run_in(folder.path(), arguments);
         assert_eq!(done.code, 2, "{arguments:?}: {}{}", done.stdout, done.stderr);
         assert!(!done.stdout.contains("nothing to complain"), "{}", done.stdout);

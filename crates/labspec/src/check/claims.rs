@@ -2,8 +2,8 @@
 
 use super::{Ready, refresh};
 use crate::finding::Finding;
-use crate::spec::{Lab, Lesson, Question, QuestionKind, Verify, VerifyLab};
 use crate::ledger::State;
+use crate::spec::{Lab, Lesson, Question, QuestionKind, Verify, VerifyLab};
 use crate::verify::{self, Allowance, Answer, BoundVerify, Judgement, QuoteState, ShownText};
 use std::ops::Range;
 

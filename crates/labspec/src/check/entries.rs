@@ -76,7 +76,11 @@ fn claimed(c: &Checked, ledger: &mut Vec<Entry>) {
         let span = c.lesson.lab(&ran.address).map_or(0..0, |lab| lab.span.clone());
         let (state, word, remark) = lab(ran);
         let owner = format!("lab {}", ran.address);
-        ledger.push(Entry { what: ran.title.clone(), remark, ..entry(Subject::Lab, &owner, &span, state, word) });
+        ledger.push(Entry {
+            what: ran.title.clone(),
+            remark,
+            ..entry(Subject::Lab, &owner, &span, state, word)
+        });
     }
     for lab in c.lesson.labs.iter().filter(|entry| entry.lab.is_none()) {
         let owner = format!("lab #{}", lab.number);
@@ -88,7 +92,10 @@ fn claimed(c: &Checked, ledger: &mut Vec<Entry>) {
         for (i, _) in quiz.questions.iter().enumerate().filter(|(_, q)| q.is_none()) {
             let owner = format!("quiz {id}, question {}", i + 1);
             let remark = "it cannot be read".into();
-            ledger.push(Entry { remark, ..entry(Subject::Answer, &owner, &quiz.span, State::Unchecked, "unread") });
+            ledger.push(Entry {
+                remark,
+                ..entry(Subject::Answer, &owner, &quiz.span, State::Unchecked, "unread")
+            });
         }
     }
     for widget in &c.lesson.widgets {

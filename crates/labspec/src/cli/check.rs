@@ -117,7 +117,9 @@ fn look(a: &Arguments, depth: Depth) -> Result<Course, Failure> {
     for (i, (path, named)) in files.iter().enumerate() {
         if interrupted() {
             // What was asked for and not looked at is no silence.
-            refused.extend(files.iter().skip(i).map(|(path, _)| (path.clone(), "interrupted before it was read".into())));
+            refused.extend(
+                files.iter().skip(i).map(|(path, _)| (path.clone(), "interrupted before it was read".into())),
+            );
             break;
         }
         if progress {
@@ -286,7 +288,8 @@ fn overview(course: &Course, with_evidence: bool) -> String {
         let mut told = 0;
         while let Some(entry) = all.get(told) {
             // Claims of the same kind, owner and state that follow each other are told together.
-            let same = |e: &&&Entry| e.subject == entry.subject && e.owner == entry.owner && e.word == entry.word;
+            let same =
+                |e: &&&Entry| e.subject == entry.subject && e.owner == entry.owner && e.word == entry.word;
             let together = all.iter().skip(told).take_while(same).count().max(1);
             let good = matches!(entry.state, State::True(_));
             let n = if good && entry.subject != Subject::Lab { together } else { 1 };

@@ -10,7 +10,7 @@ use super::{MAX_DEPTH, MAX_MISTAKES, MAX_VALUES, say};
 use crate::finding::Finding;
 use crate::lint::rules::json::DUPLICATE_KEY;
 use crate::source::{SourceMap, Text};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
 /// What was read.
@@ -47,7 +47,12 @@ const MAX_TRIED: usize = 128 << 10;
 /// Keeps the repairs that repair: each is made by itself and the text is read again; there must be fewer mistakes
 /// then, and none that was not there before.
 fn try_repairs(text: &str, said: &mut [Finding]) {
-    let before: Vec<String> = said.iter().map(|f| f.message.clone()).collect();
+    // What is told once counts once: two brackets may be missing at one place.
+    let told = |list: &[Finding]| {
+        let all: BTreeSet<_> = list.iter().map(|f| (f.span.start, f.span.end, f.message.clone())).collect();
+        all.into_iter().map(|(.., message)| message).collect::<Vec<String>>()
+    };
+    let before = told(said);
     for (i, finding) in said.iter_mut().enumerate() {
         let Some(fix) = &finding.fix else { continue };
         let mut repaired = text.to_string();
@@ -57,8 +62,12 @@ fn try_repairs(text: &str, said: &mut [Finding]) {
             let below = SourceMap::verbatim(0..repaired.len());
             let mut parser = Parser::new(&repaired, &below);
             let _ = parser.root();
-            let left = parser.finish();
-            if left.len() < before.len() && left.iter().all(|f| before.contains(&f.message)) {
+            let left = told(&parser.finish());
+            // The mistake itself is gone, and not only another one that it hid.
+            let same = |m: &str| m == finding.message;
+            let now = left.iter().filter(|m| same(m)).count();
+            let gone = now < before.iter().filter(|m| same(m)).count();
+            if gone && left.len() < before.len() && left.iter().all(|m| before.contains(m)) {
                 continue;
             }
         }

@@ -225,8 +225,8 @@ fn unknown(label: &str, programs: &Programs) -> RunError {
         [] => "this lab has no controls".to_string(),
         all => format!("the controls are: \"{}\"", printable(&all.join("\", \""))),
     };
-    let hint =
-        crate::json::nearest(label, labels).map_or(String::new(), |l| format!("; did you mean \"{}\"?", printable(l)));
+    let hint = crate::json::nearest(label, labels)
+        .map_or(String::new(), |l| format!("; did you mean \"{}\"?", printable(l)));
     RunError(format!("there is no control \"{}\"{hint} ({known})", printable(label)))
 }
 

@@ -180,8 +180,12 @@ fn run(member: &Member, findings: &mut Vec<Finding>) -> Option<Run> {
 fn breaks(text: &Text, findings: &mut Vec<Finding>) -> bool {
     if text.value != "breaks" {
         findings.push(
-            Finding::new(&WRONG_TYPE, text.span(), format!("a run cannot be expected to be `{}`", read::shorten(&text.value)))
-                .help("write \"expect\": \"breaks\" for a run that the lesson shows breaking, or leave it out"),
+            Finding::new(
+                &WRONG_TYPE,
+                text.span(),
+                format!("a run cannot be expected to be `{}`", read::shorten(&text.value)),
+            )
+            .help("write \"expect\": \"breaks\" for a run that the lesson shows breaking, or leave it out"),
         );
     }
     text.value == "breaks"

@@ -114,7 +114,8 @@ pub(super) fn check(
     question: &Question,
     findings: &mut Vec<Finding>,
 ) -> Option<Answer> {
-    let by_options = (!verify.options.is_empty()).then(|| options(bound, outcomes, verify, question, findings));
+    let by_options =
+        (!verify.options.is_empty()).then(|| options(bound, outcomes, verify, question, findings));
     let by_value = verify.value.as_ref().map(|text| value(bound, outcomes, text, question, findings));
     // An object may hold both only by mistake, which is reported: the worse of the two counts.
     by_options.into_iter().chain(by_value).max_by_key(|a| a.verdict)
@@ -218,10 +219,12 @@ fn options(
         let again = conditions(bound, outcome, verify, &mut Vec::new());
         let turned = match &again {
             Err(reason) => Some((answer, reason.clone())),
-            Ok(now) => now.iter().enumerate().find(|(i, (_, w))| holds.get(*i) != Some(&w.holds)).map(|(i, (_, w))| {
-                let weight = Weight { option: Some(i), holds: w.holds, margin: w.margin };
-                (i, format!("then the condition of {} {}", name(i), weight.words()))
-            }),
+            Ok(now) => now.iter().enumerate().find(|(i, (_, w))| holds.get(*i) != Some(&w.holds)).map(
+                |(i, (_, w))| {
+                    let weight = Weight { option: Some(i), holds: w.holds, margin: w.margin };
+                    (i, format!("then the condition of {} {}", name(i), weight.words()))
+                },
+            ),
         };
         if let Some((i, what)) = turned {
             let now = format!("with the lesson's own numerics this {}", words(i));
@@ -289,10 +292,10 @@ fn value(
             Ok(x) if right(x) => continue,
             Ok(x) => format!("then it is {}, and the tolerance is {}", significant(x), significant(tol)),
         };
-        findings.push(
-            fragile(keyed.span.clone(), how, &what)
-                .related(text.span(), format!("with the lesson's own numerics this is {}", significant(computed))),
-        );
+        findings.push(fragile(keyed.span.clone(), how, &what).related(
+            text.span(),
+            format!("with the lesson's own numerics this is {}", significant(computed)),
+        ));
         return done(Verdict::Fragile, format!("it does not hold {how}"));
     }
     done(held_by(Some(found.evidence)), String::new())

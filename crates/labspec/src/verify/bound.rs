@@ -343,7 +343,10 @@ struct Made {
 fn looks_at_data(program: &Program) -> bool {
     let of = |e: &Effects| {
         let data = |a: &labspec_expr::Access| FieldId(a.field.0 as u16).info().object == Object::Data;
-        e.reads_everything || e.calls.iter().any(|&f| functions::reads(f)) || e.calls_values || e.reads.iter().any(data)
+        e.reads_everything
+            || e.calls.iter().any(|&f| functions::reads(f))
+            || e.calls_values
+            || e.reads.iter().any(data)
     };
     of(program.effects()) || program.aggregates().iter().flat_map(|a| &a.args).any(|p| of(p.effects()))
 }

@@ -39,15 +39,12 @@ pub(super) fn weigh(text: &str, holds: bool, value: &dyn Fn(&str) -> Option<Valu
 }
 
 /// Truth and margin of an expression. Parts that JavaScript would not evaluate are not looked at.
-fn margin(
-    e: &Expr,
-    value: &dyn Fn(&str) -> Option<Value>,
-    nan: &mut Option<String>,
-) -> Option<(bool, f64)> {
+fn margin(e: &Expr, value: &dyn Fn(&str) -> Option<Value>, nan: &mut Option<String>) -> Option<(bool, f64)> {
     match &e.kind {
         ExprKind::Binary { op, left, right } => {
             let (a, b) = (value(&print(left))?, value(&print(right))?);
-            let (Value::Number(_) | Value::Boolean(_), Value::Number(_) | Value::Boolean(_)) = (&a, &b) else {
+            let (Value::Number(_) | Value::Boolean(_), Value::Number(_) | Value::Boolean(_)) = (&a, &b)
+            else {
                 return None;
             };
             let (a, b) = (a.to_number(), b.to_number());

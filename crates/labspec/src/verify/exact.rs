@@ -89,9 +89,13 @@ pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<F
             Ok(run) => runs.push(run),
             Err(reason) => {
                 findings.push(
-                    finding("closed-form-untried", claim.form.span(), format!("the closed form cannot be tried: {reason}"))
-                        .why("nothing says whether the trace follows it")
-                        .help("mend the run, or the expression"),
+                    finding(
+                        "closed-form-untried",
+                        claim.form.span(),
+                        format!("the closed form cannot be tried: {reason}"),
+                    )
+                    .why("nothing says whether the trace follows it")
+                    .help("mend the run, or the expression"),
                 );
                 return unchecked(&reason);
             }
@@ -109,9 +113,15 @@ pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<F
         findings.push(wrong.finding(claim));
     } else if state == State::Unchecked {
         findings.push(
-            finding("closed-form-undecided", claim.form.span(), format!("the runs do not tell whether this is \"{}\": {remark}", claim.trace.value))
-                .why("the difference between trace and formula neither vanishes nor stays as the timestep shrinks")
-                .help("state how far they may be apart: {\"is\": \"…\", \"tol\": 0.001}"),
+            finding(
+                "closed-form-undecided",
+                claim.form.span(),
+                format!("the runs do not tell whether this is \"{}\": {remark}", claim.trace.value),
+            )
+            .why(
+                "the difference between trace and formula neither vanishes nor stays as the timestep shrinks",
+            )
+            .help("state how far they may be apart: {\"is\": \"…\", \"tol\": 0.001}"),
         );
     }
     ClosedForm { trace: claim.trace.value.clone(), span: claim.trace.span(), state, remark }
@@ -157,7 +167,8 @@ type Judged = (State, String, Option<Wrong>);
 /// Whether the trace stays within a tolerance.
 fn within(tol: f64, run: &Differences) -> Judged {
     let (i, worst) = largest(run.times.len(), |i| run.difference(i));
-    let apart = format!("they are at most {} apart, the tolerance is {}", significant(worst), significant(tol));
+    let apart =
+        format!("they are at most {} apart, the tolerance is {}", significant(worst), significant(tol));
     if worst <= tol {
         return (State::True(Evidence::Simulated), apart, None);
     }
@@ -241,7 +252,8 @@ impl Case<'_> {
                 (0..parts).for_each(|_| session.step());
             }
             if step % every == 0 || step == count {
-                let mut value = |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
+                let mut value =
+                    |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
                 let pair = [value(self.trace), value(self.form)];
                 if pair.iter().any(|x| !x.is_finite()) {
                     let time = significant(session.world.data.time);
@@ -252,7 +264,10 @@ impl Case<'_> {
             }
         }
         if let Some(End::Budget { time }) = session.ended() {
-            return Err(format!("the run takes more work than a check may do, and ends at t = {} s", run::time(*time)));
+            return Err(format!(
+                "the run takes more work than a check may do, and ends at t = {} s",
+                run::time(*time)
+            ));
         }
         if let Some(trouble) = session.troubles.first() {
             return Err(trouble.message.clone());

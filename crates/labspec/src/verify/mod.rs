@@ -239,9 +239,13 @@ fn runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>)
         }
         if run.broke.is_none() && expected {
             findings.push(
-                finding("does-not-break", span.clone(), format!("the run `{name}` is expected to break, and does not"))
-                    .why("the lesson shows something else than it says")
-                    .help("remove \"expect\": \"breaks\", or set the run up so that it breaks"),
+                finding(
+                    "does-not-break",
+                    span.clone(),
+                    format!("the run `{name}` is expected to break, and does not"),
+                )
+                .why("the lesson shows something else than it says")
+                .help("remove \"expect\": \"breaks\", or set the run up so that it breaks"),
             );
         }
         all.push(RunReport { name: name.to_string(), span, broke: run.broke.clone(), expected });
@@ -251,7 +255,9 @@ fn runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>)
 
 fn measures(outcomes: &Outcomes) -> Vec<Measured> {
     let halved = outcomes.perturbed[0].as_ref().map(Outcome::list);
-    let at = |i: usize, value: f64| halved.as_ref().and_then(|h| h.get(i)).map(|(_, x)| *x).filter(|x| *x != value);
+    let at = |i: usize, value: f64| {
+        halved.as_ref().and_then(|h| h.get(i)).map(|(_, x)| *x).filter(|x| *x != value)
+    };
     let list = outcomes.nominal.list().into_iter().enumerate();
     list.map(|(i, (name, value))| Measured { name, value, halved: at(i, value) }).collect()
 }

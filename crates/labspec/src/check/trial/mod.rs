@@ -96,7 +96,9 @@ pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<
         let before = share;
         go_on(tour, &mut share, found);
         left -= before - share;
-        found.extend(tour.seen.never(tour.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none())));
+        found.extend(
+            tour.seen.never(tour.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none())),
+        );
     }
     for ((_, lab, tour), mut found) in tours.iter().zip(found) {
         let runs = tour.as_ref().and_then(|t| t.tried.as_ref()).map_or(0, |t| t.runs);
@@ -107,7 +109,15 @@ pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<
         let tried = tour.and_then(|t| t.tried);
         let runs = tried.as_ref().map_or(0, |t| t.runs);
         let mistakes = ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map_or(0, |r| r.mistakes);
-        RanLab { address: address.clone(), title: lab.title().to_string(), runs, ran: runs > 0, tried, mistakes, expected: lab.expect.is_some() }
+        RanLab {
+            address: address.clone(),
+            title: lab.title().to_string(),
+            runs,
+            ran: runs > 0,
+            tried,
+            mistakes,
+            expected: lab.expect.is_some(),
+        }
     };
     tours.into_iter().map(ran).collect()
 }
