@@ -48,7 +48,7 @@ fn refused(run: &Json) -> (String, String) {
     let (checked, text) = checked(run);
     // A label that is none is also found without a run.
     let known = |c: &&str| *c == "run-impossible" || *c == "unknown-control";
-    assert!(codes(&checked).iter().all(|c| known(c)), "{run}: {:?}", checked.findings);
+    assert!(codes(&checked).iter().all(known), "{run}: {:?}", checked.findings);
     assert!(checked.claims[0].judgement.unmade.is_some());
     let finding = checked.findings.iter().find(|f| f.code == "run-impossible").unwrap();
     (text[finding.span.clone()].to_string(), finding.message.clone())

@@ -267,3 +267,44 @@ fn an_unreadable_file_hides_nothing() {
         assert!(done.stdout.contains(part), "{part} is not in\n{}", done.stdout);
     }
 }
+
+/// Claims that would take for ever end within the work of a check, and say so.
+#[test]
+fn claims_are_checked_within_a_budget() {
+    let start = std::time::Instant::now();
+    // 2,000 measures over 2 million steps.
+    let measure: Json = (0..2000)
+        .map(|i| (format!("m{i}"), json!(format!("final(data.qpos[2]) + {i}"))))
+        .collect::<serde_json::Map<_, _>>()
+        .into();
+    let long =
+        json!({"runs": {"run": {"steps": 2_000_000}}, "measure": measure, "options": ["m1 < 2", "m1 >= 2"]});
+    let checked = check_json(&question(0, long));
+    assert_eq!(answer(&checked).verdict, Verdict::Failed);
+    assert!(codes(&checked).contains(&"run-breaks"), "{:?}", codes(&checked));
+    assert!(entries(&checked, Subject::Run)[0].remark.contains("more work than a check may do"));
+    // 400 quotes in a lesson of megabytes, each found where it stands.
+    let says: Vec<Json> =
+        (0..400).map(|i| json!([format!("{i}.25 m"), format!("{i}.25 + 0 * fall")])).collect();
+    let verify = json!({"runs": {"run": {"until": 0.1}}, "measure": {"fall": "2 - final(data.qpos[2])"}, "says": says});
+    let prose: String = (0..400)
+        .map(|i| format!("It is {i}.25 m away. {}\n\n", "Words and no numbers. ".repeat(400)))
+        .collect();
+    let text = format!("{prose}```lab\n{}\n```\n", lab(json!({"verify": verify})));
+    assert!(text.len() > 3 << 20);
+    let checked = check_text("lesson.md", &text);
+    let right =
+        entries(&checked, Subject::Quote).iter().filter(|e| matches!(e.state, State::True(_))).count();
+    assert_eq!(right, 400, "{:?}", codes(&checked));
+    // Two cases, twenty seconds of one core each at most; the machine may be busy.
+    assert!(start.elapsed().as_secs() < 120, "{:?}", start.elapsed());
+}
+
+/// A lab in broken JSON is read on, and still nothing about it is called true: no page can read it.
+#[test]
+fn broken_json_is_never_clean() {
+    let text = format!("```lab\n{}\n```\n", lab(json!({})).to_string().replacen(',', " ", 1));
+    let checked = check_text("lesson.md", &text);
+    assert_eq!(entries(&checked, Subject::Lab)[0].state, State::Unchecked);
+    assert_eq!(outcome(&checked), Outcome::Findings);
+}

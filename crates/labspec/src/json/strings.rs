@@ -160,7 +160,8 @@ pub(crate) fn fix_in(text: &Text, part: Range<usize>, replacement: &str) -> Fix 
 /// double ones already.
 pub(crate) fn fix_in_code(text: &Text, part: Range<usize>, replacement: &str) -> Fix {
     let doubles = text.value.contains('"');
-    let plain = !replacement.contains(['\'', '\\', '`']) && replacement.matches('"').count() % 2 == 0;
+    let plain =
+        !replacement.contains(['\'', '\\', '`']) && replacement.matches('"').count().is_multiple_of(2);
     let replacement = if plain && !doubles { replacement.replace('"', "'") } else { replacement.to_string() };
     fix_in(text, part, &replacement)
 }

@@ -72,9 +72,11 @@ pub(crate) fn missing(name: &Text, models: &ModelFolder) -> Option<Finding> {
         return Some(if stem.is_empty() || stem.contains("..") {
             finding.help("write the file's name without folder and extension")
         } else {
-            finding
-                .help(format!("write the file's name without folder and extension: {}", shorten(stem)))
-                .fix(name.span(), encode(stem))
+            let named = finding
+                .help(format!("write the file's name without folder and extension: {}", shorten(stem)));
+            // What the folder does not have is no repair.
+            let known = models.names().is_none_or(|names| names.iter().any(|n| n == stem));
+            if known { named.fix(name.span(), encode(stem)) } else { named }
         });
     }
     let names = models.names()?;
