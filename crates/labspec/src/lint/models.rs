@@ -58,7 +58,7 @@ impl ModelFolder {
     }
 
     /// The folder `models` beside a lesson or above it, whichever is nearer; unknown when there is none. The root is
-    /// what [`root_of`] finds.
+    /// what the folders around it say: `labspec.toml`, else the repository.
     pub fn near(lesson: &Path) -> ModelFolder {
         let open = |folder: PathBuf| ModelFolder::below(&root_of(&folder, &[lesson_folder(lesson)]), &folder);
         ModelFolder::find_near(lesson).and_then(|folder| open(folder).ok()).unwrap_or_default()
