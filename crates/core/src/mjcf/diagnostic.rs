@@ -275,7 +275,7 @@ impl Report {
         }
         if !self.list.iter().any(|d| d.code == code::LIMIT) {
             let message =
-                format!("{what} would be {numbers} numbers, and a model may have {MAX_NUMBERS} in all");
+                format!("{what} would take {numbers} numbers, a model may hold {MAX_NUMBERS} in all");
             self.error(code::LIMIT, span, message)
                 .why("a short text could ask for more memory than a computer has")
                 .help("ask for fewer here, or elsewhere in the model");

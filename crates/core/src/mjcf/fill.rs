@@ -121,7 +121,7 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     fill_scene::sites(m, &sites, scene);
     let body_names: Vec<String> = list.iter().map(|b| b.name.clone()).collect();
     fill_scene::cameras(m, &members(list, |b| &b.cameras), &body_names);
-    fill_scene::lights(m, &members(list, |b| &b.lights), &body_names);
+    fill_scene::lights(m, &members(list, |b| &b.lights), &body_names, &scene.textures);
     fill_tendon::tendons(m, tendons);
     fill_actuator::actuators(m, actuators);
     fill_constraint::equalities(m, equalities);

@@ -109,14 +109,14 @@ pub(crate) fn cameras(m: &mut Model, cameras: &[(usize, &CameraSpec)], bodies: &
     m.cam_user = cameras.iter().flat_map(|(_, c)| padded(&c.user, m.nuser_cam)).collect();
 }
 
-/// `bodies` are the names of all bodies.
-pub(crate) fn lights(m: &mut Model, lights: &[(usize, &LightSpec)], bodies: &[String]) {
-    let places = Places::of(bodies.iter());
+/// `bodies` and `textures` are the names of all bodies and textures.
+pub(crate) fn lights(m: &mut Model, lights: &[(usize, &LightSpec)], bodies: &[String], textures: &[String]) {
+    let (places, textures) = (Places::of(bodies.iter()), Places::of(textures.iter()));
     m.light_mode = ints(lights, |(_, l)| l.mode);
     m.light_bodyid = ints(lights, |&(b, _)| b as i32);
     m.light_targetbodyid = ints(lights, |(_, l)| places.find(l.target.as_ref()));
     m.light_type = ints(lights, |(_, l)| l.kind);
-    m.light_texid = ints(lights, |_| -1);
+    m.light_texid = ints(lights, |(_, l)| textures.find(l.texture.as_ref()));
     m.light_castshadow = lights.iter().map(|(_, l)| l.castshadow).collect();
     m.light_active = lights.iter().map(|(_, l)| l.active).collect();
     m.light_pos = flat(lights, |(_, l)| l.pos);

@@ -101,6 +101,8 @@ impl<'f> Loader<'f> {
         report: &mut Report,
     ) -> Vec<usize> {
         let Some(element) = list.get(at) else { return Vec::new() };
+        #[cfg(test)]
+        super::seen::note(&super::schema::INCLUDE, "file");
         let span = element.span.clone();
         if !element.children.is_empty() {
             report

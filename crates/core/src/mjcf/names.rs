@@ -188,11 +188,11 @@ fn check_dangling(
         });
     }
     for d in dangling {
-        let message = format!("there is no {} named {}, which this default gives", d.kind, shown(d.name));
+        let message = format!("this default names the {} {}, which does not exist", d.kind, shown(d.name));
         report
             .warning(code::UNKNOWN_NAME, d.attribute.span.clone(), message)
-            .why("nothing takes it now; the first element that does would not load")
-            .help("remove it, or name one that exists");
+            .why("no element uses this default yet; with the first one that does, the model will not load")
+            .help(format!("remove the attribute, or name a {} that exists", d.kind));
     }
 }
 

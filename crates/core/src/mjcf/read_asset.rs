@@ -280,12 +280,13 @@ impl Reader<'_> {
         match made {
             Ok(field) => {
                 if field.nrow < 2 || field.ncol < 2 {
-                    let message =
-                        format!("{} has {} row(s) and {} column(s)", node.shown(), field.nrow, field.ncol);
+                    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+                    let (rows, columns) = (count(field.nrow, "row"), count(field.ncol, "column"));
+                    let message = format!("{} has {rows} and {columns}", node.shown());
                     self.report
                         .warning(code::NO_EFFECT, node.span.clone(), message)
-                        .why("its surface lies between rows and columns: everything falls through it, in MuJoCo, too")
-                        .help("give it two rows and two columns at least, or use a plane");
+                        .why("the surface is stretched between neighbouring rows and columns: without two of each there is none, and everything falls through, in MuJoCo too")
+                        .help("give it at least two rows and two columns, or use a plane");
                 }
                 Some(field)
             }

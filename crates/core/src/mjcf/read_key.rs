@@ -16,7 +16,7 @@ pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) 
         .collect();
     let numbers = 1 + sizes.nq + sizes.nv + sizes.na + sizes.nu + 7 * sizes.nmocap;
     let span = given.first().map_or(0..0, |n| n.span.clone());
-    if !report.take(given.len().max(min).saturating_mul(numbers), span, "what all keyframes hold") {
+    if !report.take(given.len().max(min).saturating_mul(numbers), span, "all keyframes together") {
         return Vec::new();
     }
     let mut list: Vec<KeySpec> = given.into_iter().map(|node| key(node, sizes, report)).collect();

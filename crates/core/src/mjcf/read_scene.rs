@@ -90,11 +90,11 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
     };
     if sensorsize[1] > 0.0 && resolution.iter().any(|&n| n <= 0) {
         let [w, h] = resolution;
-        let message = format!("{} has a `sensorsize`, but its resolution is {w} by {h}", node.shown());
+        let message = format!("{} has a `sensorsize`, but its image has {w} by {h} pixels", node.shown());
         cx.report
             .error(code::VALUE, p.span("resolution").unwrap_or(node.span.clone()), message)
-            .why("the size of a pixel follows from both")
-            .help("write `resolution=\"WIDTH HEIGHT\"`, in pixels");
+            .why("the size of one pixel is the size of the sensor divided by the number of pixels")
+            .help("write the width and height of the image in pixels, such as `resolution=\"640 480\"`, or remove `sensorsize`");
     }
     let [fx, fy] = metres("focal", "focalpixel", [0.01; 2]);
     let [px, py] = metres("principal", "principalpixel", [0.0; 2]);
@@ -154,6 +154,7 @@ pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) ->
         name: name(node),
         mode: p.word("mode").unwrap_or(0),
         target: node.text("target").map(str::to_string),
+        texture: node.text("texture").map(str::to_string),
         kind,
         castshadow: p.word("castshadow") != Some(0),
         active: p.word("active") != Some(0),

@@ -299,7 +299,7 @@ mod tests {
         for (text, expected) in [
             ("<a><b/>> <c/></a>", "<a><b/>  <c/></a>"),
             ("é<a>\n x=\"1\"\n é/></a>", "  <a>\n      \n     </a>"),
-            ("<a><![CDATA[<b/>]]>&no;</a>", "<a>                   </a>"),
+            ("<a><![CDATA[<b/>]]>&no;</a>", "<a>                    </a>"),
             ("<a> \n </a>", "<a> \n </a>"),
             // No text may stand behind the root.
             ("<a/>>", "<a/>>"),

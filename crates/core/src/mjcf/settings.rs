@@ -341,8 +341,8 @@ pub(crate) fn user_width<'l>(
     let span = p.span(size).unwrap_or(0..0);
     if let Some(n) = p.int(size).filter(|&n| n < -1) {
         report
-            .error(code::VALUE, span.clone(), format!("`{size}` of size is {n}"))
-            .help("write how many numbers each may have, or -1 for as many as the longest list");
+            .error(code::VALUE, span.clone(), format!("`{size}` of size is {n}, it must be -1 or more"))
+            .help("write how many user values each element has, or -1 for as many as its longest list needs");
     }
     let given = p.int(size).and_then(|n| usize::try_from(n).ok());
     let (mut longest, mut count, mut longest_at) = (0, 0, 0..0);

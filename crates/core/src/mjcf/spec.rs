@@ -179,6 +179,7 @@ pub(crate) struct LightSpec {
     pub(crate) mode: i32,
     /// Name of the body that it points at.
     pub(crate) target: Option<String>,
+    pub(crate) texture: Option<String>,
     pub(crate) kind: i32,
     pub(crate) castshadow: bool,
     pub(crate) active: bool,

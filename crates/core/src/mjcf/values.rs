@@ -56,7 +56,7 @@ pub(crate) fn parse(kind: Kind, text: &str) -> Result<Value, Problem> {
         Kind::Words(words) => keyword(words, text),
         Kind::Name(_) | Kind::Ref(_) | Kind::Class if text.len() > LONGEST_NAME => Err(Problem::new(
             code::LIMIT,
-            format!("has {} bytes, a name may have {LONGEST_NAME}", text.len()),
+            format!("is too long: {} bytes, a name may have at most {LONGEST_NAME}", text.len()),
         )),
         Kind::Name(_) | Kind::Ref(_) | Kind::Class | Kind::Text => Ok(Value::Text(text.to_string())),
     }

@@ -538,7 +538,8 @@ fn count(node: &Node, report: &mut Report) -> Option<i32> {
 
 /// The kind and name of what `attach` can find.
 fn target(node: &Node) -> Option<(&'static str, String)> {
-    copy::own_name(node).filter(|(kind, _)| matches!(*kind, "body" | "frame"))
+    let kind = ["body", "frame"].into_iter().find(|kind| *kind == node.element.name)?;
+    Some((kind, node.text("name")?.to_string()))
 }
 
 /// An attribute of a frame, at the place of what asked for it.

@@ -190,7 +190,7 @@ fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Res
     if area < MINVAL || !area.is_finite() {
         return Err(Problem::new(
             "",
-            format!("has triangles of {area:e} square metres altogether"),
+            format!("has triangles of {area:.1e} square metres altogether"),
             "nothing so small, or so large, can have a mass",
             "look at `scale`: the mesh is in metres, and no axis may be scaled by zero",
         ));
@@ -208,7 +208,7 @@ fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Res
     if amount < MINVAL || !amount.is_finite() {
         return Err(Problem::new(
             "",
-            format!("encloses {amount:e} cubic metres"),
+            format!("encloses {amount:.1e} cubic metres"),
             "a body without volume has no mass",
             "look at `scale`: the mesh is in metres; for an open or flat surface write `inertia=\"shell\"`",
         ));

@@ -1,6 +1,6 @@
 //! `compiler`, `option`, `size`, `statistic`.
 
-use super::Status::Ignored;
+use super::Status::{Ignored, Only};
 use super::{Element, FLAG, INT, INTS, Kind, MOOT, REAL, TEXT, attributes, not_yet, reals, upto, word};
 use crate::model::integrator;
 
@@ -13,7 +13,7 @@ pub(super) static COMPILER: Element = Element::new(
         TEXT => eulerseq;
         Kind::Words(&[word("false", 0), word("true", 1), word("auto", 2)]) => inertiafromgeom;
         Kind::Ints(2, 2) => inertiagrouprange;
-        Kind::Words(&[word("local", 0), not_yet("global", 1)]) => coordinate;
+        Kind::Words(&[word("local", 0), not_yet("global", 1)]) => coordinate [Only("local")];
         REAL => settotalmass;
         FLAG => alignfree discardvisual fusestatic fitaabb;
         TEXT => assetdir meshdir;

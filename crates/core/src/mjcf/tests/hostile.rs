@@ -158,7 +158,7 @@ fn ranges_of_lengths_cannot_ask_for_time() {
 /// What a short text asks for is counted over the whole model, and the element where it becomes too much is named.
 #[test]
 fn numbers_have_one_budget() {
-    let lists = "<numeric name='n' size='1000000'/>".repeat(1000);
+    let lists: String = (0..1000).map(|i| format!("<numeric name='n{i}' size='1000000'/>")).collect();
     assert_eq!(first_code(&format!("<mujoco><custom>{lists}</custom></mujoco>")), Some(code::COUNT));
     let sites = "<site/>".repeat(2000);
     let each = |size: &str, n: usize| {

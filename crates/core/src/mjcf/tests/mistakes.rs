@@ -131,7 +131,7 @@ mistakes! {
     user_size_negative: before("<size nuser_geom=\"-2\"/>");
     numeric_too_long: before("<custom>\n<numeric name=\"n\" size=\"1000000\"/></custom>");
     camera_without_pixels: world("\n<camera resolution=\"0 5\" sensorsize=\"1 1\"/>");
-    name_too_long: world(&format!("\n<geom name=\"{}\"/>", "n".repeat(1001)));
+    name_too_long: world(&format!("\n<geom size=\"1\" name=\"{}\"/>", "n".repeat(1001)));
     // Numbers
     number_comma: world("<geom size=\"1\" pos=\"0,0,1\"/>");
     number_word: world("<geom size=\"1\" pos=\"0 0 up\"/>");
