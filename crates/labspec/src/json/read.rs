@@ -258,7 +258,10 @@ impl<'n, 'f> Fields<'n, 'f> {
             let finding = Finding::new(
                 &UNKNOWN_KEY,
                 member.key.span(),
-                format!("{} has no key `{}`", self.what, shorten(key)),
+                match key.trim().is_empty() {
+                    true => format!("a key of {} has no name", self.what),
+                    false => format!("{} has no key `{}`", self.what, shorten(key)),
+                },
             );
             // Suggestions for the first ones only: a hostile object can have thousands.
             let known = || self.known.iter().copied().take(if reported < 20 { usize::MAX } else { 0 });

@@ -196,7 +196,10 @@ pub(super) fn too_large(span: Range<usize>) -> Finding {
 }
 
 pub(super) fn number_form(span: Range<usize>, token: &str, right: Option<&str>) -> Finding {
-    let finding = syntax(span.clone(), format!("`{}` is not a number as JSON writes it", shorten(token)));
+    let finding = match token.trim().is_empty() {
+        true => syntax(span.clone(), "a number is missing here"),
+        false => syntax(span.clone(), format!("`{}` is not a number as JSON writes it", shorten(token))),
+    };
     match right {
         Some(right) => finding.help(format!("write {right}")).fix(span, right),
         None => finding.help("digits before and after the point, nothing else: 0.5, -2, 1e-3; a unit has a key of its own, a text has quotes"),
