@@ -308,3 +308,15 @@ fn broken_json_is_never_clean() {
     assert_eq!(entries(&checked, Subject::Lab)[0].state, State::Unchecked);
     assert_eq!(outcome(&checked), Outcome::Findings);
 }
+
+/// A control whose end no run can be made with: the lab was not run in full.
+#[test]
+fn a_control_that_cannot_be_tried_is_no_whole_run() {
+    let slider =
+        json!([{"label": "h", "set": "model.opt.timestep", "min": 1e-9, "max": 0.02, "value": 0.002}]);
+    let checked = check_json(&lab(json!({"controls": slider})));
+    assert!(codes(&checked).contains(&"run-impossible"), "{:?}", codes(&checked));
+    let found = &entries(&checked, Subject::Lab)[0];
+    assert_eq!(found.state, State::Unchecked, "{found:?}");
+    assert!(found.remark.contains("1 run not made"), "{found:?}");
+}

@@ -32,7 +32,7 @@ pub struct Tried {
     pub wanted: f64,
     /// How long the shortest was, s.
     pub covered: f64,
-    /// Runs that were not made, because the budget was spent or the lab breaks as it stands.
+    /// Runs that were not made: they cannot be, the budget was spent, or the lab breaks as it stands.
     pub skipped: usize,
     /// Something broke.
     pub broke: bool,
@@ -178,7 +178,7 @@ fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
         if *left == 0 {
             let skipped = 1 + tour.left.by_ref().count();
             if let Some(tried) = &mut tour.tried {
-                tried.skipped = skipped;
+                tried.skipped += skipped;
             }
             return;
         }
@@ -188,7 +188,12 @@ fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
                 *left = left.saturating_sub(attempt.spent);
                 count(tour, &attempt);
             }
-            Err(e) => findings.push(impossible(trial.place(tour.ready.lab), e)),
+            Err(e) => {
+                findings.push(impossible(trial.place(tour.ready.lab), e));
+                if let Some(tried) = &mut tour.tried {
+                    tried.skipped += 1;
+                }
+            }
         }
     }
 }
