@@ -317,6 +317,11 @@ impl<'a> Parser<'a> {
                     self.extra_comma(first);
                     continue;
                 }
+                Some('"') if self.is_lone_quote() => {
+                    self.say(say::stray_quote(self.at));
+                    self.bump();
+                    continue;
+                }
                 Some(_) => {}
             }
             first = false;
@@ -605,6 +610,17 @@ impl<'a> Parser<'a> {
                 false
             }
         }
+    }
+
+    /// Whether the quote that stands where a key should is the last thing of its line, and a key begins the next.
+    fn is_lone_quote(&self) -> bool {
+        let behind = self.rest().get(1..).unwrap_or("");
+        let line = behind.trim_start_matches([' ', '\t']);
+        let key = line
+            .trim_start()
+            .strip_prefix('"')
+            .map(|k| k.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_'));
+        line.starts_with(['\n', '\r']) && key.is_some_and(|k| k.starts_with('"'))
     }
 
     fn mend(&mut self, bracket: char, by: i64) {

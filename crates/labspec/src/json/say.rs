@@ -128,6 +128,10 @@ pub(super) fn stray_bracket(bracket: char, at: usize) -> Finding {
         .fix(at..at + 1, "")
 }
 
+pub(super) fn stray_quote(at: usize) -> Finding {
+    syntax(at..at + 1, "a `\"` that begins no text").help("delete it").fix(at..at + 1, "")
+}
+
 pub(super) fn other_bracket(mine: char, found: char, at: usize) -> Finding {
     let what = if mine == '}' { "an object" } else { "a list" };
     syntax(at..at + 1, format!("`{found}` where {what} ends"))

@@ -151,6 +151,16 @@ fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
 
 /// Adds a piece of a block: the bytes of the file, or what the Markdown parser made of them (tabs, line ends).
 fn append(text: &str, body: &mut Text, part: &str, range: Range<usize>) {
+    // The parser leaves out the `\r` of a line end: `\n` stands for both, so that no place lies between them.
+    let returned = range.start.checked_sub(1).is_some_and(|at| text.get(at..range.start) == Some("\r"));
+    if let Some(rest) = part.strip_prefix('\n').filter(|_| returned) {
+        body.value.push('\n');
+        body.map.push_whole(1, range.start - 1..range.start + 1);
+        if !rest.is_empty() {
+            append(text, body, rest, range.start + 1..range.end);
+        }
+        return;
+    }
     body.value.push_str(part);
     if text.get(range.clone()) == Some(part) {
         body.map.push_verbatim(range);

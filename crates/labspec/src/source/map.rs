@@ -108,16 +108,18 @@ impl SourceMap {
         self.pieces.get(i)
     }
 
-    /// Whether a derived range stands in one stretch of the origin, with nothing stripped from within it, nor from
-    /// behind it where it ends a line.
+    /// Whether a derived range stands byte for byte in one stretch of the origin, with nothing stripped from within it,
+    /// nor from behind it where it ends a line.
     pub fn is_unbroken(&self, range: Range<usize>) -> bool {
         let first = self.pieces.partition_point(|p| p.derived.end <= range.start);
         let inside = self.pieces.iter().skip(first).take_while(|p| p.derived.start <= range.end);
         let joints = inside.collect::<Vec<_>>();
-        joints.windows(2).all(|pair| match pair {
+        let verbatim = joints.iter().all(|p| p.verbatim || p.derived.start >= range.end);
+        let joined = joints.windows(2).all(|pair| match pair {
             [a, b] => a.origin.end == b.origin.start || (b.derived.start == range.end && range.is_empty()),
             _ => true,
-        })
+        });
+        verbatim && joined
     }
 
     /// The map of this map's derived text to the origin of `below`, where `below` maps this map's origin.
