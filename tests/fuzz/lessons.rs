@@ -179,6 +179,9 @@ fn mutate(random: &mut Random, corpus: &Corpus, text: &mut String) {
         8 => {
             // A line twice, or moved.
             let lines: Vec<&str> = text.split_inclusive('\n').collect();
+            if lines.is_empty() {
+                return;
+            }
             let line = random.pick(&lines).to_string();
             let at = lines.iter().take(random.below(lines.len() + 1)).map(|l| l.len()).sum();
             text.insert_str(at, &line);
@@ -192,6 +195,12 @@ fn mutate(random: &mut Random, corpus: &Corpus, text: &mut String) {
     }
 }
 
+/// Whether two backticks of a message have nothing between them. Three are a fence.
+fn holds_nothing(text: &str) -> bool {
+    let at = |i: usize| text.as_bytes().get(i) == Some(&b'`');
+    text.match_indices("``").any(|(i, _)| !at(i + 2) && !(i > 0 && at(i - 1)))
+}
+
 /// What a check says of a text: the report for people and the one for programs. Every place lies in the file.
 fn said(name: &str, text: &str, models: &ModelFolder, depth: Depth) -> String {
     let mut models = Models::new(models.clone());
@@ -203,6 +212,15 @@ fn said(name: &str, text: &str, models: &ModelFolder, depth: Depth) -> String {
     for finding in checked.findings.iter().filter(|f| f.path == *file.path()) {
         assert!(inside(&finding.span), "{finding:?}");
         assert!(finding.fix.as_ref().is_none_or(|fix| inside(&fix.span)), "{finding:?}");
+        // A name that is empty has no place between backticks.
+        let texts = [finding.message.as_str()]
+            .into_iter()
+            .chain(finding.help.as_deref())
+            .chain(finding.why.as_deref());
+        // (A backtick of the author's own, other than those of fences, may stand beside one of ours.)
+        let rest = |l: &str| l.trim_start_matches(['>', ' ']).trim_start_matches("```").contains('`');
+        let own = text.lines().any(rest) || (name.ends_with("json") && text.contains('`'));
+        texts.for_each(|t| assert!(own || !holds_nothing(t), "{finding:?}"));
         let here = finding.related.iter().filter(|place| place.path == *file.path());
         here.for_each(|place| assert!(inside(&place.span), "{finding:?}"));
     }

@@ -21,7 +21,7 @@ pub(crate) fn ranked<'a>(
     // One edit for short words, more for longer ones.
     let allowed = written.chars().count().div_ceil(3).min(3);
     // A single letter is one edit away from every other one: only its own capital was meant.
-    let most = if written.chars().nth(1).is_none() { 1 } else { 10 * allowed };
+    let most = if written.chars().nth(1).is_none() { 1 } else { 10 * allowed + 1 };
     let scored = candidates.into_iter().filter(|c| c.len() <= LONGEST && *c != written).filter_map(|c| {
         let cost = cost(written, c);
         (cost <= most).then_some((cost, c))
@@ -44,7 +44,9 @@ fn cost(written: &str, candidate: &str) -> usize {
     if sorted == b {
         return 5; // the same parts in another order
     }
-    let edits = 10 * distance(written, candidate);
+    // Letters of another case are hardly a difference.
+    let same_case = 10 * distance(written, candidate);
+    let edits = same_case.min(1 + 10 * distance(&written.to_lowercase(), &candidate.to_lowercase()));
     // `mass` for `body_mass`: the fewer parts are missing, the better.
     let holds = !a.is_empty() && written.len() >= 3 && a.iter().all(|p| b.contains(p));
     if holds { edits.min(8 + b.len()) } else { edits }

@@ -31,7 +31,7 @@ impl<'a> Binder<'a> {
             let index = self.index(&field, index, span)?;
             return Ok(Thing::Value(self.load(&field, index, span)));
         }
-        let thing = self.thing(object);
+        let thing = self.holder(object);
         if let Ok(Thing::Globals) = thing {
             return self.read_named_global(index, span).map(Thing::Value);
         }

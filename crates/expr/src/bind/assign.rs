@@ -1,7 +1,7 @@
 //! Assignments: what may stand on the left, and why not what may not.
 
 use super::access::GlobalName;
-use super::name::{is_language, machinery, view_of};
+use super::name::{Use, is_language, machinery, view_of};
 use super::scope::Meaning;
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp};
@@ -130,7 +130,7 @@ impl<'a> Binder<'a> {
     fn place(&mut self, target: &'a Expr, reads: bool) -> Attempt<Place> {
         match &target.kind {
             ExprKind::Name(name) => self.named_place(name, target.span, reads),
-            ExprKind::Member { object, name, optional: false } => match self.thing(object)? {
+            ExprKind::Member { object, name, optional: false } => match self.holder(object)? {
                 Thing::Globals => self.global_place(&name.text, target.span, reads),
                 Thing::Value(ir) => self.member_place(ir, name, target.span),
                 thing => {
@@ -138,7 +138,7 @@ impl<'a> Binder<'a> {
                     self.place_of(thing, target, reads)
                 }
             },
-            ExprKind::Index { object, index, optional: false } => match self.thing(object) {
+            ExprKind::Index { object, index, optional: false } => match self.holder(object) {
                 Ok(Thing::Globals) => match self.global_name(index)? {
                     GlobalName::Known(name) => self.global_place(&name, target.span, reads),
                     GlobalName::Computed(name) => {
@@ -259,7 +259,7 @@ impl<'a> Binder<'a> {
                 _ => report.why("it means the same everywhere").help("use another name"),
             });
         }
-        let thing = self.root(name, span)?;
+        let thing = self.root(name, span, Use::Value)?;
         let expr = Expr { kind: ExprKind::Name(name.to_owned()), span };
         self.place_of(thing, &expr, reads)
     }

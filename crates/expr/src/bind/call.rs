@@ -1,7 +1,7 @@
 //! Calls: signatures of the host's functions, `Math`, named objects, functions of the text, and aggregates.
 
 use super::access::Chosen;
-use super::name::quoted;
+use super::name::{Use, quoted};
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Expr, ExprKind};
 use crate::code;
@@ -96,22 +96,12 @@ impl<'a> Binder<'a> {
         if self.site.is_some() { args.get(..most).unwrap_or(args) } else { args }
     }
 
-    /// What is called. A name that nothing defines is looked for among functions.
+    /// What is called.
     fn callee(&mut self, callee: &'a Expr) -> Attempt<Thing> {
-        let before = self.diagnostics.len();
-        let thing = self.thing(callee);
-        let ExprKind::Name(_) = &callee.kind else { return thing };
-        for report in self.diagnostics.iter_mut().skip(before) {
-            if report.code == code::UNKNOWN_NAME {
-                report.code = code::UNKNOWN_FUNCTION;
-                report.message = report.message.replace("unknown name", "unknown function");
-                if report.fix.is_none() {
-                    report.help =
-                        Some("to make a function of your own, write `const f = (x) => …` before".into());
-                }
-            }
+        match &callee.kind {
+            ExprKind::Name(name) => self.root(name, callee.span, Use::Callee),
+            _ => self.thing(callee),
         }
-        thing
     }
 
     /// Looks for mistakes in arguments that will not be used.

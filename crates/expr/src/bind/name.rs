@@ -76,11 +76,45 @@ const GLOBALS: &[(&[&str], &str, &str)] = &[
 pub(super) const MACHINERY: [&str; 5] =
     ["constructor", "prototype", "__proto__", "hasOwnProperty", "valueOf"];
 
+/// What is done with a name: what may have been meant by an unknown one depends on it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Use {
+    /// Its value is taken, or it is handed to a function.
+    Value,
+    /// A member or an element of it is.
+    Holder,
+    /// It is called.
+    Callee,
+}
+
+impl Use {
+    /// Whether something of the host can be used like this.
+    fn fits(self, entry: &Entry) -> bool {
+        match (self, entry) {
+            (Use::Callee, Entry::Function(_) | Entry::Collection(_)) => true,
+            (Use::Callee, _) | (Use::Value | Use::Holder, Entry::Function(_)) => false,
+            (Use::Value, Entry::Collection(_)) => false,
+            (Use::Value | Use::Holder, _) => true,
+        }
+    }
+
+    /// Whether a word of the language can.
+    fn fits_word(self, word: &str) -> bool {
+        match word {
+            "Math" | "ctx" => self == Use::Holder,
+            "NaN" | "Infinity" | "undefined" => self == Use::Value,
+            "Object" | "Array" => self == Use::Holder,
+            "Number" | "String" => true,
+            _ => self != Use::Holder,
+        }
+    }
+}
+
 impl<'a> Binder<'a> {
     /// What a part of the source stands for.
     pub(super) fn thing(&mut self, expr: &'a Expr) -> Attempt<Thing> {
         match &expr.kind {
-            ExprKind::Name(name) => self.root(name, expr.span),
+            ExprKind::Name(name) => self.root(name, expr.span, Use::Value),
             ExprKind::Member { object, name, optional } => self.member(object, name, *optional, expr.span),
             ExprKind::Index { object, index, optional } => self.element(object, index, *optional, expr.span),
             ExprKind::Call { callee, args, optional } => self.call(callee, args, *optional, expr.span),
@@ -89,8 +123,16 @@ impl<'a> Binder<'a> {
         }
     }
 
+    /// What stands before a point or an index.
+    pub(super) fn holder(&mut self, object: &'a Expr) -> Attempt<Thing> {
+        match &object.kind {
+            ExprKind::Name(name) => self.root(name, object.span, Use::Holder),
+            _ => self.thing(object),
+        }
+    }
+
     /// A name at the start of an expression.
-    pub(super) fn root(&mut self, name: &str, span: Span) -> Attempt<Thing> {
+    pub(super) fn root(&mut self, name: &str, span: Span, used: Use) -> Attempt<Thing> {
         if let Some(variable) = self.variable(name) {
             let thing = self.read_variable(&variable, span)?;
             self.explain_thing(&thing, name, span);
@@ -115,7 +157,7 @@ impl<'a> Binder<'a> {
                 Ok(thing)
             }
             None => {
-                let report = self.unknown_root(name, span);
+                let report = self.unknown_root(name, span, used);
                 self.refuse(report)
             }
         }
@@ -142,7 +184,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    fn unknown_root(&self, name: &str, span: Span) -> Diagnostic {
+    fn unknown_root(&self, name: &str, span: Span, used: Use) -> Diagnostic {
         if name == "value" {
             return Diagnostic::error(code::NO_VALUE_HERE, span, "there is no `value` here")
                 .why("`value` is what a slider or select gives to its own `set` or `apply`")
@@ -157,42 +199,66 @@ impl<'a> Binder<'a> {
             .why(*why)
             .help(*help);
         }
-        let report = Diagnostic::error(code::UNKNOWN_NAME, span, format!("unknown name `{name}`"));
+        let report = match used {
+            Use::Callee => {
+                Diagnostic::error(code::UNKNOWN_FUNCTION, span, format!("unknown function `{name}`"))
+            }
+            _ => Diagnostic::error(code::UNKNOWN_NAME, span, format!("unknown name `{name}`")),
+        };
         if self.diagnostics.len() > MAX_DIAGNOSTICS {
             return report; // nobody will read it: not worth a search for what was meant
         }
-        match self.meant_by_root(name) {
+        match self.meant_by_root(name, used) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(span, meant),
             None => {
+                let own = match used {
+                    Use::Callee => {
+                        "to make a function of your own, write `const f = (x) => …` before".to_owned()
+                    }
+                    _ => {
+                        format!("to keep a number of your own, write `ctx.{name} = …` or `const {name} = …`")
+                    }
+                };
                 let mut known = self.schema.root_names();
                 known.extend(["ctx".to_owned(), "Math".to_owned()]);
-                report.why(format!("the names here are {}", list(&known))).help(format!(
-                    "to keep a number of your own, write `ctx.{name} = …` or `const {name} = …`"
-                ))
+                report.why(format!("the names here are {}", list(&known))).help(own)
             }
         }
     }
 
     /// What a misspelt name, or one whose object was left out, probably means.
-    fn meant_by_root(&self, name: &str) -> Option<String> {
-        let roots = self.schema.root_names();
-        for object in self.objects() {
-            if self.schema.member(object.1, name).is_some() {
-                return Some(format!("{}.{name}", object.0));
+    fn meant_by_root(&self, name: &str, used: Use) -> Option<String> {
+        let fits = |entry: Option<Entry>| entry.is_some_and(|e| used.fits(&e));
+        for (path, object) in self.objects() {
+            // A choice by name has no members: behind a point something else was probably meant.
+            let entry = self.schema.member(object, name);
+            let entry = entry.filter(|e| used == Use::Callee || !matches!(e, Entry::Collection(_)));
+            if fits(entry) {
+                return Some(format!("{path}.{name}"));
             }
         }
-        if math::function(name).is_some() || math::constant(name).is_some() {
+        let of_math = match used {
+            Use::Callee => math::function(name).is_some(),
+            _ => math::constant(name).is_some(),
+        };
+        if of_math {
             return Some(format!("Math.{name}"));
         }
+        let mut roots = self.schema.root_names();
+        roots.retain(|root| fits(self.schema.root(root)));
         let locals = self.variables.iter().filter(|_| self.site.is_none()).map(|v| v.name.as_str());
-        let known = locals.chain(roots.iter().map(String::as_str)).chain(LANGUAGE);
+        let words = LANGUAGE.into_iter().filter(|word| used.fits_word(word));
+        let known = locals.chain(roots.iter().map(String::as_str)).chain(words);
         if let Some(meant) = closest(name, known) {
             return Some(meant.to_owned());
         }
         if self.globals.slot(name).is_some() {
             return Some(format!("ctx.{name}"));
         }
-        self.meant_elsewhere(name, None).map(|(_, path)| path)
+        // On an object that was not even written, only a name that is nearly the same was meant.
+        let near = if name.len() < 8 { 10 } else { 20 };
+        let elsewhere = self.meant_elsewhere(name, None, &|entry| used.fits(entry));
+        elsewhere.filter(|(cost, _)| *cost <= near).map(|(_, path)| path)
     }
 
     /// The objects that a name leads to, and their objects, each with its path.
@@ -214,13 +280,22 @@ impl<'a> Binder<'a> {
     }
 
     /// The member of any object, except `but`, whose name is nearest to what was written, with its distance.
-    fn meant_elsewhere(&self, name: &str, but: Option<ObjectId>) -> Option<(usize, String)> {
+    fn meant_elsewhere(
+        &self,
+        name: &str,
+        but: Option<ObjectId>,
+        fits: &dyn Fn(&Entry) -> bool,
+    ) -> Option<(usize, String)> {
         let mut best: Option<(usize, String)> = None;
         for (path, id) in self.objects().into_iter().filter(|(_, id)| Some(*id) != but) {
-            let exact = self.schema.member(id, name).map(|_| (0, name.to_owned()));
-            let names = self.schema.member_names(id);
-            let near = ranked(name, names.iter().map(String::as_str)).map(|(cost, n)| (cost, n.to_owned()));
-            let Some((cost, near)) = exact.or(near) else { continue };
+            let fits = |name: &str| self.schema.member(id, name).is_some_and(|entry| fits(&entry));
+            let mut names = self.schema.member_names(id);
+            let exact = fits(name).then(|| (0, name.to_owned()));
+            let near = || {
+                names.retain(|n| fits(n));
+                ranked(name, names.iter().map(String::as_str)).map(|(cost, n)| (cost, n.to_owned()))
+            };
+            let Some((cost, near)) = exact.or_else(near) else { continue };
             if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                 best = Some((cost, format!("{path}.{near}")));
             }
@@ -230,7 +305,7 @@ impl<'a> Binder<'a> {
 
     /// `object.name`, or `object?.name`
     fn member(&mut self, object: &'a Expr, name: &Name, optional: bool, span: Span) -> Attempt<Thing> {
-        let thing = self.thing(object)?;
+        let thing = self.holder(object)?;
         let found = self.member_of(thing, object.span, name, optional, span)?;
         self.explain_thing(&found, &name.text, name.span);
         Ok(found)
@@ -423,7 +498,7 @@ impl<'a> Binder<'a> {
         }
         let names = self.schema.member_names(id);
         let here = ranked(&name.text, names.iter().map(String::as_str));
-        let elsewhere = self.meant_elsewhere(&name.text, Some(id));
+        let elsewhere = self.meant_elsewhere(&name.text, Some(id), &|_| true);
         match (here, elsewhere) {
             // The right name on the wrong object is nearer than another name on this one.
             (here, Some((cost, path))) if here.is_none_or(|(c, _)| cost < c) => {

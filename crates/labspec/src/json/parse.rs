@@ -338,10 +338,13 @@ impl<'a> Parser<'a> {
     }
 
     fn twice(&mut self, key: &Text, earlier: Range<usize>) {
-        let shown = super::read::shorten(&key.value);
+        let shown = match key.value.as_str() {
+            "" => "a key without a name".to_string(),
+            name => format!("`{}`", super::read::shorten(name)),
+        };
         if self.placed.len() < MAX_MISTAKES {
             self.placed.push(
-                Finding::new(&DUPLICATE_KEY, key.span(), format!("`{shown}` is written twice in one object"))
+                Finding::new(&DUPLICATE_KEY, key.span(), format!("{shown} is written twice in one object"))
                     .related(earlier, "the first one, which is ignored")
                     .help("keep one of the two"),
             );

@@ -415,6 +415,11 @@ fn is_flag(text: &str) -> bool {
     matches!(text.trim(), "true" | "false")
 }
 
+/// What an author wrote, in backticks; nothing is named as that.
+pub(crate) fn named(text: &str) -> String {
+    if text.trim().is_empty() { "\"\"".to_string() } else { format!("`{}`", shorten(text)) }
+}
+
 /// A key as it may be shown: a hostile one can be long.
 pub(crate) fn shorten(text: &str) -> String {
     let mut short: String = text.chars().take(60).collect();

@@ -126,7 +126,7 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Control> 
             let finding = Finding::new(
                 &WRONG_TYPE,
                 span.clone(),
-                format!("there is no control of type `{}`", read::shorten(other)),
+                format!("there is no control of type {}", read::named(other)),
             )
             .why("the page knows sliders, selects and buttons; it shows nothing for anything else");
             fields.findings.push(match crate::json::nearest(other, ["slider", "select", "button"]) {

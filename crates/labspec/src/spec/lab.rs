@@ -239,7 +239,7 @@ fn expected(text: &Text, findings: &mut Vec<Finding>) -> Option<Expect> {
     if text.as_str() == "breaks" {
         return Some(Expect::Breaks(text.span()));
     }
-    let what = format!("`expect` cannot be `{}`", read::shorten(text.as_str()));
+    let what = format!("`expect` cannot be {}", read::named(text.as_str()));
     let finding = Finding::new(&WRONG_TYPE, text.span(), what)
         .why("it says what is meant to happen when the lab runs; there is one thing that it can say");
     findings.push(match crate::json::nearest(text.as_str(), ["breaks"]) {

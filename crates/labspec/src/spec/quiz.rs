@@ -165,7 +165,7 @@ fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
             let finding = Finding::new(
                 &WRONG_TYPE,
                 span.clone(),
-                format!("there is no question of kind `{}`", read::shorten(other)),
+                format!("there is no question of kind {}", read::named(other)),
             )
             .why("the page does not know how to ask it, nor how to grade it");
             fields.findings.push(match crate::json::nearest(other, KINDS) {

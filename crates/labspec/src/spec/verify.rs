@@ -131,7 +131,7 @@ fn which(node: &Node, findings: &mut Vec<Finding>) -> Option<VerifyLab> {
             Some(address) => Some(VerifyLab::Reference(text.clone(), address)),
             None => {
                 findings.push(
-                    Finding::new(&WRONG_TYPE, text.span(), format!("`{}` is not a place of a lab", read::shorten(&text.value)))
+                    Finding::new(&WRONG_TYPE, text.span(), format!("{} is not a place of a lab", read::named(&text.value)))
                         .help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object"),
                 );
                 None
@@ -183,7 +183,7 @@ fn breaks(text: &Text, findings: &mut Vec<Finding>) -> bool {
             Finding::new(
                 &WRONG_TYPE,
                 text.span(),
-                format!("a run cannot be expected to be `{}`", read::shorten(&text.value)),
+                format!("a run cannot be expected to be {}", read::named(&text.value)),
             )
             .help("write \"expect\": \"breaks\" for a run that the lesson shows breaking, or leave it out"),
         );

@@ -1,7 +1,7 @@
 //! Ids of quizzes: unique in a lesson, and in a course.
 
 use crate::finding::{Finding, Place, Severity};
-use crate::json::read::shorten;
+use crate::json::read::named;
 use crate::lint::{Example, Rule};
 use crate::source::Text;
 use crate::spec::Lesson;
@@ -64,7 +64,7 @@ pub(in crate::lint) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
 }
 
 fn duplicate(id: &Text) -> Finding {
-    Finding::new(&DUPLICATE_ID, id.span(), format!("another quiz has the id `{}` too", shorten(id.as_str())))
+    Finding::new(&DUPLICATE_ID, id.span(), format!("another quiz has the id {} too", named(id.as_str())))
         .help("give every quiz its own id, such as the number of the lesson and a word")
 }
 

@@ -1,7 +1,10 @@
 //! The model of a lab: exactly one, and it exists.
 
 use crate::finding::{Finding, Severity};
-use crate::json::{encode, nearest, read::shorten};
+use crate::json::{
+    encode, nearest,
+    read::{named, shorten},
+};
 use crate::lint::{Example, ModelFolder, Rule};
 use crate::source::Text;
 use crate::spec::{Lab, Scene};
@@ -68,7 +71,7 @@ pub(crate) fn missing(name: &Text, models: &ModelFolder) -> Option<Finding> {
         let stem = text.rsplit(['/', '\\']).next().unwrap_or("");
         let stem = stem.strip_suffix(".xml").unwrap_or(stem);
         let finding =
-            Finding::new(&MODEL_NAME, name.span(), format!("`{}` is not the name of a model", shorten(text)));
+            Finding::new(&MODEL_NAME, name.span(), format!("{} is not the name of a model", named(text)));
         return Some(if stem.is_empty() || stem.contains("..") {
             finding.help("write the file's name without folder and extension")
         } else {

@@ -2,7 +2,7 @@
 
 use super::control::EMPTY_RANGE;
 use crate::finding::{Finding, Severity};
-use crate::json::read::shorten;
+use crate::json::read::named;
 use crate::lint::{Example, Rule};
 use crate::source::Text;
 use crate::spec::Lab;
@@ -104,7 +104,7 @@ pub(super) fn repeated<'a>(
     for text in texts {
         match first.get(text.as_str()) {
             Some(before) => findings.push(
-                Finding::new(rule, text.span(), format!("two {what} `{}`", shorten(text.as_str())))
+                Finding::new(rule, text.span(), format!("two {what} {}", named(text.as_str())))
                     .related(before.span(), "the first one")
                     .help(help),
             ),

@@ -1,7 +1,7 @@
 //! Numbers that make no sense where they stand.
 
 use crate::finding::{Finding, Severity};
-use crate::json::{Number, nearest, read::shorten};
+use crate::json::{Number, nearest, read::named};
 use crate::lint::{Example, Rule};
 use crate::spec::{ControlKind, Lab, OVERLAYS};
 
@@ -86,11 +86,8 @@ pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
         if OVERLAYS.contains(&name.as_str()) {
             continue;
         }
-        let finding = Finding::new(
-            &UNKNOWN_OVERLAY,
-            name.span(),
-            format!("`{}` cannot be drawn", shorten(name.as_str())),
-        );
+        let finding =
+            Finding::new(&UNKNOWN_OVERLAY, name.span(), format!("{} cannot be drawn", named(name.as_str())));
         findings.push(match nearest(name.as_str(), OVERLAYS) {
             Some(right) => finding.help(format!("did you mean `{right}`?")).fix(name.span(), right),
             None => finding.help(format!("what can be drawn: {}", OVERLAYS.join(", "))),

@@ -2,7 +2,7 @@
 
 use super::ranges::positive;
 use crate::finding::{Finding, Severity};
-use crate::json::{encode, nearest, read::shorten};
+use crate::json::{encode, nearest, read::named};
 use crate::lint::{Example, Rule};
 use crate::source::Text;
 use crate::spec::{ControlKind, Lab, Lesson, QuestionKind, Verify, VerifyLab};
@@ -156,7 +156,7 @@ fn target<'a>(
                 let finding = Finding::new(
                     &UNKNOWN_LAB,
                     text.span(),
-                    format!("there is no lab `{}` in this lesson", shorten(text.as_str())),
+                    format!("there is no lab {} in this lesson", named(text.as_str())),
                 );
                 findings.push(if all.is_empty() {
                     finding.help("write a lab object here, or put a lab into the lesson")
@@ -219,7 +219,7 @@ fn control(label: &Text, lab: &Lab, press: bool, findings: &mut Vec<Finding>) {
     let finding = Finding::new(
         &UNKNOWN_CONTROL,
         label.span(),
-        format!("the lab has no {what} `{}`", shorten(label.as_str())),
+        format!("the lab has no {what} {}", named(label.as_str())),
     );
     findings.push(match nearest(label.as_str(), labels.iter().copied()) {
         Some(right) => finding.help(format!("did you mean `{right}`?")).fix(label.span(), encode(right)),
