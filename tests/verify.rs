@@ -354,3 +354,53 @@ fn a_question_without_claims_is_unverified() {
     let question = r#"    {"q": "Is it heavy?", "options": ["yes", "no"], "answer": 1}"#;
     expect("unverified", Verdict::Unverified, "Drop it.", question);
 }
+
+/// A double pendulum that falls from above: after 20 s no digit of it is left that a start moved by a bit would share.
+fn double_pendulum(quote: &str, until: u32) -> String {
+    let bob = "<geom type='sphere' size='0.03' pos='0 0 -0.3' mass='1' contype='0' conaffinity='0'/>";
+    let inner = format!("<body pos='0 0 -0.3'><joint axis='0 1 0'/>{bob}</body>");
+    let model = format!(
+        "<mujoco><option timestep='0.002'><flag energy='enable'/></option><worldbody><body pos='0 0 1'><joint axis='0 1 0'/>{bob}{inner}</body></worldbody><keyframe><key qpos='2 0.5'/></keyframe></mujoco>"
+    );
+    format!(
+        r##"# Two rods
+
+The error is {quote} in the end.
+
+```lab simlab
+{{"xml": "{model}", "key": 0, "stopAt": {until},
+  "readouts": [{{"label": "energy (J)", "expr": "data.energy[0] + data.energy[1]"}}]}}
+```
+
+```quiz
+{{"id": "chaos", "questions": [{{
+  "q": "Is the energy kept?", "options": ["Yes", "No"], "answer": 1,
+  "verify": {{"lab": "#1", "runs": {{"long": {{"until": {until}}}}}, "measure": {{"angle": "data.qpos[0]"}},
+    "says": [["{quote}", "long.angle"]]}}}}]}}
+```
+"##
+    )
+}
+
+/// Issue 12, line 8: a number that a start moved by 1e-14 changes is never to be written, right or wrong.
+#[test]
+fn digits_of_a_chaotic_motion_are_never_recommended() {
+    let check = |quote: &str, until| check_text("chaos.md", &double_pendulum(quote, until));
+    let computed = |checked: &Checked| checked.claims[0].judgement.quotes[0].computed;
+    let right = computed(&check("-77.25", 20));
+    for quote in [format!("{right:.2}"), format!("{:.2}", right + 10.0)] {
+        let checked = check(&quote, 20);
+        let said = &checked.claims[0].judgement.quotes[0];
+        let found: Vec<&str> = checked.findings.iter().map(|f| f.code).collect();
+        assert!(found.contains(&"quote-chaotic"), "{found:?}");
+        assert_ne!(said.state, QuoteState::Right, "{said:?}");
+        for finding in &checked.findings {
+            let help = finding.help.as_deref().unwrap_or("");
+            assert!(!help.contains(&format!("{right:.2}")) && finding.fix.is_none(), "{finding:?}");
+        }
+    }
+    // The same angle after half a second is anybody's.
+    let short = computed(&check("-77.25", 1));
+    let checked = check(&format!("{short:.2}"), 1);
+    assert_eq!(checked.claims[0].judgement.quotes[0].state, QuoteState::Right, "{:?}", checked.findings);
+}
