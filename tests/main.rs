@@ -15,6 +15,7 @@ mod javascript;
 mod labs;
 mod ledger;
 mod lessons;
+mod loads;
 mod needs;
 mod numbers;
 mod parity;

@@ -198,7 +198,7 @@ fn mutate(random: &mut Random, corpus: &Corpus, text: &mut String) {
 /// Whether two backticks of a message have nothing between them. Three are a fence.
 fn holds_nothing(text: &str) -> bool {
     let at = |i: usize| text.as_bytes().get(i) == Some(&b'`');
-    text.match_indices("``").any(|(i, _)| !at(i + 2) && !(i > 0 && at(i - 1)))
+    text.match_indices("``").any(|(i, _)| !(at(i + 2) || i > 0 && at(i - 1)))
 }
 
 /// What a check says of a text: the report for people and the one for programs. Every place lies in the file.

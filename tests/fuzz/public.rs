@@ -128,6 +128,7 @@ fn call(m: &mut Model, d: &mut Data, saved: &mut Vec<u8>, random: &mut Random) -
 fn random_calls_of_the_engine_do_not_panic() {
     let names = models(&workspace().join("tests/golden/models"));
     let all: Vec<Model> = names.iter().map(|name| model(name)).collect();
+    let one = std::env::var_os("LABSPEC_FUZZ_CASE").is_some();
     tries(CASES, |n| {
         let mut random = Random(n);
         let mut m = random.pick(&all).clone();
@@ -136,6 +137,9 @@ fn random_calls_of_the_engine_do_not_panic() {
         let mut calls = Vec::new();
         for _ in 0..5 + random.below(25) {
             calls.push(call(&mut m, &mut d, &mut saved, &mut random));
+            if one {
+                println!("{}", calls[calls.len() - 1]);
+            }
         }
         calls.join("\n")
     });

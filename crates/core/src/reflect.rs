@@ -444,9 +444,14 @@ pub fn element(m: &Model, d: &Data, field: FieldId, i: usize) -> Option<f64> {
     READERS.get(field.0 as usize)?(m, d, i)
 }
 
-/// Writes a field of the model or the data. Nothing here asks whether writing makes sense: see [`Kind`].
+/// Writes a field of the model or the data. Nothing here asks whether writing makes sense: see [`Kind`]. Computed
+/// integers are addresses and ids that later stages follow: they are fixed.
 pub fn view_mut<'a>(m: &'a mut Model, d: &'a mut Data, field: FieldId) -> ViewMut<'a> {
     let i = field.0 as usize;
+    let info = field.info();
+    if info.elem == Elem::I32 && info.kind == Kind::Derived {
+        return ViewMut::Fixed;
+    }
     if i < OPTION_AT {
         m.cell_mut(ModelId::ALL[i])
     } else if i < STAT_AT {

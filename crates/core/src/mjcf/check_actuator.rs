@@ -247,7 +247,9 @@ impl Check<'_, '_> {
     /// Delay, reflected inertia and damping.
     fn numbers(&mut self, a: &ActuatorSpec) {
         if a.nsample < 0 {
-            self.error("nsample", "keeps a negative number of samples");
+            let message = format!("{} keeps a negative number of samples: none", self.node.shown());
+            let span = self.node.attribute("nsample").map_or(self.node.span.clone(), |a| a.span.clone());
+            self.cx.report.warning(code::NO_EFFECT, span, message).help("remove `nsample`");
         }
         if a.delay > 0.0 && a.nsample <= 0 {
             self.error("delay", "has a delay, but keeps no past controls")

@@ -19,8 +19,9 @@ pub(crate) struct Ids {
     cameras: BTreeMap<String, i32>,
     /// Number of pixels of each camera.
     pixels: Vec<usize>,
-    /// Those whose resolution has a zero.
+    /// Those whose resolution has a zero, and those where it has a negative number.
     blind: Vec<i32>,
+    negative: Vec<i32>,
 }
 
 impl Ids {
@@ -34,6 +35,7 @@ impl Ids {
             cameras: BTreeMap::new(),
             pixels: Vec::new(),
             blind: Vec::new(),
+            negative: Vec::new(),
         };
         let mut sites = 0;
         for (i, body) in bodies.iter().enumerate() {
@@ -56,6 +58,9 @@ impl Ids {
             ids.pixels.push(camera.resolution.iter().map(|&n| n.max(0) as usize).product());
             if camera.resolution.contains(&0) {
                 ids.blind.push(i as i32);
+            }
+            if camera.resolution.iter().any(|&n| n < 0) {
+                ids.negative.push(i as i32);
             }
         }
         for section in ["tendon", "actuator"] {
@@ -106,6 +111,11 @@ impl Ids {
     /// Whether a camera has no pixels to see with.
     pub(crate) fn is_blind(&self, camera: i32) -> bool {
         self.blind.contains(&camera)
+    }
+
+    /// Whether a camera has a negative number of pixels.
+    pub(crate) fn is_negative(&self, camera: i32) -> bool {
+        self.negative.contains(&camera)
     }
 
     /// Type of a geom.

@@ -39,7 +39,19 @@ pub(crate) fn decide(
     let limited = match flag {
         0 => false,
         1 => true,
-        _ if cx.compiler.autolimits => given,
+        _ if cx.compiler.autolimits => {
+            if given && lower >= upper {
+                let message = format!("the {range} of {owner} is {lower} to {upper}, which limits nothing");
+                cx.report
+                    .warning(code::NO_EFFECT, span.clone(), message)
+                    .why("the lower limit must be smaller than the upper; what does not grow is taken for no limit")
+                    .help(match lower > upper {
+                        true => format!("write `{range}=\"{upper} {lower}\"`, or remove it"),
+                        false => format!("write `{range}=\"LOWER UPPER\"`, or remove it"),
+                    });
+            }
+            given && lower < upper
+        }
         _ => {
             if given {
                 let message = format!("{owner} has a {range}, but nothing says that it holds");

@@ -213,12 +213,18 @@ fn build(
         materials: read_scene::materials(&cx),
         textures: read_scene::textures(&tree),
         numerics: read_scene::numerics(&mut cx),
-        texts: read_scene::texts(&tree),
+        texts: read_scene::texts(&tree, cx.report),
         tuples: read_scene::tuples(&mut cx, refs),
     };
     if compiler.discardvisual {
+        for light in bodies.iter().flat_map(|b| &b.lights).filter(|l| l.texture.is_some()) {
+            let message =
+                format!("light `{}` has a texture, and `discardvisual` removes all textures", light.name);
+            cx.report.error(code::CONFLICT, light.span.clone(), message).help("remove the one or the other");
+        }
         (scene.materials, scene.textures) = Default::default();
     }
+    settings::memory(&tree, report);
     assets.hulls(&bodies, &pairs, report);
     classes.check_room(report);
     let sensors = read_sensor::sensors(&tree, refs, &tendons, report);

@@ -35,12 +35,15 @@ pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Rep
     })
 }
 
+/// Whether an attribute gives an orientation.
+pub(crate) fn is_form(name: &str) -> bool {
+    name == "quat" || ALTERNATIVES.contains(&name) || name == "fullinertia"
+}
+
 /// Reports elements that give their orientation more than once.
 pub(crate) fn check_forms(tree: &Tree, report: &mut Report) {
     for node in &tree.nodes {
-        let forms = node.attributes.iter().filter(|a| {
-            a.attr.name == "quat" || ALTERNATIVES.contains(&a.attr.name) || a.attr.name == "fullinertia"
-        });
+        let forms = node.attributes.iter().filter(|a| is_form(a.attr.name));
         let names: Vec<_> = forms.map(|a| (a.attr.name, a.span.clone())).collect();
         // `composite` and `flexcomp` never reach here: what is refused is left out of the tree.
         let [(first, _), (second, span), ..] = names.as_slice() else { continue };

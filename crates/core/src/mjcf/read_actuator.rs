@@ -140,10 +140,18 @@ fn transmission(
     report: &mut Report,
 ) -> Option<TransmissionSpec> {
     let owner = node.shown();
-    let given: Vec<_> = TARGETS.iter().filter(|(name, ..)| node.text(name).is_some()).collect();
-    let (attribute, object, mut kind) = match given.as_slice() {
-        [one] => **one,
-        [] => {
+    let given: Vec<_> = TARGETS.iter().filter(|(name, ..)| node.attribute(name).is_some()).collect();
+    if let [.., (first, ..), (last, ..)] = given.as_slice() {
+        let message = format!("{owner} has both `{first}` and `{last}`: it acts on the latter alone");
+        report
+            .warning(code::NO_EFFECT, node.span.clone(), message)
+            .why("an actuator acts on one thing; of several, MuJoCo takes the last of joint, jointinparent, tendon, cranksite, site, body")
+            .help("remove one of them, or write two actuators");
+    }
+    let named = |name: &str| node.text(name).is_some();
+    let (attribute, object, mut kind) = match given.last().filter(|(name, ..)| named(name)) {
+        Some(one) => **one,
+        None => {
             let possible: Vec<_> = TARGETS
                 .iter()
                 .filter(|(name, ..)| node.element.attribute(name).is_some())
@@ -153,17 +161,6 @@ fn transmission(
                 .error(code::ACTUATOR, node.span.clone(), format!("{owner} acts on nothing"))
                 .why("a force needs something to act on")
                 .help(format!("write one of {} with the name of an object", possible.join(", ")));
-            return None;
-        }
-        [(first, ..), (second, ..), ..] => {
-            report
-                .error(
-                    code::ACTUATOR,
-                    node.span.clone(),
-                    format!("{owner} has both `{first}` and `{second}`"),
-                )
-                .why("an actuator acts on one thing")
-                .help("remove one of them, or write two actuators");
             return None;
         }
     };

@@ -217,7 +217,13 @@ impl Reader<'_> {
             )));
         }
         let made = match (p.text("builtin"), p.text("file")) {
-            (Some(rule), _) => mesh::builtin::make(rule, p.list("params").unwrap_or(&[])),
+            (Some(rule), _) => mesh::builtin::make(rule, p.list("params").unwrap_or(&[])).and_then(|made| {
+                if made.0.normal.is_empty() {
+                    chunks::<3>(p, "normal")?;
+                }
+                texcoords(&chunks(p, "texcoord")?, made.0.vert.len())?;
+                Ok(made)
+            }),
             (_, Some(_)) => {
                 let (path, bytes) = self.file(node, p)?;
                 mesh::decode(&path, p.text("content_type").unwrap_or(""), &bytes).map(|raw| (raw, false))
@@ -267,7 +273,9 @@ impl Reader<'_> {
 
     fn hfield(&mut self, node: &Node) -> Option<HField> {
         let p = Props::own(node);
-        let samples = if p.text("file").is_some() {
+        let samples = if p.has("file") && p.text("file").is_none() {
+            Err(Problem::new("file", "names no file", "", "write the name of a file, or remove `file`"))
+        } else if p.text("file").is_some() {
             let (path, bytes) = self.file(node, &p)?;
             super::hfield::decode(&path, p.text("content_type").unwrap_or(""), &bytes)
         } else {
@@ -312,15 +320,21 @@ fn written(p: &Props) -> Result<Raw, Problem> {
     if !count.is_multiple_of(3) {
         return Err(not_whole("face", count, 3));
     }
-    if !raw.texcoord.is_empty() && raw.texcoord.len() != raw.vert.len() {
-        return Err(Problem::new(
-            "texcoord",
-            format!("has {} texture coordinates for {} vertices", raw.texcoord.len(), raw.vert.len()),
-            "",
-            "write a pair of numbers for each vertex",
-        ));
-    }
+    texcoords(&raw.texcoord, raw.vert.len())?;
     Ok(raw)
+}
+
+/// A pair for each vertex, or none at all.
+fn texcoords(pairs: &[[f64; 2]], vertices: usize) -> Result<(), Problem> {
+    if pairs.is_empty() || pairs.len() == vertices {
+        return Ok(());
+    }
+    Err(Problem::new(
+        "texcoord",
+        format!("has {} texture coordinates for {vertices} vertices", pairs.len()),
+        "",
+        "write a pair of numbers for each vertex",
+    ))
 }
 
 /// Groups of numbers, in single precision as in files.

@@ -96,6 +96,18 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
             .why("the size of one pixel is the size of the sensor divided by the number of pixels")
             .help("write the width and height of the image in pixels, such as `resolution=\"640 480\"`, or remove `sensorsize`");
     }
+    // MuJoCo looks for a focal length or a principal point that is not its default.
+    let lens = ["focal", "focalpixel", "principal", "principalpixel"];
+    let given = lens.iter().find(|name| p.list(name).is_some_and(|list| list.iter().any(|&x| x != 0.0)));
+    if let Some(name) = given
+        && sensorsize.iter().any(|&x| x <= 0.0)
+    {
+        let message = format!("{} has a `{name}`, but no `sensorsize` larger than zero", node.shown());
+        cx.report
+            .error(code::VALUE, p.span(name).unwrap_or(node.span.clone()), message)
+            .why("the field of view follows from both, and MuJoCo refuses one without the other")
+            .help("write the width and height of the sensor in metres, or write `fovy` instead");
+    }
     let [fx, fy] = metres("focal", "focalpixel", [0.01; 2]);
     let [px, py] = metres("principal", "principalpixel", [0.0; 2]);
     let fovy = match sensorsize[1] > 0.0 {
@@ -106,6 +118,12 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
         }
         false => p.real("fovy").unwrap_or(45.0),
     };
+    if sensorsize[1] <= 0.0 && fovy >= 180.0 {
+        let message = format!("`fovy` of {} is {fovy}, it must be less than 180", node.shown());
+        cx.report
+            .error(code::VALUE, p.span("fovy").unwrap_or(node.span.clone()), message)
+            .why("it is an angle in degrees, from the lower to the upper edge of the picture");
+    }
     CameraSpec {
         name: name(node),
         mode: p.word("mode").unwrap_or(0),
@@ -150,11 +168,19 @@ pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) ->
         (Some(kind), _) => kind,
         (None, directional) => directional.unwrap_or(0),
     };
+    if p.list("dir").is_some_and(|dir| dir.iter().all(|&x| x == 0.0)) {
+        let span = p.span("dir").unwrap_or(node.span.clone());
+        cx.report
+            .error(code::VALUE, span, format!("`dir` of {} has no length", node.shown()))
+            .why("it is the direction in which the light shines")
+            .help("write for example `dir=\"0 0 -1\"` for a light from above");
+    }
     LightSpec {
         name: name(node),
         mode: p.word("mode").unwrap_or(0),
         target: node.text("target").map(str::to_string),
         texture: node.text("texture").map(str::to_string),
+        span: p.span("texture").unwrap_or(node.span.clone()),
         kind,
         castshadow: p.word("castshadow") != Some(0),
         active: p.word("active") != Some(0),
@@ -254,10 +280,18 @@ pub(crate) fn numerics(cx: &mut Context) -> Vec<NumericSpec> {
 }
 
 /// All custom texts: name and text.
-pub(crate) fn texts(tree: &Tree) -> Vec<(String, String)> {
+pub(crate) fn texts(tree: &Tree, report: &mut super::diagnostic::Report) -> Vec<(String, String)> {
     let nodes = tree.sections("custom").flat_map(|(at, _)| tree.children(at));
     nodes
         .filter(|(_, node)| node.element.name == "text")
+        .inspect(|(_, node)| {
+            if let Some(data) = node.attribute("data").filter(|_| node.text("data").is_none()) {
+                let message = format!("`data` of {} is empty", node.shown());
+                report
+                    .error(code::VALUE, data.span.clone(), message)
+                    .help("write a text, or remove the element");
+            }
+        })
         .map(|(_, node)| (name(node), node.text("data").unwrap_or("").to_string()))
         .collect()
 }

@@ -42,7 +42,7 @@ pub(crate) fn sensors(
             let Some(number) = KINDS.iter().position(|k| k.name == node.element.name) else { continue };
             let mut cx = Context { node, p: Props::own(node), refs, tendons, report };
             let Some(sensor) = cx.sensor(number, &KINDS[number]) else { continue };
-            let samples = 1 + sensor.timing.nsample as usize;
+            let samples = 1 + sensor.timing.nsample.max(0) as usize;
             values += samples.saturating_mul(1 + sensor.dim as usize);
             if values > MAX_VALUES {
                 report
@@ -119,11 +119,16 @@ impl Context<'_> {
             interval: [period, phase],
         };
         if timing.nsample < 0 {
-            self.error_at("nsample", code::VALUE, format!("`nsample` of {owner} is negative"))
-                .help("it is the number of values that are kept; 0 keeps none");
-            return SensorTiming::default();
+            let span = self.p.span("nsample").unwrap_or(self.node.span.clone());
+            self.report
+                .warning(
+                    code::NO_EFFECT,
+                    span,
+                    format!("`nsample` of {owner} is negative, which keeps no values"),
+                )
+                .help("it is the number of values that are kept: write 0, or remove it");
         }
-        if timing.delay > 0.0 && timing.nsample == 0 {
+        if timing.delay > 0.0 && timing.nsample <= 0 {
             self.error_at("delay", code::CONFLICT, format!("{owner} has a delay but keeps no values"))
                 .why("a delayed value is read from the past ones")
                 .help("write `nsample`: at least the delay divided by the timestep, rounded up");
@@ -153,7 +158,7 @@ impl Context<'_> {
     /// The only one of several attributes that is there: its place in the list, and the id that it names. An error
     /// when there are two.
     fn one_of(&mut self, attributes: &[(&'static str, &'static str)]) -> Option<Option<(usize, i32)>> {
-        let mut given = attributes.iter().enumerate().filter(|(_, (a, _))| self.node.text(a).is_some());
+        let mut given = attributes.iter().enumerate().filter(|(_, (a, _))| self.node.attribute(a).is_some());
         let Some((at, &(attribute, kind))) = given.next() else { return Some(None) };
         if let Some((_, &(other, _))) = given.next() {
             let message = format!("{} has both `{attribute}` and `{other}`", self.node.shown());
@@ -161,6 +166,9 @@ impl Context<'_> {
                 .why("they are two ways to name the same side")
                 .help("keep one of them");
             return None;
+        }
+        if self.node.text(attribute).is_none() {
+            return self.missing(&[attribute]);
         }
         Some(Some((at, self.id(attribute, kind)?)))
     }
@@ -318,6 +326,12 @@ impl Context<'_> {
         match kind.senses {
             Senses::Ray => {
                 let mask = self.data_fields(&RAY_DATA)?;
+                if objects.objtype == Obj::Camera as i32 && self.refs.ids.is_negative(objects.objid) {
+                    let message = format!("the camera of {} has a negative resolution", self.node.shown());
+                    self.error_at("camera", code::SENSOR, message)
+                        .help("write its width and height in pixels");
+                    return None;
+                }
                 let pixels = self.refs.ids.pixels(objects);
                 Some(([mask, 0, 0], self.dim(pixels, data_size(&RAY_DATA, mask))?))
             }

@@ -55,6 +55,13 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Whether it takes numbers, and at least one.
+    pub(crate) fn counts(self) -> bool {
+        matches!(self, Kind::Reals(1.., _) | Kind::Ints(1.., _))
+    }
+}
+
+impl Kind {
     /// The type in words, for documentation and messages.
     pub fn describe(self) -> String {
         let count = |min: usize, max: usize, noun: &str| match (min, max) {

@@ -105,7 +105,10 @@ impl Compiler {
 }
 
 fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
-    let text = p.text("eulerseq").unwrap_or("xyz");
+    let text = match p.has("eulerseq") {
+        true => p.text("eulerseq").unwrap_or(""),
+        false => "xyz",
+    };
     let axes: Vec<_> = text
         .chars()
         .filter_map(|c| Some(("xyz".find(c.to_ascii_lowercase())?, c.is_ascii_uppercase())))
@@ -138,17 +141,29 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     let mut from_zero = |name: &str, default: f64| {
         checked(&p, name, "option", |x| x >= 0.0, "zero or more", report).unwrap_or(default)
     };
-    let (tolerance, ls_tolerance) =
-        (from_zero("tolerance", d.tolerance), from_zero("ls_tolerance", d.ls_tolerance));
-    let (noslip_tolerance, ccd_tolerance) =
-        (from_zero("noslip_tolerance", d.noslip_tolerance), from_zero("ccd_tolerance", d.ccd_tolerance));
-    let sleep_tolerance = from_zero("sleep_tolerance", d.sleep_tolerance);
     let (density, viscosity) = (from_zero("density", 0.0), from_zero("viscosity", 0.0));
+    // Where the real library stops: never, and at once. Both are what zero means.
+    let mut zero = |name: &str, shown: String| {
+        let span = p.span(name).unwrap_or(0..0);
+        let message = format!("`{name}` of option is {shown}, which has the effect of 0");
+        report.warning(code::NO_EFFECT, span, message).help("write 0, or remove it for the default");
+    };
+    let mut tolerance = |name: &str, default: f64| {
+        let x = p.real(name).unwrap_or(default);
+        if x < 0.0 {
+            zero(name, x.to_string());
+        }
+        x
+    };
+    let (ls_tolerance, noslip_tolerance) =
+        (tolerance("ls_tolerance", d.ls_tolerance), tolerance("noslip_tolerance", d.noslip_tolerance));
+    let (ccd_tolerance, sleep_tolerance) =
+        (tolerance("ccd_tolerance", d.ccd_tolerance), tolerance("sleep_tolerance", d.sleep_tolerance));
+    let tolerance = tolerance("tolerance", d.tolerance);
     let mut count = |name: &str, default: i32| {
         let n = p.int(name).unwrap_or(default);
         if n < 0 {
-            let span = p.span(name).unwrap_or(0..0);
-            report.error(code::VALUE, span, format!("`{name}` of option is {n}, it must be zero or more"));
+            zero(name, n.to_string());
         }
         n
     };
@@ -366,6 +381,28 @@ pub(crate) fn user_width<'l>(
         width
     } else {
         0
+    }
+}
+
+/// What `size` says about memory has no effect here, but must be what MuJoCo reads: a number of bytes with K, M, G, T, P or
+/// E; numbers from -1.
+pub(crate) fn memory(tree: &Tree, report: &mut Report) {
+    let p = section(tree, "size");
+    if p.has("memory") {
+        let text = p.text("memory").unwrap_or("").trim();
+        let digits =
+            text.strip_suffix(['K', 'M', 'G', 'T', 'P', 'E', 'k', 'm', 'g', 't', 'p', 'e']).unwrap_or(text);
+        if text != "-1" && (digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit())) {
+            let span = p.span("memory").unwrap_or(0..0);
+            let message = format!("`memory` of size is {}, not a number of bytes", shown(text));
+            report.error(code::VALUE, span, message).help("write a whole number such as `64M`, or remove it");
+        }
+    }
+    for name in ["njmax", "nconmax", "nstack"] {
+        if let Some(n) = p.int(name).filter(|&n| n < -1) {
+            let span = p.span(name).unwrap_or(0..0);
+            report.error(code::VALUE, span, format!("`{name}` of size is {n}, it must be -1 or more"));
+        }
     }
 }
 

@@ -30,6 +30,12 @@ pub(super) fn dcmotor(a: &mut ActuatorSpec, e: &mut Element) {
     (a.gainprm[0], a.gainprm[1]) = (r, k);
 
     let [force, current, slope] = e.p.reals("saturation", [0.0, 0.0, a.dynprm[1]]);
+    if force < 0.0 && current > 0.0 {
+        let owner = e.node.shown();
+        e.error("saturation", format!("`saturation` of {owner} begins with {force}"))
+            .why("it is the largest force, which cannot be negative")
+            .help("write 0 for a limit that follows from the current");
+    }
     let limit = if force > 0.0 { force } else { k * current };
     if limit > 0.0 {
         a.force.flag = 1;

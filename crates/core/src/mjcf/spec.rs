@@ -180,6 +180,8 @@ pub(crate) struct LightSpec {
     /// Name of the body that it points at.
     pub(crate) target: Option<String>,
     pub(crate) texture: Option<String>,
+    /// Bytes of that name.
+    pub(crate) span: Range<usize>,
     pub(crate) kind: i32,
     pub(crate) castshadow: bool,
     pub(crate) active: bool,

@@ -240,6 +240,14 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<
             continue;
         };
         let span = a.value_span.clone();
+        if a.value.trim().is_empty() && attr.kind.counts() && !needs_number(element.name, attr.name) {
+            let message = format!("`{}` of {} is empty, which counts as not given", attr.name, element.name);
+            report.warning(code::NO_EFFECT, span.clone(), message).help("write its numbers, or remove it");
+            if counts_empty(element.name, attr.name) {
+                list.push(Attribute { attr, value: Value::Bad, span });
+            }
+            continue;
+        }
         let value = match (attr.status, values::parse(attr.kind, &a.value)) {
             (Status::Unsupported, _) => {
                 refused.push((attr.name, a.name_span.clone()));
@@ -274,12 +282,54 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<
         };
         list.push(Attribute { attr, value, span });
     }
+    exclusive(&list, element, report);
     for (name, span) in refused.into_iter().filter(|_| !refused_word) {
         report
             .error(code::NOT_SUPPORTED, span, format!("`{name}` of {} is not supported yet", element.name))
             .why("ignoring it would change what the model computes");
     }
     list
+}
+
+/// The few numbers that MuJoCo cannot read from an empty text.
+fn needs_number(element: &str, attribute: &str) -> bool {
+    matches!(
+        (element, attribute),
+        ("size", "njmax" | "nconmax" | "nstack")
+            | ("freejoint", "group")
+            | ("contact", "num")
+            | ("mesh", "maxhullvert")
+    )
+}
+
+/// What is there beside others of which only one may be, though it be empty.
+fn counts_empty(element: &str, attribute: &str) -> bool {
+    attribute == "quat"
+        || (element == "inertial" && super::orientation::is_form(attribute))
+        || matches!((element, attribute), ("connect" | "weld", "anchor" | "relpose"))
+        || EXCLUSIVE.iter().any(|(of, pair)| *of == element && pair.contains(&attribute))
+}
+
+/// Attributes of an element of which one can be given, not both: MuJoCo's schema looks at the element alone, not at its
+/// class. (Those that name what a sensor, a mesh or an equality is about are held where they are read.)
+const EXCLUSIVE: [(&str, [&str; 2]); 4] = [
+    ("camera", ["fovy", "sensorsize"]),
+    ("light", ["directional", "type"]),
+    ("size", ["memory", "njmax"]),
+    ("size", ["memory", "nstack"]),
+];
+
+fn exclusive(list: &[Attribute], element: &Element, report: &mut Report) {
+    let find = |name: &str| list.iter().find(|a| a.attr.name == name);
+    for (_, [first, second]) in EXCLUSIVE.iter().filter(|(of, _)| *of == element.name) {
+        if let (Some(_), Some(other)) = (find(first), find(second)) {
+            let message = format!("{} has both `{first}` and `{second}`", element.name);
+            report
+                .error(code::CONFLICT, other.span.clone(), message)
+                .why("each of them decides the same, and MuJoCo refuses a model that gives both")
+                .help("keep one of them");
+        }
+    }
 }
 
 /// Whether a value is the default; of a list, whether the numbers that are given are.

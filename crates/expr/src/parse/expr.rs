@@ -544,6 +544,9 @@ impl Parser<'_> {
         }
         report = match self.peek() {
             // `a = == b`, `a * * b`: two operators in a row.
+            Tok::Symbol(symbol) if infix(symbol).is_some() && before.is_empty() => {
+                report.help(format!("write the value that stands before `{symbol}`, or remove it"))
+            }
             Tok::Symbol(symbol) if infix(symbol).is_some() => report.help(format!(
                 "remove one of the operators, or write the value between `{before}` and `{symbol}`"
             )),

@@ -1,6 +1,6 @@
 //! `visual` and `asset`: what the scene looks like, and meshes.
 
-use super::{Element, FLAG, INT, INTS, Kind, LIST, LOOK, REAL, TEXT, attributes, reals, upto, word};
+use super::{Element, FLAG, INT, INTS, Kind, LIST, LOOK, REAL, TEXT, attributes, reals, word};
 
 /// A section of `visual` with these attributes.
 const fn look(name: &'static str, attributes: &'static [&'static [super::Attr]]) -> Element {
@@ -78,7 +78,7 @@ static TEXTURE: Element = Element::new(
 /// A material, without its name and class.
 pub(super) const MATERIAL_ATTRS: &[super::Attr] = attributes! {
     Kind::Ref("texture") => texture;
-    upto(2) => texrepeat;
+    reals(2) => texrepeat;
     FLAG => texuniform;
     REAL => emission specular shininess reflectance metallic roughness;
     reals(4) => rgba;
@@ -108,7 +108,7 @@ const TEXTURE_ROLES: &[super::Word] = &[
 
 /// A mesh, without its name, class and data.
 pub(super) const MESH_ATTRS: &[super::Attr] = attributes! {
-    upto(3) => scale;
+    reals(3) => scale;
     INT => maxhullvert;
     Kind::Words(&[word("convex", 0), word("exact", 1), word("legacy", 2), word("shell", 3)]) => inertia;
 };

@@ -1,0 +1,70 @@
+//! What MuJoCo refuses is never called clean, and what it loads loads here: zoo models with one odd attribute, recorded by
+//! `tests/golden/loads.py`.
+
+// A test that cannot read its own inputs has to fail.
+#![allow(clippy::unwrap_used)]
+
+use crate::support::workspace;
+use labspec_core::mjcf;
+use std::collections::BTreeMap;
+
+/// What is refused here and loads there, by the code of the error and a part of its message: physics would be wrong, or
+/// nobody could mean it.
+const STRICTER: [(&str, &str, &str); 16] = [
+    ("mjcf-number", "finite", "a number that is none makes every result none"),
+    (
+        "mjcf-keyframe",
+        "",
+        "the rest of a configuration would be filled with angles in degrees and poses outside their frames",
+    ),
+    (
+        "mjcf-unknown-name",
+        "",
+        "a name that nothing has, of which the library takes no notice: discarded visuals, a target beside another",
+    ),
+    ("mjcf-value", "`timestep` of option", "time would stand still or go back"),
+    ("mjcf-value", "`impratio` of option", "a ratio of impedances"),
+    ("mjcf-value", "`density` of option", "a medium that pushes what moves"),
+    ("mjcf-value", "`viscosity` of option", "a medium that pushes what moves"),
+    ("mjcf-value", "of statistic", "a size"),
+    ("mjcf-value", "of compiler", "a lower bound below zero bounds nothing"),
+    ("mjcf-value", "`eulerseq`", "letters that are no axes, noticed there only where an angle is read"),
+    ("mjcf-actuator", "negative delay", "a control that acts before it is given"),
+    ("mjcf-actuator", "zero or more", "a diameter, gain or limit below zero"),
+    ("mjcf-actuator", "both `kv` and `dampratio`", "two dampings, of which one is dropped without a word"),
+    ("mjcf-actuator", "`dampratio` and a negative `kp`", "the root of a negative number"),
+    ("mjcf-tendon", "`divisor`", "a length divided by zero"),
+    ("mjcf-copy", "", "a copy that would act on what is not copied"),
+];
+
+#[test]
+fn what_mujoco_refuses_is_refused() {
+    let text = std::fs::read_to_string(workspace().join("tests/golden/loads.json")).unwrap();
+    let cases: Vec<(String, usize, usize, String, String)> = serde_json::from_str(&text).unwrap();
+    let mut models: BTreeMap<String, String> = BTreeMap::new();
+    let (mut missed, mut stricter, mut unnamed) = (Vec::new(), 0, Vec::new());
+    for (file, start, end, new, refusal) in &cases {
+        let path = workspace().join("specs/models/zoo").join(file);
+        let model = models.entry(file.clone()).or_insert_with(|| std::fs::read_to_string(path).unwrap());
+        let mut edited = model.clone();
+        edited.replace_range(*start..*end, new);
+        let edit = || format!("{file}:{start} {new}");
+        match mjcf::compile(&edited) {
+            Ok(_) if refusal.is_empty() => {}
+            Ok(_) => missed.push(format!("{}: {refusal}", edit())),
+            Err(_) if !refusal.is_empty() => {}
+            Err(error) => {
+                stricter += 1;
+                let known = |d: &mjcf::MjcfDiagnostic| {
+                    STRICTER.iter().any(|(code, part, _)| *code == d.code && d.message.contains(part))
+                };
+                if let Some(d) = error.iter().find(|d| !known(d)) {
+                    unnamed.push(format!("{}: {} {}", edit(), d.code, d.message));
+                }
+            }
+        }
+    }
+    assert!(cases.len() > 2900 && missed.is_empty(), "loads here:\n{}", missed.join("\n"));
+    assert!(unnamed.is_empty(), "refused here:\n{}", unnamed.join("\n"));
+    assert!(stricter < cases.len() / 25, "{stricter} of {} are refused here alone", cases.len());
+}
