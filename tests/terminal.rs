@@ -208,25 +208,37 @@ fn ctrl_c_prints_what_is_finished() {
         "readouts": [{"label": "time", "expr": "data.time"}]}"#;
     std::fs::write(folder.path().join("slow.json"), lab).unwrap();
     let interrupt = |command: &str| {
-        let script = format!("timeout --signal=INT --kill-after=60 2 $L {command} > out; echo $? > code");
+        let script =
+            format!("timeout --foreground --signal=INT --kill-after=60 2 $L {command} > out; echo $? > code");
         let started = std::time::Instant::now();
         code(folder.path(), &script);
         assert!(started.elapsed().as_secs() < 50, "{command}");
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+        // (`--foreground`: else `timeout` sends the signal twice, which ends the program at once.)
         // `timeout` itself says 124; the program's own code is asked for below.
         read("out")
     };
     let shown = interrupt("run slow.json");
-    assert!(shown.contains("stopped by Ctrl-C") && shown.starts_with("Slow, after"), "{shown}");
+    assert!(shown.contains("stopped by Ctrl-C at t = ") && shown.starts_with("Slow, after"), "{shown}");
+    // A table that is cut short says so.
+    let shown = interrupt("run slow.json --format json");
+    assert!(shown.contains("\"errors\":[\"stopped by Ctrl-C at t = "), "{shown:.300}");
+    // A check is cut short in the middle of a lesson's runs; what was checked before stays.
+    let late: String = (0..60).map(|_| format!("```lab simlab\n{lab}\n```\n\n")).collect();
+    std::fs::write(folder.path().join("late.md"), late).unwrap();
+    let started = std::time::Instant::now();
+    let shown = interrupt("check clean.md late.md");
+    assert!(started.elapsed().as_secs() < 10, "{shown}");
+    assert!(shown.contains("late.md") && shown.contains("interrupted before it was checked"), "{shown}");
     let exit = code(
         folder.path(),
-        "timeout --preserve-status --signal=INT --kill-after=60 2 $L run slow.json --csv some.csv > out",
+        "timeout --foreground --preserve-status --signal=INT --kill-after=60 2 $L run slow.json --csv some.csv > out",
     );
     assert_eq!(exit, Some(130));
     assert!(std::fs::read_to_string(folder.path().join("some.csv")).unwrap().lines().count() > 1);
     let exit = code(
         folder.path(),
-        "timeout --preserve-status --signal=INT --kill-after=60 2 $L bench slow.json --steps 20000000 > out",
+        "timeout --foreground --preserve-status --signal=INT --kill-after=60 2 $L bench slow.json --steps 20000000 > out",
     );
     assert_eq!(exit, Some(130));
 }

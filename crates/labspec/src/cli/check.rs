@@ -151,7 +151,14 @@ fn look(a: &Arguments, depth: Depth) -> Result<Course, Failure> {
         if !named && is_other_json(&lesson) {
             continue;
         }
-        course.checked.push(check::check(lesson, models, depth));
+        let checked = check::check(lesson, models, depth);
+        if interrupted() {
+            // Runs were cut short: half of a check is none.
+            let rest = files.iter().skip(i).map(|(path, _)| path.clone());
+            refused.extend(rest.map(|path| (path, "interrupted before it was checked".into())));
+            break;
+        }
+        course.checked.push(checked);
     }
     if progress {
         complain("\r\x1b[K");

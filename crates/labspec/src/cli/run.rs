@@ -2,7 +2,7 @@
 
 use super::output::{Wanted, look_ahead, write_with};
 use super::stdio::stream;
-use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
+use super::{Failure, ModelOptions, Outcome, print, target, write_file};
 use crate::report::{printable, printable_path};
 use crate::run::{self, Cell, RunOptions, Table, settings, shown};
 use crate::spec::{Lab, Plot};
@@ -126,9 +126,6 @@ fn readouts(lab: &Lab, table: &Table) -> String {
         n => format!("{n} samples"),
     };
     let _ = writeln!(text, "{}, after {} s ({samples})", printable(title), shown(time, 3));
-    if interrupted() {
-        let _ = writeln!(text, "stopped by Ctrl-C before its end");
-    }
     let digits = |name: &str| {
         let label = name.strip_prefix("readout/")?;
         lab.readouts.iter().find(|r| r.label.value == label).map(|r| r.digits())

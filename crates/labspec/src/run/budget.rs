@@ -29,4 +29,6 @@ pub enum End {
         /// Simulated time of the last complete step, s.
         time: f64,
     },
+    /// Somebody pressed Ctrl-C. What a check says of such a run is not used.
+    Interrupted,
 }

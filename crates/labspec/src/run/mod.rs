@@ -15,7 +15,6 @@ pub use settings::{presses, presses_within, set_controls};
 pub use table::{Cell, Table, shown};
 
 use crate::bind::Programs;
-use crate::interrupt;
 use crate::spec::Lab;
 use labspec_core::Model;
 use labspec_expr::Value;
@@ -136,8 +135,7 @@ pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) 
         if session.ended().is_some() {
             break;
         }
-        let stopped = interrupt::requested();
-        if i % every == 0 || i == steps || stopped {
+        if i % every == 0 || i == steps {
             samples.take(&mut session);
             if samples.text() > MAX_TEXT {
                 return Err(RunError(format!(
@@ -145,9 +143,6 @@ pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) 
                     MAX_TEXT >> 20
                 )));
             }
-        }
-        if stopped {
-            break;
         }
     }
     let mut table = Table::new(timestep, programs.probes.iter().map(|p| p.name.clone()));

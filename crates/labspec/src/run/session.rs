@@ -3,6 +3,7 @@
 use super::budget::{Budget, End};
 use super::table::Cell;
 use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
+use crate::interrupt;
 use crate::source::Text;
 use labspec_core::growth::{self, Growth, Watch};
 use labspec_core::{self as core, Data, Demand, Model, Plan, Warning, WarningStat};
@@ -229,6 +230,10 @@ impl<'p> Session<'p> {
         }
         core::step(model, data);
         if !self.settle(time) {
+            return;
+        }
+        if interrupt::requested() {
+            self.end = Some(End::Interrupted);
             return;
         }
         let World { model, data, .. } = &self.world;

@@ -151,10 +151,15 @@ impl Table {
         self.warnings = raised.map(|(w, s)| (w.name(), s.number)).collect();
         self.breakdown = Breakdown::of(session);
         self.errors = session.troubles.iter().map(|t| format!("{}: {}", t.text.value, t.message)).collect();
-        if let Some(End::Budget { time }) = session.ended() {
-            self.errors.push(format!(
+        match session.ended() {
+            Some(End::Budget { time }) => self.errors.push(format!(
                 "the run was stopped at t = {time} s: it does more work than a run may; simplify the scene or its programs"
-            ));
+            )),
+            Some(End::Interrupted) => {
+                let time = super::time(session.world.data.time);
+                self.errors.push(format!("stopped by Ctrl-C at t = {time} s, before its end"));
+            }
+            Some(End::Threw) | None => {}
         }
     }
 

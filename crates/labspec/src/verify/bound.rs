@@ -309,6 +309,7 @@ impl<'a> BoundVerify<'a> {
             (None, Some(t)) => Some(format!("{}, at t = {} s", t.message, t.time)),
             (None, None) => session.ended().map(|end| match end {
                 End::Threw => "an error froze it".to_string(),
+                End::Interrupted => "it was interrupted".to_string(),
                 End::Budget { time } => {
                     format!("the runs of this lesson take more work than a check may do, and this one ends at t = {} s", run::time(*time))
                 }

@@ -76,7 +76,7 @@ pub(super) fn make(
     let ended = match session.ended() {
         None => None,
         Some(End::Threw) => Some(Ended::Threw),
-        Some(End::Budget { .. }) => Some(Ended::Spent),
+        Some(End::Budget { .. } | End::Interrupted) => Some(Ended::Spent),
     };
     let covered = if made == steps { wanted } else { made as f64 * timestep };
     let before = findings.len();
