@@ -215,7 +215,8 @@ fn quotes(prose: &str, says: &str) -> (usize, Vec<&'static str>) {
 #[test]
 fn a_changed_number_in_prose_is_not_verified_by_what_no_reader_sees() {
     let prose = "It touches after 0.443 s.\n\n```python\nassert touch == \"0.442 s\"\n```\n\n<!-- 0.442 s -->\n\n\
-                 <img src=\"a.png\" alt=\"0.442 s\">\n\n```json\n{\"0.442 s\": true}\n```";
+                 <img src=\"a.png\" alt=\"0.442 s\">\n\nNot <span style=\"display: none\">0.442 s</span> here.\n\n\
+                 <div hidden>\n\n0.442 s\n\n</div>\n\n```json\n{\"0.442 s\": true}\n```";
     let text = lesson(prose, &numeric("0.44", "0.005", "touch", r#"["0.442 s", "seen"]"#))
         .replace("\"expr\": \"data.qpos[2]\"", "\"expr\": \"'0.442 s' ? data.qpos[2] : 0\"");
     let checked = check_text("fall.md", &text);

@@ -28,7 +28,15 @@ pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {
     }
     let text = lesson.file.text();
     let blocks = markdown::scan(&lesson.file).blocks;
-    let mut reader = Reader { text, blocks: &blocks, pieces: Vec::new(), open: empty(), html: false };
+    let mut reader = Reader {
+        text,
+        blocks: &blocks,
+        pieces: Vec::new(),
+        open: empty(),
+        html: false,
+        hidden: html::Hidden::default(),
+        inline: false,
+    };
     let (mut from, mut read) = (0, text.len());
     while let Some(resume) = reader.pass(from).filter(|&at| at > from && read < MAX_REREAD) {
         from = resume;
@@ -48,6 +56,9 @@ struct Reader<'t> {
     /// The piece that is being read.
     open: Text,
     html: bool,
+    hidden: html::Hidden,
+    /// What is hidden began within the paragraph that is being read.
+    inline: bool,
 }
 
 impl Reader<'_> {
@@ -55,6 +66,7 @@ impl Reader<'_> {
     fn pass(&mut self, from: usize) -> Option<usize> {
         // In a fence: whether its text is shown. In what stands before the lesson (its metadata): not.
         let mut fence: Option<bool> = None;
+        self.hidden.end();
         for (event, range) in Parser::new_ext(self.text.get(from..)?, OPTIONS).into_offset_iter() {
             let range = range.start + from..range.end + from;
             match event {
@@ -77,10 +89,26 @@ impl Reader<'_> {
                 }
                 Event::Start(ref tag) if is_inline(tag) => {}
                 Event::End(ref tag) if is_inline_end(tag) => {}
-                Event::Start(_) | Event::End(_) | Event::Rule => self.close(),
+                Event::Start(_) | Event::End(_) | Event::Rule => {
+                    if std::mem::take(&mut self.inline) {
+                        self.hidden.end();
+                    }
+                    self.close();
+                }
                 _ if fence == Some(false) || self.is_taken(&range) => {}
+                Event::Html(part) => {
+                    for shown in self.hidden.shown(&part) {
+                        let bytes = range.start + shown.start..range.start + shown.end;
+                        match self.text.get(range.clone()) == Some(&part) {
+                            true => self.add(part.get(shown).unwrap_or(""), bytes),
+                            false => self.add(part.get(shown).unwrap_or(""), range.clone()),
+                        }
+                    }
+                }
+                Event::InlineHtml(ref tag) if self.hidden.tag(tag) => self.inline = true,
+                _ if self.hidden.is_on() => {}
                 Event::Text(part) if fence == Some(true) => self.lines(&part, range),
-                Event::Text(part) | Event::Html(part) => self.add(&part, range),
+                Event::Text(part) => self.add(&part, range),
                 Event::Code(part) | Event::InlineMath(part) | Event::DisplayMath(part) => {
                     self.inside(&part, range)
                 }
