@@ -1,7 +1,10 @@
-//! Line search: the exact minimum of the cost along a direction.
+//! Line search: the minimum of the cost along a direction.
 //!
-//! Along a line the cost is convex and piecewise quadratic, so Newton steps on its derivative, kept inside
-//! a bracket, end in a few evaluations.
+//! Along a line the cost is convex, and quadratic between the places where a row changes its state: its slope is a rising
+//! line with kinks (bent a little where a contact slides on an elliptic cone). The minimum is the one zero of that line.
+//! Newton's method finds it in one step from any place on the same straight piece; a bracket, which every evaluation
+//! narrows, keeps it from walking to and fro between two pieces (Nocedal, Wright: Numerical Optimization, section 3.5, on
+//! convex functions of one variable).
 
 /// Cost along the line, relative to its start: value, first and second derivative.
 #[derive(Clone, Copy, Debug)]
@@ -13,82 +16,77 @@ pub(super) struct Point {
 }
 
 impl Point {
-    /// Where Newton's method goes from here.
+    /// Where the tangent of the slope is zero.
     fn newton(&self) -> f64 {
         // M is positive definite, but a search direction may be so short that its square underflows.
         self.alpha - self.slope / self.curvature.max(f64::MIN_POSITIVE)
     }
 }
 
-/// One side of the minimum, and where Newton's method goes from there.
-struct End {
-    at: Point,
-    next: Point,
+/// The places nearest to the minimum on either side of it: the cost falls on the way to the one and rises from the other
+/// on.
+#[derive(Default)]
+struct Bracket {
+    falls: Option<Point>,
+    rises: Option<Point>,
 }
 
-impl End {
-    /// Moves to the nearest of the candidates on the same side; `false` when there is none nearer.
-    fn tighten(&mut self, candidates: &[Point; 3], eval: &mut impl FnMut(f64) -> Point) -> bool {
-        let before = self.at.slope;
-        for c in candidates {
-            let nearer = self.at.slope.abs() > c.slope.abs() && c.slope != 0.0;
-            if nearer && (c.slope < 0.0) == (before < 0.0) && before != 0.0 {
-                self.at = *c;
-            }
+impl Bracket {
+    fn narrow(&mut self, p: Point) {
+        let end = if p.slope < 0.0 { &mut self.falls } else { &mut self.rises };
+        *end = Some(p);
+    }
+
+    /// Where to look next after `last`, and whether it is inside; `None` when rounding leaves no place between the ends.
+    fn next(&self, last: &Point, halve: bool) -> Option<f64> {
+        let tangent = last.newton();
+        let (Some(low), Some(high)) = (&self.falls, &self.rises) else { return Some(tangent) };
+        let inside = |x: &f64| low.alpha < *x && *x < high.alpha;
+        // The other end's tangent, which is exact when the minimum is on its piece; the chord of both.
+        let other = if last.slope < 0.0 { high.newton() } else { low.newton() };
+        let chord = low.alpha - low.slope * (high.alpha - low.alpha) / (high.slope - low.slope);
+        let middle = 0.5 * (low.alpha + high.alpha);
+        let places = if halve { [middle; 3] } else { [tangent, other, chord] };
+        places.into_iter().find(inside).or(Some(middle).filter(inside))
+    }
+
+    fn width(&self) -> f64 {
+        match (&self.falls, &self.rises) {
+            (Some(low), Some(high)) => high.alpha - low.alpha,
+            _ => f64::INFINITY,
         }
-        let moved = self.at.slope != before;
-        if moved {
-            self.next = eval(self.at.newton());
-        }
-        moved
+    }
+
+    /// The end where the cost is lower.
+    fn lower(&self) -> Option<Point> {
+        let ends = self.falls.into_iter().chain(self.rises);
+        ends.min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 }
 
-/// The step that minimizes `eval` to |slope| < `gtol`, in about `budget` evaluations: the search ends where it would
-/// begin another round. 0 when no step lowers the cost.
+/// The step that minimizes `eval` to |slope| < `gtol`, in at most `budget` evaluations. 0 when no step lowers the cost.
 pub(super) fn minimize(gtol: f64, budget: usize, mut eval: impl FnMut(f64) -> Point) -> f64 {
     let start = eval(0.0);
-    let mut p = eval(start.newton());
-    if p.slope.abs() < gtol {
-        return p.alpha;
-    }
-
-    // One-sided: Newton steps in the direction of descent until the slope changes sign.
-    let direction = if p.slope < 0.0 { 1.0 } else { -1.0 };
-    let mut behind = start;
-    let mut used = 2;
-    while p.slope * direction <= -gtol && used < budget {
-        behind = p;
-        p = eval(p.newton());
-        used += 1;
-        if p.slope.abs() < gtol {
-            return p.alpha;
+    let mut bracket = Bracket::default();
+    let (mut last, mut halve) = (start, false);
+    for _ in 1..budget.max(2) {
+        bracket.narrow(last);
+        let Some(alpha) = bracket.next(&last, halve) else { break };
+        let width = bracket.width();
+        last = eval(alpha);
+        if last.slope.abs() < gtol {
+            return last.alpha;
         }
+        // A step that leaves more than half of the bracket is followed by one that halves it.
+        let left = match (last.slope < 0.0, &bracket.falls, &bracket.rises) {
+            (true, _, Some(high)) => high.alpha - last.alpha,
+            (false, Some(low), _) => last.alpha - low.alpha,
+            _ => f64::INFINITY,
+        };
+        halve = !halve && left > 0.5 * width && width.is_finite();
     }
-    if used >= budget {
-        return p.alpha;
-    }
-
-    // Bracketed: slopes of opposite sign at both ends. The one behind has been where its Newton step leads.
-    let mut ends = [End { at: p, next: eval(p.newton()) }, End { at: behind, next: p }];
-    used += 1;
-    while used < budget {
-        let middle = eval(0.5 * (ends[0].at.alpha + ends[1].at.alpha));
-        used += 1;
-        let candidates = [ends[0].next, ends[1].next, middle];
-        let flat = candidates.iter().filter(|c| c.slope.abs() < gtol);
-        if let Some(best) = flat.min_by(|a, b| a.cost.total_cmp(&b.cost)) {
-            return best.alpha;
-        }
-        let moved = ends.each_mut().map(|end| usize::from(end.tighten(&candidates, &mut eval)));
-        used += moved[0] + moved[1];
-        if moved == [0, 0] {
-            // Rounding keeps the slope above the tolerance.
-            return middle.alpha;
-        }
-    }
-    let best = if ends[0].at.cost <= ends[1].at.cost { ends[0].at } else { ends[1].at };
-    if best.cost < start.cost { best.alpha } else { 0.0 }
+    bracket.narrow(last);
+    bracket.lower().filter(|p| p.cost < start.cost).map_or(0.0, |p| p.alpha)
 }
 
 #[cfg(test)]

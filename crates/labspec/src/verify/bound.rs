@@ -166,7 +166,10 @@ impl<'a> BoundVerify<'a> {
             let run = outcome.runs.get(place)?;
             let (_, expected) = self.run_place(place);
             let excused = expected || used.warnings.contains(&place);
-            run.broke.as_ref().filter(|_| !excused).map(|how| format!("the run `{}` breaks: {how}", run.name))
+            run.broke
+                .as_ref()
+                .filter(|_| !excused)
+                .map(|how| format!("the run {} breaks: {how}", crate::json::read::named(&run.name)))
         });
         let measured = |name: &String| self.measures.iter().find(|(n, _)| n == name).map(|(_, m)| &m.program);
         let simulated = !used.warnings.is_empty()
@@ -244,7 +247,7 @@ impl<'a> BoundVerify<'a> {
             findings.push(finding(
                 "run-impossible",
                 place,
-                format!("the run `{}` cannot be made: {e}", run.name),
+                format!("the run {} cannot be made: {e}", crate::json::read::named(&run.name)),
             ));
         };
         let stated = self.states_timestep(run);
@@ -301,7 +304,12 @@ impl<'a> BoundVerify<'a> {
             findings.push(finding(
                 t.code,
                 span,
-                format!("{} (in the run `{}`, at t = {} s)", t.message, run.name, t.time),
+                format!(
+                    "{} (in the run {}, at t = {} s)",
+                    t.message,
+                    crate::json::read::named(&run.name),
+                    t.time
+                ),
             ));
         }
         let broke = match (Breakdown::of(&session), session.troubles.first()) {

@@ -139,7 +139,7 @@ impl Schema for OutcomeNames<'_> {
 
     fn describe(&self, object: ObjectId) -> String {
         match self.run(object) {
-            Some((_, run)) => format!("the run `{}`", run.name),
+            Some((_, run)) => format!("the run {}", crate::json::read::named(&run.name)),
             None => self.model.describe(object),
         }
     }

@@ -44,6 +44,8 @@ fn check(name: &str, xml: &str, recorded: &str) {
         let tolerance = match field {
             // MuJoCo keeps colours in single precision.
             name if name.ends_with("_rgba") => 1e-7,
+            // The library finds the point where a tendon touches a ring from inside to 1e-6 of its own equation.
+            "tendon_invweight0" if xml.contains("sidesite") => 1e-7 * scale,
             _ => 1e-11 * scale,
         };
         let same = got.len() == want.len() && got.iter().zip(&want).all(|(a, b)| (a - b).abs() <= tolerance);

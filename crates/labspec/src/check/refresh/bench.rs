@@ -130,7 +130,10 @@ impl<'a> Bench<'a> {
         let press = run.press.iter().filter_map(|(label, time)| {
             Some(((time.value / timestep).ceil().max(0.0) as usize, Move::Press(index(label)?)))
         });
-        Trial { moves: set.chain(press).collect(), said: format!("in the run `{}`", run.name.value) }
+        Trial {
+            moves: set.chain(press).collect(),
+            said: format!("in the run {}", crate::json::read::named(&run.name.value)),
+        }
     }
 
     /// Makes a run, as it is or amended, sampled after every step.

@@ -211,7 +211,10 @@ pub(in crate::lint) fn check(lab: &Lab, findings: &mut Vec<Finding>) {
                 Finding::new(
                     &APPLY_UNUSED,
                     apply.span(),
-                    format!("`{}` never does this: it also has `set`", control.label.as_str()),
+                    format!(
+                        "{} never does this: it also has `set`",
+                        crate::json::read::named(control.label.as_str())
+                    ),
                 )
                 .related(set.span(), "what it does instead")
                 .help(format!(
@@ -226,7 +229,7 @@ pub(in crate::lint) fn check(lab: &Lab, findings: &mut Vec<Finding>) {
             && action.param.is_none()
         {
             findings.push(
-                Finding::new(&NO_EFFECT, control.label.span(), format!("`{}` changes nothing", control.label.as_str()))
+                Finding::new(&NO_EFFECT, control.label.span(), format!("{} changes nothing", crate::json::read::named(control.label.as_str())))
                     .help("add \"set\": the field that gets the value, \"apply\": statements that use `value`, or \"param\": a name read as ctx.NAME"),
             );
         }
