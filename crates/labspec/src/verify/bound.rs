@@ -247,7 +247,7 @@ impl<'a> BoundVerify<'a> {
             findings.push(finding(
                 "run-impossible",
                 place,
-                format!("the run {} cannot be made: {e}", crate::json::read::named(&run.name)),
+                format!("the run {} cannot be made: {e}", crate::json::read::named(run.name)),
             ));
         };
         let stated = self.states_timestep(run);
@@ -307,7 +307,7 @@ impl<'a> BoundVerify<'a> {
                 format!(
                     "{} (in the run {}, at t = {} s)",
                     t.message,
-                    crate::json::read::named(&run.name),
+                    crate::json::read::named(run.name),
                     t.time
                 ),
             ));

@@ -232,7 +232,7 @@ fn runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>)
         let [name, broke] = [run.name.as_str(), run.broke.as_deref().unwrap_or("")];
         if run.broke.is_some() && !expected {
             findings.push(
-                finding("run-breaks", span.clone(), format!("the run {} breaks: {broke}", crate::json::read::named(&name)))
+                finding("run-breaks", span.clone(), format!("the run {} breaks: {broke}", crate::json::read::named(name)))
                     .why("what it measures is evidence of nothing")
                     .help("mend the run; if the lesson is about this, write \"expect\": \"breaks\" in the run, or a condition that reads its `warnings`"),
             );
@@ -242,7 +242,7 @@ fn runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>)
                 finding(
                     "does-not-break",
                     span.clone(),
-                    format!("the run {} is expected to break, and does not", crate::json::read::named(&name)),
+                    format!("the run {} is expected to break, and does not", crate::json::read::named(name)),
                 )
                 .why("the lesson shows something else than it says")
                 .help("remove \"expect\": \"breaks\", or set the run up so that it breaks"),
