@@ -3,8 +3,8 @@
 //! Along a line the cost is convex, and quadratic between the places where a row changes its state: its slope is a rising
 //! line with kinks (bent a little where a contact slides on an elliptic cone). The minimum is the one zero of that line.
 //! Newton's method finds it in one step from any place on the same straight piece; a bracket, which every evaluation
-//! narrows, keeps it from walking to and fro between two pieces (Nocedal, Wright: Numerical Optimization, section 3.5, on
-//! convex functions of one variable).
+//! narrows, keeps it from walking to and fro between two pieces (safeguarded steps: Nocedal, Wright, Numerical
+//! Optimization, section 3.5).
 
 /// Cost along the line, relative to its start: value, first and second derivative.
 #[derive(Clone, Copy, Debug)]
@@ -64,14 +64,17 @@ impl Bracket {
     }
 }
 
-/// The step that minimizes `eval` to |slope| < `gtol`, in at most `budget` evaluations. 0 when no step lowers the cost.
+/// The step that minimizes `eval` to |slope| < `gtol`, in at most `budget` evaluations, two at
+/// least. 0 when no step lowers the cost.
 pub(super) fn minimize(gtol: f64, budget: usize, mut eval: impl FnMut(f64) -> Point) -> f64 {
     let start = eval(0.0);
     let mut bracket = Bracket::default();
     let (mut last, mut halve) = (start, false);
     for _ in 1..budget.max(2) {
         bracket.narrow(last);
-        let Some(alpha) = bracket.next(&last, halve) else { break };
+        // A slope that is no number leads nowhere, nor does a step that rounding takes away.
+        let next = bracket.next(&last, halve).filter(|alpha| alpha.is_finite() && *alpha != last.alpha);
+        let Some(alpha) = next else { break };
         let width = bracket.width();
         last = eval(alpha);
         if last.slope.abs() < gtol {
@@ -93,6 +96,20 @@ pub(super) fn minimize(gtol: f64, budget: usize, mut eval: impl FnMut(f64) -> Po
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    /// However many evaluations are allowed.
+    #[test]
+    fn what_is_no_number_ends_the_search() {
+        for (slope, curvature) in [(f64::NAN, 1.0), (-1.0, f64::NAN), (-1.0, 0.0), (f64::NEG_INFINITY, 1.0)] {
+            let mut n = 0;
+            let eval = |alpha| {
+                n += 1;
+                assert!(n < 100);
+                Point { alpha, cost: 0.0, slope, curvature }
+            };
+            assert_eq!(minimize(1e-12, usize::MAX, eval), 0.0);
+        }
+    }
 
     proptest! {
         /// Random sums of one-sided quadratics on top of a strictly convex one.

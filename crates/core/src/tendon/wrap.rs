@@ -89,7 +89,8 @@ fn plane(p: [Vec3; 2]) -> [Vec3; 2] {
 /// is the mirror image. Between them it lies on the circle.
 fn outside(q: [Vec2; 2], radius: f64, side: Option<Vec2>) -> Option<Touch> {
     let lengths = q.map(norm2);
-    if lengths.iter().any(|&l| l < radius) || radius < MINVAL || norm2(sub(q[1], q[0])) < MINVAL {
+    let span = sub(q[1], q[0]);
+    if lengths.iter().any(|&l| l < radius) || radius < MINVAL || dot(span, span) < MINVAL {
         return None;
     }
     let nearest = nearest_of_segment(q);

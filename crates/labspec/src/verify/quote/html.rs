@@ -119,14 +119,12 @@ impl Hidden {
         while let Some(next) = html.get(at..).and_then(|rest| rest.find('<')).map(|i| at + i) {
             let rest = html.get(next..).unwrap_or("");
             let was = self.is_on();
-            // A comment holds no tags; nor does a lone `<`.
-            let length =
-                if rest.starts_with("<!--") { tag(rest).map_or(1, |(_, n)| n) } else { tag_end(rest) };
-            if tag(rest).is_none() {
+            // Comments and scripts hold no tags; a lone `<` is none.
+            let Some((_, length)) = tag(rest) else {
                 at = next + 1;
                 continue;
-            }
-            self.tag(rest.get(..length).unwrap_or(""));
+            };
+            self.tag(rest.get(..tag_end(rest)).unwrap_or(""));
             at = next + length;
             match (was, self.is_on()) {
                 (false, true) => shown.push(from..next),
@@ -290,6 +288,9 @@ mod tests {
         assert_eq!(visible("a<p hidden=''>b</p>c<p title='hidden'>d</p>"), "ac<p title='hidden'>d</p>");
         assert_eq!(visible("a<br hidden>b<!-- <p hidden> -->c < d"), "a<br hidden>b<!-- <p hidden> -->c < d");
         assert_eq!(visible("a<p hidden>b"), "a");
+        assert_eq!(visible("a<script hidden>'<p hidden>'</script>b"), "ab");
+        // Walked once, not once for each.
+        assert_eq!(visible(&"<script>".repeat(200_000)).len(), 1_600_000);
     }
 
     #[test]
