@@ -198,6 +198,7 @@ fn obj(kind: &str) -> Option<Obj> {
         "camera" => Obj::Camera,
         "light" => Obj::Light,
         "mesh" => Obj::Mesh,
+        "skin" => Obj::Skin,
         "hfield" => Obj::HField,
         "texture" => Obj::Texture,
         "material" => Obj::Material,

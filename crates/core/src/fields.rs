@@ -32,6 +32,12 @@ macro_rules! model_fields {
         nmeshtexcoord: usize, [], Structure, Compile, "", "number of texture coordinates of all meshes";
         nmeshface: usize, [], Structure, Compile, "", "number of triangles of all meshes";
         nmeshgraph: usize, [], Structure, Compile, "", "number of integers of all convex hulls";
+        nskin: usize, [], Structure, Compile, "", "number of skins";
+        nskinvert: usize, [], Structure, Compile, "", "number of vertices of all skins";
+        nskintexvert: usize, [], Structure, Compile, "", "number of texture coordinates of all skins";
+        nskinface: usize, [], Structure, Compile, "", "number of triangles of all skins";
+        nskinbone: usize, [], Structure, Compile, "", "number of bones of all skins";
+        nskinbonevert: usize, [], Structure, Compile, "", "number of vertices of all bones";
         nhfield: usize, [], Structure, Compile, "", "number of height fields";
         nhfielddata: usize, [], Structure, Compile, "", "number of samples of all height fields";
         ntex: usize, [], Structure, Compile, "", "number of textures";
@@ -254,6 +260,29 @@ macro_rules! model_fields {
         mesh_scale: Vec<f64>, [nmesh, 3], Constant, Compile, "", "scale applied to the asset";
         mesh_pos: Vec<f64>, [nmesh, 3], Constant, Compile, "m", "translation applied to the asset";
         mesh_quat: Vec<f64>, [nmesh, 4], Constant, Compile, "", "rotation applied to the asset";
+
+        // Skins: surfaces that bodies carry, for those who draw them. Numbers have the precision of 32-bit floats.
+        skin_matid: Vec<i32>, [nskin], Constant, Compile, "", "material, -1 if none";
+        skin_group: Vec<i32>, [nskin], Constant, Compile, "", "group, for visibility";
+        skin_rgba: Vec<f64>, [nskin, 4], Constant, Compile, "", "colour and opacity when there is no material";
+        skin_inflate: Vec<f64>, [nskin], Constant, Compile, "m", "how far vertices are moved along their normals";
+        skin_vertadr: Vec<i32>, [nskin], Structure, Compile, "", "first vertex";
+        skin_vertnum: Vec<i32>, [nskin], Structure, Compile, "", "number of vertices";
+        skin_texcoordadr: Vec<i32>, [nskin], Structure, Compile, "", "first texture coordinate, -1 if none";
+        skin_faceadr: Vec<i32>, [nskin], Structure, Compile, "", "first triangle";
+        skin_facenum: Vec<i32>, [nskin], Structure, Compile, "", "number of triangles";
+        skin_boneadr: Vec<i32>, [nskin], Structure, Compile, "", "first bone";
+        skin_bonenum: Vec<i32>, [nskin], Structure, Compile, "", "number of bones";
+        skin_vert: Vec<f64>, [nskinvert, 3], Constant, Compile, "m", "vertices, in the pose in which the bones are bound";
+        skin_texcoord: Vec<f64>, [nskintexvert, 2], Constant, Compile, "", "texture coordinates";
+        skin_face: Vec<i32>, [nskinface, 3], Structure, Compile, "", "vertices of each triangle, counted from the skin's first";
+        skin_bonevertadr: Vec<i32>, [nskinbone], Structure, Compile, "", "first vertex of the bone";
+        skin_bonevertnum: Vec<i32>, [nskinbone], Structure, Compile, "", "number of vertices of the bone";
+        skin_bonebindpos: Vec<f64>, [nskinbone, 3], Constant, Compile, "m", "position of the body when it was bound, world";
+        skin_bonebindquat: Vec<f64>, [nskinbone, 4], Constant, Compile, "", "orientation of the body when it was bound, world";
+        skin_bonebodyid: Vec<i32>, [nskinbone], Structure, Compile, "", "body that is the bone";
+        skin_bonevertid: Vec<i32>, [nskinbonevert], Structure, Compile, "", "vertex, counted from the skin's first";
+        skin_bonevertweight: Vec<f64>, [nskinbonevert], Constant, Compile, "", "the bone's share of the vertex";
 
         // Height fields.
         hfield_size: Vec<f64>, [nhfield, 4], Constant, Compile, "m", "half lengths in x and y, height of the top, depth of the base";

@@ -302,6 +302,7 @@ objects! {
     Camera = 7, camera;
     Light = 8, light;
     Mesh = 10, mesh;
+    Skin = 11, skin;
     HField = 12, hfield;
     Texture = 13, texture;
     Material = 14, material;

@@ -194,6 +194,7 @@ pub mod code {
         JOINT = "mjcf-joint", "The joints of a body do not fit together.";
         MOCAP = "mjcf-mocap", "A mocap body must be a child of the world without joints.";
         MESH = "mjcf-mesh", "The data of a mesh do not make a body.";
+        SKIN = "mjcf-skin", "The data of a skin do not make a surface that bodies carry.";
         HFIELD = "mjcf-hfield", "The data of a height field do not make a ground.";
         GEOM = "mjcf-geom", "The geom lacks a size, or may not be here.";
         INERTIA = "mjcf-inertia", "A moving body has no mass or an impossible inertia.";

@@ -150,6 +150,7 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     fill_asset::meshes(m, assets);
     fill_asset::hfields(m, assets);
     fill_scene::materials(m, scene);
+    fill_asset::skins(m, assets);
     fill_scene::custom(m, scene);
 }
 

@@ -1,8 +1,10 @@
-//! Meshes and height fields to the arrays of the model.
+//! Meshes, height fields and skins to the arrays of the model.
 
 use super::fill::{flat, ints};
+use super::fill_scene::{Places, single as single_each};
 use super::mesh::{Hull, Mesh};
 use super::read_asset::Assets;
+use super::skin::{Bone, Skin};
 use crate::Model;
 use crate::geometry::{self, Sides};
 use crate::math::Vec3;
@@ -32,6 +34,13 @@ pub(crate) fn count(m: &mut Model, assets: &Assets) {
     m.nmeshface = meshes().map(|x| x.shape.face.len()).sum();
     m.nmeshgraph = meshes().map(graph_len).sum();
     m.nhfielddata = assets.hfields.iter().filter_map(|a| a.value.as_ref()).map(|x| x.data.len()).sum();
+    let skins = || assets.skins.iter().filter_map(|a| a.value.as_ref());
+    m.nskin = assets.skins.len();
+    m.nskinvert = skins().map(|s| s.vert.len()).sum();
+    m.nskintexvert = skins().map(|s| s.texcoord.len()).sum();
+    m.nskinface = skins().map(|s| s.face.len()).sum();
+    m.nskinbone = skins().map(|s| s.bones.len()).sum();
+    m.nskinbonevert = skins().flat_map(|s| &s.bones).map(|b| b.vertid.len()).sum();
 }
 
 fn graph_len(mesh: &Mesh) -> usize {
@@ -92,4 +101,38 @@ pub(crate) fn hfields(m: &mut Model, assets: &Assets) {
     m.hfield_adr = places(list.iter().map(|x| x.data.len()));
     m.hfield_data = list.iter().flat_map(|x| &x.data).copied().collect();
     m.names.hfield = assets.hfields.iter().map(|a| a.name.clone()).collect();
+}
+
+/// Bodies and materials are there: their names come first.
+pub(crate) fn skins(m: &mut Model, assets: &Assets) {
+    let list: Vec<&Skin> = assets.skins.iter().filter_map(|a| a.value.as_ref()).collect();
+    let bones: Vec<&Bone> = list.iter().flat_map(|s| &s.bones).collect();
+    let materials = Places::of(m.names.material.iter());
+    let bodies = Places::of(m.names.body.iter());
+    m.skin_matid = ints(&list, |s| materials.find(s.material.as_ref()));
+    m.skin_group = ints(&list, |s| s.group);
+    m.skin_rgba = flat(&list, |s| single_each(s.rgba));
+    m.skin_inflate = flat(&list, |s| single_each([s.inflate]));
+    m.skin_vertadr = places(list.iter().map(|s| s.vert.len()));
+    m.skin_vertnum = ints(&list, |s| s.vert.len() as i32);
+    m.skin_texcoordadr = places(list.iter().map(|s| s.texcoord.len()));
+    for (at, s) in m.skin_texcoordadr.iter_mut().zip(&list) {
+        *at = if s.texcoord.is_empty() { -1 } else { *at };
+    }
+    m.skin_faceadr = places(list.iter().map(|s| s.face.len()));
+    m.skin_facenum = ints(&list, |s| s.face.len() as i32);
+    m.skin_boneadr = places(list.iter().map(|s| s.bones.len()));
+    m.skin_bonenum = ints(&list, |s| s.bones.len() as i32);
+    m.skin_vert = list.iter().flat_map(|s| single(&s.vert)).collect();
+    m.skin_texcoord =
+        list.iter().flat_map(|s| s.texcoord.as_flattened()).map(|&x| f64::from(x as f32)).collect();
+    m.skin_face = list.iter().flat_map(|s| s.face.as_flattened()).copied().collect();
+    m.skin_bonevertadr = places(bones.iter().map(|b| b.vertid.len()));
+    m.skin_bonevertnum = ints(&bones, |b| b.vertid.len() as i32);
+    m.skin_bonebindpos = flat(&bones, |b| single_each(b.bindpos));
+    m.skin_bonebindquat = flat(&bones, |b| single_each(b.bindquat));
+    m.skin_bonebodyid = ints(&bones, |b| bodies.find(Some(&b.body)));
+    m.skin_bonevertid = bones.iter().flat_map(|b| &b.vertid).copied().collect();
+    m.skin_bonevertweight = bones.iter().flat_map(|b| &b.vertweight).map(|&x| f64::from(x as f32)).collect();
+    m.names.skin = assets.skins.iter().map(|a| a.name.clone()).collect();
 }

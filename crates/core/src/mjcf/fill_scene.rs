@@ -16,21 +16,21 @@ pub(crate) struct Scene {
 }
 
 /// Numbers that MuJoCo keeps as 32-bit floats have no more precision here.
-fn single<const N: usize>(x: [f64; N]) -> [f64; N] {
+pub(crate) fn single<const N: usize>(x: [f64; N]) -> [f64; N] {
     x.map(|x| f64::from(x as f32))
 }
 
 /// The places of names in a list.
-struct Places<'n>(BTreeMap<&'n str, usize>);
+pub(crate) struct Places<'n>(BTreeMap<&'n str, usize>);
 
 impl<'n> Places<'n> {
     /// Of two objects with one name, the first counts.
-    fn of(names: impl DoubleEndedIterator<Item = &'n String> + ExactSizeIterator) -> Places<'n> {
+    pub(crate) fn of(names: impl DoubleEndedIterator<Item = &'n String> + ExactSizeIterator) -> Places<'n> {
         Places(names.enumerate().rev().map(|(i, name)| (name.as_str(), i)).collect())
     }
 
     /// The place of a name, -1 when it is not there.
-    fn find(&self, name: Option<&String>) -> i32 {
+    pub(crate) fn find(&self, name: Option<&String>) -> i32 {
         name.and_then(|name| self.0.get(name.as_str())).map_or(-1, |&i| i as i32)
     }
 }

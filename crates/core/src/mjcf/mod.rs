@@ -51,6 +51,7 @@ mod settings;
 mod shapes;
 mod shortcut;
 mod shortcut_motor;
+mod skin;
 mod sleep;
 mod spec;
 #[cfg(test)]
@@ -194,6 +195,7 @@ fn build(
         reshape::apply(&mut bodies, &mut inertias, &tree, &parts);
     }
     let layout = layout::number(&bodies);
+    assets.check_bones(&bodies, &names, report);
     sleep::check(&bodies, &layout, report);
     let ids = ids::Ids::number(&tree, &bodies);
     let refs = ids::References { names: &names, ids: &ids };
@@ -221,6 +223,15 @@ fn build(
             let message =
                 format!("light `{}` has a texture, and `discardvisual` removes all textures", light.name);
             cx.report.error(code::CONFLICT, light.span.clone(), message).help("remove the one or the other");
+        }
+        for skin in &assets.skins {
+            if skin.value.as_ref().is_some_and(|s| s.material.is_some()) {
+                let message =
+                    format!("skin `{}` has a material, and `discardvisual` removes all materials", skin.name);
+                cx.report
+                    .error(code::CONFLICT, skin.span.clone(), message)
+                    .help("remove the one or the other");
+            }
         }
         (scene.materials, scene.textures) = Default::default();
     }

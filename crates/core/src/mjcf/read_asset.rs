@@ -1,17 +1,19 @@
-//! `asset`: meshes and height fields, from text, files and rules, numbered in the order of the text.
+//! `asset`: meshes, height fields and skins, from text, files and rules, numbered in the order of the text.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::defaults::{Classes, Props};
-use super::diagnostic::{Report, code};
+use super::diagnostic::{Report, code, shown};
 use super::expand::Part;
 use super::files::{Files, MAX_FILE};
 use super::hfield::HField;
 use super::load;
 use super::mesh::build::{self, Options};
 use super::mesh::{self, Body, Mesh, Problem, Raw};
+use super::names::{NameTable, WORLD};
 use super::read_body::name;
+use super::skin::{self, Bone, Skin};
 use super::spec::{BodySpec, PairSpec};
 use super::tree::{Node, Tree};
 use crate::geom;
@@ -33,11 +35,12 @@ pub(crate) struct Asset<T> {
     pub(crate) value: Option<T>,
 }
 
-/// All meshes and height fields.
+/// All meshes, height fields and skins.
 #[derive(Debug, Default)]
 pub(crate) struct Assets {
     pub(crate) meshes: Vec<Asset<Mesh>>,
     pub(crate) hfields: Vec<Asset<HField>>,
+    pub(crate) skins: Vec<Asset<Skin>>,
     /// Materials that meshes bring along, by mesh.
     materials: Vec<Option<String>>,
     /// Ids by kind and name.
@@ -94,6 +97,13 @@ impl Assets {
             }
             assets.ids.entry((node.element.name, name)).or_insert(id);
         }
+        let sections = tree.sections("asset").chain(tree.sections("deformable"));
+        for (at, node) in sections.flat_map(|(at, _)| tree.children(at)) {
+            if node.element.name == "skin" && !reader.report.is_full() {
+                let value = reader.skin(tree, at, node);
+                assets.skins.push(Asset { name: name(node), span: node.span.clone(), value });
+            }
+        }
         assets
     }
 
@@ -117,6 +127,23 @@ impl Assets {
     /// The material that a mesh brings along.
     pub(crate) fn material(&self, mesh: &str) -> Option<&str> {
         self.materials.get(self.id("mesh", mesh)?)?.as_deref()
+    }
+
+    /// Checks that the bodies that files name as bones are there, once `fusestatic` has had its way: what stands in the
+    /// text itself keeps its body.
+    pub(crate) fn check_bones(&self, bodies: &[BodySpec], names: &NameTable, report: &mut Report) {
+        for bone in self.skins.iter().filter_map(|a| a.value.as_ref()).flat_map(|s| &s.bones) {
+            let Some(span) = bone.file.clone() else { continue };
+            if names.find("body", &bone.body).is_none() {
+                names.unknown("body", &bone.body, span, report);
+            } else if bone.body != WORLD && !bodies.iter().any(|b| b.name == bone.body) {
+                let message = format!("the bone {} has become part of its parent", shown(&bone.body));
+                report
+                    .error(code::SKIN, span, message)
+                    .why("`fusestatic` removes bodies without joints that nothing in the text refers to")
+                    .help("refer to the body in the text, or leave `fusestatic` out");
+            }
+        }
     }
 
     /// Makes the hulls of the meshes that can touch something.
@@ -300,6 +327,88 @@ impl Reader<'_> {
             }
             Err(problem) => self.wrong(problem, code::HFIELD, node, &p),
         }
+    }
+}
+
+/// The largest group of a skin.
+const MAX_GROUP: i32 = 5;
+
+impl Reader<'_> {
+    fn skin(&mut self, tree: &Tree, at: usize, node: &Node) -> Option<Skin> {
+        let p = Props::own(node);
+        let group = p.int("group").unwrap_or(0);
+        if !(0..=MAX_GROUP).contains(&group) {
+            let problem =
+                Problem::new("group", format!("is in group {group}"), "", "groups of skins are 0 to 5");
+            return self.wrong(problem, code::VALUE, node, &p);
+        }
+        let own: Vec<&Node> = tree.children(at).map(|(_, bone)| bone).collect();
+        let made = if p.text("file").is_some() {
+            let (path, bytes) = self.file(node, &p)?;
+            let written = ["vertex", "texcoord", "face"].into_iter().find(|a| p.has(a));
+            if written.is_some() || !own.is_empty() {
+                Err(Problem::new(
+                    written.unwrap_or("file"),
+                    "has both a file and data of its own",
+                    "the file holds vertices, triangles and bones",
+                    "keep one of them",
+                ))
+            } else {
+                skin::decode(&path, &bytes, &p.span("file").unwrap_or(node.span.clone()))
+            }
+        } else {
+            let bones: Vec<Bone> = own.iter().filter_map(|bone| self.bone(bone)).collect();
+            if bones.len() < own.len() {
+                return None;
+            }
+            written(&p).map(|raw| Skin {
+                vert: raw.vert,
+                texcoord: raw.texcoord,
+                face: raw.face,
+                bones,
+                ..Skin::default()
+            })
+        };
+        let made = made.and_then(Skin::complete).and_then(|skin| {
+            let carried: usize = skin.bones.iter().map(|b| b.vertid.len()).sum();
+            let count = skin.vert.len() + skin.face.len() + carried;
+            self.take(EACH * count).map(|()| skin)
+        });
+        match made {
+            Ok(skin) => Some(Skin {
+                material: p.text("material").map(str::to_string),
+                rgba: p.reals("rgba", [0.5, 0.5, 0.5, 1.0]),
+                inflate: p.real("inflate").unwrap_or(0.0),
+                group,
+                ..skin
+            }),
+            Err(problem) => self.wrong(problem, code::SKIN, node, &p),
+        }
+    }
+
+    /// A bone has all of its attributes.
+    fn bone(&mut self, node: &Node) -> Option<Bone> {
+        let p = Props::own(node);
+        let missing =
+            ["body", "bindpos", "bindquat", "vertid", "vertweight"].into_iter().find(|a| match *a {
+                "body" => p.text(a).is_none(),
+                _ => !p.has(a),
+            });
+        if let Some(attribute) = missing {
+            let message = format!("{} has no `{attribute}`", node.shown());
+            self.report.error(code::MISSING_ATTRIBUTE, node.span.clone(), message).help(format!(
+                "write `{attribute}=\"…\"`: a bone is a body, its pose, and the vertices that it carries with their weights"
+            ));
+            return None;
+        }
+        Some(Bone {
+            body: p.text("body")?.to_string(),
+            bindpos: p.reals("bindpos", [0.0; 3]),
+            bindquat: p.reals("bindquat", IDENTITY),
+            vertid: p.ints("vertid").unwrap_or(&[]).to_vec(),
+            vertweight: p.list("vertweight").unwrap_or(&[]).to_vec(),
+            file: None,
+        })
     }
 }
 

@@ -54,6 +54,7 @@ fn size_of(kind: Obj) -> Option<&'static str> {
         Obj::Camera => "ncam",
         Obj::Light => "nlight",
         Obj::Mesh => "nmesh",
+        Obj::Skin => "nskin",
         Obj::HField => "nhfield",
         Obj::Texture => "ntex",
         Obj::Material => "nmat",

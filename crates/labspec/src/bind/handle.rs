@@ -27,7 +27,7 @@ pub(super) enum Thing {
 }
 
 /// Kinds of objects with names, and what they are called in the language.
-pub(super) const KINDS: [(Obj, &str); 20] = [
+pub(super) const KINDS: [(Obj, &str); 21] = [
     (Obj::Body, "body"),
     (Obj::Joint, "joint"),
     (Obj::Geom, "geom"),
@@ -35,6 +35,7 @@ pub(super) const KINDS: [(Obj, &str); 20] = [
     (Obj::Camera, "camera"),
     (Obj::Light, "light"),
     (Obj::Mesh, "mesh"),
+    (Obj::Skin, "skin"),
     (Obj::HField, "hfield"),
     (Obj::Texture, "texture"),
     (Obj::Material, "material"),

@@ -5,15 +5,17 @@ per kind of object with the names between bars, where any has one;
 and schema.txt, a line per element of the XML schema: path, then attribute names. The tests compare against both.
 """
 
+import math
 import pathlib
 import re
+import struct
 
 import mujoco
 
 HERE = pathlib.Path(__file__).parent
 KINDS = {
     "body": "nbody", "joint": "njnt", "geom": "ngeom", "site": "nsite", "camera": "ncam", "light": "nlight",
-    "mesh": "nmesh", "hfield": "nhfield", "texture": "ntex", "material": "nmat", "pair": "npair", "exclude": "nexclude",
+    "mesh": "nmesh", "skin": "nskin", "hfield": "nhfield", "texture": "ntex", "material": "nmat", "pair": "npair", "exclude": "nexclude",
     "equality": "neq", "tendon": "ntendon", "actuator": "nactuator", "sensor": "nsensor", "numeric": "nnumeric",
     "text": "ntext", "tuple": "ntuple", "key": "nkey",
 }
@@ -63,6 +65,25 @@ def schema():
     (HERE / "schema.txt").write_text("\n".join(rows) + "\n")
 
 
+def glove():
+    """A binary skin: a fan of triangles that two bodies carry."""
+    n = 8
+    vert = [[0.0, 0.0, 0.1]] + [[0.1 * math.cos(k), 0.1 * math.sin(k), 0.01 * k] for k in range(n)]
+    texcoord = [[0.5, 0.5]] + [[k / n, 1.0 - k / n] for k in range(n)]
+    face = [[0, 1 + k, 1 + (k + 1) % n] for k in range(n)]
+    bones = [
+        ("upper", [0.0, 0.0, 0.1], [0.5, -0.5, 0.5, 0.5], {i: 1.0 / (1 + i) for i in range(n)}),
+        ("lower", [0.1, 0.0, 0.1], [3.0, 0.0, 0.0, 4.0], {i: 0.1 * (1 + i) for i in range(2, n + 1)}),
+    ]
+    floats = lambda rows: b"".join(struct.pack(f"<{len(row)}f", *row) for row in rows)
+    ints = lambda rows: b"".join(struct.pack(f"<{len(row)}i", *row) for row in rows)
+    out = struct.pack("<4i", len(vert), len(texcoord), len(face), len(bones)) + floats(vert) + floats(texcoord) + ints(face)
+    for body, pos, quat, weights in bones:
+        out += body.encode().ljust(40, b"\0") + floats([pos, quat]) + ints([[len(weights)], weights]) + floats([weights.values()])
+    (HERE / "parts" / "glove.skn").write_bytes(out)
+
+
+glove()
 for xml in sorted(HERE.glob("*.xml")):
     record(xml)
 schema()

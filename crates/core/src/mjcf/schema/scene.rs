@@ -153,10 +153,7 @@ pub(super) static SKIN: Element = Element::new(
         INTS => face;
     }],
 )
-.children(&[&BONE])
-.status(DRAWN);
-/// What a frontend may draw.
-const DRAWN: super::Status = super::Status::Ignored("drawn only: physics does not know it");
+.children(&[&BONE]);
 static BONE: Element = Element::new(
     "bone",
     &[attributes! {
@@ -166,8 +163,7 @@ static BONE: Element = Element::new(
         INTS => vertid;
         LIST => vertweight;
     }],
-)
-.status(DRAWN);
+);
 static MODEL: Element = Element::new(
     "model",
     &[attributes! {

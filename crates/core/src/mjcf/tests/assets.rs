@@ -8,7 +8,7 @@ use crate::{Data, Model, step};
 fn load(asset: &str, geom: &str, file: &str, bytes: &[u8]) -> Result<Model, String> {
     let files = BTreeMap::from([(file.to_string(), bytes.to_vec())]);
     let xml = format!(
-        "<mujoco><asset>{asset}</asset><worldbody><geom {geom}/><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>"
+        "<mujoco><asset>{asset}</asset><worldbody><geom {geom}/><body name='ball' pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>"
     );
     compile_with(&xml, &files as &dyn Files, None).map_err(|list| list[0].message.clone())
 }
@@ -50,6 +50,28 @@ fn hfield() -> Vec<u8> {
 
 const OBJ: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1.5\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
+/// A skin of one triangle that two bodies carry.
+fn skn() -> Vec<u8> {
+    let mut bytes: Vec<u8> = [3_i32, 3, 1, 2].iter().flat_map(|n| n.to_le_bytes()).collect();
+    bytes.extend(words(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]));
+    bytes.extend(words(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]));
+    bytes.extend([0_i32, 1, 2].iter().flat_map(|n| n.to_le_bytes()));
+    for (body, ids) in [("world", &[0_i32, 1][..]), ("ball", &[2])] {
+        let mut name = body.as_bytes().to_vec();
+        name.resize(40, 0);
+        bytes.extend(name);
+        bytes.extend(words(&[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0]));
+        bytes.extend((ids.len() as i32).to_le_bytes());
+        bytes.extend(ids.iter().flat_map(|n| n.to_le_bytes()));
+        bytes.extend(words(&vec![0.5; ids.len()]));
+    }
+    bytes
+}
+
+fn skin(bytes: &[u8]) -> Result<Model, String> {
+    load("<skin name='s' file='a.skn'/>", "size='1'", "a.skn", bytes)
+}
+
 fn field(bytes: &[u8]) -> Result<Model, String> {
     load("<hfield name='h' file='h.bin' size='1 1 1 1'/>", "type='hfield' hfield='h'", "h.bin", bytes)
 }
@@ -75,8 +97,14 @@ fn damaged_files_do_no_harm() {
             (0..3).for_each(|_| step(&m, &mut d));
         }
     };
-    for (name, bytes) in [("a.obj", OBJ.to_vec()), ("a.stl", stl()), ("a.msh", msh()), ("h.bin", hfield())] {
-        let load = |bytes: &[u8]| if name == "h.bin" { field(bytes) } else { mesh(name, bytes) };
+    for (name, bytes) in
+        [("a.obj", OBJ.to_vec()), ("a.stl", stl()), ("a.msh", msh()), ("h.bin", hfield()), ("a.skn", skn())]
+    {
+        let load = |bytes: &[u8]| match name {
+            "h.bin" => field(bytes),
+            "a.skn" => skin(bytes),
+            _ => mesh(name, bytes),
+        };
         assert!(load(&bytes).is_ok(), "{name}");
         for end in 0..bytes.len() {
             let cut = load(&bytes[..end]);
@@ -114,4 +142,45 @@ fn pictures_and_text_stl_are_told_by_name() {
     let text = mesh("a.stl", b"solid a\nfacet normal 0 0 1\n").unwrap_err();
     assert!(text.contains("text form"), "{text}");
     assert!(mesh("a.ply", b"ply").unwrap_err().contains("does not end in"));
+}
+
+/// Skins that MuJoCo 3.14.0 refuses, and what is said; and a triangle with a vertex that is not there, which it takes and
+/// which whoever draws it would read beyond the end of the list.
+#[test]
+fn skins_that_do_not_fit() {
+    let bone = "<bone body='ball' bindpos='0 0 0' bindquat='1 0 0 0' vertid='0 1 2' vertweight='1 1 1'/>";
+    let vertex = "vertex='0 0 0 1 0 0 0 1 0' face='0 1 2'";
+    let cases = [
+        (vertex.to_string(), String::new(), "no bones"),
+        ("face='0 1 2'".into(), bone.into(), "no vertices"),
+        ("vertex='0 0 0 1 0 0'".into(), bone.into(), "no triangles"),
+        (String::new(), String::new(), "no vertices and no triangles and no bones"),
+        (vertex.replace("0 1 2", "0 1 2 0"), bone.into(), "4 numbers in `face`"),
+        (vertex.replace("0 1 2", "0 1 3"), bone.into(), "a triangle with vertex 3, of 3 vertices"),
+        (vertex.replace("0 1 2", "0 1 -1"), bone.into(), "a triangle with vertex -1"),
+        (format!("{vertex} texcoord='0 0 1 1'"), bone.into(), "2 texture coordinates for 3 vertices"),
+        (format!("{vertex} group='6'"), bone.into(), "in group 6"),
+        (format!("{vertex} material='nix'"), bone.into(), "no material named `nix`"),
+        (vertex.into(), bone.replace("ball", "nix"), "no body named `nix`"),
+        (vertex.into(), bone.replace("'0 1 2'", "'0 1 3'"), "a bone with vertex 3"),
+        (vertex.into(), bone.replace("'0 1 2'", "'0 1'"), "a bone of 2 vertices with 3 weights"),
+        (vertex.into(), bone.replace("'1 1 1'", "'1 1 0'"), "a vertex 2 that no bone carries"),
+        (vertex.into(), bone.replace("'1 1 1'", "'1 1 -1'"), "a vertex 2 that no bone carries"),
+        (vertex.into(), bone.replace("bindpos='0 0 0'", ""), "has no `bindpos`"),
+        (vertex.into(), bone.replace("body='ball'", ""), "has no `body`"),
+        ("file='a.skn' face='0 1 2'".into(), String::new(), "both a file and data"),
+        ("file='a.skn'".into(), bone.into(), "both a file and data"),
+        ("file='a.txt'".into(), String::new(), "does not end in .skn"),
+        ("file='b.skn'".into(), String::new(), "b.skn"),
+    ];
+    for (attributes, bones, want) in cases {
+        let file = if attributes.contains("a.txt") { "a.txt" } else { "a.skn" };
+        let asset = format!("<skin name='s' {attributes}>{bones}</skin>");
+        let said = load(&asset, "size='1'", file, &skn()).err();
+        assert!(said.as_ref().is_some_and(|said| said.contains(want)), "{asset}: {said:?}, not {want}");
+    }
+    assert!(load(&format!("<skin {vertex}>{bone}</skin>"), "size='1'", "a.skn", &[]).is_ok());
+    let mut other = skn();
+    other[0x58..0x5c].copy_from_slice(b"wor2");
+    assert!(skin(&other).unwrap_err().contains("`wor2"), "{:?}", skin(&other));
 }

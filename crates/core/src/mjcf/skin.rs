@@ -1,0 +1,181 @@
+//! Skins: triangles whose vertices follow bodies ("bones"), each with weights. Physics does not know them; a frontend
+//! that draws them finds their data in the model (XML reference, `deformable/skin`; details measured on the library).
+
+use std::ops::Range;
+
+use super::mesh::{Bytes, MAX_FACES, MAX_VERTICES, Problem};
+use crate::math::MINVAL;
+
+/// A skin as it was written.
+#[derive(Debug, Default)]
+pub(crate) struct Skin {
+    /// m.
+    pub(crate) vert: Vec<[f64; 3]>,
+    /// A pair for each vertex, or none at all.
+    pub(crate) texcoord: Vec<[f64; 2]>,
+    /// Vertices of each triangle.
+    pub(crate) face: Vec<[i32; 3]>,
+    pub(crate) bones: Vec<Bone>,
+    pub(crate) material: Option<String>,
+    pub(crate) rgba: [f64; 4],
+    /// How far vertices are moved along their normals, m.
+    pub(crate) inflate: f64,
+    pub(crate) group: i32,
+}
+
+/// What a body carries of a skin.
+#[derive(Debug)]
+pub(crate) struct Bone {
+    pub(crate) body: String,
+    /// Pose of the body in which the vertices are given: m, and a unit quaternion (zero stays zero).
+    pub(crate) bindpos: [f64; 3],
+    pub(crate) bindquat: [f64; 4],
+    pub(crate) vertid: Vec<i32>,
+    /// The body's share of each of these vertices; the shares of a vertex add up to 1 once the skin is complete.
+    pub(crate) vertweight: Vec<f64>,
+    /// Where the file that holds it is named, when it stands in one.
+    pub(crate) file: Option<Range<usize>>,
+}
+
+/// Bytes of a body's name in a file.
+const NAME: usize = 40;
+
+impl Skin {
+    /// Checks that the parts fit together, and makes the weights of each vertex add up to 1.
+    pub(crate) fn complete(mut self) -> Result<Skin, Problem> {
+        if self.vert.is_empty() || self.face.is_empty() || self.bones.is_empty() {
+            let missing = [
+                ("vertices", self.vert.is_empty()),
+                ("triangles", self.face.is_empty()),
+                ("bones", self.bones.is_empty()),
+            ];
+            let missing = missing.iter().filter(|m| m.1).map(|m| m.0).collect::<Vec<_>>().join(" and no ");
+            return Err(Problem::new(
+                "",
+                format!("has no {missing}"),
+                "a skin is a surface that bodies carry",
+                "write `vertex`, `face` and a `bone` for each body that carries it, or name a `file`",
+            ));
+        }
+        let n = self.vert.len();
+        if !self.texcoord.is_empty() && self.texcoord.len() != n {
+            return Err(Problem::new(
+                "texcoord",
+                format!("has {} texture coordinates for {n} vertices", self.texcoord.len()),
+                "",
+                "write a pair of numbers for each vertex",
+            ));
+        }
+        let is_vertex = |&id: &i32| usize::try_from(id).is_ok_and(|id| id < n);
+        if let Some(id) = self.face.as_flattened().iter().find(|id| !is_vertex(id)) {
+            return Err(Problem::new(
+                "face",
+                format!("has a triangle with vertex {id}, of {n} vertices"),
+                "what draws it would read beyond the end",
+                "vertices count from 0",
+            ));
+        }
+        let mut total = vec![0.0; n];
+        for bone in &self.bones {
+            let (ids, weights) = (bone.vertid.len(), bone.vertweight.len());
+            if ids != weights || ids == 0 {
+                return Err(Problem::new(
+                    "",
+                    format!("has a bone of {ids} vertices with {weights} weights"),
+                    "",
+                    "write one weight for each vertex of the bone, and one vertex at least",
+                ));
+            }
+            for (id, weight) in bone.vertid.iter().zip(&bone.vertweight) {
+                let Some(sum) = usize::try_from(*id).ok().and_then(|id| total.get_mut(id)) else {
+                    return Err(Problem::new(
+                        "",
+                        format!("has a bone with vertex {id}, of {n} vertices"),
+                        "",
+                        "vertices count from 0",
+                    ));
+                };
+                *sum += weight;
+            }
+        }
+        if let Some(i) = total.iter().position(|&sum| sum.is_nan() || sum <= MINVAL) {
+            return Err(Problem::new(
+                "",
+                format!("has a vertex {i} that no bone carries"),
+                "the weights of a vertex say which share each body has of it, and must add up to something positive",
+                "give the vertex to a bone, with a positive weight",
+            ));
+        }
+        for bone in &mut self.bones {
+            for (id, weight) in bone.vertid.iter().zip(&mut bone.vertweight) {
+                *weight /= total.get(*id as usize).copied().unwrap_or(1.0);
+            }
+            let length = libm::sqrt(bone.bindquat.iter().map(|x| x * x).sum());
+            if length > MINVAL {
+                bone.bindquat = bone.bindquat.map(|x| x / length);
+            }
+        }
+        Ok(self)
+    }
+}
+
+/// Reads MuJoCo's binary skins (XML reference, SKN): numbers of vertices, texture coordinates, triangles and bones, then
+/// these, in single precision and 32-bit integers. A bone is the name of its body, its pose, and its vertices with their weights.
+pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Skin, Problem> {
+    let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
+    if !ending.eq_ignore_ascii_case("skn") {
+        return Err(Problem::file(
+            "has a file whose name does not end in .skn",
+            "export the skin in MuJoCo's binary format",
+        ));
+    }
+    let damaged = || {
+        Problem::file(
+            "has an SKN file that is shorter than what it lists",
+            "the file is damaged: export it again",
+        )
+    };
+    let mut numbers = Bytes(bytes);
+    let sizes: [i32; 4] = numbers.ints().ok_or_else(damaged)?;
+    let [nvert, ntexcoord, nface, nbone] = sizes.map(|n| usize::try_from(n).unwrap_or(usize::MAX));
+    if nvert > MAX_VERTICES || ntexcoord > MAX_VERTICES || nface > MAX_FACES || nbone > MAX_VERTICES {
+        let [v, t, f, b] = sizes;
+        let message =
+            format!("has an SKN file of {v} vertices, {t} texture coordinates, {f} triangles and {b} bones");
+        return Err(Problem::file(message, "the file is damaged: export it again"));
+    }
+    // What is there bounds what is made room for.
+    if numbers.0.len() < 4 * (3 * nvert + 2 * ntexcoord + 3 * nface) {
+        return Err(damaged());
+    }
+    let mut skin = Skin {
+        vert: (0..nvert).map_while(|_| numbers.reals()).collect(),
+        texcoord: (0..ntexcoord).map_while(|_| numbers.reals()).collect(),
+        face: (0..nface).map_while(|_| numbers.ints()).collect(),
+        ..Skin::default()
+    };
+    for _ in 0..nbone {
+        let (name, rest) = numbers.0.split_at_checked(NAME).ok_or_else(damaged)?;
+        numbers = Bytes(rest);
+        let end = name.iter().position(|&c| c == 0).unwrap_or(NAME - 1);
+        let body = String::from_utf8_lossy(name.get(..end).unwrap_or(name)).into_owned();
+        let (Some(bindpos), Some(bindquat), Some(n)) = (numbers.reals(), numbers.reals(), numbers.int())
+        else {
+            return Err(damaged());
+        };
+        let n = usize::try_from(n).ok().filter(|&n| n <= numbers.0.len() / 8).ok_or_else(damaged)?;
+        let vertid = (0..n).map_while(|_| numbers.int()).collect();
+        let vertweight = (0..n).map_while(|_| numbers.real()).collect();
+        skin.bones.push(Bone { body, bindpos, bindquat, vertid, vertweight, file: Some(span.clone()) });
+    }
+    if !numbers.0.is_empty() {
+        let message = format!("has an SKN file with {} bytes more than what it lists", numbers.0.len());
+        return Err(Problem::file(message, "the file is damaged: export it again"));
+    }
+    let numbers = skin.vert.as_flattened().iter().chain(skin.texcoord.as_flattened());
+    let of_bones = skin.bones.iter().flat_map(|b| b.bindpos.iter().chain(&b.bindquat).chain(&b.vertweight));
+    if numbers.chain(of_bones).any(|x| !x.is_finite()) {
+        return Err(Problem::file("has an SKN file with a number that is not finite", "correct it"));
+    }
+    Ok(skin)
+}
