@@ -23,7 +23,18 @@ const SERVO: &str = "a servo explodes and is reset every few steps: there, too, 
 const EXCEPTIONS: &[Exception] = &[
     ("conformance/mjx__constraints", "Euler, moving", SERVO),
     ("conformance/mjx__constraints", "RK4, moving", SERVO),
+    ("conformance/engine__sensor__fromto_capsule_ellipsoid", "forward", SLACK),
+    ("conformance/engine__sensor__fromto_capsule_ellipsoid", "Euler, moving", SLACK),
+    ("conformance/engine__sensor__fromto_capsule_ellipsoid", "RK4, moving", SLACK),
+    ("conformance/engine__sensor__fromto_capsule_ellipsoid", "implicit, moving", SLACK),
+    ("conformance/engine__sensor__fromto_capsule_ellipsoid", "implicitfast, moving", SLACK),
+    ("conformance/engine__sensor__fromto_capsule_ellipsoid", "discrete, moving", SLACK),
 ];
+
+/// In three random poses the library's own points move by up to 1.8e-7 m when `ccd_tolerance` is 1e-9 instead of 1e-6 (and no
+/// further for 1e-11); ours are at rounding, `geometry::tests::reference`.
+const SLACK: &str =
+    "the library stops within `ccd_tolerance` of the nearest points of a capsule and an ellipsoid";
 
 /// Folder of the recordings, and of the models in `../shared`.
 const FOLDERS: [(&str, &str); 3] =

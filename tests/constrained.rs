@@ -31,15 +31,29 @@ const SOLUTION: [&str; 8] =
     ["qacc", "qfrc_constraint", "sensordata", "efc_force", "efc_state", "cfrc_ext", "cfrc_int", "cacc"];
 
 /// Why a trajectory differs that is no chaos.
-const REASONS: [(&str, &str); 3] = [
+const REASONS: [(&str, &str); 4] = [
     (
         "conformance/engine__solver__humanoid",
         "the library's projected Gauss–Seidel stays at the apex of a cone where a push pays only with the friction that it \
          allows; ours leaves it, for the answer of Newton's method",
     ),
+    ("conformance/user__robot_arm", BESIDE_AN_END),
     ("conformance/mjx__humanoid__02_humanoids", CUT_SHORT),
     ("conformance/mjx__humanoid__humanoid", CUT_SHORT),
 ];
+
+/// Why a forward pass differs, or has other contacts.
+const FORWARD: [(&str, &str); 2] = [
+    (
+        "conformance/engine__sensor__fromto_capsule_ellipsoid",
+        "the library stops within `ccd_tolerance` of the nearest points of a capsule and an ellipsoid",
+    ),
+    ("conformance/user__robot_arm", BESIDE_AN_END),
+];
+
+/// Of a capsule that lies on a cylinder.
+const BESIDE_AN_END: &str = "a capsule on a cylinder, 2e-6 rad from parallel: the library's deepest point is 4e-4 m from where \
+                             it is, at an end that rocking finds again; here it is a third contact beside both ends";
 
 /// `iterations="1" ls_iterations="4"`: there is no answer but the place where the search was stopped. Solved tightly, both
 /// sides agree (the forward passes of this table).
@@ -198,8 +212,12 @@ fn shared_models_with_constraints() {
             };
             counts[class] += 1;
             if class > 0 {
-                let _ = writeln!(wrong, "{kind}/{name}: {text}");
-                let _ = writeln!(table, "| {kind}/{name} | {} |", text.replace('\n', " "));
+                let why = FORWARD.iter().find(|(of, _)| class != 2 && *of == format!("{kind}/{name}"));
+                if why.is_none() {
+                    let _ = writeln!(wrong, "{kind}/{name}: {text}");
+                }
+                let why = why.map_or(String::new(), |(_, why)| format!(": {why}"));
+                let _ = writeln!(table, "| {kind}/{name} | {}{why} |", text.replace('\n', " "));
             }
         }
     }
@@ -214,6 +232,9 @@ fn shared_models_with_constraints() {
     // Worse than this is a failure, whatever the table says.
     if apart != REASONS.len() {
         let _ = writeln!(wrong, "{apart} differ on their way, {} are listed with a reason", REASONS.len());
+    }
+    if contacts + differs != FORWARD.len() {
+        let _ = writeln!(wrong, "{} forward passes differ, {} are listed", contacts + differs, FORWARD.len());
     }
     if chaotic > MOST_CHAOTIC {
         let _ = writeln!(wrong, "{chaotic} are chaotic, {MOST_CHAOTIC} may be");

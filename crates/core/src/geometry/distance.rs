@@ -40,10 +40,17 @@ pub(super) fn shape_distance(
     let flip = a.kind > b.kind;
     let (first, second) = if flip { (b, a) } else { (a, b) };
     let Some(method) = pair::method(first.kind, second.kind) else { return best };
+    if matches!(method, Method::Field) {
+        let found = pair::field_distance(first, second, most, settings, &mut work.room);
+        return found.map_or(best, |n| {
+            let [p, q] = n.witness;
+            Distance { dist: n.dist, fromto: if flip { [q, p] } else { [p, q] } }
+        });
+    }
     if matches!(method, Method::Convex) || first.kind == geom::BOX {
-        let (mut u, mut v) = (Convex::new(a, 0.0), Convex::new(b, 0.0));
+        let (mut u, mut v) = (Convex::new(a), Convex::new(b));
         let found = nearest(&mut u, &mut v, most, settings.effort, &mut work.room);
-        return Distance { dist: found.dist.min(most), fromto: found.witness.unwrap_or_default() };
+        return found.map_or(best, |n| Distance { dist: n.dist, fromto: n.witness });
     }
     work.touches.clear();
     pair::contacts(method, first, second, most, settings, &mut work.room, &mut work.touches);

@@ -1,393 +1,347 @@
-//! Penetration depth of convex bodies by an expanding polytope.
+//! How deep two convex bodies overlap: the point of the border of their Minkowski difference a - b nearest to the origin,
+//! by an expanding polytope (van den Bergen, *Proximity queries and penetration depth computation on 3D game objects*,
+//! Game Developers Conference 2001).
 //!
-//! van den Bergen, *Collision Detection in Interactive 3D Environments* (2003), section 4.3.8: a polytope inside the
-//! Minkowski difference holds the origin; its nearest face gives a lower bound of the depth, the support point
-//! beyond that face an upper bound, and the polytope grows by that point until the two agree.
+//! The polytope is the hull of support points, so every one of its faces is a lower bound of the depth along the face's
+//! normal, and the support point along that normal an upper bound for all directions. The face with the lowest bound is
+//! pushed out to its support point until both bounds agree; for round bodies Newton's method (`polish`) goes the rest of the
+//! way. Offsets of faces are signed: nothing changes when the origin
+//! is on the border of the polytope or a little outside, and a negative upper bound says that the bodies are apart.
 
-use super::gjk::{Gjk, Limits, Vertex, support};
-use super::simplex::{affine, det, origin_on_plane};
+use super::gjk::{Limits, ROUNDING, Vertex, support};
+use super::polish::{Reach, least_reach};
+use super::simplex::{Corral, barycentric};
 use super::support::Body;
 use crate::math::*;
 
-/// Polytopes with fewer iterations than this still have room for so many.
-const MIN_ROOM: usize = 170;
+/// A face whose area is below this part of the square of its longest edge has no normal of its own.
+const SLIVER: f64 = 1e-10;
+/// Faces are parts of one side when their normals differ by less than this, and their offsets by this part of the size.
+const SAME_SIDE: f64 = 1e-9;
 
-/// A squared distance that is none.
-const TINY: f64 = MINVAL * MINVAL;
-
-/// A face of the polytope.
+/// A plane: unit normal and signed offset from the origin, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Face {
-    verts: [u32; 3],
-    /// Neighbours across the edges 01, 12, 20.
-    adjacent: [u32; 3],
-    /// The origin projected on its plane.
-    foot: Vec3,
-    /// |foot|²
-    dist2: f64,
-    /// Where it is in the list of candidates.
-    state: State,
+struct Plane {
+    normal: Vec3,
+    offset: f64,
 }
 
+/// A triangle of the polytope. Its three half-edges run counterclockwise as seen from outside; half-edge k of face f is
+/// number 4 f + k.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum State {
-    Candidate(u32),
-    /// Part of the surface, too far to be the nearest.
-    Far,
-    /// Inside the grown polytope.
-    Gone,
+struct Face {
+    plane: Plane,
+    /// Where each half-edge begins.
+    from: [u32; 3],
+    /// The half-edge of the neighbour that runs the other way.
+    twin: [u32; 3],
+    /// Whether it is on the surface.
+    alive: bool,
 }
 
-/// Room of the algorithm, kept between calls so that they do not allocate.
+/// The polytope, kept between calls so that they do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Scratch {
-    verts: Vec<Vertex>,
+    vertices: Vec<Vertex>,
     faces: Vec<Face>,
-    /// Faces that may be the nearest.
-    candidates: Vec<u32>,
-    /// The border of what the new vertex sees: hidden faces and their edge on it.
-    horizon: Vec<(u32, u8)>,
-    /// Edges still to be crossed while the border is found.
-    pending: Vec<(u32, u8)>,
+    /// Faces that may have the lowest bound.
+    low: Vec<u32>,
+    /// The new face whose outer edge begins at a vertex.
+    fan: Vec<u32>,
+    /// Half-edges to be crossed while the visible faces are found, and those of the faces that are not.
+    pending: Vec<u32>,
+    border: Vec<u32>,
     /// Work done with it.
     pub(crate) cost: u64,
 }
 
-/// The nearest face: its corners, its distance and the points of both bodies there.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Deepest {
-    pub(super) support: [Vertex; 3],
-    pub(super) depth: f64,
-    pub(super) witness: [Vec3; 2],
+/// Of round bodies the depth is known to `ccd_tolerance`, but at least to this part of it: two that hardly touch would have
+/// any direction otherwise.
+const SURE: f64 = 0.01;
+
+const NONE: u32 = u32::MAX;
+
+/// Face and place of a half-edge.
+fn place(edge: u32) -> (usize, usize) {
+    ((edge >> 2) as usize, (edge & 3) as usize)
 }
 
-/// Why there is no depth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Shallow {
-    /// The origin is on the border of the simplex: the bodies touch.
-    Border,
-    /// The polytope degenerated.
-    Lost,
-}
-
-/// The depth of two bodies whose difference holds the origin in or near the simplex that GJK ended with.
-pub(super) fn epa(
-    found: &Gjk,
+/// The depth of two bodies. The difference holds, or almost holds, the origin in the hull of the corral; `None` when it has
+/// no inside.
+pub(super) fn depth(
+    corral: &Corral,
     a: &mut Body,
     b: &mut Body,
     limits: Limits,
     p: &mut Scratch,
-) -> Result<Deepest, Shallow> {
-    p.clear();
-    let s = &found.simplex;
-    match found.size {
-        2 => p.start_segment(s[0], s[1], a, b),
-        3 => p.start_triangle([s[0], s[1], s[2]], a, b),
-        _ => p.start_tetrahedron(*s, a, b),
+) -> Option<Reach> {
+    p.vertices.clear();
+    p.vertices.extend_from_slice(corral.vertices());
+    let size = p.span_space(a, b)?;
+    p.tetrahedron();
+    let rounding = ROUNDING * size;
+    let mut left = limits.iterations.max(1);
+    let corners = a.discrete() && b.discrete();
+    let mut tolerance = if corners { 0.0 } else { limits.tolerance };
+    let (face, plane) = p.expand(a, b, [rounding, tolerance], f64::INFINITY, &mut left)?;
+    if corners {
+        return Some(Reach { normal: plane.normal, height: plane.offset, witness: p.witness(face, size) });
     }
-    .ok_or(Shallow::Border)?;
-    let face = p.expand(a, b, limits).ok_or(Shallow::Lost)?;
-    let f = p.faces[face as usize];
-    let corners = f.verts.map(|v| p.verts[v as usize]);
-    let [u, v, w] = corners.map(|c| c.point);
-    let coef = affine(u, v, w, f.foot);
-    let on = |of: fn(&Vertex) -> Vec3| super::simplex::combine(&coef, corners.iter().map(of));
-    Ok(Deepest { support: corners, depth: f.dist2.sqrt(), witness: [on(|c| c.on_a), on(|c| c.on_b)] })
+    let mut least = least_reach(a, b, plane.normal, limits);
+    while left > 0 && least.height > 0.0 && SURE * least.height < tolerance {
+        tolerance = SURE * least.height;
+        // With this point on it, the polytope has no lower bound much below its height nearby.
+        p.vertices.push(support(a, b, least.normal));
+        let seen = p.facing(rounding);
+        if seen.is_some_and(|face| !p.grow(face, rounding)) {
+            break;
+        }
+        match p.expand(a, b, [rounding, tolerance], least.height, &mut left) {
+            Some((_, lower)) => least = least_reach(a, b, lower.normal, limits),
+            None => break,
+        }
+    }
+    Some(least)
 }
 
 impl Scratch {
-    fn clear(&mut self) {
-        self.verts.clear();
-        self.faces.clear();
-        self.candidates.clear();
-    }
-
-    fn add_vertex(&mut self, v: Vertex) -> u32 {
-        self.verts.push(v);
-        self.verts.len() as u32 - 1
-    }
-
-    /// The support point in a direction of length `n`.
-    fn add_support(&mut self, a: &mut Body, b: &mut Body, dir: Vec3, n: f64) -> u32 {
-        let unit = if n > MINVAL { dir.map(|x| x / n) } else { [1.0, 0.0, 0.0] };
-        self.add_vertex(support(a, b, unit))
-    }
-
     fn point(&self, v: u32) -> Vec3 {
-        self.verts[v as usize].point
+        self.vertices[v as usize].point
     }
 
-    /// Adds a face; its squared distance from the origin, zero when it is no triangle.
-    fn add_face(&mut self, verts: [u32; 3], adjacent: [u32; 3]) -> f64 {
-        let [a, b, c] = verts.map(|v| self.point(v));
-        let foot = origin_on_plane(c, b, a);
-        let v = foot.unwrap_or_default();
-        self.faces.push(Face { verts, adjacent, foot: v, dist2: dot(v, v), state: State::Far });
-        if foot.is_some() { dot(v, v) } else { 0.0 }
+    fn corners(&self, face: u32) -> [Vec3; 3] {
+        self.faces[face as usize].from.map(|v| self.point(v))
     }
 
-    fn make_candidate(&mut self, face: u32) {
-        self.faces[face as usize].state = State::Candidate(self.candidates.len() as u32);
-        self.candidates.push(face);
-    }
-
-    fn remove(&mut self, face: u32) {
-        if let State::Candidate(at) = self.faces[face as usize].state {
-            self.candidates.swap_remove(at as usize);
-            if let Some(&moved) = self.candidates.get(at as usize) {
-                self.faces[moved as usize].state = State::Candidate(at);
-            }
+    /// Adds support points until four vertices span a tetrahedron; returns the largest distance from the origin.
+    fn span_space(&mut self, a: &mut Body, b: &mut Body) -> Option<f64> {
+        let mut size = self.vertices.iter().fold(0.0_f64, |s, v| s.max(norm(v.point)));
+        while !self.spans() {
+            self.vertices.pop();
         }
-        self.faces[face as usize].state = State::Gone;
-    }
-
-    /// All faces so far may be the nearest.
-    fn start(&mut self) {
-        for f in 0..self.faces.len() as u32 {
-            self.make_candidate(f);
+        if self.vertices.len() == 4 {
+            return Some(size);
         }
-    }
-
-    /// Two triangle pyramids with a common base, around the segment.
-    fn start_segment(&mut self, v1: Vertex, v2: Vertex, a: &mut Body, b: &mut Body) -> Option<()> {
-        let along = sub(v2.point, v1.point);
-        let mut least = 0;
-        for i in 1..3 {
-            if along[i].abs() < along[least].abs() {
-                least = i;
-            }
-        }
-        let mut axis = [0.0; 3];
-        axis[least] = 1.0;
-        // Three directions around the segment, a third of a turn apart.
-        let first = cross(axis, along);
-        let turn = third_of_a_turn(along);
-        let second = mat_mul_vec(&turn, first);
-        let third = mat_mul_vec(&turn, second);
-        let (i1, i2) = (self.add_vertex(v1), self.add_vertex(v2));
-        let [i3, i4, i5] = [first, second, third].map(|dir| self.add_support(a, b, dir, norm(dir)));
-        let faces = [
-            ([i1, i3, i4], [1, 3, 2]),
-            ([i1, i5, i3], [2, 4, 0]),
-            ([i1, i4, i5], [0, 5, 1]),
-            ([i2, i4, i3], [5, 0, 4]),
-            ([i2, i3, i5], [3, 1, 5]),
-            ([i2, i5, i4], [4, 2, 3]),
-        ];
-        for (verts, adjacent) in faces {
-            if self.add_face(verts, adjacent) < TINY {
-                return self.start_over(verts, a, b);
-            }
-        }
-        let [p1, p2, p3, p4, p5] = [i1, i2, i3, i4, i5].map(|i| self.point(i));
-        if !passes(p1, p2, [p3, p4, p5]) {
-            return None;
-        }
-        self.start();
-        Some(())
-    }
-
-    /// A face that holds the origin becomes the base of two pyramids.
-    fn start_over(&mut self, verts: [u32; 3], a: &mut Body, b: &mut Body) -> Option<()> {
-        let corners = verts.map(|v| self.verts[v as usize]);
-        self.clear();
-        self.start_triangle(corners, a, b)
-    }
-
-    /// Two triangle pyramids with a common base.
-    fn start_triangle(&mut self, corners: [Vertex; 3], a: &mut Body, b: &mut Body) -> Option<()> {
-        let [p1, p2, p3] = corners.map(|c| c.point);
-        let normal = cross(sub(p2, p1), sub(p3, p1));
-        let length = norm(normal);
-        if length < MINVAL {
-            return None;
-        }
-        let [i1, i2, i3] = corners.map(|c| self.add_vertex(c));
-        let i5 = self.add_support(a, b, scale(normal, -1.0), length);
-        let i4 = self.add_support(a, b, normal, length);
-        let (p4, p5) = (self.point(i4), self.point(i5));
-        if on_triangle([p1, p2, p3], p4) || on_triangle([p1, p2, p3], p5) {
-            return None;
-        }
-        let faces = [
-            ([i4, i1, i2], [1, 3, 2]),
-            ([i4, i3, i1], [2, 4, 0]),
-            ([i4, i2, i3], [0, 5, 1]),
-            ([i5, i2, i1], [5, 0, 4]),
-            ([i5, i1, i3], [3, 1, 5]),
-            ([i5, i3, i2], [4, 2, 3]),
-        ];
-        for (verts, adjacent) in faces {
-            if self.add_face(verts, adjacent) < TINY {
-                return None;
-            }
-        }
-        self.start();
-        Some(())
-    }
-
-    fn start_tetrahedron(&mut self, corners: [Vertex; 4], a: &mut Body, b: &mut Body) -> Option<()> {
-        let [i1, i2, i3, i4] = corners.map(|c| self.add_vertex(c));
-        let faces = [
-            ([i1, i2, i3], [1, 3, 2]),
-            ([i1, i4, i2], [2, 3, 0]),
-            ([i1, i3, i4], [0, 3, 1]),
-            ([i4, i3, i2], [2, 0, 1]),
-        ];
-        for (verts, adjacent) in faces {
-            if self.add_face(verts, adjacent) < TINY {
-                return self.start_over(verts, a, b);
-            }
-        }
-        if !in_tetrahedron(corners.map(|c| c.point)) {
-            return None;
-        }
-        self.start();
-        Some(())
-    }
-
-    /// Grows until the nearest face is on the surface, and returns it.
-    fn expand(&mut self, a: &mut Body, b: &mut Body, limits: Limits) -> Option<u32> {
-        let discrete = a.discrete() && b.discrete();
-        let tolerance = if discrete { MINVAL } else { limits.tolerance };
-        let room = 6 * limits.iterations.max(MIN_ROOM);
-        let (mut upper, mut upper2) = (f64::MAX, f64::MAX);
-        let mut nearest = None;
-        for _ in 0..limits.iterations {
-            let before = nearest;
-            self.cost += 200 + self.candidates.len() as u64;
-            let mut lower2 = f64::MAX;
-            for &f in &self.candidates {
-                if self.faces[f as usize].dist2 < lower2 {
-                    (nearest, lower2) = (Some(f), self.faces[f as usize].dist2);
+        while self.vertices.len() < 4 {
+            let base = self.point(0);
+            let edges = [1, 2].map(|k| self.vertices.get(k).map_or([0.0; 3], |v| sub(v.point, base)));
+            let directions: &[Vec3] = match self.vertices.len() {
+                1 => &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+                2 => {
+                    let along = normalize(edges[0]).0;
+                    let f = crate::collision::frame(along);
+                    &[[f[3], f[4], f[5]], [f[6], f[7], f[8]]]
+                }
+                _ => &[normalize(cross(edges[0], edges[1])).0],
+            };
+            let mut farthest = (0.0, None);
+            for &dir in directions {
+                for side in [1.0, -1.0] {
+                    let new = support(a, b, scale(dir, side));
+                    size = size.max(norm(new.point));
+                    let height = dot(dir, sub(new.point, base)).abs();
+                    if height > farthest.0 {
+                        farthest = (height, Some(new));
+                    }
                 }
             }
-            let Some(face) = nearest.filter(|_| lower2 <= upper2) else { return before };
-            if lower2 <= 0.0 {
+            self.vertices.push(farthest.1.filter(|_| farthest.0 > SLIVER * size)?);
+        }
+        Some(size)
+    }
+
+    /// Whether the vertices are corners of a simplex that is not almost flat.
+    fn spans(&self) -> bool {
+        let Some((first, rest)) = self.vertices.split_first() else { return true };
+        let edges = rest.iter().map(|v| sub(v.point, first.point));
+        let size: f64 = edges.clone().map(norm).product();
+        let [u, v, w] = std::array::from_fn(|k| edges.clone().nth(k).unwrap_or_default());
+        let content = match rest.len() {
+            0 => return true,
+            1 => norm(u),
+            2 => norm(cross(u, v)),
+            _ => dot(u, cross(v, w)).abs(),
+        };
+        content > SLIVER * size
+    }
+
+    /// The four faces of the first four vertices.
+    fn tetrahedron(&mut self) {
+        let [p, q, r, s] = [0, 1, 2, 3].map(|v| self.point(v));
+        if dot(cross(sub(q, p), sub(r, p)), sub(s, p)) > 0.0 {
+            self.vertices.swap(0, 1);
+        }
+        self.faces.clear();
+        self.low.clear();
+        // Seen from the fourth vertex the first three run clockwise.
+        let faces = [
+            ([0, 1, 2], [6, 10, 14]),
+            ([0, 3, 1], [13, 8, 0]),
+            ([1, 3, 2], [5, 12, 1]),
+            ([2, 3, 0], [9, 4, 2]),
+        ];
+        for (from, twin) in faces {
+            let plane = self.plane(from).unwrap_or(Plane { normal: [0.0; 3], offset: f64::INFINITY });
+            self.add(Face { plane, from, twin, alive: true });
+        }
+    }
+
+    fn add(&mut self, face: Face) {
+        self.low.push(self.faces.len() as u32);
+        self.faces.push(face);
+    }
+
+    /// The plane of a triangle; `None` for a sliver.
+    fn plane(&self, vertices: [u32; 3]) -> Option<Plane> {
+        let [a, b, c] = vertices.map(|v| self.point(v));
+        let (u, v) = (sub(b, a), sub(c, a));
+        let normal = cross(u, v);
+        let area2 = dot(normal, normal);
+        let normal = scale(normal, 1.0 / area2.sqrt());
+        (area2 > SLIVER * SLIVER * dot(u, u) * dot(v, v)).then(|| Plane { normal, offset: dot(normal, a) })
+    }
+
+    /// Grows until the lowest bounds agree within `tolerance`. Returns the face and the plane of the lowest upper bound,
+    /// `None` when none is below `upper`.
+    fn expand(
+        &mut self,
+        a: &mut Body,
+        b: &mut Body,
+        [rounding, tolerance]: [f64; 2],
+        mut upper: f64,
+        left: &mut usize,
+    ) -> Option<(u32, Plane)> {
+        let corners = a.discrete() && b.discrete();
+        let mut best = None;
+        while *left > 0 {
+            *left -= 1;
+            self.cost += 200 + self.low.len() as u64;
+            let Some(face) = self.lowest(upper) else { break };
+            let Plane { normal, offset } = self.faces[face as usize].plane;
+            let new = support(a, b, normal);
+            let reach = dot(normal, new.point);
+            if reach < upper {
+                upper = reach;
+                best = Some((face, Plane { normal, offset: reach }));
+            }
+            let known = |v: &Vertex| v.corners == new.corners;
+            if upper - offset <= tolerance.max(rounding) || corners && self.vertices.iter().any(known) {
                 break;
             }
-            let lower = lower2.sqrt();
-            let foot = self.faces[face as usize].foot;
-            let new = self.add_support(a, b, foot, lower);
-            let w = self.verts[new as usize];
-            let ahead = dot(foot, w.point) / lower;
-            if ahead < upper {
-                (upper, upper2) = (ahead, ahead * ahead);
-            }
-            if upper - lower < tolerance {
-                break;
-            }
-            if discrete && self.verts[..new as usize].iter().any(|v| v.corners == w.corners) {
-                break;
-            }
-            self.find_horizon(face, w.point);
-            let edges = self.horizon.len();
-            if edges < 3 {
-                return None;
-            }
-            if edges > room.saturating_sub(self.faces.len()) {
-                break;
-            }
-            let first = self.faces.len() as u32;
-            let last = first + edges as u32 - 1;
-            for i in 0..edges {
-                let (hidden, edge) = self.horizon[i];
-                let (e, this) = (edge as usize, first + i as u32);
-                let h = &mut self.faces[hidden as usize];
-                let (from, to) = (h.verts[e], h.verts[(e + 1) % 3]);
-                h.adjacent[e] = this;
-                let before = if i == 0 { last } else { this - 1 };
-                let after = if this == last { first } else { this + 1 };
-                let dist2 = self.add_face([new, to, from], [before, hidden, after]);
-                if dist2 == 0.0 {
-                    return None;
-                }
-                if dist2 >= lower2 && dist2 <= upper2 {
-                    self.make_candidate(this);
-                }
-            }
-            if self.candidates.is_empty() {
+            self.vertices.push(new);
+            if !self.grow(face, rounding) {
                 break;
             }
         }
-        nearest
+        best
     }
 
-    /// Removes all faces that `w` sees, starting from one that it does, and lists the border around them.
-    fn find_horizon(&mut self, start: u32, w: Vec3) {
-        self.horizon.clear();
-        self.pending.clear();
-        self.cross_edges(start, [2, 1, 0]);
-        self.remove(start);
-        while let Some((face, edge)) = self.pending.pop() {
-            let f = self.faces[face as usize];
-            if f.state == State::Gone {
+    /// The face with the lowest offset. Those that are gone, or above an upper bound, are dropped from the list.
+    fn lowest(&mut self, upper: f64) -> Option<u32> {
+        let mut lowest = (f64::INFINITY, None);
+        let mut k = 0;
+        while let Some(&f) = self.low.get(k) {
+            let face = &self.faces[f as usize];
+            if !face.alive || face.plane.offset > upper {
+                self.low.swap_remove(k);
                 continue;
             }
-            if dot(f.foot, w) - f.dist2 > MINVAL {
-                self.remove(face);
-                self.cross_edges(face, [(edge + 2) % 3, (edge + 1) % 3]);
+            if face.plane.offset < lowest.0 {
+                lowest = (face.plane.offset, Some(f));
+            }
+            k += 1;
+        }
+        lowest.1
+    }
+
+    /// A face that the last vertex sees.
+    fn facing(&self, rounding: f64) -> Option<u32> {
+        let w = self.vertices.last()?.point;
+        let height = |plane: &Plane| dot(plane.normal, w) - plane.offset;
+        self.faces.iter().position(|f| f.alive && height(&f.plane) > rounding).map(|f| f as u32)
+    }
+
+    /// Replaces all faces that the last vertex sees, `seen` among them, by a fan around it; `false` when rounding does not
+    /// leave a border to attach it to.
+    fn grow(&mut self, seen: u32, rounding: f64) -> bool {
+        let apex = self.vertices.len() as u32 - 1;
+        let w = self.point(apex);
+        self.border.clear();
+        self.pending.clear();
+        self.faces[seen as usize].alive = false;
+        self.pending.extend_from_slice(&self.faces[seen as usize].twin);
+        while let Some(edge) = self.pending.pop() {
+            let (f, k) = place(edge);
+            let face = &mut self.faces[f];
+            if !face.alive {
+                continue;
+            }
+            if dot(face.plane.normal, w) - face.plane.offset > rounding {
+                face.alive = false;
+                let [after, before] = [face.twin[(k + 1) % 3], face.twin[(k + 2) % 3]];
+                self.pending.extend_from_slice(&[after, before]);
             } else {
-                self.horizon.push((face, edge));
+                self.border.push(edge);
             }
         }
-    }
-
-    /// The neighbours across some edges of a face, to be looked at last edge first.
-    fn cross_edges<const N: usize>(&mut self, face: u32, edges: [u8; N]) {
-        let f = self.faces[face as usize];
-        for e in edges {
-            let e = e as usize;
-            let other = f.adjacent[e];
-            let shared = f.verts[(e + 1) % 3];
-            let edge = self.faces[other as usize].verts.iter().position(|&v| v == shared).unwrap_or(2);
-            self.pending.push((other, edge as u8));
+        self.fan.clear();
+        self.fan.resize(self.vertices.len(), NONE);
+        let first = self.faces.len();
+        for i in 0..self.border.len() {
+            let outer = self.border[i];
+            let (f, k) = place(outer);
+            let Face { plane, from, .. } = self.faces[f];
+            let (start, end) = (from[(k + 1) % 3], from[k]);
+            let face = self.faces.len() as u32;
+            if self.fan[start as usize] != NONE {
+                return false;
+            }
+            self.fan[start as usize] = face;
+            self.faces[f].twin[k] = 4 * face;
+            let from = [start, end, apex];
+            // A sliver continues its neighbour: the new vertex is on the line of their edge.
+            let plane = self.plane(from).unwrap_or(plane);
+            self.add(Face { plane, from, twin: [outer, NONE, NONE], alive: true });
         }
+        for f in first..self.faces.len() {
+            let after = self.fan[self.faces[f].from[1] as usize];
+            if after == NONE {
+                return false;
+            }
+            self.faces[f].twin[1] = 4 * after + 2;
+            self.faces[after as usize].twin[2] = 4 * f as u32 + 1;
+        }
+        self.border.len() > 2
     }
-}
 
-/// Rotation by 120° about an axis of any length.
-fn third_of_a_turn(axis: Vec3) -> Mat3 {
-    let n = norm(axis);
-    let [x, y, z] = axis.map(|u| u / n);
-    let (s, c) = (0.75f64.sqrt(), -0.5);
-    let d = 1.0 - c;
-    [
-        c + x * x * d,
-        x * y * d - z * s,
-        x * z * d + y * s,
-        y * x * d + z * s,
-        c + y * y * d,
-        y * z * d - x * s,
-        x * z * d - y * s,
-        y * z * d + x * s,
-        c + z * z * d,
-    ]
-}
-
-/// Whether the line from p to q passes a triangle.
-fn passes(p: Vec3, q: Vec3, triangle: [Vec3; 3]) -> bool {
-    let along = sub(q, p);
-    let [a, b, c] = triangle.map(|v| sub(v, p));
-    let volumes = [det(a, b, along), det(b, c, along), det(c, a, along)];
-    volumes.iter().all(|&v| v >= 0.0) || volumes.iter().all(|&v| v <= 0.0)
-}
-
-/// Whether a point is on a triangle.
-fn on_triangle([a, b, c]: [Vec3; 3], p: Vec3) -> bool {
-    let coef = affine(a, b, c, p);
-    if coef.iter().any(|&x| x < 0.0) {
-        return false;
+    /// The points of both bodies at the foot of the origin on the side that a face is part of.
+    fn witness(&self, face: u32, size: f64) -> [Vec3; 2] {
+        let plane = self.faces[face as usize].plane;
+        let foot = scale(plane.normal, plane.offset);
+        let mut best = (f64::NEG_INFINITY, face, [1.0, 0.0, 0.0]);
+        let mut consider = |face: u32| {
+            let Some(weights) = barycentric(self.corners(face), foot) else { return };
+            let least = weights.into_iter().fold(f64::INFINITY, f64::min);
+            if least > best.0 {
+                best = (least, face, weights);
+            }
+        };
+        consider(face);
+        for (f, Face { plane: other, .. }) in self.faces.iter().enumerate() {
+            let same = dot(other.normal, plane.normal) > 1.0 - SAME_SIDE
+                && (other.offset - plane.offset).abs() < SAME_SIDE * size;
+            if same && f as u32 != face {
+                consider(f as u32);
+            }
+        }
+        let (_, face, weights) = best;
+        // The foot is in one of the faces; what rounding puts outside goes to the border.
+        let weights = weights.map(|w| w.max(0.0));
+        let sum: f64 = weights.iter().sum();
+        let vertices = self.faces[face as usize].from.map(|v| &self.vertices[v as usize]);
+        let mean = |of: fn(&Vertex) -> Vec3| {
+            vertices.iter().zip(weights).fold([0.0; 3], |m, (v, w)| add_scaled(m, of(v), w / sum))
+        };
+        [mean(|v| v.on_a), mean(|v| v.on_b)]
     }
-    norm(sub(super::simplex::combine(&coef, [a, b, c].into_iter()), p)) < MINVAL
-}
-
-/// Whether a tetrahedron holds the origin in its inside.
-fn in_tetrahedron([a, b, c, d]: [Vec3; 4]) -> bool {
-    let same_side = |p0: Vec3, p1: Vec3, p2: Vec3, p3: Vec3| {
-        let normal = cross(sub(p1, p0), sub(p2, p0));
-        let (other, origin) = (dot(normal, sub(p3, p0)), -dot(normal, p0));
-        (other > 0.0 && origin > 0.0) || (other < 0.0 && origin < 0.0)
-    };
-    same_side(a, b, c, d) && same_side(b, c, d, a) && same_side(c, d, a, b) && same_side(d, a, b, c)
 }

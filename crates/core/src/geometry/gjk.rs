@@ -1,9 +1,11 @@
-//! Distance of convex bodies by the algorithm of Gilbert, Johnson and Keerthi (1988) on their Minkowski
-//! difference a - b: the bodies overlap when it holds the origin.
+//! Distance of convex bodies by the algorithm of Gilbert, Johnson and Keerthi (*A fast procedure for computing the
+//! distance between complex objects in three-dimensional space*, IEEE Journal of Robotics and Automation 4, 1988) on
+//! their Minkowski difference a - b, of which only support points are asked for.
 //!
-//! Stops on the duality gap of Frank and Wolfe: x·(x - s) bounds how much nearer the origin can be.
+//! The nearest point x of the support points found so far is an upper bound. The support point w towards the origin
+//! gives a lower one, x·w / |x|: the plane through w across x has all of the difference on its far side.
 
-use super::simplex::{combine, nearest};
+use super::simplex::Corral;
 use super::support::Body;
 use crate::math::*;
 
@@ -14,7 +16,7 @@ pub(super) struct Vertex {
     pub(super) on_b: Vec3,
     /// a - b
     pub(super) point: Vec3,
-    /// Corners of discrete bodies.
+    /// Corners of bodies that have some.
     pub(super) corners: [i32; 2],
 }
 
@@ -33,132 +35,60 @@ pub(crate) struct Limits {
     pub(crate) iterations: usize,
 }
 
-/// What came out: a distance, or a simplex that holds the origin.
+/// Lengths below this part of the size of the difference are rounding.
+pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// What came out.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Gjk {
-    /// Distance, m; zero when the bodies overlap, [`f64::MAX`] when they are farther apart than asked.
-    pub(super) dist: f64,
-    /// The nearest points of both bodies, when there are any.
-    pub(super) witness: Option<[Vec3; 2]>,
-    pub(super) simplex: [Vertex; 4],
-    pub(super) size: usize,
-    /// Iterations.
+pub(super) struct Found {
+    /// Distance, m; zero when the origin is in the difference, `None` when it is larger than asked.
+    pub(super) dist: Option<f64>,
+    /// The simplex that holds the nearest point.
+    pub(super) corral: Corral,
+    /// Support points that were asked for.
     pub(super) steps: usize,
 }
 
-/// Distance up to `cutoff`; a cutoff of zero or less asks only whether the bodies touch.
-pub(super) fn gjk(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> Gjk {
-    let measure = cutoff > 0.0;
-    let mut search = !measure;
-    // Bodies with corners only are found exactly.
-    let gap = if a.discrete() && b.discrete() { 0.0 } else { 0.5 * limits.tolerance * limits.tolerance };
-    let mut simplex = [Vertex::default(); 4];
-    let mut coef = [1.0, 0.0, 0.0, 0.0];
-    let (mut n, mut k) = (0, 0);
-    let mut x = sub(a.centre(), b.centre());
-    let mut length = 0.0;
-    let apart =
-        |steps: usize| Gjk { dist: f64::MAX, witness: None, simplex: [Vertex::default(); 4], size: 0, steps };
-    while k < limits.iterations {
-        let length2 = dot(x, x);
-        length = length2.sqrt();
-        if length2 < MINVAL * MINVAL {
+/// Distance up to `cutoff`.
+pub(super) fn distance(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> Found {
+    let towards = normalize(sub(b.centre(), a.centre())).0;
+    let first = support(a, b, towards);
+    let mut found = Found { dist: Some(0.0), corral: Corral::new(first), steps: 1 };
+    let mut size = norm(first.point);
+    let discrete = a.discrete() && b.discrete();
+    while found.steps <= limits.iterations {
+        let x = found.corral.point();
+        let upper = norm(x);
+        found.dist = Some(upper);
+        if found.corral.holds_origin() || upper <= ROUNDING * size {
+            found.dist = Some(0.0);
             break;
         }
-        let s = support(a, b, scale(scale(x, 1.0 / length), -1.0));
-        simplex[n] = s;
-        if dot(x, sub(x, s.point)) < gap {
-            n = n.max(usize::from(k == 0));
+        let new = support(a, b, scale(x, -1.0 / upper));
+        found.steps += 1;
+        size = size.max(norm(new.point));
+        let lower = dot(x, new.point) / upper;
+        if lower > cutoff.max(0.0) {
+            found.dist = None;
             break;
         }
-        // The plane through s across x separates the bodies.
-        let ahead = dot(x, s.point);
-        if ahead > 0.0 && (!measure || (cutoff < f64::MAX && ahead * ahead / length2 >= cutoff * cutoff)) {
-            return apart(k);
-        }
-        if n == 3 && search {
-            match enclose(&mut simplex, a, b, &mut k, limits.iterations) {
-                Some(true) => return Gjk { dist: 0.0, witness: None, simplex, size: 4, steps: k },
-                Some(false) => return apart(k),
-                None => search = false,
-            }
-        }
-        coef = nearest(simplex.map(|v| v.point), n + 1);
-        n = 0;
-        for i in 0..4 {
-            if coef[i] != 0.0 {
-                (simplex[n], coef[n]) = (simplex[i], coef[i]);
-                n += 1;
-            }
-        }
-        if n == 0 {
-            return apart(k);
-        }
-        let next = combine(&coef[..n], simplex.iter().map(|v| v.point));
-        if sub(next, x).iter().all(|d| d.abs() < MINVAL) {
+        // x is as near to the true nearest point as the root of this.
+        let error2 = (upper - lower) * upper;
+        let accuracy2 = if discrete { 0.0 } else { 0.5 * limits.tolerance * limits.tolerance };
+        if error2 <= accuracy2.max(ROUNDING * size * upper) {
             break;
         }
-        x = next;
-        if n == 4 {
-            length = 0.0;
+        if discrete && found.corral.vertices().iter().any(|v| v.corners == new.corners) {
             break;
         }
-        length = norm(x);
-        k += 1;
-    }
-    if n == 0 {
-        // Coincident centres.
-        return Gjk { dist: length, witness: Some([a.centre(), b.centre()]), simplex, size: 0, steps: k };
-    }
-    let on_a = combine(&coef[..n], simplex.iter().map(|v| v.on_a));
-    let on_b = combine(&coef[..n], simplex.iter().map(|v| v.on_b));
-    Gjk { dist: length, witness: Some([on_a, on_b]), simplex, size: n, steps: k }
-}
-
-/// Moves a tetrahedron towards the origin, one corner at a time: whether it came to hold the origin, or `None`
-/// when that cannot be told.
-fn enclose(
-    simplex: &mut [Vertex; 4],
-    a: &mut Body,
-    b: &mut Body,
-    k: &mut usize,
-    most: usize,
-) -> Option<bool> {
-    let mut v = *simplex;
-    // Corners in an order that keeps the orientation.
-    let mut at = [0, 1, 2, 3];
-    while *k < most {
-        // Side i lacks corner i; its normal points to the inside where that corner is.
-        let sides = [[2, 1, 3], [0, 2, 3], [1, 0, 3], [0, 1, 2]].map(|s| side(s.map(|i| v[at[i]].point)));
-        if sides.iter().any(|s| s.0 == 0.0) {
-            return None;
+        let before = found.corral;
+        if !found.corral.admit(new) {
+            break;
         }
-        let lower = |i: usize, j: usize| if sides[i].0 < sides[j].0 { i } else { j };
-        let worst = lower(lower(0, 1), lower(2, 3));
-        let (dist, normal) = sides[worst];
-        if dist > 0.0 {
-            *simplex = at.map(|i| v[i]);
-            return Some(true);
+        if !found.corral.holds_origin() && norm(found.corral.point()) >= upper {
+            found.corral = before;
+            break;
         }
-        let new = support(a, b, normal);
-        v[at[worst]] = new;
-        if dot(normal, new.point) < 0.0 {
-            return Some(false);
-        }
-        at.swap((worst + 1) % 4, (worst + 2) % 4);
-        *k += 1;
     }
-    None
-}
-
-/// Signed distance of a side from the origin, and its normal; very far when it has none.
-fn side([a, b, c]: [Vec3; 3]) -> (f64, Vec3) {
-    let normal = cross(sub(c, a), sub(b, a));
-    let length2 = dot(normal, normal);
-    if length2 > MINVAL * MINVAL && length2 < 1e20 {
-        let normal = scale(normal, 1.0 / length2.sqrt());
-        (dot(normal, a), normal)
-    } else {
-        (f64::MAX, normal)
-    }
+    found
 }

@@ -10,6 +10,7 @@ mod epa;
 mod gjk;
 mod inside;
 pub(crate) mod pair;
+mod polish;
 mod ray;
 mod shape;
 mod sides;
@@ -26,4 +27,4 @@ pub use shape::{Field, Hull, Mesh, Shape};
 pub use sides::Sides;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

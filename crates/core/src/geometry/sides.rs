@@ -11,6 +11,9 @@ const FLAT: f64 = 1.0 - 1e-7;
 pub struct Sides {
     sides: Vec<Side>,
     vertices: Vec<u32>,
+    /// Sides at each vertex: where its list begins in `around`, and one more.
+    first: Vec<u32>,
+    around: Vec<u32>,
 }
 
 /// A flat side.
@@ -46,6 +49,29 @@ impl Sides {
     pub fn vertices(&self, side: usize) -> &[u32] {
         let s = &self.sides[side];
         &self.vertices[s.first as usize..(s.first + s.count) as usize]
+    }
+
+    /// The sides that meet in a vertex, and its place in the list of each.
+    pub fn around(&self, vertex: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let range = match (self.first.get(vertex), self.first.get(vertex + 1)) {
+            (Some(&from), Some(&to)) => from as usize..to as usize,
+            _ => 0..0,
+        };
+        self.around[range].iter().filter_map(move |&side| {
+            let side = side as usize;
+            Some((side, self.vertices(side).iter().position(|&v| v as usize == vertex)?))
+        })
+    }
+
+    /// Lists the sides at each of `n` vertices.
+    fn index(&mut self, n: usize) {
+        let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(self.vertices.len());
+        for side in 0..self.len() {
+            pairs.extend(self.vertices(side).iter().map(|&v| (v, side as u32)));
+        }
+        pairs.sort_unstable();
+        self.first = (0..=n).map(|v| pairs.partition_point(|p| (p.0 as usize) < v) as u32).collect();
+        self.around = pairs.into_iter().map(|p| p.1).collect();
     }
 }
 
@@ -114,5 +140,6 @@ fn merge(mesh: &Mesh, hull: &Hull) -> Sides {
         let count = out.vertices.len() as u32 - first;
         out.sides.push(Side { normal: normals[start], first, count });
     }
+    out.index(mesh.vert.len());
     out
 }

@@ -1,171 +1,120 @@
-//! The point of a simplex nearest to the origin, in barycentric coordinates, by signed volumes.
+//! The point of a simplex nearest to the origin, kept while support points come in: Wolfe, *Finding the nearest point in
+//! a polytope*, Mathematical Programming 11 (1976).
 //!
-//! Montanari, Petrinic, Barbieri: *Improving the GJK algorithm for faster and more reliable distance queries
-//! between convex objects*, ACM Transactions on Graphics 36 (2017). A coordinate that has not the sign of the
-//! whole volume means that the opposite side may be nearer; sides are tried and the nearest kept.
+//! A corral is a simplex whose point nearest to the origin is in its inside. A new vertex makes it larger; then the
+//! weights go straight to those of the nearest point of the affine hull, and where a weight would turn negative on the
+//! way, its vertex leaves and the walk begins anew. Every walk brings the point nearer.
 
+use super::gjk::Vertex;
 use crate::math::*;
 
-/// Whether two numbers are both positive or both negative.
-#[inline]
-fn same_sign(a: f64, b: f64) -> bool {
-    (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0)
+/// A determinant below this part of the product of its edges has no direction.
+const FLAT: f64 = 1e-14;
+
+/// Up to four vertices and the weights of the point nearest to the origin.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corral {
+    vertex: [Vertex; 4],
+    weight: [f64; 4],
+    len: usize,
 }
 
-/// Σ λᵢ pᵢ over the first points.
-#[inline]
-pub(super) fn combine(coef: &[f64], points: impl Iterator<Item = Vec3>) -> Vec3 {
-    let mut terms = coef.iter().zip(points).map(|(&c, p)| scale(p, c));
-    let first = terms.next().unwrap_or_default();
-    terms.fold(first, add)
-}
-
-/// The determinant of the matrix with these columns.
-#[inline]
-pub(super) fn det(a: Vec3, b: Vec3, c: Vec3) -> f64 {
-    a[0] * (b[1] * c[2] - b[2] * c[1])
-        + a[1] * (b[2] * c[0] - b[0] * c[2])
-        + a[2] * (b[0] * c[1] - b[1] * c[0])
-}
-
-/// Coordinates of the nearest point of a simplex of one to four points; the rest is zero.
-pub(super) fn nearest(s: [Vec3; 4], n: usize) -> [f64; 4] {
-    match n {
-        4 => tetrahedron(s),
-        3 => {
-            let [a, b, c] = triangle([s[0], s[1], s[2]]);
-            [a, b, c, 0.0]
-        }
-        2 => {
-            let [a, b] = segment([s[0], s[1]]);
-            [a, b, 0.0, 0.0]
-        }
-        _ => [1.0, 0.0, 0.0, 0.0],
+impl Corral {
+    pub(super) fn new(first: Vertex) -> Corral {
+        Corral { vertex: [first; 4], weight: [1.0, 0.0, 0.0, 0.0], len: 1 }
     }
-}
 
-/// The nearest of the sides that are asked for: side `i` lacks point `i`.
-fn nearest_side<const N: usize, const M: usize>(
-    s: [Vec3; N],
-    try_side: [bool; N],
-    nearest: fn([Vec3; M]) -> [f64; M],
-) -> [f64; N] {
-    let mut best = [0.0; N];
-    let mut least = f64::MAX;
-    for i in (0..N).filter(|&i| try_side[i]) {
-        let others: [usize; M] = std::array::from_fn(|k| if k < i { k } else { k + 1 });
-        let coef = nearest(others.map(|k| s[k]));
-        let point = combine(&coef, others.iter().map(|&k| s[k]));
-        let dist2 = dot(point, point);
-        if dist2 < least {
-            least = dist2;
-            best = [0.0; N];
-            for (k, c) in others.into_iter().zip(coef) {
-                best[k] = c;
+    pub(super) fn vertices(&self) -> &[Vertex] {
+        &self.vertex[..self.len]
+    }
+
+    /// The weighted mean of something of the vertices.
+    pub(super) fn mean(&self, of: impl Fn(&Vertex) -> Vec3) -> Vec3 {
+        let terms = self.vertices().iter().zip(self.weight);
+        terms.fold([0.0; 3], |sum, (v, w)| add_scaled(sum, of(v), w))
+    }
+
+    /// The nearest point.
+    pub(super) fn point(&self) -> Vec3 {
+        self.mean(|v| v.point)
+    }
+
+    /// Whether the simplex has an inside, and the origin is in it.
+    pub(super) fn holds_origin(&self) -> bool {
+        self.len == 4
+    }
+
+    /// Takes in a vertex that is nearer to the origin than the plane through the nearest point; `false`, with nothing
+    /// changed, when rounding leaves nothing to gain.
+    pub(super) fn admit(&mut self, new: Vertex) -> bool {
+        let before = *self;
+        let Some(slot) = self.vertex.get_mut(self.len) else { return false };
+        *slot = new;
+        self.weight[self.len] = 0.0;
+        self.len += 1;
+        while self.len > 0 {
+            let Some(goal) = self.nearest_of_affine_hull() else { break };
+            let Some((leaves, step)) = self.first_to_leave(&goal) else {
+                self.weight = goal;
+                return true;
+            };
+            for (w, g) in self.weight.iter_mut().zip(goal) {
+                *w += step * (g - *w);
+            }
+            self.len -= 1;
+            self.vertex[leaves] = self.vertex[self.len];
+            self.weight[leaves] = self.weight[self.len];
+        }
+        *self = before;
+        false
+    }
+
+    /// The vertex whose weight is the first to vanish on the way to other weights, and the part of the way until then.
+    fn first_to_leave(&self, goal: &[f64; 4]) -> Option<(usize, f64)> {
+        let mut first = None;
+        let mut shortest = f64::INFINITY;
+        for i in (0..self.len).filter(|&i| goal[i] <= 0.0) {
+            let w = self.weight[i];
+            let step = if w > 0.0 { w / (w - goal[i]) } else { 0.0 };
+            if step < shortest {
+                (first, shortest) = (Some((i, step)), step);
+            }
+        }
+        first
+    }
+
+    /// Weights of the point nearest to the origin on the line, plane or space through the vertices; `None` when these
+    /// do not span one.
+    fn nearest_of_affine_hull(&self) -> Option<[f64; 4]> {
+        let [p, q, r, s] = self.vertex.map(|v| v.point);
+        match self.len {
+            1 => Some([1.0, 0.0, 0.0, 0.0]),
+            2 => {
+                let along = sub(q, p);
+                let length2 = dot(along, along);
+                let t = -dot(p, along) / length2;
+                (length2 > 0.0).then_some([1.0 - t, t, 0.0, 0.0])
+            }
+            3 => barycentric([p, q, r], [0.0; 3]).map(|[a, b, c]| [a, b, c, 0.0]),
+            _ => {
+                let [u, v, w] = [sub(q, p), sub(r, p), sub(s, p)];
+                let volume = dot(u, cross(v, w));
+                let size2 = dot(u, u) * dot(v, v) * dot(w, w);
+                // Cramer's rule for b u + c v + d w = -p.
+                let [b, c, d] =
+                    [dot(p, cross(w, v)), dot(p, cross(u, w)), dot(p, cross(v, u))].map(|x| x / volume);
+                (volume * volume > FLAT * FLAT * size2).then_some([1.0 - b - c - d, b, c, d])
             }
         }
     }
-    best
 }
 
-fn tetrahedron(s: [Vec3; 4]) -> [f64; 4] {
-    let [a, b, c, d] = s;
-    let part = [-det(b, c, d), det(a, c, d), -det(a, b, d), det(a, b, c)];
-    let whole = part[0] + part[1] + part[2] + part[3];
-    let outside = part.map(|p| !same_sign(whole, p));
-    if outside == [false; 4] {
-        return part.map(|p| p / whole);
-    }
-    nearest_side(s, outside, triangle)
-}
-
-fn triangle(s: [Vec3; 3]) -> [f64; 3] {
-    let [a, b, c] = s;
-    let Some(p) = origin_on_plane(a, b, c) else {
-        let [a, b] = segment([a, b]);
-        return [a, b, 0.0];
-    };
-    let view = View::of(a, b, c);
-    let part = [view.area(p, b, c), view.area(p, c, a), view.area(p, a, b)];
-    let outside = part.map(|x| !same_sign(view.whole, x));
-    if outside == [false; 3] {
-        return part.map(|x| x / view.whole);
-    }
-    nearest_side(s, outside, segment)
-}
-
-fn segment([a, b]: [Vec3; 2]) -> [f64; 2] {
-    let along = sub(b, a);
-    let p = add_scaled(b, along, -(dot(b, along) / dot(along, along)));
-    // Along the axis on which the segment has the longest shadow.
-    let shadow = sub(a, b);
-    let mut i = 0;
-    for k in 1..3 {
-        if shadow[k].abs() >= shadow[i].abs() {
-            i = k;
-        }
-    }
-    let (u, v) = (p[i] - b[i], a[i] - p[i]);
-    if same_sign(shadow[i], u) && same_sign(shadow[i], v) {
-        [u / shadow[i], v / shadow[i]]
-    } else {
-        [0.0, 1.0]
-    }
-}
-
-/// A triangle as seen along the axis from which it looks largest.
-pub(super) struct View {
-    axes: [usize; 2],
-    /// Twice the signed area of the triangle.
-    pub(super) whole: f64,
-}
-
-impl View {
-    pub(super) fn of(a: Vec3, b: Vec3, c: Vec3) -> View {
-        let [x, y, z] = [[1, 2], [0, 2], [0, 1]].map(|axes| {
-            let view = View { axes, whole: 0.0 };
-            let [i, j] = axes;
-            let whole = b[i] * c[j] - b[j] * c[i] - a[i] * c[j] + a[j] * c[i] + a[i] * b[j] - a[j] * b[i];
-            View { whole, ..view }
-        });
-        let size = |v: &View| v.whole.abs();
-        if size(&x) >= size(&y) && size(&x) >= size(&z) {
-            x
-        } else if size(&y) >= size(&z) {
-            y
-        } else {
-            z
-        }
-    }
-
-    /// Twice the signed area of a triangle.
-    pub(super) fn area(&self, a: Vec3, b: Vec3, c: Vec3) -> f64 {
-        let [i, j] = self.axes;
-        a[i] * b[j] + a[j] * c[i] + b[i] * c[j] - a[i] * c[j] - a[j] * b[i] - c[i] * b[j]
-    }
-}
-
-/// The origin projected on the plane of a triangle; `None` when the triangle is a line.
-pub(super) fn origin_on_plane(a: Vec3, b: Vec3, c: Vec3) -> Option<Vec3> {
-    let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
-    // The same normal from each corner: the first that is not lost in rounding.
-    let mut last = [0.0; 3];
-    for (edges, corner) in [((bc, ab), b), ((ab, ac), a), ((ac, bc), c)] {
-        let normal = cross(edges.0, edges.1);
-        let (height, length2) = (dot(normal, corner), dot(normal, normal));
-        if length2 == 0.0 {
-            return None;
-        }
-        last = scale(normal, height / length2);
-        if height != 0.0 && length2 > MINVAL {
-            break;
-        }
-    }
-    Some(last)
-}
-
-/// Affine coordinates of a point in the plane of a triangle.
-pub(super) fn affine(a: Vec3, b: Vec3, c: Vec3, p: Vec3) -> Vec3 {
-    let view = View::of(a, b, c);
-    [view.area(p, b, c), view.area(p, c, a), view.area(p, a, b)].map(|x| x / view.whole)
+/// Weights of the point of a triangle's plane that is nearest to a point; `None` when the triangle is a line.
+pub(super) fn barycentric([a, b, c]: [Vec3; 3], point: Vec3) -> Option<Vec3> {
+    let (u, v) = (sub(b, a), sub(c, a));
+    let normal = cross(u, v);
+    let area2 = dot(normal, normal);
+    let from = sub(point, a);
+    let (s, t) = (dot(cross(from, v), normal) / area2, dot(cross(u, from), normal) / area2);
+    (area2 > FLAT * FLAT * dot(u, u) * dot(v, v)).then_some([1.0 - s - t, s, t])
 }

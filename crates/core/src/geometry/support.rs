@@ -1,5 +1,6 @@
 //! Support points: the point of a convex shape that is farthest in a direction.
 
+use super::pair::List;
 use super::{Hull, Mesh, Shape};
 use crate::geom;
 use crate::math::*;
@@ -13,15 +14,13 @@ pub(crate) enum Form<'a> {
     Prism([Vec3; 6]),
 }
 
-/// A convex body as the distance algorithms see it.
+/// A convex body as the distance algorithms see it. A sphere is its centre, a capsule its axis: the rest is [`Body::radius`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Body<'a> {
     pub(crate) form: Form<'a>,
-    /// The body is thicker by half of this, m.
-    pub(crate) margin: f64,
-    /// Only the centre of a sphere, or the axis of a capsule, stands for the shape.
-    pub(super) core: bool,
-    /// The corner found last, of a box or mesh.
+    /// The body stands this far from where its shape is, m, world.
+    shift: Vec3,
+    /// The corner found last, of what has corners only; else -1.
     pub(super) corner: i32,
     /// The vertex of the hull found last: neighbouring directions have neighbouring answers.
     hull_vertex: usize,
@@ -31,12 +30,22 @@ pub(crate) struct Body<'a> {
 const CLIMB_FROM: usize = 10;
 
 impl<'a> Body<'a> {
-    pub(crate) fn new(shape: &'a Shape<'a>, margin: f64) -> Body<'a> {
-        Body { form: Form::Shape(shape), margin, core: false, corner: -1, hull_vertex: 0 }
+    pub(crate) fn new(shape: &'a Shape<'a>) -> Body<'a> {
+        Body { form: Form::Shape(shape), shift: [0.0; 3], corner: -1, hull_vertex: 0 }
     }
 
     pub(crate) fn prism(corners: [Vec3; 6]) -> Body<'a> {
-        Body { form: Form::Prism(corners), margin: 0.0, core: false, corner: -1, hull_vertex: 0 }
+        Body { form: Form::Prism(corners), shift: [0.0; 3], corner: -1, hull_vertex: 0 }
+    }
+
+    /// The same body somewhere else.
+    pub(super) fn moved(&self, by: Vec3) -> Body<'a> {
+        Body { shift: by, ..*self }
+    }
+
+    /// The corner found last, -1 when the body has none.
+    pub(crate) fn corner(&self) -> i32 {
+        self.corner
     }
 
     /// What a support point costs.
@@ -58,7 +67,7 @@ impl<'a> Body<'a> {
     /// A point inside.
     pub(super) fn centre(&self) -> Vec3 {
         match self.form {
-            Form::Shape(s) => s.pos,
+            Form::Shape(s) => add(s.pos, self.shift),
             Form::Prism(corners) => scale(corners.into_iter().fold([0.0; 3], add), 1.0 / 6.0),
         }
     }
@@ -66,41 +75,110 @@ impl<'a> Body<'a> {
     /// How far the shape reaches around its core, m; zero when it has none.
     pub(super) fn radius(&self) -> f64 {
         match self.form {
-            Form::Shape(s) if has_core(s.kind) => s.size[0] + 0.5 * self.margin,
+            Form::Shape(s) if matches!(s.kind, geom::SPHERE | geom::CAPSULE) => s.size[0],
             _ => 0.0,
         }
     }
 
-    /// Whether the body is a point or a segment with a radius.
-    pub(super) fn round(&self) -> bool {
-        has_core(self.kind())
-    }
-
     /// Whether the body has finitely many support points.
     pub(super) fn discrete(&self) -> bool {
-        self.margin == 0.0 && matches!(self.kind(), geom::MESH | geom::BOX | geom::HFIELD)
+        !matches!(self.kind(), geom::ELLIPSOID | geom::CYLINDER)
     }
 
-    /// The farthest point in a direction of unit length, world.
+    /// The farthest point of the core in a direction of unit length, world.
     pub(crate) fn support(&mut self, dir: Vec3) -> Vec3 {
         let point = match self.form {
-            Form::Prism(corners) => prism(&corners, dir),
+            Form::Prism(corners) => {
+                self.corner = prism(&corners, dir) as i32;
+                corners[self.corner as usize]
+            }
             Form::Shape(s) => {
                 let local = mat_t_mul_vec(&s.mat, dir);
                 s.world(self.local_support(s, local))
             }
         };
-        if self.margin > 0.0 && !self.core { add_scaled(point, dir, 0.5 * self.margin) } else { point }
+        add(point, self.shift)
+    }
+
+    /// The Hessian of the support function in a direction of unit length, or in the opposite one, between two vectors
+    /// (world): ss, st, tt, m. On tangents the radii of curvature where the body is round; zero at corners.
+    pub(super) fn bend(&self, dir: Vec3, s: Vec3, t: Vec3) -> Vec3 {
+        let Form::Shape(shape) = self.form else { return [0.0; 3] };
+        if !matches!(shape.kind, geom::ELLIPSOID | geom::CYLINDER) {
+            return [0.0; 3];
+        }
+        let [n, s, t] = [dir, s, t].map(|v| mat_t_mul_vec(&shape.mat, v));
+        let size = shape.size;
+        if shape.kind == geom::CYLINDER {
+            // h = r ρ with ρ the length across the axis, so H = r / ρ along the rim.
+            let rho2 = n[0] * n[0] + n[1] * n[1];
+            if rho2 < MINVAL * MINVAL {
+                return [0.0; 3];
+            }
+            let along = |v: Vec3| v[1] * n[0] - v[0] * n[1];
+            let (radius, [s, t]) = (size[0] / (rho2 * rho2.sqrt()), [s, t].map(along));
+            return [s * s, s * t, t * t].map(|x| radius * x);
+        }
+        // h = |S n|, so H = S² / h - (S² n)(S² n)ᵀ / h³.
+        let stretched = |v: Vec3| [size[0] * v[0], size[1] * v[1], size[2] * v[2]];
+        let [n, s, t] = [n, s, t].map(stretched);
+        let h2 = dot(n, n);
+        let between = |u: Vec3, v: Vec3| (dot(u, v) - dot(u, n) * dot(v, n) / h2) / h2.sqrt();
+        [between(s, s), between(s, t), between(t, t)]
+    }
+
+    /// Up to two edges that are nearly across a direction (world, unit length): there the support function has a kink.
+    /// A flat end of a cylinder counts as two.
+    pub(super) fn kinks(&mut self, dir: Vec3, near: f64) -> List<Vec3, 2> {
+        // The two that are most across, the flattest first.
+        let mut flattest: [(f64, Vec3); 2] = [(near, [0.0; 3]); 2];
+        let mut consider = |edge: Vec3| {
+            let slope = dot(edge, dir).abs();
+            if slope < flattest[0].0 {
+                flattest = [(slope, edge), flattest[0]];
+            } else if slope < flattest[1].0 {
+                flattest[1] = (slope, edge);
+            }
+        };
+        match self.form {
+            Form::Prism(corners) => {
+                let first = if dir[2] < 0.0 { 0 } else { 3 };
+                for k in 0..3 {
+                    consider(normalize(sub(corners[first + (k + 1) % 3], corners[first + k])).0);
+                }
+                consider([0.0, 0.0, 1.0]);
+            }
+            Form::Shape(s) => match s.kind {
+                geom::BOX => (0..3).for_each(|i| consider(s.axis(i))),
+                geom::CAPSULE => consider(s.axis(2)),
+                geom::CYLINDER if norm(cross(s.axis(2), dir)) < near => {
+                    (0..2).for_each(|i| consider(s.axis(i)));
+                }
+                geom::CYLINDER => consider(s.axis(2)),
+                geom::MESH => {
+                    let vertex = self.mesh_vertex(&s.mesh, mat_t_mul_vec(&s.mat, dir));
+                    let at = |v: usize| s.mesh.vert.get(v).copied().unwrap_or_default();
+                    let Some(sides) = s.mesh.sides else { return List::new() };
+                    for (side, place) in sides.around(vertex) {
+                        let list = sides.vertices(side);
+                        let other = list[(place + 1) % list.len()] as usize;
+                        consider(mat_mul_vec(&s.mat, normalize(sub(at(other), at(vertex))).0));
+                    }
+                }
+                _ => {}
+            },
+        }
+        let mut out = List::new();
+        flattest.iter().filter(|(slope, _)| *slope < near).for_each(|&(_, edge)| out.push(edge));
+        out
     }
 
     fn local_support(&mut self, s: &Shape, dir: Vec3) -> Vec3 {
         let upwards = |x: f64| if x >= 0.0 { 1.0 } else { -1.0 };
         match s.kind {
-            geom::SPHERE if self.core => [0.0; 3],
-            geom::SPHERE => scale(dir, s.size[0]),
             geom::CAPSULE => {
-                let end = [0.0, 0.0, upwards(dir[2]) * s.size[1]];
-                if self.core { end } else { add(scale(dir, s.size[0]), end) }
+                self.corner = i32::from(dir[2] >= 0.0);
+                [0.0, 0.0, upwards(dir[2]) * s.size[1]]
             }
             geom::ELLIPSOID => {
                 let on_unit: Vec3 = std::array::from_fn(|i| dir[i] * s.size[i]);
@@ -175,17 +253,9 @@ pub(super) fn search(mesh: &Mesh, dir: Vec3, start: Option<usize>) -> usize {
     best
 }
 
-fn has_core(kind: i32) -> bool {
-    matches!(kind, geom::SPHERE | geom::CAPSULE)
-}
-
-fn prism(corners: &[Vec3; 6], dir: Vec3) -> Vec3 {
-    let side = if dir[2] < 0.0 { &corners[..3] } else { &corners[3..] };
-    let mut best = side[0];
-    for &corner in &side[1..] {
-        if dot(corner, dir) > dot(best, dir) {
-            best = corner;
-        }
-    }
-    best
+/// The corner of a prism: of the three below for a direction that falls, else of the three on top.
+fn prism(corners: &[Vec3; 6], dir: Vec3) -> usize {
+    let first = if dir[2] < 0.0 { 0 } else { 3 };
+    (first..first + 3)
+        .fold(first, |best, k| if dot(corners[k], dir) > dot(corners[best], dir) { k } else { best })
 }

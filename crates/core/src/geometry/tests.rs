@@ -4,6 +4,10 @@
 //! is printed as well, and the tables of `docs/contacts.md` are written to `contacts.md` and `distances.md` in it.
 
 mod figures;
+mod random;
+mod reference;
+
+pub(crate) use random::Random;
 
 use figures::Figures;
 use std::collections::BTreeMap;
@@ -204,29 +208,33 @@ fn settings() -> Settings {
     Settings::of(&Model { opt: crate::Options::mujoco(), ..Model::default() })
 }
 
-/// `ccd_tolerance`, m.
+/// With more iterations than the default of 35, which do not always do for round bodies deep in each other.
+fn patient() -> Settings {
+    let mut settings = settings();
+    settings.effort.iterations = 300;
+    settings
+}
+
+/// The library's search over round sides was told to stop within 1e-9 m: so well are distances known, and points and
+/// directions to about the root of it. (Of bodies with corners alone they are exact, on both sides.)
+const DEPTH: f64 = 1e-8;
+const POINT: f64 = 2e-4;
+/// Distances of less are no more than that the bodies touch, m.
 const CLOSE: f64 = 1e-6;
 
-/// What a search over round sides finds is known to its tolerance alone.
-const SEARCHED: &str =
-    "the search stops within `ccd_tolerance`, 1e-6 m: depths less than 5e-7 m apart, points 1e-3 m";
-const LED_AWAY: &str = "a depth of 464 m between bodies of a metre means nothing on either side: the search from inside of a prism of the \
-                        ground is led away";
+/// The library finds nothing, or a distance of zero, where the centres of two convex bodies are the same.
+fn concentric(a: &Shape, b: &Shape) -> bool {
+    norm(sub(a.pos, b.pos)) < MINVAL
+}
 
-const DISTANCES: &[Known] = &[
-    ("cylinder-mesh dist", &[1182], SEARCHED),
-    ("cylinder-mesh fromto", &[1182], SEARCHED),
-    ("mesh-cylinder dist", &[1177], SEARCHED),
-    ("mesh-cylinder fromto", &[1177], SEARCHED),
-    (
-        "cylinder-mesh fromto",
-        &[1161],
-        "a line lies along a face: all of its points are as near, and each side names another",
-    ),
-    ("ellipsoid-hfield dist", &[341], LED_AWAY),
-    ("ellipsoid-hfield fromto", &[341], LED_AWAY),
-];
+/// Points of a face or a line are equally near.
+const FLAT: &str =
+    "a face or a line that lies on a face: all of its points are as near, and each side names another";
 
+const DISTANCES: &[Known] = &[("box-box fromto", &[1235], FLAT), ("capsule-cylinder fromto", &[829], FLAT)];
+
+/// Distances of height fields are left out: the library measures them with the margins of its contacts, which for a
+/// largest distance of 1000 m makes 490 m of penetration of bodies of a metre. `reference.rs` has them.
 #[test]
 fn distances_are_those_of_mujoco() {
     let (text, print) = cases("pairs.txt", include_str!("golden/pairs.txt"));
@@ -239,41 +247,48 @@ fn distances_are_those_of_mujoco() {
         words.next();
         let (a, b) = (assets.shape(&mut words), assets.shape(&mut words));
         let most: f64 = words.next().unwrap().parse().unwrap();
-        let found = super::distance::shape_distance(&a, &b, most, &settings(), &mut work);
+        let (least, other) = if a.kind <= b.kind { (&a, &b) } else { (&b, &a) };
+        let method = pair::method(least.kind, other.kind);
+        let searched = matches!(method, Some(Method::Convex)) || least.kind == geom::BOX;
+        if matches!(method, Some(Method::Field)) || searched && concentric(&a, &b) {
+            continue;
+        }
+        let found = super::distance::shape_distance(&a, &b, most, &patient(), &mut work);
         let [p, q] = found.fromto;
         let got = [found.dist, p[0], p[1], p[2], q[0], q[1], q[2]];
         let want = floats(want);
         let kinds = |a: &Shape, b: &Shape| format!("{}-{}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
         let name = |end| format!("{} {end}", kinds(&a, &b));
-        let (least, other) = if a.kind <= b.kind { (&a, &b) } else { (&b, &a) };
         figures.distance(&kinds(least, other), want[0], got[0]);
         let scale = 1.0 + norm(a.size).min(norm(b.size));
         let shown = format!("{line}\n    got {got:?}");
-        // Nearer than the tolerance of the search, a distance is known to that, and its points are anywhere along the slit.
-        let searched = matches!(pair::method(least.kind, other.kind), Some(Method::Convex));
-        if searched && got[0].abs().max(want[0].abs()) < CLOSE {
-            report.note(name("dist"), case, difference(&got[..1], &want[..1]), CLOSE, &shown);
-            continue;
+        let (depth, point) = if searched { (DEPTH, POINT) } else { (1e-10, 1e-10) };
+        let apart = difference(&got[..1], &want[..1]);
+        if searched && apart > depth * scale && reference::is_true(&a, &b) {
+            continue; // The library's search stopped before it was there.
         }
-        report.note(name("dist"), case, difference(&got[..1], &want[..1]), 1e-10 * scale, &shown);
-        report.note(name("fromto"), case, difference(&got[1..], &want[1..]), 1e-7 * scale, &shown);
+        report.note(name("dist"), case, apart, depth * scale, &shown);
+        // Where bodies hardly touch, the points are anywhere along the slit.
+        if !searched || got[0].abs() > CLOSE {
+            report.note(name("fromto"), case, difference(&got[1..], &want[1..]), point * scale, &shown);
+        }
     }
     keep("distances.md", &figures.distance_table());
     report.finish(print, DISTANCES);
 }
 
+/// Two contacts in one place, or one on the line between two others.
+const TWICE: &str = "one side lists a point of the face or line twice: 1e-16 m apart, or between two others";
+
 const CONTACTS: &[Known] = &[
-    ("box-mesh", &[1248], "the library lists one point twice, 1e-16 m apart; ours once, 2e-8 m deeper"),
-    (
-        "cylinder-cylinder",
-        &[1102],
-        "faces that are parallel: tilted by 3e-7 as found here they touch in one point, not along two",
-    ),
-    (
-        "hfield-cylinder",
-        &[377],
-        "one of 17 contacts, with a prism whose side the cylinder's round side meets: found within `ccd_tolerance`",
-    ),
+    ("box-mesh number", &[1248], TWICE),
+    ("capsule-cylinder number", &[829], TWICE),
+    ("cylinder-box number", &[1134], TWICE),
+    ("cylinder-cylinder number", &[1102], TWICE),
+    ("cylinder-cylinder place", &[1104], FLAT),
+    ("ellipsoid-ellipsoid place", &[935], "1e-9 m deep: the library's normal points the other way"),
+    ("hfield-cylinder place", &[374], FLAT),
+    ("hfield-ellipsoid place", &[356], "within the root of 1e-9 of a side of a prism: 4e-4"),
 ];
 
 #[test]
@@ -289,8 +304,12 @@ fn contacts_are_those_of_mujoco() {
         let (a, b) = (assets.shape(&mut words), assets.shape(&mut words));
         let margin: f64 = words.next().unwrap().parse().unwrap();
         let method = pair::method(a.kind, b.kind).unwrap();
+        let searched = !matches!(method, Method::Direct(_));
+        if searched && concentric(&a, &b) {
+            continue;
+        }
         work.touches.clear();
-        pair::contacts(method, &a, &b, margin, &settings(), &mut work.room, &mut work.touches);
+        pair::contacts(method, &a, &b, margin, &patient(), &mut work.room, &mut work.touches);
         let mut got = Vec::new();
         for t in &work.touches {
             got.push(t.dist);
@@ -298,14 +317,35 @@ fn contacts_are_those_of_mujoco() {
             got.extend(&crate::collision::frame_along(t.normal, t.tangent)[..6]);
         }
         let want = floats(want);
-        let name = format!("{}-{}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
-        let bound = if matches!(method, Method::Direct(_)) { 1e-10 } else { 1e-7 };
-        if !matches!(method, Method::Direct(_)) {
+        let kinds = format!("{}-{}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
+        if searched {
             got = in_order_of(&want, &got);
         }
-        figures.contacts(&name, &want, &got);
+        figures.contacts(&kinds, &want, &got);
         let scale = 1.0 + norm(a.size).min(norm(b.size));
-        report.note(name, case, difference(&got, &want), bound * scale, &format!("{line}\n    got {got:?}"));
+        let shown = format!("{line}\n    got {got:?}");
+        if !searched {
+            report.note(kinds, case, difference(&got, &want), 1e-10 * scale, &shown);
+            continue;
+        }
+        let number = (got.len().abs_diff(want.len()) / 10) as f64;
+        report.note(format!("{kinds} number"), case, number, 0.5, &shown);
+        // The library's search from inside a prism of the ground ends too early where the other shape has corners: it takes
+        // every corner of the prism for the same one.
+        let ends_early = a.kind == geom::HFIELD && matches!(b.kind, geom::BOX | geom::MESH);
+        if number == 0.0 && !ends_early {
+            let (dist, rest): (Vec<_>, Vec<_>) = got
+                .chunks(10)
+                .zip(want.chunks(10))
+                .map(|(g, w)| (difference(&g[..1], &w[..1]), difference(&g[1..], &w[1..])))
+                .unzip();
+            let most = |list: &[f64]| list.iter().copied().fold(0.0, f64::max);
+            if most(&dist) > DEPTH * scale && a.kind != geom::HFIELD && reference::is_true(&a, &b) {
+                continue; // The library's search stopped before it was there.
+            }
+            report.note(format!("{kinds} dist"), case, most(&dist), DEPTH * scale, &shown);
+            report.note(format!("{kinds} place"), case, most(&rest), POINT * scale, &shown);
+        }
     }
     keep("contacts.md", &figures.contact_table());
     report.finish(print, CONTACTS);
@@ -325,8 +365,8 @@ fn distance_is_symmetric() {
             continue;
         }
         let mut there = |a: &Shape, b: &Shape| {
-            let (mut u, mut v) = (Convex::new(a, 0.0), Convex::new(b, 0.0));
-            nearest(&mut u, &mut v, 1e3, settings().effort, &mut work.room).dist
+            let (mut u, mut v) = (Convex::new(a), Convex::new(b));
+            nearest(&mut u, &mut v, 1e3, settings().effort, &mut work.room).map_or(f64::NAN, |n| n.dist)
         };
         let (x, y) = (there(&a, &b), there(&b, &a));
         assert!((x - y).abs() < 1e-5 * (1.0 + norm(a.size) + norm(b.size)), "{x} {y}: {line}");

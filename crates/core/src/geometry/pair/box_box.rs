@@ -1,305 +1,371 @@
-//! Two boxes: the axis that separates them best, then the contacts along it.
+//! Contacts of two boxes.
 //!
-//! Separating axes after Gottschalk, Lin, Manocha: *OBBTree* (1996): three face normals of each box and nine cross
-//! products of edges. Along a face normal, the face of the other box that looks against it is clipped by the sides of
-//! the first (Sutherland, Hodgman: *Reentrant polygon clipping*, 1974); across two edges, the contact is where these
-//! come nearest. Faces give several points and are preferred where both would do.
+//! The axis of the largest gap among the 15 separating axes (Gottschalk, Lin and Manocha, *OBBTree*, 1996)
+//! tells how the boxes touch. A face normal: the incident face is clipped by the sides of the reference face
+//! (Sutherland and Hodgman, *Reentrant polygon clipping*, 1974), and every corner near the reference face is
+//! a contact. The cross product of two edges: the nearest points of the supporting edges are the one contact.
+//!
+//! Everything is measured in the frame of the first box, or of the box with the reference face.
+//!
+//! Which axis wins among almost equal ones, which edges are tried when several support, which corners count
+//! as one and the order of the corners are recorded behaviour of MuJoCo 3.14.0: the constants below and the
+//! walk of [`face_contacts`].
 
 use super::Touch;
 use crate::geometry::Shape;
 use crate::math::*;
 
-/// Slack of the separation, in half sizes of both boxes: their reach along an axis is not known better.
-const SEPARATION_SLACK: f64 = 1e-13;
-/// Squared sine of two edges below which their cross product has no direction.
+/// Gap, relative to all half lengths, that rounding may open between boxes that touch.
+const TOUCHING: f64 = 1e-13;
+/// Squared sine below which two edges have no common perpendicular.
 const PARALLEL: f64 = 1e-16;
-/// An edge must separate better than a face by this part.
-const EDGE_PENALTY: f64 = 1e-6;
-/// Cosine of an edge axis and a face normal above which they are the same contact …
-const ALIKE: f64 = 0.99;
-/// … unless the edge is better by this part of the face's depth.
-const ALIKE_GAIN: f64 = 0.05;
-/// Component of an axis below which both edges on its sides support it.
-const EITHER_SIDE: f64 = 1e-9;
-/// Squared distance of equal corners of a clipped face, relative to its size.
+/// Part of its gap by which an edge axis must be better than the best before it.
+const EDGE_HANDICAP: f64 = 1e-6;
+/// Cosine from which on an edge axis is almost the best face normal …
+const ALMOST_FACE: f64 = 0.99;
+/// … which is then taken unless the edge axis' gap is larger by this part of the face's.
+const FACE_BONUS: f64 = 0.05;
+/// Component of the normal below which the edges on both sides support.
+const LEVEL: f64 = 1e-9;
+/// Squared distance, relative to the reference face, within which corners are one.
 const SAME_CORNER: f64 = 1e-14;
 
-/// Both boxes in the frame of the first.
-struct Boxes<'a> {
-    first: &'a Shape<'a>,
-    second: &'a Shape<'a>,
-    /// Axes of the second as columns.
-    turn: Mat3,
-    /// Centre of the second, and of the first in the frame of the second.
-    second_at: Vec3,
-    first_at: Vec3,
+/// The turn of a box against another: entry [i][j] is axis i of the one · axis j of the other.
+type Turn = [Vec3; 3];
+
+/// Where the second box is, seen from the first.
+struct Relative {
+    turn: Turn,
+    /// From centre to centre along the axes of the first.
+    offset: Vec3,
+    /// The same along the axes of the second.
+    offset_second: Vec3,
 }
 
-/// The direction that separates best.
+/// A face normal of the first or of the second box.
 #[derive(Clone, Copy, Debug)]
-enum Axis {
-    /// Normal of a face: of the first box or not, along this axis.
-    Face(bool, usize),
-    /// Across an edge of each box.
-    Edges(usize, usize),
+enum Face {
+    First(usize),
+    Second(usize),
 }
 
+/// The common perpendicular of edge `i` of the first box and edge `j` of the second.
+#[derive(Clone, Copy, Debug)]
+struct EdgeAxis {
+    gap: f64,
+    edges: [usize; 2],
+    /// The unit axis, from the first box to the second, in the frame of the first.
+    normal: Vec3,
+    /// The same in the frame of the second.
+    normal_second: Vec3,
+}
+
+/// The best of the separating axes: the face normal of the largest gap, and the edge axis of the largest gap
+/// where that is larger.
+#[derive(Clone, Copy, Debug)]
+struct Separation {
+    face_gap: f64,
+    face: Face,
+    edge: Option<EdgeAxis>,
+}
+
+/// Appends the contacts of two boxes whose surfaces are not farther than `margin` apart. Normals point from
+/// the first to the second, `pos` is halfway between the surfaces.
 pub(super) fn box_box(first: &Shape, second: &Shape, margin: f64, out: &mut Vec<Touch>) {
-    let apart = sub(second.pos, first.pos);
-    let columns = [0, 1, 2].map(|j| mat_t_mul_vec(&first.mat, second.axis(j)));
-    let boxes = Boxes {
-        first,
-        second,
-        turn: std::array::from_fn(|i| columns[i % 3][i / 3]),
-        second_at: mat_t_mul_vec(&first.mat, apart),
-        first_at: mat_t_mul_vec(&second.mat, scale(apart, -1.0)),
-    };
-    let sizes: f64 = first.size.iter().chain(&second.size).sum();
-    let limit = margin + SEPARATION_SLACK * sizes;
-    match boxes.best_axis(limit) {
-        Some(Axis::Edges(i, j)) => out.extend(boxes.edges(i, j, limit)),
-        Some(Axis::Face(of_first, axis)) => boxes.face(of_first, axis, margin, out),
-        None => {}
+    let relative = relative(first, second);
+    let slack = TOUCHING * (first.size.iter().sum::<f64>() + second.size.iter().sum::<f64>());
+    let limit = margin + slack;
+    let Some(separation) = separation(&relative, first.size, second.size, limit, slack) else { return };
+    let Relative { turn, offset, offset_second } = relative;
+    if let Some(axis) = preferred_edge(&separation) {
+        out.extend(edge_contact(first, second.size, &turn, offset, axis, limit));
+        return;
+    }
+    match separation.face {
+        Face::First(a) => face_contacts(first, second.size, &turn, offset, a, 1.0, margin, out),
+        Face::Second(a) => {
+            let turn = std::array::from_fn(|j| [turn[0][j], turn[1][j], turn[2][j]]);
+            face_contacts(second, first.size, &turn, scale(offset_second, -1.0), a, -1.0, margin, out);
+        }
     }
 }
 
-impl Boxes<'_> {
-    /// The axis of largest separation, `None` when it is above the limit.
-    fn best_axis(&self, limit: f64) -> Option<Axis> {
-        let (s1, s2) = (self.first.size, self.second.size);
-        let turn = self.turn.map(f64::abs);
-        let mut best = -1e10;
-        let mut axis = Axis::Face(true, 0);
-        for i in 0..3 {
-            let reach = turn[3 * i] * s2[0] + turn[3 * i + 1] * s2[1] + turn[3 * i + 2] * s2[2];
-            let gap = self.second_at[i].abs() - s1[i] - reach;
-            if gap > limit {
-                return None;
-            }
-            if gap > best {
-                (best, axis) = (gap, Axis::Face(true, i));
-            }
-        }
-        for j in 0..3 {
-            let reach = turn[j] * s1[0] + turn[3 + j] * s1[1] + turn[6 + j] * s1[2];
-            let gap = self.first_at[j].abs() - s2[j] - reach;
-            if gap > limit {
-                return None;
-            }
-            if gap > best {
-                (best, axis) = (gap, Axis::Face(false, j));
-            }
-        }
-        let (face_gap, face) = (best, axis);
-        for i in 0..3 {
-            for j in 0..3 {
-                let Some(gap) = self.edge_gap(i, j) else { continue };
-                if gap > limit {
-                    return None;
-                }
-                if gap - EDGE_PENALTY * gap.abs() > best && gap > face_gap {
-                    (best, axis) = (gap, Axis::Edges(i, j));
-                }
-            }
-        }
-        if let Axis::Edges(i, j) = axis {
-            let across = self.across(i, j);
-            let cosine = match face {
-                Axis::Face(true, f) => across[f].abs(),
-                Axis::Face(false, f) => dot(across, column(&self.turn, f)).abs(),
-                Axis::Edges(..) => 0.0,
-            };
-            if cosine > ALIKE && best < face_gap + ALIKE_GAIN * face_gap.abs() + MINVAL {
-                axis = face;
-            }
-        }
-        Some(axis)
+fn relative(first: &Shape, second: &Shape) -> Relative {
+    let away = sub(second.pos, first.pos);
+    let columns: [Vec3; 3] = std::array::from_fn(|j| mat_t_mul_vec(&first.mat, column(&second.mat, j)));
+    Relative {
+        turn: std::array::from_fn(|i| columns.map(|c| c[i])),
+        offset: mat_t_mul_vec(&first.mat, away),
+        offset_second: mat_t_mul_vec(&second.mat, away),
     }
+}
 
-    /// Separation across edge `i` of the first and `j` of the second box; `None` when they are parallel.
-    fn edge_gap(&self, i: usize, j: usize) -> Option<f64> {
-        let (s1, s2, t) = (self.first.size, self.second.size, &self.turn);
-        let (i1, i2, j1, j2) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-        // e_i × column j has no component along i.
-        let (u, v) = (-t[3 * i2 + j], t[3 * i1 + j]);
-        let length2 = u * u + v * v;
-        if length2 < PARALLEL {
+/// The two axes that follow `i` in the cycle 0, 1, 2.
+#[inline(always)]
+fn others(i: usize) -> [usize; 2] {
+    [(i + 1) % 3, (i + 2) % 3]
+}
+
+/// The best separating axes; nothing when a gap exceeds the limit or is no number.
+#[inline]
+fn separation(relative: &Relative, size1: Vec3, size2: Vec3, limit: f64, slack: f64) -> Option<Separation> {
+    let Relative { turn, offset, offset_second } = relative;
+    let spread = turn.map(|row| row.map(f64::abs));
+
+    let (mut face_gap, mut face) = (f64::NEG_INFINITY, Face::First(0));
+    let mut try_face = |gap: f64, axis| {
+        if gap > face_gap {
+            (face_gap, face) = (gap, axis);
+        }
+        gap <= limit
+    };
+    // Rounding decides between faces of aligned boxes: in this order of operations as recorded.
+    for i in 0..3 {
+        if !try_face(offset[i].abs() - size1[i] - dot(spread[i], size2), Face::First(i)) {
             return None;
         }
-        let inverse = 1.0 / length2.sqrt();
-        let (u, v) = (u * inverse, v * inverse);
-        let first = s1[i1] * u.abs() + s1[i2] * v.abs();
-        let along = |k: usize| (u * t[3 * i1 + k] + v * t[3 * i2 + k]).abs();
-        let second = s2[j1] * along(j1) + s2[j2] * along(j2);
-        Some((u * self.second_at[i1] + v * self.second_at[i2]).abs() - first - second)
+    }
+    for j in 0..3 {
+        let across = [spread[0][j], spread[1][j], spread[2][j]];
+        if !try_face(offset_second[j].abs() - size2[j] - dot(across, size1), Face::Second(j)) {
+            return None;
+        }
     }
 
-    /// The unit vector across two edges.
-    fn across(&self, i: usize, j: usize) -> Vec3 {
-        let (i1, i2) = ((i + 1) % 3, (i + 2) % 3);
-        let mut axis = [0.0; 3];
-        (axis[i1], axis[i2]) = (-self.turn[3 * i2 + j], self.turn[3 * i1 + j]);
-        normalize(axis).0
-    }
-
-    /// One contact in the middle of the nearest points of two edges.
-    fn edges(&self, i: usize, j: usize, limit: f64) -> Option<Touch> {
-        let (s1, s2) = (self.first.size, self.second.size);
-        let mut axis = self.across(i, j);
-        if dot(axis, self.second_at) < 0.0 {
-            axis = scale(axis, -1.0);
-        }
-        let against = mat_t_mul_vec(&self.turn, axis);
-        // The edge of each box that is farthest along the axis; when the axis lies in a face, either edge of it.
-        let corners1 = supporting(i, s1, axis);
-        let corners2 = supporting(j, s2, scale(against, -1.0));
-        let along = column(&self.turn, j);
-        let mut nearest = None;
-        let mut least = 1e10;
-        for &c1 in corners1.iter().flatten() {
-            for &c2 in corners2.iter().flatten() {
-                let c2 = add(mat_mul_vec(&self.turn, c2), self.second_at);
-                let (p1, p2) = nearest_on_lines(c1, i, s1[i], c2, along, s2[j]);
-                let gap = sub(p2, p1);
-                if dot(gap, gap) < least {
-                    (least, nearest) = (dot(gap, gap), Some((p1, p2)));
-                }
-            }
-        }
-        let (p1, p2) = nearest?;
-        let dist = dot(sub(p2, p1), axis);
-        (dist <= limit).then(|| Touch {
-            dist,
-            pos: self.first.world(scale(add(p1, p2), 0.5)),
-            normal: mat_mul_vec(&self.first.mat, axis),
-            tangent: [0.0; 3],
-        })
-    }
-
-    /// The other box's face, clipped by the sides of a face: contacts half way between the two.
-    fn face(&self, of_first: bool, a: usize, margin: f64, out: &mut Vec<Touch>) {
-        let (own, other, at) = match of_first {
-            true => (self.first, self.second, self.second_at),
-            false => (self.second, self.first, self.first_at),
-        };
-        // Component r of the other's axis c.
-        let turn = |r: usize, c: usize| self.turn[if of_first { 3 * r + c } else { 3 * c + r }];
-        let side = if at[a] >= 0.0 { 1.0 } else { -1.0 };
-        let mut b = 0;
-        for k in 1..3 {
-            if turn(a, k).abs() > turn(a, b).abs() {
-                b = k;
-            }
-        }
-        let towards = if side * turn(a, b) > 0.0 { -1.0 } else { 1.0 };
-
-        // The face in the plane's two axes, and its height above the plane.
-        let (ax, ay) = ((a + 1) % 3, (a + 2) % 3);
-        let (bu, bv) = ((b + 1) % 3, (b + 2) % 3);
-        let seen = |v: Vec3| [v[ax], v[ay], side * v[a]];
-        let edge = |k: usize| seen([0, 1, 2].map(|r| other.size[k] * turn(r, k)));
-        let mut centre = seen([0, 1, 2].map(|r| at[r] + towards * other.size[b] * turn(r, b)));
-        centre[2] -= own.size[a];
-        let (u, v) = (edge(bu), edge(bv));
-        let mut polygon = Polygon::new(
-            [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
-                .map(|(su, sv)| add(add(centre, scale(u, su)), scale(v, sv))),
-        );
-        for (k, limit) in [(0, own.size[ax]), (1, own.size[ay])] {
-            polygon.clip(|p| p[k] - limit);
-            polygon.clip(|p| -p[k] - limit);
-        }
-
-        let same = SAME_CORNER * (own.size[ax] * own.size[ax] + own.size[ay] * own.size[ay]);
-        let normal = scale(own.axis(a), if of_first { side } else { -side });
-        let corners = polygon.corners();
-        for (k, &p) in corners.iter().enumerate() {
-            let twice = |q: &Vec3| {
-                let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
-                q[2] <= margin && dx * dx + dy * dy < same
-            };
-            if p[2] > margin || corners[..k].iter().any(twice) {
+    let (mut best, mut edge) = (face_gap, None);
+    for i in 0..3 {
+        let [i1, i2] = others(i);
+        for j in 0..3 {
+            let [j1, j2] = others(j);
+            // The gap times the sine, along the cross product as it is: (e_i × b_j) · b_j1 = e_i · b_j2.
+            let reach = size1[i1] * spread[i2][j]
+                + size1[i2] * spread[i1][j]
+                + size2[j1] * spread[i][j2]
+                + size2[j2] * spread[i][j1];
+            let short = (offset[i2] * turn[i1][j] - offset[i1] * turn[i2][j]).abs() - reach + slack;
+            // Most pairs are out without root and division: short / sine <= best < 0, or short < 0 <= best.
+            let sine2 = turn[i1][j] * turn[i1][j] + turn[i2][j] * turn[i2][j];
+            let bar = best.min(0.0);
+            if short <= 0.0 && short * short >= bar * bar * sine2 {
                 continue;
             }
-            let mut pos = [0.0; 3];
-            (pos[ax], pos[ay], pos[a]) = (p[0], p[1], side * (own.size[a] + 0.5 * p[2]));
-            out.push(Touch { dist: p[2], pos: own.world(pos), normal, tangent: [0.0; 3] });
+            // The products above carry the rounding of the turn, which a small sine would magnify: again,
+            // along the unit axis.
+            let Some(axis) = edge_axis(relative, size1, size2, [i, j]) else { continue };
+            if axis.gap > limit {
+                return None;
+            }
+            if axis.gap - EDGE_HANDICAP * axis.gap.abs() > best {
+                (best, edge) = (axis.gap, Some(axis));
+            }
         }
     }
+    Some(Separation { face_gap, face, edge })
 }
 
-/// Middles of the edges along axis `i` that are farthest in a direction: two when it lies in a face.
-fn supporting(i: usize, size: Vec3, dir: Vec3) -> [Option<Vec3>; 2] {
-    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-    let mut middle = [0.0; 3];
-    for n in [j, k] {
-        middle[n] = if dir[n] >= 0.0 { size[n] } else { -size[n] };
+/// The separating axis of two edges, unless they are parallel.
+#[inline]
+fn edge_axis(relative: &Relative, size1: Vec3, size2: Vec3, [i, j]: [usize; 2]) -> Option<EdgeAxis> {
+    let Relative { turn, offset, .. } = relative;
+    let [i1, i2] = others(i);
+    let (p, q) = (turn[i1][j], turn[i2][j]);
+    let sine2 = p * p + q * q;
+    if sine2 < PARALLEL {
+        return None;
     }
-    let other = [j, k].into_iter().find(|&n| dir[n].abs() < EITHER_SIDE).map(|n| {
-        let mut other = middle;
-        other[n] = -other[n];
-        other
-    });
-    [Some(middle), other]
+    let along = if offset[i2] * p - offset[i1] * q < 0.0 { -1.0 } else { 1.0 } / sine2.sqrt();
+    let (n1, n2) = (-q * along, p * along);
+    let mut normal = [0.0; 3];
+    (normal[i1], normal[i2]) = (n1, n2);
+    let normal_second: Vec3 = std::array::from_fn(|k| n1 * turn[i1][k] + n2 * turn[i2][k]);
+    let gap = n1 * offset[i1] + n2 * offset[i2]
+        - (n1.abs() * size1[i1] + n2.abs() * size1[i2])
+        - dot(normal_second.map(f64::abs), size2);
+    Some(EdgeAxis { gap, edges: [i, j], normal, normal_second })
 }
 
-/// The nearest points of two segments: through `c1` along axis `i` and through `c2` along a unit vector.
-fn nearest_on_lines(c1: Vec3, i: usize, half1: f64, c2: Vec3, along: Vec3, half2: f64) -> (Vec3, Vec3) {
-    let between = sub(c2, c1);
-    let (d1, d2, cosine) = (between[i], dot(along, between), along[i]);
-    let sine2 = 1.0 - cosine * cosine;
-    let clip = |x: f64, half: f64| x.max(-half).min(half);
-    let s = if sine2 < MINVAL { 0.0 } else { (d1 - cosine * d2) / sine2 };
-    let t = clip(cosine * clip(s, half1) - d2, half2);
-    let s = clip(d1 + cosine * t, half1);
-    let mut p1 = c1;
-    p1[i] += s;
-    (p1, add_scaled(c2, along, t))
+/// The edge axis if it is the best, and not almost the best face normal with almost its gap: many contacts
+/// hold a body better than one.
+fn preferred_edge(&Separation { face_gap, face, edge }: &Separation) -> Option<EdgeAxis> {
+    edge.filter(|axis| {
+        let cosine = match face {
+            Face::First(a) => axis.normal[a],
+            Face::Second(a) => axis.normal_second[a],
+        };
+        !(cosine.abs() > ALMOST_FACE && axis.gap < face_gap + FACE_BONUS * face_gap.abs() + MINVAL)
+    })
 }
 
-/// A face that is clipped: each of four half planes adds a corner at most.
+/// Midpoints of the edges parallel to axis `k` that support a box in direction `n`: the first one, or both.
+fn supporting_edges(size: Vec3, n: Vec3, k: usize) -> ([Vec3; 2], usize) {
+    let (mut middles, mut count) = ([[0.0; 3]; 2], 1);
+    for m in others(k) {
+        let side = if n[m] < 0.0 { -size[m] } else { size[m] };
+        middles[0][m] = side;
+        middles[1][m] = side;
+        if count == 1 && n[m].abs() < LEVEL {
+            middles[1][m] = -side;
+            count = 2;
+        }
+    }
+    (middles, count)
+}
+
+/// The nearest points of two segments: of x e_i, |x| <= `half1`, and of `d` + y b, |y| <= `half2`; b is a
+/// unit vector, not parallel to e_i. x and y.
+fn nearest_on_edges(i: usize, half1: f64, d: Vec3, b: Vec3, half2: f64) -> [f64; 2] {
+    let [i1, i2] = others(i);
+    let range = |half: f64| [-half, half];
+    // Without ends the best y is where d + y b is nearest to the line along e_i. Stopping it at the ends, it
+    // is the best for a free x; if the x that belongs to it lies beyond an end, the best x is that end (by
+    // convexity), and y is the best for it.
+    let y = -(d[i1] * b[i1] + d[i2] * b[i2]) / (b[i1] * b[i1] + b[i2] * b[i2]);
+    let y = clip(y, range(half2));
+    let x = clip(d[i] + y * b[i], range(half1));
+    [x, clip(x * b[i] - dot(d, b), range(half2))]
+}
+
+/// The contact of an edge of the first box with one of the second.
+fn edge_contact(
+    first: &Shape,
+    size2: Vec3,
+    turn: &Turn,
+    offset: Vec3,
+    axis: EdgeAxis,
+    limit: f64,
+) -> Option<Touch> {
+    let EdgeAxis { edges: [i, j], normal, normal_second, .. } = axis;
+    let (middles1, count1) = supporting_edges(first.size, normal, i);
+    let (middles2, count2) = supporting_edges(size2, scale(normal_second, -1.0), j);
+    let along = [turn[0][j], turn[1][j], turn[2][j]];
+    let (mut least, mut nearest) = (f64::INFINITY, [[0.0; 3]; 2]);
+    for &m1 in middles1.iter().take(count1) {
+        for &m2 in middles2.iter().take(count2) {
+            let m2: Vec3 = std::array::from_fn(|k| offset[k] + dot(turn[k], m2));
+            let [x, y] = nearest_on_edges(i, first.size[i], sub(m2, m1), along, size2[j]);
+            let mut q1 = m1;
+            q1[i] = x;
+            let q2 = add_scaled(m2, along, y);
+            let between = sub(q2, q1);
+            let distance2 = dot(between, between);
+            if distance2 < least {
+                (least, nearest) = (distance2, [q1, q2]);
+            }
+        }
+    }
+    let [q1, q2] = nearest;
+    let dist = dot(sub(q2, q1), normal);
+    (least < f64::INFINITY && dist <= limit).then(|| Touch {
+        dist,
+        pos: first.world(scale(add(q1, q2), 0.5)),
+        normal: mat_mul_vec(&first.mat, normal),
+        tangent: [0.0; 3],
+    })
+}
+
+/// A convex polygon over the reference face: x and y along the face, height above it.
 struct Polygon {
-    corners: [Vec3; Polygon::MOST],
-    n: usize,
+    corners: [Vec3; 8],
+    count: usize,
 }
 
 impl Polygon {
-    const MOST: usize = 12;
+    const EMPTY: Polygon = Polygon { corners: [[0.0; 3]; 8], count: 0 };
 
-    fn new(face: [Vec3; 4]) -> Polygon {
-        let mut corners = [[0.0; 3]; Polygon::MOST];
-        corners[..4].copy_from_slice(&face);
-        Polygon { corners, n: 4 }
+    /// Four sides cut a quadrangle to eight corners at most; what rounding might add is dropped.
+    #[inline(always)]
+    fn push(&mut self, corner: Vec3) {
+        if let Some(place) = self.corners.get_mut(self.count) {
+            *place = corner;
+            self.count += 1;
+        }
     }
 
     fn corners(&self) -> &[Vec3] {
-        &self.corners[..self.n]
+        self.corners.get(..self.count).unwrap_or_default()
     }
 
-    /// Keeps what is at or below zero.
-    fn clip(&mut self, height: impl Fn(Vec3) -> f64) {
-        let old = self.corners;
-        let n = self.n;
-        if old[..n].iter().all(|&p| height(p) <= 0.0) {
-            return;
-        }
-        self.n = 0;
-        for k in 0..n {
-            let (p, q) = (old[k], old[(k + 1) % n]);
-            let (hp, hq) = (height(p), height(q));
-            if hp <= 0.0 {
-                self.push(p);
+    /// The part where coordinate `k` times `side` is at most `bound`, from the same corner on in the same
+    /// sense.
+    fn clipped(&self, k: usize, side: f64, bound: f64) -> Polygon {
+        let mut kept = Polygon::EMPTY;
+        let corners = self.corners();
+        let Some(&first) = corners.first() else { return kept };
+        for (m, &corner) in corners.iter().enumerate() {
+            let next = corners.get(m + 1).copied().unwrap_or(first);
+            let (beyond, beyond_next) = (side * corner[k] - bound, side * next[k] - bound);
+            if beyond <= 0.0 {
+                kept.push(corner);
             }
-            if hp * hq < 0.0 {
-                self.push(add_scaled(p, sub(q, p), hp / (hp - hq)));
+            if (beyond <= 0.0) != (beyond_next <= 0.0) {
+                let mut cut = add_scaled(corner, sub(next, corner), beyond / (beyond - beyond_next));
+                cut[k] = side * bound;
+                kept.push(cut);
+            }
+        }
+        kept
+    }
+}
+
+/// The contacts of a reference face, normal to axis `a` of the box `reference`, with the incident face of the
+/// other box, which has the size `size`, the turn `turn` against the reference box and its centre at `offset`
+/// in it. `outward` is 1 when the reference box is the first of the pair, -1 when it is the second.
+#[allow(clippy::too_many_arguments)]
+fn face_contacts(
+    reference: &Shape,
+    size: Vec3,
+    turn: &Turn,
+    offset: Vec3,
+    a: usize,
+    outward: f64,
+    margin: f64,
+    out: &mut Vec<Touch>,
+) {
+    let [x, y] = others(a);
+    let half = [reference.size[x], reference.size[y]];
+    let side = if offset[a] < 0.0 { -1.0 } else { 1.0 };
+
+    let cosines = turn[a].map(f64::abs);
+    let mut b = if cosines[1] > cosines[0] { 1 } else { 0 };
+    b = if cosines[2] > cosines[b] { 2 } else { b };
+    let [u, v] = others(b);
+    let incident_side = if side * turn[a][b] > 0.0 { -size[b] } else { size[b] };
+    // A vector of the other box seen over the reference face.
+    let over = |k: usize, s: f64| [turn[x][k] * s, turn[y][k] * s, side * turn[a][k] * s];
+    // The size last, so that the heights of faces that touch exactly are zero but for the tilt: as recorded.
+    let mut centre = add([offset[x], offset[y], side * offset[a]], over(b, incident_side));
+    centre[2] -= reference.size[a];
+    let (edge_u, edge_v) = (over(u, size[u]), over(v, size[v]));
+    // u before v: for faces that coincide the rounding tells which corners are beyond, as recorded.
+    let (plus, minus) = (add(centre, edge_u), sub(centre, edge_u));
+
+    let mut polygon = Polygon::EMPTY;
+    for corner in [add(plus, edge_v), add(minus, edge_v), sub(minus, edge_v), sub(plus, edge_v)] {
+        polygon.push(corner);
+    }
+    for k in 0..2 {
+        for side in [1.0, -1.0] {
+            // Of most faces that rest on one another, no corner is beyond.
+            if polygon.corners().iter().any(|corner| side * corner[k] - half[k] > 0.0) {
+                polygon = polygon.clipped(k, side, half[k]);
             }
         }
     }
 
-    fn push(&mut self, p: Vec3) {
-        if let Some(corner) = self.corners.get_mut(self.n) {
-            *corner = p;
-            self.n += 1;
+    let same = SAME_CORNER * dot(half, half);
+    let normal = scale(reference.axis(a), side * outward);
+    let mut kept = Polygon::EMPTY;
+    for &corner in polygon.corners() {
+        let [px, py, height] = corner;
+        let is_same = |q: &Vec3| (q[0] - px) * (q[0] - px) + (q[1] - py) * (q[1] - py) <= same;
+        if height <= margin && !kept.corners().iter().any(is_same) {
+            kept.push(corner);
+            let mut pos = [0.0; 3];
+            (pos[x], pos[y], pos[a]) = (px, py, side * (reference.size[a] + 0.5 * height));
+            out.push(Touch { dist: height, pos: reference.world(pos), normal, tangent: [0.0; 3] });
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,7 +4,7 @@ use super::polygon;
 use super::{Settings, Touch};
 use crate::geom;
 use crate::geometry::Shape;
-use crate::geometry::convex::{Convex, Room, nearest};
+use crate::geometry::convex::{Convex, Nearest, Room, nearest};
 use crate::math::*;
 
 /// Contacts are new when they are farther from the others than this, in bounding radii.
@@ -12,7 +12,7 @@ const DISTINCT: f64 = 1e-3;
 /// Angle by which shapes are rocked to find the other points they rest on, rad.
 const ROCK: f64 = 1e-3;
 
-/// Shapes are thicker by half the margin each, so that contacts within the margin are overlaps.
+/// The nearest or deepest place, and further ones where the shapes lie flat on each other.
 pub(super) fn convex(
     a: &Shape,
     b: &Shape,
@@ -36,16 +36,14 @@ pub(super) fn convex(
 
 /// The deepest point of two shapes.
 fn deepest(a: &Shape, b: &Shape, margin: f64, settings: &Settings, room: &mut Room) -> Option<Touch> {
-    let (mut u, mut v) = (Convex::new(a, margin), Convex::new(b, margin));
-    let found = nearest(&mut u, &mut v, 0.0, settings.effort, room);
-    let [on_a, on_b] = found.witness.filter(|_| found.dist < 0.0)?;
-    Some(between(margin + found.dist, on_a, on_b))
+    let (mut u, mut v) = (Convex::new(a), Convex::new(b));
+    nearest(&mut u, &mut v, margin, settings.effort, room).filter(|n| n.dist < margin).map(|n| between(&n))
 }
 
-/// A contact of two overlapping shapes from the deepest point of each.
-pub(super) fn between(dist: f64, on_a: Vec3, on_b: Vec3) -> Touch {
-    let normal = normalize(sub(on_a, on_b)).0;
-    Touch { dist, pos: scale(add(on_a, on_b), 0.5), normal, tangent: [0.0; 3] }
+/// A contact half way between the nearest or deepest points.
+pub(super) fn between(n: &Nearest) -> Touch {
+    let [on_a, on_b] = n.witness;
+    Touch { dist: n.dist, pos: scale(add(on_a, on_b), 0.5), normal: n.normal, tangent: [0.0; 3] }
 }
 
 /// Rocks both shapes against each other about the first contact, to and fro about each tangent, and keeps the

@@ -1,11 +1,17 @@
 //! A height field against a convex shape: every triangle of the grid under the shape is the top of a prism that
 //! reaches down to the base.
 
+use std::ops::{ControlFlow, RangeInclusive};
+
 use super::{MOST, Settings, Touch};
-use crate::geometry::Shape;
-use crate::geometry::convex::{Convex, Room, nearest};
+use crate::geometry::convex::{Convex, Nearest, Room, nearest};
+use crate::geometry::{Field, Shape};
 use crate::math::*;
 
+/// Contacts with the prisms under a shape, in the order of the grid.
+///
+/// With a margin the ground is higher by it and the shape thicker by half of it, and distances are those of the two so
+/// changed (measured on MuJoCo 3.14.0).
 pub(super) fn field(
     ground: &Shape,
     b: &Shape,
@@ -14,40 +20,100 @@ pub(super) fn field(
     room: &mut Room,
     out: &mut Vec<Touch>,
 ) {
-    let field = &ground.field;
-    let [sx, sy, top, base] = field.size;
-    // The shape in the frame of the field.
-    let columns = [0, 1, 2].map(|i| mat_t_mul_vec(&ground.mat, b.axis(i)));
-    let local = Shape {
-        pos: mat_t_mul_vec(&ground.mat, sub(b.pos, ground.pos)),
-        mat: std::array::from_fn(|i| columns[i % 3][i / 3]),
-        ..*b
-    };
-    let mut bare = Convex::new(&local, 0.0);
-    let mut reach = |i: usize, side: f64| {
-        let mut dir = [0.0; 3];
-        dir[i] = side;
-        bare.support(dir)[i]
-    };
-    let [[x0, x1], [y0, y1], [z0, z1]] = [0, 1, 2].map(|i| [reach(i, -1.0), reach(i, 1.0)]);
-    let outside = x0 - margin > sx
-        || x1 + margin < -sx
-        || y0 - margin > sy
-        || y1 + margin < -sy
-        || z0 - margin > top
-        || z1 + margin < -base;
-    if outside {
+    let local = seen_from(ground, b);
+    let mut body = Convex::new(&local);
+    let bounds = bounds(&mut body);
+    if !is_near(&ground.field, &bounds, margin) {
         return;
     }
-    let cells = |low: f64, high: f64, half: f64, n: usize| {
-        let last = n as f64 - 1.0;
-        let (low, high) = ((low + half) / (2.0 * half) * last, (high + half) / (2.0 * half) * last);
-        // Casts saturate.
-        low.floor().max(0.0) as usize..=(high.ceil().max(0.0) as usize).min(n.saturating_sub(1))
-    };
-    let (cols, rows) = (cells(x0, x1, sx, field.ncol), cells(y0, y1, sy, field.nrow));
-    let mut body = Convex::new(&local, margin);
+    let half = 0.5 * margin;
     let start = out.len();
+    each_prism(&ground.field, &bounds, 0.0, margin, |mut prism| {
+        let found = nearest(&mut prism, &mut body, half, settings.effort, room);
+        if let Some(found) = found.filter(|n| n.dist < half) {
+            let [on_a, on_b] = found.witness;
+            let middle = add_scaled(scale(add(on_a, on_b), 0.5), found.normal, -0.5 * half);
+            let normal = mat_mul_vec(&ground.mat, found.normal);
+            out.push(Touch { dist: found.dist - half, pos: ground.world(middle), normal, tangent: [0.0; 3] });
+        }
+        if out.len() - start < MOST { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+}
+
+/// The signed distance of a height field and a shape up to `most`: that of the nearest, or deepest, prism. Points and
+/// normal are those of the world.
+pub(crate) fn field_distance(
+    ground: &Shape,
+    b: &Shape,
+    most: f64,
+    settings: &Settings,
+    room: &mut Room,
+) -> Option<Nearest> {
+    let local = seen_from(ground, b);
+    let mut body = Convex::new(&local);
+    let bounds = bounds(&mut body);
+    if !is_near(&ground.field, &bounds, most) {
+        return None;
+    }
+    let mut best: Option<Nearest> = None;
+    each_prism(&ground.field, &bounds, most, 0.0, |mut prism| {
+        let cutoff = best.map_or(most, |n| n.dist.min(most));
+        let found = nearest(&mut prism, &mut body, cutoff, settings.effort, room);
+        if let Some(found) = found.filter(|n| best.is_none_or(|b| n.dist < b.dist)) {
+            best = Some(found);
+        }
+        ControlFlow::Continue(())
+    });
+    best.map(|n| Nearest {
+        normal: mat_mul_vec(&ground.mat, n.normal),
+        witness: n.witness.map(|p| ground.world(p)),
+        ..n
+    })
+}
+
+/// A shape in the frame of a height field.
+fn seen_from<'a>(ground: &Shape, b: &Shape<'a>) -> Shape<'a> {
+    let columns = [0, 1, 2].map(|i| mat_t_mul_vec(&ground.mat, b.axis(i)));
+    Shape { pos: ground.local(b.pos), mat: std::array::from_fn(|i| columns[i % 3][i / 3]), ..*b }
+}
+
+/// Lower and upper bound along each axis.
+fn bounds(body: &mut Convex) -> [[f64; 2]; 3] {
+    let round = body.radius();
+    [0, 1, 2].map(|i| {
+        [-1.0, 1.0].map(|side| {
+            let mut dir = [0.0; 3];
+            dir[i] = side;
+            body.support(dir)[i] + side * round
+        })
+    })
+}
+
+/// Whether something within these bounds may be as near to the field as that.
+fn is_near(field: &Field, [[x0, x1], [y0, y1], [z0, z1]]: &[[f64; 2]; 3], reach: f64) -> bool {
+    let [sx, sy, top, base] = field.size;
+    let beyond = |low: f64, high: f64, lower: f64, upper: f64| low - reach > upper || high + reach < -lower;
+    !(beyond(*x0, *x1, sx, sx) || beyond(*y0, *y1, sy, sy) || beyond(*z0, *z1, base, top))
+}
+
+/// Calls `visit` with every prism that is under something within these bounds, `around` it included, and whose top,
+/// higher by `raise`, is not below it.
+fn each_prism(
+    field: &Field,
+    [x, y, [z0, _]]: &[[f64; 2]; 3],
+    around: f64,
+    raise: f64,
+    mut visit: impl FnMut(Convex) -> ControlFlow<()>,
+) {
+    let [sx, sy, _, base] = field.size;
+    let cells = |[low, high]: &[f64; 2], half: f64, n: usize| -> RangeInclusive<usize> {
+        let last = n as f64 - 1.0;
+        let place = |at: f64| (at + half) / (2.0 * half) * last;
+        // Casts saturate.
+        let (low, high) = (place(low - around).floor().max(0.0), place(high + around).ceil().max(0.0));
+        low as usize..=(high as usize).min(n.saturating_sub(1))
+    };
+    let (cols, rows) = (cells(x, sx, field.ncol), cells(y, sy, field.nrow));
     for r in *rows.start()..*rows.end() {
         // The last three samples of a zigzag between two rows make a triangle.
         let mut corners = [[0.0; 3]; 3];
@@ -55,25 +121,15 @@ pub(super) fn field(
         for c in cols.clone() {
             for row in [r + 1, r] {
                 let mut sample = field.point(row, c);
-                sample[2] += margin;
+                sample[2] += raise;
                 corners = [corners[1], corners[2], sample];
                 seen += 1;
-                if seen < 3 || corners.iter().all(|p| p[2] < z0) {
+                if seen < 3 || corners.iter().all(|p| p[2] < *z0 - around) {
                     continue;
                 }
                 let [p, q, s] = corners;
-                let bottom = corners.map(|p| [p[0], p[1], -base]);
-                let mut prism = Convex::prism([bottom[0], bottom[1], bottom[2], p, q, s]);
-                let found = nearest(&mut prism, &mut body, 0.0, settings.effort, room);
-                let Some([on_a, on_b]) = found.witness.filter(|_| found.dist < 0.0) else { continue };
-                let (normal, length) = normalize(sub(on_a, on_b));
-                if length == 0.0 {
-                    continue;
-                }
-                let pos = ground.world(scale(add(on_a, on_b), 0.5));
-                let normal = mat_mul_vec(&ground.mat, normal);
-                out.push(Touch { dist: found.dist, pos, normal, tangent: [0.0; 3] });
-                if out.len() - start >= MOST {
+                let [u, v, w] = corners.map(|p| [p[0], p[1], -base]);
+                if visit(Convex::prism([u, v, w, p, q, s])).is_break() {
                     return;
                 }
             }

@@ -11,6 +11,9 @@ mod plane;
 mod polygon;
 mod round;
 
+pub(crate) use field::field_distance;
+pub(crate) use polygon::List;
+
 use super::Shape;
 use super::convex::{Effort, Room};
 use crate::math::*;

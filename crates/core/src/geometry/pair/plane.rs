@@ -97,7 +97,7 @@ pub(super) fn cuboid(plane: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<T
 /// The lowest point of an ellipsoid.
 pub(super) fn ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let normal = plane.axis(2);
-    let lowest = Body::new(ellipsoid, 0.0).support(scale(normal, -1.0));
+    let lowest = Body::new(ellipsoid).support(scale(normal, -1.0));
     let dist = dot(sub(lowest, plane.pos), normal);
     if dist <= margin {
         out.push(touch(normal, dist, lowest));

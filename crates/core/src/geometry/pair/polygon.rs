@@ -1,158 +1,300 @@
-//! Boxes, meshes and cylinders that meet in faces or along edges: contacts at the corners of the polygon they share.
+//! Boxes, meshes and cylinders that meet in faces or along edges: contacts at the corners of what they share.
 //!
-//! The support points of the deepest place say which faces and edges of each shape take part. Of two faces that look
-//! at each other, the second is clipped by the sides of the first; an edge that lies on a face is clipped by the sides of
-//! that face. Each corner's distance is its depth below the face that clips.
+//! The direction in which two shapes overlap least says what each of them meets the other with: a face, an edge, or a
+//! corner with all that ends there. Of two faces that look at each other, the second is clipped by the sides of the first
+//! (Sutherland, Hodgman, *Reentrant polygon clipping*, Communications of the ACM 17, 1974); an edge that lies on a face is
+//! clipped by the sides of that face. What is left and below the face that clips are contacts, each as deep as it is
+//! there. Which face clips, the angles and the number of contacts are those of MuJoCo 3.14.0 (measured).
 
 use super::{Settings, Touch};
 use crate::geom;
-use crate::geometry::Shape;
-use crate::geometry::convex::{Convex, Deep, Room, deepest};
+use crate::geometry::convex::{Convex, Room, nearest};
+use crate::geometry::{Shape, Sides};
 use crate::math::*;
 
 /// Cosine of the angle of two faces up to which they look at each other (measured on MuJoCo 3.14.0).
 const FACING: f64 = 0.996;
 /// Sine of the angle of an edge and a face up to which it lies on it.
 const ALONG: f64 = 0.089_352_67;
+/// Angle between a direction and a face's normal, or across an edge, up to which the face or edge is what it meets:
+/// directions between round bodies are known to about the root of the tolerance.
+const MEETS: f64 = 2e-3;
+/// Points are the same when they are nearer than this part of the size of what clips.
+const SAME: f64 = 1e-12;
 /// Most contacts of a polygon.
 const MOST: usize = 4;
 /// Most corners of a face; of a mesh with larger ones the rest is left out.
 const CORNERS: usize = 150;
 /// Corners of the polygon that stands for the end of a cylinder.
 const RIM: usize = 16;
+/// Faces and edges at a corner that are looked at.
+const AROUND: usize = 32;
 
 /// A small list without allocation.
-pub(super) struct List<T, const N: usize> {
+#[derive(Clone, Copy)]
+pub(crate) struct List<T, const N: usize> {
     items: [T; N],
     len: usize,
 }
 
 impl<T: Copy + Default, const N: usize> List<T, N> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         List { items: [T::default(); N], len: 0 }
     }
 
-    pub(super) fn push(&mut self, item: T) {
+    pub(crate) fn push(&mut self, item: T) {
         if let Some(place) = self.items.get_mut(self.len) {
             *place = item;
             self.len += 1;
         }
     }
 
-    pub(super) fn all(&self) -> &[T] {
+    pub(crate) fn all(&self) -> &[T] {
         &self.items[..self.len]
     }
 }
 
-/// A face of a shape: which one, and its normal, world.
+pub(super) type Corners = List<Vec3, CORNERS>;
+
+/// A face of a shape: which one, and its outward normal, world.
 #[derive(Clone, Copy, Debug, Default)]
 struct Face {
     index: usize,
     normal: Vec3,
 }
 
-type Faces = List<Face, 32>;
-pub(super) type Corners = List<Vec3, CORNERS>;
-/// Edges as their two ends.
-type Edges = List<[Vec3; 2], 32>;
+/// The two ends of an edge, world.
+type Edge = [Vec3; 2];
 
-/// Contacts of two shapes without margin.
-pub(super) fn contacts(a: &Shape, b: &Shape, settings: &Settings, room: &mut Room, out: &mut Vec<Touch>) {
-    let Some(deep) = deepest(&mut Convex::new(a, 0.0), &mut Convex::new(b, 0.0), settings.effort, room)
-    else {
-        return;
-    };
-    let start = out.len();
-    if let Some(shared) = shared(a, b, &deep) {
-        shared.contacts(out);
-    }
-    if out.len() == start {
-        out.push(super::convex::between(deep.dist, deep.witness[0], deep.witness[1]));
-    }
+/// What a shape meets the other with.
+struct Feature {
+    /// 3 a face, 2 an edge, 1 a corner.
+    dim: usize,
+    /// The face, those at the edge, or those at the corner.
+    faces: List<Face, AROUND>,
+    /// The edge, or those at the corner.
+    edges: List<Edge, AROUND>,
 }
 
-/// What two shapes share: a polygon or edge of one, clipped by a face of the other.
-struct Shared {
-    /// The face that clips, and its normal.
+/// A polygon or an edge that lies on a face.
+struct Patch {
+    /// The face, clockwise as seen from outside, and its normal.
     face: Corners,
     normal: Vec3,
-    /// What is clipped.
-    clipped: Corners,
+    lying: Corners,
     /// From the first shape to the second.
     direction: Vec3,
     /// Whether the face belongs to the first shape.
-    first: bool,
+    on_first: bool,
 }
 
-fn shared(a: &Shape, b: &Shape, deep: &Deep) -> Option<Shared> {
-    let outwards = normalize(sub(deep.witness[0], deep.witness[1])).0;
-    let (support_a, support_b) =
-        (Support::new(a, deep, 0, outwards), Support::new(b, deep, 1, scale(outwards, -1.0)));
-    let (faces_a, faces_b) = (support_a.faces(), support_b.faces());
-    for fa in faces_a.all() {
-        for fb in faces_b.all() {
-            if dot(fa.normal, fb.normal) < -FACING {
-                return Some(Shared {
-                    face: support_a.corners(fa.index),
-                    normal: fa.normal,
-                    clipped: support_b.corners(fb.index),
-                    direction: scale(fb.normal, -1.0),
-                    first: true,
-                });
+/// Contacts of two shapes without margin.
+pub(super) fn contacts(a: &Shape, b: &Shape, settings: &Settings, room: &mut Room, out: &mut Vec<Touch>) {
+    let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 0.0, settings.effort, room);
+    let Some(deep) = found.filter(|n| n.dist < 0.0) else { return };
+    let start = out.len();
+    if let Some(patch) = patch(a, b, deep.normal) {
+        patch.contacts(out);
+    }
+    if out.len() == start {
+        out.push(super::convex::between(&deep));
+    }
+}
+
+/// What two shapes that overlap along a direction share, when it is more than a point.
+fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
+    let (of_a, of_b) = (Feature::of(a, direction), Feature::of(b, scale(direction, -1.0)));
+    let pairs = of_a.faces.all().iter().flat_map(|fa| of_b.faces.all().iter().map(move |fb| (fa, fb)));
+    let opposite = |(fa, fb): &(&Face, &Face)| dot(fa.normal, fb.normal);
+    if let Some((fa, fb)) = pairs.min_by(|p, q| opposite(p).total_cmp(&opposite(q)))
+        && dot(fa.normal, fb.normal) < -FACING
+    {
+        return Some(Patch {
+            face: corners(a, fa.index),
+            normal: fa.normal,
+            lying: corners(b, fb.index),
+            direction: scale(fb.normal, -1.0),
+            on_first: true,
+        });
+    }
+    if of_a.dim < 3 && of_a.dim <= of_b.dim {
+        let (edge, face) = lying_on(&of_a, b, &of_b)?;
+        let direction = scale(face.normal, -1.0);
+        return Some(Patch {
+            face: corners(b, face.index),
+            normal: face.normal,
+            lying: edge,
+            direction,
+            on_first: false,
+        });
+    }
+    let (edge, face) = lying_on(&of_b, a, &of_a)?;
+    Some(Patch {
+        face: corners(a, face.index),
+        normal: face.normal,
+        lying: edge,
+        direction: face.normal,
+        on_first: true,
+    })
+}
+
+/// The edge of one feature that lies flattest on a face of another. The end of a cylinder takes faces only.
+fn lying_on(feature: &Feature, on: &Shape, other: &Feature) -> Option<(Corners, Face)> {
+    if on.kind == geom::CYLINDER || feature.dim == 3 {
+        return None;
+    }
+    let mut flattest = (ALONG, None);
+    for face in other.faces.all() {
+        for edge in feature.edges.all() {
+            let slope = dot(normalize(sub(edge[1], edge[0])).0, face.normal).abs();
+            if slope < flattest.0 {
+                flattest = (slope, Some((edge, face)));
             }
         }
     }
-    // The end of a cylinder takes faces only.
-    let on_face = |edges: &Edges, of: &Support, faces: &Faces| {
-        for face in faces.all().iter().filter(|_| of.shape.kind != geom::CYLINDER) {
-            for edge in edges.all() {
-                if dot(normalize(sub(edge[1], edge[0])).0, face.normal).abs() < ALONG {
-                    let mut clipped = Corners::new();
-                    edge.iter().for_each(|&p| clipped.push(p));
-                    return Some((*face, clipped));
+    let (edge, face) = flattest.1?;
+    let mut ends = Corners::new();
+    edge.iter().for_each(|&p| ends.push(p));
+    Some((ends, *face))
+}
+
+impl Feature {
+    /// The feature of a shape that is farthest in a direction.
+    fn of(s: &Shape, direction: Vec3) -> Feature {
+        let mut at_corner = Feature { dim: 1, faces: List::new(), edges: List::new() };
+        let mut body = Convex::new(s);
+        let corner = body.support(direction);
+        match s.kind {
+            geom::CYLINDER => {
+                at_corner.dim = cylinder(s, direction, &mut at_corner);
+                return at_corner;
+            }
+            geom::BOX => box_corner(s, corner, &mut at_corner),
+            _ => {
+                if let (Some(sides), Ok(vertex)) = (s.mesh.sides, usize::try_from(body.corner())) {
+                    mesh_corner(s, sides, vertex, corner, &mut at_corner);
                 }
             }
         }
-        None
-    };
-    if support_a.dim < 3 && support_a.dim <= support_b.dim {
-        let (face, clipped) = on_face(&support_a.edges(), &support_b, &faces_b)?;
-        let (face, normal) = (support_b.corners(face.index), face.normal);
-        return Some(Shared { face, normal, clipped, direction: scale(normal, -1.0), first: false });
+        at_corner.narrowed(direction)
     }
-    if support_b.dim < 3 {
-        let (face, clipped) = on_face(&support_b.edges(), &support_a, &faces_a)?;
-        let (face, normal) = (support_a.corners(face.index), face.normal);
-        return Some(Shared { face, normal, clipped, direction: normal, first: true });
+
+    /// The face, or else the edge, of a corner that a direction meets.
+    fn narrowed(self, direction: Vec3) -> Feature {
+        let along = |f: &&Face| dot(f.normal, direction);
+        let steepest = self.faces.all().iter().max_by(|f, g| along(f).total_cmp(&along(g)));
+        if let Some(&face) = steepest.filter(|f| norm(cross(f.normal, direction)) < MEETS) {
+            let mut faces = List::new();
+            faces.push(face);
+            return Feature { dim: 3, faces, edges: List::new() };
+        }
+        let unit = |e: &Edge| normalize(sub(e[1], e[0])).0;
+        let slope = |e: &&Edge| dot(unit(e), direction).abs();
+        let flattest = self.edges.all().iter().min_by(|e, f| slope(e).total_cmp(&slope(f)));
+        let Some(&edge) = flattest.filter(|e| slope(e) < MEETS) else { return self };
+        let (mut faces, mut edges) = (List::new(), List::new());
+        edges.push(edge);
+        // The faces at an edge are those that it lies in.
+        for &f in self.faces.all().iter().filter(|f| dot(f.normal, unit(&edge)).abs() < SAME.sqrt()) {
+            faces.push(f);
+        }
+        Feature { dim: 2, faces, edges }
     }
-    None
 }
 
-impl Shared {
+/// The end of a cylinder, or its line, that looks along a direction; returns the dimension.
+fn cylinder(s: &Shape, direction: Vec3, out: &mut Feature) -> usize {
+    let axis = s.axis(2);
+    let slope = dot(axis, direction);
+    let upper = slope >= 0.0;
+    if slope.abs() > FACING {
+        out.faces
+            .push(Face { index: usize::from(!upper), normal: scale(axis, if upper { 1.0 } else { -1.0 }) });
+        return 3;
+    }
+    if slope.abs() < ALONG {
+        let across = scale(normalize(add_scaled(direction, axis, -slope)).0, s.size[0]);
+        let side = if upper { s.size[1] } else { -s.size[1] };
+        out.edges.push([side, -side].map(|h| add(add_scaled(s.pos, axis, h), across)));
+        return 2;
+    }
+    1
+}
+
+/// The faces and edges of a box that meet in a corner.
+fn box_corner(s: &Shape, corner: Vec3, out: &mut Feature) {
+    let local = s.local(corner);
+    for axis in 0..3 {
+        let upper = local[axis] > 0.0;
+        let normal = scale(s.axis(axis), if upper { 1.0 } else { -1.0 });
+        out.faces.push(Face { index: 2 * axis + usize::from(!upper), normal });
+        out.edges.push([corner, add_scaled(corner, normal, -2.0 * s.size[axis])]);
+    }
+}
+
+/// The sides and edges of a mesh that meet in a vertex.
+fn mesh_corner(s: &Shape, sides: &Sides, vertex: usize, corner: Vec3, out: &mut Feature) {
+    for (index, at) in sides.around(vertex) {
+        let list = sides.vertices(index);
+        let other = list[(at + 1) % list.len()] as usize;
+        out.faces.push(Face { index, normal: mat_mul_vec(&s.mat, sides.normal(index)) });
+        out.edges.push([corner, s.world(s.mesh.vert.get(other).copied().unwrap_or_default())]);
+    }
+}
+
+/// The corners of a face, clockwise as seen from outside.
+fn corners(s: &Shape, face: usize) -> Corners {
+    let mut out = Corners::new();
+    match s.kind {
+        geom::BOX => {
+            let (axis, side) = (face / 2, if face.is_multiple_of(2) { 1.0 } else { -1.0 });
+            let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+            for (u, v) in [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)] {
+                let mut p = [0.0; 3];
+                (p[axis], p[j], p[k]) = (side * s.size[axis], u * side * s.size[j], v * s.size[k]);
+                out.push(s.world(p));
+            }
+        }
+        geom::CYLINDER => {
+            let side = if face == 0 { 1.0 } else { -1.0 };
+            for k in 0..RIM {
+                let (sin, cos) = libm::sincos(-side * k as f64 * (2.0 * std::f64::consts::PI / RIM as f64));
+                out.push(s.world([s.size[0] * cos, s.size[0] * sin, side * s.size[1]]));
+            }
+        }
+        _ => {
+            let vertices = s.mesh.sides.map_or(&[][..], |sides| sides.vertices(face));
+            for &v in vertices.iter().rev() {
+                out.push(s.world(s.mesh.vert.get(v as usize).copied().unwrap_or_default()));
+            }
+        }
+    }
+    out
+}
+
+impl Patch {
     /// A contact at every corner that is below the face; of more than four, those that span the largest area.
     fn contacts(mut self, out: &mut Vec<Touch>) {
-        if self.face.len < 3 {
-            return;
-        }
         let face = self.face.all();
-        for k in 0..face.len() {
-            let (p, q) = (face[k], face[(k + 1) % face.len()]);
-            let inwards = cross(sub(q, p), self.normal);
-            self.clipped = clip(&self.clipped, p, inwards);
+        let Some(&origin) = face.first().filter(|_| face.len() > 2) else { return };
+        let mut size = 0.0_f64;
+        for (k, &p) in face.iter().enumerate() {
+            let edge = sub(face[(k + 1) % face.len()], p);
+            size = size.max(norm(edge));
+            let inwards = normalize(cross(edge, self.normal)).0;
+            self.lying = clip(&self.lying, |q| dot(inwards, sub(q, p)), SAME * size);
         }
-        let (normal, origin) = (self.normal, face[0]);
-        let depth = |p: Vec3| dot(normal, sub(p, origin));
+        let depth = |p: Vec3| dot(self.normal, sub(p, origin));
         let mut below = Corners::new();
-        for &p in self.clipped.all() {
-            let seen = |q: &Vec3| sub(*q, p).iter().all(|d| d.abs() < MINVAL);
-            if depth(p) < 0.0 && !below.all().iter().any(seen) {
+        for &p in self.lying.all() {
+            if depth(p) < 0.0 && below.all().iter().all(|&q| norm(sub(q, p)) > SAME * size) {
                 below.push(p);
             }
         }
         let touch = |p: Vec3| {
             let dist = depth(p);
             // The corner is on the second shape, or on the first.
-            let half = if self.first { -0.5 * dist } else { 0.5 * dist };
+            let half = if self.on_first { -0.5 * dist } else { 0.5 * dist };
             Touch {
                 dist,
                 pos: add_scaled(p, self.direction, half),
@@ -160,226 +302,60 @@ impl Shared {
                 tangent: [0.0; 3],
             }
         };
-        if below.len > MOST {
-            out.extend(widest(below.all()).map(touch));
-        } else {
-            out.extend(below.all().iter().map(|&p| touch(p)));
+        match below.all() {
+            few if few.len() <= MOST => out.extend(few.iter().map(|&p| touch(p))),
+            many => out.extend(widest(many).map(touch)),
         }
     }
 }
 
-/// The part of a polygon on the inner side of a plane.
-fn clip(polygon: &Corners, on: Vec3, inwards: Vec3) -> Corners {
+/// The part of a polygon where a linear function is not negative. `slack` is what counts as zero.
+fn clip(polygon: &Corners, height: impl Fn(Vec3) -> f64, slack: f64) -> Corners {
     let mut out = Corners::new();
-    let n = polygon.len;
-    let height = |p: Vec3| dot(inwards, sub(p, on));
-    for (k, &p) in polygon.all().iter().enumerate() {
-        let q = polygon.items[(k + 1) % n];
-        let (hp, hq) = (height(p), height(q));
-        let (p_in, q_in) = (hp > -MINVAL, hq > -MINVAL);
-        if p_in != q_in && hp != hq {
-            let t = hp / (hp - hq);
-            if (0.0..=1.0).contains(&t) {
-                out.push(add_scaled(p, sub(q, p), t));
-            }
+    let Some(&last) = polygon.all().last() else { return out };
+    let mut from = (last, height(last));
+    for &p in polygon.all() {
+        let to = (p, height(p));
+        if from.1.min(to.1) < -slack && from.1.max(to.1) > slack {
+            out.push(add_scaled(from.0, sub(to.0, from.0), from.1 / (from.1 - to.1)));
         }
-        if q_in {
-            out.push(q);
+        if to.1 >= -slack {
+            out.push(p);
         }
+        from = to;
     }
     out
 }
 
-/// Four corners of a convex polygon that span a large area: while the first goes once around, the others move on as
-/// long as the area grows.
+/// The four corners of a convex polygon that span the largest area: for each diagonal the farthest corner on either side,
+/// which moves on as the diagonal turns.
 pub(super) fn widest(polygon: &[Vec3]) -> [Vec3; MOST] {
     let n = polygon.len();
+    let at = |k: usize| polygon[k % n];
     // Twice the area, by the diagonals.
-    let area = |q: [usize; MOST]| {
-        let [a, b, c, d] = q.map(|k| polygon[k]);
-        norm(cross(sub(c, a), sub(d, b)))
-    };
-    let mut at = [0, 1, 2, 3];
-    let (mut best, mut largest) = (at, area(at));
-    for first in 0..n {
-        at[0] = first;
-        let mut grow = |k: usize| {
-            let mut moved = at;
-            moved[k] = (at[k] + 1) % n;
-            let grows = area(moved) > largest;
-            if grows {
-                (at, best, largest) = (moved, moved, area(moved));
-            }
-            grows
-        };
-        while grow(3) {
-            while grow(2) {}
-            while grow(1) {}
-        }
-        // The next first corner pushes the others on.
-        for k in 1..MOST {
-            if at[k] != at[k - 1] {
-                break;
-            }
-            at[k] = (at[k] + 1) % n;
-        }
-    }
-    best.map(|k| polygon[k])
-}
-
-/// The feature of a shape that is farthest in a direction.
-struct Support<'a> {
-    shape: &'a Shape<'a>,
-    outwards: Vec3,
-    /// Its corners: one, two or three of them are different.
-    corners: [usize; 3],
-    points: [Vec3; 3],
-    dim: usize,
-}
-
-impl<'a> Support<'a> {
-    fn new(shape: &'a Shape<'a>, deep: &Deep, of: usize, outwards: Vec3) -> Support<'a> {
-        let mut corners = deep.support.map(|v| v.corners[of].max(0) as usize);
-        let mut points = deep.support.map(|v| if of == 0 { v.on_a } else { v.on_b });
-        if shape.kind == geom::CYLINDER {
-            let slope = dot(shape.axis(2), outwards).abs();
-            let dim = if slope > FACING {
-                3
-            } else if slope < ALONG {
-                2
-            } else {
-                1
-            };
-            return Support { shape, outwards, corners, points, dim };
-        }
-        let [x, y, z] = corners;
-        let dim = if x != y {
-            if z == x || z == y { 2 } else { 3 }
-        } else if x != z {
-            // The two that differ come first.
-            (corners, points) = ([x, z, z], [points[0], points[2], points[2]]);
-            2
-        } else {
-            1
-        };
-        Support { shape, outwards, corners, points, dim }
-    }
-
-    /// The faces that the feature belongs to.
-    fn faces(&self) -> Faces {
-        let mut out = Faces::new();
-        let s = self.shape;
-        match s.kind {
-            geom::BOX => self.box_faces(&mut out),
-            geom::CYLINDER => {
-                let up = dot(s.axis(2), self.outwards) >= 0.0;
-                let normal = scale(s.axis(2), if up { 1.0 } else { -1.0 });
-                if self.dim == 3 {
-                    out.push(Face { index: usize::from(!up), normal });
+    let area = |[i, j, k, l]: [usize; MOST]| norm(cross(sub(at(k), at(i)), sub(at(l), at(j))));
+    let mut best = [0, 1, 2, 3];
+    let mut largest = area(best);
+    for i in 0..n {
+        let (mut j, mut l) = (i + 1, i + 3);
+        for k in i + 2..i + n - 1 {
+            l = l.max(k + 1);
+            let mut here = area([i, j, k, l]);
+            loop {
+                let (next_j, next_l) = (area([i, j + 1, k, l]), area([i, j, k, l + 1]));
+                if j + 1 < k && next_j > here {
+                    (j, here) = (j + 1, next_j);
+                } else if l + 1 < i + n && next_l > here {
+                    (l, here) = (l + 1, next_l);
+                } else {
+                    break;
                 }
             }
-            _ => {
-                let Some(sides) = s.mesh.sides else { return out };
-                for index in 0..sides.len() {
-                    let has = |v: &usize| sides.vertices(index).contains(&(*v as u32));
-                    if self.corners.iter().all(has) {
-                        out.push(Face { index, normal: mat_mul_vec(&s.mat, sides.normal(index)) });
-                    }
-                }
-            }
-        }
-        out
-    }
-
-    /// The faces of a box with all corners of the feature; when these are no face, edge or corner, the face that looks
-    /// outwards.
-    fn box_faces(&self, out: &mut Faces) {
-        let s = self.shape;
-        let face = |axis: usize, upper: bool| Face {
-            index: 2 * axis + usize::from(!upper),
-            normal: scale(s.axis(axis), if upper { 1.0 } else { -1.0 }),
-        };
-        for axis in 0..3 {
-            let upper = self.corners.map(|c| c >> axis & 1 == 1);
-            if upper == [upper[0]; 3] {
-                out.push(face(axis, upper[0]));
-            }
-        }
-        if out.len != 4 - self.dim {
-            *out = Faces::new();
-            let local = mat_t_mul_vec(&s.mat, self.outwards);
-            if let Some(axis) = (0..3).find(|&i| local[i].abs() > FACING) {
-                out.push(face(axis, local[axis] > 0.0));
+            // Of equally large ones the first.
+            if here > largest * (1.0 + SAME) {
+                (best, largest) = ([i, j, k, l], here);
             }
         }
     }
-
-    /// The edges at the feature, each from a point of it.
-    fn edges(&self) -> Edges {
-        let mut out = Edges::new();
-        let s = self.shape;
-        match (s.kind, self.dim) {
-            (geom::CYLINDER, 2) => {
-                let [x, y, z] = s.local(self.points[0]);
-                out.push([self.points[0], s.world([x, y, -z])]);
-            }
-            (geom::CYLINDER, _) => {}
-            (_, 2) => out.push([self.points[0], self.points[1]]),
-            (geom::BOX, _) => {
-                for axis in 0..3 {
-                    let mut other = s.size;
-                    for (k, x) in other.iter_mut().enumerate() {
-                        if (self.corners[0] >> k & 1 == 1) == (k == axis) {
-                            *x = -*x;
-                        }
-                    }
-                    out.push([self.points[0], s.world(other)]);
-                }
-            }
-            _ => {
-                let Some(sides) = s.mesh.sides else { return out };
-                for side in 0..sides.len() {
-                    let vertices = sides.vertices(side);
-                    let Some(at) = vertices.iter().position(|&v| v as usize == self.corners[0]) else {
-                        continue;
-                    };
-                    let other = vertices[(at + 1) % vertices.len()] as usize;
-                    out.push([self.points[0], s.world(s.mesh.vert.get(other).copied().unwrap_or_default())]);
-                }
-            }
-        }
-        out
-    }
-
-    /// The corners of a face, clockwise as seen from outside.
-    fn corners(&self, face: usize) -> Corners {
-        let mut out = Corners::new();
-        let s = self.shape;
-        match s.kind {
-            geom::BOX => {
-                let (axis, side) = (face / 2, if face.is_multiple_of(2) { 1.0 } else { -1.0 });
-                let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
-                for (u, v) in [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)] {
-                    let mut p = [0.0; 3];
-                    (p[axis], p[j], p[k]) = (side * s.size[axis], u * side * s.size[j], v * s.size[k]);
-                    out.push(s.world(p));
-                }
-            }
-            geom::CYLINDER => {
-                let side = if face == 0 { 1.0 } else { -1.0 };
-                for k in 0..RIM {
-                    let (sin, cos) =
-                        libm::sincos(-side * k as f64 * (2.0 * std::f64::consts::PI / RIM as f64));
-                    out.push(s.world([s.size[0] * cos, s.size[0] * sin, side * s.size[1]]));
-                }
-            }
-            _ => {
-                let vertices = s.mesh.sides.map_or(&[][..], |sides| sides.vertices(face));
-                for &v in vertices.iter().rev() {
-                    out.push(s.world(s.mesh.vert.get(v as usize).copied().unwrap_or_default()));
-                }
-            }
-        }
-        out
-    }
+    best.map(at)
 }

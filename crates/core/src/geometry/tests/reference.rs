@@ -1,0 +1,383 @@
+//! Signed distances of convex bodies against references that owe nothing to the algorithms, and to MuJoCo.
+//!
+//! Apart, a distance proves itself: the witnesses are points of both bodies that far apart, and a plane across the
+//! direction between them has one body on either side, as far apart. Overlapping, the support function h(n) of the
+//! difference a - b bounds the depth from above for every direction n, and the depth is the least of all: for bodies with
+//! corners the least over the normals of all faces of both and over all pairs of edges (separating axes), for round bodies
+//! the least over directions that cover the sphere, each of the best walked downhill.
+//!
+//! `LABSPEC_CASES` says how many random configurations there are for each pair (100,000 for `docs/contacts.md`).
+
+use super::Random;
+use crate::geom;
+use crate::geometry::convex::{Convex, Nearest, Room, nearest};
+use crate::geometry::{Mesh, Shape, Sides};
+use crate::math::*;
+
+impl Random {
+    fn direction(&mut self) -> Vec3 {
+        loop {
+            let v = [0; 3].map(|_| self.within(-1.0, 1.0));
+            let (unit, length) = normalize(v);
+            if length > 0.1 && length < 1.0 {
+                return unit;
+            }
+        }
+    }
+
+    /// Turns at random, or aligned with the world, or nearly.
+    fn turn(&mut self) -> Mat3 {
+        let quarter = |k: usize| quat_axis_angle([1.0, 0.0, 0.0], k as f64 * std::f64::consts::FRAC_PI_2);
+        let q = match self.below(8) {
+            0 => IDENTITY,
+            1 => quarter(self.below(4)),
+            2 => quat_axis_angle(self.direction(), 10f64.powf(self.within(-9.0, -2.0))),
+            _ => quat_axis_angle(self.direction(), self.within(0.0, 3.0)),
+        };
+        quat_to_mat(quat_normalize(q))
+    }
+}
+
+/// A convex mesh: vertices, triangles, and the graph of its hull.
+struct Solid {
+    vert: Vec<Vec3>,
+    face: Vec<[i32; 3]>,
+    graph: Vec<i32>,
+    sides: Sides,
+}
+
+pub(super) fn farthest(s: &Shape, dir: Vec3) -> Vec3 {
+    let local = mat_t_mul_vec(&s.mat, dir);
+    let sign = |x: f64| if x < 0.0 { -1.0 } else { 1.0 };
+    let [x, y, z] = s.size;
+    s.world(match s.kind {
+        geom::SPHERE => scale(local, x),
+        geom::CAPSULE => add(scale(local, x), [0.0, 0.0, y * sign(local[2])]),
+        geom::ELLIPSOID => {
+            let stretched = [x * local[0], y * local[1], z * local[2]];
+            let n = norm(stretched);
+            [x * stretched[0] / n, y * stretched[1] / n, z * stretched[2] / n]
+        }
+        geom::CYLINDER => {
+            let across = libm::hypot(local[0], local[1]);
+            let out = if across > 0.0 { x / across } else { 0.0 };
+            [out * local[0], out * local[1], y * sign(local[2])]
+        }
+        geom::BOX => [x * sign(local[0]), y * sign(local[1]), z * sign(local[2])],
+        _ => {
+            let height = |v: &Vec3| dot(*v, local);
+            s.mesh.vert.iter().copied().max_by(|u, v| height(u).total_cmp(&height(v))).unwrap()
+        }
+    })
+}
+
+/// How far a - b reaches along a direction.
+fn reach(a: &Shape, b: &Shape, n: Vec3) -> f64 {
+    dot(n, farthest(a, n)) - dot(n, farthest(b, scale(n, -1.0)))
+}
+
+/// Directions of faces and of edges of what has corners, world.
+fn faces_and_edges(s: &Shape) -> (Vec<Vec3>, Vec<Vec3>) {
+    if s.kind == geom::BOX {
+        let axes = [0, 1, 2].map(|i| s.axis(i)).to_vec();
+        return (axes.clone(), axes);
+    }
+    let point = |v: i32| s.world(s.mesh.vert[v as usize]);
+    let (mut normals, mut edges) = (Vec::new(), Vec::new());
+    for f in s.mesh.hull.unwrap().face {
+        let [p, q, r] = f.map(point);
+        normals.push(normalize(cross(sub(q, p), sub(r, p))).0);
+        edges.extend([sub(q, p), sub(r, q), sub(p, r)].map(|e| normalize(e).0));
+    }
+    (normals, edges)
+}
+
+/// The depth of two bodies with corners: the least reach over all separating axes.
+fn depth_by_axes(a: &Shape, b: &Shape) -> f64 {
+    let ((faces_a, edges_a), (faces_b, edges_b)) = (faces_and_edges(a), faces_and_edges(b));
+    let mut least = f64::INFINITY;
+    let mut consider = |n: Vec3| {
+        for n in [n, scale(n, -1.0)] {
+            least = least.min(reach(a, b, n));
+        }
+    };
+    faces_a.into_iter().chain(faces_b).for_each(&mut consider);
+    for e in &edges_a {
+        for f in &edges_b {
+            let (n, length) = normalize(cross(*e, *f));
+            if length > 1e-9 {
+                consider(n);
+            }
+        }
+    }
+    least
+}
+
+/// The depth by directions that cover the sphere; from the best of them downhill by steps that halve.
+fn depth_by_sampling(a: &Shape, b: &Shape, hint: Vec3) -> f64 {
+    const N: usize = 400;
+    let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
+    let spiral = (0..N).map(|i| {
+        let z = 1.0 - (2.0 * i as f64 + 1.0) / N as f64;
+        let (sin, cos) = libm::sincos(golden * i as f64);
+        let r = (1.0 - z * z).sqrt();
+        [r * cos, r * sin, z]
+    });
+    let axes = [a, b].into_iter().flat_map(|s| [0, 1, 2].map(|i| s.axis(i)));
+    let axes = axes.flat_map(|n| [n, scale(n, -1.0)]);
+    let mut starts: Vec<(f64, Vec3)> = spiral.chain(axes).map(|n| (reach(a, b, n), n)).collect();
+    starts.sort_by(|p, q| p.0.total_cmp(&q.0));
+    starts.truncate(6);
+    starts.push((reach(a, b, hint), hint));
+    let mut least = f64::INFINITY;
+    for (mut best, mut n) in starts {
+        let mut step = 0.1;
+        while step > 1e-9 {
+            let f = crate::collision::frame(n);
+            let mut better = false;
+            for k in 0..8 {
+                let (sin, cos) = libm::sincos(f64::from(k) * std::f64::consts::FRAC_PI_4);
+                let side: Vec3 = std::array::from_fn(|i| cos * f[3 + i] + sin * f[6 + i]);
+                let turned = normalize(add_scaled(n, side, step)).0;
+                let here = reach(a, b, turned);
+                if here < best {
+                    (best, n, better) = (here, turned, true);
+                }
+            }
+            step *= if better { 1.5 } else { 0.4 };
+        }
+        least = least.min(best);
+    }
+    least
+}
+
+fn solids() -> Vec<Solid> {
+    let text = include_str!("../golden/pairs.txt");
+    let mut out = Vec::new();
+    for line in text.lines().take_while(|l| l.starts_with("mesh ")) {
+        let parts: Vec<&str> = line.split('|').collect();
+        let words: Vec<&str> = parts[0].split_whitespace().skip(2).collect();
+        let numbers: Vec<f64> = words.iter().map(|w| w.parse().unwrap()).collect();
+        let ints = |text: &str| -> Vec<i32> { text.split_whitespace().map(|w| w.parse().unwrap()).collect() };
+        let mut solid = Solid {
+            vert: rows::<3>(&numbers).to_vec(),
+            face: ints(parts[1]).as_chunks().0.to_vec(),
+            graph: ints(parts[2]),
+            sides: Sides::default(),
+        };
+        solid.sides = Sides::of(&solid.mesh());
+        out.push(solid);
+    }
+    out
+}
+
+impl Solid {
+    fn mesh(&self) -> Mesh<'_> {
+        let hull = crate::geometry::Hull::of(&self.graph);
+        Mesh { vert: &self.vert, face: &self.face, hull, sides: Some(&self.sides) }
+    }
+}
+
+/// What the cases of a pair came to: numbers, and the largest errors.
+#[derive(Default)]
+struct Tally {
+    apart: usize,
+    deep: usize,
+    /// Of distances, and of depths above and below the reference, m.
+    distance: f64,
+    above: f64,
+    below: f64,
+    /// How far a witness lies outside of its body, m.
+    outside: f64,
+    worst: String,
+}
+
+fn shape<'a>(kind: i32, r: &mut Random, solids: &'a [Solid]) -> Shape<'a> {
+    let flat = r.below(10) == 0;
+    let size = [0; 3].map(|_| if flat { 10f64.powf(r.within(-4.0, 0.0)) } else { r.within(0.05, 0.6) });
+    let mut s = Shape::new(kind, size, [0.0; 3], r.turn());
+    if kind == geom::MESH {
+        s.mesh = solids[r.below(solids.len())].mesh();
+        s.size = [0.4; 3];
+    }
+    s
+}
+
+/// How far a point is outside of a shape: beyond the planes across some directions.
+fn outside(s: &Shape, p: Vec3, directions: &[Vec3]) -> f64 {
+    let beyond = |n: &Vec3| dot(*n, sub(p, farthest(s, *n)));
+    directions.iter().map(beyond).fold(0.0, f64::max)
+}
+
+/// How wrong a signed distance is, m.
+enum Error {
+    /// Of bodies that are apart.
+    Distance(f64),
+    /// Of bodies that overlap: how much deeper than the reference.
+    Depth(f64),
+}
+
+fn error(a: &Shape, b: &Shape, n: &Nearest, tolerance: f64) -> Error {
+    if n.dist > tolerance {
+        let [p, q] = n.witness;
+        let parted = -reach(a, b, n.normal);
+        return Error::Distance((norm(sub(q, p)) - n.dist).abs().max((parted - n.dist).abs()));
+    }
+    let corners = |s: &Shape| matches!(s.kind, geom::BOX | geom::MESH);
+    let depth =
+        if corners(a) && corners(b) { depth_by_axes(a, b) } else { depth_by_sampling(a, b, n.normal) };
+    Error::Depth(-n.dist - depth)
+}
+
+/// Whether the reference has the same signed distance for two shapes.
+pub(super) fn is_true(a: &Shape, b: &Shape) -> bool {
+    let effort = super::patient().effort;
+    let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 1e3, effort, &mut Room::default());
+    found.is_some_and(|n| {
+        let (Error::Distance(error) | Error::Depth(error)) = error(a, b, &n, effort.tolerance);
+        error.abs() < 1e-9 * (norm(a.size) + norm(b.size))
+    })
+}
+
+fn check(kind1: i32, kind2: i32, cases: usize) -> Tally {
+    let solids = solids();
+    let (mut r, mut room, mut t) = (Random((kind1 * 8 + kind2) as u64), Room::default(), Tally::default());
+    let settings = super::patient();
+    let directions: Vec<Vec3> = (0..40).map(|_| r.direction()).collect();
+    for case in 0..cases {
+        let (a, mut b) = (shape(kind1, &mut r, &solids), shape(kind2, &mut r, &solids));
+        let far = if r.below(50) == 0 { 0.0 } else { r.within(0.0, 1.2) };
+        b.pos = scale(r.direction(), far);
+        if r.below(4) == 0 {
+            // Just touching, just apart, or just not: along the line between the centres as far as they reach.
+            let n = r.direction();
+            let gap = if r.below(2) == 0 { 0.0 } else { 10f64.powf(r.within(-9.0, -3.0)) };
+            b.pos = scale(n, reach(&a, &b, n) + if r.below(2) == 0 { gap } else { -gap });
+        }
+        let found = nearest(&mut Convex::new(&a), &mut Convex::new(&b), 1e3, settings.effort, &mut room);
+        let Some(n) = found else {
+            t.worst = format!("case {case}, nothing found: {a:?} {b:?}");
+            t.distance = f64::INFINITY;
+            continue;
+        };
+        let most = |t: &mut Tally, slot: fn(&mut Tally) -> &mut f64, x: f64, what: &str| {
+            if x.is_nan() || x > *slot(t) {
+                *slot(t) = x;
+                if x > 2.0 * settings.effort.tolerance {
+                    t.worst = format!("{x:e} {what} in case {case}: {a:?} {b:?} {n:?}");
+                }
+            }
+        };
+        let [p, q] = n.witness;
+        most(
+            &mut t,
+            |t| &mut t.outside,
+            outside(&a, p, &directions).max(outside(&b, q, &directions)),
+            "outside",
+        );
+        match error(&a, &b, &n, settings.effort.tolerance) {
+            Error::Distance(error) => {
+                most(&mut t, |t| &mut t.distance, error, "distance");
+                t.apart += 1;
+            }
+            Error::Depth(error) => {
+                most(&mut t, |t| &mut t.above, error, "deeper than the reference");
+                most(&mut t, |t| &mut t.below, -error, "less deep than the reference");
+                t.deep += 1;
+            }
+        }
+    }
+    t
+}
+
+const PAIRS: [(i32, i32); 15] = [
+    (geom::SPHERE, geom::ELLIPSOID),
+    (geom::SPHERE, geom::MESH),
+    (geom::CAPSULE, geom::ELLIPSOID),
+    (geom::CAPSULE, geom::CYLINDER),
+    (geom::CAPSULE, geom::MESH),
+    (geom::ELLIPSOID, geom::ELLIPSOID),
+    (geom::ELLIPSOID, geom::CYLINDER),
+    (geom::ELLIPSOID, geom::BOX),
+    (geom::ELLIPSOID, geom::MESH),
+    (geom::CYLINDER, geom::CYLINDER),
+    (geom::CYLINDER, geom::BOX),
+    (geom::CYLINDER, geom::MESH),
+    (geom::BOX, geom::BOX),
+    (geom::BOX, geom::MESH),
+    (geom::MESH, geom::MESH),
+];
+
+/// How many random configurations.
+fn cases(usual: usize) -> usize {
+    std::env::var("LABSPEC_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(usual)
+}
+
+#[test]
+fn signed_distances_are_true() {
+    let cases = cases(300);
+    let mut table = String::new();
+    let mut wrong = String::new();
+    for (kind1, kind2) in PAIRS {
+        let t = check(kind1, kind2, cases);
+        table += &format!(
+            "| {}-{} | {} | {:.0e} | {} | {:.0e} | {:.0e} | {:.0e} |\n",
+            super::KINDS[kind1 as usize],
+            super::KINDS[kind2 as usize],
+            t.apart,
+            t.distance,
+            t.deep,
+            t.above,
+            t.below,
+            t.outside
+        );
+        if t.distance.max(t.above).max(t.below).max(t.outside) > 2e-6 {
+            wrong += &format!("{kind1} {kind2}: {}\n", t.worst);
+        }
+    }
+    println!("| pair | apart | distance | overlapping | deeper | less deep | outside |\n{table}\n{wrong}");
+    assert!(wrong.is_empty());
+}
+/// The prisms of a height field have corners, too.
+#[test]
+fn prisms_of_the_ground_are_true() {
+    let solids = solids();
+    let (mut r, mut room) = (Random(77), Room::default());
+    let mut deep = 0;
+    for case in 0..cases(2000) {
+        let mut b = shape([geom::BOX, geom::MESH][case % 2], &mut r, &solids);
+        let base = [[0.0, 0.0], [0.2, 0.0], [0.0, 0.15]];
+        let low = base.map(|[x, y]| [x, y, -0.3]);
+        let top = base.map(|[x, y]| [x, y, r.within(0.0, 0.5)]);
+        let corners = [low[0], low[1], low[2], top[0], top[1], top[2]];
+        b.pos = scale(r.direction(), r.within(0.0, 0.8));
+        let mut prism = Convex::prism(corners);
+        let found = nearest(&mut prism, &mut Convex::new(&b), 1e3, super::settings().effort, &mut room);
+        let n = found.unwrap();
+        let reach = |n: Vec3| {
+            let farthest_corner = corners.iter().map(|c| dot(*c, n)).fold(f64::NEG_INFINITY, f64::max);
+            farthest_corner - dot(n, farthest(&b, scale(n, -1.0)))
+        };
+        if n.dist > 1e-6 {
+            let [p, q] = n.witness;
+            assert!(
+                (norm(sub(q, p)) - n.dist).abs() < 1e-12 && (reach(n.normal) + n.dist).abs() < 1e-9,
+                "{case}"
+            );
+            continue;
+        }
+        deep += 1;
+        let edge = |i: usize, j: usize| normalize(sub(corners[i], corners[j])).0;
+        let own = [edge(0, 1), edge(1, 2), edge(2, 0), edge(3, 4), edge(4, 5), edge(5, 3), [0.0, 0.0, 1.0]];
+        // Every side of the prism holds two of its own edges.
+        let (mut axes, others) = faces_and_edges(&b);
+        for e in own {
+            let across = own.iter().chain(&others).map(|f| normalize(cross(e, *f)));
+            axes.extend(across.filter(|(_, sine)| *sine > 1e-9).map(|(n, _)| n));
+        }
+        let least =
+            axes.iter().flat_map(|&n| [reach(n), reach(scale(n, -1.0))]).fold(f64::INFINITY, f64::min);
+        assert!((least + n.dist).abs() < 1e-12, "{case}: {least} {n:?}");
+    }
+    assert!(deep > 500, "{deep}");
+}
