@@ -9,7 +9,7 @@ use super::cost::Cost;
 use super::jacobian::{Block, Jacobian, by_rows};
 use super::primal::Problem;
 use super::solver::tree_dofs;
-use crate::math::{MINVAL, dot};
+use crate::math::dot;
 use crate::{Data, Model, mass};
 
 /// What the dual methods keep.
@@ -219,84 +219,4 @@ impl Problem<'_> {
             order.extend(firsts.map(|first| Item { block: i as u32, first }));
         }
     }
-}
-
-/// The friction of a contact with a given normal force: minimizes ½ xᵀ A x + bᵀ x within Σ (xⱼ/μⱼ)² ≤ r². All in
-/// the rows 1 to N - 1; row 0 is left as it is.
-///
-/// Scaled by μ it is a ball: on its surface (A + λ) x = -b, and Newton's method finds λ from below (Nocedal and
-/// Wright 2006, section 4.3).
-pub(super) fn friction<const N: usize>(a: &[[f64; N]; N], b: &[f64; N], mu: &[f64; 5], r: f64) -> [f64; N] {
-    let scaled: [[f64; N]; N] = std::array::from_fn(|i| {
-        std::array::from_fn(|j| if i == 0 || j == 0 { 0.0 } else { a[i][j] * mu[i - 1] * mu[j - 1] })
-    });
-    let goal: [f64; N] = std::array::from_fn(|i| if i == 0 { 0.0 } else { -b[i] * mu[i - 1] });
-    let mut lambda = 0.0;
-    let mut x = [0.0; N];
-    let mut outside = false;
-    for _ in 0..20 {
-        let Some(l) = factor(&scaled, lambda) else { break };
-        x = solve(&l, goal);
-        let excess = dot(x, x) - r * r;
-        if excess < 1e-10 {
-            break;
-        }
-        outside = true;
-        // d|x|²/dλ = -2 xᵀ (A + λ)⁻¹ x.
-        let slope = -2.0 * dot(x, solve(&l, x));
-        let step = -excess / slope.min(-MINVAL);
-        if step < 1e-10 {
-            break;
-        }
-        lambda += step;
-    }
-    let size = dot(x, x).sqrt();
-    // On the surface: the search may have been cut short.
-    let onto = if outside || lambda > 0.0 { r / size.max(MINVAL) } else { 1.0 };
-    std::array::from_fn(|i| if i == 0 { 0.0 } else { x[i] * mu[i - 1] * onto })
-}
-
-/// Two and three directions of friction with a smaller determinant than this have none, more with a smaller pivot (measured on
-/// MuJoCo 3.14.0).
-const SINGULAR: f64 = 1e-10;
-
-/// Cholesky factor of A + λ without its first row; `None` when it is singular.
-fn factor<const N: usize>(a: &[[f64; N]; N], lambda: f64) -> Option<[[f64; N]; N]> {
-    let mut l = [[0.0; N]; N];
-    let (mut determinant, few) = (1.0, N <= 4);
-    for i in 1..N {
-        for j in 1..=i {
-            let mut sum = a[i][j] + if i == j { lambda } else { 0.0 };
-            for k in 1..j {
-                sum -= l[i][k] * l[j][k];
-            }
-            if i == j {
-                determinant *= sum;
-                if sum < if few { f64::MIN_POSITIVE } else { SINGULAR } {
-                    return None;
-                }
-                l[i][i] = sum.sqrt();
-            } else {
-                l[i][j] = sum / l[j][j];
-            }
-        }
-    }
-    (!few || determinant >= SINGULAR).then_some(l)
-}
-
-/// x ← (L Lᵀ)⁻¹ x without the first row.
-fn solve<const N: usize>(l: &[[f64; N]; N], mut x: [f64; N]) -> [f64; N] {
-    for i in 1..N {
-        for k in 1..i {
-            x[i] -= l[i][k] * x[k];
-        }
-        x[i] /= l[i][i];
-    }
-    for i in (1..N).rev() {
-        for k in i + 1..N {
-            x[i] -= l[k][i] * x[k];
-        }
-        x[i] /= l[i][i];
-    }
-    x
 }

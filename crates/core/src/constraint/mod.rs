@@ -5,6 +5,7 @@
 //! in the metric of M, where each constraint adds a cost for missing its reference acceleration.
 
 mod cg;
+mod cone;
 mod contact;
 mod cost;
 mod discrete;

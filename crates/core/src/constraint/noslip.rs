@@ -1,8 +1,9 @@
 //! The removal of slip: after the solver the forces of friction alone are solved again as if they were rigid, by sweeps
 //! over the dual problem without regularization.
 
+use super::cone::friction;
 use super::cost::Cost;
-use super::dual::{Item, friction};
+use super::dual::Item;
 use super::jacobian::{Block, by_rows};
 use super::kind;
 use super::pgs::WORSE;
@@ -11,6 +12,34 @@ use crate::math::{MINVAL, dot};
 
 /// Least diagonal of A between directions of friction.
 const RIGID: f64 = 1e-10;
+
+/// Determinant of two or three directions of friction, or pivot of more, below which the library drops the friction of a
+/// contact altogether (measured on MuJoCo 3.14.0): a matrix that is singular, or only small, as small coefficients make it.
+const DROPPED: f64 = 1e-10;
+
+/// Whether a contact gets no friction, by the matrix of its tangents scaled by their coefficients.
+fn is_dropped<const N: usize>(a: &[[f64; N]; N], mu: &[f64; 5]) -> bool {
+    let mut g: [[f64; N]; N] = std::array::from_fn(|i| {
+        std::array::from_fn(|j| if i == 0 || j == 0 { 0.0 } else { a[i][j] * mu[i - 1] * mu[j - 1] })
+    });
+    let mut determinant = 1.0;
+    let mut least = f64::INFINITY;
+    // Elimination without exchange: the matrix is symmetric and not negative.
+    for k in 1..N {
+        let pivot = g[k][k];
+        (determinant, least) = (determinant * pivot, least.min(pivot));
+        if pivot <= 0.0 {
+            break;
+        }
+        for i in k + 1..N {
+            let part = g[i][k] / pivot;
+            for j in k + 1..N {
+                g[i][j] -= part * g[k][j];
+            }
+        }
+    }
+    least <= 0.0 || if N <= 4 { determinant < DROPPED } else { least < DROPPED }
+}
 
 impl Problem<'_> {
     /// Changes the forces of friction of the island.
@@ -71,7 +100,7 @@ impl Problem<'_> {
         }
         let missed = self.missed::<R>(b, item);
         let mut new = [0.0; R];
-        if old[0] >= MINVAL {
+        if old[0] >= MINVAL && !is_dropped(&a, &mu) {
             let mut rest = old.map(|f| -f);
             rest[0] = 0.0;
             let without: [f64; R] = std::array::from_fn(|i| missed[i] + dot(a[i], rest));

@@ -4,8 +4,9 @@
 //! against each other do not always come in the same one. Between sweeps the forces are extrapolated (Nesterov 1983),
 //! and the extrapolation begins anew where a sweep turns against it (O'Donoghue and Candès 2015).
 
+use super::cone::friction;
 use super::cost::Cost;
-use super::dual::{Item, friction};
+use super::dual::Item;
 use super::jacobian::{Block, by_rows};
 use super::primal::Problem;
 use crate::math::{MINVAL, dot};

@@ -20,6 +20,8 @@ pub struct Sides {
 #[derive(Clone, Debug, PartialEq)]
 struct Side {
     normal: Vec3,
+    /// m^2
+    area: f64,
     first: u32,
     count: u32,
 }
@@ -43,6 +45,11 @@ impl Sides {
     /// Unit normal of a side, outwards, in the frame of the mesh.
     pub fn normal(&self, side: usize) -> Vec3 {
         self.sides[side].normal
+    }
+
+    /// Area of a side, m^2.
+    pub fn area(&self, side: usize) -> f64 {
+        self.sides[side].area
     }
 
     /// Vertices of a side, counterclockwise as seen from outside.
@@ -138,7 +145,12 @@ fn merge(mesh: &Mesh, hull: &Hull) -> Sides {
             }
         }
         let count = out.vertices.len() as u32 - first;
-        out.sides.push(Side { normal: normals[start], first, count });
+        // Twice the area of a polygon is the sum of the triangles that its edges make with any point.
+        let border = &out.vertices[first as usize..];
+        let at = |k: usize| border.get(k % border.len().max(1)).map_or([0.0; 3], |&v| corner(v as i32));
+        let twice = (1..border.len())
+            .fold([0.0; 3], |sum, k| add(sum, cross(sub(at(k), at(0)), sub(at(k + 1), at(0)))));
+        out.sides.push(Side { normal: normals[start], area: 0.5 * norm(twice), first, count });
     }
     out.index(mesh.vert.len());
     out

@@ -41,6 +41,8 @@ pub(crate) struct Settings {
     pub(crate) effort: Effort,
     /// Whether flat contacts get several points.
     pub(crate) several: bool,
+    /// Whether these come from the faces themselves; else from rocking the shapes (`nativeccd` switched off).
+    pub(crate) faces: bool,
 }
 
 /// Iterations beyond this cost more than they can give.
@@ -54,6 +56,7 @@ impl Settings {
                 iterations: m.opt.ccd_iterations.clamp(0, MOST_ITERATIONS) as usize,
             },
             several: !m.opt.disabled(disable::MULTICCD),
+            faces: !m.opt.disabled(disable::NATIVECCD),
         }
     }
 }
