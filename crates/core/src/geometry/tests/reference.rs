@@ -381,3 +381,48 @@ fn prisms_of_the_ground_are_true() {
     }
     assert!(deep > 500, "{deep}");
 }
+
+/// Contacts of faces: four at most, all of them below both surfaces, none deeper than what parts the bodies along its
+/// normal, and the deepest as deep as the bodies are.
+#[test]
+fn contacts_of_faces_are_below_both_surfaces() {
+    let solids = solids();
+    let (mut r, mut work) = (Random(5), crate::geometry::Narrow::default());
+    let (mut several, mut one) = (0, 0);
+    for case in 0..cases(4000) {
+        let kinds =
+            [(geom::BOX, geom::MESH), (geom::MESH, geom::MESH), (geom::CYLINDER, geom::BOX)][case % 3];
+        let (a, mut b) = (shape(kinds.0, &mut r, &solids), shape(kinds.1, &mut r, &solids));
+        if r.below(2) == 0 {
+            // Almost flat on each other.
+            let tilt = quat_to_mat(quat_axis_angle(r.direction(), r.within(0.0, 0.05)));
+            b.mat = mat_mul(&tilt, &a.mat);
+        }
+        let n = if r.below(2) == 0 { a.axis(r.below(3)) } else { r.direction() };
+        b.pos = scale(n, reach(&a, &b, n) - r.within(0.0, 0.05));
+        work.touches.clear();
+        let method = crate::geometry::pair::method(a.kind, b.kind).unwrap();
+        let settings = super::settings();
+        crate::geometry::pair::contacts(method, &a, &b, 0.0, &settings, &mut work.room, &mut work.touches);
+        let deep = nearest(&mut Convex::new(&a), &mut Convex::new(&b), 0.0, settings.effort, &mut work.room);
+        let depth = deep.map_or(0.0, |n| -n.dist);
+        let say = || format!("case {case}: {:?} {depth} {a:?} {b:?}", work.touches);
+        assert!(work.touches.len() <= 4 && (depth < 1e-9 || !work.touches.is_empty()), "{}", say());
+        for t in &work.touches {
+            assert!(t.dist < 0.0 && (norm(t.normal) - 1.0).abs() < 1e-12, "{}", say());
+            // The depth is measured along one face's normal, and the contact has the other's: 5 degrees apart at most.
+            assert!(-0.99 * t.dist <= reach(&a, &b, t.normal) + 1e-9, "{}", say());
+            let (beyond_a, beyond_b) = (
+                dot(t.normal, sub(t.pos, farthest(&a, t.normal))),
+                dot(t.normal, sub(farthest(&b, scale(t.normal, -1.0)), t.pos)),
+            );
+            assert!(beyond_a.max(beyond_b) < 1e-9 - 0.01 * t.dist, "{}", say());
+        }
+        if work.touches.len() > 1 {
+            several += 1;
+        } else {
+            one += usize::from(!work.touches.is_empty());
+        }
+    }
+    assert!(several > 500 && one > 100, "{several} {one}");
+}
