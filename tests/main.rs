@@ -29,6 +29,7 @@ mod settings;
 mod sleep;
 mod stability;
 mod standing;
+mod structure;
 mod support;
 mod terminal;
 mod trust;

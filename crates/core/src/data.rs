@@ -171,6 +171,16 @@ pub(crate) struct Work {
 }
 
 impl Data {
+    /// Counts a warning; `info` says where.
+    pub(crate) fn warn(&mut self, warning: Warning, info: usize) {
+        let stat = &mut self.warning[warning as usize];
+        if stat.number == 0 {
+            stat.first_time = self.time;
+        }
+        stat.number += 1;
+        stat.lastinfo = info;
+    }
+
     /// Data for a model, at the default configuration. Nothing is computed yet: call `forward`.
     ///
     /// The plan allows any field to be read or written at any time: see `Data::planned` for less work.

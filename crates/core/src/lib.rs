@@ -38,6 +38,7 @@ mod history;
 mod integrate;
 mod inverse;
 mod jacobian;
+pub(crate) mod kinds;
 mod kinematics;
 mod lanes;
 mod lengthrange;
@@ -50,6 +51,7 @@ mod passive;
 mod path;
 mod pipeline;
 pub mod plan;
+pub mod query;
 pub mod reflect;
 mod reset;
 mod rne;
@@ -75,12 +77,13 @@ pub use inverse::{InverseError, inverse};
 pub use jacobian::{
     Jacobian, apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,
 };
+pub use kinds::{
+    biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, solver, trntype, wraptype,
+};
 pub use kinematics::kinematics;
 pub use mass::{full_m, mul_m, solve_m, solve_m2};
 pub use model::{Model, Names, Obj, Options, Statistic};
-pub use model::{
-    biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, solver, trntype, wraptype,
-};
+
 pub use object::{object_acceleration, object_velocity};
 pub use pipeline::{forward, set_plan, step, step1, step2};
 pub use plan::{Demand, Plan};

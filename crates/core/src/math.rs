@@ -350,6 +350,32 @@ pub fn mat_t_mul_vec(m: &Mat3, v: Vec3) -> Vec3 {
     ]
 }
 
+/// Normal and two tangents as rows. The tangents start from the world's y axis, or z when the normal is
+/// near y.
+pub(crate) fn frame(normal: Vec3) -> Mat3 {
+    let seed = if normal[1] < 0.5 && normal[1] > -0.5 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    let (t1, _) = normalize(add_scaled(seed, normal, -dot(seed, normal)));
+    let t2 = cross(normal, t1);
+    [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
+}
+
+/// Normal and two tangents as rows, the first tangent along a given direction unless that is short.
+pub(crate) fn frame_along(normal: Vec3, tangent: Vec3) -> Mat3 {
+    if norm(tangent) < 0.5 {
+        return frame(normal);
+    }
+    let (t1, _) = normalize(add_scaled(tangent, normal, -dot(tangent, normal)));
+    let t2 = cross(normal, t1);
+    [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
+}
+
+/// A number that no simulation means: NaN, or larger than 1e10.
+#[inline(always)]
+#[allow(clippy::neg_cmp_op_on_partial_ord)] // one comparison that NaN fails, too: it runs for every number of the state
+pub(crate) fn bad(x: f64) -> bool {
+    !(x.abs() <= 1e10)
+}
+
 /// Column `i` of a matrix.
 #[inline(always)]
 pub fn column(m: &Mat3, i: usize) -> Vec3 {

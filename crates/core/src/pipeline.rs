@@ -1,6 +1,6 @@
 //! `mj_step` and `mj_forward`: the order of the stages, each a call to the module that holds its formula.
 
-use crate::math::{combine, copy, rows, sum};
+use crate::math::{bad, combine, copy, rows, sum};
 use crate::plan::Plan;
 use crate::reflect::Stage;
 use crate::sensor::When;
@@ -185,7 +185,7 @@ fn inertia_and_constraints(m: &Model, d: &mut Data) {
 /// Warns of a degree of freedom without inertia.
 fn check_inertia(d: &mut Data, bad: Option<usize>) {
     if let Some(dof) = bad {
-        warn(d, Warning::Inertia, dof);
+        d.warn(Warning::Inertia, dof);
     }
 }
 
@@ -335,13 +335,6 @@ fn kinetic_energy(m: &Model, d: &mut Data) {
     }
 }
 
-/// A number that no simulation means: NaN, or larger than 1e10.
-#[inline(always)]
-#[allow(clippy::neg_cmp_op_on_partial_ord)] // one comparison that NaN fails, too: it runs for every number of the state
-pub(crate) fn bad(x: f64) -> bool {
-    !(x.abs() <= 1e10)
-}
-
 #[inline(always)]
 fn first_bad(v: &[f64]) -> Option<usize> {
     // Nearly always there is none, and even their sum is good.
@@ -353,22 +346,12 @@ fn first_bad(v: &[f64]) -> Option<usize> {
     if some { v.iter().position(|&x| bad(x)) } else { None }
 }
 
-pub(crate) fn warn(d: &mut Data, warning: Warning, info: usize) {
-    let time = d.time;
-    let stat = &mut d.warning[warning as usize];
-    if stat.number == 0 {
-        stat.first_time = time;
-    }
-    stat.number += 1;
-    stat.lastinfo = info;
-}
-
 /// Warns, and resets unless that is switched off. The warning survives the reset.
 fn reset_after(m: &Model, d: &mut Data, warning: Warning, info: usize) -> bool {
-    warn(d, warning, info);
+    d.warn(warning, info);
     if m.opt.disabled(disable::AUTORESET) {
         // The library counts what it does not reset twice.
-        warn(d, warning, info);
+        d.warn(warning, info);
         return false;
     }
     let stat = d.warning[warning as usize];

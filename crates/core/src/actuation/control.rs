@@ -1,7 +1,6 @@
 //! Controls as they act: delayed, clamped, and zero where one of them is no number.
 
 use crate::math::*;
-use crate::pipeline::{bad, warn};
 use crate::{Data, Model, Warning, disable, gaintype, history};
 use std::ops::Range;
 
@@ -39,7 +38,7 @@ pub(super) fn effective(m: &Model, d: &mut Data, ctrl: &mut [f64]) {
         }
     }
     if let Some(i) = ctrl.iter().position(|&u| bad(u)) {
-        warn(d, Warning::BadCtrl, i);
+        d.warn(Warning::BadCtrl, i);
         ctrl.fill(0.0);
     }
 }

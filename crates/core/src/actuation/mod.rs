@@ -15,7 +15,6 @@ pub(crate) mod muscle;
 mod servo;
 
 use crate::math::*;
-use crate::pipeline::bad;
 use crate::{Data, Model, biastype, disable, dyntype, gaintype, joint, sleep, transmission, trntype};
 
 pub(crate) use activation::advance;

@@ -13,7 +13,6 @@ use sweep::Sweep;
 
 use crate::geometry::{Shape, pair};
 use crate::math::*;
-use crate::pipeline::warn;
 use crate::{Contact, Data, Model, Warning, geom, sleep};
 
 /// The pairs that a plan tests, with their contact parameters when nothing can change these.
@@ -91,7 +90,7 @@ pub(crate) fn collide(m: &Model, d: &mut Data) {
     d.work.meter.add(looked_at as u64);
     if d.contact.len() > MOST_CONTACTS {
         d.contact.truncate(MOST_CONTACTS);
-        warn(d, Warning::ContactFull, MOST_CONTACTS);
+        d.warn(Warning::ContactFull, MOST_CONTACTS);
     }
     d.ncon = d.contact.len();
 }
@@ -155,25 +154,6 @@ fn general(m: &Model, d: &mut Data, [g1, g2]: [usize; 2], params: &Params) {
     }
     d.work.meter.add(100 + work.room.cost);
     d.work.narrow = work;
-}
-
-/// Normal and two tangents as rows. The tangents start from the world's y axis, or z when the normal is
-/// near y.
-pub(crate) fn frame(normal: Vec3) -> Mat3 {
-    let seed = if normal[1] < 0.5 && normal[1] > -0.5 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
-    let (t1, _) = normalize(add_scaled(seed, normal, -dot(seed, normal)));
-    let t2 = cross(normal, t1);
-    [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
-}
-
-/// Normal and two tangents as rows, the first tangent along a given direction unless that is short.
-pub(crate) fn frame_along(normal: Vec3, tangent: Vec3) -> Mat3 {
-    if norm(tangent) < 0.5 {
-        return frame(normal);
-    }
-    let (t1, _) = normalize(add_scaled(tangent, normal, -dot(tangent, normal)));
-    let t2 = cross(normal, t1);
-    [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
 }
 
 /// Force and torque of a contact in the contact's frame: normal, two tangents, then three torques

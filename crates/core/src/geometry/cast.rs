@@ -1,66 +1,26 @@
-//! A ray against all geoms of a model (`mj_ray`).
+//! A ray against a shape, by its kind.
 
-use super::{Shape, ray_shape};
+use super::ray::{self, Hit, Ray};
+use super::{Shape, surface};
+use crate::kinds::geom;
 use crate::math::*;
-use crate::{Data, Model};
 
-/// Which geoms a ray can hit, besides being visible.
-#[derive(Clone, Copy, Debug)]
-pub struct RayFilter {
-    /// Groups that count, by `geom_group` from 0 to 5; all of them when `None`.
-    pub groups: Option<[bool; 6]>,
-    /// Whether geoms count that are fixed to the world.
-    pub statics: bool,
-    /// A body whose geoms do not count.
-    pub exclude_body: Option<usize>,
-}
-
-impl Default for RayFilter {
-    /// Everything that is visible.
-    fn default() -> Self {
-        RayFilter { groups: None, statics: true, exclude_body: None }
+/// The nearest point of the ray `from` + x `along` (x ≥ 0; world) on the surface of a shape. A plane is hit from
+/// its front only, inside its drawn rectangle.
+pub fn ray_shape(shape: &Shape, from: Vec3, along: Vec3) -> Option<Hit> {
+    if shape.kind == geom::SPHERE {
+        return ray::sphere(shape.size[0], &Ray { from: sub(from, shape.pos), along });
     }
-}
-
-impl RayFilter {
-    /// Whether a geom can be hit. What is drawn with opacity zero cannot.
-    fn admits(&self, m: &Model, g: usize) -> bool {
-        let body = m.geom_bodyid[g] as usize;
-        let colour = match usize::try_from(m.geom_matid[g]) {
-            Ok(material) => rows::<4>(&m.mat_rgba).get(material),
-            Err(_) => rows::<4>(&m.geom_rgba).get(g),
-        };
-        let group = m.geom_group[g].clamp(0, 5) as usize;
-        self.exclude_body != Some(body)
-            && colour.is_none_or(|c| c[3] != 0.0)
-            && (self.statics || m.body_weldid[body] != 0)
-            && self.groups.is_none_or(|on| on[group])
-    }
-}
-
-/// The first geom on a ray.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RayHit {
-    /// Distance in lengths of the ray's direction.
-    pub distance: f64,
-    /// The geom.
-    pub geom: usize,
-    /// Unit normal of its surface, world.
-    pub normal: Vec3,
-}
-
-/// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A direction of no length hits nothing.
-pub fn ray(m: &Model, d: &Data, from: Vec3, along: Vec3, filter: &RayFilter) -> Option<RayHit> {
-    if norm(along) < MINVAL {
-        return None;
-    }
-    let mut best: Option<RayHit> = None;
-    for geom in (0..m.ngeom).filter(|&g| filter.admits(m, g)) {
-        if let Some(hit) = ray_shape(&Shape::geom(m, d, geom), from, along)
-            && best.is_none_or(|b| hit.distance < b.distance)
-        {
-            best = Some(RayHit { distance: hit.distance, geom, normal: hit.normal });
-        }
-    }
-    best
+    let r = Ray { from: shape.local(from), along: mat_t_mul_vec(&shape.mat, along) };
+    let hit = match shape.kind {
+        geom::PLANE => ray::plane(shape.size, &r),
+        geom::CAPSULE => ray::capsule(shape.size, &r),
+        geom::ELLIPSOID => ray::ellipsoid(shape.size, &r),
+        geom::CYLINDER => ray::cylinder(shape.size, &r),
+        geom::BOX => ray::cuboid(shape.size, &r),
+        geom::MESH => surface::mesh(&shape.mesh, shape.size, &r),
+        geom::HFIELD => surface::field(&shape.field, &r),
+        _ => None,
+    }?;
+    Some(Hit { normal: mat_mul_vec(&shape.mat, hit.normal), ..hit })
 }

@@ -3,14 +3,15 @@
 //! A sphere is a point and a capsule a segment with a radius around: the signed distance is that of these cores less the
 //! radii, whatever the sign, and their nearest or deepest points lie on the same line.
 
+use super::difference::Limits;
 use super::epa;
-use super::gjk::{Found, Limits, distance};
+use super::gjk::{Found, distance};
 use super::polish::{Reach, least_reach};
 use super::support::Body;
 use crate::math::*;
 
+pub(crate) use super::difference::Limits as Effort;
 pub(crate) use super::epa::Scratch as Room;
-pub(crate) use super::gjk::Limits as Effort;
 pub(crate) use super::support::Body as Convex;
 
 /// Where two bodies are nearest, or overlap most.

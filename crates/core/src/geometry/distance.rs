@@ -1,10 +1,10 @@
-//! Signed distance of two geoms of a model (`mj_geomDistance`).
+//! Signed distance of two shapes, by the method of their pair.
 
 use super::Shape;
 use super::convex::{Convex, nearest};
 use super::pair::{self, Method, Settings};
+use crate::kinds::geom;
 use crate::math::*;
-use crate::{Data, Model, geom};
 
 /// Distance and nearest points of two geoms.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,21 +15,8 @@ pub struct Distance {
     pub fromto: [Vec3; 2],
 }
 
-/// The distance of two geoms up to `most`, with the segment from the first to the second (`mj_geomDistance`).
-///
-/// Shapes with closed forms use those, at their deepest contact; two planes or height fields have no distance.
-pub fn geom_distance(m: &Model, d: &mut Data, geom1: usize, geom2: usize, most: f64) -> Distance {
-    let mut work = std::mem::take(&mut d.work.narrow);
-    work.room.cost = 0;
-    let (a, b) = (Shape::geom(m, d, geom1), Shape::geom(m, d, geom2));
-    let distance = shape_distance(&a, &b, most, &Settings::of(m), &mut work);
-    d.work.meter.add(100 + work.room.cost);
-    d.work.narrow = work;
-    distance
-}
-
 /// The distance of two shapes up to `most`.
-pub(super) fn shape_distance(
+pub(crate) fn shape_distance(
     a: &Shape,
     b: &Shape,
     most: f64,

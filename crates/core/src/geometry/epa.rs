@@ -8,7 +8,7 @@
 //! way. Offsets of faces are signed: nothing changes when the origin
 //! is on the border of the polytope or a little outside, and a negative upper bound says that the bodies are apart.
 
-use super::gjk::{Limits, ROUNDING, Vertex, support};
+use super::difference::{Limits, ROUNDING, Vertex, support};
 use super::polish::{Reach, least_reach};
 use super::simplex::{Corral, barycentric};
 use super::support::Body;
@@ -129,7 +129,7 @@ impl Scratch {
                 1 => &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
                 2 => {
                     let along = normalize(edges[0]).0;
-                    let f = crate::collision::frame(along);
+                    let f = frame(along);
                     &[[f[3], f[4], f[5]], [f[6], f[7], f[8]]]
                 }
                 _ => &[normalize(cross(edges[0], edges[1])).0],

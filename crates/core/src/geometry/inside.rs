@@ -1,13 +1,8 @@
 //! Whether a point is inside a shape; its surface does not count.
 
 use super::Shape;
+use crate::kinds::geom;
 use crate::math::*;
-use crate::{Data, Model, geom};
-
-/// Whether a point (world, m) is inside the volume of a site (`mj_insideSite`).
-pub fn inside_site(m: &Model, d: &Data, site: usize, point: Vec3) -> bool {
-    inside_shape(&Shape::site(m, d, site), point)
-}
 
 /// Whether a point (world, m) is inside a primitive shape, or below a plane. Meshes and height fields have no
 /// inside here.

@@ -1,14 +1,17 @@
 //! Pure geometry of shapes: rays, containment, support points, distance and penetration.
 //!
-//! A [`Shape`] is a type, sizes and a pose; nothing here changes a model or knows of dynamics. The functions of
-//! a [`Model`](crate::Model) with its data are at the edge: [`ray`], [`inside_site`], [`geom_distance`].
+//! A [`Shape`] is a type, sizes and a pose; nothing here knows of a model, its data or dynamics. What asks these is in
+//! [`crate::query`].
 
 mod cast;
 pub(crate) mod convex;
+mod difference;
 mod distance;
 mod epa;
 mod gjk;
+mod hull;
 mod inside;
+mod list;
 pub(crate) mod pair;
 mod polish;
 mod ray;
@@ -18,12 +21,13 @@ mod simplex;
 mod support;
 mod surface;
 
-pub use cast::{RayFilter, RayHit, ray};
-pub(crate) use distance::Narrow;
-pub use distance::{Distance, geom_distance};
-pub use inside::{inside_shape, inside_site};
-pub use ray::{Hit, ray_shape};
-pub use shape::{Field, Hull, Mesh, Shape};
+pub use cast::ray_shape;
+pub use distance::Distance;
+pub(crate) use distance::{Narrow, shape_distance};
+pub use hull::Hull;
+pub use inside::inside_shape;
+pub use ray::Hit;
+pub use shape::{Field, Mesh, Shape};
 pub use sides::Sides;
 
 #[cfg(test)]

@@ -6,7 +6,8 @@
 //! step δ across n solves (H - h) δ = -w. Where a body has an edge or a face, h has a kink, and the least value lies in it
 //! as often as not: then n stays across the edge.
 
-use super::gjk::{Limits, distance, support};
+use super::difference::{Limits, support};
+use super::gjk::distance;
 use super::support::Body;
 use crate::math::*;
 
@@ -27,7 +28,7 @@ const UNCLEAR: f64 = 1e-3;
 /// Angle that shows the ends of an edge, rad.
 const TILT: f64 = 1e-4;
 /// Edges of both bodies.
-type Kinks = super::pair::List<Vec3, 4>;
+type Kinks = super::list::List<Vec3, 4>;
 
 /// A direction, and how far the difference reaches along it.
 #[derive(Clone, Copy, Debug)]
@@ -76,7 +77,7 @@ fn height(a: &mut Body, b: &mut Body, n: Vec3) -> (Vec3, f64) {
 /// Downhill in any direction; and whether the bottom of a bowl was found, where the support point is along the direction.
 fn free(a: &mut Body, b: &mut Body, start: Vec3) -> ((Vec3, f64), bool) {
     let (n, w, h) = descend(a, b, start, |n, w, h, bend| {
-        let f = crate::collision::frame(n);
+        let f = frame(n);
         let (s, t) = ([f[3], f[4], f[5]], [f[6], f[7], f[8]]);
         let [ss, st, tt] = bend(n, s, t);
         let (ss, tt) = (ss - h, tt - h);

@@ -3,8 +3,6 @@
 //! Along the ray p + x v the surface of a round shape is a quadratic a x² + 2 b x + c = 0. Rays that graze a
 //! surface to rounding miss it.
 
-use super::{Shape, surface};
-use crate::geom;
 use crate::math::*;
 
 /// Where a ray meets a surface.
@@ -28,26 +26,6 @@ impl Ray {
     pub(super) fn at(&self, x: f64) -> Vec3 {
         add_scaled(self.from, self.along, x)
     }
-}
-
-/// The nearest point of the ray `from` + x `along` (x ≥ 0; world) on the surface of a shape. A plane is hit from
-/// its front only, inside its drawn rectangle.
-pub fn ray_shape(shape: &Shape, from: Vec3, along: Vec3) -> Option<Hit> {
-    if shape.kind == geom::SPHERE {
-        return sphere(shape.size[0], &Ray { from: sub(from, shape.pos), along });
-    }
-    let ray = Ray { from: shape.local(from), along: mat_t_mul_vec(&shape.mat, along) };
-    let hit = match shape.kind {
-        geom::PLANE => plane(shape.size, &ray),
-        geom::CAPSULE => capsule(shape.size, &ray),
-        geom::ELLIPSOID => ellipsoid(shape.size, &ray),
-        geom::CYLINDER => cylinder(shape.size, &ray),
-        geom::BOX => cuboid(shape.size, &ray),
-        geom::MESH => surface::mesh(&shape.mesh, shape.size, &ray),
-        geom::HFIELD => surface::field(&shape.field, &ray),
-        _ => None,
-    }?;
-    Some(Hit { normal: mat_mul_vec(&shape.mat, hit.normal), ..hit })
 }
 
 /// Keeps the nearer of two hits, the first one when they are equal.
@@ -90,7 +68,7 @@ pub(super) fn meets_sphere(radius2: f64, ray: &Ray) -> bool {
     first_root(a, b, c).is_some()
 }
 
-fn plane(size: Vec3, ray: &Ray) -> Option<Hit> {
+pub(super) fn plane(size: Vec3, ray: &Ray) -> Option<Hit> {
     let Ray { from: p, along: v } = *ray;
     if v[2] > -MINVAL {
         return None;
@@ -101,14 +79,14 @@ fn plane(size: Vec3, ray: &Ray) -> Option<Hit> {
     (x >= 0.0 && within(0) && within(1)).then_some(Hit { distance: x, normal: [0.0, 0.0, 1.0] })
 }
 
-fn sphere(radius: f64, ray: &Ray) -> Option<Hit> {
+pub(super) fn sphere(radius: f64, ray: &Ray) -> Option<Hit> {
     let (a, b, c) = ball(radius * radius, ray);
     let distance = first_root(a, b, c)?;
     Some(Hit { distance, normal: normalize(ray.at(distance)).0 })
 }
 
 /// (p + x v)ᵀ S⁻² (p + x v) = 1
-fn ellipsoid(size: Vec3, ray: &Ray) -> Option<Hit> {
+pub(super) fn ellipsoid(size: Vec3, ray: &Ray) -> Option<Hit> {
     let Ray { from: p, along: v } = *ray;
     let s = size.map(|s| 1.0 / (s * s));
     let form = |u: Vec3, w: Vec3| s[0] * u[0] * w[0] + s[1] * u[1] * w[1] + s[2] * u[2] * w[2];
@@ -129,7 +107,7 @@ fn tube(radius: f64, half: f64, ray: &Ray) -> Option<Hit> {
     (z.abs() <= half).then(|| Hit { distance, normal: normalize([x, y, 0.0]).0 })
 }
 
-fn capsule([radius, half, _]: Vec3, ray: &Ray) -> Option<Hit> {
+pub(super) fn capsule([radius, half, _]: Vec3, ray: &Ray) -> Option<Hit> {
     if !meets_sphere((radius + half) * (radius + half), ray) {
         return None;
     }
@@ -148,7 +126,7 @@ fn capsule([radius, half, _]: Vec3, ray: &Ray) -> Option<Hit> {
     best
 }
 
-fn cylinder([radius, half, _]: Vec3, ray: &Ray) -> Option<Hit> {
+pub(super) fn cylinder([radius, half, _]: Vec3, ray: &Ray) -> Option<Hit> {
     if !meets_sphere(radius * radius + half * half, ray) {
         return None;
     }
@@ -169,7 +147,7 @@ fn cylinder([radius, half, _]: Vec3, ray: &Ray) -> Option<Hit> {
     best
 }
 
-fn cuboid(size: Vec3, ray: &Ray) -> Option<Hit> {
+pub(super) fn cuboid(size: Vec3, ray: &Ray) -> Option<Hit> {
     let mut best = None;
     for (i, hits) in box_faces(size, ray).into_iter().enumerate() {
         for (hit, side) in hits.into_iter().zip([-1.0, 1.0]) {

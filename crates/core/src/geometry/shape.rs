@@ -1,8 +1,7 @@
 //! A shape in the world: type, sizes, pose; for meshes and height fields a view of their data.
 
-use super::Sides;
+use super::{Hull, Sides};
 use crate::math::*;
-use crate::{Data, Model, geom};
 
 /// A geom or site as geometry sees it.
 #[derive(Clone, Copy, Debug)]
@@ -32,28 +31,6 @@ pub struct Mesh<'a> {
     pub hull: Option<Hull<'a>>,
     /// The flat sides of the hull, when contacts may lie on them.
     pub sides: Option<&'a Sides>,
-}
-
-/// The graph of a convex hull (`mesh_graph`).
-#[derive(Clone, Copy, Debug)]
-pub struct Hull<'a> {
-    /// For each vertex of the hull where its neighbours begin in `edges`.
-    pub first_edge: &'a [i32],
-    /// For each vertex of the hull its index among the mesh's vertices.
-    pub vertex: &'a [i32],
-    /// Lists of neighbours, as vertices of the hull; each list ends with -1.
-    pub edges: &'a [i32],
-    /// Vertices of the mesh at the corners of each triangle of the hull.
-    pub face: &'a [[i32; 3]],
-}
-
-impl Hull<'_> {
-    /// The neighbours of a vertex of the hull.
-    #[inline]
-    pub fn neighbours(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
-        let list = self.edges.get(self.first_edge[vertex] as usize..).unwrap_or(&[]);
-        list.iter().take_while(|&&e| e >= 0).map(|&e| e as usize)
-    }
 }
 
 /// The data of a height field, a grid over its base.
@@ -94,34 +71,6 @@ impl<'a> Shape<'a> {
         Shape { kind, size, pos, mat, mesh: Mesh::default(), field: Field::default() }
     }
 
-    /// A geom where the data have it.
-    #[inline]
-    pub fn geom(m: &'a Model, d: &Data, g: usize) -> Shape<'a> {
-        let (size, pos, mat) =
-            (rows::<3>(&m.geom_size)[g], rows::<3>(&d.geom_xpos)[g], rows::<9>(&d.geom_xmat)[g]);
-        let mut shape = Shape::new(m.geom_type[g], size, pos, mat);
-        if let Ok(id) = usize::try_from(m.geom_dataid[g]) {
-            match shape.kind {
-                geom::MESH => shape.mesh = Mesh::of(m, id),
-                geom::HFIELD => shape.field = Field::of(m, id),
-                _ => {}
-            }
-        }
-        shape
-    }
-
-    /// A site where the data have it.
-    #[inline]
-    pub fn site(m: &'a Model, d: &Data, s: usize) -> Shape<'a> {
-        let (size, pos, mat) =
-            (rows::<3>(&m.site_size)[s], rows::<3>(&d.site_xpos)[s], rows::<9>(&d.site_xmat)[s]);
-        let mut shape = Shape::new(m.site_type[s], size, pos, mat);
-        if let Ok(id) = usize::try_from(m.site_dataid[s]) {
-            shape.mesh = Mesh::of(m, id);
-        }
-        shape
-    }
-
     /// The axis `i` of its frame, world.
     #[inline(always)]
     pub(crate) fn axis(&self, i: usize) -> Vec3 {
@@ -138,45 +87,5 @@ impl<'a> Shape<'a> {
     #[inline(always)]
     pub(crate) fn world(&self, point: Vec3) -> Vec3 {
         add(mat_mul_vec(&self.mat, point), self.pos)
-    }
-}
-
-impl<'a> Mesh<'a> {
-    /// Mesh `id` of a model.
-    pub fn of(m: &'a Model, id: usize) -> Mesh<'a> {
-        let range = |adr: &[i32], num: &[i32]| {
-            let first = adr[id].max(0) as usize;
-            first..first + num[id].max(0) as usize
-        };
-        Mesh {
-            vert: &rows::<3>(&m.mesh_vert)[range(&m.mesh_vertadr, &m.mesh_vertnum)],
-            face: &m.mesh_face.as_chunks().0[range(&m.mesh_faceadr, &m.mesh_facenum)],
-            hull: usize::try_from(m.mesh_graphadr[id]).ok().and_then(|adr| Hull::of(&m.mesh_graph[adr..])),
-            sides: m.mesh_sides.get(id),
-        }
-    }
-}
-
-impl<'a> Hull<'a> {
-    /// Layout: numbers of vertices and triangles, where each vertex's neighbours begin, the vertices, the lists of
-    /// neighbours (six for each pair of triangles, and an end for each vertex), the triangles.
-    pub(crate) fn of(graph: &'a [i32]) -> Option<Hull<'a>> {
-        let [vertices, faces, rest @ ..] = graph else { return None };
-        let (n, f) = (usize::try_from(*vertices).ok()?, usize::try_from(*faces).ok()?);
-        let (first_edge, rest) = rest.split_at_checked(n)?;
-        let (vertex, rest) = rest.split_at_checked(n)?;
-        let (edges, rest) = rest.split_at_checked(n + 3 * f)?;
-        let (face, _) = rest.split_at_checked(3 * f)?;
-        (n > 0).then_some(Hull { first_edge, vertex, edges, face: face.as_chunks().0 })
-    }
-}
-
-impl<'a> Field<'a> {
-    /// Height field `id` of a model.
-    pub fn of(m: &'a Model, id: usize) -> Field<'a> {
-        let (nrow, ncol) = (m.hfield_nrow[id].max(0) as usize, m.hfield_ncol[id].max(0) as usize);
-        let first = m.hfield_adr[id].max(0) as usize;
-        let data = &m.hfield_data[first..first + nrow * ncol];
-        Field { size: rows::<4>(&m.hfield_size)[id], nrow, ncol, data }
     }
 }

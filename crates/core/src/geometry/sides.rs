@@ -1,6 +1,6 @@
 //! The flat sides of a convex hull: its triangles, merged where they lie in one plane.
 
-use super::{Hull, Mesh};
+use super::Hull;
 use crate::math::*;
 
 /// Cosine of the angle between triangles above which they are one side.
@@ -27,9 +27,11 @@ struct Side {
 }
 
 impl Sides {
-    /// The sides of a mesh with a hull.
-    pub fn of(mesh: &Mesh) -> Sides {
-        mesh.hull.map_or_else(Sides::default, |hull| merge(mesh, &hull))
+    /// The sides of the hull of some vertices.
+    pub fn of(vert: &[Vec3], hull: &Hull) -> Sides {
+        let mut sides = merge(vert, hull);
+        sides.index(vert.len());
+        sides
     }
 
     /// Number of sides.
@@ -82,8 +84,8 @@ impl Sides {
     }
 }
 
-fn merge(mesh: &Mesh, hull: &Hull) -> Sides {
-    let corner = |v: i32| mesh.vert.get(v as usize).copied().unwrap_or_default();
+fn merge(vert: &[Vec3], hull: &Hull) -> Sides {
+    let corner = |v: i32| vert.get(v as usize).copied().unwrap_or_default();
     let normals: Vec<Vec3> = hull
         .face
         .iter()
@@ -152,6 +154,5 @@ fn merge(mesh: &Mesh, hull: &Hull) -> Sides {
             .fold([0.0; 3], |sum, k| add(sum, cross(sub(at(k), at(0)), sub(at(k + 1), at(0)))));
         out.sides.push(Side { normal: normals[start], area: 0.5 * norm(twice), first, count });
     }
-    out.index(mesh.vert.len());
     out
 }

@@ -5,7 +5,7 @@
 //! weights go straight to those of the nearest point of the affine hull, and where a weight would turn negative on the
 //! way, its vertex leaves and the walk begins anew. Every walk brings the point nearer.
 
-use super::gjk::Vertex;
+use super::difference::Vertex;
 use crate::math::*;
 
 /// A determinant below this part of the product of its edges has no direction.

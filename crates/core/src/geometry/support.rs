@@ -1,8 +1,8 @@
 //! Support points: the point of a convex shape that is farthest in a direction.
 
-use super::pair::List;
+use super::list::List;
 use super::{Hull, Mesh, Shape};
-use crate::geom;
+use crate::kinds::geom;
 use crate::math::*;
 
 /// What a convex body is made of.

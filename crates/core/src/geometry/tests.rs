@@ -49,7 +49,8 @@ impl Assets {
                     assets.vert.insert(name.into(), rows::<3>(&floats(rest)).to_vec());
                     assets.face.insert(name.into(), ints(parts[1]).as_chunks().0.to_vec());
                     assets.graph.insert(name.into(), ints(parts[2]));
-                    let sides = Sides::of(&assets.mesh(name));
+                    let mesh = assets.mesh(name);
+                    let sides = mesh.hull.map_or_else(Sides::default, |hull| Sides::of(mesh.vert, &hull));
                     assets.sides.insert(name.into(), sides);
                 }
                 "field" => assets.field = Some((floats(rest), floats(parts[1]))),
@@ -314,7 +315,7 @@ fn contacts_are_those_of_mujoco() {
         for t in &work.touches {
             got.push(t.dist);
             got.extend(t.pos);
-            got.extend(&crate::collision::frame_along(t.normal, t.tangent)[..6]);
+            got.extend(&frame_along(t.normal, t.tangent)[..6]);
         }
         let want = floats(want);
         let kinds = format!("{}-{}", KINDS[a.kind as usize], KINDS[b.kind as usize]);

@@ -4,7 +4,6 @@
 use super::{Slopes, advance};
 use crate::derivative::{self, Medium, sparse};
 use crate::math::{MINVAL, Spatial};
-use crate::pipeline::warn;
 use crate::{Data, Model, Warning, mass};
 
 /// All of D.
@@ -14,7 +13,7 @@ pub(super) fn implicit(m: &Model, d: &mut Data) {
     derivative::subtract_bias(m, d, &mut w);
     sparse::mass_minus(m, &d.M, m.opt.timestep, &mut w.whole);
     if let Some(dof) = sparse::factor(m, &mut w.whole) {
-        warn(d, Warning::Inertia, dof);
+        d.warn(Warning::Inertia, dof);
     }
     let mut acceleration = force(d);
     sparse::solve(m, &w.whole, &mut acceleration);
@@ -40,7 +39,7 @@ pub(super) fn implicitfast(m: &Model, d: &mut Data) {
         ld[rows.clone()].copy_from_slice(&d.M[rows]);
     }
     if let Some(dof) = mass::factor(m, &mut ld, &mut d.work.diag_inv, 0..m.nv) {
-        warn(d, Warning::Inertia, dof);
+        d.warn(Warning::Inertia, dof);
     }
     let mut acceleration = force(d);
     mass::solve(m, &ld, &d.work.diag_inv, &mut acceleration, 0..m.nv);

@@ -83,8 +83,7 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
         .map(|x| {
             // Seen before the vertices lose their precision.
             let graph = x.hull.as_ref().map_or(Vec::new(), Hull::graph);
-            let (vert, face) = (x.shape.vert.as_slice(), x.shape.face.as_slice());
-            Sides::of(&geometry::Mesh { vert, face, hull: geometry::Hull::of(&graph), sides: None })
+            geometry::Hull::of(&graph).map_or_else(Sides::default, |hull| Sides::of(&x.shape.vert, &hull))
         })
         .collect();
     m.mesh_scale = flat(&list, |x| x.options.scale);

@@ -5,8 +5,9 @@ use super::diagnostic::{Report, code, shown};
 use super::spec::List;
 use super::tree::Tree;
 use super::values::Value;
+use crate::kinds::{disable, enable};
 use crate::lengthrange::{Mode, Search};
-use crate::model::{Options, Statistic, disable, enable};
+use crate::model::{Options, Statistic};
 
 /// All sections of one name, later ones over earlier ones.
 fn section(tree: &Tree, name: &str) -> Props {

@@ -6,8 +6,8 @@
 
 use std::f64::consts::PI;
 
+use crate::kinds::geom;
 use crate::math::{MINVAL, Vec3, norm};
-use crate::model::geom;
 
 /// A size number of a shape.
 #[derive(Debug)]

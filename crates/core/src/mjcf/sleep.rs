@@ -5,7 +5,7 @@ use super::inertia::shown;
 use super::layout::Layout;
 use super::spec::BodySpec;
 use crate::Model;
-use crate::model::trntype;
+use crate::kinds::trntype;
 use crate::sleep::policy;
 
 /// Reports a choice where there is no tree to sleep.

@@ -3,8 +3,9 @@
 use super::fields::{self, CONTACT_DATA};
 use super::put;
 use crate::collision::contact_force;
-use crate::geometry::{self, Shape, ray_shape};
+use crate::geometry::{Shape, ray_shape};
 use crate::math::*;
+use crate::query::inside_site;
 use crate::{Contact, Data, Model, Obj};
 
 /// The sum of the normal forces on the body of a site, of all contacts whose normal, from the contact into the
@@ -92,7 +93,7 @@ fn admitted(m: &Model, d: &Data, s: usize, c: &Contact) -> Option<bool> {
     let second = (m.sensor_reftype[s], m.sensor_refid[s]);
     if let (kind, Ok(site)) = (first.0, usize::try_from(first.1))
         && kind == Obj::Site as i32
-        && !geometry::inside_site(m, d, site, c.pos)
+        && !inside_site(m, d, site, c.pos)
     {
         return None;
     }

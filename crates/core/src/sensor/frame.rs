@@ -4,7 +4,8 @@
 use super::put;
 use crate::math::*;
 use crate::object::{self, Frame};
-use crate::{Data, Model, geometry};
+use crate::query;
+use crate::{Data, Model};
 
 /// The frame of the sensed object.
 fn sensed(m: &Model, d: &Data, s: usize) -> Option<Frame> {
@@ -101,5 +102,5 @@ pub(super) fn magnetometer(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
 /// 1 when the origin of the frame is inside the site, else 0.
 pub(super) fn inside_site(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
     let (Some(f), Ok(site)) = (sensed(m, d, s), usize::try_from(m.sensor_refid[s])) else { return };
-    put(out, [f64::from(u8::from(geometry::inside_site(m, d, site, f.pos)))]);
+    put(out, [f64::from(u8::from(query::inside_site(m, d, site, f.pos)))]);
 }

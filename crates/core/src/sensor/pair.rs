@@ -4,7 +4,8 @@
 
 use super::put;
 use crate::math::*;
-use crate::{Data, Model, Obj, geometry};
+use crate::query::geom_distance;
+use crate::{Data, Model, Obj};
 
 /// The geoms of a body, or one geom.
 fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> {
@@ -26,7 +27,7 @@ fn nearest(m: &Model, d: &mut Data, s: usize) -> (f64, [Vec3; 2]) {
             if d.work.meter.over() {
                 return best;
             }
-            let found = geometry::geom_distance(m, d, g1, g2, cutoff);
+            let found = geom_distance(m, d, g1, g2, cutoff);
             if found.dist < best.0 {
                 best = (found.dist, found.fromto);
             }

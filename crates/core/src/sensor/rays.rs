@@ -6,9 +6,9 @@
 
 use super::fields::{self, RAY_DATA};
 use super::put;
-use crate::geometry::{self, RayFilter};
 use crate::math::*;
 use crate::object::{self, Frame};
+use crate::query::{self, RayFilter};
 use crate::{Data, Model, Obj};
 
 /// A ray: where it starts and its unit direction, world.
@@ -45,7 +45,7 @@ pub(super) fn rangefinder(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
 fn cast(m: &Model, d: &Data, ray: &Ray, f: &Frame, in_image: bool, mask: i32, out: &mut [f64]) {
     let filter = RayFilter { exclude_body: Some(f.body), ..RayFilter::default() };
     let none = [0.0; 3];
-    let (dist, dir, point, normal, depth) = match geometry::ray(m, d, ray.from, ray.along, &filter) {
+    let (dist, dir, point, normal, depth) = match query::ray(m, d, ray.from, ray.along, &filter) {
         Some(hit) => {
             let point = add_scaled(ray.from, ray.along, hit.distance);
             let ahead = -dot(sub(point, f.pos), column(&f.mat, 2));

@@ -10,8 +10,8 @@ mod pattern;
 mod tension;
 mod wrap;
 
+use crate::kinds::wraptype;
 use crate::math::*;
-use crate::model::wraptype;
 use crate::transmission::{self, On};
 use crate::{Data, Model, mass, sleep};
 

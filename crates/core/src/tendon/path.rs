@@ -1,8 +1,8 @@
 //! Spatial paths: their legs, their length, the derivative of it and the points they pass.
 
 use super::wrap::{self, Round};
+use crate::kinds::wraptype;
 use crate::math::*;
-use crate::model::wraptype;
 use crate::{Data, Model, jacobian};
 
 /// Jacobians and points of all paths.

@@ -2,9 +2,9 @@
 
 use super::polygon;
 use super::{Settings, Touch};
-use crate::geom;
 use crate::geometry::Shape;
-use crate::geometry::convex::{Convex, Nearest, Room, nearest};
+use crate::geometry::convex::{Convex, Room, nearest};
+use crate::kinds::geom;
 use crate::math::*;
 
 /// Contacts are new when they are farther from the others than this, in bounding radii.
@@ -37,13 +37,9 @@ pub(super) fn convex(
 /// The deepest point of two shapes.
 fn deepest(a: &Shape, b: &Shape, margin: f64, settings: &Settings, room: &mut Room) -> Option<Touch> {
     let (mut u, mut v) = (Convex::new(a), Convex::new(b));
-    nearest(&mut u, &mut v, margin, settings.effort, room).filter(|n| n.dist < margin).map(|n| between(&n))
-}
-
-/// A contact half way between the nearest or deepest points.
-pub(super) fn between(n: &Nearest) -> Touch {
-    let [on_a, on_b] = n.witness;
-    Touch { dist: n.dist, pos: scale(add(on_a, on_b), 0.5), normal: n.normal, tangent: [0.0; 3] }
+    nearest(&mut u, &mut v, margin, settings.effort, room)
+        .filter(|n| n.dist < margin)
+        .map(|n| Touch::between(&n))
 }
 
 /// Rocks both shapes against each other about the first contact, to and fro about each tangent, and keeps the
@@ -59,7 +55,7 @@ fn rock(
 ) {
     let start = out.len() - 1;
     let apart = DISTINCT * radius(a).min(radius(b));
-    let frame = crate::collision::frame(first.normal);
+    let frame = frame(first.normal);
     for axis in [[frame[3], frame[4], frame[5]], [frame[6], frame[7], frame[8]]] {
         for angle in [-ROCK, ROCK] {
             let turn = quat_to_mat(quat_axis_angle(axis, angle));

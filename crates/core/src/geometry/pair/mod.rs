@@ -12,12 +12,11 @@ mod polygon;
 mod round;
 
 pub(crate) use field::field_distance;
-pub(crate) use polygon::List;
 
 use super::Shape;
-use super::convex::{Effort, Room};
+use super::convex::{Effort, Nearest, Room};
+use crate::kinds::geom;
 use crate::math::*;
-use crate::{Model, disable, geom};
 
 /// Most contacts of a pair.
 pub(crate) const MOST: usize = 50;
@@ -35,6 +34,14 @@ pub(crate) struct Touch {
     pub(crate) tangent: Vec3,
 }
 
+impl Touch {
+    /// Half way between the nearest or deepest points.
+    fn between(n: &Nearest) -> Touch {
+        let [on_a, on_b] = n.witness;
+        Touch { dist: n.dist, pos: scale(add(on_a, on_b), 0.5), normal: n.normal, tangent: [0.0; 3] }
+    }
+}
+
 /// What the general algorithm needs besides the shapes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Settings {
@@ -43,22 +50,6 @@ pub(crate) struct Settings {
     pub(crate) several: bool,
     /// Whether these come from the faces themselves; else from rocking the shapes (`nativeccd` switched off).
     pub(crate) faces: bool,
-}
-
-/// Iterations beyond this cost more than they can give.
-const MOST_ITERATIONS: i32 = 10_000;
-
-impl Settings {
-    pub(crate) fn of(m: &Model) -> Settings {
-        Settings {
-            effort: Effort {
-                tolerance: m.opt.ccd_tolerance,
-                iterations: m.opt.ccd_iterations.clamp(0, MOST_ITERATIONS) as usize,
-            },
-            several: !m.opt.disabled(disable::MULTICCD),
-            faces: !m.opt.disabled(disable::NATIVECCD),
-        }
-    }
 }
 
 /// How a pair of types is tested.

@@ -7,9 +7,10 @@
 //! there. Which face clips, the angles and the number of contacts are those of MuJoCo 3.14.0 (measured).
 
 use super::{Settings, Touch};
-use crate::geom;
 use crate::geometry::convex::{Convex, Room, nearest};
+use crate::geometry::list::List;
 use crate::geometry::{Shape, Sides};
+use crate::kinds::geom;
 use crate::math::*;
 
 /// Cosine of the angle of two faces up to which they look at each other (measured on MuJoCo 3.14.0).
@@ -29,30 +30,6 @@ const CORNERS: usize = 150;
 const RIM: usize = 16;
 /// Faces and edges at a corner that are looked at.
 const AROUND: usize = 32;
-
-/// A small list without allocation.
-#[derive(Clone, Copy)]
-pub(crate) struct List<T, const N: usize> {
-    items: [T; N],
-    len: usize,
-}
-
-impl<T: Copy + Default, const N: usize> List<T, N> {
-    pub(crate) fn new() -> Self {
-        List { items: [T::default(); N], len: 0 }
-    }
-
-    pub(crate) fn push(&mut self, item: T) {
-        if let Some(place) = self.items.get_mut(self.len) {
-            *place = item;
-            self.len += 1;
-        }
-    }
-
-    pub(crate) fn all(&self) -> &[T] {
-        &self.items[..self.len]
-    }
-}
 
 pub(super) type Corners = List<Vec3, CORNERS>;
 
@@ -99,7 +76,7 @@ pub(super) fn contacts(a: &Shape, b: &Shape, settings: &Settings, room: &mut Roo
         patch.contacts(out);
     }
     if out.len() == start {
-        out.push(super::convex::between(&deep));
+        out.push(Touch::between(&deep));
     }
 }
 

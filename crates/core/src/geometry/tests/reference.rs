@@ -133,7 +133,7 @@ fn depth_by_sampling(a: &Shape, b: &Shape, hint: Vec3) -> f64 {
     for (mut best, mut n) in starts {
         let mut step = 0.1;
         while step > 1e-9 {
-            let f = crate::collision::frame(n);
+            let f = frame(n);
             let mut better = false;
             for k in 0..8 {
                 let (sin, cos) = libm::sincos(f64::from(k) * std::f64::consts::FRAC_PI_4);
@@ -165,7 +165,8 @@ fn solids() -> Vec<Solid> {
             graph: ints(parts[2]),
             sides: Sides::default(),
         };
-        solid.sides = Sides::of(&solid.mesh());
+        let hull = crate::geometry::Hull::of(&solid.graph).unwrap();
+        solid.sides = Sides::of(&solid.vert, &hull);
         out.push(solid);
     }
     out

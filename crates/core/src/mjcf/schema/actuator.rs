@@ -3,7 +3,7 @@
 use super::{
     AUTO, Attr, Element, FLAG, INT, Kind, LIST, REAL, TEXT, attributes, not_yet, reals, rest, upto, word,
 };
-use crate::model::{biastype, dyntype, gaintype};
+use crate::kinds::{biastype, dyntype, gaintype};
 
 const COMMON: &[Attr] = attributes! {
     INT => group nsample;

@@ -4,7 +4,7 @@ use super::{
     AUTO, Attr, Element, FLAG, INT, Kind, LIST, ORIENTATION, REAL, TEXT, Word, attributes, not_yet, reals,
     rest, upto, word,
 };
-use crate::model::{geom, joint};
+use crate::kinds::{geom, joint};
 
 const GEOM_SHAPES: &[Word] = &[
     word("plane", geom::PLANE),

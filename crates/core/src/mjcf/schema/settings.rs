@@ -2,7 +2,7 @@
 
 use super::Status::{Ignored, Only};
 use super::{Element, FLAG, INT, INTS, Kind, MOOT, REAL, TEXT, attributes, not_yet, reals, upto, word};
-use crate::model::integrator;
+use crate::kinds::integrator;
 
 pub(super) static COMPILER: Element = Element::new(
     "compiler",

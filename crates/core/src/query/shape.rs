@@ -1,0 +1,62 @@
+//! The shapes of a model's geoms and sites, where the data have them.
+
+use crate::geometry::{Field, Hull, Mesh, Shape};
+use crate::kinds::geom;
+use crate::math::*;
+use crate::{Data, Model};
+
+impl<'a> Shape<'a> {
+    /// A geom where the data have it.
+    #[inline]
+    pub fn geom(m: &'a Model, d: &Data, g: usize) -> Shape<'a> {
+        let (size, pos, mat) =
+            (rows::<3>(&m.geom_size)[g], rows::<3>(&d.geom_xpos)[g], rows::<9>(&d.geom_xmat)[g]);
+        let mut shape = Shape::new(m.geom_type[g], size, pos, mat);
+        if let Ok(id) = usize::try_from(m.geom_dataid[g]) {
+            match shape.kind {
+                geom::MESH => shape.mesh = Mesh::of(m, id),
+                geom::HFIELD => shape.field = Field::of(m, id),
+                _ => {}
+            }
+        }
+        shape
+    }
+
+    /// A site where the data have it.
+    #[inline]
+    pub fn site(m: &'a Model, d: &Data, s: usize) -> Shape<'a> {
+        let (size, pos, mat) =
+            (rows::<3>(&m.site_size)[s], rows::<3>(&d.site_xpos)[s], rows::<9>(&d.site_xmat)[s]);
+        let mut shape = Shape::new(m.site_type[s], size, pos, mat);
+        if let Ok(id) = usize::try_from(m.site_dataid[s]) {
+            shape.mesh = Mesh::of(m, id);
+        }
+        shape
+    }
+}
+
+impl<'a> Mesh<'a> {
+    /// Mesh `id` of a model.
+    pub fn of(m: &'a Model, id: usize) -> Mesh<'a> {
+        let range = |adr: &[i32], num: &[i32]| {
+            let first = adr[id].max(0) as usize;
+            first..first + num[id].max(0) as usize
+        };
+        Mesh {
+            vert: &rows::<3>(&m.mesh_vert)[range(&m.mesh_vertadr, &m.mesh_vertnum)],
+            face: &m.mesh_face.as_chunks().0[range(&m.mesh_faceadr, &m.mesh_facenum)],
+            hull: usize::try_from(m.mesh_graphadr[id]).ok().and_then(|adr| Hull::of(&m.mesh_graph[adr..])),
+            sides: m.mesh_sides.get(id),
+        }
+    }
+}
+
+impl<'a> Field<'a> {
+    /// Height field `id` of a model.
+    pub fn of(m: &'a Model, id: usize) -> Field<'a> {
+        let (nrow, ncol) = (m.hfield_nrow[id].max(0) as usize, m.hfield_ncol[id].max(0) as usize);
+        let first = m.hfield_adr[id].max(0) as usize;
+        let data = &m.hfield_data[first..first + nrow * ncol];
+        Field { size: rows::<4>(&m.hfield_size)[id], nrow, ncol, data }
+    }
+}

@@ -1,0 +1,176 @@
+//! The order of the house: what a room may look at, and that no files look at each other in a circle.
+
+// A test that fails says why.
+#![allow(clippy::panic, clippy::unwrap_used)]
+
+use crate::support::workspace;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// The files of a room by module, and which modules each of them uses.
+struct Room {
+    text: BTreeMap<String, String>,
+    uses: BTreeMap<String, BTreeSet<String>>,
+}
+
+/// Rust without comments and tests.
+fn code(path: &Path) -> String {
+    let text = std::fs::read_to_string(path).unwrap();
+    let text = text.split("#[cfg(test)]").next().unwrap_or_default();
+    text.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n")
+}
+
+/// Paths of all `use` declarations, braces written out: `a::{b, c::d}` is `a::b` and `a::c::d`.
+fn imports(code: &str) -> Vec<String> {
+    fn written_out(prefix: &str, rest: &str, out: &mut Vec<String>) {
+        let Some(open) = rest.find('{') else { return out.push(format!("{prefix}{rest}")) };
+        let (head, body) = (format!("{prefix}{}", &rest[..open]), &rest[open + 1..rest.len() - 1]);
+        let (mut depth, mut start) = (0, 0);
+        for (i, c) in body.char_indices().chain([(body.len(), ',')]) {
+            match c {
+                '{' => depth += 1,
+                '}' => depth -= 1,
+                ',' if depth == 0 => {
+                    if start < i {
+                        written_out(&head, &body[start..i], out);
+                    }
+                    start = i + 1;
+                }
+                _ => {}
+            }
+        }
+    }
+    let mut out = Vec::new();
+    for part in code.split("use ").skip(1) {
+        let path: String =
+            part.split(';').next().unwrap_or("").chars().filter(|c| !c.is_whitespace()).collect();
+        written_out("", &path, &mut out);
+    }
+    out
+}
+
+impl Room {
+    /// A folder, its subfolders included; their modules are named by their paths.
+    fn read(folder: &str) -> Room {
+        let root = workspace().join("crates/core/src").join(folder);
+        let mut text = BTreeMap::new();
+        let mut folders = vec![(root.clone(), String::new())];
+        while let Some((dir, prefix)) = folders.pop() {
+            for entry in std::fs::read_dir(dir).unwrap() {
+                let path = entry.unwrap().path();
+                let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+                if name == "tests" || name == "golden" {
+                    continue;
+                }
+                if path.is_dir() {
+                    folders.push((path, format!("{prefix}{name}::")));
+                } else if path.extension().is_some_and(|e| e == "rs") {
+                    let module = if name == "mod" {
+                        prefix.trim_end_matches("::").into()
+                    } else {
+                        format!("{prefix}{name}")
+                    };
+                    text.insert(module, code(&path));
+                }
+            }
+        }
+        let mut room = Room { text, uses: BTreeMap::new() };
+        for (module, text) in &room.text {
+            let mut used = BTreeSet::new();
+            let is_folder =
+                module.is_empty() || room.text.keys().any(|k| k.starts_with(&format!("{module}::")));
+            for path in imports(text) {
+                let mut parts: Vec<&str> = path.split("::").collect();
+                let mut at: Vec<&str> = module.split("::").filter(|p| !p.is_empty()).collect();
+                match parts.first() {
+                    Some(&"super") if !(is_folder && at.is_empty()) => {
+                        while parts.first() == Some(&"super") {
+                            at.pop();
+                            parts.remove(0);
+                        }
+                    }
+                    Some(&"crate") if parts.get(1) == Some(&folder) => {
+                        at.clear();
+                        parts.drain(..2);
+                    }
+                    _ => continue,
+                }
+                at.extend(parts);
+                used.extend(room.owner(&at));
+            }
+            used.remove(module);
+            room.uses.insert(module.clone(), used);
+        }
+        room
+    }
+
+    /// The module that a path leads to: the longest beginning that is one, or where that one has the name from.
+    fn owner(&self, path: &[&str]) -> Option<String> {
+        let (module, name) = (0..=path.len()).rev().find_map(|n| {
+            let module = path[..n].join("::");
+            self.text.contains_key(&module).then(|| (module, path.get(n).copied()))
+        })?;
+        let Some(name) = name else { return Some(module) };
+        let from = imports(&self.text[&module]).into_iter().find_map(|p| {
+            let parts: Vec<&str> = p.split("::").collect();
+            (parts.last() == Some(&name) && !matches!(parts[0], "crate" | "super" | "std")).then(|| {
+                let mut whole: Vec<String> =
+                    module.split("::").filter(|p| !p.is_empty()).map(Into::into).collect();
+                whole.extend(parts[..parts.len() - 1].iter().map(|p| (*p).to_string()));
+                whole.join("::")
+            })
+        });
+        Some(from.filter(|m| self.text.contains_key(m)).unwrap_or(module))
+    }
+
+    /// A circle of modules, parents and their children left out.
+    fn circle(&self) -> Option<Vec<String>> {
+        let kin = |a: &str, b: &str| {
+            a.is_empty()
+                || b.is_empty()
+                || a.starts_with(&format!("{b}::"))
+                || b.starts_with(&format!("{a}::"))
+        };
+        let mut done = BTreeSet::new();
+        for start in self.uses.keys() {
+            let mut road = vec![(start.clone(), self.uses[start].iter().cloned().collect::<Vec<_>>())];
+            while let Some((at, next)) = road.last_mut() {
+                let Some(to) = next.pop() else {
+                    done.insert(at.clone());
+                    road.pop();
+                    continue;
+                };
+                if kin(at, &to) || done.contains(&to) {
+                    continue;
+                }
+                if let Some(k) = road.iter().position(|(m, _)| *m == to) {
+                    return Some(road[k..].iter().map(|(m, _)| m.clone()).collect());
+                }
+                let after = self.uses.get(&to).map_or(Vec::new(), |u| u.iter().cloned().collect());
+                road.push((to, after));
+            }
+        }
+        None
+    }
+}
+
+/// Shapes, rays, distances and contacts know numbers and kinds of shapes, and nothing of models, data or dynamics.
+#[test]
+fn geometry_takes_shapes() {
+    let room = Room::read("geometry");
+    assert!(room.text.len() > 20 && room.uses.values().map(BTreeSet::len).sum::<usize>() > 40);
+    for (module, text) in &room.text {
+        for path in imports(text).iter().filter(|p| p.starts_with("crate::")) {
+            let known = ["crate::math", "crate::kinds", "crate::geometry"];
+            assert!(known.iter().any(|k| path.starts_with(k)), "geometry::{module} uses {path}");
+        }
+        let rest = text.split(';').filter(|s| !s.trim_start().starts_with("use ")).collect::<String>();
+        assert!(!rest.contains("crate::Model") && !rest.contains("crate::Data"), "geometry::{module}");
+    }
+}
+
+#[test]
+fn files_of_geometry_do_not_use_each_other_in_a_circle() {
+    let room = Room::read("geometry");
+    assert_eq!(room.circle(), None);
+}
