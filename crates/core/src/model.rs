@@ -84,12 +84,12 @@ impl Options {
         }
     }
 
-    /// Whether a part of the simulation is switched off; `bit` is one of [`disable`].
+    /// Whether a part of the simulation is switched off; `bit` is one of [`crate::disable`].
     pub fn disabled(&self, bit: i32) -> bool {
         self.disableflags & bit != 0
     }
 
-    /// Whether an optional part is switched on; `bit` is one of [`enable`].
+    /// Whether an optional part is switched on; `bit` is one of [`crate::enable`].
     pub fn enabled(&self, bit: i32) -> bool {
         self.enableflags & bit != 0
     }
