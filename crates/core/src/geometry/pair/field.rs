@@ -28,8 +28,8 @@ pub(super) fn field(
     }
     let half = 0.5 * margin;
     let start = out.len();
-    each_prism(&ground.field, &bounds, 0.0, margin, |mut prism| {
-        let found = nearest(&mut prism, &mut body, half, settings.effort, room);
+    each_prism(&ground.field, &bounds, 0.0, margin, |corners| {
+        let found = nearest(&mut Convex::prism(corners), &mut body, half, settings.effort, room);
         if let Some(found) = found.filter(|n| n.dist < half) {
             let [on_a, on_b] = found.witness;
             let middle = add_scaled(scale(add(on_a, on_b), 0.5), found.normal, -0.5 * half);
@@ -56,9 +56,13 @@ pub(crate) fn field_distance(
         return None;
     }
     let mut best: Option<Nearest> = None;
-    each_prism(&ground.field, &bounds, most, 0.0, |mut prism| {
+    each_prism(&ground.field, &bounds, most, 0.0, |corners| {
         let cutoff = best.map_or(most, |n| n.dist.min(most));
-        let found = nearest(&mut prism, &mut body, cutoff, settings.effort, room);
+        room.cost += 1;
+        if gap(&corners, &bounds) > cutoff.max(0.0) {
+            return ControlFlow::Continue(());
+        }
+        let found = nearest(&mut Convex::prism(corners), &mut body, cutoff, settings.effort, room);
         if let Some(found) = found.filter(|n| best.is_none_or(|b| n.dist < b.dist)) {
             best = Some(found);
         }
@@ -96,14 +100,24 @@ fn is_near(field: &Field, [[x0, x1], [y0, y1], [z0, z1]]: &[[f64; 2]; 3], reach:
     !(beyond(*x0, *x1, sx, sx) || beyond(*y0, *y1, sy, sy) || beyond(*z0, *z1, base, top))
 }
 
-/// Calls `visit` with every prism that is under something within these bounds, `around` it included, and whose top,
-/// higher by `raise`, is not below it.
+/// How far a prism is at least from something within these bounds.
+fn gap(corners: &[Vec3; 6], bounds: &[[f64; 2]; 3]) -> f64 {
+    norm(std::array::from_fn(|i| {
+        let reach = |least: f64, of: fn(f64, f64) -> f64| corners.iter().map(|p| p[i]).fold(least, of);
+        let (low, high) = (reach(f64::INFINITY, f64::min), reach(f64::NEG_INFINITY, f64::max));
+        let [from, to] = bounds[i];
+        (from - high).max(low - to).max(0.0)
+    }))
+}
+
+/// Calls `visit` with the corners, the bottom first, of every prism that is under something within these bounds, `around` it
+/// included, and whose top, higher by `raise`, is not below it.
 fn each_prism(
     field: &Field,
     [x, y, [z0, _]]: &[[f64; 2]; 3],
     around: f64,
     raise: f64,
-    mut visit: impl FnMut(Convex) -> ControlFlow<()>,
+    mut visit: impl FnMut([Vec3; 6]) -> ControlFlow<()>,
 ) {
     let [sx, sy, _, base] = field.size;
     let cells = |[low, high]: &[f64; 2], half: f64, n: usize| -> RangeInclusive<usize> {
@@ -129,7 +143,7 @@ fn each_prism(
                 }
                 let [p, q, s] = corners;
                 let [u, v, w] = corners.map(|p| [p[0], p[1], -base]);
-                if visit(Convex::prism([u, v, w, p, q, s])).is_break() {
+                if visit([u, v, w, p, q, s]).is_break() {
                     return;
                 }
             }

@@ -427,3 +427,47 @@ fn contacts_of_faces_are_below_both_surfaces() {
     }
     assert!(several > 500 && one > 100, "{several} {one}");
 }
+
+/// The distance of a height field is that of its nearest prism, or of its deepest.
+#[test]
+fn distances_of_height_fields_are_those_of_their_prisms() {
+    let solids = solids();
+    let (mut r, mut work) = (Random(9), crate::geometry::Narrow::default());
+    let data: Vec<f64> = (0..35).map(|_| r.within(0.0, 1.0)).collect();
+    let settings = super::settings();
+    for case in 0..400 {
+        let kind =
+            [geom::SPHERE, geom::CAPSULE, geom::ELLIPSOID, geom::CYLINDER, geom::BOX, geom::MESH][case % 6];
+        let mut ground = Shape::new(geom::HFIELD, [1.2, 0.9, 0.3], r.vector(-0.2, 0.2), r.turn());
+        ground.field = crate::geometry::Field { size: [1.2, 0.9, 0.5, 0.3], nrow: 5, ncol: 7, data: &data };
+        let mut b = shape(kind, &mut r, &solids);
+        b.pos = r.vector(-2.5, 2.5);
+        let most = [0.0, 0.3, 1e3][r.below(3)];
+        let found = crate::geometry::shape_distance(&ground, &b, most, &settings, &mut work);
+        let mut least = f64::INFINITY;
+        for row in 0..4 {
+            for col in 0..6 {
+                let [p, q, s, t] = [(row, col), (row, col + 1), (row + 1, col), (row + 1, col + 1)]
+                    .map(|(i, j)| ground.field.point(i, j));
+                for top in [[p, s, t], [p, q, t]] {
+                    let low = top.map(|[x, y, _]| [x, y, -0.3]);
+                    let corners = [low[0], low[1], low[2], top[0], top[1], top[2]].map(|p| ground.world(p));
+                    // In the world a prism is any body with corners.
+                    let vert = corners.to_vec();
+                    let mut prism = Shape::new(geom::MESH, [1.0; 3], [0.0; 3], EYE);
+                    prism.mesh.vert = &vert;
+                    let (mut u, mut v) = (Convex::new(&prism), Convex::new(&b));
+                    if let Some(n) = nearest(&mut u, &mut v, 1e3, settings.effort, &mut work.room) {
+                        least = least.min(n.dist);
+                    }
+                }
+            }
+        }
+        let expected = least.min(most);
+        assert!((found.dist - expected).abs() < 2e-6, "case {case}: {} {expected} {b:?}", found.dist);
+        let [p, q] = found.fromto;
+        if expected < most && expected > 1e-3 {
+            assert!((norm(sub(q, p)) - expected).abs() < 1e-6, "case {case}: {found:?} {expected}");
+        }
+    }
+}
