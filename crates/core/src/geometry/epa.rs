@@ -5,8 +5,8 @@
 //! The polytope is the hull of support points, so every one of its faces is a lower bound of the depth along the face's
 //! normal, and the support point along that normal an upper bound for all directions. The face with the lowest bound is
 //! pushed out to its support point until both bounds agree; for round bodies Newton's method (`polish`) goes the rest of the
-//! way. Offsets of faces are signed: nothing changes when the origin
-//! is on the border of the polytope or a little outside, and a negative upper bound says that the bodies are apart.
+//! way. Offsets of faces are signed: nothing changes when the origin is on the border of the polytope or a little outside, and
+//! a negative upper bound says that the bodies are apart.
 
 use super::difference::{Limits, ROUNDING, Vertex, support};
 use super::polish::{Reach, least_reach};
@@ -14,7 +14,7 @@ use super::simplex::{Corral, barycentric};
 use super::support::Body;
 use crate::math::*;
 
-/// A face whose area is below this part of the square of its longest edge has no normal of its own.
+/// A triangle whose edges meet at an angle of a smaller sine has no normal of its own; a solid that is flatter has no inside.
 const SLIVER: f64 = 1e-10;
 /// Faces are parts of one side when their normals differ by less than this, and their offsets by this part of the size.
 const SAME_SIDE: f64 = 1e-9;

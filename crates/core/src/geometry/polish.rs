@@ -23,7 +23,7 @@ const HELD: f64 = 1e-6;
 const STRAIGHT: f64 = 1e-8;
 /// Most that a direction turns in one step, rad.
 const TURN: f64 = 0.3;
-/// Sine of the angle up to which it may not be told whether it is.
+/// Sine of the angle up to which a direction may be across it after all.
 const UNCLEAR: f64 = 1e-3;
 /// Angle that shows the ends of an edge, rad.
 const TILT: f64 = 1e-4;
