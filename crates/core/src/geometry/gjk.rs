@@ -53,12 +53,7 @@ pub(super) fn distance(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) 
         if discrete && found.corral.vertices().iter().any(|v| v.corners == new.corners) {
             break;
         }
-        let before = found.corral;
         if !found.corral.admit(new) {
-            break;
-        }
-        if !found.corral.holds_origin() && norm(found.corral.point()) >= upper {
-            found.corral = before;
             break;
         }
     }

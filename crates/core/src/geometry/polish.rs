@@ -46,14 +46,13 @@ pub(super) fn least_reach(a: &mut Body, b: &mut Body, start: Vec3, limits: Limit
     let of_a = a.kinks(start, NEAR);
     let of_b = b.kinks(scale(start, -1.0), NEAR);
     of_a.all().iter().chain(of_b.all()).for_each(|&k| kinks.push(k));
-    let mut best = height(a, b, start);
+    // Never above the start.
+    let (mut best, is_flat) = free(a, b, start);
     let mut consider = |found: (Vec3, f64)| {
         if found.1 < best.1 {
             best = found;
         }
     };
-    let (bottom, is_flat) = free(a, b, start);
-    consider(bottom);
     // At the bottom of a bowl nothing nearby is lower.
     let list = if is_flat { &[] } else { kinks.all() };
     for (i, &edge) in list.iter().enumerate() {

@@ -50,7 +50,7 @@ impl Sides {
     }
 
     /// Area of a side, m^2.
-    pub fn area(&self, side: usize) -> f64 {
+    pub(crate) fn area(&self, side: usize) -> f64 {
         self.sides[side].area
     }
 
@@ -61,7 +61,7 @@ impl Sides {
     }
 
     /// The sides that meet in a vertex, and its place in the list of each.
-    pub fn around(&self, vertex: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+    pub(crate) fn around(&self, vertex: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         let range = match (self.first.get(vertex), self.first.get(vertex + 1)) {
             (Some(&from), Some(&to)) => from as usize..to as usize,
             _ => 0..0,

@@ -45,7 +45,7 @@ impl Corral {
     }
 
     /// Takes in a vertex that is nearer to the origin than the plane through the nearest point; `false`, with nothing
-    /// changed, when rounding leaves nothing to gain.
+    /// changed, when rounding leaves nothing to gain and the point comes no nearer.
     pub(super) fn admit(&mut self, new: Vertex) -> bool {
         let before = *self;
         let Some(slot) = self.vertex.get_mut(self.len) else { return false };
@@ -56,7 +56,10 @@ impl Corral {
             let Some(goal) = self.nearest_of_affine_hull() else { break };
             let Some((leaves, step)) = self.first_to_leave(&goal) else {
                 self.weight = goal;
-                return true;
+                if self.holds_origin() || norm(self.point()) < norm(before.point()) {
+                    return true;
+                }
+                break;
             };
             for (w, g) in self.weight.iter_mut().zip(goal) {
                 *w += step * (g - *w);

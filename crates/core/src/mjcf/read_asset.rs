@@ -1,6 +1,6 @@
 //! `asset`: meshes, height fields and skins, from text, files and rules, numbered in the order of the text.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use super::defaults::{Classes, Props};
@@ -132,11 +132,12 @@ impl Assets {
     /// Checks that the bodies that files name as bones are there, once `fusestatic` has had its way: what stands in the
     /// text itself keeps its body.
     pub(crate) fn check_bones(&self, bodies: &[BodySpec], names: &NameTable, report: &mut Report) {
+        let kept: BTreeSet<&str> = bodies.iter().map(|b| b.name.as_str()).collect();
         for bone in self.skins.iter().filter_map(|a| a.value.as_ref()).flat_map(|s| &s.bones) {
-            let Some(span) = bone.file.clone() else { continue };
+            let Some(span) = bone.file.clone().filter(|_| !report.is_full()) else { continue };
             if names.find("body", &bone.body).is_none() {
                 names.unknown("body", &bone.body, span, report);
-            } else if bone.body != WORLD && !bodies.iter().any(|b| b.name == bone.body) {
+            } else if bone.body != WORLD && !kept.contains(bone.body.as_str()) {
                 let message = format!("the bone {} has become part of its parent", shown(&bone.body));
                 report
                     .error(code::SKIN, span, message)

@@ -30,7 +30,6 @@ impl Settings {
                 iterations: m.opt.ccd_iterations.clamp(0, MOST_ITERATIONS) as usize,
             },
             several: !m.opt.disabled(disable::MULTICCD),
-            faces: !m.opt.disabled(disable::NATIVECCD),
         }
     }
 }

@@ -22,7 +22,7 @@ pub(super) fn convex(
     out: &mut Vec<Touch>,
 ) {
     let flat = |s: &Shape| matches!(s.kind, geom::CYLINDER | geom::BOX | geom::MESH);
-    if settings.several && settings.faces && margin <= 0.0 && flat(a) && flat(b) {
+    if settings.several && margin <= 0.0 && flat(a) && flat(b) {
         polygon::contacts(a, b, settings, room, out);
         return;
     }

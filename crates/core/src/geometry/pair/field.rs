@@ -8,6 +8,9 @@ use crate::geometry::convex::{Convex, Nearest, Room, nearest};
 use crate::geometry::{Field, Shape};
 use crate::math::*;
 
+/// Work of a prism that is passed over.
+const PASSED: u64 = 30;
+
 /// Contacts with the prisms under a shape, in the order of the grid.
 ///
 /// With a margin the ground is higher by it and the shape thicker by half of it, and distances are those of the two so
@@ -58,7 +61,7 @@ pub(crate) fn field_distance(
     let mut best: Option<Nearest> = None;
     each_prism(&ground.field, &bounds, most, 0.0, |corners| {
         let cutoff = best.map_or(most, |n| n.dist.min(most));
-        room.cost += 1;
+        room.cost += PASSED;
         if gap(&corners, &bounds) > cutoff.max(0.0) {
             return ControlFlow::Continue(());
         }

@@ -48,8 +48,6 @@ pub(crate) struct Settings {
     pub(crate) effort: Effort,
     /// Whether flat contacts get several points.
     pub(crate) several: bool,
-    /// Whether these come from the faces themselves; else from rocking the shapes (`nativeccd` switched off).
-    pub(crate) faces: bool,
 }
 
 /// How a pair of types is tested.
