@@ -64,7 +64,8 @@ static FLAGS: Element = Element::new(
     "flag",
     &[attributes! {
         SWITCH => constraint equality frictionloss limit contact spring damper gravity clampctrl warmstart
-            filterparent actuation refsafe sensor midphase eulerdamp autoreset nativeccd island multiccd;
+            filterparent actuation refsafe sensor midphase eulerdamp autoreset island multiccd;
+        SWITCH => nativeccd [Ignored("convex shapes have one search here; the library's older one is not imitated")];
         SWITCH => override energy fwdinv invdiscrete sleep diagexact;
         SWITCH => ipc [MOOT];
     }],
