@@ -20,9 +20,12 @@
 //! else may feed a scene (other actuators, applied forces, wind, moving surfaces, dampers that push) ends the watch: a false
 //! alarm is worse than none.
 
+use crate::dynamics::mass;
+use crate::forces::passive::spring;
+use crate::forces::{actuation, transmission};
 use crate::math::*;
-use crate::passive::spring;
-use crate::{Data, Model, Plan, actuation, disable, mass, pipeline, transmission};
+use crate::step::forward;
+use crate::{Data, Model, Plan, disable};
 
 /// How many times what the start held a gain has to be, and how many times the size of the scene it lifts everything.
 const FACTOR: f64 = 10.0;
@@ -99,7 +102,7 @@ pub fn restart(w: &mut Watch, m: &Model, d: &Data) {
     w.own.eq_active.clone_from(&d.eq_active);
     take(&mut w.own, d);
     crate::limit(&mut w.own, d.work.meter.left());
-    pipeline::forward(m, &mut w.own);
+    forward::forward(m, &mut w.own);
     if !crate::exhausted(&w.own) {
         w.start = energy(m, &mut w.own).map(|energy| start(m, &w.own, energy));
     }
@@ -156,7 +159,7 @@ fn take(own: &mut Data, d: &Data) {
 
 /// Where things are, how long, and how heavy: what energies follow from.
 fn place(m: &Model, d: &mut Data) {
-    pipeline::placed(m, d);
+    forward::placed(m, d);
     transmission::transmissions(m, d);
 }
 

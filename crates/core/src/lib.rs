@@ -19,77 +19,44 @@
 //! of the stages, and every stage is a module of its own.
 #![forbid(unsafe_code)]
 
-mod actuation;
-mod articulated;
-mod bytes;
-mod camera;
-mod chain;
 mod collision;
-mod com;
 mod constraint;
-mod data;
-mod derivative;
-mod energy;
-mod equality;
-mod fields;
+mod dynamics;
+mod forces;
 pub mod geometry;
 pub mod growth;
-mod history;
-mod integrate;
-mod inverse;
-mod jacobian;
 pub(crate) mod kinds;
-mod kinematics;
-mod lanes;
-mod lengthrange;
-mod mass;
 pub mod math;
 pub mod mjcf;
 mod model;
-mod object;
-mod passive;
-mod path;
-mod pipeline;
-pub mod plan;
 pub mod query;
-pub mod reflect;
-mod reset;
-mod rne;
-mod rne_post;
-pub mod save;
 pub mod sensor;
-mod serial;
-mod setconst;
-mod sleep;
+mod setup;
 pub mod stability;
-pub mod state;
-mod subtree;
-mod tendon;
-mod transmission;
-mod work;
+mod step;
 
 pub use collision::{can_collide, contact_force};
 pub use constraint::full_j;
-pub use data::{Contact, Data, Warning, WarningStat};
-pub use energy::{kinetic as energy_vel, potential as energy_pos};
-pub use integrate::{differentiate_pos, integrate_pos};
-pub use inverse::{InverseError, inverse};
-pub use jacobian::{
+pub use dynamics::jacobian::{
     Jacobian, apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,
 };
+pub use dynamics::kinematics::kinematics;
+pub use dynamics::mass::{full_m, mul_m, solve_m, solve_m2};
+pub use dynamics::object::{object_acceleration, object_velocity};
+pub use dynamics::rne::rne;
+pub use dynamics::subtree::subtree_vel;
+pub use forces::energy::{kinetic as energy_vel, potential as energy_pos};
 pub use kinds::{
     biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, solver, trntype, wraptype,
 };
-pub use kinematics::kinematics;
-pub use mass::{full_m, mul_m, solve_m, solve_m2};
-pub use model::{Model, Names, Obj, Options, Statistic};
-
-pub use object::{object_acceleration, object_velocity};
-pub use pipeline::{forward, set_plan, step, step1, step2};
-pub use plan::{Demand, Plan};
-pub use reset::{reset_data, reset_data_keyframe, set_keyframe};
-pub use rne::rne;
-pub use rne_post::rne_post_constraint;
-pub use setconst::set_const;
-pub use subtree::subtree_vel;
-pub use work::{charge, cost, cost_of_pass, exhausted, limit};
+pub use model::data::{Contact, Data, Warning, WarningStat};
+pub use model::meter::{charge, cost, cost_of_pass, exhausted, limit};
+pub use model::{Model, Names, Obj, Options, Statistic, reflect, state};
+pub use sensor::body_force::rne_post_constraint;
+pub use setup::setconst::set_const;
+pub use step::forward::{forward, set_plan, step, step1, step2};
+pub use step::integrate::{differentiate_pos, integrate_pos};
+pub use step::inverse::{InverseError, inverse};
+pub use step::plan::{Demand, Plan};
+pub use step::reset::{reset_data, reset_data_keyframe, set_keyframe};
+pub use step::{plan, save};

@@ -10,7 +10,7 @@
 //! default configuration; what couples several joints may do so without being found. Constraints ask for accelerations:
 //! there w = 1.
 
-use crate::actuation::motor;
+use crate::forces::actuation::motor;
 use crate::math::{MINVAL, rows};
 use crate::{Model, Obj, biastype, disable, integrator, joint, trntype};
 
@@ -202,7 +202,8 @@ fn reference(m: &Model, [time, ratio]: [f64; 2]) -> Spring {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::{Data, mjcf, pipeline};
+    use crate::step::forward;
+    use crate::{Data, mjcf};
 
     /// A slide of 2 kg with a servo, and what else is said.
     fn servo(option: &str, servo: &str, joint: &str) -> Model {
@@ -228,7 +229,7 @@ mod tests {
         d.qpos[0] = 1e-3;
         let mut most: f64 = 0.0;
         for _ in 0..3000 {
-            pipeline::step(m, &mut d);
+            forward::step(m, &mut d);
             most = most.max(d.qpos[0].abs());
         }
         most

@@ -13,7 +13,8 @@ use sweep::Sweep;
 
 use crate::geometry::{Shape, pair};
 use crate::math::*;
-use crate::{Contact, Data, Model, Warning, geom, sleep};
+use crate::step::sleep;
+use crate::{Contact, Data, Model, Warning, geom};
 
 /// The pairs that a plan tests, with their contact parameters when nothing can change these.
 #[derive(Clone, Debug, Default, PartialEq)]

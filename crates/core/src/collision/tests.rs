@@ -35,8 +35,8 @@ fn contacts(m: &Model, sweep: bool) -> Vec<Contact> {
     if sweep {
         d.work.pairs = Pairs { sweep: Some(Box::new(Sweep::new(m, false))), ..Pairs::default() };
     }
-    crate::kinematics::bodies(m, &mut d);
-    crate::kinematics::geoms(m, &mut d);
+    crate::dynamics::kinematics::bodies(m, &mut d);
+    crate::dynamics::kinematics::geoms(m, &mut d);
     // Twice: the second run starts from the order of the first.
     collide(m, &mut d);
     collide(m, &mut d);
@@ -155,8 +155,8 @@ fn too_many_contacts_are_left_out_with_a_warning() {
     let balls = "<body><freejoint/><geom size='.1'/></body>".repeat(400);
     let m = compile(&format!("<mujoco><worldbody>{balls}</worldbody></mujoco>")).unwrap();
     let mut d = Data::new(&m);
-    crate::kinematics::bodies(&m, &mut d);
-    crate::kinematics::geoms(&m, &mut d);
+    crate::dynamics::kinematics::bodies(&m, &mut d);
+    crate::dynamics::kinematics::geoms(&m, &mut d);
     collide(&m, &mut d);
     let stat = d.warning[Warning::ContactFull as usize];
     assert_eq!((d.ncon, stat.number, stat.lastinfo), (MOST_CONTACTS, 1, MOST_CONTACTS));

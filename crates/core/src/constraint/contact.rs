@@ -4,7 +4,7 @@ use super::cost::Cost;
 use super::impedance::{Acts, Kbi, kbi, kbi_friction};
 use super::kind;
 use super::rows::{Rows, push, regularization};
-use crate::jacobian::{self, Columns};
+use crate::dynamics::{jacobian, jacobian::Columns};
 use crate::math::*;
 use crate::{Contact, Data, Model};
 

@@ -8,8 +8,9 @@ use super::cost::Cost;
 use super::jacobian::by_rows;
 use super::rows::{resize, soften};
 use super::{contact, equality, kind};
+use crate::dynamics::mass;
 use crate::math::*;
-use crate::{Data, Model, mass};
+use crate::{Data, Model};
 
 /// Replaces `efc_R` with what follows from it, and sets `efc_aref`. `metric` is the diagonal of the matrix that takes the
 /// place of M.

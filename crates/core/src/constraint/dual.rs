@@ -9,8 +9,9 @@ use super::cost::Cost;
 use super::jacobian::{Block, Jacobian, by_rows};
 use super::primal::Problem;
 use super::solver::tree_dofs;
+use crate::dynamics::mass;
 use crate::math::dot;
-use crate::{Data, Model, mass};
+use crate::{Data, Model};
 
 /// What the dual methods keep.
 #[derive(Clone, Debug, Default, PartialEq)]

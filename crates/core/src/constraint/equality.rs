@@ -8,14 +8,16 @@ use super::cost::Cost;
 use super::impedance::{Acts, kbi};
 use super::kind;
 use super::rows::{Rows, push, regularization};
-use crate::equality::{self, End};
-use crate::jacobian::{self, Columns};
+use crate::constraint::{ends, ends::End};
+use crate::dynamics::{jacobian, jacobian::Columns};
+use crate::forces::tendon;
 use crate::math::*;
-use crate::{Data, Model, eqtype, sleep, tendon};
+use crate::step::sleep;
+use crate::{Data, Model, eqtype};
 
 /// Number of rows of the active constraints.
 pub(super) fn count(m: &Model, d: &Data) -> usize {
-    (0..m.neq).filter(|&e| d.eq_active[e]).map(|e| equality::rows_of(m, e)).sum()
+    (0..m.neq).filter(|&e| d.eq_active[e]).map(|e| ends::rows_of(m, e)).sum()
 }
 
 /// Rows of all active constraints, by id.
@@ -25,7 +27,7 @@ pub(super) fn make(m: &Model, d: &mut Data) {
         if !d.eq_active[e] || sleep::equality_sleeps(m, d, e) {
             continue;
         }
-        match (m.eq_type[e], equality::ends(m, d, e)) {
+        match (m.eq_type[e], ends::ends(m, d, e)) {
             (eqtype::CONNECT, Some(ends)) => connect(m, d, e, &ends, &mut columns),
             (eqtype::WELD, Some(ends)) => weld(m, d, e, &ends, &mut columns),
             (eqtype::JOINT, _) => coupled_joints(m, d, e),
@@ -150,7 +152,7 @@ pub(super) fn bias(m: &Model, d: &mut Data) {
     let mut row = 0;
     while row < d.ne {
         let e = d.efc_id[row] as usize;
-        if let Some(ends) = equality::ends(m, d, e) {
+        if let Some(ends) = ends::ends(m, d, e) {
             let [a, b] = [0, 1].map(|i| jacobian::unforced(m, d, ends[i].body, ends[i].point));
             for (aref, x) in d.efc_aref[row..].iter_mut().zip(sub(a.acceleration, b.acceleration)) {
                 *aref -= x;
@@ -168,6 +170,6 @@ pub(super) fn bias(m: &Model, d: &mut Data) {
                 }
             }
         }
-        row += equality::rows_of(m, e);
+        row += ends::rows_of(m, e);
     }
 }

@@ -3,7 +3,8 @@
 use super::jacobian::by_rows;
 use super::rows::{regularization, soften};
 use super::{contact, kind};
-use crate::{Data, Model, mass};
+use crate::dynamics::mass;
+use crate::{Data, Model};
 
 /// Replaces `efc_R` and what follows from it.
 pub(super) fn regularize(m: &Model, d: &mut Data) {

@@ -441,7 +441,8 @@ impl Order {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a test that fails says why
 mod tests {
-    use crate::{Data, Model, mjcf, pipeline};
+    use crate::step::forward;
+    use crate::{Data, Model, mjcf};
     use std::fmt::Write;
 
     /// Two hundred balls in one place, each of which touches each: no room is made for the Hessian, and the step is done.
@@ -454,7 +455,7 @@ mod tests {
         let text: String = (0..200).map(ball).collect();
         let m = mjcf::compile(&format!("<mujoco><worldbody>{text}</worldbody></mujoco>")).unwrap();
         let mut d = Data::new(&m);
-        pipeline::step(&m, &mut d);
+        forward::step(&m, &mut d);
         assert_eq!((d.ncon, d.nisland), (200 * 199 / 2, 1));
         assert_eq!(d.work.solver.as_ref().unwrap().hessian.kept(), 0);
         assert!(d.solver_niter > 0 && d.qacc.iter().all(|a| a.is_finite()));
@@ -474,7 +475,7 @@ mod tests {
 
     fn kept(m: &Model) -> (usize, Data) {
         let mut d = Data::new(m);
-        pipeline::forward(m, &mut d);
+        forward::forward(m, &mut d);
         let hessian = &d.work.solver.as_ref().unwrap().hessian;
         (hessian.kept(), d)
     }

@@ -10,6 +10,7 @@ mod contact;
 mod cost;
 mod discrete;
 mod dual;
+pub(crate) mod ends;
 mod equality;
 mod exact;
 mod hessian;

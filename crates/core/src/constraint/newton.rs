@@ -7,8 +7,9 @@ use super::cost::{Cost, Curvature};
 use super::jacobian::{Block, Gram, by_rows};
 use super::primal::{Problem, Reached, shape};
 use super::six::Six;
+use crate::Data;
+use crate::dynamics::mass;
 use crate::math::{FREE_DOFS, dot};
-use crate::{Data, mass};
 use std::array::from_fn;
 use std::ops::Range;
 

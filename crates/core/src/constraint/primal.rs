@@ -6,8 +6,9 @@ use super::island::Islands;
 use super::jacobian::{Block, by_rows};
 use super::search::{Point, minimize};
 use super::solver::Scratch;
+use crate::dynamics::mass;
 use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
-use crate::{Data, Model, disable, mass, solver};
+use crate::{Data, Model, disable, solver};
 use std::ops::Range;
 
 /// Where an island stands.

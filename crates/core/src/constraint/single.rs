@@ -4,8 +4,10 @@ use super::cost::Cost;
 use super::impedance::{Acts, kbi};
 use super::rows::{Rows, push, regularization};
 use super::{equality, kind};
+use crate::forces::tendon;
 use crate::math::*;
-use crate::{Data, Model, eqtype, joint, sleep, tendon};
+use crate::step::sleep;
+use crate::{Data, Model, eqtype, joint};
 
 /// Number of rows of dry friction.
 pub(super) fn count_friction(m: &Model) -> usize {

@@ -9,8 +9,9 @@ use super::hessian::Hessian;
 use super::island::Islands;
 use super::jacobian::{Block, by_rows};
 use super::primal::{Problem, Reached, shape};
+use crate::dynamics::mass;
 use crate::math::{copy, zero};
-use crate::{Data, Model, disable, mass, solver};
+use crate::{Data, Model, disable, solver};
 use std::ops::Range;
 
 /// Scratch of the solver; vectors over all degrees of freedom or all rows, of which each island uses its own.

@@ -6,7 +6,8 @@ use super::read_body::Context;
 use super::shortcut::inputs;
 use super::spec::{ActuatorSpec, BodySpec, JointSpec, RangeSpec, TendonSpec};
 use super::tree::Node;
-use crate::{actuation::slots, biastype, dyntype, gaintype, joint, trntype};
+use crate::forces::actuation::slots;
+use crate::{biastype, dyntype, gaintype, joint, trntype};
 
 /// Completes an actuator and reports what does not fit.
 pub(crate) fn finish(

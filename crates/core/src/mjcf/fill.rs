@@ -9,7 +9,8 @@ use super::spec::{
 };
 use super::{fill_actuator, fill_asset, fill_constraint, fill_scene, fill_tendon};
 use crate::math::{IDENTITY, MINVAL, quat_normalize, rows_mut};
-use crate::{Model, Names, joint, reflect};
+use crate::model::reflect;
+use crate::{Model, Names, joint};
 
 /// The sizes that a keyframe depends on.
 #[derive(Clone, Copy, Debug)]

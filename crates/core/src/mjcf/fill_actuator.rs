@@ -4,8 +4,9 @@ use super::check_actuator::{controls, outputs};
 use super::diagnostic::{Report, code};
 use super::fill::{flat, ints, padded};
 use super::spec::{ActuatorSpec, List, RangeSpec};
-use crate::lengthrange::{self, Failure, Search};
-use crate::{Data, Model, history, transmission};
+use crate::forces::{history, transmission};
+use crate::setup::{lengthrange, lengthrange::Failure, lengthrange::Search};
+use crate::{Data, Model};
 
 /// Steps times degrees of freedom for all ranges of lengths: more would take minutes.
 const MAX_SEARCH: f64 = 2e7;

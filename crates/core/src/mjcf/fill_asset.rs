@@ -6,7 +6,8 @@ use super::mesh::{Hull, Mesh};
 use super::read_asset::Assets;
 use super::skin::{Bone, Skin};
 use crate::Model;
-use crate::geometry::{self, Sides};
+use crate::geometry;
+use crate::geometry::Sides;
 use crate::math::Vec3;
 
 /// Numbers that MuJoCo keeps as 32-bit floats have no more precision here.

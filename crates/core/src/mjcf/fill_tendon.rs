@@ -3,7 +3,8 @@
 use super::diagnostic::{Report, code};
 use super::fill::{flat, ints, padded};
 use super::spec::{ActuatorSpec, BodySpec, TendonSpec};
-use crate::{Model, tendon, trntype, wraptype};
+use crate::forces::tendon;
+use crate::{Model, trntype, wraptype};
 
 /// More entries than this in the Jacobians of all tendons are refused.
 const MAX_JACOBIAN: usize = 10_000_000;

@@ -320,7 +320,7 @@ fn build(
     fill_actuator::pattern(&mut m, &actuators, report)?;
     sleep::policies(&mut m, &bodies);
     reshape::total_mass(&mut m, compiler);
-    crate::setconst::set_const0(&mut m);
+    crate::setup::setconst::set_const0(&mut m);
     fill::spring_dampers(&mut m, &bodies);
     fill_actuator::length_ranges(&mut m, &actuators, &settings::length_range(&tree), report);
     statistic.apply(&mut m.stat);

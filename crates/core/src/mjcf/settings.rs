@@ -6,8 +6,8 @@ use super::spec::List;
 use super::tree::Tree;
 use super::values::Value;
 use crate::kinds::{disable, enable};
-use crate::lengthrange::{Mode, Search};
 use crate::model::{Options, Statistic};
+use crate::setup::{lengthrange::Mode, lengthrange::Search};
 
 /// All sections of one name, later ones over earlier ones.
 fn section(tree: &Tree, name: &str) -> Props {

@@ -6,7 +6,8 @@
 
 use super::shortcut::Element;
 use super::spec::ActuatorSpec;
-use crate::{actuation::slots, biastype, dyntype, gaintype};
+use crate::forces::actuation::slots;
+use crate::{biastype, dyntype, gaintype};
 
 /// Writes the parameters of a motor into an actuator.
 pub(super) fn dcmotor(a: &mut ActuatorSpec, e: &mut Element) {

@@ -283,7 +283,7 @@ pub(crate) struct SensorTiming {
 impl SensorSpec {
     /// Number of values of the buffer of past values.
     pub(crate) fn history(&self) -> usize {
-        crate::history::size(self.timing.nsample.max(0) as usize, self.dim as usize)
+        crate::forces::history::size(self.timing.nsample.max(0) as usize, self.dim as usize)
     }
 }
 

@@ -2,8 +2,8 @@
 //! at a site.
 
 use super::put;
+use crate::dynamics::{object, object::Frame};
 use crate::math::*;
-use crate::object::{self, Frame};
 use crate::query;
 use crate::{Data, Model};
 

@@ -2,8 +2,9 @@
 //! and of the scene as a whole.
 
 use super::put;
+use crate::forces::energy;
 use crate::math::*;
-use crate::{Data, Model, constraint, energy, trntype};
+use crate::{Data, Model, constraint, trntype};
 
 /// The sensed object of sensor `s`.
 fn object(m: &Model, s: usize) -> usize {

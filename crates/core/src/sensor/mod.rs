@@ -3,6 +3,7 @@
 //! What there is to know of a kind of sensor stands in one `table`; the functions that read them are in the
 //! other files, by what they look at. Meanings follow MuJoCo's XML reference, chapter "sensor".
 
+pub(crate) mod body_force;
 mod contact;
 mod fields;
 mod frame;
@@ -20,8 +21,9 @@ pub(crate) use timing::{record, reset};
 
 pub use table::{Datatype, KINDS, Kind, Senses, When, kind};
 
-use crate::reflect::Stage;
-use crate::{Data, Model, Obj, disable, sleep};
+use crate::model::reflect::Stage;
+use crate::step::sleep;
+use crate::{Data, Model, Obj, disable};
 
 /// The sensors whose values are known at a stage. While sensors are switched off values stay as they are.
 pub(crate) fn evaluate(m: &Model, d: &mut Data, when: When) {

@@ -6,9 +6,10 @@
 
 use super::fields::{self, RAY_DATA};
 use super::put;
+use crate::dynamics::{object, object::Frame};
 use crate::math::*;
-use crate::object::{self, Frame};
-use crate::query::{self, RayFilter};
+use crate::query;
+use crate::query::RayFilter;
 use crate::{Data, Model, Obj};
 
 /// A ray: where it starts and its unit direction, world.

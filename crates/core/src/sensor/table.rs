@@ -5,7 +5,7 @@
 //! (mjtSensor), meanings those of its XML reference, chapter "sensor".
 
 use super::{contact, frame, measure, pair, rays};
-use crate::reflect::Stage;
+use crate::model::reflect::Stage;
 use crate::{Data, Model};
 
 /// What a sensor can be attached to: it decides the attributes in MJCF.

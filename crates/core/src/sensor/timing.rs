@@ -5,8 +5,11 @@
 //! of the last tick of the period, which readings follow as the steps allow.
 
 use super::table::of;
-use crate::reflect::Stage;
-use crate::{Data, Model, history, integrator, rne_post, subtree};
+use crate::dynamics::subtree;
+use crate::forces::history;
+use crate::model::reflect::Stage;
+use crate::sensor::body_force;
+use crate::{Data, Model, integrator};
 
 /// Where the buffer of a sensor is, and how many samples it has; `None` when it keeps none.
 fn buffer(m: &Model, s: usize) -> Option<(std::ops::Range<usize>, usize)> {
@@ -46,7 +49,7 @@ pub(crate) fn record(m: &Model, d: &mut Data) {
             subtree::subtree_vel(m, d);
         }
         if needs(Stage::RnePost) {
-            rne_post::rne_post_constraint(m, d);
+            body_force::rne_post_constraint(m, d);
         }
     }
     for s in 0..m.nsensor {

@@ -3,7 +3,7 @@
 use super::polygon;
 use super::{Settings, Touch};
 use crate::geometry::Shape;
-use crate::geometry::convex::{Convex, Room, nearest};
+use crate::geometry::{convex::Convex, convex::Room, convex::nearest};
 use crate::kinds::geom;
 use crate::math::*;
 

@@ -2,7 +2,8 @@
 
 use super::{Attr, Element, INT, Kind, LIST, REAL, TEXT, attributes, rest, upto, word};
 use crate::model::Obj;
-use crate::sensor::{self, Senses};
+use crate::sensor;
+use crate::sensor::Senses;
 
 const COMMON: &[Attr] = attributes! {
     Kind::Name("sensor") => name;

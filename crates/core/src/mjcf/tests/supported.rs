@@ -1,7 +1,7 @@
 //! What the schema calls supported is read: every attribute of every element is looked up by some pass.
 
-use crate::mjcf::schema::{Element, ROOT, Status};
 use crate::mjcf::{Folder, examine, seen};
+use crate::mjcf::{schema::Element, schema::ROOT, schema::Status};
 
 /// A model with what no model of the folders below has.
 const OTHERS: &str = r#"<mujoco>

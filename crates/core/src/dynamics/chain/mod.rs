@@ -1,0 +1,271 @@
+//! Equations of motion of short chains, by projection onto their degrees of freedom (Kane and Levinson 1985,
+//! *Dynamics*, ch. 6).
+//!
+//! A tree of a few slides and hinges needs no composite inertias and no recursion for forces: with the
+//! velocity u_k of a link's centre of mass and its angular velocity w_k for a unit velocity of each degree of
+//! freedom k,
+//!
+//! > M_ik = Σ m u_i·u_k + w_i·(I w_k),   bias_k = Σ u_k·m (a - g) + w_k·(I α + ω × I ω)
+//!
+//! over the links that k moves, where a and α are the accelerations that the velocities alone cause. A link is
+//! what moves with one joint: bodies without joints are part of the link that carries them. Its frame has its
+//! origin at the joint's anchor; turning is expressed in it, where I is constant. A chain that moves in a plane
+//! takes the same equations in two dimensions.
+
+mod planar;
+mod spatial;
+#[cfg(test)]
+mod tests;
+
+use crate::dynamics::{jacobian, mass};
+use crate::math::*;
+use crate::{Data, Model, joint};
+
+/// A tree with more degrees of freedom is cheaper by composite bodies and recursion.
+const MAX_DOFS: usize = 6;
+
+/// What is written to the model and changes a link.
+pub(crate) const FIELDS: [&str; 12] = [
+    "body_pos",
+    "body_quat",
+    "body_ipos",
+    "body_iquat",
+    "body_mass",
+    "body_inertia",
+    "jnt_pos",
+    "jnt_axis",
+    "qpos0",
+    "dof_armature",
+    "actuator_armature",
+    "actuator_gear",
+];
+
+/// The links of all short chains, chain by chain, each from its root on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Chains {
+    links: Vec<Link>,
+    /// Number of links of each chain.
+    lengths: Vec<usize>,
+    /// Bodies that are part of a link, or that carry one and cannot move, parents first.
+    parts: Vec<Part>,
+}
+
+/// What moves with one joint.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Link {
+    joint: usize,
+    dof: usize,
+    /// Its coordinate in qpos.
+    coordinate: usize,
+    /// Where its row of M begins.
+    row: usize,
+    slides: bool,
+    /// Parameters: see `load`.
+    fixed: Fixed,
+    /// Whether the chain moves in a plane, and then the parameters in it.
+    planar: bool,
+    flat: planar::Fixed,
+    swing: planar::Swing,
+    /// Where it is, in space.
+    pose: Pose,
+    /// w_k and u_k of each degree of freedom that moves it, from the root on.
+    columns: [(Vec3, Vec3); MAX_DOFS],
+}
+
+/// What the model says about a link.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Fixed {
+    /// The link's frame in its parent's, at the default configuration.
+    at: Vec3,
+    turn: Mat3,
+    /// Whether `turn` is the identity.
+    straight: bool,
+    axis: Vec3,
+    reference: f64,
+    armature: f64,
+    mass: f64,
+    /// Centre of mass, and the inertia about it: xx yy zz xy xz yz.
+    com: Vec3,
+    inertia: [f64; 6],
+}
+
+/// Frame, axis of the joint and centre of mass, world.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Pose {
+    anchor: Vec3,
+    axes: Mat3,
+    axis: Vec3,
+    com: Vec3,
+}
+
+/// Angular velocity and acceleration, and the acceleration of the anchor, for zero joint accelerations.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Motion {
+    velocity: Vec3,
+    turning: Vec3,
+    acceleration: Vec3,
+}
+
+/// A body, and its frame in that of its link or of the world.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Part {
+    body: usize,
+    link: Option<usize>,
+    /// The part that it is attached to, `None` for the world.
+    parent: Option<usize>,
+    at: Vec3,
+    turn: Mat3,
+}
+
+/// Whether a degree of freedom belongs to a short chain: a tree of at most [`MAX_DOFS`] slides and hinges,
+/// one after the other from the world on, that is more than one simple body.
+pub(crate) fn covers(m: &Model, dof: usize) -> bool {
+    let tree = m.dof_treeid[dof];
+    let of_tree = |k: &usize| m.dof_treeid[*k] == tree;
+    // The degrees of freedom of a tree are consecutive.
+    let first = (0..dof).rev().take_while(of_tree).take(MAX_DOFS).last().unwrap_or(dof);
+    let base = m.body_parentid[m.dof_bodyid[first] as usize] as usize;
+    let links = |k: usize| {
+        let serial = k == first || m.dof_parentid[k] == k as i32 - 1;
+        let kind = m.jnt_type[m.dof_jntid[k] as usize];
+        serial
+            && k < first + MAX_DOFS
+            && m.dof_simplenum[k] == 0
+            && matches!(kind, joint::SLIDE | joint::HINGE)
+    };
+    m.body_weldid[base] == 0 && (first..m.nv).take_while(of_tree).take(MAX_DOFS + 1).all(links)
+}
+
+impl Chains {
+    /// Finds the short chains of a model.
+    pub(crate) fn new(m: &Model) -> Chains {
+        let mut chains = Chains::default();
+        let mut part_of: Vec<Option<usize>> = vec![None; m.nbody];
+        if !(0..m.nv).any(|k| covers(m, k)) {
+            return chains;
+        }
+        for b in 1..m.nbody {
+            let last = jacobian::last_dof(m, b);
+            let moves = last >= 0;
+            if (moves && !covers(m, last as usize)) || (!moves && m.body_weldid[b] != 0) {
+                continue;
+            }
+            let parent = part_of[m.body_parentid[b] as usize];
+            let mut link = parent.and_then(|p| chains.parts[p].link);
+            for n in 0..m.body_jntnum[b] as usize {
+                let joint = m.body_jntadr[b] as usize + n;
+                let dof = m.jnt_dofadr[joint] as usize;
+                match chains.lengths.last_mut() {
+                    Some(length) if link.is_some() => *length += 1,
+                    _ => chains.lengths.push(1),
+                }
+                chains.links.push(Link {
+                    joint,
+                    dof,
+                    coordinate: m.jnt_qposadr[joint] as usize,
+                    row: m.M_rowadr[dof] as usize,
+                    slides: m.jnt_type[joint] == joint::SLIDE,
+                    ..Link::default()
+                });
+                link = Some(chains.links.len() - 1);
+            }
+            part_of[b] = Some(chains.parts.len());
+            chains.parts.push(Part { body: b, link, parent, ..Part::default() });
+        }
+        chains.load(m);
+        chains
+    }
+
+    /// Takes the parameters of the links from the model.
+    pub(crate) fn load(&mut self, m: &Model) {
+        let (pos, quat) = (rows::<3>(&m.body_pos), rows::<4>(&m.body_quat));
+        let (anchor, axis) = (rows::<3>(&m.jnt_pos), rows::<3>(&m.jnt_axis));
+        let mut next = 0;
+        for p in 0..self.parts.len() {
+            let b = self.parts[p].body;
+            let (mut at, mut turn) = (pos[b], quat_to_mat(quat[b]));
+            if let Some(parent) = self.parts[p].parent {
+                let frame = &self.parts[parent];
+                (at, turn) = (add(mat_mul_vec(&frame.turn, at), frame.at), mat_mul(&frame.turn, &turn));
+            }
+            for _ in 0..m.body_jntnum[b] {
+                let link = &mut self.links[next];
+                let j = link.joint;
+                let f = &mut link.fixed;
+                f.at = add(mat_mul_vec(&turn, anchor[j]), at);
+                (f.turn, f.straight) = (turn, turn == EYE);
+                f.axis = axis[j];
+                f.reference = m.qpos0[link.coordinate];
+                f.armature = mass::armature(m, link.dof);
+                (f.mass, f.com, f.inertia) = (0.0, [0.0; 3], [0.0; 6]);
+                // What follows is given in the link's own frame.
+                (at, turn) = (scale(anchor[j], -1.0), EYE);
+                next += 1;
+            }
+            (self.parts[p].at, self.parts[p].turn) = (at, turn);
+        }
+
+        let (ipos, iquat) = (rows::<3>(&m.body_ipos), rows::<4>(&m.body_iquat));
+        let moments = rows::<3>(&m.body_inertia);
+        let com = |part: &Part| add(mat_mul_vec(&part.turn, ipos[part.body]), part.at);
+        for part in &self.parts {
+            let Some(link) = part.link else { continue };
+            let (f, mass) = (&mut self.links[link].fixed, m.body_mass[part.body]);
+            f.mass += mass;
+            f.com = add_scaled(f.com, sub(com(part), f.com), if f.mass > 0.0 { mass / f.mass } else { 0.0 });
+        }
+        for part in &self.parts {
+            let Some(link) = part.link else { continue };
+            let (f, b) = (&mut self.links[link].fixed, part.body);
+            let axes = mat_mul(&part.turn, &quat_to_mat(iquat[b]));
+            let [xx, yy, zz, xy, xz, yz, ..] =
+                inertia_about(moments[b], &axes, sub(com(part), f.com), m.body_mass[b]);
+            f.inertia = add(f.inertia, [xx, yy, zz, xy, xz, yz]);
+        }
+        let mut rest = self.links.as_mut_slice();
+        for &n in &self.lengths {
+            let (chain, after) = rest.split_at_mut(n);
+            planar::load(chain);
+            rest = after;
+        }
+    }
+}
+
+/// Calls a function of a chain with its length as a constant, so that its loops are unrolled.
+macro_rules! by_length {
+    ($chains:expr, $function:ident($($argument:expr),*)) => {{
+        let mut rest = $chains.links.as_mut_slice();
+        for &n in &$chains.lengths {
+            let (chain, after) = rest.split_at_mut(n);
+            match (n, chain[0].planar) {
+                (1, true) => planar::$function::<1>(chain, $($argument),*),
+                (2, true) => planar::$function::<2>(chain, $($argument),*),
+                (3, true) => planar::$function::<3>(chain, $($argument),*),
+                (4, true) => planar::$function::<4>(chain, $($argument),*),
+                (5, true) => planar::$function::<5>(chain, $($argument),*),
+                (_, true) => planar::$function::<MAX_DOFS>(chain, $($argument),*),
+                (1, _) => spatial::$function::<1>(chain, $($argument),*),
+                (2, _) => spatial::$function::<2>(chain, $($argument),*),
+                (3, _) => spatial::$function::<3>(chain, $($argument),*),
+                (4, _) => spatial::$function::<4>(chain, $($argument),*),
+                (5, _) => spatial::$function::<5>(chain, $($argument),*),
+                _ => spatial::$function::<MAX_DOFS>(chain, $($argument),*),
+            }
+            rest = after;
+        }
+    }};
+}
+
+/// The rows of M that belong to short chains.
+pub(crate) fn mass_matrix(m: &Model, d: &mut Data) {
+    let chains = &mut d.work.chains;
+    if d.plan.chains_may_change {
+        chains.load(m);
+    }
+    by_length!(chains, mass_matrix(&d.qpos, &mut d.M));
+}
+
+/// The bias force of short chains.
+pub(crate) fn bias(d: &mut Data, gravity: Vec3) {
+    by_length!(d.work.chains, bias(&d.qvel, &mut d.qfrc_bias, gravity));
+}

@@ -1,0 +1,123 @@
+//! Short chains in space.
+
+use super::{Link, Motion, Pose};
+use crate::math::lanes::matrix_turned;
+use crate::math::*;
+
+/// The rows of M of a chain.
+pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
+    let Some(chain) = chain.first_chunk_mut::<N>() else { return };
+    for i in 0..N {
+        let parent = i.checked_sub(1).map(|p| chain[p].pose);
+        chain[i].place(parent.as_ref(), qpos[chain[i].coordinate]);
+    }
+    let mut rows = [[0.0; N]; N];
+    for i in 0..N {
+        rows[i][i] = chain[i].fixed.armature;
+    }
+    for i in 0..N {
+        let pose = chain[i].pose;
+        for k in 0..=i {
+            let up = &chain[k];
+            chain[i].columns[k] = if up.slides {
+                ([0.0; 3], up.pose.axis)
+            } else {
+                let turn = if k == i { up.fixed.axis } else { mat_t_mul_vec(&pose.axes, up.pose.axis) };
+                (turn, cross(up.pose.axis, sub(pose.com, up.pose.anchor)))
+            };
+        }
+        let Link { fixed, columns, .. } = &chain[i];
+        for k in 0..=i {
+            let (turn, shift) = columns[k];
+            let (spin, push) = (inertia_turn(&fixed.inertia, turn), scale(shift, fixed.mass));
+            for j in 0..=k {
+                rows[k][j] += dot(columns[j].0, spin) + dot(columns[j].1, push);
+            }
+        }
+    }
+    for i in 0..N {
+        if let Some(to) = mass.get_mut(chain[i].row..chain[i].row + i + 1) {
+            to.copy_from_slice(&rows[i][..i + 1]);
+        }
+    }
+}
+
+impl Link {
+    /// The pose for a coordinate of the joint.
+    #[inline(always)]
+    fn place(&mut self, parent: Option<&Pose>, q: f64) {
+        let (f, pose) = (&self.fixed, &mut self.pose);
+        match parent {
+            None => (pose.anchor, pose.axes) = (f.at, f.turn),
+            Some(p) => {
+                pose.anchor = add(mat_mul_vec(&p.axes, f.at), p.anchor);
+                pose.axes = if f.straight { p.axes } else { mat_mul(&p.axes, &f.turn) };
+            }
+        }
+        pose.axis = mat_mul_vec(&pose.axes, f.axis);
+        let displacement = q - f.reference;
+        if self.slides {
+            pose.anchor = add_scaled(pose.anchor, pose.axis, displacement);
+        } else {
+            let (s, c) = libm::sincos(displacement);
+            pose.axes = matrix_turned(&pose.axes, f.axis, s, c);
+        }
+        pose.com = add(mat_mul_vec(&pose.axes, f.com), pose.anchor);
+    }
+}
+
+/// The bias force of a chain.
+pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
+    let Some(chain) = chain.first_chunk_mut::<N>() else { return };
+    let first = chain[0].dof;
+    let (Some(v), Some(out)) = (qvel[first..].first_chunk::<N>(), qfrc_bias[first..].first_chunk_mut::<N>())
+    else {
+        return;
+    };
+    let mut forces = [0.0; N];
+    // Gravity enters as an upward acceleration of the world.
+    let mut motion = Motion { acceleration: scale(gravity, -1.0), ..Motion::default() };
+    for i in 0..N {
+        let Link { fixed, pose, columns, slides, .. } = &chain[i];
+        let rate = scale(pose.axis, v[i]);
+        if i > 0 {
+            motion.acceleration = motion.at(sub(pose.anchor, chain[i - 1].pose.anchor));
+            let extra = cross(motion.velocity, rate);
+            if *slides {
+                motion.acceleration = add_scaled(motion.acceleration, extra, 2.0);
+            } else {
+                motion.turning = add(motion.turning, extra);
+            }
+        }
+        if !slides {
+            motion.velocity = add(motion.velocity, rate);
+        }
+        let force = scale(motion.at(sub(pose.com, pose.anchor)), fixed.mass);
+        let w = mat_t_mul_vec(&pose.axes, motion.velocity);
+        let turning = inertia_turn(&fixed.inertia, mat_t_mul_vec(&pose.axes, motion.turning));
+        let torque = add(turning, cross(w, inertia_turn(&fixed.inertia, w)));
+        for k in 0..=i {
+            forces[k] += dot(columns[k].0, torque) + dot(columns[k].1, force);
+        }
+    }
+    *out = forces;
+}
+
+impl Motion {
+    /// The acceleration of a point at `arm` from the anchor.
+    #[inline(always)]
+    fn at(&self, arm: Vec3) -> Vec3 {
+        let w = self.velocity;
+        add(self.acceleration, add(cross(self.turning, arm), cross(w, cross(w, arm))))
+    }
+}
+
+/// I v
+#[inline(always)]
+fn inertia_turn(i: &[f64; 6], v: Vec3) -> Vec3 {
+    [
+        i[0] * v[0] + i[3] * v[1] + i[4] * v[2],
+        i[3] * v[0] + i[1] * v[1] + i[5] * v[2],
+        i[4] * v[0] + i[5] * v[1] + i[2] * v[2],
+    ]
+}

@@ -1,0 +1,382 @@
+//! The mass matrix: composite rigid bodies, sparse factorization, products and solves.
+//!
+//! M is stored as the rows of its lower triangle over the chain of ancestors of each degree of freedom,
+//! ancestors ascending and the diagonal last. The composite rigid body algorithm and the factorization
+//! M = Lᵀ D L, which creates no fill-in on this pattern, are in Featherstone 2008, chapter 6. Trees of many degrees of
+//! freedom are factorized by `articulated`.
+
+use crate::dynamics::serial;
+use crate::forces::{transmission, transmission::On};
+use crate::math::*;
+use crate::{Data, Model};
+use std::ops::Range;
+
+/// `crb` and `M`. The diagonal of simple bodies is constant: with `constant` it is taken from `dof_M0`.
+pub(crate) fn composite_inertia(m: &Model, d: &mut Data, constant: bool) {
+    d.crb.copy_from_slice(&d.cinert);
+    let crb = rows_mut::<10>(&mut d.crb);
+    for i in (1..m.nbody).rev() {
+        let parent = m.body_parentid[i] as usize;
+        if parent > 0 {
+            crb[parent] = add(crb[parent], crb[i]);
+        }
+    }
+    let cdof = rows::<6>(&d.cdof);
+    for i in 0..m.nv {
+        let row = &mut d.M[row(m, i)];
+        let depth = row.len() - 1;
+        if constant && m.dof_simplenum[i] > 0 {
+            row[depth] = m.dof_M0[i];
+            continue;
+        }
+        // Momentum of the subtree for a unit velocity of this degree of freedom.
+        let momentum = inertia_mul(&crb[m.dof_bodyid[i] as usize], &cdof[i]);
+        d.work.path.extend(depth, &cdof[i]);
+        d.work.path.product(&momentum, row);
+        row[depth] += armature(m, i);
+    }
+}
+
+/// Where the row of degree of freedom `i` is.
+#[inline(always)]
+pub(crate) fn row(m: &Model, i: usize) -> Range<usize> {
+    let start = m.M_rowadr[i] as usize;
+    start..start + m.M_rownnz[i] as usize
+}
+
+/// Where the rows of the degrees of freedom `dofs` are.
+#[inline(always)]
+pub(crate) fn rows_of(m: &Model, dofs: Range<usize>) -> Range<usize> {
+    if dofs.is_empty() { 0..0 } else { row(m, dofs.start).start..row(m, dofs.end - 1).end }
+}
+
+/// Inertia that is added to degree of freedom `i`: its own and that of actuators.
+#[inline(always)]
+pub(crate) fn armature(m: &Model, i: usize) -> f64 {
+    let (own, joint) = (m.dof_armature[i], m.dof_jntid[i] as usize);
+    // Few joints have an actuator with inertia of its own.
+    if m.jnt_actuatorid[joint] == -1 { own } else { own + transmission::armature(m, On::Joint(joint)) }
+}
+
+/// The constant diagonal of simple bodies in M.
+pub(crate) fn simple_diagonal(m: &Model, d: &mut Data) {
+    for i in 0..m.nv {
+        if m.dof_simplenum[i] > 0 {
+            d.M[m.M_rowadr[i] as usize] = m.dof_M0[i];
+        }
+    }
+}
+
+/// The diagonal of M as the model knows it, for a scene whose bodies are all simple: M is constant.
+pub(crate) fn constant_mass(m: &Model, d: &mut Data) {
+    d.M.copy_from_slice(&m.dof_M0);
+    d.qLD.copy_from_slice(&m.dof_M0);
+    for i in 0..m.nv {
+        d.qLDiagInv[i] = 1.0 / m.dof_M0[i];
+    }
+}
+
+/// Factorizes the rows of the degrees of freedom `dofs` (ascending, whole trees) in place, M = Lᵀ D L with unit L: `ld`
+/// holds M and becomes L below the diagonal and D on it, `diag_inv` becomes 1/D. Returns the first degree of freedom whose D is not positive.
+///
+/// From the last row to the first, each row is eliminated from those of its ancestors. The rows of a serial
+/// chain are taken four at a time, so that an ancestor's row is read and written once for four eliminations;
+/// every element sees the same operations in the same order.
+#[inline(never)]
+pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Range<usize>) -> Option<usize> {
+    if let Some(n) = whole_chain(m) {
+        return serial::factor_rows(n, ld, diag_inv);
+    }
+    let mut bad = None;
+    let mut end = dofs.end;
+    while end > dofs.start {
+        if let Some(n) = serial::size_before(m, end) {
+            let first = end - n;
+            let at = m.M_rowadr[first] as usize;
+            let failed = serial::factor_rows(n, &mut ld[at..], &mut diag_inv[first..]);
+            bad = failed.map(|k| first + k).or(bad);
+            end = first;
+            continue;
+        }
+        let n = chain(m, end);
+        if n == 1 {
+            end -= 1;
+            if eliminate(m, ld, diag_inv, end) {
+                bad = Some(end);
+            }
+            continue;
+        }
+        let first = end - n;
+        let (above, block) = ld.split_at_mut(m.M_rowadr[first] as usize);
+        for k in (first..end).rev() {
+            let (before, row) = block.split_at_mut(m.M_rowadr[k] as usize - m.M_rowadr[first] as usize);
+            let diag = m.M_rownnz[k] as usize - 1;
+            if row[diag] < MINVAL {
+                row[diag] = MINVAL;
+                bad = Some(k);
+            }
+            let inv = 1.0 / row[diag];
+            diag_inv[k] = inv;
+            // The other rows of the block; the chain of an ancestor is a prefix of this row's columns.
+            for i in (first..k).rev() {
+                let at = (m.M_rowadr[i] - m.M_rowadr[first]) as usize;
+                let len = m.M_rownnz[i] as usize;
+                let factor = row[len - 1] * inv;
+                subtract(&mut before[at..at + len], &row[..len], factor);
+            }
+        }
+        let depth = m.M_rownnz[first] as usize - 1;
+        let ancestors = &m.M_colind[m.M_rowadr[first] as usize..][..depth];
+        let [r0, r1, r2, r3] = four_rows(block, depth + 1);
+        for (a, &i) in ancestors.iter().enumerate().rev() {
+            let target = &mut above[m.M_rowadr[i as usize] as usize..][..a + 1];
+            let inv = &diag_inv[first..first + 4];
+            let factors = [r3[a] * inv[3], r2[a] * inv[2], r1[a] * inv[1], r0[a] * inv[0]];
+            subtract_four(target, [r3, r2, r1, r0], factors);
+        }
+        let mut rest = block;
+        for k in first..end {
+            let (row, after) = rest.split_at_mut(m.M_rownnz[k] as usize);
+            for x in row.iter_mut().rev().skip(1) {
+                *x *= diag_inv[k];
+            }
+            rest = after;
+        }
+        end = first;
+    }
+    bad
+}
+
+/// Size of the small serial tree that is all the model has.
+#[inline(always)]
+fn whole_chain(m: &Model) -> Option<usize> {
+    if m.nv > 3 || m.nv == 0 { None } else { serial::size_before(m, m.nv).filter(|&n| n == m.nv) }
+}
+
+/// Eliminates row `k` from those of its ancestors; whether its D is not positive.
+#[inline(always)]
+fn eliminate(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], k: usize) -> bool {
+    let start = m.M_rowadr[k] as usize;
+    let n = m.M_rownnz[k] as usize - 1;
+    let (above, row) = ld.split_at_mut(start);
+    let row = &mut row[..n + 1];
+    let bad = row[n] < MINVAL;
+    if bad {
+        row[n] = MINVAL;
+    }
+    let inv = 1.0 / row[n];
+    diag_inv[k] = inv;
+    let row = &mut row[..n];
+    for a in (0..n).rev() {
+        // The chain of an ancestor is a prefix of this row's columns.
+        let i = m.M_rowadr[m.M_colind[start + a] as usize] as usize;
+        let factor = row[a] * inv;
+        subtract(&mut above[i..i + a + 1], row, factor);
+    }
+    for x in row {
+        *x *= inv;
+    }
+    bad
+}
+
+/// Number of rows that end before `end` and are taken together: four of a serial chain, or one.
+#[inline(always)]
+fn chain(m: &Model, end: usize) -> usize {
+    // Shorter rows are not worth the trouble.
+    if end < 4 || m.M_rownnz[end - 1] < 8 {
+        return 1;
+    }
+    let serial = |k: usize| m.M_rownnz[k] == m.M_rownnz[k - 1] + 1 && m.dof_parentid[k] == k as i32 - 1;
+    if serial(end - 1) && serial(end - 2) && serial(end - 3) { 4 } else { 1 }
+}
+
+/// Four rows that follow each other, the first of `len` numbers and each longer by one; their first `len`.
+#[inline(always)]
+fn four_rows(block: &[f64], len: usize) -> [&[f64]; 4] {
+    [0, len, 2 * len + 1, 3 * len + 3].map(|at| &block[at..at + len])
+}
+
+/// target -= factor row
+#[inline(always)]
+fn subtract(target: &mut [f64], row: &[f64], factor: f64) {
+    for (t, x) in target.iter_mut().zip(row) {
+        *t -= factor * x;
+    }
+}
+
+/// The same for four rows, one after the other. The rows are at least as long as the target.
+#[inline(never)] // as a function of its own the compiler knows that the rows do not overlap
+fn subtract_four(target: &mut [f64], rows: [&[f64]; 4], f: [f64; 4]) {
+    let n = target.len();
+    let [a, b, c, d] = rows.map(|r| &r[..n]);
+    for i in 0..n {
+        target[i] = target[i] - f[0] * a[i] - f[1] * b[i] - f[2] * c[i] - f[3] * d[i];
+    }
+}
+
+/// x ← M⁻¹ x for the degrees of freedom `dofs` (ascending, whole trees).
+#[inline(never)]
+pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs: Range<usize>) {
+    if m.nC == m.nv {
+        // A diagonal matrix.
+        for (x, inv) in x[dofs.clone()].iter_mut().zip(&diag_inv[dofs]) {
+            *x *= inv;
+        }
+        return;
+    }
+    // The part of a row below the diagonal, and where its columns begin: those of a serial chain are
+    // consecutive.
+    if let Some(n) = whole_chain(m) {
+        serial::solve_rows(n, ld, diag_inv, x);
+        return;
+    }
+    let row = |i: usize| {
+        let (start, n) = (m.M_rowadr[i] as usize, m.M_rownnz[i] as usize - 1);
+        (&ld[start..start + n], &m.M_colind[start..start + n], n > 3 && m.M_colind[start] as usize + n == i)
+    };
+    let mut end = dofs.end;
+    while end > dofs.start {
+        if let Some(n) = serial::size_before(m, end) {
+            end -= n;
+            serial::solve_rows(n, &ld[m.M_rowadr[end] as usize..], &diag_inv[end..], &mut x[end..]);
+            continue;
+        }
+        end -= 1;
+        let (values, columns, serial) = row(end);
+        let xi = x[end];
+        if serial {
+            subtract(&mut x[end - values.len()..end], values, xi);
+        } else {
+            for (l, &j) in values.iter().zip(columns) {
+                x[j as usize] -= l * xi;
+            }
+        }
+    }
+    for i in dofs {
+        if serial::size_before(m, i + 1).is_some() {
+            continue; // done above
+        }
+        let (values, columns, serial) = row(i);
+        let mut s = x[i] * diag_inv[i];
+        if serial {
+            s -= dot_slice(values, &x[i - values.len()..i]);
+        } else {
+            for (l, &j) in values.iter().zip(columns) {
+                s -= l * x[j as usize];
+            }
+        }
+        x[i] = s;
+    }
+}
+
+/// out ← M v for the degrees of freedom `dofs` (ascending, whole trees).
+#[inline]
+pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Range<usize>) {
+    if m.nC == m.nv {
+        // A diagonal matrix.
+        combine(&mut out[dofs.clone()], [&mass[dofs.clone()], &v[dofs]], |_, [mass, v]| mass * v);
+        return;
+    }
+    for i in dofs {
+        let row = row(m, i);
+        let Some((diagonal, before)) = mass[row.clone()].split_last() else { continue };
+        let vi = v[i];
+        let mut s = diagonal * vi;
+        for (&j, a) in m.M_colind[row].iter().zip(before) {
+            let j = j as usize;
+            s += a * v[j];
+            // The upper triangle: j is an ancestor of i, so its own sum is already begun.
+            out[j] += a * vi;
+        }
+        out[i] = s;
+    }
+}
+
+/// Where the diagonal element of degree of freedom `i` is.
+#[inline(always)]
+pub(crate) fn diagonal(m: &Model, i: usize) -> usize {
+    (m.M_rowadr[i] + m.M_rownnz[i]) as usize - 1
+}
+
+/// The dense block of a free joint, given its first degree of freedom, in a matrix with the pattern of M.
+pub(crate) fn free_block(m: &Model, mass: &[f64], first: usize) -> [Spatial; 6] {
+    let mut out = [[0.0; 6]; 6];
+    for r in 0..6 {
+        let row = m.M_rowadr[first + r] as usize..diagonal(m, first + r) + 1;
+        for (&k, &x) in m.M_colind[row.clone()].iter().zip(&mass[row]) {
+            let c = k as usize - first;
+            (out[r][c], out[c][r]) = (x, x);
+        }
+    }
+    out
+}
+
+/// Adds s x xᵀ for a vector with few non-zeros where M has an entry: `dofs` ascend.
+pub(crate) fn add_outer(m: &Model, dofs: &[i32], values: &[f64], s: f64, out: &mut [f64]) {
+    for (&i, x) in dofs.iter().zip(values) {
+        let start = m.M_rowadr[i as usize] as usize;
+        let columns = &m.M_colind[start..diagonal(m, i as usize) + 1];
+        // Both lists ascend.
+        let mut at = 0;
+        for (&j, y) in dofs.iter().zip(values) {
+            while at < columns.len() && columns[at] < j {
+                at += 1;
+            }
+            if at < columns.len() && columns[at] == j {
+                out[start + at] += s * x * y;
+            }
+        }
+    }
+}
+
+/// Sum of the diagonal of M over the degrees of freedom `dofs`.
+#[inline]
+pub(crate) fn trace(m: &Model, mass: &[f64], dofs: Range<usize>) -> f64 {
+    if m.nC == m.nv {
+        return sum([&mass[dofs]], |[x]| x);
+    }
+    dofs.map(|k| mass[diagonal(m, k)]).sum()
+}
+
+/// out ← M v (`mj_mulM`), for vectors of nv numbers. `None` when one is shorter.
+pub fn mul_m(m: &Model, d: &Data, v: &[f64], out: &mut [f64]) -> Option<()> {
+    mul(m, &d.M, v.get(..m.nv)?, out.get_mut(..m.nv)?, 0..m.nv);
+    Some(())
+}
+
+/// x ← M⁻¹ x (`mj_solveM`), for a vector of nv numbers. `None` when it is shorter.
+pub fn solve_m(m: &Model, d: &Data, x: &mut [f64]) -> Option<()> {
+    solve(m, &d.qLD, &d.qLDiagInv, x.get_mut(..m.nv)?, 0..m.nv);
+    Some(())
+}
+
+/// x ← D^-½ L⁻ᵀ x (`mj_solveM2`): half of the solution, so that xᵀ M⁻¹ x is the square of its norm. `None` when the
+/// vector is shorter than nv.
+pub fn solve_m2(m: &Model, d: &Data, x: &mut [f64]) -> Option<()> {
+    let x = x.get_mut(..m.nv)?;
+    for i in (0..m.nv).rev() {
+        let row = m.M_rowadr[i] as usize..diagonal(m, i);
+        let xi = x[i];
+        for (&j, l) in m.M_colind[row.clone()].iter().zip(&d.qLD[row]) {
+            x[j as usize] -= l * xi;
+        }
+    }
+    for (x, inv) in x.iter_mut().zip(&d.qLDiagInv) {
+        *x *= inv.sqrt();
+    }
+    Some(())
+}
+
+/// M as a dense symmetric matrix, row-major (`mj_fullM`).
+pub fn full_m(m: &Model, d: &Data) -> Vec<f64> {
+    let n = m.nv;
+    let mut out = vec![0.0; n * n];
+    for i in 0..n {
+        for a in m.M_rowadr[i] as usize..(m.M_rowadr[i] + m.M_rownnz[i]) as usize {
+            let j = m.M_colind[a] as usize;
+            out[i * n + j] = d.M[a];
+            out[j * n + i] = d.M[a];
+        }
+    }
+    out
+}

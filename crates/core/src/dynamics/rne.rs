@@ -1,0 +1,107 @@
+//! `qfrc_bias`: gravity, Coriolis and centrifugal force.
+
+use crate::dynamics::chain;
+use crate::math::lanes;
+use crate::math::*;
+use crate::{Data, Model, disable, joint};
+
+/// `qfrc_bias`. Trees take recursive Newton–Euler, short chains a projection; a simple body, alone in its tree
+/// with its inertia along its own axes, takes the closed form.
+#[inline(never)]
+pub(crate) fn bias(m: &Model, d: &mut Data) {
+    let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
+    if d.plan.recursion {
+        newton_euler(m, d, gravity);
+    }
+    chain::bias(d, gravity);
+    if !d.plan.simple_bodies {
+        return;
+    }
+    for (j, &body) in m.jnt_bodyid.iter().enumerate() {
+        let body = body as usize;
+        if m.body_simple[body] > 0 {
+            simple(m, d, j, body, gravity);
+        }
+    }
+}
+
+/// One joint of a simple body: weight along translations, ω × I ω for rotations in the body's frame. A
+/// hinge turns about a principal axis and feels nothing.
+#[inline(always)]
+fn simple(m: &Model, d: &mut Data, j: usize, body: usize, gravity: Vec3) {
+    let (mass, &[a, b, c]) = (m.body_mass[body], &rows::<3>(&m.body_inertia)[body]);
+    let k = m.jnt_dofadr[j] as usize;
+    let turning = |w: Vec3| cross(w, [a * w[0], b * w[1], c * w[2]]);
+    match (m.jnt_type[j], &d.qvel[k..], &mut d.qfrc_bias[k..]) {
+        (joint::SLIDE, _, [out, ..]) => *out = -mass * dot(gravity, rows::<3>(&d.xaxis)[j]),
+        (joint::HINGE, _, [out, ..]) => *out = 0.0,
+        (joint::BALL, &[x, y, z, ..], [tx, ty, tz, ..]) => [*tx, *ty, *tz] = turning([x, y, z]),
+        (joint::FREE, &[_, _, _, x, y, z, ..], [fx, fy, fz, tx, ty, tz, ..]) => {
+            [*fx, *fy, *fz] = scale(gravity, -mass);
+            [*tx, *ty, *tz] = turning([x, y, z]);
+        }
+        _ => {}
+    }
+}
+
+/// `qfrc_bias` of all bodies.
+pub(crate) fn newton_euler(m: &Model, d: &mut Data, gravity: Vec3) {
+    let mut out = std::mem::take(&mut d.qfrc_bias);
+    recursion(m, d, gravity, None, &mut out);
+    d.qfrc_bias = out;
+}
+
+/// The generalized force (nv) that causes the acceleration `qacc` (nv), or none when it is not given: gravity,
+/// Coriolis and centrifugal force then (`mj_rne`). The inertia of joints (armature) does not count. `None` when an
+/// array is shorter.
+///
+/// It needs the position and velocity stages of a full pipeline.
+pub fn rne(m: &Model, d: &mut Data, qacc: Option<&[f64]>, out: &mut [f64]) -> Option<()> {
+    if out.len() < m.nv || qacc.is_some_and(|a| a.len() < m.nv) {
+        return None;
+    }
+    let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
+    recursion(m, d, gravity, qacc, out);
+    Some(())
+}
+
+/// The force for an acceleration (Featherstone 2008, section 5.3). Gravity enters as an upward acceleration of the
+/// world.
+fn recursion(m: &Model, d: &mut Data, gravity: Vec3, qacc: Option<&[f64]>, out: &mut [f64]) {
+    let cdof = rows::<6>(&d.cdof);
+    let cdof_dot = rows::<6>(&d.cdof_dot);
+    let (cinert, cvel) = (rows::<10>(&d.cinert), rows::<6>(&d.cvel));
+    let cacc = rows_mut::<6>(&mut d.work.cacc);
+    let cfrc = rows_mut::<6>(&mut d.work.cfrc);
+
+    cacc[0] = [0.0, 0.0, 0.0, -gravity[0], -gravity[1], -gravity[2]];
+    cfrc[0] = [0.0; 6];
+    for i in 1..m.nbody {
+        let mut a = [0.0; 6];
+        // Without degrees of freedom the address is -1.
+        let first = m.body_dofadr[i].max(0) as usize;
+        let dofs = first..first + m.body_dofnum[i] as usize;
+        for (s, &v) in cdof_dot[dofs.clone()].iter().zip(&d.qvel[dofs.clone()]) {
+            a = add_scaled(a, *s, v);
+        }
+        if let Some(qacc) = qacc {
+            for k in dofs {
+                a = add_scaled(a, cdof[k], qacc[k]);
+            }
+        }
+        cacc[i] = add(cacc[m.body_parentid[i] as usize], a);
+    }
+    for four in lanes::by_fours(m.nbody) {
+        let (inertia, v) = (lanes::gather(cinert, four), lanes::gather(cvel, four));
+        let force = inertia_mul(&inertia, &lanes::gather(cacc, four));
+        let turning = cross_force(&v, &inertia_mul(&inertia, &v));
+        lanes::scatter(add(force, turning), cfrc, four);
+    }
+    for i in (1..m.nbody).rev() {
+        let parent = m.body_parentid[i] as usize;
+        cfrc[parent] = add(cfrc[parent], cfrc[i]);
+    }
+    for ((out, s), &body) in out.iter_mut().zip(cdof).zip(&m.dof_bodyid) {
+        *out = dot(*s, cfrc[body as usize]);
+    }
+}

@@ -1,0 +1,77 @@
+//! Controls as they act: delayed, clamped, and zero where one of them is no number.
+
+use crate::forces::history;
+use crate::math::*;
+use crate::{Data, Model, Warning, disable, gaintype};
+use std::ops::Range;
+
+/// Addresses of the controls of actuator `i`.
+fn controls(m: &Model, i: usize) -> Range<usize> {
+    let first = m.actuator_ctrladr[i] as usize;
+    first..first + m.actuator_ctrlnum[i] as usize
+}
+
+/// Where the history of actuator `i` is and how many samples it has; `None` when it keeps none.
+fn buffer(m: &Model, i: usize) -> Option<(Range<usize>, usize)> {
+    let n = usize::try_from(m.actuator_history[2 * i]).ok().filter(|&n| n > 0)?;
+    let at = usize::try_from(m.actuator_historyadr[i]).ok()?;
+    Some((at..at + history::size(n, m.actuator_ctrlnum[i] as usize), n))
+}
+
+/// Fills `ctrl` with the controls that act now.
+pub(super) fn effective(m: &Model, d: &mut Data, ctrl: &mut [f64]) {
+    ctrl.copy_from_slice(&d.ctrl);
+    if m.nhistory > 0 {
+        for i in (0..m.nactuator).filter(|&i| m.actuator_delay[i] != 0.0) {
+            let Some((range, n)) = buffer(m, i) else { continue };
+            let out = &mut ctrl[controls(m, i)];
+            let time = d.time - m.actuator_delay[i];
+            history::read(&d.history[range], n, out.len(), time, m.actuator_history[2 * i + 1], out);
+        }
+    }
+    if !m.opt.disabled(disable::CLAMPCTRL) {
+        for ((u, &limited), range) in
+            ctrl.iter_mut().zip(&m.actuator_ctrllimited).zip(rows::<2>(&m.actuator_ctrlrange))
+        {
+            if limited {
+                *u = clip(*u, *range);
+            }
+        }
+    }
+    if let Some(i) = ctrl.iter().position(|&u| bad(u)) {
+        d.warn(Warning::BadCtrl, i);
+        ctrl.fill(0.0);
+    }
+}
+
+/// Keeps the controls of this time, for actuators with a history.
+pub(crate) fn record(m: &Model, d: &mut Data) {
+    for i in 0..m.nactuator {
+        let Some((range, n)) = buffer(m, i) else { continue };
+        let controls = controls(m, i);
+        let slot = history::insert(&mut d.history[range], n, controls.len(), d.time);
+        if slot.len() == controls.len() {
+            slot.copy_from_slice(&d.ctrl[controls]);
+        }
+    }
+}
+
+/// Neutral controls, now and in the past: zero, and the identity for quaternions.
+pub(crate) fn reset(m: &Model, d: &mut Data) {
+    let h = m.opt.timestep;
+    for i in 0..m.nactuator {
+        let controls = controls(m, i);
+        let identity = m.actuator_gaintype[i] == gaintype::SO3 && controls.len() == 4;
+        if identity {
+            d.ctrl[controls.start] = 1.0;
+        }
+        let Some((range, n)) = buffer(m, i) else { continue };
+        let buf = &mut d.history[range];
+        history::init(buf, n, 0.0, |i| -((n - i) as f64) * h);
+        if identity {
+            for value in rows_mut::<4>(&mut buf[2 + n..]) {
+                *value = IDENTITY;
+            }
+        }
+    }
+}

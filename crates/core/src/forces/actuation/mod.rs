@@ -1,0 +1,243 @@
+//! Actuation: forces from controls, activations, lengths and velocities.
+//!
+//! MuJoCo's documentation, "Computation: Actuation model". An actuator makes the force
+//!
+//! > gain(length, velocity) · input + bias(length, velocity)
+//!
+//! of its control or, where it has dynamics, of its last activation. Servos with several inputs, orientations and
+//! motors have laws of their own.
+
+mod activation;
+mod control;
+mod limit;
+pub(crate) mod motor;
+pub(crate) mod muscle;
+mod servo;
+
+use crate::forces::transmission;
+use crate::math::*;
+use crate::step::sleep;
+use crate::{Data, Model, biastype, disable, dyntype, gaintype, joint, trntype};
+
+pub(crate) use activation::advance;
+pub(crate) use control::{record, reset};
+pub(crate) use motor::slots;
+
+/// Whether the forces of actuator `i` are switched off by its group.
+pub(crate) fn switched_off(m: &Model, i: usize) -> bool {
+    let group = m.actuator_group[i];
+    (0..=30).contains(&group) && m.opt.disableactuator & (1 << group) != 0
+}
+
+/// Whether actuator `i` makes a force.
+fn acts(m: &Model, d: &Data, i: usize) -> bool {
+    !switched_off(m, i) && !sleep::actuator_sleeps(m, d, i)
+}
+
+/// Ten parameters of actuator `i`.
+pub(crate) fn prm(of: &[f64], i: usize) -> &[f64; 10] {
+    &rows::<10>(of)[i]
+}
+
+/// Addresses of the activations of actuator `i`.
+fn states(m: &Model, i: usize) -> std::ops::Range<usize> {
+    // Without activations the address is -1 and the number 0.
+    let first = m.actuator_actadr[i].max(0) as usize;
+    first..first + m.actuator_actnum[i] as usize
+}
+
+/// `actuator_force`, `act_dot`, `qfrc_actuator`.
+pub(crate) fn actuation(m: &Model, d: &mut Data) {
+    if d.plan.motors && motors(m, d) {
+        return;
+    }
+    d.actuator_force.fill(0.0);
+    if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
+        d.qfrc_actuator.fill(0.0);
+        return;
+    }
+    let mut ctrl = std::mem::take(&mut d.work.ctrl);
+    control::effective(m, d, &mut ctrl);
+    if m.na > 0 {
+        for i in 0..m.nactuator {
+            activation::rates(m, d, i, &mut ctrl);
+        }
+    }
+    for i in 0..m.nactuator {
+        if !acts(m, d, i) {
+            continue;
+        }
+        match m.actuator_gaintype[i] {
+            gaintype::SO3 | gaintype::PID | gaintype::DCMOTOR => of_its_own(m, d, i, &ctrl),
+            _ => {
+                d.actuator_force[m.actuator_outadr[i] as usize] =
+                    gain(m, d, i) * servo::wrapped(m, d, i, input(m, d, i, &ctrl)) + bias(m, d, i)
+            }
+        }
+    }
+    d.work.ctrl = ctrl;
+    limit::tendons(m, d);
+    limit::forces(m, d);
+    for i in (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == biastype::DCMOTOR) {
+        if acts(m, d, i) {
+            d.actuator_force[m.actuator_outadr[i] as usize] += motor::mechanical(m, d, i);
+        }
+    }
+    transmission::apply_forces(m, d);
+    gravity_compensation(m, d);
+    limit::joints(m, d);
+}
+
+/// The same for motors of slides and hinges alone, each with one control and one degree of freedom: what most labs have.
+/// False, and nothing is done, where there is more to it: limits of forces, a control that is no number.
+#[inline(always)]
+fn motors(m: &Model, d: &mut Data) -> bool {
+    let off = disable::ACTUATION | disable::CLAMPCTRL;
+    if d.plan.force_limits || m.opt.disabled(off) || d.ctrl.iter().any(|&u| bad(u)) {
+        return false;
+    }
+    zero(&mut d.qfrc_actuator);
+    let controls = d.ctrl.iter().zip(rows::<2>(&m.actuator_ctrlrange)).zip(&m.actuator_ctrllimited);
+    let moments = d.moment_colind.iter().zip(&d.actuator_moment);
+    let motors = rows::<10>(&m.actuator_gainprm).iter().zip(moments).zip(&mut d.actuator_force);
+    for (((u, range), &limited), ((gain, (&k, moment)), force)) in controls.zip(motors) {
+        let u = if limited { clip(*u, *range) } else { *u };
+        // The bias is +0: so the force is, where the product is -0.
+        *force = gain[0] * u + 0.0;
+        d.qfrc_actuator[k as usize] += moment * *force;
+    }
+    gravity_compensation(m, d);
+    true
+}
+
+/// The force of an actuator with a law of its own.
+#[inline(never)] // few are: what most are stays small
+fn of_its_own(m: &Model, d: &mut Data, i: usize, ctrl: &[f64]) {
+    let o = m.actuator_outadr[i] as usize;
+    match m.actuator_gaintype[i] {
+        gaintype::SO3 => {
+            let torque = servo::orientation(m, d, i, ctrl);
+            d.actuator_force[o..o + 3].copy_from_slice(&torque);
+        }
+        gaintype::PID => d.actuator_force[o] = servo::pid(m, d, i, ctrl),
+        _ => d.actuator_force[o] = motor::electric(m, d, i, ctrl) + bias(m, d, i),
+    }
+}
+
+/// What the gain of actuator `i` multiplies: its control, or its last activation.
+#[inline(always)]
+pub(crate) fn input(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> f64 {
+    match states(m, i).last() {
+        Some(last) => activation::acting(m, d, i, last),
+        None if m.actuator_ctrlnum[i] == 0 => 0.0,
+        None => ctrl[m.actuator_ctrladr[i] as usize],
+    }
+}
+
+/// p₀ + p₁ length + p₂ velocity.
+fn affine(p: &[f64; 10], d: &Data, o: usize) -> f64 {
+    p[0] + p[1] * d.actuator_length[o] + p[2] * d.actuator_velocity[o]
+}
+
+#[inline(always)]
+fn gain(m: &Model, d: &Data, i: usize) -> f64 {
+    match m.actuator_gaintype[i] {
+        gaintype::FIXED => m.actuator_gainprm[10 * i],
+        _ => changing_gain(m, d, i),
+    }
+}
+
+#[inline(never)] // see `of_its_own`
+fn changing_gain(m: &Model, d: &Data, i: usize) -> f64 {
+    let (p, o) = (prm(&m.actuator_gainprm, i), m.actuator_outadr[i] as usize);
+    match m.actuator_gaintype[i] {
+        gaintype::AFFINE => affine(p, d, o),
+        gaintype::MUSCLE => muscle::gain(p, &muscle::State::new(m, d, o, p)),
+        _ => p[0],
+    }
+}
+
+#[inline(always)]
+fn bias(m: &Model, d: &Data, i: usize) -> f64 {
+    match m.actuator_biastype[i] {
+        biastype::NONE => 0.0,
+        _ => some_bias(m, d, i),
+    }
+}
+
+#[inline(never)] // see `of_its_own`
+fn some_bias(m: &Model, d: &Data, i: usize) -> f64 {
+    let (p, o) = (prm(&m.actuator_biasprm, i), m.actuator_outadr[i] as usize);
+    match m.actuator_biastype[i] {
+        biastype::AFFINE => affine(p, d, o),
+        biastype::MUSCLE => muscle::bias(p, &muscle::State::new(m, d, o, p)),
+        biastype::DCMOTOR => motor::back_emf(m, d, i),
+        _ => 0.0,
+    }
+}
+
+/// Fills `work.ctrl` with the controls that act now.
+pub(crate) fn controls(m: &Model, d: &mut Data) {
+    let mut ctrl = std::mem::take(&mut d.work.ctrl);
+    control::effective(m, d, &mut ctrl);
+    d.work.ctrl = ctrl;
+}
+
+/// Whether actuator `i` makes no force whatever moves: its control is 0 and it has nothing else.
+pub(crate) fn idle(m: &Model, d: &Data, i: usize) -> bool {
+    let plain = matches!(m.actuator_gaintype[i], gaintype::FIXED | gaintype::AFFINE | gaintype::MUSCLE);
+    let input = d.work.ctrl.get(m.actuator_ctrladr[i] as usize);
+    plain
+        && m.actuator_biastype[i] == biastype::NONE
+        && states(m, i).is_empty()
+        && (m.actuator_ctrlnum[i] == 0 || input == Some(&0.0))
+}
+
+/// The force of actuator `i` at its length and at rest, before limits, and how fast it falls with the length, where it
+/// follows from the length of a slide, hinge or tendon alone and does not push with the velocity. Controls are those of
+/// `work.ctrl`.
+pub(crate) fn along_length(m: &Model, d: &Data, i: usize) -> Option<[f64; 2]> {
+    let target = m.actuator_trnid[2 * i].max(0) as usize;
+    let simple = match m.actuator_trntype[i] {
+        trntype::JOINT | trntype::JOINTINPARENT => {
+            m.jnt_type.get(target).is_some_and(|&t| matches!(t, joint::SLIDE | joint::HINGE))
+        }
+        trntype::TENDON => true,
+        _ => false,
+    };
+    let [constant, length, velocity] = match m.actuator_biastype[i] {
+        biastype::NONE => [0.0; 3],
+        biastype::AFFINE => [0, 1, 2].map(|k| prm(&m.actuator_biasprm, i)[k]),
+        _ => return None,
+    };
+    if !simple || velocity > 0.0 || !states(m, i).is_empty() {
+        return None;
+    }
+    let x = d.actuator_length[m.actuator_outadr[i] as usize];
+    let force = match m.actuator_gaintype[i] {
+        gaintype::FIXED => m.actuator_gainprm[10 * i] * input(m, d, i, &d.work.ctrl) + constant + length * x,
+        gaintype::PID => {
+            servo::pid(m, d, i, &d.work.ctrl) - velocity * d.actuator_velocity[m.actuator_outadr[i] as usize]
+        }
+        _ => return None,
+    };
+    Some([force, -length])
+}
+
+/// Gravity compensation that acts as a force of actuators.
+fn gravity_compensation(m: &Model, d: &mut Data) {
+    if m.ngravcomp == 0 || m.opt.disabled(disable::GRAVITY) {
+        return;
+    }
+    for j in (0..m.njnt).filter(|&j| m.jnt_actgravcomp[j]) {
+        let first = m.jnt_dofadr[j] as usize;
+        for k in first..first + joint::nv(m.jnt_type[j]) {
+            d.qfrc_actuator[k] += d.qfrc_gravcomp[k];
+        }
+    }
+}
+
+/// Whether the activation of actuator `i` is a setpoint that is integrated.
+fn integrates(m: &Model, i: usize) -> bool {
+    m.actuator_dyntype[i] == dyntype::INTEGRATOR
+}

@@ -1,0 +1,187 @@
+//! Servos: setpoints that are angles, PID controllers, orientations.
+
+use super::{activation, prm, states};
+use crate::forces::transmission::target;
+use crate::math::*;
+use crate::{Data, Model, biastype, dyntype, gaintype, joint, trntype};
+use std::f64::consts::PI;
+
+/// Inputs of controllers: bits of `actuator_ctrlspec`, in the order of the controls.
+const POS: i32 = 1;
+const VEL: i32 = 2;
+const FF: i32 = 4;
+const VOLTAGE: i32 = 8;
+/// No inputs at all.
+const NONE: i32 = 16;
+/// The chart of an orientation that is a quaternion.
+const QUAT: i32 = 2;
+
+/// Whether inputs of this kind go to a controller of motion, not only to the winding.
+pub(super) fn controls_motion(spec: i32) -> bool {
+    spec & NONE == 0 && spec & (POS | VEL | FF) != 0
+}
+
+/// What the controls of a servo say.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Inputs {
+    pub(super) pos: Option<f64>,
+    pub(super) vel: f64,
+    pub(super) ff: f64,
+    pub(super) voltage: f64,
+    /// Whether there is any but a voltage.
+    pub(super) controller: bool,
+}
+
+impl Inputs {
+    pub(super) fn new(m: &Model, i: usize, ctrl: &[f64]) -> Inputs {
+        let spec = m.actuator_ctrlspec[i];
+        let mut at = m.actuator_ctrladr[i] as usize;
+        let end = at + m.actuator_ctrlnum[i] as usize;
+        let mut take = |bit: i32| {
+            let here = (spec & bit != 0 && at < end).then(|| ctrl[at]);
+            at += usize::from(here.is_some());
+            here
+        };
+        let (pos, vel, ff, voltage) = (take(POS), take(VEL), take(FF), take(VOLTAGE));
+        Inputs {
+            pos,
+            vel: vel.unwrap_or(0.0),
+            ff: ff.unwrap_or(0.0),
+            voltage: voltage.unwrap_or(0.0),
+            controller: spec & NONE == 0 && (pos.is_some() || vel.is_some() || ff.is_some()),
+        }
+    }
+}
+
+/// The length of a turn of actuator `i`, when its length is an angle that any number of turns leaves as it is.
+fn turn(m: &Model, i: usize) -> Option<f64> {
+    let gear = rows::<6>(&m.actuator_gear)[m.actuator_outadr[i] as usize];
+    let [along, about] = [[gear[0], gear[1], gear[2]], [gear[3], gear[4], gear[5]]];
+    let axis = match (m.actuator_trntype[i], target(m, i)) {
+        (trntype::SITE, (_, Some(_))) if along == [0.0; 3] => about,
+        (trntype::JOINT | trntype::JOINTINPARENT, (j, _)) if m.jnt_type[j] == joint::BALL => along,
+        _ => return None,
+    };
+    Some(2.0 * PI * norm(axis)).filter(|&t| t > 0.0)
+}
+
+/// The number nearest to `to` that differs from `u` by whole turns.
+fn nearest(u: f64, to: f64, turn: f64) -> f64 {
+    u - turn * ((u - to) / turn).round()
+}
+
+/// A setpoint of a position servo, next to the length where that is an angle; what is no such setpoint is unchanged.
+#[inline(always)]
+pub(super) fn wrapped(m: &Model, d: &Data, i: usize, setpoint: f64) -> f64 {
+    // What rules most actuators out comes first.
+    let servo = m.actuator_biastype[i] == biastype::AFFINE
+        && m.actuator_gaintype[i] == gaintype::FIXED
+        && m.actuator_gainprm[10 * i] == -m.actuator_biasprm[10 * i + 1]
+        && matches!(m.actuator_dyntype[i], dyntype::NONE | dyntype::INTEGRATOR);
+    if servo { next_to_length(m, d, i, setpoint) } else { setpoint }
+}
+
+#[inline(never)] // see `of_its_own`
+fn next_to_length(m: &Model, d: &Data, i: usize, setpoint: f64) -> f64 {
+    match turn(m, i) {
+        Some(turn) => nearest(setpoint, d.actuator_length[m.actuator_outadr[i] as usize], turn),
+        None => setpoint,
+    }
+}
+
+/// The states of a PID controller: its setpoint, when that is limited in how fast it moves, or the integral of the
+/// error. Programs may write other parameters than the states were made for: then there are none.
+struct Pid {
+    slew: Option<usize>,
+    integral: Option<usize>,
+}
+
+impl Pid {
+    fn new(m: &Model, i: usize) -> Pid {
+        let (slews, integrates) = (m.actuator_dynprm[10 * i + 1] > 0.0, m.actuator_gainprm[10 * i] > 0.0);
+        let mut states = states(m, i);
+        if m.actuator_dyntype[i] != dyntype::PID
+            || states.len() != usize::from(slews) + usize::from(integrates)
+        {
+            return Pid { slew: None, integral: None };
+        }
+        let slew = if slews { states.next() } else { None };
+        Pid { slew, integral: states.next() }
+    }
+
+    /// The position that the controller follows now.
+    fn setpoint(&self, m: &Model, d: &Data, i: usize, pos: f64) -> f64 {
+        let turn = turn(m, i);
+        let mut pos = pos;
+        if let Some(at) = self.slew {
+            let last = d.act[at];
+            let step = m.actuator_dynprm[10 * i + 1] * m.opt.timestep;
+            pos = clip(turn.map_or(pos, |turn| nearest(pos, last, turn)), [last - step, last + step]);
+        }
+        turn.map_or(pos, |turn| nearest(pos, d.actuator_length[m.actuator_outadr[i] as usize], turn))
+    }
+}
+
+/// `act_dot` of a PID controller.
+pub(super) fn rates(m: &Model, d: &mut Data, i: usize, ctrl: &[f64]) {
+    let pid = Pid::new(m, i);
+    let pos = Inputs::new(m, i, ctrl).pos.unwrap_or(0.0);
+    if let Some(at) = pid.slew {
+        let last = d.act[at];
+        let step = m.actuator_dynprm[10 * i + 1] * m.opt.timestep;
+        let to = turn(m, i).map_or(pos, |turn| nearest(pos, last, turn));
+        d.act_dot[at] = (clip(to, [last - step, last + step]) - last) / m.opt.timestep;
+    }
+    if let Some(at) = pid.integral {
+        let error = pid.setpoint(m, d, i, pos) - d.actuator_length[m.actuator_outadr[i] as usize];
+        d.act_dot[at] = unwound(error, d.act[at], m.actuator_dynprm[10 * i]);
+    }
+}
+
+/// The rate of an integral x that does not grow beyond ±limit; 0 is no limit.
+pub(super) fn unwound(rate: f64, x: f64, limit: f64) -> f64 {
+    if limit > 0.0 && x >= limit {
+        rate.min(0.0)
+    } else if limit > 0.0 && x <= -limit {
+        rate.max(0.0)
+    } else {
+        rate
+    }
+}
+
+/// kp (pos - length) + kv (vel - velocity) + ki ∫ + feedforward + constant.
+pub(super) fn pid(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> f64 {
+    let o = m.actuator_outadr[i] as usize;
+    let b = prm(&m.actuator_biasprm, i);
+    let states = Pid::new(m, i);
+    let inputs = Inputs::new(m, i, ctrl);
+    let setpoint = inputs.pos.map_or(0.0, |pos| states.setpoint(m, d, i, pos));
+    let sum = states.integral.map_or(0.0, |at| activation::acting(m, d, i, at));
+    let (error, slip) = (setpoint - d.actuator_length[o], inputs.vel - d.actuator_velocity[o]);
+    b[0] - b[1] * error - b[2] * slip + m.actuator_gainprm[10 * i] * sum + inputs.ff
+}
+
+/// The torque kp log(q⁻¹ q*) + constant - kv ω that turns the orientation q towards q*.
+pub(super) fn orientation(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> Vec3 {
+    let o = m.actuator_outadr[i] as usize;
+    let at = |list: &[f64], first: usize| [list[first], list[first + 1], list[first + 2]];
+    let u = m.actuator_ctrladr[i] as usize;
+    let states = states(m, i);
+    let target = if m.actuator_ctrlspec[i] == QUAT {
+        quat_normalize([ctrl[u], ctrl[u + 1], ctrl[u + 2], ctrl[u + 3]])
+    } else if states.len() == 3 {
+        rotation(std::array::from_fn(|k| activation::acting(m, d, i, states.start + k)))
+    } else {
+        rotation(at(ctrl, u))
+    };
+    let current = rotation(at(&d.actuator_length, o));
+    let error = quat_to_vel(quat_mul(quat_conj(current), target));
+    let (kp, b) = (m.actuator_gainprm[10 * i], prm(&m.actuator_biasprm, i));
+    std::array::from_fn(|k| kp * error[k] + b[0] + b[2] * d.actuator_velocity[o + k])
+}
+
+/// The quaternion of a rotation vector.
+fn rotation(v: Vec3) -> Quat {
+    let angle = norm(v);
+    if angle < MINVAL { IDENTITY } else { quat_axis_angle(scale(v, 1.0 / angle), angle) }
+}

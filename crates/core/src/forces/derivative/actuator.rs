@@ -1,0 +1,93 @@
+//! How the force of an actuator changes with its velocity.
+
+use crate::forces::{actuation, actuation::motor, actuation::muscle, actuation::prm};
+use crate::math::*;
+use crate::{Data, Model, biastype, disable, gaintype};
+
+use super::sparse;
+
+/// Adds the derivative of `qfrc_actuator` with respect to `qvel`.
+pub(super) fn add_velocity(m: &Model, d: &Data, out: &mut [f64]) {
+    if m.opt.disabled(disable::ACTUATION) {
+        return;
+    }
+    for i in (0..m.nactuator).filter(|&i| acts(m, d, i)) {
+        let slope = slopes(m, d, i).velocity;
+        if slope != 0.0 {
+            for (dofs, moment) in moments(m, d, i) {
+                sparse::add_outer(m, dofs, moment, slope, out);
+            }
+        }
+    }
+}
+
+/// The moments of an actuator, one for each of its force outputs: degrees of freedom and values.
+pub(crate) fn moments<'a>(
+    m: &Model,
+    d: &'a Data,
+    i: usize,
+) -> impl Iterator<Item = (&'a [i32], &'a [f64])> + use<'a> {
+    let first = m.actuator_outadr[i] as usize;
+    (first..first + m.actuator_outnum[i] as usize).map(|o| {
+        let row = d.moment_rowadr[o] as usize..(d.moment_rowadr[o] + d.moment_rownnz[o]) as usize;
+        (&d.moment_colind[row.clone()], &d.actuator_moment[row])
+    })
+}
+
+/// Whether the force of an actuator follows its law: its group is on, and no range holds the force.
+pub(crate) fn acts(m: &Model, d: &Data, i: usize) -> bool {
+    if actuation::switched_off(m, i) {
+        return false;
+    }
+    if !m.actuator_forcelimited[i] {
+        return true;
+    }
+    let [lower, upper] = rows::<2>(&m.actuator_forcerange)[i];
+    let first = m.actuator_outadr[i] as usize;
+    let force = &d.actuator_force[first..first + m.actuator_outnum[i] as usize];
+    match force {
+        // The range holds the magnitude of a torque.
+        &[x, y, z] => norm([x, y, z]) < upper,
+        _ => force.iter().all(|&f| f > lower && f < upper),
+    }
+}
+
+/// ∂force/∂velocity and ∂force/∂length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slopes {
+    pub(crate) velocity: f64,
+    pub(crate) length: f64,
+}
+
+/// How the force of an actuator follows its state within a step.
+pub(crate) fn slopes(m: &Model, d: &Data, i: usize) -> Slopes {
+    let (gain, bias) = (prm(&m.actuator_gainprm, i), prm(&m.actuator_biasprm, i));
+    let mut out = Slopes { velocity: 0.0, length: 0.0 };
+    if matches!(m.actuator_biastype[i], biastype::AFFINE | biastype::SO3) {
+        out = Slopes { velocity: bias[2], length: bias[1] };
+    }
+    match m.actuator_gaintype[i] {
+        gaintype::AFFINE => {
+            let input = actuation::input(m, d, i, &d.work.ctrl);
+            out.velocity += gain[2] * input;
+            out.length += gain[1] * input;
+        }
+        gaintype::MUSCLE => {
+            let input = actuation::input(m, d, i, &d.work.ctrl);
+            let state = muscle::State::new(m, d, m.actuator_outadr[i] as usize, gain);
+            out.velocity += muscle::gain_by_velocity(gain, &state) * input;
+            out.length += muscle::gain_by_length(gain, &state) * input;
+        }
+        gaintype::DCMOTOR => {
+            let [velocity, length] = motor::slopes(m, d, i, &d.work.ctrl);
+            out.velocity += velocity;
+            out.length += length;
+        }
+        _ => {}
+    }
+    if m.actuator_biastype[i] == biastype::MUSCLE {
+        let state = muscle::State::new(m, d, m.actuator_outadr[i] as usize, bias);
+        out.length += muscle::bias_by_length(bias, &state);
+    }
+    out
+}

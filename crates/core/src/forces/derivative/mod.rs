@@ -1,0 +1,193 @@
+//! Derivatives of smooth forces with respect to velocities, for integrators that are implicit in them.
+//!
+//! ∂(`qfrc_actuator` + `qfrc_passive` - `qfrc_bias`)/∂`qvel`, kept where a degree of freedom meets its ancestors and
+//! descendants. What couples others (a tendon over two branches) is left out there, as in MuJoCo.
+
+pub(crate) mod actuator;
+mod bias;
+pub(crate) mod sparse;
+
+use std::ops::Range;
+
+use crate::dynamics::{jacobian, mass};
+use crate::forces::passive::spring;
+use crate::forces::tendon;
+use crate::forces::{passive::fluid, passive::fluid::Frame, passive::fluid::Shape};
+use crate::math::*;
+use crate::{Data, Model, disable, joint};
+
+/// What is computed anew in every step; its arrays are made when they are first needed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Work {
+    /// The derivative, then the matrix M - h D and its factorization.
+    pub(crate) whole: Vec<f64>,
+    /// The motion of a frame for a unit velocity of each degree of freedom that moves it.
+    columns: Vec<Spatial>,
+    bias: bias::Work,
+}
+
+/// What of the medium's forces is differentiated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Medium {
+    /// Everything.
+    Whole,
+    /// The symmetric part for bodies that are not free rigid ones.
+    Symmetric,
+    /// The symmetric part of drag and viscosity: they dissipate.
+    Drag,
+}
+
+impl Work {
+    fn resize(&mut self, m: &Model) {
+        self.whole.resize(m.nD, 0.0);
+        self.columns.resize(m.nv, [0.0; 6]);
+        self.bias.resize(m);
+    }
+}
+
+/// `w.whole` ← the derivative of forces of actuators, dampers and the medium.
+pub(crate) fn forces(m: &Model, d: &Data, w: &mut Work, medium: Medium) {
+    w.resize(m);
+    w.whole.fill(0.0);
+    actuator::add_velocity(m, d, &mut w.whole);
+    if !m.opt.disabled(disable::DAMPER) {
+        dampers(m, d, &mut w.whole);
+    }
+    if fluid::acts(m) {
+        add_fluid(m, d, w, medium);
+    }
+}
+
+/// Subtracts the derivative of the bias force of all trees.
+pub(crate) fn subtract_bias(m: &Model, d: &Data, w: &mut Work) {
+    bias::subtract(m, d, &mut w.bias, 1..m.nbody, 0..m.nv, &mut w.whole);
+}
+
+/// Subtracts the derivative of the bias force of one tree.
+pub(crate) fn subtract_tree_bias(m: &Model, d: &Data, w: &mut Work, tree: usize) {
+    let first = m.tree_bodyadr[tree] as usize;
+    let bodies = first..first + m.tree_bodynum[tree] as usize;
+    bias::subtract(m, d, &mut w.bias, bodies, tree_dofs(m, tree), &mut w.whole);
+}
+
+/// The rows of one tree in `w.whole` ← minus the derivative of its bias force.
+pub(crate) fn tree_bias(m: &Model, d: &Data, w: &mut Work, tree: usize) {
+    w.resize(m);
+    for i in tree_dofs(m, tree) {
+        let start = m.D_rowadr[i] as usize;
+        w.whole[start..start + m.D_rownnz[i] as usize].fill(0.0);
+    }
+    subtract_tree_bias(m, d, w, tree);
+}
+
+/// `w.whole` ← the derivative of the medium's forces.
+pub(crate) fn medium(m: &Model, d: &Data, w: &mut Work, medium: Medium) {
+    w.resize(m);
+    w.whole.fill(0.0);
+    add_fluid(m, d, w, medium);
+}
+
+/// M - h D for a free joint, given its first degree of freedom, with a matrix in the place of M.
+pub(crate) fn free_block(m: &Model, mass: &[f64], w: &Work, h: f64, first: usize) -> [Spatial; 6] {
+    let mut out = mass::free_block(m, mass, first);
+    for (r, row) in out.iter_mut().enumerate() {
+        let start = m.D_rowadr[first + r] as usize;
+        for (x, y) in row.iter_mut().zip(&w.whole[start..start + 6]) {
+            *x -= h * y;
+        }
+    }
+    out
+}
+
+/// The degrees of freedom of a tree.
+pub(crate) fn tree_dofs(m: &Model, tree: usize) -> Range<usize> {
+    let first = m.tree_dofadr[tree] as usize;
+    first..first + m.tree_dofnum[tree] as usize
+}
+
+/// Whether a tree is a rigid body that moves freely.
+pub(crate) fn is_free_rigid(m: &Model, tree: usize) -> bool {
+    let dofs = tree_dofs(m, tree);
+    dofs.len() == 6 && m.jnt_type[m.dof_jntid[dofs.start] as usize] == joint::FREE
+}
+
+/// Dampers of joints and tendons.
+fn dampers(m: &Model, d: &Data, out: &mut [f64]) {
+    for i in 0..m.nv {
+        out[sparse::diagonal(m, i)] -= spring::joint_damping(m, d, i);
+    }
+    for t in 0..m.ntendon {
+        let law = spring::tendon_damper(m, t);
+        if !law.is_zero() {
+            let row = tendon::row(m, t);
+            let (dofs, values) = (&m.ten_J_colind[row.clone()], &d.ten_J[row]);
+            sparse::add_outer(m, dofs, values, -law.slope(d.ten_velocity[t].abs()), out);
+        }
+    }
+}
+
+/// Adds Jᵀ B J for the derivative B of the forces on every body or geom in the medium.
+fn add_fluid(m: &Model, d: &Data, w: &mut Work, medium: Medium) {
+    let Work { whole, columns, .. } = w;
+    fluid::shapes(m, d, |frame, shape| {
+        let last = jacobian::last_dof(m, frame.body);
+        if last < 0 {
+            return;
+        }
+        let last = last as usize;
+        let slope = slope(m, frame, shape, medium);
+        let dofs = || sparse::ancestors(m, last).iter().map(|&k| k as usize).chain([last]);
+        for (k, column) in dofs().zip(columns.iter_mut()) {
+            let (turn, shift) = jacobian::dof_motion(m, d, k, frame.pos);
+            let (turn, shift) = (mat_t_mul_vec(&frame.mat, turn), mat_t_mul_vec(&frame.mat, shift));
+            *column = fluid::spatial(turn, shift);
+        }
+        for (b, j) in dofs().enumerate() {
+            let force: Spatial = std::array::from_fn(|r| dot(slope[r], columns[b]));
+            for (a, i) in dofs().enumerate() {
+                // Element (i, j): the force along i for a velocity of j.
+                let place = match i.cmp(&j) {
+                    std::cmp::Ordering::Less => sparse::pair(m, j, i, a).1,
+                    std::cmp::Ordering::Equal => sparse::diagonal(m, i),
+                    std::cmp::Ordering::Greater => sparse::pair(m, i, j, b).0,
+                };
+                whole[place] += dot(columns[a], force);
+            }
+        }
+    });
+}
+
+/// The derivative of torque and force with respect to the motion, row by row.
+fn slope(m: &Model, frame: &Frame, shape: &Shape, medium: Medium) -> [Spatial; 6] {
+    let mut b = [[0.0; 6]; 6];
+    match shape {
+        Shape::Box(inertia) => {
+            for (r, x) in inertia.derivative(frame.motion).into_iter().enumerate() {
+                b[r][r] = x;
+            }
+        }
+        Shape::Ellipsoid(ellipsoid) if medium == Medium::Drag => {
+            let [torque, force] = ellipsoid.drag(frame.motion);
+            for (r, row) in b.iter_mut().enumerate() {
+                let (from, at) = if r < 3 { (&torque, 0) } else { (&force, 3) };
+                row[at..at + 3].copy_from_slice(&from[3 * (r % 3)..][..3]);
+            }
+        }
+        Shape::Ellipsoid(ellipsoid) => b = ellipsoid.derivative(frame.motion),
+    }
+    let tree = m.body_treeid[frame.body];
+    let symmetric = match medium {
+        Medium::Whole => false,
+        Medium::Symmetric => !(tree >= 0 && is_free_rigid(m, tree as usize)),
+        Medium::Drag => true,
+    };
+    if symmetric {
+        for r in 0..6 {
+            for c in 0..r {
+                let mean = 0.5 * (b[r][c] + b[c][r]);
+                (b[r][c], b[c][r]) = (mean, mean);
+            }
+        }
+    }
+    b
+}

@@ -1,0 +1,139 @@
+//! Forces of the medium on bodies: drag and viscosity, with the medium moving at `opt.wind`.
+//!
+//! A body is a box with the same inertia, unless one of its geoms asks for the ellipsoid model (MuJoCo's
+//! documentation, "Computation: Fluid forces").
+
+use std::f64::consts::PI;
+
+use super::ellipsoid::Ellipsoid;
+use crate::dynamics::jacobian;
+use crate::math::*;
+use crate::{Data, Model, disable};
+
+/// Numbers of a geom in `geom_fluid`.
+const FLUID: usize = 12;
+
+/// Whether there is a medium whose forces act.
+pub(crate) fn acts(m: &Model) -> bool {
+    let on = !m.opt.disabled(disable::SPRING) || !m.opt.disabled(disable::DAMPER);
+    on && (m.opt.density > 0.0 || m.opt.viscosity > 0.0)
+}
+
+/// `qfrc_fluid` (zero before).
+pub(super) fn fluid(m: &Model, d: &mut Data) {
+    let mut out = std::mem::take(&mut d.qfrc_fluid);
+    shapes(m, d, |frame, shape| frame.apply(m, d, shape.force(frame.motion), &mut out));
+    d.qfrc_fluid = out;
+}
+
+/// Calls `f` for everything that the medium resists.
+pub(crate) fn shapes(m: &Model, d: &Data, mut f: impl FnMut(&Frame, &Shape)) {
+    for b in 1..m.nbody {
+        if m.body_mass[b] < MINVAL {
+            continue;
+        }
+        let first = m.body_geomadr[b].max(0) as usize;
+        let fluid = &rows::<FLUID>(&m.geom_fluid)[first..first + m.body_geomnum[b] as usize];
+        if fluid.iter().all(|s| s[0] <= 0.0) {
+            let frame = Frame::new(m, d, b, rows::<3>(&d.xipos)[b], rows::<9>(&d.ximat)[b]);
+            f(&frame, &Shape::Box(InertiaBox::new(m, b)));
+            continue;
+        }
+        for (g, &fluid) in (first..).zip(fluid).filter(|(_, s)| s[0] != 0.0) {
+            let frame = Frame::new(m, d, b, rows::<3>(&d.geom_xpos)[g], rows::<9>(&d.geom_xmat)[g]);
+            f(&frame, &Shape::Ellipsoid(Ellipsoid::new(m, g, fluid)));
+        }
+    }
+}
+
+/// A frame that moves with a body, and its motion through the medium: angular and linear velocity along the
+/// frame's axes.
+pub(crate) struct Frame {
+    pub(crate) body: usize,
+    pub(crate) pos: Vec3,
+    pub(crate) mat: Mat3,
+    pub(crate) motion: Spatial,
+}
+
+impl Frame {
+    fn new(m: &Model, d: &Data, body: usize, pos: Vec3, mat: Mat3) -> Frame {
+        let cvel = &rows::<6>(&d.cvel)[body];
+        let arm = sub(pos, rows::<3>(&d.subtree_com)[m.body_rootid[body] as usize]);
+        let velocity = add(linear(cvel), cross(angular(cvel), arm));
+        let turning = mat_t_mul_vec(&mat, angular(cvel));
+        let moving = mat_t_mul_vec(&mat, sub(velocity, m.opt.wind));
+        Frame { body, pos, mat, motion: spatial(turning, moving) }
+    }
+
+    /// Adds the generalized force of a torque and force along the frame's axes.
+    fn apply(&self, m: &Model, d: &Data, force: Spatial, out: &mut [f64]) {
+        let (torque, force) =
+            (mat_mul_vec(&self.mat, angular(&force)), mat_mul_vec(&self.mat, linear(&force)));
+        jacobian::apply(m, d, self.body, self.pos, force, torque, out);
+    }
+}
+
+/// A spatial vector from its parts.
+pub(crate) fn spatial(w: Vec3, v: Vec3) -> Spatial {
+    [w[0], w[1], w[2], v[0], v[1], v[2]]
+}
+
+/// What the medium resists.
+pub(crate) enum Shape {
+    Box(InertiaBox),
+    Ellipsoid(Ellipsoid),
+}
+
+impl Shape {
+    /// Torque and force for a motion through the medium, all along the frame's axes.
+    fn force(&self, motion: Spatial) -> Spatial {
+        match self {
+            Shape::Box(b) => b.force(motion),
+            Shape::Ellipsoid(e) => e.force(motion),
+        }
+    }
+}
+
+/// The box with the inertia of a body.
+///
+/// Viscosity acts as on a sphere of diameter D, the box's mean edge: torque π D³ η ω, force 3π D η v. Each pair
+/// of faces has a drag of ½ ρ A |v| v, and a torque against turning of ρ e (e₁⁴ + e₂⁴) |ω| ω / 64.
+pub(crate) struct InertiaBox {
+    /// Coefficients of linear and quadratic resistance, three rotations and three translations.
+    linear: Spatial,
+    quadratic: Spatial,
+}
+
+impl InertiaBox {
+    fn new(m: &Model, b: usize) -> InertiaBox {
+        let i = rows::<3>(&m.body_inertia)[b];
+        let mass = m.body_mass[b];
+        let edge = |k: usize| {
+            let sum = i[(k + 1) % 3] + i[(k + 2) % 3] - i[k];
+            (sum.max(MINVAL) / mass * 6.0).sqrt()
+        };
+        let e = [edge(0), edge(1), edge(2)];
+        let (density, viscosity) = (m.opt.density.max(0.0), m.opt.viscosity.max(0.0));
+        let diameter = (e[0] + e[1] + e[2]) / 3.0;
+        let turn = PI * diameter * diameter * diameter * viscosity;
+        let push = 3.0 * PI * diameter * viscosity;
+        let fourth = |x: f64| x * x * x * x;
+        let mut quadratic = [0.0; 6];
+        for k in 0..3 {
+            let (e1, e2) = (e[(k + 1) % 3], e[(k + 2) % 3]);
+            quadratic[k] = density * e[k] * (fourth(e1) + fourth(e2)) / 64.0;
+            quadratic[3 + k] = 0.5 * density * e1 * e2;
+        }
+        InertiaBox { linear: [turn, turn, turn, push, push, push], quadratic }
+    }
+
+    /// Torque and force.
+    fn force(&self, motion: Spatial) -> Spatial {
+        std::array::from_fn(|k| -(self.linear[k] + self.quadratic[k] * motion[k].abs()) * motion[k])
+    }
+
+    /// The diagonal of their derivative with respect to the motion.
+    pub(crate) fn derivative(&self, motion: Spatial) -> Spatial {
+        std::array::from_fn(|k| -(self.linear[k] + 2.0 * self.quadratic[k] * motion[k].abs()))
+    }
+}

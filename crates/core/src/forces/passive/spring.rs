@@ -1,0 +1,204 @@
+//! Springs and dampers of joints and tendons.
+//!
+//! A spring with stiffness k and coefficients p pulls with f = -x (k + p₁ x + p₂ x²) at displacement x; for a
+//! translation or rotation in space x is the distance or the angle, and the force points back. A damper
+//! resists with f = -v (b + p₁ |v| + p₂ v²).
+
+use crate::forces::tendon;
+use crate::forces::{transmission, transmission::On};
+use crate::math::*;
+use crate::step::sleep;
+use crate::{Data, Model, joint};
+
+/// The coefficients of a spring or a damper.
+#[derive(Clone, Copy)]
+pub(crate) struct Law {
+    linear: f64,
+    growth: [f64; 2],
+}
+
+impl Law {
+    /// The law of one joint, degree of freedom or tendon.
+    #[inline(always)]
+    pub(crate) fn new(linear: &[f64], growth: &[f64], i: usize) -> Law {
+        Law { linear: linear[i], growth: rows::<2>(growth)[i] }
+    }
+
+    /// With more coefficients of the same kind.
+    #[inline(always)]
+    fn plus(self, [linear, first, second]: [f64; 3]) -> Law {
+        Law { linear: self.linear + linear, growth: [self.growth[0] + first, self.growth[1] + second] }
+    }
+
+    /// The derivative of the force of a damper, with its sign turned, at speed x: b + 2 p₁ x + 3 p₂ x².
+    #[inline(always)]
+    pub(crate) fn slope(self, x: f64) -> f64 {
+        self.linear + x * (2.0 * self.growth[0] + x * 3.0 * self.growth[1])
+    }
+
+    /// Nothing there.
+    #[inline(always)]
+    pub(crate) fn is_zero(self) -> bool {
+        self.linear == 0.0 && self.growth == [0.0; 2]
+    }
+
+    /// Force for a unit displacement or velocity, at x.
+    #[inline(always)]
+    pub(crate) fn at(self, x: f64) -> f64 {
+        self.linear + x * (self.growth[0] + x * self.growth[1])
+    }
+
+    /// Energy of a spring at displacement x: k x²/2 + p₁ x³/3 + p₂ x⁴/4.
+    pub(crate) fn energy(self, x: f64) -> f64 {
+        x * x * (0.5 * self.linear + x * (self.growth[0] / 3.0 + x * 0.25 * self.growth[1]))
+    }
+}
+
+/// The springs of joints, by `qfrc_spring`.
+pub(super) fn joint_springs(m: &Model, d: &mut Data) {
+    let laws = m.jnt_stiffness.iter().zip(rows::<2>(&m.jnt_stiffnesspoly));
+    for (j, (&linear, &growth)) in laws.enumerate() {
+        let law = Law { linear, growth };
+        if law.is_zero() {
+            continue;
+        }
+        let (q, v) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
+        if matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE) {
+            let x = d.qpos[q] - m.qpos_spring[q];
+            d.qfrc_spring[v] = -law.at(x) * x;
+            continue;
+        }
+        let (shift, turn) = displacements(m, d, j);
+        let mut first = v;
+        for x in [shift, Some(turn)].into_iter().flatten() {
+            let k = law.at(norm(x));
+            for i in 0..3 {
+                d.qfrc_spring[first + i] = -k * x[i];
+            }
+            first += 3;
+        }
+    }
+}
+
+/// How far the spring of a free or ball joint is stretched: translation (free only) and rotation vector.
+pub(crate) fn displacements(m: &Model, d: &Data, j: usize) -> (Option<Vec3>, Vec3) {
+    let q = m.jnt_qposadr[j] as usize;
+    if m.jnt_type[j] == joint::FREE {
+        let shift = [0, 1, 2].map(|i| d.qpos[q + i] - m.qpos_spring[q + i]);
+        (Some(shift), ball_displacement(&d.qpos[q + 3..], &m.qpos_spring[q + 3..]))
+    } else {
+        (None, ball_displacement(&d.qpos[q..], &m.qpos_spring[q..]))
+    }
+}
+
+/// The rotation vector from `reference` to `q`, both quaternions, in the frame of `reference`.
+fn ball_displacement(q: &[f64], reference: &[f64]) -> Vec3 {
+    let q = quat_normalize([q[0], q[1], q[2], q[3]]);
+    let r = [reference[0], reference[1], reference[2], reference[3]];
+    quat_to_vel(quat_mul(quat_conj(r), q))
+}
+
+/// How fast the force of the damper of degree of freedom `i`, that of actuators included, falls with its velocity.
+#[inline(always)]
+pub(crate) fn joint_damping(m: &Model, d: &Data, i: usize) -> f64 {
+    with_actuators(m, i, Law::new(&m.dof_damping, &m.dof_dampingpoly, i)).slope(d.qvel[i].abs())
+}
+
+#[inline(always)]
+fn with_actuators(m: &Model, i: usize, own: Law) -> Law {
+    let joint = m.dof_jntid[i] as usize;
+    // Few joints have a damper of an actuator.
+    if m.jnt_actuatorid[joint] == -1 {
+        return own;
+    }
+    own.plus(transmission::damping(m, On::Joint(joint)))
+}
+
+/// Fills `out` (nv) with a number for the damper and the velocity of each degree of freedom. Dampers of actuators count
+/// unless there are none: `actuators`.
+#[inline(always)]
+pub(crate) fn of_dampers(
+    m: &Model,
+    actuators: bool,
+    qvel: &[f64],
+    out: &mut [f64],
+    number: impl Fn(Law, f64) -> f64,
+) {
+    let n = out.len();
+    let (linear, growth, v) = (&m.dof_damping[..n], &rows::<2>(&m.dof_dampingpoly)[..n], &qvel[..n]);
+    let own = |k: usize| Law { linear: linear[k], growth: growth[k] };
+    if actuators {
+        (0..n).for_each(|k| out[k] = number(with_actuators(m, k, own(k)), v[k]));
+    } else {
+        each(n, |k| out[k] = number(own(k), v[k]));
+    }
+}
+
+/// The damper of tendon `t`, that of actuators included.
+pub(crate) fn tendon_damper(m: &Model, t: usize) -> Law {
+    Law::new(&m.tendon_damping, &m.tendon_dampingpoly, t).plus(transmission::damping(m, On::Tendon(t)))
+}
+
+/// What the dampers of joints do: `qfrc_damper`.
+#[inline(always)]
+pub(super) fn damp_joints(m: &Model, d: &mut Data) {
+    of_dampers(m, d.plan.actuator_dampers, &d.qvel, &mut d.qfrc_damper, |law, v| {
+        // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.
+        if law.is_zero() { 0.0 } else { -law.at(v.abs()) * v }
+    });
+}
+
+/// The springs and dampers of tendons, added to `qfrc_spring` and `qfrc_damper`. A spring is relaxed between
+/// the two lengths of `tendon_lengthspring`.
+pub(super) fn tendons(m: &Model, d: &mut Data, springs: bool, dampers: bool) {
+    for t in 0..m.ntendon {
+        let [spring, damper] = tendon_force(m, d, t, springs, dampers);
+        if spring != 0.0 {
+            tendon::add_force(m, t, &d.ten_J, spring, &mut d.qfrc_spring);
+        }
+        if damper != 0.0 {
+            tendon::add_force(m, t, &d.ten_J, damper, &mut d.qfrc_damper);
+        }
+    }
+}
+
+/// The forces of the spring and the damper of a tendon along its length, N.
+pub(crate) fn tendon_force(m: &Model, d: &Data, t: usize, springs: bool, dampers: bool) -> [f64; 2] {
+    let mut forces = [0.0; 2];
+    let spring = Law::new(&m.tendon_stiffness, &m.tendon_stiffnesspoly, t);
+    if springs && !spring.is_zero() {
+        let x = tendon::spring_displacement(m, d, t);
+        forces[0] = -spring.at(x) * x;
+    }
+    let damper = tendon_damper(m, t);
+    if dampers && !damper.is_zero() {
+        let v = d.ten_velocity[t];
+        forces[1] = -damper.at(v.abs()) * v;
+    }
+    forces
+}
+
+/// The energy of all springs, J.
+pub(crate) fn energy(m: &Model, d: &Data) -> f64 {
+    let mut e = 0.0;
+    for j in 0..m.njnt {
+        let law = Law::new(&m.jnt_stiffness, &m.jnt_stiffnesspoly, j);
+        if law.is_zero() || sleep::body_sleeps(m, d, m.jnt_bodyid[j] as usize) {
+            continue;
+        }
+        if matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE) {
+            let q = m.jnt_qposadr[j] as usize;
+            e += law.energy(d.qpos[q] - m.qpos_spring[q]);
+            continue;
+        }
+        let (shift, turn) = displacements(m, d, j);
+        e += shift.map_or(0.0, |x| law.energy(norm(x))) + law.energy(norm(turn));
+    }
+    for t in 0..m.ntendon {
+        let law = Law::new(&m.tendon_stiffness, &m.tendon_stiffnesspoly, t);
+        if !law.is_zero() && !sleep::tendon_sleeps(m, d, t) {
+            e += law.energy(tendon::spring_displacement(m, d, t));
+        }
+    }
+    e
+}

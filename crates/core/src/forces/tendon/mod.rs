@@ -1,0 +1,139 @@
+//! Tendons: lengths and Jacobians of paths over joints, sites, pulleys and wrapping geoms.
+//!
+//! A fixed tendon is a linear combination of joint coordinates. A spatial tendon is the shortest path through
+//! its sites, around its geoms; a pulley divides it into branches, each scaled by a divisor. MuJoCo's
+//! documentation, "Computation: Tendon", has the model.
+
+mod constants;
+mod path;
+mod pattern;
+mod tension;
+mod wrap;
+
+use crate::dynamics::mass;
+use crate::forces::{transmission, transmission::On};
+use crate::kinds::wraptype;
+use crate::math::*;
+use crate::step::sleep;
+use crate::{Data, Model};
+
+pub(crate) use constants::{at_default, at_rest};
+pub(crate) use pattern::set_pattern;
+pub(crate) use tension::pulls;
+
+/// Whether tendon `t` combines joint coordinates; otherwise it is a path in space.
+pub(crate) fn is_fixed(m: &Model, t: usize) -> bool {
+    m.wrap_type[m.tendon_adr[t] as usize] == wraptype::JOINT
+}
+
+/// Addresses of the non-zeros of a tendon's Jacobian.
+pub(crate) fn row(m: &Model, t: usize) -> std::ops::Range<usize> {
+    let start = m.ten_J_rowadr[t] as usize;
+    start..start + m.ten_J_rownnz[t] as usize
+}
+
+/// `ten_length`, `ten_J` and the points of the paths. A tendon that sleeps has no length and stays where it is.
+pub(crate) fn tendons(m: &Model, d: &mut Data) {
+    // Taken out, so that the rest of the data can be read while they are written.
+    let mut out = path::Paths {
+        jacobian: std::mem::take(&mut d.ten_J),
+        on: std::mem::take(&mut d.wrap_obj),
+        points: std::mem::take(&mut d.wrap_xpos),
+        count: 0,
+    };
+    out.jacobian.fill(0.0);
+    for t in 0..m.ntendon {
+        if sleep::tendon_sleeps(m, d, t) {
+            d.ten_length[t] = 0.0;
+            continue;
+        }
+        let first = out.count;
+        d.ten_length[t] =
+            if is_fixed(m, t) { fixed(m, d, t, &mut out.jacobian) } else { path::spatial(m, d, t, &mut out) };
+        d.ten_wrapadr[t] = first as i32;
+        d.ten_wrapnum[t] = (out.count - first) as i32;
+    }
+    (d.ten_J, d.wrap_obj, d.wrap_xpos) = (out.jacobian, out.on, out.points);
+}
+
+/// The length Σ c q of a fixed tendon; its Jacobian is c.
+fn fixed(m: &Model, d: &Data, t: usize, jacobian: &mut [f64]) -> f64 {
+    let first = m.tendon_adr[t] as usize;
+    let row = row(m, t);
+    let mut length = 0.0;
+    for w in first..first + m.tendon_num[t] as usize {
+        let (j, coefficient) = (m.wrap_objid[w] as usize, m.wrap_prm[w]);
+        length += coefficient * d.qpos[m.jnt_qposadr[j] as usize];
+        if let Ok(at) = m.ten_J_colind[row.clone()].binary_search(&m.jnt_dofadr[j]) {
+            jacobian[row.start + at] += coefficient;
+        }
+    }
+    length
+}
+
+/// Adds a Jᵀ J to M for tendons with armature a, where M has an entry: trees stay independent.
+pub(crate) fn armature(m: &Model, d: &mut Data) {
+    for t in 0..m.ntendon {
+        let a = inertia(m, t);
+        if a == 0.0 {
+            continue;
+        }
+        let row = row(m, t);
+        mass::add_outer(m, &m.ten_J_colind[row.clone()], &d.ten_J[row], a, &mut d.M);
+    }
+}
+
+/// Whether some tendon has inertia of its own or of an actuator.
+pub(crate) fn has_armature(m: &Model) -> bool {
+    (0..m.ntendon).any(|t| inertia(m, t) != 0.0)
+}
+
+/// The inertia of tendon `t`, its own and that of actuators, kg.
+fn inertia(m: &Model, t: usize) -> f64 {
+    m.tendon_armature[t] + transmission::armature(m, On::Tendon(t))
+}
+
+/// `ten_velocity` = J v.
+pub(crate) fn velocities(m: &Model, d: &mut Data) {
+    for t in 0..m.ntendon {
+        d.ten_velocity[t] = along(m, d, t, &d.qvel);
+    }
+}
+
+/// The rate at which tendon `t` lengthens when joints move with v (nv).
+fn along(m: &Model, d: &Data, t: usize, v: &[f64]) -> f64 {
+    let row = row(m, t);
+    m.ten_J_colind[row.clone()].iter().zip(&d.ten_J[row]).map(|(&k, x)| x * v[k as usize]).sum()
+}
+
+/// Adds a Jᵀ (J̇ v) to `qfrc_bias` for tendons with armature a.
+pub(crate) fn bias(m: &Model, d: &mut Data) {
+    for t in 0..m.ntendon {
+        let a = inertia(m, t);
+        if a != 0.0 && !is_fixed(m, t) {
+            let force = a * path::acceleration(m, d, t);
+            add_force(m, t, &d.ten_J, force, &mut d.qfrc_bias);
+        }
+    }
+}
+
+/// out += Jᵀ f for a force f along tendon `t`.
+pub(crate) fn add_force(m: &Model, t: usize, jacobian: &[f64], force: f64, out: &mut [f64]) {
+    let row = row(m, t);
+    for (&k, x) in m.ten_J_colind[row.clone()].iter().zip(&jacobian[row]) {
+        out[k as usize] += x * force;
+    }
+}
+
+/// How far a tendon is beyond the lengths at which its spring is relaxed, m: negative when it is shorter.
+pub(crate) fn spring_displacement(m: &Model, d: &Data, t: usize) -> f64 {
+    let length = d.ten_length[t];
+    let [lower, upper] = rows::<2>(&m.tendon_lengthspring)[t];
+    if length > upper {
+        length - upper
+    } else if length < lower {
+        length - lower
+    } else {
+        0.0
+    }
+}

@@ -1,0 +1,234 @@
+//! Spatial paths: their legs, their length, the derivative of it and the points they pass.
+
+use super::wrap::{self, Round};
+use crate::dynamics::jacobian;
+use crate::kinds::wraptype;
+use crate::math::*;
+use crate::{Data, Model};
+
+/// Jacobians and points of all paths.
+pub(super) struct Paths {
+    pub(super) jacobian: Vec<f64>,
+    /// What each point lies on: a geom, [`ON_SITE`] or [`ON_PULLEY`].
+    pub(super) on: Vec<i32>,
+    /// Their places, world.
+    pub(super) points: Vec<f64>,
+    /// Number of points so far.
+    pub(super) count: usize,
+}
+
+const ON_SITE: i32 = -1;
+const ON_PULLEY: i32 = -2;
+
+impl Paths {
+    fn push(&mut self, on: i32, point: Vec3) {
+        // The compiler leaves room for two points for each object of a path, and no path has more.
+        if let (Some(o), Some(p)) =
+            (self.on.get_mut(self.count), rows_mut::<3>(&mut self.points).get_mut(self.count))
+        {
+            (*o, *p) = (on, point);
+            self.count += 1;
+        }
+    }
+}
+
+/// A piece of a path: from a site to the next one.
+struct Leg {
+    from: usize,
+    to: usize,
+    /// The geom between them, with the site that chooses a side.
+    over: Option<(usize, Option<usize>)>,
+    /// What divides its length.
+    divisor: f64,
+    /// A pulley stands before it.
+    after_pulley: bool,
+    /// Its end is the end of a branch.
+    ends: bool,
+}
+
+/// The legs of a path in order.
+struct Legs<'a> {
+    m: &'a Model,
+    at: usize,
+    end: usize,
+    divisor: f64,
+}
+
+impl<'a> Legs<'a> {
+    fn new(m: &'a Model, t: usize) -> Legs<'a> {
+        let at = m.tendon_adr[t] as usize;
+        Legs { m, at, end: at + m.tendon_num[t] as usize, divisor: 1.0 }
+    }
+
+    /// The kind of an object; the end of the path ends a branch as a pulley does.
+    fn kind(&self, at: usize) -> i32 {
+        if at < self.end { self.m.wrap_type[at] } else { wraptype::PULLEY }
+    }
+
+    fn object(&self, at: usize) -> usize {
+        self.m.wrap_objid[at] as usize
+    }
+}
+
+impl Iterator for Legs<'_> {
+    type Item = Leg;
+
+    fn next(&mut self) -> Option<Leg> {
+        let m = self.m;
+        if self.at + 1 >= self.end {
+            return None;
+        }
+        let after_pulley = self.kind(self.at) == wraptype::PULLEY;
+        if after_pulley {
+            self.divisor = m.wrap_prm[self.at];
+            self.at += 1;
+        }
+        let from = self.at;
+        let geom = from + 1;
+        let over = matches!(self.kind(geom), wraptype::SPHERE | wraptype::CYLINDER).then(|| {
+            // A parameter that a program can write to: any number that is no site means none.
+            let side = m.wrap_prm[geom];
+            (self.object(geom), (side >= 0.0 && side < m.nsite as f64).then_some(side as usize))
+        });
+        let to = if over.is_some() { from + 2 } else { from + 1 };
+        let ends = self.kind(to + 1) == wraptype::PULLEY;
+        self.at = if ends { to + 1 } else { to };
+        let (from, to) = (self.object(from), self.object(to));
+        Some(Leg { from, to, over, divisor: self.divisor, after_pulley, ends })
+    }
+}
+
+/// The length of a spatial tendon, m; adds its Jacobian and points to `out`.
+pub(super) fn spatial(m: &Model, d: &Data, t: usize, out: &mut Paths) -> f64 {
+    let site_xpos = rows::<3>(&d.site_xpos);
+    let mut length = 0.0;
+    for leg in Legs::new(m, t) {
+        let ends = [site_xpos[leg.from], site_xpos[leg.to]];
+        let bodies = [leg.from, leg.to].map(|s| m.site_bodyid[s] as usize);
+        if leg.after_pulley {
+            out.push(ON_PULLEY, [0.0; 3]);
+        }
+        out.push(ON_SITE, ends[0]);
+        let arc = leg.over.and_then(|(geom, side)| {
+            Some((geom, wrap::around(ends, &round(m, d, geom), side.map(|s| site_xpos[s]))?))
+        });
+        length += match arc {
+            None => straight(m, d, t, bodies, ends, leg.divisor, out),
+            Some((geom, arc)) => {
+                let on = m.geom_bodyid[geom] as usize;
+                let before = straight(m, d, t, [bodies[0], on], [ends[0], arc.from], leg.divisor, out);
+                let after = straight(m, d, t, [on, bodies[1]], [arc.to, ends[1]], leg.divisor, out);
+                out.push(geom as i32, arc.from);
+                out.push(geom as i32, arc.to);
+                before + arc.length + after
+            }
+        } / leg.divisor;
+        if leg.ends {
+            out.push(ON_SITE, ends[1]);
+        }
+    }
+    length
+}
+
+/// The shape that a tendon goes around.
+fn round(m: &Model, d: &Data, geom: usize) -> Round {
+    Round {
+        pos: rows::<3>(&d.geom_xpos)[geom],
+        mat: rows::<9>(&d.geom_xmat)[geom],
+        radius: rows::<3>(&m.geom_size)[geom][0],
+        cylinder: m.geom_type[geom] == crate::geom::CYLINDER,
+    }
+}
+
+/// The length of a straight piece between points on two bodies; adds its derivative u·(J₂ - J₁) / divisor,
+/// with the direction u, to the tendon's Jacobian.
+fn straight(
+    m: &Model,
+    d: &Data,
+    t: usize,
+    bodies: [usize; 2],
+    points: [Vec3; 2],
+    divisor: f64,
+    out: &mut Paths,
+) -> f64 {
+    let (u, length) = normalize(sub(points[1], points[0]));
+    if bodies[0] == bodies[1] {
+        return length;
+    }
+    let row = super::row(m, t);
+    let columns = &m.ten_J_colind[row.clone()];
+    let values = &mut out.jacobian[row];
+    // Degrees of freedom in descending order, as `point_difference` visits them; those that move both ends do
+    // not change the distance.
+    let mut at = columns.len();
+    let mut last = bodies.map(|b| jacobian::last_dof(m, b));
+    while last[0] != last[1] {
+        let side = usize::from(last[1] > last[0]);
+        let sign = if side == 1 { 1.0 } else { -1.0 };
+        let k = last[side];
+        while at > 0 && columns[at - 1] >= k {
+            at -= 1;
+        }
+        if columns.get(at) == Some(&k) {
+            let (_, move_) = jacobian::dof_motion(m, d, k as usize, points[side]);
+            values[at] += sign * dot(move_, u) / divisor;
+        }
+        last[side] = m.dof_parentid[k as usize];
+    }
+    length
+}
+
+/// J̇ v: the acceleration of a tendon's length that the velocities alone cause, m/s².
+///
+/// A leg of length l, direction u and velocity w of its end relative to its start has length acceleration
+/// u·a + (w·w - (u·w)²)/l, with the relative acceleration a. The compiler refuses wrapping here.
+pub(super) fn acceleration(m: &Model, d: &Data, t: usize) -> f64 {
+    let site_xpos = rows::<3>(&d.site_xpos);
+    let mut sum = 0.0;
+    for leg in Legs::new(m, t) {
+        let ends = [site_xpos[leg.from], site_xpos[leg.to]];
+        let bodies = [leg.from, leg.to].map(|s| m.site_bodyid[s] as usize);
+        if bodies[0] == bodies[1] {
+            continue;
+        }
+        let (u, length) = normalize(sub(ends[1], ends[0]));
+        let [first, second] = [0, 1].map(|i| jacobian::unforced(m, d, bodies[i], ends[i]));
+        let w = sub(second.velocity, first.velocity);
+        let a = sub(second.acceleration, first.acceleration);
+        let along = dot(u, w);
+        let turning = if length > MINVAL { (dot(w, w) - along * along) / length } else { 0.0 };
+        sum += (dot(u, a) + turning) / leg.divisor;
+    }
+    sum
+}
+
+/// Calls `apply` with the body, point and force at each end of the straight pieces of a path along which a force acts
+/// that would lengthen it; an arc around a geom has both ends on one body.
+pub(super) fn pull(m: &Model, d: &Data, t: usize, force: f64, apply: &mut impl FnMut(usize, Vec3, Vec3)) {
+    let first = d.ten_wrapadr[t] as usize;
+    let points = first..first + d.ten_wrapnum[t] as usize;
+    let pulleys = m.tendon_adr[t] as usize..(m.tendon_adr[t] + m.tendon_num[t]) as usize;
+    let mut divisors = pulleys.filter(|&w| m.wrap_type[w] == wraptype::PULLEY).map(|w| m.wrap_prm[w]);
+    // Sites come in the order of the path.
+    let sites = m.tendon_adr[t] as usize..(m.tendon_adr[t] + m.tendon_num[t]) as usize;
+    let mut sites = sites.filter(|&w| m.wrap_type[w] == wraptype::SITE).map(|w| m.wrap_objid[w] as usize);
+    let (mut divisor, mut last) = (1.0, None);
+    for k in points {
+        let point = rows::<3>(&d.wrap_xpos)[k];
+        let body = match d.wrap_obj[k] {
+            ON_PULLEY => {
+                (divisor, last) = (divisors.next().unwrap_or(1.0), None);
+                continue;
+            }
+            ON_SITE => sites.next().map_or(0, |s| m.site_bodyid[s]),
+            geom => m.geom_bodyid[geom as usize],
+        };
+        if let Some((from, start)) = last.replace((body, point))
+            && from != body
+        {
+            let (u, _) = normalize(sub(point, start));
+            apply(from as usize, start, scale(u, -force / divisor));
+            apply(body as usize, point, scale(u, force / divisor));
+        }
+    }
+}

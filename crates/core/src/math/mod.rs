@@ -1,0 +1,505 @@
+//! Vectors, quaternions, rotation matrices and spatial algebra on plain arrays.
+//!
+//! Conventions: quaternions are `w x y z`, matrices row-major, spatial vectors angular part first
+//! (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2). `rows` looks at a flat array as rows.
+
+pub(crate) mod lanes;
+
+use std::ops::{Add, Mul, Sub};
+
+/// Floor of every guarded denominator.
+pub const MINVAL: f64 = 1e-15;
+
+/// 3-vector.
+pub type Vec3 = [f64; 3];
+/// Quaternion, `w x y z`.
+pub type Quat = [f64; 4];
+/// Rotation matrix, row-major.
+pub type Mat3 = [f64; 9];
+/// Spatial vector: angular, then linear.
+pub type Spatial = [f64; 6];
+/// Rigid-body inertia about a point: `Ixx Iyy Izz Ixy Ixz Iyz, m·dx m·dy m·dz, m`.
+pub type Inertia = [f64; 10];
+
+/// What formulas are written in: a number, or several at once in the lanes of a vector of the processor. The same
+/// operations in the same order give every lane the bits that the number alone would have.
+pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
+
+impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Real for T {}
+
+/// A flat array as rows of `N`.
+#[inline(always)]
+pub fn rows<const N: usize>(a: &[f64]) -> &[[f64; N]] {
+    a.as_chunks().0
+}
+
+/// A flat array as mutable rows of `N`.
+#[inline(always)]
+pub fn rows_mut<const N: usize>(a: &mut [f64]) -> &mut [[f64; N]] {
+    a.as_chunks_mut().0
+}
+
+/// Calls `f` with 0, 1, … n - 1: without a loop for the one or two numbers that the state of many labs has.
+#[inline(always)]
+pub(crate) fn each(n: usize, mut f: impl FnMut(usize)) {
+    match n {
+        1 => f(0),
+        2 => {
+            f(0);
+            f(1);
+        }
+        _ => (0..n).for_each(f),
+    }
+}
+
+/// Degrees of freedom of a free body: loops over them are worth code of their own, without a loop.
+pub(crate) const FREE_DOFS: usize = 6;
+
+/// out ← f(out, inputs), number by number; the inputs are at least as long. Four at a time where there are many: the lanes
+/// of a vector.
+#[inline(always)]
+pub(crate) fn combine<const N: usize>(
+    out: &mut [f64],
+    inputs: [&[f64]; N],
+    f: impl Fn(f64, [f64; N]) -> f64,
+) {
+    match out.len() {
+        n @ 0..=2 => {
+            let inputs = inputs.map(|x| &x[..n]);
+            each(n, |k| out[k] = f(out[k], inputs.map(|x| x[k])));
+        }
+        FREE_DOFS => combine_fours(&mut out[..FREE_DOFS], inputs.map(|x| &x[..FREE_DOFS]), f),
+        n => combine_fours(out, inputs.map(|x| &x[..n]), f),
+    }
+}
+
+#[inline(always)]
+fn combine_fours<const N: usize>(out: &mut [f64], inputs: [&[f64]; N], f: impl Fn(f64, [f64; N]) -> f64) {
+    let n = out.len();
+    let (fours, rest) = out.as_chunks_mut::<4>();
+    let (inputs, ends) =
+        (inputs.map(|x| &x.as_chunks::<4>().0[..fours.len()]), inputs.map(|x| &x[n - rest.len()..]));
+    for (c, four) in fours.iter_mut().enumerate() {
+        let x = inputs.map(|x| x[c]);
+        *four = std::array::from_fn(|l| f(four[l], x.map(|x| x[l])));
+    }
+    for (l, out) in rest.iter_mut().enumerate() {
+        *out = f(*out, ends.map(|x| x[l]));
+    }
+}
+
+/// Σ f(inputs), number by number; all are as long as the first.
+#[inline(always)]
+pub(crate) fn sum<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f64) -> f64 {
+    match inputs[0].len() {
+        FREE_DOFS => sum_fours(inputs.map(|x| &x[..FREE_DOFS]), f),
+        n => sum_fours(inputs.map(|x| &x[..n]), f),
+    }
+}
+
+#[inline(always)]
+fn sum_fours<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f64) -> f64 {
+    let parts = inputs.map(|x| x.as_chunks::<4>());
+    let mut sums = [0.0; 4];
+    for c in 0..parts[0].0.len() {
+        let x = parts.map(|(fours, _)| fours[c]);
+        for l in 0..4 {
+            sums[l] += f(x.map(|x| x[l]));
+        }
+    }
+    for l in 0..parts[0].1.len() {
+        sums[l] += f(parts.map(|(_, rest)| rest[l]));
+    }
+    (sums[0] + sums[2]) + (sums[1] + sums[3])
+}
+
+/// Copies numbers; as many as the shorter array has.
+#[inline(always)]
+pub(crate) fn copy(from: &[f64], to: &mut [f64]) {
+    let n = from.len().min(to.len());
+    let (from, to) = (&from[..n], &mut to[..n]);
+    match n {
+        0..=2 => each(n, |k| to[k] = from[k]),
+        FREE_DOFS => to[..FREE_DOFS].copy_from_slice(&from[..FREE_DOFS]),
+        _ => to.copy_from_slice(from),
+    }
+}
+
+/// Sets all numbers to zero.
+#[inline(always)]
+pub(crate) fn zero(x: &mut [f64]) {
+    match x.len() {
+        n @ 0..=2 => each(n, |k| x[k] = 0.0),
+        FREE_DOFS => x[..FREE_DOFS].fill(0.0),
+        _ => x.fill(0.0),
+    }
+}
+
+/// The unit quaternion.
+pub const IDENTITY: Quat = [1.0, 0.0, 0.0, 0.0];
+/// The unit matrix.
+pub const EYE: Mat3 = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+
+/// a + b
+#[inline(always)]
+pub fn add<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> [T; N] {
+    let mut r = a;
+    for i in 0..N {
+        r[i] = r[i] + b[i];
+    }
+    r
+}
+
+/// a - b
+#[inline(always)]
+pub fn sub<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> [T; N] {
+    let mut r = a;
+    for i in 0..N {
+        r[i] = r[i] - b[i];
+    }
+    r
+}
+
+/// s a
+#[inline(always)]
+pub fn scale<const N: usize>(a: [f64; N], s: f64) -> [f64; N] {
+    let mut r = a;
+    for x in &mut r {
+        *x *= s;
+    }
+    r
+}
+
+/// a + s b
+#[inline(always)]
+pub fn add_scaled<const N: usize>(a: [f64; N], b: [f64; N], s: f64) -> [f64; N] {
+    let mut r = a;
+    for i in 0..N {
+        r[i] += s * b[i];
+    }
+    r
+}
+
+/// a · b
+#[inline(always)]
+pub fn dot<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> T {
+    let mut s = a[0] * b[0];
+    for i in 1..N {
+        s = s + a[i] * b[i];
+    }
+    s
+}
+
+/// a · b of two spatial vectors, without copies.
+#[inline(always)]
+pub fn dot_ref(a: &Spatial, b: &Spatial) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]
+}
+
+/// a · b of two slices of the same length, in two interleaved sums.
+#[inline(always)]
+pub fn dot_slice(a: &[f64], b: &[f64]) -> f64 {
+    let mut s = [0.0; 2];
+    let ((a2, a1), (b2, b1)) = (a.as_chunks::<2>(), b.as_chunks::<2>());
+    for (x, y) in a2.iter().zip(b2) {
+        s[0] += x[0] * y[0];
+        s[1] += x[1] * y[1];
+    }
+    match (a1, b1) {
+        ([x], [y]) => s[0] + s[1] + x * y,
+        _ => s[0] + s[1],
+    }
+}
+
+/// a × b
+#[inline(always)]
+pub fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// |a|
+#[inline(always)]
+pub fn norm(a: Vec3) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// a / |a| and |a|; a vector shorter than [`MINVAL`] becomes the x axis.
+#[inline]
+pub fn normalize(a: Vec3) -> (Vec3, f64) {
+    let n = norm(a);
+    if n < MINVAL { ([1.0, 0.0, 0.0], n) } else { (scale(a, 1.0 / n), n) }
+}
+
+/// The unit quaternion nearest to q. A zero quaternion becomes the identity; one whose norm is 1 to
+/// rounding is returned as it is, bit for bit.
+#[inline]
+pub fn quat_normalize(q: Quat) -> Quat {
+    let n = dot(q, q).sqrt();
+    if n < MINVAL {
+        IDENTITY
+    } else if (n - 1.0).abs() > MINVAL {
+        scale(q, 1.0 / n)
+    } else {
+        q
+    }
+}
+
+/// Hamilton product.
+#[inline]
+pub fn quat_mul(a: Quat, b: Quat) -> Quat {
+    [
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    ]
+}
+
+/// The inverse rotation.
+#[inline]
+pub fn quat_conj(q: Quat) -> Quat {
+    [q[0], -q[1], -q[2], -q[3]]
+}
+
+/// Rotation by `angle` (rad) about the unit vector `axis`.
+#[inline]
+pub fn quat_axis_angle(axis: Vec3, angle: f64) -> Quat {
+    if angle == 0.0 {
+        return IDENTITY;
+    }
+    let (s, c) = libm::sincos(0.5 * angle);
+    [c, axis[0] * s, axis[1] * s, axis[2] * s]
+}
+
+/// v rotated by q: v + 2 w (u × v) + 2 u × (u × v).
+#[inline]
+pub fn rotate(v: Vec3, q: Quat) -> Vec3 {
+    if q == IDENTITY {
+        return v;
+    }
+    let u = [q[1], q[2], q[3]];
+    let t = cross(u, v);
+    let w = q[0];
+    let t = [w * v[0] + t[0], w * v[1] + t[1], w * v[2] + t[2]];
+    let c = cross(u, t);
+    [v[0] + 2.0 * c[0], v[1] + 2.0 * c[1], v[2] + 2.0 * c[2]]
+}
+
+/// The rotation matrix of a unit quaternion.
+#[inline]
+pub fn quat_to_mat(q: Quat) -> Mat3 {
+    if q == IDENTITY {
+        return EYE;
+    }
+    let [w, x, y, z] = q;
+    let (ww, xx, yy, zz) = (w * w, x * x, y * y, z * z);
+    let (wx, wy, wz, xy, xz, yz) = (w * x, w * y, w * z, x * y, x * z, y * z);
+    [
+        ww + xx - yy - zz,
+        2.0 * (xy - wz),
+        2.0 * (xz + wy),
+        2.0 * (xy + wz),
+        ww - xx + yy - zz,
+        2.0 * (yz - wx),
+        2.0 * (xz - wy),
+        2.0 * (yz + wx),
+        ww - xx - yy + zz,
+    ]
+}
+
+/// The rotation vector (axis times angle, rad, angle in (-π, π]) of a unit quaternion.
+#[inline]
+pub fn quat_to_vel(q: Quat) -> Vec3 {
+    let (axis, s) = normalize([q[1], q[2], q[3]]);
+    let mut angle = 2.0 * libm::atan2(s, q[0]);
+    if angle > std::f64::consts::PI {
+        angle -= 2.0 * std::f64::consts::PI;
+    }
+    scale(axis, angle)
+}
+
+/// q rotated for a time h by the angular velocity w, given in the rotating frame (rad/s).
+#[inline]
+pub fn quat_integrate(q: Quat, w: Vec3, h: f64) -> Quat {
+    let (axis, speed) = normalize(w);
+    let angle = h * speed;
+    if angle == 0.0 { quat_normalize(q) } else { quat_mul(quat_normalize(q), quat_axis_angle(axis, angle)) }
+}
+
+/// a b
+#[inline]
+pub fn mat_mul(a: &Mat3, b: &Mat3) -> Mat3 {
+    std::array::from_fn(|i| dot([a[i / 3 * 3], a[i / 3 * 3 + 1], a[i / 3 * 3 + 2]], column(b, i % 3)))
+}
+
+/// m v
+#[inline(always)]
+pub fn mat_mul_vec(m: &Mat3, v: Vec3) -> Vec3 {
+    [
+        m[0] * v[0] + m[1] * v[1] + m[2] * v[2],
+        m[3] * v[0] + m[4] * v[1] + m[5] * v[2],
+        m[6] * v[0] + m[7] * v[1] + m[8] * v[2],
+    ]
+}
+
+/// mᵀ v
+#[inline(always)]
+pub fn mat_t_mul_vec(m: &Mat3, v: Vec3) -> Vec3 {
+    [
+        m[0] * v[0] + m[3] * v[1] + m[6] * v[2],
+        m[1] * v[0] + m[4] * v[1] + m[7] * v[2],
+        m[2] * v[0] + m[5] * v[1] + m[8] * v[2],
+    ]
+}
+
+/// Normal and two tangents as rows. The tangents start from the world's y axis, or z when the normal is
+/// near y.
+pub(crate) fn frame(normal: Vec3) -> Mat3 {
+    let seed = if normal[1] < 0.5 && normal[1] > -0.5 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    let (t1, _) = normalize(add_scaled(seed, normal, -dot(seed, normal)));
+    let t2 = cross(normal, t1);
+    [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
+}
+
+/// Normal and two tangents as rows, the first tangent along a given direction unless that is short.
+pub(crate) fn frame_along(normal: Vec3, tangent: Vec3) -> Mat3 {
+    if norm(tangent) < 0.5 {
+        return frame(normal);
+    }
+    let (t1, _) = normalize(add_scaled(tangent, normal, -dot(tangent, normal)));
+    let t2 = cross(normal, t1);
+    [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
+}
+
+/// A number that no simulation means: NaN, or larger than 1e10.
+#[inline(always)]
+#[allow(clippy::neg_cmp_op_on_partial_ord)] // one comparison that NaN fails, too: it runs for every number of the state
+pub(crate) fn bad(x: f64) -> bool {
+    !(x.abs() <= 1e10)
+}
+
+/// Column `i` of a matrix.
+#[inline(always)]
+pub fn column(m: &Mat3, i: usize) -> Vec3 {
+    [m[i], m[3 + i], m[6 + i]]
+}
+
+/// The angular part.
+#[inline(always)]
+pub fn angular<T: Real>(s: &[T; 6]) -> [T; 3] {
+    [s[0], s[1], s[2]]
+}
+
+/// The linear part.
+#[inline(always)]
+pub fn linear<T: Real>(s: &[T; 6]) -> [T; 3] {
+    [s[3], s[4], s[5]]
+}
+
+/// v × m for motions: the derivative of the motion m carried by the motion v.
+#[inline]
+pub fn cross_motion(v: &Spatial, m: &Spatial) -> Spatial {
+    let w = cross(angular(v), angular(m));
+    let l = add(cross(angular(v), linear(m)), cross(linear(v), angular(m)));
+    [w[0], w[1], w[2], l[0], l[1], l[2]]
+}
+
+/// v ×* f for forces: the derivative of the momentum f carried by the motion v.
+#[inline(always)]
+pub fn cross_force<T: Real>(v: &[T; 6], f: &[T; 6]) -> [T; 6] {
+    let t = add(cross(angular(v), angular(f)), cross(linear(v), linear(f)));
+    let l = cross(angular(v), linear(f));
+    [t[0], t[1], t[2], l[0], l[1], l[2]]
+}
+
+/// Inertia about a point, in world axes, of a body with principal moments `moments` along the columns of
+/// `axes`, mass `mass` and centre of mass at `d` from the point: R diag(I) Rᵀ + m (|d|² 1 - d dᵀ).
+#[inline(always)]
+pub fn inertia_about<T: Real>(moments: [T; 3], axes: &[T; 9], d: [T; 3], mass: T) -> [T; 10] {
+    // t = diag(I) Rᵀ, one row per world axis.
+    let t = |i: usize| [axes[3 * i] * moments[0], axes[3 * i + 1] * moments[1], axes[3 * i + 2] * moments[2]];
+    let r = |i: usize| [axes[3 * i], axes[3 * i + 1], axes[3 * i + 2]];
+    let (t0, t1, t2) = (t(0), t(1), t(2));
+    [
+        dot(r(0), t0) + mass * (d[1] * d[1] + d[2] * d[2]),
+        dot(r(1), t1) + mass * (d[0] * d[0] + d[2] * d[2]),
+        dot(r(2), t2) + mass * (d[0] * d[0] + d[1] * d[1]),
+        dot(r(0), t1) - mass * d[0] * d[1],
+        dot(r(0), t2) - mass * d[0] * d[2],
+        dot(r(1), t2) - mass * d[1] * d[2],
+        mass * d[0],
+        mass * d[1],
+        mass * d[2],
+        mass,
+    ]
+}
+
+/// Momentum of the motion v of a body with inertia i, both about the same point.
+#[inline(always)]
+pub fn inertia_mul<T: Real>(i: &[T; 10], v: &[T; 6]) -> [T; 6] {
+    [
+        i[0] * v[0] + i[3] * v[1] + i[4] * v[2] - i[8] * v[4] + i[7] * v[5],
+        i[3] * v[0] + i[1] * v[1] + i[5] * v[2] + i[8] * v[3] - i[6] * v[5],
+        i[4] * v[0] + i[5] * v[1] + i[2] * v[2] - i[7] * v[3] + i[6] * v[4],
+        i[8] * v[1] - i[7] * v[2] + i[9] * v[3],
+        i[6] * v[2] - i[8] * v[0] + i[9] * v[4],
+        i[7] * v[0] - i[6] * v[1] + i[9] * v[5],
+    ]
+}
+
+/// x in a range; the lower end where the range is none, NaN for NaN.
+#[inline(always)]
+pub fn clip(x: f64, [lower, upper]: [f64; 2]) -> f64 {
+    if x < lower {
+        lower
+    } else if x > upper {
+        upper
+    } else {
+        x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn unit_quat() -> impl Strategy<Value = Quat> {
+        prop::array::uniform4(-1.0f64..1.0)
+            .prop_filter("not short", |q| dot(*q, *q) > 0.01)
+            .prop_map(quat_normalize)
+    }
+
+    fn close(a: &[f64], b: &[f64]) -> bool {
+        a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-12 * (1.0 + x.abs()))
+    }
+
+    proptest! {
+        #[test]
+        fn rotating_by_quaternion_and_by_matrix_agree(q in unit_quat(), v in prop::array::uniform3(-2.0f64..2.0)) {
+            prop_assert!(close(&rotate(v, q), &mat_mul_vec(&quat_to_mat(q), v)));
+            prop_assert!(close(&mat_t_mul_vec(&quat_to_mat(q), rotate(v, q)), &v));
+        }
+
+        #[test]
+        fn product_of_quaternions_is_composition(a in unit_quat(), b in unit_quat(), v in prop::array::uniform3(-2.0f64..2.0)) {
+            prop_assert!(close(&rotate(v, quat_mul(a, b)), &rotate(rotate(v, b), a)));
+        }
+
+        #[test]
+        fn integration_inverts_the_rotation_vector(q in unit_quat(), w in prop::array::uniform3(-1.0f64..1.0)) {
+            let r = quat_to_vel(quat_mul(quat_conj(q), quat_integrate(q, w, 1.0)));
+            prop_assert!(close(&r, &w));
+        }
+
+        #[test]
+        fn momentum_is_power_dual(m in prop::array::uniform3(0.1f64..2.0), q in unit_quat(), d in prop::array::uniform3(-1.0f64..1.0),
+                                  mass in 0.1f64..5.0, a in prop::array::uniform6(-1.0f64..1.0), b in prop::array::uniform6(-1.0f64..1.0)) {
+            // Symmetry of the inertia, and the derivative of a scalar product is zero: (v×a)·f + a·(v×*f) = 0.
+            let i = inertia_about(m, &quat_to_mat(q), d, mass);
+            prop_assert!((dot(a, inertia_mul(&i, &b)) - dot(b, inertia_mul(&i, &a))).abs() < 1e-12);
+            let f = inertia_mul(&i, &b);
+            prop_assert!((dot(cross_motion(&b, &a), f) + dot(a, cross_force(&b, &f))).abs() < 1e-11);
+        }
+    }
+}

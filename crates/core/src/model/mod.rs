@@ -1,0 +1,172 @@
+//! `Model`: what does not change while a simulation runs. The structs come from the field table.
+
+pub(crate) mod bytes;
+pub(crate) mod data;
+pub(crate) mod fields;
+pub(crate) mod meter;
+pub mod reflect;
+pub mod state;
+
+use crate::kinds::integrator;
+use crate::model::{fields::model_fields, fields::option_fields, fields::statistic_fields};
+
+macro_rules! define {
+    ($(#[$meta:meta])* $struct:ident { $($extra:tt)* }
+     $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, Default, PartialEq)]
+        pub struct $struct {
+            $(#[doc = $doc] pub $name: $ty,)*
+            $($extra)*
+        }
+    };
+}
+pub(crate) use define;
+
+macro_rules! define_model {
+    ($($rows:tt)*) => { define! {
+        /// A compiled model: sizes, constants, options and names, field by field as MuJoCo's `mjModel`.
+        #[allow(non_snake_case)] // MuJoCo's names: dof_M0, M_rowadr, nC
+        Model {
+            /// Options of the simulation.
+            pub opt: Options,
+            /// Statistics.
+            pub stat: Statistic,
+            /// Names of the objects.
+            pub names: Names,
+            /// Custom texts, in the order of `names.text`.
+            pub texts: Vec<String>,
+            /// The bodies of each exclusion, the smaller first, in ascending order: signatures of many bodies meet.
+            pub exclude_bodies: Vec<[i32; 2]>,
+            /// Flat sides of the hull of each mesh, their normals more precise than its vertices.
+            pub mesh_sides: Vec<crate::geometry::Sides>,
+        }
+        $($rows)*
+    } };
+}
+macro_rules! define_options {
+    ($($rows:tt)*) => { define! {
+        /// Options of the simulation, `model.opt`. The default is all zeros: see `Options::mujoco`.
+        Options {}
+        $($rows)*
+    } };
+}
+macro_rules! define_statistic {
+    ($($rows:tt)*) => { define! {
+        /// Statistics of the model, `model.stat`.
+        Statistic {}
+        $($rows)*
+    } };
+}
+model_fields!(define_model);
+option_fields!(define_options);
+statistic_fields!(define_statistic);
+
+impl Options {
+    /// MuJoCo 3.14.0's defaults.
+    pub fn mujoco() -> Options {
+        Options {
+            timestep: 0.002,
+            impratio: 1.0,
+            tolerance: 1e-8,
+            ls_tolerance: 0.01,
+            noslip_tolerance: 1e-6,
+            ccd_tolerance: 1e-6,
+            sleep_tolerance: 1e-3,
+            gravity: [0.0, 0.0, -9.81],
+            magnetic: [0.0, -0.5, 0.0],
+            o_solref: [0.02, 1.0],
+            o_solimp: [0.9, 0.95, 0.001, 0.5, 2.0],
+            o_friction: [1.0, 1.0, 0.005, 0.0001, 0.0001],
+            integrator: integrator::EULER,
+            jacobian: 2,
+            solver: 2,
+            iterations: 100,
+            ls_iterations: 50,
+            ccd_iterations: 35,
+            sdf_initpoints: 40,
+            sdf_iterations: 10,
+            // The rest is zero: no wind, a vacuum, the pyramidal cone, no flags.
+            ..Options::default()
+        }
+    }
+
+    /// Whether a part of the simulation is switched off; `bit` is one of [`crate::disable`].
+    pub fn disabled(&self, bit: i32) -> bool {
+        self.disableflags & bit != 0
+    }
+
+    /// Whether an optional part is switched on; `bit` is one of [`crate::enable`].
+    pub fn enabled(&self, bit: i32) -> bool {
+        self.enableflags & bit != 0
+    }
+}
+
+/// Object kinds with named objects: kind, MuJoCo's number, the list of names.
+macro_rules! objects {
+    ($($kind:ident = $number:literal, $list:ident;)*) => {
+        /// Kinds of named objects, with MuJoCo's numbers (mjtObj).
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[allow(missing_docs)] // the object kinds
+        pub enum Obj {
+            Body = 1,
+            /// The frame of a body, where `Body` means its inertial frame.
+            XBody = 2,
+            /// A degree of freedom: it has no name.
+            Dof = 4,
+            $($kind = $number,)*
+        }
+
+        /// Names by object kind, in id order; an object without a name has the empty string.
+        #[derive(Clone, Debug, Default, PartialEq)]
+        #[allow(missing_docs)] // one list per object kind
+        pub struct Names {
+            pub model: String,
+            pub body: Vec<String>,
+            $(pub $list: Vec<String>,)*
+        }
+
+        impl Names {
+            /// All names of one kind.
+            pub fn of(&self, kind: Obj) -> &[String] {
+                match kind {
+                    Obj::Body | Obj::XBody => &self.body,
+                    Obj::Dof => &[],
+                    $(Obj::$kind => &self.$list,)*
+                }
+            }
+        }
+    };
+}
+objects! {
+    Joint = 3, joint;
+    Geom = 5, geom;
+    Site = 6, site;
+    Camera = 7, camera;
+    Light = 8, light;
+    Mesh = 10, mesh;
+    Skin = 11, skin;
+    HField = 12, hfield;
+    Texture = 13, texture;
+    Material = 14, material;
+    Pair = 15, pair;
+    Exclude = 16, exclude;
+    Equality = 17, equality;
+    Tendon = 18, tendon;
+    Actuator = 19, actuator;
+    Sensor = 20, sensor;
+    Numeric = 21, numeric;
+    Text = 22, text;
+    Tuple = 23, tuple;
+    Key = 24, key;
+}
+
+impl Names {
+    /// The id of a named object (`mj_name2id`), `None` when there is no such name.
+    pub fn id(&self, kind: Obj, name: &str) -> Option<usize> {
+        if name.is_empty() {
+            return None;
+        }
+        self.of(kind).iter().position(|n| n == name)
+    }
+}

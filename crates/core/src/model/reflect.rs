@@ -1,0 +1,607 @@
+//! Reflection over the field table: what a field is, and its numbers as flat slices.
+//!
+//! The language, the lints, the reports and the reference pages know the engine only through this module.
+
+use crate::model::bytes::Plain;
+use crate::model::{
+    fields::data_fields, fields::model_fields, fields::option_fields, fields::statistic_fields,
+};
+use crate::{Data, Model};
+use std::sync::LazyLock;
+
+/// The struct that a field belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Object {
+    /// `model`
+    Model,
+    /// `model.opt`
+    Option,
+    /// `model.stat`
+    Statistic,
+    /// `data`
+    Data,
+}
+
+/// What a field is, and so what writing to it means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// Size, type or address, fixed when the model compiles. Cannot be written.
+    Structure,
+    /// Evolves in time; may be written, then `mj_forward` brings derived fields up to date.
+    State,
+    /// Set from outside: controls, applied forces, mocap poses.
+    Input,
+    /// A parameter of the model that takes effect at the next step.
+    Constant,
+    /// A parameter that others are computed from: writing it needs `mj_setConst`.
+    Inertial,
+    /// Computed by a stage: writing it has no effect.
+    Derived,
+}
+
+/// The stage that computes a field, in the order in which `mj_forward` runs them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Stage {
+    /// The MJCF compiler.
+    Compile,
+    /// `mj_setConst`.
+    SetConst,
+    /// Written by the user or the integrator.
+    User,
+    /// Poses of bodies and joints.
+    Kinematics,
+    /// Orientations of bodies as quaternions.
+    Orientations,
+    /// Poses of geoms.
+    GeomPoses,
+    /// Poses of sites.
+    SitePoses,
+    /// Centres of mass, inertias and motion axes.
+    ComPos,
+    /// Poses of cameras and lights.
+    CameraPoses,
+    /// Lengths and Jacobians of tendons.
+    Tendon,
+    /// Mass matrix by composite rigid bodies.
+    MassMatrix,
+    /// Factorization of the mass matrix.
+    Factor,
+    /// Contacts.
+    Collision,
+    /// Constraint rows.
+    Constraint,
+    /// Lengths and moment arms of actuators.
+    Transmission,
+    /// Velocities of tendons.
+    TendonVel,
+    /// Velocities of actuators.
+    ActuatorVel,
+    /// Velocities of bodies.
+    ComVel,
+    /// Springs, dampers, gravity compensation, fluid.
+    Passive,
+    /// Reference accelerations of the constraints.
+    Reference,
+    /// Gravity, Coriolis and centrifugal force.
+    Bias,
+    /// Forces of actuators.
+    Actuation,
+    /// Unconstrained acceleration.
+    Acceleration,
+    /// Constraint forces.
+    Solve,
+    /// Momentum of subtrees.
+    SubtreeVel,
+    /// Accelerations of bodies and the forces between them.
+    RnePost,
+    /// Sensor values.
+    Sensors,
+    /// Potential and kinetic energy.
+    Energy,
+    /// Inverse dynamics.
+    Inverse,
+    /// Which trees sleep.
+    Sleep,
+}
+
+/// Element type of a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Elem {
+    /// 64-bit float.
+    F64,
+    /// 32-bit integer.
+    I32,
+    /// Boolean, 0 or 1 in the language.
+    Bool,
+    /// Size or count.
+    Size,
+}
+
+/// One row of the field table.
+#[derive(Debug)]
+pub struct FieldInfo {
+    /// Where it lives.
+    pub object: Object,
+    /// MuJoCo's name.
+    pub name: &'static str,
+    /// Element type.
+    pub elem: Elem,
+    /// Dimensions, outermost first: names of sizes or literal numbers; empty for a single number.
+    pub shape: &'static [&'static str],
+    /// What it is.
+    pub kind: Kind,
+    /// What computes it.
+    pub stage: Stage,
+    /// Unit, empty when dimensionless.
+    pub unit: &'static str,
+    /// One line of documentation.
+    pub doc: &'static str,
+}
+
+/// Index into [`FIELDS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct FieldId(pub u16);
+
+impl FieldId {
+    /// The row of the table.
+    pub fn info(self) -> &'static FieldInfo {
+        FIELDS[self.0 as usize]
+    }
+}
+
+/// The numbers of a field.
+#[derive(Clone, Copy, Debug)]
+pub enum View<'a> {
+    /// Floats.
+    F64(&'a [f64]),
+    /// Integers.
+    I32(&'a [i32]),
+    /// Booleans.
+    Bool(&'a [bool]),
+    /// A size or count.
+    Size(usize),
+}
+
+impl View<'_> {
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        match self {
+            View::F64(v) => v.len(),
+            View::I32(v) => v.len(),
+            View::Bool(v) => v.len(),
+            View::Size(_) => 1,
+        }
+    }
+
+    /// Whether there are no elements.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Element `i` as a number, `None` past the end.
+    pub fn get(&self, i: usize) -> Option<f64> {
+        match self {
+            View::F64(v) => v.get(i).copied(),
+            View::I32(v) => v.get(i).map(|&x| f64::from(x)),
+            View::Bool(v) => v.get(i).map(|&x| f64::from(u8::from(x))),
+            View::Size(n) => (i == 0).then_some(*n as f64),
+        }
+    }
+}
+
+/// The numbers of a field, for writing. Sizes cannot be written.
+#[derive(Debug)]
+pub enum ViewMut<'a> {
+    /// Floats.
+    F64(&'a mut [f64]),
+    /// Integers.
+    I32(&'a mut [i32]),
+    /// Booleans.
+    Bool(&'a mut [bool]),
+    /// A size or count: not writable.
+    Fixed,
+}
+
+impl ViewMut<'_> {
+    /// Stores `value` at `i` as a typed array of JavaScript would (integers truncate); `false` when there is
+    /// no such element.
+    pub fn set(&mut self, i: usize, value: f64) -> bool {
+        match self {
+            ViewMut::F64(v) => v.get_mut(i).map(|x| *x = value).is_some(),
+            ViewMut::I32(v) => v.get_mut(i).map(|x| *x = to_int32(value)).is_some(),
+            ViewMut::Bool(v) => v.get_mut(i).map(|x| *x = to_int32(value) & 0xff != 0).is_some(),
+            ViewMut::Fixed => false,
+        }
+    }
+}
+
+/// ECMAScript's ToInt32: truncate, then wrap modulo 2^32.
+fn to_int32(x: f64) -> i32 {
+    if !x.is_finite() {
+        return 0;
+    }
+    x.trunc().rem_euclid(4_294_967_296.0) as u32 as i32
+}
+
+/// A Rust type that can stand in the field table.
+pub(crate) trait Cell {
+    const ELEM: Elem;
+    fn view(&self) -> View<'_>;
+    fn view_mut(&mut self) -> ViewMut<'_>;
+    /// Gives an array `n` zero elements, and numbers of fixed shape the value zero. Sizes stay as they are.
+    fn allocate(&mut self, n: usize);
+    /// Appends the elements as bytes.
+    fn write(&self, out: &mut Vec<u8>);
+    /// Takes `n` elements, or as many as the shape fixes, from the front of `bytes`; `false` when there are not as many.
+    fn read(&mut self, n: usize, bytes: &mut &[u8]) -> bool;
+}
+
+macro_rules! cells {
+    ($($t:ty => $variant:ident),*) => { $(
+        impl Cell for $t {
+            const ELEM: Elem = Elem::$variant;
+            fn view(&self) -> View<'_> { View::$variant(std::slice::from_ref(self)) }
+            fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(std::slice::from_mut(self)) }
+            fn allocate(&mut self, _: usize) { *self = <$t>::default(); }
+            fn write(&self, out: &mut Vec<u8>) { self.put(out); }
+            fn read(&mut self, _: usize, bytes: &mut &[u8]) -> bool {
+                Plain::take(bytes).map(|x| *self = x).is_some()
+            }
+        }
+        impl Cell for Vec<$t> {
+            const ELEM: Elem = Elem::$variant;
+            fn view(&self) -> View<'_> { View::$variant(self) }
+            fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(self) }
+            fn allocate(&mut self, n: usize) {
+                self.clear();
+                self.resize(n, <$t>::default());
+            }
+            fn write(&self, out: &mut Vec<u8>) { self.iter().for_each(|x| x.put(out)); }
+            fn read(&mut self, n: usize, bytes: &mut &[u8]) -> bool {
+                // Every element takes a byte or more: no room is made for what is not there.
+                if n > bytes.len() {
+                    return false;
+                }
+                self.allocate(n);
+                self.iter_mut().all(|x| Plain::take(bytes).map(|y| *x = y).is_some())
+            }
+        }
+        impl<const N: usize> Cell for [$t; N] {
+            const ELEM: Elem = Elem::$variant;
+            fn view(&self) -> View<'_> { View::$variant(self) }
+            fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(self) }
+            fn allocate(&mut self, _: usize) { *self = [<$t>::default(); N]; }
+            fn write(&self, out: &mut Vec<u8>) { self.iter().for_each(|x| x.put(out)); }
+            fn read(&mut self, _: usize, bytes: &mut &[u8]) -> bool {
+                self.iter_mut().all(|x| Plain::take(bytes).map(|y| *x = y).is_some())
+            }
+        }
+    )* };
+}
+cells!(f64 => F64, i32 => I32, bool => Bool);
+
+impl Cell for usize {
+    const ELEM: Elem = Elem::Size;
+    fn view(&self) -> View<'_> {
+        View::Size(*self)
+    }
+    fn view_mut(&mut self) -> ViewMut<'_> {
+        ViewMut::Fixed
+    }
+    fn allocate(&mut self, _: usize) {}
+    fn write(&self, out: &mut Vec<u8>) {
+        self.put(out);
+    }
+    fn read(&mut self, _: usize, bytes: &mut &[u8]) -> bool {
+        Plain::take(bytes).map(|x| *self = x).is_some()
+    }
+}
+
+/// Reads one element of a field.
+type Reader = fn(&Model, &Data, usize) -> Option<f64>;
+
+fn model<'a>(m: &'a Model, _: &'a Data) -> &'a Model {
+    m
+}
+fn options<'a>(m: &'a Model, _: &'a Data) -> &'a crate::model::Options {
+    &m.opt
+}
+fn statistic<'a>(m: &'a Model, _: &'a Data) -> &'a crate::model::Statistic {
+    &m.stat
+}
+fn data<'a>(_: &'a Model, d: &'a Data) -> &'a Data {
+    d
+}
+
+macro_rules! reflect {
+    ($infos:ident, $readers:ident, $count:ident, $ids:ident, $object:ident, $struct:ty, $of:ident; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        const $infos: &[&FieldInfo] = &[$(&FieldInfo {
+            object: Object::$object,
+            name: stringify!($name),
+            elem: <$ty as Cell>::ELEM,
+            shape: &[$(stringify!($dim)),*],
+            kind: Kind::$kind,
+            stage: Stage::$stage,
+            unit: $unit,
+            doc: $doc,
+        }),*];
+        const $count: usize = $infos.len();
+        const $readers: &[Reader] = &[$(|m, d, i| $of(m, d).$name.view().get(i)),*];
+        #[allow(non_camel_case_types)] // variants carry the fields' own names
+        #[derive(Clone, Copy)]
+        #[repr(u16)]
+        enum $ids { $($name),* }
+        impl $ids {
+            const ALL: [$ids; $count] = [$($ids::$name),*];
+        }
+        impl $struct {
+            fn cell(&self, id: $ids) -> View<'_> { match id { $($ids::$name => self.$name.view()),* } }
+            fn cell_mut(&mut self, id: $ids) -> ViewMut<'_> { match id { $($ids::$name => self.$name.view_mut()),* } }
+        }
+    };
+}
+macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_READERS, MODEL_COUNT, ModelId, Model, Model, model; $($t)* } } }
+macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_READERS, OPTION_COUNT, OptionId, Option, crate::model::Options, options; $($t)* } } }
+macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_READERS, STAT_COUNT, StatId, Statistic, crate::model::Statistic, statistic; $($t)* } } }
+macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_READERS, DATA_COUNT, DataId, Data, Data, data; $($t)* } } }
+/// Arrays get their lengths by field; options and statistics have none.
+macro_rules! allocation {
+    ($ids:ident, $struct:ty; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        impl $struct {
+            fn allocate(&mut self, id: $ids, n: usize) {
+                match id { $($ids::$name => Cell::allocate(&mut self.$name, n)),* }
+            }
+            fn write(&self, id: $ids, out: &mut Vec<u8>) {
+                match id { $($ids::$name => Cell::write(&self.$name, out)),* }
+            }
+        }
+    };
+}
+macro_rules! allocation_model { ($($t:tt)*) => { allocation! { ModelId, Model; $($t)* } } }
+macro_rules! allocation_data { ($($t:tt)*) => { allocation! { DataId, Data; $($t)* } } }
+model_fields!(allocation_model);
+data_fields!(allocation_data);
+macro_rules! reading {
+    ($($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        impl Data {
+            fn read(&mut self, id: DataId, n: usize, bytes: &mut &[u8]) -> bool {
+                match id { $(DataId::$name => Cell::read(&mut self.$name, n, bytes)),* }
+            }
+        }
+    };
+}
+data_fields!(reading);
+model_fields!(reflect_model);
+option_fields!(reflect_option);
+statistic_fields!(reflect_stat);
+data_fields!(reflect_data);
+
+const OPTION_AT: usize = MODEL_COUNT;
+const STAT_AT: usize = OPTION_AT + OPTION_COUNT;
+const DATA_AT: usize = STAT_AT + STAT_COUNT;
+/// Number of fields.
+pub const NFIELD: usize = DATA_AT + DATA_COUNT;
+
+/// The rows of the four parts of the table as one.
+macro_rules! whole_table {
+    ($model:ident, $option:ident, $stat:ident, $data:ident) => {{
+        let mut all = [$model[0]; NFIELD];
+        let mut i = 0;
+        while i < NFIELD {
+            all[i] = if i < OPTION_AT {
+                $model[i]
+            } else if i < STAT_AT {
+                $option[i - OPTION_AT]
+            } else if i < DATA_AT {
+                $stat[i - STAT_AT]
+            } else {
+                $data[i - DATA_AT]
+            };
+            i += 1;
+        }
+        all
+    }};
+}
+
+/// The whole table: model, options, statistics, data.
+pub static FIELDS: [&FieldInfo; NFIELD] = whole_table!(MODEL, OPTION, STAT, DATA);
+static READERS: [Reader; NFIELD] = whole_table!(MODEL_READERS, OPTION_READERS, STAT_READERS, DATA_READERS);
+
+/// All field ids, in table order.
+pub fn fields() -> impl Iterator<Item = FieldId> {
+    (0..NFIELD as u16).map(FieldId)
+}
+
+/// The field `name` of `object`.
+pub fn field(object: Object, name: &str) -> Option<FieldId> {
+    let from = BY_NAME.partition_point(|f| f.info().name < name);
+    let named = BY_NAME.get(from..)?.iter().take_while(|f| f.info().name == name);
+    named.copied().find(|f| f.info().object == object)
+}
+
+/// All fields in the order of their names: a lab's texts ask for them a hundred times.
+static BY_NAME: LazyLock<Vec<FieldId>> = LazyLock::new(|| {
+    let mut all: Vec<FieldId> = fields().collect();
+    all.sort_by_key(|f| f.info().name);
+    all
+});
+
+/// Reads a field of the model or the data.
+pub fn view<'a>(m: &'a Model, d: &'a Data, field: FieldId) -> View<'a> {
+    let i = field.0 as usize;
+    if i < OPTION_AT {
+        m.cell(ModelId::ALL[i])
+    } else if i < STAT_AT {
+        m.opt.cell(OptionId::ALL[i - OPTION_AT])
+    } else if i < DATA_AT {
+        m.stat.cell(StatId::ALL[i - STAT_AT])
+    } else {
+        d.cell(DataId::ALL[i - DATA_AT])
+    }
+}
+
+/// Element `i` of a field, `None` past the end: the same as [`view`] gives, in one step.
+#[inline]
+pub fn element(m: &Model, d: &Data, field: FieldId, i: usize) -> Option<f64> {
+    READERS.get(field.0 as usize)?(m, d, i)
+}
+
+/// Writes a field of the model or the data. Nothing here asks whether writing makes sense: see [`Kind`]. Computed
+/// integers are addresses and ids that later stages follow: they are fixed.
+pub fn view_mut<'a>(m: &'a mut Model, d: &'a mut Data, field: FieldId) -> ViewMut<'a> {
+    let i = field.0 as usize;
+    let info = field.info();
+    if info.elem == Elem::I32 && info.kind == Kind::Derived {
+        return ViewMut::Fixed;
+    }
+    if i < OPTION_AT {
+        m.cell_mut(ModelId::ALL[i])
+    } else if i < STAT_AT {
+        m.opt.cell_mut(OptionId::ALL[i - OPTION_AT])
+    } else if i < DATA_AT {
+        m.stat.cell_mut(StatId::ALL[i - STAT_AT])
+    } else {
+        d.cell_mut(DataId::ALL[i - DATA_AT])
+    }
+}
+
+/// The dimensions of a field for this model; `None` for a dimension that changes with the state (`nefc`).
+pub fn shape(m: &Model, field: FieldId) -> Vec<Option<usize>> {
+    field.info().shape.iter().map(|dim| dim.parse().ok().or_else(|| size(m, dim))).collect()
+}
+
+/// The size of this name (`nq`, `nbody`, …), `None` when the model has no such size.
+pub fn size(m: &Model, name: &str) -> Option<usize> {
+    let f = field(Object::Model, name)?;
+    match m.cell(*ModelId::ALL.get(f.0 as usize)?) {
+        View::Size(n) => Some(n),
+        _ => None,
+    }
+}
+
+/// Number of elements of a field that the sizes of the model decide; 0 while a size is not known. Allocates
+/// nothing: a reset in the step loop asks for every array.
+pub(crate) fn length(m: &Model, field: FieldId) -> usize {
+    field.info().shape.iter().map(|dim| dim.parse().ok().or_else(|| size(m, dim)).unwrap_or(0)).product()
+}
+
+/// Appends all numbers of the data that are fields, in the order of the table.
+pub(crate) fn write_data(d: &Data, out: &mut Vec<u8>) {
+    for id in DataId::ALL {
+        d.write(id, out);
+    }
+}
+
+/// Reads what [`write_data`] wrote; `false` when it is too short.
+pub(crate) fn read_data(m: &Model, d: &mut Data, bytes: &mut &[u8]) -> bool {
+    (0..DATA_COUNT).all(|i| {
+        let dims = DATA[i].shape.iter();
+        let n = dims.fold(1, |n: usize, dim| {
+            n.saturating_mul(dim.parse().ok().or_else(|| size(m, dim)).or_else(|| count(d, dim)).unwrap_or(0))
+        });
+        d.read(DataId::ALL[i], n, bytes)
+    })
+}
+
+/// The count of this name in the data (`nefc`).
+pub(crate) fn count(d: &Data, name: &str) -> Option<usize> {
+    let i = DATA.iter().position(|f| f.name == name && f.elem == Elem::Size)?;
+    match d.cell(DataId::ALL[i]) {
+        View::Size(n) => Some(n),
+        _ => None,
+    }
+}
+
+/// Appends sizes, types and addresses of the model.
+pub(crate) fn write_structure(m: &Model, out: &mut Vec<u8>) {
+    for i in (0..MODEL_COUNT).filter(|&i| MODEL[i].kind == Kind::Structure) {
+        m.write(ModelId::ALL[i], out);
+    }
+}
+
+/// Gives every array of the model the length that its shape says, filled with zeros.
+pub(crate) fn allocate_model(m: &mut Model) {
+    for i in 0..MODEL_COUNT {
+        let n = length(m, FieldId(i as u16));
+        m.allocate(ModelId::ALL[i], n);
+    }
+}
+
+/// Gives every array of the data the length that its shape says, filled with zeros; time and the like become
+/// zero, too. Allocates only the first time.
+pub(crate) fn allocate_data(m: &Model, d: &mut Data) {
+    for i in 0..DATA_COUNT {
+        let n = length(m, FieldId((DATA_AT + i) as u16));
+        d.allocate(DataId::ALL[i], n);
+    }
+}
+
+/// A set of fields.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FieldSet([u64; NFIELD.div_ceil(64)]);
+
+impl Default for FieldSet {
+    fn default() -> Self {
+        FieldSet::EMPTY
+    }
+}
+
+impl FieldSet {
+    /// No field.
+    pub const EMPTY: FieldSet = FieldSet([0; NFIELD.div_ceil(64)]);
+    /// Every field.
+    pub const ALL: FieldSet = FieldSet([u64::MAX; NFIELD.div_ceil(64)]);
+
+    /// Adds a field.
+    pub fn insert(&mut self, f: FieldId) {
+        self.0[f.0 as usize / 64] |= 1 << (f.0 % 64);
+    }
+
+    /// Whether the field is in the set.
+    pub fn contains(&self, f: FieldId) -> bool {
+        self.0[f.0 as usize / 64] & (1 << (f.0 % 64)) != 0
+    }
+
+    /// Adds all fields of another set.
+    pub fn extend(&mut self, other: &FieldSet) {
+        for (a, b) in self.0.iter_mut().zip(other.0) {
+            *a |= b;
+        }
+    }
+
+    /// The fields of the set, in table order.
+    pub fn iter(&self) -> impl Iterator<Item = FieldId> + '_ {
+        fields().filter(|&f| self.contains(f))
+    }
+
+    /// Whether any field of the set satisfies `test`.
+    pub fn any(&self, mut test: impl FnMut(&FieldInfo) -> bool) -> bool {
+        self.iter().any(|f| test(f.info()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elements_are_those_of_views() {
+        let model = crate::mjcf::compile(
+            "<mujoco><option timestep='0.003'/><statistic extent='4'/>
+             <worldbody><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>",
+        );
+        let m = model.unwrap();
+        let mut d = Data::new(&m);
+        d.time = 0.25;
+        for f in fields() {
+            let whole = view(&m, &d, f);
+            for i in 0..=whole.len() {
+                let bits = |x: Option<f64>| x.map(f64::to_bits);
+                assert_eq!(bits(element(&m, &d, f, i)), bits(whole.get(i)), "{}[{i}]", f.info().name);
+            }
+        }
+        let time = field(Object::Data, "time").unwrap();
+        assert_eq!(element(&m, &d, time, 0), Some(0.25));
+        assert_eq!(element(&m, &d, FieldId(NFIELD as u16), 0), None);
+    }
+}

@@ -1,0 +1,95 @@
+//! The classic Runge–Kutta method of fourth order (Kutta 1901). Stage velocities are averaged and applied in
+//! one step on the manifold.
+
+use super::{Slopes, advance, integrate_pos};
+use crate::step::{forward, forward::Skip};
+use crate::{Data, Model};
+
+/// What a step keeps between its stages.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct RungeKutta {
+    /// The state at the start of the step.
+    qpos: Vec<f64>,
+    qvel: Vec<f64>,
+    act: Vec<f64>,
+    /// Weighted sums of the stages' slopes, and the velocity of one stage.
+    dpos: Vec<f64>,
+    dvel: Vec<f64>,
+    dact: Vec<f64>,
+    pub(crate) slope: Vec<f64>,
+}
+
+impl RungeKutta {
+    pub(crate) fn new(m: &Model) -> RungeKutta {
+        let (q, v, a) = (vec![0.0; m.nq], vec![0.0; m.nv], vec![0.0; m.na]);
+        RungeKutta {
+            qpos: q,
+            qvel: v.clone(),
+            act: a.clone(),
+            dpos: v.clone(),
+            dvel: v.clone(),
+            dact: a,
+            slope: v,
+        }
+    }
+}
+
+/// Stage s starts from the first state plus A[s] h times the slope of stage s - 1; B weighs the slopes.
+const A: [f64; 3] = [0.5, 0.5, 1.0];
+const B: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
+
+pub(super) fn rk4(m: &Model, d: &mut Data) {
+    let (h, start) = (m.opt.timestep, d.time);
+    let mut w = std::mem::take(&mut d.work.rk);
+    w.qpos.copy_from_slice(&d.qpos);
+    w.qvel.copy_from_slice(&d.qvel);
+    w.act.copy_from_slice(&d.act);
+    weigh(&mut w.dpos, B[0], &d.qvel);
+    weigh(&mut w.dvel, B[0], &d.qacc);
+    weigh(&mut w.dact, B[0], &d.act_dot);
+    for stage in 0..3 {
+        let a = A[stage] * h;
+        w.slope.copy_from_slice(&d.qvel);
+        step(&mut d.qvel, &w.qvel, a, &d.qacc);
+        step(&mut d.act, &w.act, a, &d.act_dot);
+        d.qpos.copy_from_slice(&w.qpos);
+        integrate_pos(m, &mut d.qpos, &w.slope, a);
+        d.time = start + a;
+        forward::forward_skip(m, d, Skip::SENSORS);
+        add(&mut w.dpos, B[stage + 1], &d.qvel);
+        add(&mut w.dvel, B[stage + 1], &d.qacc);
+        add(&mut w.dact, B[stage + 1], &d.act_dot);
+    }
+    // From the first state on, with the sums.
+    d.time = start;
+    d.qpos.copy_from_slice(&w.qpos);
+    d.qvel.copy_from_slice(&w.qvel);
+    d.act.copy_from_slice(&w.act);
+    advance(
+        m,
+        d,
+        Slopes { activation: Some(&mut w.dact), acceleration: Some(&w.dvel), velocity: Some(&w.dpos) },
+    );
+    d.work.rk = w;
+}
+
+/// out ← s x
+fn weigh(out: &mut [f64], s: f64, x: &[f64]) {
+    for (o, x) in out.iter_mut().zip(x) {
+        *o = s * x;
+    }
+}
+
+/// out ← out + s x
+fn add(out: &mut [f64], s: f64, x: &[f64]) {
+    for (o, x) in out.iter_mut().zip(x) {
+        *o += s * x;
+    }
+}
+
+/// out ← from + s x
+fn step(out: &mut [f64], from: &[f64], s: f64, x: &[f64]) {
+    for ((o, from), x) in out.iter_mut().zip(from).zip(x) {
+        *o = from + s * x;
+    }
+}

@@ -1,0 +1,91 @@
+//! Resets, and the counts that follow from them.
+
+use crate::dynamics::{kinematics, mass};
+use crate::forces::{actuation, transmission};
+use crate::math::*;
+use crate::model::reflect;
+use crate::model::reflect::Stage;
+use crate::step::sleep;
+use crate::{Data, Model, Warning, WarningStat, sensor};
+
+/// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
+/// what was written to it.
+pub fn reset_data(m: &Model, d: &mut Data) {
+    reflect::allocate_data(m, d);
+    (d.ncon, d.nefc, d.nisland, d.solver_niter) = (0, 0, 0, 0);
+    (d.ne, d.nf, d.nl) = (0, 0, 0);
+    d.contact.clear();
+    d.warning = [WarningStat::default(); Warning::COUNT];
+    kinematics::world(d);
+    d.qpos.copy_from_slice(&m.qpos0);
+    d.eq_active.copy_from_slice(&m.eq_active0);
+    actuation::reset(m, d);
+    sensor::reset(m, d);
+    for b in 0..m.nbody {
+        let id = m.body_mocapid[b];
+        if id >= 0 {
+            rows_mut::<3>(&mut d.mocap_pos)[id as usize] = rows::<3>(&m.body_pos)[b];
+            rows_mut::<4>(&mut d.mocap_quat)[id as usize] = rows::<4>(&m.body_quat)[b];
+        }
+    }
+    clear_left_out(m, d);
+    sleep::reset(m, d);
+}
+
+/// Back to keyframe `key` (`mj_resetDataKeyframe`); one that does not exist resets to the default.
+pub fn reset_data_keyframe(m: &Model, d: &mut Data, key: usize) {
+    reset_data(m, d);
+    if key >= m.nkey {
+        return;
+    }
+    let row = |a: &[f64], n: usize, out: &mut [f64]| out.copy_from_slice(&a[key * n..(key + 1) * n]);
+    d.time = m.key_time[key];
+    row(&m.key_qpos, m.nq, &mut d.qpos);
+    row(&m.key_qvel, m.nv, &mut d.qvel);
+    row(&m.key_act, m.na, &mut d.act);
+    row(&m.key_mpos, 3 * m.nmocap, &mut d.mocap_pos);
+    row(&m.key_mquat, 4 * m.nmocap, &mut d.mocap_quat);
+    row(&m.key_ctrl, m.nu, &mut d.ctrl);
+}
+
+/// Stores the time, the state and the inputs in keyframe `key` (`mj_setKeyframe`). `false`, and nothing changes, when the
+/// model has no such keyframe.
+pub fn set_keyframe(m: &mut Model, d: &Data, key: usize) -> bool {
+    let Some(time) = m.key_time.get_mut(key) else { return false };
+    *time = d.time;
+    let row = |a: &mut [f64], x: &[f64]| a[key * x.len()..(key + 1) * x.len()].copy_from_slice(x);
+    row(&mut m.key_qpos, &d.qpos);
+    row(&mut m.key_qvel, &d.qvel);
+    row(&mut m.key_act, &d.act);
+    row(&mut m.key_mpos, &d.mocap_pos);
+    row(&mut m.key_mquat, &d.mocap_quat);
+    row(&mut m.key_ctrl, &d.ctrl);
+    true
+}
+
+/// Gives the fields of stages that the plan leaves out the values that those stages would find.
+pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
+    if !d.plan.some_general {
+        mass::constant_mass(m, d);
+    }
+    if d.plan.keeps(Stage::Actuation) && !d.plan.keeps(Stage::Transmission) {
+        transmission::transmissions(m, d);
+    }
+    if !d.plan.keeps(Stage::Actuation) {
+        d.actuator_force.fill(0.0);
+        d.qfrc_actuator.fill(0.0);
+    }
+    if !d.plan.springs {
+        d.qfrc_spring.fill(0.0);
+    }
+    if !d.plan.dampers {
+        d.qfrc_damper.fill(0.0);
+    }
+    if !d.plan.body_forces {
+        d.qfrc_gravcomp.fill(0.0);
+        d.qfrc_fluid.fill(0.0);
+    }
+    if !d.plan.adhesion {
+        d.qfrc_adhesion.fill(0.0);
+    }
+}
