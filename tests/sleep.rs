@@ -81,7 +81,7 @@ fn a_plan_lets_trees_sleep_as_they_do() {
         let run = |plan: Plan| {
             let mut d = Data::planned(&m, plan);
             (0..300).for_each(|_| core::step(&m, &mut d));
-            (d.tree_asleep, d.qpos)
+            (d.tree_asleep.clone(), d.qpos.clone())
         };
         assert_eq!(run(Plan::new(&m, &demand)), run(Plan::full()), "{scene}");
     }

@@ -101,7 +101,7 @@ pub fn restart(w: &mut Watch, m: &Model, d: &Data) {
     w.own.mocap_quat.clone_from(&d.mocap_quat);
     w.own.eq_active.clone_from(&d.eq_active);
     take(&mut w.own, d);
-    crate::limit(&mut w.own, d.work.meter.left());
+    crate::limit(&mut w.own, d.meter.left());
     forward::forward(m, &mut w.own);
     if !crate::exhausted(&w.own) {
         w.start = energy(m, &mut w.own).map(|energy| start(m, &w.own, energy));
@@ -142,7 +142,7 @@ pub fn look(w: &mut Watch, m: &Model, d: &Data) -> Option<Growth> {
         w.lasted += 1;
         w.largest = w.largest.max(gain);
         if w.lasted >= LASTS || gain > SURE * least {
-            w.found = Some(Growth { time: w.since, gain, held: held + lift, dof: liveliest(&w.own) });
+            w.found = Some(Growth { time: w.since, gain, held: held + lift, dof: liveliest(m, &w.own) });
         }
     } else {
         w.lasted = 0;
@@ -160,7 +160,7 @@ fn take(own: &mut Data, d: &Data) {
 /// Where things are, how long, and how heavy: what energies follow from.
 fn place(m: &Model, d: &mut Data) {
     forward::placed(m, d);
-    transmission::transmissions(m, d);
+    transmission::transmissions(m, &mut d.fields, &mut d.work.forces);
 }
 
 /// Energies of data whose places are known; `None` where some actuator may feed the scene.
@@ -173,8 +173,7 @@ fn energy(m: &Model, d: &mut Data) -> Option<Energy> {
     }
     let springs = if m.opt.disabled(disable::SPRING) { 0.0 } else { spring::energy(m, d) };
     let elastic = springs + servos(m, d)?;
-    mass::mul(m, &d.M, &d.qvel, &mut d.work.mv, 0..m.nv);
-    Some(Energy { kinetic: 0.5 * dot_slice(&d.work.mv, &d.qvel), potential: gravity + elastic, elastic })
+    Some(Energy { kinetic: 0.5 * mass::quadratic(m, &d.M, &d.qvel), potential: gravity + elastic, elastic })
 }
 
 /// The potential of all actuators; `None` where one of them has none.
@@ -222,8 +221,10 @@ fn size(m: &Model, d: &Data) -> f64 {
 }
 
 /// The degree of freedom whose part v (M v) of the kinetic energy is the largest.
-fn liveliest(d: &Data) -> usize {
-    let part = |k: usize| (d.qvel[k] * d.work.mv[k]).abs();
+fn liveliest(m: &Model, d: &Data) -> usize {
+    let mut momentum = vec![0.0; m.nv];
+    mass::mul(m, &d.M, &d.qvel, &mut momentum, 0..m.nv);
+    let part = |k: usize| (d.qvel[k] * momentum[k]).abs();
     (0..d.qvel.len()).max_by(|&a, &b| part(a).total_cmp(&part(b))).unwrap_or(0)
 }
 

@@ -35,28 +35,30 @@ mod setup;
 pub mod stability;
 mod step;
 
-pub use collision::{can_collide, contact_force};
-pub use constraint::full_j;
+pub use collision::can_collide;
+pub use constraint::contact_force;
 pub use dynamics::jacobian::{
     Jacobian, apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,
 };
-pub use dynamics::kinematics::kinematics;
 pub use dynamics::mass::{full_m, mul_m, solve_m, solve_m2};
 pub use dynamics::object::{object_acceleration, object_velocity};
-pub use dynamics::rne::rne;
 pub use dynamics::subtree::subtree_vel;
 pub use forces::energy::{kinetic as energy_vel, potential as energy_pos};
 pub use kinds::{
     biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, solver, trntype, wraptype,
 };
-pub use model::data::{Contact, Data, Warning, WarningStat};
-pub use model::meter::{charge, cost, cost_of_pass, exhausted, limit};
+pub use model::data::{Contact, Fields, Warning, WarningStat};
+pub use model::plan::{Decision, Plan};
 pub use model::{Model, Names, Obj, Options, Statistic, reflect, state};
 pub use sensor::body_force::rne_post_constraint;
 pub use setup::setconst::set_const;
-pub use step::forward::{forward, set_plan, step, step1, step2};
+pub use step::data::Data;
+pub use step::forward::forward;
+pub use step::functions::{
+    charge, cost, cost_of_pass, exhausted, full_j, geom_distance, kinematics, limit, rne,
+};
 pub use step::integrate::{differentiate_pos, integrate_pos};
 pub use step::inverse::{InverseError, inverse};
-pub use step::plan::{Demand, Plan};
-pub use step::reset::{reset_data, reset_data_keyframe, set_keyframe};
-pub use step::{plan, save};
+pub use step::plan::Demand;
+pub use step::reset::{reset_data, reset_data_keyframe, set_keyframe, set_plan};
+pub use step::{save, step, step1, step2};

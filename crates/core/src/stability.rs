@@ -202,7 +202,7 @@ fn reference(m: &Model, [time, ratio]: [f64; 2]) -> Spring {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::step::forward;
+    use crate::step;
     use crate::{Data, mjcf};
 
     /// A slide of 2 kg with a servo, and what else is said.
@@ -229,7 +229,7 @@ mod tests {
         d.qpos[0] = 1e-3;
         let mut most: f64 = 0.0;
         for _ in 0..3000 {
-            forward::step(m, &mut d);
+            step(m, &mut d);
             most = most.max(d.qpos[0].abs());
         }
         most

@@ -11,10 +11,19 @@ pub(crate) use filter::{MOST_LISTED, candidate_pairs};
 use params::Params;
 use sweep::Sweep;
 
-use crate::geometry::{Shape, pair};
+use crate::geometry::{Narrow, Shape, pair};
 use crate::math::*;
-use crate::step::sleep;
-use crate::{Contact, Data, Model, Warning, geom};
+use crate::model::asleep;
+use crate::{Fields, Model, Warning, geom};
+
+/// What the stage keeps.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Scratch {
+    /// Pairs of geoms to test.
+    pub(crate) pairs: Pairs,
+    /// Contacts of one pair.
+    narrow: Narrow,
+}
 
 /// The pairs that a plan tests, with their contact parameters when nothing can change these.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -58,37 +67,36 @@ pub(crate) const MOST_CONTACTS: usize = 1 << 16;
 
 /// `contact`, `ncon`: tests the pairs of the plan in their order.
 #[inline(never)]
-pub(crate) fn collide(m: &Model, d: &mut Data) {
+pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
     d.contact.clear();
-    let mut list = std::mem::take(&mut d.work.pairs);
+    let Scratch { pairs: list, narrow: work } = w;
     if let Some(sweep) = &mut list.sweep {
-        let work = sweep.run(m, d);
-        d.work.meter.add(work);
+        let cost = sweep.run(m, d);
+        d.meter.add(cost);
         for pair in &sweep.near {
-            if d.contact.len() > MOST_CONTACTS || d.work.meter.over() {
+            if d.contact.len() > MOST_CONTACTS || d.meter.over() {
                 break;
             }
-            if !sleep::pair_sleeps(m, d, pair.geom1 as usize, pair.geom2 as usize) {
-                narrow_mixed(m, d, pair);
+            if !asleep::pair(m, d, pair.geom1 as usize, pair.geom2 as usize) {
+                narrow_mixed(m, d, work, pair);
             }
         }
     }
     if list.params.is_empty() {
         for pair in &list.pairs {
             if !list.leaves_out(m, d, pair) {
-                narrow_mixed(m, d, pair);
+                narrow_mixed(m, d, work, pair);
             }
         }
     }
     for ((pair, params), &limit) in list.pairs.iter().zip(&list.params).zip(&list.limits) {
         let far = limit < f64::INFINITY && apart(d, pair) > limit;
         if !far && !list.leaves_out(m, d, pair) {
-            narrow(m, d, pair, params);
+            narrow(m, d, work, pair, params);
         }
     }
     let looked_at = 8 * list.pairs.len() + 100 * d.contact.len();
-    d.work.pairs = list;
-    d.work.meter.add(looked_at as u64);
+    d.meter.add(looked_at as u64);
     if d.contact.len() > MOST_CONTACTS {
         d.contact.truncate(MOST_CONTACTS);
         d.warn(Warning::ContactFull, MOST_CONTACTS);
@@ -97,7 +105,7 @@ pub(crate) fn collide(m: &Model, d: &mut Data) {
 }
 
 /// No contacts: they are switched off.
-pub(crate) fn none(d: &mut Data) {
+pub(crate) fn none(d: &mut Fields) {
     d.contact.clear();
     d.ncon = 0;
 }
@@ -105,16 +113,16 @@ pub(crate) fn none(d: &mut Data) {
 impl Pairs {
     /// Whether filters or sleep keep a pair of the list from touching.
     #[inline(always)]
-    fn leaves_out(&self, m: &Model, d: &Data, pair: &Pair) -> bool {
+    fn leaves_out(&self, m: &Model, d: &Fields, pair: &Pair) -> bool {
         let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
         self.filter && pair.explicit == Pair::DYNAMIC && !filter::admitted(m, g1, g2)
-            || sleep::pair_sleeps(m, d, g1, g2)
+            || asleep::pair(m, d, g1, g2)
     }
 }
 
 /// The squared distance of the centres of two geoms.
 #[inline(always)]
-fn apart(d: &Data, pair: &Pair) -> f64 {
+fn apart(d: &Fields, pair: &Pair) -> f64 {
     let centres = rows::<3>(&d.geom_xpos);
     let between = sub(centres[pair.geom2 as usize], centres[pair.geom1 as usize]);
     dot(between, between)
@@ -122,19 +130,19 @@ fn apart(d: &Data, pair: &Pair) -> f64 {
 
 /// The exact test of one pair whose parameters may have been written.
 #[inline(never)]
-fn narrow_mixed(m: &Model, d: &mut Data, pair: &Pair) {
-    narrow(m, d, pair, &params::params(m, pair));
+fn narrow_mixed(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair) {
+    narrow(m, d, work, pair, &params::params(m, pair));
 }
 
 /// The exact test of one pair. Spheres, the commonest, have a short way.
 #[inline(never)]
-fn narrow(m: &Model, d: &mut Data, pair: &Pair, params: &Params) {
+fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params) {
     let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
     let touch = match (m.geom_type[g1], m.geom_type[g2]) {
         (geom::PLANE, geom::SPHERE) => primitive::plane_sphere(m, d, g1, g2, params.reach),
         (geom::SPHERE, geom::SPHERE) => primitive::sphere_sphere(m, d, g1, g2, params.reach),
-        _ if sweep::far_apart(m, d, g1, g2, params.reach) || d.work.meter.over() => None,
-        _ => return general(m, d, [g1, g2], params),
+        _ if sweep::far_apart(m, d, g1, g2, params.reach) || d.meter.over() => None,
+        _ => return general(m, d, work, [g1, g2], params),
     };
     if let Some(t) = touch {
         d.contact.push(params::contact(params, g1, g2, &t, frame(t.normal)));
@@ -143,9 +151,8 @@ fn narrow(m: &Model, d: &mut Data, pair: &Pair, params: &Params) {
 
 /// The exact test of any pair.
 #[inline(never)]
-fn general(m: &Model, d: &mut Data, [g1, g2]: [usize; 2], params: &Params) {
+fn general(m: &Model, d: &mut Fields, work: &mut Narrow, [g1, g2]: [usize; 2], params: &Params) {
     let Some(method) = pair::method(m.geom_type[g1], m.geom_type[g2]) else { return };
-    let mut work = std::mem::take(&mut d.work.narrow);
     work.touches.clear();
     work.room.cost = 0;
     let (a, b) = (Shape::geom(m, d, g1), Shape::geom(m, d, g2));
@@ -153,29 +160,7 @@ fn general(m: &Model, d: &mut Data, [g1, g2]: [usize; 2], params: &Params) {
     for t in &work.touches {
         d.contact.push(params::contact(params, g1, g2, t, frame_along(t.normal, t.tangent)));
     }
-    d.work.meter.add(100 + work.room.cost);
-    d.work.narrow = work;
-}
-
-/// Force and torque of a contact in the contact's frame: normal, two tangents, then three torques
-/// (`mj_contactForce`), N and N m. Zero when the contact has no constraint.
-pub fn contact_force(m: &Model, d: &Data, contact: &Contact) -> [f64; 6] {
-    let mut out = [0.0; 6];
-    let Some(force) = contact.efc_address.and_then(|row| d.efc_force.get(row..)) else { return out };
-    if contact.dim == 1 || m.opt.cone != 0 {
-        for (out, f) in out.iter_mut().zip(force).take(contact.dim) {
-            *out = *f;
-        }
-    } else {
-        // Pyramid: each edge pushes along n ± μ t.
-        for (k, edges) in force.chunks_exact(2).take(contact.dim - 1).enumerate() {
-            out[0] += edges[0] + edges[1];
-            out[1 + k] = (edges[0] - edges[1]) * contact.friction[k];
-        }
-    }
-    // What sticks presses with that much less.
-    out[0] -= contact.adhesion;
-    out
+    d.meter.add(100 + work.room.cost);
 }
 
 #[cfg(test)]

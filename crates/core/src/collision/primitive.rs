@@ -2,11 +2,11 @@
 
 use crate::geometry::pair::Touch;
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 /// Signed distance of the sphere's centre from the plane, minus the radius.
 #[inline(always)]
-pub(super) fn plane_sphere(m: &Model, d: &Data, plane: usize, sphere: usize, reach: f64) -> Option<Touch> {
+pub(super) fn plane_sphere(m: &Model, d: &Fields, plane: usize, sphere: usize, reach: f64) -> Option<Touch> {
     let (pos, mat) = (rows::<3>(&d.geom_xpos), rows::<9>(&d.geom_xmat));
     let normal = column(&mat[plane], 2);
     let radius = rows::<3>(&m.geom_size)[sphere][0];
@@ -23,7 +23,7 @@ pub(super) fn plane_sphere(m: &Model, d: &Data, plane: usize, sphere: usize, rea
 /// Distance of the centres minus both radii. Coincident centres have no direction: the normal is taken
 /// across the two z axes, or along x when these are parallel.
 #[inline(always)]
-pub(super) fn sphere_sphere(m: &Model, d: &Data, g1: usize, g2: usize, reach: f64) -> Option<Touch> {
+pub(super) fn sphere_sphere(m: &Model, d: &Fields, g1: usize, g2: usize, reach: f64) -> Option<Touch> {
     let (pos, size) = (rows::<3>(&d.geom_xpos), rows::<3>(&m.geom_size));
     let (r1, r2) = (size[g1][0], size[g2][0]);
     let between = sub(pos[g2], pos[g1]);

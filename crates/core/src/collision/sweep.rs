@@ -8,7 +8,7 @@
 use super::filter::{self, Pair};
 use super::params;
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 /// A geom's bounding sphere, wide enough for its margin, its shadow on the axis, and the columns that it meets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -97,7 +97,7 @@ impl Sweep {
     }
 
     /// Finds the pairs whose bounds overlap now; returns what that cost.
-    pub(super) fn run(&mut self, m: &Model, d: &Data) -> u64 {
+    pub(super) fn run(&mut self, m: &Model, d: &Fields) -> u64 {
         let width = self.place(m, rows::<3>(&d.geom_xpos));
         (self.examined, self.asked) = (0, 0);
         self.near.clear();
@@ -260,7 +260,7 @@ fn widest(shadows: &[Shadow], centres: &[Vec3]) -> usize {
 
 /// Whether the bounding spheres of two geoms, or a sphere and a plane, are farther apart than `reach`.
 #[inline(always)]
-pub(super) fn far_apart(m: &Model, d: &Data, a: usize, b: usize, reach: f64) -> bool {
+pub(super) fn far_apart(m: &Model, d: &Fields, a: usize, b: usize, reach: f64) -> bool {
     let (pos, mat) = (rows::<3>(&d.geom_xpos), rows::<9>(&d.geom_xmat));
     let (ra, rb) = (m.geom_rbound[a], m.geom_rbound[b]);
     let between = sub(pos[b], pos[a]);

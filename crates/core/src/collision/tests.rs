@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::mjcf::compile;
-use crate::reset_data;
+use crate::{Contact, Data, kinematics, reset_data};
 
 /// Free bodies of random shapes in a cube, on a plane. The shapes are written over compiled spheres.
 fn pile(bodies: usize, side: f64) -> Model {
@@ -31,16 +31,16 @@ fn pile(bodies: usize, side: f64) -> Model {
 fn contacts(m: &Model, sweep: bool) -> Vec<Contact> {
     let mut d = Data::unplanned(m);
     reset_data(m, &mut d);
-    d.work.pairs = pairs(m, false, false);
+    d.work.collision.pairs = pairs(m, false, false);
     if sweep {
-        d.work.pairs = Pairs { sweep: Some(Box::new(Sweep::new(m, false))), ..Pairs::default() };
+        d.work.collision.pairs = Pairs { sweep: Some(Box::new(Sweep::new(m, false))), ..Pairs::default() };
     }
-    crate::dynamics::kinematics::bodies(m, &mut d);
-    crate::dynamics::kinematics::geoms(m, &mut d);
+    kinematics(m, &mut d);
     // Twice: the second run starts from the order of the first.
-    collide(m, &mut d);
-    collide(m, &mut d);
-    d.contact
+    for _ in 0..2 {
+        collide(m, &mut d.fields, &mut d.work.collision);
+    }
+    d.fields.contact
 }
 
 #[test]
@@ -155,9 +155,8 @@ fn too_many_contacts_are_left_out_with_a_warning() {
     let balls = "<body><freejoint/><geom size='.1'/></body>".repeat(400);
     let m = compile(&format!("<mujoco><worldbody>{balls}</worldbody></mujoco>")).unwrap();
     let mut d = Data::new(&m);
-    crate::dynamics::kinematics::bodies(&m, &mut d);
-    crate::dynamics::kinematics::geoms(&m, &mut d);
-    collide(&m, &mut d);
+    kinematics(&m, &mut d);
+    collide(&m, &mut d.fields, &mut d.work.collision);
     let stat = d.warning[Warning::ContactFull as usize];
     assert_eq!((d.ncon, stat.number, stat.lastinfo), (MOST_CONTACTS, 1, MOST_CONTACTS));
 }

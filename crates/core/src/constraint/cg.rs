@@ -3,7 +3,8 @@
 //! Directions follow Hager and Zhang 2005 (*A new conjugate gradient method with guaranteed descent and an efficient
 //! line search*), with their truncation.
 
-use super::primal::{Problem, Reached};
+use super::iterate::Reached;
+use super::primal::Problem;
 use crate::math::MINVAL;
 
 /// Keeps the truncation finite where the gradient vanishes.
@@ -25,8 +26,8 @@ impl Problem<'_> {
         }
         for _ in 0..self.m.opt.iterations.max(0) {
             let alpha = self.line_search(scale);
-            self.d.work.meter.add(price);
-            if alpha == 0.0 || self.d.work.meter.over() {
+            self.d.meter.add(price);
+            if alpha == 0.0 || self.d.meter.over() {
                 break;
             }
             self.advance(alpha);

@@ -2,18 +2,19 @@
 
 use super::cost::Cost;
 use super::impedance::{Acts, Kbi, kbi, kbi_friction};
-use super::kind;
+use super::jacobian::Jacobian;
 use super::rows::{Rows, push, regularization};
+use super::{Scratch, kind};
 use crate::dynamics::{jacobian, jacobian::Columns};
 use crate::math::*;
-use crate::{Contact, Data, Model};
+use crate::{Contact, Fields, Model};
 
 /// Value of `opt.cone`.
 const PYRAMIDAL: i32 = 0;
 
 /// Number of rows that the contacts may need.
 #[inline(always)]
-pub(super) fn count(m: &Model, d: &Data) -> usize {
+pub(super) fn count(m: &Model, d: &Fields) -> usize {
     let rows = |c: &Contact| match c.dim {
         1 => 1,
         dim if m.opt.cone == PYRAMIDAL => 2 * (dim - 1),
@@ -23,28 +24,27 @@ pub(super) fn count(m: &Model, d: &Data) -> usize {
 }
 
 /// Rows of all contacts that touch, in their order.
-pub(super) fn make(m: &Model, d: &mut Data) {
+pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let mut list = std::mem::take(&mut d.contact);
-    let mut columns = d.work.columns.take().unwrap_or_default();
+    let Scratch { jac, columns, .. } = w;
     for (id, c) in list.iter_mut().enumerate() {
         c.efc_address = None;
         if c.exclude != 0 {
             continue;
         }
         let bodies = [m.geom_bodyid[c.geom1] as usize, m.geom_bodyid[c.geom2] as usize];
-        jacobian::point_difference(m, d, bodies, c.pos, &c.frame, &mut columns);
+        jacobian::point_difference(m, d, bodies, c.pos, &c.frame, columns);
         if columns.dofs().is_empty() {
             c.exclude = 3;
             continue;
         }
         c.efc_address = Some(d.nefc);
         match (c.dim, m.opt.cone) {
-            (1 | 3, PYRAMIDAL) => common(m, d, id, c, bodies, &columns),
-            _ => other(m, d, id, c, bodies, &mut columns),
+            (1 | 3, PYRAMIDAL) => common(m, d, jac, id, c, bodies, columns),
+            _ => other(m, d, jac, id, c, bodies, columns),
         }
     }
     d.contact = list;
-    d.work.columns = Some(columns);
 }
 
 /// Sum over both bodies of the inverse inertia, for translation (0) or rotation (1).
@@ -61,36 +61,52 @@ fn shared<const R: usize>(c: &Contact, id: usize, kind: i32, kbi: Kbi, others: K
 
 /// Without friction, or with the pyramid of sliding friction: the edges n ± μ t.
 #[inline(always)]
-fn common(m: &Model, d: &mut Data, id: usize, c: &mut Contact, bodies: [usize; 2], columns: &Columns) {
+fn common(
+    m: &Model,
+    d: &mut Fields,
+    jac: &mut Jacobian,
+    id: usize,
+    c: &mut Contact,
+    bodies: [usize; 2],
+    columns: &Columns,
+) {
     let (cols, along) = (columns.dofs(), columns.values());
     let (row, mu, mu2) = (d.nefc, c.friction[0], c.friction[1]);
     let kbi = kbi(m, Acts::OneWay, c.solref, c.solimp, c.dist - c.includemargin);
     let translation = inverse_weight(m, bodies, 0);
     if c.dim == 1 {
-        d.work.jac.push::<1>(Cost::Push, row, cols, along.iter().map(|a| [a[0]]));
+        jac.push::<1>(Cost::Push, row, cols, along.iter().map(|a| [a[0]]));
         let r = [regularization(kbi.imp, translation)];
         push::<1>(d, &shared(c, id, kind::CONTACT_FRICTIONLESS, kbi, kbi, r));
         return;
     }
     let edges = |&[n, t1, t2]: &Vec3| [n + mu * t1, n - mu * t1, n + mu2 * t2, n - mu2 * t2];
-    d.work.jac.push::<4>(Cost::Push, row, cols, along.iter().map(edges));
+    jac.push::<4>(Cost::Push, row, cols, along.iter().map(edges));
     let r = friction(m, c, false, regularization(kbi.imp, translation + mu * mu * translation));
     push::<4>(d, &shared(c, id, kind::CONTACT_PYRAMIDAL, kbi, kbi, r));
 }
 
 /// Contacts that also resist spinning and rolling, and elliptic cones.
 #[inline(never)]
-fn other(m: &Model, d: &mut Data, id: usize, c: &mut Contact, bodies: [usize; 2], columns: &mut Columns) {
+fn other(
+    m: &Model,
+    d: &mut Fields,
+    jac: &mut Jacobian,
+    id: usize,
+    c: &mut Contact,
+    bodies: [usize; 2],
+    columns: &mut Columns,
+) {
     if c.dim > 3 {
         jacobian::turn_difference(m, d, bodies, &c.frame, columns);
     }
     match (c.dim, m.opt.cone) {
-        (1, _) => common(m, d, id, c, bodies, columns),
-        (4, PYRAMIDAL) => pyramid::<6>(m, d, id, c, bodies, columns),
-        (_, PYRAMIDAL) => pyramid::<10>(m, d, id, c, bodies, columns),
-        (3, _) => cone::<3>(m, d, id, c, bodies, columns),
-        (4, _) => cone::<4>(m, d, id, c, bodies, columns),
-        _ => cone::<6>(m, d, id, c, bodies, columns),
+        (1, _) => common(m, d, jac, id, c, bodies, columns),
+        (4, PYRAMIDAL) => pyramid::<6>(m, d, jac, id, c, bodies, columns),
+        (_, PYRAMIDAL) => pyramid::<10>(m, d, jac, id, c, bodies, columns),
+        (3, _) => cone::<3>(m, d, jac, id, c, bodies, columns),
+        (4, _) => cone::<4>(m, d, jac, id, c, bodies, columns),
+        _ => cone::<6>(m, d, jac, id, c, bodies, columns),
     }
 }
 
@@ -104,7 +120,8 @@ fn space(columns: &Columns) -> impl Iterator<Item = [f64; 6]> {
 /// A pair of edges n ± μ t for each of the R / 2 directions of friction.
 fn pyramid<const R: usize>(
     m: &Model,
-    d: &mut Data,
+    d: &mut Fields,
+    jac: &mut Jacobian,
     id: usize,
     c: &mut Contact,
     bodies: [usize; 2],
@@ -115,7 +132,7 @@ fn pyramid<const R: usize>(
         s[0] + if r.is_multiple_of(2) { mu[r / 2] } else { -mu[r / 2] } * s[1 + r / 2]
     };
     let edges = space(columns).map(|s| std::array::from_fn(|r| edge(&s, r)));
-    d.work.jac.push::<R>(Cost::Push, d.nefc, columns.dofs(), edges);
+    jac.push::<R>(Cost::Push, d.nefc, columns.dofs(), edges);
     let kbi = kbi(m, Acts::OneWay, c.solref, c.solimp, c.dist - c.includemargin);
     let translation = inverse_weight(m, bodies, 0);
     let r = friction(m, c, false, regularization(kbi.imp, translation + mu[0] * mu[0] * translation));
@@ -125,14 +142,15 @@ fn pyramid<const R: usize>(
 /// The normal, and R - 1 directions of friction, which have no stiffness.
 fn cone<const R: usize>(
     m: &Model,
-    d: &mut Data,
+    d: &mut Fields,
+    jac: &mut Jacobian,
     id: usize,
     c: &mut Contact,
     bodies: [usize; 2],
     columns: &Columns,
 ) {
     let axes = space(columns).map(|s| std::array::from_fn(|r| s[r]));
-    d.work.jac.push::<R>(Cost::Cone, d.nefc, columns.dofs(), axes);
+    jac.push::<R>(Cost::Cone, d.nefc, columns.dofs(), axes);
     let kbi = kbi(m, Acts::OneWay, c.solref, c.solimp, c.dist - c.includemargin);
     let others = Kbi { k: 0.0, ..kbi_friction(m, c, kbi) };
     let r = friction(m, c, true, regularization(kbi.imp, inverse_weight(m, bodies, 0)));
@@ -166,7 +184,7 @@ pub(super) fn friction<const R: usize>(m: &Model, c: &mut Contact, elliptic: boo
 }
 
 /// Adds the motion of surfaces that move by themselves to `efc_vel`: along the tangents, and spinning about the normal.
-pub(super) fn surfaces(m: &Model, d: &mut Data) {
+pub(super) fn surfaces(m: &Model, d: &mut Fields) {
     for i in 0..d.contact.len() {
         let c = &d.contact[i];
         let Some(row) = c.efc_address else { continue };
@@ -188,7 +206,7 @@ pub(super) fn surfaces(m: &Model, d: &mut Data) {
 }
 
 /// Velocity of a geom's surface at a point, and its angular velocity, relative to the geom, world axes.
-fn surface(m: &Model, d: &Data, g: usize, point: Vec3) -> (Vec3, Vec3) {
+fn surface(m: &Model, d: &Fields, g: usize, point: Vec3) -> (Vec3, Vec3) {
     let v = &rows::<6>(&m.geom_surfacevel)[g];
     let mat = &rows::<9>(&d.geom_xmat)[g];
     let [linear, turn] = [[v[0], v[1], v[2]], [v[3], v[4], v[5]]].map(|v| mat_mul_vec(mat, v));
@@ -196,7 +214,7 @@ fn surface(m: &Model, d: &Data, g: usize, point: Vec3) -> (Vec3, Vec3) {
 }
 
 /// Adds to `efc_aref` what keeps the violation of a contact that pulls as it is without the pull: R times its force.
-pub(super) fn adhesion(d: &mut Data) {
+pub(super) fn adhesion(d: &mut Fields) {
     for c in d.contact.iter().filter(|c| c.adhesion != 0.0) {
         let Some(row) = c.efc_address else { continue };
         let rows = if d.efc_type[row] == kind::CONTACT_PYRAMIDAL { 2 * (c.dim - 1) } else { 1 };

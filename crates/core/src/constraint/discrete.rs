@@ -5,19 +5,19 @@
 //! -((B + h K d) v + K d r)/s (derived from MuJoCo 3.14.0's numbers).
 
 use super::cost::Cost;
-use super::jacobian::by_rows;
+use super::jacobian::{Jacobian, by_rows};
 use super::rows::{resize, soften};
-use super::{contact, equality, kind};
+use super::{Scratch, contact, equality, kind};
 use crate::dynamics::mass;
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 /// Replaces `efc_R` with what follows from it, and sets `efc_aref`. `metric` is the diagonal of the matrix that takes the
 /// place of M.
-pub(crate) fn at_end_of_step(m: &Model, d: &mut Data, metric: &[f64]) {
-    for i in 0..d.work.jac.blocks.len() {
-        let b = d.work.jac.blocks[i];
-        by_rows!(b.nrow, R => soften_block::<R>(m, d, metric, i));
+pub(crate) fn at_end_of_step(m: &Model, d: &mut Fields, w: &Scratch, metric: &[f64]) {
+    for i in 0..w.jac.blocks.len() {
+        let b = w.jac.blocks[i];
+        by_rows!(b.nrow, R => soften_block::<R>(m, d, &w.jac, metric, i));
     }
     let h = m.opt.timestep;
     for (r, [k, b, imp, _]) in rows::<4>(&d.efc_KBIP).iter().enumerate() {
@@ -41,13 +41,13 @@ fn growth(h: f64, [k, b, imp, _]: &[f64; 4]) -> f64 {
 }
 
 /// R/s of the rows of a block, for the inertia that they meet now.
-fn soften_block<const R: usize>(m: &Model, d: &mut Data, metric: &[f64], i: usize) {
-    let b = d.work.jac.blocks[i];
+fn soften_block<const R: usize>(m: &Model, d: &mut Fields, jac: &Jacobian, metric: &[f64], i: usize) {
+    let b = jac.blocks[i];
     let row = b.row as usize;
     let Some(&old) = d.efc_R[row..].first_chunk::<R>() else { return };
     // Σ J²/M' over Σ J²/M, with diagonals alone.
     let (mut now, mut before) = ([0.0; R], [0.0; R]);
-    for (&k, v) in d.work.jac.columns(&b).iter().zip(d.work.jac.values(&b).as_chunks::<R>().0) {
+    for (&k, v) in jac.columns(&b).iter().zip(jac.values(&b).as_chunks::<R>().0) {
         let k = k as usize;
         let inertia = d.M[mass::diagonal(m, k)];
         for r in 0..R {
@@ -74,23 +74,23 @@ fn soften_block<const R: usize>(m: &Model, d: &mut Data, metric: &[f64], i: usiz
 }
 
 /// Appends a row that costs ½ `stiff` x² for x = J a: a part of the metric that M's pattern has no room for.
-pub(crate) fn push_metric(d: &mut Data, columns: &[i32], values: &[f64], stiff: f64) {
+pub(crate) fn push_metric(d: &mut Fields, w: &mut Scratch, columns: &[i32], values: &[f64], stiff: f64) {
     let row = d.nefc;
     resize(d, row + 1);
     d.nefc += 1;
-    d.work.jac.push_sparse(Cost::Quadratic, row, columns, values.iter().copied());
+    w.jac.push_sparse(Cost::Quadratic, row, columns, values.iter().copied());
     (d.efc_type[row], d.efc_id[row]) = (kind::EQUALITY, 0);
     (d.efc_aref[row], d.efc_D[row], d.efc_R[row], d.efc_frictionloss[row]) = (0.0, stiff, 1.0 / stiff, 0.0);
 }
 
 /// Takes the rows from `rows` on back, and their force out of `qfrc_constraint`.
-pub(crate) fn pop_metric(d: &mut Data, rows: usize) {
-    while let Some(&b) = d.work.jac.blocks.last()
+pub(crate) fn pop_metric(d: &mut Fields, w: &mut Scratch, rows: usize) {
+    while let Some(&b) = w.jac.blocks.last()
         && b.row as usize >= rows
     {
         let opposite = [-d.efc_force[b.row as usize]];
-        d.work.jac.add_transposed(&b, &opposite, &mut d.qfrc_constraint);
-        d.work.jac.pop();
+        w.jac.add_transposed(&b, &opposite, &mut d.qfrc_constraint);
+        w.jac.pop();
     }
     d.nefc = rows;
     resize(d, rows);

@@ -6,94 +6,11 @@
 //! diagonal are kept.
 
 use super::cost::Cost;
-use super::jacobian::{Block, Jacobian, by_rows};
+use super::gram::Item;
+use super::jacobian::{Block, by_rows};
 use super::primal::Problem;
-use super::solver::tree_dofs;
 use crate::dynamics::mass;
 use crate::math::dot;
-use crate::{Data, Model};
-
-/// What the dual methods keep.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Dual {
-    /// M⁻¹ Jᵀ, block by block as J, over all degrees of freedom of the trees that a block touches.
-    inverse: Jacobian,
-    /// Blocks of A, row by row, and where each begins.
-    gram: Vec<f64>,
-    start: Vec<u32>,
-    /// M⁻¹ Jᵀ f.
-    pub(super) acceleration: Vec<f64>,
-    /// A column of M⁻¹ Jᵀ.
-    x: Vec<f64>,
-    /// Forces after the last sweep, after the one before, and where the present sweep began.
-    pub(super) last: Vec<f64>,
-    pub(super) before: Vec<f64>,
-    pub(super) begun: Vec<f64>,
-    /// What a sweep visits, in its order.
-    pub(super) order: Vec<Item>,
-}
-
-/// Rows that are solved together: one, or all of an elliptic cone.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Item {
-    pub(super) block: u32,
-    /// First row, counted from the block's first.
-    pub(super) first: u32,
-}
-
-impl Dual {
-    /// Fills M⁻¹ Jᵀ and the blocks of A.
-    pub(super) fn build(&mut self, m: &Model, d: &Data) {
-        self.inverse.clear();
-        self.gram.clear();
-        self.start.clear();
-        self.acceleration.resize(m.nv, 0.0);
-        self.x.resize(m.nv, 0.0);
-        for v in [&mut self.last, &mut self.before, &mut self.begun] {
-            v.resize(d.nefc, 0.0);
-        }
-        for b in &d.work.jac.blocks {
-            by_rows!(b.nrow, R => self.block::<R>(m, d, b));
-        }
-    }
-
-    fn block<const R: usize>(&mut self, m: &Model, d: &Data, b: &Block) {
-        let jac = &d.work.jac;
-        let trees = jac.trees(m, b);
-        let values = self.inverse.push_zeros(b, trees.clone().flat_map(|t| tree_dofs(m, t)));
-        let terms = || jac.columns(b).iter().zip(jac.values(b).as_chunks::<R>().0);
-        self.start.push(self.gram.len() as u32);
-        for r in 0..R {
-            for t in trees.clone() {
-                self.x[tree_dofs(m, t)].fill(0.0);
-            }
-            for (&k, v) in terms() {
-                self.x[k as usize] = v[r];
-            }
-            for t in trees.clone() {
-                mass::solve(m, &d.qLD, &d.qLDiagInv, &mut self.x, tree_dofs(m, t));
-            }
-            let dofs = trees.clone().flat_map(|t| tree_dofs(m, t));
-            for (value, k) in values.as_chunks_mut::<R>().0.iter_mut().zip(dofs) {
-                value[r] = self.x[k];
-            }
-            let mut row = [0.0; R];
-            for (&k, v) in terms() {
-                for (sum, v) in row.iter_mut().zip(v) {
-                    *sum += v * self.x[k as usize];
-                }
-            }
-            self.gram.extend_from_slice(&row);
-        }
-    }
-
-    /// The part of A that belongs to N rows of a block.
-    pub(super) fn part<const N: usize>(&self, b: &Block, item: Item) -> [[f64; N]; N] {
-        let (at, n) = (self.start[item.block as usize] as usize, b.nrow as usize);
-        let first = item.first as usize;
-        std::array::from_fn(|i| std::array::from_fn(|j| self.gram[at + (first + i) * n + first + j]))
-    }
-}
 
 impl Problem<'_> {
     /// What a sweep over the forces of the island costs.
@@ -126,7 +43,7 @@ impl Problem<'_> {
         let first = item.first as usize;
         let row = b.row as usize + first;
         let mut out = [0.0; N];
-        let jac = &self.d.work.jac;
+        let jac = self.jac;
         for (&k, v) in jac.columns(b).iter().zip(jac.values(b).chunks_exact(n)) {
             let a = self.s.dual.acceleration[k as usize];
             for (sum, v) in out.iter_mut().zip(&v[first..]) {
@@ -163,7 +80,7 @@ impl Problem<'_> {
         self.accelerate();
         let mut cost = 0.0;
         for i in self.blocks() {
-            let b = self.d.work.jac.blocks[i];
+            let b = self.jac.blocks[i];
             for first in 0..b.nrow {
                 let row = (b.row + first) as usize;
                 let item = Item { block: i as u32, first };
@@ -182,11 +99,11 @@ impl Problem<'_> {
             self.d.qfrc_constraint[dofs].fill(0.0);
         }
         for i in self.blocks() {
-            let b = self.d.work.jac.blocks[i];
+            let b = self.jac.blocks[i];
             by_rows!(b.nrow, R => {
                 let d = &mut *self.d;
                 if let Some(f) = d.efc_force[b.rows()].first_chunk::<R>() {
-                    d.work.jac.add_transposed(&b, f, &mut d.qfrc_constraint);
+                    self.jac.add_transposed(&b, f, &mut d.qfrc_constraint);
                 }
             });
         }
@@ -200,8 +117,8 @@ impl Problem<'_> {
         }
         for i in self.blocks() {
             let d = &*self.d;
-            let b = &d.work.jac.blocks[i];
-            d.work.jac.mul_block(b, &d.qacc, &mut self.s.jar);
+            let b = &self.jac.blocks[i];
+            self.jac.mul_block(b, &d.qacc, &mut self.s.jar);
             for (x, aref) in self.s.jar[b.rows()].iter_mut().zip(&d.efc_aref[b.rows()]) {
                 *x -= aref;
             }
@@ -211,10 +128,10 @@ impl Problem<'_> {
     /// The constraints of a sweep in the order of their rows.
     pub(super) fn list_items(&mut self) {
         let blocks = self.blocks();
-        let (d, order) = (&*self.d, &mut self.s.dual.order);
+        let order = &mut self.s.dual.order;
         order.clear();
         for i in blocks {
-            let b = &d.work.jac.blocks[i];
+            let b = &self.jac.blocks[i];
             let each = if b.cost == Cost::Cone { b.nrow } else { 1 };
             let firsts = (0..b.nrow).step_by(each.max(1) as usize);
             order.extend(firsts.map(|first| Item { block: i as u32, first }));

@@ -11,14 +11,14 @@
 
 use crate::dynamics::object;
 use crate::math::*;
-use crate::{Data, Model, Obj, eqtype};
+use crate::{Fields, Model, Obj, eqtype};
 
 /// Numbers of a constraint in `eq_data`.
 const DATA: usize = 11;
 
 /// Completes `eq_data`, with `d` at the default configuration: the anchor of `connect` in the second body's
 /// frame, and the relative pose of a `weld` that has none.
-pub(crate) fn set_const(m: &mut Model, d: &Data) {
+pub(crate) fn set_const(m: &mut Model, d: &Fields) {
     let (xpos, xmat, xquat) = (rows::<3>(&d.xpos), rows::<9>(&d.xmat), rows::<4>(&d.xquat));
     for i in 0..m.neq {
         if m.eq_objtype[i] != Obj::Body as i32 {
@@ -66,7 +66,7 @@ pub(crate) fn rows_of(m: &Model, e: usize) -> usize {
 }
 
 /// Both ends of a connect or weld. `None` for constraints of joints and tendons.
-pub(crate) fn ends(m: &Model, d: &Data, e: usize) -> Option<[End; 2]> {
+pub(crate) fn ends(m: &Model, d: &Fields, e: usize) -> Option<[End; 2]> {
     let data = rows::<DATA>(&m.eq_data).get(e)?;
     let ids = [m.eq_obj1id[e], m.eq_obj2id[e]].map(|id| id.max(0) as usize);
     let weld = m.eq_type[e] == eqtype::WELD;

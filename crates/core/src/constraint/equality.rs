@@ -6,40 +6,40 @@
 
 use super::cost::Cost;
 use super::impedance::{Acts, kbi};
-use super::kind;
+use super::jacobian::Jacobian;
 use super::rows::{Rows, push, regularization};
+use super::{Scratch, kind};
 use crate::constraint::{ends, ends::End};
 use crate::dynamics::{jacobian, jacobian::Columns};
 use crate::forces::tendon;
 use crate::math::*;
-use crate::step::sleep;
-use crate::{Data, Model, eqtype};
+use crate::model::asleep;
+use crate::{Fields, Model, eqtype};
 
 /// Number of rows of the active constraints.
-pub(super) fn count(m: &Model, d: &Data) -> usize {
+pub(super) fn count(m: &Model, d: &Fields) -> usize {
     (0..m.neq).filter(|&e| d.eq_active[e]).map(|e| ends::rows_of(m, e)).sum()
 }
 
 /// Rows of all active constraints, by id.
-pub(super) fn make(m: &Model, d: &mut Data) {
-    let mut columns = d.work.columns.take().unwrap_or_default();
+pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    let Scratch { jac, columns, .. } = w;
     for e in 0..m.neq {
-        if !d.eq_active[e] || sleep::equality_sleeps(m, d, e) {
+        if !d.eq_active[e] || asleep::equality(m, d, e) {
             continue;
         }
         match (m.eq_type[e], ends::ends(m, d, e)) {
-            (eqtype::CONNECT, Some(ends)) => connect(m, d, e, &ends, &mut columns),
-            (eqtype::WELD, Some(ends)) => weld(m, d, e, &ends, &mut columns),
-            (eqtype::JOINT, _) => coupled_joints(m, d, e),
-            (eqtype::TENDON, _) => coupled_tendons(m, d, e),
+            (eqtype::CONNECT, Some(ends)) => connect(m, d, jac, e, &ends, columns),
+            (eqtype::WELD, Some(ends)) => weld(m, d, jac, e, &ends, columns),
+            (eqtype::JOINT, _) => coupled_joints(m, d, jac, e),
+            (eqtype::TENDON, _) => coupled_tendons(m, d, jac, e),
             _ => {}
         }
     }
-    d.work.columns = Some(columns);
 }
 
 /// Appends the scalars of a constraint; its impedance is that of the distance `off` from where it should be.
-fn scalars<const R: usize>(m: &Model, d: &mut Data, e: usize, pos: [f64; R], off: f64, weight: [f64; R]) {
+fn scalars<const R: usize>(m: &Model, d: &mut Fields, e: usize, pos: [f64; R], off: f64, weight: [f64; R]) {
     let kbi = kbi(m, Acts::BothWays, rows::<2>(&m.eq_solref)[e], rows::<5>(&m.eq_solimp)[e], off);
     let r = weight.map(|w| regularization(kbi.imp, w));
     push::<R>(
@@ -53,28 +53,28 @@ fn inverse_weight(m: &Model, ends: &[End; 2], part: usize) -> f64 {
     m.body_invweight0[2 * ends[0].body + part] + m.body_invweight0[2 * ends[1].body + part]
 }
 
-fn difference(m: &Model, d: &Data, ends: &[End; 2], out: &mut Columns) {
+fn difference(m: &Model, d: &Fields, ends: &[End; 2], out: &mut Columns) {
     jacobian::pair_difference(m, d, [ends[0].body, ends[1].body], [ends[0].point, ends[1].point], out);
 }
 
-fn connect(m: &Model, d: &mut Data, e: usize, ends: &[End; 2], columns: &mut Columns) {
+fn connect(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize, ends: &[End; 2], columns: &mut Columns) {
     difference(m, d, ends, columns);
-    d.work.jac.push::<3>(Cost::Quadratic, d.nefc, columns.dofs(), columns.values().iter().copied());
-    if d.work.jac.keep_moving(m) {
+    jac.push::<3>(Cost::Quadratic, d.nefc, columns.dofs(), columns.values().iter().copied());
+    if jac.keep_moving(m) {
         let pos = sub(ends[0].point, ends[1].point);
         scalars(m, d, e, pos, norm(pos), [inverse_weight(m, ends, 0); 3]);
     }
 }
 
-fn weld(m: &Model, d: &mut Data, e: usize, ends: &[End; 2], columns: &mut Columns) {
+fn weld(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize, ends: &[End; 2], columns: &mut Columns) {
     difference(m, d, ends, columns);
     let torquescale = rows::<11>(&m.eq_data)[e][10];
     let both = columns.values().iter().zip(columns.turns()).map(|(&[x, y, z], &turn)| {
         let [a, b, c] = scale(between(ends, turn), 0.5 * torquescale);
         [x, y, z, a, b, c]
     });
-    d.work.jac.push::<6>(Cost::Quadratic, d.nefc, columns.dofs(), both);
-    if d.work.jac.keep_moving(m) {
+    jac.push::<6>(Cost::Quadratic, d.nefc, columns.dofs(), both);
+    if jac.keep_moving(m) {
         let [x, y, z] = sub(ends[0].point, ends[1].point);
         let [_, a, b, c] = quat_mul(quat_conj(ends[1].quat), ends[0].quat);
         let [a, b, c] = scale([a, b, c], torquescale);
@@ -96,7 +96,7 @@ fn polynomial(coefficients: &[f64], x: f64) -> (f64, f64) {
 }
 
 /// How much the force of a tendon equality pulls at its second tendon.
-pub(super) fn ratio(m: &Model, d: &Data, e: usize) -> f64 {
+pub(super) fn ratio(m: &Model, d: &Fields, e: usize) -> f64 {
     let second = usize::try_from(m.eq_obj2id[e]).ok();
     coupled(m, e, 0.0, second.map(|t| d.ten_length[t] - m.tendon_length0[t])).1
 }
@@ -113,7 +113,7 @@ fn coupled(m: &Model, e: usize, first: f64, second: Option<f64>) -> (f64, f64) {
     }
 }
 
-fn coupled_joints(m: &Model, d: &mut Data, e: usize) {
+fn coupled_joints(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize) {
     let first = m.eq_obj1id[e].max(0) as usize;
     let second = usize::try_from(m.eq_obj2id[e]).ok();
     let moved = |j: usize| {
@@ -124,31 +124,31 @@ fn coupled_joints(m: &Model, d: &mut Data, e: usize) {
     let mut weight = m.dof_invweight0[m.jnt_dofadr[first] as usize];
     let dof = |j: usize| &m.jnt_dofadr[j..j + 1];
     let other = second.map_or(&[][..], dof);
-    d.work.jac.push_sum(Cost::Quadratic, d.nefc, (dof(first), &[1.0]), (other, &[1.0]), ratio);
+    jac.push_sum(Cost::Quadratic, d.nefc, (dof(first), &[1.0]), (other, &[1.0]), ratio);
     if let Some(&k) = other.first() {
         weight += m.dof_invweight0[k as usize];
     }
-    if d.work.jac.keep_moving(m) {
+    if jac.keep_moving(m) {
         scalars(m, d, e, [pos], pos, [weight]);
     }
 }
 
-fn coupled_tendons(m: &Model, d: &mut Data, e: usize) {
+fn coupled_tendons(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize) {
     let first = m.eq_obj1id[e].max(0) as usize;
     let second = usize::try_from(m.eq_obj2id[e]).ok();
     let moved = |t: usize| d.ten_length[t] - m.tendon_length0[t];
     let (pos, ratio) = coupled(m, e, moved(first), second.map(moved));
-    let jac = |t: usize| (&m.ten_J_colind[tendon::row(m, t)], &d.ten_J[tendon::row(m, t)]);
-    let other = second.map_or((&[][..], &[][..]), jac);
-    d.work.jac.push_sum(Cost::Quadratic, d.nefc, jac(first), other, ratio);
+    let along = |t: usize| (&m.ten_J_colind[tendon::row(m, t)], &d.ten_J[tendon::row(m, t)]);
+    let other = second.map_or((&[][..], &[][..]), along);
+    jac.push_sum(Cost::Quadratic, d.nefc, along(first), other, ratio);
     let weight = m.tendon_invweight0[first] + second.map_or(0.0, |t| m.tendon_invweight0[t]);
-    if d.work.jac.keep_moving(m) {
+    if jac.keep_moving(m) {
         scalars(m, d, e, [pos], pos, [weight]);
     }
 }
 
 /// aref -= J̇ v for connects and welds.
-pub(super) fn bias(m: &Model, d: &mut Data) {
+pub(super) fn bias(m: &Model, d: &mut Fields) {
     let mut row = 0;
     while row < d.ne {
         let e = d.efc_id[row] as usize;

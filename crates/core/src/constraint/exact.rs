@@ -2,37 +2,37 @@
 
 use super::jacobian::by_rows;
 use super::rows::{regularization, soften};
-use super::{contact, kind};
+use super::{Scratch, contact, kind};
 use crate::dynamics::mass;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 /// Replaces `efc_R` and what follows from it.
-pub(super) fn regularize(m: &Model, d: &mut Data) {
-    for i in 0..d.work.jac.blocks.len() {
-        d.work.meter.add(u64::from(d.work.jac.blocks[i].nrow) * (m.nv + 2 * m.nC) as u64);
-        if d.work.meter.over() {
+pub(super) fn regularize(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    for i in 0..w.jac.blocks.len() {
+        d.meter.add(u64::from(w.jac.blocks[i].nrow) * (m.nv + 2 * m.nC) as u64);
+        if d.meter.over() {
             break;
         }
-        let b = d.work.jac.blocks[i];
-        by_rows!(b.nrow, R => block::<R>(m, d, i));
+        let b = w.jac.blocks[i];
+        by_rows!(b.nrow, R => block::<R>(m, d, w, i));
     }
 }
 
-fn block<const R: usize>(m: &Model, d: &mut Data, i: usize) {
-    let b = d.work.jac.blocks[i];
+fn block<const R: usize>(m: &Model, d: &mut Fields, w: &mut Scratch, i: usize) {
+    let b = w.jac.blocks[i];
     let row = b.row as usize;
-    let mut x = std::mem::take(&mut d.work.mv);
+    let (jac, x) = (&w.jac, &mut w.column);
+    x.resize(m.nv, 0.0);
     let mut diag = [0.0; R];
     for (r, diag) in diag.iter_mut().enumerate() {
         x.fill(0.0);
-        let terms = || d.work.jac.columns(&b).iter().zip(d.work.jac.values(&b).chunks_exact(R));
+        let terms = || jac.columns(&b).iter().zip(jac.values(&b).chunks_exact(R));
         for (&k, v) in terms() {
             x[k as usize] = v[r];
         }
-        mass::solve(m, &d.qLD, &d.qLDiagInv, &mut x, 0..m.nv);
+        mass::solve(m, &d.qLD, &d.qLDiagInv, x, 0..m.nv);
         *diag = terms().map(|(&k, v)| v[r] * x[k as usize]).sum();
     }
-    d.work.mv = x;
     let imp = d.efc_KBIP[4 * row + 2];
     let mut r = diag.map(|a| regularization(imp, a));
     let elliptic = d.efc_type[row] == kind::CONTACT_ELLIPTIC;

@@ -8,7 +8,6 @@
 
 use super::island::Islands;
 use super::jacobian::{Gram, Jacobian};
-use super::solver::tree_dofs;
 use crate::Model;
 use crate::math::MINVAL;
 use std::array::from_fn;
@@ -91,7 +90,7 @@ impl Hessian {
         }
         self.made_for = (islands.found, island);
         let trees = || islands.trees_of(island);
-        self.len = trees().map(|t| tree_dofs(m, t).len()).sum();
+        self.len = trees().map(|t| m.tree_dofs(t).len()).sum();
         self.local.resize(m.nv, 0);
         if self.len <= SMALL {
             self.number(m, trees());
@@ -127,7 +126,7 @@ impl Hessian {
     /// Numbers the degrees of freedom from the last to the first.
     fn number(&mut self, m: &Model, trees: impl Iterator<Item = usize>) {
         let mut left = self.len as u32;
-        for k in trees.flat_map(|t| tree_dofs(m, t)) {
+        for k in trees.flat_map(|t| m.tree_dofs(t)) {
             left -= 1;
             self.local[k] = left;
         }
@@ -441,8 +440,7 @@ impl Order {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a test that fails says why
 mod tests {
-    use crate::step::forward;
-    use crate::{Data, Model, mjcf};
+    use crate::{Data, Model, forward, mjcf, step};
     use std::fmt::Write;
 
     /// Two hundred balls in one place, each of which touches each: no room is made for the Hessian, and the step is done.
@@ -455,9 +453,9 @@ mod tests {
         let text: String = (0..200).map(ball).collect();
         let m = mjcf::compile(&format!("<mujoco><worldbody>{text}</worldbody></mujoco>")).unwrap();
         let mut d = Data::new(&m);
-        forward::step(&m, &mut d);
+        step(&m, &mut d);
         assert_eq!((d.ncon, d.nisland), (200 * 199 / 2, 1));
-        assert_eq!(d.work.solver.as_ref().unwrap().hessian.kept(), 0);
+        assert_eq!(d.work.constraint.solver.hessian.kept(), 0);
         assert!(d.solver_niter > 0 && d.qacc.iter().all(|a| a.is_finite()));
     }
 
@@ -475,8 +473,8 @@ mod tests {
 
     fn kept(m: &Model) -> (usize, Data) {
         let mut d = Data::new(m);
-        forward::forward(m, &mut d);
-        let hessian = &d.work.solver.as_ref().unwrap().hessian;
+        forward(m, &mut d);
+        let hessian = &d.work.constraint.solver.hessian;
         (hessian.kept(), d)
     }
 

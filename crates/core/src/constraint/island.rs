@@ -3,7 +3,6 @@
 //! Connected components by union-find with path halving (Tarjan and van Leeuwen 1984).
 
 use super::jacobian::Jacobian;
-use super::solver::tree_dofs;
 use crate::{Model, disable};
 use std::ops::Range;
 
@@ -126,7 +125,7 @@ impl Islands {
         for island in 0..self.count {
             let first = self.runs.len();
             for t in self.trees.of(island) {
-                let dofs = tree_dofs(m, t);
+                let dofs = m.tree_dofs(t);
                 match self.runs.get_mut(first..).and_then(|runs| runs.last_mut()) {
                     Some(run) if run.end == dofs.start => run.end = dofs.end,
                     _ => self.runs.push(dofs),

@@ -5,7 +5,7 @@
 
 use super::cost::Cost;
 use crate::math::{FREE_DOFS, dot};
-use crate::{Data, Model};
+use crate::{Fields, Model};
 use std::ops::Range;
 
 /// Runs an expression with the constant `$rows` equal to the number of rows of a block: 1 for what is a number, 3 for a
@@ -383,9 +383,8 @@ impl Jacobian {
 }
 
 /// The Jacobian of the constraints as a dense matrix, `nefc` x `nv`, row-major (`efc_J`).
-pub fn full_j(m: &Model, d: &Data) -> Vec<f64> {
+pub(crate) fn full_j(m: &Model, d: &Fields, jac: &Jacobian) -> Vec<f64> {
     let mut out = vec![0.0; d.nefc * m.nv];
-    let jac = &d.work.jac;
     for b in &jac.blocks {
         for (&k, values) in jac.columns(b).iter().zip(jac.values(b).chunks_exact(b.nrow as usize)) {
             for (row, v) in b.rows().zip(values) {

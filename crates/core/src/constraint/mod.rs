@@ -13,10 +13,14 @@ mod dual;
 pub(crate) mod ends;
 mod equality;
 mod exact;
+mod force;
+mod gram;
 mod hessian;
 mod impedance;
 mod island;
+mod iterate;
 mod jacobian;
+mod make;
 mod newton;
 mod noslip;
 mod pgs;
@@ -29,13 +33,37 @@ mod six;
 mod solver;
 
 pub(crate) use discrete::{at_end_of_step, pop_metric, push_metric};
-pub(crate) use island::Islands;
-pub(crate) use jacobian::Jacobian;
-pub use jacobian::full_j;
+pub use force::contact_force;
+pub(crate) use jacobian::full_j;
+pub(crate) use make::{make, none};
 pub(crate) use reference::reference;
-pub(crate) use rows::{make, none};
 pub(crate) use single::tendon_force;
-pub(crate) use solver::{Scratch, inverse, solve, unconstrained_residual};
+pub(crate) use solver::{inverse, solve, unconstrained_residual};
+
+use crate::Model;
+use crate::dynamics::jacobian::Columns;
+pub(crate) use island::Islands;
+use iterate::Iterate;
+use jacobian::Jacobian;
+
+/// What these stages keep from one to the next, and from step to step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Scratch {
+    /// Jacobian of the constraints.
+    pub(crate) jac: Jacobian,
+    /// Columns of one contact's Jacobian.
+    columns: Columns,
+    pub(crate) islands: Islands,
+    solver: Iterate,
+    /// A column of M⁻¹ Jᵀ.
+    column: Vec<f64>,
+}
+
+impl Scratch {
+    pub(crate) fn new(m: &Model) -> Scratch {
+        Scratch { columns: Columns::with_room(m.nv), ..Scratch::default() }
+    }
+}
 
 /// Values of `efc_type` (mjtConstraint).
 pub(crate) mod kind {

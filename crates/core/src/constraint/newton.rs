@@ -4,10 +4,11 @@
 //! (Nocedal and Wright 2006, ch. 3).
 
 use super::cost::{Cost, Curvature};
-use super::jacobian::{Block, Gram, by_rows};
-use super::primal::{Problem, Reached, shape};
+use super::iterate::Reached;
+use super::jacobian::{Block, Gram, Jacobian, by_rows};
+use super::primal::{Problem, shape};
 use super::six::Six;
-use crate::Data;
+use crate::Fields;
 use crate::dynamics::mass;
 use crate::math::{FREE_DOFS, dot};
 use std::array::from_fn;
@@ -27,15 +28,15 @@ impl Problem<'_> {
         }
         let [rows, products] = self.prices();
         let price = 4 * rows + products + if six.is_some() { 200 } else { self.s.hessian.work };
-        self.d.work.meter.add(price);
+        self.d.meter.add(price);
         self.newton_direction(&six);
         if scale * gradient < tol && scale * self.decrement() < tol {
             return;
         }
         for _ in 0..self.m.opt.iterations.max(0) {
             let alpha = self.line_search(scale);
-            self.d.work.meter.add(price);
-            if alpha == 0.0 || self.d.work.meter.over() {
+            self.d.meter.add(price);
+            if alpha == 0.0 || self.d.meter.over() {
                 break;
             }
             self.advance(alpha);
@@ -56,7 +57,7 @@ impl Problem<'_> {
     /// Whether the Hessian of the island is worth its room.
     fn lay_out(&mut self) -> bool {
         let s = &mut *self.s;
-        let fits = s.hessian.lay_out(self.m, &self.d.work.jac, self.islands, self.island);
+        let fits = s.hessian.lay_out(self.m, self.jac, self.islands, self.island);
         s.rhs.clear();
         s.rhs.resize(s.hessian.room(), 0.0);
         fits
@@ -82,7 +83,7 @@ impl Problem<'_> {
             s.hessian.add(k, columns.zip(d.M[row].iter().copied()));
             s.rhs[s.hessian.local[k] as usize] = s.grad[k];
         }
-        add_curvatures(d, &s.jar, blocks, &mut s.hessian);
+        add_curvatures(d, self.jac, &s.jar, blocks, &mut s.hessian);
         s.hessian.factor();
         s.hessian.solve(&mut s.rhs);
         for k in dofs.flatten() {
@@ -94,7 +95,7 @@ impl Problem<'_> {
     #[inline(never)]
     fn newton_direction_of_six(&mut self, start: usize) {
         let mut h = Six::new(self.m, &self.d.M, start);
-        add_curvatures(self.d, &self.s.jar, self.blocks(), &mut h);
+        add_curvatures(self.d, self.jac, &self.s.jar, self.blocks(), &mut h);
         let s = &mut *self.s;
         let vectors = (
             s.grad[start..].first_chunk(),
@@ -110,37 +111,41 @@ impl Problem<'_> {
 
 /// H ← H + Jᵀ C J over blocks, where C is the second derivative of their costs at x = `jar`.
 #[inline(always)]
-fn add_curvatures(d: &Data, jar: &[f64], blocks: impl Iterator<Item = usize>, h: &mut impl Gram) {
+fn add_curvatures(
+    d: &Fields,
+    jac: &Jacobian,
+    jar: &[f64],
+    blocks: impl Iterator<Item = usize>,
+    h: &mut impl Gram,
+) {
     for b in blocks {
-        let b = &d.work.jac.blocks[b];
+        let b = &jac.blocks[b];
         match (b.cost, b.nrow) {
-            (Cost::Push, 1) => add_push::<1>(d, jar, b, h),
-            (Cost::Push, 4) => add_push::<4>(d, jar, b, h),
-            _ => by_rows!(b.nrow, R => add_curvature::<R>(d, jar, b, h)),
+            (Cost::Push, 1) => add_push::<1>(d, jac, jar, b, h),
+            (Cost::Push, 4) => add_push::<4>(d, jac, jar, b, h),
+            _ => by_rows!(b.nrow, R => add_curvature::<R>(d, jac, jar, b, h)),
         }
     }
 }
 
 /// One block whose rows push.
 #[inline(always)]
-fn add_push<const R: usize>(d: &Data, jar: &[f64], b: &Block, h: &mut impl Gram) {
+fn add_push<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Block, h: &mut impl Gram) {
     let (Some(x), Some(stiff)) = (jar[b.rows()].first_chunk::<R>(), d.efc_D[b.rows()].first_chunk::<R>())
     else {
         return;
     };
     if x.iter().any(|&x| x < 0.0) {
         let w: [f64; R] = from_fn(|r| if x[r] < 0.0 { stiff[r] } else { 0.0 });
-        h.add_gram::<R>(d.work.jac.columns(b), d.work.jac.values(b).as_chunks().0, |v| {
-            from_fn(|r| w[r] * v[r])
-        });
+        h.add_gram::<R>(jac.columns(b), jac.values(b).as_chunks().0, |v| from_fn(|r| w[r] * v[r]));
     }
 }
 
 /// One block of any other kind.
 #[inline(never)]
-fn add_curvature<const R: usize>(d: &Data, jar: &[f64], b: &Block, h: &mut impl Gram) {
+fn add_curvature<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Block, h: &mut impl Gram) {
     let (Some(shape), Some(x)) = (shape::<R>(d, b), jar[b.rows()].first_chunk::<R>()) else { return };
-    let (columns, v) = (d.work.jac.columns(b), d.work.jac.values(b).as_chunks().0);
+    let (columns, v) = (jac.columns(b), jac.values(b).as_chunks().0);
     match shape.curvature(x) {
         Curvature::Flat => {}
         Curvature::Diagonal(w) => h.add_gram::<R>(columns, v, |v| from_fn(|r| w[r] * v[r])),

@@ -3,7 +3,7 @@
 
 use super::cone::friction;
 use super::cost::Cost;
-use super::dual::Item;
+use super::gram::Item;
 use super::jacobian::{Block, by_rows};
 use super::kind;
 use super::pgs::WORSE;
@@ -48,16 +48,16 @@ impl Problem<'_> {
         self.accelerate();
         // Without regularization the cost is lower from the start.
         let d = &*self.d;
-        let rows = self.blocks().flat_map(|i| d.work.jac.blocks[i].rows());
+        let rows = self.blocks().flat_map(|i| self.jac.blocks[i].rows());
         let mut improvement: f64 = rows.map(|r| 0.5 * d.efc_force[r] * d.efc_force[r] * d.efc_R[r]).sum();
         let price = self.price_of_sweep();
         for _ in 0..self.m.opt.noslip_iterations.max(0) {
-            self.d.work.meter.add(price);
-            if self.d.work.meter.over() {
+            self.d.meter.add(price);
+            if self.d.meter.over() {
                 break;
             }
             for i in self.blocks() {
-                let b = self.d.work.jac.blocks[i];
+                let b = self.jac.blocks[i];
                 let item = Item { block: i as u32, first: 0 };
                 improvement -= match (b.cost, self.d.efc_type[b.row as usize]) {
                     (Cost::DryFriction, _) => self.rigid_friction(&b, item),

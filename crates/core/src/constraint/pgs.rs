@@ -6,7 +6,7 @@
 
 use super::cone::friction;
 use super::cost::Cost;
-use super::dual::Item;
+use super::gram::Item;
 use super::jacobian::{Block, by_rows};
 use super::primal::Problem;
 use crate::math::{MINVAL, dot};
@@ -42,8 +42,8 @@ impl Problem<'_> {
         let (mut random, mut since) = (Random::new(), 0u32);
         let price = self.price_of_sweep();
         for _ in 0..self.m.opt.iterations.max(0) {
-            self.d.work.meter.add(price);
-            if self.d.work.meter.over() {
+            self.d.meter.add(price);
+            if self.d.meter.over() {
                 break;
             }
             for i in (1..self.s.dual.order.len()).rev() {
@@ -60,7 +60,7 @@ impl Problem<'_> {
             let mut improvement = 0.0;
             for i in 0..self.s.dual.order.len() {
                 let item = self.s.dual.order[i];
-                let b = self.d.work.jac.blocks[item.block as usize];
+                let b = self.jac.blocks[item.block as usize];
                 improvement -= match b.cost {
                     Cost::Cone => by_rows!(b.nrow, R => self.cone::<R>(&b, item)),
                     _ => self.single(&b, item),
@@ -78,9 +78,9 @@ impl Problem<'_> {
     }
 
     /// Copies the forces of the island to one of the lists that are kept.
-    fn copy_forces(&mut self, to: impl Fn(&mut super::dual::Dual) -> &mut Vec<f64>) {
+    fn copy_forces(&mut self, to: impl Fn(&mut super::gram::Dual) -> &mut Vec<f64>) {
         for i in self.blocks() {
-            let rows = self.d.work.jac.blocks[i].rows();
+            let rows = self.jac.blocks[i].rows();
             to(&mut self.s.dual)[rows.clone()].copy_from_slice(&self.d.efc_force[rows]);
         }
     }
@@ -89,7 +89,7 @@ impl Problem<'_> {
     fn extrapolate(&mut self, momentum: f64) {
         for i in 0..self.s.dual.order.len() {
             let item = self.s.dual.order[i];
-            let b = self.d.work.jac.blocks[item.block as usize];
+            let b = self.jac.blocks[item.block as usize];
             let first = (b.row + item.first) as usize;
             let rows = if b.cost == Cost::Cone { first..first + b.nrow as usize } else { first..first + 1 };
             let w = &self.s.dual;
@@ -118,7 +118,7 @@ impl Problem<'_> {
     /// Whether the sweep went against the extrapolation.
     fn turned(&self) -> bool {
         let (d, w) = (&*self.d, &self.s.dual);
-        let rows = self.blocks().flat_map(|i| d.work.jac.blocks[i].rows());
+        let rows = self.blocks().flat_map(|i| self.jac.blocks[i].rows());
         rows.map(|r| (w.begun[r] - d.efc_force[r]) * (w.begun[r] - w.last[r])).sum::<f64>() > 0.0
     }
 

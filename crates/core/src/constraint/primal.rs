@@ -3,31 +3,20 @@
 
 use super::cost::{Cost, Shape};
 use super::island::Islands;
-use super::jacobian::{Block, by_rows};
+use super::iterate::{Iterate, Reached};
+use super::jacobian::{Block, Jacobian, by_rows};
 use super::search::{Point, minimize};
-use super::solver::Scratch;
 use crate::dynamics::mass;
 use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
-use crate::{Data, Model, disable, solver};
+use crate::{Fields, Model, disable, solver};
 use std::ops::Range;
-
-/// Where an island stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Reached {
-    pub(super) cost: f64,
-    /// Norm of the gradient.
-    pub(super) gradient: f64,
-    /// What makes costs and gradients comparable between scenes.
-    pub(super) scale: f64,
-    /// Certified to be the minimum.
-    pub(super) minimum: bool,
-}
 
 /// One island: its trees and constraints.
 pub(super) struct Problem<'a> {
     pub(super) m: &'a Model,
-    pub(super) d: &'a mut Data,
-    pub(super) s: &'a mut Scratch,
+    pub(super) d: &'a mut Fields,
+    pub(super) s: &'a mut Iterate,
+    pub(super) jac: &'a Jacobian,
     pub(super) islands: &'a Islands,
     pub(super) island: usize,
 }
@@ -47,7 +36,7 @@ impl<'a> Problem<'a> {
 
     /// What going once through the rows and degrees of freedom of the island costs, and products of columns.
     pub(super) fn prices(&self) -> [u64; 2] {
-        let [blocks, columns, values] = self.d.work.jac.size();
+        let [blocks, columns, values] = self.jac.size();
         let (mine, all) = (self.islands.blocks.len(self.island) as u64, blocks.max(1));
         let dofs: usize = self.dofs().map(|r| r.len()).sum();
         [50 + mine * (15 + 2 * values / all) + 5 * dofs as u64, mine * (values / all) * (columns / all) / 2]
@@ -85,7 +74,7 @@ impl<'a> Problem<'a> {
     pub(super) fn update(&mut self) -> (f64, f64) {
         let mut cost = 0.0;
         for b in self.blocks() {
-            let b = self.d.work.jac.blocks[b];
+            let b = self.jac.blocks[b];
             cost += match (b.cost, b.nrow) {
                 (Cost::Push, 1) => self.push_block::<1>(&b),
                 (Cost::Push, 4) => self.push_block::<4>(&b),
@@ -118,7 +107,7 @@ impl<'a> Problem<'a> {
         let pushed: [f64; R] = std::array::from_fn(|r| if x[r] < 0.0 { x[r] } else { 0.0 });
         let force: [f64; R] = std::array::from_fn(|r| -w[r] * pushed[r]);
         d.efc_force[rows].copy_from_slice(&force);
-        d.work.jac.add_transposed(b, &force, &mut d.qfrc_constraint);
+        self.jac.add_transposed(b, &force, &mut d.qfrc_constraint);
         -0.5 * dot(force, pushed)
     }
 
@@ -131,7 +120,7 @@ impl<'a> Problem<'a> {
         };
         let (cost, force) = shape.value(x);
         d.efc_force[b.rows()].copy_from_slice(&force);
-        d.work.jac.add_transposed(b, &force, &mut d.qfrc_constraint);
+        self.jac.add_transposed(b, &force, &mut d.qfrc_constraint);
         cost
     }
 
@@ -159,7 +148,7 @@ impl<'a> Problem<'a> {
     /// The best step along `search`.
     pub(super) fn line_search(&mut self, scale: f64) -> f64 {
         let price = 20 + 12 * self.islands.blocks.len(self.island) as u64;
-        let most = (self.d.work.meter.left() / price).max(16);
+        let most = (self.d.meter.left() / price).max(16);
         let mut evaluations = 0;
         let (dofs, blocks) = (self.dofs(), self.blocks());
         let (m, d, s) = (self.m, &*self.d, &mut *self.s);
@@ -177,7 +166,7 @@ impl<'a> Problem<'a> {
             return 0.0;
         }
         for b in blocks.clone() {
-            d.work.jac.mul_block(&d.work.jac.blocks[b], &s.search, &mut s.jv);
+            self.jac.mul_block(&self.jac.blocks[b], &s.search, &mut s.jv);
         }
         let gtol = m.opt.tolerance * m.opt.ls_tolerance * length / scale;
         let most = most.min(m.opt.ls_iterations.max(0) as u64) as usize;
@@ -190,7 +179,7 @@ impl<'a> Problem<'a> {
                 curvature: 2.0 * quadratic,
             };
             for b in blocks.clone() {
-                let b = &d.work.jac.blocks[b];
+                let b = &self.jac.blocks[b];
                 if b.cost == Cost::Push {
                     add_push(&mut p, d, s, b);
                 } else {
@@ -199,7 +188,7 @@ impl<'a> Problem<'a> {
             }
             p
         });
-        self.d.work.meter.add(evaluations * price);
+        self.d.meter.add(evaluations * price);
         best
     }
 
@@ -213,7 +202,7 @@ impl<'a> Problem<'a> {
             combine(&mut s.ma[k.clone()], [&s.mv[k]], |ma, [step]| ma + alpha * step);
         }
         for b in blocks {
-            let rows = d.work.jac.blocks[b].rows();
+            let rows = self.jac.blocks[b].rows();
             for (x, v) in s.jar[rows.clone()].iter_mut().zip(&s.jv[rows]) {
                 *x += alpha * v;
             }
@@ -223,7 +212,7 @@ impl<'a> Problem<'a> {
 
 /// What the cost of a constraint of R rows depends on.
 #[inline(always)]
-pub(super) fn shape<'a, const R: usize>(d: &'a Data, b: &Block) -> Option<Shape<'a, R>> {
+pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shape<'a, R>> {
     let row = b.row as usize;
     let contact = if b.cost == Cost::Cone { d.contact.get(d.efc_id[row] as usize) } else { None };
     let stiff = d.efc_D[b.rows()].first_chunk::<R>()?;
@@ -232,7 +221,7 @@ pub(super) fn shape<'a, const R: usize>(d: &'a Data, b: &Block) -> Option<Shape<
 
 /// Adds the rows of a block that push to a point of the line.
 #[inline(always)]
-fn add_push(p: &mut Point, d: &Data, s: &Scratch, b: &Block) {
+fn add_push(p: &mut Point, d: &Fields, s: &Iterate, b: &Block) {
     for r in b.rows() {
         let (start, v, w) = (s.jar[r], s.jv[r], d.efc_D[r]);
         let now = start + p.alpha * v;
@@ -249,7 +238,7 @@ fn add_push(p: &mut Point, d: &Data, s: &Scratch, b: &Block) {
 
 /// The same for a constraint of any other kind.
 #[inline(never)]
-fn add_other<const R: usize>(p: &mut Point, d: &Data, s: &Scratch, b: &Block) {
+fn add_other<const R: usize>(p: &mut Point, d: &Fields, s: &Iterate, b: &Block) {
     let (Some(x), Some(v)) = (s.jar[b.rows()].first_chunk::<R>(), s.jv[b.rows()].first_chunk::<R>()) else {
         return;
     };

@@ -1,16 +1,16 @@
 //! The reference acceleration: what a damped spring on the violation would do.
 
-use super::{contact, equality};
+use super::{Scratch, contact, equality};
 use crate::math::*;
-use crate::{Data, Model, integrator};
+use crate::{Fields, Model, integrator};
 
 /// `efc_vel` = J v and `efc_aref` = -B J v - K d r, less the acceleration J̇ v that is there already.
 #[inline(never)]
-pub(crate) fn reference(m: &Model, d: &mut Data) {
+pub(crate) fn reference(m: &Model, d: &mut Fields, w: &Scratch) {
     if d.nefc == 0 {
         return;
     }
-    d.work.jac.mul(&d.qvel, &mut d.efc_vel);
+    w.jac.mul(&d.qvel, &mut d.efc_vel);
     if d.plan.surfaces {
         contact::surfaces(m, d);
     }

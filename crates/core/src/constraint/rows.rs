@@ -1,64 +1,13 @@
-//! The constraint rows of the current position: Jacobian, violation, regularization.
+//! The scalars of constraint rows: type, violation, stiffness, regularization.
 //!
-//! Order: equalities, dry friction of joints and tendons, limits of joints and tendons, contacts. A row is a scalar
-//! `J a`; its regularization R makes it soft.
+//! A row is a scalar `J a`; its regularization R makes it soft.
 
 use super::impedance::Kbi;
-use super::{contact, equality, exact, single};
+use crate::Fields;
 use crate::math::*;
-use crate::{Data, Model, disable, enable};
-
-/// `efc_*` up to R and D, `nefc`.
-#[inline(never)]
-pub(crate) fn make(m: &Model, d: &mut Data) {
-    d.work.jac.clear();
-    let on = |bit: i32| !m.opt.disabled(disable::CONSTRAINT) && !m.opt.disabled(bit);
-    let equal = d.plan.equalities && on(disable::EQUALITY);
-    let friction = d.plan.friction_loss && on(disable::FRICTIONLOSS);
-    let limits = d.plan.limits && on(disable::LIMIT);
-    // Room for all that may come; the arrays keep their length from step to step as long as contacts stay.
-    let limits = if limits { single::count_limits(m, d) } else { 0 };
-    let mut room = contact::count(m, d) + limits;
-    room += if equal { equality::count(m, d) } else { 0 };
-    room += if friction { single::count_friction(m) } else { 0 };
-    if room > 0 || !d.efc_type.is_empty() {
-        resize(d, room);
-    }
-    (d.nefc, d.ne, d.nf, d.nl) = (0, 0, 0, 0);
-    if room == 0 {
-        return;
-    }
-    if equal {
-        equality::make(m, d);
-    }
-    d.ne = d.nefc;
-    if friction {
-        single::friction(m, d);
-    }
-    d.nf = d.nefc - d.ne;
-    if limits > 0 {
-        single::limits(m, d);
-    }
-    d.nl = d.nefc - d.ne - d.nf;
-    contact::make(m, d);
-    resize(d, d.nefc);
-    let [_, columns, values] = d.work.jac.size();
-    d.work.meter.add(60 * d.nefc as u64 + 8 * columns + 2 * values);
-    if d.nefc > 0 && m.opt.enabled(enable::DIAGEXACT) {
-        exact::regularize(m, d);
-    }
-}
-
-/// No rows and no contacts.
-pub(crate) fn none(d: &mut Data) {
-    d.work.jac.clear();
-    resize(d, 0);
-    (d.nefc, d.ne, d.nf, d.nl, d.nisland) = (0, 0, 0, 0, 0);
-    crate::collision::none(d);
-}
 
 /// Gives the arrays a length.
-pub(super) fn resize(d: &mut Data, rows: usize) {
+pub(super) fn resize(d: &mut Fields, rows: usize) {
     if d.efc_type.len() == rows && d.efc_force.len() == rows {
         return;
     }
@@ -90,7 +39,7 @@ pub(super) struct Rows<const R: usize> {
 
 /// Appends the scalars of a constraint; its Jacobian is there already.
 #[inline(always)]
-pub(super) fn push<const R: usize>(d: &mut Data, s: &Rows<R>) {
+pub(super) fn push<const R: usize>(d: &mut Fields, s: &Rows<R>) {
     let rows = d.nefc..d.nefc + R;
     d.nefc = rows.end;
     put(&mut d.efc_type[rows.clone()], [s.kind; R]);
@@ -106,7 +55,7 @@ pub(super) fn push<const R: usize>(d: &mut Data, s: &Rows<R>) {
 
 /// `efc_R`, `efc_D`, and the diagonal of J M⁻¹ Jᵀ that they would follow from.
 #[inline(always)]
-pub(super) fn soften<const R: usize>(d: &mut Data, row: usize, imp: f64, r: &[f64; R]) {
+pub(super) fn soften<const R: usize>(d: &mut Fields, row: usize, imp: f64, r: &[f64; R]) {
     let rows = row..row + R;
     put(&mut d.efc_diagA[rows.clone()], r.map(|r| r * imp / (1.0 - imp)));
     put(&mut d.efc_R[rows.clone()], *r);

@@ -2,12 +2,13 @@
 
 use super::cost::Cost;
 use super::impedance::{Acts, kbi};
+use super::jacobian::Jacobian;
 use super::rows::{Rows, push, regularization};
 use super::{equality, kind};
 use crate::forces::tendon;
 use crate::math::*;
-use crate::step::sleep;
-use crate::{Data, Model, eqtype, joint};
+use crate::model::asleep;
+use crate::{Fields, Model, eqtype, joint};
 
 /// Number of rows of dry friction.
 pub(super) fn count_friction(m: &Model) -> usize {
@@ -16,7 +17,7 @@ pub(super) fn count_friction(m: &Model) -> usize {
 }
 
 /// Rows that the limits of joints and tendons have at most: what is within its range needs none.
-pub(super) fn count_limits(m: &Model, d: &Data) -> usize {
+pub(super) fn count_limits(m: &Model, d: &Fields) -> usize {
     let joints = m.jnt_limited.iter().zip(&m.jnt_type).zip(&m.jnt_qposadr);
     let joints = joints.zip(rows::<2>(&m.jnt_range).iter().zip(&m.jnt_margin));
     let mut count = 0;
@@ -51,7 +52,7 @@ struct Row {
 }
 
 /// Appends the scalars of a row whose Jacobian is there.
-fn scalars(m: &Model, d: &mut Data, row: Row, solref: [f64; 2], solimp: [f64; 5], weight: f64) {
+fn scalars(m: &Model, d: &mut Fields, row: Row, solref: [f64; 2], solimp: [f64; 5], weight: f64) {
     let Row { kind, id, pos, margin, loss } = row;
     let dry = Cost::of(kind) == Cost::DryFriction;
     let acts = if dry { Acts::BothWays } else { Acts::OneWay };
@@ -64,11 +65,11 @@ fn scalars(m: &Model, d: &mut Data, row: Row, solref: [f64; 2], solimp: [f64; 5]
 }
 
 /// A row for each degree of freedom and each tendon with dry friction.
-pub(super) fn friction(m: &Model, d: &mut Data) {
+pub(super) fn friction(m: &Model, d: &mut Fields, jac: &mut Jacobian) {
     for k in 0..m.nv {
         let loss = m.dof_frictionloss[k];
-        if loss > 0.0 && !sleep::body_sleeps(m, d, m.dof_bodyid[k] as usize) {
-            d.work.jac.push::<1>(Cost::DryFriction, d.nefc, &[k as u32], [[1.0]].into_iter());
+        if loss > 0.0 && !asleep::body(m, d, m.dof_bodyid[k] as usize) {
+            jac.push::<1>(Cost::DryFriction, d.nefc, &[k as u32], [[1.0]].into_iter());
             let row = Row { kind: kind::FRICTION_DOF, id: k, pos: 0.0, margin: 0.0, loss };
             let (solref, solimp) = (rows::<2>(&m.dof_solref)[k], rows::<5>(&m.dof_solimp)[k]);
             scalars(m, d, row, solref, solimp, m.dof_invweight0[k]);
@@ -76,7 +77,7 @@ pub(super) fn friction(m: &Model, d: &mut Data) {
     }
     for t in 0..m.ntendon {
         let loss = m.tendon_frictionloss[t];
-        if loss > 0.0 && !sleep::tendon_sleeps(m, d, t) && along_tendon(m, d, Cost::DryFriction, t, 1.0) {
+        if loss > 0.0 && !asleep::tendon(m, d, t) && along_tendon(m, d, jac, Cost::DryFriction, t, 1.0) {
             let row = Row { kind: kind::FRICTION_TENDON, id: t, pos: 0.0, margin: 0.0, loss };
             let (solref, solimp) = (rows::<2>(&m.tendon_solref_fri)[t], rows::<5>(&m.tendon_solimp_fri)[t]);
             scalars(m, d, row, solref, solimp, m.tendon_invweight0[t]);
@@ -85,9 +86,9 @@ pub(super) fn friction(m: &Model, d: &mut Data) {
 }
 
 /// A row for each violated side of a limit, lower side first; one for a ball's cone.
-pub(super) fn limits(m: &Model, d: &mut Data) {
+pub(super) fn limits(m: &Model, d: &mut Fields, jac: &mut Jacobian) {
     for j in 0..m.njnt {
-        if !m.jnt_limited[j] || sleep::body_sleeps(m, d, m.jnt_bodyid[j] as usize) {
+        if !m.jnt_limited[j] || asleep::body(m, d, m.jnt_bodyid[j] as usize) {
             continue;
         }
         let range = rows::<2>(&m.jnt_range)[j];
@@ -96,7 +97,7 @@ pub(super) fn limits(m: &Model, d: &mut Data) {
             joint::SLIDE | joint::HINGE => {
                 let value = d.qpos[q];
                 for (dist, sign) in sides(range, value, m.jnt_margin[j]) {
-                    joint_limit(m, d, j, dist, &[sign]);
+                    joint_limit(m, d, jac, j, dist, &[sign]);
                 }
             }
             joint::BALL => {
@@ -105,19 +106,19 @@ pub(super) fn limits(m: &Model, d: &mut Data) {
                 let (axis, angle) = normalize(turn);
                 let dist = range[0].max(range[1]) - angle;
                 if dist < m.jnt_margin[j] {
-                    joint_limit(m, d, j, dist, &scale(axis, -1.0));
+                    joint_limit(m, d, jac, j, dist, &scale(axis, -1.0));
                 }
             }
             _ => {}
         }
     }
     for t in 0..m.ntendon {
-        if !m.tendon_limited[t] || sleep::tendon_sleeps(m, d, t) {
+        if !m.tendon_limited[t] || asleep::tendon(m, d, t) {
             continue;
         }
         let margin = m.tendon_margin[t];
         for (pos, sign) in sides(rows::<2>(&m.tendon_range)[t], d.ten_length[t], margin) {
-            if along_tendon(m, d, Cost::Push, t, sign) {
+            if along_tendon(m, d, jac, Cost::Push, t, sign) {
                 let row = Row { kind: kind::LIMIT_TENDON, id: t, pos, margin, loss: 0.0 };
                 let (solref, solimp) =
                     (rows::<2>(&m.tendon_solref_lim)[t], rows::<5>(&m.tendon_solimp_lim)[t]);
@@ -133,26 +134,26 @@ fn sides(range: [f64; 2], value: f64, margin: f64) -> impl Iterator<Item = (f64,
     both.into_iter().map(move |(side, sign)| (sign * (value - side), sign)).filter(move |s| s.0 < margin)
 }
 
-fn joint_limit(m: &Model, d: &mut Data, j: usize, pos: f64, jac: &[f64]) {
+fn joint_limit(m: &Model, d: &mut Fields, jac: &mut Jacobian, j: usize, pos: f64, row: &[f64]) {
     let dof = m.jnt_dofadr[j] as usize;
-    let (n, last) = (jac.len(), dof + jac.len() - 1);
+    let (n, last) = (row.len(), dof + row.len() - 1);
     let columns: [u32; 3] = std::array::from_fn(|c| last.saturating_sub(c) as u32);
-    d.work.jac.push::<1>(Cost::Push, d.nefc, &columns[..n], jac.iter().rev().map(|&j| [j]));
+    jac.push::<1>(Cost::Push, d.nefc, &columns[..n], row.iter().rev().map(|&j| [j]));
     let row = Row { kind: kind::LIMIT_JOINT, id: j, pos, margin: m.jnt_margin[j], loss: 0.0 };
     let (solref, solimp) = (rows::<2>(&m.jnt_solref)[j], rows::<5>(&m.jnt_solimp)[j]);
     scalars(m, d, row, solref, solimp, m.dof_invweight0[dof]);
 }
 
 /// Appends the Jacobian of a tendon's length, times `sign`; `false` when nothing moves the tendon.
-fn along_tendon(m: &Model, d: &mut Data, cost: Cost, t: usize, sign: f64) -> bool {
+fn along_tendon(m: &Model, d: &Fields, jac: &mut Jacobian, cost: Cost, t: usize, sign: f64) -> bool {
     let row = tendon::row(m, t);
     let values = d.ten_J[row.clone()].iter().map(|j| sign * j);
-    d.work.jac.push_sparse(cost, d.nefc, &m.ten_J_colind[row], values);
-    d.work.jac.keep_moving(m)
+    jac.push_sparse(cost, d.nefc, &m.ten_J_colind[row], values);
+    jac.keep_moving(m)
 }
 
 /// The force of all constraints along the length of a tendon, N.
-pub(crate) fn tendon_force(m: &Model, d: &Data, t: usize) -> f64 {
+pub(crate) fn tendon_force(m: &Model, d: &Fields, t: usize) -> f64 {
     let range = sides(rows::<2>(&m.tendon_range)[t], d.ten_length[t], m.tendon_margin[t]);
     let mut signs = range.map(|(_, sign)| sign);
     let mut sum = 0.0;

@@ -3,46 +3,19 @@
 //! min over a of ½ (a - a₀)ᵀ M (a - a₀) + Σ s(J a - aref), where a₀ is the unconstrained acceleration and s what it
 //! costs to miss the reference (Todorov 2014).
 
+use super::Scratch;
 use super::cost::Cost;
-use super::dual::Dual;
-use super::hessian::Hessian;
 use super::island::Islands;
-use super::jacobian::{Block, by_rows};
-use super::primal::{Problem, Reached, shape};
+use super::iterate::{Iterate, Reached};
+use super::jacobian::{Block, Jacobian, by_rows};
+use super::primal::{Problem, shape};
 use crate::dynamics::mass;
 use crate::math::{copy, zero};
-use crate::{Data, Model, disable, solver};
-use std::ops::Range;
-
-/// Scratch of the solver; vectors over all degrees of freedom or all rows, of which each island uses its own.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Scratch {
-    /// M a.
-    pub(super) ma: Vec<f64>,
-    /// Gradient of the cost, and M⁻¹ or H⁻¹ times it.
-    pub(super) grad: Vec<f64>,
-    pub(super) step: Vec<f64>,
-    /// The same before the last step.
-    pub(super) grad_old: Vec<f64>,
-    pub(super) step_old: Vec<f64>,
-    /// Search direction and M times it.
-    pub(super) search: Vec<f64>,
-    pub(super) mv: Vec<f64>,
-    /// J a - aref, and J search.
-    pub(super) jar: Vec<f64>,
-    pub(super) jv: Vec<f64>,
-    /// Hessian of an island, and a right-hand side.
-    pub(super) hessian: Hessian,
-    pub(super) rhs: Vec<f64>,
-    /// What the dual methods keep.
-    pub(super) dual: Dual,
-    /// Where each island stands after the warm start.
-    pub(super) reached: Vec<Reached>,
-}
+use crate::{Fields, Model, disable, solver};
 
 /// `qacc`, `efc_force`, `qfrc_constraint`, `solver_niter`, from `qacc_smooth` and the rows.
 #[inline(never)]
-pub(crate) fn solve(m: &Model, d: &mut Data) {
+pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch) {
     d.solver_niter = 0;
     d.nisland = 0;
     copy(&d.qacc_smooth, &mut d.qacc);
@@ -50,32 +23,31 @@ pub(crate) fn solve(m: &Model, d: &mut Data) {
     if d.nefc == 0 {
         return;
     }
-    let [_, columns, values] = d.work.jac.size();
-    d.work.meter.add(8 * (columns + values) + 40 * d.nefc as u64);
+    let [_, columns, values] = w.jac.size();
+    d.meter.add(8 * (columns + values) + 40 * d.nefc as u64);
     let dual = m.opt.solver == solver::PGS || m.opt.noslip_iterations > 0;
     if dual {
         // Each row is solved with M over its trees.
-        d.work.meter.add(d.nefc as u64 * 2 * m.nC as u64 / m.ntree.max(1) as u64);
+        d.meter.add(d.nefc as u64 * 2 * m.nC as u64 / m.ntree.max(1) as u64);
     }
-    if d.work.meter.over() {
+    if d.meter.over() {
         return;
     }
-    let mut islands = d.work.islands.take().unwrap_or_default();
-    d.nisland = islands.find(m, &d.work.jac);
-    let mut s = d.work.solver.take().unwrap_or_default();
+    let Scratch { jac, islands, solver: s, .. } = w;
+    d.nisland = islands.find(m, jac);
     s.resize(m.nv, d.nefc);
     if dual {
-        unconstrained_residual(d);
-        s.dual.build(m, d);
+        unconstrained_residual(d, jac);
+        s.dual.build(m, d, jac);
     }
     if m.opt.solver == solver::PGS {
-        dual_start(m, d, &mut s, &islands);
+        dual_start(m, d, s, islands, jac);
     } else {
-        primal(m, d, &mut s, &islands);
+        primal(m, d, s, islands, jac);
     }
     if dual {
         for island in 0..d.nisland {
-            let mut problem = Problem { m, d, s: &mut s, islands: &islands, island };
+            let mut problem = Problem { m, d, s, islands, jac, island };
             if m.opt.solver == solver::PGS {
                 problem.gauss_seidel();
             }
@@ -86,39 +58,37 @@ pub(crate) fn solve(m: &Model, d: &mut Data) {
         }
     }
     if d.plan.solver_details {
-        details(d, &s.jar);
+        details(d, jac, &s.jar);
     }
-    d.work.islands = Some(islands);
-    d.work.solver = Some(s);
 }
 
 /// Newton's method or conjugate gradients, from the better start.
 #[inline(always)]
-fn primal(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) {
-    if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, islands) {
+fn primal(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac: &Jacobian) {
+    if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, islands, jac) {
         return;
     }
     copy(&d.qacc_smooth, &mut d.qacc);
     zero(&mut d.qfrc_constraint);
     copy(&d.qfrc_smooth, &mut s.ma);
-    d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jar);
+    jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jar);
     for island in 0..d.nisland {
-        let mut problem = Problem { m, d, s, islands, island };
+        let mut problem = Problem { m, d, s, islands, jac, island };
         let from = problem.reached();
         problem.run(from);
     }
 }
 
 /// The forces that the dual method starts from: those at the last step's acceleration, unless none cost less.
-fn dual_start(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) {
+fn dual_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac: &Jacobian) {
     d.efc_force.fill(0.0);
     if m.opt.disabled(disable::WARMSTART) {
         return;
     }
-    d.work.jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
+    jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
     let mut cost = 0.0;
     for island in 0..d.nisland {
-        let mut problem = Problem { m, d, s, islands, island };
+        let mut problem = Problem { m, d, s, islands, jac, island };
         problem.update();
         cost += problem.dual_cost();
     }
@@ -128,38 +98,18 @@ fn dual_start(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) {
 }
 
 /// `efc_force` and `qfrc_constraint` at the acceleration `qacc` (`mj_invConstraint`).
-pub(crate) fn inverse(m: &Model, d: &mut Data) {
+pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch) {
     d.qfrc_constraint.fill(0.0);
     if d.nefc == 0 {
         return;
     }
-    let mut islands = d.work.islands.take().unwrap_or_default();
-    d.nisland = islands.find(m, &d.work.jac);
-    let mut s = d.work.solver.take().unwrap_or_default();
+    let Scratch { jac, islands, solver: s, .. } = w;
+    d.nisland = islands.find(m, jac);
     s.resize(m.nv, d.nefc);
     s.ma.fill(0.0);
-    d.work.jac.residual(&d.qacc, &d.efc_aref, &mut s.jar);
+    jac.residual(&d.qacc, &d.efc_aref, &mut s.jar);
     for island in 0..d.nisland {
-        Problem { m, d, s: &mut s, islands: &islands, island }.update();
-    }
-    d.work.islands = Some(islands);
-    d.work.solver = Some(s);
-}
-
-impl Scratch {
-    fn resize(&mut self, nv: usize, nefc: usize) {
-        if self.ma.len() != nv {
-            let old = [&mut self.grad_old, &mut self.step_old];
-            let now = [&mut self.ma, &mut self.grad, &mut self.step, &mut self.search, &mut self.mv];
-            for v in now.into_iter().chain(old) {
-                v.resize(nv, 0.0);
-            }
-        }
-        if self.jar.len() != nefc {
-            for v in [&mut self.jar, &mut self.jv] {
-                v.resize(nefc, 0.0);
-            }
-        }
+        Problem { m, d, s, islands, jac, island }.update();
     }
 }
 
@@ -170,8 +120,8 @@ impl Scratch {
 /// The choice is made once for the whole system; what no constraint touches keeps the unconstrained
 /// acceleration.
 #[inline(never)]
-fn warm_start(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) -> bool {
-    d.work.jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
+fn warm_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac: &Jacobian) -> bool {
+    jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
     mass::mul(m, &d.M, &d.qacc_warmstart, &mut s.ma, 0..m.nv);
     let mut reached = std::mem::take(&mut s.reached);
     reached.clear();
@@ -179,17 +129,17 @@ fn warm_start(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) -> bo
         for dofs in islands.dofs(island) {
             copy(&d.qacc_warmstart[dofs.clone()], &mut d.qacc[dofs]);
         }
-        reached.push(Problem { m, d, s, islands, island }.reached());
+        reached.push(Problem { m, d, s, islands, jac, island }.reached());
     }
     let mut done = reached.iter().all(|r| r.minimum);
     if !done {
-        d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jv);
+        jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jv);
         // The unconstrained acceleration has no Gauss cost; the last one has it everywhere.
         let gauss = |k: usize| 0.5 * (s.ma[k] - d.qfrc_smooth[k]) * (d.qacc_warmstart[k] - d.qacc_smooth[k]);
-        let warm = total_cost(d, &s.jar) + (0..m.nv).map(gauss).sum::<f64>();
-        if warm <= total_cost(d, &s.jv) {
+        let warm = total_cost(d, jac, &s.jar) + (0..m.nv).map(gauss).sum::<f64>();
+        if warm <= total_cost(d, jac, &s.jv) {
             for (island, &from) in reached.iter().enumerate() {
-                Problem { m, d, s, islands, island }.run(from);
+                Problem { m, d, s, islands, jac, island }.run(from);
             }
             done = true;
         }
@@ -199,16 +149,16 @@ fn warm_start(m: &Model, d: &mut Data, s: &mut Scratch, islands: &Islands) -> bo
 }
 
 /// Cost of all constraints at x = J a - aref.
-fn total_cost(d: &Data, x: &[f64]) -> f64 {
+fn total_cost(d: &Fields, jac: &Jacobian, x: &[f64]) -> f64 {
     let push = |x: f64, w: f64| if x < 0.0 { 0.5 * w * x * x } else { 0.0 };
     let cost = |b: &Block| match b.cost {
         Cost::Push => b.rows().map(|r| push(x[r], d.efc_D[r])).sum(),
         _ => by_rows!(b.nrow, R => block_cost::<R>(d, b, x)),
     };
-    d.work.jac.blocks.iter().map(cost).sum()
+    jac.blocks.iter().map(cost).sum()
 }
 
-fn block_cost<const R: usize>(d: &Data, b: &Block, x: &[f64]) -> f64 {
+fn block_cost<const R: usize>(d: &Fields, b: &Block, x: &[f64]) -> f64 {
     match (shape::<R>(d, b), x[b.rows()].first_chunk::<R>()) {
         (Some(shape), Some(x)) => shape.value(x).0,
         _ => 0.0,
@@ -216,31 +166,24 @@ fn block_cost<const R: usize>(d: &Data, b: &Block, x: &[f64]) -> f64 {
 }
 
 /// `efc_b`.
-pub(crate) fn unconstrained_residual(d: &mut Data) {
-    d.work.jac.residual(&d.qacc_smooth, &d.efc_aref, &mut d.efc_b);
+pub(crate) fn unconstrained_residual(d: &mut Fields, jac: &Jacobian) {
+    jac.residual(&d.qacc_smooth, &d.efc_aref, &mut d.efc_b);
 }
 
 /// `efc_b` and `efc_state`, for those who read them.
-fn details(d: &mut Data, jar: &[f64]) {
-    unconstrained_residual(d);
-    for i in 0..d.work.jac.blocks.len() {
-        let b = d.work.jac.blocks[i];
+fn details(d: &mut Fields, jac: &Jacobian, jar: &[f64]) {
+    unconstrained_residual(d, jac);
+    for i in 0..jac.blocks.len() {
+        let b = jac.blocks[i];
         by_rows!(b.nrow, R => block_state::<R>(d, &b, jar));
     }
 }
 
-fn block_state<const R: usize>(d: &mut Data, b: &Block, jar: &[f64]) {
+fn block_state<const R: usize>(d: &mut Fields, b: &Block, jar: &[f64]) {
     if let (Some(shape), Some(x)) = (shape::<R>(d, b), jar[b.rows()].first_chunk::<R>()) {
         let state = shape.state(x);
         d.efc_state[b.rows()].copy_from_slice(&state);
     }
-}
-
-/// The degrees of freedom of a tree.
-#[inline(always)]
-pub(super) fn tree_dofs(m: &Model, tree: usize) -> Range<usize> {
-    let first = m.tree_dofadr[tree] as usize;
-    first..first + m.tree_dofnum[tree] as usize
 }
 
 impl Problem<'_> {

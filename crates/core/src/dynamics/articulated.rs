@@ -12,10 +12,10 @@
 //! Everything is expressed about the centre of mass of the tree, as `cdof` and `cinert` are: nothing is transformed
 //! from body to body.
 
-use crate::dynamics::{mass, serial};
-use crate::forces::tendon;
+use crate::dynamics::Scratch;
+use crate::dynamics::{mass, reflected, serial};
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 use std::ops::Range;
 
 /// Degrees of freedom of a tree up to which its rows of M are short enough to be eliminated one from the other.
@@ -266,25 +266,30 @@ fn with_carrier(
 }
 
 /// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive.
-pub(crate) fn factor(m: &Model, d: &mut Data) -> Option<usize> {
-    let bad = prepare(m, d, None);
-    rows_of_factor(m, d);
+pub(crate) fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+    let bad = prepare(m, d, w, None);
+    rows_of_factor(m, d, w);
     bad
 }
 
 /// What solves with M, of large trees without `qLD`; and with `x`, x ← M⁻¹ x.
-pub(crate) fn prepare(m: &Model, d: &mut Data, mut x: Option<&mut [f64]>) -> Option<usize> {
+pub(crate) fn prepare(
+    m: &Model,
+    d: &mut Fields,
+    w: &mut Scratch,
+    mut x: Option<&mut [f64]>,
+) -> Option<usize> {
     let mut bad = None;
-    for tree in &d.work.articulated.serial {
+    for tree in &w.articulated.serial {
         bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, x.as_deref_mut()));
     }
-    if d.work.articulated.spans.is_empty() { bad } else { bad.or(prepare_spans(m, d, x)) }
+    if w.articulated.spans.is_empty() { bad } else { bad.or(prepare_spans(m, d, w, x)) }
 }
 
 #[inline(never)] // scenes of small trees do not carry the set-up of the others: so below
-fn prepare_spans(m: &Model, d: &mut Data, mut x: Option<&mut [f64]>) -> Option<usize> {
-    let articulated = &mut d.work.articulated;
-    articulated.untied = m.ntendon == 0 || !tendon::has_armature(m);
+fn prepare_spans(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>) -> Option<usize> {
+    let articulated = &mut w.articulated;
+    articulated.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     let Articulated { spans, untied, links, bodies, joints, .. } = articulated;
     let mut bad = None;
     for span in spans.iter() {
@@ -317,23 +322,31 @@ fn prepare_spans(m: &Model, d: &mut Data, mut x: Option<&mut [f64]>) -> Option<u
 /// less time than one after the other.
 pub(crate) fn prepare_both(
     m: &Model,
-    d: &mut Data,
+    d: &mut Fields,
+    w: &mut Scratch,
     b: &[f64],
     x: &mut [f64],
     y: &mut [f64],
 ) -> Option<usize> {
     let mut bad = None;
-    for tree in &d.work.articulated.serial {
+    for tree in &w.articulated.serial {
         bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, Some(&mut *x)));
         tree.solve_with(&d.M, b, y);
     }
-    if d.work.articulated.spans.is_empty() { bad } else { bad.or(prepare_both_spans(m, d, b, x, y)) }
+    if w.articulated.spans.is_empty() { bad } else { bad.or(prepare_both_spans(m, d, w, b, x, y)) }
 }
 
 #[inline(never)]
-fn prepare_both_spans(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64], y: &mut [f64]) -> Option<usize> {
-    let articulated = &mut d.work.articulated;
-    articulated.untied = m.ntendon == 0 || !tendon::has_armature(m);
+fn prepare_both_spans(
+    m: &Model,
+    d: &mut Fields,
+    w: &mut Scratch,
+    b: &[f64],
+    x: &mut [f64],
+    y: &mut [f64],
+) -> Option<usize> {
+    let articulated = &mut w.articulated;
+    articulated.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     let Articulated { spans, untied, links, bodies, joints, .. } = articulated;
     let mut bad = None;
     for span in spans.iter() {
@@ -354,7 +367,7 @@ fn prepare_both_spans(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64], y: &mut
             get::<1>(joints, dofs, y);
             bad
         } else {
-            solve_rows_with(m, &d.M, b, [&mut d.work.ld, &mut d.work.diag_inv], dofs.clone(), y);
+            solve_rows_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs.clone(), y);
             factor_rows(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs, Some(&mut *x))
         };
         bad = bad.or(found);
@@ -415,8 +428,8 @@ fn solve_rows_with(
 }
 
 /// The rows of `qLD` that belong to articulated trees, and their `qLDiagInv`.
-pub(crate) fn rows_of_factor(m: &Model, d: &mut Data) {
-    let Articulated { spans, untied, joints, .. } = &d.work.articulated;
+pub(crate) fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    let Articulated { spans, untied, joints, .. } = &w.articulated;
     let cdof = rows::<6>(&d.cdof);
     for span in spans.iter().filter(|span| span.by_bodies(*untied)) {
         for k in span.dofs.clone() {
@@ -424,26 +437,26 @@ pub(crate) fn rows_of_factor(m: &Model, d: &mut Data) {
             d.qLDiagInv[k] = *inv;
             let row = &mut d.qLD[mass::row(m, k)];
             let depth = row.len() - 1;
-            d.work.path.extend(depth, &cdof[k]);
-            d.work.path.product(&narrow(&scale(*u, *inv)), row);
+            w.path.extend(depth, &cdof[k]);
+            w.path.product(&narrow(&scale(*u, *inv)), row);
             row[depth] = 1.0 / inv;
         }
     }
 }
 
 /// x ← M⁻¹ x by what [`factor`] has left.
-pub(crate) fn solve(m: &Model, d: &mut Data, x: &mut [f64]) {
-    for tree in &d.work.articulated.serial {
+pub(crate) fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+    for tree in &w.articulated.serial {
         tree.solve(d, x);
     }
-    if !d.work.articulated.spans.is_empty() {
-        solve_spans(m, d, x);
+    if !w.articulated.spans.is_empty() {
+        solve_spans(m, d, w, x);
     }
 }
 
 #[inline(never)]
-fn solve_spans(m: &Model, d: &mut Data, x: &mut [f64]) {
-    let Articulated { spans, untied, links, bodies, joints, .. } = &mut d.work.articulated;
+fn solve_spans(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+    let Articulated { spans, untied, links, bodies, joints, .. } = &mut w.articulated;
     for span in spans.iter() {
         if span.by_bodies(*untied) {
             put::<0>(joints, span.dofs.clone(), x);
@@ -456,18 +469,18 @@ fn solve_spans(m: &Model, d: &mut Data, x: &mut [f64]) {
 }
 
 /// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after [`factor`].
-pub(crate) fn solve_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
-    for tree in &d.work.articulated.serial {
+pub(crate) fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+    for tree in &w.articulated.serial {
         tree.solve_with(&d.M, b, x);
     }
-    if !d.work.articulated.spans.is_empty() {
-        solve_spans_with(m, d, b, x);
+    if !w.articulated.spans.is_empty() {
+        solve_spans_with(m, d, w, b, x);
     }
 }
 
 #[inline(never)]
-fn solve_spans_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
-    let Articulated { spans, untied, links, bodies, joints, .. } = &mut d.work.articulated;
+fn solve_spans_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+    let Articulated { spans, untied, links, bodies, joints, .. } = &mut w.articulated;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
         if span.by_bodies(*untied) {
@@ -481,7 +494,7 @@ fn solve_spans_with(m: &Model, d: &mut Data, b: &[f64], x: &mut [f64]) {
             tree.fall::<1, 2>(bodies, joints);
             get::<1>(joints, dofs, x);
         } else {
-            solve_rows_with(m, &d.M, b, [&mut d.work.ld, &mut d.work.diag_inv], dofs, x);
+            solve_rows_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs, x);
         }
     }
 }
@@ -552,6 +565,7 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::panic)]
 
     use super::*;
+    use crate::Data;
     use crate::mjcf::compile;
     use crate::{forward, joint};
     use proptest::prelude::*;
@@ -611,13 +625,13 @@ mod tests {
             let f: Vec<f64> = (0..m.nv).map(|k| q[(3 * k) % q.len()]).collect();
             let b: Vec<f64> = (0..m.nv).map(|k| q[(5 * k) % q.len()].abs()).collect();
             let (mut x, mut back) = (f.clone(), vec![0.0; m.nv]);
-            solve_with(&m, &mut d, &b, &mut x);
+            solve_with(&m, &d.fields, &mut d.work.dynamics, &b, &mut x);
             mass::mul(&m, &d.M, &x, &mut back, 0..m.nv);
             for k in 0..m.nv {
                 prop_assert!((back[k] + b[k] * x[k] - f[k]).abs() < 1e-9, "{k}");
             }
             x.copy_from_slice(&f);
-            solve(&m, &mut d, &mut x);
+            solve(&m, &d.fields, &mut d.work.dynamics, &mut x);
             mass::mul(&m, &d.M, &x, &mut back, 0..m.nv);
             let size = x.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
             for k in 0..m.nv {

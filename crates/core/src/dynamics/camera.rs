@@ -1,8 +1,8 @@
 //! Poses of cameras and lights, which may follow a body or look at one.
 
 use crate::math::*;
-use crate::step::{sleep, sleep::awake};
-use crate::{Data, Model};
+use crate::model::{asleep, asleep::awake};
+use crate::{Fields, Model};
 
 /// How a camera or light moves (mjtCamLight).
 mod mode {
@@ -17,9 +17,9 @@ mod mode {
 }
 
 /// `cam_xpos`, `cam_xmat`.
-pub(crate) fn cameras(m: &Model, d: &mut Data) {
+pub(crate) fn cameras(m: &Model, d: &mut Fields) {
     // Where trees may sleep, nothing that stands is looked at: what it tracks moves away.
-    let (sleeping, state) = (sleep::on(m, d), &d.body_awake);
+    let (sleeping, state) = (asleep::on(m, d), &d.body_awake);
     let (pos, quat) = (rows::<3>(&m.cam_pos), rows::<4>(&m.cam_quat));
     let (xpos, xquat, com) = (rows::<3>(&d.xpos), rows::<4>(&d.xquat), rows::<3>(&d.subtree_com));
     let (out_pos, out_mat) = (rows_mut::<3>(&mut d.cam_xpos), rows_mut::<9>(&mut d.cam_xmat));
@@ -45,8 +45,8 @@ pub(crate) fn cameras(m: &Model, d: &mut Data) {
 }
 
 /// `light_xpos`, `light_xdir`.
-pub(crate) fn lights(m: &Model, d: &mut Data) {
-    let (sleeping, state) = (sleep::on(m, d), &d.body_awake);
+pub(crate) fn lights(m: &Model, d: &mut Fields) {
+    let (sleeping, state) = (asleep::on(m, d), &d.body_awake);
     let (pos, dir) = (rows::<3>(&m.light_pos), rows::<3>(&m.light_dir));
     let (xpos, xquat, com) = (rows::<3>(&d.xpos), rows::<4>(&d.xquat), rows::<3>(&d.subtree_com));
     let (out_pos, out_dir) = (rows_mut::<3>(&mut d.light_xpos), rows_mut::<3>(&mut d.light_xdir));
@@ -92,7 +92,7 @@ fn looking(back: Vec3) -> Mat3 {
 
 /// Where cameras and lights are at the default configuration, relative to what they may follow. The centre of mass
 /// is that of the target's subtree where there is a target.
-pub(crate) fn set_const(m: &mut Model, d: &Data) {
+pub(crate) fn set_const(m: &mut Model, d: &Fields) {
     let (xpos, com, xquat) = (rows::<3>(&d.xpos), rows::<3>(&d.subtree_com), rows::<4>(&d.xquat));
     for c in 0..m.ncam {
         let b = m.cam_bodyid[c] as usize;

@@ -5,11 +5,11 @@
 
 use crate::math::lanes;
 use crate::math::*;
-use crate::{Data, Model, joint};
+use crate::{Fields, Model, joint};
 
 /// `subtree_com`, `cinert`, `cdof`.
 #[inline(never)]
-pub(crate) fn com_pos(m: &Model, d: &mut Data) {
+pub(crate) fn com_pos(m: &Model, d: &mut Fields) {
     subtree_com(m, d);
     let com = rows::<3>(&d.subtree_com);
     let (xipos, ximat) = (rows::<3>(&d.xipos), rows::<9>(&d.ximat));
@@ -54,7 +54,7 @@ pub(crate) fn com_pos(m: &Model, d: &mut Data) {
     }
 }
 
-fn subtree_com(m: &Model, d: &mut Data) {
+fn subtree_com(m: &Model, d: &mut Fields) {
     let xipos = rows::<3>(&d.xipos);
     let com = rows_mut::<3>(&mut d.subtree_com);
     for i in 0..m.nbody {
@@ -72,7 +72,7 @@ fn subtree_com(m: &Model, d: &mut Data) {
 
 /// `cvel`, `cdof_dot`.
 #[inline(never)]
-pub(crate) fn com_vel(m: &Model, d: &mut Data) {
+pub(crate) fn com_vel(m: &Model, d: &mut Fields) {
     let cdof = rows::<6>(&d.cdof);
     let (cvel, cdof_dot) = (rows_mut::<6>(&mut d.cvel), rows_mut::<6>(&mut d.cdof_dot));
     let qvel = &d.qvel;

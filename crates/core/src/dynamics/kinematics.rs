@@ -2,12 +2,13 @@
 //!
 //! Each body's pose follows from its parent's, joint by joint (Featherstone 2008, section 4.4).
 
+use crate::dynamics::Scratch;
 use crate::math::*;
 use crate::math::{
     lanes::Axes, lanes::Lane3, lanes::along, lanes::axes, lanes::lane3, lanes::matrix, lanes::product,
     lanes::turned, lanes::vec3,
 };
-use crate::{Data, Model, joint};
+use crate::{Fields, Model, joint};
 use std::ops::Range;
 
 /// How a frame coincides with that of its body, so that poses are copied, not multiplied: the copy is exact.
@@ -25,7 +26,7 @@ pub(crate) mod sameframe {
 }
 
 /// The world's pose, which never changes.
-pub(crate) fn world(d: &mut Data) {
+pub(crate) fn world(d: &mut Fields) {
     if let (Some(q), Some(r), Some(i)) =
         (d.xquat.first_chunk_mut(), d.xmat.first_chunk_mut(), d.ximat.first_chunk_mut())
     {
@@ -136,20 +137,20 @@ impl Frames {
 }
 
 /// Poses of bodies, joints, geoms and sites, as `mj_kinematics` computes them.
-pub fn kinematics(m: &Model, d: &mut Data) {
-    bodies(m, d);
-    orientations(d);
+pub(crate) fn kinematics(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    bodies(m, d, w);
+    orientations(d, w);
     geoms(m, d);
     sites(m, d);
 }
 
 /// Poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
 #[inline(never)]
-pub(crate) fn bodies(m: &Model, d: &mut Data) {
+pub(crate) fn bodies(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if d.plan.frames_may_change {
-        d.work.frames.load(m);
+        w.frames.load(m);
     }
-    let Frames { bodies, joints, poses } = &mut d.work.frames;
+    let Frames { bodies, joints, poses } = &mut w.frames;
     let (xpos, xmat) = (rows_mut::<3>(&mut d.xpos), rows_mut::<9>(&mut d.xmat));
     let (xipos, ximat) = (rows_mut::<3>(&mut d.xipos), rows_mut::<9>(&mut d.ximat));
     let (xanchor, xaxis) = (rows_mut::<3>(&mut d.xanchor), rows_mut::<3>(&mut d.xaxis));
@@ -223,8 +224,8 @@ fn quaternion(q: &[f64]) -> Quat {
 
 /// Orientations of bodies as quaternions, `xquat`, after [`bodies`].
 #[inline(never)]
-pub(crate) fn orientations(d: &mut Data) {
-    let Frames { bodies, joints, .. } = &d.work.frames;
+pub(crate) fn orientations(d: &mut Fields, w: &mut Scratch) {
+    let Frames { bodies, joints, .. } = &w.frames;
     let xquat = rows_mut::<4>(&mut d.xquat);
     let (mocap_quat, qpos) = (rows::<4>(&d.mocap_quat), &d.qpos);
     for (i, f) in bodies.iter().enumerate().skip(1) {
@@ -284,7 +285,7 @@ macro_rules! poses {
 
 /// Poses of geoms: `geom_xpos geom_xmat`.
 #[inline(never)]
-pub(crate) fn geoms(m: &Model, d: &mut Data) {
+pub(crate) fn geoms(m: &Model, d: &mut Fields) {
     let poses = poses!(d);
     let out = rows_mut::<3>(&mut d.geom_xpos).iter_mut().zip(rows_mut::<9>(&mut d.geom_xmat));
     let local = rows::<3>(&m.geom_pos).iter().zip(rows::<4>(&m.geom_quat));
@@ -295,7 +296,7 @@ pub(crate) fn geoms(m: &Model, d: &mut Data) {
 }
 
 /// Poses of sites: `site_xpos site_xmat`.
-pub(crate) fn sites(m: &Model, d: &mut Data) {
+pub(crate) fn sites(m: &Model, d: &mut Fields) {
     let poses = poses!(d);
     let out = rows_mut::<3>(&mut d.site_xpos).iter_mut().zip(rows_mut::<9>(&mut d.site_xmat));
     let local = rows::<3>(&m.site_pos).iter().zip(rows::<4>(&m.site_quat));

@@ -5,14 +5,14 @@
 //! M = Lᵀ D L, which creates no fill-in on this pattern, are in Featherstone 2008, chapter 6. Trees of many degrees of
 //! freedom are factorized by `articulated`.
 
-use crate::dynamics::serial;
-use crate::forces::{transmission, transmission::On};
+use super::reflected::{self, On};
+use super::{Scratch, serial};
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 use std::ops::Range;
 
 /// `crb` and `M`. The diagonal of simple bodies is constant: with `constant` it is taken from `dof_M0`.
-pub(crate) fn composite_inertia(m: &Model, d: &mut Data, constant: bool) {
+pub(crate) fn composite_inertia(m: &Model, d: &mut Fields, w: &mut Scratch, constant: bool) {
     d.crb.copy_from_slice(&d.cinert);
     let crb = rows_mut::<10>(&mut d.crb);
     for i in (1..m.nbody).rev() {
@@ -31,10 +31,22 @@ pub(crate) fn composite_inertia(m: &Model, d: &mut Data, constant: bool) {
         }
         // Momentum of the subtree for a unit velocity of this degree of freedom.
         let momentum = inertia_mul(&crb[m.dof_bodyid[i] as usize], &cdof[i]);
-        d.work.path.extend(depth, &cdof[i]);
-        d.work.path.product(&momentum, row);
+        w.path.extend(depth, &cdof[i]);
+        w.path.product(&momentum, row);
         row[depth] += armature(m, i);
     }
+}
+
+/// vᵀ M v.
+pub(crate) fn quadratic(m: &Model, mass: &[f64], v: &[f64]) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..m.nv {
+        let row = row(m, i);
+        let Some((diagonal, rest)) = mass[row.clone()].split_last() else { continue };
+        let ancestors = m.M_colind[row].iter().zip(rest).map(|(&k, x)| x * v[k as usize]);
+        sum += v[i] * (diagonal * v[i] + 2.0 * ancestors.sum::<f64>());
+    }
+    sum
 }
 
 /// Where the row of degree of freedom `i` is.
@@ -55,11 +67,11 @@ pub(crate) fn rows_of(m: &Model, dofs: Range<usize>) -> Range<usize> {
 pub(crate) fn armature(m: &Model, i: usize) -> f64 {
     let (own, joint) = (m.dof_armature[i], m.dof_jntid[i] as usize);
     // Few joints have an actuator with inertia of its own.
-    if m.jnt_actuatorid[joint] == -1 { own } else { own + transmission::armature(m, On::Joint(joint)) }
+    if m.jnt_actuatorid[joint] == -1 { own } else { own + reflected::armature(m, On::Joint(joint)) }
 }
 
 /// The constant diagonal of simple bodies in M.
-pub(crate) fn simple_diagonal(m: &Model, d: &mut Data) {
+pub(crate) fn simple_diagonal(m: &Model, d: &mut Fields) {
     for i in 0..m.nv {
         if m.dof_simplenum[i] > 0 {
             d.M[m.M_rowadr[i] as usize] = m.dof_M0[i];
@@ -68,7 +80,7 @@ pub(crate) fn simple_diagonal(m: &Model, d: &mut Data) {
 }
 
 /// The diagonal of M as the model knows it, for a scene whose bodies are all simple: M is constant.
-pub(crate) fn constant_mass(m: &Model, d: &mut Data) {
+pub(crate) fn constant_mass(m: &Model, d: &mut Fields) {
     d.M.copy_from_slice(&m.dof_M0);
     d.qLD.copy_from_slice(&m.dof_M0);
     for i in 0..m.nv {
@@ -339,20 +351,20 @@ pub(crate) fn trace(m: &Model, mass: &[f64], dofs: Range<usize>) -> f64 {
 }
 
 /// out ← M v (`mj_mulM`), for vectors of nv numbers. `None` when one is shorter.
-pub fn mul_m(m: &Model, d: &Data, v: &[f64], out: &mut [f64]) -> Option<()> {
+pub fn mul_m(m: &Model, d: &Fields, v: &[f64], out: &mut [f64]) -> Option<()> {
     mul(m, &d.M, v.get(..m.nv)?, out.get_mut(..m.nv)?, 0..m.nv);
     Some(())
 }
 
 /// x ← M⁻¹ x (`mj_solveM`), for a vector of nv numbers. `None` when it is shorter.
-pub fn solve_m(m: &Model, d: &Data, x: &mut [f64]) -> Option<()> {
+pub fn solve_m(m: &Model, d: &Fields, x: &mut [f64]) -> Option<()> {
     solve(m, &d.qLD, &d.qLDiagInv, x.get_mut(..m.nv)?, 0..m.nv);
     Some(())
 }
 
 /// x ← D^-½ L⁻ᵀ x (`mj_solveM2`): half of the solution, so that xᵀ M⁻¹ x is the square of its norm. `None` when the
 /// vector is shorter than nv.
-pub fn solve_m2(m: &Model, d: &Data, x: &mut [f64]) -> Option<()> {
+pub fn solve_m2(m: &Model, d: &Fields, x: &mut [f64]) -> Option<()> {
     let x = x.get_mut(..m.nv)?;
     for i in (0..m.nv).rev() {
         let row = m.M_rowadr[i] as usize..diagonal(m, i);
@@ -368,7 +380,7 @@ pub fn solve_m2(m: &Model, d: &Data, x: &mut [f64]) -> Option<()> {
 }
 
 /// M as a dense symmetric matrix, row-major (`mj_fullM`).
-pub fn full_m(m: &Model, d: &Data) -> Vec<f64> {
+pub fn full_m(m: &Model, d: &Fields) -> Vec<f64> {
     let n = m.nv;
     let mut out = vec![0.0; n * n];
     for i in 0..n {

@@ -14,6 +14,46 @@ pub(crate) mod kinematics;
 pub(crate) mod mass;
 pub(crate) mod object;
 pub(crate) mod path;
+pub(crate) mod reflected;
 pub(crate) mod rne;
 pub(crate) mod serial;
 pub(crate) mod subtree;
+
+use crate::Model;
+use articulated::Articulated;
+use chain::Chains;
+use kinematics::Frames;
+use path::Path;
+
+/// What these stages keep from one to the next, so that they do not allocate.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Scratch {
+    /// Trees of a few slides and hinges.
+    pub(crate) chains: Chains,
+    pub(crate) frames: Frames,
+    /// Trees of many degrees of freedom.
+    pub(crate) articulated: Articulated,
+    /// Motions of ancestors, for rows of M.
+    path: Path,
+    /// Spatial accelerations and forces of bodies.
+    cacc: Vec<f64>,
+    cfrc: Vec<f64>,
+    /// A factorization that is nobody's: rows and 1/D.
+    pub(crate) ld: Vec<f64>,
+    pub(crate) diag_inv: Vec<f64>,
+}
+
+impl Scratch {
+    pub(crate) fn new(m: &Model) -> Scratch {
+        Scratch {
+            chains: Chains::new(m),
+            frames: Frames::new(m),
+            articulated: Articulated::new(m),
+            path: Path::new(m),
+            cacc: vec![0.0; 6 * m.nbody],
+            cfrc: vec![0.0; 6 * m.nbody],
+            ld: vec![0.0; m.nC],
+            diag_inv: vec![0.0; m.nv],
+        }
+    }
+}

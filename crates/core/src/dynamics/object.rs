@@ -4,7 +4,7 @@
 //! point they are those of an object fixed to the body (Featherstone 2008, section 2.8).
 
 use crate::math::*;
-use crate::{Data, Model, Obj};
+use crate::{Fields, Model, Obj};
 
 /// Position, orientation and body of an object.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +15,7 @@ pub(crate) struct Frame {
 }
 
 /// The frame of an object of kind `objtype` (mjtObj); `None` when there is no such object, or it has no frame.
-pub(crate) fn frame(m: &Model, d: &Data, objtype: i32, id: usize) -> Option<Frame> {
+pub(crate) fn frame(m: &Model, d: &Fields, objtype: i32, id: usize) -> Option<Frame> {
     let (pos, mat, body) = match objtype {
         t if t == Obj::Body as i32 => (&d.xipos, &d.ximat, Some(id)),
         t if t == Obj::XBody as i32 => (&d.xpos, &d.xmat, Some(id)),
@@ -33,7 +33,7 @@ fn at(bodies: &[i32], id: usize) -> Option<usize> {
 
 /// The orientation of an object as a quaternion, world: composed of the body's and its own, so that a camera
 /// that turns by itself has the orientation it was given.
-pub(crate) fn orientation(m: &Model, d: &Data, objtype: i32, id: usize) -> Option<Quat> {
+pub(crate) fn orientation(m: &Model, d: &Fields, objtype: i32, id: usize) -> Option<Quat> {
     let (own, body) = match objtype {
         t if t == Obj::XBody as i32 => return rows(&d.xquat).get(id).copied(),
         t if t == Obj::Body as i32 => (&m.body_iquat, Some(id)),
@@ -47,7 +47,7 @@ pub(crate) fn orientation(m: &Model, d: &Data, objtype: i32, id: usize) -> Optio
 
 /// Angular and linear velocity of an object (`mj_objectVelocity`), rad/s and m/s: in the axes of the world, or
 /// of the object when `local`. Zero for what does not exist.
-pub fn object_velocity(m: &Model, d: &Data, kind: Obj, id: usize, local: bool) -> Spatial {
+pub fn object_velocity(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool) -> Spatial {
     let Some(f) = frame(m, d, kind as i32, id) else { return [0.0; 6] };
     velocity(m, d, &f, local)
 }
@@ -55,17 +55,17 @@ pub fn object_velocity(m: &Model, d: &Data, kind: Obj, id: usize, local: bool) -
 /// Angular and linear acceleration of an object (`mj_objectAcceleration`), rad/s² and m/s², as an accelerometer
 /// feels it: at rest it points up with the strength of gravity. Axes as for [`object_velocity`]; needs
 /// [`rne_post_constraint`](crate::rne_post_constraint). Zero for what cannot move.
-pub fn object_acceleration(m: &Model, d: &Data, kind: Obj, id: usize, local: bool) -> Spatial {
+pub fn object_acceleration(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool) -> Spatial {
     let Some(f) = frame(m, d, kind as i32, id) else { return [0.0; 6] };
     acceleration(m, d, &f, local)
 }
 
-pub(crate) fn velocity(m: &Model, d: &Data, f: &Frame, local: bool) -> Spatial {
+pub(crate) fn velocity(m: &Model, d: &Fields, f: &Frame, local: bool) -> Spatial {
     let v = carried(m, d, f, &rows::<6>(&d.cvel)[f.body]);
     if local { turned(&f.mat, &v) } else { v }
 }
 
-pub(crate) fn acceleration(m: &Model, d: &Data, f: &Frame, local: bool) -> Spatial {
+pub(crate) fn acceleration(m: &Model, d: &Fields, f: &Frame, local: bool) -> Spatial {
     if m.body_treeid[f.body] < 0 {
         return [0.0; 6];
     }
@@ -80,7 +80,7 @@ pub(crate) fn acceleration(m: &Model, d: &Data, f: &Frame, local: bool) -> Spati
 }
 
 /// A motion of the body of `f`, about its tree's centre of mass, carried to the position of `f`.
-fn carried(m: &Model, d: &Data, f: &Frame, motion: &Spatial) -> Spatial {
+fn carried(m: &Model, d: &Fields, f: &Frame, motion: &Spatial) -> Spatial {
     let com = rows::<3>(&d.subtree_com)[m.body_rootid[f.body] as usize];
     let w = angular(motion);
     let l = add(linear(motion), cross(w, sub(f.pos, com)));

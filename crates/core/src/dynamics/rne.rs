@@ -1,19 +1,20 @@
 //! `qfrc_bias`: gravity, Coriolis and centrifugal force.
 
+use crate::dynamics::Scratch;
 use crate::dynamics::chain;
 use crate::math::lanes;
 use crate::math::*;
-use crate::{Data, Model, disable, joint};
+use crate::{Fields, Model, disable, joint};
 
 /// `qfrc_bias`. Trees take recursive Newton–Euler, short chains a projection; a simple body, alone in its tree
 /// with its inertia along its own axes, takes the closed form.
 #[inline(never)]
-pub(crate) fn bias(m: &Model, d: &mut Data) {
+pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
     if d.plan.recursion {
-        newton_euler(m, d, gravity);
+        newton_euler(m, d, w, gravity);
     }
-    chain::bias(d, gravity);
+    chain::bias(d, w, gravity);
     if !d.plan.simple_bodies {
         return;
     }
@@ -28,7 +29,7 @@ pub(crate) fn bias(m: &Model, d: &mut Data) {
 /// One joint of a simple body: weight along translations, ω × I ω for rotations in the body's frame. A
 /// hinge turns about a principal axis and feels nothing.
 #[inline(always)]
-fn simple(m: &Model, d: &mut Data, j: usize, body: usize, gravity: Vec3) {
+fn simple(m: &Model, d: &mut Fields, j: usize, body: usize, gravity: Vec3) {
     let (mass, &[a, b, c]) = (m.body_mass[body], &rows::<3>(&m.body_inertia)[body]);
     let k = m.jnt_dofadr[j] as usize;
     let turning = |w: Vec3| cross(w, [a * w[0], b * w[1], c * w[2]]);
@@ -45,9 +46,9 @@ fn simple(m: &Model, d: &mut Data, j: usize, body: usize, gravity: Vec3) {
 }
 
 /// `qfrc_bias` of all bodies.
-pub(crate) fn newton_euler(m: &Model, d: &mut Data, gravity: Vec3) {
+pub(crate) fn newton_euler(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     let mut out = std::mem::take(&mut d.qfrc_bias);
-    recursion(m, d, gravity, None, &mut out);
+    recursion(m, d, w, gravity, None, &mut out);
     d.qfrc_bias = out;
 }
 
@@ -56,23 +57,36 @@ pub(crate) fn newton_euler(m: &Model, d: &mut Data, gravity: Vec3) {
 /// array is shorter.
 ///
 /// It needs the position and velocity stages of a full pipeline.
-pub fn rne(m: &Model, d: &mut Data, qacc: Option<&[f64]>, out: &mut [f64]) -> Option<()> {
+pub(crate) fn rne(
+    m: &Model,
+    d: &mut Fields,
+    w: &mut Scratch,
+    qacc: Option<&[f64]>,
+    out: &mut [f64],
+) -> Option<()> {
     if out.len() < m.nv || qacc.is_some_and(|a| a.len() < m.nv) {
         return None;
     }
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
-    recursion(m, d, gravity, qacc, out);
+    recursion(m, d, w, gravity, qacc, out);
     Some(())
 }
 
 /// The force for an acceleration (Featherstone 2008, section 5.3). Gravity enters as an upward acceleration of the
 /// world.
-fn recursion(m: &Model, d: &mut Data, gravity: Vec3, qacc: Option<&[f64]>, out: &mut [f64]) {
+fn recursion(
+    m: &Model,
+    d: &mut Fields,
+    w: &mut Scratch,
+    gravity: Vec3,
+    qacc: Option<&[f64]>,
+    out: &mut [f64],
+) {
     let cdof = rows::<6>(&d.cdof);
     let cdof_dot = rows::<6>(&d.cdof_dot);
     let (cinert, cvel) = (rows::<10>(&d.cinert), rows::<6>(&d.cvel));
-    let cacc = rows_mut::<6>(&mut d.work.cacc);
-    let cfrc = rows_mut::<6>(&mut d.work.cfrc);
+    let cacc = rows_mut::<6>(&mut w.cacc);
+    let cfrc = rows_mut::<6>(&mut w.cfrc);
 
     cacc[0] = [0.0, 0.0, 0.0, -gravity[0], -gravity[1], -gravity[2]];
     cfrc[0] = [0.0; 6];

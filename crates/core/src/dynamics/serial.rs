@@ -3,7 +3,7 @@
 //! Their rows of M are a packed lower triangle, which is factorized and solved with all sizes known.
 
 use crate::math::MINVAL;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 use std::ops::Range;
 
 /// A tree: its first degree of freedom, how many it has, and where their rows of M begin.
@@ -50,7 +50,7 @@ impl Tree {
 
     /// x ← M⁻¹ x by what [`Tree::factor`] has left.
     #[inline(always)]
-    pub(crate) fn solve(self, d: &Data, x: &mut [f64]) {
+    pub(crate) fn solve(self, d: &Fields, x: &mut [f64]) {
         let (Some(ld), Some(diag_inv)) = (d.qLD.get(self.row..), d.qLDiagInv.get(self.first..)) else {
             return;
         };

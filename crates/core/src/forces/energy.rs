@@ -3,10 +3,10 @@
 use crate::dynamics::mass;
 use crate::forces::passive::spring;
 use crate::math::*;
-use crate::{Data, Model, disable};
+use crate::{Fields, Model, disable};
 
 /// `energy[0]`: gravity and springs, J. Zero where every centre of mass is at the origin.
-pub fn potential(m: &Model, d: &mut Data) {
+pub fn potential(m: &Model, d: &mut Fields) {
     let mut e = 0.0;
     if !m.opt.disabled(disable::GRAVITY) {
         let xipos = rows::<3>(&d.xipos);
@@ -21,7 +21,6 @@ pub fn potential(m: &Model, d: &mut Data) {
 }
 
 /// `energy[1]` = ½ vᵀ M v, J.
-pub fn kinetic(m: &Model, d: &mut Data) {
-    mass::mul(m, &d.M, &d.qvel, &mut d.work.mv, 0..m.nv);
-    d.energy[1] = 0.5 * dot_slice(&d.work.mv, &d.qvel);
+pub fn kinetic(m: &Model, d: &mut Fields) {
+    d.energy[1] = 0.5 * mass::quadratic(m, &d.M, &d.qvel);
 }

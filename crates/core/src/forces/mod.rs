@@ -10,3 +10,28 @@ pub(crate) mod history;
 pub(crate) mod passive;
 pub(crate) mod tendon;
 pub(crate) mod transmission;
+
+use crate::Model;
+use crate::dynamics::jacobian::Columns;
+
+/// What these stages use and nobody else looks at, kept so that they do not allocate.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Scratch {
+    /// Sums of the forces of actuators on each tendon.
+    tendon_force: Vec<f64>,
+    /// A row of the moments of actuators.
+    moment: Vec<f64>,
+    /// Columns of one contact's Jacobian.
+    columns: Columns,
+}
+
+impl Scratch {
+    pub(crate) fn new(m: &Model) -> Scratch {
+        let contacts = m.actuator_trntype.contains(&crate::trntype::BODY);
+        Scratch {
+            tendon_force: vec![0.0; m.ntendon],
+            moment: vec![0.0; m.nv],
+            columns: Columns::with_room(if contacts { m.nv } else { 0 }),
+        }
+    }
+}

@@ -459,6 +459,42 @@ pub fn clip(x: f64, [lower, upper]: [f64; 2]) -> f64 {
     }
 }
 
+/// A spatial vector from its parts.
+pub(crate) fn spatial(w: Vec3, v: Vec3) -> Spatial {
+    [w[0], w[1], w[2], v[0], v[1], v[2]]
+}
+
+/// x ← a⁻¹ x by Gauss' elimination with the largest pivots; `false` for a singular matrix.
+pub(crate) fn solve_six(a: &mut [Spatial; 6], x: &mut Spatial) -> bool {
+    for k in 0..6 {
+        let mut best = k;
+        for r in k + 1..6 {
+            if a[r][k].abs() > a[best][k].abs() {
+                best = r;
+            }
+        }
+        a.swap(k, best);
+        x.swap(k, best);
+        if a[k][k].abs() < MINVAL {
+            return false;
+        }
+        for r in k + 1..6 {
+            let factor = a[r][k] / a[k][k];
+            for c in k + 1..6 {
+                a[r][c] -= factor * a[k][c];
+            }
+            x[r] -= factor * x[k];
+        }
+    }
+    for k in (0..6).rev() {
+        for c in k + 1..6 {
+            x[k] -= a[k][c] * x[c];
+        }
+        x[k] /= a[k][k];
+    }
+    true
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,7 +6,7 @@ use super::layout::Layout;
 use super::spec::BodySpec;
 use crate::Model;
 use crate::kinds::trntype;
-use crate::step::sleep::policy;
+use crate::model::asleep::policy;
 
 /// Reports a choice where there is no tree to sleep.
 pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {

@@ -2,7 +2,7 @@
 
 use super::diagnostic::{Report, code};
 use super::tree::Tree;
-use crate::step::sleep::policy;
+use crate::model::asleep::policy;
 use crate::{Data, Model, Obj, disable, enable, eqtype, integrator};
 
 /// Reports what the model asks for and does not get.

@@ -1,4 +1,4 @@
-//! The one table of fields: every field of `Model`, its options and statistics, and `Data`.
+//! The one table of fields: every field of `Model`, its options and statistics, and `Fields`.
 //!
 //! Each row is declared once: name, Rust type, shape, kind, the stage that computes it, unit and one line
 //! of documentation. From it come the structs (`model.rs`, `data.rs`), the reflection that the language
@@ -486,7 +486,7 @@ macro_rules! statistic_fields {
     } };
 }
 
-/// State, inputs and results of [`crate::Data`].
+/// State, inputs and results of [`crate::Fields`].
 macro_rules! data_fields {
     ($apply:ident) => { $apply! {
         time: f64, [], State, User, "s", "simulated time";

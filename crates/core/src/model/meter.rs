@@ -5,13 +5,13 @@
 //! anyway: sizes of the model, pairs, rows, iterations. Beyond the limit long loops end early and stages are left out: what
 //! the data hold then is of no use, and whoever set the limit has to say so.
 
-use crate::{Data, Model};
+use crate::Model;
 
 /// The work done, and where it ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Meter {
-    cost: u64,
-    limit: u64,
+    pub(crate) cost: u64,
+    pub(crate) limit: u64,
     /// Half of what a forward pass costs without pairs and constraints.
     pub(crate) half: u64,
 }
@@ -47,29 +47,4 @@ impl Meter {
     pub(crate) fn left(&self) -> u64 {
         self.limit.saturating_sub(self.cost)
     }
-}
-
-/// The work that was done with these data since they were made: about nanoseconds of a fast machine.
-pub fn cost(d: &Data) -> u64 {
-    d.work.meter.cost
-}
-
-/// What a forward pass costs without pairs and constraints, in the same unit.
-pub fn cost_of_pass(d: &Data) -> u64 {
-    2 * d.work.meter.half
-}
-
-/// Lets the engine do so much more work and no more. Beyond that its results are of no use: see [`exhausted`].
-pub fn limit(d: &mut Data, units: u64) {
-    d.work.meter.limit = d.work.meter.cost.saturating_add(units);
-}
-
-/// Whether the limit is passed, and results with it are of no use.
-pub fn exhausted(d: &Data) -> bool {
-    d.work.meter.over()
-}
-
-/// Counts work that was done on the data by others.
-pub fn charge(d: &mut Data, units: u64) {
-    d.work.meter.add(units);
 }

@@ -1,14 +1,18 @@
 //! `Model`: what does not change while a simulation runs. The structs come from the field table.
 
+pub(crate) mod asleep;
 pub(crate) mod bytes;
 pub(crate) mod data;
 pub(crate) mod fields;
 pub(crate) mod meter;
+pub(crate) mod plan;
 pub mod reflect;
+pub(crate) mod stage;
 pub mod state;
 
 use crate::kinds::integrator;
 use crate::model::{fields::model_fields, fields::option_fields, fields::statistic_fields};
+use std::ops::Range;
 
 macro_rules! define {
     ($(#[$meta:meta])* $struct:ident { $($extra:tt)* }
@@ -99,6 +103,15 @@ impl Options {
     /// Whether an optional part is switched on; `bit` is one of [`crate::enable`].
     pub fn enabled(&self, bit: i32) -> bool {
         self.enableflags & bit != 0
+    }
+}
+
+impl Model {
+    /// The degrees of freedom of a tree.
+    #[inline(always)]
+    pub(crate) fn tree_dofs(&self, tree: usize) -> Range<usize> {
+        let first = self.tree_dofadr[tree] as usize;
+        first..first + self.tree_dofnum[tree] as usize
     }
 }
 

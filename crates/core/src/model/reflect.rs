@@ -2,11 +2,12 @@
 //!
 //! The language, the lints, the reports and the reference pages know the engine only through this module.
 
+pub use super::stage::Stage;
 use crate::model::bytes::Plain;
 use crate::model::{
     fields::data_fields, fields::model_fields, fields::option_fields, fields::statistic_fields,
 };
-use crate::{Data, Model};
+use crate::{Fields, Model};
 use std::sync::LazyLock;
 
 /// The struct that a field belongs to.
@@ -37,71 +38,6 @@ pub enum Kind {
     Inertial,
     /// Computed by a stage: writing it has no effect.
     Derived,
-}
-
-/// The stage that computes a field, in the order in which `mj_forward` runs them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Stage {
-    /// The MJCF compiler.
-    Compile,
-    /// `mj_setConst`.
-    SetConst,
-    /// Written by the user or the integrator.
-    User,
-    /// Poses of bodies and joints.
-    Kinematics,
-    /// Orientations of bodies as quaternions.
-    Orientations,
-    /// Poses of geoms.
-    GeomPoses,
-    /// Poses of sites.
-    SitePoses,
-    /// Centres of mass, inertias and motion axes.
-    ComPos,
-    /// Poses of cameras and lights.
-    CameraPoses,
-    /// Lengths and Jacobians of tendons.
-    Tendon,
-    /// Mass matrix by composite rigid bodies.
-    MassMatrix,
-    /// Factorization of the mass matrix.
-    Factor,
-    /// Contacts.
-    Collision,
-    /// Constraint rows.
-    Constraint,
-    /// Lengths and moment arms of actuators.
-    Transmission,
-    /// Velocities of tendons.
-    TendonVel,
-    /// Velocities of actuators.
-    ActuatorVel,
-    /// Velocities of bodies.
-    ComVel,
-    /// Springs, dampers, gravity compensation, fluid.
-    Passive,
-    /// Reference accelerations of the constraints.
-    Reference,
-    /// Gravity, Coriolis and centrifugal force.
-    Bias,
-    /// Forces of actuators.
-    Actuation,
-    /// Unconstrained acceleration.
-    Acceleration,
-    /// Constraint forces.
-    Solve,
-    /// Momentum of subtrees.
-    SubtreeVel,
-    /// Accelerations of bodies and the forces between them.
-    RnePost,
-    /// Sensor values.
-    Sensors,
-    /// Potential and kinetic energy.
-    Energy,
-    /// Inverse dynamics.
-    Inverse,
-    /// Which trees sleep.
-    Sleep,
 }
 
 /// Element type of a field.
@@ -298,18 +234,18 @@ impl Cell for usize {
 }
 
 /// Reads one element of a field.
-type Reader = fn(&Model, &Data, usize) -> Option<f64>;
+type Reader = fn(&Model, &Fields, usize) -> Option<f64>;
 
-fn model<'a>(m: &'a Model, _: &'a Data) -> &'a Model {
+fn model<'a>(m: &'a Model, _: &'a Fields) -> &'a Model {
     m
 }
-fn options<'a>(m: &'a Model, _: &'a Data) -> &'a crate::model::Options {
+fn options<'a>(m: &'a Model, _: &'a Fields) -> &'a crate::model::Options {
     &m.opt
 }
-fn statistic<'a>(m: &'a Model, _: &'a Data) -> &'a crate::model::Statistic {
+fn statistic<'a>(m: &'a Model, _: &'a Fields) -> &'a crate::model::Statistic {
     &m.stat
 }
-fn data<'a>(_: &'a Model, d: &'a Data) -> &'a Data {
+fn data<'a>(_: &'a Model, d: &'a Fields) -> &'a Fields {
     d
 }
 
@@ -343,7 +279,7 @@ macro_rules! reflect {
 macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_READERS, MODEL_COUNT, ModelId, Model, Model, model; $($t)* } } }
 macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_READERS, OPTION_COUNT, OptionId, Option, crate::model::Options, options; $($t)* } } }
 macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_READERS, STAT_COUNT, StatId, Statistic, crate::model::Statistic, statistic; $($t)* } } }
-macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_READERS, DATA_COUNT, DataId, Data, Data, data; $($t)* } } }
+macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_READERS, DATA_COUNT, DataId, Data, Fields, data; $($t)* } } }
 /// Arrays get their lengths by field; options and statistics have none.
 macro_rules! allocation {
     ($ids:ident, $struct:ty; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
@@ -358,12 +294,12 @@ macro_rules! allocation {
     };
 }
 macro_rules! allocation_model { ($($t:tt)*) => { allocation! { ModelId, Model; $($t)* } } }
-macro_rules! allocation_data { ($($t:tt)*) => { allocation! { DataId, Data; $($t)* } } }
+macro_rules! allocation_data { ($($t:tt)*) => { allocation! { DataId, Fields; $($t)* } } }
 model_fields!(allocation_model);
 data_fields!(allocation_data);
 macro_rules! reading {
     ($($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
-        impl Data {
+        impl Fields {
             fn read(&mut self, id: DataId, n: usize, bytes: &mut &[u8]) -> bool {
                 match id { $(DataId::$name => Cell::read(&mut self.$name, n, bytes)),* }
             }
@@ -427,7 +363,7 @@ static BY_NAME: LazyLock<Vec<FieldId>> = LazyLock::new(|| {
 });
 
 /// Reads a field of the model or the data.
-pub fn view<'a>(m: &'a Model, d: &'a Data, field: FieldId) -> View<'a> {
+pub fn view<'a>(m: &'a Model, d: &'a Fields, field: FieldId) -> View<'a> {
     let i = field.0 as usize;
     if i < OPTION_AT {
         m.cell(ModelId::ALL[i])
@@ -442,13 +378,13 @@ pub fn view<'a>(m: &'a Model, d: &'a Data, field: FieldId) -> View<'a> {
 
 /// Element `i` of a field, `None` past the end: the same as [`view`] gives, in one step.
 #[inline]
-pub fn element(m: &Model, d: &Data, field: FieldId, i: usize) -> Option<f64> {
+pub fn element(m: &Model, d: &Fields, field: FieldId, i: usize) -> Option<f64> {
     READERS.get(field.0 as usize)?(m, d, i)
 }
 
 /// Writes a field of the model or the data. Nothing here asks whether writing makes sense: see [`Kind`]. Computed
 /// integers are addresses and ids that later stages follow: they are fixed.
-pub fn view_mut<'a>(m: &'a mut Model, d: &'a mut Data, field: FieldId) -> ViewMut<'a> {
+pub fn view_mut<'a>(m: &'a mut Model, d: &'a mut Fields, field: FieldId) -> ViewMut<'a> {
     let i = field.0 as usize;
     let info = field.info();
     if info.elem == Elem::I32 && info.kind == Kind::Derived {
@@ -486,14 +422,14 @@ pub(crate) fn length(m: &Model, field: FieldId) -> usize {
 }
 
 /// Appends all numbers of the data that are fields, in the order of the table.
-pub(crate) fn write_data(d: &Data, out: &mut Vec<u8>) {
+pub(crate) fn write_data(d: &Fields, out: &mut Vec<u8>) {
     for id in DataId::ALL {
         d.write(id, out);
     }
 }
 
 /// Reads what [`write_data`] wrote; `false` when it is too short.
-pub(crate) fn read_data(m: &Model, d: &mut Data, bytes: &mut &[u8]) -> bool {
+pub(crate) fn read_data(m: &Model, d: &mut Fields, bytes: &mut &[u8]) -> bool {
     (0..DATA_COUNT).all(|i| {
         let dims = DATA[i].shape.iter();
         let n = dims.fold(1, |n: usize, dim| {
@@ -504,7 +440,7 @@ pub(crate) fn read_data(m: &Model, d: &mut Data, bytes: &mut &[u8]) -> bool {
 }
 
 /// The count of this name in the data (`nefc`).
-pub(crate) fn count(d: &Data, name: &str) -> Option<usize> {
+pub(crate) fn count(d: &Fields, name: &str) -> Option<usize> {
     let i = DATA.iter().position(|f| f.name == name && f.elem == Elem::Size)?;
     match d.cell(DataId::ALL[i]) {
         View::Size(n) => Some(n),
@@ -529,7 +465,7 @@ pub(crate) fn allocate_model(m: &mut Model) {
 
 /// Gives every array of the data the length that its shape says, filled with zeros; time and the like become
 /// zero, too. Allocates only the first time.
-pub(crate) fn allocate_data(m: &Model, d: &mut Data) {
+pub(crate) fn allocate_data(m: &Model, d: &mut Fields) {
     for i in 0..DATA_COUNT {
         let n = length(m, FieldId((DATA_AT + i) as u16));
         d.allocate(DataId::ALL[i], n);
@@ -583,6 +519,7 @@ impl FieldSet {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Data;
 
     #[test]
     fn elements_are_those_of_views() {

@@ -14,7 +14,7 @@
 //! ```
 
 use crate::model::{reflect, reflect::Cell, reflect::Object, reflect::View, reflect::ViewMut};
-use crate::{Data, Model};
+use crate::{Fields, Model};
 use std::fmt;
 
 macro_rules! elements {
@@ -22,10 +22,10 @@ macro_rules! elements {
         $(#[doc = $doc] pub const $name: i32 = 1 << $bit;)*
         /// The field of each part, by bit.
         const FIELDS: &[&str] = &[$(stringify!($field)),*];
-        fn part(d: &Data, bit: usize) -> View<'_> {
+        fn part(d: &Fields, bit: usize) -> View<'_> {
             match bit { $($bit => d.$field.view(),)* _ => View::F64(&[]) }
         }
-        fn part_mut(d: &mut Data, bit: usize) -> ViewMut<'_> {
+        fn part_mut(d: &mut Fields, bit: usize) -> ViewMut<'_> {
             match bit { $($bit => d.$field.view_mut(),)* _ => ViewMut::Fixed }
         }
     };
@@ -103,7 +103,7 @@ pub fn size(m: &Model, sig: i32) -> Result<usize, StateError> {
 }
 
 /// Writes a state to `out`, which has `size` numbers (`mj_getState`).
-pub fn get(m: &Model, d: &Data, out: &mut [f64], sig: i32) -> Result<(), StateError> {
+pub fn get(m: &Model, d: &Fields, out: &mut [f64], sig: i32) -> Result<(), StateError> {
     fits(m, sig, out.len())?;
     let mut out = out.iter_mut();
     for bit in bits(sig)? {
@@ -116,7 +116,7 @@ pub fn get(m: &Model, d: &Data, out: &mut [f64], sig: i32) -> Result<(), StateEr
 }
 
 /// Sets a state (`mj_setState`). What follows from it is computed by `forward` or the next step.
-pub fn set(m: &Model, d: &mut Data, state: &[f64], sig: i32) -> Result<(), StateError> {
+pub fn set(m: &Model, d: &mut Fields, state: &[f64], sig: i32) -> Result<(), StateError> {
     fits(m, sig, state.len())?;
     let mut rest = state;
     for bit in bits(sig)? {
@@ -151,7 +151,7 @@ pub fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> R
 }
 
 /// Copies parts of the state of one simulation into another of the same model (`mj_copyState`).
-pub fn copy(m: &Model, from: &Data, to: &mut Data, sig: i32) -> Result<(), StateError> {
+pub fn copy(m: &Model, from: &Fields, to: &mut Fields, sig: i32) -> Result<(), StateError> {
     for bit in bits(sig)? {
         match (part(from, bit), part_mut(to, bit)) {
             (View::F64(x), ViewMut::F64(out)) if x.len() == out.len() => out.copy_from_slice(x),

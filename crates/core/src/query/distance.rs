@@ -2,20 +2,22 @@
 
 use crate::geometry::convex::Effort;
 use crate::geometry::pair::Settings;
-use crate::geometry::{Distance, Shape, shape_distance};
+use crate::geometry::{Distance, Narrow, Shape, shape_distance};
 use crate::kinds::disable;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
-/// The distance of two geoms up to `most`, with the segment from the first to the second (`mj_geomDistance`).
-///
-/// Shapes with closed forms use those, at their deepest contact; two planes or height fields have no distance.
-pub fn geom_distance(m: &Model, d: &mut Data, geom1: usize, geom2: usize, most: f64) -> Distance {
-    let mut work = std::mem::take(&mut d.work.narrow);
+/// The distance of two geoms up to `most`, with the segment from the first to the second.
+pub(crate) fn geom_distance(
+    m: &Model,
+    d: &mut Fields,
+    work: &mut Narrow,
+    [geom1, geom2]: [usize; 2],
+    most: f64,
+) -> Distance {
     work.room.cost = 0;
     let (a, b) = (Shape::geom(m, d, geom1), Shape::geom(m, d, geom2));
-    let distance = shape_distance(&a, &b, most, &Settings::of(m), &mut work);
-    d.work.meter.add(100 + work.room.cost);
-    d.work.narrow = work;
+    let distance = shape_distance(&a, &b, most, &Settings::of(m), work);
+    d.meter.add(100 + work.room.cost);
     distance
 }
 

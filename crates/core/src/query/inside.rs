@@ -2,9 +2,9 @@
 
 use crate::geometry::{Shape, inside_shape};
 use crate::math::Vec3;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 /// Whether a point (world, m) is inside the volume of a site (`mj_insideSite`).
-pub fn inside_site(m: &Model, d: &Data, site: usize, point: Vec3) -> bool {
+pub fn inside_site(m: &Model, d: &Fields, site: usize, point: Vec3) -> bool {
     inside_shape(&Shape::site(m, d, site), point)
 }

@@ -7,6 +7,6 @@ mod inside;
 mod ray;
 mod shape;
 
-pub use distance::geom_distance;
+pub(crate) use distance::geom_distance;
 pub use inside::inside_site;
 pub use ray::{RayFilter, RayHit, ray};

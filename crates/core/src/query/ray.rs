@@ -2,7 +2,7 @@
 
 use crate::geometry::{Shape, ray_shape};
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 /// Which geoms a ray can hit, besides being visible.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +50,7 @@ pub struct RayHit {
 }
 
 /// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A direction of no length hits nothing.
-pub fn ray(m: &Model, d: &Data, from: Vec3, along: Vec3, filter: &RayFilter) -> Option<RayHit> {
+pub fn ray(m: &Model, d: &Fields, from: Vec3, along: Vec3, filter: &RayFilter) -> Option<RayHit> {
     if norm(along) < MINVAL {
         return None;
     }

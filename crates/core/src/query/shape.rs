@@ -3,12 +3,12 @@
 use crate::geometry::{Field, Hull, Mesh, Shape};
 use crate::kinds::geom;
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 impl<'a> Shape<'a> {
     /// A geom where the data have it.
     #[inline]
-    pub fn geom(m: &'a Model, d: &Data, g: usize) -> Shape<'a> {
+    pub fn geom(m: &'a Model, d: &Fields, g: usize) -> Shape<'a> {
         let (size, pos, mat) =
             (rows::<3>(&m.geom_size)[g], rows::<3>(&d.geom_xpos)[g], rows::<9>(&d.geom_xmat)[g]);
         let mut shape = Shape::new(m.geom_type[g], size, pos, mat);
@@ -24,7 +24,7 @@ impl<'a> Shape<'a> {
 
     /// A site where the data have it.
     #[inline]
-    pub fn site(m: &'a Model, d: &Data, s: usize) -> Shape<'a> {
+    pub fn site(m: &'a Model, d: &Fields, s: usize) -> Shape<'a> {
         let (size, pos, mat) =
             (rows::<3>(&m.site_size)[s], rows::<3>(&d.site_xpos)[s], rows::<9>(&d.site_xmat)[s]);
         let mut shape = Shape::new(m.site_type[s], size, pos, mat);

@@ -4,16 +4,16 @@
 //! force that each body needs from its parent, from the leaves to the root. All spatial quantities are about
 //! the centre of mass of the tree.
 
+use super::tension;
 use crate::constraint::ends;
-use crate::forces::tendon;
 use crate::math::*;
-use crate::{Data, Model, collision, constraint, disable};
+use crate::{Fields, Model, constraint, disable};
 
 /// `cacc`, `cfrc_ext`, `cfrc_int`; needs `qacc` and the forces of constraints.
 ///
 /// Gravity enters as an upward acceleration of the world: a body at rest has the acceleration of an
 /// accelerometer at rest.
-pub fn rne_post_constraint(m: &Model, d: &mut Data) {
+pub fn rne_post_constraint(m: &Model, d: &mut Fields) {
     external(m, d);
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
     let (cdof, cdof_dot) = (rows::<6>(&d.cdof), rows::<6>(&d.cdof_dot));
@@ -41,7 +41,7 @@ pub fn rne_post_constraint(m: &Model, d: &mut Data) {
 }
 
 /// `cfrc_ext`: forces applied to bodies, those of equality constraints, contacts and spatial tendons.
-fn external(m: &Model, d: &mut Data) {
+fn external(m: &Model, d: &mut Fields) {
     let mut cfrc_ext = std::mem::take(&mut d.cfrc_ext);
     let out = rows_mut::<6>(&mut cfrc_ext);
     out.fill([0.0; 6]);
@@ -71,12 +71,12 @@ fn external(m: &Model, d: &mut Data) {
         row = end;
     }
     for c in d.contact.iter().filter(|c| c.efc_address.is_some()) {
-        let f = collision::contact_force(m, d, c);
+        let f = constraint::contact_force(m, d, c);
         let force = mat_t_mul_vec(&c.frame, [f[0], f[1], f[2]]);
         let torque = mat_t_mul_vec(&c.frame, [f[3], f[4], f[5]]);
         apply(m.geom_bodyid[c.geom1] as usize, c.pos, scale(force, -1.0), scale(torque, -1.0));
         apply(m.geom_bodyid[c.geom2] as usize, c.pos, force, torque);
     }
-    tendon::pulls(m, d, |body, point, force| apply(body, point, force, [0.0; 3]));
+    tension::pulls(m, d, |body, point, force| apply(body, point, force, [0.0; 3]));
     d.cfrc_ext = cfrc_ext;
 }

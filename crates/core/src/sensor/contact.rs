@@ -1,19 +1,19 @@
 //! Sensors of contacts: touch, and contacts themselves, filtered and reduced.
 
 use super::fields::{self, CONTACT_DATA};
-use super::put;
-use crate::collision::contact_force;
+use super::{Scratch, put};
+use crate::constraint::contact_force;
 use crate::geometry::{Shape, ray_shape};
 use crate::math::*;
 use crate::query::inside_site;
-use crate::{Contact, Data, Model, Obj};
+use crate::{Contact, Fields, Model, Obj};
 
 /// The sum of the normal forces on the body of a site, of all contacts whose normal, from the contact into the
 /// other body, meets the volume of the site: it lies around the contact or behind it.
-pub(super) fn touch(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn touch(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let site = m.sensor_objid[s].max(0) as usize;
     let body = m.site_bodyid[site];
-    d.work.meter.add(10 * d.contact.len() as u64);
+    d.meter.add(10 * d.contact.len() as u64);
     let zone = Shape::site(m, d, site);
     let mut sum = 0.0;
     for c in d.contact.iter().filter(|c| c.efc_address.is_some()) {
@@ -55,12 +55,11 @@ pub(crate) struct Match {
 }
 
 /// The contacts of a filter, one slot of data fields each, as many as there are slots; zeros where there are no more.
-pub(super) fn contacts(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn contacts(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
     out.fill(0.0);
-    d.work.meter.add(20 * d.contact.len() as u64);
+    d.meter.add(20 * d.contact.len() as u64);
     let [mask, reduction] = [m.sensor_intprm[3 * s], m.sensor_intprm[3 * s + 1]];
-    // Scratch that is kept from step to step.
-    let mut list = std::mem::take(&mut d.work.matches);
+    let list = &mut w.matches;
     list.clear();
     for (i, c) in d.contact.iter().enumerate() {
         let Some(flip) = admitted(m, d, s, c) else { continue };
@@ -75,7 +74,7 @@ pub(super) fn contacts(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
         list.push(Match { contact: i, flip, key });
     }
     if reduction == reduce::NETFORCE {
-        net(m, d, &list, mask, out);
+        net(m, d, list, mask, out);
     } else {
         list.sort_unstable_by(|a, b| a.key.total_cmp(&b.key).then(a.contact.cmp(&b.contact)));
         let size = fields::size(&CONTACT_DATA, mask).max(1);
@@ -83,12 +82,11 @@ pub(super) fn contacts(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
             single(m, d, found, list.len(), mask, out);
         }
     }
-    d.work.matches = list;
 }
 
 /// Whether a contact passes the filter, and if so whether it is seen from the side of geom 2: the first object is to be
 /// on the side that the normal comes from.
-fn admitted(m: &Model, d: &Data, s: usize, c: &Contact) -> Option<bool> {
+fn admitted(m: &Model, d: &Fields, s: usize, c: &Contact) -> Option<bool> {
     let first = (m.sensor_objtype[s], m.sensor_objid[s]);
     let second = (m.sensor_reftype[s], m.sensor_refid[s]);
     if let (kind, Ok(site)) = (first.0, usize::try_from(first.1))
@@ -131,7 +129,7 @@ fn takes_part(m: &Model, (kind, id): (i32, i32), geom: usize) -> bool {
 }
 
 /// Fields of one contact. Seen from the other side its frame turns half around about the second tangent.
-fn single(m: &Model, d: &Data, found: &Match, count: usize, mask: i32, out: &mut [f64]) {
+fn single(m: &Model, d: &Fields, found: &Match, count: usize, mask: i32, out: &mut [f64]) {
     let c = &d.contact[found.contact];
     let f = contact_force(m, d, c);
     let sign = if found.flip { -1.0 } else { 1.0 };
@@ -143,7 +141,7 @@ fn single(m: &Model, d: &Data, found: &Match, count: usize, mask: i32, out: &mut
 }
 
 /// One force and torque for all, world, at the mean of their points weighted by force.
-fn net(m: &Model, d: &Data, list: &[Match], mask: i32, out: &mut [f64]) {
+fn net(m: &Model, d: &Fields, list: &[Match], mask: i32, out: &mut [f64]) {
     let wrench = |found: &Match| {
         let c = &d.contact[found.contact];
         let f = scale(contact_force(m, d, c), if found.flip { -1.0 } else { 1.0 });

@@ -5,24 +5,24 @@ use super::put;
 use crate::dynamics::{object, object::Frame};
 use crate::math::*;
 use crate::query;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 /// The frame of the sensed object.
-fn sensed(m: &Model, d: &Data, s: usize) -> Option<Frame> {
+fn sensed(m: &Model, d: &Fields, s: usize) -> Option<Frame> {
     object::frame(m, d, m.sensor_objtype[s], usize::try_from(m.sensor_objid[s]).ok()?)
 }
 
 /// The frame that the sensed object is seen from; `None` for the world.
-fn reference(m: &Model, d: &Data, s: usize) -> Option<Frame> {
+fn reference(m: &Model, d: &Fields, s: usize) -> Option<Frame> {
     object::frame(m, d, m.sensor_reftype[s], usize::try_from(m.sensor_refid[s]).ok()?)
 }
 
-pub(super) fn position(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn position(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let Some(f) = sensed(m, d, s) else { return };
     put(out, reference(m, d, s).map_or(f.pos, |r| mat_t_mul_vec(&r.mat, sub(f.pos, r.pos))));
 }
 
-pub(super) fn orientation(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn orientation(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let of = |objtype: i32, id: i32| object::orientation(m, d, objtype, usize::try_from(id).ok()?);
     let Some(q) = of(m.sensor_objtype[s], m.sensor_objid[s]) else { return };
     let r = of(m.sensor_reftype[s], m.sensor_refid[s]);
@@ -30,14 +30,14 @@ pub(super) fn orientation(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
 }
 
 /// Axis I of the frame.
-pub(super) fn axis<const I: usize>(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn axis<const I: usize>(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let Some(f) = sensed(m, d, s) else { return };
     let axis = column(&f.mat, I);
     put(out, reference(m, d, s).map_or(axis, |r| mat_t_mul_vec(&r.mat, axis)));
 }
 
 /// Velocity in the axes of the world, or as the reference frame sees it, which moves and turns itself.
-fn velocity(m: &Model, d: &Data, s: usize) -> Option<Spatial> {
+fn velocity(m: &Model, d: &Fields, s: usize) -> Option<Spatial> {
     let f = sensed(m, d, s)?;
     let v = object::velocity(m, d, &f, false);
     let Some(r) = reference(m, d, s) else { return Some(v) };
@@ -50,36 +50,36 @@ fn velocity(m: &Model, d: &Data, s: usize) -> Option<Spatial> {
     Some(object::turned(&r.mat, &seen))
 }
 
-pub(super) fn linear_velocity(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn linear_velocity(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     put(out, velocity(m, d, s).map_or([0.0; 3], |v| linear(&v)));
 }
 
-pub(super) fn angular_velocity(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn angular_velocity(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     put(out, velocity(m, d, s).map_or([0.0; 3], |v| angular(&v)));
 }
 
-pub(super) fn velocimeter(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn velocimeter(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     put(out, sensed(m, d, s).map_or([0.0; 3], |f| linear(&object::velocity(m, d, &f, true))));
 }
 
-pub(super) fn gyro(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn gyro(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     put(out, sensed(m, d, s).map_or([0.0; 3], |f| angular(&object::velocity(m, d, &f, true))));
 }
 
-pub(super) fn accelerometer(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn accelerometer(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     put(out, sensed(m, d, s).map_or([0.0; 3], |f| linear(&object::acceleration(m, d, &f, true))));
 }
 
-pub(super) fn linear_acceleration(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn linear_acceleration(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     put(out, sensed(m, d, s).map_or([0.0; 3], |f| linear(&object::acceleration(m, d, &f, false))));
 }
 
-pub(super) fn angular_acceleration(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn angular_acceleration(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     put(out, sensed(m, d, s).map_or([0.0; 3], |f| angular(&object::acceleration(m, d, &f, false))));
 }
 
 /// What the parent exerts on the body of the site: torque about the site, then force, in its axes.
-fn interaction(m: &Model, d: &Data, s: usize) -> Spatial {
+fn interaction(m: &Model, d: &Fields, s: usize) -> Spatial {
     let Some(f) = sensed(m, d, s) else { return [0.0; 6] };
     let c = rows::<6>(&d.cfrc_int)[f.body];
     let com = rows::<3>(&d.subtree_com)[m.body_rootid[f.body] as usize];
@@ -87,20 +87,20 @@ fn interaction(m: &Model, d: &Data, s: usize) -> Spatial {
     object::turned(&f.mat, &[t[0], t[1], t[2], c[3], c[4], c[5]])
 }
 
-pub(super) fn force(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn force(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     put(out, linear(&interaction(m, d, s)));
 }
 
-pub(super) fn torque(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn torque(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     put(out, angular(&interaction(m, d, s)));
 }
 
-pub(super) fn magnetometer(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn magnetometer(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     put(out, sensed(m, d, s).map_or([0.0; 3], |f| mat_t_mul_vec(&f.mat, m.opt.magnetic)));
 }
 
 /// 1 when the origin of the frame is inside the site, else 0.
-pub(super) fn inside_site(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn inside_site(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let (Some(f), Ok(site)) = (sensed(m, d, s), usize::try_from(m.sensor_refid[s])) else { return };
     put(out, [f64::from(u8::from(query::inside_site(m, d, site, f.pos)))]);
 }

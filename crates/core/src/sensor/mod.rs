@@ -11,42 +11,75 @@ mod measure;
 mod pair;
 mod rays;
 mod table;
+mod tension;
 #[cfg(test)]
 mod tests;
 mod timing;
 
-pub(crate) use contact::Match;
 pub(crate) use fields::{CONTACT_DATA, RAY_DATA, size as data_size};
 pub(crate) use timing::{record, reset};
 
+use contact::Match;
+use table::Read;
 pub use table::{Datatype, KINDS, Kind, Senses, When, kind};
 
-use crate::model::reflect::Stage;
-use crate::step::sleep;
-use crate::{Data, Model, Obj, disable};
+use crate::geometry::Narrow;
+use crate::model::{asleep, stage::Stage};
+use crate::{Fields, Model, Obj, disable};
+
+/// What sensors use, kept so that they do not allocate.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Scratch {
+    /// Contacts that pass the filter of a sensor.
+    matches: Vec<Match>,
+    /// Distances.
+    pub(crate) narrow: Narrow,
+}
 
 /// The sensors whose values are known at a stage. While sensors are switched off values stay as they are.
-pub(crate) fn evaluate(m: &Model, d: &mut Data, when: When) {
-    if m.opt.disabled(disable::SENSOR) || d.work.meter.over() {
+pub(crate) fn evaluate(m: &Model, d: &mut Fields, w: &mut Scratch, when: When) {
+    if m.opt.disabled(disable::SENSOR) || d.meter.over() {
         return;
     }
     // Taken out, because reading a sensor uses scratch of the data; nothing is allocated.
     let mut values = std::mem::take(&mut d.sensordata);
     for s in 0..m.nsensor {
-        if m.sensor_needstage[s] == when as i32 && !sleep::sensor_sleeps(m, d, s) {
+        if m.sensor_needstage[s] == when as i32 && !sleeps(m, d, s) {
             let adr = m.sensor_adr[s] as usize;
             let out = &mut values[adr..adr + m.sensor_dim[s] as usize];
             if !timing::past(m, d, s, out) {
-                read(m, d, s, out);
+                read(m, d, w, s, out);
             }
         }
     }
     d.sensordata = values;
 }
 
+/// Whether all that sensor `s` measures sleeps or cannot move: its values stay as they are.
+fn sleeps(m: &Model, d: &Fields, s: usize) -> bool {
+    if !asleep::some(m, d) {
+        return false;
+    }
+    let types = [m.sensor_objtype[s], m.sensor_reftype[s]];
+    let [object, reference] = [(types[0], m.sensor_objid[s]), (types[1], m.sensor_refid[s])]
+        .map(|(kind, id)| usize::try_from(id).ok().and_then(|id| asleep::of_object(m, d, kind, id)));
+    match m.sensor_type[s] {
+        kind::USER | kind::RANGEFINDER => false,
+        kind::CONTACT if types.contains(&(Obj::Site as i32)) => false,
+        _ => match (object, reference) {
+            (None, None) => false,
+            (Some(one), None) | (None, Some(one)) => one == asleep::awake::NO,
+            (Some(a), Some(b)) => a != asleep::awake::YES && b != asleep::awake::YES,
+        },
+    }
+}
+
 /// What sensor `s` measures now, cut off. The cutoff of a segment is that of its length; contacts have none.
-fn read(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
-    (table::of(m, s).read)(m, d, s, out);
+fn read(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
+    match table::of(m, s).read {
+        Read::Of(read) => read(m, d, s, out),
+        Read::With(read) => read(m, d, w, s, out),
+    }
     let cutoff = m.sensor_cutoff[s];
     if cutoff <= 0.0 || matches!(m.sensor_type[s], kind::GEOMFROMTO | kind::CONTACT) {
         return;

@@ -2,10 +2,10 @@
 //!
 //! What is farther apart than the cutoff is not looked at: the distance is the cutoff, the rest zero.
 
-use super::put;
+use super::{Scratch, put};
 use crate::math::*;
 use crate::query::geom_distance;
-use crate::{Data, Model, Obj};
+use crate::{Fields, Model, Obj};
 
 /// The geoms of a body, or one geom.
 fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> {
@@ -19,15 +19,15 @@ fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> {
 
 /// The nearest pair among the geoms of both sides: signed distance, and the segment from the first to the
 /// second.
-fn nearest(m: &Model, d: &mut Data, s: usize) -> (f64, [Vec3; 2]) {
+fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3; 2]) {
     let cutoff = m.sensor_cutoff[s];
     let mut best = (cutoff, [[0.0; 3]; 2]);
     for g1 in geoms(m, m.sensor_objtype[s], m.sensor_objid[s]) {
         for g2 in geoms(m, m.sensor_reftype[s], m.sensor_refid[s]) {
-            if d.work.meter.over() {
+            if d.meter.over() {
                 return best;
             }
-            let found = geom_distance(m, d, g1, g2, cutoff);
+            let found = geom_distance(m, d, &mut w.narrow, [g1, g2], cutoff);
             if found.dist < best.0 {
                 best = (found.dist, found.fromto);
             }
@@ -36,18 +36,18 @@ fn nearest(m: &Model, d: &mut Data, s: usize) -> (f64, [Vec3; 2]) {
     best
 }
 
-pub(super) fn distance(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
-    put(out, [nearest(m, d, s).0]);
+pub(super) fn distance(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
+    put(out, [nearest(m, d, w, s).0]);
 }
 
 /// From the first to the second; from the deepest point outwards when they overlap.
-pub(super) fn normal(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
-    let (_, [from, to]) = nearest(m, d, s);
+pub(super) fn normal(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
+    let (_, [from, to]) = nearest(m, d, w, s);
     let along = sub(to, from);
     put(out, if along == [0.0; 3] { along } else { normalize(along).0 });
 }
 
-pub(super) fn from_to(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
-    let (_, [from, to]) = nearest(m, d, s);
+pub(super) fn from_to(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
+    let (_, [from, to]) = nearest(m, d, w, s);
     put(out, [from[0], from[1], from[2], to[0], to[1], to[2]]);
 }

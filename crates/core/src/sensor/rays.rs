@@ -10,7 +10,7 @@ use crate::dynamics::{object, object::Frame};
 use crate::math::*;
 use crate::query;
 use crate::query::RayFilter;
-use crate::{Data, Model, Obj};
+use crate::{Fields, Model, Obj};
 
 /// A ray: where it starts and its unit direction, world.
 struct Ray {
@@ -18,12 +18,12 @@ struct Ray {
     along: Vec3,
 }
 
-pub(super) fn rangefinder(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn rangefinder(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let Ok(id) = usize::try_from(m.sensor_objid[s]) else { return };
     let Some(f) = object::frame(m, d, m.sensor_objtype[s], id) else { return };
     let mask = m.sensor_intprm[3 * s];
     let price = (20 * m.ngeom + m.nmeshface / 8) as u64;
-    d.work.meter.add(price);
+    d.meter.add(price);
     if m.sensor_objtype[s] != Obj::Camera as i32 {
         let ray = Ray { from: f.pos, along: column(&f.mat, 2) };
         return cast(m, d, &ray, &f, false, mask, out);
@@ -32,8 +32,8 @@ pub(super) fn rangefinder(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
     let [width, _] = camera.resolution;
     let size = fields::size(&RAY_DATA, mask).max(1);
     for (pixel, out) in out.chunks_exact_mut(size).enumerate() {
-        d.work.meter.add(price);
-        if d.work.meter.over() {
+        d.meter.add(price);
+        if d.meter.over() {
             return;
         }
         let (row, col) = (pixel / width.max(1), pixel % width.max(1));
@@ -43,7 +43,7 @@ pub(super) fn rangefinder(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
 
 /// What a ray from the frame `f` meets: distance -1 and no direction, point and normal where it meets nothing. The
 /// body that the sensor is fixed to is not seen. A camera's depth is along its axis, a site's along the ray.
-fn cast(m: &Model, d: &Data, ray: &Ray, f: &Frame, in_image: bool, mask: i32, out: &mut [f64]) {
+fn cast(m: &Model, d: &Fields, ray: &Ray, f: &Frame, in_image: bool, mask: i32, out: &mut [f64]) {
     let filter = RayFilter { exclude_body: Some(f.body), ..RayFilter::default() };
     let none = [0.0; 3];
     let (dist, dir, point, normal, depth) = match query::ray(m, d, ray.from, ray.along, &filter) {
@@ -101,7 +101,7 @@ impl Camera {
 }
 
 /// Pixel coordinates of a site: its direction times the focal lengths, from the middle of the image.
-pub(super) fn camera_projection(m: &Model, d: &mut Data, s: usize, out: &mut [f64]) {
+pub(super) fn camera_projection(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let (Ok(site), Ok(id)) = (usize::try_from(m.sensor_objid[s]), usize::try_from(m.sensor_refid[s])) else {
         return;
     };

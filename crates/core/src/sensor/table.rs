@@ -4,9 +4,10 @@
 //! The compiler, the evaluation, the plan and the schema all come from it. Order and numbers are MuJoCo's
 //! (mjtSensor), meanings those of its XML reference, chapter "sensor".
 
+use super::Scratch;
 use super::{contact, frame, measure, pair, rays};
-use crate::model::reflect::Stage;
-use crate::{Data, Model};
+use crate::model::stage::Stage;
+use crate::{Fields, Model};
 
 /// What a sensor can be attached to: it decides the attributes in MJCF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,8 +74,12 @@ pub enum When {
     Acceleration = 3,
 }
 
-/// Reads a sensor: model, data, number of the sensor, its values.
-pub(super) type Read = fn(&Model, &mut Data, usize, &mut [f64]);
+/// Reads a sensor: model, data, number of the sensor, its values; some with scratch.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Read {
+    Of(fn(&Model, &mut Fields, usize, &mut [f64])),
+    With(fn(&Model, &mut Fields, &mut Scratch, usize, &mut [f64])),
+}
 
 /// A row of the table.
 #[derive(Debug)]
@@ -95,7 +100,7 @@ pub struct Kind {
 }
 
 macro_rules! kinds {
-    ($($id:ident $name:literal $senses:ident $dim:literal $datatype:ident $when:ident [$($needs:ident)*] $read:expr;)*) => {
+    ($($id:ident $name:literal $senses:ident $dim:literal $datatype:ident $when:ident [$($needs:ident)*] $how:ident $read:expr;)*) => {
         #[allow(non_camel_case_types, clippy::upper_case_acronyms)] // the names of the constants
         enum Number { $($id),* }
         /// Types of sensors, values of `sensor_type` (mjtSensor).
@@ -112,60 +117,60 @@ macro_rules! kinds {
             datatype: Datatype::$datatype,
             when: When::$when,
             needs: &[$(Stage::$needs),*],
-            read: $read,
+            read: Read::$how($read),
         }),*];
     };
 }
 kinds! {
-    TOUCH "touch" Site 1 Positive Acceleration [] contact::touch;
-    ACCELEROMETER "accelerometer" Site 3 Real Acceleration [RnePost] frame::accelerometer;
-    VELOCIMETER "velocimeter" Site 3 Real Velocity [ComVel] frame::velocimeter;
-    GYRO "gyro" Site 3 Real Velocity [ComVel] frame::gyro;
-    FORCE "force" Site 3 Real Acceleration [RnePost] frame::force;
-    TORQUE "torque" Site 3 Real Acceleration [RnePost] frame::torque;
-    MAGNETOMETER "magnetometer" Site 3 Real Position [] frame::magnetometer;
-    RANGEFINDER "rangefinder" Ray 0 Real Position [GeomPoses] rays::rangefinder;
-    CAMPROJECTION "camprojection" SiteInImage 2 Real Position [] rays::camera_projection;
-    JOINTPOS "jointpos" ScalarJoint 1 Real Position [] measure::joint_position;
-    JOINTVEL "jointvel" ScalarJoint 1 Real Velocity [] measure::joint_velocity;
-    TENDONPOS "tendonpos" Tendon 1 Real Position [Tendon] measure::tendon_length;
-    TENDONVEL "tendonvel" Tendon 1 Real Velocity [TendonVel] measure::tendon_velocity;
-    ACTUATORPOS "actuatorpos" Actuator 0 Real Position [Transmission] measure::actuator_length;
-    ACTUATORVEL "actuatorvel" Actuator 0 Real Velocity [ActuatorVel] measure::actuator_velocity;
-    ACTUATORFRC "actuatorfrc" Actuator 0 Real Acceleration [Actuation] measure::actuator_force;
-    JOINTACTFRC "jointactuatorfrc" ScalarJoint 1 Real Acceleration [Actuation] measure::joint_actuator_force;
-    TENDONACTFRC "tendonactuatorfrc" Tendon 1 Real Acceleration [Actuation] measure::tendon_actuator_force;
-    BALLQUAT "ballquat" BallJoint 4 Quaternion Position [] measure::ball_orientation;
-    BALLANGVEL "ballangvel" BallJoint 3 Real Velocity [] measure::ball_velocity;
-    JOINTLIMITPOS "jointlimitpos" LimitedJoint 1 Real Position [] measure::joint_limit_distance;
-    JOINTLIMITVEL "jointlimitvel" LimitedJoint 1 Real Velocity [] measure::joint_limit_velocity;
-    JOINTLIMITFRC "jointlimitfrc" LimitedJoint 1 Real Acceleration [] measure::joint_limit_force;
-    TENDONLIMITPOS "tendonlimitpos" LimitedTendon 1 Real Position [] measure::tendon_limit_distance;
-    TENDONLIMITVEL "tendonlimitvel" LimitedTendon 1 Real Velocity [] measure::tendon_limit_velocity;
-    TENDONLIMITFRC "tendonlimitfrc" LimitedTendon 1 Real Acceleration [] measure::tendon_limit_force;
-    FRAMEPOS "framepos" RelativeFrame 3 Real Position [] frame::position;
-    FRAMEQUAT "framequat" RelativeFrame 4 Quaternion Position [] frame::orientation;
-    FRAMEXAXIS "framexaxis" RelativeFrame 3 Axis Position [] frame::axis::<0>;
-    FRAMEYAXIS "frameyaxis" RelativeFrame 3 Axis Position [] frame::axis::<1>;
-    FRAMEZAXIS "framezaxis" RelativeFrame 3 Axis Position [] frame::axis::<2>;
-    FRAMELINVEL "framelinvel" RelativeFrame 3 Real Velocity [ComVel] frame::linear_velocity;
-    FRAMEANGVEL "frameangvel" RelativeFrame 3 Real Velocity [ComVel] frame::angular_velocity;
-    FRAMELINACC "framelinacc" Frame 3 Real Acceleration [RnePost] frame::linear_acceleration;
-    FRAMEANGACC "frameangacc" Frame 3 Real Acceleration [RnePost] frame::angular_acceleration;
-    SUBTREECOM "subtreecom" Subtree 3 Real Position [ComPos] measure::subtree_com;
-    SUBTREELINVEL "subtreelinvel" Subtree 3 Real Velocity [SubtreeVel] measure::subtree_velocity;
-    SUBTREEANGMOM "subtreeangmom" Subtree 3 Real Velocity [SubtreeVel] measure::subtree_angular_momentum;
-    INSIDESITE "insidesite" FrameInSite 1 Positive Position [] frame::inside_site;
-    GEOMDIST "distance" Pair 1 Real Position [GeomPoses] pair::distance;
-    GEOMNORMAL "normal" Pair 3 Axis Position [GeomPoses] pair::normal;
-    GEOMFROMTO "fromto" Pair 6 Real Position [GeomPoses] pair::from_to;
-    CONTACT "contact" Contacts 0 Real Acceleration [] contact::contacts;
-    E_POTENTIAL "e_potential" Nothing 1 Real Position [Kinematics Tendon] measure::potential_energy;
-    E_KINETIC "e_kinetic" Nothing 1 Real Position [MassMatrix] measure::kinetic_energy;
-    CLOCK "clock" Nothing 1 Real Position [] measure::clock;
-    TACTILE "tactile" Tactile 0 Real Acceleration [] measure::nothing;
-    PLUGIN "plugin" Plugin 0 Real Acceleration [] measure::nothing;
-    USER "user" User 0 Real Acceleration [] measure::nothing;
+    TOUCH "touch" Site 1 Positive Acceleration [] Of contact::touch;
+    ACCELEROMETER "accelerometer" Site 3 Real Acceleration [RnePost] Of frame::accelerometer;
+    VELOCIMETER "velocimeter" Site 3 Real Velocity [ComVel] Of frame::velocimeter;
+    GYRO "gyro" Site 3 Real Velocity [ComVel] Of frame::gyro;
+    FORCE "force" Site 3 Real Acceleration [RnePost] Of frame::force;
+    TORQUE "torque" Site 3 Real Acceleration [RnePost] Of frame::torque;
+    MAGNETOMETER "magnetometer" Site 3 Real Position [] Of frame::magnetometer;
+    RANGEFINDER "rangefinder" Ray 0 Real Position [GeomPoses] Of rays::rangefinder;
+    CAMPROJECTION "camprojection" SiteInImage 2 Real Position [] Of rays::camera_projection;
+    JOINTPOS "jointpos" ScalarJoint 1 Real Position [] Of measure::joint_position;
+    JOINTVEL "jointvel" ScalarJoint 1 Real Velocity [] Of measure::joint_velocity;
+    TENDONPOS "tendonpos" Tendon 1 Real Position [Tendon] Of measure::tendon_length;
+    TENDONVEL "tendonvel" Tendon 1 Real Velocity [TendonVel] Of measure::tendon_velocity;
+    ACTUATORPOS "actuatorpos" Actuator 0 Real Position [Transmission] Of measure::actuator_length;
+    ACTUATORVEL "actuatorvel" Actuator 0 Real Velocity [ActuatorVel] Of measure::actuator_velocity;
+    ACTUATORFRC "actuatorfrc" Actuator 0 Real Acceleration [Actuation] Of measure::actuator_force;
+    JOINTACTFRC "jointactuatorfrc" ScalarJoint 1 Real Acceleration [Actuation] Of measure::joint_actuator_force;
+    TENDONACTFRC "tendonactuatorfrc" Tendon 1 Real Acceleration [Actuation] Of measure::tendon_actuator_force;
+    BALLQUAT "ballquat" BallJoint 4 Quaternion Position [] Of measure::ball_orientation;
+    BALLANGVEL "ballangvel" BallJoint 3 Real Velocity [] Of measure::ball_velocity;
+    JOINTLIMITPOS "jointlimitpos" LimitedJoint 1 Real Position [] Of measure::joint_limit_distance;
+    JOINTLIMITVEL "jointlimitvel" LimitedJoint 1 Real Velocity [] Of measure::joint_limit_velocity;
+    JOINTLIMITFRC "jointlimitfrc" LimitedJoint 1 Real Acceleration [] Of measure::joint_limit_force;
+    TENDONLIMITPOS "tendonlimitpos" LimitedTendon 1 Real Position [] Of measure::tendon_limit_distance;
+    TENDONLIMITVEL "tendonlimitvel" LimitedTendon 1 Real Velocity [] Of measure::tendon_limit_velocity;
+    TENDONLIMITFRC "tendonlimitfrc" LimitedTendon 1 Real Acceleration [] Of measure::tendon_limit_force;
+    FRAMEPOS "framepos" RelativeFrame 3 Real Position [] Of frame::position;
+    FRAMEQUAT "framequat" RelativeFrame 4 Quaternion Position [] Of frame::orientation;
+    FRAMEXAXIS "framexaxis" RelativeFrame 3 Axis Position [] Of frame::axis::<0>;
+    FRAMEYAXIS "frameyaxis" RelativeFrame 3 Axis Position [] Of frame::axis::<1>;
+    FRAMEZAXIS "framezaxis" RelativeFrame 3 Axis Position [] Of frame::axis::<2>;
+    FRAMELINVEL "framelinvel" RelativeFrame 3 Real Velocity [ComVel] Of frame::linear_velocity;
+    FRAMEANGVEL "frameangvel" RelativeFrame 3 Real Velocity [ComVel] Of frame::angular_velocity;
+    FRAMELINACC "framelinacc" Frame 3 Real Acceleration [RnePost] Of frame::linear_acceleration;
+    FRAMEANGACC "frameangacc" Frame 3 Real Acceleration [RnePost] Of frame::angular_acceleration;
+    SUBTREECOM "subtreecom" Subtree 3 Real Position [ComPos] Of measure::subtree_com;
+    SUBTREELINVEL "subtreelinvel" Subtree 3 Real Velocity [SubtreeVel] Of measure::subtree_velocity;
+    SUBTREEANGMOM "subtreeangmom" Subtree 3 Real Velocity [SubtreeVel] Of measure::subtree_angular_momentum;
+    INSIDESITE "insidesite" FrameInSite 1 Positive Position [] Of frame::inside_site;
+    GEOMDIST "distance" Pair 1 Real Position [GeomPoses] With pair::distance;
+    GEOMNORMAL "normal" Pair 3 Axis Position [GeomPoses] With pair::normal;
+    GEOMFROMTO "fromto" Pair 6 Real Position [GeomPoses] With pair::from_to;
+    CONTACT "contact" Contacts 0 Real Acceleration [] With contact::contacts;
+    E_POTENTIAL "e_potential" Nothing 1 Real Position [Kinematics Tendon] Of measure::potential_energy;
+    E_KINETIC "e_kinetic" Nothing 1 Real Position [MassMatrix] Of measure::kinetic_energy;
+    CLOCK "clock" Nothing 1 Real Position [] Of measure::clock;
+    TACTILE "tactile" Tactile 0 Real Acceleration [] Of measure::nothing;
+    PLUGIN "plugin" Plugin 0 Real Acceleration [] Of measure::nothing;
+    USER "user" User 0 Real Acceleration [] Of measure::nothing;
 }
 
 /// The row of sensor `s`.

@@ -151,7 +151,7 @@ fn equality_constraints_act_where_they_hold() {
                 d.efc_force = want;
                 rows += d.nefc;
                 crate::rne_post_constraint(&m, &mut d);
-                super::evaluate(&m, &mut d, super::When::Acceleration);
+                super::evaluate(&m, &mut d.fields, &mut d.work.sensor, super::When::Acceleration);
             }
             "sensordata" | "cacc" | "cfrc_int" | "cfrc_ext" => {
                 let got = numbers(&m, &d, Object::Data, name);

@@ -4,12 +4,13 @@
 //! was put there a delay ago, a sensor with a period the last reading. The owner's slot of the buffer holds the time
 //! of the last tick of the period, which readings follow as the steps allow.
 
+use super::Scratch;
 use super::table::of;
 use crate::dynamics::subtree;
 use crate::forces::history;
-use crate::model::reflect::Stage;
+use crate::model::stage::Stage;
 use crate::sensor::body_force;
-use crate::{Data, Model, integrator};
+use crate::{Fields, Model, integrator};
 
 /// Where the buffer of a sensor is, and how many samples it has; `None` when it keeps none.
 fn buffer(m: &Model, s: usize) -> Option<(std::ops::Range<usize>, usize)> {
@@ -19,12 +20,12 @@ fn buffer(m: &Model, s: usize) -> Option<(std::ops::Range<usize>, usize)> {
 }
 
 /// Whether a reading is due: the last tick was a period ago.
-fn due(m: &Model, d: &Data, s: usize, at: usize) -> bool {
+fn due(m: &Model, d: &Fields, s: usize, at: usize) -> bool {
     d.history[at] + m.sensor_interval[2 * s] <= d.time
 }
 
 /// Shows a past value; `false` when the sensor shows what it reads now.
-pub(super) fn past(m: &Model, d: &Data, s: usize, out: &mut [f64]) -> bool {
+pub(super) fn past(m: &Model, d: &Fields, s: usize, out: &mut [f64]) -> bool {
     let Some((range, n)) = buffer(m, s) else { return false };
     let delay = m.sensor_delay[s];
     let waits = m.sensor_interval[2 * s] > 0.0 && !due(m, d, s, range.start);
@@ -41,7 +42,7 @@ pub(super) fn past(m: &Model, d: &Data, s: usize, out: &mut [f64]) -> bool {
 ///
 /// After the stages of a Runge–Kutta step, bodies are where the last stage left them. What is kept then is what
 /// MuJoCo keeps: the state at the start of the step, seen with the poses and forces of the last stage.
-pub(crate) fn record(m: &Model, d: &mut Data) {
+pub(crate) fn record(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let delayed = |s: &usize| m.sensor_delay[*s] > 0.0 && m.sensor_history[2 * s] > 0;
     if m.opt.integrator == integrator::RK4 {
         let needs = |stage| (0..m.nsensor).filter(delayed).any(|s| of(m, s).needs.contains(&stage));
@@ -64,7 +65,7 @@ pub(crate) fn record(m: &Model, d: &mut Data) {
         let mut all = std::mem::take(&mut d.history);
         let value = history::insert(&mut all[range], n, dim, d.time);
         if m.sensor_delay[s] > 0.0 {
-            super::read(m, d, s, value);
+            super::read(m, d, w, s, value);
         } else {
             let adr = m.sensor_adr[s] as usize;
             value.copy_from_slice(&d.sensordata[adr..adr + dim]);
@@ -74,7 +75,7 @@ pub(crate) fn record(m: &Model, d: &mut Data) {
 }
 
 /// Zeros at the times before the start at which the sensor would have been read.
-pub(crate) fn reset(m: &Model, d: &mut Data) {
+pub(crate) fn reset(m: &Model, d: &mut Fields) {
     let h = m.opt.timestep;
     for s in 0..m.nsensor {
         let Some((range, n)) = buffer(m, s) else { continue };

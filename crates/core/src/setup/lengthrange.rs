@@ -6,9 +6,10 @@
 //! what remains are limits and equality constraints. The extreme lengths of the last part of the time are the range.
 
 use crate::dynamics::mass;
-use crate::forces::{transmission::row, transmission::target};
+use crate::dynamics::reflected::target;
+use crate::forces::transmission::row;
 use crate::math::*;
-use crate::step::{forward, reset};
+use crate::step::{self, reset};
 use crate::{Data, Model, biastype, disable, gaintype, joint, trntype};
 
 /// Which actuators are looked at.
@@ -145,9 +146,9 @@ fn pull(m: &Model, d: &mut Data, o: usize, sign: f64, search: &Search) -> [f64; 
     let mut steps = search.steps(m) + 2.0;
     reset::reset_data(m, d);
     while d.time < search.inttotal && steps > 0.0 {
-        forward::step1(m, d);
+        step::step1(m, d);
         force(m, d, o, sign, search, &mut acceleration);
-        forward::step2(m, d);
+        step::step2(m, d);
         for v in &mut d.qvel {
             *v *= damping;
         }

@@ -5,8 +5,8 @@ use crate::dynamics::kinematics::sameframe;
 use crate::dynamics::{com, jacobian, kinematics, mass};
 use crate::forces::{tendon, transmission};
 use crate::math::*;
-use crate::step::forward;
-use crate::step::plan::Plan;
+use crate::model::plan::Plan;
+use crate::step::reset;
 use crate::{Data, Model, geom, joint};
 
 /// Recomputes what follows from masses, inertias and poses (`mj_setConst`).
@@ -17,7 +17,8 @@ use crate::{Data, Model, geom, joint};
 pub fn set_const(m: &mut Model, d: &mut Data) {
     let plan = std::mem::replace(&mut d.plan, Plan::full());
     let solves = (m.nbody + m.njnt + m.ntendon) * (6 * m.nC / m.ntree.max(1) + 100);
-    d.work.meter.add(8 * d.work.meter.half + solves as u64);
+    let pass = d.meter.half;
+    d.meter.add(8 * pass + solves as u64);
     subtree_mass(m);
     same_frames(m);
     trees(m);
@@ -26,16 +27,17 @@ pub fn set_const(m: &mut Model, d: &mut Data) {
 
     d.qpos.copy_from_slice(&m.qpos0);
     positions(m, d);
-    mass::composite_inertia(m, d, false);
+    mass::composite_inertia(m, &mut d.fields, &mut d.work.dynamics, false);
     for i in 0..m.nv {
         m.dof_M0[i] = d.M[(m.M_rowadr[i] + m.M_rownnz[i] - 1) as usize];
     }
     tendon::armature(m, d);
-    d.qLD.copy_from_slice(&d.M);
-    mass::factor(m, &mut d.qLD, &mut d.qLDiagInv, 0..m.nv);
+    let f = &mut d.fields;
+    f.qLD.copy_from_slice(&f.M);
+    mass::factor(m, &mut f.qLD, &mut f.qLDiagInv, 0..m.nv);
     inverse_weights(m, d);
     tendon::at_default(m, d);
-    transmission::transmissions(m, d);
+    transmission::transmissions(m, &mut d.fields, &mut d.work.forces);
     transmission::at_default(m, d);
     transmission::critical_damping(m, d);
     ends::set_const(m, d);
@@ -45,7 +47,7 @@ pub fn set_const(m: &mut Model, d: &mut Data) {
     d.qpos.copy_from_slice(&m.qpos_spring);
     positions(m, d);
     tendon::at_rest(m, d);
-    forward::set_plan(m, d, plan);
+    reset::set_plan(m, d, plan);
 }
 
 /// The same for a model that has no data yet.
@@ -55,10 +57,7 @@ pub(crate) fn set_const0(m: &mut Model) {
 }
 
 fn positions(m: &Model, d: &mut Data) {
-    kinematics::bodies(m, d);
-    kinematics::orientations(d);
-    kinematics::geoms(m, d);
-    kinematics::sites(m, d);
+    kinematics::kinematics(m, &mut d.fields, &mut d.work.dynamics);
     com::com_pos(m, d);
     tendon::tendons(m, d);
 }

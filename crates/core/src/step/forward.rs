@@ -1,18 +1,12 @@
-//! `mj_step` and `mj_forward`: the order of the stages, each a call to the module that holds its formula.
+//! `mj_forward`: the order of the stages, each a call to the module that holds its formula.
 
-use crate::dynamics::{articulated, camera, chain, com, kinematics};
-use crate::dynamics::{jacobian, mass, rne, subtree};
-use crate::forces::{actuation, energy};
-use crate::forces::{passive, tendon, transmission};
-use crate::math::{bad, combine, copy, rows, sum};
-use crate::model::reflect::Stage;
-use crate::sensor;
-use crate::sensor::When;
-use crate::sensor::body_force;
-use crate::step::integrate;
-use crate::step::plan::Plan;
-use crate::step::{reset, sleep};
-use crate::{Data, Model, Warning, collision, constraint, disable, enable, integrator};
+use super::{damping, discrete, sleep};
+use crate::dynamics::{articulated, camera, chain, com, jacobian, kinematics, mass, rne, subtree};
+use crate::forces::{actuation, energy, passive, tendon, transmission};
+use crate::math::{combine, copy, rows};
+use crate::model::stage::Stage;
+use crate::sensor::{When, body_force};
+use crate::{Data, Fields, Model, Warning, collision, constraint, disable, enable, integrator, sensor};
 
 /// What a caller can leave out of a forward pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,32 +16,6 @@ impl Skip {
     pub(crate) const NOTHING: Skip = Skip(0);
     /// Sensors: Runge–Kutta stages between steps do not show. The energy is that of the last stage, in MuJoCo as here.
     pub(crate) const SENSORS: Skip = Skip(1);
-}
-
-/// Advances the simulation by one step (`mj_step`).
-///
-/// A bad number in the state resets the data first; one in the acceleration resets it and the same step
-/// then starts from there (`warning` says which and when).
-pub fn step(m: &Model, d: &mut Data) {
-    check_state(m, d);
-    forward_skip(m, d, Skip::NOTHING);
-    check_acceleration(m, d);
-    integrate::integrate(m, d);
-}
-
-/// The first part of a step (`mj_step1`): all that does not depend on inputs. Controls and applied forces may be
-/// set between the two.
-pub fn step1(m: &Model, d: &mut Data) {
-    check_state(m, d);
-    from_state(m, d, Skip::NOTHING);
-}
-
-/// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name
-/// Runge–Kutta, which needs forces at other states, this is a step of Euler.
-pub fn step2(m: &Model, d: &mut Data) {
-    from_inputs(m, d, Skip::NOTHING);
-    check_acceleration(m, d);
-    integrate::integrate_once(m, d);
 }
 
 /// Computes everything that follows from the state, without advancing time (`mj_forward`).
@@ -62,7 +30,8 @@ pub(crate) fn forward_skip(m: &Model, d: &mut Data, skip: Skip) {
 
 /// What follows from positions and velocities, with the sensors and the energy that they determine.
 pub(crate) fn from_state(m: &Model, d: &mut Data, skip: Skip) {
-    d.work.meter.add(d.work.meter.half);
+    let half = d.meter.half;
+    d.meter.add(half);
     position(m, d);
     read(m, d, When::Position, skip);
     potential_energy(m, d, skip);
@@ -72,15 +41,16 @@ pub(crate) fn from_state(m: &Model, d: &mut Data, skip: Skip) {
 }
 
 /// What follows from inputs as well: forces, accelerations and the other sensors.
-fn from_inputs(m: &Model, d: &mut Data, skip: Skip) {
-    d.work.meter.add(d.work.meter.half);
-    sleep::keep(m, d);
+pub(super) fn from_inputs(m: &Model, d: &mut Data, skip: Skip) {
+    let half = d.meter.half;
+    d.meter.add(half);
+    sleep::keep(m, &d.fields, &mut d.work.sleep);
     actuation(m, d);
     acceleration(m, d);
-    sleep::put_back(m, d);
+    sleep::put_back(m, &mut d.fields, &d.work.sleep);
     constraints(m, d);
     read(m, d, When::Acceleration, skip);
-    sleep::passed(d);
+    sleep::passed(&mut d.work.sleep);
 }
 
 /// The same, and what follows from velocities.
@@ -114,13 +84,13 @@ const POSES: [Stage; 8] = [
 #[inline(never)]
 fn poses(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Sleep) {
-        sleep::wake(m, d);
+        sleep::wake(m, &mut d.fields, &mut d.work.sleep);
     }
     if d.plan.keeps(Stage::Kinematics) {
-        kinematics::bodies(m, d);
+        kinematics::bodies(m, &mut d.fields, &mut d.work.dynamics);
     }
     if d.plan.keeps(Stage::Orientations) {
-        kinematics::orientations(d);
+        kinematics::orientations(&mut d.fields, &mut d.work.dynamics);
     }
     if d.plan.keeps(Stage::GeomPoses) {
         kinematics::geoms(m, d);
@@ -155,16 +125,16 @@ fn inertia_and_constraints(m: &Model, d: &mut Data) {
         mass_matrix(m, d, composite);
     }
     if d.plan.keeps(Stage::Factor) && !d.plan.mass_for_rows {
-        let bad = articulated::factor(m, d);
+        let bad = articulated::factor(m, &mut d.fields, &mut d.work.dynamics);
         check_inertia(d, bad);
     }
     if d.plan.keeps(Stage::Collision) {
-        if m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(disable::CONTACT) || d.work.meter.over() {
+        if m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(disable::CONTACT) || d.meter.over() {
             collision::none(d);
         } else {
-            collision::collide(m, d);
+            collision::collide(m, &mut d.fields, &mut d.work.collision);
             if sleep::wake_touched(m, d) {
-                collision::collide(m, d);
+                collision::collide(m, &mut d.fields, &mut d.work.collision);
             }
         }
     }
@@ -172,22 +142,22 @@ fn inertia_and_constraints(m: &Model, d: &mut Data) {
         sleep::wake_by_equalities(m, d);
     }
     if d.plan.keeps(Stage::Constraint) {
-        constraint::make(m, d);
+        constraint::make(m, &mut d.fields, &mut d.work.constraint);
         if d.plan.mass_for_rows && d.nefc > 0 {
             if d.plan.composite {
                 mass_matrix(m, d, true);
             }
-            let bad = articulated::factor(m, d);
+            let bad = articulated::factor(m, &mut d.fields, &mut d.work.dynamics);
             check_inertia(d, bad);
         }
     }
     if d.plan.keeps(Stage::Transmission) {
-        transmission::transmissions(m, d);
+        transmission::transmissions(m, &mut d.fields, &mut d.work.forces);
     }
 }
 
 /// Warns of a degree of freedom without inertia.
-fn check_inertia(d: &mut Data, bad: Option<usize>) {
+fn check_inertia(d: &mut Fields, bad: Option<usize>) {
     if let Some(dof) = bad {
         d.warn(Warning::Inertia, dof);
     }
@@ -197,11 +167,11 @@ fn check_inertia(d: &mut Data, bad: Option<usize>) {
 #[inline(always)]
 fn mass_matrix(m: &Model, d: &mut Data, composite: bool) {
     if composite {
-        mass::composite_inertia(m, d, true);
+        mass::composite_inertia(m, &mut d.fields, &mut d.work.dynamics, true);
     } else if d.plan.simple_bodies {
         mass::simple_diagonal(m, d);
     }
-    chain::mass_matrix(m, d);
+    chain::mass_matrix(m, &mut d.fields, &mut d.work.dynamics);
     if m.ntendon > 0 {
         tendon::armature(m, d);
     }
@@ -222,10 +192,10 @@ pub(crate) fn velocity(m: &Model, d: &mut Data) {
         passive::passive(m, d);
     }
     if d.plan.keeps(Stage::Reference) {
-        constraint::reference(m, d);
+        constraint::reference(m, &mut d.fields, &d.work.constraint);
     }
     if d.plan.keeps(Stage::Bias) {
-        rne::bias(m, d);
+        rne::bias(m, &mut d.fields, &mut d.work.dynamics);
         tendon::bias(m, d);
     }
 }
@@ -233,13 +203,14 @@ pub(crate) fn velocity(m: &Model, d: &mut Data) {
 /// Forces of actuators: what depends on `ctrl` and `act` as well.
 pub(crate) fn actuation(m: &Model, d: &mut Data) {
     if d.plan.keeps(Stage::Actuation) {
-        actuation::actuation(m, d);
+        actuation::actuation(m, &mut d.fields, &mut d.work.forces);
     }
 }
 
 /// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`.
 #[inline(never)]
-pub(crate) fn acceleration(m: &Model, d: &mut Data) {
+pub(crate) fn acceleration(m: &Model, data: &mut Data) {
+    let Data { fields: d, work } = data;
     let forces = [&*d.qfrc_passive, &*d.qfrc_bias, &*d.qfrc_applied, &*d.qfrc_actuator];
     combine(&mut d.qfrc_smooth, forces, |_, [passive, bias, applied, actuator]| {
         passive - bias + applied + actuator
@@ -247,21 +218,21 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     if d.plan.applied_forces {
         applied_forces(m, d);
     }
-    d.work.damped = false;
+    work.damping.done = false;
     if m.opt.integrator == integrator::DISCRETE {
-        integrate::discrete::acceleration(m, d);
+        discrete::acceleration(m, d, &mut work.metric, &mut work.derivative);
     } else if d.plan.some_general {
         let mut out = std::mem::take(&mut d.qacc_smooth);
         copy(&d.qfrc_smooth, &mut out);
         if d.plan.mass_for_rows && d.nefc == 0 {
-            let euler = m.opt.integrator == integrator::EULER && integrate::damps(m, d);
+            let euler = m.opt.integrator == integrator::EULER && damping::damps(m, d);
             let bad = match euler {
-                true => integrate::accelerate(m, d, &mut out),
-                false => articulated::prepare(m, d, Some(&mut out)),
+                true => damping::accelerate(m, d, &mut work.dynamics, &mut work.damping, &mut out),
+                false => articulated::prepare(m, d, &mut work.dynamics, Some(&mut out)),
             };
             check_inertia(d, bad);
         } else {
-            articulated::solve(m, d, &mut out);
+            articulated::solve(m, d, &mut work.dynamics, &mut out);
         }
         d.qacc_smooth = out;
     } else {
@@ -270,7 +241,7 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
 }
 
 /// Adds Jᵀ f for the force and torque applied at each body's centre of mass.
-fn applied_forces(m: &Model, d: &mut Data) {
+fn applied_forces(m: &Model, d: &mut Fields) {
     let mut out = std::mem::take(&mut d.qfrc_smooth);
     for b in 1..m.nbody {
         let [fx, fy, fz, tx, ty, tz] = rows::<6>(&d.xfrc_applied)[b];
@@ -282,15 +253,20 @@ fn applied_forces(m: &Model, d: &mut Data) {
 }
 
 /// `qacc` and constraint forces.
-pub(crate) fn constraints(m: &Model, d: &mut Data) {
-    let discrete = m.opt.integrator == integrator::DISCRETE;
+pub(crate) fn constraints(m: &Model, data: &mut Data) {
+    let Data { fields: d, work } = data;
+    let on_discrete = m.opt.integrator == integrator::DISCRETE;
     if d.plan.keeps(Stage::Solve) {
-        if discrete { integrate::discrete::constraints(m, d) } else { constraint::solve(m, d) }
+        if on_discrete {
+            discrete::constraints(m, d, &mut work.metric, &mut work.constraint);
+        } else {
+            constraint::solve(m, d, &mut work.constraint);
+        }
     } else {
         copy(&d.qacc_smooth, &mut d.qacc);
     }
-    if discrete {
-        integrate::discrete::turn_free_bodies(m, d);
+    if on_discrete {
+        discrete::turn_free_bodies(m, d, &work.metric, &mut work.derivative, &work.constraint);
     }
 }
 
@@ -311,7 +287,7 @@ fn measure(m: &Model, d: &mut Data, when: When) {
         _ => {}
     }
     if d.plan.keeps(Stage::Sensors) {
-        sensor::evaluate(m, d, when);
+        sensor::evaluate(m, &mut d.fields, &mut d.work.sensor, when);
     }
 }
 
@@ -338,64 +314,3 @@ fn kinetic_energy(m: &Model, d: &mut Data) {
         energy::kinetic(m, d);
     }
 }
-
-#[inline(always)]
-fn first_bad(v: &[f64]) -> Option<usize> {
-    // Nearly always there is none, and even their sum is good.
-    let some = match v {
-        [x] => bad(*x),
-        [x, y] => bad(*x) | bad(*y),
-        _ => bad(sum([v], |[x]| x.abs())),
-    };
-    if some { v.iter().position(|&x| bad(x)) } else { None }
-}
-
-/// Warns, and resets unless that is switched off. The warning survives the reset.
-fn reset_after(m: &Model, d: &mut Data, warning: Warning, info: usize) -> bool {
-    d.warn(warning, info);
-    if m.opt.disabled(disable::AUTORESET) {
-        // The library counts what it does not reset twice.
-        d.warn(warning, info);
-        return false;
-    }
-    let stat = d.warning[warning as usize];
-    reset::reset_data(m, d);
-    d.warning[warning as usize] = crate::WarningStat { number: 1, ..stat };
-    true
-}
-
-#[inline(never)]
-fn check_state(m: &Model, d: &mut Data) {
-    if let Some(i) = first_bad(&d.qpos) {
-        reset_after(m, d, Warning::BadQpos, i);
-    }
-    if let Some(i) = first_bad(&d.qvel) {
-        reset_after(m, d, Warning::BadQvel, i);
-    }
-}
-
-fn check_acceleration(m: &Model, d: &mut Data) {
-    if let Some(i) = first_bad(&d.qacc)
-        && reset_after(m, d, Warning::BadQacc, i)
-    {
-        forward(m, d);
-    }
-}
-
-/// Replaces the plan, which decides what the next forward pass computes.
-pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
-    d.work.pairs = if plan.keeps(Stage::Collision) {
-        collision::pairs(m, plan.pairs_may_change, plan.contact_params_may_change)
-    } else {
-        collision::Pairs::default()
-    };
-    d.plan = plan;
-    d.work.chains.load(m);
-    d.work.frames.load(m);
-    sleep::plan_changed(m, d);
-    reset::clear_left_out(m, d);
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests;

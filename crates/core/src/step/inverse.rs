@@ -4,10 +4,10 @@ use crate::dynamics::mass;
 use crate::forces::passive::spring;
 use crate::forces::{derivative, derivative::Medium, derivative::sparse};
 use crate::math::Spatial;
+use crate::model::plan::Plan;
 use crate::sensor::When;
-use crate::step::integrate;
-use crate::step::plan::Plan;
-use crate::step::{forward, forward::Skip};
+use crate::step::data::Work;
+use crate::step::{damping, discrete, forward, forward::Skip};
 use crate::{Data, Model, constraint, enable, integrator};
 
 /// What inverse dynamics cannot answer.
@@ -52,16 +52,20 @@ fn from_velocity(m: &Model, d: &mut Data, skip: Skip) {
         continuous(m, d);
     }
     if m.opt.integrator == integrator::DISCRETE {
-        integrate::discrete::prepare_inverse(m, d);
+        let Work { metric, derivative, constraint, .. } = &mut d.work;
+        discrete::prepare_inverse(m, &mut d.fields, metric, derivative, constraint);
     }
-    constraint::inverse(m, d);
+    constraint::inverse(m, &mut d.fields, &mut d.work.constraint);
     forward::read(m, d, When::Acceleration, skip);
-    mass::mul(m, &d.M, &d.qacc, &mut d.qfrc_inverse, 0..m.nv);
+    let f = &mut d.fields;
+    mass::mul(m, &f.M, &f.qacc, &mut f.qfrc_inverse, 0..m.nv);
     if m.opt.integrator == integrator::DISCRETE {
-        integrate::discrete::add_to_inverse(m, d);
+        let Work { metric, derivative, constraint, .. } = &mut d.work;
+        discrete::add_to_inverse(m, &mut d.fields, metric, derivative, constraint);
     }
-    let internal = d.qfrc_bias.iter().zip(&d.qfrc_passive);
-    for (f, ((bias, passive), constraint)) in d.qfrc_inverse.iter_mut().zip(internal.zip(&d.qfrc_constraint))
+    let f = &mut d.fields;
+    let internal = f.qfrc_bias.iter().zip(&f.qfrc_passive);
+    for (f, ((bias, passive), constraint)) in f.qfrc_inverse.iter_mut().zip(internal.zip(&f.qfrc_constraint))
     {
         *f += bias - passive - constraint;
     }
@@ -70,51 +74,43 @@ fn from_velocity(m: &Model, d: &mut Data, skip: Skip) {
 }
 
 /// `qacc` of a step to that of the equations of motion: what the integrator adds to M acts on it.
-fn continuous(m: &Model, d: &mut Data) {
-    let h = m.opt.timestep;
-    let mut force = std::mem::take(&mut d.work.qacc);
+fn continuous(m: &Model, data: &mut Data) {
+    let Data { fields: d, work } = data;
+    let (h, force, w) = (m.opt.timestep, &mut work.damping.qacc, &mut work.derivative);
     match m.opt.integrator {
         integrator::EULER => {
-            mass::mul(m, &d.M, &d.qacc, &mut force, 0..m.nv);
-            if integrate::damps(m, d) {
+            mass::mul(m, &d.M, &d.qacc, force, 0..m.nv);
+            if damping::damps(m, d) {
                 for i in 0..m.nv {
                     force[i] += h * spring::joint_damping(m, d, i) * d.qacc[i];
                 }
             }
         }
         integrator::IMPLICIT => {
-            let mut w = std::mem::take(&mut d.work.derivative);
-            derivative::forces(m, d, &mut w, Medium::Whole);
-            derivative::subtract_bias(m, d, &mut w);
+            derivative::forces(m, d, w, Medium::Whole);
+            derivative::subtract_bias(m, d, w);
             sparse::mass_minus(m, &d.M, h, &mut w.whole);
-            sparse::mul(m, &w.whole, &d.qacc, &mut force);
-            d.work.derivative = w;
+            sparse::mul(m, &w.whole, &d.qacc, force);
         }
         integrator::IMPLICITFAST => {
-            let (mut w, mut matrix) =
-                (std::mem::take(&mut d.work.derivative), std::mem::take(&mut d.work.ld));
-            derivative::forces(m, d, &mut w, Medium::Symmetric);
+            let matrix = &mut work.dynamics.ld;
+            derivative::forces(m, d, w, Medium::Symmetric);
             matrix.copy_from_slice(&d.M);
-            sparse::subtract_lower(m, &w.whole, h, &mut matrix);
-            mass::mul(m, &matrix, &d.qacc, &mut force, 0..m.nv);
+            sparse::subtract_lower(m, &w.whole, h, matrix);
+            mass::mul(m, matrix, &d.qacc, force, 0..m.nv);
             for tree in (0..m.ntree).filter(|&t| derivative::is_free_rigid(m, t)) {
-                derivative::subtract_tree_bias(m, d, &mut w, tree);
+                derivative::subtract_tree_bias(m, d, w, tree);
                 let first = m.tree_dofadr[tree] as usize;
                 let a: Spatial = std::array::from_fn(|r| d.qacc[first + r]);
-                let block = derivative::free_block(m, &d.M, &w, h, first);
+                let block = derivative::free_block(m, &d.M, w, h, first);
                 for (f, row) in force[first..first + 6].iter_mut().zip(block) {
                     *f = crate::math::dot(row, a);
                 }
             }
-            (d.work.derivative, d.work.ld) = (w, matrix);
         }
         // The discrete integrator's acceleration is that of the step in all equations.
-        _ => {
-            d.work.qacc = force;
-            return;
-        }
+        _ => return,
     }
-    mass::solve(m, &d.qLD, &d.qLDiagInv, &mut force, 0..m.nv);
-    d.qacc.copy_from_slice(&force);
-    d.work.qacc = force;
+    mass::solve(m, &d.qLD, &d.qLDiagInv, force, 0..m.nv);
+    d.qacc.copy_from_slice(force);
 }

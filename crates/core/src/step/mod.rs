@@ -1,9 +1,94 @@
 //! A step: the stages in their order, which of them a scene needs, and what follows from the accelerations.
+//!
+//! [`forward`] is the order of the stages; an integrator takes what they leave to the next state; bad numbers are looked for
+//! before and between.
 
+pub(crate) mod damping;
+pub(crate) mod data;
+pub(crate) mod discrete;
 pub(crate) mod forward;
+pub(crate) mod functions;
 pub(crate) mod integrate;
 pub(crate) mod inverse;
-pub mod plan;
+pub(crate) mod plan;
 pub(crate) mod reset;
 pub mod save;
 pub(crate) mod sleep;
+pub(crate) mod stages;
+
+use crate::math::{bad, sum};
+use crate::{Data, Model, Warning, WarningStat, disable};
+use forward::Skip;
+
+/// Advances the simulation by one step (`mj_step`).
+///
+/// A bad number in the state resets the data first; one in the acceleration resets it and the same step
+/// then starts from there (`warning` says which and when).
+pub fn step(m: &Model, d: &mut Data) {
+    check_state(m, d);
+    forward::forward_skip(m, d, Skip::NOTHING);
+    check_acceleration(m, d);
+    integrate::integrate(m, d);
+}
+
+/// The first part of a step (`mj_step1`): all that does not depend on inputs. Controls and applied forces may be
+/// set between the two.
+pub fn step1(m: &Model, d: &mut Data) {
+    check_state(m, d);
+    forward::from_state(m, d, Skip::NOTHING);
+}
+
+/// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name
+/// Runge–Kutta, which needs forces at other states, this is a step of Euler.
+pub fn step2(m: &Model, d: &mut Data) {
+    forward::from_inputs(m, d, Skip::NOTHING);
+    check_acceleration(m, d);
+    integrate::integrate_once(m, d);
+}
+
+#[inline(always)]
+fn first_bad(v: &[f64]) -> Option<usize> {
+    // Nearly always there is none, and even their sum is good.
+    let some = match v {
+        [x] => bad(*x),
+        [x, y] => bad(*x) | bad(*y),
+        _ => bad(sum([v], |[x]| x.abs())),
+    };
+    if some { v.iter().position(|&x| bad(x)) } else { None }
+}
+
+/// Warns, and resets unless that is switched off. The warning survives the reset.
+fn reset_after(m: &Model, d: &mut Data, warning: Warning, info: usize) -> bool {
+    d.warn(warning, info);
+    if m.opt.disabled(disable::AUTORESET) {
+        // The library counts what it does not reset twice.
+        d.warn(warning, info);
+        return false;
+    }
+    let stat = d.warning[warning as usize];
+    reset::reset_data(m, d);
+    d.warning[warning as usize] = WarningStat { number: 1, ..stat };
+    true
+}
+
+#[inline(never)]
+fn check_state(m: &Model, d: &mut Data) {
+    if let Some(i) = first_bad(&d.qpos) {
+        reset_after(m, d, Warning::BadQpos, i);
+    }
+    if let Some(i) = first_bad(&d.qvel) {
+        reset_after(m, d, Warning::BadQvel, i);
+    }
+}
+
+fn check_acceleration(m: &Model, d: &mut Data) {
+    if let Some(i) = first_bad(&d.qacc)
+        && reset_after(m, d, Warning::BadQacc, i)
+    {
+        forward::forward(m, d);
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

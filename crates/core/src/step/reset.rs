@@ -1,12 +1,61 @@
-//! Resets, and the counts that follow from them.
+//! Data at the start: made, reset, and given a plan.
 
+use super::{forward, sleep};
 use crate::dynamics::{kinematics, mass};
 use crate::forces::{actuation, transmission};
 use crate::math::*;
+use crate::model::meter::Meter;
+use crate::model::plan::Plan;
 use crate::model::reflect;
-use crate::model::reflect::Stage;
-use crate::step::sleep;
-use crate::{Data, Model, Warning, WarningStat, sensor};
+use crate::model::stage::Stage;
+use crate::step::data::Work;
+use crate::step::plan::Demand;
+use crate::{Data, Fields, Model, Warning, WarningStat, collision, sensor};
+
+impl Data {
+    /// Data for a model, at the default configuration. Nothing is computed yet: call `forward`.
+    ///
+    /// The plan allows any field to be read or written at any time: see `Data::planned` for less work.
+    pub fn new(m: &Model) -> Data {
+        Data::planned(m, Plan::new(m, &Demand::ANY))
+    }
+
+    /// Data that computes only what a plan keeps.
+    pub fn planned(m: &Model, plan: Plan) -> Data {
+        let mut d = Data::unplanned(m);
+        set_plan(m, &mut d, plan);
+        d
+    }
+
+    /// Data with the full pipeline and no collision pairs.
+    pub(crate) fn unplanned(m: &Model) -> Data {
+        let fields = Fields {
+            plan: Plan::awake(),
+            meter: Meter::new(m),
+            acting: vec![0.0; m.nu],
+            ..Fields::default()
+        };
+        let mut d = Data { fields, work: Work::new(m) };
+        reset_data(m, &mut d);
+        d
+    }
+}
+
+/// Replaces the plan, which decides what the next forward pass computes.
+pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
+    d.work.collision.pairs = if plan.keeps(Stage::Collision) {
+        collision::pairs(m, plan.pairs_may_change, plan.contact_params_may_change)
+    } else {
+        collision::Pairs::default()
+    };
+    d.plan = plan;
+    d.work.dynamics.chains.load(m);
+    d.work.dynamics.frames.load(m);
+    if sleep::is_fresh(&d.work.sleep) {
+        lay_down(m, d);
+    }
+    clear_left_out(m, d);
+}
 
 /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
 /// what was written to it.
@@ -29,7 +78,16 @@ pub fn reset_data(m: &Model, d: &mut Data) {
         }
     }
     clear_left_out(m, d);
-    sleep::reset(m, d);
+    lay_down(m, d);
+}
+
+/// Trees that start asleep are laid down; all others are awake.
+fn lay_down(m: &Model, d: &mut Data) {
+    if sleep::wake_all(m, &mut d.fields) {
+        forward::forward(m, d);
+        sleep::start(m, &mut d.fields, &mut d.work.constraint);
+    }
+    sleep::begin(&d.fields, &mut d.work.sleep);
 }
 
 /// Back to keyframe `key` (`mj_resetDataKeyframe`); one that does not exist resets to the default.
@@ -69,7 +127,7 @@ pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
         mass::constant_mass(m, d);
     }
     if d.plan.keeps(Stage::Actuation) && !d.plan.keeps(Stage::Transmission) {
-        transmission::transmissions(m, d);
+        transmission::transmissions(m, &mut d.fields, &mut d.work.forces);
     }
     if !d.plan.keeps(Stage::Actuation) {
         d.actuator_force.fill(0.0);

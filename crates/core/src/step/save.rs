@@ -288,7 +288,7 @@ fn restore_rows(m: &Model, d: &mut Data) {
     let same = again.efc_type == d.efc_type && again.efc_id == d.efc_id;
     d.work = again.work;
     if !same {
-        d.work.jac = Default::default();
+        d.work.constraint.jac = Default::default();
     }
 }
 

@@ -115,7 +115,8 @@ proptest! {
         let moment = 1e-5;
         let at = |time: f64| {
             let mut d = d.clone();
-            core::integrate_pos(&m, &mut d.qpos, &d.qvel, time);
+            let velocity = d.qvel.clone();
+            core::integrate_pos(&m, &mut d.qpos, &velocity, time);
             core::forward(&m, &mut d);
             d
         };

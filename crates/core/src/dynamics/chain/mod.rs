@@ -17,9 +17,10 @@ mod spatial;
 #[cfg(test)]
 mod tests;
 
+use crate::dynamics::Scratch;
 use crate::dynamics::{jacobian, mass};
 use crate::math::*;
-use crate::{Data, Model, joint};
+use crate::{Fields, Model, joint};
 
 /// A tree with more degrees of freedom is cheaper by composite bodies and recursion.
 const MAX_DOFS: usize = 6;
@@ -257,8 +258,8 @@ macro_rules! by_length {
 }
 
 /// The rows of M that belong to short chains.
-pub(crate) fn mass_matrix(m: &Model, d: &mut Data) {
-    let chains = &mut d.work.chains;
+pub(crate) fn mass_matrix(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    let chains = &mut w.chains;
     if d.plan.chains_may_change {
         chains.load(m);
     }
@@ -266,6 +267,6 @@ pub(crate) fn mass_matrix(m: &Model, d: &mut Data) {
 }
 
 /// The bias force of short chains.
-pub(crate) fn bias(d: &mut Data, gravity: Vec3) {
-    by_length!(d.work.chains, bias(&d.qvel, &mut d.qfrc_bias, gravity));
+pub(crate) fn bias(d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+    by_length!(w.chains, bias(&d.qvel, &mut d.qfrc_bias, gravity));
 }

@@ -4,7 +4,7 @@ mod points;
 
 use crate::math::*;
 use crate::math::{lanes::Axes, lanes::Lane3, lanes::along, lanes::axes, lanes::vec3};
-use crate::{Data, Model, joint};
+use crate::{Fields, Model, joint};
 
 pub use points::{
     Jacobian, apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,
@@ -18,7 +18,7 @@ pub(crate) fn last_dof(m: &Model, b: usize) -> i32 {
 }
 
 /// Angular velocity, and the velocity of `point`, for a unit velocity of degree of freedom `k`.
-pub(crate) fn dof_motion(m: &Model, d: &Data, k: usize, point: Vec3) -> (Vec3, Vec3) {
+pub(crate) fn dof_motion(m: &Model, d: &Fields, k: usize, point: Vec3) -> (Vec3, Vec3) {
     let j = m.dof_jntid[k] as usize;
     let i = k - m.jnt_dofadr[j] as usize;
     let axis = match m.jnt_type[j] {
@@ -32,7 +32,15 @@ pub(crate) fn dof_motion(m: &Model, d: &Data, k: usize, point: Vec3) -> (Vec3, V
 }
 
 /// out += Jᵀ f: the generalized force of a force and a torque on body `b`, the force at `point`.
-pub(crate) fn apply(m: &Model, d: &Data, b: usize, point: Vec3, force: Vec3, torque: Vec3, out: &mut [f64]) {
+pub(crate) fn apply(
+    m: &Model,
+    d: &Fields,
+    b: usize,
+    point: Vec3,
+    force: Vec3,
+    torque: Vec3,
+    out: &mut [f64],
+) {
     let mut k = last_dof(m, b);
     while k >= 0 {
         let (turn, move_) = dof_motion(m, d, k as usize, point);
@@ -98,7 +106,7 @@ impl Columns {
 #[inline(always)]
 pub(crate) fn point_difference(
     m: &Model,
-    d: &Data,
+    d: &Fields,
     bodies: [usize; 2],
     point: Vec3,
     frame: &Mat3,
@@ -122,7 +130,7 @@ pub(crate) fn point_difference(
 /// Columns of one joint, the last degree of freedom first. A rotation about `a` moves the point by v = a × arm, and
 /// v · f = a · (arm × f).
 #[inline(always)]
-fn joint_columns(m: &Model, d: &Data, j: usize, last: usize, point: Vec3, f: Axes, out: &mut Columns) {
+fn joint_columns(m: &Model, d: &Fields, j: usize, last: usize, point: Vec3, f: Axes, out: &mut Columns) {
     let kind = m.jnt_type[j];
     if kind == joint::SLIDE {
         out.push(last, [along(&f, rows::<3>(&d.xaxis)[j])]);
@@ -146,7 +154,7 @@ fn joint_columns(m: &Model, d: &Data, j: usize, last: usize, point: Vec3, f: Axe
 
 /// The rotational part that goes with [`point_difference`]: the difference of angular velocities along the rows of
 /// `frame`, for the columns that are there.
-pub(crate) fn turn_difference(m: &Model, d: &Data, bodies: [usize; 2], frame: &Mat3, out: &mut Columns) {
+pub(crate) fn turn_difference(m: &Model, d: &Fields, bodies: [usize; 2], frame: &Mat3, out: &mut Columns) {
     let mut last = bodies.map(|b| last_dof(m, b));
     for turn in out.turns_mut() {
         let side = usize::from(last[1] > last[0]);
@@ -159,7 +167,13 @@ pub(crate) fn turn_difference(m: &Model, d: &Data, bodies: [usize; 2], frame: &M
 
 /// The Jacobian difference of two points, each fixed to a body, J(b1) - J(b2), with that of the angular velocities, world
 /// axes. Degrees of freedom that move both bodies are there, too: they move two points differently.
-pub(crate) fn pair_difference(m: &Model, d: &Data, bodies: [usize; 2], points: [Vec3; 2], out: &mut Columns) {
+pub(crate) fn pair_difference(
+    m: &Model,
+    d: &Fields,
+    bodies: [usize; 2],
+    points: [Vec3; 2],
+    out: &mut Columns,
+) {
     out.len = 0;
     let mut last = bodies.map(|b| last_dof(m, b));
     loop {
@@ -190,7 +204,7 @@ pub(crate) struct Unforced {
 }
 
 /// J v and J̇ v of a point of body `b`, for translation and rotation; needs `cvel` and `cdof_dot`.
-pub(crate) fn unforced(m: &Model, d: &Data, b: usize, point: Vec3) -> Unforced {
+pub(crate) fn unforced(m: &Model, d: &Fields, b: usize, point: Vec3) -> Unforced {
     let mut rate = [0.0; 6];
     let mut k = last_dof(m, b);
     while let Ok(dof) = usize::try_from(k) {

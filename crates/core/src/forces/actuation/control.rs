@@ -2,7 +2,7 @@
 
 use crate::forces::history;
 use crate::math::*;
-use crate::{Data, Model, Warning, disable, gaintype};
+use crate::{Fields, Model, Warning, disable, gaintype};
 use std::ops::Range;
 
 /// Addresses of the controls of actuator `i`.
@@ -19,7 +19,7 @@ fn buffer(m: &Model, i: usize) -> Option<(Range<usize>, usize)> {
 }
 
 /// Fills `ctrl` with the controls that act now.
-pub(super) fn effective(m: &Model, d: &mut Data, ctrl: &mut [f64]) {
+pub(super) fn effective(m: &Model, d: &mut Fields, ctrl: &mut [f64]) {
     ctrl.copy_from_slice(&d.ctrl);
     if m.nhistory > 0 {
         for i in (0..m.nactuator).filter(|&i| m.actuator_delay[i] != 0.0) {
@@ -45,7 +45,7 @@ pub(super) fn effective(m: &Model, d: &mut Data, ctrl: &mut [f64]) {
 }
 
 /// Keeps the controls of this time, for actuators with a history.
-pub(crate) fn record(m: &Model, d: &mut Data) {
+pub(crate) fn record(m: &Model, d: &mut Fields) {
     for i in 0..m.nactuator {
         let Some((range, n)) = buffer(m, i) else { continue };
         let controls = controls(m, i);
@@ -57,7 +57,7 @@ pub(crate) fn record(m: &Model, d: &mut Data) {
 }
 
 /// Neutral controls, now and in the past: zero, and the identity for quaternions.
-pub(crate) fn reset(m: &Model, d: &mut Data) {
+pub(crate) fn reset(m: &Model, d: &mut Fields) {
     let h = m.opt.timestep;
     for i in 0..m.nactuator {
         let controls = controls(m, i);

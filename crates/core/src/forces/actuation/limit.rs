@@ -1,10 +1,11 @@
 //! Limits of forces: of all actuators of a tendon, of each actuator, of all actuators of a joint.
 
+use crate::forces::Scratch;
 use crate::math::*;
-use crate::{Data, Model, gaintype, joint, trntype};
+use crate::{Fields, Model, gaintype, joint, trntype};
 
 /// Scales the forces on a tendon whose sum is out of its range.
-pub(super) fn tendons(m: &Model, d: &mut Data) {
+pub(super) fn tendons(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if !m.tendon_actfrclimited.contains(&true) {
         return;
     }
@@ -12,7 +13,7 @@ pub(super) fn tendons(m: &Model, d: &mut Data) {
         let t = m.actuator_trnid[2 * i] as usize;
         (m.actuator_trntype[i] == trntype::TENDON && m.tendon_actfrclimited[t]).then_some(t)
     };
-    let mut sums = std::mem::take(&mut d.work.tendon_force);
+    let sums = &mut w.tendon_force;
     sums.fill(0.0);
     for i in 0..m.nactuator {
         if let Some(t) = limited(i) {
@@ -26,11 +27,10 @@ pub(super) fn tendons(m: &Model, d: &mut Data) {
             d.actuator_force[m.actuator_outadr[i] as usize] *= within / sums[t];
         }
     }
-    d.work.tendon_force = sums;
 }
 
 /// Clamps the force of each actuator; of an orientation servo, the length of its torque.
-pub(super) fn forces(m: &Model, d: &mut Data) {
+pub(super) fn forces(m: &Model, d: &mut Fields) {
     for i in (0..m.nactuator).filter(|&i| m.actuator_forcelimited[i]) {
         let range = rows::<2>(&m.actuator_forcerange)[i];
         let first = m.actuator_outadr[i] as usize;
@@ -47,7 +47,7 @@ pub(super) fn forces(m: &Model, d: &mut Data) {
 }
 
 /// Clamps the force of all actuators on each slide and hinge.
-pub(super) fn joints(m: &Model, d: &mut Data) {
+pub(super) fn joints(m: &Model, d: &mut Fields) {
     for j in (0..m.njnt).filter(|&j| m.jnt_actfrclimited[j]) {
         if matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE) {
             let force = &mut d.qfrc_actuator[m.jnt_dofadr[j] as usize];

@@ -9,19 +9,21 @@
 
 mod activation;
 mod control;
+mod inputs;
 mod limit;
 pub(crate) mod motor;
 pub(crate) mod muscle;
+mod rates;
 mod servo;
 
-use crate::forces::transmission;
+use crate::forces::{Scratch, transmission};
 use crate::math::*;
-use crate::step::sleep;
-use crate::{Data, Model, biastype, disable, dyntype, gaintype, joint, trntype};
+use crate::model::asleep;
+use crate::{Fields, Model, biastype, disable, dyntype, gaintype, joint, trntype};
 
-pub(crate) use activation::advance;
 pub(crate) use control::{record, reset};
 pub(crate) use motor::slots;
+pub(crate) use rates::advance;
 
 /// Whether the forces of actuator `i` are switched off by its group.
 pub(crate) fn switched_off(m: &Model, i: usize) -> bool {
@@ -30,8 +32,8 @@ pub(crate) fn switched_off(m: &Model, i: usize) -> bool {
 }
 
 /// Whether actuator `i` makes a force.
-fn acts(m: &Model, d: &Data, i: usize) -> bool {
-    !switched_off(m, i) && !sleep::actuator_sleeps(m, d, i)
+fn acts(m: &Model, d: &Fields, i: usize) -> bool {
+    !switched_off(m, i) && !asleep::actuator(m, d, i)
 }
 
 /// Ten parameters of actuator `i`.
@@ -46,8 +48,14 @@ fn states(m: &Model, i: usize) -> std::ops::Range<usize> {
     first..first + m.actuator_actnum[i] as usize
 }
 
+/// A filter with time constant τ after a time h.
+fn exact(act: f64, rate: f64, tau: f64, h: f64) -> f64 {
+    let tau = tau.max(MINVAL);
+    act + rate * tau * (1.0 - libm::exp(-h / tau))
+}
+
 /// `actuator_force`, `act_dot`, `qfrc_actuator`.
-pub(crate) fn actuation(m: &Model, d: &mut Data) {
+pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if d.plan.motors && motors(m, d) {
         return;
     }
@@ -56,11 +64,11 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
         d.qfrc_actuator.fill(0.0);
         return;
     }
-    let mut ctrl = std::mem::take(&mut d.work.ctrl);
+    let mut ctrl = std::mem::take(&mut d.acting);
     control::effective(m, d, &mut ctrl);
     if m.na > 0 {
         for i in 0..m.nactuator {
-            activation::rates(m, d, i, &mut ctrl);
+            rates::rates(m, d, i, &mut ctrl);
         }
     }
     for i in 0..m.nactuator {
@@ -75,8 +83,8 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
             }
         }
     }
-    d.work.ctrl = ctrl;
-    limit::tendons(m, d);
+    d.acting = ctrl;
+    limit::tendons(m, d, w);
     limit::forces(m, d);
     for i in (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == biastype::DCMOTOR) {
         if acts(m, d, i) {
@@ -91,7 +99,7 @@ pub(crate) fn actuation(m: &Model, d: &mut Data) {
 /// The same for motors of slides and hinges alone, each with one control and one degree of freedom: what most labs have.
 /// False, and nothing is done, where there is more to it: limits of forces, a control that is no number.
 #[inline(always)]
-fn motors(m: &Model, d: &mut Data) -> bool {
+fn motors(m: &Model, d: &mut Fields) -> bool {
     let off = disable::ACTUATION | disable::CLAMPCTRL;
     if d.plan.force_limits || m.opt.disabled(off) || d.ctrl.iter().any(|&u| bad(u)) {
         return false;
@@ -112,7 +120,7 @@ fn motors(m: &Model, d: &mut Data) -> bool {
 
 /// The force of an actuator with a law of its own.
 #[inline(never)] // few are: what most are stays small
-fn of_its_own(m: &Model, d: &mut Data, i: usize, ctrl: &[f64]) {
+fn of_its_own(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
     let o = m.actuator_outadr[i] as usize;
     match m.actuator_gaintype[i] {
         gaintype::SO3 => {
@@ -126,7 +134,7 @@ fn of_its_own(m: &Model, d: &mut Data, i: usize, ctrl: &[f64]) {
 
 /// What the gain of actuator `i` multiplies: its control, or its last activation.
 #[inline(always)]
-pub(crate) fn input(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> f64 {
+pub(crate) fn input(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     match states(m, i).last() {
         Some(last) => activation::acting(m, d, i, last),
         None if m.actuator_ctrlnum[i] == 0 => 0.0,
@@ -135,12 +143,12 @@ pub(crate) fn input(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> f64 {
 }
 
 /// p₀ + p₁ length + p₂ velocity.
-fn affine(p: &[f64; 10], d: &Data, o: usize) -> f64 {
+fn affine(p: &[f64; 10], d: &Fields, o: usize) -> f64 {
     p[0] + p[1] * d.actuator_length[o] + p[2] * d.actuator_velocity[o]
 }
 
 #[inline(always)]
-fn gain(m: &Model, d: &Data, i: usize) -> f64 {
+fn gain(m: &Model, d: &Fields, i: usize) -> f64 {
     match m.actuator_gaintype[i] {
         gaintype::FIXED => m.actuator_gainprm[10 * i],
         _ => changing_gain(m, d, i),
@@ -148,7 +156,7 @@ fn gain(m: &Model, d: &Data, i: usize) -> f64 {
 }
 
 #[inline(never)] // see `of_its_own`
-fn changing_gain(m: &Model, d: &Data, i: usize) -> f64 {
+fn changing_gain(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_gainprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_gaintype[i] {
         gaintype::AFFINE => affine(p, d, o),
@@ -158,7 +166,7 @@ fn changing_gain(m: &Model, d: &Data, i: usize) -> f64 {
 }
 
 #[inline(always)]
-fn bias(m: &Model, d: &Data, i: usize) -> f64 {
+fn bias(m: &Model, d: &Fields, i: usize) -> f64 {
     match m.actuator_biastype[i] {
         biastype::NONE => 0.0,
         _ => some_bias(m, d, i),
@@ -166,7 +174,7 @@ fn bias(m: &Model, d: &Data, i: usize) -> f64 {
 }
 
 #[inline(never)] // see `of_its_own`
-fn some_bias(m: &Model, d: &Data, i: usize) -> f64 {
+fn some_bias(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_biasprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_biastype[i] {
         biastype::AFFINE => affine(p, d, o),
@@ -176,17 +184,17 @@ fn some_bias(m: &Model, d: &Data, i: usize) -> f64 {
     }
 }
 
-/// Fills `work.ctrl` with the controls that act now.
-pub(crate) fn controls(m: &Model, d: &mut Data) {
-    let mut ctrl = std::mem::take(&mut d.work.ctrl);
+/// Fills `acting` with the controls that act now.
+pub(crate) fn controls(m: &Model, d: &mut Fields) {
+    let mut ctrl = std::mem::take(&mut d.acting);
     control::effective(m, d, &mut ctrl);
-    d.work.ctrl = ctrl;
+    d.acting = ctrl;
 }
 
 /// Whether actuator `i` makes no force whatever moves: its control is 0 and it has nothing else.
-pub(crate) fn idle(m: &Model, d: &Data, i: usize) -> bool {
+pub(crate) fn idle(m: &Model, d: &Fields, i: usize) -> bool {
     let plain = matches!(m.actuator_gaintype[i], gaintype::FIXED | gaintype::AFFINE | gaintype::MUSCLE);
-    let input = d.work.ctrl.get(m.actuator_ctrladr[i] as usize);
+    let input = d.acting.get(m.actuator_ctrladr[i] as usize);
     plain
         && m.actuator_biastype[i] == biastype::NONE
         && states(m, i).is_empty()
@@ -195,8 +203,8 @@ pub(crate) fn idle(m: &Model, d: &Data, i: usize) -> bool {
 
 /// The force of actuator `i` at its length and at rest, before limits, and how fast it falls with the length, where it
 /// follows from the length of a slide, hinge or tendon alone and does not push with the velocity. Controls are those of
-/// `work.ctrl`.
-pub(crate) fn along_length(m: &Model, d: &Data, i: usize) -> Option<[f64; 2]> {
+/// `acting`.
+pub(crate) fn along_length(m: &Model, d: &Fields, i: usize) -> Option<[f64; 2]> {
     let target = m.actuator_trnid[2 * i].max(0) as usize;
     let simple = match m.actuator_trntype[i] {
         trntype::JOINT | trntype::JOINTINPARENT => {
@@ -215,9 +223,9 @@ pub(crate) fn along_length(m: &Model, d: &Data, i: usize) -> Option<[f64; 2]> {
     }
     let x = d.actuator_length[m.actuator_outadr[i] as usize];
     let force = match m.actuator_gaintype[i] {
-        gaintype::FIXED => m.actuator_gainprm[10 * i] * input(m, d, i, &d.work.ctrl) + constant + length * x,
+        gaintype::FIXED => m.actuator_gainprm[10 * i] * input(m, d, i, &d.acting) + constant + length * x,
         gaintype::PID => {
-            servo::pid(m, d, i, &d.work.ctrl) - velocity * d.actuator_velocity[m.actuator_outadr[i] as usize]
+            servo::pid(m, d, i, &d.acting) - velocity * d.actuator_velocity[m.actuator_outadr[i] as usize]
         }
         _ => return None,
     };
@@ -225,7 +233,7 @@ pub(crate) fn along_length(m: &Model, d: &Data, i: usize) -> Option<[f64; 2]> {
 }
 
 /// Gravity compensation that acts as a force of actuators.
-fn gravity_compensation(m: &Model, d: &mut Data) {
+fn gravity_compensation(m: &Model, d: &mut Fields) {
     if m.ngravcomp == 0 || m.opt.disabled(disable::GRAVITY) {
         return;
     }

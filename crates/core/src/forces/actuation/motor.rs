@@ -4,10 +4,10 @@
 //! i = (V - K ω)/R, or follows it with the electrical time constant, and makes the torque K i. Friction of the
 //! bearing is LuGre's (Canudas de Wit et al. 1995): bristles bend by z, ż = ω - σ₀ |ω| z/g(ω).
 
-use super::servo::{self, Inputs, unwound};
-use super::{activation, prm, states};
+use super::inputs::{self, Inputs, unwound};
+use super::{exact, prm, states};
 use crate::math::*;
-use crate::{Data, Model, dyntype};
+use crate::{Fields, Model, dyntype};
 
 /// Places of a motor's states among its activations; `None` for those that it does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,7 +55,7 @@ struct Motor<'a> {
 }
 
 impl<'a> Motor<'a> {
-    fn new(m: &'a Model, d: &Data, i: usize) -> Motor<'a> {
+    fn new(m: &'a Model, d: &Fields, i: usize) -> Motor<'a> {
         let (dyn_, gain) = (prm(&m.actuator_dynprm, i), prm(&m.actuator_gainprm, i));
         let (states, o) = (states(m, i), m.actuator_outadr[i] as usize);
         // Programs may write other parameters than the states were made for: then there are none.
@@ -72,7 +72,7 @@ impl<'a> Motor<'a> {
         }
     }
 
-    fn state(&self, d: &Data, slot: Option<usize>) -> Option<f64> {
+    fn state(&self, d: &Fields, slot: Option<usize>) -> Option<f64> {
         slot.map(|s| d.act[self.first + s])
     }
 
@@ -82,7 +82,7 @@ impl<'a> Motor<'a> {
     }
 
     /// R at the temperature of the winding: the state is how much warmer it is than its surroundings.
-    fn resistance(&self, d: &Data) -> f64 {
+    fn resistance(&self, d: &Fields) -> f64 {
         let [cold, _, growth, reference, ..] = *self.gain;
         let ambient = self.dyn_[4];
         let warm = self.state(d, self.slots.temperature);
@@ -90,7 +90,7 @@ impl<'a> Motor<'a> {
     }
 
     /// The voltage that a controller applies for a torque, as if the winding were cold, and what is added to it.
-    fn voltage(&self, d: &Data, inputs: &Inputs) -> f64 {
+    fn voltage(&self, d: &Fields, inputs: &Inputs) -> f64 {
         if !inputs.controller {
             return inputs.voltage;
         }
@@ -116,7 +116,7 @@ impl<'a> Motor<'a> {
 }
 
 /// `act_dot` of a motor; the first control becomes the limited one where the motor limits how fast it moves.
-pub(super) fn rates(m: &Model, d: &mut Data, i: usize, ctrl: &mut [f64]) {
+pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
     let motor = Motor::new(m, d, i);
     let (slots, first, h) = (motor.slots, motor.first, m.opt.timestep);
     if let Some(last) = motor.state(d, slots.slew) {
@@ -153,11 +153,11 @@ pub(super) fn rates(m: &Model, d: &mut Data, i: usize, ctrl: &mut [f64]) {
 
 /// Activation `at` of a motor at the end of the step: the current and the bristle exactly, for a constant voltage and
 /// speed.
-pub(super) fn next(m: &Model, d: &Data, i: usize, at: usize, rate: f64) -> f64 {
+pub(super) fn next(m: &Model, d: &Fields, i: usize, at: usize, rate: f64) -> f64 {
     let motor = Motor::new(m, d, i);
     let (act, h, slot) = (d.act[at], m.opt.timestep, Some(at - motor.first));
     if slot == motor.slots.current {
-        activation::exact(act, rate, motor.dyn_[0], h)
+        exact(act, rate, motor.dyn_[0], h)
     } else if slot == motor.slots.bristle {
         let a = motor.slipping();
         let decay = libm::exp(a * h);
@@ -171,10 +171,14 @@ pub(super) fn next(m: &Model, d: &Data, i: usize, at: usize, rate: f64) -> f64 {
 }
 
 /// The torque of the winding but for the voltage that motion induces where there is no state of the current.
-pub(super) fn electric(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> f64 {
+pub(super) fn electric(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     let motor = Motor::new(m, d, i);
     match motor.slots.current {
-        Some(s) => motor.constant() * activation::acting(m, d, i, motor.first + s),
+        Some(s) => {
+            let at = motor.first + s;
+            let current = if m.actuator_actearly[i] { next(m, d, i, at, d.act_dot[at]) } else { d.act[at] };
+            motor.constant() * current
+        }
         None => {
             let voltage = motor.voltage(d, &Inputs::new(m, i, ctrl));
             motor.constant() / motor.resistance(d).max(MINVAL) * voltage
@@ -183,7 +187,7 @@ pub(super) fn electric(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> f64 {
 }
 
 /// -K²ω/R, from the voltage that motion induces; with a state of the current it is part of its equation.
-pub(super) fn back_emf(m: &Model, d: &Data, i: usize) -> f64 {
+pub(super) fn back_emf(m: &Model, d: &Fields, i: usize) -> f64 {
     let motor = Motor::new(m, d, i);
     if motor.slots.current.is_some() {
         return 0.0;
@@ -195,7 +199,7 @@ pub(super) fn back_emf(m: &Model, d: &Data, i: usize) -> f64 {
 /// The derivatives of a motor's torque with respect to velocity and length: those of its winding, which follows a
 /// change of the voltage with the electrical time constant where it has one, and the viscous friction of its
 /// bristles. Limits of the voltage, cogging and the bending of bristles do not count, as in MuJoCo.
-pub(crate) fn slopes(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> [f64; 2] {
+pub(crate) fn slopes(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> [f64; 2] {
     let motor = Motor::new(m, d, i);
     let (k, resistance) = (motor.constant(), motor.resistance(d).max(MINVAL));
     let mut voltage = [-k, 0.0];
@@ -218,13 +222,13 @@ pub(crate) fn slopes(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> [f64; 2] {
 pub(crate) fn gains(m: &Model, i: usize) -> Option<[f64; 2]> {
     let [electric, _, thermal, ..] = *prm(&m.actuator_dynprm, i);
     let [resistance, k, _, _, kp, _, kd, ..] = *prm(&m.actuator_gainprm, i);
-    let controller = m.actuator_ctrlnum[i] > 0 && servo::controls_motion(m.actuator_ctrlspec[i]);
+    let controller = m.actuator_ctrlnum[i] > 0 && inputs::controls_motion(m.actuator_ctrlspec[i]);
     let at_once = electric <= 0.0 && thermal <= 0.0;
     at_once.then(|| if controller { [kp, kd] } else { [0.0, k * k / resistance.max(MINVAL)] })
 }
 
 /// Cogging and friction, which limits of the current do not touch.
-pub(super) fn mechanical(m: &Model, d: &Data, i: usize) -> f64 {
+pub(super) fn mechanical(m: &Model, d: &Fields, i: usize) -> f64 {
     let motor = Motor::new(m, d, i);
     let [amplitude, teeth, phase, ..] = *motor.bias;
     let cogging = if amplitude == 0.0 { 0.0 } else { amplitude * libm::sin(teeth * motor.length + phase) };

@@ -5,7 +5,7 @@
 //! lmax, vmax, fpmax, fvmax.
 
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 /// A muscle in normalized units.
 pub(crate) struct State {
@@ -23,7 +23,7 @@ pub(crate) struct State {
 
 impl State {
     /// The muscle with output `o` and parameters `p`: its operating range is reached over `actuator_lengthrange`.
-    pub(crate) fn new(m: &Model, d: &Data, o: usize, p: &[f64; 10]) -> State {
+    pub(crate) fn new(m: &Model, d: &Fields, o: usize, p: &[f64; 10]) -> State {
         let [shortest, longest] = rows::<2>(&m.actuator_lengthrange)[o];
         let optimal = (longest - shortest) / (p[1] - p[0]).max(MINVAL);
         let peak = if p[2] >= 0.0 { p[2] } else { p[3] / m.actuator_acc0[o].max(MINVAL) };

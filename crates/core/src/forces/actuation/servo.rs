@@ -1,57 +1,14 @@
 //! Servos: setpoints that are angles, PID controllers, orientations.
 
+use super::inputs::{Inputs, unwound};
 use super::{activation, prm, states};
-use crate::forces::transmission::target;
+use crate::dynamics::reflected::target;
 use crate::math::*;
-use crate::{Data, Model, biastype, dyntype, gaintype, joint, trntype};
+use crate::{Fields, Model, biastype, dyntype, gaintype, joint, trntype};
 use std::f64::consts::PI;
 
-/// Inputs of controllers: bits of `actuator_ctrlspec`, in the order of the controls.
-const POS: i32 = 1;
-const VEL: i32 = 2;
-const FF: i32 = 4;
-const VOLTAGE: i32 = 8;
-/// No inputs at all.
-const NONE: i32 = 16;
 /// The chart of an orientation that is a quaternion.
 const QUAT: i32 = 2;
-
-/// Whether inputs of this kind go to a controller of motion, not only to the winding.
-pub(super) fn controls_motion(spec: i32) -> bool {
-    spec & NONE == 0 && spec & (POS | VEL | FF) != 0
-}
-
-/// What the controls of a servo say.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Inputs {
-    pub(super) pos: Option<f64>,
-    pub(super) vel: f64,
-    pub(super) ff: f64,
-    pub(super) voltage: f64,
-    /// Whether there is any but a voltage.
-    pub(super) controller: bool,
-}
-
-impl Inputs {
-    pub(super) fn new(m: &Model, i: usize, ctrl: &[f64]) -> Inputs {
-        let spec = m.actuator_ctrlspec[i];
-        let mut at = m.actuator_ctrladr[i] as usize;
-        let end = at + m.actuator_ctrlnum[i] as usize;
-        let mut take = |bit: i32| {
-            let here = (spec & bit != 0 && at < end).then(|| ctrl[at]);
-            at += usize::from(here.is_some());
-            here
-        };
-        let (pos, vel, ff, voltage) = (take(POS), take(VEL), take(FF), take(VOLTAGE));
-        Inputs {
-            pos,
-            vel: vel.unwrap_or(0.0),
-            ff: ff.unwrap_or(0.0),
-            voltage: voltage.unwrap_or(0.0),
-            controller: spec & NONE == 0 && (pos.is_some() || vel.is_some() || ff.is_some()),
-        }
-    }
-}
 
 /// The length of a turn of actuator `i`, when its length is an angle that any number of turns leaves as it is.
 fn turn(m: &Model, i: usize) -> Option<f64> {
@@ -72,7 +29,7 @@ fn nearest(u: f64, to: f64, turn: f64) -> f64 {
 
 /// A setpoint of a position servo, next to the length where that is an angle; what is no such setpoint is unchanged.
 #[inline(always)]
-pub(super) fn wrapped(m: &Model, d: &Data, i: usize, setpoint: f64) -> f64 {
+pub(super) fn wrapped(m: &Model, d: &Fields, i: usize, setpoint: f64) -> f64 {
     // What rules most actuators out comes first.
     let servo = m.actuator_biastype[i] == biastype::AFFINE
         && m.actuator_gaintype[i] == gaintype::FIXED
@@ -82,7 +39,7 @@ pub(super) fn wrapped(m: &Model, d: &Data, i: usize, setpoint: f64) -> f64 {
 }
 
 #[inline(never)] // see `of_its_own`
-fn next_to_length(m: &Model, d: &Data, i: usize, setpoint: f64) -> f64 {
+fn next_to_length(m: &Model, d: &Fields, i: usize, setpoint: f64) -> f64 {
     match turn(m, i) {
         Some(turn) => nearest(setpoint, d.actuator_length[m.actuator_outadr[i] as usize], turn),
         None => setpoint,
@@ -110,7 +67,7 @@ impl Pid {
     }
 
     /// The position that the controller follows now.
-    fn setpoint(&self, m: &Model, d: &Data, i: usize, pos: f64) -> f64 {
+    fn setpoint(&self, m: &Model, d: &Fields, i: usize, pos: f64) -> f64 {
         let turn = turn(m, i);
         let mut pos = pos;
         if let Some(at) = self.slew {
@@ -123,7 +80,7 @@ impl Pid {
 }
 
 /// `act_dot` of a PID controller.
-pub(super) fn rates(m: &Model, d: &mut Data, i: usize, ctrl: &[f64]) {
+pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
     let pid = Pid::new(m, i);
     let pos = Inputs::new(m, i, ctrl).pos.unwrap_or(0.0);
     if let Some(at) = pid.slew {
@@ -138,19 +95,8 @@ pub(super) fn rates(m: &Model, d: &mut Data, i: usize, ctrl: &[f64]) {
     }
 }
 
-/// The rate of an integral x that does not grow beyond ±limit; 0 is no limit.
-pub(super) fn unwound(rate: f64, x: f64, limit: f64) -> f64 {
-    if limit > 0.0 && x >= limit {
-        rate.min(0.0)
-    } else if limit > 0.0 && x <= -limit {
-        rate.max(0.0)
-    } else {
-        rate
-    }
-}
-
 /// kp (pos - length) + kv (vel - velocity) + ki ∫ + feedforward + constant.
-pub(super) fn pid(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> f64 {
+pub(super) fn pid(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     let o = m.actuator_outadr[i] as usize;
     let b = prm(&m.actuator_biasprm, i);
     let states = Pid::new(m, i);
@@ -162,7 +108,7 @@ pub(super) fn pid(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> f64 {
 }
 
 /// The torque kp log(q⁻¹ q*) + constant - kv ω that turns the orientation q towards q*.
-pub(super) fn orientation(m: &Model, d: &Data, i: usize, ctrl: &[f64]) -> Vec3 {
+pub(super) fn orientation(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> Vec3 {
     let o = m.actuator_outadr[i] as usize;
     let at = |list: &[f64], first: usize| [list[first], list[first + 1], list[first + 2]];
     let u = m.actuator_ctrladr[i] as usize;

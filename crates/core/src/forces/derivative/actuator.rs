@@ -2,12 +2,12 @@
 
 use crate::forces::{actuation, actuation::motor, actuation::muscle, actuation::prm};
 use crate::math::*;
-use crate::{Data, Model, biastype, disable, gaintype};
+use crate::{Fields, Model, biastype, disable, gaintype};
 
 use super::sparse;
 
 /// Adds the derivative of `qfrc_actuator` with respect to `qvel`.
-pub(super) fn add_velocity(m: &Model, d: &Data, out: &mut [f64]) {
+pub(super) fn add_velocity(m: &Model, d: &Fields, out: &mut [f64]) {
     if m.opt.disabled(disable::ACTUATION) {
         return;
     }
@@ -24,7 +24,7 @@ pub(super) fn add_velocity(m: &Model, d: &Data, out: &mut [f64]) {
 /// The moments of an actuator, one for each of its force outputs: degrees of freedom and values.
 pub(crate) fn moments<'a>(
     m: &Model,
-    d: &'a Data,
+    d: &'a Fields,
     i: usize,
 ) -> impl Iterator<Item = (&'a [i32], &'a [f64])> + use<'a> {
     let first = m.actuator_outadr[i] as usize;
@@ -35,7 +35,7 @@ pub(crate) fn moments<'a>(
 }
 
 /// Whether the force of an actuator follows its law: its group is on, and no range holds the force.
-pub(crate) fn acts(m: &Model, d: &Data, i: usize) -> bool {
+pub(crate) fn acts(m: &Model, d: &Fields, i: usize) -> bool {
     if actuation::switched_off(m, i) {
         return false;
     }
@@ -60,7 +60,7 @@ pub(crate) struct Slopes {
 }
 
 /// How the force of an actuator follows its state within a step.
-pub(crate) fn slopes(m: &Model, d: &Data, i: usize) -> Slopes {
+pub(crate) fn slopes(m: &Model, d: &Fields, i: usize) -> Slopes {
     let (gain, bias) = (prm(&m.actuator_gainprm, i), prm(&m.actuator_biasprm, i));
     let mut out = Slopes { velocity: 0.0, length: 0.0 };
     if matches!(m.actuator_biastype[i], biastype::AFFINE | biastype::SO3) {
@@ -68,18 +68,18 @@ pub(crate) fn slopes(m: &Model, d: &Data, i: usize) -> Slopes {
     }
     match m.actuator_gaintype[i] {
         gaintype::AFFINE => {
-            let input = actuation::input(m, d, i, &d.work.ctrl);
+            let input = actuation::input(m, d, i, &d.acting);
             out.velocity += gain[2] * input;
             out.length += gain[1] * input;
         }
         gaintype::MUSCLE => {
-            let input = actuation::input(m, d, i, &d.work.ctrl);
+            let input = actuation::input(m, d, i, &d.acting);
             let state = muscle::State::new(m, d, m.actuator_outadr[i] as usize, gain);
             out.velocity += muscle::gain_by_velocity(gain, &state) * input;
             out.length += muscle::gain_by_length(gain, &state) * input;
         }
         gaintype::DCMOTOR => {
-            let [velocity, length] = motor::slopes(m, d, i, &d.work.ctrl);
+            let [velocity, length] = motor::slopes(m, d, i, &d.acting);
             out.velocity += velocity;
             out.length += length;
         }

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use super::sparse;
 use crate::math::*;
-use crate::{Data, Model, joint};
+use crate::{Fields, Model, joint};
 
 /// The columns of a spatial matrix.
 type Columns = [Spatial; 6];
@@ -34,7 +34,7 @@ impl Work {
 /// out ← out - ∂`qfrc_bias`/∂`qvel` for whole trees, given their bodies and degrees of freedom.
 pub(super) fn subtract(
     m: &Model,
-    d: &Data,
+    d: &Fields,
     w: &mut Work,
     bodies: Range<usize>,
     dofs: Range<usize>,
@@ -65,7 +65,7 @@ pub(super) fn subtract(
 }
 
 /// Inertias and matrices B of all bodies, summed over subtrees.
-fn composite(m: &Model, d: &Data, w: &mut Work, bodies: Range<usize>) {
+fn composite(m: &Model, d: &Fields, w: &mut Work, bodies: Range<usize>) {
     let (cinert, cvel) = (rows::<10>(&d.cinert), rows::<6>(&d.cvel));
     for b in bodies.clone() {
         w.inertia[b] = cinert[b];
@@ -97,7 +97,7 @@ fn matrix(inertia: &Inertia, v: &Spatial) -> Columns {
 }
 
 /// p_j of all degrees of freedom.
-fn slopes(m: &Model, d: &Data, w: &mut Work, bodies: Range<usize>) {
+fn slopes(m: &Model, d: &Fields, w: &mut Work, bodies: Range<usize>) {
     let (cdof, cdof_dot) = (rows::<6>(&d.cdof), rows::<6>(&d.cdof_dot));
     let cvel = rows::<6>(&d.cvel);
     for b in bodies {

@@ -14,7 +14,7 @@ use crate::forces::passive::spring;
 use crate::forces::tendon;
 use crate::forces::{passive::fluid, passive::fluid::Frame, passive::fluid::Shape};
 use crate::math::*;
-use crate::{Data, Model, disable, joint};
+use crate::{Fields, Model, disable, joint};
 
 /// What is computed anew in every step; its arrays are made when they are first needed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,7 +46,7 @@ impl Work {
 }
 
 /// `w.whole` ← the derivative of forces of actuators, dampers and the medium.
-pub(crate) fn forces(m: &Model, d: &Data, w: &mut Work, medium: Medium) {
+pub(crate) fn forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
     w.resize(m);
     w.whole.fill(0.0);
     actuator::add_velocity(m, d, &mut w.whole);
@@ -59,19 +59,19 @@ pub(crate) fn forces(m: &Model, d: &Data, w: &mut Work, medium: Medium) {
 }
 
 /// Subtracts the derivative of the bias force of all trees.
-pub(crate) fn subtract_bias(m: &Model, d: &Data, w: &mut Work) {
+pub(crate) fn subtract_bias(m: &Model, d: &Fields, w: &mut Work) {
     bias::subtract(m, d, &mut w.bias, 1..m.nbody, 0..m.nv, &mut w.whole);
 }
 
 /// Subtracts the derivative of the bias force of one tree.
-pub(crate) fn subtract_tree_bias(m: &Model, d: &Data, w: &mut Work, tree: usize) {
+pub(crate) fn subtract_tree_bias(m: &Model, d: &Fields, w: &mut Work, tree: usize) {
     let first = m.tree_bodyadr[tree] as usize;
     let bodies = first..first + m.tree_bodynum[tree] as usize;
     bias::subtract(m, d, &mut w.bias, bodies, tree_dofs(m, tree), &mut w.whole);
 }
 
 /// The rows of one tree in `w.whole` ← minus the derivative of its bias force.
-pub(crate) fn tree_bias(m: &Model, d: &Data, w: &mut Work, tree: usize) {
+pub(crate) fn tree_bias(m: &Model, d: &Fields, w: &mut Work, tree: usize) {
     w.resize(m);
     for i in tree_dofs(m, tree) {
         let start = m.D_rowadr[i] as usize;
@@ -81,7 +81,7 @@ pub(crate) fn tree_bias(m: &Model, d: &Data, w: &mut Work, tree: usize) {
 }
 
 /// `w.whole` ← the derivative of the medium's forces.
-pub(crate) fn medium(m: &Model, d: &Data, w: &mut Work, medium: Medium) {
+pub(crate) fn medium(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
     w.resize(m);
     w.whole.fill(0.0);
     add_fluid(m, d, w, medium);
@@ -112,7 +112,7 @@ pub(crate) fn is_free_rigid(m: &Model, tree: usize) -> bool {
 }
 
 /// Dampers of joints and tendons.
-fn dampers(m: &Model, d: &Data, out: &mut [f64]) {
+fn dampers(m: &Model, d: &Fields, out: &mut [f64]) {
     for i in 0..m.nv {
         out[sparse::diagonal(m, i)] -= spring::joint_damping(m, d, i);
     }
@@ -127,7 +127,7 @@ fn dampers(m: &Model, d: &Data, out: &mut [f64]) {
 }
 
 /// Adds Jᵀ B J for the derivative B of the forces on every body or geom in the medium.
-fn add_fluid(m: &Model, d: &Data, w: &mut Work, medium: Medium) {
+fn add_fluid(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
     let Work { whole, columns, .. } = w;
     fluid::shapes(m, d, |frame, shape| {
         let last = jacobian::last_dof(m, frame.body);
@@ -140,7 +140,7 @@ fn add_fluid(m: &Model, d: &Data, w: &mut Work, medium: Medium) {
         for (k, column) in dofs().zip(columns.iter_mut()) {
             let (turn, shift) = jacobian::dof_motion(m, d, k, frame.pos);
             let (turn, shift) = (mat_t_mul_vec(&frame.mat, turn), mat_t_mul_vec(&frame.mat, shift));
-            *column = fluid::spatial(turn, shift);
+            *column = spatial(turn, shift);
         }
         for (b, j) in dofs().enumerate() {
             let force: Spatial = std::array::from_fn(|r| dot(slope[r], columns[b]));

@@ -2,10 +2,10 @@
 
 use crate::dynamics::jacobian;
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 /// `qfrc_adhesion`.
-pub(super) fn adhesion(m: &Model, d: &mut Data) {
+pub(super) fn adhesion(m: &Model, d: &mut Fields) {
     let mut out = std::mem::take(&mut d.qfrc_adhesion);
     out.fill(0.0);
     for c in d.contact.iter().filter(|c| c.adhesion != 0.0) {

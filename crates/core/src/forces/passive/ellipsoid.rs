@@ -6,7 +6,6 @@
 
 use std::f64::consts::PI;
 
-use super::fluid::spatial;
 use crate::math::*;
 use crate::{Model, geom};
 

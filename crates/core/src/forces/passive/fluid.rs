@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use super::ellipsoid::Ellipsoid;
 use crate::dynamics::jacobian;
 use crate::math::*;
-use crate::{Data, Model, disable};
+use crate::{Fields, Model, disable};
 
 /// Numbers of a geom in `geom_fluid`.
 const FLUID: usize = 12;
@@ -20,14 +20,14 @@ pub(crate) fn acts(m: &Model) -> bool {
 }
 
 /// `qfrc_fluid` (zero before).
-pub(super) fn fluid(m: &Model, d: &mut Data) {
+pub(super) fn fluid(m: &Model, d: &mut Fields) {
     let mut out = std::mem::take(&mut d.qfrc_fluid);
     shapes(m, d, |frame, shape| frame.apply(m, d, shape.force(frame.motion), &mut out));
     d.qfrc_fluid = out;
 }
 
 /// Calls `f` for everything that the medium resists.
-pub(crate) fn shapes(m: &Model, d: &Data, mut f: impl FnMut(&Frame, &Shape)) {
+pub(crate) fn shapes(m: &Model, d: &Fields, mut f: impl FnMut(&Frame, &Shape)) {
     for b in 1..m.nbody {
         if m.body_mass[b] < MINVAL {
             continue;
@@ -56,7 +56,7 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    fn new(m: &Model, d: &Data, body: usize, pos: Vec3, mat: Mat3) -> Frame {
+    fn new(m: &Model, d: &Fields, body: usize, pos: Vec3, mat: Mat3) -> Frame {
         let cvel = &rows::<6>(&d.cvel)[body];
         let arm = sub(pos, rows::<3>(&d.subtree_com)[m.body_rootid[body] as usize]);
         let velocity = add(linear(cvel), cross(angular(cvel), arm));
@@ -66,16 +66,11 @@ impl Frame {
     }
 
     /// Adds the generalized force of a torque and force along the frame's axes.
-    fn apply(&self, m: &Model, d: &Data, force: Spatial, out: &mut [f64]) {
+    fn apply(&self, m: &Model, d: &Fields, force: Spatial, out: &mut [f64]) {
         let (torque, force) =
             (mat_mul_vec(&self.mat, angular(&force)), mat_mul_vec(&self.mat, linear(&force)));
         jacobian::apply(m, d, self.body, self.pos, force, torque, out);
     }
-}
-
-/// A spatial vector from its parts.
-pub(crate) fn spatial(w: Vec3, v: Vec3) -> Spatial {
-    [w[0], w[1], w[2], v[0], v[1], v[2]]
 }
 
 /// What the medium resists.

@@ -2,10 +2,10 @@
 
 use crate::dynamics::jacobian;
 use crate::math::*;
-use crate::{Data, Model, disable};
+use crate::{Fields, Model, disable};
 
 /// `qfrc_gravcomp` (zero before): -g m c for a body of mass m with compensation c. Whether there is any.
-pub(super) fn gravcomp(m: &Model, d: &mut Data) -> bool {
+pub(super) fn gravcomp(m: &Model, d: &mut Fields) -> bool {
     let gravity = m.opt.gravity;
     if m.ngravcomp == 0 || m.opt.disabled(disable::GRAVITY) || norm(gravity) == 0.0 {
         return false;

@@ -7,11 +7,11 @@ mod gravcomp;
 pub(crate) mod spring;
 
 use crate::math::combine;
-use crate::{Data, Model, disable, joint};
+use crate::{Fields, Model, disable, joint};
 
 /// `qfrc_spring`, `qfrc_damper`, `qfrc_gravcomp`, `qfrc_fluid`, `qfrc_passive`. With springs and dampers both
 /// switched off there are no passive forces at all.
-pub(crate) fn passive(m: &Model, d: &mut Data) {
+pub(crate) fn passive(m: &Model, d: &mut Fields) {
     let (springs, dampers) = (!m.opt.disabled(disable::SPRING), !m.opt.disabled(disable::DAMPER));
     if d.plan.springs {
         d.qfrc_spring.fill(0.0);
@@ -45,7 +45,7 @@ pub(crate) fn passive(m: &Model, d: &mut Data) {
 }
 
 /// Forces on bodies as such.
-fn body_forces(m: &Model, d: &mut Data, on: bool) {
+fn body_forces(m: &Model, d: &mut Fields, on: bool) {
     d.qfrc_gravcomp.fill(0.0);
     d.qfrc_fluid.fill(0.0);
     if fluid::acts(m) {

@@ -4,11 +4,11 @@
 //! translation or rotation in space x is the distance or the angle, and the force points back. A damper
 //! resists with f = -v (b + p₁ |v| + p₂ v²).
 
+use crate::dynamics::reflected::{self, On};
 use crate::forces::tendon;
-use crate::forces::{transmission, transmission::On};
 use crate::math::*;
-use crate::step::sleep;
-use crate::{Data, Model, joint};
+use crate::model::asleep;
+use crate::{Fields, Model, joint};
 
 /// The coefficients of a spring or a damper.
 #[derive(Clone, Copy)]
@@ -55,7 +55,7 @@ impl Law {
 }
 
 /// The springs of joints, by `qfrc_spring`.
-pub(super) fn joint_springs(m: &Model, d: &mut Data) {
+pub(super) fn joint_springs(m: &Model, d: &mut Fields) {
     let laws = m.jnt_stiffness.iter().zip(rows::<2>(&m.jnt_stiffnesspoly));
     for (j, (&linear, &growth)) in laws.enumerate() {
         let law = Law { linear, growth };
@@ -81,7 +81,7 @@ pub(super) fn joint_springs(m: &Model, d: &mut Data) {
 }
 
 /// How far the spring of a free or ball joint is stretched: translation (free only) and rotation vector.
-pub(crate) fn displacements(m: &Model, d: &Data, j: usize) -> (Option<Vec3>, Vec3) {
+pub(crate) fn displacements(m: &Model, d: &Fields, j: usize) -> (Option<Vec3>, Vec3) {
     let q = m.jnt_qposadr[j] as usize;
     if m.jnt_type[j] == joint::FREE {
         let shift = [0, 1, 2].map(|i| d.qpos[q + i] - m.qpos_spring[q + i]);
@@ -100,7 +100,7 @@ fn ball_displacement(q: &[f64], reference: &[f64]) -> Vec3 {
 
 /// How fast the force of the damper of degree of freedom `i`, that of actuators included, falls with its velocity.
 #[inline(always)]
-pub(crate) fn joint_damping(m: &Model, d: &Data, i: usize) -> f64 {
+pub(crate) fn joint_damping(m: &Model, d: &Fields, i: usize) -> f64 {
     with_actuators(m, i, Law::new(&m.dof_damping, &m.dof_dampingpoly, i)).slope(d.qvel[i].abs())
 }
 
@@ -111,7 +111,7 @@ fn with_actuators(m: &Model, i: usize, own: Law) -> Law {
     if m.jnt_actuatorid[joint] == -1 {
         return own;
     }
-    own.plus(transmission::damping(m, On::Joint(joint)))
+    own.plus(reflected::damping(m, On::Joint(joint)))
 }
 
 /// Fills `out` (nv) with a number for the damper and the velocity of each degree of freedom. Dampers of actuators count
@@ -136,12 +136,12 @@ pub(crate) fn of_dampers(
 
 /// The damper of tendon `t`, that of actuators included.
 pub(crate) fn tendon_damper(m: &Model, t: usize) -> Law {
-    Law::new(&m.tendon_damping, &m.tendon_dampingpoly, t).plus(transmission::damping(m, On::Tendon(t)))
+    Law::new(&m.tendon_damping, &m.tendon_dampingpoly, t).plus(reflected::damping(m, On::Tendon(t)))
 }
 
 /// What the dampers of joints do: `qfrc_damper`.
 #[inline(always)]
-pub(super) fn damp_joints(m: &Model, d: &mut Data) {
+pub(super) fn damp_joints(m: &Model, d: &mut Fields) {
     of_dampers(m, d.plan.actuator_dampers, &d.qvel, &mut d.qfrc_damper, |law, v| {
         // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.
         if law.is_zero() { 0.0 } else { -law.at(v.abs()) * v }
@@ -150,7 +150,7 @@ pub(super) fn damp_joints(m: &Model, d: &mut Data) {
 
 /// The springs and dampers of tendons, added to `qfrc_spring` and `qfrc_damper`. A spring is relaxed between
 /// the two lengths of `tendon_lengthspring`.
-pub(super) fn tendons(m: &Model, d: &mut Data, springs: bool, dampers: bool) {
+pub(super) fn tendons(m: &Model, d: &mut Fields, springs: bool, dampers: bool) {
     for t in 0..m.ntendon {
         let [spring, damper] = tendon_force(m, d, t, springs, dampers);
         if spring != 0.0 {
@@ -163,7 +163,7 @@ pub(super) fn tendons(m: &Model, d: &mut Data, springs: bool, dampers: bool) {
 }
 
 /// The forces of the spring and the damper of a tendon along its length, N.
-pub(crate) fn tendon_force(m: &Model, d: &Data, t: usize, springs: bool, dampers: bool) -> [f64; 2] {
+pub(crate) fn tendon_force(m: &Model, d: &Fields, t: usize, springs: bool, dampers: bool) -> [f64; 2] {
     let mut forces = [0.0; 2];
     let spring = Law::new(&m.tendon_stiffness, &m.tendon_stiffnesspoly, t);
     if springs && !spring.is_zero() {
@@ -179,11 +179,11 @@ pub(crate) fn tendon_force(m: &Model, d: &Data, t: usize, springs: bool, dampers
 }
 
 /// The energy of all springs, J.
-pub(crate) fn energy(m: &Model, d: &Data) -> f64 {
+pub(crate) fn energy(m: &Model, d: &Fields) -> f64 {
     let mut e = 0.0;
     for j in 0..m.njnt {
         let law = Law::new(&m.jnt_stiffness, &m.jnt_stiffnesspoly, j);
-        if law.is_zero() || sleep::body_sleeps(m, d, m.jnt_bodyid[j] as usize) {
+        if law.is_zero() || asleep::body(m, d, m.jnt_bodyid[j] as usize) {
             continue;
         }
         if matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE) {
@@ -196,7 +196,7 @@ pub(crate) fn energy(m: &Model, d: &Data) -> f64 {
     }
     for t in 0..m.ntendon {
         let law = Law::new(&m.tendon_stiffness, &m.tendon_stiffnesspoly, t);
-        if !law.is_zero() && !sleep::tendon_sleeps(m, d, t) {
+        if !law.is_zero() && !asleep::tendon(m, d, t) {
             e += law.energy(tendon::spring_displacement(m, d, t));
         }
     }

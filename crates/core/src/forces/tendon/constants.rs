@@ -3,10 +3,10 @@
 use super::row;
 use crate::dynamics::mass;
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 /// `tendon_length0` and `tendon_invweight0` = J M⁻¹ Jᵀ, with `d` at the default configuration.
-pub(crate) fn at_default(m: &mut Model, d: &Data) {
+pub(crate) fn at_default(m: &mut Model, d: &Fields) {
     m.tendon_length0.copy_from_slice(&d.ten_length);
     let mut x = vec![0.0; m.nv];
     for t in 0..m.ntendon {
@@ -22,7 +22,7 @@ pub(crate) fn at_default(m: &mut Model, d: &Data) {
 }
 
 /// `tendon_lengthspring` where it was left open (-1 -1), with `d` where joint springs are relaxed.
-pub(crate) fn at_rest(m: &mut Model, d: &Data) {
+pub(crate) fn at_rest(m: &mut Model, d: &Fields) {
     for (spring, &length) in rows_mut::<2>(&mut m.tendon_lengthspring).iter_mut().zip(&d.ten_length) {
         if *spring == [-1.0; 2] {
             *spring = [length; 2];

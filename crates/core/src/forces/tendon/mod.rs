@@ -5,21 +5,19 @@
 //! documentation, "Computation: Tendon", has the model.
 
 mod constants;
-mod path;
+pub(crate) mod path;
 mod pattern;
-mod tension;
 mod wrap;
 
 use crate::dynamics::mass;
-use crate::forces::{transmission, transmission::On};
+use crate::dynamics::reflected::tendon_inertia;
 use crate::kinds::wraptype;
 use crate::math::*;
-use crate::step::sleep;
-use crate::{Data, Model};
+use crate::model::asleep;
+use crate::{Fields, Model};
 
 pub(crate) use constants::{at_default, at_rest};
 pub(crate) use pattern::set_pattern;
-pub(crate) use tension::pulls;
 
 /// Whether tendon `t` combines joint coordinates; otherwise it is a path in space.
 pub(crate) fn is_fixed(m: &Model, t: usize) -> bool {
@@ -33,7 +31,7 @@ pub(crate) fn row(m: &Model, t: usize) -> std::ops::Range<usize> {
 }
 
 /// `ten_length`, `ten_J` and the points of the paths. A tendon that sleeps has no length and stays where it is.
-pub(crate) fn tendons(m: &Model, d: &mut Data) {
+pub(crate) fn tendons(m: &Model, d: &mut Fields) {
     // Taken out, so that the rest of the data can be read while they are written.
     let mut out = path::Paths {
         jacobian: std::mem::take(&mut d.ten_J),
@@ -43,7 +41,7 @@ pub(crate) fn tendons(m: &Model, d: &mut Data) {
     };
     out.jacobian.fill(0.0);
     for t in 0..m.ntendon {
-        if sleep::tendon_sleeps(m, d, t) {
+        if asleep::tendon(m, d, t) {
             d.ten_length[t] = 0.0;
             continue;
         }
@@ -57,7 +55,7 @@ pub(crate) fn tendons(m: &Model, d: &mut Data) {
 }
 
 /// The length Σ c q of a fixed tendon; its Jacobian is c.
-fn fixed(m: &Model, d: &Data, t: usize, jacobian: &mut [f64]) -> f64 {
+fn fixed(m: &Model, d: &Fields, t: usize, jacobian: &mut [f64]) -> f64 {
     let first = m.tendon_adr[t] as usize;
     let row = row(m, t);
     let mut length = 0.0;
@@ -72,9 +70,9 @@ fn fixed(m: &Model, d: &Data, t: usize, jacobian: &mut [f64]) -> f64 {
 }
 
 /// Adds a Jᵀ J to M for tendons with armature a, where M has an entry: trees stay independent.
-pub(crate) fn armature(m: &Model, d: &mut Data) {
+pub(crate) fn armature(m: &Model, d: &mut Fields) {
     for t in 0..m.ntendon {
-        let a = inertia(m, t);
+        let a = tendon_inertia(m, t);
         if a == 0.0 {
             continue;
         }
@@ -83,33 +81,23 @@ pub(crate) fn armature(m: &Model, d: &mut Data) {
     }
 }
 
-/// Whether some tendon has inertia of its own or of an actuator.
-pub(crate) fn has_armature(m: &Model) -> bool {
-    (0..m.ntendon).any(|t| inertia(m, t) != 0.0)
-}
-
-/// The inertia of tendon `t`, its own and that of actuators, kg.
-fn inertia(m: &Model, t: usize) -> f64 {
-    m.tendon_armature[t] + transmission::armature(m, On::Tendon(t))
-}
-
 /// `ten_velocity` = J v.
-pub(crate) fn velocities(m: &Model, d: &mut Data) {
+pub(crate) fn velocities(m: &Model, d: &mut Fields) {
     for t in 0..m.ntendon {
         d.ten_velocity[t] = along(m, d, t, &d.qvel);
     }
 }
 
 /// The rate at which tendon `t` lengthens when joints move with v (nv).
-fn along(m: &Model, d: &Data, t: usize, v: &[f64]) -> f64 {
+pub(crate) fn along(m: &Model, d: &Fields, t: usize, v: &[f64]) -> f64 {
     let row = row(m, t);
     m.ten_J_colind[row.clone()].iter().zip(&d.ten_J[row]).map(|(&k, x)| x * v[k as usize]).sum()
 }
 
 /// Adds a Jᵀ (J̇ v) to `qfrc_bias` for tendons with armature a.
-pub(crate) fn bias(m: &Model, d: &mut Data) {
+pub(crate) fn bias(m: &Model, d: &mut Fields) {
     for t in 0..m.ntendon {
-        let a = inertia(m, t);
+        let a = tendon_inertia(m, t);
         if a != 0.0 && !is_fixed(m, t) {
             let force = a * path::acceleration(m, d, t);
             add_force(m, t, &d.ten_J, force, &mut d.qfrc_bias);
@@ -126,7 +114,7 @@ pub(crate) fn add_force(m: &Model, t: usize, jacobian: &[f64], force: f64, out: 
 }
 
 /// How far a tendon is beyond the lengths at which its spring is relaxed, m: negative when it is shorter.
-pub(crate) fn spring_displacement(m: &Model, d: &Data, t: usize) -> f64 {
+pub(crate) fn spring_displacement(m: &Model, d: &Fields, t: usize) -> f64 {
     let length = d.ten_length[t];
     let [lower, upper] = rows::<2>(&m.tendon_lengthspring)[t];
     if length > upper {

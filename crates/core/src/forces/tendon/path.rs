@@ -4,7 +4,7 @@ use super::wrap::{self, Round};
 use crate::dynamics::jacobian;
 use crate::kinds::wraptype;
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 /// Jacobians and points of all paths.
 pub(super) struct Paths {
@@ -99,7 +99,7 @@ impl Iterator for Legs<'_> {
 }
 
 /// The length of a spatial tendon, m; adds its Jacobian and points to `out`.
-pub(super) fn spatial(m: &Model, d: &Data, t: usize, out: &mut Paths) -> f64 {
+pub(super) fn spatial(m: &Model, d: &Fields, t: usize, out: &mut Paths) -> f64 {
     let site_xpos = rows::<3>(&d.site_xpos);
     let mut length = 0.0;
     for leg in Legs::new(m, t) {
@@ -131,7 +131,7 @@ pub(super) fn spatial(m: &Model, d: &Data, t: usize, out: &mut Paths) -> f64 {
 }
 
 /// The shape that a tendon goes around.
-fn round(m: &Model, d: &Data, geom: usize) -> Round {
+fn round(m: &Model, d: &Fields, geom: usize) -> Round {
     Round {
         pos: rows::<3>(&d.geom_xpos)[geom],
         mat: rows::<9>(&d.geom_xmat)[geom],
@@ -144,7 +144,7 @@ fn round(m: &Model, d: &Data, geom: usize) -> Round {
 /// with the direction u, to the tendon's Jacobian.
 fn straight(
     m: &Model,
-    d: &Data,
+    d: &Fields,
     t: usize,
     bodies: [usize; 2],
     points: [Vec3; 2],
@@ -182,7 +182,7 @@ fn straight(
 ///
 /// A leg of length l, direction u and velocity w of its end relative to its start has length acceleration
 /// u·a + (w·w - (u·w)²)/l, with the relative acceleration a. The compiler refuses wrapping here.
-pub(super) fn acceleration(m: &Model, d: &Data, t: usize) -> f64 {
+pub(crate) fn acceleration(m: &Model, d: &Fields, t: usize) -> f64 {
     let site_xpos = rows::<3>(&d.site_xpos);
     let mut sum = 0.0;
     for leg in Legs::new(m, t) {
@@ -204,7 +204,7 @@ pub(super) fn acceleration(m: &Model, d: &Data, t: usize) -> f64 {
 
 /// Calls `apply` with the body, point and force at each end of the straight pieces of a path along which a force acts
 /// that would lengthen it; an arc around a geom has both ends on one body.
-pub(super) fn pull(m: &Model, d: &Data, t: usize, force: f64, apply: &mut impl FnMut(usize, Vec3, Vec3)) {
+pub(crate) fn pull(m: &Model, d: &Fields, t: usize, force: f64, apply: &mut impl FnMut(usize, Vec3, Vec3)) {
     let first = d.ten_wrapadr[t] as usize;
     let points = first..first + d.ten_wrapnum[t] as usize;
     let pulleys = m.tendon_adr[t] as usize..(m.tendon_adr[t] + m.tendon_num[t]) as usize;

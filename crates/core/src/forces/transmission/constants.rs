@@ -2,7 +2,7 @@
 
 use super::row;
 use crate::dynamics::mass;
-use crate::{Data, Model, biastype, gaintype, trntype};
+use crate::{Fields, Model, biastype, gaintype, trntype};
 
 /// `jnt_actuatorid` and `tendon_actuatorid`: the actuator whose own inertia and damping a joint or tendon has, -1 for
 /// none and -2 for several.
@@ -25,7 +25,7 @@ pub(crate) fn reflected(m: &mut Model) {
 }
 
 /// `actuator_length0` and `actuator_acc0` = |M⁻¹ moment|, with `d` at the default configuration.
-pub(crate) fn at_default(m: &mut Model, d: &Data) {
+pub(crate) fn at_default(m: &mut Model, d: &Fields) {
     m.actuator_length0.copy_from_slice(&d.actuator_length);
     let mut x = vec![0.0; m.nv];
     for o in 0..m.nout {
@@ -40,7 +40,7 @@ pub(crate) fn at_default(m: &mut Model, d: &Data) {
 
 /// Damping that is given by its ratio ζ to the critical one, a positive number in its place: kv = 2 ζ √(kp m), with
 /// the inertia m = Σ M_ii/moment_i² that the servo moves at the default configuration.
-pub(crate) fn critical_damping(m: &mut Model, d: &Data) {
+pub(crate) fn critical_damping(m: &mut Model, d: &Fields) {
     for i in 0..m.nactuator {
         let kp = -m.actuator_biasprm[10 * i + 1];
         let servo = match m.actuator_gaintype[i] {

@@ -2,14 +2,15 @@
 
 use super::Rows;
 use crate::dynamics::jacobian;
-use crate::{Data, Model};
+use crate::forces::Scratch;
+use crate::{Fields, Model};
 
 /// The mean over the contacts of body `b` of the direction in which they separate, as a force that pulls; it has no
-/// length. `dense` is scratch for a row.
-pub(super) fn adhesion(m: &Model, d: &mut Data, b: usize, dense: &mut [f64], out: &mut Rows) -> f64 {
+/// length.
+pub(super) fn adhesion(m: &Model, d: &Fields, b: usize, w: &mut Scratch, out: &mut Rows) -> f64 {
+    let Scratch { moment: dense, columns, .. } = w;
     dense.fill(0.0);
     let mut count = 0;
-    let mut columns = d.work.columns.take().unwrap_or_default();
     for contact in &d.contact {
         let bodies = [contact.geom1, contact.geom2].map(|g| m.geom_bodyid[g] as usize);
         // Those that are detected in the gap count, those that move nothing do not.
@@ -17,12 +18,11 @@ pub(super) fn adhesion(m: &Model, d: &mut Data, b: usize, dense: &mut [f64], out
             continue;
         }
         count += 1;
-        jacobian::point_difference(m, d, bodies, contact.pos, &contact.frame, &mut columns);
+        jacobian::point_difference(m, d, bodies, contact.pos, &contact.frame, columns);
         for (&k, v) in columns.dofs().iter().zip(columns.values()) {
             dense[k as usize] += v[0];
         }
     }
-    d.work.columns = Some(columns);
     if count > 0 {
         let mean = -1.0 / f64::from(count);
         for (k, x) in dense.iter().enumerate() {

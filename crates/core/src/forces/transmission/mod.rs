@@ -5,17 +5,15 @@
 
 mod constants;
 mod contact;
-mod reflection;
 mod space;
 
-use crate::dynamics::jacobian;
-use crate::forces::tendon;
+use crate::dynamics::{jacobian, reflected::target};
+use crate::forces::{Scratch, tendon};
 use crate::math::*;
-use crate::step::sleep;
-use crate::{Data, Model, disable, joint, trntype};
+use crate::model::asleep;
+use crate::{Fields, Model, disable, joint, trntype};
 
 pub(crate) use constants::{at_default, critical_damping, reflected};
-pub(crate) use reflection::{On, armature, damping};
 
 /// The actuators of the outputs are consecutive, so that rows are written one after the other.
 struct Rows {
@@ -45,14 +43,9 @@ impl Rows {
 }
 
 /// Entries of the moment of output `o`.
-pub(crate) fn row(d: &Data, o: usize) -> std::ops::Range<usize> {
+pub(crate) fn row(d: &Fields, o: usize) -> std::ops::Range<usize> {
     let start = d.moment_rowadr[o] as usize;
     start..start + d.moment_rownnz[o] as usize
-}
-
-/// What actuator `i` acts on, and the second site where there is one.
-pub(crate) fn target(m: &Model, i: usize) -> (usize, Option<usize>) {
-    (m.actuator_trnid[2 * i] as usize, usize::try_from(m.actuator_trnid[2 * i + 1]).ok())
 }
 
 /// Number of entries that the moments of all actuators can have at most (`nJmom`).
@@ -112,20 +105,19 @@ fn union(m: &Model, bodies: [usize; 2]) -> impl Iterator<Item = (usize, Side)> +
 }
 
 /// `actuator_length`, `actuator_moment` and its pattern. An actuator that sleeps keeps its lengths and has no moments.
-pub(crate) fn transmissions(m: &Model, d: &mut Data) {
+pub(crate) fn transmissions(m: &Model, d: &mut Fields, w: &mut Scratch) {
     // Taken out, so that the rest of the data can be read while they are written.
     let mut out = Rows {
         colind: std::mem::take(&mut d.moment_colind),
         values: std::mem::take(&mut d.actuator_moment),
         at: 0,
     };
-    let mut dense = std::mem::take(&mut d.work.moment);
     for i in 0..m.nactuator {
         let first = m.actuator_outadr[i] as usize;
         for o in first..first + m.actuator_outnum[i] as usize {
             let start = out.at;
             (d.moment_rowadr[o], d.moment_rownnz[o]) = (start as i32, 0);
-            if sleep::actuator_sleeps(m, d, i) {
+            if asleep::actuator(m, d, i) {
                 continue;
             }
             d.actuator_length[o] = match m.actuator_trntype[i] {
@@ -133,18 +125,17 @@ pub(crate) fn transmissions(m: &Model, d: &mut Data) {
                     let gear = &rows::<6>(&m.actuator_gear)[o];
                     at_joint(m, d, target(m, i).0, kind == trntype::JOINTINPARENT, gear, &mut out)
                 }
-                _ => elsewhere(m, d, [i, o], &mut dense, &mut out),
+                _ => elsewhere(m, d, [i, o], w, &mut out),
             };
             d.moment_rownnz[o] = (out.at - start) as i32;
         }
     }
-    d.work.moment = dense;
     (d.moment_colind, d.actuator_moment) = (out.colind, out.values);
 }
 
 /// Output `o` of actuator `i` that does not act on a joint, or on its orientation.
 #[inline(never)] // most actuators are motors of joints
-fn elsewhere(m: &Model, d: &mut Data, [i, o]: [usize; 2], dense: &mut [f64], out: &mut Rows) -> f64 {
+fn elsewhere(m: &Model, d: &mut Fields, [i, o]: [usize; 2], w: &mut Scratch, out: &mut Rows) -> f64 {
     let gear = rows::<6>(&m.actuator_gear)[o];
     let nth = o - m.actuator_outadr[i] as usize;
     match (m.actuator_trntype[i], target(m, i)) {
@@ -159,24 +150,24 @@ fn elsewhere(m: &Model, d: &mut Data, [i, o]: [usize; 2], dense: &mut [f64], out
             joint_rotation(d, m.jnt_qposadr[j] as usize)[nth]
         }
         (trntype::SO3, (s, Some(reference))) => space::orientation(m, d, [s, reference], nth, out),
-        (trntype::BODY, (b, _)) => contact::adhesion(m, d, b, dense, out),
+        (trntype::BODY, (b, _)) => contact::adhesion(m, d, b, w, out),
         _ => 0.0,
     }
 }
 
 /// Rotation vector of the quaternion at `q` in qpos.
-fn joint_rotation(d: &Data, q: usize) -> Vec3 {
+fn joint_rotation(d: &Fields, q: usize) -> Vec3 {
     quat_to_vel(quaternion(d, q))
 }
 
 /// The quaternion at `q` in qpos, normalized.
-fn quaternion(d: &Data, q: usize) -> Quat {
+fn quaternion(d: &Fields, q: usize) -> Quat {
     quat_normalize([d.qpos[q], d.qpos[q + 1], d.qpos[q + 2], d.qpos[q + 3]])
 }
 
 /// A joint's coordinate; along an axis for a ball joint, and a force without a length for a free joint. A gear in
 /// the parent's frame is turned into the child's, where velocities are.
-fn at_joint(m: &Model, d: &Data, j: usize, in_parent: bool, gear: &[f64; 6], out: &mut Rows) -> f64 {
+fn at_joint(m: &Model, d: &Fields, j: usize, in_parent: bool, gear: &[f64; 6], out: &mut Rows) -> f64 {
     let (q, k) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
     let [a, b, c, e, f, g] = *gear;
     let turned = |v: Vec3, q: usize| if in_parent { rotate(v, quat_conj(quaternion(d, q))) } else { v };
@@ -210,7 +201,7 @@ impl Rows {
 }
 
 /// The length of tendon `t`.
-fn along_tendon(m: &Model, d: &Data, t: usize, gear: f64, out: &mut Rows) -> f64 {
+fn along_tendon(m: &Model, d: &Fields, t: usize, gear: f64, out: &mut Rows) -> f64 {
     let row = tendon::row(m, t);
     for (&k, x) in m.ten_J_colind[row.clone()].iter().zip(&d.ten_J[row]) {
         out.push_any(k as usize, x * gear);
@@ -219,7 +210,7 @@ fn along_tendon(m: &Model, d: &Data, t: usize, gear: f64, out: &mut Rows) -> f64
 }
 
 /// `actuator_velocity` = moment v; zero where actuators are switched off.
-pub(crate) fn velocities(m: &Model, d: &mut Data) {
+pub(crate) fn velocities(m: &Model, d: &mut Fields) {
     if m.opt.disabled(disable::ACTUATION) {
         d.actuator_velocity.fill(0.0);
         return;
@@ -232,7 +223,7 @@ pub(crate) fn velocities(m: &Model, d: &mut Data) {
 }
 
 /// `qfrc_actuator` = momentᵀ force.
-pub(crate) fn apply_forces(m: &Model, d: &mut Data) {
+pub(crate) fn apply_forces(m: &Model, d: &mut Fields) {
     d.qfrc_actuator.fill(0.0);
     for o in 0..m.nout {
         let force = d.actuator_force[o];

@@ -3,7 +3,7 @@
 use super::{Rows, Side, ancestors, union};
 use crate::dynamics::jacobian::dof_motion;
 use crate::math::*;
-use crate::{Data, Model};
+use crate::{Fields, Model};
 
 fn site_body(m: &Model, s: usize) -> usize {
     m.site_bodyid[s] as usize
@@ -13,7 +13,7 @@ fn site_body(m: &Model, s: usize) -> usize {
 ///
 /// MuJoCo 3.14.0 composes the orientation of a site in the order site, body, which is that of the site in the world only
 /// where one of both does not turn. Its numbers are ours: moments are those of the sites as they are.
-fn relative_rotation(m: &Model, d: &Data, sites: [usize; 2]) -> Vec3 {
+fn relative_rotation(m: &Model, d: &Fields, sites: [usize; 2]) -> Vec3 {
     let [s, reference] =
         sites.map(|s| quat_mul(rows::<4>(&m.site_quat)[s], rows::<4>(&d.xquat)[site_body(m, s)]));
     quat_to_vel(quat_mul(quat_conj(reference), s))
@@ -25,7 +25,7 @@ fn parts([a, b, c, d, e, f]: [f64; 6]) -> (Vec3, Vec3) {
 }
 
 /// A force and torque along the axes of site `s`: there is no length that they would change.
-pub(super) fn site(m: &Model, d: &Data, s: usize, gear: [f64; 6], out: &mut Rows) -> f64 {
+pub(super) fn site(m: &Model, d: &Fields, s: usize, gear: [f64; 6], out: &mut Rows) -> f64 {
     let mat = &rows::<9>(&d.site_xmat)[s];
     let (force, torque) = parts(gear);
     let (force, torque) = (mat_mul_vec(mat, force), mat_mul_vec(mat, torque));
@@ -43,7 +43,7 @@ pub(super) fn site(m: &Model, d: &Data, s: usize, gear: [f64; 6], out: &mut Rows
 /// nothing.
 pub(super) fn between(
     m: &Model,
-    d: &Data,
+    d: &Fields,
     [s, reference]: [usize; 2],
     gear: [f64; 6],
     out: &mut Rows,
@@ -78,7 +78,7 @@ pub(super) fn between(
 /// the site.
 pub(super) fn orientation(
     m: &Model,
-    d: &Data,
+    d: &Fields,
     [s, reference]: [usize; 2],
     axis: usize,
     out: &mut Rows,
@@ -105,7 +105,7 @@ pub(super) fn orientation(
 /// and as near as it can be, a·v, where the rod is too short.
 pub(super) fn crank(
     m: &Model,
-    d: &Data,
+    d: &Fields,
     [crank, slider]: [usize; 2],
     rod: f64,
     gear: f64,

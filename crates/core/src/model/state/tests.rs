@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::mjcf::compile;
-use crate::{reset_data_keyframe, set_keyframe, step};
+use crate::{Data, reset_data_keyframe, set_keyframe, step};
 
 const MODEL: &str = include_str!("golden/everything.xml");
 

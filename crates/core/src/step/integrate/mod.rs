@@ -1,21 +1,19 @@
 //! Integrators: from accelerations to the next state.
 
-pub(crate) mod discrete;
 mod euler;
 mod implicit;
 mod position;
 mod runge_kutta;
 
+use super::forward;
+use super::sleep;
 use crate::forces::actuation;
 use crate::math::{combine, copy};
-use crate::model::reflect::Stage;
-use crate::step::sleep;
-use crate::{Data, Model, integrator, sensor};
+use crate::model::asleep;
+use crate::model::stage::Stage;
+use crate::{Data, Model, constraint, integrator, sensor};
 
-pub(crate) use discrete::Metric;
-pub(crate) use euler::{accelerate, damps, has_dampers};
 pub use position::{differentiate_pos, integrate_pos};
-pub(crate) use runge_kutta::RungeKutta;
 
 /// The next state, by the integrator that the options name.
 pub(crate) fn integrate(m: &Model, d: &mut Data) {
@@ -62,20 +60,58 @@ fn advance(m: &Model, d: &mut Data, slopes: Slopes) {
         }
         None => actuation::advance(m, d),
     }
-    if d.plan.keeps(Stage::Sleep) && sleep::on(m, d) {
-        sleep::advance(m, d, acceleration, velocity);
+    if d.plan.keeps(Stage::Sleep) && asleep::on(m, d) {
+        advance_awake(m, d, acceleration, velocity);
     } else {
+        let d = &mut d.fields;
         combine(&mut d.qvel, [acceleration.unwrap_or(&d.qacc)], |v, [a]| v + h * a);
         integrate_pos(m, &mut d.qpos, velocity.unwrap_or(&d.qvel), h);
     }
     d.time += h;
+    let d = &mut d.fields;
     copy(&d.qacc, &mut d.qacc_warmstart);
+}
+
+/// The same along the acceleration that an implicit method has left in the scratch.
+#[inline(always)]
+fn advance_along(m: &Model, d: &mut Data) {
+    let acceleration = std::mem::take(&mut d.work.damping.qacc);
+    advance(m, d, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
+    d.work.damping.qacc = acceleration;
+}
+
+/// Velocities and positions where trees may sleep: those that fall asleep stop, and what depends on their velocities is
+/// computed again; those that sleep stay where they are.
+fn advance_awake(m: &Model, d: &mut Data, acceleration: Option<&[f64]>, velocity: Option<&[f64]>) {
+    let (mut a, mut start) =
+        (std::mem::take(&mut d.work.sleep.acceleration), std::mem::take(&mut d.work.sleep.start));
+    a.copy_from_slice(acceleration.unwrap_or(&d.qacc));
+    if sleep::fall_asleep(m, &mut d.fields, &d.work.constraint.islands) {
+        if m.opt.integrator == integrator::DISCRETE {
+            // Its rows have been moved to the end of the step.
+            constraint::make(m, &mut d.fields, &mut d.work.constraint);
+        }
+        forward::from_velocities(m, d);
+        sleep::update(m, &mut d.fields);
+    }
+    let f = &mut d.fields;
+    if m.opt.integrator == integrator::DISCRETE {
+        // Its acceleration is that of the data, which may have been computed again.
+        a.copy_from_slice(&f.qacc);
+    }
+    start.copy_from_slice(&f.qpos);
+    for (v, a) in f.qvel.iter_mut().zip(&a) {
+        *v += m.opt.timestep * a;
+    }
+    integrate_pos(m, &mut f.qpos, velocity.unwrap_or(&f.qvel), m.opt.timestep);
+    sleep::keep_still(m, f, &start);
+    (d.work.sleep.acceleration, d.work.sleep.start) = (a, start);
 }
 
 /// Keeps the controls and values of this time for delayed actuators and sensors.
 fn record(m: &Model, d: &mut Data) {
     actuation::record(m, d);
     if d.plan.keeps(Stage::Sensors) {
-        sensor::record(m, d);
+        sensor::record(m, &mut d.fields, &mut d.work.sensor);
     }
 }

@@ -5,35 +5,6 @@ use super::{Slopes, advance, integrate_pos};
 use crate::step::{forward, forward::Skip};
 use crate::{Data, Model};
 
-/// What a step keeps between its stages.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct RungeKutta {
-    /// The state at the start of the step.
-    qpos: Vec<f64>,
-    qvel: Vec<f64>,
-    act: Vec<f64>,
-    /// Weighted sums of the stages' slopes, and the velocity of one stage.
-    dpos: Vec<f64>,
-    dvel: Vec<f64>,
-    dact: Vec<f64>,
-    pub(crate) slope: Vec<f64>,
-}
-
-impl RungeKutta {
-    pub(crate) fn new(m: &Model) -> RungeKutta {
-        let (q, v, a) = (vec![0.0; m.nq], vec![0.0; m.nv], vec![0.0; m.na]);
-        RungeKutta {
-            qpos: q,
-            qvel: v.clone(),
-            act: a.clone(),
-            dpos: v.clone(),
-            dvel: v.clone(),
-            dact: a,
-            slope: v,
-        }
-    }
-}
-
 /// Stage s starts from the first state plus A[s] h times the slope of stage s - 1; B weighs the slopes.
 const A: [f64; 3] = [0.5, 0.5, 1.0];
 const B: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
@@ -50,8 +21,9 @@ pub(super) fn rk4(m: &Model, d: &mut Data) {
     for stage in 0..3 {
         let a = A[stage] * h;
         w.slope.copy_from_slice(&d.qvel);
-        step(&mut d.qvel, &w.qvel, a, &d.qacc);
-        step(&mut d.act, &w.act, a, &d.act_dot);
+        let f = &mut d.fields;
+        step(&mut f.qvel, &w.qvel, a, &f.qacc);
+        step(&mut f.act, &w.act, a, &f.act_dot);
         d.qpos.copy_from_slice(&w.qpos);
         integrate_pos(m, &mut d.qpos, &w.slope, a);
         d.time = start + a;

@@ -3,7 +3,8 @@
 use super::*;
 use crate::inverse;
 use crate::mjcf::compile;
-use crate::step::{plan::Demand, plan::Plan};
+use crate::model::plan::Plan;
+use crate::step::plan::Demand;
 use crate::{contact_force, forward, rne_post_constraint, step, step1, step2, subtree_vel};
 
 const PILE: &str = "<mujoco><option integrator='INTEGRATOR'/><worldbody><geom type='plane' size='1 1 1'/>

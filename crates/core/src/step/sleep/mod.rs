@@ -7,19 +7,14 @@
 //! to a tree that is awake.
 
 mod rest;
-mod state;
 mod wake;
 
 use std::ops::Range;
 
-use crate::model::reflect::Stage;
-use crate::step::forward;
-use crate::{Data, Model, constraint, enable, joint};
+use crate::model::asleep::{self, awake, policy};
+use crate::{Fields, Model, constraint, joint};
 
-pub(crate) use rest::{advance, keep, put_back};
-pub(crate) use state::{
-    actuator_sleeps, body_sleeps, equality_sleeps, pair_sleeps, sensor_sleeps, tendon_sleeps, tree_sleeps,
-};
+pub(crate) use rest::{fall_asleep, keep, keep_still, put_back};
 pub(crate) use wake::{wake, wake_by_equalities, wake_by_tendons, wake_touched};
 
 /// Steps that a tree has to be slow for.
@@ -28,42 +23,26 @@ const PATIENCE: i32 = 10;
 /// those that fell asleep together, which form a circle.
 const AWAKE: i32 = -(1 + PATIENCE);
 
-/// Values of `tree_sleep_policy`.
-pub(crate) mod policy {
-    pub(crate) const AUTO_NEVER: i32 = 1;
-    pub(crate) const AUTO_ALLOWED: i32 = 2;
-    /// The first of the three that an author can choose: never, allowed, asleep at the start.
-    pub(crate) const NEVER: i32 = 3;
-    pub(crate) const INIT: i32 = 5;
-}
-
-/// Values of `body_awake` (mjtSleepState).
-pub(crate) mod awake {
-    pub(crate) const STATIC: i32 = -1;
-    pub(crate) const NO: i32 = 0;
-    pub(crate) const YES: i32 = 1;
-}
-
 /// What the stage keeps from one step to the next, and scratch.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Work {
-    /// Coordinates of the last position stage, and of the start of the step.
+pub(crate) struct Scratch {
+    /// Coordinates of the last position stage.
     seen: Vec<f64>,
-    start: Vec<f64>,
     /// What of a sleeping tree stays as it was.
     qfrc_smooth: Vec<f64>,
     qacc_smooth: Vec<f64>,
     act_dot: Vec<f64>,
-    /// The acceleration of this step.
-    acceleration: Vec<f64>,
+    /// Where a step starts from, and its acceleration.
+    pub(in crate::step) start: Vec<f64>,
+    pub(in crate::step) acceleration: Vec<f64>,
     /// Whether there has been no forward pass since the reset.
     fresh: bool,
 }
 
-impl Work {
-    pub(crate) fn new(m: &Model) -> Work {
+impl Scratch {
+    pub(crate) fn new(m: &Model) -> Scratch {
         let (q, v, a) = (vec![0.0; m.nq], vec![0.0; m.nv], vec![0.0; m.na]);
-        Work {
+        Scratch {
             seen: q.clone(),
             start: q,
             qfrc_smooth: v.clone(),
@@ -75,62 +54,71 @@ impl Work {
     }
 }
 
-/// Whether trees may sleep now.
-#[inline(always)]
-pub(crate) fn on(m: &Model, d: &Data) -> bool {
-    d.plan.keeps(Stage::Sleep) && m.opt.enabled(enable::SLEEP)
-}
-
-/// Whether some tree sleeps.
-#[inline(always)]
-fn some(m: &Model, d: &Data) -> bool {
-    d.ntree_awake < m.ntree
-}
-
-/// Before the first forward pass another plan may let trees start asleep, or not.
-pub(crate) fn plan_changed(m: &Model, d: &mut Data) {
-    if d.work.sleep.fresh {
-        reset(m, d);
-    }
+/// Whether there has been no forward pass since the reset: another plan may let trees start asleep, or not.
+pub(crate) fn is_fresh(w: &Scratch) -> bool {
+    w.fresh
 }
 
 /// After a forward pass.
-pub(crate) fn passed(d: &mut Data) {
-    d.work.sleep.fresh = false;
-}
-
-/// Degrees of freedom of a tree.
-fn dofs(m: &Model, tree: usize) -> Range<usize> {
-    let first = m.tree_dofadr[tree] as usize;
-    first..first + m.tree_dofnum[tree] as usize
+pub(crate) fn passed(w: &mut Scratch) {
+    w.fresh = false;
 }
 
 /// Coordinates of a tree.
 fn coordinates(m: &Model, tree: usize) -> Range<usize> {
-    let dofs = dofs(m, tree);
+    let dofs = m.tree_dofs(tree);
     let joint = |k: usize| m.dof_jntid[k] as usize;
     let (first, last) = (joint(dofs.start), joint(dofs.end - 1));
     m.jnt_qposadr[first] as usize..m.jnt_qposadr[last] as usize + joint::nq(m.jnt_type[last])
 }
 
-/// All trees are awake, but those that start asleep where sleeping is on: then the others are at rest, too. What
-/// sleeps shows what a forward pass makes of the start, without forces, accelerations and contacts.
-pub(crate) fn reset(m: &Model, d: &mut Data) {
-    d.tree_asleep.fill(AWAKE);
-    state::update(m, d);
-    if on(m, d) && m.tree_sleep_policy.contains(&policy::INIT) {
-        forward::forward(m, d);
-        for (asleep, &policy) in d.tree_asleep.iter_mut().zip(&m.tree_sleep_policy) {
-            // Those are ready; whether they may sleep together with what they touch, their island decides.
-            *asleep = if policy == policy::INIT { -1 } else { AWAKE };
-        }
-        rest::fall_asleep(m, d);
-        for v in [&mut d.qfrc_smooth, &mut d.qacc_smooth, &mut d.qacc, &mut d.act_dot] {
-            v.fill(0.0);
-        }
-        constraint::none(d);
-        state::update(m, d);
+/// `tree_awake`, `body_awake` and the counts, from `tree_asleep`.
+pub(crate) fn update(m: &Model, d: &mut Fields) {
+    for (awake, asleep) in d.tree_awake.iter_mut().zip(&d.tree_asleep) {
+        *awake = i32::from(*asleep < 0);
     }
-    d.work.sleep.seen.copy_from_slice(&d.qpos);
-    d.work.sleep.fresh = true;
+    (d.nbody_awake, d.nparent_awake) = (0, 0);
+    for b in 0..m.nbody {
+        d.body_awake[b] = match usize::try_from(m.body_treeid[b]) {
+            Ok(tree) if d.tree_awake[tree] == 0 => awake::NO,
+            Ok(_) => awake::YES,
+            // What is placed from outside may move at any time.
+            Err(_) if m.body_mocapid[m.body_rootid[b] as usize] >= 0 => awake::YES,
+            Err(_) => awake::STATIC,
+        };
+        let parent = d.body_awake[m.body_parentid[b] as usize];
+        d.nbody_awake += usize::from(d.body_awake[b] != awake::NO);
+        d.nparent_awake += usize::from(b > 0 && parent != awake::NO);
+    }
+    let of_awake = |&&tree: &&i32| d.tree_awake[tree as usize] != 0;
+    d.nv_awake = m.dof_treeid.iter().filter(of_awake).count();
+    d.ntree_awake = d.tree_awake.iter().filter(|&&a| a != 0).count();
+}
+
+/// All trees are awake. `true` where some start asleep: what they show then is what a forward pass makes of the start, after
+/// which [`start`] lays them down.
+pub(crate) fn wake_all(m: &Model, d: &mut Fields) -> bool {
+    d.tree_asleep.fill(AWAKE);
+    update(m, d);
+    asleep::on(m, d) && m.tree_sleep_policy.contains(&policy::INIT)
+}
+
+/// Lays down the trees that start asleep, without forces, accelerations and contacts; the others are at rest, too.
+pub(crate) fn start(m: &Model, d: &mut Fields, c: &mut constraint::Scratch) {
+    for (asleep, &policy) in d.tree_asleep.iter_mut().zip(&m.tree_sleep_policy) {
+        // Those are ready; whether they may sleep together with what they touch, their island decides.
+        *asleep = if policy == policy::INIT { -1 } else { AWAKE };
+    }
+    fall_asleep(m, d, &c.islands);
+    for v in [&mut d.qfrc_smooth, &mut d.qacc_smooth, &mut d.qacc, &mut d.act_dot] {
+        v.fill(0.0);
+    }
+    constraint::none(d, c);
+    update(m, d);
+}
+
+/// Begins anew, from the state at hand.
+pub(crate) fn begin(d: &Fields, w: &mut Scratch) {
+    w.seen.copy_from_slice(&d.qpos);
+    w.fresh = true;
 }

@@ -1,9 +1,9 @@
 //! Falling asleep, and what of a sleeping tree stays as it is.
 
-use super::{AWAKE, coordinates, dofs, on, policy, some, state};
-use crate::step::forward;
-use crate::step::integrate::integrate_pos;
-use crate::{Data, Model, constraint, disable, integrator};
+use super::{AWAKE, Scratch, coordinates};
+use crate::constraint::Islands;
+use crate::model::asleep::{self, on, policy, some};
+use crate::{Fields, Model, disable};
 
 /// Whether a tree may sleep at all.
 fn may_sleep(m: &Model, tree: usize) -> bool {
@@ -11,12 +11,12 @@ fn may_sleep(m: &Model, tree: usize) -> bool {
 }
 
 /// Whether a tree may sleep, is not pushed from outside and moves slower than `tolerance`; for 0, not at all.
-pub(super) fn is_still(m: &Model, d: &Data, tree: usize, tolerance: f64) -> bool {
+pub(super) fn is_still(m: &Model, d: &Fields, tree: usize, tolerance: f64) -> bool {
     // A negative zero counts: somebody wrote it.
     let zero = |list: &[f64]| list.iter().all(|x| x.to_bits() == 0);
     let first = 6 * m.tree_bodyadr[tree] as usize;
     let pushed = &d.xfrc_applied[first..first + 6 * m.tree_bodynum[tree] as usize];
-    let dofs = dofs(m, tree);
+    let dofs = m.tree_dofs(tree);
     let slow = |k: usize| m.dof_length[k] * d.qvel[k].abs() < tolerance;
     may_sleep(m, tree)
         && zero(pushed)
@@ -24,39 +24,18 @@ pub(super) fn is_still(m: &Model, d: &Data, tree: usize, tolerance: f64) -> bool
         && if tolerance == 0.0 { zero(&d.qvel[dofs]) } else { dofs.into_iter().all(slow) }
 }
 
-/// Puts trees to sleep that have been slow for long enough, and advances velocities and positions of the others. What
-/// depends on the velocities of those that fall asleep is computed again.
-pub(crate) fn advance(m: &Model, d: &mut Data, acceleration: Option<&[f64]>, velocity: Option<&[f64]>) {
-    let mut w = std::mem::take(&mut d.work.sleep.acceleration);
-    w.copy_from_slice(acceleration.unwrap_or(&d.qacc));
-    if fall_asleep(m, d) {
-        if m.opt.integrator == integrator::DISCRETE {
-            // Its rows have been moved to the end of the step.
-            constraint::make(m, d);
-        }
-        forward::from_velocities(m, d);
-        state::update(m, d);
-    }
-    if m.opt.integrator == integrator::DISCRETE {
-        // Its acceleration is that of the data, which may have been computed again.
-        w.copy_from_slice(&d.qacc);
-    }
-    d.work.sleep.start.copy_from_slice(&d.qpos);
-    for (v, a) in d.qvel.iter_mut().zip(&w) {
-        *v += m.opt.timestep * a;
-    }
-    integrate_pos(m, &mut d.qpos, velocity.unwrap_or(&d.qvel), m.opt.timestep);
+/// What stands still of a step: sleeping trees stay where they are in `start`, and have no velocity.
+pub(crate) fn keep_still(m: &Model, d: &mut Fields, start: &[f64]) {
     for tree in (0..m.ntree).filter(|&t| d.tree_awake[t] == 0) {
-        d.qvel[dofs(m, tree)].fill(0.0);
+        d.qvel[m.tree_dofs(tree)].fill(0.0);
         let q = coordinates(m, tree);
-        d.qpos[q.clone()].copy_from_slice(&d.work.sleep.start[q]);
+        d.qpos[q.clone()].copy_from_slice(&start[q]);
     }
-    d.work.sleep.acceleration = w;
 }
 
 /// Counts the steps for which trees have been slow, and stops those that fall asleep: islands of which all trees have been
-/// slow for long enough. `false` when there are none.
-pub(super) fn fall_asleep(m: &Model, d: &mut Data) -> bool {
+/// slow for long enough. `true` when there are any: what depends on their velocities has to be computed again.
+pub(crate) fn fall_asleep(m: &Model, d: &mut Fields, islands: &Islands) -> bool {
     if d.nefc > 0 && m.opt.disabled(disable::ISLAND) {
         // Nobody knows which trees hold each other.
         return false;
@@ -67,7 +46,6 @@ pub(super) fn fall_asleep(m: &Model, d: &mut Data) -> bool {
             d.tree_asleep[tree] = if still { (d.tree_asleep[tree] + 1).min(-1) } else { AWAKE };
         }
     }
-    let islands = d.work.islands.take().unwrap_or_default();
     let mut slept = false;
     for island in 0..d.nisland {
         let ready = islands.trees_of(island).all(|tree| d.tree_asleep[tree] == -1);
@@ -77,26 +55,24 @@ pub(super) fn fall_asleep(m: &Model, d: &mut Data) -> bool {
         let alone = d.nisland == 0 || !islands.has(tree);
         slept |= alone && d.tree_asleep[tree] == -1 && lay_down(m, d, std::iter::once(tree));
     }
-    d.work.islands = Some(islands);
     slept
 }
 
 /// Stops the trees of an island, each with the next in a circle; `true` when there are any.
-fn lay_down(m: &Model, d: &mut Data, trees: impl Iterator<Item = usize> + Clone) -> bool {
+fn lay_down(m: &Model, d: &mut Fields, trees: impl Iterator<Item = usize> + Clone) -> bool {
     let next = trees.clone().cycle().skip(1);
     let mut some = false;
     for (tree, next) in trees.zip(next) {
         d.tree_asleep[tree] = next as i32;
-        d.qvel[dofs(m, tree)].fill(0.0);
+        d.qvel[m.tree_dofs(tree)].fill(0.0);
         some = true;
     }
     some
 }
 
 /// Keeps the results of sleeping trees, before others are computed.
-pub(crate) fn keep(m: &Model, d: &mut Data) {
+pub(crate) fn keep(m: &Model, d: &Fields, w: &mut Scratch) {
     if some(m, d) && on(m, d) {
-        let w = &mut d.work.sleep;
         w.qfrc_smooth.copy_from_slice(&d.qfrc_smooth);
         w.qacc_smooth.copy_from_slice(&d.qacc_smooth);
         w.act_dot.copy_from_slice(&d.act_dot);
@@ -104,20 +80,20 @@ pub(crate) fn keep(m: &Model, d: &mut Data) {
 }
 
 /// Gives sleeping trees their own results back, before constraints are solved.
-pub(crate) fn put_back(m: &Model, d: &mut Data) {
+pub(crate) fn put_back(m: &Model, d: &mut Fields, w: &Scratch) {
     if !some(m, d) || !on(m, d) {
         return;
     }
     for tree in (0..m.ntree).filter(|&t| d.tree_awake[t] == 0) {
-        let (k, w) = (dofs(m, tree), &d.work.sleep);
+        let k = m.tree_dofs(tree);
         d.qfrc_smooth[k.clone()].copy_from_slice(&w.qfrc_smooth[k.clone()]);
         d.qacc_smooth[k.clone()].copy_from_slice(&w.qacc_smooth[k]);
     }
     for i in 0..m.nactuator {
-        if state::actuator_sleeps(m, d, i) {
+        if asleep::actuator(m, d, i) {
             let first = m.actuator_actadr[i].max(0) as usize;
             let states = first..first + m.actuator_actnum[i] as usize;
-            d.act_dot[states.clone()].copy_from_slice(&d.work.sleep.act_dot[states]);
+            d.act_dot[states.clone()].copy_from_slice(&w.act_dot[states]);
         }
     }
 }

@@ -1,28 +1,29 @@
 //! What wakes a tree.
 
-use super::{AWAKE, coordinates, on, rest, some, state};
-use crate::{Data, Model, eqtype};
+use super::{AWAKE, Scratch, coordinates, rest, update};
+use crate::model::asleep::{on, some};
+use crate::{Fields, Model, eqtype};
 
 /// Wakes what was disturbed from outside since the last position stage: moved, pushed, or given a velocity.
-pub(crate) fn wake(m: &Model, d: &mut Data) {
+pub(crate) fn wake(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if some(m, d) {
         let allowed = on(m, d);
         for tree in 0..m.ntree {
             if d.tree_asleep[tree] >= 0
-                && (!allowed || was_moved(m, d, tree) || !rest::is_still(m, d, tree, 0.0))
+                && (!allowed || was_moved(m, d, w, tree) || !rest::is_still(m, d, tree, 0.0))
             {
                 wake_island(d, tree, AWAKE);
             }
         }
-        state::update(m, d);
+        update(m, d);
     }
     if on(m, d) {
-        d.work.sleep.seen.copy_from_slice(&d.qpos);
+        w.seen.copy_from_slice(&d.qpos);
     }
 }
 
 /// Wakes what a tendon at its limit ties to a tree that is awake.
-pub(crate) fn wake_by_tendons(m: &Model, d: &mut Data) {
+pub(crate) fn wake_by_tendons(m: &Model, d: &mut Fields) {
     if !some(m, d) {
         return;
     }
@@ -37,11 +38,11 @@ pub(crate) fn wake_by_tendons(m: &Model, d: &mut Data) {
             );
         }
     }
-    state::update(m, d);
+    update(m, d);
 }
 
 /// Wakes what touches a body that is awake; `true` when there is any, which may touch others in turn.
-pub(crate) fn wake_touched(m: &Model, d: &mut Data) -> bool {
+pub(crate) fn wake_touched(m: &Model, d: &mut Fields) -> bool {
     if !some(m, d) {
         return false;
     }
@@ -55,12 +56,12 @@ pub(crate) fn wake_touched(m: &Model, d: &mut Data) -> bool {
             _ => {}
         }
     }
-    state::update(m, d);
+    update(m, d);
     d.ntree_awake > before
 }
 
 /// Wakes what an equality ties to a tree that is awake, or to one that fell asleep at another time.
-pub(crate) fn wake_by_equalities(m: &Model, d: &mut Data) {
+pub(crate) fn wake_by_equalities(m: &Model, d: &mut Fields) {
     if !some(m, d) {
         return;
     }
@@ -73,11 +74,11 @@ pub(crate) fn wake_by_equalities(m: &Model, d: &mut Data) {
             }
         }
     }
-    state::update(m, d);
+    update(m, d);
 }
 
 /// Wakes the one of two trees that sleeps while the other does not. It has been slow for as long as the other.
-fn wake_one(d: &mut Data, [a, b]: [usize; 2]) {
+fn wake_one(d: &mut Fields, [a, b]: [usize; 2]) {
     match (d.tree_awake[a] != 0, d.tree_awake[b] != 0) {
         (true, false) => wake_island(d, b, d.tree_asleep[a]),
         (false, true) => wake_island(d, a, d.tree_asleep[b]),
@@ -101,13 +102,13 @@ fn tied_trees(m: &Model, e: usize) -> Option<[usize; 2]> {
 }
 
 /// Whether the coordinates of a tree are not those of the last position stage.
-fn was_moved(m: &Model, d: &Data, tree: usize) -> bool {
+fn was_moved(m: &Model, d: &Fields, w: &Scratch, tree: usize) -> bool {
     let of_tree = coordinates(m, tree);
-    d.qpos[of_tree.clone()] != d.work.sleep.seen[of_tree]
+    d.qpos[of_tree.clone()] != w.seen[of_tree]
 }
 
 /// Wakes a tree and those that fell asleep with it. One that is awake counts on from `value` if that is less.
-fn wake_island(d: &mut Data, tree: usize, value: i32) {
+fn wake_island(d: &mut Fields, tree: usize, value: i32) {
     let mut at = tree;
     while let Some(slot) = d.tree_asleep.get_mut(at) {
         let next = *slot;
@@ -120,7 +121,7 @@ fn wake_island(d: &mut Data, tree: usize, value: i32) {
 }
 
 /// Whether two sleeping trees fell asleep together.
-fn together(d: &Data, a: usize, b: usize) -> bool {
+fn together(d: &Fields, a: usize, b: usize) -> bool {
     let mut at = a;
     for _ in 0..d.tree_asleep.len() {
         match d.tree_asleep.get(at).map(|&next| usize::try_from(next)) {

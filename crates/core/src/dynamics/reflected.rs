@@ -1,9 +1,13 @@
-//! Inertia and damping of actuators themselves, as the joint or tendon that they act on has them.
+//! Inertia and damping that joints and tendons have of the actuators that act on them, and the inertia of tendons.
 //!
 //! With a gear g a rotor turns g times as fast as what it moves, so that both appear multiplied by g².
 
-use super::target;
 use crate::{Model, trntype};
+
+/// What actuator `i` acts on, and the second site where there is one.
+pub(crate) fn target(m: &Model, i: usize) -> (usize, Option<usize>) {
+    (m.actuator_trnid[2 * i] as usize, usize::try_from(m.actuator_trnid[2 * i + 1]).ok())
+}
 
 /// What an actuator adds to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,4 +68,14 @@ pub(crate) fn damping(m: &Model, on: On) -> [f64; 3] {
         }
     }
     sum
+}
+
+/// The inertia of tendon `t`, its own and that of actuators, kg.
+pub(crate) fn tendon_inertia(m: &Model, t: usize) -> f64 {
+    m.tendon_armature[t] + armature(m, On::Tendon(t))
+}
+
+/// Whether some tendon has inertia of its own or of an actuator: it ties trees together.
+pub(crate) fn tendons_have_inertia(m: &Model) -> bool {
+    (0..m.ntendon).any(|t| tendon_inertia(m, t) != 0.0)
 }

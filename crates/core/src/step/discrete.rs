@@ -10,14 +10,13 @@
 //! stays a rank-one term s r rᵀ, for which conjugate gradients take the rest as the preconditioner (Golub and Van
 //! Loan 2013, *Matrix Computations*, section 11.5).
 
-use super::implicit::solve_six;
 use crate::dynamics::mass;
 use crate::forces::tendon;
 use crate::forces::{derivative, derivative::Medium, derivative::actuator};
 use crate::forces::{passive::fluid, passive::spring, passive::spring::Law};
-use crate::math::{Spatial, dot, dot_slice, norm};
-use crate::step::sleep;
-use crate::{Data, Model, constraint, disable, joint, solver};
+use crate::math::{Spatial, dot, dot_slice, norm, solve_six};
+use crate::model::asleep;
+use crate::{Fields, Model, constraint, disable, joint, solver};
 
 /// The metric and what follows from it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -60,7 +59,7 @@ struct Term {
 
 impl Row {
     /// Degrees of freedom, ascending, and values.
-    fn jacobian<'a>(self, m: &'a Model, d: &'a Data) -> (&'a [i32], &'a [f64]) {
+    fn jacobian<'a>(self, m: &'a Model, d: &'a Fields) -> (&'a [i32], &'a [f64]) {
         match self {
             Row::Tendon(t) => {
                 let row = tendon::row(m, t);
@@ -75,43 +74,48 @@ impl Row {
 }
 
 /// `qacc_smooth`.
-pub(crate) fn acceleration(m: &Model, d: &mut Data) {
-    let mut w = std::mem::take(&mut d.work.metric);
-    let mut slopes = std::mem::take(&mut d.work.derivative);
+pub(crate) fn acceleration(m: &Model, d: &mut Fields, w: &mut Metric, slopes: &mut derivative::Work) {
     let mut out = std::mem::take(&mut d.qacc_smooth);
-    w.build(m, d, &mut slopes);
+    w.build(m, d, slopes);
     w.solve(m, d, &mut out);
-    (d.work.metric, d.work.derivative, d.qacc_smooth) = (w, slopes, out);
+    d.qacc_smooth = out;
 }
 
 /// Rigid bodies that move freely, coupled with nothing, take the derivative of their gyroscopic force, too, in
 /// `qacc`.
-pub(crate) fn turn_free_bodies(m: &Model, d: &mut Data) {
-    let w = std::mem::take(&mut d.work.metric);
-    let mut slopes = std::mem::take(&mut d.work.derivative);
+pub(crate) fn turn_free_bodies(
+    m: &Model,
+    d: &mut Fields,
+    w: &Metric,
+    slopes: &mut derivative::Work,
+    rows: &constraint::Scratch,
+) {
     for tree in 0..m.ntree {
-        if sleep::tree_sleeps(m, d, tree) {
+        if asleep::tree(m, d, tree) {
             continue;
         }
-        if let Some((first, mut a)) = w.free_block(m, d, &mut slopes, tree) {
+        if let Some((first, mut a)) = w.free_block(m, d, slopes, rows, tree) {
             let mut f: Spatial = std::array::from_fn(|r| w.force[first + r]);
             if solve_six(&mut a, &mut f) {
                 d.qacc[first..first + 6].copy_from_slice(&f);
             }
         }
     }
-    (d.work.metric, d.work.derivative) = (w, slopes);
 }
 
 /// Adds to `qfrc_inverse` what the metric adds to M times `qacc`, and h K v.
-pub(crate) fn add_to_inverse(m: &Model, d: &mut Data) {
-    let mut w = std::mem::take(&mut d.work.metric);
-    let mut slopes = std::mem::take(&mut d.work.derivative);
-    w.build(m, d, &mut slopes);
+pub(crate) fn add_to_inverse(
+    m: &Model,
+    d: &mut Fields,
+    w: &mut Metric,
+    slopes: &mut derivative::Work,
+    rows: &constraint::Scratch,
+) {
+    w.build(m, d, slopes);
     w.search.copy_from_slice(&d.qacc);
     w.multiply(m, d);
     for tree in 0..m.ntree {
-        if let Some((first, a)) = w.free_block(m, d, &mut slopes, tree) {
+        if let Some((first, a)) = w.free_block(m, d, slopes, rows, tree) {
             let x: Spatial = std::array::from_fn(|r| d.qacc[first + r]);
             for (f, row) in w.product[first..first + 6].iter_mut().zip(a) {
                 *f = dot(row, x);
@@ -122,60 +126,50 @@ pub(crate) fn add_to_inverse(m: &Model, d: &mut Data) {
         // The product has M in it, too.
         d.qfrc_inverse[i] = w.product[i] + d.qfrc_smooth[i] - w.force[i];
     }
-    (d.work.metric, d.work.derivative) = (w, slopes);
 }
 
-/// Sets the rows of constraints for the end of the step, for the accelerations that [`acceleration`] has found.
-pub(crate) fn place_rows(m: &Model, d: &mut Data) {
-    let w = std::mem::take(&mut d.work.metric);
-    constraint::at_end_of_step(m, d, &w.diagonal);
-    d.work.metric = w;
+/// Sets the rows of constraints for the end of the step, for inverse dynamics: the metric is not there yet.
+pub(crate) fn prepare_inverse(
+    m: &Model,
+    d: &mut Fields,
+    w: &mut Metric,
+    slopes: &mut derivative::Work,
+    rows: &constraint::Scratch,
+) {
+    w.build(m, d, slopes);
+    constraint::at_end_of_step(m, d, rows, &w.diagonal);
 }
 
-/// The same when the metric is not there yet.
-pub(crate) fn prepare_inverse(m: &Model, d: &mut Data) {
-    let mut w = std::mem::take(&mut d.work.metric);
-    let mut slopes = std::mem::take(&mut d.work.derivative);
-    w.build(m, d, &mut slopes);
-    (d.work.metric, d.work.derivative) = (w, slopes);
-    place_rows(m, d);
-}
-
-/// `qacc` and forces of constraints, in the metric. Its terms are rows of their own there.
-pub(crate) fn constraints(m: &Model, d: &mut Data) {
+/// `qacc` and forces of constraints, in the metric that [`acceleration`] has made. Its terms are rows of their own there.
+pub(crate) fn constraints(m: &Model, d: &mut Fields, w: &mut Metric, rows: &mut constraint::Scratch) {
     if d.nefc > 0 {
-        place_rows(m, d);
+        constraint::at_end_of_step(m, d, rows, &w.diagonal);
     }
-    let rows = d.nefc;
-    let apart = rows > 0 && !d.work.metric.terms.is_empty();
+    let own = d.nefc;
+    let apart = own > 0 && !w.terms.is_empty();
     if apart {
-        let mut w = std::mem::take(&mut d.work.metric);
         for term in &w.terms {
             let (dofs, values) = term.row.jacobian(m, d);
             w.columns.clear();
             w.columns.extend_from_slice(dofs);
             w.values.clear();
             w.values.extend_from_slice(values);
-            constraint::push_metric(d, &w.columns, &w.values, term.scale);
+            constraint::push_metric(d, rows, &w.columns, &w.values, term.scale);
         }
         w.solve_alone(m, &mut d.qacc_smooth);
-        d.work.metric = w;
     }
-    exchange_metric(d);
-    constraint::solve(m, d);
-    exchange_metric(d);
+    exchange_metric(d, w);
+    constraint::solve(m, d, rows);
+    exchange_metric(d, w);
     if apart {
-        constraint::pop_metric(d, rows);
-        let mut w = std::mem::take(&mut d.work.metric);
+        constraint::pop_metric(d, rows, own);
         std::mem::swap(&mut w.other, &mut d.qacc_smooth);
-        d.work.metric = w;
-        constraint::unconstrained_residual(d);
+        constraint::unconstrained_residual(d, &rows.jac);
     }
 }
 
 /// Puts the metric in the place of the mass matrix, or back: constraints are solved in it.
-fn exchange_metric(d: &mut Data) {
-    let w = &mut d.work.metric;
+fn exchange_metric(d: &mut Fields, w: &mut Metric) {
     std::mem::swap(&mut d.M, &mut w.matrix);
     std::mem::swap(&mut d.qLD, &mut w.ld);
     std::mem::swap(&mut d.qLDiagInv, &mut w.diag_inv);
@@ -184,7 +178,7 @@ fn exchange_metric(d: &mut Data) {
 
 impl Metric {
     /// The metric and the force, from the forces and velocities of this step.
-    fn build(&mut self, m: &Model, d: &Data, slopes: &mut derivative::Work) {
+    fn build(&mut self, m: &Model, d: &Fields, slopes: &mut derivative::Work) {
         self.resize(m);
         self.matrix.copy_from_slice(&d.M);
         self.force.copy_from_slice(&d.qfrc_smooth);
@@ -243,7 +237,7 @@ impl Metric {
     }
 
     /// Joint springs resist along every degree of freedom as they do radially.
-    fn joint_springs(&mut self, m: &Model, d: &Data) {
+    fn joint_springs(&mut self, m: &Model, d: &Fields) {
         for j in 0..m.njnt {
             let law = Law::new(&m.jnt_stiffness, &m.jnt_stiffnesspoly, j);
             if law.is_zero() {
@@ -264,7 +258,7 @@ impl Metric {
         }
     }
 
-    fn spring(&mut self, m: &Model, d: &Data, dofs: std::ops::Range<usize>, stiffness: f64) {
+    fn spring(&mut self, m: &Model, d: &Fields, dofs: std::ops::Range<usize>, stiffness: f64) {
         let (h, k) = (m.opt.timestep, stiffness.max(0.0));
         for i in dofs {
             self.matrix[mass::diagonal(m, i)] += h * (h * k);
@@ -272,7 +266,7 @@ impl Metric {
         }
     }
 
-    fn tendons(&mut self, m: &Model, d: &Data) {
+    fn tendons(&mut self, m: &Model, d: &Fields) {
         for t in 0..m.ntendon {
             let (mut stiffness, mut damping) = (0.0, 0.0);
             if !m.opt.disabled(disable::SPRING) {
@@ -288,7 +282,7 @@ impl Metric {
         }
     }
 
-    fn actuators(&mut self, m: &Model, d: &Data) {
+    fn actuators(&mut self, m: &Model, d: &Fields) {
         if m.opt.disabled(disable::ACTUATION) {
             return;
         }
@@ -302,7 +296,7 @@ impl Metric {
     }
 
     /// Adds a spring and a damper along a row whose length grows with `velocity`.
-    fn add(&mut self, m: &Model, d: &Data, row: Row, stiffness: f64, damping: f64, velocity: f64) {
+    fn add(&mut self, m: &Model, d: &Fields, row: Row, stiffness: f64, damping: f64, velocity: f64) {
         let (h, k, b) = (m.opt.timestep, stiffness.max(0.0), damping.max(0.0));
         let scale = h * h * k + h * b;
         let (dofs, values) = row.jacobian(m, d);
@@ -320,7 +314,7 @@ impl Metric {
     }
 
     /// x ← metric⁻¹ force, by conjugate gradients from zero to the solver's tolerance where there are terms.
-    fn solve(&mut self, m: &Model, d: &Data, x: &mut [f64]) {
+    fn solve(&mut self, m: &Model, d: &Fields, x: &mut [f64]) {
         if self.terms.is_empty() {
             x.copy_from_slice(&self.force);
             mass::solve(m, &self.ld, &self.diag_inv, x, 0..m.nv);
@@ -361,12 +355,13 @@ impl Metric {
     fn free_block(
         &self,
         m: &Model,
-        d: &Data,
+        d: &Fields,
         slopes: &mut derivative::Work,
+        rows: &constraint::Scratch,
         tree: usize,
     ) -> Option<(usize, [Spatial; 6])> {
         let first = m.tree_dofadr[tree] as usize;
-        if self.coupled[tree] || !derivative::is_free_rigid(m, tree) || d.work.jac.touches(first..first + 6) {
+        if self.coupled[tree] || !derivative::is_free_rigid(m, tree) || rows.jac.touches(first..first + 6) {
             return None;
         }
         derivative::tree_bias(m, d, slopes, tree);
@@ -374,7 +369,7 @@ impl Metric {
     }
 
     /// `product` ← metric `search`.
-    fn multiply(&mut self, m: &Model, d: &Data) {
+    fn multiply(&mut self, m: &Model, d: &Fields) {
         let x = &self.search;
         mass::mul(m, &self.matrix, x, &mut self.product, 0..m.nv);
         for term in &self.terms {

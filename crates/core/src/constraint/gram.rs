@@ -1,0 +1,86 @@
+//! What the dual methods keep: M⁻¹ Jᵀ, and the blocks of A = J M⁻¹ Jᵀ on its diagonal.
+
+use super::jacobian::{Block, Jacobian, by_rows};
+use crate::dynamics::mass;
+use crate::{Fields, Model};
+
+/// What the dual methods keep.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Dual {
+    /// M⁻¹ Jᵀ, block by block as J, over all degrees of freedom of the trees that a block touches.
+    pub(super) inverse: Jacobian,
+    /// Blocks of A, row by row, and where each begins.
+    pub(super) gram: Vec<f64>,
+    pub(super) start: Vec<u32>,
+    /// M⁻¹ Jᵀ f.
+    pub(super) acceleration: Vec<f64>,
+    /// A column of M⁻¹ Jᵀ.
+    pub(super) x: Vec<f64>,
+    /// Forces after the last sweep, after the one before, and where the present sweep began.
+    pub(super) last: Vec<f64>,
+    pub(super) before: Vec<f64>,
+    pub(super) begun: Vec<f64>,
+    /// What a sweep visits, in its order.
+    pub(super) order: Vec<Item>,
+}
+
+/// Rows that are solved together: one, or all of an elliptic cone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Item {
+    pub(super) block: u32,
+    /// First row, counted from the block's first.
+    pub(super) first: u32,
+}
+
+impl Dual {
+    /// Fills M⁻¹ Jᵀ and the blocks of A.
+    pub(super) fn build(&mut self, m: &Model, d: &Fields, jac: &Jacobian) {
+        self.inverse.clear();
+        self.gram.clear();
+        self.start.clear();
+        self.acceleration.resize(m.nv, 0.0);
+        self.x.resize(m.nv, 0.0);
+        for v in [&mut self.last, &mut self.before, &mut self.begun] {
+            v.resize(d.nefc, 0.0);
+        }
+        for b in &jac.blocks {
+            by_rows!(b.nrow, R => self.block::<R>(m, d, jac, b));
+        }
+    }
+
+    fn block<const R: usize>(&mut self, m: &Model, d: &Fields, jac: &Jacobian, b: &Block) {
+        let trees = jac.trees(m, b);
+        let values = self.inverse.push_zeros(b, trees.clone().flat_map(|t| m.tree_dofs(t)));
+        let terms = || jac.columns(b).iter().zip(jac.values(b).as_chunks::<R>().0);
+        self.start.push(self.gram.len() as u32);
+        for r in 0..R {
+            for t in trees.clone() {
+                self.x[m.tree_dofs(t)].fill(0.0);
+            }
+            for (&k, v) in terms() {
+                self.x[k as usize] = v[r];
+            }
+            for t in trees.clone() {
+                mass::solve(m, &d.qLD, &d.qLDiagInv, &mut self.x, m.tree_dofs(t));
+            }
+            let dofs = trees.clone().flat_map(|t| m.tree_dofs(t));
+            for (value, k) in values.as_chunks_mut::<R>().0.iter_mut().zip(dofs) {
+                value[r] = self.x[k];
+            }
+            let mut row = [0.0; R];
+            for (&k, v) in terms() {
+                for (sum, v) in row.iter_mut().zip(v) {
+                    *sum += v * self.x[k as usize];
+                }
+            }
+            self.gram.extend_from_slice(&row);
+        }
+    }
+
+    /// The part of A that belongs to N rows of a block.
+    pub(super) fn part<const N: usize>(&self, b: &Block, item: Item) -> [[f64; N]; N] {
+        let (at, n) = (self.start[item.block as usize] as usize, b.nrow as usize);
+        let first = item.first as usize;
+        std::array::from_fn(|i| std::array::from_fn(|j| self.gram[at + (first + i) * n + first + j]))
+    }
+}

@@ -1,0 +1,56 @@
+//! The constraint rows of the current position: Jacobian, violation, regularization.
+//!
+//! Order: equalities, dry friction of joints and tendons, limits of joints and tendons, contacts.
+
+use super::rows::resize;
+use super::{Scratch, contact, equality, exact, single};
+use crate::{Fields, Model, disable, enable};
+
+/// `efc_*` up to R and D, `nefc`.
+#[inline(never)]
+pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    w.jac.clear();
+    let on = |bit: i32| !m.opt.disabled(disable::CONSTRAINT) && !m.opt.disabled(bit);
+    let equal = d.plan.equalities && on(disable::EQUALITY);
+    let friction = d.plan.friction_loss && on(disable::FRICTIONLOSS);
+    let limits = d.plan.limits && on(disable::LIMIT);
+    // Room for all that may come; the arrays keep their length from step to step as long as contacts stay.
+    let limits = if limits { single::count_limits(m, d) } else { 0 };
+    let mut room = contact::count(m, d) + limits;
+    room += if equal { equality::count(m, d) } else { 0 };
+    room += if friction { single::count_friction(m) } else { 0 };
+    if room > 0 || !d.efc_type.is_empty() {
+        resize(d, room);
+    }
+    (d.nefc, d.ne, d.nf, d.nl) = (0, 0, 0, 0);
+    if room == 0 {
+        return;
+    }
+    if equal {
+        equality::make(m, d, w);
+    }
+    d.ne = d.nefc;
+    if friction {
+        single::friction(m, d, &mut w.jac);
+    }
+    d.nf = d.nefc - d.ne;
+    if limits > 0 {
+        single::limits(m, d, &mut w.jac);
+    }
+    d.nl = d.nefc - d.ne - d.nf;
+    contact::make(m, d, w);
+    resize(d, d.nefc);
+    let [_, columns, values] = w.jac.size();
+    d.meter.add(60 * d.nefc as u64 + 8 * columns + 2 * values);
+    if d.nefc > 0 && m.opt.enabled(enable::DIAGEXACT) {
+        exact::regularize(m, d, w);
+    }
+}
+
+/// No rows and no contacts.
+pub(crate) fn none(d: &mut Fields, w: &mut Scratch) {
+    w.jac.clear();
+    resize(d, 0);
+    (d.nefc, d.ne, d.nf, d.nl, d.nisland) = (0, 0, 0, 0, 0);
+    crate::collision::none(d);
+}

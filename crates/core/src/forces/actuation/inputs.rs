@@ -1,0 +1,58 @@
+//! What the controls of controllers say: a position, a velocity, a feedforward, a voltage.
+
+use crate::Model;
+
+/// Inputs of controllers: bits of `actuator_ctrlspec`, in the order of the controls.
+const POS: i32 = 1;
+const VEL: i32 = 2;
+const FF: i32 = 4;
+const VOLTAGE: i32 = 8;
+/// No inputs at all.
+const NONE: i32 = 16;
+/// Whether inputs of this kind go to a controller of motion, not only to the winding.
+pub(super) fn controls_motion(spec: i32) -> bool {
+    spec & NONE == 0 && spec & (POS | VEL | FF) != 0
+}
+
+/// What the controls of a servo say.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Inputs {
+    pub(super) pos: Option<f64>,
+    pub(super) vel: f64,
+    pub(super) ff: f64,
+    pub(super) voltage: f64,
+    /// Whether there is any but a voltage.
+    pub(super) controller: bool,
+}
+
+impl Inputs {
+    pub(super) fn new(m: &Model, i: usize, ctrl: &[f64]) -> Inputs {
+        let spec = m.actuator_ctrlspec[i];
+        let mut at = m.actuator_ctrladr[i] as usize;
+        let end = at + m.actuator_ctrlnum[i] as usize;
+        let mut take = |bit: i32| {
+            let here = (spec & bit != 0 && at < end).then(|| ctrl[at]);
+            at += usize::from(here.is_some());
+            here
+        };
+        let (pos, vel, ff, voltage) = (take(POS), take(VEL), take(FF), take(VOLTAGE));
+        Inputs {
+            pos,
+            vel: vel.unwrap_or(0.0),
+            ff: ff.unwrap_or(0.0),
+            voltage: voltage.unwrap_or(0.0),
+            controller: spec & NONE == 0 && (pos.is_some() || vel.is_some() || ff.is_some()),
+        }
+    }
+}
+
+/// The rate of an integral x that does not grow beyond ±limit; 0 is no limit.
+pub(super) fn unwound(rate: f64, x: f64, limit: f64) -> f64 {
+    if limit > 0.0 && x >= limit {
+        rate.min(0.0)
+    } else if limit > 0.0 && x <= -limit {
+        rate.max(0.0)
+    } else {
+        rate
+    }
+}

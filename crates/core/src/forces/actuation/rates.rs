@@ -1,0 +1,60 @@
+//! How fast activations change: first-order dynamics of MuJoCo's documentation, "Computation: Activation dynamics".
+
+use super::activation::next;
+use super::{integrates, motor, muscle, prm, servo, states, switched_off};
+use crate::math::*;
+use crate::{Fields, Model, disable, dyntype, gaintype};
+
+/// `act_dot` of actuator `i`. A motor that limits how fast its setpoint moves writes the limited one to `ctrl`.
+pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
+    let states = states(m, i);
+    let Some(last) = states.clone().last() else { return };
+    let u = m.actuator_ctrladr[i] as usize;
+    let p = prm(&m.actuator_dynprm, i);
+    match m.actuator_dyntype[i] {
+        dyntype::INTEGRATOR => {
+            for (at, k) in states.zip(u..) {
+                d.act_dot[at] = ctrl[k];
+            }
+        }
+        dyntype::FILTER | dyntype::FILTEREXACT => {
+            d.act_dot[last] = (ctrl[u] - d.act[last]) / p[0].max(MINVAL);
+        }
+        dyntype::MUSCLE => d.act_dot[last] = muscle::rate(p, ctrl[u], d.act[last]),
+        dyntype::PID => servo::rates(m, d, i, ctrl),
+        dyntype::DCMOTOR => motor::rates(m, d, i, ctrl),
+        _ => {}
+    }
+}
+
+/// Advances `act` by a step along `act_dot`.
+pub(crate) fn advance(m: &Model, d: &mut Fields) {
+    if m.opt.disabled(disable::ACTUATION) {
+        return;
+    }
+    for i in 0..m.nactuator {
+        let off = switched_off(m, i);
+        for at in states(m, i) {
+            d.act[at] = next(m, d, i, at, if off { 0.0 } else { d.act_dot[at] });
+        }
+        if integrates(m, i) {
+            anchor(m, d, i);
+        }
+    }
+}
+
+/// Keeps an integrated setpoint that is an angle within a turn.
+fn anchor(m: &Model, d: &mut Fields, i: usize) {
+    let states = states(m, i);
+    if m.actuator_gaintype[i] == gaintype::SO3 {
+        let turn = 2.0 * std::f64::consts::PI;
+        let act = &mut d.act[states];
+        let angle = act.iter().map(|a| a * a).sum::<f64>().sqrt();
+        if angle > std::f64::consts::PI {
+            let scale = (angle - turn * (angle / turn).round()) / angle;
+            act.iter_mut().for_each(|a| *a *= scale);
+        }
+    } else if let Some(last) = states.last() {
+        d.act[last] = servo::wrapped(m, d, i, d.act[last]);
+    }
+}

@@ -1,0 +1,71 @@
+//! Euler's method with implicit damping: (M + h B) a' = M a, where B is the derivative of the damping force.
+
+use crate::dynamics::{self, articulated};
+use crate::forces::passive::spring;
+use crate::math::combine;
+use crate::model::stage::Stage;
+use crate::{Fields, Model, disable};
+
+/// The acceleration a step advances along, where it is not `qacc`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Scratch {
+    pub(super) qacc: Vec<f64>,
+    /// h B.
+    b: Vec<f64>,
+    /// Whether `qacc` is a' for the forces of this step.
+    pub(super) done: bool,
+}
+
+impl Scratch {
+    pub(super) fn new(m: &Model) -> Scratch {
+        Scratch { qacc: vec![0.0; m.nv], b: vec![0.0; m.nv], done: false }
+    }
+}
+
+/// The acceleration a'.
+#[inline(always)]
+pub(super) fn damp(m: &Model, d: &Fields, w: &mut dynamics::Scratch, s: &mut Scratch) {
+    let Scratch { qacc: a, b, .. } = s;
+    combine(a, [&*d.qfrc_smooth, &*d.qfrc_constraint], |_, [smooth, constraint]| smooth + constraint);
+    damping(m, d, b);
+    articulated::solve_with(m, d, w, b, a);
+}
+
+/// Both accelerations from `qfrc_smooth`, where no constraint acts: a, and a' in the scratch. Returns the first degree of
+/// freedom without inertia.
+pub(super) fn accelerate(
+    m: &Model,
+    d: &mut Fields,
+    w: &mut dynamics::Scratch,
+    s: &mut Scratch,
+    acceleration: &mut [f64],
+) -> Option<usize> {
+    let Scratch { qacc: a, b, done } = s;
+    // With the force of constraints, which is 0: -0 becomes 0, as everywhere.
+    combine(a, [&*acceleration], |_, [force]| force + 0.0);
+    damping(m, d, b);
+    *done = true;
+    articulated::prepare_both(m, d, w, b, acceleration, a)
+}
+
+/// h B.
+#[inline(always)]
+fn damping(m: &Model, d: &Fields, out: &mut [f64]) {
+    let h = m.opt.timestep;
+    spring::of_dampers(m, d.plan.actuator_dampers, &d.qvel, out, |law, v| h * law.slope(v.abs()));
+}
+
+/// Whether some degree of freedom has a damper, and dampers are on.
+pub(super) fn damps(m: &Model, d: &Fields) -> bool {
+    d.plan.keeps(Stage::Passive)
+        && !m.opt.disabled(disable::EULERDAMP)
+        && !m.opt.disabled(disable::DAMPER)
+        && d.plan.damped.unwrap_or_else(|| has_dampers(m))
+}
+
+/// Whether some degree of freedom has a damper.
+pub(super) fn has_dampers(m: &Model) -> bool {
+    m.dof_damping.iter().any(|&b| b != 0.0)
+        || m.dof_dampingpoly.iter().any(|&p| p != 0.0)
+        || m.jnt_actuatorid.iter().any(|&i| i != -1)
+}

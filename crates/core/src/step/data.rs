@@ -1,0 +1,72 @@
+//! `Data`: the fields of a simulation, and the scratch of the stages.
+
+use super::discrete::Metric;
+use super::stages::RungeKutta;
+use super::{damping, sleep};
+use crate::forces::derivative;
+use crate::model::plan::Plan;
+use crate::{Fields, Model, collision, constraint, dynamics, forces, sensor};
+use std::ops::{Deref, DerefMut};
+
+/// State, inputs and results of a simulation of one model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Data {
+    /// What everybody may look at.
+    pub(crate) fields: Fields,
+    /// What is nobody's business, kept so that steps do not allocate.
+    pub(crate) work: Work,
+}
+
+/// Scratch of the stages, by rooms.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Work {
+    pub(crate) dynamics: dynamics::Scratch,
+    pub(crate) forces: forces::Scratch,
+    pub(crate) collision: collision::Scratch,
+    pub(crate) constraint: constraint::Scratch,
+    pub(crate) sensor: sensor::Scratch,
+    pub(crate) sleep: sleep::Scratch,
+    /// Derivatives of forces with respect to velocities.
+    pub(crate) derivative: derivative::Work,
+    pub(crate) damping: damping::Scratch,
+    /// The metric of the discrete integrator.
+    pub(crate) metric: Metric,
+    pub(crate) rk: RungeKutta,
+}
+
+impl Work {
+    pub(super) fn new(m: &Model) -> Work {
+        Work {
+            dynamics: dynamics::Scratch::new(m),
+            forces: forces::Scratch::new(m),
+            constraint: constraint::Scratch::new(m),
+            sleep: sleep::Scratch::new(m),
+            damping: damping::Scratch::new(m),
+            rk: RungeKutta::new(m),
+            ..Work::default()
+        }
+    }
+}
+
+impl Deref for Data {
+    type Target = Fields;
+
+    #[inline(always)]
+    fn deref(&self) -> &Fields {
+        &self.fields
+    }
+}
+
+impl DerefMut for Data {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut Fields {
+        &mut self.fields
+    }
+}
+
+impl Data {
+    /// The plan that decides what is computed.
+    pub fn plan(&self) -> &Plan {
+        &self.fields.plan
+    }
+}
