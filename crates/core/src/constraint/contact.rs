@@ -5,7 +5,7 @@ use super::impedance::{Acts, Kbi, kbi, kbi_friction};
 use super::jacobian::Jacobian;
 use super::rows::{Rows, push, regularization};
 use super::{Scratch, kind};
-use crate::dynamics::{jacobian, jacobian::Columns};
+use crate::dynamics::jacobian::{self, Columns};
 use crate::math::*;
 use crate::{Contact, Fields, Model};
 

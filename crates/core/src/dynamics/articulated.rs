@@ -12,8 +12,7 @@
 //! Everything is expressed about the centre of mass of the tree, as `cdof` and `cinert` are: nothing is transformed
 //! from body to body.
 
-use crate::dynamics::Scratch;
-use crate::dynamics::{mass, reflected, serial};
+use crate::dynamics::{Scratch, mass, reflected, serial};
 use crate::math::*;
 use crate::{Fields, Model};
 use std::ops::Range;

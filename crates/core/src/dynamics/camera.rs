@@ -1,7 +1,7 @@
 //! Poses of cameras and lights, which may follow a body or look at one.
 
 use crate::math::*;
-use crate::model::{asleep, asleep::awake};
+use crate::model::asleep::{self, awake};
 use crate::{Fields, Model};
 
 /// How a camera or light moves (mjtCamLight).

@@ -3,8 +3,7 @@
 //! All spatial quantities of a kinematic tree are expressed about the centre of mass of the tree
 //! (`subtree_com` of its root), in world axes: far from the origin nothing is lost to cancellation.
 
-use crate::math::lanes;
-use crate::math::*;
+use crate::math::{lanes, *};
 use crate::{Fields, Model, joint};
 
 /// `subtree_com`, `cinert`, `cdof`.

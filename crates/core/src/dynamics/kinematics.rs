@@ -3,11 +3,8 @@
 //! Each body's pose follows from its parent's, joint by joint (Featherstone 2008, section 4.4).
 
 use crate::dynamics::Scratch;
+use crate::math::lanes::{Axes, Lane3, along, axes, lane3, matrix, product, turned, vec3};
 use crate::math::*;
-use crate::math::{
-    lanes::Axes, lanes::Lane3, lanes::along, lanes::axes, lanes::lane3, lanes::matrix, lanes::product,
-    lanes::turned, lanes::vec3,
-};
 use crate::{Fields, Model, joint};
 use std::ops::Range;
 

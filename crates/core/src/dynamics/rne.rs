@@ -1,9 +1,7 @@
 //! `qfrc_bias`: gravity, Coriolis and centrifugal force.
 
-use crate::dynamics::Scratch;
-use crate::dynamics::chain;
-use crate::math::lanes;
-use crate::math::*;
+use crate::dynamics::{Scratch, chain};
+use crate::math::{lanes, *};
 use crate::{Fields, Model, disable, joint};
 
 /// `qfrc_bias`. Trees take recursive Newton–Euler, short chains a projection; a simple body, alone in its tree

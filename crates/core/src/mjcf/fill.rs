@@ -1,14 +1,18 @@
 //! Specifications to the arrays of [`Model`].
 
-use super::fill_actuator::Counts;
+use super::arrays::{flat, ints, padded};
 use super::layout::{Dof, Layout, Pattern, WholePattern};
-use super::read_asset::Assets;
 use super::spec::{
-    ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, List, PairSpec,
+    ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, PairSpec,
     SOLIMP, SOLREF, SensorSpec, SiteSpec, TendonSpec,
 };
-use super::{fill_actuator, fill_asset, fill_constraint, fill_scene, fill_tendon};
 use crate::math::{IDENTITY, MINVAL, quat_normalize, rows_mut};
+use crate::mjcf::actuator::fill_actuator::{self, Counts};
+use crate::mjcf::asset::fill_asset;
+use crate::mjcf::asset::read_asset::Assets;
+use crate::mjcf::constraint::fill_constraint;
+use crate::mjcf::scene::fill_scene;
+use crate::mjcf::tendon::fill_tendon;
 use crate::model::reflect;
 use crate::{Model, Names, joint};
 
@@ -158,24 +162,6 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
 /// The members of all bodies in id order, each with its body.
 fn members<T>(list: &[BodySpec], of: impl Fn(&BodySpec) -> &Vec<T>) -> Vec<(usize, &T)> {
     list.iter().enumerate().flat_map(|(i, b)| of(b).iter().map(move |x| (i, x))).collect()
-}
-
-/// Numbers of each object, one after the other.
-pub(super) fn flat<T, const N: usize>(
-    list: impl IntoIterator<Item = T>,
-    of: impl Fn(T) -> [f64; N],
-) -> Vec<f64> {
-    list.into_iter().flat_map(of).collect()
-}
-
-/// One integer of each object.
-pub(super) fn ints<T>(list: impl IntoIterator<Item = T>, of: impl FnMut(T) -> i32) -> Vec<i32> {
-    list.into_iter().map(of).collect()
-}
-
-/// The user values of each object, `width` of them.
-pub(super) fn padded<'l>(lists: impl Iterator<Item = &'l List>, width: usize) -> Vec<f64> {
-    lists.flat_map(|l| l.numbers.iter().copied().chain(std::iter::repeat(0.0)).take(width)).collect()
 }
 
 /// First address and count of the members of each body: -1 where there are none.

@@ -1,10 +1,10 @@
 //! Ids of objects by their elements, and what a reference must know of the object that it names.
 
-use super::diagnostic::{Report, code};
 use super::names::{NameTable, WORLD};
 use super::spec::{BodySpec, SensorObjects};
-use super::tree::{Node, Tree};
 use crate::Obj;
+use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::tree::{Node, Tree};
 use std::collections::BTreeMap;
 
 /// Ids of elements by their place in the tree.

@@ -1,11 +1,11 @@
 //! Ids and addresses: which body moves with which, kinematic trees, the chain of each degree of freedom, and
 //! the pattern of the mass matrix.
 
-use super::diagnostic::{Report, code};
-use super::inertia::shown;
 use super::spec::{BodySpec, Inertia};
 use crate::joint;
 use crate::math::{Quat, Vec3};
+use crate::mjcf::body::inertia::shown;
+use crate::mjcf::text::diagnostic::{Report, code};
 
 /// More entries than this in the mass matrix are refused: a long chain with very many branches.
 const MAX_MATRIX: usize = 20_000_000;

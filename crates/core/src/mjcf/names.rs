@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::defaults::Classes;
-use super::diagnostic::{Report, closest, code, shown};
+use super::classes::Classes;
 use super::schema::Kind;
-use super::tree::{Attribute, Node, Tree};
-use super::values::Value;
+use crate::mjcf::text::diagnostic::{Report, closest, code, shown};
+use crate::mjcf::text::tree::{Attribute, Node, Tree};
+use crate::mjcf::text::values::Value;
 
 /// Named elements by kind and name.
 #[derive(Debug, Default)]

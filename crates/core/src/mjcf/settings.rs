@@ -1,13 +1,13 @@
 //! `compiler`, `option`, `statistic` and `size`: what holds for the whole model.
 
-use super::defaults::Props;
-use super::diagnostic::{Report, code, shown};
+use super::classes::Props;
 use super::spec::List;
-use super::tree::Tree;
-use super::values::Value;
 use crate::kinds::{disable, enable};
+use crate::mjcf::text::diagnostic::{Report, code, shown};
+use crate::mjcf::text::tree::Tree;
+use crate::mjcf::text::values::Value;
 use crate::model::{Options, Statistic};
-use crate::setup::{lengthrange::Mode, lengthrange::Search};
+use crate::setup::lengthrange::{Mode, Search};
 
 /// All sections of one name, later ones over earlier ones.
 fn section(tree: &Tree, name: &str) -> Props {

@@ -4,9 +4,9 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::defaults::Props;
-use super::frame::Pose;
+use super::classes::Props;
 use crate::math::{Quat, Vec3};
+use crate::mjcf::body::frame::Pose;
 
 /// A body and what it holds. The first body of a model is the world.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! What compiles but cannot be simulated: it is refused.
 
-use super::diagnostic::{Report, code};
-use super::tree::Tree;
+use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::tree::Tree;
 use crate::model::asleep::policy;
 use crate::{Data, Model, Obj, disable, enable, eqtype, integrator};
 

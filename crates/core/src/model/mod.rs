@@ -11,7 +11,7 @@ pub(crate) mod stage;
 pub mod state;
 
 use crate::kinds::integrator;
-use crate::model::{fields::model_fields, fields::option_fields, fields::statistic_fields};
+use crate::model::fields::{model_fields, option_fields, statistic_fields};
 use std::ops::Range;
 
 macro_rules! define {

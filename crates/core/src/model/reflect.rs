@@ -4,9 +4,7 @@
 
 pub use super::stage::Stage;
 use crate::model::bytes::Plain;
-use crate::model::{
-    fields::data_fields, fields::model_fields, fields::option_fields, fields::statistic_fields,
-};
+use crate::model::fields::{data_fields, model_fields, option_fields, statistic_fields};
 use crate::{Fields, Model};
 use std::sync::LazyLock;
 

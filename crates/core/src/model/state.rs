@@ -13,7 +13,7 @@
 //! assert_eq!(d.time, 0.0);
 //! ```
 
-use crate::model::{reflect, reflect::Cell, reflect::Object, reflect::View, reflect::ViewMut};
+use crate::model::reflect::{self, Cell, Object, View, ViewMut};
 use crate::{Fields, Model};
 use std::fmt;
 

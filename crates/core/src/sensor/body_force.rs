@@ -5,9 +5,9 @@
 //! the centre of mass of the tree.
 
 use super::tension;
-use crate::constraint::ends;
+use crate::constraint::{self, ends};
 use crate::math::*;
-use crate::{Fields, Model, constraint, disable};
+use crate::{Fields, Model, disable};
 
 /// `cacc`, `cfrc_ext`, `cfrc_int`; needs `qacc` and the forces of constraints.
 ///

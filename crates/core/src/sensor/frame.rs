@@ -2,10 +2,9 @@
 //! at a site.
 
 use super::put;
-use crate::dynamics::{object, object::Frame};
+use crate::dynamics::object::{self, Frame};
 use crate::math::*;
-use crate::query;
-use crate::{Fields, Model};
+use crate::{Fields, Model, query};
 
 /// The frame of the sensed object.
 fn sensed(m: &Model, d: &Fields, s: usize) -> Option<Frame> {

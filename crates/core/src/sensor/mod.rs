@@ -24,7 +24,8 @@ use table::Read;
 pub use table::{Datatype, KINDS, Kind, Senses, When, kind};
 
 use crate::geometry::Narrow;
-use crate::model::{asleep, stage::Stage};
+use crate::model::asleep;
+use crate::model::stage::Stage;
 use crate::{Fields, Model, Obj, disable};
 
 /// What sensors use, kept so that they do not allocate.

@@ -6,10 +6,9 @@
 
 use super::fields::{self, RAY_DATA};
 use super::put;
-use crate::dynamics::{object, object::Frame};
+use crate::dynamics::object::{self, Frame};
 use crate::math::*;
-use crate::query;
-use crate::query::RayFilter;
+use crate::query::{self, RayFilter};
 use crate::{Fields, Model, Obj};
 
 /// A ray: where it starts and its unit direction, world.

@@ -4,8 +4,7 @@
 //! The compiler, the evaluation, the plan and the schema all come from it. Order and numbers are MuJoCo's
 //! (mjtSensor), meanings those of its XML reference, chapter "sensor".
 
-use super::Scratch;
-use super::{contact, frame, measure, pair, rays};
+use super::{Scratch, contact, frame, measure, pair, rays};
 use crate::model::stage::Stage;
 use crate::{Fields, Model};
 

@@ -1,7 +1,7 @@
 //! Sensors against what MuJoCo 3.14.0 reads: `golden/record.py` recorded it.
 
 use crate::math::rows;
-use crate::model::{reflect, reflect::Object, reflect::View, reflect::ViewMut};
+use crate::model::reflect::{self, Object, View, ViewMut};
 use crate::{Data, Model, forward, mjcf};
 
 /// A recorded line: a name and its numbers.

@@ -1,8 +1,8 @@
 //! `mj_setConst`: constants of the model that follow from others, at the default configuration.
 
 use crate::constraint::ends;
-use crate::dynamics::kinematics::sameframe;
-use crate::dynamics::{com, jacobian, kinematics, mass};
+use crate::dynamics::kinematics::{self, sameframe};
+use crate::dynamics::{com, jacobian, mass};
 use crate::forces::{tendon, transmission};
 use crate::math::*;
 use crate::model::plan::Plan;

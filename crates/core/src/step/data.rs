@@ -3,9 +3,9 @@
 use super::discrete::Metric;
 use super::stages::RungeKutta;
 use super::{damping, sleep};
-use crate::forces::derivative;
+use crate::forces::{self, derivative};
 use crate::model::plan::Plan;
-use crate::{Fields, Model, collision, constraint, dynamics, forces, sensor};
+use crate::{Fields, Model, collision, constraint, dynamics, sensor};
 use std::ops::{Deref, DerefMut};
 
 /// State, inputs and results of a simulation of one model.

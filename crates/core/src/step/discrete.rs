@@ -11,9 +11,10 @@
 //! Loan 2013, *Matrix Computations*, section 11.5).
 
 use crate::dynamics::mass;
+use crate::forces::derivative::{self, Medium, actuator};
+use crate::forces::passive::fluid;
+use crate::forces::passive::spring::{self, Law};
 use crate::forces::tendon;
-use crate::forces::{derivative, derivative::Medium, derivative::actuator};
-use crate::forces::{passive::fluid, passive::spring, passive::spring::Law};
 use crate::math::{Spatial, dot, dot_slice, norm, solve_six};
 use crate::model::asleep;
 use crate::{Fields, Model, constraint, disable, joint, solver};

@@ -5,8 +5,8 @@ use crate::dynamics::{articulated, camera, chain, com, jacobian, kinematics, mas
 use crate::forces::{actuation, energy, passive, tendon, transmission};
 use crate::math::{combine, copy, rows};
 use crate::model::stage::Stage;
-use crate::sensor::{When, body_force};
-use crate::{Data, Fields, Model, Warning, collision, constraint, disable, enable, integrator, sensor};
+use crate::sensor::{self, When, body_force};
+use crate::{Data, Fields, Model, Warning, collision, constraint, disable, enable, integrator};
 
 /// What a caller can leave out of a forward pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,13 +1,14 @@
 //! Inverse dynamics: the force that causes a given acceleration.
 
 use crate::dynamics::mass;
+use crate::forces::derivative::{self, Medium, sparse};
 use crate::forces::passive::spring;
-use crate::forces::{derivative, derivative::Medium, derivative::sparse};
 use crate::math::Spatial;
 use crate::model::plan::Plan;
 use crate::sensor::When;
 use crate::step::data::Work;
-use crate::step::{damping, discrete, forward, forward::Skip};
+use crate::step::forward::{self, Skip};
+use crate::step::{damping, discrete};
 use crate::{Data, Model, constraint, enable, integrator};
 
 /// What inverse dynamics cannot answer.

@@ -9,8 +9,10 @@ use crate::forces::{actuation, derivative};
 use crate::model::plan::Plan;
 use crate::model::reflect::{FieldId, FieldSet, Object, Stage, field};
 use crate::step::damping;
-use crate::{Model, Obj, collision, disable, enable, joint, sensor};
-use crate::{biastype, dyntype, eqtype, gaintype, integrator, trntype, wraptype};
+use crate::{
+    Model, Obj, biastype, collision, disable, dyntype, enable, eqtype, gaintype, integrator, joint, sensor,
+    trntype, wraptype,
+};
 
 /// What programs read and write.
 #[derive(Clone, Copy, Debug)]

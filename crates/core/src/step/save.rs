@@ -6,8 +6,8 @@
 //! engine would index by is looked at before it is believed.
 
 use crate::constraint::kind;
-use crate::model::{bytes::Plain, bytes::fingerprint};
-use crate::model::{reflect, reflect::Elem, reflect::Object, reflect::View};
+use crate::model::bytes::{Plain, fingerprint};
+use crate::model::reflect::{self, Elem, Object, View};
 use crate::step::{forward, reset};
 use crate::{Contact, Data, Model, Obj, Warning, WarningStat};
 use std::fmt;

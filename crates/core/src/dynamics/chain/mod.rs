@@ -17,8 +17,7 @@ mod spatial;
 #[cfg(test)]
 mod tests;
 
-use crate::dynamics::Scratch;
-use crate::dynamics::{jacobian, mass};
+use crate::dynamics::{Scratch, jacobian, mass};
 use crate::math::*;
 use crate::{Fields, Model, joint};
 

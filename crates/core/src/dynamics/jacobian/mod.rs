@@ -2,8 +2,8 @@
 
 mod points;
 
+use crate::math::lanes::{Axes, Lane3, along, axes, vec3};
 use crate::math::*;
-use crate::math::{lanes::Axes, lanes::Lane3, lanes::along, lanes::axes, lanes::vec3};
 use crate::{Fields, Model, joint};
 
 pub use points::{

@@ -1,6 +1,6 @@
 //! How the force of an actuator changes with its velocity.
 
-use crate::forces::{actuation, actuation::motor, actuation::muscle, actuation::prm};
+use crate::forces::actuation::{self, motor, muscle, prm};
 use crate::math::*;
 use crate::{Fields, Model, biastype, disable, gaintype};
 

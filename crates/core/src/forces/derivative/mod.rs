@@ -10,9 +10,9 @@ pub(crate) mod sparse;
 use std::ops::Range;
 
 use crate::dynamics::{jacobian, mass};
+use crate::forces::passive::fluid::{self, Frame, Shape};
 use crate::forces::passive::spring;
 use crate::forces::tendon;
-use crate::forces::{passive::fluid, passive::fluid::Frame, passive::fluid::Shape};
 use crate::math::*;
 use crate::{Fields, Model, disable, joint};
 

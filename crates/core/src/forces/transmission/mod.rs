@@ -7,7 +7,8 @@ mod constants;
 mod contact;
 mod space;
 
-use crate::dynamics::{jacobian, reflected::target};
+use crate::dynamics::jacobian;
+use crate::dynamics::reflected::target;
 use crate::forces::{Scratch, tendon};
 use crate::math::*;
 use crate::model::asleep;

@@ -1,9 +1,8 @@
 //! Two convex shapes by the general algorithm, and further contacts where they lie flat on each other.
 
-use super::polygon;
-use super::{Settings, Touch};
+use super::{Settings, Touch, polygon};
 use crate::geometry::Shape;
-use crate::geometry::{convex::Convex, convex::Room, convex::nearest};
+use crate::geometry::convex::{Convex, Room, nearest};
 use crate::kinds::geom;
 use crate::math::*;
 

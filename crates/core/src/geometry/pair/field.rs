@@ -4,8 +4,8 @@
 use std::ops::{ControlFlow, RangeInclusive};
 
 use super::{MOST, Settings, Touch};
+use crate::geometry::convex::{Convex, Nearest, Room, nearest};
 use crate::geometry::{Field, Shape};
-use crate::geometry::{convex::Convex, convex::Nearest, convex::Room, convex::nearest};
 use crate::math::*;
 
 /// Work of a prism that is passed over.

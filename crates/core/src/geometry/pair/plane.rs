@@ -3,7 +3,7 @@
 use super::Touch;
 use super::polygon::{Corners, widest};
 use crate::geometry::Shape;
-use crate::geometry::{support::Body, support::climb, support::search};
+use crate::geometry::support::{Body, climb, search};
 use crate::math::*;
 
 /// A contact at a point of the other shape, moved half the way to the plane.

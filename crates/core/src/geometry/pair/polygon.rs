@@ -7,9 +7,9 @@
 //! there. Which face clips, the angles and the number of contacts are those of MuJoCo 3.14.0 (measured).
 
 use super::{Settings, Touch};
+use crate::geometry::convex::{Convex, Room, nearest};
 use crate::geometry::list::List;
 use crate::geometry::{Shape, Sides};
-use crate::geometry::{convex::Convex, convex::Room, convex::nearest};
 use crate::kinds::geom;
 use crate::math::*;
 

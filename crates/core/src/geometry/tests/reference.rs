@@ -10,8 +10,8 @@
 
 use super::Random;
 use crate::geom;
+use crate::geometry::convex::{Convex, Nearest, Room, nearest};
 use crate::geometry::{Mesh, Shape, Sides};
-use crate::geometry::{convex::Convex, convex::Nearest, convex::Room, convex::nearest};
 use crate::math::*;
 
 impl Random {

@@ -2,8 +2,8 @@
 
 use super::references::{Names, is_asset, kind_of};
 use crate::mjcf::schema::Kind;
-use crate::mjcf::tree::Node;
-use crate::mjcf::values::Value;
+use crate::mjcf::text::tree::Node;
+use crate::mjcf::text::values::Value;
 
 /// How the names in a copy differ.
 #[derive(Clone, Copy, Debug)]

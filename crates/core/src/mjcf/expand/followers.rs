@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::copy::own_name;
 use super::references::{self, Names, SECTIONS};
-use crate::mjcf::tree::Node;
+use crate::mjcf::text::tree::Node;
 
 /// The elements of [`SECTIONS`], by what they refer to.
 #[derive(Debug, Default)]

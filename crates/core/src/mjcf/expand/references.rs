@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use crate::Obj;
 use crate::mjcf::names::WORLD;
 use crate::mjcf::schema::Kind;
-use crate::mjcf::values::Value;
-use crate::mjcf::{tree::Attribute, tree::Node};
+use crate::mjcf::text::tree::{Attribute, Node};
+use crate::mjcf::text::values::Value;
 
 /// Objects by kind and name.
 pub(crate) type Names = BTreeSet<(&'static str, String)>;

@@ -1,7 +1,7 @@
 //! `actuator`, and its elements as they stand in `default`.
 
 use super::{
-    AUTO, Attr, Element, FLAG, INT, Kind, LIST, REAL, TEXT, attributes, not_yet, reals, rest, upto, word,
+    AUTO, Attr, Element, FLAG, INT, Kind, LIST, REAL, TEXT, attributes, extension, not_yet, reals, upto, word,
 };
 use crate::kinds::{biastype, dyntype, gaintype};
 
@@ -142,5 +142,5 @@ static PLUGIN: Element = Element::new(
         },
     ],
 )
-.children(&[&rest::CONFIG])
+.children(&[&extension::CONFIG])
 .refused();

@@ -1,8 +1,8 @@
 //! `worldbody` and what bodies hold: joints, inertias, geoms, sites, cameras, lights.
 
 use super::{
-    AUTO, Attr, Element, FLAG, INT, Kind, LIST, ORIENTATION, REAL, TEXT, Word, attributes, not_yet, reals,
-    rest, upto, word,
+    AUTO, Attr, Element, FLAG, INT, Kind, LIST, ORIENTATION, REAL, TEXT, Word, attributes, extension,
+    flexible, not_yet, reals, upto, word,
 };
 use crate::kinds::{geom, joint};
 
@@ -41,10 +41,10 @@ static BODY_CHILDREN: [&Element; 15] = [
     &CAMERA,
     &LIGHT,
     &ATTACH,
-    &rest::PLUGIN,
-    &rest::COMPOSITE,
-    &rest::FLEXCOMP,
-    &rest::INCLUDE,
+    &extension::PLUGIN,
+    &flexible::COMPOSITE,
+    &flexible::FLEXCOMP,
+    &extension::INCLUDE,
 ];
 
 /// The world: a body without frame, joints and inertia.
@@ -57,9 +57,9 @@ pub(super) static WORLDBODY: Element = Element::new("worldbody", &[]).children(&
     &CAMERA,
     &LIGHT,
     &ATTACH,
-    &rest::COMPOSITE,
-    &rest::FLEXCOMP,
-    &rest::INCLUDE,
+    &flexible::COMPOSITE,
+    &flexible::FLEXCOMP,
+    &extension::INCLUDE,
 ]);
 
 pub(crate) static BODY: Element = Element::new(
@@ -172,7 +172,7 @@ pub(super) const GEOM_ATTRS: &[Attr] = attributes! {
 };
 static GEOM: Element =
     Element::new("geom", &[attributes! { Kind::Name("geom") => name; }, CLASS, GEOM_ATTRS])
-        .children(&[&rest::PLUGIN]);
+        .children(&[&extension::PLUGIN]);
 
 /// A site, without its name and class.
 pub(super) const SITE_ATTRS: &[Attr] = attributes! {

@@ -129,7 +129,7 @@ static MESH: Element = Element::new(
         MESH_ATTRS,
     ],
 )
-.children(&[&super::rest::PLUGIN]);
+.children(&[&super::extension::PLUGIN]);
 static HFIELD: Element = Element::new(
     "hfield",
     &[attributes! {

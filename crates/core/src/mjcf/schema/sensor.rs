@@ -1,9 +1,8 @@
 //! `sensor`: an element for every kind in the table of sensors.
 
-use super::{Attr, Element, INT, Kind, LIST, REAL, TEXT, attributes, rest, upto, word};
+use super::{Attr, Element, INT, Kind, LIST, REAL, TEXT, attributes, extension, upto, word};
 use crate::model::Obj;
-use crate::sensor;
-use crate::sensor::Senses;
+use crate::sensor::{self, Senses};
 
 const COMMON: &[Attr] = attributes! {
     Kind::Name("sensor") => name;
@@ -91,7 +90,7 @@ static ELEMENTS: [Element; COUNT] = {
         let element = Element::new(kind.name, groups(kind));
         all[i] = match kind.senses {
             Senses::Tactile => element.refused(),
-            Senses::Plugin => element.children(&[&rest::CONFIG]).refused(),
+            Senses::Plugin => element.children(&[&extension::CONFIG]).refused(),
             _ => element,
         };
         i += 1;

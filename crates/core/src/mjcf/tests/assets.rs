@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::mjcf::{compile_with, files::Files};
+use crate::mjcf::compile_with;
+use crate::mjcf::text::files::Files;
 use crate::{Data, Model, step};
 
 fn load(asset: &str, geom: &str, file: &str, bytes: &[u8]) -> Result<Model, String> {

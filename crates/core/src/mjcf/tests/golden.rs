@@ -1,6 +1,6 @@
 //! Every field of the compiled model against what MuJoCo 3.14.0 compiles: `golden/record.py` recorded it.
 
-use crate::model::{reflect, reflect::Object, reflect::View};
+use crate::model::reflect::{self, Object, View};
 use crate::{Data, Model, Obj, mjcf};
 
 /// Fields that nothing fills yet.

@@ -1,7 +1,8 @@
 //! What the schema calls supported is read: every attribute of every element is looked up by some pass.
 
-use crate::mjcf::{Folder, examine, seen};
-use crate::mjcf::{schema::Element, schema::ROOT, schema::Status};
+use crate::mjcf::schema::{Element, ROOT, Status};
+use crate::mjcf::text::seen;
+use crate::mjcf::{Folder, examine};
 
 /// A model with what no model of the folders below has.
 const OTHERS: &str = r#"<mujoco>

@@ -3,7 +3,7 @@
 
 use super::advance_along;
 use crate::dynamics::mass;
-use crate::forces::{derivative, derivative::Medium, derivative::sparse};
+use crate::forces::derivative::{self, Medium, sparse};
 use crate::math::{Spatial, solve_six};
 use crate::{Data, Fields, Model, Warning};
 

@@ -5,8 +5,7 @@ mod implicit;
 mod position;
 mod runge_kutta;
 
-use super::forward;
-use super::sleep;
+use super::{forward, sleep};
 use crate::forces::actuation;
 use crate::math::{combine, copy};
 use crate::model::asleep;

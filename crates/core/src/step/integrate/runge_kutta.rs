@@ -2,7 +2,7 @@
 //! one step on the manifold.
 
 use super::{Slopes, advance, integrate_pos};
-use crate::step::{forward, forward::Skip};
+use crate::step::forward::{self, Skip};
 use crate::{Data, Model};
 
 /// Stage s starts from the first state plus A[s] h times the slope of stage s - 1; B weighs the slopes.

@@ -1,11 +1,10 @@
 //! Saved data come back whole or not at all.
 
 use super::*;
-use crate::inverse;
 use crate::mjcf::compile;
 use crate::model::plan::Plan;
 use crate::step::plan::Demand;
-use crate::{contact_force, forward, rne_post_constraint, step, step1, step2, subtree_vel};
+use crate::{contact_force, forward, inverse, rne_post_constraint, step, step1, step2, subtree_vel};
 
 const PILE: &str = "<mujoco><option integrator='INTEGRATOR'/><worldbody><geom type='plane' size='1 1 1'/>
     <body pos='0 0 .1'><freejoint/><geom size='.1'/></body>

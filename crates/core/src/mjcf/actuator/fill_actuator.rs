@@ -1,0 +1,141 @@
+//! Actuators to the arrays of [`Model`].
+
+use super::check_actuator::{controls, outputs};
+use crate::forces::{history, transmission};
+use crate::mjcf::arrays::{flat, ints, padded};
+use crate::mjcf::spec::{ActuatorSpec, List, RangeSpec};
+use crate::mjcf::text::diagnostic::{Report, code};
+use crate::setup::lengthrange::{self, Failure, Search};
+use crate::{Data, Model};
+
+/// Steps times degrees of freedom for all ranges of lengths: more would take minutes.
+const MAX_SEARCH: f64 = 2e7;
+
+/// Sizes of actuators, for keyframes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counts {
+    pub(crate) nu: usize,
+    pub(crate) nout: usize,
+    pub(crate) na: usize,
+    pub(crate) nhistory: usize,
+}
+
+/// Sizes.
+pub(crate) fn count(list: &[ActuatorSpec], report: &mut Report) -> Counts {
+    let mut n = Counts::default();
+    for a in list {
+        let nu = controls(a).len();
+        n.nu += nu;
+        n.nout += outputs(a);
+        n.na += activations(a);
+        n.nhistory = n.nhistory.saturating_add(history::size(samples(a), nu));
+    }
+    let span = list.iter().find(|a| a.nsample > 0).map_or(0..0, |a| a.span.clone());
+    if !report.take(n.nhistory, span, "what all actuators remember, by their `nsample`,") {
+        n.nhistory = 0;
+    }
+    n
+}
+
+fn activations(a: &ActuatorSpec) -> usize {
+    usize::try_from(a.actdim).unwrap_or(0)
+}
+
+fn samples(a: &ActuatorSpec) -> usize {
+    usize::try_from(a.nsample).unwrap_or(0)
+}
+
+/// Where the numbers of each actuator begin: -1 for none, unless there is always one.
+fn addresses(list: &[ActuatorSpec], size: impl Fn(&ActuatorSpec) -> usize, always: bool) -> Vec<i32> {
+    let mut next = 0;
+    ints(list, |a| {
+        let at = if size(a) == 0 && !always { -1 } else { next as i32 };
+        next += size(a);
+        at
+    })
+}
+
+/// All fields of actuators.
+pub(crate) fn actuators(m: &mut Model, list: &[ActuatorSpec]) {
+    m.actuator_trntype = ints(list, |a| a.transmission.map_or(0, |t| t.kind));
+    m.actuator_trnid = list.iter().flat_map(|a| a.transmission.map_or([-1; 2], |t| t.id)).collect();
+    m.actuator_dyntype = ints(list, |a| a.dyntype);
+    m.actuator_gaintype = ints(list, |a| a.gaintype);
+    m.actuator_biastype = ints(list, |a| a.biastype);
+    m.actuator_ctrlspec = ints(list, |a| a.ctrlspec);
+    m.actuator_ctrladr = addresses(list, |a| controls(a).len(), true);
+    m.actuator_ctrlnum = ints(list, |a| controls(a).len() as i32);
+    m.actuator_outadr = addresses(list, outputs, true);
+    m.actuator_outnum = ints(list, |a| outputs(a) as i32);
+    m.actuator_actadr = addresses(list, activations, false);
+    m.actuator_actnum = ints(list, |a| a.actdim);
+    m.actuator_historyadr = addresses(list, |a| history::size(samples(a), controls(a).len()), false);
+    m.actuator_history = list.iter().flat_map(|a| [a.nsample, a.interp]).collect();
+    m.actuator_delay = flat(list, |a| [a.delay]);
+    m.actuator_cranklength = flat(list, |a| [a.cranklength]);
+    m.actuator_dynprm = flat(list, |a| a.dynprm);
+    m.actuator_gainprm = flat(list, |a| a.gainprm);
+    m.actuator_biasprm = flat(list, |a| a.biasprm);
+    m.actuator_actlimited = list.iter().map(|a| a.act.flag == 1).collect();
+    m.actuator_actrange = flat(list, |a| a.act.range);
+    m.actuator_actearly = list.iter().map(|a| a.actearly).collect();
+    m.actuator_damping = flat(list, |a| [a.damping[0]]);
+    m.actuator_dampingpoly = flat(list, |a| [a.damping[1], a.damping[2]]);
+    m.actuator_armature = flat(list, |a| [a.armature]);
+    m.actuator_group = ints(list, |a| a.group);
+    m.actuator_forcelimited = list.iter().map(|a| a.force.flag == 1).collect();
+    m.actuator_forcerange = flat(list, |a| a.force.range);
+    let ranges: Vec<RangeSpec> = list.iter().flat_map(controls).collect();
+    m.actuator_ctrllimited = ranges.iter().map(|r| r.flag == 1).collect();
+    m.actuator_ctrlrange = flat(&ranges, |r| r.range);
+    let each_output = || list.iter().flat_map(|a| std::iter::repeat_n(a, outputs(a)));
+    m.actuator_gear = flat(each_output(), |a| a.gear);
+    m.actuator_lengthrange = flat(each_output(), |a| a.lengthrange);
+    let users: Vec<List> = list.iter().map(user).collect();
+    m.actuator_user = padded(users.iter(), m.nuser_actuator);
+}
+
+/// The user values of an actuator.
+pub(crate) fn user(a: &ActuatorSpec) -> List {
+    List { numbers: a.user.clone(), span: a.user_span.clone() }
+}
+
+/// Room for the moments; `None` after reporting that it is too much.
+pub(crate) fn pattern(m: &mut Model, list: &[ActuatorSpec], report: &mut Report) -> Option<()> {
+    m.nJmom = transmission::entries(m);
+    let span = list.first().map_or(0..0, |a| a.span.clone());
+    report.take(2 * m.nJmom, span, "the moments of all actuators").then_some(())
+}
+
+/// The ranges of lengths that actuators can reach, where they are needed and not given.
+pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Search, report: &mut Report) {
+    let wanted: Vec<usize> = (0..m.nactuator).filter(|&i| search.wants(m, i)).collect();
+    let pulled = wanted.iter().filter(|&&i| search.limits(m, i).is_none()).count();
+    let Some(first) = wanted.first().and_then(|&i| list.get(i)) else { return };
+    // Where limits act, the cost of a step grows with the cube of the number of degrees of freedom.
+    let nv = m.nv.max(1) as f64;
+    if pulled as f64 * search.steps(m) * nv * (1.0 + (nv / 64.0).powi(2)) > MAX_SEARCH {
+        let message = format!("the ranges of lengths of {pulled} actuators take too many steps to find");
+        report.error(code::LIMIT, first.span.clone(), message).help("write a `lengthrange` for each");
+        return;
+    }
+    let mut d = Data::unplanned(m);
+    for i in wanted {
+        let Some(spec) = list.get(i) else { continue };
+        let wrong = match lengthrange::length_range(m, &mut d, i, search) {
+            Ok(()) => continue,
+            _ if !lengthrange::has_length(m, i) => "what it acts on gives it no length".to_string(),
+            Err(Failure::NoRange([lower, upper])) => {
+                format!("pulling it either way gives {lower:.4} and {upper:.4}")
+            }
+            Err(Failure::NotSettled([lower, upper])) => {
+                format!("pulled for as long as it may take, it still moves between {lower:.4} and {upper:.4}")
+            }
+        };
+        let message = format!("no range of lengths is found for {}: {wrong}", spec.shown);
+        report
+            .error(code::ACTUATOR, spec.span.clone(), message)
+            .why("the force of a muscle depends on its length in the range that it can have")
+            .help("write `lengthrange`, or limit the joints that it moves");
+    }
+}

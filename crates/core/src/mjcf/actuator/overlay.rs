@@ -1,0 +1,31 @@
+//! An element of `actuator` that is laid over what its class says.
+
+use crate::mjcf::classes::Props;
+use crate::mjcf::text::diagnostic::{MjcfDiagnostic, Report, code};
+use crate::mjcf::text::tree::Node;
+
+/// An element that is laid over an actuator.
+pub(crate) struct Overlay<'a> {
+    pub(crate) node: &'a Node,
+    /// Its own attributes.
+    pub(crate) p: Props,
+    pub(crate) report: &'a mut Report,
+}
+
+impl Overlay<'_> {
+    /// An error at an attribute, or at the element where it is absent.
+    pub(crate) fn error(&mut self, attribute: &str, message: impl Into<String>) -> &mut MjcfDiagnostic {
+        let span = self.p.span(attribute).unwrap_or(self.node.span.clone());
+        self.report.error(code::ACTUATOR, span, message)
+    }
+
+    /// A number that may not be negative, `None` when it is not given.
+    pub(crate) fn zero_or_more(&mut self, attribute: &str) -> Option<f64> {
+        let x = self.p.real(attribute)?;
+        if x < 0.0 {
+            let owner = self.node.shown();
+            self.error(attribute, format!("`{attribute}` of {owner} is {x}, it must be zero or more"));
+        }
+        Some(x)
+    }
+}

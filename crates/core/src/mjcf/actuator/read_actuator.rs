@@ -1,0 +1,209 @@
+//! Actuators: what their classes and elements say, and what they act on.
+
+use std::rc::Rc;
+
+use super::{check_actuator, shortcut};
+use crate::mjcf::classes::Props;
+use crate::mjcf::context::Context;
+use crate::mjcf::ids::References;
+use crate::mjcf::spec::{ActuatorSpec, BodySpec, RangeSpec, TendonSpec, TransmissionSpec};
+use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::tree::{Node, name};
+use crate::{biastype, dyntype, gaintype, trntype};
+
+/// All actuators in the order of the text.
+pub(crate) fn actuators(
+    cx: &mut Context,
+    refs: References,
+    bodies: &[BodySpec],
+    tendons: &[TendonSpec],
+) -> Vec<ActuatorSpec> {
+    let (tree, classes) = (cx.tree, cx.classes);
+    let mut of_class: Vec<ActuatorSpec> = Vec::new();
+    for (parent, nodes) in classes.elements() {
+        let mut spec = of_class.get(parent).cloned().unwrap_or_else(unset);
+        for node in nodes.iter().filter_map(|&i| tree.nodes.get(i)) {
+            overlay(&mut spec, node, cx.report);
+        }
+        of_class.push(spec);
+    }
+    let nodes = tree.sections("actuator").flat_map(|(section, _)| tree.children(section));
+    let mut list = Vec::new();
+    for (_, node) in nodes {
+        if cx.report.is_full() {
+            break;
+        }
+        cx.enter(node);
+        let class = of_class.get(classes.class_of(node, None));
+        let mut spec = class.cloned().unwrap_or_else(unset);
+        overlay(&mut spec, node, cx.report);
+        spec.name = name(node);
+        (spec.span, spec.shown) = (node.span.clone(), node.shown());
+        spec.transmission = transmission(&spec, refs, node, cx.report);
+        check_actuator::finish(&mut spec, cx, node, bodies, tendons);
+        list.push(spec);
+    }
+    list
+}
+
+/// An actuator of which nothing is said.
+fn unset() -> ActuatorSpec {
+    let first = |x: f64| std::array::from_fn(|i| if i == 0 { x } else { 0.0 });
+    let auto = RangeSpec { flag: 2, range: [0.0; 2] };
+    ActuatorSpec {
+        span: 0..0,
+        shown: String::new(),
+        name: String::new(),
+        gaintype: gaintype::FIXED,
+        gainprm: first(1.0),
+        biastype: biastype::NONE,
+        biasprm: [0.0; 10],
+        dyntype: dyntype::NONE,
+        dynprm: first(1.0),
+        actdim: -1,
+        actearly: false,
+        ctrlspec: 0,
+        ctrl: auto.clone(),
+        velrange: [0.0; 2],
+        ffrange: [0.0; 2],
+        force: auto.clone(),
+        act: auto,
+        inheritrange: 0.0,
+        gear: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        cranklength: 0.0,
+        lengthrange: [0.0; 2],
+        damping: [0.0; 3],
+        armature: 0.0,
+        group: 0,
+        nsample: 0,
+        interp: 0,
+        delay: 0.0,
+        user: Rc::default(),
+        user_span: 0..0,
+        transmission: None,
+    }
+}
+
+/// Lays an element over an actuator: the attributes that all share, then what its name stands for.
+fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Report) {
+    let Some(set) = shortcut::find(node.element.name) else { return };
+    let p = Props::own(node);
+    a.gaintype = p.word("gaintype").unwrap_or(a.gaintype);
+    a.biastype = p.word("biastype").unwrap_or(a.biastype);
+    a.dyntype = p.word("dyntype").unwrap_or(a.dyntype);
+    a.gainprm = p.reals("gainprm", a.gainprm);
+    a.biasprm = p.reals("biasprm", a.biasprm);
+    a.dynprm = p.reals("dynprm", a.dynprm);
+    a.actdim = p.int("actdim").unwrap_or(a.actdim);
+    a.actearly = p.word("actearly").map_or(a.actearly, |w| w == 1);
+    for (limit, flag, range) in [
+        (&mut a.ctrl, "ctrllimited", "ctrlrange"),
+        (&mut a.force, "forcelimited", "forcerange"),
+        (&mut a.act, "actlimited", "actrange"),
+    ] {
+        limit.flag = p.word(flag).unwrap_or(limit.flag);
+        limit.range = p.reals(range, limit.range);
+    }
+    a.velrange = p.reals("velrange", a.velrange);
+    a.ffrange = p.reals("ffrange", a.ffrange);
+    a.gear = p.reals("gear", a.gear);
+    a.cranklength = p.real("cranklength").unwrap_or(a.cranklength);
+    a.lengthrange = p.reals("lengthrange", a.lengthrange);
+    a.damping = p.reals("damping", a.damping);
+    a.armature = p.real("armature").unwrap_or(a.armature);
+    a.group = p.int("group").unwrap_or(a.group);
+    a.nsample = p.int("nsample").unwrap_or(a.nsample);
+    a.interp = p.word("interp").unwrap_or(a.interp);
+    a.delay = p.real("delay").unwrap_or(a.delay);
+    if p.has("user") {
+        a.user = p.shared("user");
+        a.user_span = p.span("user").unwrap_or(node.span.clone());
+    }
+    set(a, &mut super::overlay::Overlay { node, p, report });
+}
+
+/// The attributes that name what an actuator acts on, with the kind of object and the transmission.
+const TARGETS: [(&str, &str, i32); 6] = [
+    ("joint", "joint", trntype::JOINT),
+    ("jointinparent", "joint", trntype::JOINTINPARENT),
+    ("tendon", "tendon", trntype::TENDON),
+    ("cranksite", "site", trntype::SLIDERCRANK),
+    ("site", "site", trntype::SITE),
+    ("body", "body", trntype::BODY),
+];
+
+/// What an actuator acts on; `None` where that is not known, after it was reported.
+fn transmission(
+    a: &ActuatorSpec,
+    refs: References,
+    node: &Node,
+    report: &mut Report,
+) -> Option<TransmissionSpec> {
+    let owner = node.shown();
+    let given: Vec<_> = TARGETS.iter().filter(|(name, ..)| node.attribute(name).is_some()).collect();
+    if let [.., (first, ..), (last, ..)] = given.as_slice() {
+        let message = format!("{owner} has both `{first}` and `{last}`: it acts on the latter alone");
+        report
+            .warning(code::NO_EFFECT, node.span.clone(), message)
+            .why("an actuator acts on one thing; of several, MuJoCo takes the last of joint, jointinparent, tendon, cranksite, site, body")
+            .help("remove one of them, or write two actuators");
+    }
+    let named = |name: &str| node.text(name).is_some();
+    let (attribute, object, mut kind) = match given.last().filter(|(name, ..)| named(name)) {
+        Some(one) => **one,
+        None => {
+            let possible: Vec<_> = TARGETS
+                .iter()
+                .filter(|(name, ..)| node.element.attribute(name).is_some())
+                .map(|(name, ..)| format!("`{name}`"))
+                .collect();
+            report
+                .error(code::ACTUATOR, node.span.clone(), format!("{owner} acts on nothing"))
+                .why("a force needs something to act on")
+                .help(format!("write one of {} with the name of an object", possible.join(", ")));
+            return None;
+        }
+    };
+    for (name, of, needs) in [
+        ("slidersite", trntype::SLIDERCRANK, "cranksite"),
+        ("cranklength", trntype::SLIDERCRANK, "cranksite"),
+        ("refsite", trntype::SITE, "site"),
+    ] {
+        if let Some(a) = node.attribute(name).filter(|_| kind != of) {
+            report
+                .error(code::ACTUATOR, a.span.clone(), format!("{owner} has `{name}` and acts on a {object}"))
+                .help(format!(
+                    "`{name}` belongs to `{needs}`: remove it, or write `{needs}` in place of `{attribute}`"
+                ));
+        }
+    }
+    let id = refs.optional(object, node, attribute)?;
+    let second = match kind {
+        trntype::SLIDERCRANK => refs.required("site", node, "slidersite", report)?,
+        trntype::SITE if node.text("refsite").is_some() => refs.optional("site", node, "refsite")?,
+        _ => -1,
+    };
+    if a.gaintype == gaintype::SO3 && matches!(kind, trntype::JOINT | trntype::SITE) {
+        kind = trntype::SO3;
+        let joint = attribute == "joint";
+        if !joint && second < 0 {
+            report
+                .error(code::ACTUATOR, node.span.clone(), format!("{owner} has no `refsite`"))
+                .why("an orientation is that of one site relative to another")
+                .help("write `refsite` with a site of the world for an orientation in space");
+        }
+        if joint && refs.ids.joint(id).is_some_and(|(kind, _)| kind != crate::joint::BALL) {
+            report
+                .error(code::ACTUATOR, node.span.clone(), format!("{owner} acts on a joint that is no ball joint"))
+                .why("an orientation has three degrees of freedom")
+                .help("use `position` for a hinge, and `site` with `refsite` for the orientation of a free body");
+        }
+    }
+    if kind == trntype::SLIDERCRANK && a.cranklength <= 0.0 {
+        let span = node.attribute("cranklength").map_or(node.span.clone(), |a| a.span.clone());
+        report
+            .error(code::ACTUATOR, span, format!("`cranklength` of {owner} is {}", a.cranklength))
+            .why("it is the length of the rod between both sites, which must be larger than zero");
+    }
+    Some(TransmissionSpec { kind, id: [id, second] })
+}

@@ -1,0 +1,21 @@
+//! Arrays of a model, from one value or more of each object.
+
+use super::spec::List;
+
+/// Numbers of each object, one after the other.
+pub(super) fn flat<T, const N: usize>(
+    list: impl IntoIterator<Item = T>,
+    of: impl Fn(T) -> [f64; N],
+) -> Vec<f64> {
+    list.into_iter().flat_map(of).collect()
+}
+
+/// One integer of each object.
+pub(super) fn ints<T>(list: impl IntoIterator<Item = T>, of: impl FnMut(T) -> i32) -> Vec<i32> {
+    list.into_iter().map(of).collect()
+}
+
+/// The user values of each object, `width` of them.
+pub(super) fn padded<'l>(lists: impl Iterator<Item = &'l List>, width: usize) -> Vec<f64> {
+    lists.flat_map(|l| l.numbers.iter().copied().chain(std::iter::repeat(0.0)).take(width)).collect()
+}

@@ -1,0 +1,137 @@
+//! Meshes, height fields and skins to the arrays of the model.
+
+use super::mesh::{Hull, Mesh};
+use super::read_asset::Assets;
+use super::skin::{Bone, Skin};
+use crate::Model;
+use crate::geometry::{self, Sides};
+use crate::math::Vec3;
+use crate::mjcf::arrays::{flat, ints};
+use crate::mjcf::scene::fill_scene::{Places, single as single_each};
+
+/// Numbers that MuJoCo keeps as 32-bit floats have no more precision here.
+fn single(list: &[Vec3]) -> impl Iterator<Item = f64> + '_ {
+    list.as_flattened().iter().map(|&x| f64::from(x as f32))
+}
+
+/// First places of things that follow each other, from their numbers.
+fn places(counts: impl Iterator<Item = usize>) -> Vec<i32> {
+    counts
+        .scan(0, |next, n| {
+            *next += n;
+            Some((*next - n) as i32)
+        })
+        .collect()
+}
+
+/// The sizes that these objects add to the model.
+pub(crate) fn count(m: &mut Model, assets: &Assets) {
+    let meshes = || assets.meshes.iter().filter_map(|a| a.value.as_ref());
+    (m.nmesh, m.nhfield) = (assets.meshes.len(), assets.hfields.len());
+    m.nmeshvert = meshes().map(|x| x.shape.vert.len()).sum();
+    m.nmeshnormal = meshes().map(|x| x.shape.normal.len()).sum();
+    m.nmeshtexcoord = meshes().map(|x| x.shape.texcoord.len()).sum();
+    m.nmeshface = meshes().map(|x| x.shape.face.len()).sum();
+    m.nmeshgraph = meshes().map(graph_len).sum();
+    m.nhfielddata = assets.hfields.iter().filter_map(|a| a.value.as_ref()).map(|x| x.data.len()).sum();
+    let skins = || assets.skins.iter().filter_map(|a| a.value.as_ref());
+    m.nskin = assets.skins.len();
+    m.nskinvert = skins().map(|s| s.vert.len()).sum();
+    m.nskintexvert = skins().map(|s| s.texcoord.len()).sum();
+    m.nskinface = skins().map(|s| s.face.len()).sum();
+    m.nskinbone = skins().map(|s| s.bones.len()).sum();
+    m.nskinbonevert = skins().flat_map(|s| &s.bones).map(|b| b.vertid.len()).sum();
+}
+
+fn graph_len(mesh: &Mesh) -> usize {
+    mesh.hull.as_ref().map_or(0, |h| 2 + 3 * h.vertex.len() + 6 * h.face.len())
+}
+
+pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
+    let list: Vec<&Mesh> = assets.meshes.iter().filter_map(|a| a.value.as_ref()).collect();
+    let counts = |of: fn(&Mesh) -> usize| -> Vec<usize> { list.iter().map(|x| of(x)).collect() };
+    let numbers = |counts: &[usize]| (places(counts.iter().copied()), ints(counts, |&n| n as i32));
+    (m.mesh_vertadr, m.mesh_vertnum) = numbers(&counts(|x| x.shape.vert.len()));
+    (m.mesh_normaladr, m.mesh_normalnum) = numbers(&counts(|x| x.shape.normal.len()));
+    (m.mesh_faceadr, m.mesh_facenum) = numbers(&counts(|x| x.shape.face.len()));
+    (m.mesh_texcoordadr, m.mesh_texcoordnum) = numbers(&counts(|x| x.shape.texcoord.len()));
+    let graphs = counts(graph_len);
+    m.mesh_graphadr = places(graphs.iter().copied());
+    // What there is none of is nowhere.
+    for (at, n) in m.mesh_texcoordadr.iter_mut().zip(&m.mesh_texcoordnum) {
+        *at = if *n == 0 { -1 } else { *at };
+    }
+    for (at, n) in m.mesh_graphadr.iter_mut().zip(graphs) {
+        *at = if n == 0 { -1 } else { *at };
+    }
+    m.mesh_vert = list.iter().flat_map(|x| single(&x.shape.vert)).collect();
+    m.mesh_normal = list.iter().flat_map(|x| single(&x.shape.normal)).collect();
+    m.mesh_texcoord = list.iter().flat_map(|x| x.shape.texcoord.as_flattened()).copied().collect();
+    m.mesh_face = list.iter().flat_map(|x| x.shape.face.as_flattened()).copied().collect();
+    m.mesh_facenormal = list.iter().flat_map(|x| x.shape.facenormal.as_flattened()).copied().collect();
+    // A mesh without texture coordinates has room for them.
+    m.mesh_facetexcoord = list
+        .iter()
+        .flat_map(|x| {
+            let own = x.shape.facetexcoord.as_flattened().iter().copied();
+            own.chain(std::iter::repeat(0)).take(3 * x.shape.face.len())
+        })
+        .collect();
+    m.mesh_graph = list.iter().filter_map(|x| x.hull.as_ref()).flat_map(|h| h.graph()).collect();
+    m.mesh_sides = list
+        .iter()
+        .map(|x| {
+            // Seen before the vertices lose their precision.
+            let graph = x.hull.as_ref().map_or(Vec::new(), Hull::graph);
+            geometry::Hull::of(&graph).map_or_else(Sides::default, |hull| Sides::of(&x.shape.vert, &hull))
+        })
+        .collect();
+    m.mesh_scale = flat(&list, |x| x.options.scale);
+    m.mesh_pos = flat(&list, |x| x.pos);
+    m.mesh_quat = flat(&list, |x| x.quat);
+    m.names.mesh = assets.meshes.iter().map(|a| a.name.clone()).collect();
+}
+
+pub(crate) fn hfields(m: &mut Model, assets: &Assets) {
+    let list: Vec<_> = assets.hfields.iter().filter_map(|a| a.value.as_ref()).collect();
+    m.hfield_size = flat(&list, |x| x.size);
+    m.hfield_nrow = ints(&list, |x| x.nrow as i32);
+    m.hfield_ncol = ints(&list, |x| x.ncol as i32);
+    m.hfield_adr = places(list.iter().map(|x| x.data.len()));
+    m.hfield_data = list.iter().flat_map(|x| &x.data).copied().collect();
+    m.names.hfield = assets.hfields.iter().map(|a| a.name.clone()).collect();
+}
+
+/// Bodies and materials are there: their names come first.
+pub(crate) fn skins(m: &mut Model, assets: &Assets) {
+    let list: Vec<&Skin> = assets.skins.iter().filter_map(|a| a.value.as_ref()).collect();
+    let bones: Vec<&Bone> = list.iter().flat_map(|s| &s.bones).collect();
+    let materials = Places::of(m.names.material.iter());
+    let bodies = Places::of(m.names.body.iter());
+    m.skin_matid = ints(&list, |s| materials.find(s.material.as_ref()));
+    m.skin_group = ints(&list, |s| s.group);
+    m.skin_rgba = flat(&list, |s| single_each(s.rgba));
+    m.skin_inflate = flat(&list, |s| single_each([s.inflate]));
+    m.skin_vertadr = places(list.iter().map(|s| s.vert.len()));
+    m.skin_vertnum = ints(&list, |s| s.vert.len() as i32);
+    m.skin_texcoordadr = places(list.iter().map(|s| s.texcoord.len()));
+    for (at, s) in m.skin_texcoordadr.iter_mut().zip(&list) {
+        *at = if s.texcoord.is_empty() { -1 } else { *at };
+    }
+    m.skin_faceadr = places(list.iter().map(|s| s.face.len()));
+    m.skin_facenum = ints(&list, |s| s.face.len() as i32);
+    m.skin_boneadr = places(list.iter().map(|s| s.bones.len()));
+    m.skin_bonenum = ints(&list, |s| s.bones.len() as i32);
+    m.skin_vert = list.iter().flat_map(|s| single(&s.vert)).collect();
+    m.skin_texcoord =
+        list.iter().flat_map(|s| s.texcoord.as_flattened()).map(|&x| f64::from(x as f32)).collect();
+    m.skin_face = list.iter().flat_map(|s| s.face.as_flattened()).copied().collect();
+    m.skin_bonevertadr = places(bones.iter().map(|b| b.vertid.len()));
+    m.skin_bonevertnum = ints(&bones, |b| b.vertid.len() as i32);
+    m.skin_bonebindpos = flat(&bones, |b| single_each(b.bindpos));
+    m.skin_bonebindquat = flat(&bones, |b| single_each(b.bindquat));
+    m.skin_bonebodyid = ints(&bones, |b| bodies.find(Some(&b.body)));
+    m.skin_bonevertid = bones.iter().flat_map(|b| &b.vertid).copied().collect();
+    m.skin_bonevertweight = bones.iter().flat_map(|b| &b.vertweight).map(|&x| f64::from(x as f32)).collect();
+    m.names.skin = assets.skins.iter().map(|a| a.name.clone()).collect();
+}

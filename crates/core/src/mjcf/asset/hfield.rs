@@ -1,0 +1,203 @@
+//! Height fields: samples of a ground on a grid, from text or a file, brought to 0 to 1.
+
+use super::mesh::{Bytes, Problem};
+use crate::mjcf::text::diagnostic::shown;
+
+/// Most samples of a field.
+const MAX_SAMPLES: usize = 4_000_000;
+
+/// A height field.
+#[derive(Debug)]
+pub(crate) struct HField {
+    /// Half lengths in x and y, height of the top, depth of the base, m.
+    pub(crate) size: [f64; 4],
+    pub(crate) nrow: usize,
+    pub(crate) ncol: usize,
+    /// Elevations from 0 to 1, row by row from the smallest y.
+    pub(crate) data: Vec<f64>,
+}
+
+/// Numbers of rows and columns, and elevations of any range.
+pub(crate) struct Samples {
+    nrow: usize,
+    ncol: usize,
+    data: Vec<f64>,
+}
+
+impl HField {
+    /// A field whose lowest sample is 0 and whose highest is 1.
+    pub(crate) fn new(samples: Samples, size: &[f64]) -> Result<HField, Problem> {
+        let Ok(size) = <[f64; 4]>::try_from(size) else {
+            return Err(Problem::new(
+                "size",
+                "has no `size`",
+                "",
+                "write half lengths in x and y, height of the top and depth of the base: `size=\"5 5 1 0.1\"`",
+            ));
+        };
+        if let Some(x) = size.iter().find(|&&x| x <= 0.0) {
+            return Err(Problem::new(
+                "size",
+                format!("has {x} in its `size`"),
+                "a ground without extent, height or base has nothing to stand on",
+                "write four numbers larger than zero",
+            ));
+        }
+        let Samples { nrow, ncol, mut data } = samples;
+        if let Some(i) = data.iter().position(|x| !x.is_finite()) {
+            return Err(Problem::new(
+                "file",
+                format!("has a sample {i} that is not finite"),
+                "",
+                "correct it",
+            ));
+        }
+        let lowest = data.iter().fold(f64::INFINITY, |s, &x| s.min(x));
+        let range = data.iter().fold(f64::NEG_INFINITY, |s, &x| s.max(x)) - lowest;
+        for x in &mut data {
+            // Kept in single precision, as in MuJoCo.
+            let above = (*x - lowest) as f32;
+            *x = f64::from(if range > crate::math::MINVAL { above / range as f32 } else { above });
+        }
+        Ok(HField { size, nrow, ncol, data })
+    }
+
+    /// The size of a geom: half lengths of a box of about the same bulk.
+    pub(crate) fn geom_size(&self) -> [f64; 3] {
+        let [x, y, top, base] = self.size;
+        [x, y, 0.25 * top + 0.5 * base]
+    }
+
+    /// Centre and half lengths of the box around it.
+    pub(crate) fn aabb(&self) -> [f64; 6] {
+        let [x, y, top, base] = self.size;
+        [0.0, 0.0, (top - base) / 2.0, x, y, (top + base) / 2.0]
+    }
+
+    /// Radius of the sphere around its frame.
+    pub(crate) fn rbound(&self) -> f64 {
+        let [x, y, top, base] = self.size;
+        crate::math::norm([x, y, top.max(base)])
+    }
+}
+
+/// Numbers of rows and columns that make a field.
+fn grid(nrow: i32, ncol: i32, attribute: &'static str) -> Result<(usize, usize), Problem> {
+    match (usize::try_from(nrow), usize::try_from(ncol)) {
+        (Ok(r), Ok(c)) if r > 0 && c > 0 && r.saturating_mul(c) <= MAX_SAMPLES => Ok((r, c)),
+        _ => Err(Problem::new(
+            attribute,
+            format!("has {nrow} rows and {ncol} columns"),
+            "",
+            "write at least one of each in `nrow` and `ncol`, and at most 4000000 samples",
+        )),
+    }
+}
+
+/// A field whose elevations stand in its attribute, from the largest y down; none are a plain.
+pub(crate) fn written(nrow: i32, ncol: i32, elevation: &[f64]) -> Result<Samples, Problem> {
+    let (nrow, ncol) = grid(nrow, ncol, "nrow")?;
+    if elevation.is_empty() {
+        return Ok(Samples { nrow, ncol, data: vec![0.0; nrow * ncol] });
+    }
+    if elevation.len() != nrow * ncol {
+        return Err(Problem::new(
+            "elevation",
+            format!("has {} elevations, but {nrow} rows of {ncol} columns", elevation.len()),
+            "",
+            "write a number for each sample, row by row from the largest y",
+        ));
+    }
+    let rows = elevation.chunks_exact(ncol).rev();
+    let data = rows.flatten().map(|&x| f64::from(x as f32)).collect();
+    Ok(Samples { nrow, ncol, data })
+}
+
+/// The kinds of file.
+const PNG: &str = "image/png";
+const OWN: &str = "image/vnd.mujoco.hfield";
+
+/// Reads a file: a PNG picture or MuJoCo's own format. The name's ending tells which, or `content_type`, by the rules that
+/// were measured on MuJoCo 3.14.0: another kind is refused, what does not look like the name of a kind means its own.
+pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Samples, Problem> {
+    let kind = match content_type {
+        "" if path.to_ascii_lowercase().ends_with(".png") => PNG,
+        "" => OWN,
+        kind if kind.contains('/') => kind,
+        _ => OWN,
+    };
+    match kind {
+        PNG => picture(bytes),
+        OWN => own(bytes),
+        _ => Err(Problem::new(
+            "content_type",
+            format!("has a file of the kind {}", shown(kind)),
+            "heights can be read from a picture or from MuJoCo's own format",
+            "write `content_type=\"image/png\"`, or leave it out",
+        )),
+    }
+}
+
+/// A PNG picture: the elevation is what is red, in 8 bits, and the last row of the picture has the smallest y.
+fn picture(bytes: &[u8]) -> Result<Samples, Problem> {
+    let bad = |what: String| {
+        Problem::file(
+            format!("has a file that cannot be read as a PNG picture: {what}"),
+            "export the picture again",
+        )
+    };
+    let mut decoder = png::Decoder::new_with_limits(
+        std::io::Cursor::new(bytes),
+        // Colours of 16 bits and four channels at most.
+        png::Limits { bytes: 16 * MAX_SAMPLES },
+    );
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    decoder.ignore_checksums(false);
+    let mut reader = decoder.read_info().map_err(|e| bad(e.to_string()))?;
+    let (width, height) = (reader.info().width, reader.info().height);
+    let to_int = |n: u32| i32::try_from(n).unwrap_or(i32::MAX);
+    let (nrow, ncol) = grid(to_int(height), to_int(width), "file")?;
+    let size = reader.output_buffer_size().unwrap_or(usize::MAX);
+    if size > 8 * MAX_SAMPLES {
+        return Err(bad("it is too large".into()));
+    }
+    let mut pixels = vec![0; size];
+    let frame = reader.next_frame(&mut pixels).map_err(|e| bad(e.to_string()))?;
+    let step = frame.color_type.samples();
+    let rows = pixels.chunks_exact(frame.line_size.max(1)).take(nrow).rev();
+    let red = rows.flat_map(|row| row.chunks_exact(step.max(1)).take(ncol).filter_map(|p| p.first()));
+    let data: Vec<f64> = red.map(|&x| f64::from(x)).collect();
+    if data.len() != nrow * ncol {
+        return Err(bad("it is cut off".into()));
+    }
+    Ok(Samples { nrow, ncol, data })
+}
+
+/// MuJoCo's own file: numbers of rows and columns, then the elevations in single precision, from the smallest y.
+fn own(bytes: &[u8]) -> Result<Samples, Problem> {
+    if bytes.starts_with(b"\x89PNG") {
+        return Err(Problem::file(
+            "has a PNG picture as its file, and nothing says so",
+            "let the name end in .png, or write `content_type=\"image/png\"`",
+        ));
+    }
+    let mut numbers = Bytes(bytes);
+    let Some([nrow, ncol]) = numbers.ints() else {
+        return Err(Problem::file(
+            format!("has a file of {} bytes", bytes.len()),
+            "the file begins with two 32-bit integers: rows and columns",
+        ));
+    };
+    let (nrow, ncol) = grid(nrow, ncol, "file")?;
+    if numbers.0.len() != 4 * nrow * ncol {
+        return Err(Problem::file(
+            format!(
+                "has a file of {} bytes, but {nrow} rows of {ncol} columns take {}",
+                bytes.len(),
+                8 + 4 * nrow * ncol
+            ),
+            "write the file again: it is cut off or of another kind",
+        ));
+    }
+    Ok(Samples { nrow, ncol, data: (0..nrow * ncol).map_while(|_| numbers.real()).collect() })
+}

@@ -1,0 +1,218 @@
+//! From what was written to a mesh in its own frame: reference frame and scale, centre of mass, principal axes.
+
+use super::inertia::{self, Body, Mass};
+use super::normals;
+use crate::math::{IDENTITY, MINVAL, Quat, Vec3, mat_t_mul_vec, quat_normalize, quat_to_mat, sub};
+use crate::mjcf::asset::mesh::{Flat, Hull, Mesh, Problem, Raw, triangle};
+use crate::mjcf::body::inertia::principal_to;
+
+/// How well the axes of a mesh are found: as a part of the largest element of its inertia. MuJoCo 3.14.0 was measured.
+const AXES: f64 = 1e-7;
+
+/// What an asset says besides its data.
+#[derive(Clone, Debug)]
+pub(crate) struct Options {
+    pub(crate) scale: Vec3,
+    /// The frame that the mesh is seen from.
+    pub(crate) refpos: Vec3,
+    pub(crate) refquat: Quat,
+    pub(crate) smooth: bool,
+    pub(crate) maxhullvert: Option<usize>,
+    pub(crate) body: Body,
+}
+
+impl Options {
+    /// Whether the scale turns the mesh into its mirror image.
+    fn mirrors(&self) -> bool {
+        self.scale.iter().product::<f64>() < 0.0
+    }
+}
+
+/// Makes a mesh. Its hull is made where the mesh is made of it; others ask for it by [`hull`].
+pub(crate) fn mesh(mut raw: Raw, options: Options) -> Result<Mesh, Problem> {
+    check(&raw, options.body)?;
+    let written = raw.vert.clone();
+    let mut own_hull = None;
+    if raw.face.is_empty() || options.body == Body::Convex {
+        own_hull = Some(unscaled_hull(&written, &options)?);
+    }
+    if let Some(hull) = own_hull.as_ref().filter(|_| raw.face.is_empty()) {
+        raw.face.clone_from(&hull.face);
+    }
+    if raw.normal.is_empty() {
+        raw.normal = normals::of_vertices(&raw.vert, &raw.face, options.smooth);
+        raw.facenormal.clear();
+    }
+    if raw.facenormal.is_empty() {
+        raw.facenormal.clone_from(&raw.face);
+    }
+    if raw.facetexcoord.is_empty() && !raw.texcoord.is_empty() {
+        raw.facetexcoord.clone_from(&raw.face);
+    }
+    place(&mut raw, &options);
+    if options.mirrors() {
+        let lists = [&mut raw.face, &mut raw.facenormal, &mut raw.facetexcoord].into_iter();
+        lists.chain(own_hull.as_mut().map(|h| &mut h.face)).flatten().for_each(|f| f.swap(1, 2));
+    }
+    let solid = own_hull.as_ref().filter(|_| options.body == Body::Convex).map_or(&raw.face, |h| &h.face);
+    let Mass { amount, centre, inertia } = mass(&raw.vert, &raw.face, solid, options.body)?;
+    let largest = inertia.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+    let (moments, quat) = principal_to(AXES * largest, inertia);
+    let [a, b, c] = moments;
+    let most = a.max(b).max(c);
+    if c.min(b).min(a) <= 0.0 || !most.is_finite() || a + b + c - 2.0 * most < -1e-6 * most - 1e-9 {
+        return Err(Problem::new(
+            "inertia",
+            format!("has the principal moments {a}, {b}, {c} for a density of one: no body has these"),
+            "its triangles do not enclose a body, or face different ways",
+            "repair the mesh, or write `inertia=\"convex\"` for the inertia of its convex hull",
+        ));
+    }
+    let edge = |i: f64| 0.5 * libm::sqrt((6.0 * i / amount).max(0.0));
+    let half = [edge(b + c - a), edge(a + c - b), edge(a + b - c)];
+
+    let (mut lower, mut upper) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    let axes = quat_to_mat(quat);
+    for v in &mut raw.vert {
+        *v = mat_t_mul_vec(&axes, sub(*v, centre));
+        (lower, upper) =
+            (std::array::from_fn(|i| lower[i].min(v[i])), std::array::from_fn(|i| upper[i].max(v[i])));
+    }
+    raw.normal.iter_mut().for_each(|n| *n = mat_t_mul_vec(&axes, *n));
+    Ok(Mesh { shape: raw, written, hull: own_hull, options, pos: centre, quat, amount, half, lower, upper })
+}
+
+/// The convex hull of a mesh.
+pub(crate) fn hull(mesh: &Mesh) -> Result<Hull, Problem> {
+    let mut hull = unscaled_hull(&mesh.written, &mesh.options)?;
+    if mesh.options.mirrors() {
+        hull.face.iter_mut().for_each(|f| f.swap(1, 2));
+    }
+    Ok(hull)
+}
+
+/// The convex hull of vertices as they were written.
+fn unscaled_hull(written: &[Vec3], options: &Options) -> Result<Hull, Problem> {
+    Hull::of(written, options.maxhullvert).map_err(|flat| {
+        let (what, help) = match flat {
+            Flat::Point => ("has all its vertices in one place", "write a small sphere instead"),
+            Flat::Line => ("has all its vertices on a line", "write a thin capsule instead"),
+            Flat::Plane => (
+                "has all its vertices in a plane",
+                "write a thin box instead; a mesh that touches nothing (`contype=\"0\" conaffinity=\"0\"`) may be flat \
+                 with `inertia=\"shell\"`",
+            ),
+            Flat::Endless => ("has a convex hull that is too hard to find", "write fewer vertices"),
+        };
+        Problem::new("", what, "what touches other geoms is the convex hull of a mesh, and it must have a volume", help)
+    })
+}
+
+/// That there is something to make a mesh of.
+fn check(raw: &Raw, body: Body) -> Result<(), Problem> {
+    let count = raw.vert.len();
+    if count < 4 {
+        return Err(Problem::new(
+            "vertex",
+            format!("has {count} vertices"),
+            "the smallest body has four corners",
+            "write at least four vertices",
+        ));
+    }
+    if let Some(i) = raw.vert.iter().position(|v| v.iter().any(|x| !x.is_finite())) {
+        return Err(Problem::new(
+            "vertex",
+            format!("has vertex {i} at a place that is not finite"),
+            "",
+            "correct it",
+        ));
+    }
+    for (i, face) in raw.face.iter().enumerate() {
+        if let Some(&v) = face.iter().find(|&&v| usize::try_from(v).map_or(true, |v| v >= count)) {
+            return Err(Problem::new(
+                "face",
+                format!(
+                    "has vertex {v} in triangle {i}, but its {count} vertices are numbered 0 to {}",
+                    count - 1
+                ),
+                "",
+                "vertices are numbered from 0 in the order of `vertex`",
+            ));
+        }
+    }
+    if body == Body::Exact { check_sense(raw) } else { Ok(()) }
+}
+
+/// That neighbouring triangles run the same way round: each passes their common edge in its own direction.
+fn check_sense(raw: &Raw) -> Result<(), Problem> {
+    let corner = |v: i32| raw.vert.get(v as usize).copied().unwrap_or_default();
+    let solid = |f: &&[i32; 3]| triangle(f.map(corner)).0 > libm::sqrt(MINVAL);
+    let mut edges: Vec<(i32, i32)> =
+        raw.face.iter().filter(solid).flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+    edges.sort_unstable();
+    match edges.windows(2).find(|pair| pair[0] == pair[1]) {
+        None => Ok(()),
+        Some(pair) => Err(Problem::new(
+            "face",
+            format!(
+                "has triangles that run different ways round at the edge of vertices {} and {}",
+                pair[0].0, pair[0].1
+            ),
+            "an exact inertia needs to know which side of each triangle is outside",
+            "let the corners of every triangle run counterclockwise as seen from outside, or write `inertia=\"legacy\"`",
+        )),
+    }
+}
+
+/// Puts vertices and normals into the reference frame and scales them.
+fn place(raw: &mut Raw, options: &Options) {
+    let Options { scale, refpos, refquat, .. } = options;
+    let turn = quat_to_mat(quat_normalize(*refquat));
+    for v in &mut raw.vert {
+        *v = sub(*v, *refpos);
+        if *refquat != IDENTITY {
+            *v = mat_t_mul_vec(&turn, *v);
+        }
+        *v = std::array::from_fn(|i| v[i] * scale[i]);
+    }
+    // A normal turns as the area of what it stands on does: stretched along an axis, it tilts away from it.
+    let [x, y, z] = *scale;
+    let area = [y * z, x * z, x * y].map(|a| if options.mirrors() { -a } else { a });
+    for n in &mut raw.normal {
+        let turned = mat_t_mul_vec(&turn, *n);
+        *n = normals::unit(std::array::from_fn(|i| turned[i] * area[i]));
+    }
+}
+
+/// The mass of the body that a mesh stands for.
+fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Result<Mass, Problem> {
+    let triangles = |faces| inertia::triangles(vert, faces);
+    let (area, middle) = inertia::surface(triangles(face));
+    if area < MINVAL || !area.is_finite() {
+        return Err(Problem::new(
+            "",
+            format!("has triangles of {area:.1e} square metres altogether"),
+            "nothing so small, or so large, can have a mass",
+            "look at `scale`: the mesh is in metres, and no axis may be scaled by zero",
+        ));
+    }
+    let solid = if body == Body::Shell { face } else { solid };
+    let (amount, centre) = inertia::bulk(triangles(solid), body, middle);
+    if amount < 0.0 {
+        return Err(Problem::new(
+            "face",
+            "is inside out: its triangles enclose a negative volume",
+            "an exact inertia needs to know which side of each triangle is outside",
+            "let the corners of every triangle run counterclockwise as seen from outside, or write `inertia=\"legacy\"`",
+        ));
+    }
+    if amount < MINVAL || !amount.is_finite() {
+        return Err(Problem::new(
+            "",
+            format!("encloses {amount:.1e} cubic metres"),
+            "a body without volume has no mass",
+            "look at `scale`: the mesh is in metres; for an open or flat surface write `inertia=\"shell\"`",
+        ));
+    }
+    Ok(inertia::about(triangles(solid), body, centre))
+}

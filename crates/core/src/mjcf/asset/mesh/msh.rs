@@ -1,0 +1,44 @@
+//! MuJoCo's own binary meshes (XML reference, asset/mesh: MSH): numbers of vertices, normals, texture coordinates and
+//! triangles, then these, in single precision and 32-bit integers. Normals and texture coordinates are those of the
+//! vertices.
+
+use crate::mjcf::asset::mesh::{Bytes, MAX_FACES, MAX_VERTICES, Problem, Raw};
+
+pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
+    let cut = || {
+        Problem::file("has an MSH file that is shorter than its head", "export the mesh as OBJ or binary STL")
+    };
+    let mut numbers = Bytes(bytes);
+    let sizes: [i32; 4] = numbers.ints().ok_or_else(cut)?;
+    let of = |i: usize| usize::try_from(sizes[i]).unwrap_or(usize::MAX);
+    let [nvert, nnormal, ntexcoord, nface] = [of(0), of(1), of(2), of(3)];
+    let same = |n: usize| n == 0 || n == nvert;
+    if !(4..=MAX_VERTICES).contains(&nvert) || nface > MAX_FACES || !same(nnormal) || !same(ntexcoord) {
+        let [v, n, t, f] = sizes;
+        return Err(Problem::file(
+            format!(
+                "has an MSH file of {v} vertices, {n} normals, {t} texture coordinates and {f} triangles"
+            ),
+            "there are four vertices or more, and as many normals and texture coordinates, or none",
+        ));
+    }
+    let need = 4 * (3 * nvert + 3 * nnormal + 2 * ntexcoord + 3 * nface);
+    if numbers.0.len() != need {
+        return Err(Problem::file(
+            format!("has an MSH file of {} bytes, but what its head lists takes {}", bytes.len(), need + 16),
+            "export the mesh as OBJ or binary STL: the file is damaged",
+        ));
+    }
+    let mut raw = Raw {
+        vert: (0..nvert).map_while(|_| numbers.reals()).collect(),
+        normal: (0..nnormal).map_while(|_| numbers.reals()).collect(),
+        texcoord: (0..ntexcoord).map_while(|_| numbers.reals()).collect(),
+        face: (0..nface).map_while(|_| numbers.ints()).collect(),
+        ..Raw::default()
+    };
+    raw.facenormal.clone_from(&raw.face);
+    if ntexcoord > 0 {
+        raw.facetexcoord.clone_from(&raw.face);
+    }
+    Ok(raw)
+}

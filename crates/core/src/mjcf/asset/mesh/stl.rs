@@ -1,0 +1,82 @@
+//! Binary STL (3D Systems 1988, *StereoLithography interface specification*): 80 bytes of anything, the number of
+//! triangles, then for each a normal, three corners and two spare bytes. The normals are not read.
+
+use std::collections::HashMap;
+
+use crate::mjcf::asset::mesh::{Bytes, MAX_FACES, Problem, Raw};
+
+const HEAD: usize = 84;
+const TRIANGLE: usize = 50;
+/// Coordinates beyond this are damage.
+const FARTHEST: f64 = (1u64 << 30) as f64;
+
+/// Corners at the same place become one vertex, in the order in which they come up.
+pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
+    if bytes.is_empty() {
+        return Err(Problem::file("has an empty file", "export the mesh again"));
+    }
+    if bytes.trim_ascii_start().starts_with(b"solid") && !fits(bytes) {
+        return Err(Problem::file(
+            "has an STL file in text form",
+            "export it as binary STL: MuJoCo reads only that",
+        ));
+    }
+    if bytes.len() < HEAD {
+        return Err(Problem::file(
+            format!("has an STL file of {} bytes, shorter than its head of {HEAD}", bytes.len()),
+            "export the mesh again: the file is cut off",
+        ));
+    }
+    let count = count(bytes).unwrap_or(0);
+    if !(1..=MAX_FACES).contains(&count) {
+        return Err(Problem::file(
+            format!("has an STL file of {count} triangles"),
+            "a mesh has from 1 to 2000000 triangles; is it really binary STL?",
+        ));
+    }
+    if !fits(bytes) {
+        return Err(Problem::file(
+            format!(
+                "has an STL file of {} bytes, but {count} triangles take {}",
+                bytes.len(),
+                HEAD + TRIANGLE * count
+            ),
+            "export the mesh again: the file is cut off, or in text form",
+        ));
+    }
+    let mut raw = Raw::default();
+    let mut places: HashMap<[u64; 3], i32> = HashMap::new();
+    for record in bytes.get(HEAD..).unwrap_or(&[]).chunks_exact(TRIANGLE) {
+        let mut numbers = Bytes(record);
+        let mut face = [0; 3];
+        let _normal = numbers.reals::<3>();
+        for corner in &mut face {
+            let v = numbers.reals::<3>().unwrap_or_default();
+            if !v.iter().all(|x| x.abs() <= FARTHEST) {
+                return Err(Problem::file(
+                    format!("has a corner at {} {} {}", v[0], v[1], v[2]),
+                    "export the mesh again: no coordinate can be so large, or no number",
+                ));
+            }
+            // Zero has two signs.
+            let key = v.map(|x| (x + 0.0).to_bits());
+            *corner = *places.entry(key).or_insert_with(|| {
+                raw.vert.push(v);
+                raw.vert.len() as i32 - 1
+            });
+        }
+        raw.face.push(face);
+    }
+    Ok(raw)
+}
+
+/// The number of triangles that the head says.
+fn count(bytes: &[u8]) -> Option<usize> {
+    let word = bytes.get(HEAD - 4..HEAD)?;
+    usize::try_from(Bytes(word).int()?).ok()
+}
+
+/// Whether the file is as long as its head says.
+fn fits(bytes: &[u8]) -> bool {
+    count(bytes).and_then(|n| n.checked_mul(TRIANGLE)?.checked_add(HEAD)) == Some(bytes.len())
+}

@@ -1,0 +1,7 @@
+//! Meshes, height fields and skins: reading, hulls, inertias, filling.
+
+pub(crate) mod fill_asset;
+pub(crate) mod hfield;
+pub(crate) mod mesh;
+pub(crate) mod read_asset;
+pub(crate) mod skin;

@@ -1,0 +1,465 @@
+//! `asset`: meshes, height fields and skins, from text, files and rules, numbered in the order of the text.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use super::hfield::HField;
+use super::mesh::{self, Body, Mesh, Problem, Raw};
+use super::skin::{self, Bone, Skin};
+use crate::geom;
+use crate::math::{IDENTITY, norm};
+use crate::mjcf::asset::mesh::build::{self, Options};
+use crate::mjcf::classes::{Classes, Props};
+use crate::mjcf::expand::Part;
+use crate::mjcf::names::{NameTable, WORLD};
+use crate::mjcf::spec::{BodySpec, PairSpec};
+use crate::mjcf::text::diagnostic::{Report, code, shown};
+use crate::mjcf::text::files::{Files, MAX_FILE};
+use crate::mjcf::text::load;
+use crate::mjcf::text::tree::{Node, Tree, name};
+
+/// Bytes of all files, vertices and triangles of all meshes, samples of all height fields: a small text could ask for
+/// any amount.
+const MOST: usize = 256 << 20;
+/// What a vertex, a triangle or a sample takes of that.
+const EACH: usize = 32;
+/// The smallest limit of corners of a hull: a tetrahedron.
+const FEWEST_CORNERS: i32 = 4;
+
+/// Something with a name. What could not be made is `None`: that was reported.
+#[derive(Debug)]
+pub(crate) struct Asset<T> {
+    pub(crate) name: String,
+    pub(crate) span: Range<usize>,
+    pub(crate) value: Option<T>,
+}
+
+/// All meshes, height fields and skins.
+#[derive(Debug, Default)]
+pub(crate) struct Assets {
+    pub(crate) meshes: Vec<Asset<Mesh>>,
+    pub(crate) hfields: Vec<Asset<HField>>,
+    pub(crate) skins: Vec<Asset<Skin>>,
+    /// Materials that meshes bring along, by mesh.
+    materials: Vec<Option<String>>,
+    /// Ids by kind and name.
+    ids: BTreeMap<(&'static str, String), usize>,
+}
+
+/// What reading needs to know.
+struct Reader<'a> {
+    parts: &'a [Part],
+    files: &'a dyn Files,
+    /// What is left of [`MOST`].
+    left: usize,
+    report: &'a mut Report,
+}
+
+impl Assets {
+    /// Reads all sections.
+    pub(crate) fn read(
+        tree: &Tree,
+        classes: &Classes,
+        parts: &[Part],
+        files: &dyn Files,
+        report: &mut Report,
+    ) -> Assets {
+        let mut assets = Assets::default();
+        let mut reader = Reader { parts, files, left: MOST, report };
+        for (_, node) in tree.sections("asset").flat_map(|(at, _)| tree.children(at)) {
+            if reader.report.is_full() {
+                break;
+            }
+            let (name, span) = (name(node), node.span.clone());
+            let id = match node.element.name {
+                "mesh" => {
+                    let p = classes.props(node, None);
+                    let value = reader.mesh(node, &p);
+                    assets.materials.push(p.text("material").map(str::to_string));
+                    assets.meshes.push(Asset { name: name.clone(), span, value });
+                    assets.meshes.len() - 1
+                }
+                "hfield" => {
+                    let value = reader.hfield(node);
+                    assets.hfields.push(Asset { name: name.clone(), span, value });
+                    assets.hfields.len() - 1
+                }
+                _ => continue,
+            };
+            if name.is_empty() {
+                let message = format!("{} has no name", node.shown());
+                reader
+                    .report
+                    .error(code::MISSING_ATTRIBUTE, node.span.clone(), message)
+                    .why("nothing can refer to it")
+                    .help("write `name=\"…\"`");
+            }
+            assets.ids.entry((node.element.name, name)).or_insert(id);
+        }
+        let sections = tree.sections("asset").chain(tree.sections("deformable"));
+        for (at, node) in sections.flat_map(|(at, _)| tree.children(at)) {
+            if node.element.name == "skin" && !reader.report.is_full() {
+                let value = reader.skin(tree, at, node);
+                assets.skins.push(Asset { name: name(node), span: node.span.clone(), value });
+            }
+        }
+        assets
+    }
+
+    /// The id of an asset.
+    fn id(&self, kind: &'static str, name: &str) -> Option<usize> {
+        self.ids.get(&(kind, name.to_string())).copied()
+    }
+
+    /// A mesh and its id, where it could be made.
+    pub(crate) fn mesh(&self, name: &str) -> Option<(i32, &Mesh)> {
+        let id = self.id("mesh", name)?;
+        Some((id as i32, self.meshes.get(id)?.value.as_ref()?))
+    }
+
+    /// A height field and its id, where it could be made.
+    pub(crate) fn hfield(&self, name: &str) -> Option<(i32, &HField)> {
+        let id = self.id("hfield", name)?;
+        Some((id as i32, self.hfields.get(id)?.value.as_ref()?))
+    }
+
+    /// The material that a mesh brings along.
+    pub(crate) fn material(&self, mesh: &str) -> Option<&str> {
+        self.materials.get(self.id("mesh", mesh)?)?.as_deref()
+    }
+
+    /// Checks that the bodies that files name as bones are there, once `fusestatic` has had its way: what stands in the
+    /// text itself keeps its body.
+    pub(crate) fn check_bones(&self, bodies: &[BodySpec], names: &NameTable, report: &mut Report) {
+        let kept: BTreeSet<&str> = bodies.iter().map(|b| b.name.as_str()).collect();
+        for bone in self.skins.iter().filter_map(|a| a.value.as_ref()).flat_map(|s| &s.bones) {
+            let Some(span) = bone.file.clone().filter(|_| !report.is_full()) else { continue };
+            if names.find("body", &bone.body).is_none() {
+                names.unknown("body", &bone.body, span, report);
+            } else if bone.body != WORLD && !kept.contains(bone.body.as_str()) {
+                let message = format!("the bone {} has become part of its parent", shown(&bone.body));
+                report
+                    .error(code::SKIN, span, message)
+                    .why("`fusestatic` removes bodies without joints that nothing in the text refers to")
+                    .help("refer to the body in the text, or leave `fusestatic` out");
+            }
+        }
+    }
+
+    /// Makes the hulls of the meshes that can touch something.
+    pub(crate) fn hulls(&mut self, bodies: &[BodySpec], pairs: &[PairSpec], report: &mut Report) {
+        let geoms: Vec<_> = bodies.iter().flat_map(|b| &b.geoms).collect();
+        let touching = geoms.iter().filter(|g| g.contype != 0 || g.conaffinity != 0);
+        let paired = pairs.iter().flat_map(|p| p.geoms).filter_map(|g| geoms.get(usize::try_from(g).ok()?));
+        let of_geoms = touching.chain(paired).filter(|g| g.kind == geom::MESH).map(|g| g.data);
+        let of_sites = bodies.iter().flat_map(|b| &b.sites).filter(|s| s.kind == geom::MESH).map(|s| s.data);
+        for id in of_geoms.chain(of_sites) {
+            let Some(asset) = usize::try_from(id).ok().and_then(|id| self.meshes.get_mut(id)) else {
+                continue;
+            };
+            let Some(mesh) = asset.value.as_mut().filter(|m| m.hull.is_none()) else { continue };
+            match build::hull(mesh) {
+                Ok(hull) => mesh.hull = Some(hull),
+                Err(problem) => {
+                    say(problem, code::MESH, &format!("mesh `{}`", asset.name), asset.span.clone(), report);
+                    asset.value = None;
+                }
+            }
+        }
+    }
+}
+
+/// Reports what is wrong with an asset.
+fn say(problem: Problem, code: &'static str, owner: &str, span: Range<usize>, report: &mut Report) {
+    let d = report.error(code, span, format!("{owner} {}", problem.message));
+    if !problem.why.is_empty() {
+        d.why(problem.why);
+    }
+    d.help(problem.help);
+}
+
+impl Reader<'_> {
+    fn mesh(&mut self, node: &Node, p: &Props) -> Option<Mesh> {
+        let options = self.options(node, p)?;
+        let made = self.raw(node, p)?.and_then(|(raw, surface)| {
+            let body = if surface && !p.has("inertia") { Body::Shell } else { options.body };
+            build::mesh(raw, Options { body, ..options })
+        });
+        match made {
+            Ok(mesh) => Some(mesh),
+            Err(problem) => self.wrong(problem, code::MESH, node, p),
+        }
+    }
+
+    fn wrong<T>(&mut self, problem: Problem, code: &'static str, node: &Node, p: &Props) -> Option<T> {
+        let span = p.span(problem.attribute).unwrap_or(node.span.clone());
+        say(problem, code, &node.shown(), span, self.report);
+        None
+    }
+
+    fn options(&mut self, node: &Node, p: &Props) -> Option<Options> {
+        let refquat = p.reals("refquat", IDENTITY);
+        let maxhullvert = p.int("maxhullvert").unwrap_or(-1);
+        let problem = if norm4(refquat) < crate::math::MINVAL {
+            Problem::new(
+                "refquat",
+                "has a `refquat` of zero",
+                "it turns nowhere",
+                "write `1 0 0 0` for no turn",
+            )
+        } else if maxhullvert != -1 && maxhullvert < FEWEST_CORNERS {
+            Problem::new(
+                "maxhullvert",
+                format!("has a hull of at most {maxhullvert} corners"),
+                "the smallest body has four corners",
+                "write 4 or more, or -1 for no limit",
+            )
+        } else {
+            return Some(Options {
+                scale: p.reals("scale", [1.0; 3]),
+                refpos: p.reals("refpos", [0.0; 3]),
+                refquat,
+                smooth: p.word("smoothnormal") == Some(1),
+                maxhullvert: usize::try_from(maxhullvert).ok(),
+                body: match p.word("inertia") {
+                    Some(0) => Body::Convex,
+                    Some(1) => Body::Exact,
+                    Some(3) => Body::Shell,
+                    _ => Body::Legacy,
+                },
+            });
+        };
+        self.wrong(problem, code::MESH, node, p)
+    }
+
+    /// The data of a mesh, and whether it is a surface without inside. `None` when its file cannot be read.
+    fn raw(&mut self, node: &Node, p: &Props) -> Option<Result<(Raw, bool), Problem>> {
+        let sources: Vec<&str> = ["builtin", "file", "vertex"].into_iter().filter(|a| p.has(a)).collect();
+        if let [_, second, ..] = sources[..] {
+            return Some(Err(Problem::new(
+                second,
+                format!("has {}", sources.iter().map(|s| format!("`{s}`")).collect::<Vec<_>>().join(" and ")),
+                "each of them gives the shape of the mesh",
+                "keep one of them",
+            )));
+        }
+        let made = match (p.text("builtin"), p.text("file")) {
+            (Some(rule), _) => mesh::builtin::make(rule, p.list("params").unwrap_or(&[])).and_then(|made| {
+                if made.0.normal.is_empty() {
+                    chunks::<3>(p, "normal")?;
+                }
+                texcoords(&chunks(p, "texcoord")?, made.0.vert.len())?;
+                Ok(made)
+            }),
+            (_, Some(_)) => {
+                let (path, bytes) = self.file(node, p)?;
+                mesh::decode(&path, p.text("content_type").unwrap_or(""), &bytes).map(|raw| (raw, false))
+            }
+            _ => written(p).map(|raw| (raw, false)),
+        };
+        Some(made.and_then(|(raw, surface)| {
+            let count = raw.vert.len() + raw.face.len() + raw.normal.len();
+            self.take(EACH * count).map(|()| (raw, surface))
+        }))
+    }
+
+    /// Takes bytes from what is left.
+    fn take(&mut self, bytes: usize) -> Result<(), Problem> {
+        match self.left.checked_sub(bytes) {
+            Some(left) => {
+                self.left = left;
+                Ok(())
+            }
+            None => Err(Problem::new(
+                "",
+                "is one too many",
+                "all meshes and height fields together are larger than a lesson can need",
+                "simplify them",
+            )),
+        }
+    }
+
+    /// Reads the file of an asset; its path and its bytes.
+    fn file(&mut self, node: &Node, p: &Props) -> Option<(String, Vec<u8>)> {
+        let Part { compiler, folder } = self.parts.get(node.model)?;
+        let mut written = p.text("file")?.to_string();
+        if compiler.strippath
+            && let Some((_, name)) = written.rsplit_once(['/', '\\'])
+        {
+            written = name.to_string();
+        }
+        if !compiler.meshdir.is_empty() {
+            written = format!("{}/{written}", compiler.meshdir);
+        }
+        let span = p.span("file").unwrap_or(node.span.clone());
+        let (path, bytes) =
+            load::read(self.files, &written, folder, MAX_FILE.min(self.left), &span, self.report)?;
+        self.left -= bytes.len().min(self.left);
+        Some((path, bytes))
+    }
+
+    fn hfield(&mut self, node: &Node) -> Option<HField> {
+        let p = Props::own(node);
+        let samples = if p.has("file") && p.text("file").is_none() {
+            Err(Problem::new("file", "names no file", "", "write the name of a file, or remove `file`"))
+        } else if p.text("file").is_some() {
+            let (path, bytes) = self.file(node, &p)?;
+            super::hfield::decode(&path, p.text("content_type").unwrap_or(""), &bytes)
+        } else {
+            let (nrow, ncol) = (p.int("nrow").unwrap_or(0), p.int("ncol").unwrap_or(0));
+            super::hfield::written(nrow, ncol, p.list("elevation").unwrap_or(&[]))
+        };
+        let made = samples
+            .and_then(|samples| HField::new(samples, p.list("size").unwrap_or(&[])))
+            .and_then(|field| self.take(EACH / 2 * field.data.len()).map(|()| field));
+        match made {
+            Ok(field) => {
+                if field.nrow < 2 || field.ncol < 2 {
+                    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+                    let (rows, columns) = (count(field.nrow, "row"), count(field.ncol, "column"));
+                    let message = format!("{} has {rows} and {columns}", node.shown());
+                    self.report
+                        .warning(code::NO_EFFECT, node.span.clone(), message)
+                        .why("the surface is stretched between neighbouring rows and columns: without two of each there is none, and everything falls through, in MuJoCo too")
+                        .help("give it at least two rows and two columns, or use a plane");
+                }
+                Some(field)
+            }
+            Err(problem) => self.wrong(problem, code::HFIELD, node, &p),
+        }
+    }
+}
+
+/// The largest group of a skin.
+const MAX_GROUP: i32 = 5;
+
+impl Reader<'_> {
+    fn skin(&mut self, tree: &Tree, at: usize, node: &Node) -> Option<Skin> {
+        let p = Props::own(node);
+        let group = p.int("group").unwrap_or(0);
+        if !(0..=MAX_GROUP).contains(&group) {
+            let problem =
+                Problem::new("group", format!("is in group {group}"), "", "groups of skins are 0 to 5");
+            return self.wrong(problem, code::VALUE, node, &p);
+        }
+        let own: Vec<&Node> = tree.children(at).map(|(_, bone)| bone).collect();
+        let made = if p.text("file").is_some() {
+            let (path, bytes) = self.file(node, &p)?;
+            let written = ["vertex", "texcoord", "face"].into_iter().find(|a| p.has(a));
+            if written.is_some() || !own.is_empty() {
+                Err(Problem::new(
+                    written.unwrap_or("file"),
+                    "has both a file and data of its own",
+                    "the file holds vertices, triangles and bones",
+                    "keep one of them",
+                ))
+            } else {
+                skin::decode(&path, &bytes, &p.span("file").unwrap_or(node.span.clone()))
+            }
+        } else {
+            let bones: Vec<Bone> = own.iter().filter_map(|bone| self.bone(bone)).collect();
+            if bones.len() < own.len() {
+                return None;
+            }
+            written(&p).map(|raw| Skin {
+                vert: raw.vert,
+                texcoord: raw.texcoord,
+                face: raw.face,
+                bones,
+                ..Skin::default()
+            })
+        };
+        let made = made.and_then(Skin::complete).and_then(|skin| {
+            let carried: usize = skin.bones.iter().map(|b| b.vertid.len()).sum();
+            let count = skin.vert.len() + skin.face.len() + carried;
+            self.take(EACH * count).map(|()| skin)
+        });
+        match made {
+            Ok(skin) => Some(Skin {
+                material: p.text("material").map(str::to_string),
+                rgba: p.reals("rgba", [0.5, 0.5, 0.5, 1.0]),
+                inflate: p.real("inflate").unwrap_or(0.0),
+                group,
+                ..skin
+            }),
+            Err(problem) => self.wrong(problem, code::SKIN, node, &p),
+        }
+    }
+
+    /// A bone has all of its attributes.
+    fn bone(&mut self, node: &Node) -> Option<Bone> {
+        let p = Props::own(node);
+        let missing =
+            ["body", "bindpos", "bindquat", "vertid", "vertweight"].into_iter().find(|a| match *a {
+                "body" => p.text(a).is_none(),
+                _ => !p.has(a),
+            });
+        if let Some(attribute) = missing {
+            let message = format!("{} has no `{attribute}`", node.shown());
+            self.report.error(code::MISSING_ATTRIBUTE, node.span.clone(), message).help(format!(
+                "write `{attribute}=\"…\"`: a bone is a body, its pose, and the vertices that it carries with their weights"
+            ));
+            return None;
+        }
+        Some(Bone {
+            body: p.text("body")?.to_string(),
+            bindpos: p.reals("bindpos", [0.0; 3]),
+            bindquat: p.reals("bindquat", IDENTITY),
+            vertid: p.ints("vertid").unwrap_or(&[]).to_vec(),
+            vertweight: p.list("vertweight").unwrap_or(&[]).to_vec(),
+            file: None,
+        })
+    }
+}
+
+fn norm4(q: [f64; 4]) -> f64 {
+    norm([norm([q[0], q[1], q[2]]), q[3], 0.0])
+}
+
+/// A mesh whose data stand in its attributes.
+fn written(p: &Props) -> Result<Raw, Problem> {
+    let raw = Raw {
+        vert: chunks(p, "vertex")?,
+        normal: chunks(p, "normal")?,
+        texcoord: chunks(p, "texcoord")?,
+        face: p.ints("face").unwrap_or(&[]).as_chunks().0.to_vec(),
+        ..Raw::default()
+    };
+    let count = p.ints("face").map_or(0, <[i32]>::len);
+    if !count.is_multiple_of(3) {
+        return Err(not_whole("face", count, 3));
+    }
+    texcoords(&raw.texcoord, raw.vert.len())?;
+    Ok(raw)
+}
+
+/// A pair for each vertex, or none at all.
+fn texcoords(pairs: &[[f64; 2]], vertices: usize) -> Result<(), Problem> {
+    if pairs.is_empty() || pairs.len() == vertices {
+        return Ok(());
+    }
+    Err(Problem::new(
+        "texcoord",
+        format!("has {} texture coordinates for {vertices} vertices", pairs.len()),
+        "",
+        "write a pair of numbers for each vertex",
+    ))
+}
+
+/// Groups of numbers, in single precision as in files.
+fn chunks<const N: usize>(p: &Props, name: &'static str) -> Result<Vec<[f64; N]>, Problem> {
+    let list = p.list(name).unwrap_or(&[]);
+    match list.as_chunks() {
+        (chunks, []) => Ok(chunks.iter().map(|c| c.map(|x| f64::from(x as f32))).collect()),
+        _ => Err(not_whole(name, list.len(), N)),
+    }
+}
+
+fn not_whole(name: &'static str, count: usize, group: usize) -> Problem {
+    Problem::new(
+        name,
+        format!("has {count} numbers in `{name}`"),
+        "",
+        if group == 3 { "write three numbers for each" } else { "write two numbers for each" },
+    )
+}

@@ -1,0 +1,93 @@
+//! Ranges with a flag: `range` and `limited`, and their like for forces.
+
+use crate::mjcf::classes::Props;
+use crate::mjcf::context::Context;
+use crate::mjcf::text::diagnostic::code;
+use crate::mjcf::text::tree::Node;
+
+/// Names of a range's attributes.
+pub(crate) struct Limit {
+    pub(crate) range: &'static str,
+    pub(crate) flag: &'static str,
+    /// The code of what is wrong with it.
+    pub(crate) code: &'static str,
+}
+
+/// Whether a range holds, and the range. The flag decides; where it is `auto`, a range that is given holds.
+pub(crate) fn read(cx: &mut Context, p: &Props, node: &Node, limit: &Limit) -> (bool, [f64; 2]) {
+    let range = p.reals(limit.range, [0.0; 2]);
+    let span = p.span(limit.range).unwrap_or(node.span.clone());
+    let given = p.has(limit.range) && range != [0.0; 2];
+    let flag = p.word(limit.flag).unwrap_or(AUTO);
+    (decide(cx, flag, given, range, span, &node.shown(), limit), range)
+}
+
+/// A flag that says nothing.
+const AUTO: i32 = 2;
+
+/// Whether a range holds; a range that holds and does not grow is reported.
+pub(crate) fn decide(
+    cx: &mut Context,
+    flag: i32,
+    given: bool,
+    [lower, upper]: [f64; 2],
+    span: std::ops::Range<usize>,
+    owner: &str,
+    limit: &Limit,
+) -> bool {
+    let Limit { range, flag: attribute, code } = *limit;
+    let limited = match flag {
+        0 => false,
+        1 => true,
+        _ if cx.compiler.autolimits => {
+            if given && lower >= upper {
+                let message = format!("the {range} of {owner} is {lower} to {upper}, which limits nothing");
+                cx.report
+                    .warning(code::NO_EFFECT, span.clone(), message)
+                    .why("the lower limit must be smaller than the upper; what does not grow is taken for no limit")
+                    .help(match lower > upper {
+                        true => format!("write `{range}=\"{upper} {lower}\"`, or remove it"),
+                        false => format!("write `{range}=\"LOWER UPPER\"`, or remove it"),
+                    });
+            }
+            given && lower < upper
+        }
+        _ => {
+            if given {
+                let message = format!("{owner} has a {range}, but nothing says that it holds");
+                cx.report
+                    .error(code, span.clone(), message)
+                    .why(format!("`autolimits` of compiler is false, so a {range} alone has no effect"))
+                    .help(format!(
+                        "write `{attribute}=\"true\"`, or `{attribute}=\"false\"`, or remove `autolimits`"
+                    ));
+            }
+            false
+        }
+    };
+    if limited && lower >= upper {
+        let message = format!("the {range} of {owner} is {lower} to {upper}");
+        let error =
+            cx.report.error(code, span, message).why("the lower limit must be smaller than the upper");
+        if given {
+            error.help(format!("write `{range}=\"{upper} {lower}\"`, or remove `{attribute}` and `{range}`"));
+        } else {
+            error.help(format!("write `{range}=\"LOWER UPPER\"`, or remove `{attribute}`"));
+        }
+    }
+    limited
+}
+
+/// The limits of a joint's coordinate.
+pub(crate) const JOINT: Limit = Limit { range: "range", flag: "limited", code: code::JOINT };
+/// The limits of the force of actuators on a joint.
+pub(crate) const JOINT_FORCE: Limit =
+    Limit { range: "actuatorfrcrange", flag: "actuatorfrclimited", code: code::JOINT };
+/// The limits of a tendon's length.
+pub(crate) const TENDON: Limit = Limit { code: code::TENDON, ..JOINT };
+/// The limits of the force of actuators on a tendon.
+pub(crate) const TENDON_FORCE: Limit = Limit { code: code::TENDON, ..JOINT_FORCE };
+/// The limits of controls, forces and activations of actuators.
+pub(crate) const CONTROL: Limit = Limit { range: "ctrlrange", flag: "ctrllimited", code: code::ACTUATOR };
+pub(crate) const FORCE: Limit = Limit { range: "forcerange", flag: "forcelimited", code: code::ACTUATOR };
+pub(crate) const ACTIVATION: Limit = Limit { range: "actrange", flag: "actlimited", code: code::ACTUATOR };

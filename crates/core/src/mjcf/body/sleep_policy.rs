@@ -1,0 +1,69 @@
+//! Which trees may sleep.
+
+use super::inertia::shown;
+use crate::Model;
+use crate::kinds::trntype;
+use crate::mjcf::layout::Layout;
+use crate::mjcf::spec::BodySpec;
+use crate::mjcf::text::diagnostic::{Report, code};
+use crate::model::asleep::policy;
+
+/// Reports a choice where there is no tree to sleep.
+pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
+    for body in bodies.iter().skip(1).filter(|b| b.sleep != 0) {
+        let carried = layout.body_tree.get(body.parent).is_some_and(|&t| t >= 0);
+        if carried || body.joints.is_empty() {
+            let what = if carried { "is carried by a moving body" } else { "cannot move" };
+            report
+                .error(code::JOINT, body.span.clone(), format!("`sleep` of {}, which {what}", shown(body)))
+                .why("a tree falls asleep as a whole; its first moving body decides")
+                .help("move `sleep` to that body");
+        }
+    }
+}
+
+/// `tree_sleep_policy`: by its author's choice; else a tree may sleep unless actuators move it, or a tendon ties it
+/// to more than one other, or to one by a spring or a damper.
+pub(crate) fn policies(m: &mut Model, bodies: &[BodySpec]) {
+    let mut policies = vec![policy::AUTO_ALLOWED; m.ntree];
+    let mut keep_awake = |tree: i32| {
+        if let Some(p) = usize::try_from(tree).ok().and_then(|t| policies.get_mut(t)) {
+            *p = policy::AUTO_NEVER;
+        }
+    };
+    for t in 0..m.ntendon {
+        let forces = m.tendon_stiffness[t] != 0.0
+            || m.tendon_damping[t] != 0.0
+            || m.tendon_stiffnesspoly[2 * t..2 * t + 2] != [0.0; 2]
+            || m.tendon_dampingpoly[2 * t..2 * t + 2] != [0.0; 2];
+        if m.tendon_treenum[t] > if forces { 1 } else { 2 } {
+            trees_of_tendon(m, t).for_each(&mut keep_awake);
+        }
+    }
+    for a in 0..m.nactuator {
+        let ids = [m.actuator_trnid[2 * a], m.actuator_trnid[2 * a + 1]];
+        let ids = ids.into_iter().filter_map(|id| usize::try_from(id).ok());
+        match m.actuator_trntype[a] {
+            trntype::TENDON => ids.take(1).for_each(|t| trees_of_tendon(m, t).for_each(&mut keep_awake)),
+            kind @ (trntype::SITE | trntype::SLIDERCRANK | trntype::SO3)
+                if kind != trntype::SO3 || m.actuator_trnid[2 * a + 1] >= 0 =>
+            {
+                ids.for_each(|s| keep_awake(m.body_treeid[m.site_bodyid[s] as usize]));
+            }
+            trntype::BODY => ids.take(1).for_each(|b| keep_awake(m.body_treeid[b])),
+            _ => ids.take(1).for_each(|j| keep_awake(m.body_treeid[m.jnt_bodyid[j] as usize])),
+        }
+    }
+    for (body, &tree) in bodies.iter().zip(&m.body_treeid) {
+        if let (1.., Some(p)) = (body.sleep, usize::try_from(tree).ok().and_then(|t| policies.get_mut(t))) {
+            *p = policy::NEVER + body.sleep - 1;
+        }
+    }
+    m.tree_sleep_policy = policies;
+}
+
+/// The trees that move something on the path of a tendon.
+fn trees_of_tendon(m: &Model, t: usize) -> impl Iterator<Item = i32> {
+    let start = m.ten_J_rowadr[t] as usize;
+    m.ten_J_colind[start..start + m.ten_J_rownnz[t] as usize].iter().map(|&k| m.dof_treeid[k as usize])
+}

@@ -1,0 +1,279 @@
+//! Default classes: what `<default class="…">` says about an element, and an element's own attributes over it.
+//!
+//! One rule for all: a class starts as its parent, and every attribute overlays what stands below it. A list
+//! overlays number by number from the front, so `friction="0.5"` keeps the class's other two coefficients.
+
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::rc::Rc;
+
+use super::schema::{ALTERNATIVES, Kind};
+use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::tree::{Attribute, Node, Tree};
+use crate::mjcf::text::values::Value;
+
+/// A class copies its parent, so their number is bounded.
+const MAX_CLASSES: usize = 2000;
+
+/// The attributes that hold for an element: its own over those of its class.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Props {
+    values: BTreeMap<&'static str, (Value, Range<usize>)>,
+    /// The elements that these are the attributes of.
+    #[cfg(test)]
+    elements: Vec<&'static super::schema::Element>,
+}
+
+impl Props {
+    /// The attributes of an element alone, for elements without defaults.
+    pub(crate) fn own(node: &Node) -> Props {
+        let mut props = Props::default();
+        props.overlay(node);
+        props
+    }
+
+    /// Puts the attributes of an element over these. Names stay with their element.
+    pub(crate) fn overlay(&mut self, node: &Node) {
+        self.overlay_within(node, &Room::default());
+    }
+
+    /// The same, as long as there is room for lists that are partly the element's own.
+    fn overlay_within(&mut self, node: &Node, room: &Room) {
+        #[cfg(test)]
+        self.elements.push(node.element);
+        let own = |a: &&Attribute| matches!(a.attr.kind, Kind::Name(_) | Kind::Class);
+        for a in node.attributes.iter().filter(|a| !own(a)) {
+            if ALTERNATIVES.contains(&a.attr.name) {
+                self.values.retain(|name, _| !ALTERNATIVES.contains(name));
+            }
+            let below = self.values.get(a.attr.name).map(|(v, _)| v);
+            let value = match (below, &a.value) {
+                (Some(Value::Reals(below)), Value::Reals(over)) if below.len() > over.len() => {
+                    Value::Reals(room.overlaid(below, over, a))
+                }
+                (_, over) => over.clone(),
+            };
+            self.values.insert(a.attr.name, (value, a.span.clone()));
+        }
+    }
+
+    /// The value of an attribute.
+    fn get(&self, name: &str) -> Option<&Value> {
+        #[cfg(test)]
+        self.elements.iter().for_each(|element| crate::mjcf::text::seen::note(element, name));
+        self.values.get(name).map(|(value, _)| value)
+    }
+
+    /// Whether the attribute is there, right or wrong.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.get(name).is_some()
+    }
+
+    /// Bytes of the attribute's value, in the element or in a class.
+    pub(crate) fn span(&self, name: &str) -> Option<Range<usize>> {
+        self.values.get(name).map(|(_, span)| span.clone())
+    }
+
+    /// Numbers of a list: as many as are given.
+    pub(crate) fn list(&self, name: &str) -> Option<&[f64]> {
+        match self.get(name) {
+            Some(Value::Reals(list)) => Some(list.as_slice()),
+            _ => None,
+        }
+    }
+
+    /// A number.
+    pub(crate) fn real(&self, name: &str) -> Option<f64> {
+        self.list(name)?.first().copied()
+    }
+
+    /// `N` numbers; those that are not given are taken from `default`.
+    pub(crate) fn reals<const N: usize>(&self, name: &str, default: [f64; N]) -> [f64; N] {
+        let mut all = default;
+        for (x, &given) in all.iter_mut().zip(self.list(name).unwrap_or(&[])) {
+            *x = given;
+        }
+        all
+    }
+
+    /// An integer.
+    pub(crate) fn int(&self, name: &str) -> Option<i32> {
+        self.ints(name)?.first().copied()
+    }
+
+    /// The numbers of a list, shared with all that has the same.
+    pub(crate) fn shared(&self, name: &str) -> Rc<Vec<f64>> {
+        match self.get(name) {
+            Some(Value::Reals(list)) => list.clone(),
+            _ => Rc::default(),
+        }
+    }
+
+    /// Integers.
+    pub(crate) fn ints(&self, name: &str) -> Option<&[i32]> {
+        match self.get(name) {
+            Some(Value::Ints(list)) => Some(list.as_slice()),
+            _ => None,
+        }
+    }
+
+    /// MuJoCo's number of a keyword.
+    pub(crate) fn word(&self, name: &str) -> Option<i32> {
+        match self.get(name) {
+            Some(Value::Word(n)) => Some(*n),
+            _ => None,
+        }
+    }
+
+    /// A text, `None` when it is absent or empty.
+    pub(crate) fn text(&self, name: &str) -> Option<&str> {
+        match self.get(name) {
+            Some(Value::Text(text)) if !text.is_empty() => Some(text),
+            _ => None,
+        }
+    }
+}
+
+/// More numbers are not taken from defaults to complete lists: a small text could ask for any amount.
+const MAX_COMPLETED: usize = 10_000_000;
+
+/// What completing lists takes.
+#[derive(Debug, Default)]
+struct Room {
+    taken: Cell<usize>,
+    /// The first list that there was no room for.
+    exceeded: Cell<Option<usize>>,
+}
+
+impl Room {
+    /// `over` laid over `below` from the front.
+    fn overlaid(&self, below: &[f64], over: &Rc<Vec<f64>>, a: &Attribute) -> Rc<Vec<f64>> {
+        // Short lists are kept in no place of their own.
+        let taken = self.taken.get() + if below.len() > SHORT { below.len() } else { 0 };
+        if taken > MAX_COMPLETED {
+            self.exceeded.set(self.exceeded.get().or(Some(a.span.start)));
+            return over.clone();
+        }
+        self.taken.set(taken);
+        Rc::new(over.iter().chain(below.iter().skip(over.len())).copied().collect())
+    }
+}
+
+/// Lists of parameters are no longer than this.
+const SHORT: usize = 20;
+
+/// A class: what it says about each kind of element, its parents included.
+#[derive(Debug, Default)]
+struct Class {
+    parent: usize,
+    /// Shared with the classes that say nothing else.
+    entries: BTreeMap<&'static str, Rc<Props>>,
+    /// The elements of the class itself, in the order of the text.
+    nodes: Vec<usize>,
+}
+
+/// All default classes of a model.
+#[derive(Debug)]
+pub(crate) struct Classes {
+    list: Vec<Class>,
+    names: BTreeMap<String, usize>,
+    main: usize,
+    room: Room,
+}
+
+impl Classes {
+    /// Reads all `default` sections.
+    ///
+    /// A later section at the top level continues the class `main`; classes that were made before keep what
+    /// they copied from it, as in MuJoCo. A model that is attached has a main class of its own, under the name that
+    /// its section has by now.
+    pub(crate) fn read(tree: &Tree, report: &mut Report) -> Classes {
+        let mut classes =
+            Classes { list: vec![Class::default()], names: BTreeMap::new(), main: 0, room: Room::default() };
+        let mut of_node: BTreeMap<usize, usize> = BTreeMap::new();
+        for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
+            let nested_in = node.parent.and_then(|p| of_node.get(&p)).copied();
+            let attached = nested_in.is_none() && node.model > 0;
+            let parent = match (nested_in, attached) {
+                (Some(class), _) => class,
+                (None, false) => classes.main,
+                (None, true) => node.text("class").and_then(|name| classes.find(name)).unwrap_or(0),
+            };
+            let mut entries = classes.list.get(parent).map_or_else(BTreeMap::new, |c| c.entries.clone());
+            let mut nodes = Vec::new();
+            for (at, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
+                let props = Rc::make_mut(entries.entry(entry.element.name).or_default());
+                props.overlay_within(entry, &classes.room);
+                nodes.push(at);
+            }
+            let index = classes.list.len();
+            if index > MAX_CLASSES {
+                let message = format!("the model has more than {MAX_CLASSES} default classes");
+                report.error(code::LIMIT, node.span.clone(), message);
+                break;
+            }
+            classes.list.push(Class { parent, entries, nodes });
+            of_node.insert(i, index);
+            match (nested_in, node.text("class")) {
+                (None, Some(name)) if attached => {
+                    classes.names.insert(name.to_string(), index);
+                }
+                (None, _) => classes.main = index,
+                (Some(_), Some(name)) => {
+                    classes.names.entry(name.to_string()).or_insert(index);
+                }
+                (Some(_), None) => {}
+            }
+        }
+        let main = classes.main;
+        classes.names.insert("main".into(), main);
+        classes
+    }
+
+    /// The index of a class, `None` when there is no class of this name.
+    pub(crate) fn find(&self, name: &str) -> Option<usize> {
+        self.names.get(name).copied()
+    }
+
+    /// All names.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.names.keys().map(String::as_str)
+    }
+
+    /// The class of an element: its `class`, else the nearest `childclass` of the bodies around it, else `main`.
+    pub(crate) fn class_of(&self, node: &Node, childclass: Option<usize>) -> usize {
+        let own = node.text("class").and_then(|name| self.find(name));
+        own.or(childclass).unwrap_or(self.main)
+    }
+
+    /// All classes with their parents, which stand before them, and the elements of each itself. The first is its
+    /// own parent and has none.
+    pub(crate) fn elements(&self) -> impl Iterator<Item = (usize, &[usize])> {
+        self.list.iter().map(|c| (c.parent, c.nodes.as_slice()))
+    }
+
+    /// Reports the first list that was too much to complete from its defaults.
+    pub(crate) fn check_room(&self, report: &mut Report) {
+        if let Some(at) = self.room.exceeded.get() {
+            let message = format!("lists that defaults complete have more than {MAX_COMPLETED} numbers");
+            report
+                .error(code::LIMIT, at..at, message)
+                .why("each element would have a long list of its own")
+                .help("write the lists out, or shorten that of the default");
+        }
+    }
+
+    /// The attributes that hold for an element: its own over those of its class.
+    pub(crate) fn props(&self, node: &Node, childclass: Option<usize>) -> Props {
+        self.props_of(node.element.name, node, childclass)
+    }
+
+    /// The same for an element whose defaults stand under another name: all tendons share `tendon`.
+    pub(crate) fn props_of(&self, entry: &str, node: &Node, childclass: Option<usize>) -> Props {
+        let entry = self.list.get(self.class_of(node, childclass)).and_then(|c| c.entries.get(entry));
+        let mut props = entry.map_or_else(Props::default, |p| Props::clone(p));
+        props.overlay_within(node, &self.room);
+        props
+    }
+}

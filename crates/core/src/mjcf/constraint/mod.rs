@@ -1,0 +1,5 @@
+//! Contact pairs and equalities: reading and filling.
+
+pub(crate) mod fill_constraint;
+pub(crate) mod read_contact;
+pub(crate) mod read_equality;

@@ -1,0 +1,119 @@
+//! The form of a geom: a primitive shape, a mesh, a primitive shape in place of a mesh, a height field.
+
+use super::shapes::{self, Shape};
+use crate::geom;
+use crate::math::{Vec3, norm};
+use crate::mjcf::body::frame::Pose;
+use crate::mjcf::classes::Props;
+use crate::mjcf::context::Context;
+use crate::mjcf::text::diagnostic::code;
+use crate::mjcf::text::tree::Node;
+
+/// What the form of a geom decides.
+#[derive(Debug)]
+pub(crate) struct Form {
+    pub(crate) size: Vec3,
+    /// Mesh or height field, -1 if none.
+    pub(crate) data: i32,
+    /// Where its frame lies in the frame that the author places: that of a mesh is its principal axes.
+    pub(crate) own: Pose,
+    /// Centre and half lengths of the bounding box.
+    pub(crate) aabb: [f64; 6],
+    /// Radius of the bounding sphere.
+    pub(crate) rbound: f64,
+    /// Volume or area.
+    pub(crate) amount: f64,
+    /// Principal moments for a unit mass.
+    pub(crate) moments: Vec3,
+}
+
+impl Form {
+    /// A primitive shape of these sizes.
+    pub(crate) fn primitive(shape: &Shape, size: Vec3, shell: bool) -> Form {
+        let (amount, moments) =
+            if shell { (shape.surface, shape.shell) } else { (shape.volume, shape.inertia) };
+        let [x, y, z] = (shape.half)(size);
+        // What is solid lies around its centre; a plane is what lies below it.
+        let middle = if shape.kind == geom::PLANE { -z } else { 0.0 };
+        Form {
+            size,
+            data: -1,
+            own: Pose::NONE,
+            aabb: [0.0, 0.0, middle, x, y, z],
+            rbound: (shape.rbound)(size),
+            amount: amount(size),
+            moments: moments(size),
+        }
+    }
+}
+
+/// The form of a geom that has a mesh or a height field; `None` when there is none, or it was reported.
+pub(crate) fn of_asset(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) -> Option<Form> {
+    let shell = p.word("shellinertia") == Some(1);
+    if shape.kind == geom::HFIELD {
+        let (data, field) = cx.assets.hfield(p.text("hfield")?)?;
+        let form = Form::primitive(shape, field.geom_size(), shell);
+        return Some(Form { data, aabb: field.aabb(), rbound: field.rbound(), ..form });
+    }
+    let (data, mesh) = cx.assets.mesh(p.text("mesh")?)?;
+    if shape.kind == geom::MESH {
+        let own = Pose { pos: mesh.pos, quat: mesh.quat };
+        let size = mesh.reach();
+        let (aabb, rbound, amount, moments) = (mesh.aabb(), norm(size), mesh.amount, mesh.moments());
+        return Some(Form { size, data, own, aabb, rbound, amount, moments });
+    }
+    let bounding = cx.parts.get(node.model).is_some_and(|part| part.compiler.fitaabb);
+    let scale = p.real("fitscale").unwrap_or(1.0);
+    match mesh.fit(shape.kind, bounding) {
+        Some((pos, size)) => {
+            let form = Form::primitive(shape, size.map(|x| x * scale), shell);
+            Some(Form { data, own: Pose { pos, quat: mesh.quat }, ..form })
+        }
+        None => {
+            let message = format!("{} is a {} with a `mesh`", node.shown(), shape.name);
+            cx.report
+                .error(code::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
+                .why("a shape that stands for a mesh must have an inside")
+                .help("write `type=\"mesh\"` for the mesh itself, or `type=\"box\"` for a box in its place");
+            None
+        }
+    }
+}
+
+/// Reports what does not go with a mesh or a height field. Whether a geom or site has a form at all.
+pub(crate) fn check(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
+    let needs = match kind {
+        geom::MESH => Some("mesh"),
+        geom::HFIELD => Some("hfield"),
+        _ => None,
+    };
+    let owner = node.shown();
+    let span = |name: &str| p.span(name).unwrap_or(node.span.clone());
+    if let Some(asset) = needs.filter(|asset| p.text(asset).is_none()) {
+        cx.report
+            .error(code::GEOM, span("type"), format!("{owner} has no `{asset}`"))
+            .why(format!("its shape is that of the asset: `{asset}` names it"))
+            .help(format!("write `{asset}=\"…\"` with the name that it has in `asset`"));
+        return false;
+    }
+    let what = |kind: i32| shapes::of(kind).map_or("shape", |s| s.name);
+    if p.text("hfield").is_some() && kind != geom::HFIELD {
+        let message = format!("{owner} is a {} with an `hfield`", what(kind));
+        cx.report
+            .error(code::GEOM, span("hfield"), message)
+            .help("write `type=\"hfield\"` for a height field, or leave `hfield` out");
+    } else if p.text("mesh").is_some() && p.has("fromto") {
+        cx.report
+            .error(code::CONFLICT, span("fromto"), format!("{owner} has both `mesh` and `fromto`"))
+            .why("the mesh gives its place and size")
+            .help("remove one of them");
+    } else if kind == geom::MESH && p.word("shellinertia") == Some(1) {
+        cx.report
+            .error(code::CONFLICT, span("shellinertia"), format!("{owner} is a mesh with `shellinertia`"))
+            .why("a mesh has the same inertia wherever it is used")
+            .help("write `inertia=\"shell\"` in the mesh");
+    } else {
+        return true;
+    }
+    false
+}

@@ -1,0 +1,156 @@
+//! Whole-model changes that `compiler` asks for, after masses are known: bodies without joints become part of their
+//! parents (`fusestatic`), geoms that cannot collide go (`discardvisual`), free bodies take the frame of their
+//! inertia (`alignfree`); and the total mass.
+//!
+//! What is kept and in which order follows MuJoCo 3.14.0 (XML reference, `compiler`; measured on the library).
+
+use std::collections::BTreeSet;
+
+use crate::math::{IDENTITY, MINVAL, quat_conj, rotate, scale};
+use crate::mjcf::body::frame::Pose;
+use crate::mjcf::body::inertia::combined;
+use crate::mjcf::expand::Part;
+use crate::mjcf::expand::references::{Names, kind_of};
+use crate::mjcf::settings::Compiler;
+use crate::mjcf::spec::{BodySpec, GeomSpec, Inertia};
+use crate::mjcf::text::tree::{Node, Tree};
+use crate::mjcf::text::values::Value;
+use crate::{Model, joint};
+
+/// Carries out what the model asks for.
+pub(crate) fn apply(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &Tree, parts: &[Part]) {
+    let Some(Part { compiler, .. }) = parts.first() else { return };
+    align_free(bodies, inertias, parts);
+    if compiler.fusestatic {
+        fuse_static(bodies, inertias, tree);
+    }
+    if compiler.discardvisual {
+        let named = references(tree);
+        let seen = |g: &GeomSpec| g.contype == 0 && g.conaffinity == 0;
+        for body in bodies {
+            body.geoms.retain(|g| !seen(g) || named.contains(&("geom", g.name.clone())));
+        }
+    }
+}
+
+/// The frame of a free body without children moves into its centre of mass, along its principal axes: then its mass
+/// matrix is diagonal.
+fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[Part]) {
+    let parents: BTreeSet<usize> = bodies.iter().skip(1).map(|b| b.parent).collect();
+    for (i, (body, inertia)) in bodies.iter_mut().zip(inertias).enumerate() {
+        let by_rule = parts.get(body.part).is_some_and(|p| p.compiler.alignfree);
+        let asked = |align: i32| if align == 2 { by_rule } else { align == 1 };
+        let free = body.joints.iter().any(|j| j.kind == joint::FREE && asked(j.align));
+        if !free || parents.contains(&i) {
+            continue;
+        }
+        let to = Pose { pos: inertia.pos, quat: inertia.quat };
+        Pose { pos: body.pos, quat: body.quat } = Pose { pos: body.pos, quat: body.quat }.of(to.pos, to.quat);
+        let back = quat_conj(to.quat);
+        move_members(body, Pose { pos: rotate(scale(to.pos, -1.0), back), quat: back });
+        (inertia.pos, inertia.quat) = ([0.0; 3], IDENTITY);
+    }
+}
+
+/// Gives what stands in a body another frame; `pose` is the old frame seen from the new one.
+fn move_members(body: &mut BodySpec, pose: Pose) {
+    body.geoms.iter_mut().for_each(|g| pose.place(&mut g.pos, &mut g.quat));
+    body.sites.iter_mut().for_each(|s| pose.place(&mut s.pos, &mut s.quat));
+    body.cameras.iter_mut().for_each(|c| pose.place(&mut c.pos, &mut c.quat));
+    for light in &mut body.lights {
+        light.pos = pose.point(light.pos);
+        light.dir = pose.direction(light.dir);
+    }
+}
+
+/// Bodies without joints go, unless something refers to them: what they hold goes to the end of what their parents
+/// hold, and their children take their place.
+///
+/// MuJoCo looks every reference up again for each body, by the numbers that bodies had at first: when one of them is
+/// beyond the end of the shorter list, no body with a name goes until the one that is meant is reached.
+fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &Tree) {
+    let named = references(tree);
+    let sensed = sites_of_force_sensors(tree);
+    let meant = |body: &BodySpec| !body.name.is_empty() && named.contains(&("body", body.name.clone()));
+    let last_meant = bodies.iter().rposition(meant).unwrap_or(0);
+    let mut left = bodies.len();
+    // Where a body went: the body that took it, and its pose seen from there.
+    let mut fused: Vec<Option<(usize, Pose)>> = vec![None; bodies.len()];
+    for i in 1..bodies.len() {
+        let (before, rest) = bodies.split_at_mut(i);
+        let (Some(body), Some(inertia)) = (rest.first_mut(), inertias.get(i).cloned()) else { return };
+        if let Some(Some((target, pose))) = fused.get(body.parent) {
+            body.parent = *target;
+            pose.place(&mut body.pos, &mut body.quat);
+        }
+        let kept = !body.name.is_empty()
+            && (meant(body)
+                || i < last_meant && last_meant >= left
+                || body.sites.iter().any(|s| sensed.contains(s.name.as_str())));
+        if kept || !body.joints.is_empty() || body.mocap {
+            continue;
+        }
+        let (Some(parent), Some(own)) = (before.get_mut(body.parent), inertias.get_mut(body.parent)) else {
+            continue;
+        };
+        let pose = Pose { pos: body.pos, quat: body.quat };
+        if body.parent > 0 && inertia.mass >= MINVAL {
+            let Pose { pos, quat } = pose.of(inertia.pos, inertia.quat);
+            *own = combined(&[own.clone(), Inertia { pos, quat, ..inertia }]);
+        }
+        move_members(body, pose);
+        parent.geoms.append(&mut body.geoms);
+        parent.sites.append(&mut body.sites);
+        parent.cameras.append(&mut body.cameras);
+        parent.lights.append(&mut body.lights);
+        if let Some(slot) = fused.get_mut(i) {
+            *slot = Some((body.parent, pose));
+            left -= 1;
+        }
+    }
+
+    // Parents stand before their children: the new number of each is known when a child asks.
+    let mut number = vec![0; bodies.len()];
+    let mut next = 0;
+    for (n, gone) in number.iter_mut().zip(&fused) {
+        *n = next;
+        next += usize::from(gone.is_none());
+    }
+    let mut gone = fused.iter().map(Option::is_some);
+    inertias.retain(|_| gone.next() != Some(true));
+    let mut gone = fused.iter().map(Option::is_some);
+    bodies.retain(|_| gone.next() != Some(true));
+    for body in bodies {
+        body.parent = number.get(body.parent).copied().unwrap_or(0);
+    }
+}
+
+/// All objects that an element refers to.
+fn references(tree: &Tree) -> Names {
+    let of = |node: &Node| {
+        let names = node.attributes.iter().filter_map(|a| match (kind_of(node, a), &a.value) {
+            (Some(kind), Value::Text(name)) => Some((kind, name.clone())),
+            _ => None,
+        });
+        names.collect::<Vec<_>>()
+    };
+    tree.nodes.iter().flat_map(of).collect()
+}
+
+/// The sites at which forces between bodies are measured: without the body there would be nothing between.
+fn sites_of_force_sensors(tree: &Tree) -> BTreeSet<&str> {
+    let sensors = tree.sections("sensor").flat_map(|(section, _)| tree.children(section));
+    let of_force = sensors.filter(|(_, n)| matches!(n.element.name, "force" | "torque"));
+    of_force.filter_map(|(_, n)| n.text("site")).collect()
+}
+
+/// Scales masses and inertias so that the masses sum to what `settotalmass` says, if it says something.
+pub(crate) fn total_mass(m: &mut Model, compiler: &Compiler) {
+    if compiler.settotalmass <= 0.0 {
+        return;
+    }
+    let sum: f64 = m.body_mass.iter().sum();
+    let factor = (compiler.settotalmass / sum.max(MINVAL)).max(MINVAL);
+    m.body_mass.iter_mut().for_each(|x| *x *= factor);
+    m.body_inertia.iter_mut().for_each(|x| *x *= factor);
+}

@@ -1,0 +1,81 @@
+//! Keyframes: states to start from.
+
+use crate::mjcf::classes::Props;
+use crate::mjcf::fill::Sizes;
+use crate::mjcf::spec::KeySpec;
+use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::tree::{Node, Tree, name};
+
+/// All keyframes in the order of the text, at least `min` of them.
+pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) -> Vec<KeySpec> {
+    let given: Vec<&Node> = tree
+        .sections("keyframe")
+        .flat_map(|(section, _)| tree.children(section))
+        .map(|(_, node)| node)
+        .collect();
+    let numbers = 1 + sizes.nq + sizes.nv + sizes.na + sizes.nu + 7 * sizes.nmocap;
+    let span = given.first().map_or(0..0, |n| n.span.clone());
+    if !report.take(given.len().max(min).saturating_mul(numbers), span, "all keyframes together") {
+        return Vec::new();
+    }
+    let mut list: Vec<KeySpec> = given.into_iter().map(|node| key(node, sizes, report)).collect();
+    while list.len() < min {
+        list.push(KeySpec {
+            name: String::new(),
+            time: 0.0,
+            qpos: None,
+            qvel: None,
+            act: None,
+            ctrl: None,
+            mpos: None,
+            mquat: None,
+        });
+    }
+    list
+}
+
+/// What a list that is too short means.
+#[derive(Clone, Copy, PartialEq)]
+enum Rest {
+    /// The rest is zero, as in MuJoCo.
+    Zero,
+    /// A mistake. MuJoCo fills the rest of a configuration with angles in degrees and with poses outside their frames,
+    /// which nobody means.
+    Needed,
+}
+
+fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
+    let p = Props::own(node);
+    let mut list = |name: &str, n: usize, rest: Rest, what: String| {
+        let mut given = p.list(name).filter(|list| !list.is_empty())?.to_vec();
+        if rest == Rest::Zero && given.len() < n {
+            given.resize(n, 0.0);
+        }
+        if given.len() != n {
+            let plural = if given.len() == 1 { "" } else { "s" };
+            let owner = node.shown();
+            let message =
+                format!("`{name}` of {owner} has {} number{plural}, the model needs {n}", given.len());
+            report.error(code::KEYFRAME, p.span(name).unwrap_or(0..0), message).why(what);
+            return None;
+        }
+        Some(given)
+    };
+    let state = |what: &str, free: usize, ball: usize| {
+        format!("{what}: {free} for a free joint, {ball} for a ball joint, one for a slide or hinge joint")
+    };
+    let none = |n: usize, what: &str| match n {
+        0 => "the model has no actuators that need it".to_string(),
+        _ => what.to_string(),
+    };
+    KeySpec {
+        name: name(node),
+        time: p.real("time").unwrap_or(0.0),
+        qpos: list("qpos", sizes.nq, Rest::Needed, state("one coordinate after the other", 7, 4)),
+        qvel: list("qvel", sizes.nv, Rest::Zero, state("one velocity after the other", 6, 3)),
+        act: list("act", sizes.na, Rest::Zero, none(sizes.na, "one for each state of an actuator")),
+        ctrl: list("ctrl", sizes.nu, Rest::Zero, none(sizes.nu, "one for each control of an actuator")),
+        mpos: list("mpos", 3 * sizes.nmocap, Rest::Needed, "three for each mocap body".into()),
+        mquat: list("mquat", 4 * sizes.nmocap, Rest::Needed, "four for each mocap body".into()),
+    }
+}

@@ -1,0 +1,22 @@
+//! `contact`: pairs and exclusions.
+
+use super::{Attr, Element, INT, Kind, REAL, attributes, upto};
+
+pub(super) const PAIR_ATTRS: &[Attr] = attributes! {
+    INT => condim;
+    REAL => adhesion margin gap;
+    upto(2) => solref solreffriction;
+    upto(5) => solimp friction;
+};
+pub(super) static CONTACT: Element = Element::new("contact", &[]).children(&[&PAIR, &EXCLUDE]);
+static PAIR: Element = Element::new(
+    "pair",
+    &[
+        attributes! { Kind::Name("pair") => name; Kind::Class => class; Kind::Ref("geom") => geom1 geom2; },
+        PAIR_ATTRS,
+    ],
+);
+static EXCLUDE: Element = Element::new(
+    "exclude",
+    &[attributes! { Kind::Name("exclude") => name; Kind::Ref("body") => body1 body2; }],
+);

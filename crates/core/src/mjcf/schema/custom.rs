@@ -1,0 +1,14 @@
+//! `custom`: numbers, texts and tuples of users.
+
+use super::{Element, INT, Kind, LIST, REAL, TEXT, USER, attributes};
+
+pub(super) static CUSTOM: Element =
+    Element::new("custom", &[]).children(&[&NUMERIC, &TEXT_DATA, &TUPLE]).status(USER);
+static NUMERIC: Element =
+    Element::new("numeric", &[attributes! { Kind::Name("numeric") => name; LIST => data; INT => size; }]);
+static TEXT_DATA: Element =
+    Element::new("text", &[attributes! { Kind::Name("text") => name; TEXT => data; }]);
+static TUPLE: Element =
+    Element::new("tuple", &[attributes! { Kind::Name("tuple") => name; }]).children(&[&TUPLE_ELEMENT]);
+static TUPLE_ELEMENT: Element =
+    Element::new("element", &[attributes! { TEXT => objtype objname; REAL => prm; }]);

@@ -1,0 +1,52 @@
+//! `default`: what classes say about each kind of element.
+
+use super::{Attr, Element, Kind, actuator, attributes, body, contact, equality, scene, tendon};
+
+/// An entry of `default`: what its class says about one kind of element.
+const fn entry(name: &'static str, attributes: &'static [&'static [Attr]]) -> Element {
+    Element::new(name, attributes).once()
+}
+
+pub(super) static DEFAULT: Element =
+    Element::new("default", &[attributes! { Kind::Class => class; }]).children(&DEFAULT_CHILDREN);
+
+static DEFAULT_CHILDREN: [&Element; 23] = {
+    let [a, b, c, d, e, f, g, h, i, j, k, l] = actuator::DEFAULTS;
+    [
+        &DEFAULT,
+        &D_JOINT,
+        &D_GEOM,
+        &D_SITE,
+        &D_CAMERA,
+        &D_LIGHT,
+        &D_MATERIAL,
+        &D_MESH,
+        &D_PAIR,
+        &D_EQUALITY,
+        &D_TENDON,
+        a,
+        b,
+        c,
+        d,
+        e,
+        f,
+        g,
+        h,
+        i,
+        j,
+        k,
+        l,
+    ]
+};
+
+static D_JOINT: Element = entry("joint", &[body::JOINT_ATTRS]);
+static D_GEOM: Element = entry("geom", &[body::GEOM_ATTRS]);
+static D_SITE: Element = entry("site", &[body::SITE_ATTRS]);
+static D_CAMERA: Element = entry("camera", &[body::CAMERA_ATTRS]);
+static D_LIGHT: Element = entry("light", &[body::LIGHT_ATTRS]);
+static D_MATERIAL: Element = entry("material", &[scene::MATERIAL_ATTRS]).children(&[&scene::LAYER]);
+static D_MESH: Element = entry("mesh", &[scene::MESH_ATTRS]);
+static D_PAIR: Element = entry("pair", &[contact::PAIR_ATTRS]);
+static D_EQUALITY: Element = entry("equality", &[equality::EQUALITY_ATTRS]);
+static D_TENDON: Element =
+    entry("tendon", &[tendon::TENDON_ATTRS, tendon::TENDON_DRAWN, tendon::TENDON_USER]);

@@ -1,0 +1,13 @@
+//! `keyframe`.
+
+use super::{Element, Kind, LIST, REAL, attributes};
+
+pub(super) static KEYFRAME: Element = Element::new("keyframe", &[]).children(&[&KEY]);
+static KEY: Element = Element::new(
+    "key",
+    &[attributes! {
+        Kind::Name("key") => name;
+        REAL => time;
+        LIST => qpos qvel act ctrl mpos mquat;
+    }],
+);

@@ -1,0 +1,312 @@
+//! The schema of MJCF: every element in every place, with every attribute, as MuJoCo 3.14.0 knows them.
+//!
+//! One table decides what is read, what is accepted and ignored, and what is refused by name. The checks of
+//! `tree.rs`, the suggestions for misspelt names and the compatibility page all come from it. Names follow
+//! MuJoCo's XML reference; a test holds them against the list that the library prints.
+
+mod actuator;
+mod body;
+mod contact;
+mod custom;
+mod default;
+mod equality;
+mod extension;
+mod flexible;
+mod key;
+mod scene;
+mod sensor;
+mod settings;
+mod tendon;
+
+/// What the compiler does with an element or an attribute.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Read, with MuJoCo's meaning.
+    Supported,
+    /// Accepted without effect on any computed number; the text says what it is for.
+    Ignored(&'static str),
+    /// Accepted only with this value, MuJoCo's default.
+    Only(&'static str),
+    /// Refused as not supported yet.
+    Unsupported,
+}
+
+/// A keyword of an attribute.
+#[derive(Debug)]
+pub struct Word {
+    /// The keyword.
+    pub text: &'static str,
+    /// MuJoCo's number for it.
+    pub value: i32,
+    /// `false`: a keyword of MuJoCo that is refused as not supported yet.
+    pub supported: bool,
+}
+
+/// The type of an attribute's value.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// Between `min` and `max` real numbers.
+    Reals(usize, usize),
+    /// Between `min` and `max` integers.
+    Ints(usize, usize),
+    /// One of these keywords.
+    Words(&'static [Word]),
+    /// The object's own name, unique among objects of this kind.
+    Name(&'static str),
+    /// The name of another object, of this kind.
+    Ref(&'static str),
+    /// The name of a defaults class.
+    Class,
+    /// Free text.
+    Text,
+}
+
+impl Kind {
+    /// Whether it takes numbers, and at least one.
+    pub(crate) fn counts(self) -> bool {
+        matches!(self, Kind::Reals(1.., _) | Kind::Ints(1.., _))
+    }
+}
+
+impl Kind {
+    /// The type in words, for documentation and messages.
+    pub fn describe(self) -> String {
+        let count = |min: usize, max: usize, noun: &str| match (min, max) {
+            (1, 1) => format!("one {noun}"),
+            (_, usize::MAX) => format!("{noun}s"),
+            (a, b) if a == b => format!("{a} {noun}s"),
+            (a, b) => format!("{a} to {b} {noun}s"),
+        };
+        match self {
+            Kind::Reals(min, max) => count(min, max, "number"),
+            Kind::Ints(min, max) => count(min, max, "integer"),
+            Kind::Words(words) => {
+                let list: Vec<_> = words.iter().map(|w| w.text).collect();
+                format!("one of {}", list.join(", "))
+            }
+            Kind::Name(_) => "a name".into(),
+            Kind::Ref(kind) => format!("the name of a {kind}"),
+            Kind::Class => "the name of a default class".into(),
+            Kind::Text => "text".into(),
+        }
+    }
+}
+
+/// An attribute.
+#[derive(Debug)]
+pub struct Attr {
+    /// Its name.
+    pub name: &'static str,
+    /// The type of its value.
+    pub kind: Kind,
+    /// What the compiler does with it.
+    pub status: Status,
+}
+
+/// An element in one place of the tree.
+#[derive(Debug)]
+pub struct Element {
+    /// Its name.
+    pub name: &'static str,
+    /// What the compiler does with it.
+    pub status: Status,
+    /// Whether it may stand only once in its parent.
+    pub once: bool,
+    /// Its attributes, in groups that elements share.
+    pub attributes: &'static [&'static [Attr]],
+    /// The elements that it may hold.
+    pub children: &'static [&'static Element],
+}
+
+impl Element {
+    const fn new(name: &'static str, attributes: &'static [&'static [Attr]]) -> Element {
+        Element { name, status: Status::Supported, once: false, attributes, children: &[] }
+    }
+
+    const fn children(self, children: &'static [&'static Element]) -> Element {
+        Element { children, ..self }
+    }
+
+    const fn once(self) -> Element {
+        Element { once: true, ..self }
+    }
+
+    const fn status(self, status: Status) -> Element {
+        Element { status, ..self }
+    }
+
+    const fn refused(self) -> Element {
+        self.status(Status::Unsupported)
+    }
+
+    /// The attribute of this name.
+    pub fn attribute(&self, name: &str) -> Option<&'static Attr> {
+        self.attributes().find(|a| a.name == name)
+    }
+
+    /// All attributes.
+    pub fn attributes(&self) -> impl Iterator<Item = &'static Attr> + use<> {
+        self.attributes.iter().copied().flatten()
+    }
+
+    /// The child element of this name.
+    pub fn child(&self, name: &str) -> Option<&'static Element> {
+        self.children.iter().copied().find(|c| c.name == name)
+    }
+}
+
+/// Attributes, a line for each type: `KIND => names [status];`.
+macro_rules! attributes {
+    (@ [$($rows:tt)*]) => { &[$($rows)*] };
+    (@ [$($rows:tt)*] $kind:expr => $($name:ident)+; $($rest:tt)*) => {
+        $crate::mjcf::schema::attributes!(@ [$($rows)* $(
+            $crate::mjcf::schema::Attr {
+                name: stringify!($name),
+                kind: $kind,
+                status: $crate::mjcf::schema::Status::Supported,
+            },
+        )+] $($rest)*)
+    };
+    (@ [$($rows:tt)*] $kind:expr => $($name:ident)+ [$status:expr]; $($rest:tt)*) => {
+        $crate::mjcf::schema::attributes!(@ [$($rows)* $(
+            $crate::mjcf::schema::Attr { name: stringify!($name), kind: $kind, status: $status },
+        )+] $($rest)*)
+    };
+    ($($rows:tt)*) => { $crate::mjcf::schema::attributes!(@ [] $($rows)*) };
+}
+use attributes;
+
+const REAL: Kind = Kind::Reals(1, 1);
+const INT: Kind = Kind::Ints(1, 1);
+const TEXT: Kind = Kind::Text;
+const FLAG: Kind = Kind::Words(&[word("false", 0), word("true", 1)]);
+const AUTO: Kind = Kind::Words(&[word("false", 0), word("true", 1), word("auto", 2)]);
+
+/// Exactly `n` numbers.
+const fn reals(n: usize) -> Kind {
+    Kind::Reals(n, n)
+}
+/// One to `n` numbers: the missing ones keep their defaults.
+const fn upto(n: usize) -> Kind {
+    Kind::Reals(1, n)
+}
+/// As many numbers as the model needs.
+const LIST: Kind = Kind::Reals(0, usize::MAX);
+/// As many integers as the author likes.
+const INTS: Kind = Kind::Ints(0, usize::MAX);
+
+const fn word(text: &'static str, value: i32) -> Word {
+    Word { text, value, supported: true }
+}
+const fn not_yet(text: &'static str, value: i32) -> Word {
+    Word { text, value, supported: false }
+}
+
+/// What shows only in pictures.
+const LOOK: Status = Status::Ignored("appearance");
+/// What acts only together with something that is refused where it stands.
+const MOOT: Status = Status::Ignored("acts only with elements that are refused themselves");
+const USER: Status = Status::Ignored("data for programs; the engine does not read it");
+
+/// The five ways to give an orientation.
+const ORIENTATION: &[Attr] = attributes! {
+    reals(4) => quat axisangle;
+    reals(3) => euler zaxis;
+    reals(6) => xyaxes;
+};
+
+pub(crate) use body::{BODY, FRAME};
+pub(crate) use extension::INCLUDE;
+
+/// The root of the table: the element `mujoco`.
+pub(crate) static ROOT: Element = Element::new("mujoco", &[attributes! { TEXT => model; }]).children(&[
+    &settings::COMPILER,
+    &settings::OPTION,
+    &settings::SIZE,
+    &settings::STATISTIC,
+    &scene::VISUAL,
+    &scene::ASSET,
+    &default::DEFAULT,
+    &body::WORLDBODY,
+    &extension::EXTENSION,
+    &custom::CUSTOM,
+    &contact::CONTACT,
+    &flexible::DEFORMABLE,
+    &equality::EQUALITY,
+    &tendon::TENDON,
+    &actuator::ACTUATOR,
+    &sensor::SENSOR,
+    &key::KEYFRAME,
+    &INCLUDE,
+]);
+
+/// A row of the compatibility table.
+#[derive(Clone, Debug)]
+pub struct SchemaRow {
+    /// Elements from the root to this one, joined by `/`.
+    pub path: String,
+    /// The attribute; `None` for the row of the element itself.
+    pub attribute: Option<&'static Attr>,
+    /// What the compiler does with it.
+    pub status: Status,
+}
+
+/// The whole schema as rows, elements before their attributes, in the order of the table. An element that
+/// may hold itself (`body`, `default`, `frame`) is listed once.
+pub fn schema_rows() -> Vec<SchemaRow> {
+    let mut rows = Vec::new();
+    let mut stack = vec![(String::new(), &ROOT, false)];
+    while let Some((parent, element, refused)) = stack.pop() {
+        // What stands in something refused is refused with it.
+        let element_status = if refused { Status::Unsupported } else { element.status };
+        let path =
+            if parent.is_empty() { element.name.to_string() } else { format!("{parent}/{}", element.name) };
+        rows.push(SchemaRow { path: path.clone(), attribute: None, status: element_status });
+        rows.extend(element.attributes().map(|a| SchemaRow {
+            path: path.clone(),
+            attribute: Some(a),
+            status: if element_status == Status::Supported { a.status } else { element_status },
+        }));
+        for child in element.children.iter().rev() {
+            if !path.split('/').any(|name| name == child.name) {
+                stack.push((path.clone(), child, element_status == Status::Unsupported));
+            }
+        }
+    }
+    rows
+}
+
+/// Where else an element of this name may stand: the names of its possible parents. Places that are refused
+/// are named only when there is no other, and a body also stands for what holds the same as it.
+pub(crate) fn parents_of(name: &str) -> Vec<&'static str> {
+    let mut parents: [Vec<&'static str>; 2] = Default::default();
+    let mut seen: Vec<&'static Element> = vec![&ROOT];
+    let mut at = 0;
+    while let Some(&element) = seen.get(at) {
+        at += 1;
+        if let Some(child) = element.child(name) {
+            let refused = [element.status, child.status].contains(&Status::Unsupported);
+            let [open, closed] = &mut parents;
+            let list = if refused { closed } else { open };
+            let as_body = matches!(element.name, "frame" | "replicate");
+            if !list.contains(&element.name) && !as_body {
+                list.push(element.name);
+            }
+        }
+        for child in element.children {
+            if !seen.iter().any(|s| std::ptr::eq(*s, *child)) {
+                seen.push(child);
+            }
+        }
+    }
+    let [open, closed] = parents;
+    if open.is_empty() { closed } else { open }
+}
+
+/// The forms of an orientation that override a quaternion, and each other.
+pub(crate) const ALTERNATIVES: [&str; 4] = ["euler", "axisangle", "xyaxes", "zaxis"];
+
+/// Whether an attribute gives an orientation.
+pub(crate) fn is_form(name: &str) -> bool {
+    name == "quat" || ALTERNATIVES.contains(&name) || name == "fullinertia"
+}

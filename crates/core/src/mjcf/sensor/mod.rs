@@ -1,0 +1,3 @@
+//! Sensors: reading.
+
+pub(crate) mod read_sensor;

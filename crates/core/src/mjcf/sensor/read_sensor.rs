@@ -1,0 +1,422 @@
+//! Sensors: what they measure, resolved to ids, with the parameters of their values.
+//!
+//! Kinds of sensors and what each can be attached to stand in [`crate::sensor`]'s table.
+
+use crate::mjcf::classes::Props;
+use crate::mjcf::ids::References;
+use crate::mjcf::settings::checked;
+use crate::mjcf::spec::{List, SensorObjects, SensorSpec, SensorTiming, TendonSpec};
+use crate::mjcf::text::diagnostic::{Report, code, shown};
+use crate::mjcf::text::tree::{Node, Tree, name};
+use crate::sensor::{CONTACT_DATA, Datatype, KINDS, Kind, RAY_DATA, Senses, When, data_size};
+use crate::{Obj, joint};
+
+/// Largest number of values of all sensors, with those that are kept for delays.
+const MAX_VALUES: usize = 1 << 22;
+
+/// What reading a sensor needs to know.
+struct Context<'a> {
+    node: &'a Node,
+    /// Its own attributes; sensors have no defaults.
+    p: Props,
+    refs: References<'a>,
+    tendons: &'a [TendonSpec],
+    report: &'a mut Report,
+}
+
+/// All sensors in the order of the text.
+pub(crate) fn sensors(
+    tree: &Tree,
+    refs: References,
+    tendons: &[TendonSpec],
+    report: &mut Report,
+) -> Vec<SensorSpec> {
+    let mut list = Vec::new();
+    let mut values = 0;
+    for (section, _) in tree.sections("sensor") {
+        for (_, node) in tree.children(section) {
+            if report.is_full() {
+                return list;
+            }
+            let Some(number) = KINDS.iter().position(|k| k.name == node.element.name) else { continue };
+            let mut cx = Context { node, p: Props::own(node), refs, tendons, report };
+            let Some(sensor) = cx.sensor(number, &KINDS[number]) else { continue };
+            let samples = 1 + sensor.timing.nsample.max(0) as usize;
+            values += samples.saturating_mul(1 + sensor.dim as usize);
+            if values > MAX_VALUES {
+                report
+                    .error(
+                        code::LIMIT,
+                        node.span.clone(),
+                        format!("the sensors have more than {MAX_VALUES} values"),
+                    )
+                    .why("every step would compute and keep them all")
+                    .help("lower `num`, `nsample`, `dim` or the camera's `resolution`");
+                return list;
+            }
+            list.push(sensor);
+        }
+    }
+    list
+}
+
+impl Context<'_> {
+    fn sensor(&mut self, number: usize, kind: &'static Kind) -> Option<SensorSpec> {
+        let cutoff = self.not_negative("cutoff");
+        let noise = self.not_negative("noise");
+        let timing = self.timing();
+        let objects = self.objects(kind)?;
+        let (intprm, dim) = self.parameters(kind, &objects)?;
+        let (datatype, when) = self.meaning(kind, dim);
+        // The cutoff of a normal is that of the distance.
+        let unit = matches!(datatype, Datatype::Axis | Datatype::Quaternion);
+        if cutoff > 0.0 && unit && kind.senses != Senses::Pair {
+            let what = if datatype == Datatype::Axis { "an axis" } else { "a quaternion" };
+            self.error_at("cutoff", code::SENSOR, format!("{} has a cutoff", self.node.shown()))
+                .why(format!("clamping the numbers of {what} would leave no rotation"))
+                .help("remove `cutoff`");
+        }
+        Some(SensorSpec {
+            name: name(self.node),
+            kind: number as i32,
+            objects,
+            intprm,
+            dim,
+            datatype: datatype as i32,
+            needstage: when,
+            cutoff,
+            noise,
+            timing,
+            user: List::read(&self.p, "user"),
+        })
+    }
+
+    /// An error at an attribute, or at the element when it is not there.
+    fn error_at(
+        &mut self,
+        attribute: &str,
+        code: &'static str,
+        message: String,
+    ) -> &mut crate::mjcf::text::diagnostic::MjcfDiagnostic {
+        let span = self.node.attribute(attribute).map_or(self.node.span.clone(), |a| a.span.clone());
+        self.report.error(code, span, message)
+    }
+
+    fn not_negative(&mut self, attribute: &str) -> f64 {
+        let owner = self.node.shown();
+        checked(&self.p, attribute, &owner, |x| x >= 0.0, "zero or more", self.report).unwrap_or(0.0)
+    }
+
+    /// Delay, period and the samples that are kept for them.
+    fn timing(&mut self) -> SensorTiming {
+        let owner = self.node.shown();
+        let [period, phase] = self.p.reals("interval", [0.0; 2]);
+        let timing = SensorTiming {
+            nsample: self.p.int("nsample").unwrap_or(0),
+            interp: self.p.word("interp").unwrap_or(0),
+            delay: self.p.real("delay").unwrap_or(0.0),
+            interval: [period, phase],
+        };
+        if timing.nsample < 0 {
+            let span = self.p.span("nsample").unwrap_or(self.node.span.clone());
+            self.report
+                .warning(
+                    code::NO_EFFECT,
+                    span,
+                    format!("`nsample` of {owner} is negative, which keeps no values"),
+                )
+                .help("it is the number of values that are kept: write 0, or remove it");
+        }
+        if timing.delay > 0.0 && timing.nsample <= 0 {
+            self.error_at("delay", code::CONFLICT, format!("{owner} has a delay but keeps no values"))
+                .why("a delayed value is read from the past ones")
+                .help("write `nsample`: at least the delay divided by the timestep, rounded up");
+        }
+        let in_range = period > 0.0 && phase > -period || period == 0.0;
+        if !in_range || phase > 0.0 {
+            self.error_at("interval", code::VALUE, format!("`interval` of {owner} is out of range"))
+                .why("it is a period, s, and the time of the first reading before the start")
+                .help("the period is zero or more, the second number between minus the period and zero");
+        }
+        timing
+    }
+
+    /// Reports that an attribute is missing.
+    fn missing<T>(&mut self, attributes: &[&str]) -> Option<T> {
+        let list: Vec<String> = attributes.iter().map(|a| format!("`{a}`")).collect();
+        let message = format!("{} has no {}", self.node.shown(), list.join(" or "));
+        self.error_at("", code::MISSING_ATTRIBUTE, message).why("it says what the sensor reads");
+        None
+    }
+
+    /// The id of the object that an attribute names. That there is none is reported where references are checked.
+    fn id(&self, attribute: &str, kind: &str) -> Option<i32> {
+        self.refs.optional(kind, self.node, attribute)
+    }
+
+    /// The only one of several attributes that is there: its place in the list, and the id that it names. An error
+    /// when there are two.
+    fn one_of(&mut self, attributes: &[(&'static str, &'static str)]) -> Option<Option<(usize, i32)>> {
+        let mut given = attributes.iter().enumerate().filter(|(_, (a, _))| self.node.attribute(a).is_some());
+        let Some((at, &(attribute, kind))) = given.next() else { return Some(None) };
+        if let Some((_, &(other, _))) = given.next() {
+            let message = format!("{} has both `{attribute}` and `{other}`", self.node.shown());
+            self.error_at(other, code::CONFLICT, message)
+                .why("they are two ways to name the same side")
+                .help("keep one of them");
+            return None;
+        }
+        if self.node.text(attribute).is_none() {
+            return self.missing(&[attribute]);
+        }
+        Some(Some((at, self.id(attribute, kind)?)))
+    }
+
+    /// What the sensor is attached to.
+    fn objects(&mut self, kind: &Kind) -> Option<SensorObjects> {
+        let attached = |obj: Obj, id: i32| SensorObjects::of(obj as i32, id);
+        match kind.senses {
+            Senses::Nothing | Senses::Tactile | Senses::Plugin => Some(SensorObjects::default()),
+            Senses::Site => self.required("site", "site").map(|id| attached(Obj::Site, id)),
+            Senses::Tendon | Senses::LimitedTendon => {
+                let id = self.required("tendon", "tendon")?;
+                if kind.senses == Senses::LimitedTendon
+                    && !self.tendons.get(id as usize).is_some_and(|t| t.limited)
+                {
+                    self.has_no_limits("tendon");
+                }
+                Some(attached(Obj::Tendon, id))
+            }
+            Senses::Actuator => self.required("actuator", "actuator").map(|id| attached(Obj::Actuator, id)),
+            Senses::Subtree => self.required("body", "body").map(|id| attached(Obj::Body, id)),
+            Senses::ScalarJoint | Senses::BallJoint | Senses::LimitedJoint => {
+                let id = self.required("joint", "joint")?;
+                self.check_joint(kind, id);
+                Some(attached(Obj::Joint, id))
+            }
+            Senses::Ray => match self.one_of(&[("site", "site"), ("camera", "camera")])? {
+                Some((0, id)) => Some(attached(Obj::Site, id)),
+                Some((_, id)) => Some(attached(Obj::Camera, id)),
+                None => self.missing(&["site", "camera"]),
+            },
+            Senses::SiteInImage => {
+                let (site, camera) = (self.required("site", "site"), self.required("camera", "camera"));
+                if camera.is_some_and(|camera| self.refs.ids.is_blind(camera)) {
+                    let message = format!("the camera of {} has no resolution", self.node.shown());
+                    self.error_at("camera", code::SENSOR, message)
+                        .why("the place in the image is counted in pixels")
+                        .help("give the camera a `resolution` without zeros");
+                }
+                Some(attached(Obj::Site, site?).with_reference(Obj::Camera as i32, camera?))
+            }
+            Senses::Frame => self.frame("objtype", "objname"),
+            Senses::RelativeFrame => {
+                let object = self.frame("objtype", "objname")?;
+                if self.node.attribute("reftype").is_none() && self.node.attribute("refname").is_none() {
+                    return Some(object);
+                }
+                let reference = self.frame("reftype", "refname")?;
+                Some(object.with_reference(reference.objtype, reference.objid))
+            }
+            Senses::FrameInSite => {
+                let (object, site) = (self.frame("objtype", "objname"), self.required("site", "site"));
+                Some(object?.with_reference(Obj::Site as i32, site?))
+            }
+            Senses::Pair => self.pair(),
+            Senses::Contacts => self.contact_filter(),
+            Senses::User => {
+                if self.node.attribute("objtype").is_none() && self.node.attribute("objname").is_none() {
+                    return Some(SensorObjects::default());
+                }
+                self.frame("objtype", "objname")
+            }
+        }
+    }
+
+    /// The id of an object that must be given.
+    fn required(&mut self, attribute: &str, kind: &str) -> Option<i32> {
+        if self.node.text(attribute).is_none() {
+            return self.missing(&[attribute]);
+        }
+        self.id(attribute, kind)
+    }
+
+    /// An object that is named by its kind and its name.
+    fn frame(&mut self, objtype: &str, objname: &str) -> Option<SensorObjects> {
+        for attribute in [objtype, objname] {
+            if self.node.attribute(attribute).is_none() {
+                return self.missing(&[attribute]);
+            }
+        }
+        let objtype = self.p.word(objtype)?;
+        let kind = crate::mjcf::ids::keyword(objtype);
+        match self.id(objname, kind) {
+            Some(id) => Some(SensorObjects::of(objtype, id)),
+            None => {
+                let attribute = self.node.attribute(objname)?;
+                let name = self.node.text(objname).unwrap_or("");
+                if self.refs.names.find(kind, name).is_none() {
+                    self.refs.names.unknown(kind, name, attribute.span.clone(), self.report);
+                }
+                None
+            }
+        }
+    }
+
+    /// Two geoms, or bodies that stand for all their geoms.
+    fn pair(&mut self) -> Option<SensorObjects> {
+        let side = |(at, id): (usize, i32)| (if at == 0 { Obj::Geom } else { Obj::Body } as i32, id);
+        let first = self.one_of(&[("geom1", "geom"), ("body1", "body")])?.map(side);
+        let second = self.one_of(&[("geom2", "geom"), ("body2", "body")])?.map(side);
+        let (Some(first), Some(second)) = (first, second) else {
+            let missing = if first.is_none() { ["geom1", "body1"] } else { ["geom2", "body2"] };
+            return self.missing(&missing);
+        };
+        if first == second {
+            let message = format!("both sides of {} are the same", self.node.shown());
+            self.error_at("geom2", code::SENSOR, message).help("name two different geoms or bodies");
+            return None;
+        }
+        Some(SensorObjects::of(first.0, first.1).with_reference(second.0, second.1))
+    }
+
+    /// The geoms, bodies, subtrees or the site that a contact must involve, all optional.
+    fn contact_filter(&mut self) -> Option<SensorObjects> {
+        const KINDS: [Obj; 4] = [Obj::Geom, Obj::Body, Obj::XBody, Obj::Site];
+        let side = |found: Option<(usize, i32)>| {
+            found.map_or((0, -1), |(at, id)| (KINDS.get(at).map_or(0, |&k| k as i32), id))
+        };
+        let first = [("geom1", "geom"), ("body1", "body"), ("subtree1", "body"), ("site", "site")];
+        let second = [("geom2", "geom"), ("body2", "body"), ("subtree2", "body")];
+        let (first, second) = (side(self.one_of(&first)?), side(self.one_of(&second)?));
+        Some(SensorObjects::of(first.0, first.1).with_reference(second.0, second.1))
+    }
+
+    fn check_joint(&mut self, kind: &Kind, id: i32) {
+        let Some((is, limited)) = self.refs.ids.joint(id) else { return };
+        let (fits, needs) = match kind.senses {
+            Senses::BallJoint => (is == joint::BALL, "a ball joint"),
+            Senses::LimitedJoint if !limited => return self.has_no_limits("joint"),
+            Senses::LimitedJoint => return,
+            _ => (matches!(is, joint::SLIDE | joint::HINGE), "a slide or hinge joint"),
+        };
+        if fits {
+            return;
+        }
+        let is = ["free", "ball", "slide", "hinge"].get(is as usize).copied().unwrap_or("");
+        let joint = shown(self.node.text("joint").unwrap_or(""));
+        self.error_at("joint", code::SENSOR, format!("`{}` reads joint {joint}, a {is} joint", kind.name))
+            .help(format!("it needs {needs}; `framepos` and `framequat` read the pose of any body"));
+    }
+
+    fn has_no_limits(&mut self, what: &'static str) {
+        let message = format!(
+            "`{}` reads {what} {}, which has no limits",
+            self.node.element.name,
+            shown(self.node.text(what).unwrap_or(""))
+        );
+        self.error_at(what, code::SENSOR, message)
+            .why("the sensor would be zero for ever")
+            .help(format!("give the {what} a `range`, or remove the sensor"));
+    }
+
+    /// Integer parameters, and the number of values.
+    fn parameters(&mut self, kind: &Kind, objects: &SensorObjects) -> Option<([i32; 3], i32)> {
+        match kind.senses {
+            Senses::Ray => {
+                let mask = self.data_fields(&RAY_DATA)?;
+                if objects.objtype == Obj::Camera as i32 && self.refs.ids.is_negative(objects.objid) {
+                    let message = format!("the camera of {} has a negative resolution", self.node.shown());
+                    self.error_at("camera", code::SENSOR, message)
+                        .help("write its width and height in pixels");
+                    return None;
+                }
+                let pixels = self.refs.ids.pixels(objects);
+                Some(([mask, 0, 0], self.dim(pixels, data_size(&RAY_DATA, mask))?))
+            }
+            Senses::Contacts => {
+                let mask = self.data_fields(&CONTACT_DATA)?;
+                let num = self.p.int("num").unwrap_or(1);
+                if num <= 0 {
+                    self.error_at("num", code::VALUE, format!("`num` of {} is {num}", self.node.shown()))
+                        .help("it is the number of contacts that the sensor shows, one or more");
+                    return None;
+                }
+                let dim = self.dim(num as usize, data_size(&CONTACT_DATA, mask))?;
+                Some(([mask, self.p.word("reduce").unwrap_or(0), num], dim))
+            }
+            Senses::User => {
+                if !self.p.has("dim") {
+                    return self.missing(&["dim"]);
+                }
+                let dim = self.p.int("dim")?;
+                if dim < 0 {
+                    self.error_at("dim", code::VALUE, format!("`dim` of {} is negative", self.node.shown()));
+                    return None;
+                }
+                Some(([0; 3], dim))
+            }
+            Senses::Actuator => Some(([0; 3], self.refs.ids.outputs(objects.objid))),
+            _ => Some(([0; 3], kind.dim)),
+        }
+    }
+
+    /// A number of values that is a product, within the limit.
+    fn dim(&mut self, n: usize, size: usize) -> Option<i32> {
+        let dim = n.saturating_mul(size);
+        if dim > MAX_VALUES {
+            let message = format!("{} has more than {MAX_VALUES} values", self.node.shown());
+            self.error_at("", code::LIMIT, message).help("lower `num` or the camera's `resolution`");
+            return None;
+        }
+        Some(dim as i32)
+    }
+
+    /// The mask of the fields that `data` lists; the first field alone when it does not.
+    fn data_fields(&mut self, fields: &[(&'static str, usize)]) -> Option<i32> {
+        let (mut mask, mut last) = (0, None);
+        let text = self.node.text("data").unwrap_or("").to_string();
+        let all: Vec<&str> = fields.iter().map(|(name, _)| *name).collect();
+        let all = all.join(" ");
+        for word in text.split_ascii_whitespace() {
+            let Some(at) = fields.iter().position(|(name, _)| *name == word) else {
+                let message = format!("`data` of {} lists {}", self.node.shown(), shown(word));
+                self.error_at("data", code::KEYWORD, message).help(format!("it can list: {all}"));
+                return None;
+            };
+            if last.is_some_and(|last| at <= last) {
+                let message = format!("`data` of {} lists its fields out of order", self.node.shown());
+                self.error_at("data", code::KEYWORD, message)
+                    .why("values always come in one order, and each field once")
+                    .help(format!("the order is: {all}"));
+                return None;
+            }
+            last = Some(at);
+            mask |= 1 << at;
+        }
+        Some(if mask == 0 { 1 } else { mask })
+    }
+
+    /// What the values are and when they are known: a user says so, other kinds of sensors have it in their table.
+    fn meaning(&mut self, kind: &Kind, dim: i32) -> (Datatype, i32) {
+        if kind.senses != Senses::User {
+            return (kind.datatype, kind.when as i32);
+        }
+        let datatype = match self.p.word("datatype") {
+            Some(t) if t == Datatype::Positive as i32 => Datatype::Positive,
+            Some(t) if t == Datatype::Axis as i32 => Datatype::Axis,
+            Some(t) if t == Datatype::Quaternion as i32 => Datatype::Quaternion,
+            _ => Datatype::Real,
+        };
+        let needed = match datatype {
+            Datatype::Axis => 3,
+            Datatype::Quaternion => 4,
+            _ => dim,
+        };
+        if dim != needed {
+            let message = format!("`dim` of {} is {dim}, its `datatype` has {needed}", self.node.shown());
+            self.error_at("dim", code::CONFLICT, message).help(format!("write `dim=\"{needed}\"`"));
+        }
+        (datatype, self.p.word("needstage").unwrap_or(When::Acceleration as i32))
+    }
+}

@@ -1,0 +1,198 @@
+//! Tendons: attributes and paths.
+
+use crate::mjcf::body::limits;
+use crate::mjcf::classes::Props;
+use crate::mjcf::context::Context;
+use crate::mjcf::ids::References;
+use crate::mjcf::settings::checked;
+use crate::mjcf::spec::{List, SOLIMP, SOLREF, TendonSpec, WrapSpec};
+use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::tree::{Node, name};
+use crate::{geom, wraptype};
+
+/// All tendons in the order of the text.
+pub(crate) fn tendons(cx: &mut Context, refs: References) -> Vec<TendonSpec> {
+    let tree = cx.tree;
+    let nodes = tree.sections("tendon").flat_map(|(section, _)| tree.children(section));
+    nodes.map(|(i, node)| tendon(cx, refs, i, node)).collect()
+}
+
+fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSpec {
+    cx.enter(node);
+    let p = cx.classes.props_of("tendon", node, None);
+    let spatial = node.element.name == "spatial";
+    let (limited, range) = limits::read(cx, &p, node, &limits::TENDON);
+    let (actfrclimited, actfrcrange) = limits::read(cx, &p, node, &limits::TENDON_FORCE);
+    if actfrclimited && !(actfrcrange[0] <= 0.0 && 0.0 <= actfrcrange[1]) {
+        let span = p.span("actuatorfrcrange").unwrap_or(node.span.clone());
+        cx.report
+            .error(code::TENDON, span, format!("the actuatorfrcrange of {} excludes zero", node.shown()))
+            .why(
+                "the forces of its actuators are scaled until their sum is in the range, and nothing scales a sum of zero",
+            );
+    }
+    let path = path(cx, refs, i, node);
+    let owner = node.shown();
+    let armature = checked(&p, "armature", &owner, |x| x >= 0.0, "zero or more", cx.report).unwrap_or(0.0);
+    if armature > 0.0 && path.iter().any(|w| matches!(w.kind, wraptype::SPHERE | wraptype::CYLINDER)) {
+        cx.report
+            .error(code::TENDON, p.span("armature").unwrap_or(0..0), format!("{owner} has armature and wraps around a geom"))
+            .why("the inertia of a tendon needs the second derivative of its length, which is not known for wrapping")
+            .help("remove `armature`, or lead the tendon through sites only");
+    }
+    let width = if spatial {
+        checked(&p, "width", &owner, |x| x > 0.0, "larger than zero", cx.report)
+    } else {
+        p.real("width")
+    };
+    TendonSpec {
+        span: node.span.clone(),
+        name: name(node),
+        path,
+        group: p.int("group").unwrap_or(0),
+        limited,
+        range,
+        actfrclimited,
+        actfrcrange,
+        margin: p.real("margin").unwrap_or(0.0),
+        stiffness: p.reals("stiffness", [0.0; 3]),
+        damping: p.reals("damping", [0.0; 3]),
+        armature,
+        frictionloss: p.real("frictionloss").unwrap_or(0.0),
+        springlength: springlength(cx, &p, node),
+        solref_limit: p.reals("solreflimit", SOLREF),
+        solimp_limit: p.reals("solimplimit", SOLIMP),
+        solref_friction: p.reals("solreffriction", SOLREF),
+        solimp_friction: p.reals("solimpfriction", SOLIMP),
+        width: width.unwrap_or(0.003),
+        rgba: p.reals("rgba", [0.5, 0.5, 0.5, 1.0]),
+        user: List::read(&p, "user"),
+    }
+}
+
+/// One length, or a band without force; -1 leaves it to the configuration in which joint springs are relaxed.
+fn springlength(cx: &mut Context, p: &Props, node: &Node) -> [f64; 2] {
+    let [lower, upper] = match *p.list("springlength").unwrap_or(&[-1.0]) {
+        [both] => [both; 2],
+        [lower, upper, ..] => [lower, upper],
+        [] => [-1.0; 2],
+    };
+    if lower > upper {
+        let span = p.span("springlength").unwrap_or(node.span.clone());
+        cx.report
+            .error(code::TENDON, span, format!("the springlength of {} is {lower} to {upper}", node.shown()))
+            .why("between both lengths the spring is relaxed, so the first must be the smaller one")
+            .help(format!("write `springlength=\"{upper} {lower}\"`"));
+    }
+    [lower, upper]
+}
+
+/// The objects of a path, with the place of each.
+fn path(cx: &mut Context, refs: References, i: usize, node: &Node) -> Vec<WrapSpec> {
+    let tree = cx.tree;
+    let nodes: Vec<&Node> = tree.children(i).map(|(_, n)| n).collect();
+    if nodes.is_empty() {
+        let (what, one) = match node.element.name {
+            "fixed" => ("joints", "<joint joint=\"…\" coef=\"1\"/>"),
+            _ => ("sites", "<site site=\"…\"/>"),
+        };
+        cx.report
+            .error(code::TENDON, node.span.clone(), format!("{} has no path", node.shown()))
+            .why(format!("its length is measured along its {what}"))
+            .help(format!("write `{one}` inside it"));
+        return Vec::new();
+    }
+    let list: Vec<Option<WrapSpec>> = nodes.iter().map(|n| wrap(refs, n, cx.report)).collect();
+    let list: Option<Vec<WrapSpec>> = list.into_iter().collect();
+    // An object that could not be read is reported: the rules of the path would only repeat it.
+    let list = list.unwrap_or_default();
+    if node.element.name == "spatial" {
+        check_path(&nodes, &list, cx.report);
+    }
+    list
+}
+
+/// One object, `None` after it was reported.
+fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> {
+    let p = Props::own(node);
+    let number = |name: &str, report: &mut Report| {
+        if !p.has(name) {
+            let message = format!("{} has no `{name}`", node.shown());
+            report.error(code::MISSING_ATTRIBUTE, node.span.clone(), message);
+        }
+        p.real(name)
+    };
+    match node.element.name {
+        "joint" => {
+            let id = refs.required("joint", node, "joint", report)?;
+            let prm = number("coef", report)?;
+            // Of a free or ball joint it takes the first coordinate, as MuJoCo does.
+            Some(WrapSpec { kind: wraptype::JOINT, id, prm })
+        }
+        "site" => Some(WrapSpec {
+            kind: wraptype::SITE,
+            id: refs.required("site", node, "site", report)?,
+            prm: 0.0,
+        }),
+        "geom" => {
+            let id = refs.required("geom", node, "geom", report)?;
+            let kind = match refs.ids.geom(id)? {
+                geom::SPHERE => wraptype::SPHERE,
+                geom::CYLINDER => wraptype::CYLINDER,
+                _ => {
+                    let span = node.attribute("geom").map_or(node.span.clone(), |a| a.span.clone());
+                    report
+                        .error(code::TENDON, span, "a tendon goes around spheres and cylinders only")
+                        .help("put a sphere or cylinder there; with `contype=\"0\" conaffinity=\"0\"` it touches nothing");
+                    return None;
+                }
+            };
+            let side = refs.optional("site", node, "sidesite");
+            Some(WrapSpec { kind, id, prm: side.map_or(-1.0, f64::from) })
+        }
+        _ => {
+            let divisor = number("divisor", report)?;
+            if divisor <= 0.0 {
+                let span = p.span("divisor").unwrap_or(node.span.clone());
+                report
+                    .error(
+                        code::TENDON,
+                        span,
+                        format!("`divisor` of a pulley is {divisor}, it must be larger than zero"),
+                    )
+                    .why("the length of the branch after the pulley is divided by it");
+                return None;
+            }
+            Some(WrapSpec { kind: wraptype::PULLEY, id: -1, prm: divisor })
+        }
+    }
+}
+
+/// Every branch, from pulley to pulley, runs from site to site, with at most one geom between two sites.
+fn check_path(nodes: &[&Node], path: &[WrapSpec], report: &mut Report) {
+    let kind = |i: usize| path.get(i).map_or(wraptype::PULLEY, |w| w.kind);
+    for (i, (node, wrap)) in nodes.iter().zip(path).enumerate() {
+        let (before, after) = (if i == 0 { wraptype::PULLEY } else { kind(i - 1) }, kind(i + 1));
+        let (message, help) = match wrap.kind {
+            wraptype::PULLEY if i > 0 && before == wraptype::PULLEY => {
+                ("a pulley directly after another", "put the sites of a branch between them")
+            }
+            wraptype::PULLEY if i + 1 == path.len() => {
+                ("the path ends with a pulley", "let the branch after it run through at least two sites")
+            }
+            wraptype::SITE if before == wraptype::PULLEY && after == wraptype::PULLEY => {
+                ("a single site has no length", "a branch runs through at least two sites")
+            }
+            wraptype::SITE if after == wraptype::SITE && path.get(i + 1).is_some_and(|w| w.id == wrap.id) => {
+                ("the same site twice in a row", "remove one of them")
+            }
+            wraptype::SPHERE | wraptype::CYLINDER if before != wraptype::SITE || after != wraptype::SITE => {
+                ("a geom that is not between two sites", "put a site before and after it")
+            }
+            _ => continue,
+        };
+        report
+            .error(code::TENDON, node.span.clone(), format!("in the path of a tendon: {message}"))
+            .help(help);
+    }
+}

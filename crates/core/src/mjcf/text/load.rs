@@ -1,0 +1,247 @@
+//! A model and the files that it is written in: included text takes the place of its `include`, models to attach
+//! are read beside it.
+//!
+//! As in MuJoCo, paths are seen from the folder of the model, the root element of an included file is dropped
+//! with its attributes, and no file is included twice.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use std::rc::Rc;
+
+use super::diagnostic::{Report, code, shown};
+use super::files::{FileProblem, Files, clean, folder_of};
+use super::scan;
+use super::tree::{self, Tree};
+use super::xml::{self, Element};
+use crate::mjcf::{MAX_TEXT, names};
+
+/// More files than this are not read.
+const MAX_FILES: usize = 500;
+/// Models that attach models that attach models: how far this may go.
+const MAX_NESTED: usize = 10;
+
+/// A model whose `replicate` and `attach` still stand as they are written.
+#[derive(Debug)]
+pub(crate) struct Written {
+    pub(crate) tree: Tree,
+    /// The folder that its files are looked for in; empty for the folder of the main model.
+    pub(crate) folder: String,
+    /// The models that it may attach, by name.
+    pub(crate) models: BTreeMap<String, Written>,
+}
+
+/// Reads models and counts what they take.
+pub(crate) struct Loader<'f> {
+    files: &'f dyn Files,
+    counts: scan::Counts,
+    files_read: usize,
+    /// The files of the models that are being read, each attached by the one before.
+    open: Vec<String>,
+}
+
+impl<'f> Loader<'f> {
+    pub(crate) fn new(files: &'f dyn Files) -> Loader<'f> {
+        Loader { files, counts: scan::Counts::default(), files_read: 0, open: Vec::new() }
+    }
+
+    /// Reads a model. `file` is its path, where it has one. `None` when it is not XML or not a model at all.
+    pub(crate) fn model(
+        &mut self,
+        text: Rc<str>,
+        file: Option<&str>,
+        report: &mut Report,
+    ) -> Option<Written> {
+        let folder = folder_of(file.unwrap_or("")).to_string();
+        self.open.push(file.unwrap_or("").to_string());
+        let base = report.source(file.filter(|_| self.open.len() > 1), text.clone());
+        let mut list = Vec::new();
+        let written = self.parse(&text, base, &mut list, report).and_then(|root| {
+            self.include(&mut list, file, &folder, report);
+            let mut tree = tree::check(&list, root, report)?;
+            names::after_files(&mut tree);
+            let models = self.models(&tree, &folder, report);
+            Some(Written { tree, folder, models })
+        });
+        self.open.pop();
+        written
+    }
+
+    fn parse(
+        &mut self,
+        text: &str,
+        base: usize,
+        list: &mut Vec<Element>,
+        report: &mut Report,
+    ) -> Option<usize> {
+        let text = scan::prepare(text, base, &mut self.counts, report)?;
+        xml::parse(&text, base, list, report)
+    }
+
+    /// Puts what files hold below the elements that include them. Those files may include others.
+    fn include(&mut self, list: &mut Vec<Element>, own: Option<&str>, folder: &str, report: &mut Report) {
+        let mut included: BTreeSet<String> = own.map(str::to_string).into_iter().collect();
+        let mut at = 0;
+        while let Some(element) = list.get(at) {
+            if element.name == "include" && !report.is_full() {
+                let children = self.included(at, list, folder, &mut included, report);
+                if let Some(element) = list.get_mut(at) {
+                    element.children = children;
+                }
+            }
+            at += 1;
+        }
+    }
+
+    /// The elements that take the place of an `include`.
+    fn included(
+        &mut self,
+        at: usize,
+        list: &mut Vec<Element>,
+        folder: &str,
+        included: &mut BTreeSet<String>,
+        report: &mut Report,
+    ) -> Vec<usize> {
+        let Some(element) = list.get(at) else { return Vec::new() };
+        #[cfg(test)]
+        super::seen::note(&crate::mjcf::schema::INCLUDE, "file");
+        let span = element.span.clone();
+        if !element.children.is_empty() {
+            report
+                .error(code::FILE, span, "`include` holds elements")
+                .help("write `<include file=\"…\"/>`: what the file holds takes its place");
+            return Vec::new();
+        }
+        let Some(file) = element.attribute("file") else {
+            report
+                .error(code::MISSING_ATTRIBUTE, span, "include has no `file`")
+                .help("write `<include file=\"parts/arm.xml\"/>`");
+            return Vec::new();
+        };
+        let (name, span) = (file.value.clone(), file.value_span.clone());
+        let Some((path, text)) = self.text(&name, folder, &span, report) else { return Vec::new() };
+        if !included.insert(path.clone()) {
+            report
+                .error(code::FILE, span, format!("the file {} is included twice", shown(&path)))
+                .why("its elements would all be there twice, or a file would include itself without end")
+                .help("include it once; `replicate` and `attach` make copies");
+            return Vec::new();
+        }
+        let base = report.source(Some(&path), text.clone());
+        let root = self.parse(&text, base, list, report).and_then(|root| list.get(root));
+        let children = root.map_or(Vec::new(), |r| r.children.clone());
+        if root.is_some() && children.is_empty() {
+            report.error(code::FILE, span, format!("the included file {} holds no elements", shown(&path)));
+        }
+        children
+    }
+
+    /// The models that the assets of a model name.
+    fn models(&mut self, tree: &Tree, folder: &str, report: &mut Report) -> BTreeMap<String, Written> {
+        let mut models = BTreeMap::new();
+        let assets = tree.sections("asset").flat_map(|(section, _)| tree.children(section));
+        for (_, node) in assets.filter(|(_, n)| n.element.name == "model") {
+            let Some(file) = node.attribute("file").filter(|_| node.text("file").is_some()) else {
+                report
+                    .error(code::MISSING_ATTRIBUTE, node.span.clone(), "model has no `file`")
+                    .help("write `<model name=\"…\" file=\"….xml\"/>`");
+                continue;
+            };
+            let written = node.text("file").unwrap_or("");
+            let Some((path, text)) = self.text(written, folder, &file.span, report) else { continue };
+            if self.open.contains(&path) || self.open.len() > MAX_NESTED {
+                report
+                    .error(code::FILE, file.span.clone(), format!("the model {} holds itself", shown(&path)))
+                    .why("a model that attaches a model that attaches it again has no end");
+                continue;
+            }
+            let Some(model) = self.model(text, Some(&path), report) else { continue };
+            let own = model.tree.nodes.first().and_then(|root| root.text("model"));
+            let name = node.text("name").or(own).unwrap_or("MuJoCo Model").to_string();
+            if models.contains_key(&name) {
+                let message = format!("a second model is named {}", shown(&name));
+                report.error(code::DUPLICATE_NAME, node.span.clone(), message).help(
+                    "a model without `name` has the name that stands in its file: give one of them another",
+                );
+            }
+            models.insert(name, model);
+        }
+        models
+    }
+
+    /// The clean path and the text of a file.
+    fn text(
+        &mut self,
+        written: &str,
+        folder: &str,
+        span: &Range<usize>,
+        report: &mut Report,
+    ) -> Option<(String, Rc<str>)> {
+        self.files_read += 1;
+        if self.files_read > MAX_FILES {
+            report.error(code::LIMIT, span.clone(), format!("the model has more than {MAX_FILES} files"));
+            return None;
+        }
+        let left = MAX_TEXT.saturating_sub(report.bytes());
+        let (path, bytes) = read(self.files, written, folder, left, span, report)?;
+        match String::from_utf8(bytes) {
+            Ok(text) => Some((path, text.into())),
+            Err(e) => {
+                let byte = e.utf8_error().valid_up_to();
+                let message =
+                    format!("{} is not UTF-8 text: byte {byte} does not belong to a character", shown(&path));
+                report.error(code::FILE, span.clone(), message);
+                None
+            }
+        }
+    }
+}
+
+/// Reads a file that stands at `span`; its clean path and its bytes.
+pub(crate) fn read(
+    files: &dyn Files,
+    written: &str,
+    folder: &str,
+    limit: usize,
+    span: &Range<usize>,
+    report: &mut Report,
+) -> Option<(String, Vec<u8>)> {
+    let Some(path) = clean(folder, written) else {
+        report
+            .error(
+                code::FILE,
+                span.clone(),
+                format!("{} is not a path from the folder of the model", shown(written)),
+            )
+            .why("a path that begins at the top of a disk is right on one computer only")
+            .help("write the path as it is seen from the folder of the model");
+        return None;
+    };
+    let name = shown(&path);
+    match files.read(&path, limit) {
+        Ok(bytes) => return Some((path, bytes)),
+        Err(FileProblem::NoFolder) => report
+            .error(
+                code::FILE,
+                span.clone(),
+                format!("the file {name} is not read: this model is given as text"),
+            )
+            .why("a text has no folder in which files could be found")
+            .help("save the model as a file and load that, or write here what the file holds"),
+        Err(FileProblem::Missing) => report
+            .error(code::FILE, span.clone(), format!("there is no file {name}"))
+            .why("paths are seen from the folder of the model, also those in included files"),
+        Err(FileProblem::Outside) => report
+            .error(code::OUTSIDE, span.clone(), format!("the file {name} lies outside of what may be opened"))
+            .why(
+                "a model may read only what lies under one root, links resolved: it may come from a stranger",
+            )
+            .help("put the file into the folder of the model, or choose a root that holds both"),
+        Err(FileProblem::TooLarge) => report
+            .error(code::LIMIT, span.clone(), format!("the file {name} is too large"))
+            .why("all texts of a model together have a limit, and so has every other file"),
+        Err(FileProblem::Unreadable(what)) => {
+            report.error(code::FILE, span.clone(), format!("the file {name} cannot be read: {what}"))
+        }
+    };
+    None
+}

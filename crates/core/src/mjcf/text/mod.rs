@@ -1,0 +1,12 @@
+//! From bytes to a tree of elements: files, limits, XML, values of attributes, and what is said of them.
+
+pub(crate) mod diagnostic;
+pub(crate) mod files;
+pub(crate) mod load;
+pub(crate) mod nearest;
+pub(crate) mod scan;
+#[cfg(test)]
+pub(crate) mod seen;
+pub(crate) mod tree;
+pub(crate) mod values;
+pub(crate) mod xml;

@@ -1,0 +1,330 @@
+//! What happens to a text before it reaches the XML parser: limits hold (size, nesting, elements, attributes), and text
+//! between elements is passed over with a warning, as is a blank that is missing between two attributes.
+//!
+//! The scan understands just enough of XML to count tags. A text that is not well-formed passes it and is
+//! explained by the parser.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use super::diagnostic::{Report, code};
+use crate::mjcf::{MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH, MAX_ELEMENTS, MAX_TEXT};
+
+/// What all texts of a model hold so far.
+#[derive(Debug, Default)]
+pub(crate) struct Counts {
+    elements: usize,
+    attributes: usize,
+}
+
+/// A text that the XML parser can read.
+#[derive(Debug)]
+pub(crate) struct Prepared<'t> {
+    pub(crate) text: Cow<'t, str>,
+    /// Bytes of the text as it is written in front of which a blank was put.
+    inserted: Vec<usize>,
+}
+
+impl Prepared<'_> {
+    /// Where a byte stands in the text as it is written.
+    pub(crate) fn written(&self, byte: usize) -> usize {
+        if self.inserted.is_empty() {
+            return byte;
+        }
+        // The nth blank stands n bytes behind the place that it was put at.
+        let (mut low, mut high) = (0, self.inserted.len());
+        while low < high {
+            let n = (low + high) / 2;
+            if self.inserted.get(n).is_some_and(|at| at + n < byte) { low = n + 1 } else { high = n }
+        }
+        byte - low
+    }
+}
+
+/// What is changed in a text before it is parsed.
+#[derive(Debug, Default)]
+struct Changes {
+    /// Text that becomes blank.
+    blanks: Vec<Range<usize>>,
+    /// Where a blank is missing.
+    inserted: Vec<usize>,
+}
+
+/// Checks the limits of a text whose spans begin at `base`; returns the text with blanks in the place of what stands
+/// between elements and means nothing, and between attributes, as MuJoCo 3.14.0 reads them (measured: `golden/cases.py`).
+/// `None` after reporting the first limit that is exceeded.
+pub(crate) fn prepare<'t>(
+    text: &'t str,
+    base: usize,
+    counts: &mut Counts,
+    report: &mut Report,
+) -> Option<Prepared<'t>> {
+    let mut changes = Changes::default();
+    if !within_limits(text, base, counts, &mut changes, report) {
+        return None;
+    }
+    let Changes { blanks, inserted } = changes;
+    let mut text = if blanks.is_empty() { Cow::Borrowed(text) } else { Cow::Owned(blanked(text, &blanks)) };
+    if !inserted.is_empty() {
+        let (mut out, mut at) = (String::with_capacity(text.len() + inserted.len()), 0);
+        for &place in &inserted {
+            out.push_str(text.get(at..place).unwrap_or(""));
+            out.push(' ');
+            at = place;
+        }
+        out.push_str(text.get(at..).unwrap_or(""));
+        text = Cow::Owned(out);
+    }
+    Some(Prepared { text, inserted })
+}
+
+/// The text with blanks in these places, which begin and end with characters; lines stay lines.
+fn blanked(text: &str, places: &[Range<usize>]) -> String {
+    let (mut out, mut at) = (String::with_capacity(text.len()), 0);
+    for place in places {
+        out.push_str(text.get(at..place.start).unwrap_or(""));
+        let passed = text.get(place.clone()).unwrap_or("").bytes();
+        out.extend(passed.map(|b| if b == b'\n' { '\n' } else { ' ' }));
+        at = place.end;
+    }
+    out.push_str(text.get(at..).unwrap_or(""));
+    out
+}
+
+/// Passes over the text of a range, with a warning when it is not blank.
+fn pass_over(text: &str, range: Range<usize>, base: usize, changes: &mut Changes, report: &mut Report) {
+    let Some(between) = text.get(range.clone()) else { return };
+    // A byte order mark may begin a text.
+    let between = between.strip_prefix('\u{feff}').filter(|_| range.start == 0).unwrap_or(between);
+    let start = range.end - between.trim_start().len();
+    let first = between.trim().lines().next().unwrap_or("").trim_end();
+    if first.is_empty() {
+        return;
+    }
+    changes.blanks.push(start..range.end);
+    report
+        .warning(
+            code::TEXT,
+            base + start..base + start + first.len(),
+            "this text stands between elements, where it has no effect",
+        )
+        .why("MuJoCo passes over it, too; a tag that lost its `<`, or a `>` too many, looks like this")
+        .help("begin a tag with `<`; write a remark as a comment, <!-- … -->; remove the rest");
+}
+
+/// Whether the limits hold. What must change is added to `changes`.
+fn within_limits(
+    text: &str,
+    base: usize,
+    counts: &mut Counts,
+    changes: &mut Changes,
+    report: &mut Report,
+) -> bool {
+    let size = report.bytes();
+    if size > MAX_TEXT {
+        let message = format!("the model has {size} bytes, at most {MAX_TEXT} are read");
+        report.error(code::LIMIT, base..base, message);
+        return false;
+    }
+    let bytes = text.as_bytes();
+    let (mut at, mut depth, mut ended) = (0, 0usize, false);
+    while let Some(open) = find(bytes, at, b"<") {
+        // Right behind the root element no text may stand, in MuJoCo either: the parser says so.
+        if !ended {
+            pass_over(text, at..open, base, changes, report);
+        }
+        let rest = bytes.get(open..).unwrap_or_default();
+        at = if rest.starts_with(b"<!--") {
+            ended = false;
+            after(bytes, open + 4, b"-->")
+        } else if rest.starts_with(b"<![CDATA[") {
+            let end = after(bytes, open + 9, b"]]>");
+            pass_over(text, open..end, base, changes, report);
+            ended = false;
+            end
+        } else if rest.starts_with(b"<?") {
+            after(bytes, open + 2, b"?>")
+        } else if rest.starts_with(b"<!") {
+            report
+                .error(
+                    code::XML,
+                    base + open..base + open + 2,
+                    "a document type or entity is declared, which a model has no use for",
+                )
+                .why("entities could make a small file expand without bound")
+                .help("remove the `<!…>` declaration");
+            return false;
+        } else if rest.starts_with(b"</") {
+            depth = depth.saturating_sub(1);
+            ended |= depth == 0;
+            after(bytes, open + 2, b">")
+        } else {
+            let tag = tag(bytes, open + 1);
+            counts.elements += 1;
+            for &at in &tag.joined {
+                report
+                    .warning(code::TEXT, base + at..base + at, "a blank is missing between two attributes")
+                    .help("put a space here");
+            }
+            changes.inserted.extend(&tag.joined);
+            counts.attributes += tag.attributes;
+            let name = base + open..base + open + 1;
+            if tag.attributes > MAX_ATTRIBUTES {
+                report.error(
+                    code::LIMIT,
+                    name,
+                    format!("an element has more than {MAX_ATTRIBUTES} attributes"),
+                );
+                return false;
+            }
+            if let Some(at) = tag.namespace {
+                report
+                    .error(
+                        code::XML,
+                        base + at..base + at + 5,
+                        "an XML namespace is declared, which a model has no use for",
+                    )
+                    .help("remove the `xmlns` attribute");
+                return false;
+            }
+            if !tag.closed {
+                depth += 1;
+            }
+            ended |= depth == 0;
+            if depth > MAX_DEPTH {
+                report
+                    .error(code::LIMIT, name, format!("elements are nested more than {MAX_DEPTH} deep"))
+                    .help("a kinematic chain this long can be cut into several trees");
+                return false;
+            }
+            if counts.elements > MAX_ELEMENTS {
+                report.error(code::LIMIT, name, format!("the model has more than {MAX_ELEMENTS} elements"));
+                return false;
+            }
+            if counts.attributes > MAX_ALL_ATTRIBUTES {
+                let message = format!("the model has more than {MAX_ALL_ATTRIBUTES} attributes");
+                report.error(code::LIMIT, name, message);
+                return false;
+            }
+            tag.end
+        };
+    }
+    if !ended && depth == 0 && counts.elements > 0 {
+        pass_over(text, at..text.len(), base, changes, report);
+    }
+    true
+}
+
+struct Tag {
+    end: usize,
+    attributes: usize,
+    closed: bool,
+    /// Where a namespace is declared.
+    namespace: Option<usize>,
+    /// Where an attribute begins right behind the quotes of another.
+    joined: Vec<usize>,
+}
+
+/// A start tag from its name on: to the `>` outside of quotes.
+fn tag(bytes: &[u8], start: usize) -> Tag {
+    let (mut quote, mut attributes, mut last, mut namespace) = (None, 0, b'<', None);
+    let mut joined = Vec::new();
+    for (i, &b) in bytes.iter().enumerate().skip(start) {
+        match quote {
+            Some(q) if b == q => {
+                quote = None;
+                if begins_attribute(bytes.get(i + 1..).unwrap_or_default()) {
+                    joined.push(i + 1);
+                }
+            }
+            Some(_) => {}
+            None => match b {
+                b'"' | b'\'' => quote = Some(b),
+                b'=' => attributes += 1,
+                b'>' => return Tag { end: i + 1, attributes, closed: last == b'/', namespace, joined },
+                b'x' if last.is_ascii_whitespace()
+                    && bytes.get(i..).is_some_and(|b| b.starts_with(b"xmlns")) =>
+                {
+                    namespace = namespace.or(Some(i));
+                }
+                _ => {}
+            },
+        }
+        last = b;
+    }
+    Tag { end: bytes.len(), attributes, closed: true, namespace, joined }
+}
+
+/// Whether a name, an equals sign and a quote stand here.
+fn begins_attribute(bytes: &[u8]) -> bool {
+    let name = bytes.iter().take_while(|b| b.is_ascii_alphanumeric() || **b == b'_').count();
+    let mut rest = bytes.iter().skip(name).filter(|b| !b.is_ascii_whitespace());
+    bytes.first().is_some_and(u8::is_ascii_alphabetic)
+        && rest.next() == Some(&b'=')
+        && rest.next().is_some_and(|b| matches!(b, b'"' | b'\''))
+}
+
+fn find(bytes: &[u8], from: usize, what: &[u8]) -> Option<usize> {
+    bytes.get(from..)?.windows(what.len()).position(|w| w == what).map(|i| from + i)
+}
+
+fn after(bytes: &[u8], from: usize, what: &[u8]) -> usize {
+    find(bytes, from, what).map_or(bytes.len(), |i| i + what.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn code_of(text: &str) -> Option<&'static str> {
+        let mut report = Report::new();
+        let base = report.source(None, text.into());
+        prepare(text, base, &mut Counts::default(), &mut report);
+        report.finish().first().map(|d| d.code)
+    }
+
+    #[test]
+    fn hostile_sizes_are_refused_before_parsing() {
+        assert_eq!(code_of("<a b='>' c=\"<\"/><!-- <<< --><d></d>"), None);
+        assert_eq!(code_of(&"<a>".repeat(MAX_DEPTH + 1)), Some(code::LIMIT));
+        assert_eq!(code_of(&"<a/>".repeat(MAX_ELEMENTS + 1)), Some(code::LIMIT));
+        assert_eq!(code_of(&format!("<a {}/>", "x='' ".repeat(MAX_ATTRIBUTES + 1))), Some(code::LIMIT));
+        assert_eq!(code_of("<!DOCTYPE x [<!ENTITY a 'b'>]><a/>"), Some(code::XML));
+        assert_eq!(code_of("<a b='"), None);
+        assert_eq!(code_of("<a  xmlns:b='c'/>"), Some(code::XML));
+    }
+
+    #[test]
+    fn text_between_elements_becomes_blanks_of_the_same_length() {
+        for (text, expected) in [
+            ("<a><b/>> <c/></a>", "<a><b/>  <c/></a>"),
+            ("é<a>\n x=\"1\"\n é/></a>", "  <a>\n      \n     </a>"),
+            ("<a><![CDATA[<b/>]]>&no;</a>", "<a>                    </a>"),
+            ("<a> \n </a>", "<a> \n </a>"),
+            // No text may stand behind the root.
+            ("<a/>>", "<a/>>"),
+            ("<a></a>x<!-- y -->z", "<a></a>x<!-- y --> "),
+            ("<a b='>'>x</a", "<a b='>'> </a"),
+        ] {
+            let mut report = Report::new();
+            let base = report.source(None, text.into());
+            let blanked = prepare(text, base, &mut Counts::default(), &mut report).unwrap();
+            assert_eq!(blanked.text, expected);
+            assert!(report.is_clean());
+        }
+    }
+
+    #[test]
+    fn blanks_between_attributes_move_no_place() {
+        let text = "<a b='1'c=\"2\"d ='3'>x<e f='1'2'/></a>";
+        let mut report = Report::new();
+        let base = report.source(None, text.into());
+        let prepared = prepare(text, base, &mut Counts::default(), &mut report).unwrap();
+        assert_eq!(prepared.text, "<a b='1' c=\"2\" d ='3'> <e f='1'2'/></a>");
+        for (byte, c) in prepared.text.char_indices().filter(|(_, c)| !c.is_whitespace()) {
+            let written = prepared.written(byte);
+            assert_eq!(text.get(written..).and_then(|rest| rest.chars().next()), Some(c), "{byte} {written}");
+        }
+        assert_eq!(report.finish().len(), 3);
+    }
+}

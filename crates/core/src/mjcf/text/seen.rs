@@ -1,0 +1,29 @@
+//! Which attributes of which elements the compiler looks up: for the test that what the schema calls supported is read.
+
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+use crate::mjcf::schema::Element;
+
+thread_local! {
+    static SEEN: RefCell<BTreeSet<(usize, String)>> = const { RefCell::new(BTreeSet::new()) };
+}
+
+/// The address of an element of the schema, which there is one of for each place.
+fn key(element: &'static Element) -> usize {
+    std::ptr::from_ref(element).addr()
+}
+
+/// Remembers that an attribute is looked up.
+pub(crate) fn note(element: &'static Element, attribute: &str) {
+    SEEN.with_borrow_mut(|seen| {
+        if !seen.contains(&(key(element), attribute.to_string())) {
+            seen.insert((key(element), attribute.to_string()));
+        }
+    });
+}
+
+/// Whether an attribute was looked up by this thread.
+pub(crate) fn was(element: &'static Element, attribute: &str) -> bool {
+    SEEN.with_borrow(|seen| seen.contains(&(key(element), attribute.to_string())))
+}

@@ -1,0 +1,358 @@
+//! Plain elements to a checked tree: every element and attribute known to the schema, every value of its type.
+//!
+//! Unknown names are reported with the nearest known one; what is refused is left out, with all it holds.
+
+use std::ops::Range;
+
+use super::diagnostic::{Report, closest, code, shown};
+use super::values::{self, Value};
+use super::xml::Element as Xml;
+use crate::mjcf::MAX_DEPTH;
+use crate::mjcf::schema::{Attr, Element, INCLUDE, ROOT, Status, parents_of};
+
+/// An attribute of an element.
+#[derive(Clone, Debug)]
+pub(crate) struct Attribute {
+    pub(crate) attr: &'static Attr,
+    pub(crate) value: Value,
+    /// Bytes of the value, without quotes.
+    pub(crate) span: Range<usize>,
+}
+
+/// An element.
+#[derive(Clone, Debug)]
+pub(crate) struct Node {
+    pub(crate) element: &'static Element,
+    /// The model that it was written in: 0 for the main model, others are attached.
+    pub(crate) model: usize,
+    pub(crate) parent: Option<usize>,
+    /// Bytes of the name in the start tag.
+    pub(crate) span: Range<usize>,
+    pub(crate) attributes: Vec<Attribute>,
+    pub(crate) children: Vec<usize>,
+}
+
+impl Node {
+    /// The attribute of this name.
+    pub(crate) fn attribute(&self, name: &str) -> Option<&Attribute> {
+        #[cfg(test)]
+        super::seen::note(self.element, name);
+        self.attributes.iter().find(|a| a.attr.name == name)
+    }
+
+    /// The text of an attribute; `None` when it is absent or empty.
+    pub(crate) fn text(&self, name: &str) -> Option<&str> {
+        match &self.attribute(name)?.value {
+            Value::Text(text) if !text.is_empty() => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The number of an attribute's keyword.
+    pub(crate) fn word(&self, name: &str) -> Option<i32> {
+        match &self.attribute(name)?.value {
+            Value::Word(word) => Some(*word),
+            _ => None,
+        }
+    }
+
+    /// The integer of an attribute.
+    pub(crate) fn int(&self, name: &str) -> Option<i32> {
+        match &self.attribute(name)?.value {
+            Value::Ints(list) => list.first().copied(),
+            _ => None,
+        }
+    }
+
+    /// The numbers of an attribute that has exactly `N`.
+    pub(crate) fn reals<const N: usize>(&self, name: &str) -> Option<[f64; N]> {
+        match &self.attribute(name)?.value {
+            Value::Reals(list) => list.as_slice().try_into().ok(),
+            _ => None,
+        }
+    }
+
+    /// The element in a message: its name in the XML, and its own name if it has one.
+    pub(crate) fn shown(&self) -> String {
+        match self.text("name") {
+            Some(name) => format!("{} {}", self.element.name, shown(name)),
+            None => self.element.name.to_string(),
+        }
+    }
+}
+
+/// All elements in document order; the first is the root.
+#[derive(Debug, Default)]
+pub(crate) struct Tree {
+    pub(crate) nodes: Vec<Node>,
+}
+
+impl Tree {
+    /// The elements of this name directly below a node, with their indices.
+    pub(crate) fn children(&self, of: usize) -> impl Iterator<Item = (usize, &Node)> {
+        let list = self.nodes.get(of).map_or(&[][..], |n| &n.children);
+        list.iter().filter_map(|&i| self.nodes.get(i).map(|n| (i, n)))
+    }
+
+    /// The elements of all sections of this name (`worldbody` may stand several times).
+    pub(crate) fn sections<'t>(&'t self, name: &'t str) -> impl Iterator<Item = (usize, &'t Node)> {
+        self.children(0).filter(move |(_, n)| n.element.name == name)
+    }
+}
+
+/// Checks the elements of a model; `None` when it is not a model at all.
+pub(crate) fn check(list: &[Xml], root: usize, report: &mut Report) -> Option<Tree> {
+    let name = list.get(root).map_or("", |r| r.name.as_str());
+    if name != ROOT.name {
+        let span = list.get(root).map_or(0..0, |r| r.span.clone());
+        report
+            .error(code::UNKNOWN_ELEMENT, span, format!("the root element is {}, not `mujoco`", shown(name)))
+            .help("a model is written as `<mujoco> … </mujoco>`");
+        return None;
+    }
+
+    let mut tree = Tree::default();
+    let mut stack = vec![(root, &ROOT, None, 1)];
+    while let Some((at, element, parent, depth)) = stack.pop() {
+        let Some(xml) = list.get(at) else { continue };
+        if report.is_full() {
+            return None;
+        }
+        if depth > MAX_DEPTH {
+            report.error(
+                code::LIMIT,
+                xml.span.clone(),
+                format!("elements are nested more than {MAX_DEPTH} deep"),
+            );
+            return None;
+        }
+        let index = tree.nodes.len();
+        if let Some(node) = parent.and_then(|p: usize| tree.nodes.get_mut(p)) {
+            node.children.push(index);
+        }
+        let attributes = attributes(xml, element, report);
+        let span = xml.span.clone();
+        tree.nodes.push(Node { element, model: 0, parent, span, attributes, children: Vec::new() });
+
+        let below = children(list, xml, element, report);
+        stack.extend(below.into_iter().rev().map(|(x, e)| (x, e, Some(index), depth + 1)));
+    }
+    Some(tree)
+}
+
+/// The children of an element, those of included files in the place of their `include`.
+fn content<'x>(list: &'x [Xml], xml: &'x Xml, report: &mut Report) -> Vec<(usize, &'x Xml)> {
+    let mut content = Vec::new();
+    let mut stack: Vec<usize> = xml.children.iter().rev().copied().collect();
+    while let Some(at) = stack.pop() {
+        let Some(child) = list.get(at) else { continue };
+        if child.name == INCLUDE.name {
+            attributes(child, &INCLUDE, report);
+            stack.extend(child.children.iter().rev());
+        } else {
+            content.push((at, child));
+        }
+    }
+    content
+}
+
+/// The child elements that the schema knows and accepts.
+fn children(
+    list: &[Xml],
+    xml: &Xml,
+    element: &'static Element,
+    report: &mut Report,
+) -> Vec<(usize, &'static Element)> {
+    let mut known_children: Vec<(usize, &'static Element)> = Vec::new();
+    let mut seen: Vec<&'static str> = Vec::new();
+    for (at, child) in content(list, xml, report) {
+        if report.is_full() {
+            break;
+        }
+        let name = child.name.as_str();
+        let span = child.span.clone();
+        if child.namespace {
+            report.error(
+                code::UNKNOWN_ELEMENT,
+                span,
+                format!("the element {} is in an XML namespace", shown(name)),
+            );
+            continue;
+        }
+        let Some(known) = element.child(name) else {
+            unknown_element(name, span, element, report);
+            continue;
+        };
+        if known.status == Status::Unsupported {
+            report.incomplete = true;
+            report
+                .error(code::NOT_SUPPORTED, span, format!("`{name}` is not supported yet"))
+                .why("leaving it out silently would change what the model computes");
+            continue;
+        }
+        if known.once && seen.contains(&known.name) {
+            report
+                .error(
+                    code::REPEATED_ELEMENT,
+                    span,
+                    format!("a second `{name}` in the same `{}`", element.name),
+                )
+                .help("merge its attributes into the first");
+            continue;
+        }
+        if known.once {
+            seen.push(known.name);
+        }
+        known_children.push((at, known));
+    }
+    known_children
+}
+
+fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, report: &mut Report) {
+    report.incomplete = true;
+    let places = parents_of(name);
+    if !places.is_empty() {
+        let list: Vec<_> = places.iter().map(|p| format!("`{p}`")).collect();
+        report
+            .error(code::MISPLACED_ELEMENT, span, format!("`{name}` cannot stand in `{}`", element.name))
+            .help(format!("it belongs into {}", list.join(" or ")));
+        return;
+    }
+    let error = report.error(
+        code::UNKNOWN_ELEMENT,
+        span,
+        format!("there is no element {} in `{}`", shown(name), element.name),
+    );
+    if let Some(near) = closest(name, element.children.iter().map(|c| c.name)) {
+        error.help(format!("did you mean `{near}`?"));
+    }
+}
+
+/// The attributes that the schema knows, with their values read.
+fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<Attribute> {
+    let mut list = Vec::new();
+    // Attributes that are refused, and whether a keyword already is: a capsule's `fromto` needs no finding of
+    // its own when the capsule has one.
+    let (mut refused, mut refused_word) = (Vec::new(), false);
+    for a in &xml.attributes {
+        let Some(attr) = element.attribute(&a.name).filter(|_| !a.namespace) else {
+            unknown_attribute(&a.name, a.name_span.clone(), element, report);
+            continue;
+        };
+        let span = a.value_span.clone();
+        if a.value.trim().is_empty() && attr.kind.counts() && !needs_number(element.name, attr.name) {
+            let message = format!("`{}` of {} is empty, which counts as not given", attr.name, element.name);
+            report.warning(code::NO_EFFECT, span.clone(), message).help("write its numbers, or remove it");
+            if counts_empty(element.name, attr.name) {
+                list.push(Attribute { attr, value: Value::Bad, span });
+            }
+            continue;
+        }
+        let value = match (attr.status, values::parse(attr.kind, &a.value)) {
+            (Status::Unsupported, _) => {
+                refused.push((attr.name, a.name_span.clone()));
+                Value::Bad
+            }
+            (_, Err(p)) => {
+                refused_word |= p.code == code::NOT_SUPPORTED;
+                // Inside the value only when the text was not changed by character references.
+                let at = match p.at {
+                    Some(at) if a.exact => span.start + at.start..span.start + at.end,
+                    _ => span.clone(),
+                };
+                let error =
+                    report.error(p.code, at, format!("`{}` of {} {}", attr.name, element.name, p.message));
+                if let Some(help) = p.help {
+                    error.help(help);
+                }
+                Value::Bad
+            }
+            (Status::Only(default), Ok(value)) if !same_as(attr, &value, default) => {
+                report
+                    .error(
+                        code::NOT_SUPPORTED,
+                        span.clone(),
+                        format!("`{}` of {} is not supported yet", attr.name, element.name),
+                    )
+                    .why("ignoring it would change what the model computes")
+                    .help(format!("remove it, or write its default, {default:?}"));
+                Value::Bad
+            }
+            (_, Ok(value)) => value,
+        };
+        list.push(Attribute { attr, value, span });
+    }
+    exclusive(&list, element, report);
+    for (name, span) in refused.into_iter().filter(|_| !refused_word) {
+        report
+            .error(code::NOT_SUPPORTED, span, format!("`{name}` of {} is not supported yet", element.name))
+            .why("ignoring it would change what the model computes");
+    }
+    list
+}
+
+/// The few numbers that MuJoCo cannot read from an empty text.
+fn needs_number(element: &str, attribute: &str) -> bool {
+    matches!(
+        (element, attribute),
+        ("size", "njmax" | "nconmax" | "nstack")
+            | ("freejoint", "group")
+            | ("contact", "num")
+            | ("mesh", "maxhullvert")
+    )
+}
+
+/// What is there beside others of which only one may be, though it be empty.
+fn counts_empty(element: &str, attribute: &str) -> bool {
+    attribute == "quat"
+        || (element == "inertial" && crate::mjcf::schema::is_form(attribute))
+        || matches!((element, attribute), ("connect" | "weld", "anchor" | "relpose"))
+        || EXCLUSIVE.iter().any(|(of, pair)| *of == element && pair.contains(&attribute))
+}
+
+/// Attributes of an element of which one can be given, not both: MuJoCo's schema looks at the element alone, not at its
+/// class. (Those that name what a sensor, a mesh or an equality is about are held where they are read.)
+const EXCLUSIVE: [(&str, [&str; 2]); 4] = [
+    ("camera", ["fovy", "sensorsize"]),
+    ("light", ["directional", "type"]),
+    ("size", ["memory", "njmax"]),
+    ("size", ["memory", "nstack"]),
+];
+
+fn exclusive(list: &[Attribute], element: &Element, report: &mut Report) {
+    let find = |name: &str| list.iter().find(|a| a.attr.name == name);
+    for (_, [first, second]) in EXCLUSIVE.iter().filter(|(of, _)| *of == element.name) {
+        if let (Some(_), Some(other)) = (find(first), find(second)) {
+            let message = format!("{} has both `{first}` and `{second}`", element.name);
+            report
+                .error(code::CONFLICT, other.span.clone(), message)
+                .why("each of them decides the same, and MuJoCo refuses a model that gives both")
+                .help("keep one of them");
+        }
+    }
+}
+
+/// Whether a value is the default; of a list, whether the numbers that are given are.
+fn same_as(attr: &Attr, value: &Value, default: &str) -> bool {
+    let equal = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(x, y)| x == y);
+    match (value, values::parse(attr.kind, default)) {
+        (Value::Reals(a), Ok(Value::Reals(b))) => equal(a, &b),
+        (a, Ok(b)) => *a == b,
+        (_, Err(_)) => false,
+    }
+}
+
+fn unknown_attribute(name: &str, span: Range<usize>, element: &'static Element, report: &mut Report) {
+    let message = format!("{} has no attribute {}", element.name, shown(name));
+    let error = report.error(code::UNKNOWN_ATTRIBUTE, span, message);
+    if let Some(near) = closest(name, element.attributes().map(|a| a.name)) {
+        error.help(format!("did you mean `{near}`?"));
+    } else if element.attributes().next().is_none() {
+        error.help(format!("`{}` takes no attributes", element.name));
+    }
+}
+
+/// The name of an element, empty when it has none.
+pub(crate) fn name(node: &Node) -> String {
+    node.text("name").unwrap_or("").to_string()
+}

@@ -1,0 +1,194 @@
+//! Text of an attribute to a checked value: numbers that are finite and as many as the schema says, keywords
+//! that exist.
+
+use std::ops::Range;
+use std::rc::Rc;
+
+use super::diagnostic::{closest, code, shown};
+use crate::mjcf::schema::{Kind, Word};
+
+/// The value of an attribute. Lists are shared by all copies of an element and all that takes a default.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Value {
+    /// Real numbers, all finite.
+    Reals(Rc<Vec<f64>>),
+    /// Integers.
+    Ints(Rc<Vec<i32>>),
+    /// MuJoCo's number of a keyword.
+    Word(i32),
+    /// A name or free text.
+    Text(String),
+    /// Wrong, and already reported: there, but not to be read.
+    Bad,
+}
+
+/// Longest name, bytes: what refers to an object holds its name, and defaults give it to many.
+const LONGEST_NAME: usize = 1000;
+
+/// What is wrong with a value.
+#[derive(Debug)]
+pub(crate) struct Problem {
+    pub(crate) code: &'static str,
+    /// Bytes of the value's text; all of it when `None`.
+    pub(crate) at: Option<Range<usize>>,
+    /// Continues a sentence that begins with the attribute's name: "`size` of geom …".
+    pub(crate) message: String,
+    pub(crate) help: Option<String>,
+}
+
+impl Problem {
+    fn new(code: &'static str, message: String) -> Problem {
+        Problem { code, at: None, message, help: None }
+    }
+}
+
+/// Reads a value of the given type.
+pub(crate) fn parse(kind: Kind, text: &str) -> Result<Value, Problem> {
+    match kind {
+        Kind::Reals(min, max) => {
+            let numbers = numbers(text, real)?;
+            check_count(numbers.len(), min, max, "number").map(|()| Value::Reals(numbers.into()))
+        }
+        Kind::Ints(min, max) => {
+            let numbers = numbers(text, integer)?;
+            check_count(numbers.len(), min, max, "integer").map(|()| Value::Ints(numbers.into()))
+        }
+        Kind::Words(words) => keyword(words, text),
+        Kind::Name(_) | Kind::Ref(_) | Kind::Class if text.len() > LONGEST_NAME => Err(Problem::new(
+            code::LIMIT,
+            format!("is too long: {} bytes, a name may have at most {LONGEST_NAME}", text.len()),
+        )),
+        Kind::Name(_) | Kind::Ref(_) | Kind::Class | Kind::Text => Ok(Value::Text(text.to_string())),
+    }
+}
+
+fn keyword(words: &[Word], text: &str) -> Result<Value, Problem> {
+    if let Some(word) = words.iter().find(|w| w.text == text) {
+        if word.supported {
+            return Ok(Value::Word(word.value));
+        }
+        let mut problem =
+            Problem::new(code::NOT_SUPPORTED, format!("is {}, which is not supported yet", shown(text)));
+        problem.help = Some(format!("supported: {}", listed(words)));
+        return Err(problem);
+    }
+    let mut problem =
+        Problem::new(code::KEYWORD, format!("is {}, which is not one of its keywords", shown(text)));
+    problem.help = Some(match closest(text.trim(), words.iter().filter(|w| w.supported).map(|w| w.text)) {
+        Some(word) => format!("did you mean `{word}`?"),
+        None => format!("write one of: {}", listed(words)),
+    });
+    Err(problem)
+}
+
+/// The keywords that are supported.
+fn listed(words: &[Word]) -> String {
+    words.iter().filter(|w| w.supported).map(|w| w.text).collect::<Vec<_>>().join(", ")
+}
+
+/// The words of a text, each with its bytes, read by `read`.
+fn numbers<T>(text: &str, read: impl Fn(&str) -> Result<T, Problem>) -> Result<Vec<T>, Problem> {
+    let mut list = Vec::new();
+    let mut rest = text;
+    loop {
+        rest = rest.trim_start_matches(is_space);
+        if rest.is_empty() {
+            return Ok(list);
+        }
+        let end = rest.find(is_space).unwrap_or(rest.len());
+        let (word, after) = rest.split_at(end);
+        let start = text.len() - rest.len();
+        list.push(read(word).map_err(|p| Problem { at: Some(start..start + end), ..p })?);
+        rest = after;
+    }
+}
+
+fn is_space(c: char) -> bool {
+    matches!(c, ' ' | '\t' | '\n' | '\r')
+}
+
+fn real(word: &str) -> Result<f64, Problem> {
+    let plain = word.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'e' | b'E'));
+    match word.parse::<f64>() {
+        Ok(x) if plain && x.is_finite() => Ok(x),
+        Ok(_) if plain => Err(Problem::new(
+            code::NUMBER,
+            format!("has {}, which is larger than a 64-bit number can be", shown(word)),
+        )),
+        Ok(_) => Err(Problem::new(code::NUMBER, format!("has {}: numbers must be finite", shown(word)))),
+        Err(_) => Err(not_a_number(word, "number")),
+    }
+}
+
+fn integer(word: &str) -> Result<i32, Problem> {
+    if let Ok(n) = word.parse::<i32>() {
+        return Ok(n);
+    }
+    let digits = word.trim_start_matches(['+', '-']);
+    if !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()) {
+        return Err(Problem::new(
+            code::NUMBER,
+            format!("has {}, which does not fit into a 32-bit integer", shown(word)),
+        ));
+    }
+    Err(not_a_number(word, "integer"))
+}
+
+fn not_a_number(word: &str, noun: &str) -> Problem {
+    let mut problem =
+        Problem::new(code::NUMBER, format!("has {}, which is not {} {noun}", shown(word), article(noun)));
+    if word.contains(',') {
+        problem.help = Some("separate numbers by spaces and write decimals with a point".into());
+    }
+    problem
+}
+
+fn article(noun: &str) -> &'static str {
+    if noun.starts_with('i') { "an" } else { "a" }
+}
+
+fn check_count(n: usize, min: usize, max: usize, noun: &str) -> Result<(), Problem> {
+    if (min..=max).contains(&n) {
+        return Ok(());
+    }
+    let has = match n {
+        0 => format!("has no {noun}"),
+        1 => format!("has 1 {noun}"),
+        _ => format!("has {n} {noun}s"),
+    };
+    let needs = match (min, max) {
+        (1, 1) => "exactly one".to_string(),
+        (a, b) if a == b => format!("exactly {a}"),
+        (_, b) if n > b => format!("at most {b}"),
+        (a, _) => format!("at least {a}"),
+    };
+    Err(Problem::new(code::COUNT, format!("{has}, it takes {needs}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn reals(text: &str) -> Option<Vec<f64>> {
+        match parse(Kind::Reals(0, 9), text) {
+            Ok(Value::Reals(v)) => Some(v.to_vec()),
+            _ => None,
+        }
+    }
+
+    #[test]
+    fn numbers_are_those_of_xml_and_finite() {
+        assert_eq!(reals(" 1\t-2.5\n+3e2 .5 5. "), Some(vec![1.0, -2.5, 300.0, 0.5, 5.0]));
+        for bad in ["nan", "inf", "infinity", "1e999", "0x10", "1,2", "1e", "--1", "½"] {
+            assert_eq!(reals(bad), None, "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_problem_points_at_the_number() {
+        let problem = parse(Kind::Reals(3, 3), "1  x2 3").unwrap_err();
+        assert_eq!(problem.at, Some(3..5));
+        assert_eq!(parse(Kind::Ints(1, 1), "99999999999").unwrap_err().code, code::NUMBER);
+        assert_eq!(parse(Kind::Reals(2, 3), "1").unwrap_err().message, "has 1 number, it takes at least 2");
+    }
+}
