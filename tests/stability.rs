@@ -7,7 +7,8 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::support::{compile, read_json, workspace};
-use labspec_core::{self as core, Data, Model, Warning, enable, growth};
+use labspec::advice::growth;
+use labspec_core::{self as core, Data, Model, Warning, enable};
 use serde_json::{Value as Json, json};
 use std::fmt::Write;
 
@@ -274,7 +275,7 @@ fn stiff_and_extreme_scenes() {
          our engine beside MuJoCo 3.14.0.\n\n{all} scenes: {theirs} end well there, {ours} here. *Apart* is the largest difference of the \
          first coordinates at the end (m, rad). **Silently** is a run that left every sensible bound without a warning: what a lesson \
          has to be told by its own bounds. Stacks of very unequal boxes jitter by what the solver leaves at its tolerance, \
-         on both sides, not in the same steps.\n\n**Growth** (`labspec_core::growth`) looks at a run at least {LOOKS} times for energy that nothing gave it. \
+         on both sides, not in the same steps.\n\n**Growth** (`labspec::advice::growth`) looks at a run at least {LOOKS} times for energy that nothing gave it. \
          Of {silent} runs here that go wrong silently, in this page's tables and in its searches for the longest timestep, it finds {grown}; of {well} that go well \
          it calls {alarms}. The others jump through a joint's limit within one step and gain nothing.\n{sections}\n\
          ## Longest stable timestep\n\nOf {}: the longest at which 2,000 steps stay within bounds, all shorter ones \

@@ -46,6 +46,14 @@ fn imports(code: &str) -> Vec<String> {
             part.split(';').next().unwrap_or("").chars().filter(|c| !c.is_whitespace()).collect();
         written_out("", &path, &mut out);
     }
+    // What is named by its whole path where it is used.
+    for (at, _) in code.match_indices("crate::") {
+        let path: String =
+            code[at..].chars().take_while(|c| c.is_alphanumeric() || matches!(c, '_' | ':')).collect();
+        if !code[..at].ends_with("use ") {
+            out.push(path.trim_end_matches(':').into());
+        }
+    }
     out
 }
 
@@ -53,6 +61,7 @@ impl Room {
     /// A folder, its subfolders included; their modules are named by their paths.
     fn read(folder: &str) -> Room {
         let root = workspace().join("crates/core/src").join(folder);
+        let inside = if folder.is_empty() { 1 } else { 2 };
         let mut text = BTreeMap::new();
         let mut folders = vec![(root.clone(), String::new())];
         while let Some((dir, prefix)) = folders.pop() {
@@ -65,7 +74,7 @@ impl Room {
                 if path.is_dir() {
                     folders.push((path, format!("{prefix}{name}::")));
                 } else if path.extension().is_some_and(|e| e == "rs") {
-                    let module = if name == "mod" {
+                    let module = if name == "mod" || name == "lib" {
                         prefix.trim_end_matches("::").into()
                     } else {
                         format!("{prefix}{name}")
@@ -89,9 +98,9 @@ impl Room {
                             parts.remove(0);
                         }
                     }
-                    Some(&"crate") if parts.get(1) == Some(&folder) => {
+                    Some(&"crate") if inside == 1 || parts.get(1) == Some(&folder) => {
                         at.clear();
-                        parts.drain(..2);
+                        parts.drain(..inside);
                     }
                     _ => continue,
                 }
@@ -169,8 +178,40 @@ fn geometry_takes_shapes() {
     }
 }
 
+/// The rooms of the engine, from the lowest to the highest. A file looks at its own room and at lower ones.
+const ROOMS: [&str; 13] = [
+    "math",
+    "kinds",
+    "geometry",
+    "model",
+    "dynamics",
+    "forces",
+    "collision",
+    "query",
+    "constraint",
+    "sensor",
+    "step",
+    "setup",
+    "mjcf",
+];
+
 #[test]
-fn files_of_geometry_do_not_use_each_other_in_a_circle() {
-    let room = Room::read("geometry");
-    assert_eq!(room.circle(), None);
+fn rooms_of_the_engine_look_down() {
+    let room = Room::read("");
+    assert!(room.text.len() > 150 && room.uses.values().map(BTreeSet::len).sum::<usize>() > 600);
+    let place = |module: &str| {
+        let top = module.split("::").next().unwrap_or_default();
+        ROOMS.iter().position(|r| *r == top).unwrap_or_else(|| panic!("{module} is in no room"))
+    };
+    for (module, uses) in room.uses.iter().filter(|(module, _)| !module.is_empty()) {
+        for used in uses {
+            assert!(!used.is_empty(), "{module} asks the crate's root for what a room has");
+            assert!(place(used) <= place(module), "{module} looks up at {used}");
+        }
+    }
+}
+
+#[test]
+fn files_of_the_engine_do_not_use_each_other_in_a_circle() {
+    assert_eq!(Room::read("").circle(), None);
 }

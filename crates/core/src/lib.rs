@@ -24,7 +24,6 @@ mod constraint;
 mod dynamics;
 mod forces;
 pub mod geometry;
-pub mod growth;
 pub(crate) mod kinds;
 pub mod math;
 pub mod mjcf;
@@ -32,7 +31,6 @@ mod model;
 pub mod query;
 pub mod sensor;
 mod setup;
-pub mod stability;
 mod step;
 
 pub use collision::can_collide;
@@ -43,19 +41,23 @@ pub use dynamics::jacobian::{
 pub use dynamics::mass::{full_m, mul_m, solve_m, solve_m2};
 pub use dynamics::object::{object_acceleration, object_velocity};
 pub use dynamics::subtree::subtree_vel;
+pub use forces::actuation::servo_gains;
 pub use forces::energy::{kinetic as energy_vel, potential as energy_pos};
 pub use kinds::{
     biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, solver, trntype, wraptype,
 };
-pub use model::data::{Contact, Fields, Warning, WarningStat};
-pub use model::plan::{Decision, Plan};
-pub use model::{Model, Names, Obj, Options, Statistic, reflect, state};
+
+pub use model::{
+    Contact, Decision, Fields, Model, Names, Obj, Options, Plan, Statistic, Warning, WarningStat, reflect,
+    state,
+};
 pub use sensor::body_force::rne_post_constraint;
 pub use setup::setconst::set_const;
+pub use step::balance::{Energy, mechanical_energy};
 pub use step::data::Data;
 pub use step::forward::forward;
 pub use step::functions::{
-    charge, cost, cost_of_pass, exhausted, full_j, geom_distance, kinematics, limit, rne,
+    charge, cost, cost_of_pass, exhausted, full_j, geom_distance, kinematics, limit, rne, work_left,
 };
 pub use step::integrate::{differentiate_pos, integrate_pos};
 pub use step::inverse::{InverseError, inverse};

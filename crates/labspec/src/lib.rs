@@ -11,6 +11,7 @@
 //! * [`ledger`]: every claim with what became of it, from which all verdicts and exit codes follow
 //! * [`finding`], [`report`]: what is wrong, and how it is shown to people and programs
 
+pub mod advice;
 pub mod bind;
 pub mod check;
 pub mod cli;

@@ -1,7 +1,8 @@
 //! Which pairs of geoms may touch, and in which order they are tested.
 
 use crate::geometry::pair;
-use crate::{Model, disable};
+use crate::kinds::disable;
+use crate::model::Model;
 
 /// Two geoms, ordered so that the first has the smaller type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,9 +12,9 @@ use params::Params;
 use sweep::Sweep;
 
 use crate::geometry::{Narrow, Shape, pair};
+use crate::kinds::geom;
 use crate::math::*;
-use crate::model::asleep;
-use crate::{Fields, Model, Warning, geom};
+use crate::model::{Fields, Model, Warning, asleep};
 
 /// What the stage keeps.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -2,8 +2,9 @@
 
 use super::filter::Pair;
 use crate::geometry::pair::Touch;
+use crate::kinds::enable;
 use crate::math::*;
-use crate::{Contact, Model, enable};
+use crate::model::{Contact, Model};
 
 /// Smallest friction coefficient of a contact.
 const MINMU: f64 = 1e-5;

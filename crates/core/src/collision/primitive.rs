@@ -2,7 +2,7 @@
 
 use crate::geometry::pair::Touch;
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// Signed distance of the sphere's centre from the plane, minus the radius.
 #[inline(always)]

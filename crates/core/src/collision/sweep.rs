@@ -8,7 +8,7 @@
 use super::filter::{self, Pair};
 use super::params;
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// A geom's bounding sphere, wide enough for its margin, its shadow on the axis, and the columns that it meets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -269,8 +269,8 @@ pub(super) fn far_apart(m: &Model, d: &Fields, a: usize, b: usize, reach: f64) -
         return dot(between, between) > limit * limit;
     }
     let above = |plane: usize, height: f64| dot(between, column(&mat[plane], 2)) * height;
-    if m.geom_type[a] == crate::geom::PLANE && rb > 0.0 {
+    if m.geom_type[a] == crate::kinds::geom::PLANE && rb > 0.0 {
         return above(a, 1.0) > reach + rb;
     }
-    m.geom_type[b] == crate::geom::PLANE && ra > 0.0 && above(b, -1.0) > reach + ra
+    m.geom_type[b] == crate::kinds::geom::PLANE && ra > 0.0 && above(b, -1.0) > reach + ra
 }

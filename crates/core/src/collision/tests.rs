@@ -2,7 +2,10 @@
 
 use super::*;
 use crate::mjcf::compile;
-use crate::{Contact, Data, kinematics, reset_data};
+use crate::model::Contact;
+use crate::step::data::Data;
+use crate::step::functions::kinematics;
+use crate::step::reset::reset_data;
 
 /// Free bodies of random shapes in a cube, on a plane. The shapes are written over compiled spheres.
 fn pile(bodies: usize, side: f64) -> Model {

@@ -7,7 +7,7 @@ use super::rows::{Rows, push, regularization};
 use super::{Scratch, kind};
 use crate::dynamics::jacobian::{self, Columns};
 use crate::math::*;
-use crate::{Contact, Fields, Model};
+use crate::model::{Contact, Fields, Model};
 
 /// Value of `opt.cone`.
 const PYRAMIDAL: i32 = 0;

@@ -7,8 +7,8 @@
 //! it slides.
 
 use super::kind;
-use crate::Contact;
 use crate::math::MINVAL;
+use crate::model::Contact;
 
 /// The shape of a cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

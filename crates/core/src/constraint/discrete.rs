@@ -10,7 +10,7 @@ use super::rows::{resize, soften};
 use super::{Scratch, contact, equality, kind};
 use crate::dynamics::mass;
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// Replaces `efc_R` with what follows from it, and sets `efc_aref`. `metric` is the diagonal of the matrix that takes the
 /// place of M.

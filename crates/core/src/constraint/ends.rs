@@ -10,8 +10,9 @@
 //! of how angular velocity changes them (MuJoCo's documentation, chapter "Computation", section on equality).
 
 use crate::dynamics::object;
+use crate::kinds::eqtype;
 use crate::math::*;
-use crate::{Fields, Model, Obj, eqtype};
+use crate::model::{Fields, Model, Obj};
 
 /// Numbers of a constraint in `eq_data`.
 const DATA: usize = 11;

@@ -12,9 +12,9 @@ use super::{Scratch, kind};
 use crate::constraint::ends::{self, End};
 use crate::dynamics::jacobian::{self, Columns};
 use crate::forces::tendon;
+use crate::kinds::eqtype;
 use crate::math::*;
-use crate::model::asleep;
-use crate::{Fields, Model, eqtype};
+use crate::model::{Fields, Model, asleep};
 
 /// Number of rows of the active constraints.
 pub(super) fn count(m: &Model, d: &Fields) -> usize {

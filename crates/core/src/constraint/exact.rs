@@ -4,7 +4,7 @@ use super::jacobian::by_rows;
 use super::rows::{regularization, soften};
 use super::{Scratch, contact, kind};
 use crate::dynamics::mass;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// Replaces `efc_R` and what follows from it.
 pub(super) fn regularize(m: &Model, d: &mut Fields, w: &mut Scratch) {

@@ -1,6 +1,6 @@
 //! Forces of constraints, as those who look at them want them.
 
-use crate::{Contact, Fields, Model};
+use crate::model::{Contact, Fields, Model};
 
 /// Force and torque of a contact in the contact's frame: normal, two tangents, then three torques
 /// (`mj_contactForce`), N and N m. Zero when the contact has no constraint.

@@ -2,7 +2,7 @@
 
 use super::jacobian::{Block, Jacobian, by_rows};
 use crate::dynamics::mass;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// What the dual methods keep.
 #[derive(Clone, Debug, Default, PartialEq)]

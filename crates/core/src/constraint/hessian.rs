@@ -8,8 +8,8 @@
 
 use super::island::Islands;
 use super::jacobian::{Gram, Jacobian};
-use crate::Model;
 use crate::math::MINVAL;
+use crate::model::Model;
 use std::array::from_fn;
 use wide::f64x4;
 
@@ -440,7 +440,11 @@ impl Order {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a test that fails says why
 mod tests {
-    use crate::{Data, Model, forward, mjcf, step};
+    use crate::mjcf;
+    use crate::model::Model;
+    use crate::step;
+    use crate::step::data::Data;
+    use crate::step::forward::forward;
     use std::fmt::Write;
 
     /// Two hundred balls in one place, each of which touches each: no room is made for the Hessian, and the step is done.

@@ -2,8 +2,9 @@
 //!
 //! The formulas are those of the documentation, "Computation: Constraint model, Parameters".
 
+use crate::kinds::{disable, integrator};
 use crate::math::MINVAL;
-use crate::{Contact, Model, disable, integrator};
+use crate::model::{Contact, Model};
 
 /// Stiffness K (1/s²), damping B (1/s), impedance I, at the current violation.
 #[derive(Clone, Copy, Debug)]

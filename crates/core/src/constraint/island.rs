@@ -3,7 +3,8 @@
 //! Connected components by union-find with path halving (Tarjan and van Leeuwen 1984).
 
 use super::jacobian::Jacobian;
-use crate::{Model, disable};
+use crate::kinds::disable;
+use crate::model::Model;
 use std::ops::Range;
 
 /// Which constraints and trees belong together.

@@ -5,7 +5,7 @@
 
 use super::cost::Cost;
 use crate::math::{FREE_DOFS, dot};
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 use std::ops::Range;
 
 /// Runs an expression with the constant `$rows` equal to the number of rows of a block: 1 for what is a number, 3 for a

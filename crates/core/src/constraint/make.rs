@@ -4,7 +4,8 @@
 
 use super::rows::resize;
 use super::{Scratch, contact, equality, exact, single};
-use crate::{Fields, Model, disable, enable};
+use crate::kinds::{disable, enable};
+use crate::model::{Fields, Model};
 
 /// `efc_*` up to R and D, `nefc`.
 #[inline(never)]

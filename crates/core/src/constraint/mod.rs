@@ -40,8 +40,8 @@ pub(crate) use reference::reference;
 pub(crate) use single::tendon_force;
 pub(crate) use solver::{inverse, solve, unconstrained_residual};
 
-use crate::Model;
 use crate::dynamics::jacobian::Columns;
+use crate::model::Model;
 pub(crate) use island::Islands;
 use iterate::Iterate;
 use jacobian::Jacobian;

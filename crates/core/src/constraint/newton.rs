@@ -8,9 +8,9 @@ use super::iterate::Reached;
 use super::jacobian::{Block, Gram, Jacobian, by_rows};
 use super::primal::{Problem, shape};
 use super::six::Six;
-use crate::Fields;
 use crate::dynamics::mass;
 use crate::math::{FREE_DOFS, dot};
+use crate::model::Fields;
 use std::array::from_fn;
 use std::ops::Range;
 

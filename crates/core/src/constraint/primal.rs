@@ -7,8 +7,9 @@ use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian, by_rows};
 use super::search::{Point, minimize};
 use crate::dynamics::mass;
+use crate::kinds::{disable, solver};
 use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
-use crate::{Fields, Model, disable, solver};
+use crate::model::{Fields, Model};
 use std::ops::Range;
 
 /// One island: its trees and constraints.

@@ -1,8 +1,9 @@
 //! The reference acceleration: what a damped spring on the violation would do.
 
 use super::{Scratch, contact, equality};
+use crate::kinds::integrator;
 use crate::math::*;
-use crate::{Fields, Model, integrator};
+use crate::model::{Fields, Model};
 
 /// `efc_vel` = J v and `efc_aref` = -B J v - K d r, less the acceleration J̇ v that is there already.
 #[inline(never)]

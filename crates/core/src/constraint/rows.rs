@@ -3,8 +3,8 @@
 //! A row is a scalar `J a`; its regularization R makes it soft.
 
 use super::impedance::Kbi;
-use crate::Fields;
 use crate::math::*;
+use crate::model::Fields;
 
 /// Gives the arrays a length.
 pub(super) fn resize(d: &mut Fields, rows: usize) {

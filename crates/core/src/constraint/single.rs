@@ -6,9 +6,9 @@ use super::jacobian::Jacobian;
 use super::rows::{Rows, push, regularization};
 use super::{equality, kind};
 use crate::forces::tendon;
+use crate::kinds::{eqtype, joint};
 use crate::math::*;
-use crate::model::asleep;
-use crate::{Fields, Model, eqtype, joint};
+use crate::model::{Fields, Model, asleep};
 
 /// Number of rows of dry friction.
 pub(super) fn count_friction(m: &Model) -> usize {

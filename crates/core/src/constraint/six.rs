@@ -2,9 +2,9 @@
 //! and needs no layout.
 
 use super::jacobian::Gram;
-use crate::Model;
 use crate::dynamics::mass;
 use crate::math::{FREE_DOFS as N, MINVAL, dot};
+use crate::model::Model;
 
 /// The lower triangle of H = M + Jᵀ C J.
 pub(super) struct Six {

@@ -10,8 +10,9 @@ use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian, by_rows};
 use super::primal::{Problem, shape};
 use crate::dynamics::mass;
+use crate::kinds::{disable, solver};
 use crate::math::{copy, zero};
-use crate::{Fields, Model, disable, solver};
+use crate::model::{Fields, Model};
 
 /// `qacc`, `efc_force`, `qfrc_constraint`, `solver_niter`, from `qacc_smooth` and the rows.
 #[inline(never)]

@@ -14,7 +14,7 @@
 
 use crate::dynamics::{Scratch, mass, reflected, serial};
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 use std::ops::Range;
 
 /// Degrees of freedom of a tree up to which its rows of M are short enough to be eliminated one from the other.
@@ -564,9 +564,10 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::panic)]
 
     use super::*;
-    use crate::Data;
+    use crate::kinds::joint;
     use crate::mjcf::compile;
-    use crate::{forward, joint};
+    use crate::step::data::Data;
+    use crate::step::forward::forward;
     use proptest::prelude::*;
 
     /// A tree as text: of each body its parent, its joints (-1 for none, three hinges at most), its place and turn.

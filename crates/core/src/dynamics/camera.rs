@@ -2,7 +2,7 @@
 
 use crate::math::*;
 use crate::model::asleep::{self, awake};
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// How a camera or light moves (mjtCamLight).
 mod mode {

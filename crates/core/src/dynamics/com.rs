@@ -3,8 +3,9 @@
 //! All spatial quantities of a kinematic tree are expressed about the centre of mass of the tree
 //! (`subtree_com` of its root), in world axes: far from the origin nothing is lost to cancellation.
 
+use crate::kinds::joint;
 use crate::math::{lanes, *};
-use crate::{Fields, Model, joint};
+use crate::model::{Fields, Model};
 
 /// `subtree_com`, `cinert`, `cdof`.
 #[inline(never)]

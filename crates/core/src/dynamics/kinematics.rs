@@ -3,9 +3,10 @@
 //! Each body's pose follows from its parent's, joint by joint (Featherstone 2008, section 4.4).
 
 use crate::dynamics::Scratch;
+use crate::kinds::joint;
 use crate::math::lanes::{Axes, Lane3, along, axes, lane3, matrix, product, turned, vec3};
 use crate::math::*;
-use crate::{Fields, Model, joint};
+use crate::model::{Fields, Model};
 use std::ops::Range;
 
 /// How a frame coincides with that of its body, so that poses are copied, not multiplied: the copy is exact.

@@ -8,7 +8,7 @@
 use super::reflected::{self, On};
 use super::{Scratch, serial};
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 use std::ops::Range;
 
 /// `crb` and `M`. The diagonal of simple bodies is constant: with `constant` it is taken from `dof_M0`.

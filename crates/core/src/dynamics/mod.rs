@@ -19,7 +19,7 @@ pub(crate) mod rne;
 pub(crate) mod serial;
 pub(crate) mod subtree;
 
-use crate::Model;
+use crate::model::Model;
 use articulated::Articulated;
 use chain::Chains;
 use kinematics::Frames;

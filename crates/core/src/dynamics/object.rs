@@ -4,7 +4,7 @@
 //! point they are those of an object fixed to the body (Featherstone 2008, section 2.8).
 
 use crate::math::*;
-use crate::{Fields, Model, Obj};
+use crate::model::{Fields, Model, Obj};
 
 /// Position, orientation and body of an object.
 #[derive(Clone, Copy, Debug)]

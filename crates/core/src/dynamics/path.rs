@@ -4,8 +4,8 @@
 //! depth first, so that one list serves all rows: at each degree of freedom, what stands before its own place are its
 //! ancestors. Eight motions stand side by side, component by component, as processors add them.
 
-use crate::Model;
 use crate::math::Spatial;
+use crate::model::Model;
 
 /// Motions that stand side by side.
 const SIDE: usize = 8;

@@ -2,7 +2,8 @@
 //!
 //! With a gear g a rotor turns g times as fast as what it moves, so that both appear multiplied by g².
 
-use crate::{Model, trntype};
+use crate::kinds::trntype;
+use crate::model::Model;
 
 /// What actuator `i` acts on, and the second site where there is one.
 pub(crate) fn target(m: &Model, i: usize) -> (usize, Option<usize>) {

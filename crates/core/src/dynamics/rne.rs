@@ -1,8 +1,9 @@
 //! `qfrc_bias`: gravity, Coriolis and centrifugal force.
 
 use crate::dynamics::{Scratch, chain};
+use crate::kinds::{disable, joint};
 use crate::math::{lanes, *};
-use crate::{Fields, Model, disable, joint};
+use crate::model::{Fields, Model};
 
 /// `qfrc_bias`. Trees take recursive Newton–Euler, short chains a projection; a simple body, alone in its tree
 /// with its inertia along its own axes, takes the closed form.

@@ -3,7 +3,7 @@
 //! Their rows of M are a packed lower triangle, which is factorized and solved with all sizes known.
 
 use crate::math::MINVAL;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 use std::ops::Range;
 
 /// A tree: its first degree of freedom, how many it has, and where their rows of M begin.

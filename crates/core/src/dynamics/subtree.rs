@@ -4,7 +4,7 @@
 //! parts have by moving against the whole: L = Σ Lᵢ + mᵢ (cᵢ - c) × (vᵢ - v).
 
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// `subtree_linvel`, `subtree_angmom` of every body with its descendants, world; needs `cvel`.
 pub fn subtree_vel(m: &Model, d: &mut Fields) {

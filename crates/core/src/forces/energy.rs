@@ -2,8 +2,9 @@
 
 use crate::dynamics::mass;
 use crate::forces::passive::spring;
+use crate::kinds::disable;
 use crate::math::*;
-use crate::{Fields, Model, disable};
+use crate::model::{Fields, Model};
 
 /// `energy[0]`: gravity and springs, J. Zero where every centre of mass is at the origin.
 pub fn potential(m: &Model, d: &mut Fields) {

@@ -11,8 +11,8 @@ pub(crate) mod passive;
 pub(crate) mod tendon;
 pub(crate) mod transmission;
 
-use crate::Model;
 use crate::dynamics::jacobian::Columns;
+use crate::model::Model;
 
 /// What these stages use and nobody else looks at, kept so that they do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,7 +27,7 @@ pub(crate) struct Scratch {
 
 impl Scratch {
     pub(crate) fn new(m: &Model) -> Scratch {
-        let contacts = m.actuator_trntype.contains(&crate::trntype::BODY);
+        let contacts = m.actuator_trntype.contains(&crate::kinds::trntype::BODY);
         Scratch {
             tendon_force: vec![0.0; m.ntendon],
             moment: vec![0.0; m.nv],

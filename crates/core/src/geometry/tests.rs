@@ -15,8 +15,9 @@ use std::collections::BTreeMap;
 use super::convex::{Convex, nearest};
 use super::pair::{self, Method, Settings};
 use super::{Field, Hull, Mesh, Narrow, Shape, Sides, ray_shape};
+use crate::kinds::geom;
 use crate::math::*;
-use crate::{Model, geom};
+use crate::model::Model;
 
 const KINDS: [&str; 8] = ["plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"];
 
@@ -206,7 +207,7 @@ fn rays_hit_where_they_do_in_mujoco() {
 }
 
 fn settings() -> Settings {
-    Settings::of(&Model { opt: crate::Options::mujoco(), ..Model::default() })
+    Settings::of(&Model { opt: crate::model::Options::mujoco(), ..Model::default() })
 }
 
 /// With more iterations than the default of 35, which do not always do for round bodies deep in each other.

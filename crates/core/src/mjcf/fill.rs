@@ -6,6 +6,7 @@ use super::spec::{
     ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, PairSpec,
     SOLIMP, SOLREF, SensorSpec, SiteSpec, TendonSpec,
 };
+use crate::kinds::joint;
 use crate::math::{IDENTITY, MINVAL, quat_normalize, rows_mut};
 use crate::mjcf::actuator::fill_actuator::{self, Counts};
 use crate::mjcf::asset::fill_asset;
@@ -13,8 +14,7 @@ use crate::mjcf::asset::read_asset::Assets;
 use crate::mjcf::constraint::fill_constraint;
 use crate::mjcf::scene::fill_scene;
 use crate::mjcf::tendon::fill_tendon;
-use crate::model::reflect;
-use crate::{Model, Names, joint};
+use crate::model::{Model, Names, reflect};
 
 /// The sizes that a keyframe depends on.
 #[derive(Clone, Copy, Debug)]

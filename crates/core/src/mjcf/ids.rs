@@ -2,9 +2,9 @@
 
 use super::names::{NameTable, WORLD};
 use super::spec::{BodySpec, SensorObjects};
-use crate::Obj;
 use crate::mjcf::text::diagnostic::{Report, code};
 use crate::mjcf::text::tree::{Node, Tree};
+use crate::model::Obj;
 use std::collections::BTreeMap;
 
 /// Ids of elements by their place in the tree.

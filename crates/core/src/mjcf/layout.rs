@@ -2,7 +2,7 @@
 //! the pattern of the mass matrix.
 
 use super::spec::{BodySpec, Inertia};
-use crate::joint;
+use crate::kinds::joint;
 use crate::math::{Quat, Vec3};
 use crate::mjcf::body::inertia::shown;
 use crate::mjcf::text::diagnostic::{Report, code};

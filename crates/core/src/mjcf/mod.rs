@@ -38,7 +38,7 @@ mod unsimulated;
 use std::io::Read;
 use std::path::Path;
 
-use crate::Model;
+use crate::model::Model;
 use text::diagnostic::Report;
 
 pub use schema::{Attr, Element, Kind, SchemaRow, Status, Word, schema_rows};

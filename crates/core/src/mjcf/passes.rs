@@ -13,7 +13,7 @@ use super::text::diagnostic::{Report, code};
 use super::text::files::Files;
 use super::text::{load, tree};
 use super::{context, expand, fill, ids, layout, names, settings};
-use crate::Model;
+use crate::model::Model;
 
 /// All passes. `None` when something is wrong; then the report says what.
 pub(super) fn build(

@@ -1,9 +1,11 @@
 //! What compiles but cannot be simulated: it is refused.
 
+use crate::kinds::{disable, enable, eqtype, integrator};
 use crate::mjcf::text::diagnostic::{Report, code};
 use crate::mjcf::text::tree::Tree;
 use crate::model::asleep::policy;
-use crate::{Data, Model, Obj, disable, enable, eqtype, integrator};
+use crate::model::{Model, Obj};
+use crate::step::data::Data;
 
 /// Reports what the model asks for and does not get.
 pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {

@@ -2,7 +2,8 @@
 //! that lets trees sleep is `step/sleep`.
 
 use super::stage::Stage;
-use crate::{Fields, Model, Obj, enable, eqtype, trntype};
+use crate::kinds::{enable, eqtype, trntype};
+use crate::model::{Fields, Model, Obj};
 
 /// Values of `tree_sleep_policy`.
 pub(crate) mod policy {

@@ -5,7 +5,7 @@
 //! anyway: sizes of the model, pairs, rows, iterations. Beyond the limit long loops end early and stages are left out: what
 //! the data hold then is of no use, and whoever set the limit has to say so.
 
-use crate::Model;
+use crate::model::Model;
 
 /// The work done, and where it ends.
 #[derive(Clone, Copy, Debug, PartialEq)]

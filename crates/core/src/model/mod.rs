@@ -10,6 +10,9 @@ pub mod reflect;
 pub(crate) mod stage;
 pub mod state;
 
+pub use data::{Contact, Fields, Warning, WarningStat};
+pub use plan::{Decision, Plan};
+
 use crate::kinds::integrator;
 use crate::model::fields::{model_fields, option_fields, statistic_fields};
 use std::ops::Range;

@@ -5,7 +5,7 @@
 pub use super::stage::Stage;
 use crate::model::bytes::Plain;
 use crate::model::fields::{data_fields, model_fields, option_fields, statistic_fields};
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 use std::sync::LazyLock;
 
 /// The struct that a field belongs to.
@@ -517,7 +517,7 @@ impl FieldSet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Data;
+    use crate::step::data::Data;
 
     #[test]
     fn elements_are_those_of_views() {

@@ -14,7 +14,7 @@
 //! ```
 
 use crate::model::reflect::{self, Cell, Object, View, ViewMut};
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 use std::fmt;
 
 macro_rules! elements {

@@ -4,7 +4,7 @@ use crate::geometry::convex::Effort;
 use crate::geometry::pair::Settings;
 use crate::geometry::{Distance, Narrow, Shape, shape_distance};
 use crate::kinds::disable;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// The distance of two geoms up to `most`, with the segment from the first to the second.
 pub(crate) fn geom_distance(

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Shape, ray_shape};
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// Which geoms a ray can hit, besides being visible.
 #[derive(Clone, Copy, Debug)]

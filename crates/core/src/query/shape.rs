@@ -3,7 +3,7 @@
 use crate::geometry::{Field, Hull, Mesh, Shape};
 use crate::kinds::geom;
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 impl<'a> Shape<'a> {
     /// A geom where the data have it.

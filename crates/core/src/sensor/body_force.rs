@@ -6,8 +6,9 @@
 
 use super::tension;
 use crate::constraint::{self, ends};
+use crate::kinds::disable;
 use crate::math::*;
-use crate::{Fields, Model, disable};
+use crate::model::{Fields, Model};
 
 /// `cacc`, `cfrc_ext`, `cfrc_int`; needs `qacc` and the forces of constraints.
 ///

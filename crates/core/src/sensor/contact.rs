@@ -5,8 +5,8 @@ use super::{Scratch, put};
 use crate::constraint::contact_force;
 use crate::geometry::{Shape, ray_shape};
 use crate::math::*;
+use crate::model::{Contact, Fields, Model, Obj};
 use crate::query::inside_site;
-use crate::{Contact, Fields, Model, Obj};
 
 /// The sum of the normal forces on the body of a site, of all contacts whose normal, from the contact into the
 /// other body, meets the volume of the site: it lies around the contact or behind it.

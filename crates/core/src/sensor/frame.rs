@@ -4,7 +4,8 @@
 use super::put;
 use crate::dynamics::object::{self, Frame};
 use crate::math::*;
-use crate::{Fields, Model, query};
+use crate::model::{Fields, Model};
+use crate::query;
 
 /// The frame of the sensed object.
 fn sensed(m: &Model, d: &Fields, s: usize) -> Option<Frame> {

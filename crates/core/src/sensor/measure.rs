@@ -2,9 +2,11 @@
 //! and of the scene as a whole.
 
 use super::put;
+use crate::constraint;
 use crate::forces::energy;
+use crate::kinds::trntype;
 use crate::math::*;
-use crate::{Fields, Model, constraint, trntype};
+use crate::model::{Fields, Model};
 
 /// The sensed object of sensor `s`.
 fn object(m: &Model, s: usize) -> usize {

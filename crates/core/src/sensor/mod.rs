@@ -24,9 +24,9 @@ use table::Read;
 pub use table::{Datatype, KINDS, Kind, Senses, When, kind};
 
 use crate::geometry::Narrow;
-use crate::model::asleep;
+use crate::kinds::disable;
 use crate::model::stage::Stage;
-use crate::{Fields, Model, Obj, disable};
+use crate::model::{Fields, Model, Obj, asleep};
 
 /// What sensors use, kept so that they do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,8 +4,8 @@
 
 use super::{Scratch, put};
 use crate::math::*;
+use crate::model::{Fields, Model, Obj};
 use crate::query::geom_distance;
-use crate::{Fields, Model, Obj};
 
 /// The geoms of a body, or one geom.
 fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> {

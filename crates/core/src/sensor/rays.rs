@@ -8,8 +8,8 @@ use super::fields::{self, RAY_DATA};
 use super::put;
 use crate::dynamics::object::{self, Frame};
 use crate::math::*;
+use crate::model::{Fields, Model, Obj};
 use crate::query::{self, RayFilter};
-use crate::{Fields, Model, Obj};
 
 /// A ray: where it starts and its unit direction, world.
 struct Ray {

@@ -6,7 +6,7 @@
 
 use super::{Scratch, contact, frame, measure, pair, rays};
 use crate::model::stage::Stage;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// What a sensor can be attached to: it decides the attributes in MJCF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

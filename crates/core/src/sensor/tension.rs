@@ -1,11 +1,13 @@
 //! Forces along spatial tendons, as forces on the bodies that they pass: what springs, dampers, constraints and actuators
 //! do to the length, seen from outside.
 
+use crate::constraint;
 use crate::dynamics::reflected::tendon_inertia;
 use crate::forces::passive::spring;
 use crate::forces::tendon::{self, path};
+use crate::kinds::{disable, trntype};
 use crate::math::*;
-use crate::{Fields, Model, constraint, disable, trntype};
+use crate::model::{Fields, Model};
 
 /// Calls `apply` with each body that some tendon pulls, the point and the force, world.
 pub(crate) fn pulls(m: &Model, d: &Fields, mut apply: impl FnMut(usize, Vec3, Vec3)) {

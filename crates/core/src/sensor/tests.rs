@@ -1,8 +1,11 @@
 //! Sensors against what MuJoCo 3.14.0 reads: `golden/record.py` recorded it.
 
 use crate::math::rows;
+use crate::mjcf;
+use crate::model::Model;
 use crate::model::reflect::{self, Object, View, ViewMut};
-use crate::{Data, Model, forward, mjcf};
+use crate::step::data::Data;
+use crate::step::forward::forward;
 
 /// A recorded line: a name and its numbers.
 fn parse(line: &str) -> (&str, Vec<f64>) {
@@ -67,7 +70,7 @@ fn check(xml: &str, recorded: &str, tolerance: f64) {
             continue;
         }
         if name == "state" {
-            crate::reset_data(&m, &mut d);
+            crate::step::reset::reset_data(&m, &mut d);
             (state, computed, stepped) = (state + 1, false, false);
             continue;
         }
@@ -91,7 +94,7 @@ fn check(xml: &str, recorded: &str, tolerance: f64) {
                 ViewMut::I32(v) => want.iter().enumerate().for_each(|(i, &x)| v[i] = x as i32),
                 _ => panic!("{name} has no numbers"),
             }
-            crate::set_const(&mut m, &mut d);
+            crate::setup::setconst::set_const(&mut m, &mut d);
             continue;
         }
         let got = numbers(&m, &d, object, field);
@@ -140,7 +143,7 @@ fn equality_constraints_act_where_they_hold() {
         let (name, want) = parse(line);
         let int = || want.iter().map(|&x| x as i32).collect::<Vec<_>>();
         match name {
-            "state" => crate::reset_data(&m, &mut d),
+            "state" => crate::step::reset::reset_data(&m, &mut d),
             "rows.qacc" => {
                 forward(&m, &mut d);
                 d.qacc.copy_from_slice(&want);
@@ -150,7 +153,7 @@ fn equality_constraints_act_where_they_hold() {
             "rows.efc_force" => {
                 d.efc_force = want;
                 rows += d.nefc;
-                crate::rne_post_constraint(&m, &mut d);
+                crate::sensor::body_force::rne_post_constraint(&m, &mut d);
                 super::evaluate(&m, &mut d.fields, &mut d.work.sensor, super::When::Acceleration);
             }
             "sensordata" | "cacc" | "cfrc_int" | "cfrc_ext" => {
@@ -178,7 +181,7 @@ fn switched_off_sensors_keep_their_values() {
     let mut d = Data::new(&m);
     d.time = 2.0;
     forward(&m, &mut d);
-    m.opt.disableflags |= crate::disable::SENSOR;
+    m.opt.disableflags |= crate::kinds::disable::SENSOR;
     d.time = 3.0;
     d.cacc.fill(5.0);
     forward(&m, &mut d);

@@ -8,9 +8,10 @@ use super::Scratch;
 use super::table::of;
 use crate::dynamics::subtree;
 use crate::forces::history;
+use crate::kinds::integrator;
 use crate::model::stage::Stage;
+use crate::model::{Fields, Model};
 use crate::sensor::body_force;
-use crate::{Fields, Model, integrator};
 
 /// Where the buffer of a sensor is, and how many samples it has; `None` when it keeps none.
 fn buffer(m: &Model, s: usize) -> Option<(std::ops::Range<usize>, usize)> {

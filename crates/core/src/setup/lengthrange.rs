@@ -8,9 +8,11 @@
 use crate::dynamics::mass;
 use crate::dynamics::reflected::target;
 use crate::forces::transmission::row;
+use crate::kinds::{biastype, disable, gaintype, joint, trntype};
 use crate::math::*;
+use crate::model::Model;
+use crate::step::data::Data;
 use crate::step::{self, reset};
-use crate::{Data, Model, biastype, disable, gaintype, joint, trntype};
 
 /// Which actuators are looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,10 +4,12 @@ use crate::constraint::ends;
 use crate::dynamics::kinematics::{self, sameframe};
 use crate::dynamics::{com, jacobian, mass};
 use crate::forces::{tendon, transmission};
+use crate::kinds::{geom, joint};
 use crate::math::*;
+use crate::model::Model;
 use crate::model::plan::Plan;
+use crate::step::data::Data;
 use crate::step::reset;
-use crate::{Data, Model, geom, joint};
 
 /// Recomputes what follows from masses, inertias and poses (`mj_setConst`).
 ///

@@ -2,9 +2,10 @@
 
 use crate::dynamics::{self, articulated};
 use crate::forces::passive::spring;
+use crate::kinds::disable;
 use crate::math::combine;
 use crate::model::stage::Stage;
-use crate::{Fields, Model, disable};
+use crate::model::{Fields, Model};
 
 /// The acceleration a step advances along, where it is not `qacc`.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -5,7 +5,8 @@ use super::stages::RungeKutta;
 use super::{damping, sleep};
 use crate::forces::{self, derivative};
 use crate::model::plan::Plan;
-use crate::{Fields, Model, collision, constraint, dynamics, sensor};
+use crate::model::{Fields, Model};
+use crate::{collision, constraint, dynamics, sensor};
 use std::ops::{Deref, DerefMut};
 
 /// State, inputs and results of a simulation of one model.

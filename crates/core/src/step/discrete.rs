@@ -10,14 +10,15 @@
 //! stays a rank-one term s r rᵀ, for which conjugate gradients take the rest as the preconditioner (Golub and Van
 //! Loan 2013, *Matrix Computations*, section 11.5).
 
+use crate::constraint;
 use crate::dynamics::mass;
 use crate::forces::derivative::{self, Medium, actuator};
 use crate::forces::passive::fluid;
 use crate::forces::passive::spring::{self, Law};
 use crate::forces::tendon;
+use crate::kinds::{disable, joint, solver};
 use crate::math::{Spatial, dot, dot_slice, norm, solve_six};
-use crate::model::asleep;
-use crate::{Fields, Model, constraint, disable, joint, solver};
+use crate::model::{Fields, Model, asleep};
 
 /// The metric and what follows from it.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -3,10 +3,13 @@
 use super::{damping, discrete, sleep};
 use crate::dynamics::{articulated, camera, chain, com, jacobian, kinematics, mass, rne, subtree};
 use crate::forces::{actuation, energy, passive, tendon, transmission};
+use crate::kinds::{disable, enable, integrator};
 use crate::math::{combine, copy, rows};
 use crate::model::stage::Stage;
+use crate::model::{Fields, Model, Warning};
 use crate::sensor::{self, When, body_force};
-use crate::{Data, Fields, Model, Warning, collision, constraint, disable, enable, integrator};
+use crate::step::data::Data;
+use crate::{collision, constraint};
 
 /// What a caller can leave out of a forward pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,9 @@
 
 use crate::dynamics::{kinematics as poses, rne as newton_euler};
 use crate::geometry::Distance;
-use crate::{Data, Model, constraint, query};
+use crate::model::Model;
+use crate::step::data::Data;
+use crate::{constraint, query};
 
 /// Poses of bodies, joints, geoms and sites (`mj_kinematics`).
 pub fn kinematics(m: &Model, d: &mut Data) {
@@ -52,4 +54,9 @@ pub fn exhausted(d: &Data) -> bool {
 /// Counts work that was done on the data by others.
 pub fn charge(d: &mut Data, units: u64) {
     d.meter.add(units);
+}
+
+/// What is left of the limit.
+pub fn work_left(d: &Data) -> u64 {
+    d.meter.left()
 }

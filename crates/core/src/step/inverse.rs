@@ -1,15 +1,17 @@
 //! Inverse dynamics: the force that causes a given acceleration.
 
+use crate::constraint;
 use crate::dynamics::mass;
 use crate::forces::derivative::{self, Medium, sparse};
 use crate::forces::passive::spring;
+use crate::kinds::{enable, integrator};
 use crate::math::Spatial;
+use crate::model::Model;
 use crate::model::plan::Plan;
 use crate::sensor::When;
-use crate::step::data::Work;
+use crate::step::data::{Data, Work};
 use crate::step::forward::{self, Skip};
 use crate::step::{damping, discrete};
-use crate::{Data, Model, constraint, enable, integrator};
 
 /// What inverse dynamics cannot answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

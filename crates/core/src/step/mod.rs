@@ -3,6 +3,7 @@
 //! [`forward`] is the order of the stages; an integrator takes what they leave to the next state; bad numbers are looked for
 //! before and between.
 
+pub(crate) mod balance;
 pub(crate) mod damping;
 pub(crate) mod data;
 pub(crate) mod discrete;
@@ -16,8 +17,10 @@ pub mod save;
 pub(crate) mod sleep;
 pub(crate) mod stages;
 
+use crate::kinds::disable;
 use crate::math::{bad, sum};
-use crate::{Data, Model, Warning, WarningStat, disable};
+use crate::model::{Model, Warning, WarningStat};
+use crate::step::data::Data;
 use forward::Skip;
 
 /// Advances the simulation by one step (`mj_step`).

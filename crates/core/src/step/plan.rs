@@ -6,13 +6,14 @@
 
 use crate::dynamics::{articulated, chain, kinematics};
 use crate::forces::{actuation, derivative};
+use crate::kinds::{
+    biastype, disable, dyntype, enable, eqtype, gaintype, integrator, joint, trntype, wraptype,
+};
 use crate::model::plan::Plan;
 use crate::model::reflect::{FieldId, FieldSet, Object, Stage, field};
+use crate::model::{Model, Obj};
 use crate::step::damping;
-use crate::{
-    Model, Obj, biastype, collision, disable, dyntype, enable, eqtype, gaintype, integrator, joint, sensor,
-    trntype, wraptype,
-};
+use crate::{collision, sensor};
 
 /// What programs read and write.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +42,7 @@ impl Plan {
     }
 
     /// Every stage but the one that lets trees sleep: what computes constants wants all of them awake.
-    pub(crate) fn awake() -> Plan {
+    pub fn awake() -> Plan {
         let mut plan = Plan::full();
         plan.kept &= !(1 << Stage::Sleep as u32);
         plan

@@ -6,11 +6,11 @@ use crate::forces::{actuation, transmission};
 use crate::math::*;
 use crate::model::meter::Meter;
 use crate::model::plan::Plan;
-use crate::model::reflect;
 use crate::model::stage::Stage;
-use crate::step::data::Work;
+use crate::model::{Fields, Model, Warning, WarningStat, reflect};
+use crate::step::data::{Data, Work};
 use crate::step::plan::Demand;
-use crate::{Data, Fields, Model, Warning, WarningStat, collision, sensor};
+use crate::{collision, sensor};
 
 impl Data {
     /// Data for a model, at the default configuration. Nothing is computed yet: call `forward`.

@@ -8,8 +8,9 @@
 use crate::constraint::kind;
 use crate::model::bytes::{Plain, fingerprint};
 use crate::model::reflect::{self, Elem, Object, View};
+use crate::model::{Contact, Model, Obj, Warning, WarningStat};
+use crate::step::data::Data;
 use crate::step::{forward, reset};
-use crate::{Contact, Data, Model, Obj, Warning, WarningStat};
 use std::fmt;
 use std::ops::Range;
 

@@ -1,6 +1,6 @@
 //! What a step of Runge and Kutta's keeps between its stages.
 
-use crate::Model;
+use crate::model::Model;
 
 /// What a step keeps between its stages.
 #[derive(Clone, Debug, Default, PartialEq)]

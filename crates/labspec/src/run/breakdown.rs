@@ -2,8 +2,8 @@
 //! and what to write instead.
 
 use super::Session;
-use labspec_core::growth::Growth;
-use labspec_core::stability::{self, Part, Suspect};
+use crate::advice::growth::Growth;
+use crate::advice::stability::{self, Part, Suspect};
 use labspec_core::{Model, Obj, Warning, WarningStat, joint};
 
 /// A run that met a bad number or gained energy from nothing, in a teacher's words.

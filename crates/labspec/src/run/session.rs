@@ -2,10 +2,10 @@
 
 use super::budget::{Budget, End};
 use super::table::Cell;
+use crate::advice::growth::{self, Growth, Watch};
 use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
 use crate::interrupt;
 use crate::source::Text;
-use labspec_core::growth::{self, Growth, Watch};
 use labspec_core::{self as core, Data, Demand, Model, Plan, Warning, WarningStat};
 use labspec_expr::{Context, EventKind, Program, RuntimeError, Value, code};
 

@@ -18,8 +18,9 @@ mod spatial;
 mod tests;
 
 use crate::dynamics::{Scratch, jacobian, mass};
+use crate::kinds::joint;
 use crate::math::*;
-use crate::{Fields, Model, joint};
+use crate::model::{Fields, Model};
 
 /// A tree with more degrees of freedom is cheaper by composite bodies and recursion.
 const MAX_DOFS: usize = 6;

@@ -2,9 +2,10 @@
 
 mod points;
 
+use crate::kinds::joint;
 use crate::math::lanes::{Axes, Lane3, along, axes, vec3};
 use crate::math::*;
-use crate::{Fields, Model, joint};
+use crate::model::{Fields, Model};
 
 pub use points::{
     Jacobian, apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,

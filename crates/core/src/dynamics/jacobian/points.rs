@@ -4,8 +4,9 @@
 //! velocity stage. Rows are world axes, columns degrees of freedom.
 
 use super::{dof_motion, last_dof};
+use crate::kinds::joint;
 use crate::math::*;
-use crate::{Fields, Model, joint};
+use crate::model::{Fields, Model};
 
 /// How a point, and the body that it is fixed to, move for a unit velocity of each degree of freedom.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -3,8 +3,9 @@
 //! Filters may be integrated exactly: for a constant input, a(h) = a + ȧ τ (1 - exp(-h/τ)).
 
 use super::{exact, motor};
+use crate::kinds::dyntype;
 use crate::math::*;
-use crate::{Fields, Model, dyntype};
+use crate::model::{Fields, Model};
 
 /// The value of activation `at` that acts in this step: that of the end of the step where `actearly` says so.
 pub(super) fn acting(m: &Model, d: &Fields, i: usize, at: usize) -> f64 {

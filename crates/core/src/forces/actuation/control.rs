@@ -1,8 +1,9 @@
 //! Controls as they act: delayed, clamped, and zero where one of them is no number.
 
 use crate::forces::history;
+use crate::kinds::{disable, gaintype};
 use crate::math::*;
-use crate::{Fields, Model, Warning, disable, gaintype};
+use crate::model::{Fields, Model, Warning};
 use std::ops::Range;
 
 /// Addresses of the controls of actuator `i`.

@@ -1,6 +1,6 @@
 //! What the controls of controllers say: a position, a velocity, a feedforward, a voltage.
 
-use crate::Model;
+use crate::model::Model;
 
 /// Inputs of controllers: bits of `actuator_ctrlspec`, in the order of the controls.
 const POS: i32 = 1;

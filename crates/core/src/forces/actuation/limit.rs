@@ -1,8 +1,9 @@
 //! Limits of forces: of all actuators of a tendon, of each actuator, of all actuators of a joint.
 
 use crate::forces::Scratch;
+use crate::kinds::{gaintype, joint, trntype};
 use crate::math::*;
-use crate::{Fields, Model, gaintype, joint, trntype};
+use crate::model::{Fields, Model};
 
 /// Scales the forces on a tendon whose sum is out of its range.
 pub(super) fn tendons(m: &Model, d: &mut Fields, w: &mut Scratch) {

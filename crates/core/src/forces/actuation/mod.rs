@@ -17,9 +17,9 @@ mod rates;
 mod servo;
 
 use crate::forces::{Scratch, transmission};
+use crate::kinds::{biastype, disable, dyntype, gaintype, joint, trntype};
 use crate::math::*;
-use crate::model::asleep;
-use crate::{Fields, Model, biastype, disable, dyntype, gaintype, joint, trntype};
+use crate::model::{Fields, Model, asleep};
 
 pub(crate) use control::{record, reset};
 pub(crate) use motor::slots;
@@ -230,6 +230,19 @@ pub(crate) fn along_length(m: &Model, d: &Fields, i: usize) -> Option<[f64; 2]> 
         _ => return None,
     };
     Some([force, -length])
+}
+
+/// `kp` and `kv` of actuator `i`, along its own length; `None` when these do not follow from its parameters alone, or when
+/// there is no such actuator.
+pub fn servo_gains(m: &Model, i: usize) -> Option<[f64; 2]> {
+    match *m.actuator_biastype.get(i)? {
+        // Servos and controllers of type pid: constant, -kp, -kv.
+        biastype::AFFINE => {
+            rows::<10>(&m.actuator_biasprm).get(i).map(|&[_, length, velocity, ..]| [-length, -velocity])
+        }
+        biastype::DCMOTOR => motor::gains(m, i),
+        _ => None,
+    }
 }
 
 /// Gravity compensation that acts as a force of actuators.

@@ -6,8 +6,9 @@
 
 use super::inputs::{self, Inputs, unwound};
 use super::{exact, prm, states};
+use crate::kinds::dyntype;
 use crate::math::*;
-use crate::{Fields, Model, dyntype};
+use crate::model::{Fields, Model};
 
 /// Places of a motor's states among its activations; `None` for those that it does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -5,7 +5,7 @@
 //! lmax, vmax, fpmax, fvmax.
 
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// A muscle in normalized units.
 pub(crate) struct State {

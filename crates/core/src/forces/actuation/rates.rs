@@ -2,8 +2,9 @@
 
 use super::activation::next;
 use super::{integrates, motor, muscle, prm, servo, states, switched_off};
+use crate::kinds::{disable, dyntype, gaintype};
 use crate::math::*;
-use crate::{Fields, Model, disable, dyntype, gaintype};
+use crate::model::{Fields, Model};
 
 /// `act_dot` of actuator `i`. A motor that limits how fast its setpoint moves writes the limited one to `ctrl`.
 pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {

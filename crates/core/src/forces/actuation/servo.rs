@@ -3,8 +3,9 @@
 use super::inputs::{Inputs, unwound};
 use super::{activation, prm, states};
 use crate::dynamics::reflected::target;
+use crate::kinds::{biastype, dyntype, gaintype, joint, trntype};
 use crate::math::*;
-use crate::{Fields, Model, biastype, dyntype, gaintype, joint, trntype};
+use crate::model::{Fields, Model};
 use std::f64::consts::PI;
 
 /// The chart of an orientation that is a quaternion.

@@ -1,8 +1,9 @@
 //! How the force of an actuator changes with its velocity.
 
 use crate::forces::actuation::{self, motor, muscle, prm};
+use crate::kinds::{biastype, disable, gaintype};
 use crate::math::*;
-use crate::{Fields, Model, biastype, disable, gaintype};
+use crate::model::{Fields, Model};
 
 use super::sparse;
 

@@ -9,8 +9,9 @@
 use std::ops::Range;
 
 use super::sparse;
+use crate::kinds::joint;
 use crate::math::*;
-use crate::{Fields, Model, joint};
+use crate::model::{Fields, Model};
 
 /// The columns of a spatial matrix.
 type Columns = [Spatial; 6];

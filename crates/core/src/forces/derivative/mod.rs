@@ -13,8 +13,9 @@ use crate::dynamics::{jacobian, mass};
 use crate::forces::passive::fluid::{self, Frame, Shape};
 use crate::forces::passive::spring;
 use crate::forces::tendon;
+use crate::kinds::{disable, joint};
 use crate::math::*;
-use crate::{Fields, Model, disable, joint};
+use crate::model::{Fields, Model};
 
 /// What is computed anew in every step; its arrays are made when they are first needed.
 #[derive(Clone, Debug, Default, PartialEq)]

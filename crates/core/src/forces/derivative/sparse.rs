@@ -6,8 +6,8 @@
 //! found without a search. Elimination from the last row to the first creates no new entries (Featherstone 2008,
 //! section 6.5, for the symmetric case).
 
-use crate::Model;
 use crate::math::MINVAL;
+use crate::model::Model;
 
 /// Where row `i` begins, and the place of its diagonal.
 #[inline(always)]

@@ -2,7 +2,7 @@
 
 use crate::dynamics::jacobian;
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// `qfrc_adhesion`.
 pub(super) fn adhesion(m: &Model, d: &mut Fields) {

@@ -6,8 +6,9 @@
 
 use std::f64::consts::PI;
 
+use crate::kinds::geom;
 use crate::math::*;
-use crate::{Model, geom};
+use crate::model::Model;
 
 /// What a length or an area is divided by at least: the forces are those of any size, however small.
 const SMALLEST: f64 = 1e-200;

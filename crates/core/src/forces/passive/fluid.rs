@@ -7,8 +7,9 @@ use std::f64::consts::PI;
 
 use super::ellipsoid::Ellipsoid;
 use crate::dynamics::jacobian;
+use crate::kinds::disable;
 use crate::math::*;
-use crate::{Fields, Model, disable};
+use crate::model::{Fields, Model};
 
 /// Numbers of a geom in `geom_fluid`.
 const FLUID: usize = 12;

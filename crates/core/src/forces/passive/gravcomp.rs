@@ -1,8 +1,9 @@
 //! Gravity compensation: a force against gravity at the centre of mass of a body.
 
 use crate::dynamics::jacobian;
+use crate::kinds::disable;
 use crate::math::*;
-use crate::{Fields, Model, disable};
+use crate::model::{Fields, Model};
 
 /// `qfrc_gravcomp` (zero before): -g m c for a body of mass m with compensation c. Whether there is any.
 pub(super) fn gravcomp(m: &Model, d: &mut Fields) -> bool {

@@ -6,8 +6,9 @@ pub(crate) mod fluid;
 mod gravcomp;
 pub(crate) mod spring;
 
+use crate::kinds::{disable, joint};
 use crate::math::combine;
-use crate::{Fields, Model, disable, joint};
+use crate::model::{Fields, Model};
 
 /// `qfrc_spring`, `qfrc_damper`, `qfrc_gravcomp`, `qfrc_fluid`, `qfrc_passive`. With springs and dampers both
 /// switched off there are no passive forces at all.

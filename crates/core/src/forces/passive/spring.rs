@@ -6,9 +6,9 @@
 
 use crate::dynamics::reflected::{self, On};
 use crate::forces::tendon;
+use crate::kinds::joint;
 use crate::math::*;
-use crate::model::asleep;
-use crate::{Fields, Model, joint};
+use crate::model::{Fields, Model, asleep};
 
 /// The coefficients of a spring or a damper.
 #[derive(Clone, Copy)]

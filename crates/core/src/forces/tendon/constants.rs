@@ -3,7 +3,7 @@
 use super::row;
 use crate::dynamics::mass;
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// `tendon_length0` and `tendon_invweight0` = J M⁻¹ Jᵀ, with `d` at the default configuration.
 pub(crate) fn at_default(m: &mut Model, d: &Fields) {

@@ -13,8 +13,7 @@ use crate::dynamics::mass;
 use crate::dynamics::reflected::tendon_inertia;
 use crate::kinds::wraptype;
 use crate::math::*;
-use crate::model::asleep;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model, asleep};
 
 pub(crate) use constants::{at_default, at_rest};
 pub(crate) use pattern::set_pattern;

@@ -4,7 +4,7 @@ use super::wrap::{self, Round};
 use crate::dynamics::jacobian;
 use crate::kinds::wraptype;
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// Jacobians and points of all paths.
 pub(super) struct Paths {
@@ -136,7 +136,7 @@ fn round(m: &Model, d: &Fields, geom: usize) -> Round {
         pos: rows::<3>(&d.geom_xpos)[geom],
         mat: rows::<9>(&d.geom_xmat)[geom],
         radius: rows::<3>(&m.geom_size)[geom][0],
-        cylinder: m.geom_type[geom] == crate::geom::CYLINDER,
+        cylinder: m.geom_type[geom] == crate::kinds::geom::CYLINDER,
     }
 }
 

@@ -1,9 +1,9 @@
 //! What follows from the structure of tendons: where their Jacobians can be non-zero, and which trees they tie.
 
 use super::is_fixed;
-use crate::Model;
 use crate::dynamics::jacobian;
 use crate::kinds::wraptype;
+use crate::model::Model;
 
 /// `ten_J_rownnz`, `ten_J_rowadr`, `ten_J_colind`, `nJten`, `tendon_treenum` and `tendon_treeid`.
 ///

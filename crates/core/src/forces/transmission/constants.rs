@@ -2,7 +2,8 @@
 
 use super::row;
 use crate::dynamics::mass;
-use crate::{Fields, Model, biastype, gaintype, trntype};
+use crate::kinds::{biastype, gaintype, trntype};
+use crate::model::{Fields, Model};
 
 /// `jnt_actuatorid` and `tendon_actuatorid`: the actuator whose own inertia and damping a joint or tendon has, -1 for
 /// none and -2 for several.

@@ -3,7 +3,7 @@
 use super::Rows;
 use crate::dynamics::jacobian;
 use crate::forces::Scratch;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 /// The mean over the contacts of body `b` of the direction in which they separate, as a force that pulls; it has no
 /// length.

@@ -10,9 +10,9 @@ mod space;
 use crate::dynamics::jacobian;
 use crate::dynamics::reflected::target;
 use crate::forces::{Scratch, tendon};
+use crate::kinds::{disable, joint, trntype};
 use crate::math::*;
-use crate::model::asleep;
-use crate::{Fields, Model, disable, joint, trntype};
+use crate::model::{Fields, Model, asleep};
 
 pub(crate) use constants::{at_default, critical_damping, reflected};
 

@@ -3,7 +3,7 @@
 use super::{Rows, Side, ancestors, union};
 use crate::dynamics::jacobian::dof_motion;
 use crate::math::*;
-use crate::{Fields, Model};
+use crate::model::{Fields, Model};
 
 fn site_body(m: &Model, s: usize) -> usize {
     m.site_bodyid[s] as usize

@@ -9,9 +9,9 @@
 //! `LABSPEC_CASES` says how many random configurations there are for each pair (100,000 for `docs/contacts.md`).
 
 use super::Random;
-use crate::geom;
 use crate::geometry::convex::{Convex, Nearest, Room, nearest};
 use crate::geometry::{Mesh, Shape, Sides};
+use crate::kinds::geom;
 use crate::math::*;
 
 impl Random {

@@ -2,12 +2,12 @@
 
 use super::shortcut::inputs;
 use crate::forces::actuation::slots;
+use crate::kinds::{biastype, dyntype, gaintype, joint, trntype};
 use crate::mjcf::body::limits;
 use crate::mjcf::context::Context;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, JointSpec, RangeSpec, TendonSpec};
 use crate::mjcf::text::diagnostic::{MjcfDiagnostic, code};
 use crate::mjcf::text::tree::Node;
-use crate::{biastype, dyntype, gaintype, joint, trntype};
 
 /// Completes an actuator and reports what does not fit.
 pub(crate) fn finish(

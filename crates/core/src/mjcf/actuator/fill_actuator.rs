@@ -5,8 +5,9 @@ use crate::forces::{history, transmission};
 use crate::mjcf::arrays::{flat, ints, padded};
 use crate::mjcf::spec::{ActuatorSpec, List, RangeSpec};
 use crate::mjcf::text::diagnostic::{Report, code};
+use crate::model::Model;
 use crate::setup::lengthrange::{self, Failure, Search};
-use crate::{Data, Model};
+use crate::step::data::Data;
 
 /// Steps times degrees of freedom for all ranges of lengths: more would take minutes.
 const MAX_SEARCH: f64 = 2e7;

@@ -3,13 +3,13 @@
 use std::rc::Rc;
 
 use super::{check_actuator, shortcut};
+use crate::kinds::{biastype, dyntype, gaintype, trntype};
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::ids::References;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, RangeSpec, TendonSpec, TransmissionSpec};
 use crate::mjcf::text::diagnostic::{Report, code};
 use crate::mjcf::text::tree::{Node, name};
-use crate::{biastype, dyntype, gaintype, trntype};
 
 /// All actuators in the order of the text.
 pub(crate) fn actuators(
@@ -192,7 +192,7 @@ fn transmission(
                 .why("an orientation is that of one site relative to another")
                 .help("write `refsite` with a site of the world for an orientation in space");
         }
-        if joint && refs.ids.joint(id).is_some_and(|(kind, _)| kind != crate::joint::BALL) {
+        if joint && refs.ids.joint(id).is_some_and(|(kind, _)| kind != crate::kinds::joint::BALL) {
             report
                 .error(code::ACTUATOR, node.span.clone(), format!("{owner} acts on a joint that is no ball joint"))
                 .why("an orientation has three degrees of freedom")

@@ -5,9 +5,9 @@
 
 use super::overlay::Overlay;
 use super::shortcut_motor;
+use crate::kinds::{biastype, dyntype, gaintype};
 use crate::mjcf::spec::ActuatorSpec;
 use crate::mjcf::text::diagnostic::shown;
-use crate::{biastype, dyntype, gaintype};
 use std::f64::consts::PI;
 
 /// Writes an element's own attributes into an actuator.

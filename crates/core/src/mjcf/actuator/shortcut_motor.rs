@@ -6,8 +6,8 @@
 
 use super::overlay::Overlay;
 use crate::forces::actuation::slots;
+use crate::kinds::{biastype, dyntype, gaintype};
 use crate::mjcf::spec::ActuatorSpec;
-use crate::{biastype, dyntype, gaintype};
 
 /// Writes the parameters of a motor into an actuator.
 pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {

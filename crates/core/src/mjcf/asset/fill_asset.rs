@@ -3,11 +3,11 @@
 use super::mesh::{Hull, Mesh};
 use super::read_asset::Assets;
 use super::skin::{Bone, Skin};
-use crate::Model;
 use crate::geometry::{self, Sides};
 use crate::math::Vec3;
 use crate::mjcf::arrays::{flat, ints};
 use crate::mjcf::scene::fill_scene::{Places, single as single_each};
+use crate::model::Model;
 
 /// Numbers that MuJoCo keeps as 32-bit floats have no more precision here.
 fn single(list: &[Vec3]) -> impl Iterator<Item = f64> + '_ {

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::hfield::HField;
 use super::mesh::{self, Body, Mesh, Problem, Raw};
 use super::skin::{self, Bone, Skin};
-use crate::geom;
+use crate::kinds::geom;
 use crate::math::{IDENTITY, norm};
 use crate::mjcf::asset::mesh::build::{self, Options};
 use crate::mjcf::classes::{Classes, Props};

@@ -3,7 +3,7 @@
 use super::frame::Pose;
 use super::inertia::principal;
 use super::read_joint;
-use crate::joint;
+use crate::kinds::joint;
 use crate::math::{IDENTITY, normalize};
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;

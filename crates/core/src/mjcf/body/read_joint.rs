@@ -1,7 +1,7 @@
 //! Joints.
 
 use super::limits;
-use crate::joint;
+use crate::kinds::joint;
 use crate::math::{norm, normalize};
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;

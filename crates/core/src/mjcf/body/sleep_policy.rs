@@ -1,11 +1,11 @@
 //! Which trees may sleep.
 
 use super::inertia::shown;
-use crate::Model;
 use crate::kinds::trntype;
 use crate::mjcf::layout::Layout;
 use crate::mjcf::spec::BodySpec;
 use crate::mjcf::text::diagnostic::{Report, code};
+use crate::model::Model;
 use crate::model::asleep::policy;
 
 /// Reports a choice where there is no tree to sleep.

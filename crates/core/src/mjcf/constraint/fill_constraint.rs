@@ -1,8 +1,8 @@
 //! Equality constraints, contact pairs and exclusions to the arrays of [`Model`].
 
-use crate::Model;
 use crate::mjcf::arrays::{flat, ints};
 use crate::mjcf::spec::{EqualitySpec, ExcludeSpec, PairSpec};
+use crate::model::Model;
 
 /// All fields of equality constraints.
 pub(crate) fn equalities(m: &mut Model, list: &[EqualitySpec]) {

@@ -1,12 +1,13 @@
 //! Equality constraints: what they tie, and their data as far as the text gives it.
 
+use crate::kinds::{eqtype, joint};
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::ids::References;
 use crate::mjcf::spec::{EqualitySpec, SOLIMP, SOLREF};
 use crate::mjcf::text::diagnostic::{Report, code};
 use crate::mjcf::text::tree::{Node, name};
-use crate::{Obj, eqtype, joint};
+use crate::model::Obj;
 
 /// All equality constraints in the order of the text.
 pub(crate) fn equalities(cx: &mut Context, refs: References) -> Vec<EqualitySpec> {

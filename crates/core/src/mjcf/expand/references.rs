@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use crate::Obj;
 use crate::mjcf::names::WORLD;
 use crate::mjcf::schema::Kind;
 use crate::mjcf::text::tree::{Attribute, Node};
 use crate::mjcf::text::values::Value;
+use crate::model::Obj;
 
 /// Objects by kind and name.
 pub(crate) type Names = BTreeSet<(&'static str, String)>;

@@ -1,7 +1,7 @@
 //! The form of a geom: a primitive shape, a mesh, a primitive shape in place of a mesh, a height field.
 
 use super::shapes::{self, Shape};
-use crate::geom;
+use crate::kinds::geom;
 use crate::math::{Vec3, norm};
 use crate::mjcf::body::frame::Pose;
 use crate::mjcf::classes::Props;

@@ -2,7 +2,7 @@
 
 use super::read_form::{self, Form};
 use super::shapes::{self, Shape};
-use crate::geom;
+use crate::kinds::geom;
 use crate::math::{MINVAL, Quat, Vec3, normalize, quat_normalize, scale, sub};
 use crate::mjcf::body::frame::Pose;
 use crate::mjcf::body::orientation;

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::kinds::joint;
 use crate::math::{IDENTITY, MINVAL, quat_conj, rotate, scale};
 use crate::mjcf::body::frame::Pose;
 use crate::mjcf::body::inertia::combined;
@@ -15,7 +16,7 @@ use crate::mjcf::settings::Compiler;
 use crate::mjcf::spec::{BodySpec, GeomSpec, Inertia};
 use crate::mjcf::text::tree::{Node, Tree};
 use crate::mjcf::text::values::Value;
-use crate::{Model, joint};
+use crate::model::Model;
 
 /// Carries out what the model asks for.
 pub(crate) fn apply(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &Tree, parts: &[Part]) {

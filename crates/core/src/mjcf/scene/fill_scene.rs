@@ -1,10 +1,10 @@
 //! Geoms, sites, cameras, lights, materials and custom data to the arrays of the model.
 
-use crate::Model;
 use crate::mjcf::arrays::{flat, ints};
 use crate::mjcf::spec::{
     CameraSpec, GeomSpec, LightSpec, List, MaterialSpec, NumericSpec, SiteSpec, TupleSpec,
 };
+use crate::model::Model;
 use std::collections::BTreeMap;
 
 /// What the functions of this file fill in.

@@ -1,6 +1,6 @@
 //! What marks a place or is there to be seen: sites, cameras, lights, materials; and custom data.
 
-use crate::geom;
+use crate::kinds::geom;
 use crate::math::normalize;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;

@@ -2,14 +2,15 @@
 //!
 //! Kinds of sensors and what each can be attached to stand in [`crate::sensor`]'s table.
 
+use crate::kinds::joint;
 use crate::mjcf::classes::Props;
 use crate::mjcf::ids::References;
 use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{List, SensorObjects, SensorSpec, SensorTiming, TendonSpec};
 use crate::mjcf::text::diagnostic::{Report, code, shown};
 use crate::mjcf::text::tree::{Node, Tree, name};
+use crate::model::Obj;
 use crate::sensor::{CONTACT_DATA, Datatype, KINDS, Kind, RAY_DATA, Senses, When, data_size};
-use crate::{Obj, joint};
 
 /// Largest number of values of all sensors, with those that are kept for delays.
 const MAX_VALUES: usize = 1 << 22;

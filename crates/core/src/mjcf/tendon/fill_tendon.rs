@@ -1,10 +1,11 @@
 //! Tendons to the arrays of [`Model`].
 
 use crate::forces::tendon;
+use crate::kinds::{trntype, wraptype};
 use crate::mjcf::arrays::{flat, ints, padded};
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, TendonSpec};
 use crate::mjcf::text::diagnostic::{Report, code};
-use crate::{Model, trntype, wraptype};
+use crate::model::Model;
 
 /// More entries than this in the Jacobians of all tendons are refused.
 const MAX_JACOBIAN: usize = 10_000_000;

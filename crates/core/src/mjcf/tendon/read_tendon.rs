@@ -1,5 +1,6 @@
 //! Tendons: attributes and paths.
 
+use crate::kinds::{geom, wraptype};
 use crate::mjcf::body::limits;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
@@ -8,7 +9,6 @@ use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{List, SOLIMP, SOLREF, TendonSpec, WrapSpec};
 use crate::mjcf::text::diagnostic::{Report, code};
 use crate::mjcf::text::tree::{Node, name};
-use crate::{geom, wraptype};
 
 /// All tendons in the order of the text.
 pub(crate) fn tendons(cx: &mut Context, refs: References) -> Vec<TendonSpec> {

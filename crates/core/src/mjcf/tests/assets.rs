@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use crate::mjcf::compile_with;
 use crate::mjcf::text::files::Files;
-use crate::{Data, Model, step};
+use crate::model::Model;
+use crate::step;
+use crate::step::data::Data;
 
 fn load(asset: &str, geom: &str, file: &str, bytes: &[u8]) -> Result<Model, String> {
     let files = BTreeMap::from([(file.to_string(), bytes.to_vec())]);

@@ -1,7 +1,9 @@
 //! Every field of the compiled model against what MuJoCo 3.14.0 compiles: `golden/record.py` recorded it.
 
+use crate::mjcf;
 use crate::model::reflect::{self, Object, View};
-use crate::{Data, Model, Obj, mjcf};
+use crate::model::{Model, Obj};
+use crate::step::data::Data;
 
 /// Fields that nothing fills yet.
 const NOT_YET: &[&str] = &["nD", "D_rownnz", "D_rowadr", "D_diag", "D_colind"];

@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::mjcf::compile;
-use crate::{Data, reset_data_keyframe, set_keyframe, step};
+use crate::step;
+use crate::step::data::Data;
+use crate::step::reset::{reset_data_keyframe, set_keyframe};
 
 const MODEL: &str = include_str!("golden/everything.xml");
 

@@ -1,8 +1,9 @@
 //! Semi-implicit Euler.
 
 use super::{Slopes, advance, advance_along};
+use crate::model::Model;
 use crate::step::damping::{damp, damps};
-use crate::{Data, Model};
+use crate::step::data::Data;
 
 /// v += h a, then q advances with the new v. Joint damping is implicit, so that it is stable however stiff:
 /// (M + h B) a' = M a, where B is the derivative of the damping force.

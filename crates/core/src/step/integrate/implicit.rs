@@ -5,7 +5,8 @@ use super::advance_along;
 use crate::dynamics::mass;
 use crate::forces::derivative::{self, Medium, sparse};
 use crate::math::{Spatial, solve_six};
-use crate::{Data, Fields, Model, Warning};
+use crate::model::{Fields, Model, Warning};
+use crate::step::data::Data;
 
 /// All of D.
 pub(super) fn implicit(m: &Model, data: &mut Data) {

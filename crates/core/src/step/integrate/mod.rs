@@ -7,10 +7,12 @@ mod runge_kutta;
 
 use super::{forward, sleep};
 use crate::forces::actuation;
+use crate::kinds::integrator;
 use crate::math::{combine, copy};
-use crate::model::asleep;
 use crate::model::stage::Stage;
-use crate::{Data, Model, constraint, integrator, sensor};
+use crate::model::{Model, asleep};
+use crate::step::data::Data;
+use crate::{constraint, sensor};
 
 pub use position::{differentiate_pos, integrate_pos};
 

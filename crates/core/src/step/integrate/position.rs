@@ -3,8 +3,9 @@
 //! Positions live on a manifold (unit quaternions), so they advance along velocities, never by adding
 //! coordinates (Hairer, Lubich and Wanner 2006, *Geometric Numerical Integration*, ch. IV).
 
+use crate::kinds::joint;
 use crate::math::*;
-use crate::{Model, joint};
+use crate::model::Model;
 
 /// qpos ← qpos advanced for a time `h` with velocity `v` (`mj_integratePos`).
 #[inline]

@@ -1,10 +1,15 @@
 //! Saved data come back whole or not at all.
 
 use super::*;
+use crate::constraint::contact_force;
+use crate::dynamics::subtree::subtree_vel;
 use crate::mjcf::compile;
 use crate::model::plan::Plan;
+use crate::sensor::body_force::rne_post_constraint;
+use crate::step::forward::forward;
+use crate::step::inverse::inverse;
 use crate::step::plan::Demand;
-use crate::{contact_force, forward, inverse, rne_post_constraint, step, step1, step2, subtree_vel};
+use crate::step::{step, step1, step2};
 
 const PILE: &str = "<mujoco><option integrator='INTEGRATOR'/><worldbody><geom type='plane' size='1 1 1'/>
     <body pos='0 0 .1'><freejoint/><geom size='.1'/></body>

@@ -11,8 +11,10 @@ mod wake;
 
 use std::ops::Range;
 
+use crate::constraint;
+use crate::kinds::joint;
 use crate::model::asleep::{self, awake, policy};
-use crate::{Fields, Model, constraint, joint};
+use crate::model::{Fields, Model};
 
 pub(crate) use rest::{fall_asleep, keep, keep_still, put_back};
 pub(crate) use wake::{wake, wake_by_equalities, wake_by_tendons, wake_touched};

@@ -2,8 +2,9 @@
 
 use super::{AWAKE, Scratch, coordinates};
 use crate::constraint::Islands;
+use crate::kinds::disable;
 use crate::model::asleep::{self, on, policy, some};
-use crate::{Fields, Model, disable};
+use crate::model::{Fields, Model};
 
 /// Whether a tree may sleep at all.
 fn may_sleep(m: &Model, tree: usize) -> bool {

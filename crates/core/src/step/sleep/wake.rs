@@ -1,8 +1,9 @@
 //! What wakes a tree.
 
 use super::{AWAKE, Scratch, coordinates, rest, update};
+use crate::kinds::eqtype;
 use crate::model::asleep::{on, some};
-use crate::{Fields, Model, eqtype};
+use crate::model::{Fields, Model};
 
 /// Wakes what was disturbed from outside since the last position stage: moved, pushed, or given a velocity.
 pub(crate) fn wake(m: &Model, d: &mut Fields, w: &mut Scratch) {
@@ -90,7 +91,7 @@ fn wake_one(d: &mut Fields, [a, b]: [usize; 2]) {
 fn tied_trees(m: &Model, e: usize) -> Option<[usize; 2]> {
     let body = |list: &[i32], id: i32| Some(*list.get(usize::try_from(id).ok()?)? as usize);
     let sides = [m.eq_obj1id[e], m.eq_obj2id[e]].map(|id| match m.eq_type[e] {
-        eqtype::CONNECT | eqtype::WELD if m.eq_objtype[e] == crate::Obj::Body as i32 => {
+        eqtype::CONNECT | eqtype::WELD if m.eq_objtype[e] == crate::model::Obj::Body as i32 => {
             usize::try_from(id).ok()
         }
         eqtype::CONNECT | eqtype::WELD => body(&m.site_bodyid, id),

@@ -5,13 +5,14 @@ mod attempt;
 mod seen;
 
 use super::{RanLab, Ready};
+use crate::advice::stability;
 use crate::bind::scene::finding;
 use crate::bind::warning;
 use crate::finding::Finding;
 use crate::run::{self, Budget, RunOptions};
 use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson};
 use attempt::{Attempt, Ended};
-use labspec_core::{Model, stability};
+use labspec_core::Model;
 use labspec_expr::Value;
 use seen::Seen;
 use std::ops::Range;

@@ -1,6 +1,6 @@
 use super::*;
-use crate::geom;
 use crate::geometry::tests::Random;
+use crate::kinds::geom;
 
 impl Random {
     fn pose(&mut self) -> Quat {

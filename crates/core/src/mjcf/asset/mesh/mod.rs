@@ -14,7 +14,7 @@ mod obj;
 mod polygon;
 mod stl;
 
-use crate::geom;
+use crate::kinds::geom;
 use crate::math::{Quat, Vec3, add, dot, norm, rotate, scale, sub};
 
 pub(crate) use hull::{Flat, Hull};

@@ -20,12 +20,9 @@
 //! else may feed a scene (other actuators, applied forces, wind, moving surfaces, dampers that push) ends the watch: a false
 //! alarm is worse than none.
 
-use crate::dynamics::mass;
-use crate::forces::passive::spring;
-use crate::forces::{actuation, transmission};
-use crate::math::*;
-use crate::step::forward;
-use crate::{Data, Model, Plan, disable};
+use labspec_core::math::{MINVAL, norm, rows};
+use labspec_core::{Data, Energy, Model, Plan, disable};
+use labspec_core::{exhausted, forward, limit, mechanical_energy, mul_m, work_left};
 
 /// How many times what the start held a gain has to be, and how many times the size of the scene it lifts everything.
 const FACTOR: f64 = 10.0;
@@ -73,14 +70,6 @@ struct Start {
     lift: f64,
 }
 
-/// ½ vᵀ M v, all that gravity and elastic things hold, and the latter alone, J.
-#[derive(Clone, Copy, Debug)]
-struct Energy {
-    kinetic: f64,
-    potential: f64,
-    elastic: f64,
-}
-
 /// A watch over a run that is now at `d`, with a look after each `every` steps. The only call that allocates.
 pub fn watch(m: &Model, d: &Data, every: usize) -> Watch {
     let own = Data::planned(m, Plan::awake());
@@ -101,10 +90,10 @@ pub fn restart(w: &mut Watch, m: &Model, d: &Data) {
     w.own.mocap_quat.clone_from(&d.mocap_quat);
     w.own.eq_active.clone_from(&d.eq_active);
     take(&mut w.own, d);
-    crate::limit(&mut w.own, d.meter.left());
-    forward::forward(m, &mut w.own);
-    if !crate::exhausted(&w.own) {
-        w.start = energy(m, &mut w.own).map(|energy| start(m, &w.own, energy));
+    limit(&mut w.own, work_left(d));
+    forward(m, &mut w.own);
+    if !exhausted(&w.own) {
+        w.start = mechanical_energy(m, &mut w.own).map(|energy| start(m, &w.own, energy));
     }
 }
 
@@ -129,9 +118,8 @@ pub fn look(w: &mut Watch, m: &Model, d: &Data) -> Option<Growth> {
         return w.found;
     };
     take(&mut w.own, d);
-    place(m, &mut w.own);
-    let now = energy(m, &mut w.own)?;
-    let given = before.potential - now.potential;
+    let now = mechanical_energy(m, &mut w.own)?;
+    let given = before.potential() - now.potential();
     let gain = now.kinetic - before.kinetic - given;
     let least = FACTOR * held + LIFTS * lift;
     // A gain that is no number is not above anything.
@@ -152,50 +140,9 @@ pub fn look(w: &mut Watch, m: &Model, d: &Data) -> Option<Growth> {
 
 /// The state of a run.
 fn take(own: &mut Data, d: &Data) {
-    copy(&d.qpos, &mut own.qpos);
-    copy(&d.qvel, &mut own.qvel);
+    own.qpos.copy_from_slice(&d.qpos);
+    own.qvel.copy_from_slice(&d.qvel);
     own.time = d.time;
-}
-
-/// Where things are, how long, and how heavy: what energies follow from.
-fn place(m: &Model, d: &mut Data) {
-    forward::placed(m, d);
-    transmission::transmissions(m, &mut d.fields, &mut d.work.forces);
-}
-
-/// Energies of data whose places are known; `None` where some actuator may feed the scene.
-fn energy(m: &Model, d: &mut Data) -> Option<Energy> {
-    let mut gravity = 0.0;
-    if !m.opt.disabled(disable::GRAVITY) {
-        for (b, &x) in rows::<3>(&d.xipos).iter().enumerate().skip(1) {
-            gravity -= m.body_mass[b] * (1.0 - m.body_gravcomp[b]) * dot(m.opt.gravity, x);
-        }
-    }
-    let springs = if m.opt.disabled(disable::SPRING) { 0.0 } else { spring::energy(m, d) };
-    let elastic = springs + servos(m, d)?;
-    Some(Energy { kinetic: 0.5 * mass::quadratic(m, &d.M, &d.qvel), potential: gravity + elastic, elastic })
-}
-
-/// The potential of all actuators; `None` where one of them has none.
-///
-/// A force clip(u) with u = a - k x has the potential Φ(u)/k, where Φ' = clip: a parabola with its tangents beyond the limits.
-/// With k = 0 the force c is constant: -c x.
-fn servos(m: &Model, d: &mut Data) -> Option<f64> {
-    if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
-        return Some(0.0);
-    }
-    let mut sum = 0.0;
-    actuation::controls(m, d);
-    for i in (0..m.nactuator).filter(|&i| !actuation::switched_off(m, i)) {
-        if actuation::idle(m, d, i) {
-            continue;
-        }
-        let [u, k] = actuation::along_length(m, d, i)?;
-        let c = if m.actuator_forcelimited[i] { clip(u, rows::<2>(&m.actuator_forcerange)[i]) } else { u };
-        let length = d.actuator_length[m.actuator_outadr[i] as usize];
-        sum += if k != 0.0 { c * (u - 0.5 * c) / k } else { -c * length };
-    }
-    Some(sum)
 }
 
 /// A start with what it holds: its motion, what is elastic, and what the constraints that it violates push back with.
@@ -223,7 +170,7 @@ fn size(m: &Model, d: &Data) -> f64 {
 /// The degree of freedom whose part v (M v) of the kinetic energy is the largest.
 fn liveliest(m: &Model, d: &Data) -> usize {
     let mut momentum = vec![0.0; m.nv];
-    mass::mul(m, &d.M, &d.qvel, &mut momentum, 0..m.nv);
+    mul_m(m, d, &d.qvel, &mut momentum);
     let part = |k: usize| (d.qvel[k] * momentum[k]).abs();
     (0..d.qvel.len()).max_by(|&a, &b| part(a).total_cmp(&part(b))).unwrap_or(0)
 }
@@ -261,7 +208,7 @@ fn fed(m: &Model, d: &Data) -> bool {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::{mjcf, reset_data, step};
+    use labspec_core::{mjcf, reset_data, step};
 
     /// What is found in a run of so many steps, looked at 24 times, from a start.
     fn run(text: &str, steps: usize, start: impl Fn(&mut Data)) -> Option<Growth> {

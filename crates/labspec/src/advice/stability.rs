@@ -10,9 +10,8 @@
 //! default configuration; what couples several joints may do so without being found. Constraints ask for accelerations:
 //! there w = 1.
 
-use crate::forces::actuation::motor;
-use crate::math::{MINVAL, rows};
-use crate::{Model, Obj, biastype, disable, integrator, joint, trntype};
+use labspec_core::math::{MINVAL, rows};
+use labspec_core::{Model, Obj, disable, integrator, joint, servo_gains, trntype};
 
 /// A spring, servo or constraint that no step of this length can follow.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,7 +127,7 @@ fn judge(
     let mut worst = (alone(stiff, if own_implicit { 0.0 } else { damping }), Part::Spring, object, id);
     if !m.opt.disabled(disable::ACTUATION) {
         for a in (0..m.nactuator).filter(|&a| along(a)) {
-            let Some(gains) = gains(m, a) else { continue };
+            let Some(gains) = servo_gains(m, a) else { continue };
             let gear = rows::<6>(&m.actuator_gear).get(m.actuator_outadr[a] as usize).map_or(0.0, |g| g[0]);
             let [kp, kv] = gains.map(|g| (g * gear * gear).max(0.0));
             sum.stiff += kp;
@@ -142,18 +141,6 @@ fn judge(
     let (excess, timestep) = sum.judge(m, inverse);
     let (_, part, object, id) = worst;
     list.push(Suspect { object, id, part, excess, timestep });
-}
-
-/// `kp` and `kv` of an actuator, along its own length; `None` when these do not follow from its parameters alone.
-fn gains(m: &Model, a: usize) -> Option<[f64; 2]> {
-    match m.actuator_biastype[a] {
-        // Servos and controllers of type pid: constant, -kp, -kv.
-        biastype::AFFINE => {
-            rows::<10>(&m.actuator_biasprm).get(a).map(|&[_, length, velocity, ..]| [-length, -velocity])
-        }
-        biastype::DCMOTOR => motor::gains(m, a),
-        _ => None,
-    }
 }
 
 /// Contacts, limits and equalities by their `solref`.
@@ -202,8 +189,7 @@ fn reference(m: &Model, [time, ratio]: [f64; 2]) -> Spring {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::step;
-    use crate::{Data, mjcf};
+    use labspec_core::{Data, mjcf, step};
 
     /// A slide of 2 kg with a servo, and what else is said.
     fn servo(option: &str, servo: &str, joint: &str) -> Model {
