@@ -61,6 +61,6 @@ pub use step::functions::{
 };
 pub use step::integrate::{differentiate_pos, integrate_pos};
 pub use step::inverse::{InverseError, inverse};
-pub use step::plan::Demand;
 pub use step::reset::{reset_data, reset_data_keyframe, set_keyframe, set_plan};
+pub use step::scene::Demand;
 pub use step::{save, step, step1, step2};

@@ -10,6 +10,7 @@ use super::rows::{resize, soften};
 use super::{Scratch, contact, equality, kind};
 use crate::dynamics::mass;
 use crate::math::*;
+use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// Replaces `efc_R` with what follows from it, and sets `efc_aref`. `metric` is the diagonal of the matrix that takes the
@@ -30,7 +31,7 @@ pub(crate) fn at_end_of_step(m: &Model, d: &mut Fields, w: &Scratch, metric: &[f
     for (aref, kbip) in d.efc_aref.iter_mut().zip(rows::<4>(&d.efc_KBIP)) {
         *aref /= growth(h, kbip);
     }
-    if d.plan.adhesion {
+    if d.plan.has(Fact::Adhesion) {
         contact::adhesion(d);
     }
 }

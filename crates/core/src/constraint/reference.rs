@@ -3,6 +3,7 @@
 use super::{Scratch, contact, equality};
 use crate::kinds::integrator;
 use crate::math::*;
+use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// `efc_vel` = J v and `efc_aref` = -B J v - K d r, less the acceleration J̇ v that is there already.
@@ -12,7 +13,7 @@ pub(crate) fn reference(m: &Model, d: &mut Fields, w: &Scratch) {
         return;
     }
     w.jac.mul(&d.qvel, &mut d.efc_vel);
-    if d.plan.surfaces {
+    if d.plan.has(Fact::Surfaces) {
         contact::surfaces(m, d);
     }
     if m.opt.integrator == integrator::DISCRETE {
@@ -26,7 +27,7 @@ pub(crate) fn reference(m: &Model, d: &mut Fields, w: &Scratch) {
     if d.ne > 0 {
         equality::bias(m, d);
     }
-    if d.plan.adhesion {
+    if d.plan.has(Fact::Adhesion) {
         contact::adhesion(d);
     }
 }

@@ -12,6 +12,7 @@ use super::primal::{Problem, shape};
 use crate::dynamics::mass;
 use crate::kinds::{disable, solver};
 use crate::math::{copy, zero};
+use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// `qacc`, `efc_force`, `qfrc_constraint`, `solver_niter`, from `qacc_smooth` and the rows.
@@ -58,7 +59,7 @@ pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch) {
             problem.finish_dual();
         }
     }
-    if d.plan.solver_details {
+    if d.plan.has(Fact::SolverDetails) {
         details(d, jac, &s.jar);
     }
 }

@@ -6,6 +6,7 @@ use crate::dynamics::Scratch;
 use crate::kinds::joint;
 use crate::math::lanes::{Axes, Lane3, along, axes, lane3, matrix, product, turned, vec3};
 use crate::math::*;
+use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
@@ -145,7 +146,7 @@ pub(crate) fn kinematics(m: &Model, d: &mut Fields, w: &mut Scratch) {
 /// Poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
 #[inline(never)]
 pub(crate) fn bodies(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    if d.plan.frames_may_change {
+    if d.plan.has(Fact::FramesChange) {
         w.frames.load(m);
     }
     let Frames { bodies, joints, poses } = &mut w.frames;

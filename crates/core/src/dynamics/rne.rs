@@ -3,6 +3,7 @@
 use crate::dynamics::{Scratch, chain};
 use crate::kinds::{disable, joint};
 use crate::math::{lanes, *};
+use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// `qfrc_bias`. Trees take recursive Newton–Euler, short chains a projection; a simple body, alone in its tree
@@ -10,11 +11,11 @@ use crate::model::{Fields, Model};
 #[inline(never)]
 pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
-    if d.plan.recursion {
+    if d.plan.has(Fact::Recursion) {
         newton_euler(m, d, w, gravity);
     }
     chain::bias(d, w, gravity);
-    if !d.plan.simple_bodies {
+    if !d.plan.has(Fact::SimpleBodies) {
         return;
     }
     for (j, &body) in m.jnt_bodyid.iter().enumerate() {

@@ -13,81 +13,78 @@ pub struct Decision {
     pub reason: String,
 }
 
+/// What is known of a scene once and for all, where stages would otherwise look again at every step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fact {
+    /// Some tree is more than one simple body; otherwise the mass matrix is diagonal and constant.
+    General,
+    /// Composite inertias are computed: some tree is more than a short chain, or they are read.
+    Composite,
+    /// Forces of bodies are computed by recursion: some tree is more than a short chain.
+    Recursion,
+    /// M and the rows of its factorization are computed only in steps in which constraints act: nothing else looks at them.
+    MassForRows,
+    /// Some body is a simple one.
+    SimpleBodies,
+    /// The parameters of short chains may change.
+    ChainsChange,
+    /// The frames of bodies and joints may change.
+    FramesChange,
+    /// There can be equality constraints.
+    Equalities,
+    /// There can be dry friction.
+    FrictionLoss,
+    /// Joints or tendons can be limited.
+    Limits,
+    /// Contacts pull.
+    Adhesion,
+    /// Surfaces move by themselves.
+    Surfaces,
+    /// Whether joints have dampers is known once and for all.
+    DampersStay,
+    /// Then: they do.
+    JointDampers,
+    /// Springs are looked at.
+    Springs,
+    /// Dampers are looked at.
+    Dampers,
+    /// Some dampers of joints belong to actuators.
+    ActuatorDampers,
+    /// All actuators are motors of slides and hinges: each makes a force in proportion to its control.
+    Motors,
+    /// Forces of actuators are limited, one by one or by joint.
+    ForceLimits,
+    /// The solver says more than forces: `efc_b` and `efc_state`.
+    SolverDetails,
+    /// Bodies feel a medium or gravity compensation.
+    BodyForces,
+    /// Forces applied to bodies are looked at.
+    AppliedForces,
+    /// Which pairs of geoms may touch can change while it runs.
+    PairsChange,
+    /// The parameters of contacts may change.
+    ContactParamsChange,
+}
+
 /// Which stages run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     pub(crate) decisions: Vec<Decision>,
-    pub(crate) kept: u32,
-    /// Whether some tree is more than one simple body; otherwise the mass matrix is diagonal and constant.
-    pub(crate) some_general: bool,
-    /// Whether composite inertias are computed: some tree is more than a short chain, or they are read.
-    pub(crate) composite: bool,
-    /// Whether forces of bodies are computed by recursion: some tree is more than a short chain.
-    pub(crate) recursion: bool,
-    /// Whether M and the rows of its factorization are computed only in steps in which constraints act: nothing else
-    /// looks at them.
-    pub(crate) mass_for_rows: bool,
-    /// Whether some body is a simple one.
-    pub(crate) simple_bodies: bool,
-    /// Whether the parameters of short chains, or the frames of bodies and joints, may change.
-    pub(crate) chains_may_change: bool,
-    pub(crate) frames_may_change: bool,
-    /// Whether there can be equality constraints, dry friction, or limits of joints and tendons.
-    pub(crate) equalities: bool,
-    pub(crate) friction_loss: bool,
-    pub(crate) limits: bool,
-    /// Whether contacts pull, and whether surfaces move by themselves.
-    pub(crate) adhesion: bool,
-    pub(crate) surfaces: bool,
-    /// Whether joints have dampers, where that is known once and for all; whether springs and dampers are looked at, and
-    /// whether some of the dampers belong to actuators.
-    pub(crate) damped: Option<bool>,
-    pub(crate) springs: bool,
-    pub(crate) dampers: bool,
-    pub(crate) actuator_dampers: bool,
-    /// Whether all actuators are motors of slides and hinges: each makes a force in proportion to its control.
-    pub(crate) motors: bool,
-    /// Whether forces of actuators are limited, one by one or by joint.
-    pub(crate) force_limits: bool,
-    /// Whether the solver says more than forces: `efc_b` and `efc_state`.
-    pub(crate) solver_details: bool,
-    /// Whether bodies feel a medium or gravity compensation.
-    pub(crate) body_forces: bool,
-    /// Whether forces applied to bodies are looked at.
-    pub(crate) applied_forces: bool,
-    pub(crate) pairs_may_change: bool,
-    pub(crate) contact_params_may_change: bool,
+    /// A bit for each stage that runs, and for each fact that holds.
+    kept: u32,
+    facts: u32,
+    /// What a forward pass runs of each of its parts; then the same without what sensors show.
+    pub(crate) passes: [[u32; 3]; 2],
 }
 
 impl Default for Plan {
-    fn default() -> Self {
-        Plan {
-            decisions: Vec::new(),
-            kept: 0,
-            some_general: true,
-            composite: true,
-            recursion: true,
-            mass_for_rows: false,
-            simple_bodies: true,
-            chains_may_change: true,
-            frames_may_change: true,
-            equalities: true,
-            friction_loss: true,
-            limits: true,
-            adhesion: true,
-            surfaces: true,
-            damped: None,
-            springs: true,
-            dampers: true,
-            actuator_dampers: true,
-            motors: false,
-            force_limits: true,
-            solver_details: true,
-            body_forces: true,
-            applied_forces: true,
-            pairs_may_change: true,
-            contact_params_may_change: true,
+    /// No stage, and nothing is known.
+    fn default() -> Plan {
+        let mut plan = Plan { decisions: Vec::new(), kept: 0, facts: u32::MAX, passes: [[0; 3]; 2] };
+        for known in [Fact::MassForRows, Fact::DampersStay, Fact::Motors] {
+            plan.state(known, false);
         }
+        plan
     }
 }
 
@@ -98,20 +95,24 @@ impl Plan {
         self.kept & (1 << stage as u32) != 0
     }
 
+    /// Whether something is known to hold of the scene.
+    #[inline(always)]
+    pub(crate) fn has(&self, fact: Fact) -> bool {
+        self.facts & (1 << fact as u32) != 0
+    }
+
     /// Every stage with the reason to keep it or leave it out, in the order of the pipeline.
     pub fn decisions(&self) -> &[Decision] {
         &self.decisions
     }
 
-    /// The same with every stage kept and no list of reasons.
-    pub(crate) fn keeping_all(self) -> Plan {
-        Plan { kept: u32::MAX, ..self }
+    pub(crate) fn keep(&mut self, stage: Stage, keep: bool) {
+        let bit = 1 << stage as u32;
+        self.kept = if keep { self.kept | bit } else { self.kept & !bit };
     }
 
-    pub(crate) fn decide(&mut self, stage: Stage, keep: bool, reason: String) {
-        if keep {
-            self.kept |= 1 << stage as u32;
-        }
-        self.decisions.push(Decision { stage, keep, reason });
+    pub(crate) fn state(&mut self, fact: Fact, holds: bool) {
+        let bit = 1 << fact as u32;
+        self.facts = if holds { self.facts | bit } else { self.facts & !bit };
     }
 }

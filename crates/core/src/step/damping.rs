@@ -4,6 +4,7 @@ use crate::dynamics::{self, articulated};
 use crate::forces::passive::spring;
 use crate::kinds::disable;
 use crate::math::combine;
+use crate::model::plan::Fact;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
 
@@ -53,7 +54,7 @@ pub(super) fn accelerate(
 #[inline(always)]
 fn damping(m: &Model, d: &Fields, out: &mut [f64]) {
     let h = m.opt.timestep;
-    spring::of_dampers(m, d.plan.actuator_dampers, &d.qvel, out, |law, v| h * law.slope(v.abs()));
+    spring::of_dampers(m, d.plan.has(Fact::ActuatorDampers), &d.qvel, out, |law, v| h * law.slope(v.abs()));
 }
 
 /// Whether some degree of freedom has a damper, and dampers are on.
@@ -61,7 +62,7 @@ pub(super) fn damps(m: &Model, d: &Fields) -> bool {
     d.plan.keeps(Stage::Passive)
         && !m.opt.disabled(disable::EULERDAMP)
         && !m.opt.disabled(disable::DAMPER)
-        && d.plan.damped.unwrap_or_else(|| has_dampers(m))
+        && if d.plan.has(Fact::DampersStay) { d.plan.has(Fact::JointDampers) } else { has_dampers(m) }
 }
 
 /// Whether some degree of freedom has a damper.

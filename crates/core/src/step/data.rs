@@ -33,6 +33,8 @@ pub(crate) struct Work {
     /// The metric of the discrete integrator.
     pub(crate) metric: Metric,
     pub(crate) rk: RungeKutta,
+    /// Whether the state at hand is one that nobody sees, between two steps.
+    pub(crate) unseen: bool,
 }
 
 impl Work {

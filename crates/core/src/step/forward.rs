@@ -1,162 +1,142 @@
-//! `mj_forward`: the order of the stages, each a call to the module that holds its formula.
+//! `mj_forward`: the stages of a plan in their order, and the call that each of them is.
 
+use super::pipeline::{INPUTS, POSITIONS, VELOCITIES};
 use super::{damping, discrete, sleep};
 use crate::dynamics::{articulated, camera, chain, com, jacobian, kinematics, mass, rne, subtree};
 use crate::forces::{actuation, energy, passive, tendon, transmission};
 use crate::kinds::{disable, enable, integrator};
 use crate::math::{combine, copy, rows};
+use crate::model::plan::Fact;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model, Warning};
-use crate::sensor::{self, When, body_force};
+use crate::sensor::{When, body_force};
 use crate::step::data::Data;
-use crate::{collision, constraint};
-
-/// What a caller can leave out of a forward pass.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Skip(u8);
-
-impl Skip {
-    pub(crate) const NOTHING: Skip = Skip(0);
-    /// Sensors: Runge–Kutta stages between steps do not show. The energy is that of the last stage, in MuJoCo as here.
-    pub(crate) const SENSORS: Skip = Skip(1);
-}
+use crate::{collision, constraint, sensor};
 
 /// Computes everything that follows from the state, without advancing time (`mj_forward`).
 pub fn forward(m: &Model, d: &mut Data) {
-    forward_skip(m, d, Skip::NOTHING);
+    from_state(m, d);
+    from_inputs(m, d);
 }
 
-pub(crate) fn forward_skip(m: &Model, d: &mut Data, skip: Skip) {
-    from_state(m, d, skip);
-    from_inputs(m, d, skip);
+/// The same without what sensors show, for states between those that anybody sees. The energy is that of the last one, in
+/// MuJoCo as here.
+pub(crate) fn forward_unseen(m: &Model, d: &mut Data) {
+    d.work.unseen = true;
+    forward(m, d);
+    d.work.unseen = false;
 }
 
 /// What follows from positions and velocities, with the sensors and the energy that they determine.
-pub(crate) fn from_state(m: &Model, d: &mut Data, skip: Skip) {
+pub(crate) fn from_state(m: &Model, d: &mut Data) {
     let half = d.meter.half;
     d.meter.add(half);
     position(m, d);
-    read(m, d, When::Position, skip);
-    potential_energy(m, d, skip);
     velocity(m, d);
-    read(m, d, When::Velocity, skip);
-    kinetic_energy(m, d);
+}
+
+/// What depends on `qpos` alone.
+pub(crate) fn position(m: &Model, d: &mut Data) {
+    let [bits, ..] = d.plan.passes[usize::from(d.work.unseen)];
+    POSITIONS.run(m, d, bits);
+}
+
+/// What depends on `qvel` as well.
+pub(crate) fn velocity(m: &Model, d: &mut Data) {
+    let [_, bits, _] = d.plan.passes[usize::from(d.work.unseen)];
+    VELOCITIES.run(m, d, bits);
 }
 
 /// What follows from inputs as well: forces, accelerations and the other sensors.
-pub(super) fn from_inputs(m: &Model, d: &mut Data, skip: Skip) {
+pub(super) fn from_inputs(m: &Model, d: &mut Data) {
     let half = d.meter.half;
     d.meter.add(half);
-    sleep::keep(m, &d.fields, &mut d.work.sleep);
-    actuation(m, d);
-    acceleration(m, d);
-    sleep::put_back(m, &mut d.fields, &d.work.sleep);
-    constraints(m, d);
-    read(m, d, When::Acceleration, skip);
+    let [.., bits] = d.plan.passes[usize::from(d.work.unseen)];
+    INPUTS.run(m, d, bits);
     sleep::passed(&mut d.work.sleep);
 }
 
 /// The same, and what follows from velocities.
 pub(crate) fn from_velocities(m: &Model, d: &mut Data) {
     velocity(m, d);
-    read(m, d, When::Velocity, Skip::NOTHING);
-    kinetic_energy(m, d);
-    from_inputs(m, d, Skip::NOTHING);
+    from_inputs(m, d);
 }
 
-/// What depends on `qpos` alone.
-pub(crate) fn position(m: &Model, d: &mut Data) {
-    if POSES.iter().any(|&stage| d.plan.keeps(stage)) {
-        poses(m, d);
-    }
-    inertia_and_constraints(m, d);
+/// Where things are and M, without what touches: what energies follow from.
+pub(crate) fn placed(m: &Model, d: &mut Data) {
+    let [bits, ..] = d.plan.passes[0];
+    POSITIONS.run(m, d, bits & POSITIONS.before(Stage::MassMatrix));
+    fill_mass_matrix(m, d, d.plan.has(Fact::Composite));
 }
 
-/// Where things are: a scene whose trees have their equations in closed form needs none of it.
-const POSES: [Stage; 8] = [
-    Stage::Sleep,
-    Stage::Kinematics,
-    Stage::Orientations,
-    Stage::GeomPoses,
-    Stage::SitePoses,
-    Stage::ComPos,
-    Stage::CameraPoses,
-    Stage::Tendon,
-];
+// What the rows of `pipeline` run: the functions of the stages, with the scratch of their rooms.
 
-#[inline(never)]
-fn poses(m: &Model, d: &mut Data) {
-    if d.plan.keeps(Stage::Sleep) {
-        sleep::wake(m, &mut d.fields, &mut d.work.sleep);
-    }
-    if d.plan.keeps(Stage::Kinematics) {
-        kinematics::bodies(m, &mut d.fields, &mut d.work.dynamics);
-    }
-    if d.plan.keeps(Stage::Orientations) {
-        kinematics::orientations(&mut d.fields, &mut d.work.dynamics);
-    }
-    if d.plan.keeps(Stage::GeomPoses) {
-        kinematics::geoms(m, d);
-    }
-    if d.plan.keeps(Stage::SitePoses) {
-        kinematics::sites(m, d);
-    }
-    if d.plan.keeps(Stage::ComPos) {
-        com::com_pos(m, d);
-    }
-    if d.plan.keeps(Stage::CameraPoses) {
-        camera::cameras(m, d);
-        camera::lights(m, d);
-    }
-    if d.plan.keeps(Stage::Tendon) {
-        tendon::tendons(m, d);
-    }
+/// A function of the pipeline that calls one of a stage.
+macro_rules! calls {
+    ($($name:ident($m:ident, $d:ident) $call:block)*) => {
+        $(pub(super) fn $name($m: &Model, $d: &mut Data) $call)*
+    };
+}
+calls! {
+    wake(m, d) { sleep::wake(m, &mut d.fields, &mut d.work.sleep) }
+    keep_sleeping(m, d) { sleep::keep(m, &d.fields, &mut d.work.sleep) }
+    bodies(m, d) { kinematics::bodies(m, &mut d.fields, &mut d.work.dynamics) }
+    orientations(_m, d) { kinematics::orientations(&mut d.fields, &mut d.work.dynamics) }
+    geoms(m, d) { kinematics::geoms(m, d) }
+    sites(m, d) { kinematics::sites(m, d) }
+    com_pos(m, d) { com::com_pos(m, d) }
+    transmissions(m, d) { transmission::transmissions(m, &mut d.fields, &mut d.work.forces) }
+    tendon_velocities(m, d) { tendon::velocities(m, d) }
+    actuator_velocities(m, d) { transmission::velocities(m, d) }
+    com_vel(m, d) { com::com_vel(m, d) }
+    passive(m, d) { passive::passive(m, d) }
+    reference(m, d) { constraint::reference(m, &mut d.fields, &d.work.constraint) }
+    actuation(m, d) { actuation::actuation(m, &mut d.fields, &mut d.work.forces) }
+    position_sensors(m, d) { sensor::evaluate(m, &mut d.fields, &mut d.work.sensor, When::Position) }
+    velocity_sensors(m, d) { sensor::evaluate(m, &mut d.fields, &mut d.work.sensor, When::Velocity) }
+    acceleration_sensors(m, d) { sensor::evaluate(m, &mut d.fields, &mut d.work.sensor, When::Acceleration) }
+}
+
+pub(super) fn cameras_and_lights(m: &Model, d: &mut Data) {
+    camera::cameras(m, d);
+    camera::lights(m, d);
+}
+
+pub(super) fn tendons(m: &Model, d: &mut Data) {
+    tendon::tendons(m, d);
     if d.plan.keeps(Stage::Sleep) {
         sleep::wake_by_tendons(m, d);
     }
 }
 
-/// Where things are and M, without what touches: what energies follow from.
-pub(crate) fn placed(m: &Model, d: &mut Data) {
-    poses(m, d);
-    mass_matrix(m, d, d.plan.composite);
+/// `M`, but for what is put off to steps in which constraints act.
+pub(super) fn mass_matrix(m: &Model, d: &mut Data) {
+    fill_mass_matrix(m, d, d.plan.has(Fact::Composite) && !d.plan.has(Fact::MassForRows));
 }
 
-fn inertia_and_constraints(m: &Model, d: &mut Data) {
-    let composite = d.plan.composite && !d.plan.mass_for_rows;
-    if d.plan.keeps(Stage::MassMatrix) {
-        mass_matrix(m, d, composite);
+/// `M`, with or without what follows from composite inertias.
+#[inline(always)]
+fn fill_mass_matrix(m: &Model, d: &mut Data, composite: bool) {
+    if composite {
+        mass::composite_inertia(m, &mut d.fields, &mut d.work.dynamics, true);
+    } else if d.plan.has(Fact::SimpleBodies) {
+        mass::simple_diagonal(m, d);
     }
-    if d.plan.keeps(Stage::Factor) && !d.plan.mass_for_rows {
-        let bad = articulated::factor(m, &mut d.fields, &mut d.work.dynamics);
-        check_inertia(d, bad);
+    chain::mass_matrix(m, &mut d.fields, &mut d.work.dynamics);
+    if m.ntendon > 0 {
+        tendon::armature(m, d);
     }
-    if d.plan.keeps(Stage::Collision) {
-        if m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(disable::CONTACT) || d.meter.over() {
-            collision::none(d);
-        } else {
-            collision::collide(m, &mut d.fields, &mut d.work.collision);
-            if sleep::wake_touched(m, d) {
-                collision::collide(m, &mut d.fields, &mut d.work.collision);
-            }
-        }
+}
+
+pub(super) fn factor(m: &Model, d: &mut Data) {
+    if !d.plan.has(Fact::MassForRows) {
+        factor_now(m, d);
     }
-    if d.plan.keeps(Stage::Sleep) {
-        sleep::wake_by_equalities(m, d);
-    }
-    if d.plan.keeps(Stage::Constraint) {
-        constraint::make(m, &mut d.fields, &mut d.work.constraint);
-        if d.plan.mass_for_rows && d.nefc > 0 {
-            if d.plan.composite {
-                mass_matrix(m, d, true);
-            }
-            let bad = articulated::factor(m, &mut d.fields, &mut d.work.dynamics);
-            check_inertia(d, bad);
-        }
-    }
-    if d.plan.keeps(Stage::Transmission) {
-        transmission::transmissions(m, &mut d.fields, &mut d.work.forces);
-    }
+}
+
+fn factor_now(m: &Model, d: &mut Data) {
+    let bad = articulated::factor(m, &mut d.fields, &mut d.work.dynamics);
+    check_inertia(d, bad);
 }
 
 /// Warns of a degree of freedom without inertia.
@@ -166,68 +146,53 @@ fn check_inertia(d: &mut Fields, bad: Option<usize>) {
     }
 }
 
-/// `M`, with or without what follows from composite inertias.
-#[inline(always)]
-fn mass_matrix(m: &Model, d: &mut Data, composite: bool) {
-    if composite {
-        mass::composite_inertia(m, &mut d.fields, &mut d.work.dynamics, true);
-    } else if d.plan.simple_bodies {
-        mass::simple_diagonal(m, d);
+pub(super) fn collide(m: &Model, d: &mut Data) {
+    if m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(disable::CONTACT) || d.meter.over() {
+        return collision::none(d);
     }
-    chain::mass_matrix(m, &mut d.fields, &mut d.work.dynamics);
-    if m.ntendon > 0 {
-        tendon::armature(m, d);
+    collision::collide(m, &mut d.fields, &mut d.work.collision);
+    if sleep::wake_touched(m, d) {
+        collision::collide(m, &mut d.fields, &mut d.work.collision);
     }
 }
 
-/// What depends on `qvel` as well.
-pub(crate) fn velocity(m: &Model, d: &mut Data) {
-    if d.plan.keeps(Stage::TendonVel) {
-        tendon::velocities(m, d);
+pub(super) fn make_constraints(m: &Model, d: &mut Data) {
+    if d.plan.keeps(Stage::Sleep) {
+        sleep::wake_by_equalities(m, d);
     }
-    if d.plan.keeps(Stage::ActuatorVel) {
-        transmission::velocities(m, d);
+    constraint::make(m, &mut d.fields, &mut d.work.constraint);
+    if d.plan.has(Fact::MassForRows) && d.nefc > 0 {
+        if d.plan.has(Fact::Composite) {
+            fill_mass_matrix(m, d, true);
+        }
+        factor_now(m, d);
     }
-    if d.plan.keeps(Stage::ComVel) {
-        com::com_vel(m, d);
-    }
-    if d.plan.keeps(Stage::Passive) {
-        passive::passive(m, d);
-    }
-    if d.plan.keeps(Stage::Reference) {
-        constraint::reference(m, &mut d.fields, &d.work.constraint);
-    }
-    if d.plan.keeps(Stage::Bias) {
-        rne::bias(m, &mut d.fields, &mut d.work.dynamics);
+}
+
+pub(super) fn bias(m: &Model, d: &mut Data) {
+    rne::bias(m, &mut d.fields, &mut d.work.dynamics);
+    if m.ntendon > 0 {
         tendon::bias(m, d);
     }
 }
 
-/// Forces of actuators: what depends on `ctrl` and `act` as well.
-pub(crate) fn actuation(m: &Model, d: &mut Data) {
-    if d.plan.keeps(Stage::Actuation) {
-        actuation::actuation(m, &mut d.fields, &mut d.work.forces);
-    }
-}
-
-/// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`.
-#[inline(never)]
-pub(crate) fn acceleration(m: &Model, data: &mut Data) {
-    let Data { fields: d, work } = data;
+/// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`; `qacc` where no constraint can act.
+pub(super) fn acceleration(m: &Model, data: &mut Data) {
+    let Data { fields: d, work } = &mut *data;
     let forces = [&*d.qfrc_passive, &*d.qfrc_bias, &*d.qfrc_applied, &*d.qfrc_actuator];
     combine(&mut d.qfrc_smooth, forces, |_, [passive, bias, applied, actuator]| {
         passive - bias + applied + actuator
     });
-    if d.plan.applied_forces {
+    if d.plan.has(Fact::AppliedForces) {
         applied_forces(m, d);
     }
     work.damping.done = false;
     if m.opt.integrator == integrator::DISCRETE {
         discrete::acceleration(m, d, &mut work.metric, &mut work.derivative);
-    } else if d.plan.some_general {
+    } else if d.plan.has(Fact::General) {
         let mut out = std::mem::take(&mut d.qacc_smooth);
         copy(&d.qfrc_smooth, &mut out);
-        if d.plan.mass_for_rows && d.nefc == 0 {
+        if d.plan.has(Fact::MassForRows) && d.nefc == 0 {
             let euler = m.opt.integrator == integrator::EULER && damping::damps(m, d);
             let bad = match euler {
                 true => damping::accelerate(m, d, &mut work.dynamics, &mut work.damping, &mut out),
@@ -240,6 +205,13 @@ pub(crate) fn acceleration(m: &Model, data: &mut Data) {
         d.qacc_smooth = out;
     } else {
         combine(&mut d.qacc_smooth, [&*d.qfrc_smooth, &*d.qLDiagInv], |_, [f, inv]| f * inv);
+    }
+    if d.plan.keeps(Stage::Sleep) {
+        sleep::put_back(m, d, &work.sleep);
+    }
+    if !d.plan.keeps(Stage::Solve) {
+        copy(&d.qacc_smooth, &mut d.qacc);
+        turn_free_bodies(m, data);
     }
 }
 
@@ -256,64 +228,55 @@ fn applied_forces(m: &Model, d: &mut Fields) {
 }
 
 /// `qacc` and constraint forces.
-pub(crate) fn constraints(m: &Model, data: &mut Data) {
-    let Data { fields: d, work } = data;
-    let on_discrete = m.opt.integrator == integrator::DISCRETE;
-    if d.plan.keeps(Stage::Solve) {
-        if on_discrete {
-            discrete::constraints(m, d, &mut work.metric, &mut work.constraint);
-        } else {
-            constraint::solve(m, d, &mut work.constraint);
-        }
+pub(super) fn solve(m: &Model, data: &mut Data) {
+    let Data { fields: d, work } = &mut *data;
+    if m.opt.integrator == integrator::DISCRETE {
+        discrete::constraints(m, d, &mut work.metric, &mut work.constraint);
     } else {
-        copy(&d.qacc_smooth, &mut d.qacc);
+        constraint::solve(m, d, &mut work.constraint);
     }
-    if on_discrete {
+    turn_free_bodies(m, data);
+}
+
+/// What the discrete integrator adds to `qacc` of free bodies.
+fn turn_free_bodies(m: &Model, data: &mut Data) {
+    let Data { fields: d, work } = data;
+    if m.opt.integrator == integrator::DISCRETE {
         discrete::turn_free_bodies(m, d, &work.metric, &mut work.derivative, &work.constraint);
     }
 }
 
-/// Sensors whose values are known at this point, and what they need.
-#[inline(always)]
-pub(crate) fn read(m: &Model, d: &mut Data, when: When, skip: Skip) {
-    let kept = [Stage::Sensors, Stage::SubtreeVel, Stage::RnePost].map(|stage| d.plan.keeps(stage));
-    if skip == Skip::NOTHING && kept != [false; 3] {
-        measure(m, d, when);
+/// Momenta of subtrees, where a sensor asks for them: they stay as they are otherwise.
+pub(super) fn subtree_velocities(m: &Model, d: &mut Data) {
+    if measured(m, Stage::SubtreeVel) {
+        subtree::subtree_vel(m, d);
     }
 }
 
-#[inline(never)]
-fn measure(m: &Model, d: &mut Data, when: When) {
-    match when {
-        When::Velocity if measured(m, d, Stage::SubtreeVel) => subtree::subtree_vel(m, d),
-        When::Acceleration if measured(m, d, Stage::RnePost) => body_force::rne_post_constraint(m, d),
-        _ => {}
-    }
-    if d.plan.keeps(Stage::Sensors) {
-        sensor::evaluate(m, &mut d.fields, &mut d.work.sensor, when);
+/// Accelerations of bodies and the forces between them, likewise.
+pub(super) fn body_forces(m: &Model, d: &mut Data) {
+    if measured(m, Stage::RnePost) {
+        body_force::rne_post_constraint(m, d);
     }
 }
 
-/// Whether a stage runs that nothing but sensors needs: its fields stay as they are when there is none, or when
-/// sensors are switched off.
-fn measured(m: &Model, d: &Data, stage: Stage) -> bool {
-    d.plan.keeps(stage) && !m.opt.disabled(disable::SENSOR) && sensor::needs(m, stage)
+/// Whether sensors are on, and one needs a stage.
+fn measured(m: &Model, stage: Stage) -> bool {
+    !m.opt.disabled(disable::SENSOR) && sensor::needs(m, stage)
 }
 
 /// `energy[0]`, or zeros when the flag is off and no sensor has just computed it.
-fn potential_energy(m: &Model, d: &mut Data, skip: Skip) {
-    if d.plan.keeps(Stage::Energy) {
-        if m.opt.enabled(enable::ENERGY) {
-            energy::potential(m, d);
-        } else if skip == Skip::SENSORS || m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {
-            d.energy = [0.0; 2];
-        }
+pub(super) fn potential_energy(m: &Model, d: &mut Data) {
+    if m.opt.enabled(enable::ENERGY) {
+        energy::potential(m, d);
+    } else if d.work.unseen || m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {
+        d.energy = [0.0; 2];
     }
 }
 
 /// `energy[1]`.
-fn kinetic_energy(m: &Model, d: &mut Data) {
-    if d.plan.keeps(Stage::Energy) && m.opt.enabled(enable::ENERGY) {
+pub(super) fn kinetic_energy(m: &Model, d: &mut Data) {
+    if m.opt.enabled(enable::ENERGY) {
         energy::kinetic(m, d);
     }
 }

@@ -8,9 +8,8 @@ use crate::kinds::{enable, integrator};
 use crate::math::Spatial;
 use crate::model::Model;
 use crate::model::plan::Plan;
-use crate::sensor::When;
 use crate::step::data::{Data, Work};
-use crate::step::forward::{self, Skip};
+use crate::step::forward;
 use crate::step::{damping, discrete};
 
 /// What inverse dynamics cannot answer.
@@ -40,15 +39,15 @@ pub fn inverse(m: &Model, d: &mut Data) -> Result<(), InverseError> {
     if m.opt.enabled(enable::INVDISCRETE) && m.opt.integrator == integrator::RK4 {
         return Err(InverseError::RungeKutta);
     }
-    let plan = std::mem::replace(&mut d.plan, Plan::default().keeping_all());
-    forward::from_state(m, d, Skip::NOTHING);
-    from_velocity(m, d, Skip::NOTHING);
+    let plan = std::mem::replace(&mut d.plan, Plan::everything());
+    forward::from_state(m, d);
+    from_velocity(m, d);
     d.plan = plan;
     Ok(())
 }
 
 /// The same once position and velocity are known.
-fn from_velocity(m: &Model, d: &mut Data, skip: Skip) {
+fn from_velocity(m: &Model, d: &mut Data) {
     let mut given = std::mem::take(&mut d.work.rk.slope);
     given.copy_from_slice(&d.qacc);
     if m.opt.enabled(enable::INVDISCRETE) {
@@ -59,7 +58,8 @@ fn from_velocity(m: &Model, d: &mut Data, skip: Skip) {
         discrete::prepare_inverse(m, &mut d.fields, metric, derivative, constraint);
     }
     constraint::inverse(m, &mut d.fields, &mut d.work.constraint);
-    forward::read(m, d, When::Acceleration, skip);
+    forward::body_forces(m, d);
+    forward::acceleration_sensors(m, d);
     let f = &mut d.fields;
     mass::mul(m, &f.M, &f.qacc, &mut f.qfrc_inverse, 0..m.nv);
     if m.opt.integrator == integrator::DISCRETE {

@@ -11,9 +11,11 @@ pub(crate) mod forward;
 pub(crate) mod functions;
 pub(crate) mod integrate;
 pub(crate) mod inverse;
+pub(crate) mod pipeline;
 pub(crate) mod plan;
 pub(crate) mod reset;
 pub mod save;
+pub(crate) mod scene;
 pub(crate) mod sleep;
 pub(crate) mod stages;
 
@@ -21,7 +23,6 @@ use crate::kinds::disable;
 use crate::math::{bad, sum};
 use crate::model::{Model, Warning, WarningStat};
 use crate::step::data::Data;
-use forward::Skip;
 
 /// Advances the simulation by one step (`mj_step`).
 ///
@@ -29,7 +30,7 @@ use forward::Skip;
 /// then starts from there (`warning` says which and when).
 pub fn step(m: &Model, d: &mut Data) {
     check_state(m, d);
-    forward::forward_skip(m, d, Skip::NOTHING);
+    forward::forward(m, d);
     check_acceleration(m, d);
     integrate::integrate(m, d);
 }
@@ -38,13 +39,13 @@ pub fn step(m: &Model, d: &mut Data) {
 /// set between the two.
 pub fn step1(m: &Model, d: &mut Data) {
     check_state(m, d);
-    forward::from_state(m, d, Skip::NOTHING);
+    forward::from_state(m, d);
 }
 
 /// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name
 /// Runge–Kutta, which needs forces at other states, this is a step of Euler.
 pub fn step2(m: &Model, d: &mut Data) {
-    forward::from_inputs(m, d, Skip::NOTHING);
+    forward::from_inputs(m, d);
     check_acceleration(m, d);
     integrate::integrate_once(m, d);
 }

@@ -5,11 +5,12 @@ use crate::dynamics::{kinematics, mass};
 use crate::forces::{actuation, transmission};
 use crate::math::*;
 use crate::model::meter::Meter;
+use crate::model::plan::Fact;
 use crate::model::plan::Plan;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model, Warning, WarningStat, reflect};
 use crate::step::data::{Data, Work};
-use crate::step::plan::Demand;
+use crate::step::scene::Demand;
 use crate::{collision, sensor};
 
 impl Data {
@@ -44,7 +45,7 @@ impl Data {
 /// Replaces the plan, which decides what the next forward pass computes.
 pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
     d.work.collision.pairs = if plan.keeps(Stage::Collision) {
-        collision::pairs(m, plan.pairs_may_change, plan.contact_params_may_change)
+        collision::pairs(m, plan.has(Fact::PairsChange), plan.has(Fact::ContactParamsChange))
     } else {
         collision::Pairs::default()
     };
@@ -123,7 +124,7 @@ pub fn set_keyframe(m: &mut Model, d: &Data, key: usize) -> bool {
 
 /// Gives the fields of stages that the plan leaves out the values that those stages would find.
 pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
-    if !d.plan.some_general {
+    if !d.plan.has(Fact::General) {
         mass::constant_mass(m, d);
     }
     if d.plan.keeps(Stage::Actuation) && !d.plan.keeps(Stage::Transmission) {
@@ -133,17 +134,17 @@ pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
         d.actuator_force.fill(0.0);
         d.qfrc_actuator.fill(0.0);
     }
-    if !d.plan.springs {
+    if !d.plan.has(Fact::Springs) {
         d.qfrc_spring.fill(0.0);
     }
-    if !d.plan.dampers {
+    if !d.plan.has(Fact::Dampers) {
         d.qfrc_damper.fill(0.0);
     }
-    if !d.plan.body_forces {
+    if !d.plan.has(Fact::BodyForces) {
         d.qfrc_gravcomp.fill(0.0);
         d.qfrc_fluid.fill(0.0);
     }
-    if !d.plan.adhesion {
+    if !d.plan.has(Fact::Adhesion) {
         d.qfrc_adhesion.fill(0.0);
     }
 }

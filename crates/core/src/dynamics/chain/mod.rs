@@ -20,6 +20,7 @@ mod tests;
 use crate::dynamics::{Scratch, jacobian, mass};
 use crate::kinds::joint;
 use crate::math::*;
+use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// A tree with more degrees of freedom is cheaper by composite bodies and recursion.
@@ -260,7 +261,7 @@ macro_rules! by_length {
 /// The rows of M that belong to short chains.
 pub(crate) fn mass_matrix(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let chains = &mut w.chains;
-    if d.plan.chains_may_change {
+    if d.plan.has(Fact::ChainsChange) {
         chains.load(m);
     }
     by_length!(chains, mass_matrix(&d.qpos, &mut d.M));

@@ -19,6 +19,7 @@ mod servo;
 use crate::forces::{Scratch, transmission};
 use crate::kinds::{biastype, disable, dyntype, gaintype, joint, trntype};
 use crate::math::*;
+use crate::model::plan::Fact;
 use crate::model::{Fields, Model, asleep};
 
 pub(crate) use control::{record, reset};
@@ -56,7 +57,7 @@ fn exact(act: f64, rate: f64, tau: f64, h: f64) -> f64 {
 
 /// `actuator_force`, `act_dot`, `qfrc_actuator`.
 pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    if d.plan.motors && motors(m, d) {
+    if d.plan.has(Fact::Motors) && motors(m, d) {
         return;
     }
     d.actuator_force.fill(0.0);
@@ -101,7 +102,7 @@ pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
 #[inline(always)]
 fn motors(m: &Model, d: &mut Fields) -> bool {
     let off = disable::ACTUATION | disable::CLAMPCTRL;
-    if d.plan.force_limits || m.opt.disabled(off) || d.ctrl.iter().any(|&u| bad(u)) {
+    if d.plan.has(Fact::ForceLimits) || m.opt.disabled(off) || d.ctrl.iter().any(|&u| bad(u)) {
         return false;
     }
     zero(&mut d.qfrc_actuator);

@@ -4,7 +4,7 @@
 use super::{Slopes, advance, integrate_pos};
 use crate::model::Model;
 use crate::step::data::Data;
-use crate::step::forward::{self, Skip};
+use crate::step::forward;
 
 /// Stage s starts from the first state plus A[s] h times the slope of stage s - 1; B weighs the slopes.
 const A: [f64; 3] = [0.5, 0.5, 1.0];
@@ -28,7 +28,7 @@ pub(super) fn rk4(m: &Model, d: &mut Data) {
         d.qpos.copy_from_slice(&w.qpos);
         integrate_pos(m, &mut d.qpos, &w.slope, a);
         d.time = start + a;
-        forward::forward_skip(m, d, Skip::SENSORS);
+        forward::forward_unseen(m, d);
         add(&mut w.dpos, B[stage + 1], &d.qvel);
         add(&mut w.dvel, B[stage + 1], &d.qacc);
         add(&mut w.dact, B[stage + 1], &d.act_dot);

@@ -8,7 +8,7 @@ use crate::model::plan::Plan;
 use crate::sensor::body_force::rne_post_constraint;
 use crate::step::forward::forward;
 use crate::step::inverse::inverse;
-use crate::step::plan::Demand;
+use crate::step::scene::Demand;
 use crate::step::{step, step1, step2};
 
 const PILE: &str = "<mujoco><option integrator='INTEGRATOR'/><worldbody><geom type='plane' size='1 1 1'/>

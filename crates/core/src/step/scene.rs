@@ -1,0 +1,373 @@
+//! What is known of a scene before it runs, from the model and from what programs read and write.
+
+use crate::dynamics::{articulated, chain, kinematics};
+use crate::forces::{actuation, derivative};
+use crate::kinds::{biastype, disable, dyntype, enable, eqtype, gaintype, integrator, joint, trntype};
+use crate::model::plan::Fact;
+use crate::model::reflect::{FieldId, FieldSet, Object, Stage, field};
+use crate::model::{Model, Plan};
+use crate::step::damping;
+use crate::{collision, sensor};
+
+/// What programs read and write.
+#[derive(Clone, Copy, Debug)]
+pub struct Demand {
+    /// Fields that are read between steps.
+    pub reads: FieldSet,
+    /// Fields that are written between steps.
+    pub writes: FieldSet,
+}
+
+impl Demand {
+    /// Anything may be read or written: what an embedding program gets that says nothing.
+    pub const ANY: Demand = Demand { reads: FieldSet::ALL, writes: FieldSet::ALL };
+    /// Anything may be read, only state and controls are written.
+    pub const OBSERVE: Demand = Demand { reads: FieldSet::ALL, writes: FieldSet::EMPTY };
+}
+
+/// What the parameters of a contact are mixed from.
+const CONTACT_PARAMS: [&str; 18] = [
+    "geom_rbound",
+    "geom_condim",
+    "geom_priority",
+    "geom_solmix",
+    "geom_solref",
+    "geom_solimp",
+    "geom_friction",
+    "geom_margin",
+    "geom_gap",
+    "geom_adhesion",
+    "pair_dim",
+    "pair_friction",
+    "pair_solref",
+    "pair_solreffriction",
+    "pair_solimp",
+    "pair_margin",
+    "pair_gap",
+    "pair_adhesion",
+];
+/// The name of a field, and its numbers.
+type Numbers = (&'static str, fn(&Model) -> &[f64]);
+/// What makes passive forces of joints.
+const JOINT_FORCES: [Numbers; 4] = [
+    ("dof_damping", |m| &m.dof_damping),
+    ("dof_dampingpoly", |m| &m.dof_dampingpoly),
+    ("jnt_stiffness", |m| &m.jnt_stiffness),
+    ("jnt_stiffnesspoly", |m| &m.jnt_stiffnesspoly),
+];
+/// What makes passive forces of tendons, springs first.
+const TENDON_FORCES: [Numbers; 4] = [
+    ("tendon_stiffness", |m| &m.tendon_stiffness),
+    ("tendon_stiffnesspoly", |m| &m.tendon_stiffnesspoly),
+    ("tendon_damping", |m| &m.tendon_damping),
+    ("tendon_dampingpoly", |m| &m.tendon_dampingpoly),
+];
+/// Damping of actuators, which joints and tendons have.
+const ACTUATOR_DAMPING: [Numbers; 2] =
+    [("actuator_damping", |m| &m.actuator_damping), ("actuator_dampingpoly", |m| &m.actuator_dampingpoly)];
+/// Dry friction.
+const FRICTION_LOSS: [Numbers; 2] =
+    [("dof_frictionloss", |m| &m.dof_frictionloss), ("tendon_frictionloss", |m| &m.tendon_frictionloss)];
+const ACTUATOR_ARMATURE: Numbers = ("actuator_armature", |m| &m.actuator_armature);
+const TENDON_ARMATURE: Numbers = ("tendon_armature", |m| &m.tendon_armature);
+/// Geoms on which the medium acts one by one.
+const ELLIPSOIDS: Numbers = ("geom_fluid", |m| &m.geom_fluid);
+/// Contacts that pull, and surfaces that move by themselves.
+const ADHESION: [Numbers; 2] =
+    [("geom_adhesion", |m| &m.geom_adhesion), ("pair_adhesion", |m| &m.pair_adhesion)];
+const SURFACES: Numbers = ("geom_surfacevel", |m| &m.geom_surfacevel);
+const GRAVCOMP: Numbers = ("body_gravcomp", |m| &m.body_gravcomp);
+const OVERRIDES: [&str; 5] = ["o_margin", "o_solref", "o_solimp", "o_friction", "enableflags"];
+
+/// Each fact, and when it holds. That of M being computed for constraints alone follows from the plan: see
+/// [`Scene::mass_for_rows`].
+pub(super) const FACTS: [(Fact, fn(&Scene) -> bool); 23] = [
+    (Fact::General, |s| s.general),
+    (Fact::Composite, |s| s.large || s.reads_field("crb")),
+    (Fact::Recursion, |s| s.large),
+    (Fact::SimpleBodies, |s| s.m.dof_simplenum.iter().any(|&n| n > 0)),
+    (Fact::ChainsChange, |s| s.writes(Object::Model, &chain::FIELDS)),
+    (Fact::FramesChange, |s| s.writes(Object::Model, &kinematics::FIELDS)),
+    (Fact::Equalities, |s| s.equalities > 0),
+    (Fact::FrictionLoss, |s| s.friction > 0),
+    (Fact::Limits, |s| s.limited > 0 || s.limited_tendons > 0),
+    (Fact::Adhesion, |s| s.adhesion),
+    (Fact::Surfaces, |s| s.pairs > 0 && s.some(&[SURFACES])),
+    (Fact::DampersStay, |s| s.damped().is_some()),
+    (Fact::JointDampers, |s| s.damped() == Some(true)),
+    (Fact::Springs, |s| s.some(&JOINT_FORCES[2..]) || s.tendon_springs),
+    (Fact::Dampers, |s| s.damped() != Some(false) || s.tendon_dampers),
+    (Fact::ActuatorDampers, |s| s.damped().is_none() || s.m.jnt_actuatorid.iter().any(|&i| i != -1)),
+    (Fact::Motors, |s| s.motors()),
+    (Fact::ForceLimits, |s| {
+        s.m.actuator_forcelimited.contains(&true)
+            || s.m.jnt_actfrclimited.contains(&true)
+            || s.writes(Object::Model, &["actuator_forcelimited", "jnt_actfrclimited"])
+    }),
+    (Fact::SolverDetails, |s| s.reads_field("efc_b") || s.reads_field("efc_state")),
+    (Fact::BodyForces, |s| s.body_forces()),
+    (Fact::AppliedForces, |s| s.pushed()),
+    (Fact::PairsChange, |s| s.pairs_change),
+    (Fact::ContactParamsChange, |s| {
+        s.writes(Object::Model, &CONTACT_PARAMS) || s.writes(Object::Option, &OVERRIDES)
+    }),
+];
+
+/// What is known of a scene before it runs.
+pub(super) struct Scene<'a> {
+    pub(super) m: &'a Model,
+    pub(super) demand: &'a Demand,
+    /// Some tree is more than one simple body.
+    pub(super) general: bool,
+    /// Some tree is more than a simple body or a short chain.
+    pub(super) large: bool,
+    /// Which pairs of geoms may touch can change while it runs.
+    pub(super) pairs_change: bool,
+    /// Number of pairs of geoms that may touch.
+    pub(super) pairs: usize,
+    /// Number of joints and tendons with limits, or all when limits are switched while it runs.
+    pub(super) limited: usize,
+    pub(super) limited_tendons: usize,
+    /// Number of degrees of freedom and tendons with dry friction, likewise.
+    pub(super) friction: usize,
+    pub(super) equalities: usize,
+    /// Springs and dampers of joints, springs of tendons, dampers of tendons.
+    pub(super) joint_forces: bool,
+    pub(super) tendon_springs: bool,
+    pub(super) tendon_dampers: bool,
+    pub(super) gravcomp: bool,
+    /// Contacts pull.
+    pub(super) adhesion: bool,
+    /// The medium resists.
+    pub(super) fluid: bool,
+    pub(super) tendon_armature: bool,
+    pub(super) actuated: bool,
+    pub(super) sensors: bool,
+    pub(super) energy: bool,
+    /// Trees may sleep.
+    pub(super) sleeps: bool,
+}
+
+impl<'a> Scene<'a> {
+    pub(super) fn new(m: &'a Model, demand: &'a Demand) -> Scene<'a> {
+        let mut scene = Scene {
+            m,
+            demand,
+            general: (0..m.nv).any(|i| m.dof_simplenum[i] == 0),
+            large: (0..m.nv).any(|i| m.dof_simplenum[i] == 0 && !chain::covers(m, i)),
+            pairs_change: false,
+            pairs: 0,
+            limited: m.jnt_limited.iter().filter(|&&l| l).count(),
+            limited_tendons: m.tendon_limited.iter().filter(|&&l| l).count(),
+            friction: 0,
+            equalities: m.neq,
+            joint_forces: false,
+            tendon_springs: false,
+            tendon_dampers: false,
+            gravcomp: false,
+            adhesion: false,
+            fluid: m.opt.density > 0.0 || m.opt.viscosity > 0.0,
+            tendon_armature: false,
+            actuated: m.nactuator > 0 && !m.opt.disabled(disable::ACTUATION),
+            sensors: false,
+            energy: m.opt.enabled(enable::ENERGY),
+            sleeps: false,
+        };
+        scene.sleeps =
+            m.ntree > 0 && (m.opt.enabled(enable::SLEEP) || scene.writes(Object::Option, &["enableflags"]));
+        scene.pairs_change = scene.writes(Object::Model, &["geom_contype", "geom_conaffinity"])
+            || scene.writes(Object::Option, &["disableflags"]);
+        // What a flag switches off counts only if the flag may be cleared.
+        let off = |bit: i32| {
+            (m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(bit))
+                && !scene.writes(Object::Option, &["disableflags"])
+        };
+        let [no_contacts, no_limits, no_friction, no_equalities] =
+            [disable::CONTACT, disable::LIMIT, disable::FRICTIONLOSS, disable::EQUALITY].map(off);
+        if !no_contacts {
+            scene.pairs = collision::candidate_pairs(m, scene.pairs_change).len();
+        }
+        if scene.writes(Object::Model, &["jnt_limited"]) {
+            scene.limited = m.njnt;
+        }
+        if scene.writes(Object::Model, &["tendon_limited"]) {
+            scene.limited_tendons = m.ntendon;
+        }
+        scene.friction = FRICTION_LOSS.iter().map(|f| scene.others_than_zero(f)).sum();
+        if no_limits {
+            (scene.limited, scene.limited_tendons) = (0, 0);
+        }
+        if no_friction {
+            scene.friction = 0;
+        }
+        if no_equalities {
+            scene.equalities = 0;
+        }
+        scene.fluid |= scene.writes(Object::Option, &["density", "viscosity"]);
+        scene.gravcomp = scene.some(&[GRAVCOMP]);
+        scene.adhesion = scene.pairs > 0 && scene.some(&ADHESION);
+        scene.joint_forces = scene.some(&JOINT_FORCES);
+        scene.tendon_springs = scene.some(&TENDON_FORCES[..2]);
+        scene.tendon_dampers = scene.some(&TENDON_FORCES[2..]);
+        scene.tendon_armature = scene.some(&[TENDON_ARMATURE]);
+        let damping = scene.some(&ACTUATOR_DAMPING);
+        scene.joint_forces |= damping && scene.transmits(&[trntype::JOINT, trntype::JOINTINPARENT]);
+        let on_tendons = scene.transmits(&[trntype::TENDON]);
+        scene.tendon_dampers |= on_tendons && damping;
+        scene.tendon_armature |= on_tendons && scene.some(&[ACTUATOR_ARMATURE]);
+        // A tendon's inertia adds to that of simple bodies, too.
+        scene.general |= scene.tendon_armature;
+        scene.actuated |= m.nactuator > 0 && scene.writes(Object::Option, &["disableflags"]);
+        scene.sensors = m.nsensor > 0
+            && (scene.reads(Stage::Sensors).is_some() || m.nhistory > 0 && scene.reads_field("history"));
+        scene.energy |= scene.writes(Object::Option, &["enableflags"]);
+        scene
+    }
+
+    /// Whether one of these numbers is or may become other than zero.
+    pub(super) fn some(&self, of: &[Numbers]) -> bool {
+        of.iter().any(|numbers| self.others_than_zero(numbers) > 0)
+    }
+
+    /// How many of these numbers are or may become other than zero.
+    pub(super) fn others_than_zero(&self, (name, numbers): &Numbers) -> usize {
+        let numbers = numbers(self.m);
+        if self.writes(Object::Model, &[name]) {
+            return numbers.len();
+        }
+        numbers.iter().filter(|&&x| x != 0.0).count()
+    }
+
+    /// Whether joints have dampers, unless programs may change that.
+    pub(super) fn damped(&self) -> Option<bool> {
+        let own = [JOINT_FORCES[0].0, JOINT_FORCES[1].0];
+        let actuators = ACTUATOR_DAMPING.map(|f| f.0);
+        let changes = self.writes(Object::Model, &own)
+            || self.writes(Object::Model, &actuators)
+            || self.writes(Object::Model, &[ACTUATOR_ARMATURE.0])
+            || self.writes(Object::Option, &["disableflags"]);
+        (!changes).then(|| damping::has_dampers(self.m))
+    }
+
+    /// Whether only constraints look at M: all trees are single bodies, short chains, or factorized as articulated
+    /// bodies, and the integrator does without.
+    pub(super) fn mass_for_rows(&self, plan: &Plan) -> bool {
+        let m = self.m;
+        let fields = ["M", "qLD", "qLDiagInv", "crb"];
+        let integrates = matches!(m.opt.integrator, integrator::EULER | integrator::RK4);
+        let changes = ["integrator", "enableflags"];
+        self.general
+            && integrates
+            && !self.writes(Object::Option, &changes)
+            && !m.opt.enabled(enable::DIAGEXACT)
+            && !self.tendon_armature
+            && !self.sleeps
+            && !plan.keeps(Stage::Energy)
+            && !sensor::needs(m, Stage::MassMatrix)
+            && !fields.into_iter().any(|f| self.reads_field(f))
+            && (0..m.nv).all(|k| m.dof_simplenum[k] > 0 || chain::covers(m, k) || articulated::covers(m, k))
+    }
+
+    /// Whether forces of actuators depend on their lengths or velocities, or their moments on the configuration.
+    pub(super) fn lengths_act(&self) -> bool {
+        let m = self.m;
+        let dynamics = |i: usize| {
+            let without = [dyntype::NONE, dyntype::INTEGRATOR, dyntype::FILTER, dyntype::FILTEREXACT];
+            without.contains(&m.actuator_dyntype[i])
+        };
+        self.sleeps
+            || self.writes(Object::Model, &["actuator_gear"])
+            || !(0..m.nactuator).all(|i| self.is_motor(i) && dynamics(i))
+    }
+
+    /// Whether an actuator acts on a slide or a hinge, with a force in proportion to its input.
+    pub(super) fn is_motor(&self, i: usize) -> bool {
+        let m = self.m;
+        let joint = usize::try_from(m.actuator_trnid[2 * i]).ok().filter(|&j| j < m.njnt);
+        matches!(m.actuator_trntype[i], trntype::JOINT | trntype::JOINTINPARENT)
+            && joint.is_some_and(|j| matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE))
+            && m.actuator_gaintype[i] == gaintype::FIXED
+            && m.actuator_biastype[i] == biastype::NONE
+    }
+
+    /// Whether all actuators are motors, each with one control and none of them ever switched off.
+    pub(super) fn motors(&self) -> bool {
+        let m = self.m;
+        let plain = |i: usize| {
+            self.is_motor(i)
+                && m.actuator_dyntype[i] == dyntype::NONE
+                && m.actuator_ctrlnum[i] == 1
+                && !actuation::switched_off(m, i)
+        };
+        let switched = self.writes(Object::Option, &["disableactuator"])
+            || self.writes(Object::Model, &["actuator_group", "actuator_gear"]);
+        !self.sleeps && !switched && m.nhistory == 0 && m.nout == m.nactuator && (0..m.nactuator).all(plain)
+    }
+
+    /// Whether the medium acts on some geoms one by one.
+    pub(super) fn ellipsoids(&self) -> bool {
+        self.some(&[ELLIPSOIDS])
+    }
+
+    /// Whether forces are applied to bodies.
+    pub(super) fn pushed(&self) -> bool {
+        self.writes(Object::Data, &["xfrc_applied"])
+    }
+
+    /// Forces on bodies as such.
+    pub(super) fn body_forces(&self) -> bool {
+        self.gravcomp || self.fluid
+    }
+
+    /// Constraints between points or frames of bodies.
+    pub(super) fn ties_bodies(&self) -> bool {
+        self.m.eq_type.iter().any(|&t| t == eqtype::CONNECT || t == eqtype::WELD)
+    }
+
+    /// Constraints of the lengths of tendons.
+    pub(super) fn tendon_constraints(&self) -> bool {
+        let m = self.m;
+        self.limited_tendons > 0
+            || m.eq_type.contains(&eqtype::TENDON)
+            || self.some(&[("tendon_frictionloss", |m| &m.tendon_frictionloss)])
+    }
+
+    /// Forces along tendons.
+    pub(super) fn tendon_forces(&self) -> bool {
+        self.tendon_springs || self.tendon_dampers
+    }
+
+    /// Whether the options name an integrator, or may come to name it.
+    pub(super) fn may_integrate_by(&self, kind: i32) -> bool {
+        self.m.opt.integrator == kind || self.writes(Object::Option, &["integrator"])
+    }
+
+    /// Whether an integrator asks how the bias force changes with velocities: that is found from composite bodies.
+    pub(super) fn bias_slopes(&self) -> bool {
+        let free = || (0..self.m.ntree).any(|t| derivative::is_free_rigid(self.m, t));
+        self.may_integrate_by(integrator::IMPLICIT)
+            || self.may_integrate_by(integrator::IMPLICITFAST) && free()
+    }
+
+    /// The first field of a stage that is read, as a reason.
+    pub(super) fn reads(&self, stage: Stage) -> Option<String> {
+        if self.demand.reads == FieldSet::ALL {
+            return Some("its results may be read".into());
+        }
+        let of_stage = |f: &FieldId| f.info().object == Object::Data && f.info().stage == stage;
+        self.demand.reads.iter().find(of_stage).map(|f| format!("data.{} is read", f.info().name))
+    }
+
+    pub(super) fn reads_field(&self, name: &str) -> bool {
+        field(Object::Data, name).is_some_and(|f| self.demand.reads.contains(f))
+    }
+
+    pub(super) fn writes(&self, object: Object, names: &[&str]) -> bool {
+        names.iter().any(|n| field(object, n).is_some_and(|f| self.demand.writes.contains(f)))
+    }
+
+    /// Whether an actuator acts through one of these transmissions.
+    pub(super) fn transmits(&self, kinds: &[i32]) -> bool {
+        self.m.actuator_trntype.iter().any(|t| kinds.contains(t))
+    }
+}
