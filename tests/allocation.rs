@@ -33,14 +33,14 @@ fn allocates_nothing(name: &str, m: &Model, steps: usize) {
         let mut d = Data::planned(m, plan);
         let mut contacts = 0;
         let start = |d: &mut Data| {
-            if m.nkey > 0 { core::reset_data_keyframe(m, d, 0) } else { core::reset_data(m, d) }
+            if m.nkey > 0 { core::reset_data_keyframe(m, d, 0).unwrap() } else { core::reset_data(m, d).unwrap() }
         };
         let mut run = |d: &mut Data| {
             for _ in 0..steps {
-                core::step(m, d);
+                core::step(m, d).unwrap();
                 contacts = contacts.max(d.nefc);
             }
-            core::forward(m, d);
+            core::forward(m, d).unwrap();
         };
         start(&mut d);
         run(&mut d);
@@ -77,9 +77,9 @@ fn rest_after_the_first_impact() {
     let m = model("ball_drop");
     let mut d = Data::new(&m);
     while d.nefc == 0 {
-        core::step(&m, &mut d);
+        core::step(&m, &mut d).unwrap();
     }
-    let count = measure(|| (0..1000).for_each(|_| core::step(&m, &mut d)));
+    let count = measure(|| (0..1000).for_each(|_| core::step(&m, &mut d).unwrap()));
     assert_eq!(count.count_total, 0);
 }
 
@@ -106,7 +106,7 @@ fn thirty_spheres_on_a_plane() {
     let m = compile(&xml);
     let mut d = Data::new(&m);
     let most = (0..300).map(|_| {
-        core::step(&m, &mut d);
+        core::step(&m, &mut d).unwrap();
         d.ncon
     });
     assert!(most.max().unwrap() >= 40, "the pile is meant to touch");
@@ -135,8 +135,8 @@ fn memory_of_a_thousand_boxes() {
         let m = compile(&(xml + "</worldbody></mujoco>"));
         let count = measure(|| {
             let mut d = Data::planned(&m, Plan::new(&m, &coordinates()));
-            core::step(&m, &mut d);
-            core::step(&m, &mut d);
+            core::step(&m, &mut d).unwrap();
+            core::step(&m, &mut d).unwrap();
             assert_eq!(d.nisland, n);
         });
         count.bytes_max
@@ -170,7 +170,7 @@ fn every_integrator_with_everything_in_the_zoo() {
 fn reset() {
     let m = model("ball_drop");
     let mut d = Data::new(&m);
-    assert_eq!(measure(|| core::reset_data(&m, &mut d)).count_total, 0);
+    assert_eq!(measure(|| core::reset_data(&m, &mut d).unwrap()).count_total, 0);
 }
 
 /// A bad number resets the data inside of a step.

@@ -319,17 +319,17 @@ fn counting_changes_no_number() {
     let (mut free, mut limited) = (Data::new(&m), Data::new(&m));
     core::limit(&mut limited, u64::MAX);
     for _ in 0..200 {
-        core::step(&m, &mut free);
-        core::step(&m, &mut limited);
+        core::step(&m, &mut free).unwrap();
+        core::step(&m, &mut limited).unwrap();
     }
     assert_eq!(free.qpos, limited.qpos);
     assert_eq!(core::cost(&free), core::cost(&limited));
     assert!(!core::exhausted(&limited) && core::cost(&free) > 200 * core::cost_of_pass(&free));
     // Beyond the limit steps cost next to nothing.
     core::limit(&mut limited, 0);
-    core::step(&m, &mut limited);
+    core::step(&m, &mut limited).unwrap();
     assert!(core::exhausted(&limited));
     let before = core::cost(&limited);
-    core::step(&m, &mut limited);
+    core::step(&m, &mut limited).unwrap();
     assert!(core::cost(&limited) - before <= 2 * core::cost_of_pass(&limited));
 }

@@ -11,7 +11,7 @@
 use crate::needs::needs;
 use crate::recorded::{Verdict, list, named, objects, set, trajectory, worst};
 use crate::support::{models, numbers, read_json, workspace};
-use labspec_core::mjcf::{self, MjcfFileError};
+use labspec_core::xml::{self, MjcfFileError};
 use labspec_core::reflect::{self, Object};
 use labspec_core::{self as core, Data, Model};
 use serde_json::Value;
@@ -94,7 +94,7 @@ fn rounding_of_forces(d: &Data) -> f64 {
 }
 
 fn examine(path: &Path, recording: &Value) -> Outcome {
-    let mut compiled = match mjcf::compile_file(path) {
+    let mut compiled = match xml::compile_file(path) {
         Ok(m) => m,
         Err(MjcfFileError::Model { diagnostics, .. }) => {
             return Outcome::Refused(diagnostics.first().map_or(String::new(), |d| d.message.clone()));
@@ -110,8 +110,8 @@ fn examine(path: &Path, recording: &Value) -> Outcome {
         let mut d = Data::new(&m);
         for (k, row) in case["states"].as_array().unwrap().iter().enumerate() {
             set(&m, &mut d, &row["state"]);
-            core::forward(&m, &mut d);
-            core::rne_post_constraint(&m, &mut d);
+            core::forward(&m, &mut d).unwrap();
+            core::rne_post_constraint(&m, &mut d).unwrap();
             let at = format!("{} state {k}", case["case"].as_str().unwrap());
             // Our own models record other fields, all of which are compared.
             let theirs = row["data"].get("ncon").map_or(d.ncon as f64, |v| numbers(v)[0]);
@@ -179,7 +179,7 @@ fn shared_models_with_constraints() {
             let recording = read_json(&recordings.join(kind).join(format!("{name}.json")));
             let model = shared.join(folder).join(format!("{name}.xml"));
             let outcome = examine(&model, &recording);
-            if let Ok(m) = mjcf::compile_file(&model) {
+            if let Ok(m) = xml::compile_file(&model) {
                 let start = &recording["cases"][0]["states"][0]["state"];
                 let path = trajectory(&m, start, &recording["trajectory"], PATH);
                 let class = match &path {

@@ -102,7 +102,7 @@ fn random_world(model: &Model, seed: u64) -> World {
             }
         }
     }
-    core::forward(&world.model, &mut world.data);
+    core::forward(&world.model, &mut world.data).unwrap();
     world
 }
 

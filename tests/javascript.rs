@@ -392,6 +392,6 @@ fn a_lab_of_everything_means_what_javascript_means() {
     });
     let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
     let lab = lesson.all_labs()[0];
-    let model = labspec_core::mjcf::compile(&lab.xml.as_ref().unwrap().value).unwrap();
+    let model = labspec_core::xml::compile(&lab.xml.as_ref().unwrap().value).unwrap();
     compare("everything", lab, &model, &mut Count::default());
 }

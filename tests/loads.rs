@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::workspace;
-use labspec_core::mjcf;
+use labspec_core::xml;
 use std::collections::BTreeMap;
 
 /// What is refused here and loads there, by the code of the error and a part of its message: physics would be wrong, or
@@ -49,13 +49,13 @@ fn what_mujoco_refuses_is_refused() {
         let mut edited = model.clone();
         edited.replace_range(*start..*end, new);
         let edit = || format!("{file}:{start} {new}");
-        match mjcf::compile(&edited) {
+        match xml::compile(&edited) {
             Ok(_) if refusal.is_empty() => {}
             Ok(_) => missed.push(format!("{}: {refusal}", edit())),
             Err(_) if !refusal.is_empty() => {}
             Err(error) => {
                 stricter += 1;
-                let known = |d: &mjcf::MjcfDiagnostic| {
+                let known = |d: &xml::MjcfDiagnostic| {
                     STRICTER.iter().any(|(code, part, _)| *code == d.code && d.message.contains(part))
                 };
                 if let Some(d) = error.iter().find(|d| !known(d)) {

@@ -241,7 +241,7 @@ fn rebound() {
     let m = compile(&drop_with(soft, ""));
     let mut d = Data::new(&m);
     while d.ncon == 0 {
-        core::step(&m, &mut d);
+        core::step(&m, &mut d).unwrap();
     }
     assert_eq!(d.contact[0].solref, [0.02, 0.6]);
 }
@@ -251,7 +251,7 @@ fn depth(m: &Model, timestep: f64) -> f64 {
     let mut m = m.clone();
     m.opt.timestep = timestep;
     let mut d = Data::new(&m);
-    (0..3000).for_each(|_| core::step(&m, &mut d));
+    (0..3000).for_each(|_| core::step(&m, &mut d).unwrap());
     0.05 - d.qpos[2]
 }
 
@@ -321,10 +321,10 @@ fn poses_are_old_until_forward() {
     let m = compile(&model_text("ball_drop"));
     for demand in [Demand::ANY, Demand::OBSERVE] {
         let mut d = Data::planned(&m, core::Plan::new(&m, &demand));
-        core::forward(&m, &mut d);
+        core::forward(&m, &mut d).unwrap();
         d.qpos[2] = 0.5;
         assert_eq!(d.xpos[5], 1.0);
-        core::forward(&m, &mut d);
+        core::forward(&m, &mut d).unwrap();
         assert_eq!(d.xpos[5], 0.5);
     }
 }

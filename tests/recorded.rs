@@ -7,7 +7,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::support::{compile_unconstrained, numbers};
-use labspec_core::mjcf::MjcfDiagnostic;
+use labspec_core::xml::MjcfDiagnostic;
 use labspec_core::reflect::{self, FieldId, Object};
 use labspec_core::{self as core, Data, Model, Obj, Warning, disable, enable};
 use serde_json::{Map, Value};
@@ -224,7 +224,7 @@ fn forward(m: &Model, states: &Value) -> Verdict {
     assert!(states.as_array().is_some_and(|list| !list.is_empty()), "no state is recorded");
     for (k, row) in states.as_array().into_iter().flatten().enumerate() {
         set(m, &mut d, &row["state"]);
-        core::forward(m, &mut d);
+        core::forward(m, &mut d).unwrap();
         let place = format!("state {k}");
         let mut hold = |field: &str, ours: &[f64], theirs: &[f64]| {
             let scale = largest(theirs).max(1.0);
@@ -264,8 +264,8 @@ fn on_request(m: &Model, d: &mut Data, row: &Value) -> Vec<(String, Vec<f64>, Ve
     let mut out = Vec::new();
     let recorded = |part: &Value, name: &str| part.get(name).map(numbers);
     let post = &row["post"];
-    core::subtree_vel(m, d);
-    core::rne_post_constraint(m, d);
+    core::subtree_vel(m, d).unwrap();
+    core::rne_post_constraint(m, d).unwrap();
     for (name, values) in objects(post).filter(|(name, _)| *name != "qfrc_inverse") {
         let id = named(Object::Data, name);
         out.push((name.clone(), list(m, d, id), numbers(values)));
@@ -279,7 +279,7 @@ fn on_request(m: &Model, d: &mut Data, row: &Value) -> Vec<(String, Vec<f64>, Ve
         out.push((format!("{name}()"), function(m, d, name, &vector), numbers(values)));
     }
     let mut m = m.clone();
-    m.opt.enableflags |= enable::INVDISCRETE;
+    m.set_enabled(enable::INVDISCRETE, true);
     for (name, values) in objects(&row["inverse"]) {
         // The library counts dampers here that the flag switches off: it would not undo its own step.
         if name == "Euler" && m.opt.disabled(disable::DAMPER) {
@@ -304,27 +304,27 @@ fn function(m: &Model, d: &mut Data, name: &str, vector: &[f64]) -> Vec<f64> {
         "mul_m" => core::mul_m(m, d, vector, &mut out).unwrap(),
         "solve_m" | "solve_m2" => {
             out.copy_from_slice(vector);
-            if name == "solve_m" { core::solve_m(m, d, &mut out) } else { core::solve_m2(m, d, &mut out) }
+            if name == "solve_m" { core::solve_m(m, d, &mut out).unwrap() } else { core::solve_m2(m, d, &mut out).unwrap() }
                 .unwrap();
         }
-        "full_m" => return core::full_m(m, d),
+        "full_m" => return core::full_m(m, d).unwrap(),
         "rne" => core::rne(m, d, None, &mut out).unwrap(),
         "rne_acc" => core::rne(m, d, Some(vector), &mut out).unwrap(),
         "apply_ft" => {
             core::apply_ft(m, d, [1.0, 2.0, 3.0], [-3.0, 1.0, 2.0], point, body, &mut out).unwrap();
         }
-        "jac" => return both(core::jac(m, d, point, body)),
-        "jac_dot" => return both(core::jac_dot(m, d, point, body)),
-        "jac_body" => return both(core::jac_body(m, d, body)),
-        "jac_body_com" => return both(core::jac_body_com(m, d, body)),
-        "jac_geom" => return both(core::jac_geom(m, d, m.ngeom - 1)),
-        "jac_site" => return both(core::jac_site(m, d, m.nsite - 1)),
+        "jac" => return both(core::jac(m, d, point, body).unwrap()),
+        "jac_dot" => return both(core::jac_dot(m, d, point, body).unwrap()),
+        "jac_body" => return both(core::jac_body(m, d, body).unwrap()),
+        "jac_body_com" => return both(core::jac_body_com(m, d, body).unwrap()),
+        "jac_geom" => return both(core::jac_geom(m, d, m.ngeom - 1).unwrap()),
+        "jac_site" => return both(core::jac_site(m, d, m.nsite - 1).unwrap()),
         "jac_subtree_com" => return core::jac_subtree_com(m, d, body.min(1)).unwrap(),
         "integrate_pos" => {
             out.clone_from(&d.qpos);
-            core::integrate_pos(m, &mut out, vector, 0.3);
+            core::integrate_pos(m, &mut out, vector, 0.3).unwrap();
         }
-        "differentiate_pos" => core::differentiate_pos(m, &mut out, 0.2, &m.qpos0, &d.qpos),
+        "differentiate_pos" => core::differentiate_pos(m, &mut out, 0.2, &m.qpos0, &d.qpos).unwrap(),
         other => panic!("no function is called {other}"),
     }
     out
@@ -361,7 +361,7 @@ pub(crate) fn trajectory(m: &Model, start: &Value, recording: &Value, tolerance:
     let mut worst: f64 = 0.0;
     assert!(recording["rows"].as_array().is_some_and(|list| !list.is_empty()), "no step is recorded");
     for (k, row) in recording["rows"].as_array().into_iter().flatten().enumerate() {
-        (0..every).for_each(|_| core::step(m, &mut d));
+        (0..every).for_each(|_| core::step(m, &mut d).unwrap());
         let place = format!("step {}", every * (k as u64 + 1));
         let mut found = Vec::new();
         let mut apart: f64 = 0.0;
@@ -415,7 +415,7 @@ pub(crate) fn set(m: &Model, d: &mut Data, state: &Value) {
 
 /// The first keyframe, or the default configuration.
 pub(crate) fn start(m: &Model, d: &mut Data) {
-    if m.nkey > 0 { core::reset_data_keyframe(m, d, 0) } else { core::reset_data(m, d) }
+    if m.nkey > 0 { core::reset_data_keyframe(m, d, 0).unwrap() } else { core::reset_data(m, d).unwrap() }
 }
 
 /// The field of a recording; a recording that has what ours lacks says so, or nobody would look at it.

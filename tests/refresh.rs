@@ -178,14 +178,14 @@ fn keeping_qpos_is_keeping_the_state() {
     for xml in [model_text("ball_drop"), ARM.to_string()] {
         let mut model = compile(&xml);
         let mut data = Data::new(&model);
-        (0..100).for_each(|_| labspec_core::step(&model, &mut data));
+        (0..100).for_each(|_| labspec_core::step(&model, &mut data).unwrap());
         let mut before = vec![0.0; state::size(&model, state::INTEGRATION).unwrap()];
         state::get(&model, &data, &mut before, state::INTEGRATION).unwrap();
         model.body_mass[2] = 5.0;
         let qpos = data.qpos.clone();
-        set_const(&mut model, &mut data);
+        set_const(&mut model, &mut data).unwrap();
         data.qpos.copy_from_slice(&qpos);
-        forward(&model, &mut data);
+        forward(&model, &mut data).unwrap();
         let mut after = before.clone();
         state::get(&model, &data, &mut after, state::INTEGRATION).unwrap();
         assert_eq!(before, after);

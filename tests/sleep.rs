@@ -33,7 +33,7 @@ fn differences(scene: &str, tolerance: f64) {
                     let (element, value) = (write[2].as_u64().unwrap() as usize, write[3].as_f64().unwrap());
                     assert!(reflect::view_mut(&mut m, &mut d, field).set(element, value));
                 }
-                core::step(&m, &mut d);
+                core::step(&m, &mut d).unwrap();
                 next += 1;
             }
             for (field, values) in objects(row).filter(|(field, _)| *field != "step") {
@@ -80,7 +80,7 @@ fn a_plan_lets_trees_sleep_as_they_do() {
         demand.reads.insert(reflect::field(Object::Data, "tree_asleep").unwrap());
         let run = |plan: Plan| {
             let mut d = Data::planned(&m, plan);
-            (0..300).for_each(|_| core::step(&m, &mut d));
+            (0..300).for_each(|_| core::step(&m, &mut d).unwrap());
             (d.tree_asleep.clone(), d.qpos.clone())
         };
         assert_eq!(run(Plan::new(&m, &demand)), run(Plan::full()), "{scene}");

@@ -25,7 +25,7 @@ fn run(xml: &str, steps: u64, long: u64) -> Json {
     let mut m = compile(xml);
     let mut d = Data::new(&m);
     if m.nkey > 0 {
-        core::reset_data_keyframe(&m, &mut d, 0);
+        core::reset_data_keyframe(&m, &mut d, 0).unwrap();
     }
     let start = energy(&mut m, &d);
     let mut reach = largest(&d.qpos);
@@ -35,7 +35,7 @@ fn run(xml: &str, steps: u64, long: u64) -> Json {
     while done < total {
         let before = d.time;
         for _ in 0..each {
-            core::step(&m, &mut d);
+            core::step(&m, &mut d).unwrap();
             grown = growth::look(&mut watch, &m, &d).map(|g| g.time);
         }
         done += each;
@@ -67,8 +67,8 @@ fn run(xml: &str, steps: u64, long: u64) -> Json {
 /// Potential and kinetic energy of a state, J.
 fn energy(m: &mut Model, d: &Data) -> f64 {
     let mut d = d.clone();
-    m.opt.enableflags |= enable::ENERGY;
-    core::forward(m, &mut d);
+    m.set_enabled(enable::ENERGY, true);
+    core::forward(m, &mut d).unwrap();
     m.opt.enableflags &= !enable::ENERGY;
     d.energy[0] + d.energy[1]
 }

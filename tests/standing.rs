@@ -6,7 +6,7 @@
 
 use crate::recorded::{ASPECTS, Outcome, Verdict};
 use crate::support::workspace;
-use labspec_core::mjcf::code;
+use labspec_core::xml::code;
 use std::fmt::Write;
 
 /// A difference that is known: model (`*` for any), aspect (`load` or one of [`ASPECTS`]), cause.

@@ -9,7 +9,7 @@ use labspec::lint::ModelFolder;
 use labspec::source::SourceFile;
 use labspec::spec::load_lesson;
 use labspec_core::Model;
-use labspec_core::mjcf::{self, Folder, MjcfDiagnostic};
+use labspec_core::xml::{self, Folder, MjcfDiagnostic};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -30,7 +30,7 @@ pub(crate) fn model(name: &str) -> Model {
 
 /// Compiles a model that is meant to be right.
 pub(crate) fn compile(xml: &str) -> Model {
-    mjcf::compile(xml).unwrap_or_else(|list| {
+    xml::compile(xml).unwrap_or_else(|list| {
         let text: Vec<String> =
             list.iter().map(|d| format!("{}:{}: {} {}", d.line, d.column, d.code, d.message)).collect();
         panic!("the model does not compile:\n{}\n{xml}", text.join("\n"))
@@ -41,7 +41,7 @@ pub(crate) fn compile(xml: &str) -> Model {
 pub(crate) fn compile_unconstrained(path: &Path) -> Result<Model, Vec<MjcfDiagnostic>> {
     let text = std::fs::read_to_string(path).unwrap();
     let folder = Folder::new(path.parent().unwrap()).unwrap();
-    mjcf::compile_with(&unconstrained(&text), &folder, path.file_name().and_then(|name| name.to_str()))
+    xml::compile_with(&unconstrained(&text), &folder, path.file_name().and_then(|name| name.to_str()))
 }
 
 /// A model's text with constraints switched off.

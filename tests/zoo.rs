@@ -99,7 +99,7 @@ fn a_plan_for_any_field_changes_no_bit_of_it() {
         let run = |plan: Plan| {
             let mut d = Data::planned(&m, plan);
             set(&m, &mut d, &state);
-            (0..3).for_each(|_| core::step(&m, &mut d));
+            (0..3).for_each(|_| core::step(&m, &mut d).unwrap());
             d
         };
         let full = run(Plan::full());
@@ -125,12 +125,12 @@ fn what_is_restored_goes_on_as_before() {
             m.opt.integrator = integrator;
             let mut d = Data::new(&m);
             set(&m, &mut d, &state);
-            (0..5).for_each(|_| core::step(&m, &mut d));
-            let bytes = core::save::save(&m, &d);
+            (0..5).for_each(|_| core::step(&m, &mut d).unwrap());
+            let bytes = core::save::save(&m, &d).unwrap();
             let mut other = Data::new(&m);
-            let restored = core::save::restore(&m, &mut other, &bytes);
-            (0..5).for_each(|_| [&mut d, &mut other].into_iter().for_each(|d| core::step(&m, d)));
-            if restored.is_err() || core::save::save(&m, &d) != core::save::save(&m, &other) {
+            let restored = core::save::restore(&m, &mut other, &bytes).unwrap();
+            (0..5).for_each(|_| [&mut d, &mut other].into_iter().for_each(|d| core::step(&m, d).unwrap()));
+            if restored.is_err() || core::save::save(&m, &d).unwrap() != core::save::save(&m, &other).unwrap() {
                 wrong.push(format!("{name}, integrator {integrator}: {restored:?}"));
             }
         }

@@ -5,7 +5,7 @@
 
 use super::{Random, tries};
 use crate::support::{models, unconstrained, workspace};
-use labspec_core::mjcf::{self, FileProblem, Files};
+use labspec_core::xml::{self, FileProblem, Files};
 use labspec_core::{self as core, Data};
 
 /// What a test run affords.
@@ -210,9 +210,9 @@ fn case(corpus: &Corpus, number: u64) -> String {
 
 /// Compiles and, where that works, steps; how far it came.
 fn run(text: &str) -> bool {
-    let Ok(m) = mjcf::compile_with(text, &Itself(text), Some("self.xml")) else { return false };
+    let Ok(m) = xml::compile_with(text, &Itself(text), Some("self.xml")) else { return false };
     let mut d = Data::new(&m);
-    (0..3).for_each(|_| core::step(&m, &mut d));
+    (0..3).for_each(|_| core::step(&m, &mut d).unwrap());
     true
 }
 

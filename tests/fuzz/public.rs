@@ -71,14 +71,14 @@ fn call(m: &mut Model, d: &mut Data, saved: &mut Vec<u8>, random: &mut Random) -
     let mut out = numbers(random, m.nv);
     let what = random.below(30);
     match what {
-        0 => core::reset_data(m, d),
-        1 => core::reset_data_keyframe(m, d, k),
-        2 => drop(core::set_keyframe(m, d, k)),
-        3 | 4 => core::step(m, d),
-        5 => core::forward(m, d),
-        6 => (core::step1(m, d), core::step2(m, d)).0,
-        7 => drop(core::inverse(m, d)),
-        8 => core::set_const(m, d),
+        0 => core::reset_data(m, d).unwrap(),
+        1 => core::reset_data_keyframe(m, d, k).unwrap(),
+        2 => drop(core::set_keyframe(m, d, k).unwrap()),
+        3 | 4 => core::step(m, d).unwrap(),
+        5 => core::forward(m, d).unwrap(),
+        6 => (core::step1(m, d).unwrap(), core::step2(m, d).unwrap()).0,
+        7 => drop(core::inverse(m, d).unwrap()),
+        8 => core::set_const(m, d).unwrap(),
         9 => {
             *saved = save::save(m, d);
             if random.below(2) == 0 && !saved.is_empty() {
@@ -95,29 +95,29 @@ fn call(m: &mut Model, d: &mut Data, saved: &mut Vec<u8>, random: &mut Random) -
             let _ = state::set(m, d, &values, sig);
             let _ = state::extract(m, &values, sig, &mut out, random.next() as i32);
         }
-        12 => drop((core::jac(m, d, point(random), k), core::jac_dot(m, d, point(random), k))),
-        13 => drop((core::jac_body(m, d, k), core::jac_body_com(m, d, k), core::jac_subtree_com(m, d, k))),
-        14 => drop((core::jac_geom(m, d, k), core::jac_site(m, d, k))),
-        15 => drop(core::apply_ft(m, d, point(random), point(random), point(random), k, &mut out)),
+        12 => drop((core::jac(m, d, point(random), k).unwrap(), core::jac_dot(m, d, point(random), k).unwrap())),
+        13 => drop((core::jac_body(m, d, k).unwrap(), core::jac_body_com(m, d, k).unwrap(), core::jac_subtree_com(m, d, k).unwrap())),
+        14 => drop((core::jac_geom(m, d, k).unwrap(), core::jac_site(m, d, k).unwrap())),
+        15 => drop(core::apply_ft(m, d, point(random), point(random), point(random), k, &mut out).unwrap()),
         16 => {
             let v = numbers(random, m.nv);
-            let _ = core::mul_m(m, d, &v, &mut out);
+            let _ = core::mul_m(m, d, &v, &mut out).unwrap();
         }
-        17 => drop((core::solve_m(m, d, &mut out), core::solve_m2(m, d, &mut out))),
-        18 => drop(core::rne(m, d, Some(&numbers(random, m.nv)), &mut out)),
-        19 => drop((core::full_m(m, d), core::full_j(m, d))),
+        17 => drop((core::solve_m(m, d, &mut out).unwrap(), core::solve_m2(m, d, &mut out).unwrap())),
+        18 => drop(core::rne(m, d, Some(&numbers(random, m.nv)), &mut out).unwrap()),
+        19 => drop((core::full_m(m, d).unwrap(), core::full_j(m, d).unwrap())),
         20 => {
             let kind = *random.pick(KINDS);
-            core::object_velocity(m, d, kind, k, random.below(2) == 0);
-            core::object_acceleration(m, d, kind, k, random.below(2) == 0);
+            core::object_velocity(m, d, kind, k, random.below(2) == 0).unwrap();
+            core::object_acceleration(m, d, kind, k, random.below(2) == 0).unwrap();
         }
         21 => {
             if let Some(contact) = d.contact.first() {
-                core::contact_force(m, d, contact);
+                core::contact_force(m, d, contact).unwrap();
             }
         }
-        22 => (core::subtree_vel(m, d), core::rne_post_constraint(m, d)).0,
-        23 => core::set_plan(m, d, Plan::new(m, &Demand::OBSERVE)),
+        22 => (core::subtree_vel(m, d).unwrap(), core::rne_post_constraint(m, d).unwrap()).0,
+        23 => core::set_plan(m, d, Plan::new(m, &Demand::OBSERVE)).unwrap(),
         24 => *d = Data::new(m),
         _ => return write(m, d, random),
     }

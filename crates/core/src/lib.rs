@@ -1,66 +1,62 @@
 //! A rigid-body engine with MuJoCo 3.14.0's semantics. It knows nothing of labs or expressions.
 //!
 //! ```
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let model = labspec_core::mjcf::compile(
-//!     "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='0.05'/></body></worldbody></mujoco>",
-//! )
-//! .map_err(|errors| errors[0].message.clone())?;
-//! let mut data = labspec_core::Data::new(&model);
+//! # fn main() -> Result<(), labspec_core::Error> {
+//! use labspec_core::{Data, Model, step};
+//! let model = Model::from_xml(
+//!     "<mujoco><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom size='0.05'/></body></worldbody></mujoco>",
+//! )?;
+//! let mut data = Data::new(&model);
 //! for _ in 0..100 {
-//!     labspec_core::step(&model, &mut data);
+//!     step(&model, &mut data)?;
 //! }
-//! assert!((data.time - 0.2).abs() < 1e-12);
+//! assert!((data.time - 0.2).abs() < 1e-12 && data.body("ball")?.xpos()[2] < 1.0);
 //! # Ok(())
 //! # }
 //! ```
 //!
-//! Where things live: `mjcf` reads models, `fields` is the one table of what exists, `pipeline` is the order
-//! of the stages, and every stage is a module of its own.
+//! [`Model`] is what does not change while a simulation runs, [`Data`] what does; functions have MuJoCo's names. No call
+//! panics: what does not fit together is an [`Error`] that says the next step. A [`Plan`] leaves out what a scene and its
+//! readers do not need, without changing a number.
+//!
+//! With `default-features = false` models are not read from MJCF, but from what [`Model::to_bytes`] stored.
 #![forbid(unsafe_code)]
+#![recursion_limit = "256"]
 
+mod api;
 mod collision;
 mod constraint;
 mod dynamics;
 mod forces;
-pub mod geometry;
+mod geometry;
 pub(crate) mod kinds;
 pub mod math;
-pub mod mjcf;
+#[cfg(feature = "mjcf")]
+mod mjcf;
 mod model;
-pub mod query;
-pub mod sensor;
+mod query;
+mod sensor;
 mod setup;
 mod step;
 
-pub use collision::can_collide;
-pub use constraint::contact_force;
-pub use dynamics::jacobian::{
-    Jacobian, apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,
+pub use api::call::*;
+pub use api::data::{Data, Edit, Full, Planned, Scope};
+pub use api::error::Error;
+pub use api::model::{
+    ActuatorId, BodyId, Cone, GeomId, Integrator, JointId, KeyId, Model, ModelEdit, OptionsEdit, SensorId,
+    SiteId, Solver, StatisticEdit, TendonId,
 };
-pub use dynamics::mass::{full_m, mul_m, solve_m, solve_m2};
-pub use dynamics::object::{object_acceleration, object_velocity};
-pub use dynamics::subtree::subtree_vel;
-pub use forces::actuation::servo_gains;
-pub use forces::energy::{kinetic as energy_vel, potential as energy_pos};
+pub use api::plan::Plan;
+#[cfg(feature = "mjcf")]
+pub use api::reading as xml;
+pub use api::view::{Actuator, Body, Geom, Joint, Rows3, Sensor, Site, Tendon, Which};
+pub use geometry::Distance;
 pub use kinds::{
     biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, solver, trntype, wraptype,
 };
-
-pub use model::{
-    Contact, Decision, Fields, Model, Names, Obj, Options, Plan, Statistic, Warning, WarningStat, reflect,
-    state,
-};
-pub use sensor::body_force::rne_post_constraint;
-pub use setup::setconst::set_const;
-pub use step::balance::{Energy, mechanical_energy};
-pub use step::data::Data;
-pub use step::forward::forward;
-pub use step::functions::{
-    charge, cost, cost_of_pass, exhausted, full_j, geom_distance, kinematics, limit, rne, work_left,
-};
-pub use step::integrate::{differentiate_pos, integrate_pos};
-pub use step::inverse::{InverseError, inverse};
-pub use step::reset::{reset_data, reset_data_keyframe, set_keyframe, set_plan};
+pub use model::reflect;
+pub use model::{Contact, Decision, Names, Obj, Options, Statistic, Warning, WarningStat};
+pub use query::{RayFilter, RayHit};
+pub use step::balance::Energy;
+pub use step::inverse::InverseError;
 pub use step::scene::Demand;
-pub use step::{save, step, step1, step2};

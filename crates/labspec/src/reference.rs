@@ -4,7 +4,7 @@
 
 use crate::bind::{functions, named_field as by_name};
 use crate::{lint, rules};
-use labspec_core::mjcf::{self, Status};
+use labspec_core::xml::{self, Status};
 use labspec_core::reflect::{self, Kind, Object, Stage};
 use std::fmt::Write;
 
@@ -95,7 +95,7 @@ fn codes() -> String {
     section("Lessons, labs and quizzes", &mut lint::all().map(|r| (r.code, r.summary)));
     section("Runs and verdicts", &mut rules::RUN_RULES.iter().map(|r| (r.0, r.1)));
     section("Expressions", &mut labspec_expr::code::ALL.iter().copied());
-    section("Models", &mut mjcf::code::ALL.iter().copied());
+    section("Models", &mut xml::code::ALL.iter().copied());
     text
 }
 
@@ -106,7 +106,7 @@ fn compatibility() -> String {
          Everything else is refused by name, with its place in the file; nothing is silently left out. \
          Defaults take the attributes of the elements that they stand for.\n\n| element | what is done |\n|---|---|\n"
     );
-    let rows = mjcf::schema_rows();
+    let rows = xml::schema_rows();
     for element in rows.iter().filter(|r| r.attribute.is_none() && !r.path.contains("default/")) {
         let done = match element.status {
             Status::Unsupported => "**refused**: not supported yet".to_string(),
@@ -119,7 +119,7 @@ fn compatibility() -> String {
 }
 
 /// The attributes of one element, grouped by what is done with them.
-fn attributes<'a>(rows: impl Iterator<Item = &'a mjcf::SchemaRow>) -> String {
+fn attributes<'a>(rows: impl Iterator<Item = &'a xml::SchemaRow>) -> String {
     let mut groups: [(&str, Vec<String>); 4] = [
         ("supported", Vec::new()),
         ("partly", Vec::new()),
@@ -130,7 +130,7 @@ fn attributes<'a>(rows: impl Iterator<Item = &'a mjcf::SchemaRow>) -> String {
         let Some(attribute) = row.attribute else { continue };
         let name = format!("`{}`", attribute.name);
         let refused: Vec<&str> = match attribute.kind {
-            mjcf::Kind::Words(words) => words.iter().filter(|w| !w.supported).map(|w| w.text).collect(),
+            xml::Kind::Words(words) => words.iter().filter(|w| !w.supported).map(|w| w.text).collect(),
             _ => Vec::new(),
         };
         let (group, entry) = match row.status {
@@ -159,7 +159,7 @@ mod tests {
     use crate::lint::ModelFolder;
     use crate::source::SourceFile;
     use crate::spec::load_lesson;
-    use labspec_core::{self as core, Data, Model, mjcf};
+    use labspec_core::{self as core, Data, Model, xml};
     use labspec_expr::{Compiler, Context, Globals};
 
     const PENDULUM: &str = include_str!("../../../specs/models/pendulum.xml");
@@ -195,7 +195,7 @@ mod tests {
 
     #[test]
     fn the_examples_of_functions_give_what_they_say() {
-        let model = mjcf::compile(PENDULUM).unwrap();
+        let model = xml::compile(PENDULUM).unwrap();
         let mut wrong = Vec::new();
         for FunctionDoc { signature, example: (code, value), measure: over, .. } in functions::reference() {
             let got = if over { measure(code) } else { run(&model, code) };
@@ -215,7 +215,7 @@ mod tests {
                     <geom size='.1' mass='2'/></body></worldbody></mujoco>";
         let code = "for (let i = 0; i < 1000; i++) { mj.mj_step(model, data) } ctx.f = [7, 7, 7, 7, 7, 7]; \
                     mj.mj_contactForce(model, data, 0, ctx.f); ctx.f.map(x => Math.round(100 * x) / 100 + 0).join()";
-        assert_eq!(run(&mjcf::compile(ball).unwrap(), code), "19.62,0,0,0,0,0");
+        assert_eq!(run(&xml::compile(ball).unwrap(), code), "19.62,0,0,0,0,0");
     }
 
     #[test]

@@ -171,7 +171,7 @@ pub const RUN_RULES: &[(&str, &str, &str)] = &[
 /// All codes with a one-line summary: rules of lessons, then of runs, of the language, of models.
 pub fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
     let language = labspec_expr::code::ALL.iter().copied();
-    let models = labspec_core::mjcf::code::ALL.iter().copied();
+    let models = labspec_core::xml::code::ALL.iter().copied();
     lint::all()
         .map(|r| (r.code, r.summary))
         .chain(RUN_RULES.iter().map(|r| (r.0, r.1)))

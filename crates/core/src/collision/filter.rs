@@ -42,7 +42,7 @@ impl Pair {
 
 /// Whether the contact bits of two geoms admit a contact. They may be written while a lab runs.
 #[inline]
-pub fn can_collide(m: &Model, g1: usize, g2: usize) -> bool {
+pub(crate) fn can_collide(m: &Model, g1: usize, g2: usize) -> bool {
     (m.geom_contype[g1] & m.geom_conaffinity[g2]) | (m.geom_contype[g2] & m.geom_conaffinity[g1]) != 0
 }
 

@@ -6,7 +6,7 @@ mod primitive;
 mod sweep;
 
 use filter::Pair;
-pub use filter::can_collide;
+pub(crate) use filter::can_collide;
 pub(crate) use filter::{MOST_LISTED, candidate_pairs};
 use params::Params;
 use sweep::Sweep;

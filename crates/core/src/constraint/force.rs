@@ -4,7 +4,7 @@ use crate::model::{Contact, Fields, Model};
 
 /// Force and torque of a contact in the contact's frame: normal, two tangents, then three torques
 /// (`mj_contactForce`), N and N m. Zero when the contact has no constraint.
-pub fn contact_force(m: &Model, d: &Fields, contact: &Contact) -> [f64; 6] {
+pub(crate) fn contact_force(m: &Model, d: &Fields, contact: &Contact) -> [f64; 6] {
     let mut out = [0.0; 6];
     let Some(force) = contact.efc_address.and_then(|row| d.efc_force.get(row..)) else { return out };
     if contact.dim == 1 || m.opt.cone != 0 {

@@ -442,7 +442,7 @@ impl Order {
 mod tests {
     use crate::mjcf;
     use crate::model::Model;
-    use crate::step;
+    use crate::step::step;
     use crate::step::data::Data;
     use crate::step::forward::forward;
     use std::fmt::Write;

@@ -33,7 +33,7 @@ mod six;
 mod solver;
 
 pub(crate) use discrete::{at_end_of_step, pop_metric, push_metric};
-pub use force::contact_force;
+pub(crate) use force::contact_force;
 pub(crate) use jacobian::full_j;
 pub(crate) use make::{make, none};
 pub(crate) use reference::reference;

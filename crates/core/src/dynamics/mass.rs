@@ -351,20 +351,20 @@ pub(crate) fn trace(m: &Model, mass: &[f64], dofs: Range<usize>) -> f64 {
 }
 
 /// out ← M v (`mj_mulM`), for vectors of nv numbers. `None` when one is shorter.
-pub fn mul_m(m: &Model, d: &Fields, v: &[f64], out: &mut [f64]) -> Option<()> {
+pub(crate) fn mul_m(m: &Model, d: &Fields, v: &[f64], out: &mut [f64]) -> Option<()> {
     mul(m, &d.M, v.get(..m.nv)?, out.get_mut(..m.nv)?, 0..m.nv);
     Some(())
 }
 
 /// x ← M⁻¹ x (`mj_solveM`), for a vector of nv numbers. `None` when it is shorter.
-pub fn solve_m(m: &Model, d: &Fields, x: &mut [f64]) -> Option<()> {
+pub(crate) fn solve_m(m: &Model, d: &Fields, x: &mut [f64]) -> Option<()> {
     solve(m, &d.qLD, &d.qLDiagInv, x.get_mut(..m.nv)?, 0..m.nv);
     Some(())
 }
 
 /// x ← D^-½ L⁻ᵀ x (`mj_solveM2`): half of the solution, so that xᵀ M⁻¹ x is the square of its norm. `None` when the
 /// vector is shorter than nv.
-pub fn solve_m2(m: &Model, d: &Fields, x: &mut [f64]) -> Option<()> {
+pub(crate) fn solve_m2(m: &Model, d: &Fields, x: &mut [f64]) -> Option<()> {
     let x = x.get_mut(..m.nv)?;
     for i in (0..m.nv).rev() {
         let row = m.M_rowadr[i] as usize..diagonal(m, i);
@@ -380,7 +380,7 @@ pub fn solve_m2(m: &Model, d: &Fields, x: &mut [f64]) -> Option<()> {
 }
 
 /// M as a dense symmetric matrix, row-major (`mj_fullM`).
-pub fn full_m(m: &Model, d: &Fields) -> Vec<f64> {
+pub(crate) fn full_m(m: &Model, d: &Fields) -> Vec<f64> {
     let n = m.nv;
     let mut out = vec![0.0; n * n];
     for i in 0..n {

@@ -47,7 +47,7 @@ pub(crate) fn orientation(m: &Model, d: &Fields, objtype: i32, id: usize) -> Opt
 
 /// Angular and linear velocity of an object (`mj_objectVelocity`), rad/s and m/s: in the axes of the world, or
 /// of the object when `local`. Zero for what does not exist.
-pub fn object_velocity(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool) -> Spatial {
+pub(crate) fn object_velocity(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool) -> Spatial {
     let Some(f) = frame(m, d, kind as i32, id) else { return [0.0; 6] };
     velocity(m, d, &f, local)
 }
@@ -55,7 +55,7 @@ pub fn object_velocity(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool)
 /// Angular and linear acceleration of an object (`mj_objectAcceleration`), rad/s² and m/s², as an accelerometer
 /// feels it: at rest it points up with the strength of gravity. Axes as for [`object_velocity`]; needs
 /// [`rne_post_constraint`](crate::rne_post_constraint). Zero for what cannot move.
-pub fn object_acceleration(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool) -> Spatial {
+pub(crate) fn object_acceleration(m: &Model, d: &Fields, kind: Obj, id: usize, local: bool) -> Spatial {
     let Some(f) = frame(m, d, kind as i32, id) else { return [0.0; 6] };
     acceleration(m, d, &f, local)
 }

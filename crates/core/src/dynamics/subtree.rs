@@ -7,7 +7,7 @@ use crate::math::*;
 use crate::model::{Fields, Model};
 
 /// `subtree_linvel`, `subtree_angmom` of every body with its descendants, world; needs `cvel`.
-pub fn subtree_vel(m: &Model, d: &mut Fields) {
+pub(crate) fn subtree_vel(m: &Model, d: &mut Fields) {
     let (xipos, com) = (rows::<3>(&d.xipos), rows::<3>(&d.subtree_com));
     let (ximat, cvel) = (rows::<9>(&d.ximat), rows::<6>(&d.cvel));
     let inertia = rows::<3>(&m.body_inertia);

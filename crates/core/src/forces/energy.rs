@@ -7,7 +7,7 @@ use crate::math::*;
 use crate::model::{Fields, Model};
 
 /// `energy[0]`: gravity and springs, J. Zero where every centre of mass is at the origin.
-pub fn potential(m: &Model, d: &mut Fields) {
+pub(crate) fn potential(m: &Model, d: &mut Fields) {
     let mut e = 0.0;
     if !m.opt.disabled(disable::GRAVITY) {
         let xipos = rows::<3>(&d.xipos);
@@ -22,6 +22,6 @@ pub fn potential(m: &Model, d: &mut Fields) {
 }
 
 /// `energy[1]` = ½ vᵀ M v, J.
-pub fn kinetic(m: &Model, d: &mut Fields) {
+pub(crate) fn kinetic(m: &Model, d: &mut Fields) {
     d.energy[1] = 0.5 * mass::quadratic(m, &d.M, &d.qvel);
 }

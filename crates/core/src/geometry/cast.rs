@@ -7,7 +7,7 @@ use crate::math::*;
 
 /// The nearest point of the ray `from` + x `along` (x ≥ 0; world) on the surface of a shape. A plane is hit from
 /// its front only, inside its drawn rectangle.
-pub fn ray_shape(shape: &Shape, from: Vec3, along: Vec3) -> Option<Hit> {
+pub(crate) fn ray_shape(shape: &Shape, from: Vec3, along: Vec3) -> Option<Hit> {
     if shape.kind == geom::SPHERE {
         return ray::sphere(shape.size[0], &Ray { from: sub(from, shape.pos), along });
     }

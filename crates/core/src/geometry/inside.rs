@@ -6,7 +6,7 @@ use crate::math::*;
 
 /// Whether a point (world, m) is inside a primitive shape, or below a plane. Meshes and height fields have no
 /// inside here.
-pub fn inside_shape(shape: &Shape, point: Vec3) -> bool {
+pub(crate) fn inside_shape(shape: &Shape, point: Vec3) -> bool {
     let [x, y, z] = shape.local(point);
     let [a, b, c] = shape.size;
     match shape.kind {

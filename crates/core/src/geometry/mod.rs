@@ -21,14 +21,14 @@ mod simplex;
 mod support;
 mod surface;
 
-pub use cast::ray_shape;
+pub(crate) use cast::ray_shape;
 pub use distance::Distance;
 pub(crate) use distance::{Narrow, shape_distance};
-pub use hull::Hull;
-pub use inside::inside_shape;
-pub use ray::Hit;
-pub use shape::{Field, Mesh, Shape};
-pub use sides::Sides;
+pub(crate) use hull::Hull;
+pub(crate) use inside::inside_shape;
+
+pub(crate) use shape::{Field, Mesh, Shape};
+pub(crate) use sides::Sides;
 
 #[cfg(test)]
 pub(crate) mod tests;

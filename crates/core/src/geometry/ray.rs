@@ -7,7 +7,7 @@ use crate::math::*;
 
 /// Where a ray meets a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
+pub(crate) struct Hit {
     /// Distance in lengths of the ray's direction, not negative.
     pub distance: f64,
     /// Unit normal of the surface, out of the shape, in the frame of the ray.

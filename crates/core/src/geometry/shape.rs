@@ -5,7 +5,7 @@ use crate::math::*;
 
 /// A geom or site as geometry sees it.
 #[derive(Clone, Copy, Debug)]
-pub struct Shape<'a> {
+pub(crate) struct Shape<'a> {
     /// `geom_type`.
     pub kind: i32,
     /// Sizes as in `geom_size`, m.
@@ -22,7 +22,7 @@ pub struct Shape<'a> {
 
 /// The data of a mesh, in the frame of the geom.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Mesh<'a> {
+pub(crate) struct Mesh<'a> {
     /// Vertices, m.
     pub vert: &'a [Vec3],
     /// Vertices of each triangle; outside is where they run counterclockwise.
@@ -35,7 +35,7 @@ pub struct Mesh<'a> {
 
 /// The data of a height field, a grid over its base.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Field<'a> {
+pub(crate) struct Field<'a> {
     /// Half lengths in x and y, height of the top, depth of the base, m.
     pub size: [f64; 4],
     /// Number of samples in y and in x.
@@ -67,7 +67,7 @@ impl Field<'_> {
 
 impl<'a> Shape<'a> {
     /// A primitive shape.
-    pub fn new(kind: i32, size: Vec3, pos: Vec3, mat: Mat3) -> Shape<'a> {
+    pub(crate) fn new(kind: i32, size: Vec3, pos: Vec3, mat: Mat3) -> Shape<'a> {
         Shape { kind, size, pos, mat, mesh: Mesh::default(), field: Field::default() }
     }
 

@@ -34,6 +34,42 @@ impl Sides {
         sides
     }
 
+    /// Appends all of it as numbers: integers, and floats.
+    pub(crate) fn numbers(&self) -> (Vec<u32>, Vec<f64>) {
+        let head = [&self.vertices, &self.first, &self.around].map(|list| list.len() as u32);
+        let places = self.sides.iter().flat_map(|s| [s.first, s.count]);
+        let lists = [&self.vertices, &self.first, &self.around].into_iter().flatten().copied();
+        let floats = self.sides.iter().flat_map(|s| [s.normal[0], s.normal[1], s.normal[2], s.area]);
+        (head.into_iter().chain(places).chain(lists).collect(), floats.collect())
+    }
+
+    /// What [`Sides::numbers`] gave, for a hull of so many vertices; `None` for what no hull has.
+    pub(crate) fn from_numbers(integers: &[u32], floats: &[f64], vertices: usize) -> Option<Sides> {
+        let (&[a, b, c], mut rest) = integers.split_first_chunk::<3>()?;
+        let count = floats.len() / 4;
+        let mut take = |n: usize| {
+            let (list, after) = rest.split_at_checked(n)?;
+            rest = after;
+            Some(list.to_vec())
+        };
+        let places = take(2 * count)?;
+        let (corners, first, around) = (take(a as usize)?, take(b as usize)?, take(c as usize)?);
+        let sides = places.as_chunks::<2>().0.iter().zip(floats.as_chunks::<4>().0);
+        let sides =
+            sides.map(|(&[first, count], &[x, y, z, area])| Side { normal: [x, y, z], area, first, count });
+        let out = Sides { sides: sides.collect(), vertices: corners, first, around };
+        let corners = out.vertices.len() as u64;
+        let good = rest.is_empty()
+            && floats.len().is_multiple_of(4)
+            && out.sides.iter().all(|s| u64::from(s.first) + u64::from(s.count) <= corners)
+            && out.vertices.iter().all(|&v| (v as usize) < vertices)
+            && out.around.iter().all(|&s| (s as usize) < out.sides.len())
+            && out.first.is_sorted()
+            && out.first.iter().all(|&at| at as usize <= out.around.len())
+            && (out.sides.is_empty() || out.first.len() == vertices + 1);
+        good.then_some(out)
+    }
+
     /// Number of sides.
     pub fn len(&self) -> usize {
         self.sides.len()

@@ -207,7 +207,7 @@ fn rays_hit_where_they_do_in_mujoco() {
 }
 
 fn settings() -> Settings {
-    Settings::of(&Model { opt: crate::model::Options::mujoco(), ..Model::default() })
+    Settings::of(&Model { opt: crate::model::Options::default(), ..Model::default() })
 }
 
 /// With more iterations than the default of 35, which do not always do for round bodies deep in each other.

@@ -67,7 +67,7 @@ pub const MAX_ALL_ATTRIBUTES: usize = 1_000_000;
 /// # Errors
 ///
 /// All mistakes that were found, in the order of the text.
-pub fn compile(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
+pub(crate) fn compile(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
     compile_with(xml, &NoFiles, None)
 }
 
@@ -77,7 +77,7 @@ pub fn compile(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
 /// # Errors
 ///
 /// All mistakes that were found, in the order of the texts. [`examine`] tells warnings, too.
-pub fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<MjcfDiagnostic>> {
+pub(crate) fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<MjcfDiagnostic>> {
     let Examined { model, mut findings } = examine(xml, files, path);
     findings.retain(|d| d.severity == Severity::Error);
     model.ok_or(findings)
@@ -85,7 +85,7 @@ pub fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<
 
 /// What came of a model's text.
 #[derive(Clone, Debug)]
-pub struct Examined {
+pub(crate) struct Examined {
     /// The model; `None` when there are errors.
     pub model: Option<Model>,
     /// Errors and warnings in the order of the texts.
@@ -93,7 +93,7 @@ pub struct Examined {
 }
 
 /// Compiles a model as [`compile_with`] does, and tells what it may not be meant to be, besides what is wrong.
-pub fn examine(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
+pub(crate) fn examine(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
     let mut report = Report::new();
     let model = passes::build(xml, files, path, &mut report).and_then(|(tree, model)| {
         unsimulated::check(&tree, &model, &mut report);
@@ -117,7 +117,7 @@ pub(crate) fn compile_only(xml: &str, files: &dyn Files) -> Result<Model, Vec<Mj
 /// # Errors
 ///
 /// The file cannot be read, is too large, is not UTF-8, or the model has mistakes.
-pub fn compile_file(path: &Path) -> Result<Model, MjcfFileError> {
+pub(crate) fn compile_file(path: &Path) -> Result<Model, MjcfFileError> {
     let owned = || path.to_path_buf();
     let io = |error| MjcfFileError::Io { path: owned(), error };
     let mut bytes = Vec::new();

@@ -134,7 +134,7 @@ fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
 /// `option`, with MuJoCo's defaults for what is not given.
 pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     let p = section(tree, "option");
-    let d = Options::mujoco();
+    let d = Options::default();
     let mut positive = |name: &str, default: f64| {
         checked(&p, name, "option", |x| x > 0.0, "larger than zero", report).unwrap_or(default)
     };

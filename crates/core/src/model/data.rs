@@ -8,6 +8,7 @@ use crate::model::define;
 
 macro_rules! define_data {
     ($($rows:tt)*) => { define! {
+        #[derive(Default)]
         /// State, inputs and results of a simulation, field by field as MuJoCo's `mjData`: what [`crate::Data`] shows.
         #[allow(non_snake_case)] // MuJoCo's names: M, qLD
         Fields {

@@ -8,10 +8,12 @@ pub(crate) mod meter;
 pub(crate) mod plan;
 pub mod reflect;
 pub(crate) mod stage;
-pub mod state;
+pub(crate) mod state;
 
-pub use data::{Contact, Fields, Warning, WarningStat};
-pub use plan::{Decision, Plan};
+pub use data::{Contact, Warning, WarningStat};
+pub(crate) use data::{Fields};
+pub use plan::{Decision};
+pub(crate) use plan::{Plan};
 
 use crate::kinds::integrator;
 use crate::model::fields::{model_fields, option_fields, statistic_fields};
@@ -21,7 +23,7 @@ macro_rules! define {
     ($(#[$meta:meta])* $struct:ident { $($extra:tt)* }
      $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
         $(#[$meta])*
-        #[derive(Clone, Debug, Default, PartialEq)]
+        #[derive(Clone, Debug, PartialEq)]
         pub struct $struct {
             $(#[doc = $doc] pub $name: $ty,)*
             $($extra)*
@@ -30,8 +32,16 @@ macro_rules! define {
 }
 pub(crate) use define;
 
+/// A struct of the table with every number zero.
+macro_rules! zero {
+    ($struct:ident $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        $struct { $($name: Default::default(),)* }
+    };
+}
+
 macro_rules! define_model {
     ($($rows:tt)*) => { define! {
+        #[derive(Default)]
         /// A compiled model: sizes, constants, options and names, field by field as MuJoCo's `mjModel`.
         #[allow(non_snake_case)] // MuJoCo's names: dof_M0, M_rowadr, nC
         Model {
@@ -53,13 +63,20 @@ macro_rules! define_model {
 }
 macro_rules! define_options {
     ($($rows:tt)*) => { define! {
-        /// Options of the simulation, `model.opt`. The default is all zeros: see `Options::mujoco`.
+        /// Options of the simulation, `model.opt`. The default is that of MuJoCo 3.14.0.
         Options {}
         $($rows)*
+    }
+    impl Options {
+        /// Every number zero.
+        fn zero() -> Options {
+            zero! { Options $($rows)* }
+        }
     } };
 }
 macro_rules! define_statistic {
     ($($rows:tt)*) => { define! {
+        #[derive(Default)]
         /// Statistics of the model, `model.stat`.
         Statistic {}
         $($rows)*
@@ -69,9 +86,8 @@ model_fields!(define_model);
 option_fields!(define_options);
 statistic_fields!(define_statistic);
 
-impl Options {
-    /// MuJoCo 3.14.0's defaults.
-    pub fn mujoco() -> Options {
+impl Default for Options {
+    fn default() -> Options {
         Options {
             timestep: 0.002,
             impratio: 1.0,
@@ -94,10 +110,12 @@ impl Options {
             sdf_initpoints: 40,
             sdf_iterations: 10,
             // The rest is zero: no wind, a vacuum, the pyramidal cone, no flags.
-            ..Options::default()
+            ..Options::zero()
         }
     }
+}
 
+impl Options {
     /// Whether a part of the simulation is switched off; `bit` is one of [`crate::disable`].
     pub fn disabled(&self, bit: i32) -> bool {
         self.disableflags & bit != 0
@@ -143,6 +161,16 @@ macro_rules! objects {
         }
 
         impl Names {
+            /// The lists, one for each kind.
+            pub(crate) fn lists(&self) -> impl Iterator<Item = &Vec<String>> {
+                [&self.body, $(&self.$list),*].into_iter()
+            }
+
+            /// The same to write.
+            pub(crate) fn lists_mut(&mut self) -> impl Iterator<Item = &mut Vec<String>> {
+                [&mut self.body, $(&mut self.$list),*].into_iter()
+            }
+
             /// All names of one kind.
             pub fn of(&self, kind: Obj) -> &[String] {
                 match kind {

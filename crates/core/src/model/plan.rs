@@ -68,7 +68,7 @@ pub(crate) enum Fact {
 
 /// Which stages run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
+pub(crate) struct Plan {
     pub(crate) decisions: Vec<Decision>,
     /// A bit for each stage that runs, and for each fact that holds.
     kept: u32,
@@ -91,7 +91,7 @@ impl Default for Plan {
 impl Plan {
     /// Whether a stage runs.
     #[inline(always)]
-    pub fn keeps(&self, stage: Stage) -> bool {
+    pub(crate) fn keeps(&self, stage: Stage) -> bool {
         self.kept & (1 << stage as u32) != 0
     }
 
@@ -102,7 +102,7 @@ impl Plan {
     }
 
     /// Every stage with the reason to keep it or leave it out, in the order of the pipeline.
-    pub fn decisions(&self) -> &[Decision] {
+    pub(crate) fn decisions(&self) -> &[Decision] {
         &self.decisions
     }
 

@@ -72,11 +72,21 @@ pub struct FieldInfo {
     pub doc: &'static str,
 }
 
-/// Index into [`FIELDS`].
+/// A field: a row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct FieldId(pub u16);
+pub struct FieldId(pub(crate) u16);
 
 impl FieldId {
+    /// The field with this number in the order of the table.
+    pub fn new(index: usize) -> Option<FieldId> {
+        (index < NFIELD).then_some(FieldId(index as u16))
+    }
+
+    /// Its number in the order of the table.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+
     /// The row of the table.
     pub fn info(self) -> &'static FieldInfo {
         FIELDS[self.0 as usize]
@@ -278,9 +288,10 @@ macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_READERS, M
 macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_READERS, OPTION_COUNT, OptionId, Option, crate::model::Options, options; $($t)* } } }
 macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_READERS, STAT_COUNT, StatId, Statistic, crate::model::Statistic, statistic; $($t)* } } }
 macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_READERS, DATA_COUNT, DataId, Data, Fields, data; $($t)* } } }
-/// Arrays get their lengths by field; options and statistics have none.
-macro_rules! allocation {
+/// Lengths, and bytes, by field.
+macro_rules! storage {
     ($ids:ident, $struct:ty; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        #[allow(dead_code)] // options and statistics have no lengths
         impl $struct {
             fn allocate(&mut self, id: $ids, n: usize) {
                 match id { $($ids::$name => Cell::allocate(&mut self.$name, n)),* }
@@ -288,23 +299,20 @@ macro_rules! allocation {
             fn write(&self, id: $ids, out: &mut Vec<u8>) {
                 match id { $($ids::$name => Cell::write(&self.$name, out)),* }
             }
-        }
-    };
-}
-macro_rules! allocation_model { ($($t:tt)*) => { allocation! { ModelId, Model; $($t)* } } }
-macro_rules! allocation_data { ($($t:tt)*) => { allocation! { DataId, Fields; $($t)* } } }
-model_fields!(allocation_model);
-data_fields!(allocation_data);
-macro_rules! reading {
-    ($($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
-        impl Fields {
-            fn read(&mut self, id: DataId, n: usize, bytes: &mut &[u8]) -> bool {
-                match id { $(DataId::$name => Cell::read(&mut self.$name, n, bytes)),* }
+            fn read(&mut self, id: $ids, n: usize, bytes: &mut &[u8]) -> bool {
+                match id { $($ids::$name => Cell::read(&mut self.$name, n, bytes)),* }
             }
         }
     };
 }
-data_fields!(reading);
+macro_rules! storage_model { ($($t:tt)*) => { storage! { ModelId, Model; $($t)* } } }
+macro_rules! storage_option { ($($t:tt)*) => { storage! { OptionId, crate::model::Options; $($t)* } } }
+macro_rules! storage_stat { ($($t:tt)*) => { storage! { StatId, crate::model::Statistic; $($t)* } } }
+macro_rules! storage_data { ($($t:tt)*) => { storage! { DataId, Fields; $($t)* } } }
+model_fields!(storage_model);
+option_fields!(storage_option);
+statistic_fields!(storage_stat);
+data_fields!(storage_data);
 model_fields!(reflect_model);
 option_fields!(reflect_option);
 statistic_fields!(reflect_stat);
@@ -338,7 +346,7 @@ macro_rules! whole_table {
 }
 
 /// The whole table: model, options, statistics, data.
-pub static FIELDS: [&FieldInfo; NFIELD] = whole_table!(MODEL, OPTION, STAT, DATA);
+pub(crate) static FIELDS: [&FieldInfo; NFIELD] = whole_table!(MODEL, OPTION, STAT, DATA);
 static READERS: [Reader; NFIELD] = whole_table!(MODEL_READERS, OPTION_READERS, STAT_READERS, DATA_READERS);
 
 /// All field ids, in table order.
@@ -360,8 +368,8 @@ static BY_NAME: LazyLock<Vec<FieldId>> = LazyLock::new(|| {
     all
 });
 
-/// Reads a field of the model or the data.
-pub fn view<'a>(m: &'a Model, d: &'a Fields, field: FieldId) -> View<'a> {
+/// Reads a field of the model, its options or its statistics; nothing for a field of the data.
+pub(crate) fn view_model(m: &Model, field: FieldId) -> View<'_> {
     let i = field.0 as usize;
     if i < OPTION_AT {
         m.cell(ModelId::ALL[i])
@@ -370,24 +378,21 @@ pub fn view<'a>(m: &'a Model, d: &'a Fields, field: FieldId) -> View<'a> {
     } else if i < DATA_AT {
         m.stat.cell(StatId::ALL[i - STAT_AT])
     } else {
-        d.cell(DataId::ALL[i - DATA_AT])
+        View::F64(&[])
     }
 }
 
-/// Element `i` of a field, `None` past the end: the same as [`view`] gives, in one step.
-#[inline]
-pub fn element(m: &Model, d: &Fields, field: FieldId, i: usize) -> Option<f64> {
-    READERS.get(field.0 as usize)?(m, d, i)
+/// Reads a field of the data; nothing for one of the model.
+pub(crate) fn view_data(d: &Fields, field: FieldId) -> View<'_> {
+    match (field.0 as usize).checked_sub(DATA_AT) {
+        Some(i) => d.cell(DataId::ALL[i]),
+        None => View::F64(&[]),
+    }
 }
 
-/// Writes a field of the model or the data. Nothing here asks whether writing makes sense: see [`Kind`]. Computed
-/// integers are addresses and ids that later stages follow: they are fixed.
-pub fn view_mut<'a>(m: &'a mut Model, d: &'a mut Fields, field: FieldId) -> ViewMut<'a> {
+/// The same to write.
+pub(crate) fn view_model_mut(m: &mut Model, field: FieldId) -> ViewMut<'_> {
     let i = field.0 as usize;
-    let info = field.info();
-    if info.elem == Elem::I32 && info.kind == Kind::Derived {
-        return ViewMut::Fixed;
-    }
     if i < OPTION_AT {
         m.cell_mut(ModelId::ALL[i])
     } else if i < STAT_AT {
@@ -395,8 +400,33 @@ pub fn view_mut<'a>(m: &'a mut Model, d: &'a mut Fields, field: FieldId) -> View
     } else if i < DATA_AT {
         m.stat.cell_mut(StatId::ALL[i - STAT_AT])
     } else {
-        d.cell_mut(DataId::ALL[i - DATA_AT])
+        ViewMut::Fixed
     }
+}
+
+/// The same to write.
+pub(crate) fn view_data_mut(d: &mut Fields, field: FieldId) -> ViewMut<'_> {
+    match (field.0 as usize).checked_sub(DATA_AT) {
+        Some(i) => d.cell_mut(DataId::ALL[i]),
+        None => ViewMut::Fixed,
+    }
+}
+
+/// Reads a field of the model or the data.
+pub(crate) fn view<'a>(m: &'a Model, d: &'a Fields, field: FieldId) -> View<'a> {
+    if (field.0 as usize) < DATA_AT { view_model(m, field) } else { view_data(d, field) }
+}
+
+/// Element `i` of a field, `None` past the end: the same as [`view`] gives, in one step.
+#[inline]
+pub(crate) fn element(m: &Model, d: &Fields, field: FieldId, i: usize) -> Option<f64> {
+    READERS.get(field.0 as usize)?(m, d, i)
+}
+
+/// Whether anybody but the engine may write a field. Not what it indexes by: structure, and computed integers.
+pub(crate) fn is_writable(field: FieldId) -> bool {
+    let info = field.info();
+    info.kind != Kind::Structure && (info.kind != Kind::Derived || info.elem == Elem::F64)
 }
 
 /// The dimensions of a field for this model; `None` for a dimension that changes with the state (`nefc`).
@@ -416,7 +446,8 @@ pub fn size(m: &Model, name: &str) -> Option<usize> {
 /// Number of elements of a field that the sizes of the model decide; 0 while a size is not known. Allocates
 /// nothing: a reset in the step loop asks for every array.
 pub(crate) fn length(m: &Model, field: FieldId) -> usize {
-    field.info().shape.iter().map(|dim| dim.parse().ok().or_else(|| size(m, dim)).unwrap_or(0)).product()
+    let dims = field.info().shape.iter().map(|dim| dim.parse().ok().or_else(|| size(m, dim)).unwrap_or(0));
+    dims.fold(1, usize::saturating_mul)
 }
 
 /// Appends all numbers of the data that are fields, in the order of the table.
@@ -443,6 +474,30 @@ pub(crate) fn count(d: &Fields, name: &str) -> Option<usize> {
     match d.cell(DataId::ALL[i]) {
         View::Size(n) => Some(n),
         _ => None,
+    }
+}
+
+/// Appends the numbers of a field of the model, its options or statistics.
+pub(crate) fn write_model(m: &Model, field: FieldId, out: &mut Vec<u8>) {
+    let i = field.0 as usize;
+    if i < OPTION_AT {
+        m.write(ModelId::ALL[i], out);
+    } else if i < STAT_AT {
+        m.opt.write(OptionId::ALL[i - OPTION_AT], out);
+    } else if i < DATA_AT {
+        m.stat.write(StatId::ALL[i - STAT_AT], out);
+    }
+}
+
+/// Reads what [`write_model`] wrote, once the sizes are known; `false` when it is too short.
+pub(crate) fn read_model(m: &mut Model, field: FieldId, bytes: &mut &[u8]) -> bool {
+    let (i, n) = (field.0 as usize, length(m, field));
+    if i < OPTION_AT {
+        m.read(ModelId::ALL[i], n, bytes)
+    } else if i < STAT_AT {
+        m.opt.read(OptionId::ALL[i - OPTION_AT], n, bytes)
+    } else {
+        i < DATA_AT && m.stat.read(StatId::ALL[i - STAT_AT], n, bytes)
     }
 }
 
@@ -506,6 +561,11 @@ impl FieldSet {
     /// The fields of the set, in table order.
     pub fn iter(&self) -> impl Iterator<Item = FieldId> + '_ {
         fields().filter(|&f| self.contains(f))
+    }
+
+    /// Whether every field of this set is in another.
+    pub fn is_part_of(&self, other: &FieldSet) -> bool {
+        self.0.iter().zip(other.0).all(|(a, b)| a & !b == 0)
     }
 
     /// Whether any field of the set satisfies `test`.

@@ -47,9 +47,9 @@ elements! {
 }
 
 /// State of plugins, of which there are none: no numbers.
-pub const PLUGIN: i32 = 1 << 13;
+pub(crate) const PLUGIN: i32 = 1 << 13;
 /// Number of bits.
-pub const COUNT: usize = 14;
+pub(crate) const COUNT: usize = 14;
 /// What evolves.
 pub const PHYSICS: i32 = QPOS | QVEL | ACT | HISTORY;
 /// What evolves, and when.
@@ -98,12 +98,12 @@ impl fmt::Display for StateError {
 impl std::error::Error for StateError {}
 
 /// Number of numbers of a state (`mj_stateSize`).
-pub fn size(m: &Model, sig: i32) -> Result<usize, StateError> {
+pub(crate) fn size(m: &Model, sig: i32) -> Result<usize, StateError> {
     Ok(bits(sig)?.map(|bit| length(m, bit)).sum())
 }
 
 /// Writes a state to `out`, which has `size` numbers (`mj_getState`).
-pub fn get(m: &Model, d: &Fields, out: &mut [f64], sig: i32) -> Result<(), StateError> {
+pub(crate) fn get(m: &Model, d: &Fields, out: &mut [f64], sig: i32) -> Result<(), StateError> {
     fits(m, sig, out.len())?;
     let mut out = out.iter_mut();
     for bit in bits(sig)? {
@@ -116,7 +116,7 @@ pub fn get(m: &Model, d: &Fields, out: &mut [f64], sig: i32) -> Result<(), State
 }
 
 /// Sets a state (`mj_setState`). What follows from it is computed by `forward` or the next step.
-pub fn set(m: &Model, d: &mut Fields, state: &[f64], sig: i32) -> Result<(), StateError> {
+pub(crate) fn set(m: &Model, d: &mut Fields, state: &[f64], sig: i32) -> Result<(), StateError> {
     fits(m, sig, state.len())?;
     let mut rest = state;
     for bit in bits(sig)? {
@@ -133,7 +133,7 @@ pub fn set(m: &Model, d: &mut Fields, state: &[f64], sig: i32) -> Result<(), Sta
 }
 
 /// Takes the parts `to` of the state `from`, which has the parts `sig` (`mj_extractState`).
-pub fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> Result<(), StateError> {
+pub(crate) fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> Result<(), StateError> {
     fits(m, sig, from.len())?;
     fits(m, to, out.len())?;
     if to & !sig != 0 {
@@ -151,7 +151,7 @@ pub fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> R
 }
 
 /// Copies parts of the state of one simulation into another of the same model (`mj_copyState`).
-pub fn copy(m: &Model, from: &Fields, to: &mut Fields, sig: i32) -> Result<(), StateError> {
+pub(crate) fn copy(m: &Model, from: &Fields, to: &mut Fields, sig: i32) -> Result<(), StateError> {
     for bit in bits(sig)? {
         match (part(from, bit), part_mut(to, bit)) {
             (View::F64(x), ViewMut::F64(out)) if x.len() == out.len() => out.copy_from_slice(x),

@@ -8,5 +8,6 @@ mod ray;
 mod shape;
 
 pub(crate) use distance::geom_distance;
-pub use inside::inside_site;
-pub use ray::{RayFilter, RayHit, ray};
+pub(crate) use inside::inside_site;
+pub use ray::{RayFilter, RayHit};
+pub(crate) use ray::{ray};

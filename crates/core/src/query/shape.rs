@@ -8,7 +8,7 @@ use crate::model::{Fields, Model};
 impl<'a> Shape<'a> {
     /// A geom where the data have it.
     #[inline]
-    pub fn geom(m: &'a Model, d: &Fields, g: usize) -> Shape<'a> {
+    pub(crate) fn geom(m: &'a Model, d: &Fields, g: usize) -> Shape<'a> {
         let (size, pos, mat) =
             (rows::<3>(&m.geom_size)[g], rows::<3>(&d.geom_xpos)[g], rows::<9>(&d.geom_xmat)[g]);
         let mut shape = Shape::new(m.geom_type[g], size, pos, mat);
@@ -24,7 +24,7 @@ impl<'a> Shape<'a> {
 
     /// A site where the data have it.
     #[inline]
-    pub fn site(m: &'a Model, d: &Fields, s: usize) -> Shape<'a> {
+    pub(crate) fn site(m: &'a Model, d: &Fields, s: usize) -> Shape<'a> {
         let (size, pos, mat) =
             (rows::<3>(&m.site_size)[s], rows::<3>(&d.site_xpos)[s], rows::<9>(&d.site_xmat)[s]);
         let mut shape = Shape::new(m.site_type[s], size, pos, mat);
@@ -37,7 +37,7 @@ impl<'a> Shape<'a> {
 
 impl<'a> Mesh<'a> {
     /// Mesh `id` of a model.
-    pub fn of(m: &'a Model, id: usize) -> Mesh<'a> {
+    pub(crate) fn of(m: &'a Model, id: usize) -> Mesh<'a> {
         let range = |adr: &[i32], num: &[i32]| {
             let first = adr[id].max(0) as usize;
             first..first + num[id].max(0) as usize
@@ -53,7 +53,7 @@ impl<'a> Mesh<'a> {
 
 impl<'a> Field<'a> {
     /// Height field `id` of a model.
-    pub fn of(m: &'a Model, id: usize) -> Field<'a> {
+    pub(crate) fn of(m: &'a Model, id: usize) -> Field<'a> {
         let (nrow, ncol) = (m.hfield_nrow[id].max(0) as usize, m.hfield_ncol[id].max(0) as usize);
         let first = m.hfield_adr[id].max(0) as usize;
         let data = &m.hfield_data[first..first + nrow * ncol];

@@ -14,7 +14,7 @@ use crate::model::{Fields, Model};
 ///
 /// Gravity enters as an upward acceleration of the world: a body at rest has the acceleration of an
 /// accelerometer at rest.
-pub fn rne_post_constraint(m: &Model, d: &mut Fields) {
+pub(crate) fn rne_post_constraint(m: &Model, d: &mut Fields) {
     external(m, d);
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
     let (cdof, cdof_dot) = (rows::<6>(&d.cdof), rows::<6>(&d.cdof_dot));

@@ -21,7 +21,7 @@ pub(crate) use timing::{record, reset};
 
 use contact::Match;
 use table::Read;
-pub use table::{Datatype, KINDS, Kind, Senses, When, kind};
+pub(crate) use table::{Datatype, KINDS, Kind, Senses, When, kind};
 
 use crate::geometry::Narrow;
 use crate::kinds::disable;

@@ -10,7 +10,7 @@ use crate::model::{Fields, Model};
 
 /// What a sensor can be attached to: it decides the attributes in MJCF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Senses {
+pub(crate) enum Senses {
     /// Nothing in particular.
     Nothing,
     /// A site.
@@ -53,7 +53,7 @@ pub enum Senses {
 
 /// What the values of a sensor are, and so how a cutoff acts (mjtDataType).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Datatype {
+pub(crate) enum Datatype {
     /// Any number: clamped on both sides.
     Real,
     /// Zero or more, where negative means nothing: clamped from above.
@@ -67,7 +67,7 @@ pub enum Datatype {
 /// When the values of a sensor are known (mjtStage).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)] // positions, velocities, accelerations and forces
-pub enum When {
+pub(crate) enum When {
     Position = 1,
     Velocity = 2,
     Acceleration = 3,
@@ -82,7 +82,7 @@ pub(super) enum Read {
 
 /// A row of the table.
 #[derive(Debug)]
-pub struct Kind {
+pub(crate) struct Kind {
     /// The element in MJCF.
     pub name: &'static str,
     /// What it can be attached to.
@@ -100,16 +100,16 @@ pub struct Kind {
 
 macro_rules! kinds {
     ($($id:ident $name:literal $senses:ident $dim:literal $datatype:ident $when:ident [$($needs:ident)*] $how:ident $read:expr;)*) => {
-        #[allow(non_camel_case_types, clippy::upper_case_acronyms)] // the names of the constants
+        #[allow(non_camel_case_types, clippy::upper_case_acronyms, dead_code)] // the names of the constants
         enum Number { $($id),* }
         /// Types of sensors, values of `sensor_type` (mjtSensor).
-        #[allow(missing_docs)] // each is named as in MJCF
-        pub mod kind {
+        #[allow(missing_docs, dead_code)] // each is named as in MJCF, also those that nothing here asks for
+        pub(crate) mod kind {
             use super::Number;
-            $(pub const $id: i32 = Number::$id as i32;)*
+            $(pub(crate) const $id: i32 = Number::$id as i32;)*
         }
         /// All kinds of sensors, by their number.
-        pub static KINDS: [Kind; [$($name),*].len()] = [$(Kind {
+        pub(crate) static KINDS: [Kind; [$($name),*].len()] = [$(Kind {
             name: $name,
             senses: Senses::$senses,
             dim: $dim,

@@ -65,7 +65,7 @@ fn check(xml: &str, recorded: &str, tolerance: f64) {
     for line in recorded.lines() {
         let (name, want) = parse(line);
         if name == "step" {
-            crate::step(&m, &mut d);
+            crate::step::step(&m, &mut d);
             stepped = true;
             continue;
         }
@@ -78,7 +78,7 @@ fn check(xml: &str, recorded: &str, tolerance: f64) {
         let id = reflect::field(object, field).unwrap();
         let input = id.info().kind != reflect::Kind::Derived && object == Object::Data && !stepped;
         if input {
-            match reflect::view_mut(&mut m, &mut d, id) {
+            match reflect::view_data_mut(&mut d, id) {
                 ViewMut::F64(v) => v.copy_from_slice(&want),
                 _ => panic!("{name} has no real numbers"),
             }
@@ -89,7 +89,7 @@ fn check(xml: &str, recorded: &str, tolerance: f64) {
             computed = true;
         }
         if OPTICS.contains(&field) {
-            match reflect::view_mut(&mut m, &mut d, id) {
+            match reflect::view_model_mut(&mut m, id) {
                 ViewMut::F64(v) => v.copy_from_slice(&want),
                 ViewMut::I32(v) => want.iter().enumerate().for_each(|(i, &x)| v[i] = x as i32),
                 _ => panic!("{name} has no numbers"),
@@ -135,7 +135,7 @@ golden! {
 /// business of the solver.
 #[test]
 fn equality_constraints_act_where_they_hold() {
-    let mut m = compile(include_str!("golden/equality.xml"));
+    let m = compile(include_str!("golden/equality.xml"));
     let mut d = Data::new(&m);
     let mut wrong = Vec::new();
     let mut rows = 0;
@@ -164,7 +164,7 @@ fn equality_constraints_act_where_they_hold() {
                 }
             }
             _ if name.starts_with("model.") => {}
-            _ => match reflect::view_mut(&mut m, &mut d, reflect::field(Object::Data, name).unwrap()) {
+            _ => match reflect::view_data_mut(&mut d, reflect::field(Object::Data, name).unwrap()) {
                 ViewMut::F64(v) => v.copy_from_slice(&want),
                 _ => panic!("{name} has no real numbers"),
             },

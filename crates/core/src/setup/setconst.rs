@@ -16,7 +16,7 @@ use crate::step::reset;
 /// Uses `d` as scratch, with a visible effect: on return `qpos` is the configuration `qpos_spring`
 /// (normally `qpos0`), with positions computed there, while `qvel`, `time`, `act` and `ctrl` are untouched. A
 /// call in mid-flight therefore puts bodies back where they started and keeps their speed.
-pub fn set_const(m: &mut Model, d: &mut Data) {
+pub(crate) fn set_const(m: &mut Model, d: &mut Data) {
     let plan = std::mem::replace(&mut d.plan, Plan::full());
     let solves = (m.nbody + m.njnt + m.ntendon) * (6 * m.nC / m.ntree.max(1) + 100);
     let pass = d.meter.half;

@@ -29,7 +29,7 @@ impl Energy {
 
 /// The energy at `qpos` and `qvel`, for the controls at hand. `None` where some actuator has no potential: it may feed the
 /// scene. Computes where things are, how long they are and how heavy, and nothing else.
-pub fn mechanical_energy(m: &Model, d: &mut Data) -> Option<Energy> {
+pub(crate) fn mechanical_energy(m: &Model, d: &mut Data) -> Option<Energy> {
     forward::placed(m, d);
     transmission::transmissions(m, &mut d.fields, &mut d.work.forces);
     let mut gravity = 0.0;

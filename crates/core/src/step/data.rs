@@ -11,7 +11,7 @@ use std::ops::{Deref, DerefMut};
 
 /// State, inputs and results of a simulation of one model.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Data {
+pub(crate) struct Data {
     /// What everybody may look at.
     pub(crate) fields: Fields,
     /// What is nobody's business, kept so that steps do not allocate.
@@ -69,7 +69,7 @@ impl DerefMut for Data {
 
 impl Data {
     /// The plan that decides what is computed.
-    pub fn plan(&self) -> &Plan {
+    pub(crate) fn plan(&self) -> &Plan {
         &self.fields.plan
     }
 }

@@ -14,7 +14,7 @@ use crate::step::data::Data;
 use crate::{collision, constraint, sensor};
 
 /// Computes everything that follows from the state, without advancing time (`mj_forward`).
-pub fn forward(m: &Model, d: &mut Data) {
+pub(crate) fn forward(m: &Model, d: &mut Data) {
     from_state(m, d);
     from_inputs(m, d);
 }

@@ -7,7 +7,7 @@ use crate::step::data::Data;
 use crate::{constraint, query};
 
 /// Poses of bodies, joints, geoms and sites (`mj_kinematics`).
-pub fn kinematics(m: &Model, d: &mut Data) {
+pub(crate) fn kinematics(m: &Model, d: &mut Data) {
     poses::kinematics(m, &mut d.fields, &mut d.work.dynamics);
 }
 
@@ -15,48 +15,48 @@ pub fn kinematics(m: &Model, d: &mut Data) {
 /// centrifugal force then (`mj_rne`). The inertia of joints (armature) does not count. `None` when an array is shorter.
 ///
 /// It needs the position and velocity stages of a full pipeline.
-pub fn rne(m: &Model, d: &mut Data, qacc: Option<&[f64]>, out: &mut [f64]) -> Option<()> {
+pub(crate) fn rne(m: &Model, d: &mut Data, qacc: Option<&[f64]>, out: &mut [f64]) -> Option<()> {
     newton_euler::rne(m, &mut d.fields, &mut d.work.dynamics, qacc, out)
 }
 
 /// The Jacobian of the constraints as a dense matrix, `nefc` x `nv`, row-major (`efc_J`).
-pub fn full_j(m: &Model, d: &Data) -> Vec<f64> {
+pub(crate) fn full_j(m: &Model, d: &Data) -> Vec<f64> {
     constraint::full_j(m, d, &d.work.constraint.jac)
 }
 
 /// The distance of two geoms up to `most`, m, with the segment from the first to the second (`mj_geomDistance`).
 ///
 /// Shapes with closed forms use those, at their deepest contact; two planes or height fields have no distance.
-pub fn geom_distance(m: &Model, d: &mut Data, geom1: usize, geom2: usize, most: f64) -> Distance {
+pub(crate) fn geom_distance(m: &Model, d: &mut Data, geom1: usize, geom2: usize, most: f64) -> Distance {
     query::geom_distance(m, &mut d.fields, &mut d.work.sensor.narrow, [geom1, geom2], most)
 }
 
 /// The work that was done with these data since they were made: about nanoseconds of a fast machine.
-pub fn cost(d: &Data) -> u64 {
+pub(crate) fn cost(d: &Data) -> u64 {
     d.meter.cost
 }
 
 /// What a forward pass costs without pairs and constraints, in the same unit.
-pub fn cost_of_pass(d: &Data) -> u64 {
+pub(crate) fn cost_of_pass(d: &Data) -> u64 {
     2 * d.meter.half
 }
 
 /// Lets the engine do so much more work and no more. Beyond that its results are of no use: see [`exhausted`].
-pub fn limit(d: &mut Data, units: u64) {
+pub(crate) fn limit(d: &mut Data, units: u64) {
     d.meter.limit = d.meter.cost.saturating_add(units);
 }
 
 /// Whether the limit is passed, and results with it are of no use.
-pub fn exhausted(d: &Data) -> bool {
+pub(crate) fn exhausted(d: &Data) -> bool {
     d.meter.over()
 }
 
 /// Counts work that was done on the data by others.
-pub fn charge(d: &mut Data, units: u64) {
+pub(crate) fn charge(d: &mut Data, units: u64) {
     d.meter.add(units);
 }
 
 /// What is left of the limit.
-pub fn work_left(d: &Data) -> u64 {
+pub(crate) fn work_left(d: &Data) -> u64 {
     d.meter.left()
 }

@@ -35,7 +35,7 @@ impl std::error::Error for InverseError {}
 ///
 /// All fields of position and velocity, the forces of constraints and sensors are computed, whatever the plan
 /// says.
-pub fn inverse(m: &Model, d: &mut Data) -> Result<(), InverseError> {
+pub(crate) fn inverse(m: &Model, d: &mut Data) -> Result<(), InverseError> {
     if m.opt.enabled(enable::INVDISCRETE) && m.opt.integrator == integrator::RK4 {
         return Err(InverseError::RungeKutta);
     }

@@ -14,10 +14,11 @@ pub(crate) mod inverse;
 pub(crate) mod pipeline;
 pub(crate) mod plan;
 pub(crate) mod reset;
-pub mod save;
+pub(crate) mod save;
 pub(crate) mod scene;
 pub(crate) mod sleep;
 pub(crate) mod stages;
+pub(crate) mod store;
 
 use crate::kinds::disable;
 use crate::math::{bad, sum};
@@ -28,7 +29,7 @@ use crate::step::data::Data;
 ///
 /// A bad number in the state resets the data first; one in the acceleration resets it and the same step
 /// then starts from there (`warning` says which and when).
-pub fn step(m: &Model, d: &mut Data) {
+pub(crate) fn step(m: &Model, d: &mut Data) {
     check_state(m, d);
     forward::forward(m, d);
     check_acceleration(m, d);
@@ -37,14 +38,14 @@ pub fn step(m: &Model, d: &mut Data) {
 
 /// The first part of a step (`mj_step1`): all that does not depend on inputs. Controls and applied forces may be
 /// set between the two.
-pub fn step1(m: &Model, d: &mut Data) {
+pub(crate) fn step1(m: &Model, d: &mut Data) {
     check_state(m, d);
     forward::from_state(m, d);
 }
 
 /// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name
 /// Runge–Kutta, which needs forces at other states, this is a step of Euler.
-pub fn step2(m: &Model, d: &mut Data) {
+pub(crate) fn step2(m: &Model, d: &mut Data) {
     forward::from_inputs(m, d);
     check_acceleration(m, d);
     integrate::integrate_once(m, d);

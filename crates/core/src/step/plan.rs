@@ -15,7 +15,7 @@ const SHOWN: [Stage; 3] = [Stage::SubtreeVel, Stage::RnePost, Stage::Sensors];
 
 impl Plan {
     /// Every stage runs, needed or not: the reference that plans are held against.
-    pub fn full() -> Plan {
+    pub(crate) fn full() -> Plan {
         let mut plan = Plan::default();
         for row in &STAGES {
             plan.decide(row.stage, true, "the full pipeline was asked for".into());
@@ -24,7 +24,7 @@ impl Plan {
     }
 
     /// Every stage but the one that lets trees sleep: what computes constants wants all of them awake.
-    pub fn awake() -> Plan {
+    pub(crate) fn awake() -> Plan {
         let mut plan = Plan::full();
         plan.keep(Stage::Sleep, false);
         plan.arranged()
@@ -34,7 +34,7 @@ impl Plan {
     ///
     /// From the last stage to the first: a stage runs when it is wanted for its own sake, or when a later
     /// stage that runs uses its results.
-    pub fn new(m: &Model, demand: &Demand) -> Plan {
+    pub(crate) fn new(m: &Model, demand: &Demand) -> Plan {
         let scene = Scene::new(m, demand);
         let mut plan = Plan::default();
         for (fact, holds) in FACTS {

@@ -17,12 +17,12 @@ impl Data {
     /// Data for a model, at the default configuration. Nothing is computed yet: call `forward`.
     ///
     /// The plan allows any field to be read or written at any time: see `Data::planned` for less work.
-    pub fn new(m: &Model) -> Data {
+    pub(crate) fn new(m: &Model) -> Data {
         Data::planned(m, Plan::new(m, &Demand::ANY))
     }
 
     /// Data that computes only what a plan keeps.
-    pub fn planned(m: &Model, plan: Plan) -> Data {
+    pub(crate) fn planned(m: &Model, plan: Plan) -> Data {
         let mut d = Data::unplanned(m);
         set_plan(m, &mut d, plan);
         d
@@ -43,7 +43,7 @@ impl Data {
 }
 
 /// Replaces the plan, which decides what the next forward pass computes.
-pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
+pub(crate) fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
     d.work.collision.pairs = if plan.keeps(Stage::Collision) {
         collision::pairs(m, plan.has(Fact::PairsChange), plan.has(Fact::ContactParamsChange))
     } else {
@@ -60,7 +60,7 @@ pub fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
 
 /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
 /// what was written to it.
-pub fn reset_data(m: &Model, d: &mut Data) {
+pub(crate) fn reset_data(m: &Model, d: &mut Data) {
     reflect::allocate_data(m, d);
     (d.ncon, d.nefc, d.nisland, d.solver_niter) = (0, 0, 0, 0);
     (d.ne, d.nf, d.nl) = (0, 0, 0);
@@ -92,7 +92,7 @@ fn lay_down(m: &Model, d: &mut Data) {
 }
 
 /// Back to keyframe `key` (`mj_resetDataKeyframe`); one that does not exist resets to the default.
-pub fn reset_data_keyframe(m: &Model, d: &mut Data, key: usize) {
+pub(crate) fn reset_data_keyframe(m: &Model, d: &mut Data, key: usize) {
     reset_data(m, d);
     if key >= m.nkey {
         return;
@@ -109,7 +109,7 @@ pub fn reset_data_keyframe(m: &Model, d: &mut Data, key: usize) {
 
 /// Stores the time, the state and the inputs in keyframe `key` (`mj_setKeyframe`). `false`, and nothing changes, when the
 /// model has no such keyframe.
-pub fn set_keyframe(m: &mut Model, d: &Data, key: usize) -> bool {
+pub(crate) fn set_keyframe(m: &mut Model, d: &Data, key: usize) -> bool {
     let Some(time) = m.key_time.get_mut(key) else { return false };
     *time = d.time;
     let row = |a: &mut [f64], x: &[f64]| a[key * x.len()..(key + 1) * x.len()].copy_from_slice(x);

@@ -59,7 +59,7 @@ impl fmt::Display for RestoreError {
 impl std::error::Error for RestoreError {}
 
 /// All of a simulation as bytes, for [`restore`].
-pub fn save(m: &Model, d: &Data) -> Vec<u8> {
+pub(crate) fn save(m: &Model, d: &Data) -> Vec<u8> {
     let mut out = header(m);
     reflect::write_data(d, &mut out);
     d.contact.len().put(&mut out);
@@ -75,7 +75,7 @@ pub fn save(m: &Model, d: &Data) -> Vec<u8> {
 
 /// Brings a simulation of the same model back to where it was saved, every bit of it; its plan stays. Parameters of the
 /// model are not part of it: a run goes on with those that the model has now.
-pub fn restore(m: &Model, d: &mut Data, bytes: &[u8]) -> Result<(), RestoreError> {
+pub(crate) fn restore(m: &Model, d: &mut Data, bytes: &[u8]) -> Result<(), RestoreError> {
     let (body, end) = bytes.split_last_chunk::<8>().ok_or(RestoreError::NotData)?;
     let mut rest = check_header(m, body)?;
     if fingerprint(body) != u64::from_le_bytes(*end) {

@@ -10,7 +10,7 @@ use crate::step::damping;
 use crate::{collision, sensor};
 
 /// What programs read and write.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Demand {
     /// Fields that are read between steps.
     pub reads: FieldSet,

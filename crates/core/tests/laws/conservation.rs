@@ -2,20 +2,20 @@
 
 use crate::definitions::*;
 use crate::scenes::scene;
-use labspec_core::mjcf::compile;
+use labspec_core::xml::compile;
 use labspec_core::{self as core, Data, Model, integrator, joint};
 use proptest::prelude::*;
 
 /// A run of `steps` of length `h` by Runge and Kutta's method from a scattered state.
 fn run(m: &Model, start: &[f64], h: f64, steps: usize) -> (Model, Data, Data) {
     let mut m = m.clone();
-    (m.opt.timestep, m.opt.integrator) = (h, integrator::RK4);
+    (*m.edit().opt.timestep, *m.edit().opt.integrator) = (h, integrator::RK4);
     let mut d = Data::new(&m);
     scatter(&m, &mut d, start);
-    core::forward(&m, &mut d);
+    core::forward(&m, &mut d).unwrap();
     let before = d.clone();
-    (0..steps).for_each(|_| core::step(&m, &mut d));
-    core::forward(&m, &mut d);
+    (0..steps).for_each(|_| core::step(&m, &mut d).unwrap());
+    core::forward(&m, &mut d).unwrap();
     (m, before, d)
 }
 
@@ -28,9 +28,9 @@ fn drift(m: &Model, start: &[f64], h: f64, steps: usize, invariants: fn(&Model, 
 /// How far from its start a motion ends that is turned round half-way.
 fn way_back(m: &Model, start: &[f64], h: f64, steps: usize) -> f64 {
     let (m, before, mut d) = run(m, start, h, steps);
-    d.qvel.iter_mut().for_each(|v| *v = -*v);
-    (0..steps).for_each(|_| core::step(&m, &mut d));
-    d.qvel.iter_mut().for_each(|v| *v = -*v);
+    d.edit().qvel.iter_mut().for_each(|v| *v = -*v);
+    (0..steps).for_each(|_| core::step(&m, &mut d).unwrap());
+    d.edit().qvel.iter_mut().for_each(|v| *v = -*v);
     largest_difference(&before.qpos, &d.qpos).max(largest_difference(&before.qvel, &d.qvel))
 }
 

@@ -2,7 +2,7 @@
 //! depends on the order in which bodies stand in the file.
 
 use labspec_core::math::{Vec3, cross};
-use labspec_core::mjcf::compile;
+use labspec_core::xml::compile;
 use labspec_core::{self as core, Data, Model};
 use proptest::prelude::*;
 use std::fmt::Write;
@@ -55,9 +55,9 @@ fn row(solids: &[Solid], order: &[usize], cone: &str, head: &str) -> String {
 fn moving(m: &Model, solids: &[Solid], order: &[usize]) -> Data {
     let mut d = Data::new(m);
     for (place, &i) in order.iter().enumerate() {
-        d.qvel[6 * place..6 * place + 6].copy_from_slice(&solids[i].speed);
+        d.edit().qvel[6 * place..6 * place + 6].copy_from_slice(&solids[i].speed);
     }
-    core::forward(m, &mut d);
+    core::forward(m, &mut d).unwrap();
     d
 }
 
@@ -122,18 +122,18 @@ impl Throw {
         ))
         .unwrap();
         let mut data = Data::new(&m);
-        data.qvel[..3].copy_from_slice(&self.speed);
-        data.qvel[3..].copy_from_slice(&self.spin);
-        core::forward(&m, &mut data);
+        data.edit().qvel[..3].copy_from_slice(&self.speed);
+        data.edit().qvel[3..].copy_from_slice(&self.spin);
+        core::forward(&m, &mut data).unwrap();
         let before = data.energy[1];
         // Half a period of the softest contact is a few time constants.
         for _ in 0..(40.0 * self.time / timestep) as usize {
-            core::step(&m, &mut data);
+            core::step(&m, &mut data).unwrap();
             if data.qpos[2] > 0.11 {
                 break;
             }
         }
-        core::forward(&m, &mut data);
+        core::forward(&m, &mut data).unwrap();
         data.energy[1] / before
     }
 }

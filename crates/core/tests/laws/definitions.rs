@@ -76,8 +76,8 @@ pub(crate) fn momentum(m: &Model, d: &Data) -> [f64; 6] {
 /// Moves to a random place with a random velocity.
 pub(crate) fn scatter(m: &Model, d: &mut Data, numbers: &[f64]) {
     let take = |from: usize| (0..m.nv).map(|i| numbers[(from + i) % numbers.len()]).collect::<Vec<_>>();
-    core::integrate_pos(m, &mut d.qpos, &take(0), 0.5);
-    d.qvel.copy_from_slice(&take(m.nv));
+    core::integrate_pos(m, &mut d.edit().qpos, &take(0), 0.5).unwrap();
+    d.edit().qvel.copy_from_slice(&take(m.nv));
 }
 
 pub(crate) fn numbers() -> impl Strategy<Value = Vec<f64>> {
@@ -85,7 +85,7 @@ pub(crate) fn numbers() -> impl Strategy<Value = Vec<f64>> {
 }
 
 pub(crate) fn full_m(m: &Model, d: &Data) -> DMatrix<f64> {
-    DMatrix::from_row_slice(m.nv, m.nv, &core::full_m(m, d))
+    DMatrix::from_row_slice(m.nv, m.nv, &core::full_m(m, d).unwrap())
 }
 
 /// Rounding: sums of some hundred products, of which the largest cancel at most in the third digit.

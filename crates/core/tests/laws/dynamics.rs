@@ -2,7 +2,7 @@
 
 use crate::definitions::*;
 use crate::scenes::scene;
-use labspec_core::mjcf::compile;
+use labspec_core::xml::compile;
 use labspec_core::{self as core, Data, joint};
 use nalgebra::{DVector, Vector3};
 use proptest::prelude::*;
@@ -15,7 +15,7 @@ proptest! {
         let m = compile(&scene.conservative()).unwrap();
         let mut d = Data::new(&m);
         scatter(&m, &mut d, &numbers);
-        core::forward(&m, &mut d);
+        core::forward(&m, &mut d).unwrap();
         let ours = full_m(&m, &d);
         let theirs = mass_matrix(&m, &d);
         let scale = theirs.amax().max(1.0);
@@ -32,12 +32,12 @@ proptest! {
         let mut d = Data::new(&m);
         scatter(&m, &mut d, &numbers);
         for i in 0..m.nv {
-            d.qfrc_applied[i] = numbers[(7 * i) % numbers.len()];
+            d.edit().qfrc_applied[i] = numbers[(7 * i) % numbers.len()];
         }
         for i in 6..6 * m.nbody {
-            d.xfrc_applied[i] = numbers[(11 * i) % numbers.len()];
+            d.edit().xfrc_applied[i] = numbers[(11 * i) % numbers.len()];
         }
-        core::forward(&m, &mut d);
+        core::forward(&m, &mut d).unwrap();
         let vec = DVector::from_column_slice;
         let mut force = vec(&d.qfrc_passive) + vec(&d.qfrc_applied) + vec(&d.qfrc_constraint);
         for b in 1..m.nbody {
@@ -52,8 +52,8 @@ proptest! {
         let scale = (mass.amax() * vec(&d.qacc).amax()).max(force.amax()).max(edges).max(1.0);
         prop_assert!(residual.amax() <= 1e-10 * scale, "{residual}");
 
-        d.qvel.fill(0.0);
-        core::forward(&m, &mut d);
+        d.edit().qvel.fill(0.0);
+        core::forward(&m, &mut d).unwrap();
         let mut gravity = DVector::zeros(m.nv);
         for b in 1..m.nbody {
             gravity -= jacobian(&m, &d, b).0.tr_mul(&(m.body_mass[b] * Vector3::from(m.opt.gravity)));
@@ -67,7 +67,7 @@ proptest! {
         let mut d = Data::new(&m);
         scatter(&m, &mut d, &numbers);
         for _ in 0..100 {
-            core::step(&m, &mut d);
+            core::step(&m, &mut d).unwrap();
         }
         let length = |q: &[f64]| q.iter().map(|x| x * x).sum::<f64>().sqrt();
         for j in 0..m.njnt {
@@ -93,8 +93,8 @@ proptest! {
         scatter(&m, &mut d, &numbers);
         let velocity = d.qvel.clone();
         let mut bias = |factor: f64| {
-            d.qvel.iter_mut().zip(&velocity).for_each(|(v, v0)| *v = factor * v0);
-            core::forward(&m, &mut d);
+            d.edit().qvel.iter_mut().zip(&velocity).for_each(|(v, v0)| *v = factor * v0);
+            core::forward(&m, &mut d).unwrap();
             (DVector::from_column_slice(&d.qfrc_bias), DVector::from_column_slice(&d.qacc))
         };
         let ((there, a), (back, b), (rest, _), (twice, _)) = (bias(1.0), bias(-1.0), bias(0.0), bias(2.0));
@@ -111,13 +111,13 @@ proptest! {
         let m = compile(&scene.conservative()).unwrap();
         let mut d = Data::new(&m);
         scatter(&m, &mut d, &numbers);
-        core::forward(&m, &mut d);
+        core::forward(&m, &mut d).unwrap();
         let moment = 1e-5;
         let at = |time: f64| {
             let mut d = d.clone();
             let velocity = d.qvel.clone();
-            core::integrate_pos(&m, &mut d.qpos, &velocity, time);
-            core::forward(&m, &mut d);
+            core::integrate_pos(&m, &mut d.edit().qpos, &velocity, time).unwrap();
+            core::forward(&m, &mut d).unwrap();
             d
         };
         let (before, after) = (at(-moment), at(moment));

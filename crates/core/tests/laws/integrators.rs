@@ -2,7 +2,7 @@
 
 use crate::definitions::*;
 use crate::scenes::scene;
-use labspec_core::mjcf::compile;
+use labspec_core::xml::compile;
 use labspec_core::{self as core, Data, Model, integrator, joint};
 use proptest::prelude::*;
 
@@ -25,10 +25,10 @@ const METHODS: [Method; 5] = [
 /// The state after `steps` of length `h` from a state that `begin` sets.
 fn end(m: &Model, method: &Method, h: f64, steps: usize, begin: impl Fn(&mut Data)) -> Data {
     let mut m = m.clone();
-    (m.opt.timestep, m.opt.integrator) = (h, method.id);
+    (*m.edit().opt.timestep, *m.edit().opt.integrator) = (h, method.id);
     let mut d = Data::new(&m);
     begin(&mut d);
-    (0..steps).for_each(|_| core::step(&m, &mut d));
+    (0..steps).for_each(|_| core::step(&m, &mut d).unwrap());
     d
 }
 
@@ -64,7 +64,7 @@ fn orders_of_convergence() {
     let arm = compile(ARM).unwrap();
     let tumbler = compile(TUMBLER).unwrap();
     for method in &METHODS {
-        let push = |d: &mut Data| d.qvel.iter_mut().enumerate().for_each(|(i, v)| *v = 0.8 - 0.3 * i as f64);
+        let push = |d: &mut Data| d.edit().qvel.iter_mut().enumerate().for_each(|(i, v)| *v = 0.8 - 0.3 * i as f64);
         let order = observed_order(&arm, method, 4e-3, 0.16, push).unwrap();
         assert!((order - method.order).abs() < 0.15, "integrator {}: order {order}", method.id);
         let order = observed_order(&tumbler, method, 4e-3, 0.16, push).unwrap();
@@ -122,7 +122,7 @@ impl Oscillator {
              <geom size='0.1' mass='{mass}'/></body></worldbody></mujoco>"
         ))
         .unwrap();
-        let d = end(&m, method, timestep, 1, |d| (d.qpos[0], d.qvel[0]) = (x, v));
+        let d = end(&m, method, timestep, 1, |d| (d.edit().qpos[0], d.edit().qvel[0]) = (x, v));
         let (x1, v1) = self.step(method.id);
         let scale = 1.0 + v1.abs();
         prop_assert!((d.qpos[0] - x1).abs() <= ROUNDING * scale, "{}: {} {x1}", method.id, d.qpos[0]);
@@ -147,7 +147,7 @@ proptest! {
     fn free_fall(h in 1e-4..0.02f64, steps in 1usize..50, v in -2.0..2.0f64) {
         let m = compile("<mujoco><worldbody><body><freejoint/><geom size='0.1'/></body></worldbody></mujoco>").unwrap();
         for method in &METHODS {
-            let d = end(&m, method, h, steps, |d| d.qvel[2] = v);
+            let d = end(&m, method, h, steps, |d| d.edit().qvel[2] = v);
             let t = h * steps as f64;
             let late = if method.id == integrator::RK4 { 0.0 } else { h };
             let height = v * t - 0.5 * 9.81 * t * (t + late);
@@ -165,9 +165,9 @@ proptest! {
         ).unwrap();
         let m = compile(&scene.floating()).unwrap();
         for method in &METHODS {
-            let d = end(&top, method, 5e-3, 40, |d| d.qvel[5] = spin);
+            let d = end(&top, method, 5e-3, 40, |d| d.edit().qvel[5] = spin);
             prop_assert!((d.qvel[5] - spin).abs() <= ROUNDING * 20.0, "{}: {:?}", method.id, d.qvel);
-            let still = end(&m, method, 5e-3, 3, |d| core::integrate_pos(&m, &mut d.qpos, &vec![0.0; m.nv], 1.0));
+            let still = end(&m, method, 5e-3, 3, |d| core::integrate_pos(&m, &mut d.edit().qpos, &vec![0.0; m.nv], 1.0).unwrap());
             let start = Data::new(&m);
             let springs = m.jnt_stiffness.iter().any(|&k| k != 0.0);
             prop_assert!(springs || apart(&still, &start) == 0.0, "{}: {:?}", method.id, still.qvel);

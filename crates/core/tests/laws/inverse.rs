@@ -2,7 +2,7 @@
 
 use crate::definitions::*;
 use crate::scenes::scene;
-use labspec_core::mjcf::compile;
+use labspec_core::xml::compile;
 use labspec_core::{self as core, Data, disable};
 use nalgebra::DVector;
 use proptest::prelude::*;
@@ -14,13 +14,13 @@ proptest! {
     #[test]
     fn inverse_dynamics_finds_the_forces(scene in scene(), numbers in numbers()) {
         let mut m = compile(&scene.xml()).unwrap();
-        m.opt.disableflags |= disable::CONSTRAINT;
+        m.set_disabled(disable::CONSTRAINT, true);
         let mut d = Data::new(&m);
         scatter(&m, &mut d, &numbers);
         for i in 0..m.nv {
-            d.qfrc_applied[i] = numbers[(7 * i) % numbers.len()];
+            d.edit().qfrc_applied[i] = numbers[(7 * i) % numbers.len()];
         }
-        core::forward(&m, &mut d);
+        core::forward(&m, &mut d).unwrap();
         let (force, mass) = (DVector::from_column_slice(&d.qfrc_applied), full_m(&m, &d));
         core::inverse(&m, &mut d).unwrap();
         let found = DVector::from_column_slice(&d.qfrc_inverse);
@@ -32,15 +32,14 @@ proptest! {
     #[test]
     fn newton_and_euler_are_linear_in_the_acceleration(scene in scene(), numbers in numbers(), s in -3.0..3.0f64) {
         let mut m = compile(&scene.conservative()).unwrap();
-        m.dof_armature.fill(0.0);
-        let mut d = Data::planned(&m, core::Plan::full());
+        m.edit().dof_armature.fill(0.0);
+        let mut d = Data::unplanned(&m);
         scatter(&m, &mut d, &numbers);
-        core::forward(&m, &mut d);
+        core::forward(&m, &mut d).unwrap();
         let a: Vec<f64> = (0..m.nv).map(|i| numbers[(5 * i + 1) % numbers.len()]).collect();
         let b: Vec<f64> = (0..m.nv).map(|i| numbers[(3 * i + 2) % numbers.len()]).collect();
         let mut rne = |a: Option<&[f64]>| {
-            let mut out = vec![0.0; m.nv];
-            core::rne(&m, &mut d, a, &mut out).map(|()| DVector::from_vec(out)).unwrap()
+            DVector::from_vec(core::rne(&m, &mut d, a).unwrap())
         };
         let sum: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + s * b).collect();
         let (bias, of_a, of_b, of_sum) = (rne(None), rne(Some(&a)), rne(Some(&b)), rne(Some(&sum)));

@@ -208,11 +208,11 @@ fn fed(m: &Model, d: &Data) -> bool {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use labspec_core::{mjcf, reset_data, step};
+    use labspec_core::{xml, reset_data, step};
 
     /// What is found in a run of so many steps, looked at 24 times, from a start.
     fn run(text: &str, steps: usize, start: impl Fn(&mut Data)) -> Option<Growth> {
-        let m = mjcf::compile(text).unwrap();
+        let m = xml::compile(text).unwrap();
         let mut d = Data::new(&m);
         start(&mut d);
         let mut w = watch(&m, &d, steps / 24);
@@ -311,7 +311,7 @@ mod tests {
 
     #[test]
     fn a_change_from_outside_is_a_new_start() {
-        let m = mjcf::compile(&cart("", "", "<motor joint=\"j\"/>")).unwrap();
+        let m = xml::compile(&cart("", "", "<motor joint=\"j\"/>")).unwrap();
         let mut d = Data::new(&m);
         d.qvel[0] = 1e-3;
         let mut w = watch(&m, &d, 1);

@@ -189,7 +189,7 @@ fn reference(m: &Model, [time, ratio]: [f64; 2]) -> Spring {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use labspec_core::{Data, mjcf, step};
+    use labspec_core::{Data, xml, step};
 
     /// A slide of 2 kg with a servo, and what else is said.
     fn servo(option: &str, servo: &str, joint: &str) -> Model {
@@ -197,7 +197,7 @@ mod tests {
             "<mujoco><option gravity=\"0 0 0\" {option}/><worldbody><body><joint name=\"j\" type=\"slide\" {joint}/>\
              <geom size=\".1\" mass=\"2\"/></body></worldbody><actuator><position joint=\"j\" {servo}/></actuator></mujoco>"
         );
-        mjcf::compile(&text).unwrap()
+        xml::compile(&text).unwrap()
     }
 
     /// The same with an actuator of another kind.
@@ -206,7 +206,7 @@ mod tests {
             "<mujoco><option gravity=\"0 0 0\" {option}/><worldbody><body><joint name=\"j\" type=\"slide\"/>\
              <geom size=\".1\" mass=\"2\"/></body></worldbody><actuator>{actuator}</actuator></mujoco>"
         );
-        mjcf::compile(&text).unwrap()
+        xml::compile(&text).unwrap()
     }
 
     /// How far the slide gets from 1 mm in some steps.
@@ -285,10 +285,10 @@ mod tests {
     fn a_stiff_contact_is_named() {
         let text = "<mujoco><worldbody><geom name=\"floor\" type=\"plane\" size=\"1 1 1\" solref=\"-1e8 0\"/><body pos=\"0 0 .1\">\
                     <freejoint/><geom size=\".1\"/></body></worldbody></mujoco>";
-        let found = suspects(&mjcf::compile(text).unwrap());
+        let found = suspects(&xml::compile(text).unwrap());
         assert_eq!(found.len(), 1);
         assert_eq!((found[0].object, found[0].id, found[0].part), (Obj::Geom, 0, Part::Constraint));
         assert!(found[0].excess > 90.0 && found[0].timestep < 2.1e-4, "{found:?}");
-        assert!(suspects(&mjcf::compile(&text.replace(" solref=\"-1e8 0\"", "")).unwrap()).is_empty());
+        assert!(suspects(&xml::compile(&text.replace(" solref=\"-1e8 0\"", "")).unwrap()).is_empty());
     }
 }

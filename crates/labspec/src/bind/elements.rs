@@ -181,7 +181,7 @@ mod tests {
     use crate::bind::handle::KINDS;
     use crate::bind::{ModelNames, Scope};
     use labspec_core::reflect::Object;
-    use labspec_core::{Data, mjcf};
+    use labspec_core::{Data, xml};
     use labspec_expr::{Compiler, Globals};
     use std::path::Path;
 
@@ -193,7 +193,7 @@ mod tests {
         let mut kinds = std::collections::BTreeSet::new();
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
-            let Some(Ok(m)) = path.is_file().then(|| mjcf::compile_file(&path)) else { continue };
+            let Some(Ok(m)) = path.is_file().then(|| xml::compile_file(&path)) else { continue };
             let d = Data::new(&m);
             let names = ModelNames { model: &m, scope: Scope::Lab };
             for f in reflect::fields() {
@@ -239,7 +239,7 @@ mod tests {
         let xml = std::fs::read_to_string(
             Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/golden/models/ball_drop.xml"),
         );
-        let m = mjcf::compile(&xml.unwrap()).unwrap();
+        let m = xml::compile(&xml.unwrap()).unwrap();
         let names = ModelNames { model: &m, scope: Scope::Lab };
         let help = |source: &str| {
             let mut globals = Globals::new();

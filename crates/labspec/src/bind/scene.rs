@@ -5,7 +5,7 @@ use crate::lint::{ModelFolder, lesson_folder, root_of};
 use crate::source::{SourceFile, Text};
 use crate::spec::{Lab, Scene};
 use labspec_core::Model;
-use labspec_core::mjcf::{self, Files, Folder, MjcfDiagnostic, NoFiles};
+use labspec_core::xml::{self, Files, Folder, MjcfDiagnostic, NoFiles};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -46,7 +46,7 @@ impl Models {
     pub fn of(&mut self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
         match lab.scene()? {
             Scene::Xml(text) => {
-                let examined = mjcf::examine(&text.value, &NoFiles, None);
+                let examined = xml::examine(&text.value, &NoFiles, None);
                 findings.extend(examined.findings.iter().map(|d| inline(d, text)));
                 examined.model.map(Arc::new)
             }
@@ -107,7 +107,7 @@ pub(crate) fn compile_file(file: &SourceFile, path: &Path, root: &Path) -> Compi
     let place = path.parent().unwrap_or(Path::new(""));
     let folder = Folder::at(root, place).ok();
     let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
-    let examined = mjcf::examine(file.text(), files, path.file_name().and_then(|n| n.to_str()));
+    let examined = xml::examine(file.text(), files, path.file_name().and_then(|n| n.to_str()));
     let mut sources = Vec::new();
     if !examined.findings.is_empty() {
         sources.push(file.clone());
@@ -152,7 +152,7 @@ fn part_of(sources: &mut Vec<SourceFile>, files: &dyn Files, part: &str) -> usiz
     if let Some(known) = sources.iter().position(|f| **f.path() == *shown) {
         return known;
     }
-    let read = files.read(part, mjcf::MAX_TEXT).ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    let read = files.read(part, xml::MAX_TEXT).ok().and_then(|bytes| String::from_utf8(bytes).ok());
     sources.push(SourceFile::new(shown, read.unwrap_or_default()));
     sources.len() - 1
 }
@@ -201,12 +201,12 @@ fn inline(d: &MjcfDiagnostic, text: &Text) -> Finding {
 /// A mistake in a model, at a place of the file that holds it.
 pub fn from_mjcf(d: &MjcfDiagnostic, span: std::ops::Range<usize>) -> Finding {
     let severity = match d.severity {
-        mjcf::Severity::Error => Severity::Error,
-        mjcf::Severity::Warning => Severity::Warning,
+        xml::Severity::Error => Severity::Error,
+        xml::Severity::Warning => Severity::Warning,
     };
     let help = match d.code {
         // The engine knows no program: how to widen the root is said here.
-        mjcf::code::OUTSIDE => Some(WIDEN.to_string()),
+        xml::code::OUTSIDE => Some(WIDEN.to_string()),
         _ => d.help.clone(),
     };
     Finding { severity, why: d.why.clone(), help, ..finding(d.code, span, d.message.clone()) }

@@ -8,7 +8,7 @@ use labspec::lint::ModelFolder;
 use labspec::run::Session;
 use labspec::source::SourceFile;
 use labspec::spec::{Lab, load_lesson};
-use labspec_core::{Data, Demand, Model, mjcf};
+use labspec_core::{Data, Demand, Model, xml};
 use labspec_expr::{Compiler, Context, FieldKey, FunctionId, Globals, Heap, Host, Program, Recording, Value};
 use std::fmt::Write;
 use std::hint::black_box;
@@ -63,7 +63,7 @@ fn program(model: &Model, text: &str) -> Program {
 
 /// The error expression, evaluated in every way: name and ns.
 fn error_expression() -> Vec<(&'static str, f64)> {
-    let model = mjcf::compile(MODEL).expect("the model is right");
+    let model = xml::compile(MODEL).expect("the model is right");
     let program = program(&model, ERROR);
     let n = 200_000;
     let at = |i: usize| (1.0 - 1e-6 * i as f64, 1e-5 * i as f64);

@@ -37,7 +37,7 @@ fn chain(m: &Model, body: usize) -> impl Iterator<Item = usize> + '_ {
 }
 
 /// The Jacobian of a point of a body, given in world coordinates, m (`mj_jac`). `None` when there is no such body.
-pub fn jac(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option<Jacobian> {
+pub(crate) fn jac(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option<Jacobian> {
     let mut out = Jacobian::zero(m);
     if body >= m.nbody {
         return None;
@@ -50,28 +50,28 @@ pub fn jac(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option<Jacobian> 
 }
 
 /// The Jacobian of the frame of a body (`mj_jacBody`).
-pub fn jac_body(m: &Model, d: &Fields, body: usize) -> Option<Jacobian> {
+pub(crate) fn jac_body(m: &Model, d: &Fields, body: usize) -> Option<Jacobian> {
     jac(m, d, *rows::<3>(&d.xpos).get(body)?, body)
 }
 
 /// The Jacobian of a body's centre of mass (`mj_jacBodyCom`).
-pub fn jac_body_com(m: &Model, d: &Fields, body: usize) -> Option<Jacobian> {
+pub(crate) fn jac_body_com(m: &Model, d: &Fields, body: usize) -> Option<Jacobian> {
     jac(m, d, *rows::<3>(&d.xipos).get(body)?, body)
 }
 
 /// The Jacobian of the frame of a geom (`mj_jacGeom`).
-pub fn jac_geom(m: &Model, d: &Fields, geom: usize) -> Option<Jacobian> {
+pub(crate) fn jac_geom(m: &Model, d: &Fields, geom: usize) -> Option<Jacobian> {
     jac(m, d, *rows::<3>(&d.geom_xpos).get(geom)?, *m.geom_bodyid.get(geom)? as usize)
 }
 
 /// The Jacobian of the frame of a site (`mj_jacSite`).
-pub fn jac_site(m: &Model, d: &Fields, site: usize) -> Option<Jacobian> {
+pub(crate) fn jac_site(m: &Model, d: &Fields, site: usize) -> Option<Jacobian> {
     jac(m, d, *rows::<3>(&d.site_xpos).get(site)?, *m.site_bodyid.get(site)? as usize)
 }
 
 /// `[3, nv]`: how the centre of mass of a body and all its descendants moves (`mj_jacSubtreeCom`). `None` when
 /// there is no such body.
-pub fn jac_subtree_com(m: &Model, d: &Fields, body: usize) -> Option<Vec<f64>> {
+pub(crate) fn jac_subtree_com(m: &Model, d: &Fields, body: usize) -> Option<Vec<f64>> {
     let mut out = Jacobian::zero(m);
     if body >= m.nbody {
         return None;
@@ -93,7 +93,7 @@ pub fn jac_subtree_com(m: &Model, d: &Fields, body: usize) -> Option<Vec<f64>> {
 
 /// The time derivative of the Jacobian of a point that moves with a body (`mj_jacDot`): the acceleration of the
 /// point is J q̈ + J̇ q̇. `None` when there is no such body.
-pub fn jac_dot(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option<Jacobian> {
+pub(crate) fn jac_dot(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option<Jacobian> {
     let mut out = Jacobian::zero(m);
     if body >= m.nbody {
         return None;
@@ -120,7 +120,7 @@ pub fn jac_dot(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option<Jacobi
 
 /// Adds to `qfrc` (nv) the generalized force of a force, N, at a point of a body and a torque, N m, all in world axes
 /// (`mj_applyFT`). `None` when there is no such body or `qfrc` is shorter.
-pub fn apply_ft(
+pub(crate) fn apply_ft(
     m: &Model,
     d: &Fields,
     force: Vec3,

@@ -235,7 +235,7 @@ pub(crate) fn along_length(m: &Model, d: &Fields, i: usize) -> Option<[f64; 2]> 
 
 /// `kp` and `kv` of actuator `i`, along its own length; `None` when these do not follow from its parameters alone, or when
 /// there is no such actuator.
-pub fn servo_gains(m: &Model, i: usize) -> Option<[f64; 2]> {
+pub(crate) fn servo_gains(m: &Model, i: usize) -> Option<[f64; 2]> {
     match *m.actuator_biastype.get(i)? {
         // Servos and controllers of type pid: constant, -kp, -kv.
         biastype::AFFINE => {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::mjcf::compile_with;
 use crate::mjcf::text::files::Files;
 use crate::model::Model;
-use crate::step;
+use crate::step::step;
 use crate::step::data::Data;
 
 fn load(asset: &str, geom: &str, file: &str, bytes: &[u8]) -> Result<Model, String> {

@@ -141,7 +141,7 @@ fn written_paths_stay_inside_the_model() {
         m.wrap_prm.fill(x);
         m.geom_size.fill(x);
         crate::step::forward::forward(&m, &mut d);
-        crate::step(&m, &mut d);
+        crate::step::step(&m, &mut d);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::mjcf::compile;
-use crate::step;
+use crate::step::step;
 use crate::step::data::Data;
 use crate::step::reset::{reset_data_keyframe, set_keyframe};
 

@@ -14,7 +14,7 @@ use crate::model::{Model, asleep};
 use crate::step::data::Data;
 use crate::{constraint, sensor};
 
-pub use position::{differentiate_pos, integrate_pos};
+pub(crate) use position::{differentiate_pos, integrate_pos};
 
 /// The next state, by the integrator that the options name.
 pub(crate) fn integrate(m: &Model, d: &mut Data) {

@@ -9,7 +9,7 @@ use crate::model::Model;
 
 /// qpos ← qpos advanced for a time `h` with velocity `v` (`mj_integratePos`).
 #[inline]
-pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
+pub(crate) fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
     if m.nq == m.nv {
         // Slides and hinges only: coordinates and velocities are in the same places.
         let n = qpos.len().min(v.len());
@@ -42,7 +42,7 @@ fn along_joints(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
 
 /// v ← the velocity that leads from `from` to `to` in a time `h` (`mj_differentiatePos`); rotations by the
 /// shorter way. Inverse to [`integrate_pos`] for unit quaternions and turns below half a revolution.
-pub fn differentiate_pos(m: &Model, v: &mut [f64], h: f64, from: &[f64], to: &[f64]) {
+pub(crate) fn differentiate_pos(m: &Model, v: &mut [f64], h: f64, from: &[f64], to: &[f64]) {
     for j in 0..m.njnt {
         let (mut q, mut k) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
         match m.jnt_type[j] {

@@ -201,7 +201,7 @@ fn place(heap: &mut Heap, places: &[f64], index: usize) -> Result<Value, String>
 /// Potential, kinetic and total energy.
 pub(super) fn energy(w: &mut World, heap: &mut Heap) -> Result<Value, String> {
     if !w.model.opt.enabled(enable::ENERGY) {
-        w.model.opt.enableflags |= enable::ENERGY;
+        w.model.set_enabled(enable::ENERGY, true);
         core::forward(&w.model, &mut w.data);
     }
     let [potential, kinetic] = w.data.energy;

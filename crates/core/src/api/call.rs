@@ -1,0 +1,562 @@
+//! MuJoCo's functions, for everybody: what belongs together is looked at once per call, and nothing panics.
+//!
+//! A call with data of another model, with an id or a length that does not fit, or with results that the plan left out is an
+//! error, and changes nothing.
+
+use super::data::{Data, Scope};
+use super::error::Error;
+use super::model::{KeyId, Model};
+use super::plan::Plan;
+use crate::dynamics::{jacobian, mass, object, subtree};
+use crate::forces::{actuation, energy};
+use crate::geometry::Distance;
+use crate::math::{Spatial, Vec3};
+use crate::model::reflect::{self, FieldId, Object, View, ViewMut};
+use crate::model::{Contact, Obj};
+use crate::query::{self, RayFilter, RayHit};
+use crate::sensor::body_force;
+use crate::setup::setconst;
+use crate::step::balance::{self, Energy};
+use crate::step::{self, functions, integrate, reset};
+
+pub use crate::dynamics::jacobian::Jacobian;
+
+fn wanted(what: &'static str, wanted: usize, found: usize) -> Result<(), Error> {
+    if wanted == found { Ok(()) } else { Err(Error::Length { what, wanted, found }) }
+}
+
+fn exists(kind: &'static str, id: usize, count: usize) -> Result<(), Error> {
+    if id < count { Ok(()) } else { Err(Error::NoId { kind, id, count }) }
+}
+
+/// Functions that take the model and all of the data.
+macro_rules! passes {
+    ($($(#[$doc:meta])* $name:ident [$($needs:literal)*] |$m:ident, $d:ident| $call:expr;)*) => { $(
+        $(#[$doc])*
+        pub fn $name<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<(), Error> {
+            d.has(&[$($needs),*])?;
+            let ($m, $d) = (m, d.engine(m)?);
+            $call;
+            Ok(())
+        }
+    )* };
+}
+passes! {
+    /// Advances the simulation by one step (`mj_step`).
+    ///
+    /// A bad number in the state resets the data first; one in the acceleration resets it and the same step then starts from
+    /// there (`warning` says which and when).
+    ///
+    /// ```
+    /// # fn main() -> Result<(), labspec_core::Error> {
+    /// use labspec_core::{Data, Model, step};
+    /// let model = Model::from_xml(
+    ///     "<mujoco><worldbody><body><joint name='swing' axis='0 1 0'/><geom name='bob' pos='1 0 0' size='0.1'/></body></worldbody></mujoco>",
+    /// )?;
+    /// let mut data = Data::new(&model);
+    /// while data.time < 1.0 {
+    ///     step(&model, &mut data)?;
+    /// }
+    /// assert!(data.joint("swing")?.qpos()[0] > 0.0 && data.geom("bob")?.xpos()[2] < 0.0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    step [] |m, d| step::step(m, d);
+    /// The first part of a step (`mj_step1`): all that does not depend on inputs. Controls and applied forces may be set
+    /// between the two.
+    ///
+    /// A controller of one's own looks at the state after the first part and sets controls before the second:
+    ///
+    /// ```
+    /// # fn main() -> Result<(), labspec_core::Error> {
+    /// use labspec_core::{Data, Model, step1, step2};
+    /// let model = Model::from_xml(
+    ///     "<mujoco><worldbody><body><joint name='j' type='slide'/><geom size='0.1'/></body></worldbody>
+    ///      <option gravity='0 0 0'/><actuator><motor name='push' joint='j'/></actuator></mujoco>",
+    /// )?;
+    /// let mut data = Data::new(&model);
+    /// data.set_joint_qpos("j", &[0.1])?;
+    /// for _ in 0..5000 {
+    ///     step1(&model, &mut data)?;
+    ///     let (x, v) = (data.qpos[0], data.qvel[0]);
+    ///     data.set_ctrl("push", &[-40.0 * x - 20.0 * v])?;
+    ///     step2(&model, &mut data)?;
+    /// }
+    /// assert!(data.qpos[0].abs() < 1e-6);
+    /// # Ok(())
+    /// # }
+    /// ```
+    step1 [] |m, d| step::step1(m, d);
+    /// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name Runge–Kutta,
+    /// which needs forces at other states, this is a step of Euler.
+    step2 [] |m, d| step::step2(m, d);
+    /// Computes everything that follows from the state, without advancing time (`mj_forward`).
+    forward [] |m, d| step::forward::forward(m, d);
+    /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps what was
+    /// written to it.
+    reset_data [] |m, d| reset::reset_data(m, d);
+    /// Poses of bodies, joints, geoms and sites (`mj_kinematics`).
+    kinematics [] |m, d| functions::kinematics(m, d);
+    /// `energy[0]`: gravity and springs, J (`mj_energyPos`). Zero where every centre of mass is at the origin.
+    energy_pos ["xipos"] |m, d| energy::potential(m, d);
+    /// `energy[1]` = ½ vᵀ M v, J (`mj_energyVel`).
+    energy_vel ["M"] |m, d| energy::kinetic(m, d);
+    /// Momentum of subtrees (`mj_subtreeVel`): `subtree_linvel`, `subtree_angmom`.
+    subtree_vel ["cvel"] |m, d| subtree::subtree_vel(m, d);
+    /// `cacc`, `cfrc_ext`, `cfrc_int`; needs `qacc` and the forces of constraints (`mj_rnePostConstraint`).
+    rne_post_constraint ["cvel"] |m, d| body_force::rne_post_constraint(m, d);
+}
+
+/// Back to a keyframe (`mj_resetDataKeyframe`).
+///
+/// ```
+/// # fn main() -> Result<(), labspec_core::Error> {
+/// use labspec_core::{Data, Model, reset_data_keyframe};
+/// let model = Model::from_xml(
+///     "<mujoco><worldbody><body><joint name='j'/><geom size='0.1'/></body></worldbody>
+///      <keyframe><key name='up' qpos='1.5'/></keyframe></mujoco>",
+/// )?;
+/// let mut data = Data::new(&model);
+/// reset_data_keyframe(&model, &mut data, model.key("up")?)?;
+/// assert_eq!(data.qpos[0], 1.5);
+/// # Ok(())
+/// # }
+/// ```
+pub fn reset_data_keyframe<S: Scope>(m: &Model, d: &mut Data<S>, key: KeyId) -> Result<(), Error> {
+    exists("keyframe", key.index(), m.nkey)?;
+    reset::reset_data_keyframe(m, d.engine(m)?, key.index());
+    Ok(())
+}
+
+/// Stores the time, the state and the inputs in a keyframe (`mj_setKeyframe`).
+pub fn set_keyframe<S: Scope>(m: &mut Model, d: &Data<S>, key: KeyId) -> Result<(), Error> {
+    d.belongs_to(m)?;
+    exists("keyframe", key.index(), m.nkey)?;
+    reset::set_keyframe(m.engine(), &d.inner, key.index());
+    Ok(())
+}
+
+/// Computes constants that follow from masses, inertias and poses (`mj_setConst`), at the default configuration; `qpos` is put
+/// there, velocities and time stay.
+pub fn set_const<S: Scope>(m: &mut Model, d: &mut Data<S>) -> Result<(), Error> {
+    d.engine(m)?;
+    setconst::set_const(m.engine(), &mut d.inner);
+    m.touch_constants();
+    d.in_step_with(m);
+    Ok(())
+}
+
+/// Replaces the plan, which decides what the next forward pass computes.
+pub fn set_plan(m: &Model, d: &mut Data<super::data::Planned>, plan: Plan) -> Result<(), Error> {
+    d.replan(m, plan)
+}
+
+/// `qfrc_inverse` from `qpos`, `qvel` and `qacc` (`mj_inverse`): what must be applied, by actuators or from outside, to cause
+/// this acceleration. With the flag `invdiscrete`, `qacc` is (v⁺ - v)/h of a step instead.
+///
+/// All fields of position and velocity, the forces of constraints and sensors are computed, whatever the plan says.
+///
+/// ```
+/// # fn main() -> Result<(), labspec_core::Error> {
+/// use labspec_core::{Data, Model, inverse};
+/// let model = Model::from_xml(
+///     "<mujoco><worldbody><body><joint type='slide' axis='0 0 1'/><geom mass='2' size='0.1'/></body></worldbody></mujoco>",
+/// )?;
+/// let mut data = Data::new(&model);
+/// data.set_qacc(&[1.0])?;
+/// inverse(&model, &mut data)?;
+/// assert!((data.qfrc_inverse[0] - 2.0 * (9.81 + 1.0)).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
+pub fn inverse<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<(), Error> {
+    Ok(step::inverse::inverse(m, d.engine(m)?)?)
+}
+
+/// The generalized force (nv) that causes the acceleration `qacc` (nv), or none when it is not given: gravity, Coriolis and
+/// centrifugal force then (`mj_rne`). The inertia of joints (armature) does not count.
+///
+/// It needs the position and velocity stages.
+pub fn rne<S: Scope>(m: &Model, d: &mut Data<S>, qacc: Option<&[f64]>) -> Result<Vec<f64>, Error> {
+    d.has(&["cdof", "cdof_dot", "cinert", "cvel"])?;
+    if let Some(a) = qacc {
+        wanted("an acceleration", m.nv, a.len())?;
+    }
+    let mut out = vec![0.0; m.nv];
+    functions::rne(m, d.engine(m)?, qacc, &mut out);
+    Ok(out)
+}
+
+/// Force and torque of a contact in the contact's frame: normal, two tangents, then three torques (`mj_contactForce`), N and
+/// N m. Zero when the contact has no constraint.
+///
+/// ```
+/// # fn main() -> Result<(), labspec_core::Error> {
+/// use labspec_core::{Data, Model, contact_force, step};
+/// let model = Model::from_xml(
+///     "<mujoco><worldbody><geom type='plane' size='1 1 1'/>
+///      <body pos='0 0 0.1'><freejoint/><geom size='0.1' mass='3'/></body></worldbody></mujoco>",
+/// )?;
+/// let mut data = Data::new(&model);
+/// for _ in 0..1000 {
+///     step(&model, &mut data)?;
+/// }
+/// let [normal, ..] = contact_force(&model, &data, &data.contact[0])?;
+/// assert!((normal - 3.0 * 9.81).abs() < 1e-6);
+/// # Ok(())
+/// # }
+/// ```
+pub fn contact_force<S: Scope>(m: &Model, d: &Data<S>, contact: &Contact) -> Result<[f64; 6], Error> {
+    d.belongs_to(m)?;
+    d.has(&["efc_force"])?;
+    Ok(crate::constraint::contact_force(m, &d.inner, contact))
+}
+
+/// The Jacobian of the constraints as a dense matrix, `nefc` x `nv`, row-major (`efc_J`).
+pub fn full_j<S: Scope>(m: &Model, d: &Data<S>) -> Result<Vec<f64>, Error> {
+    d.belongs_to(m)?;
+    d.has(&["efc_force"])?;
+    Ok(functions::full_j(m, &d.inner))
+}
+
+/// M as a dense symmetric matrix, `nv` x `nv`, row-major (`mj_fullM`).
+pub fn full_m<S: Scope>(m: &Model, d: &Data<S>) -> Result<Vec<f64>, Error> {
+    d.belongs_to(m)?;
+    d.has(&["M"])?;
+    Ok(mass::full_m(m, &d.inner))
+}
+
+/// out ← M v (`mj_mulM`), for vectors of nv numbers.
+pub fn mul_m<S: Scope>(m: &Model, d: &Data<S>, v: &[f64], out: &mut [f64]) -> Result<(), Error> {
+    d.belongs_to(m)?;
+    d.has(&["M"])?;
+    wanted("the vector", m.nv, v.len())?;
+    wanted("the product", m.nv, out.len())?;
+    mass::mul_m(m, &d.inner, v, out).unwrap_or(());
+    Ok(())
+}
+
+/// x ← M⁻¹ x (`mj_solveM`), for a vector of nv numbers.
+pub fn solve_m<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Error> {
+    d.belongs_to(m)?;
+    d.has(&["qLD", "qLDiagInv"])?;
+    wanted("the vector", m.nv, x.len())?;
+    mass::solve_m(m, &d.inner, x).unwrap_or(());
+    Ok(())
+}
+
+/// x ← D^-½ L⁻ᵀ x (`mj_solveM2`): half of the solution, so that xᵀ M⁻¹ x is the square of its norm.
+pub fn solve_m2<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Error> {
+    d.belongs_to(m)?;
+    d.has(&["qLD", "qLDiagInv"])?;
+    wanted("the vector", m.nv, x.len())?;
+    mass::solve_m2(m, &d.inner, x).unwrap_or(());
+    Ok(())
+}
+
+/// What a point's Jacobian follows from.
+const MOTION: [&str; 4] = ["xanchor", "xaxis", "xmat", "xpos"];
+
+/// Jacobians by what they are of.
+macro_rules! jacobians {
+    ($($(#[$doc:meta])* $name:ident($($arg:ident: $ty:ty),*) $id:ident $noun:literal $count:ident [$($needs:literal)*] -> $ret:ty = $call:path;)*) => { $(
+        $(#[$doc])*
+        pub fn $name<S: Scope>(m: &Model, d: &Data<S>, $($arg: $ty,)* $id: usize) -> Result<$ret, Error> {
+            d.belongs_to(m)?;
+            d.has(&MOTION)?;
+            d.has(&[$($needs),*])?;
+            exists($noun, $id, m.$count)?;
+            $call(m, &d.inner, $($arg,)* $id).ok_or(Error::NoId { kind: $noun, id: $id, count: m.$count })
+        }
+    )* };
+}
+jacobians! {
+    /// The Jacobian of a point of a body, given in world coordinates, m (`mj_jac`).
+    jac(point: Vec3) body "body" nbody [] -> Jacobian = jacobian::jac;
+    /// The Jacobian of the frame of a body (`mj_jacBody`).
+    jac_body() body "body" nbody [] -> Jacobian = jacobian::jac_body;
+    /// The Jacobian of a body's centre of mass (`mj_jacBodyCom`).
+    jac_body_com() body "body" nbody ["xipos"] -> Jacobian = jacobian::jac_body_com;
+    /// The Jacobian of the frame of a geom (`mj_jacGeom`).
+    jac_geom() geom "geom" ngeom ["geom_xpos"] -> Jacobian = jacobian::jac_geom;
+    /// The Jacobian of the frame of a site (`mj_jacSite`).
+    jac_site() site "site" nsite ["site_xpos"] -> Jacobian = jacobian::jac_site;
+    /// `[3, nv]`: how the centre of mass of a body and all its descendants moves (`mj_jacSubtreeCom`).
+    jac_subtree_com() body "body" nbody ["xipos"] -> Vec<f64> = jacobian::jac_subtree_com;
+    /// The time derivative of the Jacobian of a point that moves with a body (`mj_jacDot`): the acceleration of the point is
+    /// J q̈ + J̇ q̇.
+    jac_dot(point: Vec3) body "body" nbody ["cvel" "cdof" "cdof_dot"] -> Jacobian = jacobian::jac_dot;
+}
+
+/// Adds to `qfrc` (nv) the generalized force of a force, N, at a point of a body and a torque, N m, all in world axes
+/// (`mj_applyFT`).
+pub fn apply_ft<S: Scope>(
+    m: &Model,
+    d: &Data<S>,
+    [force, torque]: [Vec3; 2],
+    point: Vec3,
+    body: usize,
+    qfrc: &mut [f64],
+) -> Result<(), Error> {
+    d.belongs_to(m)?;
+    d.has(&MOTION)?;
+    exists("body", body, m.nbody)?;
+    wanted("the force", m.nv, qfrc.len())?;
+    jacobian::apply_ft(m, &d.inner, force, torque, point, body, qfrc).unwrap_or(());
+    Ok(())
+}
+
+/// Angular and linear velocity of an object (`mj_objectVelocity`), rad/s and m/s: in the axes of the world, or of the object
+/// when `local`. Zero for what does not exist.
+pub fn object_velocity<S: Scope>(
+    m: &Model,
+    d: &Data<S>,
+    kind: Obj,
+    id: usize,
+    local: bool,
+) -> Result<Spatial, Error> {
+    d.belongs_to(m)?;
+    d.has(&["cvel"])?;
+    Ok(object::object_velocity(m, &d.inner, kind, id, local))
+}
+
+/// Angular and linear acceleration of an object (`mj_objectAcceleration`), rad/s² and m/s², as an accelerometer feels it: at
+/// rest it points up with the strength of gravity. Axes as for [`object_velocity`]; needs [`rne_post_constraint`]. Zero for
+/// what cannot move.
+pub fn object_acceleration<S: Scope>(
+    m: &Model,
+    d: &Data<S>,
+    kind: Obj,
+    id: usize,
+    local: bool,
+) -> Result<Spatial, Error> {
+    d.belongs_to(m)?;
+    d.has(&["cacc", "cvel"])?;
+    Ok(object::object_acceleration(m, &d.inner, kind, id, local))
+}
+
+/// qpos ← qpos advanced for a time `h` with velocity `v` (`mj_integratePos`).
+pub fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) -> Result<(), Error> {
+    wanted("the position", m.nq, qpos.len())?;
+    wanted("the velocity", m.nv, v.len())?;
+    integrate::integrate_pos(m, qpos, v, h);
+    Ok(())
+}
+
+/// The velocity that leads from `from` to `to` in a time `h` (`mj_differentiatePos`); rotations by the shorter way.
+pub fn differentiate_pos(m: &Model, h: f64, from: &[f64], to: &[f64]) -> Result<Vec<f64>, Error> {
+    wanted("a position", m.nq, from.len())?;
+    wanted("a position", m.nq, to.len())?;
+    let mut v = vec![0.0; m.nv];
+    integrate::differentiate_pos(m, &mut v, h, from, to);
+    Ok(v)
+}
+
+/// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A direction of no length hits nothing.
+pub fn ray<S: Scope>(
+    m: &Model,
+    d: &Data<S>,
+    from: Vec3,
+    along: Vec3,
+    filter: &RayFilter,
+) -> Result<Option<RayHit>, Error> {
+    d.belongs_to(m)?;
+    d.has(&["geom_xpos", "geom_xmat"])?;
+    Ok(query::ray(m, &d.inner, from, along, filter))
+}
+
+/// The distance of two geoms up to `most`, m, with the segment from the first to the second (`mj_geomDistance`).
+///
+/// Shapes with closed forms use those, at their deepest contact; two planes or height fields have no distance.
+pub fn geom_distance<S: Scope>(
+    m: &Model,
+    d: &mut Data<S>,
+    geom1: usize,
+    geom2: usize,
+    most: f64,
+) -> Result<Distance, Error> {
+    d.has(&["geom_xpos", "geom_xmat"])?;
+    exists("geom", geom1, m.ngeom)?;
+    exists("geom", geom2, m.ngeom)?;
+    Ok(functions::geom_distance(m, d.engine(m)?, geom1, geom2, most))
+}
+
+/// Whether a point (world, m) is inside the volume of a site (`mj_insideSite`).
+pub fn inside_site<S: Scope>(m: &Model, d: &Data<S>, site: usize, point: Vec3) -> Result<bool, Error> {
+    d.belongs_to(m)?;
+    d.has(&["site_xpos", "site_xmat"])?;
+    exists("site", site, m.nsite)?;
+    Ok(query::inside_site(m, &d.inner, site, point))
+}
+
+/// Whether the contact bits of two geoms admit a contact. They may be written while a lab runs.
+pub fn can_collide(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error> {
+    exists("geom", geom1, m.ngeom)?;
+    exists("geom", geom2, m.ngeom)?;
+    Ok(crate::collision::can_collide(m, geom1, geom2))
+}
+
+/// `kp` and `kv` of an actuator, along its own length; `None` when these do not follow from its parameters alone, or when
+/// there is no such actuator.
+pub fn servo_gains(m: &Model, actuator: usize) -> Option<[f64; 2]> {
+    actuation::servo_gains(m, actuator)
+}
+
+/// The energy at `qpos` and `qvel`, for the controls at hand. `None` where some actuator has no potential: it may feed the
+/// scene. Computes where things are, how long they are and how heavy, and nothing else.
+pub fn mechanical_energy<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<Option<Energy>, Error> {
+    Ok(balance::mechanical_energy(m, d.engine(m)?))
+}
+
+/// The numbers of any field.
+pub fn view<'a, S: Scope>(m: &'a Model, d: &'a Data<S>, field: FieldId) -> Result<View<'a>, Error> {
+    match m.field(field) {
+        Some(view) => Ok(view),
+        None => d.read(field),
+    }
+}
+
+/// Element `i` of any field, `None` past its end.
+#[inline]
+pub fn element<S: Scope>(m: &Model, d: &Data<S>, field: FieldId, i: usize) -> Option<f64> {
+    reflect::element(m, &d.inner.fields, field, i)
+}
+
+/// The numbers of any field, to write. What the engine indexes by or computes cannot be written.
+pub fn view_mut<'a, S: Scope>(
+    m: &'a mut Model,
+    d: &'a mut Data<S>,
+    field: FieldId,
+) -> Result<ViewMut<'a>, Error> {
+    if field.info().object == Object::Data {
+        return d.write(field);
+    }
+    if !reflect::is_writable(field) {
+        return Err(Error::NotWritable(field));
+    }
+    m.touch(field);
+    Ok(reflect::view_model_mut(m.engine(), field))
+}
+
+/// The work that was done with these data since they were made: about nanoseconds of a fast machine.
+pub fn cost<S: Scope>(d: &Data<S>) -> u64 {
+    functions::cost(&d.inner)
+}
+
+/// What a forward pass costs without pairs and constraints, in the same unit.
+pub fn cost_of_pass<S: Scope>(d: &Data<S>) -> u64 {
+    functions::cost_of_pass(&d.inner)
+}
+
+/// Lets the engine do so much more work and no more. Beyond that its results are of no use: see [`exhausted`].
+pub fn limit<S: Scope>(d: &mut Data<S>, units: u64) {
+    functions::limit(&mut d.inner, units);
+}
+
+/// What is left of the limit.
+pub fn work_left<S: Scope>(d: &Data<S>) -> u64 {
+    functions::work_left(&d.inner)
+}
+
+/// Whether the limit is passed, and results with it are of no use.
+pub fn exhausted<S: Scope>(d: &Data<S>) -> bool {
+    functions::exhausted(&d.inner)
+}
+
+/// Counts work that was done on the data by others.
+pub fn charge<S: Scope>(d: &mut Data<S>, units: u64) {
+    functions::charge(&mut d.inner, units);
+}
+
+/// Saved simulations: state, inputs and everything computed, contacts and warnings included.
+///
+/// ```
+/// # fn main() -> Result<(), labspec_core::Error> {
+/// use labspec_core::{Data, Model, save, step};
+/// let model = Model::from_xml(
+///     "<mujoco><worldbody><body><joint/><geom size='0.1' pos='0 1 0'/></body></worldbody></mujoco>",
+/// )?;
+/// let mut data = Data::new(&model);
+/// step(&model, &mut data)?;
+/// let saved = save::save(&model, &data)?;
+/// let then = data.clone();
+/// step(&model, &mut data)?;
+/// save::restore(&model, &mut data, &saved)?;
+/// assert_eq!(data, then);
+/// # Ok(())
+/// # }
+/// ```
+pub mod save {
+    use super::{Data, Error, Model, Scope};
+    pub use crate::step::save::RestoreError;
+
+    /// All of a simulation as bytes, for [`restore`].
+    pub fn save<S: Scope>(m: &Model, d: &Data<S>) -> Result<Vec<u8>, Error> {
+        d.belongs_to(m)?;
+        Ok(crate::step::save::save(m, &d.inner))
+    }
+
+    /// Brings a simulation of the same model back to where it was saved, every bit of it; its plan stays. Parameters of the
+    /// model are not part of it: a run goes on with those that the model has now.
+    pub fn restore<S: Scope>(m: &Model, d: &mut Data<S>, bytes: &[u8]) -> Result<(), Error> {
+        Ok(crate::step::save::restore(m, d.engine(m)?, bytes)?)
+    }
+}
+
+/// States as lists of numbers (`mj_getState` and its like): a signature says of which parts.
+///
+/// ```
+/// # fn main() -> Result<(), labspec_core::Error> {
+/// use labspec_core::{Data, Model, state, step};
+/// let model = Model::from_xml(
+///     "<mujoco><worldbody><body><joint/><geom size='0.1' pos='0 1 0'/></body></worldbody></mujoco>",
+/// )?;
+/// let mut data = Data::new(&model);
+/// let mut start = vec![0.0; state::size(&model, state::PHYSICS)?];
+/// state::get(&model, &data, &mut start, state::PHYSICS)?;
+/// step(&model, &mut data)?;
+/// state::set(&model, &mut data, &start, state::PHYSICS)?;
+/// assert_eq!(data.qpos[0], 0.0);
+/// # Ok(())
+/// # }
+/// ```
+pub mod state {
+    use super::{Data, Error, Model, Scope};
+    use crate::model::state;
+    pub use crate::model::state::{
+        ACT, CTRL, EQ_ACTIVE, FULLPHYSICS, HISTORY, INTEGRATION, MOCAP_POS, MOCAP_QUAT, PHYSICS,
+        QFRC_APPLIED, QPOS, QVEL, StateError, TIME, USER, USERDATA, WARMSTART, XFRC_APPLIED,
+    };
+
+    /// Number of numbers of a state (`mj_stateSize`).
+    pub fn size(m: &Model, sig: i32) -> Result<usize, Error> {
+        Ok(state::size(m, sig)?)
+    }
+
+    /// Writes a state to `out`, which has `size` numbers (`mj_getState`).
+    pub fn get<S: Scope>(m: &Model, d: &Data<S>, out: &mut [f64], sig: i32) -> Result<(), Error> {
+        d.belongs_to(m)?;
+        Ok(state::get(m, &d.inner, out, sig)?)
+    }
+
+    /// Sets a state (`mj_setState`). What follows from it is computed by `forward` or the next step.
+    pub fn set<S: Scope>(m: &Model, d: &mut Data<S>, values: &[f64], sig: i32) -> Result<(), Error> {
+        Ok(state::set(m, d.engine(m)?, values, sig)?)
+    }
+
+    /// Takes the parts `to` of the state `from`, which has the parts `sig` (`mj_extractState`).
+    pub fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> Result<(), Error> {
+        Ok(state::extract(m, from, sig, out, to)?)
+    }
+
+    /// Copies parts of a state (`mj_copyState`).
+    pub fn copy<S: Scope, T: Scope>(
+        m: &Model,
+        from: &Data<S>,
+        to: &mut Data<T>,
+        sig: i32,
+    ) -> Result<(), Error> {
+        from.belongs_to(m)?;
+        Ok(state::copy(m, &from.inner, to.engine(m)?, sig)?)
+    }
+}

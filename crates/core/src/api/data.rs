@@ -1,0 +1,261 @@
+//! `Data` as everybody but the engine sees it: of one model, read by name, written where that means something.
+
+use super::error::Error;
+use super::model::{Cell, Model, access};
+use super::plan::Plan;
+use super::view::Addresses;
+use crate::model::fields::data_fields;
+use crate::model::reflect::{self, FieldId, Kind, Object, View, ViewMut};
+use crate::model::{Fields, Names};
+use crate::step::data::Data as Inner;
+use crate::step::reset;
+use crate::step::scene::Demand;
+use std::marker::PhantomData;
+use std::ops::Deref;
+use std::sync::Arc;
+
+/// Data of which everything is computed, and can be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Full;
+
+/// Data of which a plan computes what was asked for: see [`Data::planned`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Planned;
+
+/// What of data is computed.
+pub trait Scope: Copy + std::fmt::Debug + PartialEq + sealed::Sealed {
+    /// Whether everything is.
+    const FULL: bool;
+}
+impl Scope for Full {
+    const FULL: bool = true;
+}
+impl Scope for Planned {
+    const FULL: bool = false;
+}
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Full {}
+    impl Sealed for super::Planned {}
+}
+
+/// State, inputs and results of a simulation of one model. All fields of MuJoCo's `mjData` can be read by their names, as
+/// `data.qpos` or `data.xpos`; state and inputs are written through [`Data::edit`].
+///
+/// Data belong to the model that they were made for (and to its clones): a call with another one is an error.
+///
+/// ```
+/// # fn main() -> Result<(), labspec_core::Error> {
+/// use labspec_core::{Data, Model, step};
+/// let model = Model::from_xml(
+///     "<mujoco><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom size='0.05'/></body></worldbody></mujoco>",
+/// )?;
+/// let mut data = Data::new(&model);
+/// data.edit().qvel[2] = 1.0;
+/// for _ in 0..100 {
+///     step(&model, &mut data)?;
+/// }
+/// let [_, _, height] = data.body("ball")?.xpos();
+/// assert!((data.time - 0.2).abs() < 1e-12 && height > 0.9);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Data<S: Scope = Full> {
+    pub(super) inner: Inner,
+    pub(super) names: Arc<Names>,
+    pub(super) addresses: Arc<Addresses>,
+    /// The model, and its contents when the data were used last.
+    model: u64,
+    version: u64,
+    demand: Demand,
+    scope: PhantomData<S>,
+}
+
+impl<S: Scope> PartialEq for Data<S> {
+    fn eq(&self, other: &Data<S>) -> bool {
+        self.inner == other.inner
+    }
+}
+
+impl Deref for Data<Full> {
+    type Target = Fields;
+
+    #[inline(always)]
+    fn deref(&self) -> &Fields {
+        &self.inner.fields
+    }
+}
+
+impl Data<Full> {
+    /// Data for a model, at the default configuration. Nothing is computed yet: call [`forward`](crate::forward).
+    pub fn new(m: &Model) -> Data<Full> {
+        Data::of(m, Plan::new(m, &Demand::ANY))
+    }
+}
+
+impl Data<Full> {
+    /// Data for which every stage runs in every step, needed or not: the reference that plans are held against.
+    pub fn unplanned(m: &Model) -> Data<Full> {
+        Data::of(m, Plan::full())
+    }
+}
+
+impl Data<Planned> {
+    /// Data that compute only what a plan keeps. What was not asked for cannot be read.
+    pub fn planned(m: &Model, plan: Plan) -> Data<Planned> {
+        Data::of(m, plan)
+    }
+}
+
+impl<S: Scope> Data<S> {
+    fn of(m: &Model, plan: Plan) -> Data<S> {
+        Data {
+            inner: Inner::planned(m, plan.inner),
+            names: Arc::clone(&m.names),
+            addresses: Arc::clone(&m.addresses),
+            model: m.id,
+            version: m.version,
+            demand: plan.demand,
+            scope: PhantomData,
+        }
+    }
+
+    /// Simulated time, s.
+    pub fn time(&self) -> f64 {
+        self.inner.fields.time
+    }
+
+    /// All fields, computed or not: for hosts that know what they demanded.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub fn fields(&self) -> &Fields {
+        &self.inner.fields
+    }
+
+    /// What can be written: state, inputs, and the acceleration that [`inverse`](crate::inverse) starts from. Everything else
+    /// can be read here.
+    pub fn edit(&mut self) -> Edit<'_> {
+        Edit::of(&mut self.inner.fields)
+    }
+
+    /// The numbers of a field of the data by its name.
+    pub fn get(&self, name: &str) -> Result<View<'_>, Error> {
+        let field = reflect::field(Object::Data, name).ok_or_else(|| Error::NoField(name.into()))?;
+        self.read(field)
+    }
+
+    /// The numbers of a field of the data.
+    pub fn read(&self, field: FieldId) -> Result<View<'_>, Error> {
+        let info = field.info();
+        if info.object != Object::Data {
+            return Err(Error::NoField(info.name.into()));
+        }
+        let written = matches!(info.kind, Kind::State | Kind::Input);
+        if S::FULL || written || self.demand.reads.contains(field) {
+            Ok(reflect::view_data(&self.inner.fields, field))
+        } else {
+            Err(Error::LeftOut { field, stage: info.stage })
+        }
+    }
+
+    /// The numbers of a field of the data, to write.
+    pub fn write(&mut self, field: FieldId) -> Result<ViewMut<'_>, Error> {
+        let info = field.info();
+        if info.object != Object::Data {
+            return Err(Error::NoField(info.name.into()));
+        }
+        if !reflect::is_writable(field) {
+            return Err(Error::NotWritable(field));
+        }
+        Ok(reflect::view_data_mut(&mut self.inner.fields, field))
+    }
+
+    /// What is read and written of these data.
+    pub fn demand(&self) -> &Demand {
+        &self.demand
+    }
+
+    /// The plan that decides what is computed.
+    pub fn plan(&self) -> Plan {
+        Plan { inner: self.inner.plan().clone(), demand: self.demand }
+    }
+
+    /// That the data belong to a model, whose parameters are known.
+    #[inline(always)]
+    pub(super) fn engine(&mut self, m: &Model) -> Result<&mut Inner, Error> {
+        if self.version != m.version {
+            self.catch_up(m)?;
+        }
+        Ok(&mut self.inner)
+    }
+
+    /// The parameters of the model have changed. What a plan was told of costs nothing; for what it was not, it is made
+    /// again.
+    #[cold]
+    fn catch_up(&mut self, m: &Model) -> Result<(), Error> {
+        self.belongs_to(m)?;
+        if !m.edited.is_part_of(&self.demand.writes) {
+            let plan = Plan::new(m, &self.demand);
+            reset::set_plan(m, &mut self.inner, plan.inner);
+        }
+        self.version = m.version;
+        Ok(())
+    }
+
+    #[inline(always)]
+    pub(super) fn belongs_to(&self, m: &Model) -> Result<(), Error> {
+        if self.model == m.id { Ok(()) } else { Err(Error::ForeignData) }
+    }
+
+    /// Notes that the data know the parameters of the model as they are.
+    pub(super) fn in_step_with(&mut self, m: &Model) {
+        self.version = m.version;
+    }
+
+    /// Replaces the plan.
+    pub(super) fn replan(&mut self, m: &Model, plan: Plan) -> Result<(), Error> {
+        self.belongs_to(m)?;
+        (self.version, self.demand) = (m.version, plan.demand);
+        reset::set_plan(m, &mut self.inner, plan.inner);
+        Ok(())
+    }
+
+    /// That fields of the data are computed.
+    #[inline(always)]
+    pub(super) fn has(&self, fields: &[&'static str]) -> Result<(), Error> {
+        if S::FULL { Ok(()) } else { self.lacks(fields) }
+    }
+
+    fn lacks(&self, fields: &[&'static str]) -> Result<(), Error> {
+        fields.iter().try_for_each(|name| self.get(name).map(|_| ()))
+    }
+}
+
+macro_rules! edits {
+    ($($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        /// The fields of data to write, by MuJoCo's names: state and inputs can be changed, results can be read.
+        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names
+        pub struct Edit<'a> {
+            $(#[doc = $doc] pub $name: access!(type 'a $kind $ty),)*
+        }
+        impl<'a> Edit<'a> {
+            fn of(d: &'a mut Fields) -> Edit<'a> {
+                Edit { $($name: access!(value $kind d.$name),)* }
+            }
+        }
+    };
+}
+data_fields!(edits);
+
+impl<S: Scope> Data<S> {
+    /// The acceleration, for [`inverse`](crate::inverse) to find the force of, m/s² or rad/s².
+    pub fn set_qacc(&mut self, qacc: &[f64]) -> Result<(), Error> {
+        let to = &mut self.inner.fields.qacc;
+        if to.len() != qacc.len() {
+            return Err(Error::Length { what: "an acceleration", wanted: to.len(), found: qacc.len() });
+        }
+        to.copy_from_slice(qacc);
+        Ok(())
+    }
+}

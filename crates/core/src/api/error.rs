@@ -1,0 +1,170 @@
+//! What can go wrong with a call, and why.
+
+#[cfg(feature = "mjcf")]
+use crate::mjcf::{MjcfDiagnostic, MjcfFileError};
+use crate::model::Obj;
+use crate::model::reflect::FieldId;
+use crate::model::stage::Stage;
+use crate::model::state::StateError;
+use crate::step::inverse::InverseError;
+use crate::step::save::RestoreError;
+use std::fmt;
+
+/// Why a call did nothing. Whatever it was given is as before.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum Error {
+    /// The text of a model has mistakes: all that were found, in the order of the text.
+    #[cfg(feature = "mjcf")]
+    Model(Vec<MjcfDiagnostic>),
+    /// A file cannot be read, or the model in it has mistakes.
+    #[cfg(feature = "mjcf")]
+    File(MjcfFileError),
+    /// The data belong to another model.
+    ForeignData,
+    /// There is no object of this kind and name.
+    NoName {
+        /// The kind that was looked for.
+        kind: Obj,
+        /// The name.
+        name: String,
+        /// The nearest name that there is.
+        nearest: Option<String>,
+    },
+    /// There is no object of this kind with this id.
+    NoId {
+        /// What the id counts: a kind of object, "keyframe", "contact".
+        kind: &'static str,
+        /// The id.
+        id: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// There is no field of this name.
+    NoField(String),
+    /// The plan was made without reading this field: what it holds is not of now.
+    LeftOut {
+        /// The field.
+        field: FieldId,
+        /// The stage that would compute it.
+        stage: Stage,
+    },
+    /// The field cannot be written: the engine indexes by it, or computes it itself.
+    NotWritable(FieldId),
+    /// A list has another length than it must have.
+    Length {
+        /// What the list is.
+        what: &'static str,
+        /// How many numbers it must have.
+        wanted: usize,
+        /// How many it has.
+        found: usize,
+    },
+    /// A number that has no meaning here.
+    Value {
+        /// What it was given for.
+        what: &'static str,
+        /// What it must be.
+        must: &'static str,
+    },
+    /// Inverse dynamics has no answer.
+    Inverse(InverseError),
+    /// A state cannot be read or written.
+    State(StateError),
+    /// Saved data cannot be restored.
+    Restore(RestoreError),
+    /// The bytes are no compiled model of this version, or they were changed.
+    NotAModel,
+}
+
+impl Error {
+    /// What is wrong with the text of a model, as data: empty for any other error.
+    #[cfg(feature = "mjcf")]
+    pub fn diagnostics(&self) -> &[MjcfDiagnostic] {
+        match self {
+            Error::Model(list) | Error::File(MjcfFileError::Model { diagnostics: list, .. }) => list,
+            _ => &[],
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            #[cfg(feature = "mjcf")]
+            Error::Model(list) => {
+                for (i, d) in list.iter().enumerate() {
+                    let end = if i + 1 < list.len() { "\n" } else { "" };
+                    write!(f, "byte {}: {}{end}", d.span.start, d.message)?;
+                }
+                Ok(())
+            }
+            #[cfg(feature = "mjcf")]
+            Error::File(e) => e.fmt(f),
+            Error::ForeignData => f.write_str(
+                "the data belong to another model: make data for this one with `Data::new(&model)`",
+            ),
+            Error::NoName { kind, name, nearest } => {
+                let kind = format!("{kind:?}").to_lowercase();
+                write!(f, "the model has no {kind} named `{name}`")?;
+                nearest.as_ref().map_or(Ok(()), |n| write!(f, "; did you mean `{n}`?"))
+            }
+            Error::NoId { kind, id, count } => {
+                write!(f, "there is no {kind} {id}: the model has {count}, counted from 0")
+            }
+            Error::NoField(name) => write!(f, "model and data have no field `{name}`"),
+            Error::LeftOut { field, stage } => write!(
+                f,
+                "`{}` is not computed: the plan was made without reading it, and leaves the {stage:?} stage to itself; \
+                 add the field to the demand of the plan",
+                field.info().name
+            ),
+            Error::NotWritable(field) => write!(
+                f,
+                "`{}` cannot be written: {}",
+                field.info().name,
+                match field.info().kind {
+                    crate::model::reflect::Kind::Structure => "it is fixed when the model is compiled",
+                    _ => "the engine computes it",
+                }
+            ),
+            Error::Length { what, wanted, found } => {
+                write!(f, "{what} must have {wanted} numbers, and has {found}")
+            }
+            Error::Value { what, must } => write!(f, "{what} must be {must}"),
+            Error::Inverse(e) => e.fmt(f),
+            Error::State(e) => e.fmt(f),
+            Error::Restore(e) => e.fmt(f),
+            Error::NotAModel => f.write_str(
+                "the bytes are no compiled model of this version of the engine: compile it again and store that",
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+impl From<InverseError> for Error {
+    fn from(e: InverseError) -> Error {
+        Error::Inverse(e)
+    }
+}
+
+impl From<StateError> for Error {
+    fn from(e: StateError) -> Error {
+        Error::State(e)
+    }
+}
+
+impl From<RestoreError> for Error {
+    fn from(e: RestoreError) -> Error {
+        Error::Restore(e)
+    }
+}
+
+/// What a person reads, for hosts whose errors are texts.
+impl From<Error> for String {
+    fn from(e: Error) -> String {
+        e.to_string()
+    }
+}

@@ -1,0 +1,408 @@
+//! `Model` as everybody but the engine sees it: its fields can be read, its parameters edited, its structure not.
+
+use super::error::Error;
+use super::plan::Plan;
+use super::view::Addresses;
+use crate::kinds::{disable, enable};
+use crate::model::fields::{model_fields, option_fields, statistic_fields};
+use crate::model::reflect::{self, FieldId, FieldSet, Object};
+use crate::model::{self as inner, Names, Obj};
+use std::ops::Deref;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Where versions come from: no two contents have the same.
+static NEXT: AtomicU64 = AtomicU64::new(1);
+
+fn next() -> u64 {
+    NEXT.fetch_add(1, Ordering::Relaxed)
+}
+
+/// A compiled model. All fields of MuJoCo's `mjModel` can be read by their names, as `model.nq` or `model.body_mass`;
+/// parameters are written through [`Model::edit`].
+///
+/// ```
+/// # fn main() -> Result<(), labspec_core::Error> {
+/// let mut model = labspec_core::Model::from_xml(
+///     "<mujoco><worldbody><body name='ball'><freejoint/><geom size='0.05'/></body></worldbody></mujoco>",
+/// )?;
+/// let ball = model.body("ball")?;
+/// assert_eq!((model.nq, ball.index()), (7, 1));
+/// model.edit().opt.timestep = 0.001;
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Model {
+    inner: inner::Model,
+    pub(super) names: Arc<Names>,
+    pub(super) addresses: Arc<Addresses>,
+    /// Which model it is, whatever its parameters, and which contents it has now.
+    pub(super) id: u64,
+    pub(super) version: u64,
+    /// The fields that were written since it was compiled.
+    pub(super) edited: FieldSet,
+}
+
+impl PartialEq for Model {
+    fn eq(&self, other: &Model) -> bool {
+        self.inner == other.inner
+    }
+}
+
+impl Deref for Model {
+    type Target = inner::Model;
+
+    #[inline(always)]
+    fn deref(&self) -> &inner::Model {
+        &self.inner
+    }
+}
+
+impl Model {
+    pub(crate) fn new(inner: inner::Model) -> Model {
+        let names = Arc::new(inner.names.clone());
+        let addresses = Arc::new(Addresses::new(&inner));
+        Model { inner, names, addresses, id: next(), version: next(), edited: FieldSet::EMPTY }
+    }
+
+    /// Compiles a model from its text. It can name no files: [`Model::from_xml_with`] and [`Model::from_file`] let it.
+    ///
+    /// # Errors
+    ///
+    /// All mistakes that were found: [`Error::diagnostics`].
+    #[cfg(feature = "mjcf")]
+    pub fn from_xml(xml: &str) -> Result<Model, Error> {
+        crate::mjcf::compile(xml).map(Model::new).map_err(Error::Model)
+    }
+
+    /// Compiles a model from its text, and what it includes or names from `files`: a folder, a map in memory, or whatever
+    /// answers for a path.
+    ///
+    /// # Errors
+    ///
+    /// All mistakes that were found: [`Error::diagnostics`].
+    #[cfg(feature = "mjcf")]
+    pub fn from_xml_with(xml: &str, files: &dyn crate::mjcf::Files) -> Result<Model, Error> {
+        crate::mjcf::compile_with(xml, files, None).map(Model::new).map_err(Error::Model)
+    }
+
+    /// Compiles a model from a file, with what it names in the folder of that file and below.
+    ///
+    /// # Errors
+    ///
+    /// The file cannot be read, is too large, is not UTF-8, or the model has mistakes.
+    #[cfg(feature = "mjcf")]
+    pub fn from_file(path: impl AsRef<std::path::Path>) -> Result<Model, Error> {
+        crate::mjcf::compile_file(path.as_ref()).map(Model::new).map_err(Error::File)
+    }
+
+    /// The model as bytes, for [`Model::from_bytes`]: frontends ship models, not parsers.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        crate::step::store::write(&self.inner)
+    }
+
+    /// A model from the bytes of [`Model::to_bytes`].
+    ///
+    /// # Errors
+    ///
+    /// They were written by another version of the engine, cut off or changed: [`Error::NotAModel`].
+    pub fn from_bytes(bytes: &[u8]) -> Result<Model, Error> {
+        crate::step::store::read(bytes).map(Model::new).ok_or(Error::NotAModel)
+    }
+
+    /// What can be written of the model. Data that were planned for other parameters are planned again at their next use.
+    pub fn edit(&mut self) -> ModelEdit<'_> {
+        (self.version, self.edited) = (next(), FieldSet::ALL);
+        ModelEdit::of(&mut self.inner)
+    }
+
+    /// The plan that a demand leads to, with the reasons.
+    pub fn plan(&self, demand: &crate::Demand) -> Plan {
+        Plan::new(self, demand)
+    }
+
+    /// The numbers of a field of the model; `None` for a field of the data.
+    pub fn field(&self, field: FieldId) -> Option<reflect::View<'_>> {
+        (field.info().object != Object::Data).then(|| reflect::view_model(&self.inner, field))
+    }
+
+    pub(super) fn engine(&mut self) -> &mut inner::Model {
+        &mut self.inner
+    }
+
+    /// Notes that fields of the model have been written.
+    pub(super) fn touch(&mut self, field: FieldId) {
+        self.version = next();
+        self.edited.insert(field);
+    }
+
+    /// Notes that what `mj_setConst` computes has been written.
+    pub(super) fn touch_constants(&mut self) {
+        self.version = next();
+        for field in reflect::fields().filter(|f| f.info().object != Object::Data) {
+            if field.info().stage == crate::model::stage::Stage::SetConst {
+                self.edited.insert(field);
+            }
+        }
+    }
+}
+
+/// How a type of the field table is shown and edited.
+pub trait Cell {
+    /// To read.
+    type Look<'a>
+    where
+        Self: 'a;
+    /// To write: lists keep their length.
+    type Edit<'a>
+    where
+        Self: 'a;
+    /// What may be read.
+    fn look(&mut self) -> Self::Look<'_>;
+    /// What may be written.
+    fn edit(&mut self) -> Self::Edit<'_>;
+}
+
+macro_rules! cells {
+    ($($t:ty),*) => { $(
+        impl Cell for $t {
+            type Look<'a> = &'a $t;
+            type Edit<'a> = &'a mut $t;
+            fn look(&mut self) -> &$t { self }
+            fn edit(&mut self) -> &mut $t { self }
+        }
+        impl<const N: usize> Cell for [$t; N] {
+            type Look<'a> = &'a [$t; N];
+            type Edit<'a> = &'a mut [$t; N];
+            fn look(&mut self) -> &[$t; N] { self }
+            fn edit(&mut self) -> &mut [$t; N] { self }
+        }
+        impl Cell for Vec<$t> {
+            type Look<'a> = &'a [$t];
+            type Edit<'a> = &'a mut [$t];
+            fn look(&mut self) -> &[$t] { self }
+            fn edit(&mut self) -> &mut [$t] { self }
+        }
+    )* };
+}
+cells!(f64, i32, bool, usize);
+
+/// The type of a field in an edit, and the field itself: what the engine indexes by or computes is shown, not given.
+macro_rules! access {
+    (type $a:lifetime Structure $ty:ty) => { <$ty as Cell>::Look<$a> };
+    (type $a:lifetime Derived $ty:ty) => { <$ty as Cell>::Look<$a> };
+    (type $a:lifetime $kind:ident $ty:ty) => { <$ty as Cell>::Edit<$a> };
+    (value Structure $field:expr) => { Cell::look(&mut $field) };
+    (value Derived $field:expr) => { Cell::look(&mut $field) };
+    (value $kind:ident $field:expr) => { Cell::edit(&mut $field) };
+}
+pub(super) use access;
+
+macro_rules! edits {
+    ($($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        /// The fields of a model to write, by MuJoCo's names: parameters can be changed, structure can be read.
+        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names
+        pub struct ModelEdit<'a> {
+            /// Options of the simulation.
+            pub opt: OptionsEdit<'a>,
+            /// Statistics.
+            pub stat: StatisticEdit<'a>,
+            $(#[doc = $doc] pub $name: access!(type 'a $kind $ty),)*
+        }
+        impl<'a> ModelEdit<'a> {
+            fn of(m: &'a mut inner::Model) -> ModelEdit<'a> {
+                ModelEdit {
+                    opt: OptionsEdit::of(&mut m.opt),
+                    stat: StatisticEdit::of(&mut m.stat),
+                    $($name: access!(value $kind m.$name),)*
+                }
+            }
+        }
+    };
+}
+macro_rules! edits_of {
+    ($edit:ident, $of:ty, $doc_of:literal; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+        #[doc = $doc_of]
+        #[allow(missing_debug_implementations)]
+        pub struct $edit<'a> {
+            $(#[doc = $doc] pub $name: access!(type 'a $kind $ty),)*
+        }
+        impl<'a> $edit<'a> {
+            fn of(of: &'a mut $of) -> $edit<'a> {
+                $edit { $($name: access!(value $kind of.$name),)* }
+            }
+        }
+    };
+}
+macro_rules! option_edits { ($($t:tt)*) => { edits_of! { OptionsEdit, inner::Options, "Options to write."; $($t)* } } }
+macro_rules! statistic_edits { ($($t:tt)*) => { edits_of! { StatisticEdit, inner::Statistic, "Statistics to write."; $($t)* } } }
+model_fields!(edits);
+option_fields!(option_edits);
+statistic_fields!(statistic_edits);
+
+/// Names that are options' numbers in MJCF, with MuJoCo's numbers.
+macro_rules! words {
+    ($(#[$doc:meta])* $type:ident, $field:ident, $get:ident, $set:ident { $($(#[$vdoc:meta])* $name:ident = $number:literal,)* }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[repr(i32)]
+        pub enum $type { $($(#[$vdoc])* $name = $number,)* }
+        impl TryFrom<i32> for $type {
+            type Error = Error;
+            fn try_from(number: i32) -> Result<$type, Error> {
+                match number {
+                    $($number => Ok($type::$name),)*
+                    _ => Err(Error::Value { what: stringify!($field), must: concat!("one of:" $(, " ", stringify!($name))*) }),
+                }
+            }
+        }
+        impl Model {
+            #[doc = concat!("`opt.", stringify!($field), "`; `None` where it holds a number without a meaning.")]
+            pub fn $get(&self) -> Option<$type> {
+                $type::try_from(self.opt.$field).ok()
+            }
+            #[doc = concat!("Sets `opt.", stringify!($field), "`.")]
+            pub fn $set(&mut self, value: $type) {
+                *self.edit().opt.$field = value as i32;
+            }
+        }
+    };
+}
+words! {
+    /// How a state is advanced (mjtIntegrator).
+    Integrator, integrator, integrator, set_integrator {
+        /// Semi-implicit, with implicit damping of joints.
+        Euler = 0,
+        /// Runge and Kutta's of fourth order.
+        RK4 = 1,
+        /// Implicit in velocity.
+        Implicit = 2,
+        /// Implicit in velocity, without the derivatives of Coriolis and centrifugal forces.
+        ImplicitFast = 3,
+        /// All forces at the end of the step.
+        Discrete = 4,
+    }
+}
+words! {
+    /// How contacts resist sliding (mjtCone).
+    Cone, cone, cone, set_cone {
+        /// By the edges of a pyramid.
+        Pyramidal = 0,
+        /// In a cone.
+        Elliptic = 1,
+    }
+}
+words! {
+    /// How constraint forces are found (mjtSolver).
+    Solver, solver, solver, set_solver {
+        /// Projected Gauss–Seidel, in the dual problem.
+        PGS = 0,
+        /// Conjugate gradients.
+        CG = 1,
+        /// Newton's method.
+        Newton = 2,
+    }
+}
+
+impl Model {
+    /// Whether a part of the simulation is switched off: one of [`crate::disable`].
+    pub fn is_disabled(&self, bit: i32) -> bool {
+        self.opt.disabled(bit)
+    }
+
+    /// Switches a part of the simulation off or on: one of [`disable`].
+    pub fn set_disabled(&mut self, bit: i32, off: bool) {
+        let known = bit & (2 * disable::MULTICCD - 1);
+        let flags = self.edit().opt.disableflags;
+        *flags = if off { *flags | known } else { *flags & !known };
+    }
+
+    /// Whether an optional part is on: one of [`enable`].
+    pub fn is_enabled(&self, bit: i32) -> bool {
+        self.opt.enabled(bit)
+    }
+
+    /// Switches an optional part on or off: one of [`enable`].
+    pub fn set_enabled(&mut self, bit: i32, on: bool) {
+        let known = bit & (2 * enable::IPC - 1);
+        let flags = self.edit().opt.enableflags;
+        *flags = if on { *flags | known } else { *flags & !known };
+    }
+}
+
+/// An id that a name led to.
+macro_rules! ids {
+    ($($(#[$doc:meta])* $id:ident $kind:ident $get:ident $of:ident $count:ident;)*) => {
+        $(
+            $(#[$doc])*
+            #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+            pub struct $id(pub(super) usize);
+
+            impl $id {
+                /// The number that MuJoCo's arrays are indexed by.
+                pub fn index(self) -> usize {
+                    self.0
+                }
+            }
+        )*
+
+        impl Model {
+            $(
+                #[doc = concat!("The id of a ", stringify!($get), " by its name.")]
+                pub fn $get(&self, name: &str) -> Result<$id, Error> {
+                    find(&self.names, Obj::$kind, name).map($id)
+                }
+                #[doc = concat!("All ids of this kind: ", stringify!($of), ".")]
+                pub fn $of(&self) -> impl ExactSizeIterator<Item = $id> + use<> {
+                    (0..self.$count).map($id)
+                }
+            )*
+        }
+    };
+}
+ids! {
+    /// A body; the world is the first.
+    BodyId Body body bodies nbody;
+    /// A joint.
+    JointId Joint joint joints njnt;
+    /// A geom.
+    GeomId Geom geom geoms ngeom;
+    /// A site.
+    SiteId Site site sites nsite;
+    /// A tendon.
+    TendonId Tendon tendon tendons ntendon;
+    /// An actuator.
+    ActuatorId Actuator actuator actuators nactuator;
+    /// A sensor.
+    SensorId Sensor sensor sensors nsensor;
+    /// A keyframe.
+    KeyId Key key keys nkey;
+}
+
+/// The id of a named object.
+pub(super) fn find(names: &Names, kind: Obj, name: &str) -> Result<usize, Error> {
+    names.id(kind, name).ok_or_else(|| {
+        let near = names.of(kind).iter().filter(|n| !n.is_empty());
+        let near = near.map(|n| (distance(n, name), n)).min_by_key(|(far, _)| *far);
+        let nearest = near.filter(|(far, n)| 3 * far <= n.chars().count().max(3)).map(|(_, n)| n.clone());
+        Error::NoName { kind, name: name.to_string(), nearest }
+    })
+}
+
+/// How many letters have to be changed, added or left out (Levenshtein 1966), for names of ordinary length.
+fn distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().take(64).collect(), b.chars().take(64).collect());
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.iter().enumerate() {
+        let mut before = i;
+        let mut left = i + 1;
+        for (y, cell) in b.iter().zip(row.iter_mut().skip(1)) {
+            let next = (before + usize::from(x != y)).min(left + 1).min(*cell + 1);
+            before = *cell;
+            (*cell, left) = (next, next);
+        }
+        row[0] = i + 1;
+    }
+    row.last().copied().unwrap_or(0)
+}

@@ -1,0 +1,59 @@
+//! Plans as everybody but the engine sees them: what a demand leads to.
+
+use super::model::Model;
+use crate::model::plan::{Decision, Plan as Inner};
+use crate::model::stage::Stage;
+use crate::step::scene::Demand;
+
+/// Which stages run, and why.
+///
+/// ```
+/// # fn main() -> Result<(), labspec_core::Error> {
+/// use labspec_core::{Data, Demand, Model, Plan, reflect, step};
+/// let model = Model::from_xml(
+///     "<mujoco><worldbody><body><joint axis='0 1 0'/><geom size='0.1' pos='1 0 0'/></body></worldbody></mujoco>",
+/// )?;
+/// let mut demand = Demand { reads: Default::default(), writes: Default::default() };
+/// demand.reads.insert(reflect::field(reflect::Object::Data, "qpos").expect("a field of the data"));
+/// let plan = Plan::new(&model, &demand);
+/// assert!(plan.decisions().iter().any(|d| !d.keep));
+/// let mut data = Data::planned(&model, plan);
+/// step(&model, &mut data)?;
+/// assert_eq!(data.get("qpos")?.len(), 1);
+/// // What nobody asked for was not computed, and says so.
+/// assert!(data.get("xpos").is_err());
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    pub(super) inner: Inner,
+    pub(super) demand: Demand,
+}
+
+impl Plan {
+    /// The stages that a scene needs, for what is read and written.
+    pub fn new(m: &Model, demand: &Demand) -> Plan {
+        Plan { inner: Inner::new(m, demand), demand: *demand }
+    }
+
+    /// Every stage, needed or not: the reference that plans are held against.
+    pub fn full() -> Plan {
+        Plan { inner: Inner::full(), demand: Demand::ANY }
+    }
+
+    /// Every stage but the one that lets trees sleep.
+    pub fn awake() -> Plan {
+        Plan { inner: Inner::awake(), demand: Demand::ANY }
+    }
+
+    /// Whether a stage runs.
+    pub fn keeps(&self, stage: Stage) -> bool {
+        self.inner.keeps(stage)
+    }
+
+    /// Every stage with the reason to keep it or leave it out, in the order of the pipeline.
+    pub fn decisions(&self) -> &[Decision] {
+        self.inner.decisions()
+    }
+}

@@ -1,0 +1,43 @@
+//! Models from MJCF, with all that is found in their texts.
+
+use super::error::Error;
+use super::model::Model;
+use crate::mjcf;
+use std::path::Path;
+
+pub use crate::mjcf::{
+    Attr, Element, FileProblem, Files, Folder, Kind, MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH, MAX_DOFS,
+    MAX_ELEMENTS, MAX_FILE, MAX_GEOMS, MAX_MASS, MAX_TEXT, MjcfDiagnostic, MjcfFileError, NoFiles, SchemaRow,
+    Severity, Status, Word, code, schema_rows,
+};
+
+/// What came of a model's text.
+#[derive(Clone, Debug)]
+pub struct Examined {
+    /// The model; `None` when there are errors.
+    pub model: Option<Model>,
+    /// Errors and warnings in the order of the texts.
+    pub findings: Vec<MjcfDiagnostic>,
+}
+
+/// Compiles a model, and tells what it may not be meant to be, besides what is wrong. `path` is where `files` has the text
+/// itself, if it has it: what it names is looked for in that folder.
+pub fn examine(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
+    let mjcf::Examined { model, findings } = mjcf::examine(xml, files, path);
+    Examined { model: model.map(Model::new), findings }
+}
+
+/// Compiles a model from its text; the mistakes as they were found.
+pub fn compile(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
+    mjcf::compile(xml).map(Model::new)
+}
+
+/// Compiles a model from its text and the files that it names: see [`examine`].
+pub fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<MjcfDiagnostic>> {
+    mjcf::compile_with(xml, files, path).map(Model::new)
+}
+
+/// Compiles a model from a file: see [`Model::from_file`].
+pub fn compile_file(path: &Path) -> Result<Model, Error> {
+    Model::from_file(path)
+}

@@ -1,0 +1,123 @@
+//! A compiled model as bytes: frontends ship models, not parsers.
+//!
+//! A header (a word, the version, a fingerprint of the table of fields), sizes, then every field in the order of the table,
+//! names, texts, exclusions and the sides of hulls, and a fingerprint of all before it. Numbers are least significant byte
+//! first. A file may come from anywhere: it is compared with its fingerprint, and what the engine would index by must
+//! lie where it can.
+
+use crate::geometry::Sides;
+use crate::model::bytes::{Plain, fingerprint};
+use crate::model::reflect::{self, Elem, Object};
+use crate::model::{Model, Names};
+
+const MAGIC: [u8; 8] = *b"labmodl\n";
+/// Of the layout that this module writes.
+const VERSION: u32 = 1;
+
+fn put_text(text: &str, out: &mut Vec<u8>) {
+    text.len().put(out);
+    out.extend_from_slice(text.as_bytes());
+}
+
+fn take_text(bytes: &mut &[u8]) -> Option<String> {
+    let n = usize::take(bytes)?;
+    let (text, rest) = bytes.split_at_checked(n)?;
+    *bytes = rest;
+    String::from_utf8(text.to_vec()).ok()
+}
+
+fn put_list<T>(list: &[T], out: &mut Vec<u8>, mut put: impl FnMut(&T, &mut Vec<u8>)) {
+    list.len().put(out);
+    list.iter().for_each(|x| put(x, out));
+}
+
+fn take_list<T>(bytes: &mut &[u8], mut take: impl FnMut(&mut &[u8]) -> Option<T>) -> Option<Vec<T>> {
+    let n = usize::take(bytes)?;
+    // Every element takes a byte or more: no room is made for what is not there.
+    if n > bytes.len() {
+        return None;
+    }
+    (0..n).map(|_| take(bytes)).collect()
+}
+
+/// A number for the fields of the model: their names, types and shapes.
+fn table() -> u64 {
+    let mut text = String::new();
+    for f in reflect::fields().map(|f| f.info()).filter(|f| f.object != Object::Data) {
+        text += &format!("{} {:?} {:?}\n", f.name, f.elem, f.shape);
+    }
+    fingerprint(text.as_bytes())
+}
+
+/// A model as bytes.
+pub(crate) fn write(m: &Model) -> Vec<u8> {
+    let mut out = MAGIC.to_vec();
+    VERSION.put(&mut out);
+    table().put(&mut out);
+    // Sizes first: they say how long the rest is.
+    for field in reflect::fields().filter(|f| f.info().object != Object::Data) {
+        if field.info().elem == Elem::Size {
+            reflect::write_model(m, field, &mut out);
+        }
+    }
+    for field in reflect::fields().filter(|f| f.info().object != Object::Data) {
+        if field.info().elem != Elem::Size {
+            reflect::write_model(m, field, &mut out);
+        }
+    }
+    put_text(&m.names.model, &mut out);
+    for list in m.names.lists() {
+        put_list(list, &mut out, |name, out| put_text(name, out));
+    }
+    put_list(&m.texts, &mut out, |text, out| put_text(text, out));
+    put_list(&m.exclude_bodies, &mut out, |pair, out| pair.put(out));
+    put_list(&m.mesh_sides, &mut out, |sides, out| {
+        let (integers, floats) = sides.numbers();
+        put_list(&integers, out, |x, out| x.put(out));
+        put_list(&floats, out, |x, out| x.put(out));
+    });
+    fingerprint(&out).put(&mut out);
+    out
+}
+
+/// The model that [`write`] wrote; `None` for anything else.
+pub(crate) fn read(bytes: &[u8]) -> Option<Model> {
+    let (body, end) = bytes.split_last_chunk::<8>()?;
+    if fingerprint(body) != u64::from_le_bytes(*end) {
+        return None;
+    }
+    let mut rest = body;
+    let bytes = &mut rest;
+    let header =
+        <[u8; 8]>::take(bytes)? == MAGIC && u32::take(bytes)? == VERSION && u64::take(bytes)? == table();
+    if !header {
+        return None;
+    }
+    let mut m = Model::default();
+    for size in [true, false] {
+        for field in reflect::fields().filter(|f| f.info().object != Object::Data) {
+            if (field.info().elem == Elem::Size) == size && !reflect::read_model(&mut m, field, bytes) {
+                return None;
+            }
+        }
+    }
+    m.names = Names { model: take_text(bytes)?, ..Names::default() };
+    for list in m.names.lists_mut() {
+        *list = take_list(bytes, take_text)?;
+    }
+    m.texts = take_list(bytes, take_text)?;
+    m.exclude_bodies = take_list(bytes, Plain::take)?;
+    let mut mesh = 0..m.nmesh;
+    m.mesh_sides = take_list(bytes, |bytes| {
+        let (integers, floats) = (take_list(bytes, u32::take)?, take_list(bytes, f64::take)?);
+        let corners = usize::try_from(*m.mesh_vertnum.get(mesh.next()?)?).ok()?;
+        Sides::from_numbers(&integers, &floats, corners)
+    })?;
+    (rest.is_empty() && is_sound(&m)).then_some(m)
+}
+
+/// Whether the engine can index by what the model says.
+fn is_sound(m: &Model) -> bool {
+    let named = m.names.lists().flatten().all(|name| name.len() < 1 << 20);
+    named && m.names.body.len() == m.nbody
+}
