@@ -14,7 +14,7 @@ use labspec::run::{Cell, Samples, Session};
 use labspec::source::SourceFile;
 use labspec::spec::load_lesson;
 use labspec_core::reflect::{FieldSet, Object, field};
-use labspec_core::{self as core, Data, Demand, Model, Plan, integrator};
+use labspec_core::{self as core, Data, Demand, Model, Plan, Planned, integrator};
 use labspec_expr::Value;
 use serde_json::json;
 use std::fmt::Write;
@@ -32,13 +32,14 @@ fn allocates_nothing(name: &str, m: &Model, steps: usize) {
     for plan in [Plan::full(), Plan::new(m, &Demand::ANY), Plan::new(m, &coordinates())] {
         let mut d = Data::planned(m, plan);
         let mut contacts = 0;
-        let start = |d: &mut Data| {
-            if m.nkey > 0 { core::reset_data_keyframe(m, d, 0).unwrap() } else { core::reset_data(m, d).unwrap() }
+        let start = |d: &mut Data<Planned>| match m.keys().next() {
+            Some(key) => core::reset_data_keyframe(m, d, key).unwrap(),
+            None => core::reset_data(m, d).unwrap(),
         };
-        let mut run = |d: &mut Data| {
+        let mut run = |d: &mut Data<Planned>| {
             for _ in 0..steps {
                 core::step(m, d).unwrap();
-                contacts = contacts.max(d.nefc);
+                contacts = contacts.max(d.fields().nefc);
             }
             core::forward(m, d).unwrap();
         };
@@ -137,7 +138,7 @@ fn memory_of_a_thousand_boxes() {
             let mut d = Data::planned(&m, Plan::new(&m, &coordinates()));
             core::step(&m, &mut d).unwrap();
             core::step(&m, &mut d).unwrap();
-            assert_eq!(d.nisland, n);
+            assert_eq!(d.fields().nisland, n);
         });
         count.bytes_max
     };
@@ -149,7 +150,7 @@ fn memory_of_a_thousand_boxes() {
 fn runge_kutta() {
     for name in ["double_pendulum", "tree", "stack", "mocap"] {
         let mut m = model(name);
-        m.opt.integrator = integrator::RK4;
+        *m.edit().opt.integrator = integrator::RK4;
         allocates_nothing(name, &m, 300);
     }
 }
@@ -159,7 +160,7 @@ fn every_integrator_with_everything_in_the_zoo() {
     for (name, m, _) in animals() {
         for id in integrator::EULER..=integrator::DISCRETE {
             let mut m = m.clone();
-            m.opt.integrator = id;
+            *m.edit().opt.integrator = id;
             allocates_nothing(&format!("{name}, integrator {id}"), &m, 5);
         }
     }
@@ -177,7 +178,7 @@ fn reset() {
 #[test]
 fn automatic_reset() {
     let mut m = model("ball_drop");
-    m.opt.gravity[2] = -1e12;
+    m.edit().opt.gravity[2] = -1e12;
     allocates_nothing("a simulation that breaks", &m, 50);
 }
 

@@ -11,9 +11,9 @@
 use crate::needs::needs;
 use crate::recorded::{Verdict, list, named, objects, set, trajectory, worst};
 use crate::support::{models, numbers, read_json, workspace};
-use labspec_core::xml::{self, MjcfFileError};
 use labspec_core::reflect::{self, Object};
-use labspec_core::{self as core, Data, Model};
+use labspec_core::xml::{self, MjcfFileError};
+use labspec_core::{self as core, Data, Error, Model};
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
@@ -77,14 +77,14 @@ fn options(m: &mut Model, chosen: &Value) {
         let field = reflect::field(Object::Option, name).unwrap();
         let values = value.as_array().map_or(vec![value.clone()], Clone::clone);
         for (i, v) in values.iter().enumerate() {
-            reflect::view_mut(m, &mut d, field).set(i, v.as_f64().unwrap());
+            core::view_mut(m, &mut d, field).unwrap().set(i, v.as_f64().unwrap());
         }
     }
 }
 
 fn tight(m: &mut Model) {
-    (m.opt.tolerance, m.opt.ls_tolerance) = (0.0, 1e-10);
-    (m.opt.iterations, m.opt.ls_iterations) = (200, 100);
+    (*m.edit().opt.tolerance, *m.edit().opt.ls_tolerance) = (0.0, 1e-10);
+    (*m.edit().opt.iterations, *m.edit().opt.ls_iterations) = (200, 100);
 }
 
 /// What a sum of the forces of all rows is rounded by at least: where nothing but the smallest number makes rows soft,
@@ -96,7 +96,7 @@ fn rounding_of_forces(d: &Data) -> f64 {
 fn examine(path: &Path, recording: &Value) -> Outcome {
     let mut compiled = match xml::compile_file(path) {
         Ok(m) => m,
-        Err(MjcfFileError::Model { diagnostics, .. }) => {
+        Err(Error::File(MjcfFileError::Model { diagnostics, .. })) => {
             return Outcome::Refused(diagnostics.first().map_or(String::new(), |d| d.message.clone()));
         }
         Err(other) => return Outcome::Refused(other.to_string()),

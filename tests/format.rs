@@ -91,12 +91,16 @@ fn random_world(model: &Model, seed: u64) -> World {
         state ^= state << 17;
         (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     };
-    let mut world = World { data: Data::new(model), model: model.clone(), key: None };
+    let mut world = World {
+        data: Data::planned(model, labspec_core::Plan::new(model, &labspec_core::Demand::ANY)),
+        model: model.clone(),
+        key: None,
+    };
     for f in reflect::fields() {
         let info = f.info();
         if info.elem == Elem::F64 && matches!(info.kind, Kind::State | Kind::Input) {
-            let n = reflect::view(&world.model, &world.data, f).len();
-            let mut view = reflect::view_mut(&mut world.model, &mut world.data, f);
+            let n = labspec_core::length(&world.model, &world.data, f);
+            let mut view = labspec_core::view_mut(&mut world.model, &mut world.data, f).unwrap();
             for i in 0..n {
                 view.set(i, next());
             }

@@ -28,7 +28,7 @@ pub(crate) type Snapshot = Vec<Vec<f64>>;
 
 pub(crate) fn snapshot(world: &World) -> Snapshot {
     let numbers = |f| {
-        let view = reflect::view(&world.model, &world.data, f);
+        let view = labspec_core::view(&world.model, &world.data, f).unwrap();
         (0..view.len()).map(|i| view.get(i).unwrap()).collect()
     };
     reflect::fields().map(numbers).collect()
@@ -105,7 +105,7 @@ fn objects(names: &ModelNames<'_>) -> Json {
                 let member = |m: String| match names.member(object, &m)? {
                     Entry::Constant(v) => Some((m, value(&Heap::default(), &v))),
                     Entry::Field(f) => {
-                        let field = path(reflect::FieldId(f.key.0 as u16));
+                        let field = path(reflect::FieldId::new(f.key.0 as usize).unwrap());
                         Some((m, json!([field, f.first, f.len()])))
                     }
                     _ => None,

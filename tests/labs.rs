@@ -87,11 +87,12 @@ fn ours(shared: &Path, recording: &Json, how: How) -> Json {
         models.of(lab, &mut findings).unwrap_or_else(|| panic!("{name}: {:?}", models.take_findings()));
     let mut model: Model = (*model).clone();
     let [moved, pulled] = if let How::Nudged(q, g) = how { [q * NUDGE, g * NUDGE] } else { [0.0; 2] };
-    model.qpos0.iter_mut().chain(&mut model.key_qpos).for_each(|q| *q += moved);
-    model.opt.gravity.iter_mut().for_each(|g| *g *= 1.0 + pulled);
+    let edit = model.edit();
+    edit.qpos0.iter_mut().chain(edit.key_qpos).for_each(|q| *q += moved);
+    model.edit().opt.gravity.iter_mut().for_each(|g| *g *= 1.0 + pulled);
     if recording["tight"] == true || how == How::Tight {
-        (model.opt.tolerance, model.opt.ls_tolerance) = (0.0, 1e-10);
-        (model.opt.iterations, model.opt.ls_iterations) = (200, 100);
+        (*model.edit().opt.tolerance, *model.edit().opt.ls_tolerance) = (0.0, 1e-10);
+        (*model.edit().opt.iterations, *model.edit().opt.ls_iterations) = (200, 100);
     }
     let programs = Programs::compile(lab, &model, &mut findings);
     let pairs = |key: &str| recording[key].as_array().unwrap().clone();

@@ -193,7 +193,7 @@ fn the_mass_slider_in_mid_run() {
                 1 => session.set_control(0, Value::Number(5.0)),
                 _ => (0..50).for_each(|_| session.step()),
             }
-            let d = &session.world.data;
+            let d = session.world.data.fields();
             assert_eq!(d.time, numbers(&row["time"])[0], "row {i}");
             assert_eq!(d.ncon as u64, row["ncon"].as_u64().unwrap(), "row {i}");
             // As every trajectory with contacts: see `parity`.
@@ -207,7 +207,7 @@ fn the_mass_slider_in_mid_run() {
                 assert_eq!((d.qpos[9], format!("{:.4}", d.qvel[8])), (1.0, "-1.9620".into()));
             }
         }
-        let d = &session.world.data;
+        let d = session.world.data.fields();
         assert_eq!(format!("{:.8}", 1000.0 * (0.05 - d.qpos[9])), "0.36718184");
         assert_eq!(format!("{:.8}", 1000.0 * (0.05 - d.qpos[2])), "0.36718184");
     }
@@ -249,7 +249,7 @@ fn rebound() {
 /// Depth in m of the heavy ball at rest.
 fn depth(m: &Model, timestep: f64) -> f64 {
     let mut m = m.clone();
-    m.opt.timestep = timestep;
+    *m.edit().opt.timestep = timestep;
     let mut d = Data::new(&m);
     (0..3000).for_each(|_| core::step(&m, &mut d).unwrap());
     0.05 - d.qpos[2]
@@ -322,9 +322,9 @@ fn poses_are_old_until_forward() {
     for demand in [Demand::ANY, Demand::OBSERVE] {
         let mut d = Data::planned(&m, core::Plan::new(&m, &demand));
         core::forward(&m, &mut d).unwrap();
-        d.qpos[2] = 0.5;
-        assert_eq!(d.xpos[5], 1.0);
+        d.edit().qpos[2] = 0.5;
+        assert_eq!(d.fields().xpos[5], 1.0);
         core::forward(&m, &mut d).unwrap();
-        assert_eq!(d.xpos[5], 0.5);
+        assert_eq!(d.fields().xpos[5], 0.5);
     }
 }

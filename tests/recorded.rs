@@ -7,9 +7,9 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::support::{compile_unconstrained, numbers};
-use labspec_core::xml::MjcfDiagnostic;
 use labspec_core::reflect::{self, FieldId, Object};
-use labspec_core::{self as core, Data, Model, Obj, Warning, disable, enable};
+use labspec_core::xml::MjcfDiagnostic;
+use labspec_core::{self as core, Data, Model, Obj, Scope, Warning, disable, enable};
 use serde_json::{Map, Value};
 use std::fmt;
 use std::path::Path;
@@ -112,7 +112,7 @@ pub(crate) fn examine(model: &Path, recording: &Value) -> Outcome {
     for (path, state) in [("calm", 0), ("trajectories", 1)] {
         for (i, name) in INTEGRATORS.iter().enumerate() {
             let mut m = m.clone();
-            m.opt.integrator = i as i32;
+            *m.edit().opt.integrator = i as i32;
             let start = &recording["forward"][state]["state"];
             verdicts.push(trajectory(&m, start, &recording[path][name], TRAJECTORY));
         }
@@ -271,7 +271,7 @@ fn on_request(m: &Model, d: &mut Data, row: &Value) -> Vec<(String, Vec<f64>, Ve
         out.push((name.clone(), list(m, d, id), numbers(values)));
     }
     if let Some(theirs) = recorded(post, "qfrc_inverse") {
-        d.qacc.copy_from_slice(&vector);
+        d.set_qacc(&vector).unwrap();
         core::inverse(m, d).unwrap();
         out.push(("qfrc_inverse".into(), d.qfrc_inverse.clone(), theirs));
     }
@@ -285,8 +285,8 @@ fn on_request(m: &Model, d: &mut Data, row: &Value) -> Vec<(String, Vec<f64>, Ve
         if name == "Euler" && m.opt.disabled(disable::DAMPER) {
             continue;
         }
-        m.opt.integrator = INTEGRATORS.iter().position(|a| a == name).unwrap() as i32;
-        d.qacc.copy_from_slice(&vector);
+        *m.edit().opt.integrator = INTEGRATORS.iter().position(|a| a == name).unwrap() as i32;
+        d.set_qacc(&vector).unwrap();
         core::inverse(&m, d).unwrap();
         out.push((format!("qfrc_inverse of a step, {name}"), d.qfrc_inverse.clone(), numbers(values)));
     }
@@ -298,20 +298,20 @@ fn function(m: &Model, d: &mut Data, name: &str, vector: &[f64]) -> Vec<f64> {
     let body = m.nbody - 1;
     let at = &d.xpos[3 * body..];
     let point = [at[0] + 0.1, at[1] - 0.2, at[2] + 0.3];
-    let both = |j: Option<core::Jacobian>| j.map(|j| [j.jacp, j.jacr].concat()).unwrap();
+    let both = |j: core::Jacobian| [j.jacp, j.jacr].concat();
     let mut out = vec![0.0; m.nv];
     match name {
         "mul_m" => core::mul_m(m, d, vector, &mut out).unwrap(),
         "solve_m" | "solve_m2" => {
             out.copy_from_slice(vector);
-            if name == "solve_m" { core::solve_m(m, d, &mut out).unwrap() } else { core::solve_m2(m, d, &mut out).unwrap() }
+            if name == "solve_m" { core::solve_m(m, d, &mut out) } else { core::solve_m2(m, d, &mut out) }
                 .unwrap();
         }
         "full_m" => return core::full_m(m, d).unwrap(),
-        "rne" => core::rne(m, d, None, &mut out).unwrap(),
-        "rne_acc" => core::rne(m, d, Some(vector), &mut out).unwrap(),
+        "rne" => return core::rne(m, d, None).unwrap(),
+        "rne_acc" => return core::rne(m, d, Some(vector)).unwrap(),
         "apply_ft" => {
-            core::apply_ft(m, d, [1.0, 2.0, 3.0], [-3.0, 1.0, 2.0], point, body, &mut out).unwrap();
+            core::apply_ft(m, d, [[1.0, 2.0, 3.0], [-3.0, 1.0, 2.0]], point, body, &mut out).unwrap();
         }
         "jac" => return both(core::jac(m, d, point, body).unwrap()),
         "jac_dot" => return both(core::jac_dot(m, d, point, body).unwrap()),
@@ -324,7 +324,7 @@ fn function(m: &Model, d: &mut Data, name: &str, vector: &[f64]) -> Vec<f64> {
             out.clone_from(&d.qpos);
             core::integrate_pos(m, &mut out, vector, 0.3).unwrap();
         }
-        "differentiate_pos" => core::differentiate_pos(m, &mut out, 0.2, &m.qpos0, &d.qpos).unwrap(),
+        "differentiate_pos" => return core::differentiate_pos(m, 0.2, &m.qpos0, &d.qpos).unwrap(),
         other => panic!("no function is called {other}"),
     }
     out
@@ -408,14 +408,17 @@ pub(crate) fn set(m: &Model, d: &mut Data, state: &Value) {
         let id = named(Object::Data, field);
         for (i, x) in numbers(values).into_iter().enumerate() {
             // A model that was not compiled to the same sizes is told elsewhere.
-            reflect::view_mut(&mut m, d, id).set(i, x);
+            core::view_mut(&mut m, d, id).unwrap().set(i, x);
         }
     }
 }
 
 /// The first keyframe, or the default configuration.
 pub(crate) fn start(m: &Model, d: &mut Data) {
-    if m.nkey > 0 { core::reset_data_keyframe(m, d, 0).unwrap() } else { core::reset_data(m, d).unwrap() }
+    match m.keys().next() {
+        Some(key) => core::reset_data_keyframe(m, d, key).unwrap(),
+        None => core::reset_data(m, d).unwrap(),
+    }
 }
 
 /// The field of a recording; a recording that has what ours lacks says so, or nobody would look at it.
@@ -425,8 +428,8 @@ pub(crate) fn named(object: Object, name: &str) -> FieldId {
 }
 
 /// All numbers of a field.
-pub(crate) fn list(m: &Model, d: &Data, field: FieldId) -> Vec<f64> {
-    let view = reflect::view(m, d, field);
+pub(crate) fn list<S: Scope>(m: &Model, d: &Data<S>, field: FieldId) -> Vec<f64> {
+    let view = core::view(m, d, field).unwrap();
     (0..view.len()).filter_map(|i| view.get(i)).collect()
 }
 

@@ -181,10 +181,10 @@ fn keeping_qpos_is_keeping_the_state() {
         (0..100).for_each(|_| labspec_core::step(&model, &mut data).unwrap());
         let mut before = vec![0.0; state::size(&model, state::INTEGRATION).unwrap()];
         state::get(&model, &data, &mut before, state::INTEGRATION).unwrap();
-        model.body_mass[2] = 5.0;
+        model.edit().body_mass[2] = 5.0;
         let qpos = data.qpos.clone();
         set_const(&mut model, &mut data).unwrap();
-        data.qpos.copy_from_slice(&qpos);
+        data.edit().qpos.copy_from_slice(&qpos);
         forward(&model, &mut data).unwrap();
         let mut after = before.clone();
         state::get(&model, &data, &mut after, state::INTEGRATION).unwrap();

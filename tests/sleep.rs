@@ -21,7 +21,7 @@ fn differences(scene: &str, tolerance: f64) {
         let mut d = Data::new(&m);
         for (option, value) in objects(&run["options"]) {
             let field = reflect::field(Object::Option, option).unwrap();
-            assert!(reflect::view_mut(&mut m, &mut d, field).set(0, value.as_f64().unwrap()));
+            assert!(labspec_core::view_mut(&mut m, &mut d, field).unwrap().set(0, value.as_f64().unwrap()));
         }
         let mut d = Data::new(&m);
         let mut next = 0;
@@ -31,7 +31,7 @@ fn differences(scene: &str, tolerance: f64) {
                 for write in recorded["writes"].as_array().unwrap().iter().filter(|w| w[0] == next) {
                     let field = reflect::field(Object::Data, write[1].as_str().unwrap()).unwrap();
                     let (element, value) = (write[2].as_u64().unwrap() as usize, write[3].as_f64().unwrap());
-                    assert!(reflect::view_mut(&mut m, &mut d, field).set(element, value));
+                    assert!(labspec_core::view_mut(&mut m, &mut d, field).unwrap().set(element, value));
                 }
                 core::step(&m, &mut d).unwrap();
                 next += 1;
@@ -81,7 +81,7 @@ fn a_plan_lets_trees_sleep_as_they_do() {
         let run = |plan: Plan| {
             let mut d = Data::planned(&m, plan);
             (0..300).for_each(|_| core::step(&m, &mut d).unwrap());
-            (d.tree_asleep.clone(), d.qpos.clone())
+            (d.fields().tree_asleep.clone(), d.fields().qpos.clone())
         };
         assert_eq!(run(Plan::new(&m, &demand)), run(Plan::full()), "{scene}");
     }

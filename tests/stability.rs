@@ -24,8 +24,8 @@ const LOOKS: u64 = 24;
 fn run(xml: &str, steps: u64, long: u64) -> Json {
     let mut m = compile(xml);
     let mut d = Data::new(&m);
-    if m.nkey > 0 {
-        core::reset_data_keyframe(&m, &mut d, 0).unwrap();
+    if let Some(key) = m.keys().next() {
+        core::reset_data_keyframe(&m, &mut d, key).unwrap();
     }
     let start = energy(&mut m, &d);
     let mut reach = largest(&d.qpos);
@@ -69,7 +69,7 @@ fn energy(m: &mut Model, d: &Data) -> f64 {
     let mut d = d.clone();
     m.set_enabled(enable::ENERGY, true);
     core::forward(m, &mut d).unwrap();
-    m.opt.enableflags &= !enable::ENERGY;
+    m.set_enabled(enable::ENERGY, false);
     d.energy[0] + d.energy[1]
 }
 

@@ -21,6 +21,8 @@
 //!
 //! With `default-features = false` models are not read from MJCF, but from what [`Model::to_bytes`] stored.
 #![forbid(unsafe_code)]
+// What only the reader of MJCF asks for.
+#![cfg_attr(not(feature = "mjcf"), allow(dead_code, unused_imports))]
 #![recursion_limit = "256"]
 
 mod api;
@@ -54,6 +56,8 @@ pub use geometry::Distance;
 pub use kinds::{
     biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, solver, trntype, wraptype,
 };
+#[doc(hidden)]
+pub use model::Fields;
 pub use model::reflect;
 pub use model::{Contact, Decision, Names, Obj, Options, Statistic, Warning, WarningStat};
 pub use query::{RayFilter, RayHit};

@@ -215,8 +215,8 @@ fn samples(case: &Case<'_>, kind: i32, h: f64) -> Samples {
     let Case { targets, count, .. } = case;
     let per_sample = (case.interval / h).round() as usize;
     let mut session = start(case.lab, case.model, case.programs);
-    session.world.model.opt.timestep = h;
-    session.world.model.opt.integrator = kind;
+    let opt = session.world.model.edit().opt;
+    (*opt.timestep, *opt.integrator) = (h, kind);
     let mut s = Samples {
         values: vec![Vec::new(); targets.len()],
         exact: vec![Vec::new(); targets.len()],

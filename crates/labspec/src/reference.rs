@@ -4,8 +4,8 @@
 
 use crate::bind::{functions, named_field as by_name};
 use crate::{lint, rules};
-use labspec_core::xml::{self, Status};
 use labspec_core::reflect::{self, Kind, Object, Stage};
+use labspec_core::xml::{self, Status};
 use std::fmt::Write;
 
 /// File name and text of each page.
@@ -159,10 +159,15 @@ mod tests {
     use crate::lint::ModelFolder;
     use crate::source::SourceFile;
     use crate::spec::load_lesson;
-    use labspec_core::{self as core, Data, Model, xml};
+    use labspec_core::{self as core, Data, Demand, Model, Plan, Planned, xml};
     use labspec_expr::{Compiler, Context, Globals};
 
     const PENDULUM: &str = include_str!("../../../specs/models/pendulum.xml");
+
+    /// Data of which everything is computed.
+    fn everything(model: &Model) -> Data<Planned> {
+        Data::planned(model, Plan::new(model, &Demand::ANY))
+    }
 
     /// Statements and a last expression; gives its value.
     fn run(model: &Model, code: &str) -> String {
@@ -171,8 +176,8 @@ mod tests {
         let mut globals = Globals::new();
         let mut compiler = Compiler::new(&names, &mut globals);
         let programs = [compiler.statements(statements), compiler.expression(last)];
-        let mut world = World { model: model.clone(), data: Data::new(model), key: None };
-        core::forward(&world.model, &mut world.data);
+        let mut world = World { model: model.clone(), data: everything(model), key: None };
+        core::forward(&world.model, &mut world.data).unwrap();
         let mut context = Context::of(&globals);
         let values = programs.map(|p| match p.program {
             Some(program) => program.run(&mut world, &mut context, None).unwrap().to_string(),

@@ -416,10 +416,16 @@ pub fn view<'a, S: Scope>(m: &'a Model, d: &'a Data<S>, field: FieldId) -> Resul
     }
 }
 
-/// Element `i` of any field, `None` past its end.
+/// Element `i` of any field, `None` past its end: computed or not, for hosts that know what they demanded.
+#[doc(hidden)]
 #[inline]
 pub fn element<S: Scope>(m: &Model, d: &Data<S>, field: FieldId, i: usize) -> Option<f64> {
     reflect::element(m, &d.inner.fields, field, i)
+}
+
+/// How many numbers a field has now.
+pub fn length<S: Scope>(m: &Model, d: &Data<S>, field: FieldId) -> usize {
+    m.field(field).map_or_else(|| reflect::view_data(&d.inner.fields, field).len(), |view| view.len())
 }
 
 /// The numbers of any field, to write. What the engine indexes by or computes cannot be written.

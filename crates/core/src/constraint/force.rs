@@ -13,7 +13,7 @@ pub(crate) fn contact_force(m: &Model, d: &Fields, contact: &Contact) -> [f64; 6
         }
     } else {
         // Pyramid: each edge pushes along n ± μ t.
-        for (k, edges) in force.chunks_exact(2).take(contact.dim - 1).enumerate() {
+        for (k, edges) in force.chunks_exact(2).take(contact.dim.saturating_sub(1).min(5)).enumerate() {
             out[0] += edges[0] + edges[1];
             out[1 + k] = (edges[0] - edges[1]) * contact.friction[k];
         }

@@ -77,7 +77,11 @@ pub(crate) fn compile(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
 /// # Errors
 ///
 /// All mistakes that were found, in the order of the texts. [`examine`] tells warnings, too.
-pub(crate) fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<MjcfDiagnostic>> {
+pub(crate) fn compile_with(
+    xml: &str,
+    files: &dyn Files,
+    path: Option<&str>,
+) -> Result<Model, Vec<MjcfDiagnostic>> {
     let Examined { model, mut findings } = examine(xml, files, path);
     findings.retain(|d| d.severity == Severity::Error);
     model.ok_or(findings)

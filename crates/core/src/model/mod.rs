@@ -10,10 +10,10 @@ pub mod reflect;
 pub(crate) mod stage;
 pub(crate) mod state;
 
+pub use data::Fields;
 pub use data::{Contact, Warning, WarningStat};
-pub(crate) use data::{Fields};
-pub use plan::{Decision};
-pub(crate) use plan::{Plan};
+pub use plan::Decision;
+pub(crate) use plan::Plan;
 
 use crate::kinds::integrator;
 use crate::model::fields::{model_fields, option_fields, statistic_fields};

@@ -9,5 +9,5 @@ mod shape;
 
 pub(crate) use distance::geom_distance;
 pub(crate) use inside::inside_site;
+pub(crate) use ray::ray;
 pub use ray::{RayFilter, RayHit};
-pub(crate) use ray::{ray};

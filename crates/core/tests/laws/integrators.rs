@@ -64,7 +64,8 @@ fn orders_of_convergence() {
     let arm = compile(ARM).unwrap();
     let tumbler = compile(TUMBLER).unwrap();
     for method in &METHODS {
-        let push = |d: &mut Data| d.edit().qvel.iter_mut().enumerate().for_each(|(i, v)| *v = 0.8 - 0.3 * i as f64);
+        let push =
+            |d: &mut Data| d.edit().qvel.iter_mut().enumerate().for_each(|(i, v)| *v = 0.8 - 0.3 * i as f64);
         let order = observed_order(&arm, method, 4e-3, 0.16, push).unwrap();
         assert!((order - method.order).abs() < 0.15, "integrator {}: order {order}", method.id);
         let order = observed_order(&tumbler, method, 4e-3, 0.16, push).unwrap();

@@ -21,7 +21,7 @@
 //! alarm is worse than none.
 
 use labspec_core::math::{MINVAL, norm, rows};
-use labspec_core::{Data, Energy, Model, Plan, disable};
+use labspec_core::{Data, Energy, Fields, Model, Plan, Planned, Scope, disable};
 use labspec_core::{exhausted, forward, limit, mechanical_energy, mul_m, work_left};
 
 /// How many times what the start held a gain has to be, and how many times the size of the scene it lifts everything.
@@ -50,7 +50,7 @@ pub struct Growth {
 /// What a run is held against: its start, and data of its own so that looking leaves the run alone.
 #[derive(Debug)]
 pub struct Watch {
-    own: Data,
+    own: Data<Planned>,
     start: Option<Start>,
     /// Steps from one look to the next, and until the next one.
     every: usize,
@@ -71,7 +71,7 @@ struct Start {
 }
 
 /// A watch over a run that is now at `d`, with a look after each `every` steps. The only call that allocates.
-pub fn watch(m: &Model, d: &Data, every: usize) -> Watch {
+pub fn watch<S: Scope>(m: &Model, d: &Data<S>, every: usize) -> Watch {
     let own = Data::planned(m, Plan::awake());
     let mut w =
         Watch { own, start: None, every, left: every, lasted: 0, since: 0.0, largest: 0.0, found: None };
@@ -80,35 +80,37 @@ pub fn watch(m: &Model, d: &Data, every: usize) -> Watch {
 }
 
 /// From here on what was is forgotten but for what was found: something from outside has changed the state or the model.
-pub fn restart(w: &mut Watch, m: &Model, d: &Data) {
+pub fn restart<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     (w.start, w.lasted, w.largest) = (None, 0, 0.0);
     if m.nv == 0 || fed(m, d) {
         return;
     }
-    w.own.ctrl.clone_from(&d.ctrl);
-    w.own.mocap_pos.clone_from(&d.mocap_pos);
-    w.own.mocap_quat.clone_from(&d.mocap_quat);
-    w.own.eq_active.clone_from(&d.eq_active);
+    let (to, from) = (w.own.edit(), d.fields());
+    to.ctrl.copy_from_slice(&from.ctrl);
+    to.mocap_pos.copy_from_slice(&from.mocap_pos);
+    to.mocap_quat.copy_from_slice(&from.mocap_quat);
+    to.eq_active.copy_from_slice(&from.eq_active);
     take(&mut w.own, d);
     limit(&mut w.own, work_left(d));
-    forward(m, &mut w.own);
-    if !exhausted(&w.own) {
-        w.start = mechanical_energy(m, &mut w.own).map(|energy| start(m, &w.own, energy));
+    if forward(m, &mut w.own).is_ok() && !exhausted(&w.own) {
+        let energy = mechanical_energy(m, &mut w.own).ok().flatten();
+        w.start = energy.map(|energy| start(m, &w.own, energy));
     }
 }
 
 /// To be called after each step. Looks at the run when it is time: a fraction of the work of a step, and nothing of the run is
 /// touched.
-pub fn look(w: &mut Watch, m: &Model, d: &Data) -> Option<Growth> {
+pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) -> Option<Growth> {
     w.left = w.left.saturating_sub(1);
     if w.left > 0 && w.lasted == 0 {
         return w.found;
     }
     w.left = w.every;
-    let same = w.own.ctrl == d.ctrl
-        && w.own.mocap_pos == d.mocap_pos
-        && w.own.mocap_quat == d.mocap_quat
-        && w.own.eq_active == d.eq_active
+    let (own, now) = (w.own.fields(), d.fields());
+    let same = own.ctrl == now.ctrl
+        && own.mocap_pos == now.mocap_pos
+        && own.mocap_quat == now.mocap_quat
+        && own.eq_active == now.eq_active
         && !applied(d);
     if !same {
         restart(w, m, d);
@@ -118,14 +120,14 @@ pub fn look(w: &mut Watch, m: &Model, d: &Data) -> Option<Growth> {
         return w.found;
     };
     take(&mut w.own, d);
-    let now = mechanical_energy(m, &mut w.own)?;
+    let now = mechanical_energy(m, &mut w.own).ok().flatten()?;
     let given = before.potential() - now.potential();
     let gain = now.kinetic - before.kinetic - given;
     let least = FACTOR * held + LIFTS * lift;
     // A gain that is no number is not above anything.
     if gain > least && 2.0 * gain > w.largest && 2.0 * gain > now.kinetic + given.abs() {
         if w.lasted == 0 {
-            w.since = d.time;
+            w.since = d.time();
         }
         w.lasted += 1;
         w.largest = w.largest.max(gain);
@@ -139,14 +141,16 @@ pub fn look(w: &mut Watch, m: &Model, d: &Data) -> Option<Growth> {
 }
 
 /// The state of a run.
-fn take(own: &mut Data, d: &Data) {
-    own.qpos.copy_from_slice(&d.qpos);
-    own.qvel.copy_from_slice(&d.qvel);
-    own.time = d.time;
+fn take<S: Scope>(own: &mut Data<Planned>, d: &Data<S>) {
+    let (to, from) = (own.edit(), d.fields());
+    to.qpos.copy_from_slice(&from.qpos);
+    to.qvel.copy_from_slice(&from.qvel);
+    *to.time = from.time;
 }
 
 /// A start with what it holds: its motion, what is elastic, and what the constraints that it violates push back with.
-fn start(m: &Model, d: &Data, energy: Energy) -> Start {
+fn start(m: &Model, d: &Data<Planned>, energy: Energy) -> Start {
+    let d = d.fields();
     let places = d.efc_pos.iter().zip(&d.efc_margin).map(|(pos, margin)| pos - margin);
     let stored = places.zip(rows::<4>(&d.efc_KBIP)).zip(&d.efc_diagA);
     let stored: f64 = stored.map(|((x, kbip), a)| 0.5 * kbip[0] * x * x / a.max(MINVAL)).sum();
@@ -158,7 +162,7 @@ fn start(m: &Model, d: &Data, energy: Energy) -> Start {
 }
 
 /// The diagonal of a box around all bodies and the origin, and the radius of the largest geom that moves, m.
-fn size(m: &Model, d: &Data) -> f64 {
+fn size(m: &Model, d: &Fields) -> f64 {
     let along = |k: usize| {
         let ends = rows::<3>(&d.xipos).iter().fold([0.0_f64; 2], |[lo, hi], x| [lo.min(x[k]), hi.max(x[k])]);
         ends[1] - ends[0]
@@ -168,20 +172,24 @@ fn size(m: &Model, d: &Data) -> f64 {
 }
 
 /// The degree of freedom whose part v (M v) of the kinetic energy is the largest.
-fn liveliest(m: &Model, d: &Data) -> usize {
+fn liveliest(m: &Model, d: &Data<Planned>) -> usize {
     let mut momentum = vec![0.0; m.nv];
-    mul_m(m, d, &d.qvel, &mut momentum);
-    let part = |k: usize| (d.qvel[k] * momentum[k]).abs();
-    (0..d.qvel.len()).max_by(|&a, &b| part(a).total_cmp(&part(b))).unwrap_or(0)
+    let qvel = &d.fields().qvel;
+    if mul_m(m, d, qvel, &mut momentum).is_err() {
+        return 0;
+    }
+    let part = |k: usize| (qvel[k] * momentum[k]).abs();
+    (0..qvel.len()).max_by(|&a, &b| part(a).total_cmp(&part(b))).unwrap_or(0)
 }
 
 /// Whether forces are applied from outside.
-fn applied(d: &Data) -> bool {
+fn applied<S: Scope>(d: &Data<S>) -> bool {
+    let d = d.fields();
     d.qfrc_applied.iter().chain(&d.xfrc_applied).any(|&f| f != 0.0)
 }
 
 /// Whether something but actuators may feed the scene, or limits of joints and tendons cut what actuators do.
-fn fed(m: &Model, d: &Data) -> bool {
+fn fed<S: Scope>(m: &Model, d: &Data<S>) -> bool {
     let some = |list: &[f64]| list.iter().any(|&x| x != 0.0);
     let pushes = |list: &[f64]| list.iter().any(|&x| x < 0.0);
     let wind = some(&m.opt.wind) && (m.opt.density != 0.0 || m.opt.viscosity != 0.0);
@@ -208,7 +216,7 @@ fn fed(m: &Model, d: &Data) -> bool {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use labspec_core::{xml, reset_data, step};
+    use labspec_core::{reset_data, step, xml};
 
     /// What is found in a run of so many steps, looked at 24 times, from a start.
     fn run(text: &str, steps: usize, start: impl Fn(&mut Data)) -> Option<Growth> {
@@ -217,7 +225,7 @@ mod tests {
         start(&mut d);
         let mut w = watch(&m, &d, steps / 24);
         for _ in 0..steps {
-            step(&m, &mut d);
+            step(&m, &mut d).unwrap();
             look(&mut w, &m, &d);
         }
         assert!(d.warning.iter().all(|w| w.number == 0), "a run that breaks is not what is tested");
@@ -254,7 +262,7 @@ mod tests {
                 let text =
                     cart(&format!("integrator=\"{integrator}\" timestep=\"{h}\""), "stiffness=\"1e4\"", "");
                 for steps in [72, 120, 480] {
-                    let found = run(&text, if grows { 72 } else { steps }, |d| d.qpos[0] = 1e-3);
+                    let found = run(&text, if grows { 72 } else { steps }, |d| d.edit().qpos[0] = 1e-3);
                     assert_eq!(found.is_some(), grows, "{integrator} {h} {steps}: {found:?}");
                 }
             }
@@ -265,10 +273,10 @@ mod tests {
     fn a_servo_whose_amplitude_doubles_with_each_step_grows() {
         for servo in ["<position joint=\"j\" kp=\"4.5\"/>", "<pid joint=\"j\" kp=\"4.5\"/>"] {
             let text = cart("integrator=\"implicitfast\" timestep=\"1\"", "", servo);
-            let found = run(&text, 24, |d| (d.qpos[0], d.ctrl[0]) = (0.01, 0.02)).unwrap();
+            let found = run(&text, 24, |d| (d.edit().qpos[0], d.edit().ctrl[0]) = (0.01, 0.02)).unwrap();
             assert!(found.dof == 0 && found.time < 8.0 && found.gain > 100.0 * found.held, "{found:?}");
             let discrete = text.replace("implicitfast", "discrete");
-            assert_eq!(run(&discrete, 24, |d| d.qpos[0] = 0.01), None);
+            assert_eq!(run(&discrete, 24, |d| d.edit().qpos[0] = 0.01), None);
         }
     }
 
@@ -279,12 +287,12 @@ mod tests {
             let option = format!("integrator=\"{integrator}\"");
             assert_eq!(run(&pendulum(&option, ""), 4800, |_| ()), None, "{integrator}");
             // With `implicit` the steps themselves throw a free double pendulum that whirls, in the library as here: by 608 J in 8 s.
-            let upright = run(&pendulum(&option, ""), 4800, |d| d.qpos[0] = -1.56);
+            let upright = run(&pendulum(&option, ""), 4800, |d| d.edit().qpos[0] = -1.56);
             assert_eq!(upright.is_some(), integrator == "implicit", "{integrator}: {upright:?}");
             let motor = cart(&option, "", "<motor joint=\"j\"/>");
-            assert_eq!(run(&motor, 4800, |d| d.ctrl[0] = 50.0), None, "{integrator}");
+            assert_eq!(run(&motor, 4800, |d| d.edit().ctrl[0] = 50.0), None, "{integrator}");
             let held = cart(&option, "", "<position joint=\"j\" kp=\"500\" forcerange=\"-2 2\"/>");
-            assert_eq!(run(&held, 4800, |d| d.ctrl[0] = 50.0), None, "{integrator}");
+            assert_eq!(run(&held, 4800, |d| d.edit().ctrl[0] = 50.0), None, "{integrator}");
         }
     }
 
@@ -293,9 +301,9 @@ mod tests {
         let still = |_: &mut Data| ();
         // A damper that pushes, a force from outside, a servo that looks back in time.
         assert_eq!(run(&pendulum("", "").replace("axis", "damping=\"-.5\" axis"), 2400, still), None);
-        assert_eq!(run(&cart("", "", ""), 2400, |d| d.qfrc_applied[0] = 50.0), None);
+        assert_eq!(run(&cart("", "", ""), 2400, |d| d.edit().qfrc_applied[0] = 50.0), None);
         let late = "<position joint=\"j\" kp=\"100\" delay=\".1\" nsample=\"60\"/>";
-        assert_eq!(run(&cart("", "", late), 2400, |d| d.qpos[0] = 0.1), None);
+        assert_eq!(run(&cart("", "", late), 2400, |d| d.edit().qpos[0] = 0.1), None);
     }
 
     #[test]
@@ -313,14 +321,14 @@ mod tests {
     fn a_change_from_outside_is_a_new_start() {
         let m = xml::compile(&cart("", "", "<motor joint=\"j\"/>")).unwrap();
         let mut d = Data::new(&m);
-        d.qvel[0] = 1e-3;
+        d.edit().qvel[0] = 1e-3;
         let mut w = watch(&m, &d, 1);
-        d.qvel[0] = 1e5;
+        d.edit().qvel[0] = 1e5;
         assert!(look(&mut w, &m, &d).is_some());
         let mut w = watch(&m, &d, 1);
-        (d.qvel[0], d.ctrl[0]) = (1e9, 1.0);
+        (d.edit().qvel[0], d.edit().ctrl[0]) = (1e9, 1.0);
         assert_eq!(look(&mut w, &m, &d), None);
-        reset_data(&m, &mut d);
+        reset_data(&m, &mut d).unwrap();
         restart(&mut w, &m, &d);
         assert_eq!(look(&mut w, &m, &d), None);
     }

@@ -189,7 +189,7 @@ fn reference(m: &Model, [time, ratio]: [f64; 2]) -> Spring {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use labspec_core::{Data, xml, step};
+    use labspec_core::{Data, step, xml};
 
     /// A slide of 2 kg with a servo, and what else is said.
     fn servo(option: &str, servo: &str, joint: &str) -> Model {
@@ -212,10 +212,10 @@ mod tests {
     /// How far the slide gets from 1 mm in some steps.
     fn farthest(m: &Model) -> f64 {
         let mut d = Data::new(m);
-        d.qpos[0] = 1e-3;
+        d.edit().qpos[0] = 1e-3;
         let mut most: f64 = 0.0;
         for _ in 0..3000 {
-            step(m, &mut d);
+            step(m, &mut d).unwrap();
             most = most.max(d.qpos[0].abs());
         }
         most

@@ -142,12 +142,14 @@ pub(crate) fn include(effects: &Effects, demand: &mut Demand) {
         demand.writes = FieldSet::ALL;
     }
     for access in &effects.reads {
-        demand.reads.insert(FieldId(access.field.0 as u16));
+        if let Some(field) = FieldId::new(access.field.0 as usize) {
+            demand.reads.insert(field);
+        }
     }
     for access in &effects.writes {
-        let field = FieldId(access.field.0 as u16);
         // What a function recomputes is not set by hand: derived fields do not change a plan.
-        if field.info().kind != Kind::Derived {
+        if let Some(field) = FieldId::new(access.field.0 as usize).filter(|f| f.info().kind != Kind::Derived)
+        {
             demand.writes.insert(field);
         }
     }
@@ -262,6 +264,6 @@ pub fn to_finding(d: &expr::Diagnostic, text: &Text) -> Finding {
 
 /// Whether a program writes a field of this kind, and the first such field.
 pub(crate) fn writes_kind(bound: &Bound, object: Object, kinds: &[Kind]) -> Option<FieldId> {
-    let fields = bound.program.effects().writes.iter().map(|a| FieldId(a.field.0 as u16));
-    fields.into_iter().find(|f| f.info().object == object && kinds.contains(&f.info().kind))
+    let mut fields = bound.program.effects().writes.iter().filter_map(|a| FieldId::new(a.field.0 as usize));
+    fields.find(|f| f.info().object == object && kinds.contains(&f.info().kind))
 }

@@ -221,12 +221,12 @@ mod tests {
                     let reads = &program.effects().reads;
                     assert_eq!(
                         (reads[0].field.0, reads[0].first),
-                        (u32::from(f.0), first + count - 1),
+                        (f.index() as u32, first + count - 1),
                         "{text}"
                     );
                     kinds.insert(*noun);
                 }
-                let whole = reflect::view(&m, &d, f).len();
+                let whole = labspec_core::view(&m, &d, f).unwrap().len();
                 assert!(covered == whole || objects.is_empty(), "{} of {}", info.name, path.display());
             }
         }

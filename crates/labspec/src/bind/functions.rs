@@ -118,7 +118,7 @@ const NOTHING: Result<Value, String> = Ok(Value::Undefined);
 
 /// What a call costs when it is no pass of the engine, in the unit of [`labspec_core::cost`].
 pub(super) fn price(f: &Function, w: &World) -> u64 {
-    let (nv, ncon) = (w.model.nv as u64, w.data.contact.len() as u64);
+    let (nv, ncon) = (w.model.nv as u64, w.data.fields().contact.len() as u64);
     let reads = match f.reads {
         Touches::Contacts => 50 * ncon,
         Touches::Derived => labspec_core::cost_of_pass(&w.data),
@@ -203,7 +203,7 @@ fn touch(touches: &[Touches]) -> Touch {
     };
     let fields: Vec<FieldKey> = reflect::fields()
         .filter(|f| touches.iter().any(|t| is(f, t)))
-        .map(|f| FieldKey(u32::from(f.0)))
+        .map(|f| FieldKey(f.index() as u32))
         .collect();
     if fields.is_empty() { Touch::Nothing } else { Touch::Fields(fields) }
 }

@@ -168,7 +168,7 @@ fn field(f: FieldId, path: String, first: usize, shape: Vec<Option<usize>>, owne
         Kind::Derived => FieldKind::Derived { by: stage_phrase(info.stage).into() },
     };
     Field {
-        key: FieldKey(u32::from(f.0)),
+        key: FieldKey(f.index() as u32),
         path,
         first,
         shape,
@@ -397,15 +397,15 @@ impl Schema for ModelNames<'_> {
     }
 
     fn element_help(&self, FieldKey(f): FieldKey, index: usize) -> Option<String> {
-        elements::help(self.model, FieldId(f as u16), index)
+        elements::help(self.model, FieldId::new(f as usize)?, index)
     }
 
     fn role(&self, FieldKey(f): FieldKey, index: usize) -> Role {
-        elements::role(self.model, FieldId(f as u16), index)
+        FieldId::new(f as usize).map_or(Role::default(), |field| elements::role(self.model, field, index))
     }
 
     fn named_element(&self, FieldKey(f): FieldKey, index: usize) -> Option<String> {
-        let field = FieldId(f as u16);
+        let field = FieldId::new(f as usize)?;
         let side = match field.info().object {
             Object::Model => Side::Model,
             Object::Data => Side::Data,

@@ -1,8 +1,8 @@
 //! The engine as the language's host: fields are read and written by id and flat index.
 
 use super::functions;
-use labspec_core::reflect::{self, FieldId};
-use labspec_core::{self as core, Data, Model};
+use labspec_core::reflect::FieldId;
+use labspec_core::{self as core, Data, Error, Model, Planned};
 use labspec_expr::{FieldKey, FunctionId, Heap, Host, Value};
 
 /// A model and its data, while a lab runs.
@@ -11,7 +11,7 @@ pub struct World {
     /// The model; controls write to it.
     pub model: Model,
     /// The state and what follows from it.
-    pub data: Data,
+    pub data: Data<Planned>,
     /// The keyframe to return to.
     pub key: Option<usize>,
 }
@@ -19,18 +19,18 @@ pub struct World {
 impl Host for World {
     #[inline]
     fn get(&self, FieldKey(f): FieldKey, index: usize) -> Option<f64> {
-        reflect::element(&self.model, &self.data, FieldId(f as u16), index)
+        core::element(&self.model, &self.data, FieldId::new(f as usize)?, index)
     }
 
     fn set(&mut self, FieldKey(f): FieldKey, index: usize, value: f64) -> Result<(), String> {
-        let field = FieldId(f as u16);
+        let field = FieldId::new(f as usize).ok_or("there is no such field")?;
         check(field, value)?;
-        reflect::view_mut(&mut self.model, &mut self.data, field).set(index, value);
+        core::view_mut(&mut self.model, &mut self.data, field)?.set(index, value);
         Ok(())
     }
 
     fn len(&self, FieldKey(f): FieldKey) -> usize {
-        reflect::view(&self.model, &self.data, FieldId(f as u16)).len()
+        FieldId::new(f as usize).map_or(0, |f| core::length(&self.model, &self.data, f))
     }
 
     fn call(&mut self, heap: &mut Heap, FunctionId(f): FunctionId, args: &[Value]) -> Result<Value, String> {
@@ -50,6 +50,25 @@ impl Host for World {
 
     fn work(&self) -> u64 {
         core::cost(&self.data)
+    }
+}
+
+impl World {
+    /// A function of the engine over the model and the data.
+    pub(crate) fn call_engine(
+        &mut self,
+        function: fn(&Model, &mut Data<Planned>) -> Result<(), Error>,
+    ) -> Result<Value, String> {
+        function(&self.model, &mut self.data)?;
+        Ok(Value::Undefined)
+    }
+
+    /// Back to a keyframe, or to the default configuration.
+    pub(crate) fn reset_to(&mut self, key: Option<usize>) -> Result<(), Error> {
+        match key.and_then(|k| self.model.keys().nth(k)) {
+            Some(key) => core::reset_data_keyframe(&self.model, &mut self.data, key),
+            None => core::reset_data(&self.model, &mut self.data),
+        }
     }
 }
 

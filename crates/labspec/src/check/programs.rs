@@ -38,13 +38,13 @@ fn sets(bound: &Bound, model: &Model) -> Option<FieldId> {
     let set_const = bound.program.effects().calls.iter().any(|&f| functions::name(f) == Some("mj_setConst"));
     let writes = bound.program.own_writes();
     let mut set = writes.iter().filter(|w| {
-        let info = FieldId(w.field.0 as u16).info();
+        let Some(info) = FieldId::new(w.field.0 as usize).map(FieldId::info) else { return false };
         // Beside mj_setConst, all of qpos is put back to what it was: no choice of the student.
         let put_back =
             set_const && info.name == "qpos" && w.first == 0 && w.count.is_none_or(|n| n == model.nq);
         info.object == Object::Data && matches!(info.kind, Kind::State | Kind::Input) && !put_back
     });
-    set.next().map(|w| FieldId(w.field.0 as u16))
+    set.next().and_then(|w| FieldId::new(w.field.0 as usize))
 }
 
 /// Whether a program starts the simulation anew itself, so that what it sets is the start that it wants.
@@ -68,7 +68,7 @@ fn lost(
         // What it sets is looked at before the reset.
         action.reset = false;
     }
-    let key = FieldKey(u32::from(field.0));
+    let key = FieldKey(field.index() as u32);
     let now = |session: &Session<'_>| -> Vec<f64> {
         (0..session.world.len(key)).map_while(|i| session.world.get(key, i)).collect()
     };

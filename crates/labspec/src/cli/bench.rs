@@ -66,7 +66,7 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
         nanoseconds.push(clock.elapsed().as_nanos() as f64 / steps as f64);
     }
     nanoseconds.sort_by(f64::total_cmp);
-    let d = &session.world.data;
+    let d = session.world.data.fields();
     let value = json!({
         "min_ns": nanoseconds.first(),
         "median_ns": nanoseconds.get(nanoseconds.len() / 2),
@@ -95,7 +95,9 @@ fn run_steps(session: &mut Session<'_>, steps: usize, lab: bool) {
         if lab {
             (0..some).for_each(|_| session.step());
         } else {
-            (0..some).for_each(|_| labspec_core::step(&session.world.model, &mut session.world.data));
+            let world = &mut session.world;
+            // Data and model of a session belong together: no step is refused.
+            (0..some).for_each(|_| drop(labspec_core::step(&world.model, &mut world.data)));
         }
         if interrupted() {
             break;

@@ -6,7 +6,7 @@ use crate::report::{printable, printable_path};
 use crate::run::MAX_STEPS;
 use crate::source::read_text;
 use labspec_core::reflect::{self, Object, View};
-use labspec_core::{self as core, Data, Demand, Model, Plan, Warning};
+use labspec_core::{self as core, Data, Model, Warning};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
@@ -49,7 +49,9 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
         set_option(&mut m, &mut scratch, option)?;
     }
     if a.tight {
-        (m.opt.tolerance, m.opt.ls_tolerance, m.opt.iterations, m.opt.ls_iterations) = (0.0, 1e-10, 200, 100);
+        let opt = m.edit().opt;
+        (*opt.tolerance, *opt.ls_tolerance) = (0.0, 1e-10);
+        (*opt.iterations, *opt.ls_iterations) = (200, 100);
     }
     let text = read_text(&a.states, MAX_RECORDING, "a recording")?;
     let oracle: Value =
@@ -63,20 +65,20 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
             a.steps
         ));
     }
-    let mut d = Data::planned(&m, Plan::new(&m, &Demand::OBSERVE));
+    let mut d = Data::new(&m);
 
     let model = names(&oracle["model"], |name| field(&m, &d, Object::Model, name));
     let mut forward = Vec::new();
     let mut written = 0;
     for state in oracle["forward"].as_array().into_iter().flatten() {
-        start(&m, &mut d);
+        start(&m, &mut d)?;
         for name in STATE {
             set_array(&mut m, &mut d, name, &state[name])?;
         }
-        core::forward(&m, &mut d);
+        core::forward(&m, &mut d)?;
         let mut row = names(state, |name| match name {
             "contact" => Some(contacts(&d)),
-            "M" => Some(numbers(&core::full_m(&m, &d))),
+            "M" => core::full_m(&m, &d).ok().map(|m| numbers(&m)),
             _ => field(&m, &d, Object::Data, name),
         });
         for name in STATE {
@@ -96,7 +98,7 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
         }
     }
 
-    start(&m, &mut d);
+    start(&m, &mut d)?;
     let mut trajectory = Vec::new();
     for i in 0..=a.steps {
         if interrupted() {
@@ -109,7 +111,7 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
             }));
         }
         if i < a.steps {
-            core::step(&m, &mut d);
+            core::step(&m, &mut d)?;
         }
     }
     let warnings: Map<String, Value> = Warning::ALL
@@ -136,8 +138,11 @@ fn size(value: &Value) -> usize {
     }
 }
 
-fn start(m: &Model, d: &mut Data) {
-    if m.nkey > 0 { core::reset_data_keyframe(m, d, 0) } else { core::reset_data(m, d) }
+fn start(m: &Model, d: &mut Data) -> Result<(), core::Error> {
+    match m.keys().next() {
+        Some(key) => core::reset_data_keyframe(m, d, key),
+        None => core::reset_data(m, d),
+    }
 }
 
 /// The entries of a recorded object that we know.
@@ -148,7 +153,7 @@ fn names(recorded: &Value, value: impl Fn(&str) -> Option<Value>) -> Map<String,
 
 fn field(m: &Model, d: &Data, object: Object, name: &str) -> Option<Value> {
     let f = reflect::field(object, name)?;
-    let view = reflect::view(m, d, f);
+    let view = core::view(m, d, f).ok()?;
     // Arrays as lists, counts as numbers.
     Some(match view {
         View::Size(n) => json!(n),
@@ -181,7 +186,7 @@ fn contacts(d: &Data) -> Value {
 /// Writes a recorded array into the data.
 fn set_array(m: &mut Model, d: &mut Data, name: &str, values: &Value) -> Result<(), Failure> {
     let Some(f) = reflect::field(Object::Data, name) else { return Ok(()) };
-    let expected = reflect::view(m, d, f).len();
+    let expected = core::length(m, d, f);
     let list = values.as_array().map_or(&[][..], Vec::as_slice);
     if list.len() != expected {
         return Err(format!(
@@ -190,7 +195,7 @@ fn set_array(m: &mut Model, d: &mut Data, name: &str, values: &Value) -> Result<
         ));
     }
     for (i, v) in list.iter().enumerate() {
-        reflect::view_mut(m, d, f).set(i, v.as_f64().unwrap_or(f64::NAN));
+        core::view_mut(m, d, f)?.set(i, v.as_f64().unwrap_or(f64::NAN));
     }
     Ok(())
 }
@@ -205,7 +210,7 @@ fn set_option(m: &mut Model, d: &mut Data, text: &str) -> Result<(), Failure> {
         let x = value
             .parse::<f64>()
             .map_err(|_| format!("--option {}: `{}` is not a number", printable(text), printable(value)))?;
-        if !reflect::view_mut(m, d, f).set(i, x) {
+        if !core::view_mut(m, d, f)?.set(i, x) {
             return Err(format!("--option {}: too many numbers", printable(text)));
         }
     }

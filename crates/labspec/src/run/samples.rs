@@ -59,7 +59,7 @@ impl<'p> Samples<'p> {
 
     /// Takes a sample. What throws is nothing, as on the page.
     pub fn take(&mut self, session: &mut Session<'_>) {
-        self.times.push(session.world.data.time);
+        self.times.push(session.world.data.time());
         self.recording.sample(&session.world);
         for probe in &mut self.probes {
             if let Way::Rows(bound, cells) = probe {

@@ -6,7 +6,7 @@ use crate::advice::growth::{self, Growth, Watch};
 use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
 use crate::interrupt;
 use crate::source::Text;
-use labspec_core::{self as core, Data, Demand, Model, Plan, Warning, WarningStat};
+use labspec_core::{self as core, Data, Demand, Model, Plan, Planned, Warning, WarningStat};
 use labspec_expr::{Context, EventKind, Program, RuntimeError, Value, code};
 
 /// Something that went wrong in a program while the lab ran; JavaScript would have thrown, or said nothing.
@@ -99,7 +99,12 @@ impl<'p> Session<'p> {
     }
 
     /// The same with data whose plan is already decided.
-    pub fn start_with(programs: &'p Programs, model: &Model, key: Option<usize>, data: Data) -> Session<'p> {
+    pub fn start_with(
+        programs: &'p Programs,
+        model: &Model,
+        key: Option<usize>,
+        data: Data<Planned>,
+    ) -> Session<'p> {
         Session::load(programs, model, key, data, Budget::ASKED)
     }
 
@@ -107,7 +112,7 @@ impl<'p> Session<'p> {
         programs: &'p Programs,
         model: &Model,
         key: Option<usize>,
-        data: Data,
+        data: Data<Planned>,
         budget: Budget,
     ) -> Session<'p> {
         let before = core::cost(&data);
@@ -196,7 +201,7 @@ impl<'p> Session<'p> {
     /// Presses every button whose time has come, and drops it from the list.
     pub fn press_due(&mut self, pending: &mut &[(usize, f64)]) {
         while let Some(&(button, time)) = pending.first()
-            && self.world.data.time >= time - 1e-12
+            && self.world.data.time() >= time - 1e-12
         {
             *pending = &pending[1..];
             self.press(button);
@@ -214,7 +219,7 @@ impl<'p> Session<'p> {
         if self.end.is_some() {
             return;
         }
-        let time = self.world.data.time;
+        let time = self.world.data.time();
         if let Some(bound) = &self.programs.controller
             && !self.execute(&bound.program, &bound.text, None)
         {
@@ -228,7 +233,8 @@ impl<'p> Session<'p> {
             w.disturbed = false;
             growth::restart(&mut w.watch, model, data);
         }
-        core::step(model, data);
+        let stepped = core::step(model, data);
+        self.refused(stepped);
         if !self.settle(time) {
             return;
         }
@@ -269,7 +275,7 @@ impl<'p> Session<'p> {
     /// Time and every probe. What throws is nothing, as on the page.
     pub fn sample(&mut self) -> Vec<Cell> {
         let mut row = Vec::with_capacity(self.programs.probes.len() + 1);
-        row.push(Cell::Number(self.world.data.time));
+        row.push(Cell::Number(self.world.data.time()));
         for probe in &self.programs.probes {
             let value = probe.bound.as_ref().and_then(|b| self.evaluate(&b.program, &b.text));
             row.push(value.map_or(Cell::Nothing, Cell::from));
@@ -285,7 +291,7 @@ impl<'p> Session<'p> {
             return None;
         }
         self.sampled += SAMPLE;
-        let (time, left) = (self.world.data.time, self.left());
+        let (time, left) = (self.world.data.time(), self.left());
         core::limit(&mut self.world.data, left);
         self.context.allow(left.min(Budget::SAMPLE.left));
         match program.run(&mut self.world, &mut self.context, None) {
@@ -294,6 +300,13 @@ impl<'p> Session<'p> {
                 self.threw(e, text, time);
                 None
             }
+        }
+    }
+
+    /// A run in which the engine refuses a call has nothing to go on from.
+    fn refused(&mut self, done: Result<(), core::Error>) {
+        if done.is_err() {
+            self.end.get_or_insert(End::Threw);
         }
     }
 
@@ -316,15 +329,16 @@ impl<'p> Session<'p> {
     /// Changes the numerics. What the lesson states itself is left alone: `mentioned` says that it states the
     /// timestep.
     pub fn perturb(&mut self, numerics: Numerics, mentioned: bool) {
-        let opt = &mut self.world.model.opt;
+        let opt = self.world.model.edit().opt;
         if !mentioned {
-            opt.timestep *= numerics.timestep;
+            *opt.timestep *= numerics.timestep;
         }
         if numerics.tight {
-            (opt.tolerance, opt.ls_tolerance, opt.iterations, opt.ls_iterations) = (0.0, 1e-10, 200, 100);
+            (*opt.tolerance, *opt.ls_tolerance) = (0.0, 1e-10);
+            (*opt.iterations, *opt.ls_iterations) = (200, 100);
         }
         if numerics.nudge != 0.0 {
-            self.world.data.qpos.iter_mut().for_each(|q| *q += numerics.nudge);
+            self.world.data.edit().qpos.iter_mut().for_each(|q| *q += numerics.nudge);
             self.forward();
         }
     }
@@ -333,8 +347,9 @@ impl<'p> Session<'p> {
         if !self.go() {
             return;
         }
-        let time = self.world.data.time;
-        core::forward(&self.world.model, &mut self.world.data);
+        let time = self.world.data.time();
+        let done = core::forward(&self.world.model, &mut self.world.data);
+        self.refused(done);
         self.settle(time);
         if let Some(w) = &mut self.watched {
             w.disturbed = true;
@@ -342,12 +357,8 @@ impl<'p> Session<'p> {
     }
 
     fn reset_data(&mut self) {
-        match self.key {
-            Some(key) if key < self.world.model.nkey => {
-                core::reset_data_keyframe(&self.world.model, &mut self.world.data, key)
-            }
-            _ => core::reset_data(&self.world.model, &mut self.world.data),
-        }
+        let done = self.world.reset_to(self.key);
+        self.refused(done);
         self.forward();
     }
 
@@ -394,7 +405,7 @@ impl<'p> Session<'p> {
         if !self.go() {
             return false;
         }
-        let time = self.world.data.time;
+        let time = self.world.data.time();
         let result = program.run(&mut self.world, &mut self.context, value);
         let good = result.is_ok();
         if let Err(e) = result {
@@ -415,7 +426,7 @@ impl<'p> Session<'p> {
     fn note(&mut self, code: &'static str, text: &Text, span: std::ops::Range<usize>, message: String) {
         let known = |t: &Trouble| t.code == code && t.span == span && t.text == *text;
         if !self.troubles.iter().any(known) {
-            let time = self.world.data.time;
+            let time = self.world.data.time();
             self.troubles.push(Trouble { code, text: text.clone(), span, message, time });
         }
     }
@@ -423,10 +434,10 @@ impl<'p> Session<'p> {
     /// Keeps warnings over resets of the data: the engine's own counters start again.
     fn note_warnings(&mut self) {
         // Asked after every step, and nearly always none.
-        if self.world.data.warning.iter().map(|w| w.number).sum::<usize>() == 0 {
+        if self.world.data.fields().warning.iter().map(|w| w.number).sum::<usize>() == 0 {
             return;
         }
-        for (kept, now) in self.warnings.iter_mut().zip(&self.world.data.warning) {
+        for (kept, now) in self.warnings.iter_mut().zip(&self.world.data.fields().warning) {
             if now.number > 0 && kept.number == 0 {
                 *kept = *now;
             }

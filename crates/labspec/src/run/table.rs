@@ -147,7 +147,8 @@ impl Table {
     }
 
     pub(super) fn finish(&mut self, session: &Session<'_>) {
-        let raised = Warning::ALL.iter().zip(&session.world.data.warning).filter(|(_, s)| s.number > 0);
+        let raised =
+            Warning::ALL.iter().zip(&session.world.data.fields().warning).filter(|(_, s)| s.number > 0);
         self.warnings = raised.map(|(w, s)| (w.name(), s.number)).collect();
         self.breakdown = Breakdown::of(session);
         self.errors = session.troubles.iter().map(|t| format!("{}: {}", t.text.value, t.message)).collect();
@@ -156,7 +157,7 @@ impl Table {
                 "the run was stopped at t = {time} s: it does more work than a run may; simplify the scene or its programs"
             )),
             Some(End::Interrupted) => {
-                let time = super::time(session.world.data.time);
+                let time = super::time(session.world.data.time());
                 self.errors.push(format!("stopped by Ctrl-C at t = {time} s, before its end"));
             }
             Some(End::Threw) | None => {}

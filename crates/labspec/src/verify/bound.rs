@@ -329,7 +329,7 @@ impl<'a> BoundVerify<'a> {
     /// Whether the lesson itself states the timestep of a run: in the run, or in the lab's setup.
     fn states_timestep(&self, run: &BoundRun<'_>) -> bool {
         let Some(timestep) = reflect::field(Object::Option, "timestep") else { return false };
-        let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 == u32::from(timestep.0));
+        let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == timestep.index());
         let set = run
             .spec
             .iter()
@@ -351,7 +351,9 @@ struct Made {
 /// Whether a program looks at the data of a simulation, itself or in what it measures.
 fn looks_at_data(program: &Program) -> bool {
     let of = |e: &Effects| {
-        let data = |a: &labspec_expr::Access| FieldId(a.field.0 as u16).info().object == Object::Data;
+        let data = |a: &labspec_expr::Access| {
+            FieldId::new(a.field.0 as usize).is_some_and(|f| f.info().object == Object::Data)
+        };
         e.reads_everything
             || e.calls.iter().any(|&f| functions::reads(f))
             || e.calls_values

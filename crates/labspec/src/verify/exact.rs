@@ -244,7 +244,7 @@ impl Case<'_> {
         let h = session.world.model.opt.timestep;
         let count = run::count_steps(self.lab, None, None, h).map_err(|e| e.0)?.clamp(1, MAX_STEPS);
         let every = count.div_ceil(SAMPLES);
-        session.world.model.opt.timestep = h / parts as f64;
+        *session.world.model.edit().opt.timestep = h / parts as f64;
         let mut found = Differences { times: Vec::new(), values: Vec::new() };
         session.watch(count * parts);
         for step in 0..=count {
@@ -256,10 +256,10 @@ impl Case<'_> {
                     |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
                 let pair = [value(self.trace), value(self.form)];
                 if pair.iter().any(|x| !x.is_finite()) {
-                    let time = significant(session.world.data.time);
+                    let time = significant(session.world.data.time());
                     return Err(format!("at t = {time} s the trace or the formula is no number"));
                 }
-                found.times.push(session.world.data.time);
+                found.times.push(session.world.data.time());
                 found.values.push(pair);
             }
         }

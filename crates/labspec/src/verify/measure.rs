@@ -170,7 +170,7 @@ impl<'a> Measure<'a> {
 
     /// Looks at the current sample.
     pub(super) fn sample(&mut self, session: &mut Session<'_>) {
-        let time = session.world.data.time;
+        let time = session.world.data.time();
         for r in &mut self.running {
             let mut value = |i: usize| {
                 r.args.get(i).and_then(|p| session.evaluate(p, self.text)).unwrap_or(Value::Undefined)

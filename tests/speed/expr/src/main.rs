@@ -81,7 +81,7 @@ fn error_expression() -> Vec<(&'static str, f64)> {
     let columnar = recording.columns(&program).expect("it computes with numbers");
     let mut world = World { data: Data::new(&model), model: model.clone(), key: None };
     for i in 0..SAMPLES {
-        (world.data.qpos[2], world.data.time) = at(i);
+        (world.data.fields().qpos[2], world.data.fields().time) = at(i);
         recording.sample(&world);
     }
     let (mut scratch, mut out) = (Vec::new(), vec![0.0; SAMPLES]);
@@ -110,7 +110,7 @@ fn error_expression() -> Vec<(&'static str, f64)> {
     rows.push((
         "by row, in the engine",
         time(n, |i| {
-            (world.data.qpos[2], world.data.time) = at(i);
+            (world.data.fields().qpos[2], world.data.fields().time) = at(i);
             let _ = black_box(program.run(&mut world, &mut context, None));
         }),
     ));

@@ -7,8 +7,10 @@ use crate::math::lanes::{Axes, Lane3, along, axes, vec3};
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-pub use points::{Jacobian};
-pub(crate) use points::{apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com};
+pub use points::Jacobian;
+pub(crate) use points::{
+    apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,
+};
 
 /// Last degree of freedom that moves body `b`, -1 when it cannot move.
 #[inline(always)]

@@ -39,7 +39,7 @@ pub(super) const ROWS: &[Function] = &[
         example: ("data.qpos[0] = 0.1; lib.qpos('swing')", "0.1"),
         run: |w, _, args| {
             let q = w.model.jnt_qposadr.get(index(args)?).map_or(0, |&a| a as usize);
-            Ok(w.data.qpos.get(q).map_or(Value::Undefined, |&x| Value::Number(x)))
+            Ok(w.data.fields().qpos.get(q).map_or(Value::Undefined, |&x| Value::Number(x)))
         },
         ..ROW
     },
@@ -54,10 +54,12 @@ pub(super) const ROWS: &[Function] = &[
         run: |w, _, args| {
             let geom = if args.is_empty() { None } else { Some(index(args)?) };
             let touching = |c: &&core::Contact| geom.is_none_or(|g| c.geom1 == g || c.geom2 == g);
-            let forces =
-                w.data.contact.iter().filter(touching).map(|c| core::contact_force(&w.model, &w.data, c)[0]);
             // JavaScript's reduce starts from 0, not from -0.
-            Ok(Value::Number(forces.fold(0.0, |sum, f| sum + f)))
+            let mut sum = 0.0;
+            for c in w.data.fields().contact.iter().filter(touching) {
+                sum += core::contact_force(&w.model, &w.data, c)?[0];
+            }
+            Ok(Value::Number(sum))
         },
         ..ROW
     },
@@ -87,7 +89,7 @@ pub(super) const ROWS: &[Function] = &[
         reads: Touches::Places,
         doc: "place of a site in the world, m",
         example: ("lib.sitePos('tip')[2]", "0.5"),
-        run: |w, heap, args| place(heap, &w.data.site_xpos, index(args)?),
+        run: |w, heap, args| place(heap, &w.data.fields().site_xpos, index(args)?),
         ..LIST
     },
     Function {
@@ -98,7 +100,7 @@ pub(super) const ROWS: &[Function] = &[
         reads: Touches::Places,
         doc: "place of a body in the world, m",
         example: ("lib.bodyPos('bob')[2]", "1"),
-        run: |w, heap, args| place(heap, &w.data.xpos, index(args)?),
+        run: |w, heap, args| place(heap, &w.data.fields().xpos, index(args)?),
         ..LIST
     },
     Function {
@@ -121,6 +123,7 @@ pub(super) const ROWS: &[Function] = &[
         run: |w, heap, _| {
             let pairs = w
                 .data
+                .fields()
                 .contact
                 .iter()
                 .map(|c| Value::String(format!("{} / {}", label(w, c.geom1), label(w, c.geom2)).into()));
@@ -168,8 +171,8 @@ pub(super) const ROWS: &[Function] = &[
         doc: "the mass matrix, nv rows of nv numbers; computes all derived fields first",
         example: ("lib.massMatrix()[0][0].toFixed(5)", "0.25036"),
         run: |w, heap, _| {
-            core::forward(&w.model, &mut w.data);
-            let m = core::full_m(&w.model, &w.data);
+            core::forward(&w.model, &mut w.data)?;
+            let m = core::full_m(&w.model, &w.data)?;
             let rows: Vec<Vec<f64>> = m.chunks(w.model.nv.max(1)).map(<[f64]>::to_vec).collect();
             matrix(heap, &rows)
         },
@@ -202,9 +205,9 @@ fn place(heap: &mut Heap, places: &[f64], index: usize) -> Result<Value, String>
 pub(super) fn energy(w: &mut World, heap: &mut Heap) -> Result<Value, String> {
     if !w.model.opt.enabled(enable::ENERGY) {
         w.model.set_enabled(enable::ENERGY, true);
-        core::forward(&w.model, &mut w.data);
+        core::forward(&w.model, &mut w.data)?;
     }
-    let [potential, kinetic] = w.data.energy;
+    let [potential, kinetic] = w.data.fields().energy;
     let numbers = [potential, kinetic, potential + kinetic];
     let entries = ENERGIES.iter().zip(numbers).map(|((name, _), x)| ((*name).into(), Value::Number(x)));
     heap.record(entries.collect()).map_err(|_| full())
@@ -222,7 +225,7 @@ fn label(w: &World, geom: usize) -> &str {
 fn jacobian(w: &World, site: usize, columns: Option<f64>) -> Vec<Vec<f64>> {
     let nv = w.model.nv;
     let width = columns.map_or(nv, |c| c.clamp(0.0, nv as f64) as usize);
-    let Some(j) = core::jac_site(&w.model, &w.data, site) else { return vec![Vec::new(); 6] };
+    let Ok(j) = core::jac_site(&w.model, &w.data, site) else { return vec![Vec::new(); 6] };
     let row = |all: &[f64], i: usize| all.get(i * nv..i * nv + width).unwrap_or(&[]).to_vec();
     (0..3).map(|i| row(&j.jacp, i)).chain((0..3).map(|i| row(&j.jacr, i))).collect()
 }

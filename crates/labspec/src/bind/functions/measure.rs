@@ -24,7 +24,7 @@ pub(super) const ROWS: &[Function] = &[
                 let pair = [c.geom1, c.geom2];
                 pair.contains(&a) && b.is_none_or(|b| b != a && pair.contains(&b))
             };
-            Ok(Value::Boolean(w.data.contact.iter().any(touch)))
+            Ok(Value::Boolean(w.data.fields().contact.iter().any(touch)))
         },
         ..ROW
     },

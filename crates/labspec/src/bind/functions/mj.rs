@@ -15,7 +15,7 @@ pub(super) const ROWS: &[Function] = &[
         doc: "recomputes the constants that follow from masses, inertias and poses; puts qpos back to the start",
         example: ("model.body_mass[1] = 2; mj.mj_setConst(model, data); model.body_subtreemass[0]", "2"),
         run: |w, _, _| {
-            core::set_const(&mut w.model, &mut w.data);
+            core::set_const(&mut w.model, &mut w.data)?;
             NOTHING
         },
         ..ENGINE
@@ -28,10 +28,7 @@ pub(super) const ROWS: &[Function] = &[
             "data.qpos[0] = Math.PI / 2; mj.mj_forward(model, data); data.site_xpos[0].toFixed(3)",
             "-0.500",
         ),
-        run: |w, _, _| {
-            core::forward(&w.model, &mut w.data);
-            NOTHING
-        },
+        run: |w, _, _| w.call_engine(core::forward),
         ..ENGINE
     },
     Function {
@@ -39,10 +36,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::State, Touches::Derived],
         doc: "advances the simulation by one step",
         example: ("mj.mj_step(model, data); data.time", "0.002"),
-        run: |w, _, _| {
-            core::step(&w.model, &mut w.data);
-            NOTHING
-        },
+        run: |w, _, _| w.call_engine(core::step),
         ..ENGINE
     },
     Function {
@@ -50,10 +44,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::State, Touches::Derived],
         doc: "puts the data back to the default configuration",
         example: ("data.qpos[0] = 1; mj.mj_resetData(model, data); data.qpos[0]", "0"),
-        run: |w, _, _| {
-            core::reset_data(&w.model, &mut w.data);
-            NOTHING
-        },
+        run: |w, _, _| w.call_engine(core::reset_data),
         ..ENGINE
     },
     Function {
@@ -67,7 +58,7 @@ pub(super) const ROWS: &[Function] = &[
             if !(key >= 0.0 && key < w.model.nkey as f64) {
                 return Err(format!("there is no keyframe {key}: the model has {}", w.model.nkey));
             }
-            core::reset_data_keyframe(&w.model, &mut w.data, key as usize);
+            w.reset_to(Some(key as usize))?;
             NOTHING
         },
         ..ENGINE
@@ -77,10 +68,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::Derived],
         doc: "computes what follows from position and velocity: the first half of a step",
         example: ("mj.mj_step1(model, data); data.time", "0"),
-        run: |w, _, _| {
-            core::step1(&w.model, &mut w.data);
-            NOTHING
-        },
+        run: |w, _, _| w.call_engine(core::step1),
         ..ENGINE
     },
     Function {
@@ -88,10 +76,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::State, Touches::Derived],
         doc: "computes forces and advances the simulation: the second half of a step",
         example: ("mj.mj_step1(model, data); mj.mj_step2(model, data); data.time", "0.002"),
-        run: |w, _, _| {
-            core::step2(&w.model, &mut w.data);
-            NOTHING
-        },
+        run: |w, _, _| w.call_engine(core::step2),
         ..ENGINE
     },
     Function {
@@ -103,10 +88,7 @@ pub(super) const ROWS: &[Function] = &[
             "data.qpos[0] = Math.PI; mj.mj_kinematics(model, data); data.site_xpos[2].toFixed(2)",
             "1.50",
         ),
-        run: |w, _, _| {
-            core::kinematics(&w.model, &mut w.data);
-            NOTHING
-        },
+        run: |w, _, _| w.call_engine(core::kinematics),
         ..ENGINE
     },
     Function {
@@ -115,10 +97,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::Energy],
         doc: "computes the potential energy of the poses at hand into data.energy[0], J",
         example: ("mj.mj_energyPos(model, data); data.energy[0]", "4.905"),
-        run: |w, _, _| {
-            core::energy_pos(&w.model, &mut w.data);
-            NOTHING
-        },
+        run: |w, _, _| w.call_engine(core::energy_pos),
         ..ENGINE
     },
     Function {
@@ -127,10 +106,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::Energy],
         doc: "computes the kinetic energy of the velocities at hand into data.energy[1], J",
         example: ("data.qvel[0] = 2; mj.mj_energyVel(model, data); data.energy[1].toFixed(5)", "0.50072"),
-        run: |w, _, _| {
-            core::energy_vel(&w.model, &mut w.data);
-            NOTHING
-        },
+        run: |w, _, _| w.call_engine(core::energy_vel),
         ..ENGINE
     },
     Function {
@@ -139,7 +115,7 @@ pub(super) const ROWS: &[Function] = &[
         doc: "computes qfrc_inverse, the generalized force that causes the acceleration in qacc",
         example: ("mj.mj_inverse(model, data); Math.abs(data.qfrc_inverse[0]).toFixed(4)", "0.0000"),
         run: |w, _, _| {
-            core::inverse(&w.model, &mut w.data).map_err(|e| e.to_string())?;
+            core::inverse(&w.model, &mut w.data)?;
             NOTHING
         },
         ..ENGINE
@@ -152,10 +128,7 @@ pub(super) const ROWS: &[Function] = &[
             "data.qvel[0] = 2; mj.mj_forward(model, data); mj.mj_subtreeVel(model, data); data.subtree_linvel[3].toFixed(3)",
             "-1.000",
         ),
-        run: |w, _, _| {
-            core::subtree_vel(&w.model, &mut w.data);
-            NOTHING
-        },
+        run: |w, _, _| w.call_engine(core::subtree_vel),
         ..ENGINE
     },
     Function {
@@ -163,10 +136,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::Derived],
         doc: "computes accelerations of bodies and the forces between them",
         example: ("mj.mj_rnePostConstraint(model, data); data.cfrc_int[11].toFixed(2)", "9.81"),
-        run: |w, _, _| {
-            core::rne_post_constraint(&w.model, &mut w.data);
-            NOTHING
-        },
+        run: |w, _, _| w.call_engine(core::rne_post_constraint),
         ..ENGINE
     },
     Function {
@@ -180,14 +150,14 @@ pub(super) const ROWS: &[Function] = &[
         ),
         run: |w, heap, args| {
             let id = number(args)?;
-            let found = if id >= 0.0 { w.data.contact.get(id as usize) } else { None };
+            let found = if id >= 0.0 { w.data.fields().contact.get(id as usize) } else { None };
             let Some(contact) = found else {
                 return Err(format!(
                     "there is no contact {id}: there are {} now; test `data.ncon` first",
-                    w.data.ncon
+                    w.data.fields().ncon
                 ));
             };
-            let force = core::contact_force(&w.model, &w.data, contact);
+            let force = core::contact_force(&w.model, &w.data, contact)?;
             if !args.get(1).is_some_and(|list| heap.overwrite(list, &force)) {
                 return Err("the fourth argument takes the result: write `const f = [0, 0, 0, 0, 0, 0]` before, and `f` here".into());
             }

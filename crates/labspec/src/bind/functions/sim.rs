@@ -22,7 +22,7 @@ pub(super) const ROWS: &[Function] = &[
         doc: "computes every derived field from the state",
         example: ("data.qpos[0] = Math.PI; sim.forward(); data.site_xpos[2].toFixed(2)", "1.50"),
         run: |w, _, _| {
-            core::forward(&w.model, &mut w.data);
+            core::forward(&w.model, &mut w.data)?;
             NOTHING
         },
         ..SIM
@@ -33,11 +33,8 @@ pub(super) const ROWS: &[Function] = &[
         doc: "puts the data back to the start, or to the keyframe of the lab, and computes the derived fields",
         example: ("data.qpos[0] = 1; sim.reset(); data.qpos[0]", "0"),
         run: |w, _, _| {
-            match w.key.filter(|&k| k < w.model.nkey) {
-                Some(key) => core::reset_data_keyframe(&w.model, &mut w.data, key),
-                None => core::reset_data(&w.model, &mut w.data),
-            }
-            core::forward(&w.model, &mut w.data);
+            w.reset_to(w.key)?;
+            core::forward(&w.model, &mut w.data)?;
             NOTHING
         },
         ..SIM
@@ -62,8 +59,8 @@ pub(super) const ROWS: &[Function] = &[
         run: |w, heap, _| {
             let full = |_| "the lists of this lab take too much memory".to_owned();
             let mut contacts = Vec::new();
-            for c in &w.data.contact {
-                let force = core::contact_force(&w.model, &w.data, c);
+            for c in &w.data.fields().contact {
+                let force = core::contact_force(&w.model, &w.data, c)?;
                 let entries = vec![
                     ("geom1".into(), Value::Number(c.geom1 as f64)),
                     ("geom2".into(), Value::Number(c.geom2 as f64)),

@@ -180,13 +180,13 @@ impl<'a> Bench<'a> {
             if step % every == 0 || step == steps {
                 let mut row: Vec<Cell> = session.sample().into_iter().map(short).collect();
                 if whole {
-                    row.extend(session.world.data.qpos.iter().map(|q| Cell::Number(*q)));
+                    row.extend(session.world.data.fields().qpos.iter().map(|q| Cell::Number(*q)));
                 }
                 rows.push(row);
             }
             if step < steps {
                 session.step();
-                let (nv, rows) = (self.model.nv, session.world.data.nefc);
+                let (nv, rows) = (self.model.nv, session.world.data.fields().nefc);
                 let work = 1 + nv + self.model.ngeom + rows.saturating_mul(nv) / 8;
                 self.work_left = self.work_left.checked_sub(work).ok_or("it would take too long")?;
             }

@@ -118,7 +118,7 @@ fn suspect<'a>(place: Place<'a>, bound: &'a Bound, target: bool, given: Option<T
         None => (writes_kind(bound, Object::Model, &[Kind::Inertial])?, false),
         Some(&call) => {
             let after = bound.program.writes_after(call)?;
-            (after.iter().map(|a| FieldId(a.field.0 as u16)).find(inertial)?, true)
+            (after.iter().filter_map(|a| FieldId::new(a.field.0 as usize)).find(inertial)?, true)
         }
     };
     Some(Suspect { place, bound, field, late, target, given })

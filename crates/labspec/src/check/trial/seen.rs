@@ -104,7 +104,7 @@ impl<'a> Seen<'a> {
                     continue;
                 }
             };
-            let time = session.world.data.time;
+            let time = session.world.data.time();
             if kind == Kind::Nan && (shown.says_gap || unset(shown.bound, session, &self.gaps)) {
                 if !shown.says_gap {
                     shown.gap.get_or_insert_with(|| (time, done.to_owned()));
