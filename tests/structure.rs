@@ -179,7 +179,7 @@ fn geometry_takes_shapes() {
 }
 
 /// The rooms of the engine, from the lowest to the highest. A file looks at its own room and at lower ones.
-const ROOMS: [&str; 13] = [
+const ROOMS: [&str; 14] = [
     "math",
     "kinds",
     "geometry",
@@ -193,6 +193,7 @@ const ROOMS: [&str; 13] = [
     "step",
     "setup",
     "mjcf",
+    "api",
 ];
 
 #[test]

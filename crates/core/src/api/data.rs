@@ -1,9 +1,9 @@
 //! `Data` as everybody but the engine sees it: of one model, read by name, written where that means something.
 
+use super::addresses::Addresses;
 use super::error::Error;
 use super::model::{Cell, Model, access};
 use super::plan::Plan;
-use super::view::Addresses;
 use crate::model::fields::data_fields;
 use crate::model::reflect::{self, FieldId, Kind, Object, View, ViewMut};
 use crate::model::{Fields, Names};

@@ -1,5 +1,6 @@
 //! The engine as embedders hold it: models and data that belong together, objects by name, errors instead of panics.
 
+pub(crate) mod addresses;
 pub(crate) mod call;
 pub(crate) mod data;
 pub(crate) mod error;

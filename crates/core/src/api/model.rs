@@ -1,8 +1,7 @@
 //! `Model` as everybody but the engine sees it: its fields can be read, its parameters edited, its structure not.
 
+use super::addresses::Addresses;
 use super::error::Error;
-use super::plan::Plan;
-use super::view::Addresses;
 use crate::kinds::{disable, enable};
 use crate::model::fields::{model_fields, option_fields, statistic_fields};
 use crate::model::reflect::{self, FieldId, FieldSet, Object};
@@ -115,11 +114,6 @@ impl Model {
     pub fn edit(&mut self) -> ModelEdit<'_> {
         (self.version, self.edited) = (next(), FieldSet::ALL);
         ModelEdit::of(&mut self.inner)
-    }
-
-    /// The plan that a demand leads to, with the reasons.
-    pub fn plan(&self, demand: &crate::Demand) -> Plan {
-        Plan::new(self, demand)
     }
 
     /// The numbers of a field of the model; `None` for a field of the data.

@@ -168,35 +168,6 @@ impl<'a> Joint<'a> {
     }
 }
 
-/// Where objects are in the arrays of the data: first place and number.
-#[derive(Debug, Default)]
-pub(super) struct Addresses {
-    qpos: Vec<[usize; 2]>,
-    qvel: Vec<[usize; 2]>,
-    ctrl: Vec<[usize; 2]>,
-    output: Vec<usize>,
-    sensor: Vec<[usize; 2]>,
-}
-
-impl Addresses {
-    pub(super) fn new(m: &crate::model::Model) -> Addresses {
-        let at = |x: i32| usize::try_from(x).unwrap_or(usize::MAX / 2);
-        let joints = |adr: &[i32], size: fn(i32) -> usize| {
-            adr.iter().zip(&m.jnt_type).map(|(&a, &kind)| [at(a), size(kind)]).collect()
-        };
-        let pairs = |adr: &[i32], n: &[i32]| {
-            adr.iter().zip(n).map(|(&a, &n)| [at(a), usize::try_from(n).unwrap_or(0)]).collect()
-        };
-        Addresses {
-            qpos: joints(&m.jnt_qposadr, crate::kinds::joint::nq),
-            qvel: joints(&m.jnt_dofadr, crate::kinds::joint::nv),
-            ctrl: pairs(&m.actuator_ctrladr, &m.actuator_ctrlnum),
-            output: m.actuator_outadr.iter().map(|&a| at(a)).collect(),
-            sensor: pairs(&m.sensor_adr, &m.sensor_dim),
-        }
-    }
-}
-
 fn set(to: Option<&mut [f64]>, values: &[f64], what: &'static str) -> Result<(), Error> {
     let to = to.unwrap_or_default();
     if to.len() != values.len() {

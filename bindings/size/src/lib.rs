@@ -1,0 +1,63 @@
+//! What a page needs of the engine, exported: a model, its data, steps, coordinates. `weigh.sh` says what that weighs.
+
+use labspec_core::{Data, Model, contact_force, forward, inverse, reset_data, save, step};
+
+/// A simulation behind one address.
+pub struct Simulation {
+    model: Model,
+    data: Data,
+}
+
+fn boxed(model: Result<Model, labspec_core::Error>) -> *mut Simulation {
+    match model {
+        Ok(model) => Box::into_raw(Box::new(Simulation { data: Data::new(&model), model })),
+        Err(_) => std::ptr::null_mut(),
+    }
+}
+
+/// # Safety
+///
+/// `text` points at `length` bytes.
+#[cfg(feature = "mjcf")]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn from_xml(text: *const u8, length: usize) -> *mut Simulation {
+    // SAFETY: as the caller promises.
+    let bytes = unsafe { std::slice::from_raw_parts(text, length) };
+    std::str::from_utf8(bytes).map_or(std::ptr::null_mut(), |text| boxed(Model::from_xml(text)))
+}
+
+/// # Safety
+///
+/// `bytes` points at `length` bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn from_bytes(bytes: *const u8, length: usize) -> *mut Simulation {
+    // SAFETY: as the caller promises.
+    boxed(Model::from_bytes(unsafe { std::slice::from_raw_parts(bytes, length) }))
+}
+
+/// # Safety
+///
+/// `s` comes from `from_xml` or `from_bytes`, and is not null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn call(s: *mut Simulation, which: u32) -> i32 {
+    // SAFETY: as the caller promises.
+    let Simulation { model, data } = unsafe { &mut *s };
+    let done = match which {
+        0 => step(model, data),
+        1 => forward(model, data),
+        2 => reset_data(model, data),
+        3 => inverse(model, data),
+        4 => data.contact.first().map_or(Ok(()), |c| contact_force(model, data, c).map(drop)),
+        _ => save::save(model, data).and_then(|bytes| save::restore(model, data, &bytes)),
+    };
+    i32::from(done.is_ok())
+}
+
+/// # Safety
+///
+/// `s` comes from `from_xml` or `from_bytes`, and is not null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn qpos(s: *mut Simulation) -> *mut f64 {
+    // SAFETY: as the caller promises.
+    unsafe { (*s).data.edit().qpos.as_mut_ptr() }
+}
