@@ -485,10 +485,10 @@ pub fn charge<S: Scope>(d: &mut Data<S>, units: u64) {
 /// let mut data = Data::new(&model);
 /// step(&model, &mut data)?;
 /// let saved = save::save(&model, &data)?;
-/// let then = data.clone();
+/// let then = data.qpos.clone();
 /// step(&model, &mut data)?;
 /// save::restore(&model, &mut data, &saved)?;
-/// assert_eq!(data, then);
+/// assert_eq!(data.qpos, then);
 /// # Ok(())
 /// # }
 /// ```

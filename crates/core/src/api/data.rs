@@ -60,7 +60,7 @@ mod sealed {
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Data<S: Scope = Full> {
     pub(super) inner: Inner,
     pub(super) names: Arc<Names>,
@@ -70,6 +70,20 @@ pub struct Data<S: Scope = Full> {
     version: u64,
     demand: Demand,
     scope: PhantomData<S>,
+}
+
+impl<S: Scope> std::fmt::Debug for Data<S> {
+    /// Its time and state: all of it would be thousands of numbers.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Fields { time, qpos, qvel, .. } = &self.inner.fields;
+        let shown = f
+            .debug_struct("Data")
+            .field("time", time)
+            .field("qpos", qpos)
+            .field("qvel", qvel)
+            .finish_non_exhaustive();
+        shown
+    }
 }
 
 impl<S: Scope> PartialEq for Data<S> {

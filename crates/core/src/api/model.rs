@@ -27,11 +27,11 @@ fn next() -> u64 {
 /// )?;
 /// let ball = model.body("ball")?;
 /// assert_eq!((model.nq, ball.index()), (7, 1));
-/// model.edit().opt.timestep = 0.001;
+/// model.edit().body_mass[ball.index()] = 2.0;
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Model {
     inner: inner::Model,
     pub(super) names: Arc<Names>,
@@ -41,6 +41,15 @@ pub struct Model {
     pub(super) version: u64,
     /// The fields that were written since it was compiled.
     pub(super) edited: FieldSet,
+}
+
+impl std::fmt::Debug for Model {
+    /// Its name and sizes: all of it would be thousands of numbers.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let m = &self.inner;
+        let sizes = format!("nq {} nv {} nu {} nbody {} ngeom {}", m.nq, m.nv, m.nu, m.nbody, m.ngeom);
+        f.debug_struct("Model").field("name", &m.names.model).field("sizes", &sizes).finish_non_exhaustive()
+    }
 }
 
 impl PartialEq for Model {
@@ -300,6 +309,19 @@ words! {
 }
 
 impl Model {
+    /// Sets the timestep, s.
+    ///
+    /// # Errors
+    ///
+    /// It is not above zero, or no number.
+    pub fn set_timestep(&mut self, seconds: f64) -> Result<(), Error> {
+        if !(seconds > 0.0 && seconds.is_finite()) {
+            return Err(Error::Value { what: "the timestep", must: "above zero" });
+        }
+        *self.edit().opt.timestep = seconds;
+        Ok(())
+    }
+
     /// Whether a part of the simulation is switched off: one of [`crate::disable`].
     pub fn is_disabled(&self, bit: i32) -> bool {
         self.opt.disabled(bit)

@@ -1,17 +1,6 @@
 //! The state as one list of numbers (MuJoCo's documentation, "Programming: Simulation", section on state).
 //!
 //! What a list holds is chosen by a signature, a sum of the bits below; its parts come in the order of the bits.
-//!
-//! ```
-//! # use labspec_core::{Data, mjcf, state, step};
-//! # let m = mjcf::compile("<mujoco><worldbody><body><joint/><geom size='1'/></body></worldbody></mujoco>").unwrap();
-//! let mut d = Data::new(&m);
-//! let mut start = vec![0.0; state::size(&m, state::INTEGRATION).unwrap()];
-//! state::get(&m, &d, &mut start, state::INTEGRATION).unwrap();
-//! step(&m, &mut d);
-//! state::set(&m, &mut d, &start, state::INTEGRATION).unwrap();
-//! assert_eq!(d.time, 0.0);
-//! ```
 
 use crate::model::reflect::{self, Cell, Object, View, ViewMut};
 use crate::model::{Fields, Model};
