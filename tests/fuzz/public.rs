@@ -194,3 +194,41 @@ fn random_calls_of_the_engine_do_not_panic() {
         calls.join("\n")
     });
 }
+
+/// FNV-1a, so that a changed model passes for one that was stored so.
+fn fingerprint(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01b3))
+}
+
+#[test]
+fn stored_models_come_back_or_are_refused() {
+    let names = models(&workspace().join("tests/golden/models"));
+    let all: Vec<Model> = names.iter().map(|name| model(name)).collect();
+    for m in &all {
+        assert_eq!(Model::from_bytes(&m.to_bytes()).unwrap(), *m);
+    }
+    let mut taken = 0;
+    tries(CASES, |n| {
+        let mut random = Random(n);
+        let mut bytes = random.pick(&all).to_bytes();
+        let end = bytes.len() - 8;
+        for _ in 0..1 + random.below(3) {
+            // Integers are four bytes long, and small: most changes make others.
+            let at = 28 + random.below(end - 28);
+            bytes[at] = if random.below(2) == 0 { random.below(8) as u8 } else { random.next() as u8 };
+        }
+        let sum = fingerprint(&bytes[..end]);
+        bytes[end..].copy_from_slice(&sum.to_le_bytes());
+        if let Ok(m) = Model::from_bytes(&bytes) {
+            taken += 1;
+            let mut d = Data::new(&m);
+            core::limit(&mut d, 50_000_000);
+            for _ in 0..3 {
+                let _ = core::step(&m, &mut d);
+            }
+            let _ = core::inverse(&m, &mut d);
+        }
+        String::new()
+    });
+    assert!(taken > 50, "{taken}");
+}

@@ -24,7 +24,7 @@ use table::Read;
 pub(crate) use table::{Datatype, KINDS, Kind, Senses, When, kind};
 
 use crate::geometry::Narrow;
-use crate::kinds::disable;
+use crate::kinds::{disable, joint};
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model, Obj, asleep};
 
@@ -92,6 +92,34 @@ fn read(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
     };
     for x in out {
         *x = x.max(lowest).min(cutoff);
+    }
+}
+
+/// Whether what sensor `s` senses is there, and of the kind that its type needs.
+pub(crate) fn fits(m: &Model, s: usize) -> bool {
+    let within = |id: i32, n: usize| usize::try_from(id).is_ok_and(|id| id < n);
+    let (kind, id) = (m.sensor_objtype[s], m.sensor_objid[s]);
+    let (other, reference) = (m.sensor_reftype[s], m.sensor_refid[s]);
+    let joint = usize::try_from(id).ok().and_then(|j| m.jnt_type.get(j)).copied();
+    let solid = |kind: i32, id: i32| match kind {
+        k if k == Obj::Body as i32 => within(id, m.nbody),
+        k if k == Obj::Geom as i32 => within(id, m.ngeom),
+        _ => false,
+    };
+    match table::of(m, s).senses {
+        Senses::Site => within(id, m.nsite),
+        Senses::SiteInImage => within(id, m.nsite) && within(reference, m.ncam),
+        Senses::Ray if kind == Obj::Camera as i32 => within(id, m.ncam),
+        Senses::Ray => within(id, m.nsite),
+        Senses::ScalarJoint => matches!(joint, Some(joint::SLIDE | joint::HINGE)),
+        Senses::BallJoint => joint == Some(joint::BALL),
+        Senses::LimitedJoint => joint.is_some(),
+        Senses::Tendon | Senses::LimitedTendon => within(id, m.ntendon),
+        Senses::Actuator => within(id, m.nactuator) && m.actuator_outnum[id as usize] == m.sensor_dim[s],
+        Senses::Subtree => within(id, m.nbody),
+        Senses::Pair => solid(kind, id) && solid(other, reference),
+        Senses::FrameInSite => within(reference, m.nsite),
+        _ => true,
     }
 }
 

@@ -17,6 +17,7 @@ pub(crate) mod reset;
 pub(crate) mod save;
 pub(crate) mod scene;
 pub(crate) mod sleep;
+pub(crate) mod sound;
 pub(crate) mod stages;
 pub(crate) mod store;
 

@@ -9,6 +9,7 @@ use crate::geometry::Sides;
 use crate::model::bytes::{Plain, fingerprint};
 use crate::model::reflect::{self, Elem, Object};
 use crate::model::{Model, Names};
+use crate::step::sound::unsound;
 
 const MAGIC: [u8; 8] = *b"labmodl\n";
 /// Of the layout that this module writes.
@@ -113,11 +114,27 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Model> {
         let corners = usize::try_from(*m.mesh_vertnum.get(mesh.next()?)?).ok()?;
         Sides::from_numbers(&integers, &floats, corners)
     })?;
-    (rest.is_empty() && is_sound(&m)).then_some(m)
+    (rest.is_empty() && unsound(&m).is_none()).then_some(m)
 }
 
-/// Whether the engine can index by what the model says.
-fn is_sound(m: &Model) -> bool {
-    let named = m.names.lists().flatten().all(|name| name.len() < 1 << 20);
-    named && m.names.body.len() == m.nbody
+#[cfg(test)]
+mod tests {
+    use crate::mjcf::compile;
+    use crate::step::sound::unsound;
+
+    /// The engine can index by every model that was compiled.
+    #[test]
+    fn compiled_models_are_sound() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden/models");
+        let mut wrong = Vec::new();
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let Ok(text) = std::fs::read_to_string(&path) else { continue };
+            let Ok(m) = compile(&text) else { continue };
+            if let Some(what) = unsound(&m) {
+                wrong.push(format!("{}: {what}", path.display()));
+            }
+        }
+        assert_eq!(wrong, [""; 0]);
+    }
 }

@@ -1,0 +1,324 @@
+//! Whether the engine can index by what a model says: asked of models that were not compiled here.
+//!
+//! Ids lie among the objects they name, lists within the arrays they are part of, parents before their children, and objects of
+//! each type have what that type needs. What parameters say is no question: any number is survived.
+
+use crate::geometry::Hull;
+use crate::kinds::{dyntype, eqtype, gaintype, geom, joint, trntype, wraptype};
+use crate::model::reflect::{self, Object, View};
+use crate::model::{Model, Obj};
+use crate::sensor;
+
+/// A field, the size that its numbers are below, and the lowest of them.
+const IDS: [(&str, &str, i32); 32] = [
+    ("body_parentid", "nbody", 0),
+    ("body_rootid", "nbody", 0),
+    ("body_weldid", "nbody", 0),
+    ("body_mocapid", "nmocap", -1),
+    ("body_treeid", "ntree", -1),
+    ("jnt_bodyid", "nbody", 0),
+    ("jnt_actuatorid", "nactuator", -2),
+    ("dof_bodyid", "nbody", 0),
+    ("dof_jntid", "njnt", 0),
+    ("dof_parentid", "nv", -1),
+    ("dof_treeid", "ntree", 0),
+    ("M_colind", "nv", 0),
+    ("D_colind", "nv", 0),
+    ("geom_bodyid", "nbody", 0),
+    ("geom_matid", "nmat", -1),
+    ("site_bodyid", "nbody", 0),
+    ("site_dataid", "nmesh", -1),
+    ("cam_bodyid", "nbody", 0),
+    ("cam_targetbodyid", "nbody", -1),
+    ("light_bodyid", "nbody", 0),
+    ("light_targetbodyid", "nbody", -1),
+    ("mesh_face", "nmeshvert", 0),
+    ("skin_bonebodyid", "nbody", 0),
+    ("pair_geom1", "ngeom", 0),
+    ("pair_geom2", "ngeom", 0),
+    ("tendon_actuatorid", "nactuator", -2),
+    ("tendon_treeid", "ntree", -1),
+    ("ten_J_colind", "nv", 0),
+    ("jnt_qposadr", "nq", 0),
+    ("jnt_dofadr", "nv", 0),
+    ("actuator_historyadr", "nhistory", -1),
+    ("sensor_historyadr", "nhistory", -1),
+];
+
+/// Where lists begin, how long they are, and the size of what they are part of.
+const SPANS: [(&str, &str, &str); 17] = [
+    ("body_jntadr", "body_jntnum", "njnt"),
+    ("body_dofadr", "body_dofnum", "nv"),
+    ("body_geomadr", "body_geomnum", "ngeom"),
+    ("tree_bodyadr", "tree_bodynum", "nbody"),
+    ("tree_dofadr", "tree_dofnum", "nv"),
+    ("M_rowadr", "M_rownnz", "nC"),
+    ("D_rowadr", "D_rownnz", "nD"),
+    ("mesh_vertadr", "mesh_vertnum", "nmeshvert"),
+    ("mesh_faceadr", "mesh_facenum", "nmeshface"),
+    ("tendon_adr", "tendon_num", "nwrap"),
+    ("ten_J_rowadr", "ten_J_rownnz", "nJten"),
+    ("actuator_ctrladr", "actuator_ctrlnum", "nu"),
+    ("actuator_outadr", "actuator_outnum", "nout"),
+    ("actuator_actadr", "actuator_actnum", "na"),
+    ("sensor_adr", "sensor_dim", "nsensordata"),
+    ("numeric_adr", "numeric_size", "nnumericdata"),
+    ("tuple_adr", "tuple_size", "ntupledata"),
+];
+
+/// Sizes of arrays of the data that no array of the model is as long as.
+const MOST: usize = 1 << 24;
+
+fn list<'a>(m: &'a Model, name: &str) -> &'a [i32] {
+    match reflect::field(Object::Model, name).map(|f| reflect::view_model(m, f)) {
+        Some(View::I32(list)) => list,
+        _ => &[],
+    }
+}
+
+fn within(id: i32, count: usize) -> bool {
+    usize::try_from(id).is_ok_and(|id| id < count)
+}
+
+/// How many objects of a kind there are; `None` for a kind that nothing refers to.
+fn count(m: &Model, kind: i32) -> Option<usize> {
+    let kinds = [
+        (Obj::Body, m.nbody),
+        (Obj::XBody, m.nbody),
+        (Obj::Joint, m.njnt),
+        (Obj::Dof, m.nv),
+        (Obj::Geom, m.ngeom),
+        (Obj::Site, m.nsite),
+        (Obj::Camera, m.ncam),
+        (Obj::Tendon, m.ntendon),
+        (Obj::Actuator, m.nactuator),
+        (Obj::Sensor, m.nsensor),
+        (Obj::Mesh, m.nmesh),
+    ];
+    kinds.into_iter().find(|(k, _)| *k as i32 == kind).map(|(_, n)| n)
+}
+
+/// What of the model the engine could not index by; `None` when all is sound.
+pub(super) fn unsound(m: &Model) -> Option<&'static str> {
+    let sizes = [
+        m.nuserdata,
+        m.nsensordata,
+        m.nhistory,
+        m.nJmom,
+        m.nJten,
+        m.nC,
+        m.nD,
+        m.nq,
+        m.nv,
+        m.nu,
+        m.na,
+        m.nout,
+    ];
+    let ids = IDS.iter().all(|&(name, size, low)| {
+        let end = reflect::size(m, size).unwrap_or(0);
+        list(m, name).iter().all(|&x| x >= low && (x < 0 || within(x, end)))
+    });
+    let spans = SPANS.iter().all(|&(adr, num, size)| {
+        let end = reflect::size(m, size).unwrap_or(0) as i64;
+        let pairs = list(m, adr).iter().zip(list(m, num));
+        pairs
+            .map(|(&a, &n)| (i64::from(a), i64::from(n)))
+            .all(|(a, n)| a >= -1 && n >= 0 && (a >= 0 || n == 0) && a.max(0) + n <= end)
+    });
+    let checks = [("sizes", m.nbody > 0 && sizes.iter().all(|&n| n <= MOST)), ("ids", ids), ("lists", spans)];
+    let failed = checks.into_iter().find(|(_, good)| !good).map(|(name, _)| name);
+    // What follows indexes by what has been found good.
+    failed.or_else(|| {
+        let names =
+            m.names.lists().flatten().all(|name| name.len() < 1 << 20) && m.names.body.len() == m.nbody;
+        let checks: [(&'static str, fn(&Model) -> bool); 5] = [
+            ("trees", trees),
+            ("shapes", shapes),
+            ("equalities and tendons", ties),
+            ("actuators", |m| (0..m.nactuator).all(|i| actuator(m, i))),
+            ("sensors", |m| (0..m.nsensor).all(|s| measures(m, s))),
+        ];
+        let failed = checks.into_iter().find(|(_, check)| !check(m)).map(|(name, _)| name);
+        failed.or((!names || m.mesh_sides.len() > m.nmesh).then_some("names"))
+    })
+}
+
+/// Parents stand before their children, joints follow each other, rows of M end with the diagonal.
+fn trees(m: &Model) -> bool {
+    let before = |list: &[i32], from: usize| list.iter().enumerate().skip(from).all(|(i, &p)| p < i as i32);
+    let (mut q, mut v) = (0, 0);
+    let joints =
+        m.jnt_type.iter().zip(m.jnt_qposadr.iter().zip(&m.jnt_dofadr)).all(|(&kind, (&at, &dof))| {
+            let good = (joint::FREE..=joint::HINGE).contains(&kind) && at as usize == q && dof as usize == v;
+            (q, v) = (q + joint::nq(kind), v + joint::nv(kind));
+            good
+        });
+    let dofs = (0..m.nv).all(|k| {
+        let j = m.dof_jntid[k] as usize;
+        let first = m.jnt_dofadr[j] as usize;
+        let row = m.M_rowadr[k] as usize..(m.M_rowadr[k] + m.M_rownnz[k]) as usize;
+        let columns = &m.M_colind[row];
+        let whole = &m.D_colind[m.D_rowadr[k] as usize..(m.D_rowadr[k] + m.D_rownnz[k]) as usize];
+        (first..first + joint::nv(m.jnt_type[j])).contains(&k)
+            && m.dof_bodyid[k] == m.jnt_bodyid[j]
+            && columns.last() == Some(&(k as i32))
+            && columns.is_sorted_by(|a, b| a < b)
+            && whole.is_sorted_by(|a, b| a < b)
+            && usize::try_from(m.D_diag[k]).ok().and_then(|at| whole.get(at)) == Some(&(k as i32))
+            // The path to the root is the row, but where M is diagonal.
+            && (m.dof_simplenum[k] > 0 || chain(m, k).eq(columns.iter().rev().map(|&c| c as usize)))
+    });
+    let bodies = (0..m.nbody).all(|b| {
+        let joints = m.body_jntadr[b].max(0) as usize..(m.body_jntadr[b].max(0) + m.body_jntnum[b]) as usize;
+        let dofs: usize = joints.clone().map(|j| joint::nv(m.jnt_type[j])).sum();
+        joints.clone().all(|j| m.jnt_bodyid[j] as usize == b)
+            && dofs == m.body_dofnum[b] as usize
+            && (dofs == 0 || m.body_dofadr[b] == m.jnt_dofadr[joints.start])
+            && m.body_rootid[b] <= b as i32
+            && m.body_weldid[b] <= b as i32
+    });
+    let mut next = 0;
+    let in_order = (0..m.ntree).all(|t| {
+        let first = m.tree_dofadr[t];
+        let good = first == next && m.tree_dofnum[t] > 0;
+        next = first + m.tree_dofnum[t];
+        good && (first..next).all(|k| m.dof_treeid[k as usize] == t as i32)
+            && (0..m.tree_bodynum[t]).all(|b| m.body_treeid[(m.tree_bodyadr[t] + b) as usize] == t as i32)
+    });
+    let simple = m.dof_simplenum.iter().enumerate().all(|(k, &n)| n >= 0 && k + n as usize <= m.nv);
+    joints
+        && (q, v) == (m.nq, m.nv)
+        && m.body_parentid.first() == Some(&0)
+        && before(&m.body_parentid, 1)
+        && before(&m.dof_parentid, 0)
+        && dofs
+        && bodies
+        && in_order
+        && next as usize == m.nv
+        && simple
+        // What is called simple has nothing but its diagonal.
+        && (0..m.nv).all(|k| m.dof_simplenum[k] == 0 || m.M_rownnz[k] == 1)
+}
+
+/// A degree of freedom and those that move it, up to the root.
+fn chain(m: &Model, dof: usize) -> impl Iterator<Item = usize> + '_ {
+    std::iter::successors(Some(dof), |&k| usize::try_from(m.dof_parentid[k]).ok())
+}
+
+/// Meshes and height fields have their corners.
+fn shapes(m: &Model) -> bool {
+    let geoms = m.geom_type.iter().zip(&m.geom_dataid).all(|(&kind, &id)| match kind {
+        geom::MESH => within(id, m.nmesh),
+        geom::HFIELD => within(id, m.nhfield),
+        _ => id >= -1 && (id < 0 || within(id, m.nmesh.max(m.nhfield))),
+    });
+    let fields = (0..m.nhfield).all(|h| {
+        let [rows, columns, first] = [m.hfield_nrow[h], m.hfield_ncol[h], m.hfield_adr[h]].map(i64::from);
+        rows >= 2 && columns >= 2 && first >= 0 && first + rows * columns <= m.nhfielddata as i64
+    });
+    let meshes = (0..m.nmesh).all(|id| {
+        let corners = m.mesh_vertnum[id];
+        let faces = m.mesh_faceadr[id] as usize..(m.mesh_faceadr[id] + m.mesh_facenum[id]) as usize;
+        let own = m.mesh_face.as_chunks::<3>().0[faces].iter().flatten().all(|&v| v < corners);
+        let Ok(at) = usize::try_from(m.mesh_graphadr[id]) else { return corners > 0 && own };
+        let Some(hull) = m.mesh_graph.get(at..).and_then(Hull::of) else { return false };
+        let n = hull.vertex.len();
+        own && hull.vertex.iter().chain(hull.face.iter().flatten()).all(|&v| v >= 0 && v < corners)
+            && hull.first_edge.iter().all(|&e| within(e, hull.edges.len()))
+            && hull.edges.iter().all(|&e| e == -1 || within(e, n))
+    });
+    geoms && fields && meshes
+}
+
+/// Equalities and tendons hold what there is.
+fn ties(m: &Model) -> bool {
+    let equality = |e: usize| {
+        let [first, second] = [m.eq_obj1id[e], m.eq_obj2id[e]];
+        let (n, alone) = match m.eq_type[e] {
+            eqtype::CONNECT | eqtype::WELD => (count(m, m.eq_objtype[e]).unwrap_or(0), false),
+            eqtype::JOINT => (m.njnt, true),
+            eqtype::TENDON => (m.ntendon, true),
+            _ => return false,
+        };
+        let scalar =
+            |j: i32| matches!(m.jnt_type.get(j.max(0) as usize), Some(&(joint::SLIDE | joint::HINGE)));
+        let joints = m.eq_type[e] != eqtype::JOINT || scalar(first) && (second < 0 || scalar(second));
+        within(first, n) && (within(second, n) || alone && second == -1) && joints
+    };
+    let tendon = |t: usize| {
+        let path = m.tendon_adr[t].max(0) as usize..(m.tendon_adr[t].max(0) + m.tendon_num[t]) as usize;
+        let fixed = m.wrap_type.get(path.start) == Some(&wraptype::JOINT);
+        !path.is_empty() && path.clone().all(|w| (m.wrap_type[w] == wraptype::JOINT) == fixed)
+            // A path begins and ends at a site.
+            && (fixed || [path.start, path.end - 1].iter().all(|&w| m.wrap_type[w] == wraptype::SITE))
+    };
+    let wrap = |w: usize| match m.wrap_type[w] {
+        wraptype::JOINT => {
+            let kind = usize::try_from(m.wrap_objid[w]).ok().and_then(|j| m.jnt_type.get(j));
+            matches!(kind, Some(&(joint::SLIDE | joint::HINGE)))
+        }
+        wraptype::SITE => within(m.wrap_objid[w], m.nsite),
+        kind if kind > wraptype::SITE => {
+            let side = m.wrap_prm[w];
+            within(m.wrap_objid[w], m.ngeom) && (side < 0.0 || side < m.nsite as f64)
+        }
+        _ => true,
+    };
+    let rows = (0..m.ntendon).all(|t| {
+        let row = m.ten_J_rowadr[t].max(0) as usize..(m.ten_J_rowadr[t].max(0) + m.ten_J_rownnz[t]) as usize;
+        m.ten_J_colind[row].is_sorted_by(|a, b| a < b)
+    });
+    (0..m.neq).all(equality) && (0..m.ntendon).all(tendon) && (0..m.nwrap).all(wrap) && rows
+}
+
+/// An actuator acts on something of its kind, with as many inputs, outputs and states as that has.
+fn actuator(m: &Model, i: usize) -> bool {
+    let [first, second] = [m.actuator_trnid[2 * i], m.actuator_trnid[2 * i + 1]];
+    let (outputs, controls) = (m.actuator_outnum[i], m.actuator_ctrlnum[i]);
+    let of = |kind: i32| usize::try_from(first).ok().and_then(|j| m.jnt_type.get(j)) == Some(&kind);
+    let (target, width) = match m.actuator_trntype[i] {
+        trntype::JOINT | trntype::JOINTINPARENT => (within(first, m.njnt), 1),
+        trntype::TENDON => (within(first, m.ntendon), 1),
+        trntype::SITE => (within(first, m.nsite) && (second == -1 || within(second, m.nsite)), 1),
+        trntype::SLIDERCRANK => (within(first, m.nsite) && within(second, m.nsite), 1),
+        trntype::SO3 if second >= 0 => (within(first, m.nsite) && within(second, m.nsite), 3),
+        trntype::SO3 => (of(joint::BALL), 3),
+        trntype::BODY => (within(first, m.nbody), 1),
+        _ => (false, 1),
+    };
+    let orientation = m.actuator_gaintype[i] == gaintype::SO3;
+    let states = m.actuator_actnum[i];
+    let driven = match m.actuator_dyntype[i] {
+        dyntype::NONE => states == 0,
+        dyntype::INTEGRATOR => states >= 1 && states <= controls,
+        dyntype::FILTER | dyntype::FILTEREXACT | dyntype::MUSCLE => states >= 1 && controls >= 1,
+        _ => true,
+    };
+    target
+        && outputs == width
+        && (orientation == (width == 3))
+        && (!orientation || controls == 4 || controls == 3)
+        && (orientation || controls <= 4)
+        && driven
+        && buffer(m, m.actuator_history[2 * i], m.actuator_historyadr[i], controls)
+}
+
+/// A sensor senses something of its kind, and has room for what it shows.
+fn measures(m: &Model, s: usize) -> bool {
+    let object = |kind: i32, id: i32| match count(m, kind) {
+        Some(n) => within(id, n) || id == -1,
+        None => id <= 0,
+    };
+    let dim = m.sensor_dim[s];
+    object(m.sensor_objtype[s], m.sensor_objid[s])
+        && object(m.sensor_reftype[s], m.sensor_refid[s])
+        && sensor::fits(m, s)
+        && buffer(m, m.sensor_history[2 * s], m.sensor_historyadr[s], dim)
+}
+
+/// A buffer of past values has room for them.
+fn buffer(m: &Model, samples: i32, adr: i32, dim: i32) -> bool {
+    let Ok(n) = usize::try_from(samples) else { return false };
+    let (Ok(at), Ok(dim)) = (usize::try_from(adr), usize::try_from(dim)) else { return n == 0 };
+    n == 0 || n < MOST && dim < MOST && at.saturating_add(crate::forces::history::size(n, dim)) <= m.nhistory
+}
