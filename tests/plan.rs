@@ -295,3 +295,42 @@ fn decisions_read_as_reasons() {
         insta::assert_snapshot!("plan-decisions", shown);
     });
 }
+
+/// Forces that a plan was not told of act: it is made again.
+#[test]
+fn a_force_that_nobody_announced_acts() {
+    let m = model("free_fall");
+    let mut planned = Data::planned(&m, Plan::new(&m, &reading(&["qvel"])));
+    let mut full = Data::unplanned(&m);
+    for step in 0..20 {
+        if step == 10 {
+            planned.edit().xfrc_applied[6] = 3.0;
+            full.edit().xfrc_applied[6] = 3.0;
+        }
+        if step == 15 {
+            planned.edit().qfrc_applied[1] = -2.0;
+            full.edit().qfrc_applied[1] = -2.0;
+        }
+        core::step(&m, &mut planned).unwrap();
+        core::step(&m, &mut full).unwrap();
+    }
+    assert!(full.qvel[0] > 0.0 && full.qvel[1] < 0.0);
+    assert_eq!(bits(&m, &planned, field(Object::Data, "qvel")), bits(&m, &full, field(Object::Data, "qvel")));
+}
+
+/// Parameters that a plan was told would stay may change all the same: it is made again.
+#[test]
+fn a_parameter_that_nobody_announced_counts() {
+    let mut m = model("pendulum");
+    let mut planned = Data::planned(&m, Plan::new(&m, &reading(&["qpos"])));
+    core::step(&m, &mut planned).unwrap();
+    m.edit().dof_damping[0] = 0.7;
+    m.edit().body_mass[1] *= 2.0;
+    let mut full = Data::unplanned(&m);
+    core::state::copy(&m, &planned, &mut full, core::state::INTEGRATION).unwrap();
+    for _ in 0..20 {
+        core::step(&m, &mut planned).unwrap();
+        core::step(&m, &mut full).unwrap();
+    }
+    assert_eq!(bits(&m, &planned, field(Object::Data, "qpos")), bits(&m, &full, field(Object::Data, "qpos")));
+}

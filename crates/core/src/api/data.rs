@@ -69,6 +69,8 @@ pub struct Data<S: Scope = Full> {
     model: u64,
     version: u64,
     demand: Demand,
+    /// Whether inputs may have been written that the plan was not told of.
+    touched: bool,
     scope: PhantomData<S>,
 }
 
@@ -131,6 +133,7 @@ impl<S: Scope> Data<S> {
             model: m.id,
             version: m.version,
             demand: plan.demand,
+            touched: false,
             scope: PhantomData,
         }
     }
@@ -150,6 +153,7 @@ impl<S: Scope> Data<S> {
     /// What can be written: state, inputs, and the acceleration that [`inverse`](crate::inverse) starts from. Everything else
     /// can be read here.
     pub fn edit(&mut self) -> Edit<'_> {
+        self.touched = !S::FULL;
         Edit::of(&mut self.inner.fields)
     }
 
@@ -182,6 +186,7 @@ impl<S: Scope> Data<S> {
         if !reflect::is_writable(field) {
             return Err(Error::NotWritable(field));
         }
+        self.touched |= !S::FULL && !self.demand.writes.contains(field);
         Ok(reflect::view_data_mut(&mut self.inner.fields, field))
     }
 
@@ -201,7 +206,32 @@ impl<S: Scope> Data<S> {
         if self.version != m.version {
             self.catch_up(m)?;
         }
+        if self.touched {
+            self.look_again(m)?;
+        }
         Ok(&mut self.inner)
+    }
+
+    /// Forces are applied that the plan was not told of: it is made again, or they would not act.
+    #[cold]
+    fn look_again(&mut self, m: &Model) -> Result<(), Error> {
+        self.belongs_to(m)?;
+        self.touched = false;
+        let forces =
+            ["qfrc_applied", "xfrc_applied"].into_iter().filter_map(|f| reflect::field(Object::Data, f));
+        let acts = |f: &FieldId| match reflect::view_data(&self.inner.fields, *f) {
+            View::F64(list) => list.iter().any(|&x| x != 0.0),
+            _ => false,
+        };
+        let before = self.demand.writes;
+        for field in forces.filter(acts).collect::<Vec<_>>() {
+            self.demand.writes.insert(field);
+        }
+        if self.demand.writes != before {
+            let plan = Plan::new(m, &self.demand);
+            reset::set_plan(m, &mut self.inner, plan.inner);
+        }
+        Ok(())
     }
 
     /// The parameters of the model have changed. What a plan was told of costs nothing; for what it was not, it is made

@@ -207,7 +207,8 @@ impl<S: super::data::Scope> Data<S> {
     /// Applies a force and a torque at the centre of mass of a body, N and N m, world, until they are set again.
     pub fn set_xfrc(&mut self, which: &(impl Which<BodyId> + ?Sized), force: [f64; 6]) -> Result<(), Error> {
         let first = 6 * which.of(&self.names)?;
-        set(self.inner.fields.xfrc_applied.get_mut(first..first + 6), &force, "a force and a torque")
+        let fields = self.edit();
+        set(fields.xfrc_applied.get_mut(first..first + 6), &force, "a force and a torque")
     }
 }
 

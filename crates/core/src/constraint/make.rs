@@ -9,7 +9,7 @@ use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// `efc_*` up to R and D, `nefc`.
-#[inline(never)]
+#[inline(always)]
 pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     w.jac.clear();
     let on = |bit: i32| !m.opt.disabled(disable::CONSTRAINT) && !m.opt.disabled(bit);
@@ -25,9 +25,14 @@ pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
         resize(d, room);
     }
     (d.nefc, d.ne, d.nf, d.nl) = (0, 0, 0, 0);
-    if room == 0 {
-        return;
+    if room > 0 {
+        fill(m, d, w, [equal, friction, limits > 0]);
     }
+}
+
+/// The rows themselves: equalities, dry friction and limits where there can be any, contacts.
+#[inline(never)]
+fn fill(m: &Model, d: &mut Fields, w: &mut Scratch, [equal, friction, limits]: [bool; 3]) {
     if equal {
         equality::make(m, d, w);
     }
@@ -36,7 +41,7 @@ pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
         single::friction(m, d, &mut w.jac);
     }
     d.nf = d.nefc - d.ne;
-    if limits > 0 {
+    if limits {
         single::limits(m, d, &mut w.jac);
     }
     d.nl = d.nefc - d.ne - d.nf;

@@ -7,11 +7,15 @@ use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// `efc_vel` = J v and `efc_aref` = -B J v - K d r, less the acceleration J̇ v that is there already.
-#[inline(never)]
+#[inline(always)]
 pub(crate) fn reference(m: &Model, d: &mut Fields, w: &Scratch) {
-    if d.nefc == 0 {
-        return;
+    if d.nefc > 0 {
+        ask(m, d, w);
     }
+}
+
+#[inline(never)]
+fn ask(m: &Model, d: &mut Fields, w: &Scratch) {
     w.jac.mul(&d.qvel, &mut d.efc_vel);
     if d.plan.has(Fact::Surfaces) {
         contact::surfaces(m, d);

@@ -16,15 +16,19 @@ use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// `qacc`, `efc_force`, `qfrc_constraint`, `solver_niter`, from `qacc_smooth` and the rows.
-#[inline(never)]
+#[inline(always)]
 pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch) {
     d.solver_niter = 0;
     d.nisland = 0;
     copy(&d.qacc_smooth, &mut d.qacc);
     zero(&mut d.qfrc_constraint);
-    if d.nefc == 0 {
-        return;
+    if d.nefc > 0 {
+        solve_rows(m, d, w);
     }
+}
+
+#[inline(never)] // a step in which nothing touches does not carry its set-up
+fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let [_, columns, values] = w.jac.size();
     d.meter.add(8 * (columns + values) + 40 * d.nefc as u64);
     let dual = m.opt.solver == solver::PGS || m.opt.noslip_iterations > 0;

@@ -33,6 +33,8 @@ pub(crate) struct Scratch {
     pub(crate) frames: Frames,
     /// Trees of many degrees of freedom.
     pub(crate) articulated: Articulated,
+    /// Joints of bodies whose bias force has a closed form.
+    simple: Vec<rne::Simple>,
     /// Motions of ancestors, for rows of M.
     path: Path,
     /// Spatial accelerations and forces of bodies.
@@ -49,6 +51,7 @@ impl Scratch {
             chains: Chains::new(m),
             frames: Frames::new(m),
             articulated: Articulated::new(m),
+            simple: rne::simple_joints(m),
             path: Path::new(m),
             cacc: vec![0.0; 6 * m.nbody],
             cfrc: vec![0.0; 6 * m.nbody],

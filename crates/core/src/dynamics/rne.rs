@@ -18,29 +18,47 @@ pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if !d.plan.has(Fact::SimpleBodies) {
         return;
     }
-    for (j, &body) in m.jnt_bodyid.iter().enumerate() {
-        let body = body as usize;
-        if m.body_simple[body] > 0 {
-            simple(m, d, j, body, gravity);
-        }
+    for s in &w.simple {
+        simple(m, d, s, gravity);
     }
+}
+
+/// A joint of a simple body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Simple {
+    joint: usize,
+    kind: i32,
+    body: usize,
+    dof: usize,
+}
+
+/// The joints of simple bodies.
+pub(crate) fn simple_joints(m: &Model) -> Vec<Simple> {
+    let joint = |joint: usize| {
+        let body = m.jnt_bodyid[joint] as usize;
+        Simple { joint, kind: m.jnt_type[joint], body, dof: m.jnt_dofadr[joint] as usize }
+    };
+    (0..m.njnt).map(joint).filter(|s| m.body_simple[s.body] > 0).collect()
 }
 
 /// One joint of a simple body: weight along translations, ω × I ω for rotations in the body's frame. A
 /// hinge turns about a principal axis and feels nothing.
 #[inline(always)]
-fn simple(m: &Model, d: &mut Fields, j: usize, body: usize, gravity: Vec3) {
-    let (mass, &[a, b, c]) = (m.body_mass[body], &rows::<3>(&m.body_inertia)[body]);
-    let k = m.jnt_dofadr[j] as usize;
+fn simple(m: &Model, d: &mut Fields, s: &Simple, gravity: Vec3) {
+    let (Some(mass), Some(&[a, b, c])) = (m.body_mass.get(s.body), rows::<3>(&m.body_inertia).get(s.body))
+    else {
+        return;
+    };
     let turning = |w: Vec3| cross(w, [a * w[0], b * w[1], c * w[2]]);
-    match (m.jnt_type[j], &d.qvel[k..], &mut d.qfrc_bias[k..]) {
-        (joint::SLIDE, _, [out, ..]) => *out = -mass * dot(gravity, rows::<3>(&d.xaxis)[j]),
-        (joint::HINGE, _, [out, ..]) => *out = 0.0,
-        (joint::BALL, &[x, y, z, ..], [tx, ty, tz, ..]) => [*tx, *ty, *tz] = turning([x, y, z]),
+    let (Some(v), Some(out)) = (d.qvel.get(s.dof..), d.qfrc_bias.get_mut(s.dof..)) else { return };
+    match (s.kind, v, out) {
         (joint::FREE, &[_, _, _, x, y, z, ..], [fx, fy, fz, tx, ty, tz, ..]) => {
             [*fx, *fy, *fz] = scale(gravity, -mass);
             [*tx, *ty, *tz] = turning([x, y, z]);
         }
+        (joint::SLIDE, _, [out, ..]) => *out = -mass * dot(gravity, rows::<3>(&d.xaxis)[s.joint]),
+        (joint::HINGE, _, [out, ..]) => *out = 0.0,
+        (joint::BALL, &[x, y, z, ..], [tx, ty, tz, ..]) => [*tx, *ty, *tz] = turning([x, y, z]),
         _ => {}
     }
 }

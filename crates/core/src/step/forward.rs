@@ -179,10 +179,14 @@ pub(super) fn bias(m: &Model, d: &mut Data) {
 /// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`; `qacc` where no constraint can act.
 pub(super) fn acceleration(m: &Model, data: &mut Data) {
     let Data { fields: d, work } = &mut *data;
-    let forces = [&*d.qfrc_passive, &*d.qfrc_bias, &*d.qfrc_applied, &*d.qfrc_actuator];
-    combine(&mut d.qfrc_smooth, forces, |_, [passive, bias, applied, actuator]| {
-        passive - bias + applied + actuator
-    });
+    if d.plan.has(Fact::Unforced) {
+        combine(&mut d.qfrc_smooth, [&*d.qfrc_bias], |_, [bias]| 0.0 - bias);
+    } else {
+        let forces = [&*d.qfrc_passive, &*d.qfrc_bias, &*d.qfrc_applied, &*d.qfrc_actuator];
+        combine(&mut d.qfrc_smooth, forces, |_, [passive, bias, applied, actuator]| {
+            passive - bias + applied + actuator
+        });
+    }
     if d.plan.has(Fact::AppliedForces) {
         applied_forces(m, d);
     }
@@ -239,9 +243,10 @@ pub(super) fn solve(m: &Model, data: &mut Data) {
 }
 
 /// What the discrete integrator adds to `qacc` of free bodies.
+#[inline(always)]
 fn turn_free_bodies(m: &Model, data: &mut Data) {
-    let Data { fields: d, work } = data;
     if m.opt.integrator == integrator::DISCRETE {
+        let Data { fields: d, work } = data;
         discrete::turn_free_bodies(m, d, &work.metric, &mut work.derivative, &work.constraint);
     }
 }

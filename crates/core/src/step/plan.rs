@@ -49,6 +49,8 @@ impl Plan {
             }
         }
         plan.decisions.reverse();
+        let forced = plan.keeps(Stage::Passive) || plan.keeps(Stage::Actuation) || scene.applies_forces();
+        plan.state(Fact::Unforced, !forced);
         let for_rows = scene.mass_for_rows(&plan);
         plan.state(Fact::MassForRows, for_rows);
         plan.arranged()

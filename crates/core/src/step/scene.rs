@@ -309,6 +309,11 @@ impl<'a> Scene<'a> {
         self.some(&[ELLIPSOIDS])
     }
 
+    /// Whether forces are applied to bodies or along degrees of freedom.
+    pub(super) fn applies_forces(&self) -> bool {
+        self.writes(Object::Data, &["xfrc_applied", "qfrc_applied"])
+    }
+
     /// Whether forces are applied to bodies.
     pub(super) fn pushed(&self) -> bool {
         self.writes(Object::Data, &["xfrc_applied"])

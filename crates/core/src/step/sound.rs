@@ -114,6 +114,8 @@ pub(super) fn unsound(m: &Model) -> Option<&'static str> {
         m.na,
         m.nout,
     ];
+    let of_data = reflect::fields().filter(|f| f.info().object == Object::Data);
+    let room = of_data.fold(0, |sum: usize, f| sum.saturating_add(reflect::length(m, f)));
     let ids = IDS.iter().all(|&(name, size, low)| {
         let end = reflect::size(m, size).unwrap_or(0);
         list(m, name).iter().all(|&x| x >= low && (x < 0 || within(x, end)))
@@ -125,7 +127,11 @@ pub(super) fn unsound(m: &Model) -> Option<&'static str> {
             .map(|(&a, &n)| (i64::from(a), i64::from(n)))
             .all(|(a, n)| a >= -1 && n >= 0 && (a >= 0 || n == 0) && a.max(0) + n <= end)
     });
-    let checks = [("sizes", m.nbody > 0 && sizes.iter().all(|&n| n <= MOST)), ("ids", ids), ("lists", spans)];
+    let checks = [
+        ("sizes", m.nbody > 0 && m.nmocap <= m.nbody && sizes.iter().all(|&n| n <= MOST) && room <= 4 * MOST),
+        ("ids", ids),
+        ("lists", spans),
+    ];
     let failed = checks.into_iter().find(|(_, good)| !good).map(|(name, _)| name);
     // What follows indexes by what has been found good.
     failed.or_else(|| {

@@ -247,10 +247,15 @@ pub(crate) fn servo_gains(m: &Model, i: usize) -> Option<[f64; 2]> {
 }
 
 /// Gravity compensation that acts as a force of actuators.
+#[inline(always)]
 fn gravity_compensation(m: &Model, d: &mut Fields) {
-    if m.ngravcomp == 0 || m.opt.disabled(disable::GRAVITY) {
-        return;
+    if m.ngravcomp > 0 && !m.opt.disabled(disable::GRAVITY) {
+        add_gravity_compensation(m, d);
     }
+}
+
+#[inline(never)] // few scenes have any
+fn add_gravity_compensation(m: &Model, d: &mut Fields) {
     for j in (0..m.njnt).filter(|&j| m.jnt_actgravcomp[j]) {
         let first = m.jnt_dofadr[j] as usize;
         for k in first..first + joint::nv(m.jnt_type[j]) {
