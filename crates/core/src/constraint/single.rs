@@ -28,6 +28,9 @@ pub(super) fn count_limits(m: &Model, d: &Fields) -> usize {
             _ => 1,
         };
     }
+    if m.ntendon == 0 {
+        return count;
+    }
     let tendons = m.tendon_limited.iter().zip(&d.ten_length).zip(&m.tendon_margin);
     for (((&limited, &length), &margin), range) in tendons.zip(rows::<2>(&m.tendon_range)) {
         count += if limited { near(*range, length, margin) } else { 0 };

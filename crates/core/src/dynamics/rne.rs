@@ -8,13 +8,15 @@ use crate::model::{Fields, Model};
 
 /// `qfrc_bias`. Trees take recursive Newton–Euler, short chains a projection; a simple body, alone in its tree
 /// with its inertia along its own axes, takes the closed form.
-#[inline(never)]
+#[inline(always)]
 pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
     if d.plan.has(Fact::Recursion) {
         newton_euler(m, d, w, gravity);
     }
-    chain::bias(d, w, gravity);
+    if !w.chains.is_empty() {
+        chain::bias(d, w, gravity);
+    }
     if !d.plan.has(Fact::SimpleBodies) {
         return;
     }
@@ -64,6 +66,7 @@ fn simple(m: &Model, d: &mut Fields, s: &Simple, gravity: Vec3) {
 }
 
 /// `qfrc_bias` of all bodies.
+#[inline(never)]
 pub(crate) fn newton_euler(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     let mut out = std::mem::take(&mut d.qfrc_bias);
     recursion(m, d, w, gravity, None, &mut out);

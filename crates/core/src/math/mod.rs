@@ -321,6 +321,9 @@ pub fn quat_to_vel(q: Quat) -> Vec3 {
 /// q rotated for a time h by the angular velocity w, given in the rotating frame (rad/s).
 #[inline]
 pub fn quat_integrate(q: Quat, w: Vec3, h: f64) -> Quat {
+    if w == [0.0; 3] {
+        return quat_normalize(q);
+    }
     let (axis, speed) = normalize(w);
     let angle = h * speed;
     if angle == 0.0 { quat_normalize(q) } else { quat_mul(quat_normalize(q), quat_axis_angle(axis, angle)) }

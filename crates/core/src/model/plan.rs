@@ -62,6 +62,8 @@ pub(crate) enum Fact {
     AppliedForces,
     /// Nothing but gravity and motion makes forces where no constraint acts: no springs, no actuators, none applied.
     Unforced,
+    /// The same, M is diagonal, nothing can touch and no tree sleeps.
+    Ballistic,
     /// Which pairs of geoms may touch can change while it runs.
     PairsChange,
     /// The parameters of contacts may change.
@@ -83,7 +85,7 @@ impl Default for Plan {
     /// No stage, and nothing is known.
     fn default() -> Plan {
         let mut plan = Plan { decisions: Vec::new(), kept: 0, facts: u32::MAX, passes: [[0; 3]; 2] };
-        for known in [Fact::MassForRows, Fact::DampersStay, Fact::Motors, Fact::Unforced] {
+        for known in [Fact::MassForRows, Fact::DampersStay, Fact::Motors, Fact::Unforced, Fact::Ballistic] {
             plan.state(known, false);
         }
         plan

@@ -122,7 +122,9 @@ fn fill_mass_matrix(m: &Model, d: &mut Data, composite: bool) {
     } else if d.plan.has(Fact::SimpleBodies) {
         mass::simple_diagonal(m, d);
     }
-    chain::mass_matrix(m, &mut d.fields, &mut d.work.dynamics);
+    if !d.work.dynamics.chains.is_empty() {
+        chain::mass_matrix(m, &mut d.fields, &mut d.work.dynamics);
+    }
     if m.ntendon > 0 {
         tendon::armature(m, d);
     }
@@ -179,6 +181,9 @@ pub(super) fn bias(m: &Model, d: &mut Data) {
 /// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`; `qacc` where no constraint can act.
 pub(super) fn acceleration(m: &Model, data: &mut Data) {
     let Data { fields: d, work } = &mut *data;
+    if d.plan.has(Fact::Ballistic) && m.opt.integrator != integrator::DISCRETE {
+        return fall(d);
+    }
     if d.plan.has(Fact::Unforced) {
         combine(&mut d.qfrc_smooth, [&*d.qfrc_bias], |_, [bias]| 0.0 - bias);
     } else {
@@ -216,6 +221,18 @@ pub(super) fn acceleration(m: &Model, data: &mut Data) {
     if !d.plan.keeps(Stage::Solve) {
         copy(&d.qacc_smooth, &mut d.qacc);
         turn_free_bodies(m, data);
+    }
+}
+
+/// The same where nothing makes forces but gravity and motion, M is diagonal, and nothing can touch: what flies.
+#[inline(always)]
+fn fall(d: &mut Fields) {
+    let n = d.qfrc_bias.len();
+    let forces = d.qfrc_bias.iter().zip(&d.qLDiagInv[..n]).zip(&mut d.qfrc_smooth[..n]);
+    let accelerations = d.qacc_smooth[..n].iter_mut().zip(&mut d.qacc[..n]);
+    for (((bias, inv), smooth), (free, qacc)) in forces.zip(accelerations) {
+        let force = 0.0 - bias;
+        (*smooth, *free, *qacc) = (force, force * inv, force * inv);
     }
 }
 

@@ -51,6 +51,8 @@ impl Plan {
         plan.decisions.reverse();
         let forced = plan.keeps(Stage::Passive) || plan.keeps(Stage::Actuation) || scene.applies_forces();
         plan.state(Fact::Unforced, !forced);
+        let ties = plan.has(Fact::General) || plan.keeps(Stage::Solve) || plan.keeps(Stage::Sleep);
+        plan.state(Fact::Ballistic, !forced && !ties);
         let for_rows = scene.mass_for_rows(&plan);
         plan.state(Fact::MassForRows, for_rows);
         plan.arranged()

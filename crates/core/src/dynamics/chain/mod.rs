@@ -178,6 +178,12 @@ impl Chains {
         chains
     }
 
+    /// Whether there is none.
+    #[inline(always)]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.lengths.is_empty()
+    }
+
     /// Takes the parameters of the links from the model.
     pub(crate) fn load(&mut self, m: &Model) {
         let (pos, quat) = (rows::<3>(&m.body_pos), rows::<4>(&m.body_quat));
@@ -268,6 +274,7 @@ pub(crate) fn mass_matrix(m: &Model, d: &mut Fields, w: &mut Scratch) {
 }
 
 /// The bias force of short chains.
+#[inline(never)] // scenes without any do not carry its set-up
 pub(crate) fn bias(d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     by_length!(w.chains, bias(&d.qvel, &mut d.qfrc_bias, gravity));
 }

@@ -25,6 +25,7 @@ pub(crate) fn integrate(m: &Model, d: &mut Data) {
 }
 
 /// The same from one evaluation of forces: Runge–Kutta, which needs four, becomes Euler.
+#[inline(always)]
 pub(crate) fn integrate_once(m: &Model, d: &mut Data) {
     match m.opt.integrator {
         integrator::IMPLICIT => implicit::implicit(m, d),
