@@ -34,5 +34,6 @@ mod support;
 mod terminal;
 mod trust;
 mod verify;
+mod ways;
 mod zoo;
 mod zz;

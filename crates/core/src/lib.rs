@@ -59,6 +59,7 @@ pub use kinds::{
 #[doc(hidden)]
 pub use model::Fields;
 pub use model::reflect;
+pub use model::ways::{Way, Ways};
 pub use model::{Contact, Decision, Names, Obj, Options, Statistic, Warning, WarningStat};
 pub use query::{RayFilter, RayHit};
 pub use step::balance::Energy;

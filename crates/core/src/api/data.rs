@@ -228,7 +228,7 @@ impl<S: Scope> Data<S> {
             self.demand.writes.insert(field);
         }
         if self.demand.writes != before {
-            let plan = Plan::new(m, &self.demand);
+            let plan = Plan::by_ways(m, &self.demand, self.inner.plan().ways);
             reset::set_plan(m, &mut self.inner, plan.inner);
         }
         Ok(())
@@ -240,7 +240,7 @@ impl<S: Scope> Data<S> {
     fn catch_up(&mut self, m: &Model) -> Result<(), Error> {
         self.belongs_to(m)?;
         if !m.edited.is_part_of(&self.demand.writes) {
-            let plan = Plan::new(m, &self.demand);
+            let plan = Plan::by_ways(m, &self.demand, self.inner.plan().ways);
             reset::set_plan(m, &mut self.inner, plan.inner);
         }
         self.version = m.version;

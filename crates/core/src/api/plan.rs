@@ -3,6 +3,7 @@
 use super::model::Model;
 use crate::model::plan::{Decision, Plan as Inner};
 use crate::model::stage::Stage;
+use crate::model::ways::Ways;
 use crate::step::scene::Demand;
 
 /// Which stages run, and why.
@@ -34,7 +35,12 @@ pub struct Plan {
 impl Plan {
     /// The stages that a scene needs, for what is read and written.
     pub fn new(m: &Model, demand: &Demand) -> Plan {
-        Plan { inner: Inner::new(m, demand), demand: *demand }
+        Plan { inner: Inner::new(m, demand, Ways::ALL), demand: *demand }
+    }
+
+    /// The same with trees computed by some ways alone: to measure what each is worth, or to hold it against the general one.
+    pub fn by_ways(m: &Model, demand: &Demand, ways: Ways) -> Plan {
+        Plan { inner: Inner::new(m, demand, ways), demand: *demand }
     }
 
     /// Every stage, needed or not: the reference that plans are held against.

@@ -14,6 +14,7 @@
 
 use crate::dynamics::{Scratch, mass, reflected, serial};
 use crate::math::*;
+use crate::model::ways::{Way, Ways};
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
@@ -103,12 +104,12 @@ fn is_large(m: &Model, mut dofs: Range<usize>) -> bool {
 
 impl Articulated {
     /// The trees of a model.
-    pub(crate) fn new(m: &Model) -> Articulated {
+    pub(crate) fn new(m: &Model, ways: Ways) -> Articulated {
         let (mut serial, mut spans) = (Vec::new(), Vec::<Span>::new());
         for t in 0..m.ntree {
             let first = m.tree_dofadr[t] as usize;
             let dofs = first..first + m.tree_dofnum[t] as usize;
-            if is_large(m, dofs.clone()) {
+            if ways.has(Way::Articulated) && is_large(m, dofs.clone()) {
                 // Bodies are numbered depth first: those of a tree follow each other.
                 let root = m.dof_bodyid[first] as usize;
                 let end = (root..m.nbody).find(|&b| m.body_treeid[b] != t as i32).unwrap_or(m.nbody);
@@ -117,7 +118,7 @@ impl Articulated {
                 spans.push(Span { dofs, bodies: root..end, fixed: fixed.collect() });
                 continue;
             }
-            if let Some(tree) = serial::Tree::new(m, dofs.clone()) {
+            if let Some(tree) = serial::Tree::new(m, dofs.clone()).filter(|_| ways.has(Way::Serial)) {
                 serial.push(tree);
                 continue;
             }

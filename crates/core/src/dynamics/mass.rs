@@ -70,24 +70,6 @@ pub(crate) fn armature(m: &Model, i: usize) -> f64 {
     if m.jnt_actuatorid[joint] == -1 { own } else { own + reflected::armature(m, On::Joint(joint)) }
 }
 
-/// The constant diagonal of simple bodies in M.
-pub(crate) fn simple_diagonal(m: &Model, d: &mut Fields) {
-    for i in 0..m.nv {
-        if m.dof_simplenum[i] > 0 {
-            d.M[m.M_rowadr[i] as usize] = m.dof_M0[i];
-        }
-    }
-}
-
-/// The diagonal of M as the model knows it, for a scene whose bodies are all simple: M is constant.
-pub(crate) fn constant_mass(m: &Model, d: &mut Fields) {
-    d.M.copy_from_slice(&m.dof_M0);
-    d.qLD.copy_from_slice(&m.dof_M0);
-    for i in 0..m.nv {
-        d.qLDiagInv[i] = 1.0 / m.dof_M0[i];
-    }
-}
-
 /// Factorizes the rows of the degrees of freedom `dofs` (ascending, whole trees) in place, M = Lᵀ D L with unit L: `ld`
 /// holds M and becomes L below the diagonal and D on it, `diag_inv` becomes 1/D. Returns the first degree of freedom whose D is not positive.
 ///

@@ -17,9 +17,12 @@ pub(crate) mod path;
 pub(crate) mod reflected;
 pub(crate) mod rne;
 pub(crate) mod serial;
+pub(crate) mod simple;
 pub(crate) mod subtree;
+pub(crate) mod ways;
 
 use crate::model::Model;
+use crate::model::ways::{Way, Ways};
 use articulated::Articulated;
 use chain::Chains;
 use kinematics::Frames;
@@ -34,7 +37,7 @@ pub(crate) struct Scratch {
     /// Trees of many degrees of freedom.
     pub(crate) articulated: Articulated,
     /// Joints of bodies whose bias force has a closed form.
-    simple: Vec<rne::Simple>,
+    simple: Vec<simple::Joint>,
     /// Motions of ancestors, for rows of M.
     path: Path,
     /// Spatial accelerations and forces of bodies.
@@ -46,12 +49,12 @@ pub(crate) struct Scratch {
 }
 
 impl Scratch {
-    pub(crate) fn new(m: &Model) -> Scratch {
+    pub(crate) fn new(m: &Model, ways: Ways) -> Scratch {
         Scratch {
-            chains: Chains::new(m),
+            chains: if ways.has(Way::Chain) { Chains::new(m) } else { Chains::default() },
             frames: Frames::new(m),
-            articulated: Articulated::new(m),
-            simple: rne::simple_joints(m),
+            articulated: Articulated::new(m, ways),
+            simple: if ways.has(Way::Simple) { simple::joints(m) } else { Vec::new() },
             path: Path::new(m),
             cacc: vec![0.0; 6 * m.nbody],
             cfrc: vec![0.0; 6 * m.nbody],

@@ -1,7 +1,7 @@
 //! `qfrc_bias`: gravity, Coriolis and centrifugal force.
 
-use crate::dynamics::{Scratch, chain};
-use crate::kinds::{disable, joint};
+use crate::dynamics::{Scratch, chain, simple};
+use crate::kinds::disable;
 use crate::math::{lanes, *};
 use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
@@ -20,48 +20,8 @@ pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if !d.plan.has(Fact::SimpleBodies) {
         return;
     }
-    for s in &w.simple {
-        simple(m, d, s, gravity);
-    }
-}
-
-/// A joint of a simple body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Simple {
-    joint: usize,
-    kind: i32,
-    body: usize,
-    dof: usize,
-}
-
-/// The joints of simple bodies.
-pub(crate) fn simple_joints(m: &Model) -> Vec<Simple> {
-    let joint = |joint: usize| {
-        let body = m.jnt_bodyid[joint] as usize;
-        Simple { joint, kind: m.jnt_type[joint], body, dof: m.jnt_dofadr[joint] as usize }
-    };
-    (0..m.njnt).map(joint).filter(|s| m.body_simple[s.body] > 0).collect()
-}
-
-/// One joint of a simple body: weight along translations, ω × I ω for rotations in the body's frame. A
-/// hinge turns about a principal axis and feels nothing.
-#[inline(always)]
-fn simple(m: &Model, d: &mut Fields, s: &Simple, gravity: Vec3) {
-    let (Some(mass), Some(&[a, b, c])) = (m.body_mass.get(s.body), rows::<3>(&m.body_inertia).get(s.body))
-    else {
-        return;
-    };
-    let turning = |w: Vec3| cross(w, [a * w[0], b * w[1], c * w[2]]);
-    let (Some(v), Some(out)) = (d.qvel.get(s.dof..), d.qfrc_bias.get_mut(s.dof..)) else { return };
-    match (s.kind, v, out) {
-        (joint::FREE, &[_, _, _, x, y, z, ..], [fx, fy, fz, tx, ty, tz, ..]) => {
-            [*fx, *fy, *fz] = scale(gravity, -mass);
-            [*tx, *ty, *tz] = turning([x, y, z]);
-        }
-        (joint::SLIDE, _, [out, ..]) => *out = -mass * dot(gravity, rows::<3>(&d.xaxis)[s.joint]),
-        (joint::HINGE, _, [out, ..]) => *out = 0.0,
-        (joint::BALL, &[x, y, z, ..], [tx, ty, tz, ..]) => [*tx, *ty, *tz] = turning([x, y, z]),
-        _ => {}
+    for joint in &w.simple {
+        simple::bias(m, d, joint, gravity);
     }
 }
 

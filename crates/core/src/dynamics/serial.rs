@@ -14,6 +14,12 @@ pub(crate) struct Tree {
     row: usize,
 }
 
+/// Whether a degree of freedom belongs to one.
+pub(crate) fn covers(m: &Model, dof: usize) -> bool {
+    let tree = m.tree_dofs(m.dof_treeid[dof] as usize);
+    Tree::new(m, tree).is_some()
+}
+
 /// Calls a function with the number of rows and of entries of a triangle as constants.
 macro_rules! by_size {
     ($n:expr, $function:ident($($argument:expr),*)) => {

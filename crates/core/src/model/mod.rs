@@ -9,6 +9,7 @@ pub(crate) mod plan;
 pub mod reflect;
 pub(crate) mod stage;
 pub(crate) mod state;
+pub(crate) mod ways;
 
 pub use data::Fields;
 pub use data::{Contact, Warning, WarningStat};

@@ -1,6 +1,7 @@
 //! Plans as data: which stages of a step run, and what of them. How one is made: `step/plan`.
 
 use super::stage::Stage;
+use super::ways::Ways;
 
 /// One line of the plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -77,6 +78,8 @@ pub(crate) struct Plan {
     /// A bit for each stage that runs, and for each fact that holds.
     kept: u32,
     facts: u32,
+    /// How trees may be computed.
+    pub(crate) ways: Ways,
     /// What a forward pass runs of each of its parts; then the same without what sensors show.
     pub(crate) passes: [[u32; 3]; 2],
 }
@@ -84,7 +87,8 @@ pub(crate) struct Plan {
 impl Default for Plan {
     /// No stage, and nothing is known.
     fn default() -> Plan {
-        let mut plan = Plan { decisions: Vec::new(), kept: 0, facts: u32::MAX, passes: [[0; 3]; 2] };
+        let mut plan =
+            Plan { decisions: Vec::new(), kept: 0, facts: u32::MAX, ways: Ways::ALL, passes: [[0; 3]; 2] };
         for known in [Fact::MassForRows, Fact::DampersStay, Fact::Motors, Fact::Unforced, Fact::Ballistic] {
             plan.state(known, false);
         }

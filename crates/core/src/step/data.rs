@@ -5,6 +5,7 @@ use super::stages::RungeKutta;
 use super::{damping, sleep};
 use crate::forces::{self, derivative};
 use crate::model::plan::Plan;
+use crate::model::ways::Ways;
 use crate::model::{Fields, Model};
 use crate::{collision, constraint, dynamics, sensor};
 use std::ops::{Deref, DerefMut};
@@ -38,9 +39,9 @@ pub(crate) struct Work {
 }
 
 impl Work {
-    pub(super) fn new(m: &Model) -> Work {
+    pub(super) fn new(m: &Model, ways: Ways) -> Work {
         Work {
-            dynamics: dynamics::Scratch::new(m),
+            dynamics: dynamics::Scratch::new(m, ways),
             forces: forces::Scratch::new(m),
             constraint: constraint::Scratch::new(m),
             sleep: sleep::Scratch::new(m),

@@ -2,12 +2,13 @@
 
 use super::pipeline::{INPUTS, POSITIONS, VELOCITIES};
 use super::{damping, discrete, sleep};
-use crate::dynamics::{articulated, camera, chain, com, jacobian, kinematics, mass, rne, subtree};
+use crate::dynamics::{articulated, camera, chain, com, jacobian, kinematics, mass, rne, simple, subtree};
 use crate::forces::{actuation, energy, passive, tendon, transmission};
 use crate::kinds::{disable, enable, integrator};
 use crate::math::{combine, copy, rows};
 use crate::model::plan::Fact;
 use crate::model::stage::Stage;
+use crate::model::ways::Way;
 use crate::model::{Fields, Model, Warning};
 use crate::sensor::{When, body_force};
 use crate::step::data::Data;
@@ -118,9 +119,10 @@ pub(super) fn mass_matrix(m: &Model, d: &mut Data) {
 #[inline(always)]
 fn fill_mass_matrix(m: &Model, d: &mut Data, composite: bool) {
     if composite {
-        mass::composite_inertia(m, &mut d.fields, &mut d.work.dynamics, true);
+        let constant = d.plan.ways.has(Way::Simple);
+        mass::composite_inertia(m, &mut d.fields, &mut d.work.dynamics, constant);
     } else if d.plan.has(Fact::SimpleBodies) {
-        mass::simple_diagonal(m, d);
+        simple::mass_matrix(m, d);
     }
     if !d.work.dynamics.chains.is_empty() {
         chain::mass_matrix(m, &mut d.fields, &mut d.work.dynamics);

@@ -9,6 +9,7 @@ use super::scene::{Demand, FACTS, Scene};
 use crate::model::Model;
 use crate::model::plan::{Decision, Fact, Plan};
 use crate::model::stage::Stage;
+use crate::model::ways::Ways;
 
 /// What shows in sensors alone: the stages of Runge and Kutta's method leave it out.
 const SHOWN: [Stage; 3] = [Stage::SubtreeVel, Stage::RnePost, Stage::Sensors];
@@ -34,9 +35,10 @@ impl Plan {
     ///
     /// From the last stage to the first: a stage runs when it is wanted for its own sake, or when a later
     /// stage that runs uses its results.
-    pub(crate) fn new(m: &Model, demand: &Demand) -> Plan {
-        let scene = Scene::new(m, demand);
+    pub(crate) fn new(m: &Model, demand: &Demand, ways: Ways) -> Plan {
+        let scene = Scene::new(m, demand, ways);
         let mut plan = Plan::default();
+        plan.ways = ways;
         for (fact, holds) in FACTS {
             plan.state(fact, holds(&scene));
         }

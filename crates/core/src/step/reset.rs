@@ -1,13 +1,14 @@
 //! Data at the start: made, reset, and given a plan.
 
 use super::{forward, sleep};
-use crate::dynamics::{kinematics, mass};
+use crate::dynamics::{self, kinematics, simple};
 use crate::forces::{actuation, transmission};
 use crate::math::*;
 use crate::model::meter::Meter;
 use crate::model::plan::Fact;
 use crate::model::plan::Plan;
 use crate::model::stage::Stage;
+use crate::model::ways::Ways;
 use crate::model::{Fields, Model, Warning, WarningStat, reflect};
 use crate::step::data::{Data, Work};
 use crate::step::scene::Demand;
@@ -18,7 +19,7 @@ impl Data {
     ///
     /// The plan allows any field to be read or written at any time: see `Data::planned` for less work.
     pub(crate) fn new(m: &Model) -> Data {
-        Data::planned(m, Plan::new(m, &Demand::ANY))
+        Data::planned(m, Plan::new(m, &Demand::ANY, Ways::ALL))
     }
 
     /// Data that computes only what a plan keeps.
@@ -36,7 +37,7 @@ impl Data {
             acting: vec![0.0; m.nu],
             ..Fields::default()
         };
-        let mut d = Data { fields, work: Work::new(m) };
+        let mut d = Data { fields, work: Work::new(m, Ways::ALL) };
         reset_data(m, &mut d);
         d
     }
@@ -49,6 +50,9 @@ pub(crate) fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
     } else {
         collision::Pairs::default()
     };
+    if plan.ways != d.plan.ways {
+        d.work.dynamics = dynamics::Scratch::new(m, plan.ways);
+    }
     d.plan = plan;
     d.work.dynamics.chains.load(m);
     d.work.dynamics.frames.load(m);
@@ -125,7 +129,7 @@ pub(crate) fn set_keyframe(m: &mut Model, d: &Data, key: usize) -> bool {
 /// Gives the fields of stages that the plan leaves out the values that those stages would find.
 pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
     if !d.plan.has(Fact::General) {
-        mass::constant_mass(m, d);
+        simple::constant(m, d);
     }
     if d.plan.keeps(Stage::Actuation) && !d.plan.keeps(Stage::Transmission) {
         transmission::transmissions(m, &mut d.fields, &mut d.work.forces);

@@ -1,10 +1,11 @@
 //! What is known of a scene before it runs, from the model and from what programs read and write.
 
-use crate::dynamics::{articulated, chain, kinematics};
+use crate::dynamics::{chain, kinematics, ways};
 use crate::forces::{actuation, derivative};
 use crate::kinds::{biastype, disable, dyntype, enable, eqtype, gaintype, integrator, joint, trntype};
 use crate::model::plan::Fact;
 use crate::model::reflect::{FieldId, FieldSet, Object, Stage, field};
+use crate::model::ways::Ways;
 use crate::model::{Model, Plan};
 use crate::step::damping;
 use crate::{collision, sensor};
@@ -85,7 +86,7 @@ pub(super) const FACTS: [(Fact, fn(&Scene) -> bool); 23] = [
     (Fact::General, |s| s.general),
     (Fact::Composite, |s| s.large || s.reads_field("crb")),
     (Fact::Recursion, |s| s.large),
-    (Fact::SimpleBodies, |s| s.m.dof_simplenum.iter().any(|&n| n > 0)),
+    (Fact::SimpleBodies, |s| (0..s.m.nv).any(|i| ways::is_simple(s.m, s.ways, i))),
     (Fact::ChainsChange, |s| s.writes(Object::Model, &chain::FIELDS)),
     (Fact::FramesChange, |s| s.writes(Object::Model, &kinematics::FIELDS)),
     (Fact::Equalities, |s| s.equalities > 0),
@@ -117,6 +118,8 @@ pub(super) const FACTS: [(Fact, fn(&Scene) -> bool); 23] = [
 pub(super) struct Scene<'a> {
     pub(super) m: &'a Model,
     pub(super) demand: &'a Demand,
+    /// How trees may be computed.
+    pub(super) ways: Ways,
     /// Some tree is more than one simple body.
     pub(super) general: bool,
     /// Some tree is more than a simple body or a short chain.
@@ -149,12 +152,13 @@ pub(super) struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
-    pub(super) fn new(m: &'a Model, demand: &'a Demand) -> Scene<'a> {
+    pub(super) fn new(m: &'a Model, demand: &'a Demand, ways: Ways) -> Scene<'a> {
         let mut scene = Scene {
             m,
             demand,
-            general: (0..m.nv).any(|i| m.dof_simplenum[i] == 0),
-            large: (0..m.nv).any(|i| m.dof_simplenum[i] == 0 && !chain::covers(m, i)),
+            ways,
+            general: (0..m.nv).any(|i| !ways::is_simple(m, ways, i)),
+            large: (0..m.nv).any(|i| ways::needs_bodies(m, ways, i)),
             pairs_change: false,
             pairs: 0,
             limited: m.jnt_limited.iter().filter(|&&l| l).count(),
@@ -265,7 +269,7 @@ impl<'a> Scene<'a> {
             && !plan.keeps(Stage::Energy)
             && !sensor::needs(m, Stage::MassMatrix)
             && !fields.into_iter().any(|f| self.reads_field(f))
-            && (0..m.nv).all(|k| m.dof_simplenum[k] > 0 || chain::covers(m, k) || articulated::covers(m, k))
+            && (0..m.nv).all(|k| ways::solves_alone(m, self.ways, k))
     }
 
     /// Whether forces of actuators depend on their lengths or velocities, or their moments on the configuration.

@@ -4,7 +4,7 @@ use super::stdio::print_json;
 use super::{Failure, ModelOptions, Outcome, interrupted, target};
 use crate::run::Session;
 use labspec_core::reflect::FieldSet;
-use labspec_core::{Data, Demand, Plan};
+use labspec_core::{Data, Demand, Plan, Way, Ways};
 use serde_json::json;
 use std::time::Instant;
 
@@ -28,9 +28,32 @@ pub(super) struct Arguments {
     /// a lab for what it reads
     #[arg(long)]
     full: bool,
+    /// Compute trees without a short way: simple, chain, serial or articulated; may be given several times
+    #[arg(long, value_name = "WAY", value_enum)]
+    without: Vec<Short>,
     /// Start every repetition again from the reset state, so that it is the same flight or fall
     #[arg(long)]
     reset: bool,
+}
+
+/// Short ways of computing trees.
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum Short {
+    Simple,
+    Chain,
+    Serial,
+    Articulated,
+}
+
+impl From<Short> for Way {
+    fn from(short: Short) -> Way {
+        match short {
+            Short::Simple => Way::Simple,
+            Short::Chain => Way::Chain,
+            Short::Serial => Way::Serial,
+            Short::Articulated => Way::Articulated,
+        }
+    }
 }
 
 pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
@@ -40,7 +63,8 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     } else {
         target.programs.demand
     };
-    let plan = Plan::new(&target.model, &demand);
+    let ways = a.without.iter().fold(Ways::ALL, |ways, &short| ways.without(short.into()));
+    let plan = Plan::by_ways(&target.model, &demand, ways);
     let data = Data::planned(&target.model, plan);
     let key = target.lab.keyframe();
     let mut session = Session::start_with(&target.programs, &target.model, key, data);

@@ -56,10 +56,16 @@ fn exact(act: f64, rate: f64, tau: f64, h: f64) -> f64 {
 }
 
 /// `actuator_force`, `act_dot`, `qfrc_actuator`.
+#[inline(always)]
 pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    if d.plan.has(Fact::Motors) && motors(m, d) {
-        return;
+    if !(d.plan.has(Fact::Motors) && motors(m, d)) {
+        any(m, d, w);
     }
+}
+
+/// The same for actuators of any kind.
+#[inline(never)]
+fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
     d.actuator_force.fill(0.0);
     if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
         d.qfrc_actuator.fill(0.0);

@@ -28,7 +28,9 @@ pub(crate) fn passive(m: &Model, d: &mut Fields) {
             d.qfrc_damper.fill(0.0);
         }
     }
-    spring::tendons(m, d, springs, dampers);
+    if m.ntendon > 0 {
+        spring::tendons(m, d, springs, dampers);
+    }
     combine(&mut d.qfrc_passive, [&*d.qfrc_spring, &*d.qfrc_damper], |_, [spring, damper]| spring + damper);
     if d.plan.has(Fact::BodyForces) {
         body_forces(m, d, springs || dampers);

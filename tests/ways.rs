@@ -1,0 +1,88 @@
+//! Each short way of computing trees against the general one: over the zoo, and over random trees.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::scenes::scene;
+use crate::support::compile;
+use crate::zoo::animals;
+use labspec_core::reflect::{self, Object};
+use labspec_core::{self as core, Data, Demand, Model, Plan, Planned, Way, Ways};
+use proptest::prelude::*;
+
+/// What trees are computed for. `qLD` of short chains and of rows is the same matrix.
+const FIELDS: [&str; 9] =
+    ["xpos", "xquat", "M", "qLD", "qLDiagInv", "qfrc_bias", "qacc_smooth", "qacc", "qfrc_constraint"];
+
+fn numbers(m: &Model, d: &Data<Planned>, name: &str) -> Vec<f64> {
+    let field = reflect::field(Object::Data, name).unwrap();
+    let view = core::view(m, d, field).unwrap();
+    (0..view.len()).filter_map(|i| view.get(i)).collect()
+}
+
+/// The field that differs most between two ways after a forward pass and a few steps, with its difference relative to
+/// its largest number.
+fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: Ways) -> (f64, &'static str) {
+    let run = |ways| {
+        let mut d = Data::planned(m, Plan::by_ways(m, &Demand::ANY, ways));
+        start(&mut d);
+        core::forward(m, &mut d).unwrap();
+        d
+    };
+    let (short, general) = (run(ways), run(Ways::GENERAL));
+    let of = |name: &'static str| {
+        let (a, b) = (numbers(m, &short, name), numbers(m, &general, name));
+        let size = b.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
+        let apart = a.iter().zip(&b).fold(0.0_f64, |s, (x, y)| s.max((x - y).abs()));
+        (if a.len() == b.len() { apart / size } else { f64::INFINITY }, name)
+    };
+    FIELDS.into_iter().map(of).fold((0.0, ""), |worst, now| if now.0 > worst.0 { now } else { worst })
+}
+
+/// Each way alone, and all of them.
+fn every() -> impl Iterator<Item = Ways> {
+    let alone = |way| Way::ALL.into_iter().filter(|w| *w != way).fold(Ways::ALL, Ways::without);
+    Way::ALL.into_iter().map(alone).chain([Ways::ALL])
+}
+
+#[test]
+fn every_way_computes_the_zoo_as_the_general_one() {
+    let mut wrong = Vec::new();
+    for (name, m, state) in animals() {
+        let mut begun = Data::new(&m);
+        crate::recorded::set(&m, &mut begun, &state);
+        for ways in every() {
+            let start =
+                |d: &mut Data<Planned>| core::state::copy(&m, &begun, d, core::state::INTEGRATION).unwrap();
+            let (apart, field) = difference(&m, start, ways);
+            if apart > 1e-9 {
+                wrong.push(format!("{name}, {ways:?}: {field} {apart:e}"));
+            }
+        }
+    }
+    assert_eq!(wrong, [""; 0]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_way_computes_random_trees_as_the_general_one(
+        scene in scene(),
+        numbers in prop::collection::vec(-1.5..1.5f64, 24),
+    ) {
+        let m = compile(&scene.smooth());
+        let start = |d: &mut Data<Planned>| {
+            let edit = d.edit();
+            for (i, q) in edit.qpos.iter_mut().enumerate() {
+                *q += 0.3 * numbers[i % numbers.len()];
+            }
+            for (i, v) in edit.qvel.iter_mut().enumerate() {
+                *v = numbers[(7 * i + 3) % numbers.len()];
+            }
+        };
+        for ways in every() {
+            let (apart, field) = difference(&m, start, ways);
+            prop_assert!(apart < 1e-9, "{ways:?}: {field} {apart:e}\n{}", scene.smooth());
+        }
+    }
+}
