@@ -184,13 +184,13 @@ other; instructions are counted by callgrind and repeat to a few.
 
 What makes the difference:
 
-* Forces and inertias of four bodies are computed in the lanes of a vector (`lanes.rs`), frames as columns of vectors.
+* Forces and inertias of four bodies are computed in the lanes of a vector (`math/lanes.rs`), frames as columns of vectors.
 * M and its factorization are left to steps in which constraints act, where nothing else looks at them.
-* Trees of at most six slides and hinges have their equations of motion in closed form (`chain/`), without spatial bodies.
-* Larger trees are factorized as articulated bodies (`articulated.rs`): in a time that grows with the number of bodies, not
+* Trees of at most six slides and hinges have their equations of motion in closed form (`dynamics/chain/`), without spatial bodies.
+* Larger trees are factorized as articulated bodies (`dynamics/articulated.rs`): in a time that grows with the number of bodies, not
   with the square of the depth, and the implicit damping of Euler's method costs one more pass instead of one more
   factorization of M.
-* Rows of M and of its factorization are products along the path to the root, eight columns at a time (`path.rs`).
+* Rows of M and of its factorization are products along the path to the root, eight columns at a time (`dynamics/path.rs`).
 * The Hessian of the constraints is kept and factorized in blocks of four by four (`constraint/hessian.rs`); that of a free
   body alone is a matrix of six by six on the stack (`constraint/six.rs`).
 * Pairs of geoms whose bounding spheres are apart cost one comparison with a number known when the plan is made.

@@ -74,7 +74,8 @@ pub(crate) fn principal(m: [f64; 6]) -> (Vec3, Quat) {
     principal_to(0.0, m)
 }
 
-/// The same, as long as an element off the diagonal is larger than `error`.
+/// The same, as long as an element off the diagonal is larger than `error`; moments that differ by less are equal, and keep
+/// their order.
 pub(crate) fn principal_to(error: f64, m: [f64; 6]) -> (Vec3, Quat) {
     const MAX_ROTATIONS: usize = 100;
     // The two axes of each off-diagonal element, and the unit vector from the first to the second turned.
@@ -112,7 +113,7 @@ pub(crate) fn principal_to(error: f64, m: [f64; 6]) -> (Vec3, Quat) {
     let mut moments = [d[0], d[1], d[2]];
     let quarter = std::f64::consts::FRAC_1_SQRT_2;
     for j in [0, 1, 0] {
-        let tie = 1e-12 * moments.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+        let tie = error.max(1e-12 * moments.iter().fold(0.0_f64, |s, x| s.max(x.abs())));
         if moments[j] + tie < moments[j + 1] {
             moments.swap(j, j + 1);
             let mut turn = [quarter, 0.0, 0.0, 0.0];

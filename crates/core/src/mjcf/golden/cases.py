@@ -115,7 +115,27 @@ def margins():
     (HERE / "margins.txt").write_text("\n".join(lines) + "\n")
 
 
+def ties():
+    """Boxes as meshes whose sides differ, and which are turned, by so little that their axes are a matter of a tolerance."""
+    import math
+
+    lines = []
+    for z in (0.25, 0.5, 2, 4, 6, 10, 30):
+        for k in (0, 1, 2, 3, 6, 12, 16, 64, 256):
+            for angle in (0, 0.3):
+                if angle and k in (1, 2, 3, 6):
+                    continue  # a turn of single-precision corners changes the shape by as much
+                c, s = math.cos(angle), math.sin(angle)
+                corners = [(x * (1 + k * 2**-23), y, n * z) for x in (-1, 1) for y in (-1, 1) for n in (-1, 1)]
+                text = " ".join(f"{v:.9g}" for x, y, h in corners for v in (c * x - s * y, s * x + c * y, h))
+                xml = f"<mujoco><asset><mesh name='m' inertia='convex' vertex='{text}'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>"
+                quat = mujoco.MjModel.from_xml_string(xml).geom_quat[0]
+                lines.append(" ".join(repr(float(q)) for q in quat) + f"|{xml}")
+    (HERE / "ties.txt").write_text("\n".join(lines) + "\n")
+
+
 if __name__ == "__main__":
     write("texts.txt", texts())
     write("sizes.txt", sizes())
     margins()
+    ties()

@@ -64,6 +64,21 @@ fn negative_margins_are_those_of_mujoco() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// Axes of meshes with two moments that are equal, or nearly, are those that MuJoCo takes.
+#[test]
+fn axes_of_nearly_symmetric_meshes_are_those_of_mujoco() {
+    let mut wrong = Vec::new();
+    for (recorded, text) in cases(include_str!("../golden/ties.txt")) {
+        let want: Vec<f64> = recorded.split(' ').map(|x| x.parse().unwrap()).collect();
+        let ours = compile(&text).unwrap().geom_quat;
+        let product: f64 = want.iter().zip(&ours).map(|(a, b)| a * b).sum();
+        if 1.0 - product.abs() > 1e-12 {
+            wrong.push(format!("want {want:?}, got {ours:?}: {text}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
 /// Exclusions keep apart the bodies that they name and no others, however many bodies there are: MuJoCo's signature of
 /// two bodies, 65,536 times the first plus the second, meets others beyond 65,535.
 #[test]
