@@ -124,6 +124,38 @@ def ablation(folder):
     return "\n".join(lines)
 
 
+# Scenes whose profile is shown: with warm-up steps, what is switched off, whether every field is computed.
+PROFILES = [
+    ("free fall", "../shared/corpus/models/free_fall.xml", 100, None, False),
+    ("two balls at rest", "../shared/corpus/models/ball_drop.xml", 2000, None, False),
+    ("27 boxes piled", f"{BENCH}boxes27.xml", 1000, None, False),
+    ("humanoid on the floor", f"{MODELS}benchmark__humanoid.xml", 1000, None, False),
+    ("humanoid, contacts off, every field", f"{MODELS}mjx__humanoid__humanoid.xml", 100, "contact", True),
+    ("gripper, every field", "../shared/corpus/models/gripper.xml", 1000, None, True),
+]
+
+
+def profiles(folder):
+    """Which functions the instructions of a step are in, the largest seven."""
+    lines = ["| scene | instructions | where |", "|---|---:|---|"]
+    for name, model, warm, off, full in PROFILES:
+        model = switched(model, off, folder) if off else model
+        out = f"{folder}/profile"
+        subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", f"--toggle-collect={ADVANCE}",
+                        *ours(model, warm, 200, full)], capture_output=True, check=True)
+        text = subprocess.run(["callgrind_annotate", "--threshold=100", out], capture_output=True, text=True, check=True).stdout
+        own = {}
+        for count, function in re.findall(r"^\s*([\d,]+) \([^)]*\)\s+\S*?:((?:labspec|<|core|alloc|libm|__|mem)\S.*?)(?: \[.*)?$", text, re.M):
+            function = re.sub(r"'\d+$", "", function)
+            short = re.sub(r"::\{closure[^}]*\}|::h[0-9a-f]{16}|labspec_core::|<impl [^>]*>::", "", function).strip()
+            own[short] = own.get(short, 0) + int(count.replace(",", "")) / 200
+        total = sum(own.values())
+        parts = ", ".join(f"`{f}` {100 * n / total:.0f} %" for f, n in sorted(own.items(), key=lambda x: -x[1])[:7])
+        lines.append(f"| {name} | {total:.0f} | {parts} |")
+        print(lines[-1], flush=True)
+    return "\n".join(lines)
+
+
 def switched(model, off, folder):
     """A copy of a model with something switched off."""
     text = pathlib.Path(model).read_text()
@@ -144,7 +176,7 @@ def main():
     p.add_argument("bench")
     p.add_argument("scenes", nargs="*")
     p.add_argument("--out", type=pathlib.Path)
-    p.add_argument("--ways", action="store_true", help="only the table of ways: the other stays as it is in --out")
+    p.add_argument("--ways", action="store_true", help="only the tables of ways and profiles: the first stays as it is in --out")
     a = p.parse_intermixed_args()
     heads = ["scene", "every field, ns", "planned, ns", "MuJoCo, ns", "ratio", "planned"]
     if shutil.which("valgrind"):
@@ -162,10 +194,11 @@ def main():
             model = switched(model, off, folder) if off else model
             lines.append("| " + " | ".join(measure(a.bench, name, model, *map(int, numbers))) + " |")
             print(lines[-1], flush=True)
-        ways = ablation(folder) if a.out and shutil.which("valgrind") else ""
+        counted = a.out and shutil.which("valgrind")
+        profile, ways = (profiles(folder), ablation(folder)) if counted else ("", "")
     if a.out:
         where = processor_of if a.ways else processor()
-        a.out.write_text(PAGE.format(table="\n".join(lines), processor=where, ways=ways))
+        a.out.write_text(PAGE.format(table="\n".join(lines), processor=where, ways=ways, profile=profile))
     return 0
 
 
@@ -206,12 +239,14 @@ the scene does not take the way). `dynamics/ways.rs` says what each is; `labspec
 
 ## What is left
 
-Where a target of three quarters or half of the library's instructions is not met, the profile says why:
+Where MuJoCo's instructions are not cut to a half, the profile says why (callgrind, own instructions of a step by function):
 
-* **Humanoid on the floor**: most of a step is the constraint solver. Its Hessian is factorized in every iteration, in blocks of
-  four by four; what is left is arithmetic that the answer needs.
-* **Every field computed** (humanoid, gripper): composite bodies, M, its factorization, recursion and poses are all asked for.
-  None of them is the largest by far.
+{profile}
+
+* **Humanoid on the floor**: the constraint solver. Its Hessian is factorized in every iteration, in blocks of four by four; what
+  is left is arithmetic that the answer needs.
+* **Every field computed** (humanoid, gripper): composite bodies, M, its factorization, recursion and poses are all asked for,
+  and none of them is the largest by far.
 """
 
 if __name__ == "__main__":

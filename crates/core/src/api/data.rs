@@ -78,13 +78,11 @@ impl<S: Scope> std::fmt::Debug for Data<S> {
     /// Its time and state: all of it would be thousands of numbers.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Fields { time, qpos, qvel, .. } = &self.inner.fields;
-        let shown = f
-            .debug_struct("Data")
+        f.debug_struct("Data")
             .field("time", time)
             .field("qpos", qpos)
             .field("qvel", qvel)
-            .finish_non_exhaustive();
-        shown
+            .finish_non_exhaustive()
     }
 }
 

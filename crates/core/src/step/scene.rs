@@ -80,9 +80,12 @@ const SURFACES: Numbers = ("geom_surfacevel", |m| &m.geom_surfacevel);
 const GRAVCOMP: Numbers = ("body_gravcomp", |m| &m.body_gravcomp);
 const OVERRIDES: [&str; 5] = ["o_margin", "o_solref", "o_solimp", "o_friction", "enableflags"];
 
+/// When a fact holds.
+type Test = fn(&Scene) -> bool;
+
 /// Each fact, and when it holds. That of M being computed for constraints alone follows from the plan: see
 /// [`Scene::mass_for_rows`].
-pub(super) const FACTS: [(Fact, fn(&Scene) -> bool); 23] = [
+pub(super) const FACTS: [(Fact, Test); 23] = [
     (Fact::General, |s| s.general),
     (Fact::Composite, |s| s.large || s.reads_field("crb")),
     (Fact::Recursion, |s| s.large),

@@ -137,7 +137,7 @@ pub(super) fn unsound(m: &Model) -> Option<&'static str> {
     failed.or_else(|| {
         let names =
             m.names.lists().flatten().all(|name| name.len() < 1 << 20) && m.names.body.len() == m.nbody;
-        let checks: [(&'static str, fn(&Model) -> bool); 5] = [
+        let checks: [(&'static str, Check); 5] = [
             ("trees", trees),
             ("shapes", shapes),
             ("equalities and tendons", ties),
@@ -148,6 +148,9 @@ pub(super) fn unsound(m: &Model) -> Option<&'static str> {
         failed.or((!names || m.mesh_sides.len() > m.nmesh).then_some("names"))
     })
 }
+
+/// Whether a part of a model is good.
+type Check = fn(&Model) -> bool;
 
 /// Parents stand before their children, joints follow each other, rows of M end with the diagonal.
 fn trees(m: &Model) -> bool {

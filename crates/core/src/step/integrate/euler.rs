@@ -14,7 +14,7 @@ pub(super) fn euler(m: &Model, d: &mut Data) {
         return;
     }
     if !d.work.damping.done {
-        damp(m, &mut d.fields, &mut d.work.dynamics, &mut d.work.damping);
+        damp(m, &d.fields, &mut d.work.dynamics, &mut d.work.damping);
     }
     advance_along(m, d);
 }
