@@ -76,7 +76,7 @@ pub(crate) fn momentum(m: &Model, d: &Data) -> [f64; 6] {
 /// Moves to a random place with a random velocity.
 pub(crate) fn scatter(m: &Model, d: &mut Data, numbers: &[f64]) {
     let take = |from: usize| (0..m.nv).map(|i| numbers[(from + i) % numbers.len()]).collect::<Vec<_>>();
-    core::integrate_pos(m, &mut d.edit().qpos, &take(0), 0.5).unwrap();
+    core::integrate_pos(m, d.edit().qpos, &take(0), 0.5).unwrap();
     d.edit().qvel.copy_from_slice(&take(m.nv));
 }
 

@@ -116,7 +116,7 @@ proptest! {
         let at = |time: f64| {
             let mut d = d.clone();
             let velocity = d.qvel.clone();
-            core::integrate_pos(&m, &mut d.edit().qpos, &velocity, time).unwrap();
+            core::integrate_pos(&m, d.edit().qpos, &velocity, time).unwrap();
             core::forward(&m, &mut d).unwrap();
             d
         };

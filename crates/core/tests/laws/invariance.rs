@@ -59,8 +59,8 @@ impl Motion {
             let edit = moved.edit();
             self.pose(&mut edit.body_pos[3 * b..3 * b + 3], &mut edit.body_quat[4 * b..4 * b + 4]);
         }
-        self.coordinates(m, &mut moved.edit().qpos0);
-        self.coordinates(m, &mut moved.edit().qpos_spring);
+        self.coordinates(m, moved.edit().qpos0);
+        self.coordinates(m, moved.edit().qpos_spring);
         self.vector(moved.edit().opt.gravity);
         let mut scratch = Data::new(&moved);
         core::set_const(&mut moved, &mut scratch).unwrap();
@@ -83,8 +83,8 @@ proptest! {
         scatter(&m, &mut d, &numbers);
         e.edit().qpos.copy_from_slice(&d.qpos);
         e.edit().qvel.copy_from_slice(&d.qvel);
-        motion.coordinates(&m, &mut e.edit().qpos);
-        motion.velocities(&m, &mut e.edit().qvel);
+        motion.coordinates(&m, e.edit().qpos);
+        motion.velocities(&m, e.edit().qvel);
         core::forward(&m, &mut d).unwrap();
         core::forward(&moved, &mut e).unwrap();
 
