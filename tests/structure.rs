@@ -216,3 +216,22 @@ fn rooms_of_the_engine_look_down() {
 fn files_of_the_engine_do_not_use_each_other_in_a_circle() {
     assert_eq!(Room::read("").circle(), None);
 }
+
+/// A name says which file is meant: `contact.rs` is one file. (`mod.rs` and `tests.rs` go by their folder.)
+#[test]
+fn no_two_files_of_the_engine_have_one_name() {
+    let (mut seen, mut folders) = (BTreeMap::new(), vec![workspace().join("crates/core/src")]);
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_owned();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "rs") && name != "mod.rs" && name != "tests.rs" {
+                let other = seen.insert(name, path.clone());
+                assert_eq!(other, None, "{} has the same name", path.display());
+            }
+        }
+    }
+    assert!(seen.len() > 150);
+}

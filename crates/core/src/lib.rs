@@ -48,7 +48,7 @@ pub use api::model::{
     ActuatorId, BodyId, Cone, GeomId, Integrator, JointId, KeyId, Model, ModelEdit, OptionsEdit, SensorId,
     SiteId, Solver, StatisticEdit, TendonId,
 };
-pub use api::plan::Plan;
+pub use api::planning::Plan;
 #[cfg(feature = "mjcf")]
 pub use api::reading as xml;
 pub use api::view::{Actuator, Body, Geom, Joint, Rows3, Sensor, Site, Tendon, Which};
@@ -59,7 +59,7 @@ pub use kinds::{
 #[doc(hidden)]
 pub use model::Fields;
 pub use model::reflect;
-pub use model::ways::{Way, Ways};
+pub use model::way::{Way, Ways};
 pub use model::{Contact, Decision, Names, Obj, Options, Statistic, Warning, WarningStat};
 pub use query::{RayFilter, RayHit};
 pub use step::balance::Energy;

@@ -6,7 +6,7 @@
 use super::data::{Data, Scope};
 use super::error::Error;
 use super::model::{KeyId, Model};
-use super::plan::Plan;
+use super::planning::Plan;
 use crate::dynamics::{jacobian, mass, object, subtree};
 use crate::forces::{actuation, energy};
 use crate::geometry::Distance;

@@ -3,13 +3,13 @@
 use super::addresses::Addresses;
 use super::error::Error;
 use super::model::{Cell, Model, access};
-use super::plan::Plan;
+use super::planning::Plan;
 use crate::model::fields::data_fields;
 use crate::model::reflect::{self, FieldId, Kind, Object, View, ViewMut};
 use crate::model::{Fields, Names};
-use crate::step::data::Data as Inner;
 use crate::step::reset;
 use crate::step::scene::Demand;
+use crate::step::workspace::Data as Inner;
 use std::marker::PhantomData;
 use std::ops::Deref;
 use std::sync::Arc;

@@ -5,7 +5,7 @@ pub(crate) mod call;
 pub(crate) mod data;
 pub(crate) mod error;
 pub(crate) mod model;
-pub(crate) mod plan;
+pub(crate) mod planning;
 pub(crate) mod view;
 
 #[cfg(feature = "mjcf")]

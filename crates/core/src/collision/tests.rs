@@ -3,9 +3,9 @@
 use super::*;
 use crate::mjcf::compile;
 use crate::model::Contact;
-use crate::step::data::Data;
 use crate::step::functions::kinematics;
 use crate::step::reset::reset_data;
+use crate::step::workspace::Data;
 
 /// Free bodies of random shapes in a cube, on a plane. The shapes are written over compiled spheres.
 fn pile(bodies: usize, side: f64) -> Model {

@@ -1,8 +1,10 @@
 //! The `diagexact` flag: regularization from the diagonal of J M⁻¹ Jᵀ itself, instead of its estimate at `qpos0`.
 
+use super::Scratch;
+use super::contact_rows;
 use super::jacobian::by_rows;
+use super::kind;
 use super::rows::{regularization, soften};
-use super::{Scratch, contact, kind};
 use crate::dynamics::mass;
 use crate::model::{Fields, Model};
 
@@ -39,7 +41,7 @@ fn block<const R: usize>(m: &Model, d: &mut Fields, w: &mut Scratch, i: usize) {
     if (elliptic || d.efc_type[row] == kind::CONTACT_PYRAMIDAL)
         && let Some(c) = d.contact.get_mut(d.efc_id[row] as usize)
     {
-        r = contact::friction(m, c, elliptic, r[0]);
+        r = contact_rows::friction(m, c, elliptic, r[0]);
     }
     soften(d, row, imp, &r);
 }

@@ -442,9 +442,9 @@ impl Order {
 mod tests {
     use crate::mjcf;
     use crate::model::Model;
-    use crate::step::data::Data;
     use crate::step::forward::forward;
     use crate::step::step;
+    use crate::step::workspace::Data;
     use std::fmt::Write;
 
     /// Two hundred balls in one place, each of which touches each: no room is made for the Hessian, and the step is done.

@@ -2,8 +2,12 @@
 //!
 //! Order: equalities, dry friction of joints and tendons, limits of joints and tendons, contacts.
 
+use super::Scratch;
+use super::contact_rows;
+use super::equality_rows;
+use super::exact;
 use super::rows::resize;
-use super::{Scratch, contact, equality, exact, single};
+use super::single;
 use crate::kinds::{disable, enable};
 use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
@@ -18,8 +22,8 @@ pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let limits = d.plan.has(Fact::Limits) && on(disable::LIMIT);
     // Room for all that may come; the arrays keep their length from step to step as long as contacts stay.
     let limits = if limits { single::count_limits(m, d) } else { 0 };
-    let mut room = contact::count(m, d) + limits;
-    room += if equal { equality::count(m, d) } else { 0 };
+    let mut room = contact_rows::count(m, d) + limits;
+    room += if equal { equality_rows::count(m, d) } else { 0 };
     room += if friction { single::count_friction(m) } else { 0 };
     if room > 0 || !d.efc_type.is_empty() {
         resize(d, room);
@@ -34,7 +38,7 @@ pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
 #[inline(never)]
 fn fill(m: &Model, d: &mut Fields, w: &mut Scratch, [equal, friction, limits]: [bool; 3]) {
     if equal {
-        equality::make(m, d, w);
+        equality_rows::make(m, d, w);
     }
     d.ne = d.nefc;
     if friction {
@@ -45,7 +49,7 @@ fn fill(m: &Model, d: &mut Fields, w: &mut Scratch, [equal, friction, limits]: [
         single::limits(m, d, &mut w.jac);
     }
     d.nl = d.nefc - d.ne - d.nf;
-    contact::make(m, d, w);
+    contact_rows::make(m, d, w);
     resize(d, d.nefc);
     let [_, columns, values] = w.jac.size();
     d.meter.add(60 * d.nefc as u64 + 8 * columns + 2 * values);

@@ -6,17 +6,17 @@
 
 mod cg;
 mod cone;
-mod contact;
+mod contact_rows;
 mod cost;
-mod discrete;
 mod dual;
 pub(crate) mod ends;
-mod equality;
+mod equality_rows;
 mod exact;
 mod force;
 mod gram;
 mod hessian;
 mod impedance;
+mod implicit_rows;
 mod island;
 mod iterate;
 mod jacobian;
@@ -32,8 +32,8 @@ mod single;
 mod six;
 mod solver;
 
-pub(crate) use discrete::{at_end_of_step, pop_metric, push_metric};
 pub(crate) use force::contact_force;
+pub(crate) use implicit_rows::{at_end_of_step, pop_metric, push_metric};
 pub(crate) use jacobian::full_j;
 pub(crate) use make::{make, none};
 pub(crate) use reference::reference;

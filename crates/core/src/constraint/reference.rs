@@ -1,6 +1,8 @@
 //! The reference acceleration: what a damped spring on the violation would do.
 
-use super::{Scratch, contact, equality};
+use super::Scratch;
+use super::contact_rows;
+use super::equality_rows;
 use crate::kinds::integrator;
 use crate::math::*;
 use crate::model::plan::Fact;
@@ -18,7 +20,7 @@ pub(crate) fn reference(m: &Model, d: &mut Fields, w: &Scratch) {
 fn ask(m: &Model, d: &mut Fields, w: &Scratch) {
     w.jac.mul(&d.qvel, &mut d.efc_vel);
     if d.plan.has(Fact::Surfaces) {
-        contact::surfaces(m, d);
+        contact_rows::surfaces(m, d);
     }
     if m.opt.integrator == integrator::DISCRETE {
         // The reference at the end of the step depends on forces: it comes later.
@@ -29,9 +31,9 @@ fn ask(m: &Model, d: &mut Fields, w: &Scratch) {
         *aref = -b * vel - k * imp * (pos - margin);
     }
     if d.ne > 0 {
-        equality::bias(m, d);
+        equality_rows::bias(m, d);
     }
     if d.plan.has(Fact::Adhesion) {
-        contact::adhesion(d);
+        contact_rows::adhesion(d);
     }
 }

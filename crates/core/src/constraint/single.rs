@@ -1,10 +1,11 @@
 //! Constraints of single rows: dry friction of joints and tendons, limits of joints and tendons.
 
 use super::cost::Cost;
+use super::equality_rows;
 use super::impedance::{Acts, kbi};
 use super::jacobian::Jacobian;
+use super::kind;
 use super::rows::{Rows, push, regularization};
-use super::{equality, kind};
 use crate::forces::tendon;
 use crate::kinds::{eqtype, joint};
 use crate::math::*;
@@ -166,7 +167,7 @@ pub(crate) fn tendon_force(m: &Model, d: &Fields, t: usize) -> f64 {
             kind::EQUALITY if m.eq_type.get(id) == Some(&eqtype::TENDON) => {
                 let tied = [m.eq_obj1id[id], m.eq_obj2id[id]].map(|o| o == t as i32);
                 sum += if tied[0] { force } else { 0.0 };
-                sum += if tied[1] { force * equality::ratio(m, d, id) } else { 0.0 };
+                sum += if tied[1] { force * equality_rows::ratio(m, d, id) } else { 0.0 };
             }
             kind::FRICTION_TENDON if id == t => sum += force,
             kind::LIMIT_TENDON if id == t => sum += force * signs.next().unwrap_or(1.0),

@@ -14,7 +14,8 @@
 
 use crate::dynamics::{Scratch, mass, reflected, serial};
 use crate::math::*;
-use crate::model::ways::{Way, Ways};
+use crate::model::way::Way;
+use crate::model::way::Ways;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
@@ -567,8 +568,8 @@ mod tests {
     use super::*;
     use crate::kinds::joint;
     use crate::mjcf::compile;
-    use crate::step::data::Data;
     use crate::step::forward::forward;
+    use crate::step::workspace::Data;
     use proptest::prelude::*;
 
     /// A tree as text: of each body its parent, its joints (-1 for none, three hinges at most), its place and turn.

@@ -22,7 +22,8 @@ pub(crate) mod subtree;
 pub(crate) mod ways;
 
 use crate::model::Model;
-use crate::model::ways::{Way, Ways};
+use crate::model::way::Way;
+use crate::model::way::Ways;
 use articulated::Articulated;
 use chain::Chains;
 use kinematics::Frames;

@@ -7,7 +7,8 @@
 
 use super::{articulated, chain, serial, simple};
 use crate::model::Model;
-use crate::model::ways::{Way, Ways};
+use crate::model::way::Way;
+use crate::model::way::Ways;
 
 /// A short way.
 pub(crate) struct Row {

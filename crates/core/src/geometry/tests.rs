@@ -5,7 +5,7 @@
 
 mod figures;
 mod random;
-mod reference;
+mod truth;
 
 pub(crate) use random::Random;
 
@@ -272,7 +272,7 @@ fn distances_are_those_of_mujoco() {
         let exact = !searched || cornered(&a) && cornered(&b);
         let (depth, point) = if exact { (1e-10, 1e-7) } else { (DEPTH, POINT) };
         let apart = difference(&got[..1], &want[..1]);
-        if searched && apart > depth * scale && reference::is_true(&a, &b) {
+        if searched && apart > depth * scale && truth::is_true(&a, &b) {
             continue; // The library's search stopped before it was there.
         }
         report.note(name("dist"), case, apart, depth * scale, &shown);
@@ -348,7 +348,7 @@ fn contacts_are_those_of_mujoco() {
                 .map(|(g, w)| (difference(&g[..1], &w[..1]), difference(&g[1..], &w[1..])))
                 .unzip();
             let most = |list: &[f64]| list.iter().copied().fold(0.0, f64::max);
-            if most(&dist) > DEPTH * scale && a.kind != geom::HFIELD && reference::is_true(&a, &b) {
+            if most(&dist) > DEPTH * scale && a.kind != geom::HFIELD && truth::is_true(&a, &b) {
                 continue; // The library's search stopped before it was there.
             }
             let exact = margin == 0.0 && cornered(&a) && cornered(&b);

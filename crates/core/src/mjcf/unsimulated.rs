@@ -5,7 +5,7 @@ use crate::mjcf::text::diagnostic::{Report, code};
 use crate::mjcf::text::tree::Tree;
 use crate::model::asleep::policy;
 use crate::model::{Model, Obj};
-use crate::step::data::Data;
+use crate::step::workspace::Data;
 
 /// Reports what the model asks for and does not get.
 pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {

@@ -2,17 +2,17 @@
 
 pub(crate) mod asleep;
 pub(crate) mod bytes;
-pub(crate) mod data;
+pub(crate) mod data_fields;
 pub(crate) mod fields;
 pub(crate) mod meter;
 pub(crate) mod plan;
 pub mod reflect;
 pub(crate) mod stage;
 pub(crate) mod state;
-pub(crate) mod ways;
+pub(crate) mod way;
 
-pub use data::Fields;
-pub use data::{Contact, Warning, WarningStat};
+pub use data_fields::Fields;
+pub use data_fields::{Contact, Warning, WarningStat};
 pub use plan::Decision;
 pub(crate) use plan::Plan;
 

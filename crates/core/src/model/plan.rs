@@ -1,7 +1,7 @@
-//! Plans as data: which stages of a step run, and what of them. How one is made: `step/plan`.
+//! Plans as data: which stages of a step run, and what of them. How one is made: `step/planner`.
 
 use super::stage::Stage;
-use super::ways::Ways;
+use super::way::Ways;
 
 /// One line of the plan.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -577,7 +577,7 @@ impl FieldSet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::step::data::Data;
+    use crate::step::workspace::Data;
 
     #[test]
     fn elements_are_those_of_views() {

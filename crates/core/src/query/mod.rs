@@ -2,12 +2,12 @@
 //!
 //! The geometry itself is in [`crate::geometry`] and knows neither.
 
-mod distance;
-mod inside;
-mod ray;
-mod shape;
+mod apart;
+mod ray_hits;
+mod shape_of;
+mod within;
 
-pub(crate) use distance::geom_distance;
-pub(crate) use inside::inside_site;
-pub(crate) use ray::ray;
-pub use ray::{RayFilter, RayHit};
+pub(crate) use apart::geom_distance;
+pub(crate) use ray_hits::ray;
+pub use ray_hits::{RayFilter, RayHit};
+pub(crate) use within::inside_site;

@@ -4,9 +4,9 @@
 //! other files, by what they look at. Meanings follow MuJoCo's XML reference, chapter "sensor".
 
 pub(crate) mod body_force;
-mod contact;
-mod fields;
-mod frame;
+mod contact_sensor;
+mod data_layout;
+mod frame_sensor;
 mod measure;
 mod pair;
 mod rays;
@@ -16,10 +16,10 @@ mod tension;
 mod tests;
 mod timing;
 
-pub(crate) use fields::{CONTACT_DATA, RAY_DATA, size as data_size};
+pub(crate) use data_layout::{CONTACT_DATA, RAY_DATA, size as data_size};
 pub(crate) use timing::{record, reset};
 
-use contact::Match;
+use contact_sensor::Match;
 use table::Read;
 pub(crate) use table::{Datatype, KINDS, Kind, Senses, When, kind};
 

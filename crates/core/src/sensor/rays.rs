@@ -4,7 +4,8 @@
 //! A pinhole camera sees along -z with y up; pixels count from the upper left corner (MuJoCo's documentation,
 //! element "camera").
 
-use super::fields::{self, RAY_DATA};
+use super::data_layout;
+use super::data_layout::RAY_DATA;
 use super::put;
 use crate::dynamics::object::{self, Frame};
 use crate::math::*;
@@ -29,7 +30,7 @@ pub(super) fn rangefinder(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) 
     }
     let camera = Camera::of(m, id);
     let [width, _] = camera.resolution;
-    let size = fields::size(&RAY_DATA, mask).max(1);
+    let size = data_layout::size(&RAY_DATA, mask).max(1);
     for (pixel, out) in out.chunks_exact_mut(size).enumerate() {
         d.meter.add(price);
         if d.meter.over() {
@@ -53,7 +54,7 @@ fn cast(m: &Model, d: &Fields, ray: &Ray, f: &Frame, in_image: bool, mask: i32, 
         }
         None => (-1.0, none, none, none, -1.0),
     };
-    fields::write(mask, &[&[dist], &dir, &ray.from, &point, &normal, &[depth]], out);
+    data_layout::write(mask, &[&[dist], &dir, &ray.from, &point, &normal, &[depth]], out);
 }
 
 /// The optics of a camera, in pixels.

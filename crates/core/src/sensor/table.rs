@@ -4,7 +4,12 @@
 //! The compiler, the evaluation, the plan and the schema all come from it. Order and numbers are MuJoCo's
 //! (mjtSensor), meanings those of its XML reference, chapter "sensor".
 
-use super::{Scratch, contact, frame, measure, pair, rays};
+use super::Scratch;
+use super::contact_sensor;
+use super::frame_sensor;
+use super::measure;
+use super::pair;
+use super::rays;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
 
@@ -121,13 +126,13 @@ macro_rules! kinds {
     };
 }
 kinds! {
-    TOUCH "touch" Site 1 Positive Acceleration [] Of contact::touch;
-    ACCELEROMETER "accelerometer" Site 3 Real Acceleration [RnePost] Of frame::accelerometer;
-    VELOCIMETER "velocimeter" Site 3 Real Velocity [ComVel] Of frame::velocimeter;
-    GYRO "gyro" Site 3 Real Velocity [ComVel] Of frame::gyro;
-    FORCE "force" Site 3 Real Acceleration [RnePost] Of frame::force;
-    TORQUE "torque" Site 3 Real Acceleration [RnePost] Of frame::torque;
-    MAGNETOMETER "magnetometer" Site 3 Real Position [] Of frame::magnetometer;
+    TOUCH "touch" Site 1 Positive Acceleration [] Of contact_sensor::touch;
+    ACCELEROMETER "accelerometer" Site 3 Real Acceleration [RnePost] Of frame_sensor::accelerometer;
+    VELOCIMETER "velocimeter" Site 3 Real Velocity [ComVel] Of frame_sensor::velocimeter;
+    GYRO "gyro" Site 3 Real Velocity [ComVel] Of frame_sensor::gyro;
+    FORCE "force" Site 3 Real Acceleration [RnePost] Of frame_sensor::force;
+    TORQUE "torque" Site 3 Real Acceleration [RnePost] Of frame_sensor::torque;
+    MAGNETOMETER "magnetometer" Site 3 Real Position [] Of frame_sensor::magnetometer;
     RANGEFINDER "rangefinder" Ray 0 Real Position [GeomPoses] Of rays::rangefinder;
     CAMPROJECTION "camprojection" SiteInImage 2 Real Position [] Of rays::camera_projection;
     JOINTPOS "jointpos" ScalarJoint 1 Real Position [] Of measure::joint_position;
@@ -147,23 +152,23 @@ kinds! {
     TENDONLIMITPOS "tendonlimitpos" LimitedTendon 1 Real Position [] Of measure::tendon_limit_distance;
     TENDONLIMITVEL "tendonlimitvel" LimitedTendon 1 Real Velocity [] Of measure::tendon_limit_velocity;
     TENDONLIMITFRC "tendonlimitfrc" LimitedTendon 1 Real Acceleration [] Of measure::tendon_limit_force;
-    FRAMEPOS "framepos" RelativeFrame 3 Real Position [] Of frame::position;
-    FRAMEQUAT "framequat" RelativeFrame 4 Quaternion Position [] Of frame::orientation;
-    FRAMEXAXIS "framexaxis" RelativeFrame 3 Axis Position [] Of frame::axis::<0>;
-    FRAMEYAXIS "frameyaxis" RelativeFrame 3 Axis Position [] Of frame::axis::<1>;
-    FRAMEZAXIS "framezaxis" RelativeFrame 3 Axis Position [] Of frame::axis::<2>;
-    FRAMELINVEL "framelinvel" RelativeFrame 3 Real Velocity [ComVel] Of frame::linear_velocity;
-    FRAMEANGVEL "frameangvel" RelativeFrame 3 Real Velocity [ComVel] Of frame::angular_velocity;
-    FRAMELINACC "framelinacc" Frame 3 Real Acceleration [RnePost] Of frame::linear_acceleration;
-    FRAMEANGACC "frameangacc" Frame 3 Real Acceleration [RnePost] Of frame::angular_acceleration;
+    FRAMEPOS "framepos" RelativeFrame 3 Real Position [] Of frame_sensor::position;
+    FRAMEQUAT "framequat" RelativeFrame 4 Quaternion Position [] Of frame_sensor::orientation;
+    FRAMEXAXIS "framexaxis" RelativeFrame 3 Axis Position [] Of frame_sensor::axis::<0>;
+    FRAMEYAXIS "frameyaxis" RelativeFrame 3 Axis Position [] Of frame_sensor::axis::<1>;
+    FRAMEZAXIS "framezaxis" RelativeFrame 3 Axis Position [] Of frame_sensor::axis::<2>;
+    FRAMELINVEL "framelinvel" RelativeFrame 3 Real Velocity [ComVel] Of frame_sensor::linear_velocity;
+    FRAMEANGVEL "frameangvel" RelativeFrame 3 Real Velocity [ComVel] Of frame_sensor::angular_velocity;
+    FRAMELINACC "framelinacc" Frame 3 Real Acceleration [RnePost] Of frame_sensor::linear_acceleration;
+    FRAMEANGACC "frameangacc" Frame 3 Real Acceleration [RnePost] Of frame_sensor::angular_acceleration;
     SUBTREECOM "subtreecom" Subtree 3 Real Position [ComPos] Of measure::subtree_com;
     SUBTREELINVEL "subtreelinvel" Subtree 3 Real Velocity [SubtreeVel] Of measure::subtree_velocity;
     SUBTREEANGMOM "subtreeangmom" Subtree 3 Real Velocity [SubtreeVel] Of measure::subtree_angular_momentum;
-    INSIDESITE "insidesite" FrameInSite 1 Positive Position [] Of frame::inside_site;
+    INSIDESITE "insidesite" FrameInSite 1 Positive Position [] Of frame_sensor::inside_site;
     GEOMDIST "distance" Pair 1 Real Position [GeomPoses] With pair::distance;
     GEOMNORMAL "normal" Pair 3 Axis Position [GeomPoses] With pair::normal;
     GEOMFROMTO "fromto" Pair 6 Real Position [GeomPoses] With pair::from_to;
-    CONTACT "contact" Contacts 0 Real Acceleration [] With contact::contacts;
+    CONTACT "contact" Contacts 0 Real Acceleration [] With contact_sensor::contacts;
     E_POTENTIAL "e_potential" Nothing 1 Real Position [Kinematics Tendon] Of measure::potential_energy;
     E_KINETIC "e_kinetic" Nothing 1 Real Position [MassMatrix] Of measure::kinetic_energy;
     CLOCK "clock" Nothing 1 Real Position [] Of measure::clock;

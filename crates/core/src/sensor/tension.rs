@@ -4,7 +4,8 @@
 use crate::constraint;
 use crate::dynamics::reflected::tendon_inertia;
 use crate::forces::passive::spring;
-use crate::forces::tendon::{self, path};
+use crate::forces::tendon;
+use crate::forces::tendon::spatial_tendon;
 use crate::kinds::{disable, trntype};
 use crate::math::*;
 use crate::model::{Fields, Model};
@@ -15,7 +16,7 @@ pub(crate) fn pulls(m: &Model, d: &Fields, mut apply: impl FnMut(usize, Vec3, Ve
         let force = passive(m, d, t) + actuators(m, d, t) + constraint::tendon_force(m, d, t);
         let force = force - inertial(m, d, t);
         if force != 0.0 {
-            path::pull(m, d, t, force, &mut apply);
+            spatial_tendon::pull(m, d, t, force, &mut apply);
         }
     }
 }
@@ -39,5 +40,5 @@ fn actuators(m: &Model, d: &Fields, t: usize) -> f64 {
 /// What accelerates the inertia of the tendon itself: a (J q̈ + J̇ v), N.
 fn inertial(m: &Model, d: &Fields, t: usize) -> f64 {
     let a = tendon_inertia(m, t);
-    if a == 0.0 { 0.0 } else { a * (tendon::along(m, d, t, &d.qacc) + path::acceleration(m, d, t)) }
+    if a == 0.0 { 0.0 } else { a * (tendon::along(m, d, t, &d.qacc) + spatial_tendon::acceleration(m, d, t)) }
 }

@@ -4,8 +4,8 @@ use crate::math::rows;
 use crate::mjcf;
 use crate::model::Model;
 use crate::model::reflect::{self, Object, View, ViewMut};
-use crate::step::data::Data;
 use crate::step::forward::forward;
+use crate::step::workspace::Data;
 
 /// A recorded line: a name and its numbers.
 fn parse(line: &str) -> (&str, Vec<f64>) {

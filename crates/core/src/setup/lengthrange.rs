@@ -11,7 +11,7 @@ use crate::forces::transmission::row;
 use crate::kinds::{biastype, disable, gaintype, joint, trntype};
 use crate::math::*;
 use crate::model::Model;
-use crate::step::data::Data;
+use crate::step::workspace::Data;
 use crate::step::{self, reset};
 
 /// Which actuators are looked at.

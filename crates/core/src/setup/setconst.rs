@@ -8,8 +8,8 @@ use crate::kinds::{geom, joint};
 use crate::math::*;
 use crate::model::Model;
 use crate::model::plan::Plan;
-use crate::step::data::Data;
 use crate::step::reset;
+use crate::step::workspace::Data;
 
 /// Recomputes what follows from masses, inertias and poses (`mj_setConst`).
 ///

@@ -1,7 +1,7 @@
 //! What a scene holds: the energy of motion, of gravity, and of what is elastic, servos included.
 
-use super::data::Data;
 use super::forward;
+use super::workspace::Data;
 use crate::dynamics::mass;
 use crate::forces::passive::spring;
 use crate::forces::{actuation, transmission};

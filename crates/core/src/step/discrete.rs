@@ -12,7 +12,9 @@
 
 use crate::constraint;
 use crate::dynamics::mass;
-use crate::forces::derivative::{self, Medium, actuator};
+use crate::forces::derivative;
+use crate::forces::derivative::Medium;
+use crate::forces::derivative::actuator_slope;
 use crate::forces::passive::fluid;
 use crate::forces::passive::spring::{self, Law};
 use crate::forces::tendon;
@@ -288,8 +290,8 @@ impl Metric {
         if m.opt.disabled(disable::ACTUATION) {
             return;
         }
-        for i in (0..m.nactuator).filter(|&i| actuator::acts(m, d, i)) {
-            let slopes = actuator::slopes(m, d, i);
+        for i in (0..m.nactuator).filter(|&i| actuator_slope::acts(m, d, i)) {
+            let slopes = actuator_slope::slopes(m, d, i);
             let first = m.actuator_outadr[i] as usize;
             for o in first..first + m.actuator_outnum[i] as usize {
                 self.add(m, d, Row::Output(o), -slopes.length, -slopes.velocity, d.actuator_velocity[o]);

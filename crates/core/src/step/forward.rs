@@ -8,10 +8,10 @@ use crate::kinds::{disable, enable, integrator};
 use crate::math::{combine, copy, rows};
 use crate::model::plan::Fact;
 use crate::model::stage::Stage;
-use crate::model::ways::Way;
+use crate::model::way::Way;
 use crate::model::{Fields, Model, Warning};
 use crate::sensor::{When, body_force};
-use crate::step::data::Data;
+use crate::step::workspace::Data;
 use crate::{collision, constraint, sensor};
 
 /// Computes everything that follows from the state, without advancing time (`mj_forward`).

@@ -3,7 +3,7 @@
 use crate::dynamics::{kinematics as poses, rne as newton_euler};
 use crate::geometry::Distance;
 use crate::model::Model;
-use crate::step::data::Data;
+use crate::step::workspace::Data;
 use crate::{constraint, query};
 
 /// Poses of bodies, joints, geoms and sites (`mj_kinematics`).

@@ -8,8 +8,9 @@ use crate::kinds::{enable, integrator};
 use crate::math::Spatial;
 use crate::model::Model;
 use crate::model::plan::Plan;
-use crate::step::data::{Data, Work};
 use crate::step::forward;
+use crate::step::workspace::Data;
+use crate::step::workspace::Work;
 use crate::step::{damping, discrete};
 
 /// What inverse dynamics cannot answer.

@@ -5,14 +5,13 @@
 
 pub(crate) mod balance;
 pub(crate) mod damping;
-pub(crate) mod data;
 pub(crate) mod discrete;
 pub(crate) mod forward;
 pub(crate) mod functions;
 pub(crate) mod integrate;
 pub(crate) mod inverse;
 pub(crate) mod pipeline;
-pub(crate) mod plan;
+pub(crate) mod planner;
 pub(crate) mod reset;
 pub(crate) mod save;
 pub(crate) mod scene;
@@ -20,11 +19,12 @@ pub(crate) mod sleep;
 pub(crate) mod sound;
 pub(crate) mod stages;
 pub(crate) mod store;
+pub(crate) mod workspace;
 
 use crate::kinds::disable;
 use crate::math::{bad, sum};
 use crate::model::{Model, Warning, WarningStat};
-use crate::step::data::Data;
+use crate::step::workspace::Data;
 
 /// Advances the simulation by one step (`mj_step`).
 ///

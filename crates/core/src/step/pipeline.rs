@@ -9,7 +9,7 @@ use super::scene::Scene;
 use crate::kinds::{disable, integrator, joint, trntype, wraptype};
 use crate::model::stage::Stage;
 use crate::model::{Model, Obj};
-use crate::step::data::Data;
+use crate::step::workspace::Data;
 use crate::{collision, sensor};
 
 /// When in a forward pass something runs.

@@ -8,10 +8,11 @@ use crate::model::meter::Meter;
 use crate::model::plan::Fact;
 use crate::model::plan::Plan;
 use crate::model::stage::Stage;
-use crate::model::ways::Ways;
+use crate::model::way::Ways;
 use crate::model::{Fields, Model, Warning, WarningStat, reflect};
-use crate::step::data::{Data, Work};
 use crate::step::scene::Demand;
+use crate::step::workspace::Data;
+use crate::step::workspace::Work;
 use crate::{collision, sensor};
 
 impl Data {

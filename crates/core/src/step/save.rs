@@ -9,7 +9,7 @@ use crate::constraint::kind;
 use crate::model::bytes::{Plain, fingerprint};
 use crate::model::reflect::{self, Elem, Object, View};
 use crate::model::{Contact, Model, Obj, Warning, WarningStat};
-use crate::step::data::Data;
+use crate::step::workspace::Data;
 use crate::step::{forward, reset};
 use std::fmt;
 use std::ops::Range;

@@ -5,7 +5,7 @@ use crate::forces::{actuation, derivative};
 use crate::kinds::{biastype, disable, dyntype, enable, eqtype, gaintype, integrator, joint, trntype};
 use crate::model::plan::Fact;
 use crate::model::reflect::{FieldId, FieldSet, Object, Stage, field};
-use crate::model::ways::Ways;
+use crate::model::way::Ways;
 use crate::model::{Model, Plan};
 use crate::step::damping;
 use crate::{collision, sensor};

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 
 use crate::dynamics::{mass, rne};
 use crate::mjcf::compile;
-use crate::step::data::Data;
 use crate::step::forward::forward;
+use crate::step::workspace::Data;
 
 /// A link: slide or hinge, axis, anchor, pose of its body, whether a body is welded to it, whether the joint
 /// is a second one of the same body.

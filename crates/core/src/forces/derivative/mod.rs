@@ -3,7 +3,7 @@
 //! ∂(`qfrc_actuator` + `qfrc_passive` - `qfrc_bias`)/∂`qvel`, kept where a degree of freedom meets its ancestors and
 //! descendants. What couples others (a tendon over two branches) is left out there, as in MuJoCo.
 
-pub(crate) mod actuator;
+pub(crate) mod actuator_slope;
 mod bias;
 pub(crate) mod sparse;
 
@@ -50,7 +50,7 @@ impl Work {
 pub(crate) fn forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
     w.resize(m);
     w.whole.fill(0.0);
-    actuator::add_velocity(m, d, &mut w.whole);
+    actuator_slope::add_velocity(m, d, &mut w.whole);
     if !m.opt.disabled(disable::DAMPER) {
         dampers(m, d, &mut w.whole);
     }

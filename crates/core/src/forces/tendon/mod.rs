@@ -4,9 +4,9 @@
 //! its sites, around its geoms; a pulley divides it into branches, each scaled by a divisor. MuJoCo's
 //! documentation, "Computation: Tendon", has the model.
 
-mod constants;
-pub(crate) mod path;
 mod pattern;
+pub(crate) mod spatial_tendon;
+mod tendon_constants;
 mod wrap;
 
 use crate::dynamics::mass;
@@ -15,8 +15,8 @@ use crate::kinds::wraptype;
 use crate::math::*;
 use crate::model::{Fields, Model, asleep};
 
-pub(crate) use constants::{at_default, at_rest};
 pub(crate) use pattern::set_pattern;
+pub(crate) use tendon_constants::{at_default, at_rest};
 
 /// Whether tendon `t` combines joint coordinates; otherwise it is a path in space.
 pub(crate) fn is_fixed(m: &Model, t: usize) -> bool {
@@ -32,7 +32,7 @@ pub(crate) fn row(m: &Model, t: usize) -> std::ops::Range<usize> {
 /// `ten_length`, `ten_J` and the points of the paths. A tendon that sleeps has no length and stays where it is.
 pub(crate) fn tendons(m: &Model, d: &mut Fields) {
     // Taken out, so that the rest of the data can be read while they are written.
-    let mut out = path::Paths {
+    let mut out = spatial_tendon::Paths {
         jacobian: std::mem::take(&mut d.ten_J),
         on: std::mem::take(&mut d.wrap_obj),
         points: std::mem::take(&mut d.wrap_xpos),
@@ -45,8 +45,11 @@ pub(crate) fn tendons(m: &Model, d: &mut Fields) {
             continue;
         }
         let first = out.count;
-        d.ten_length[t] =
-            if is_fixed(m, t) { fixed(m, d, t, &mut out.jacobian) } else { path::spatial(m, d, t, &mut out) };
+        d.ten_length[t] = if is_fixed(m, t) {
+            fixed(m, d, t, &mut out.jacobian)
+        } else {
+            spatial_tendon::spatial(m, d, t, &mut out)
+        };
         d.ten_wrapadr[t] = first as i32;
         d.ten_wrapnum[t] = (out.count - first) as i32;
     }
@@ -98,7 +101,7 @@ pub(crate) fn bias(m: &Model, d: &mut Fields) {
     for t in 0..m.ntendon {
         let a = tendon_inertia(m, t);
         if a != 0.0 && !is_fixed(m, t) {
-            let force = a * path::acceleration(m, d, t);
+            let force = a * spatial_tendon::acceleration(m, d, t);
             add_force(m, t, &d.ten_J, force, &mut d.qfrc_bias);
         }
     }

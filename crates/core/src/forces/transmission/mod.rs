@@ -3,8 +3,8 @@
 //! MuJoCo's documentation, "Computation: Actuation model", lists the transmissions; `gear` scales each. Moments are
 //! stored by rows, one for each output, without zeros.
 
-mod constants;
-mod contact;
+mod actuator_constants;
+mod body_contacts;
 mod space;
 
 use crate::dynamics::jacobian;
@@ -14,7 +14,7 @@ use crate::kinds::{disable, joint, trntype};
 use crate::math::*;
 use crate::model::{Fields, Model, asleep};
 
-pub(crate) use constants::{at_default, critical_damping, reflected};
+pub(crate) use actuator_constants::{at_default, critical_damping, reflected};
 
 /// The actuators of the outputs are consecutive, so that rows are written one after the other.
 struct Rows {
@@ -151,7 +151,7 @@ fn elsewhere(m: &Model, d: &mut Fields, [i, o]: [usize; 2], w: &mut Scratch, out
             joint_rotation(d, m.jnt_qposadr[j] as usize)[nth]
         }
         (trntype::SO3, (s, Some(reference))) => space::orientation(m, d, [s, reference], nth, out),
-        (trntype::BODY, (b, _)) => contact::adhesion(m, d, b, w, out),
+        (trntype::BODY, (b, _)) => body_contacts::adhesion(m, d, b, w, out),
         _ => 0.0,
     }
 }

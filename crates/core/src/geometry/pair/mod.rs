@@ -4,12 +4,12 @@
 //! MuJoCo's. The first shape has the smaller type; the normal points from it to the second.
 
 mod box_box;
-mod convex;
 mod cuboid;
 mod field;
 mod plane;
 mod polygon;
 mod round;
+mod searched;
 
 pub(crate) use field::field_distance;
 
@@ -96,7 +96,7 @@ pub(crate) fn contacts(
 ) {
     match method {
         Method::Direct(test) => test(a, b, margin, out),
-        Method::Convex => convex::convex(a, b, margin, settings, room, out),
+        Method::Convex => searched::convex(a, b, margin, settings, room, out),
         Method::Field => field::field(a, b, margin, settings, room, out),
     }
 }

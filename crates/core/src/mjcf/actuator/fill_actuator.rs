@@ -7,7 +7,7 @@ use crate::mjcf::spec::{ActuatorSpec, List, RangeSpec};
 use crate::mjcf::text::diagnostic::{Report, code};
 use crate::model::Model;
 use crate::setup::lengthrange::{self, Failure, Search};
-use crate::step::data::Data;
+use crate::step::workspace::Data;
 
 /// Steps times degrees of freedom for all ranges of lengths: more would take minutes.
 const MAX_SEARCH: f64 = 2e7;

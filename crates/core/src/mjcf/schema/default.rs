@@ -1,6 +1,15 @@
 //! `default`: what classes say about each kind of element.
 
-use super::{Attr, Element, Kind, actuator, attributes, body, contact, equality, scene, tendon};
+use super::Attr;
+use super::Element;
+use super::Kind;
+use super::actuators;
+use super::attributes;
+use super::body;
+use super::equalities;
+use super::pairs;
+use super::tendon;
+use super::visual;
 
 /// An entry of `default`: what its class says about one kind of element.
 const fn entry(name: &'static str, attributes: &'static [&'static [Attr]]) -> Element {
@@ -11,7 +20,7 @@ pub(super) static DEFAULT: Element =
     Element::new("default", &[attributes! { Kind::Class => class; }]).children(&DEFAULT_CHILDREN);
 
 static DEFAULT_CHILDREN: [&Element; 23] = {
-    let [a, b, c, d, e, f, g, h, i, j, k, l] = actuator::DEFAULTS;
+    let [a, b, c, d, e, f, g, h, i, j, k, l] = actuators::DEFAULTS;
     [
         &DEFAULT,
         &D_JOINT,
@@ -44,9 +53,9 @@ static D_GEOM: Element = entry("geom", &[body::GEOM_ATTRS]);
 static D_SITE: Element = entry("site", &[body::SITE_ATTRS]);
 static D_CAMERA: Element = entry("camera", &[body::CAMERA_ATTRS]);
 static D_LIGHT: Element = entry("light", &[body::LIGHT_ATTRS]);
-static D_MATERIAL: Element = entry("material", &[scene::MATERIAL_ATTRS]).children(&[&scene::LAYER]);
-static D_MESH: Element = entry("mesh", &[scene::MESH_ATTRS]);
-static D_PAIR: Element = entry("pair", &[contact::PAIR_ATTRS]);
-static D_EQUALITY: Element = entry("equality", &[equality::EQUALITY_ATTRS]);
+static D_MATERIAL: Element = entry("material", &[visual::MATERIAL_ATTRS]).children(&[&visual::LAYER]);
+static D_MESH: Element = entry("mesh", &[visual::MESH_ATTRS]);
+static D_PAIR: Element = entry("pair", &[pairs::PAIR_ATTRS]);
+static D_EQUALITY: Element = entry("equality", &[equalities::EQUALITY_ATTRS]);
 static D_TENDON: Element =
     entry("tendon", &[tendon::TENDON_ATTRS, tendon::TENDON_DRAWN, tendon::TENDON_USER]);

@@ -1,9 +1,21 @@
 //! Deformable bodies, which are refused for now.
 
-use super::{
-    AUTO, Attr, Element, FLAG, INT, INTS, Kind, LIST, LOOK, REAL, TEXT, attributes, extension, reals, scene,
-    upto,
-};
+use super::AUTO;
+use super::Attr;
+use super::Element;
+use super::FLAG;
+use super::INT;
+use super::INTS;
+use super::Kind;
+use super::LIST;
+use super::LOOK;
+use super::REAL;
+use super::TEXT;
+use super::attributes;
+use super::extension;
+use super::reals;
+use super::upto;
+use super::visual;
 
 const RGBA: &[Attr] = attributes! { reals(4) => rgba; };
 const CONTACT_ATTRS: &[Attr] = attributes! {
@@ -57,7 +69,7 @@ const FLEX_COMMON: &[Attr] = attributes! {
     INTS => element cellcount;
     LIST => texcoord;
 };
-pub(super) static DEFORMABLE: Element = Element::new("deformable", &[]).children(&[&FLEX, &scene::SKIN]);
+pub(super) static DEFORMABLE: Element = Element::new("deformable", &[]).children(&[&FLEX, &visual::SKIN]);
 static FLEX: Element = Element::new(
     "flex",
     &[FLEX_COMMON, attributes! { TEXT => body node; LIST => vertex nodecoord; INTS => elemtexcoord; }],

@@ -4,19 +4,19 @@
 //! `tree.rs`, the suggestions for misspelt names and the compatibility page all come from it. Names follow
 //! MuJoCo's XML reference; a test holds them against the list that the library prints.
 
-mod actuator;
+mod actuators;
 mod body;
-mod contact;
 mod custom;
 mod default;
-mod equality;
+mod equalities;
 mod extension;
 mod flexible;
 mod key;
-mod scene;
+mod option;
+mod pairs;
 mod sensor;
-mod settings;
 mod tendon;
+mod visual;
 
 /// What the compiler does with an element or an attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -220,21 +220,21 @@ pub(crate) use extension::INCLUDE;
 
 /// The root of the table: the element `mujoco`.
 pub(crate) static ROOT: Element = Element::new("mujoco", &[attributes! { TEXT => model; }]).children(&[
-    &settings::COMPILER,
-    &settings::OPTION,
-    &settings::SIZE,
-    &settings::STATISTIC,
-    &scene::VISUAL,
-    &scene::ASSET,
+    &option::COMPILER,
+    &option::OPTION,
+    &option::SIZE,
+    &option::STATISTIC,
+    &visual::VISUAL,
+    &visual::ASSET,
     &default::DEFAULT,
     &body::WORLDBODY,
     &extension::EXTENSION,
     &custom::CUSTOM,
-    &contact::CONTACT,
+    &pairs::CONTACT,
     &flexible::DEFORMABLE,
-    &equality::EQUALITY,
+    &equalities::EQUALITY,
     &tendon::TENDON,
-    &actuator::ACTUATOR,
+    &actuators::ACTUATOR,
     &sensor::SENSOR,
     &key::KEYFRAME,
     &INCLUDE,

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use crate::mjcf::compile_with;
 use crate::mjcf::text::files::Files;
 use crate::model::Model;
-use crate::step::data::Data;
 use crate::step::step;
+use crate::step::workspace::Data;
 
 fn load(asset: &str, geom: &str, file: &str, bytes: &[u8]) -> Result<Model, String> {
     let files = BTreeMap::from([(file.to_string(), bytes.to_vec())]);

@@ -3,7 +3,7 @@
 use crate::mjcf;
 use crate::model::reflect::{self, Object, View};
 use crate::model::{Model, Obj};
-use crate::step::data::Data;
+use crate::step::workspace::Data;
 
 /// Fields that nothing fills yet.
 const NOT_YET: &[&str] = &["nD", "D_rownnz", "D_rowadr", "D_diag", "D_colind"];

@@ -136,7 +136,7 @@ fn written_paths_stay_inside_the_model() {
         <site site='a'/><geom geom='g'/><site site='b'/><pulley divisor='2'/><site site='a'/><site site='b'/>
         </spatial></tendon></mujoco>";
     let mut m = compile(xml).unwrap();
-    let mut d = crate::step::data::Data::new(&m);
+    let mut d = crate::step::workspace::Data::new(&m);
     for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1.0, 0.0, 0.5, 1.0, 2.0] {
         m.wrap_prm.fill(x);
         m.geom_size.fill(x);

@@ -1,8 +1,8 @@
 //! Small texts against what MuJoCo 3.14.0 says of them: `golden/cases.py` recorded it.
 
 use crate::mjcf::{NoFiles, Severity, code, compile, examine};
-use crate::step::data::Data;
 use crate::step::forward::forward;
+use crate::step::workspace::Data;
 
 /// Recorded lines: what MuJoCo says, and the text.
 fn cases(recorded: &'static str) -> impl Iterator<Item = (&'static str, String)> {

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::mjcf::compile;
-use crate::step::data::Data;
 use crate::step::reset::{reset_data_keyframe, set_keyframe};
 use crate::step::step;
+use crate::step::workspace::Data;
 
 const MODEL: &str = include_str!("golden/everything.xml");
 

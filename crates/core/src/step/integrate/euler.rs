@@ -3,7 +3,7 @@
 use super::{Slopes, advance, advance_along};
 use crate::model::Model;
 use crate::step::damping::{damp, damps};
-use crate::step::data::Data;
+use crate::step::workspace::Data;
 
 /// v += h a, then q advances with the new v. Joint damping is implicit, so that it is stable however stiff:
 /// (M + h B) a' = M a, where B is the derivative of the damping force.

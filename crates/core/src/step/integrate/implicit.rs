@@ -6,7 +6,7 @@ use crate::dynamics::mass;
 use crate::forces::derivative::{self, Medium, sparse};
 use crate::math::{Spatial, solve_six};
 use crate::model::{Fields, Model, Warning};
-use crate::step::data::Data;
+use crate::step::workspace::Data;
 
 /// All of D.
 pub(super) fn implicit(m: &Model, data: &mut Data) {

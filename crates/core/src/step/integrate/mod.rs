@@ -11,7 +11,7 @@ use crate::kinds::integrator;
 use crate::math::{combine, copy};
 use crate::model::stage::Stage;
 use crate::model::{Model, asleep};
-use crate::step::data::Data;
+use crate::step::workspace::Data;
 use crate::{constraint, sensor};
 
 pub(crate) use position::{differentiate_pos, integrate_pos};

@@ -3,8 +3,8 @@
 
 use super::{Slopes, advance, integrate_pos};
 use crate::model::Model;
-use crate::step::data::Data;
 use crate::step::forward;
+use crate::step::workspace::Data;
 
 /// Stage s starts from the first state plus A[s] h times the slope of stage s - 1; B weighs the slopes.
 const A: [f64; 3] = [0.5, 0.5, 1.0];

@@ -40,7 +40,7 @@ fn moving(m: &Model, plan: Plan) -> Data {
 #[test]
 fn what_is_restored_goes_on_bit_for_bit() {
     for m in scenes() {
-        for plan in [Plan::full(), Plan::new(&m, &Demand::OBSERVE, crate::model::ways::Ways::ALL)] {
+        for plan in [Plan::full(), Plan::new(&m, &Demand::OBSERVE, crate::model::way::Ways::ALL)] {
             let mut d = moving(&m, plan.clone());
             let bytes = save(&m, &d);
             let mut other = Data::planned(&m, plan);

@@ -1,6 +1,8 @@
 //! From what was written to a mesh in its own frame: reference frame and scale, centre of mass, principal axes.
 
-use super::inertia::{self, Body, Mass};
+use super::bulk;
+use super::bulk::Body;
+use super::bulk::Mass;
 use super::normals;
 use crate::math::{IDENTITY, MINVAL, Quat, Vec3, mat_t_mul_vec, quat_normalize, quat_to_mat, sub};
 use crate::mjcf::asset::mesh::{Flat, Hull, Mesh, Problem, Raw, triangle};
@@ -187,8 +189,8 @@ fn place(raw: &mut Raw, options: &Options) {
 
 /// The mass of the body that a mesh stands for.
 fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Result<Mass, Problem> {
-    let triangles = |faces| inertia::triangles(vert, faces);
-    let (area, middle) = inertia::surface(triangles(face));
+    let triangles = |faces| bulk::triangles(vert, faces);
+    let (area, middle) = bulk::surface(triangles(face));
     if area < MINVAL || !area.is_finite() {
         return Err(Problem::new(
             "",
@@ -198,7 +200,7 @@ fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Res
         ));
     }
     let solid = if body == Body::Shell { face } else { solid };
-    let (amount, centre) = inertia::bulk(triangles(solid), body, middle);
+    let (amount, centre) = bulk::bulk(triangles(solid), body, middle);
     if amount < 0.0 {
         return Err(Problem::new(
             "face",
@@ -215,5 +217,5 @@ fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Res
             "look at `scale`: the mesh is in metres; for an open or flat surface write `inertia=\"shell\"`",
         ));
     }
-    Ok(inertia::about(triangles(solid), body, centre))
+    Ok(bulk::about(triangles(solid), body, centre))
 }

@@ -6,19 +6,19 @@
 
 pub(crate) mod build;
 pub(crate) mod builtin;
-mod hull;
-mod inertia;
+mod bulk;
 mod msh;
 mod normals;
 mod obj;
-mod polygon;
+mod quickhull;
 mod stl;
+mod triangulate;
 
 use crate::kinds::geom;
 use crate::math::{Quat, Vec3, add, dot, norm, rotate, scale, sub};
 
-pub(crate) use hull::{Flat, Hull};
-pub(crate) use inertia::Body;
+pub(crate) use bulk::Body;
+pub(crate) use quickhull::{Flat, Hull};
 
 /// Most vertices of a mesh: more than any body needs to touch another.
 pub(crate) const MAX_VERTICES: usize = 1_000_000;

@@ -3,7 +3,7 @@
 //! As in MuJoCo, only the triangles of the first object or group with faces count, materials and everything else are
 //! passed over, and the second texture coordinate runs downwards.
 
-use super::polygon;
+use super::triangulate;
 use crate::math::Vec3;
 use crate::mjcf::asset::mesh::{MAX_FACES, MAX_VERTICES, Problem, Raw};
 
@@ -65,7 +65,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
             };
             places.push(place);
         }
-        for triangle in polygon::triangles(&places) {
+        for triangle in triangulate::triangles(&places) {
             let of = |what: usize| triangle.map(|k| corners.get(k).map_or(-1, |c| c[what]));
             raw.face.push(of(0));
             if !raw.texcoord.is_empty() {

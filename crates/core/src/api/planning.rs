@@ -3,7 +3,7 @@
 use super::model::Model;
 use crate::model::plan::{Decision, Plan as Inner};
 use crate::model::stage::Stage;
-use crate::model::ways::Ways;
+use crate::model::way::Ways;
 use crate::step::scene::Demand;
 
 /// Which stages run, and why.

@@ -5,7 +5,7 @@ use super::stages::RungeKutta;
 use super::{damping, sleep};
 use crate::forces::{self, derivative};
 use crate::model::plan::Plan;
-use crate::model::ways::Ways;
+use crate::model::way::Ways;
 use crate::model::{Fields, Model};
 use crate::{collision, constraint, dynamics, sensor};
 use std::ops::{Deref, DerefMut};

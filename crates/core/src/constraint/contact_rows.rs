@@ -1,10 +1,11 @@
 //! The rows of contacts: along the normal, and for friction the edges of a pyramid or the axes of a cone.
 
+use super::Scratch;
 use super::cost::Cost;
 use super::impedance::{Acts, Kbi, kbi, kbi_friction};
 use super::jacobian::Jacobian;
+use super::kind;
 use super::rows::{Rows, push, regularization};
-use super::{Scratch, kind};
 use crate::dynamics::jacobian::{self, Columns};
 use crate::math::*;
 use crate::model::{Contact, Fields, Model};

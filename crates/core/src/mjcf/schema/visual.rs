@@ -1,6 +1,17 @@
 //! `visual` and `asset`: what the scene looks like, and meshes.
 
-use super::{Element, FLAG, INT, INTS, Kind, LIST, LOOK, REAL, TEXT, attributes, reals, word};
+use super::Element;
+use super::FLAG;
+use super::INT;
+use super::INTS;
+use super::Kind;
+use super::LIST;
+use super::LOOK;
+use super::REAL;
+use super::TEXT;
+use super::attributes;
+use super::reals;
+use super::word;
 
 /// A section of `visual` with these attributes.
 const fn look(name: &'static str, attributes: &'static [&'static [super::Attr]]) -> Element {

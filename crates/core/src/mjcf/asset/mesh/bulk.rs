@@ -2,8 +2,8 @@
 //! tetrahedra with a common corner, or over triangles (Tonon 2004, *Explicit exact formulas for the 3-D tetrahedron
 //! inertia tensor*; for triangles the same with another denominator).
 
+use super::triangle;
 use crate::math::{Vec3, add_scaled, dot, sub};
-use crate::mjcf::asset::mesh::triangle;
 
 /// What is taken for the body of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

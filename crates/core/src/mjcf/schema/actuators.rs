@@ -1,8 +1,20 @@
 //! `actuator`, and its elements as they stand in `default`.
 
-use super::{
-    AUTO, Attr, Element, FLAG, INT, Kind, LIST, REAL, TEXT, attributes, extension, not_yet, reals, upto, word,
-};
+use super::AUTO;
+use super::Attr;
+use super::Element;
+use super::FLAG;
+use super::INT;
+use super::Kind;
+use super::LIST;
+use super::REAL;
+use super::TEXT;
+use super::attributes;
+use super::extension;
+use super::not_yet;
+use super::reals;
+use super::upto;
+use super::word;
 use crate::kinds::{biastype, dyntype, gaintype};
 
 const COMMON: &[Attr] = attributes! {

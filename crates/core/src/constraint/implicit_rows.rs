@@ -4,10 +4,13 @@
 //! for the acceleration a it is a row again: with s = 1 + h B + h² K d its regularization is R/s and its reference
 //! -((B + h K d) v + K d r)/s (derived from MuJoCo 3.14.0's numbers).
 
+use super::Scratch;
+use super::contact_rows;
 use super::cost::Cost;
+use super::equality_rows;
 use super::jacobian::{Jacobian, by_rows};
+use super::kind;
 use super::rows::{resize, soften};
-use super::{Scratch, contact, equality, kind};
 use crate::dynamics::mass;
 use crate::math::*;
 use crate::model::plan::Fact;
@@ -26,13 +29,13 @@ pub(crate) fn at_end_of_step(m: &Model, d: &mut Fields, w: &Scratch, metric: &[f
         d.efc_aref[r] = -(b + h * k * imp) * d.efc_vel[r] - k * imp * off;
     }
     if d.ne > 0 {
-        equality::bias(m, d);
+        equality_rows::bias(m, d);
     }
     for (aref, kbip) in d.efc_aref.iter_mut().zip(rows::<4>(&d.efc_KBIP)) {
         *aref /= growth(h, kbip);
     }
     if d.plan.has(Fact::Adhesion) {
-        contact::adhesion(d);
+        contact_rows::adhesion(d);
     }
 }
 
@@ -69,7 +72,7 @@ fn soften_block<const R: usize>(m: &Model, d: &mut Fields, jac: &Jacobian, metri
     {
         // Friction is as soft as its normal makes it; an edge's R is 2 μ² times that of the normal.
         let normal = if elliptic { old[0] } else { old[0] / (2.0 * c.mu * c.mu) };
-        new = contact::friction(m, c, elliptic, (normal * first).max(MINVAL));
+        new = contact_rows::friction(m, c, elliptic, (normal * first).max(MINVAL));
     }
     soften(d, row, imp, &new);
 }

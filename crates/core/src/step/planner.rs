@@ -9,7 +9,7 @@ use super::scene::{Demand, FACTS, Scene};
 use crate::model::Model;
 use crate::model::plan::{Decision, Fact, Plan};
 use crate::model::stage::Stage;
-use crate::model::ways::Ways;
+use crate::model::way::Ways;
 
 /// What shows in sensors alone: the stages of Runge and Kutta's method leave it out.
 const SHOWN: [Stage; 3] = [Stage::SubtreeVel, Stage::RnePost, Stage::Sensors];

@@ -1,7 +1,16 @@
 //! `equality`.
 
-use super::Status::{Supported, Unsupported};
-use super::{Attr, Element, FLAG, INT, Kind, REAL, attributes, reals, upto};
+use super::Attr;
+use super::Element;
+use super::FLAG;
+use super::INT;
+use super::Kind;
+use super::REAL;
+use super::Status::Supported;
+use super::Status::Unsupported;
+use super::attributes;
+use super::reals;
+use super::upto;
 
 pub(super) const EQUALITY_ATTRS: &[Attr] =
     attributes! { FLAG => active; upto(2) => solref; upto(5) => solimp; };

@@ -1,7 +1,20 @@
 //! `compiler`, `option`, `size`, `statistic`.
 
-use super::Status::{Ignored, Only};
-use super::{Element, FLAG, INT, INTS, Kind, MOOT, REAL, TEXT, attributes, not_yet, reals, upto, word};
+use super::Element;
+use super::FLAG;
+use super::INT;
+use super::INTS;
+use super::Kind;
+use super::MOOT;
+use super::REAL;
+use super::Status::Ignored;
+use super::Status::Only;
+use super::TEXT;
+use super::attributes;
+use super::not_yet;
+use super::reals;
+use super::upto;
+use super::word;
 use crate::kinds::integrator;
 
 pub(super) static COMPILER: Element = Element::new(

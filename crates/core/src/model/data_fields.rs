@@ -1,10 +1,10 @@
 //! `Fields`: the state, the inputs and everything computed from them, as stages read and write it. The struct comes from the
 //! field table.
 
+use super::define;
 use super::fields::data_fields;
 use super::meter::Meter;
 use super::plan::Plan;
-use crate::model::define;
 
 macro_rules! define_data {
     ($($rows:tt)*) => { define! {

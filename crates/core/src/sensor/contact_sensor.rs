@@ -1,7 +1,9 @@
 //! Sensors of contacts: touch, and contacts themselves, filtered and reduced.
 
-use super::fields::{self, CONTACT_DATA};
-use super::{Scratch, put};
+use super::Scratch;
+use super::data_layout;
+use super::data_layout::CONTACT_DATA;
+use super::put;
 use crate::constraint::contact_force;
 use crate::geometry::{Shape, ray_shape};
 use crate::math::*;
@@ -77,7 +79,7 @@ pub(super) fn contacts(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out
         net(m, d, list, mask, out);
     } else {
         list.sort_unstable_by(|a, b| a.key.total_cmp(&b.key).then(a.contact.cmp(&b.contact)));
-        let size = fields::size(&CONTACT_DATA, mask).max(1);
+        let size = data_layout::size(&CONTACT_DATA, mask).max(1);
         for (found, out) in list.iter().zip(out.chunks_exact_mut(size)) {
             single(m, d, found, list.len(), mask, out);
         }
@@ -137,7 +139,7 @@ fn single(m: &Model, d: &Fields, found: &Match, count: usize, mask: i32, out: &m
     let torque = [f[3], f[4], sign * f[5]];
     let normal = scale(normal(c), sign);
     let tangent = scale([c.frame[3], c.frame[4], c.frame[5]], sign);
-    fields::write(mask, &[&[count as f64], &force, &torque, &[c.dist], &c.pos, &normal, &tangent], out);
+    data_layout::write(mask, &[&[count as f64], &force, &torque, &[c.dist], &c.pos, &normal, &tangent], out);
 }
 
 /// One force and torque for all, world, at the mean of their points weighted by force.
@@ -160,5 +162,5 @@ fn net(m: &Model, d: &Fields, list: &[Match], mask: i32, out: &mut [f64]) {
         torque = add(torque, add(t, cross(sub(pos, point), f)));
     }
     let (x, y) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
-    fields::write(mask, &[&[list.len() as f64], &force, &torque, &[0.0], &point, &x, &y], out);
+    data_layout::write(mask, &[&[list.len() as f64], &force, &torque, &[0.0], &point, &x, &y], out);
 }

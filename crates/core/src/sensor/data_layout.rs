@@ -1,4 +1,4 @@
-//! Fields fields of contact sensors and rangefinders: a bit mask says which ones a sensor has, in this order.
+//! Data fields of contact sensors and rangefinders: a bit mask says which ones a sensor has, in this order.
 
 /// A data field: its keyword in MJCF and how many numbers it is.
 type Field = (&'static str, usize);

@@ -1,6 +1,12 @@
 //! `contact`: pairs and exclusions.
 
-use super::{Attr, Element, INT, Kind, REAL, attributes, upto};
+use super::Attr;
+use super::Element;
+use super::INT;
+use super::Kind;
+use super::REAL;
+use super::attributes;
+use super::upto;
 
 pub(super) const PAIR_ATTRS: &[Attr] = attributes! {
     INT => condim;

@@ -4,12 +4,13 @@
 //! ½ Im(q₂⁻¹ (ω₁ - ω₂) q₁). Joints and tendons follow a polynomial of each other (MuJoCo's documentation,
 //! "Computation: Constraint model, Equality").
 
+use super::Scratch;
 use super::cost::Cost;
+use super::ends::{self, End};
 use super::impedance::{Acts, kbi};
 use super::jacobian::Jacobian;
+use super::kind;
 use super::rows::{Rows, push, regularization};
-use super::{Scratch, kind};
-use crate::constraint::ends::{self, End};
 use crate::dynamics::jacobian::{self, Columns};
 use crate::forces::tendon;
 use crate::kinds::eqtype;

@@ -1,6 +1,8 @@
 //! Two convex shapes by the general algorithm, and further contacts where they lie flat on each other.
 
-use super::{Settings, Touch, polygon};
+use super::Settings;
+use super::Touch;
+use super::polygon;
 use crate::geometry::Shape;
 use crate::geometry::convex::{Convex, Room, nearest};
 use crate::kinds::geom;
