@@ -19,23 +19,29 @@ fn numbers(m: &Model, d: &Data<Planned>, name: &str) -> Vec<f64> {
     (0..view.len()).filter_map(|i| view.get(i)).collect()
 }
 
-/// The field that differs most between two ways after a forward pass and a few steps, with its difference relative to
-/// its largest number.
+/// The field that differs most between two ways after a forward pass, or the state after three steps more, with its difference
+/// relative to its largest number.
 fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: Ways) -> (f64, &'static str) {
     let run = |ways| {
         let mut d = Data::planned(m, Plan::by_ways(m, &Demand::ANY, ways));
         start(&mut d);
         core::forward(m, &mut d).unwrap();
-        d
+        let now: Vec<_> = FIELDS.iter().map(|name| (*name, numbers(m, &d, name))).collect();
+        for _ in 0..3 {
+            core::step(m, &mut d).unwrap();
+        }
+        now.into_iter().chain(["qpos", "qvel"].map(|name| (name, numbers(m, &d, name)))).collect::<Vec<_>>()
     };
-    let (short, general) = (run(ways), run(Ways::GENERAL));
-    let of = |name: &'static str| {
-        let (a, b) = (numbers(m, &short, name), numbers(m, &general, name));
+    let of = |((name, a), (_, b)): ((&'static str, Vec<f64>), (&str, Vec<f64>))| {
         let size = b.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
         let apart = a.iter().zip(&b).fold(0.0_f64, |s, (x, y)| s.max((x - y).abs()));
         (if a.len() == b.len() { apart / size } else { f64::INFINITY }, name)
     };
-    FIELDS.into_iter().map(of).fold((0.0, ""), |worst, now| if now.0 > worst.0 { now } else { worst })
+    run(ways)
+        .into_iter()
+        .zip(run(Ways::GENERAL))
+        .map(of)
+        .fold((0.0, ""), |worst, now| if now.0 > worst.0 { now } else { worst })
 }
 
 /// Each way alone, and all of them.

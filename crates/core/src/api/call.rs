@@ -232,7 +232,7 @@ pub fn mul_m<S: Scope>(m: &Model, d: &Data<S>, v: &[f64], out: &mut [f64]) -> Re
     d.has(&["M"])?;
     wanted("the vector", m.nv, v.len())?;
     wanted("the product", m.nv, out.len())?;
-    mass::mul_m(m, &d.inner, v, out).unwrap_or(());
+    mass::mul(m, &d.inner.M, v, out, 0..m.nv);
     Ok(())
 }
 
@@ -241,7 +241,7 @@ pub fn solve_m<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Er
     d.belongs_to(m)?;
     d.has(&["qLD", "qLDiagInv"])?;
     wanted("the vector", m.nv, x.len())?;
-    mass::solve_m(m, &d.inner, x).unwrap_or(());
+    mass::solve(m, &d.inner.qLD, &d.inner.qLDiagInv, x, 0..m.nv);
     Ok(())
 }
 
@@ -250,7 +250,7 @@ pub fn solve_m2<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), E
     d.belongs_to(m)?;
     d.has(&["qLD", "qLDiagInv"])?;
     wanted("the vector", m.nv, x.len())?;
-    mass::solve_m2(m, &d.inner, x).unwrap_or(());
+    mass::solve_m2(m, &d.inner, x);
     Ok(())
 }
 

@@ -277,7 +277,7 @@ impl<S: Scope> Data<S> {
 macro_rules! edits {
     ($($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
         /// The fields of data to write, by MuJoCo's names: state and inputs can be changed, results can be read.
-        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names
+        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names; references into data, which print themselves
         pub struct Edit<'a> {
             $(#[doc = $doc] pub $name: access!(type 'a $kind $ty),)*
         }

@@ -115,8 +115,8 @@ impl fmt::Display for Error {
             Error::NoField(name) => write!(f, "model and data have no field `{name}`"),
             Error::LeftOut { field, stage } => write!(
                 f,
-                "`{}` is not computed: the plan was made without reading it, and leaves the {stage:?} stage to itself; \
-                 add the field to the demand of the plan",
+                "`{}` cannot be read: the plan was made without it and may leave out the {stage:?} stage, so that what it holds \
+                 is not of now; add it to the `reads` of the plan's `Demand`",
                 field.info().name
             ),
             Error::NotWritable(field) => write!(

@@ -4,6 +4,7 @@ use super::addresses::Addresses;
 use super::error::Error;
 use crate::kinds::{disable, enable};
 use crate::model::fields::{model_fields, option_fields, statistic_fields};
+use crate::model::nearest::closest;
 use crate::model::reflect::{self, FieldId, FieldSet, Object};
 use crate::model::{self as inner, Names, Obj};
 use std::ops::Deref;
@@ -205,7 +206,7 @@ pub(super) use access;
 macro_rules! edits {
     ($($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
         /// The fields of a model to write, by MuJoCo's names: parameters can be changed, structure can be read.
-        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names
+        #[allow(non_snake_case, missing_debug_implementations)] // MuJoCo's names; references into a model, which prints itself
         pub struct ModelEdit<'a> {
             /// Options of the simulation.
             pub opt: OptionsEdit<'a>,
@@ -227,7 +228,7 @@ macro_rules! edits {
 macro_rules! edits_of {
     ($edit:ident, $of:ty, $doc_of:literal; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
         #[doc = $doc_of]
-        #[allow(missing_debug_implementations)]
+        #[allow(missing_debug_implementations)] // references into a model, which prints itself
         pub struct $edit<'a> {
             $(#[doc = $doc] pub $name: access!(type 'a $kind $ty),)*
         }
@@ -399,26 +400,7 @@ ids! {
 /// The id of a named object.
 pub(super) fn find(names: &Names, kind: Obj, name: &str) -> Result<usize, Error> {
     names.id(kind, name).ok_or_else(|| {
-        let near = names.of(kind).iter().filter(|n| !n.is_empty());
-        let near = near.map(|n| (distance(n, name), n)).min_by_key(|(far, _)| *far);
-        let nearest = near.filter(|(far, n)| 3 * far <= n.chars().count().max(3)).map(|(_, n)| n.clone());
+        let nearest = closest(name, names.of(kind).iter().map(String::as_str)).map(String::from);
         Error::NoName { kind, name: name.to_string(), nearest }
     })
-}
-
-/// How many letters have to be changed, added or left out (Levenshtein 1966), for names of ordinary length.
-fn distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.chars().take(64).collect(), b.chars().take(64).collect());
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.iter().enumerate() {
-        let mut before = i;
-        let mut left = i + 1;
-        for (y, cell) in b.iter().zip(row.iter_mut().skip(1)) {
-            let next = (before + usize::from(x != y)).min(left + 1).min(*cell + 1);
-            before = *cell;
-            (*cell, left) = (next, next);
-        }
-        row[0] = i + 1;
-    }
-    row.last().copied().unwrap_or(0)
 }

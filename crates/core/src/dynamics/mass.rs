@@ -332,22 +332,9 @@ pub(crate) fn trace(m: &Model, mass: &[f64], dofs: Range<usize>) -> f64 {
     dofs.map(|k| mass[diagonal(m, k)]).sum()
 }
 
-/// out ← M v (`mj_mulM`), for vectors of nv numbers. `None` when one is shorter.
-pub(crate) fn mul_m(m: &Model, d: &Fields, v: &[f64], out: &mut [f64]) -> Option<()> {
-    mul(m, &d.M, v.get(..m.nv)?, out.get_mut(..m.nv)?, 0..m.nv);
-    Some(())
-}
-
-/// x ← M⁻¹ x (`mj_solveM`), for a vector of nv numbers. `None` when it is shorter.
-pub(crate) fn solve_m(m: &Model, d: &Fields, x: &mut [f64]) -> Option<()> {
-    solve(m, &d.qLD, &d.qLDiagInv, x.get_mut(..m.nv)?, 0..m.nv);
-    Some(())
-}
-
-/// x ← D^-½ L⁻ᵀ x (`mj_solveM2`): half of the solution, so that xᵀ M⁻¹ x is the square of its norm. `None` when the
-/// vector is shorter than nv.
-pub(crate) fn solve_m2(m: &Model, d: &Fields, x: &mut [f64]) -> Option<()> {
-    let x = x.get_mut(..m.nv)?;
+/// x ← D^-½ L⁻ᵀ x (`mj_solveM2`): half of the solution, so that xᵀ M⁻¹ x is the square of its norm.
+/// A vector of nv numbers.
+pub(crate) fn solve_m2(m: &Model, d: &Fields, x: &mut [f64]) {
     for i in (0..m.nv).rev() {
         let row = m.M_rowadr[i] as usize..diagonal(m, i);
         let xi = x[i];
@@ -358,7 +345,6 @@ pub(crate) fn solve_m2(m: &Model, d: &Fields, x: &mut [f64]) -> Option<()> {
     for (x, inv) in x.iter_mut().zip(&d.qLDiagInv) {
         *x *= inv.sqrt();
     }
-    Some(())
 }
 
 /// M as a dense symmetric matrix, row-major (`mj_fullM`).

@@ -76,6 +76,12 @@ fn list<'a>(m: &'a Model, name: &str) -> &'a [i32] {
     }
 }
 
+/// The part of an array that a list is: of an empty one, which may begin at -1, nothing.
+fn span(adr: i32, num: i32) -> std::ops::Range<usize> {
+    let [first, n] = [adr, num].map(|x| usize::try_from(x).unwrap_or(0));
+    first..first + n
+}
+
 fn within(id: i32, count: usize) -> bool {
     usize::try_from(id).is_ok_and(|id| id < count)
 }
@@ -165,9 +171,8 @@ fn trees(m: &Model) -> bool {
     let dofs = (0..m.nv).all(|k| {
         let j = m.dof_jntid[k] as usize;
         let first = m.jnt_dofadr[j] as usize;
-        let row = m.M_rowadr[k] as usize..(m.M_rowadr[k] + m.M_rownnz[k]) as usize;
-        let columns = &m.M_colind[row];
-        let whole = &m.D_colind[m.D_rowadr[k] as usize..(m.D_rowadr[k] + m.D_rownnz[k]) as usize];
+        let columns = &m.M_colind[span(m.M_rowadr[k], m.M_rownnz[k])];
+        let whole = &m.D_colind[span(m.D_rowadr[k], m.D_rownnz[k])];
         (first..first + joint::nv(m.jnt_type[j])).contains(&k)
             && m.dof_bodyid[k] == m.jnt_bodyid[j]
             && columns.last() == Some(&(k as i32))
@@ -178,7 +183,7 @@ fn trees(m: &Model) -> bool {
             && (m.dof_simplenum[k] > 0 || chain(m, k).eq(columns.iter().rev().map(|&c| c as usize)))
     });
     let bodies = (0..m.nbody).all(|b| {
-        let joints = m.body_jntadr[b].max(0) as usize..(m.body_jntadr[b].max(0) + m.body_jntnum[b]) as usize;
+        let joints = span(m.body_jntadr[b], m.body_jntnum[b]);
         let dofs: usize = joints.clone().map(|j| joint::nv(m.jnt_type[j])).sum();
         joints.clone().all(|j| m.jnt_bodyid[j] as usize == b)
             && dofs == m.body_dofnum[b] as usize
@@ -227,7 +232,7 @@ fn shapes(m: &Model) -> bool {
     });
     let meshes = (0..m.nmesh).all(|id| {
         let corners = m.mesh_vertnum[id];
-        let faces = m.mesh_faceadr[id] as usize..(m.mesh_faceadr[id] + m.mesh_facenum[id]) as usize;
+        let faces = span(m.mesh_faceadr[id], m.mesh_facenum[id]);
         let own = m.mesh_face.as_chunks::<3>().0[faces].iter().flatten().all(|&v| v < corners);
         let Ok(at) = usize::try_from(m.mesh_graphadr[id]) else { return corners > 0 && own };
         let Some(hull) = m.mesh_graph.get(at..).and_then(Hull::of) else { return false };
@@ -255,7 +260,7 @@ fn ties(m: &Model) -> bool {
         within(first, n) && (within(second, n) || alone && second == -1) && joints
     };
     let tendon = |t: usize| {
-        let path = m.tendon_adr[t].max(0) as usize..(m.tendon_adr[t].max(0) + m.tendon_num[t]) as usize;
+        let path = span(m.tendon_adr[t], m.tendon_num[t]);
         let fixed = m.wrap_type.get(path.start) == Some(&wraptype::JOINT);
         !path.is_empty() && path.clone().all(|w| (m.wrap_type[w] == wraptype::JOINT) == fixed)
             // A path begins and ends at a site.
@@ -273,10 +278,8 @@ fn ties(m: &Model) -> bool {
         }
         _ => true,
     };
-    let rows = (0..m.ntendon).all(|t| {
-        let row = m.ten_J_rowadr[t].max(0) as usize..(m.ten_J_rowadr[t].max(0) + m.ten_J_rownnz[t]) as usize;
-        m.ten_J_colind[row].is_sorted_by(|a, b| a < b)
-    });
+    let rows = (0..m.ntendon)
+        .all(|t| m.ten_J_colind[span(m.ten_J_rowadr[t], m.ten_J_rownnz[t])].is_sorted_by(|a, b| a < b));
     (0..m.neq).all(equality) && (0..m.ntendon).all(tendon) && (0..m.nwrap).all(wrap) && rows
 }
 

@@ -120,7 +120,20 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Model> {
 #[cfg(test)]
 mod tests {
     use crate::mjcf::compile;
+    use crate::model::reflect::{self, Elem, Object};
     use crate::step::sound::unsound;
+
+    const EVERYTHING: &str = "<mujoco>
+        <asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/><hfield name='h' nrow='2' ncol='2' size='1 1 1 1'/></asset>
+        <worldbody><geom type='hfield' hfield='h'/>
+        <body name='a'><freejoint/><geom type='mesh' mesh='m'/><site name='s'/></body>
+        <body name='b'><joint name='j'/><geom size='0.1'/><site name='t' pos='1 0 0'/>
+        <body pos='1 0 0'><joint name='k'/><geom name='w' size='0.1'/></body></body></worldbody>
+        <tendon><spatial name='l'><site site='s'/><geom geom='w'/><site site='t'/></spatial>
+        <fixed name='f'><joint joint='j' coef='1'/></fixed></tendon>
+        <equality><connect body1='a' body2='b' anchor='0 0 0'/><joint joint1='j' joint2='k'/></equality>
+        <actuator><motor joint='j'/><position tendon='l'/></actuator><sensor><jointpos joint='j'/><touch site='s'/></sensor>
+        </mujoco>";
 
     /// The engine can index by every model that was compiled.
     #[test]
@@ -136,5 +149,38 @@ mod tests {
             }
         }
         assert_eq!(wrong, [""; 0]);
+    }
+
+    /// Any integer of the structure may be anything: the model is refused or good, and nothing is indexed by it before.
+    #[test]
+    fn whatever_the_integers_are_is_looked_at_first() {
+        let m = compile(EVERYTHING).unwrap();
+        let fields =
+            reflect::fields().filter(|f| f.info().object == Object::Model && f.info().elem == Elem::I32);
+        let mut refused = 0;
+        for field in fields {
+            for i in 0..reflect::view_model(&m, field).len() {
+                for value in [i32::MIN, -2, -1, 0, 1, 1000, i32::MAX] {
+                    let mut changed = m.clone();
+                    reflect::view_model_mut(&mut changed, field).set(i, f64::from(value));
+                    refused += usize::from(unsound(&changed).is_some());
+                }
+            }
+        }
+        assert!(refused > 1000, "{refused}");
+        // Lists that begin nowhere are empty.
+        for (adr, num) in [
+            ("mesh_faceadr", "mesh_facenum"),
+            ("M_rowadr", "M_rownnz"),
+            ("D_rowadr", "D_rownnz"),
+            ("ten_J_rowadr", "ten_J_rownnz"),
+        ] {
+            let mut changed = m.clone();
+            for (name, value) in [(adr, -1.0), (num, 0.0)] {
+                let field = reflect::field(Object::Model, name).unwrap();
+                reflect::view_model_mut(&mut changed, field).set(0, value);
+            }
+            let _ = unsound(&changed);
+        }
     }
 }

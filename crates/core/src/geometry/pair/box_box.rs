@@ -310,7 +310,7 @@ impl Polygon {
 /// The contacts of a reference face, normal to axis `a` of the box `reference`, with the incident face of the
 /// other box, which has the size `size`, the turn `turn` against the reference box and its centre at `offset`
 /// in it. `outward` is 1 when the reference box is the first of the pair, -1 when it is the second.
-#[allow(clippy::too_many_arguments)]
+#[allow(clippy::too_many_arguments)] // two boxes in the frame of one, and which of its faces
 fn face_contacts(
     reference: &Shape,
     size: Vec3,

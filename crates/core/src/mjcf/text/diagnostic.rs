@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::rc::Rc;
 
-pub(crate) use super::nearest::closest;
+pub(crate) use crate::model::nearest::closest;
 
 /// More findings than this are not listed: the first mistakes explain the rest.
 const MAX_DIAGNOSTICS: usize = 100;

@@ -3,7 +3,6 @@
 pub(crate) mod diagnostic;
 pub(crate) mod files;
 pub(crate) mod load;
-pub(crate) mod nearest;
 pub(crate) mod scan;
 #[cfg(test)]
 pub(crate) mod seen;
