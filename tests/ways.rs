@@ -19,6 +19,9 @@ fn numbers(m: &Model, d: &Data<Planned>, name: &str) -> Vec<f64> {
     (0..view.len()).filter_map(|i| view.get(i)).collect()
 }
 
+/// A field, and its numbers.
+type Column = (&'static str, Vec<f64>);
+
 /// The field that differs most between two ways after a forward pass, or the state after three steps more, with its difference
 /// relative to its largest number.
 fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: Ways) -> (f64, &'static str) {
@@ -26,13 +29,15 @@ fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: Ways) -> (f64
         let mut d = Data::planned(m, Plan::by_ways(m, &Demand::ANY, ways));
         start(&mut d);
         core::forward(m, &mut d).unwrap();
-        let now: Vec<_> = FIELDS.iter().map(|name| (*name, numbers(m, &d, name))).collect();
+        let now: Vec<Column> = FIELDS.iter().map(|name| (*name, numbers(m, &d, name))).collect();
         for _ in 0..3 {
             core::step(m, &mut d).unwrap();
         }
-        now.into_iter().chain(["qpos", "qvel"].map(|name| (name, numbers(m, &d, name)))).collect::<Vec<_>>()
+        now.into_iter()
+            .chain(["qpos", "qvel"].map(|name| (name, numbers(m, &d, name))))
+            .collect::<Vec<Column>>()
     };
-    let of = |((name, a), (_, b)): ((&'static str, Vec<f64>), (&str, Vec<f64>))| {
+    let of = |((name, a), (_, b)): (Column, Column)| {
         let size = b.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
         let apart = a.iter().zip(&b).fold(0.0_f64, |s, (x, y)| s.max((x - y).abs()));
         (if a.len() == b.len() { apart / size } else { f64::INFINITY }, name)
