@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Where contacts differ from MuJoCo's: how deep the two bodies are in each other along each side's normal.
 
-    tests/golden/deeper.py LABSPEC ORACLE MODEL.xml ...
+    tests/golden/deeper.py LABSPEC ORACLE MODEL.xml ...          pair by pair, then a table of the models
 
 ORACLE is the folder of `mj_record.py`. The depth along a direction is the sum of two supports: the farthest corner of a mesh,
 or a formula. It owes nothing to either search; the least depth over all directions is the one that a contact should have, so
 that of two normals the one with the smaller depth is the better. Needs mujoco==3.14.0 and numpy.
 """
+import collections
 import json
 import pathlib
 import subprocess
@@ -63,13 +64,17 @@ def by_pair(state):
 
 
 def compare(labspec, oracle, path, folder):
+    """Prints the pairs that differ; returns how many there are of each verdict, and the most that ours is deeper."""
     theirs = record([sys.executable, f"{oracle}/mj_record.py"], path, f"{folder}/m", "--states", "2")
     ours = record([labspec, "record"], path, f"{folder}/o", "--states", f"{folder}/m")
     model = mujoco.MjModel.from_xml_path(path)
+    counts, most = collections.Counter(), 0.0
     print(path)
     for k, (m, o) in enumerate(zip(theirs["forward"], ours["forward"])):
         data = mujoco.MjData(model)
         data.qpos[:] = m["qpos"]
+        if model.nmocap:
+            data.mocap_pos[:], data.mocap_quat[:] = np.reshape(m["mocap_pos"], (-1, 3)), np.reshape(m["mocap_quat"], (-1, 4))
         mujoco.mj_kinematics(model, data)
         m, o = by_pair(m), by_pair(o)
         for pair in sorted({*m, *o}):
@@ -82,15 +87,27 @@ def compare(labspec, oracle, path, folder):
                 along = [least(model, data, pair, contacts) for contacts in (there, here)]
                 verdict = ("not known here" if None in along else "equal" if abs(along[0] - along[1]) < 1e-9
                            else "ours is less deep" if along[1] < along[0] else "OURS IS DEEPER")
+                if verdict == "OURS IS DEEPER":
+                    most = max(most, along[1] - along[0])
                 print(f"  state {k} pair {pair}: {len(there)} contacts there, {len(here)} here; the first normals {turned:.0e} apart;"
                       f" depth along theirs {along[0]}, along ours {along[1]}: {verdict}")
             else:
                 side, one = ("there", there) if there else ("here", here)
-                along = least(model, data, pair, one)
+                along, verdict = least(model, data, pair, one), "only on one side"
                 print(f"  state {k} pair {pair}: only {side}, {len(one)}, dist {[c['dist'] for c in one]}, depth along its normal {along}")
+            counts[verdict] += 1
+    return counts, most
 
+
+VERDICTS = ["ours is less deep", "equal", "OURS IS DEEPER", "only on one side", "not known here"]
 
 if __name__ == "__main__":
+    rows = []
     with tempfile.TemporaryDirectory() as folder:
         for path in sys.argv[3:]:
-            compare(sys.argv[1], sys.argv[2], path, folder)
+            rows.append((path, *compare(sys.argv[1], sys.argv[2], path, folder)))
+    print("\n| model | pairs that differ | " + " | ".join(v.lower() for v in VERDICTS) + " | by at most, m |")
+    print("|---|" + "---:|" * (len(VERDICTS) + 2))
+    for path, counts, most in rows:
+        name = "/".join(pathlib.Path(path).parts[-2:]).removesuffix(".xml")
+        print(f"| `{name}` | {sum(counts.values())} | " + " | ".join(str(counts[v]) for v in VERDICTS) + f" | {most:.0e} |")

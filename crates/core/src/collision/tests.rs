@@ -163,3 +163,32 @@ fn too_many_contacts_are_left_out_with_a_warning() {
     let stat = d.warning[Warning::ContactFull as usize];
     assert_eq!((d.ncon, stat.number, stat.lastinfo), (MOST_CONTACTS, 1, MOST_CONTACTS));
 }
+
+/// A box tilted by one degree lies on the ridge between a small level side of a mesh and a large one that falls by four: both
+/// look at the box, and the contacts are along the level one, which is nearer to the direction of least depth.
+#[test]
+fn of_several_sides_the_nearest_to_the_direction_of_least_depth() {
+    let profile = [(-1.0, -0.07), (0.0, 0.0), (0.1, 0.0), (0.1, -1.0), (-1.0, -1.0)];
+    let ends = profile.iter().flat_map(|(x, z)| [-0.5, 0.5].map(|y| format!("{x} {y} {z} ")));
+    let xml = format!(
+        "<mujoco><asset><mesh name='ridge' vertex='{}'/></asset><worldbody>\
+         <body><freejoint/><geom type='mesh' mesh='ridge'/></body>\
+         <body pos='0 0 0.499' euler='0 -1 0'><freejoint/><geom type='box' size='.5 .5 .5'/></body></worldbody></mujoco>",
+        ends.collect::<String>()
+    );
+    let m = compile(&xml).unwrap();
+    let mut d = Data::unplanned(&m);
+    reset_data(&m, &mut d);
+    // The mesh where it was drawn: the model has it about its centre.
+    rows_mut::<3>(&mut d.fields.qpos[..3])[0] = [0.0; 3];
+    let found = {
+        kinematics(&m, &mut d);
+        d.work.collision.pairs = pairs(&m, false, false);
+        collide(&m, &mut d.fields, &mut d.work.collision);
+        &d.fields.contact
+    };
+    assert!(found.len() > 1);
+    for c in found {
+        assert!((c.frame[2].abs() - 1.0).abs() < 1e-12 && c.dist < 0.0, "{c:?}");
+    }
+}

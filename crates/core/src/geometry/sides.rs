@@ -20,8 +20,6 @@ pub struct Sides {
 #[derive(Clone, Debug, PartialEq)]
 struct Side {
     normal: Vec3,
-    /// m^2
-    area: f64,
     first: u32,
     count: u32,
 }
@@ -39,14 +37,14 @@ impl Sides {
         let head = [&self.vertices, &self.first, &self.around].map(|list| list.len() as u32);
         let places = self.sides.iter().flat_map(|s| [s.first, s.count]);
         let lists = [&self.vertices, &self.first, &self.around].into_iter().flatten().copied();
-        let floats = self.sides.iter().flat_map(|s| [s.normal[0], s.normal[1], s.normal[2], s.area]);
+        let floats = self.sides.iter().flat_map(|s| s.normal);
         (head.into_iter().chain(places).chain(lists).collect(), floats.collect())
     }
 
     /// What [`Sides::numbers`] gave, for a hull of so many vertices; `None` for what no hull has.
     pub(crate) fn from_numbers(integers: &[u32], floats: &[f64], vertices: usize) -> Option<Sides> {
         let (&[a, b, c], mut rest) = integers.split_first_chunk::<3>()?;
-        let count = floats.len() / 4;
+        let count = floats.len() / 3;
         let mut take = |n: usize| {
             let (list, after) = rest.split_at_checked(n)?;
             rest = after;
@@ -54,13 +52,12 @@ impl Sides {
         };
         let places = take(2 * count)?;
         let (corners, first, around) = (take(a as usize)?, take(b as usize)?, take(c as usize)?);
-        let sides = places.as_chunks::<2>().0.iter().zip(floats.as_chunks::<4>().0);
-        let sides =
-            sides.map(|(&[first, count], &[x, y, z, area])| Side { normal: [x, y, z], area, first, count });
+        let sides = places.as_chunks::<2>().0.iter().zip(floats.as_chunks::<3>().0);
+        let sides = sides.map(|(&[first, count], &normal)| Side { normal, first, count });
         let out = Sides { sides: sides.collect(), vertices: corners, first, around };
         let corners = out.vertices.len() as u64;
         let good = rest.is_empty()
-            && floats.len().is_multiple_of(4)
+            && floats.len().is_multiple_of(3)
             && out.sides.iter().all(|s| u64::from(s.first) + u64::from(s.count) <= corners)
             && out.vertices.iter().all(|&v| (v as usize) < vertices)
             && out.around.iter().all(|&s| (s as usize) < out.sides.len())
@@ -83,11 +80,6 @@ impl Sides {
     /// Unit normal of a side, outwards, in the frame of the mesh.
     pub fn normal(&self, side: usize) -> Vec3 {
         self.sides[side].normal
-    }
-
-    /// Area of a side, m^2.
-    pub(crate) fn area(&self, side: usize) -> f64 {
-        self.sides[side].area
     }
 
     /// Vertices of a side, counterclockwise as seen from outside.
@@ -183,12 +175,7 @@ fn merge(vert: &[Vec3], hull: &Hull) -> Sides {
             }
         }
         let count = out.vertices.len() as u32 - first;
-        // Twice the area of a polygon is the sum of the triangles that its edges make with any point.
-        let border = &out.vertices[first as usize..];
-        let at = |k: usize| border.get(k % border.len().max(1)).map_or([0.0; 3], |&v| corner(v as i32));
-        let twice = (1..border.len())
-            .fold([0.0; 3], |sum, k| add(sum, cross(sub(at(k), at(0)), sub(at(k + 1), at(0)))));
-        out.sides.push(Side { normal: normals[start], area: 0.5 * norm(twice), first, count });
+        out.sides.push(Side { normal: normals[start], first, count });
     }
     out
 }

@@ -13,7 +13,7 @@ use crate::step::sound::unsound;
 
 const MAGIC: [u8; 8] = *b"labmodl\n";
 /// Of the layout that this module writes.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 fn put_text(text: &str, out: &mut Vec<u8>) {
     text.len().put(out);

@@ -38,8 +38,6 @@ pub(super) type Corners = List<Vec3, CORNERS>;
 struct Face {
     index: usize,
     normal: Vec3,
-    /// m^2
-    area: f64,
 }
 
 /// The two ends of an edge, world.
@@ -85,9 +83,9 @@ fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
     let (of_a, of_b) = (Feature::of(a, direction), Feature::of(b, scale(direction, -1.0)));
     let pairs = of_a.faces.all().iter().flat_map(|fa| of_b.faces.all().iter().map(move |fb| (fa, fb)));
     let facing = pairs.filter(|(fa, fb)| dot(fa.normal, fb.normal) < -FACING);
-    // Of several the two that can share most.
-    let shared = |(fa, fb): &(&Face, &Face)| fa.area.min(fb.area);
-    if let Some((fa, fb)) = facing.max_by(|p, q| shared(p).total_cmp(&shared(q))) {
+    // Of several the two nearest to the direction: along the others the shapes are deeper in each other.
+    let straight = |(fa, fb): &(&Face, &Face)| dot(sub(fa.normal, fb.normal), direction);
+    if let Some((fa, fb)) = facing.max_by(|p, q| straight(p).total_cmp(&straight(q))) {
         return Some(Patch {
             face: corners(a, fa.index),
             normal: fa.normal,
@@ -188,8 +186,7 @@ fn cylinder(s: &Shape, direction: Vec3, out: &mut Feature) -> usize {
     let upper = slope >= 0.0;
     if slope.abs() > FACING {
         let normal = scale(axis, if upper { 1.0 } else { -1.0 });
-        let area = std::f64::consts::PI * s.size[0] * s.size[0];
-        out.faces.push(Face { index: usize::from(!upper), normal, area });
+        out.faces.push(Face { index: usize::from(!upper), normal });
         return 3;
     }
     if slope.abs() < ALONG {
@@ -207,8 +204,7 @@ fn box_corner(s: &Shape, corner: Vec3, out: &mut Feature) {
     for axis in 0..3 {
         let upper = local[axis] > 0.0;
         let normal = scale(s.axis(axis), if upper { 1.0 } else { -1.0 });
-        let area = 4.0 * s.size[(axis + 1) % 3] * s.size[(axis + 2) % 3];
-        out.faces.push(Face { index: 2 * axis + usize::from(!upper), normal, area });
+        out.faces.push(Face { index: 2 * axis + usize::from(!upper), normal });
         out.edges.push([corner, add_scaled(corner, normal, -2.0 * s.size[axis])]);
     }
 }
@@ -218,8 +214,7 @@ fn mesh_corner(s: &Shape, sides: &Sides, vertex: usize, corner: Vec3, out: &mut 
     for (index, at) in sides.around(vertex) {
         let list = sides.vertices(index);
         let other = list[(at + 1) % list.len()] as usize;
-        let (normal, area) = (mat_mul_vec(&s.mat, sides.normal(index)), sides.area(index));
-        out.faces.push(Face { index, normal, area });
+        out.faces.push(Face { index, normal: mat_mul_vec(&s.mat, sides.normal(index)) });
         out.edges.push([corner, s.world(s.mesh.vert.get(other).copied().unwrap_or_default())]);
     }
 }
