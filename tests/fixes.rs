@@ -156,10 +156,7 @@ fn fixes_of_the_wrong_lessons_hold() {
 
 #[test]
 fn fixes_of_the_bad_examples_of_rules_hold() {
-    let examples = lint::all().map(|rule| {
-        let (name, text) = rule.bad.file();
-        Case::new(name, &text)
-    });
+    let examples = lint::all().map(|rule| Case::new(rule.bad.name(), &rule.bad.text()));
     all_hold(examples, 10);
 }
 

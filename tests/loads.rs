@@ -55,7 +55,7 @@ fn what_mujoco_refuses_is_refused() {
             Err(_) if !refusal.is_empty() => {}
             Err(error) => {
                 stricter += 1;
-                let known = |d: &xml::MjcfDiagnostic| {
+                let known = |d: &xml::Finding| {
                     STRICTER.iter().any(|(code, part, _)| *code == d.code && d.message.contains(part))
                 };
                 if let Some(d) = error.iter().find(|d| !known(d)) {

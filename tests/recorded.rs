@@ -8,7 +8,7 @@
 
 use crate::support::{compile_unconstrained, numbers};
 use labspec_core::reflect::{self, FieldId, Object};
-use labspec_core::xml::MjcfDiagnostic;
+use labspec_core::xml::Finding;
 use labspec_core::{self as core, Data, Model, Obj, Scope, Warning, disable, enable};
 use serde_json::{Map, Value};
 use std::fmt;
@@ -121,7 +121,7 @@ pub(crate) fn examine(model: &Path, recording: &Value) -> Outcome {
 }
 
 /// The first finding of the compiler, on one line.
-fn reason(list: &[MjcfDiagnostic]) -> String {
+fn reason(list: &[Finding]) -> String {
     list.first().map_or(String::new(), |d| format!("{}: {}", d.code, d.message))
 }
 

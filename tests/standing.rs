@@ -6,7 +6,7 @@
 
 use crate::recorded::{ASPECTS, Outcome, Verdict};
 use crate::support::workspace;
-use labspec_core::xml::code;
+use labspec_core::xml::rules;
 use std::fmt::Write;
 
 /// A difference that is known: model (`*` for any), aspect (`load` or one of [`ASPECTS`]), cause.
@@ -84,7 +84,7 @@ impl Standing {
         let mut all = Vec::new();
         for (name, outcome) in &self.0 {
             match outcome {
-                Err(reason) if reason.starts_with(code::NOT_SUPPORTED) => {}
+                Err(reason) if reason.starts_with(rules::NOT_SUPPORTED.code) => {}
                 Err(reason) => all.push((name.clone(), "load", reason.clone())),
                 Ok(verdicts) => {
                     for (aspect, verdict) in ASPECTS.into_iter().zip(verdicts) {

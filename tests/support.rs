@@ -9,7 +9,7 @@ use labspec::lint::ModelFolder;
 use labspec::source::SourceFile;
 use labspec::spec::load_lesson;
 use labspec_core::Model;
-use labspec_core::xml::{self, Folder, MjcfDiagnostic};
+use labspec_core::xml::{self, Finding, Folder};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -31,14 +31,13 @@ pub(crate) fn model(name: &str) -> Model {
 /// Compiles a model that is meant to be right.
 pub(crate) fn compile(xml: &str) -> Model {
     xml::compile(xml).unwrap_or_else(|list| {
-        let text: Vec<String> =
-            list.iter().map(|d| format!("{}:{}: {} {}", d.line, d.column, d.code, d.message)).collect();
+        let text: Vec<String> = list.iter().map(|d| d.to_string()).collect();
         panic!("the model does not compile:\n{}\n{xml}", text.join("\n"))
     })
 }
 
 /// Compiles a model file with constraints switched off in its text, as the recordings of MuJoCo are made.
-pub(crate) fn compile_unconstrained(path: &Path) -> Result<Model, Vec<MjcfDiagnostic>> {
+pub(crate) fn compile_unconstrained(path: &Path) -> Result<Model, Vec<Finding>> {
     let text = std::fs::read_to_string(path).unwrap();
     let folder = Folder::new(path.parent().unwrap()).unwrap();
     xml::compile_with(&unconstrained(&text), &folder, path.file_name().and_then(|name| name.to_str()))

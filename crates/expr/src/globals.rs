@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
-use crate::suggest::closest;
+use crate::closest;
+use crate::rules;
+use crate::{Finding, Span};
 
 /// A compiled text, counted from 0 in the order of compilation with one [`Globals`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -86,7 +86,7 @@ impl Globals {
 
     /// Variables that a program reads and nothing ever stores: a warning for each first reading in a program.
     /// To be asked when all texts of the lab are compiled.
-    pub fn unset(&self) -> Vec<(ProgramId, Diagnostic)> {
+    pub fn unset(&self) -> Vec<(ProgramId, Finding)> {
         let mut stored = self.given.clone();
         for usage in self.uses.iter().filter(|u| u.stores) {
             if let Some(known) = stored.get_mut(usage.slot as usize) {
@@ -155,8 +155,8 @@ impl Globals {
     }
 }
 
-fn unset_report(name: &str, span: Span, known: &[&str]) -> Diagnostic {
-    let report = Diagnostic::warning(code::UNSET_GLOBAL, span, format!("nothing ever stores `ctx.{name}`"))
+fn unset_report(name: &str, span: Span, known: &[&str]) -> Finding {
+    let report = Finding::warning(rules::UNSET_GLOBAL, span, format!("nothing ever stores `ctx.{name}`"))
         .why("it is `undefined` in every run, and a computation with it gives NaN");
     match closest(name, known.iter().copied()) {
         Some(meant) => report.help(format!("did you mean `ctx.{meant}`?")).fix(span, format!("ctx.{meant}")),

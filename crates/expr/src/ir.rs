@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::diagnostic::Span;
+use crate::Span;
 use crate::math;
 use crate::natives;
 use crate::operators::{BinaryOp, LogicalOp, UnaryOp};

@@ -18,14 +18,13 @@
 //! Values are JavaScript's: arithmetic, comparisons, texts and conversions to the last bit; functions of `Math` that
 //! the standard leaves to the engine, such as `sin` and `tanh`, to 2 units in the last place, as measured beside node
 //! (`docs/math.md`: of 100,000 arguments of each, 91 to 100 % give the same bits). Parsing and compiling never fail: they return what was understood and a list of
-//! [`Diagnostic`]s.
+//! [`Finding`]s.
 
 pub mod ast;
-pub mod code;
+pub mod rules;
 
 mod bind;
 mod columnar;
-mod diagnostic;
 mod effects;
 mod formula;
 mod globals;
@@ -45,7 +44,6 @@ mod program;
 mod reference;
 mod row;
 mod schema;
-mod suggest;
 mod value;
 mod vm;
 
@@ -62,12 +60,14 @@ mod zz;
 
 pub use bind::{Compiled, Compiler};
 pub use columnar::{Columnar, Recording};
-pub use diagnostic::{Diagnostic, Fix, Parsed, Severity, Span};
 pub use effects::{Access, Effects};
 pub use globals::{Globals, ProgramId};
 pub use heap::{Full, Heap, Ref};
+pub use labspec_finding::nearest as closest;
+pub use labspec_finding::{Finding, Fix, Severity, Span};
 pub use math::hypot;
 pub use natives::to_fixed;
+pub use parse::Parsed;
 pub use parse::{MAX_DEPTH, MAX_SOURCE, parse_expression, parse_statements};
 pub use print::{format_expression, format_statements, print, print_statements};
 pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
@@ -76,5 +76,4 @@ pub use schema::{
     CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Help, ObjectId, Param,
     Role, Schema, Touch, Type,
 };
-pub use suggest::closest;
 pub use value::{Value, View};

@@ -7,7 +7,7 @@ mod step;
 
 use std::collections::BTreeMap;
 
-use crate::diagnostic::Span;
+use crate::Span;
 use crate::ir::{Entry, Index, Ir, Item, Kind, LocalId, Tree, Unit};
 use crate::operators::{BinaryOp, LogicalOp};
 use crate::schema::Type;

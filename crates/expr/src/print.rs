@@ -1,10 +1,10 @@
 //! Tree to text: one layout, parentheses only where the tree needs them. Reading the result gives the tree back.
 //! The formatter is this with two wishes of authors: numbers stay as they are written, and a text of one line stays on one.
 
+use crate::Finding;
 use crate::ast::{
     BinaryOp, Body, Element, Expr, ExprKind, Function, LogicalOp, Pattern, Property, Stmt, StmtKind, UnaryOp,
 };
-use crate::diagnostic::Diagnostic;
 use crate::lex::{Tok, tokens};
 use crate::{number, parse_expression, parse_statements};
 
@@ -51,7 +51,7 @@ fn power(expr: &Expr) -> u8 {
 /// An expression laid out anew. `None` when it has mistakes, or comments, which a tree does not hold.
 pub fn format_expression(source: &str) -> Option<String> {
     let parsed = parse_expression(source);
-    if has_comments(source) || parsed.diagnostics.iter().any(Diagnostic::is_error) {
+    if has_comments(source) || parsed.diagnostics.iter().any(Finding::is_error) {
         return None;
     }
     let mut printer = Printer { source, ..Printer::default() };
@@ -63,7 +63,7 @@ pub fn format_expression(source: &str) -> Option<String> {
 /// Statements laid out anew: one a line, or all on one line where the source is one line. `None` as above.
 pub fn format_statements(source: &str) -> Option<String> {
     let parsed = parse_statements(source);
-    if has_comments(source) || parsed.diagnostics.iter().any(Diagnostic::is_error) {
+    if has_comments(source) || parsed.diagnostics.iter().any(Finding::is_error) {
         return None;
     }
     let line = !source.trim().contains(['\n', '\r']);

@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
-use crate::code;
-use crate::diagnostic::Span;
+use crate::Span;
 use crate::effects::{Access, Effects};
 use crate::formula::Formula;
 use crate::globals::Globals;
@@ -14,6 +13,7 @@ use crate::ir::Tree;
 use crate::lower;
 use crate::order::Order;
 use crate::row::Row;
+use crate::rules::{self, Rule};
 use crate::schema::{FieldKey, FunctionId, Type};
 use crate::value::Value;
 use crate::vm::{self, Code};
@@ -60,8 +60,8 @@ pub trait Host {
 /// Why a run ended early.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuntimeError {
-    /// Stable name, one of [`crate::code::ALL`].
-    pub code: &'static str,
+    /// What was broken, one of [`rules::ALL`].
+    pub rule: &'static Rule,
     /// The part of the program that failed.
     pub span: Span,
     /// What happened.
@@ -101,11 +101,11 @@ pub struct RuntimeEvent {
 }
 
 impl RuntimeEvent {
-    /// Stable name, one of [`crate::code::ALL`].
-    pub fn code(&self) -> &'static str {
+    /// What was broken, one of [`rules::ALL`]. To read past the end breaks nothing: it gives `undefined`, which may be meant.
+    pub fn rule(&self) -> Option<&'static Rule> {
         match self.kind {
-            EventKind::ReadPastEnd => code::READ_PAST_END,
-            EventKind::StorePastEnd => code::STORE_PAST_END,
+            EventKind::ReadPastEnd => None,
+            EventKind::StorePastEnd => Some(rules::STORE_PAST_END),
         }
     }
 }
@@ -165,7 +165,7 @@ impl Context {
     }
 
     /// Lets the next run do so much work and no more, in units of about a nanosecond; work of the host counts too. A run
-    /// has a limit of its own besides, see [`code::BUDGET`].
+    /// has a limit of its own besides, see [`rules::BUDGET`].
     pub fn allow(&mut self, units: u64) {
         self.allowed = Some(units);
     }

@@ -3,9 +3,10 @@
 //! `cargo run -p labspec -- reference docs/reference` writes them; a test fails when they are stale.
 
 use crate::bind::{functions, named_field as by_name};
-use crate::{lint, rules};
+use crate::rules;
 use labspec_core::reflect::{self, Kind, Object, Stage};
 use labspec_core::xml::{self, Status};
+use labspec_finding::Layer;
 use std::fmt::Write;
 
 /// File name and text of each page.
@@ -84,18 +85,33 @@ fn function_list() -> String {
 
 fn codes() -> String {
     let mut text = format!(
-        "{GENERATED}\n# Codes\n\nWhat a finding's code means; `labspec explain CODE` shows the long form, with a wrong and a right example for rules of lessons.\n"
+        "{GENERATED}\n# Codes\n\nWhat a finding's code means, by what a rule needs in order to look. `labspec explain CODE` shows the long form: why it matters, \
+         and a wrong and a right example, both of which are executed by the tests.\n"
     );
-    let mut section = |title: &str, list: &mut dyn Iterator<Item = (&'static str, &'static str)>| {
-        let _ = write!(text, "\n## {title}\n\n| code | meaning |\n|---|---|\n");
-        for (code, summary) in list {
-            let _ = writeln!(text, "| `{code}` | {} |", summary.trim_end_matches('.').replace('|', "\\|"));
+    for layer in Layer::ALL {
+        let title = match layer {
+            Layer::Source => "Files",
+            Layer::Json => "JSON",
+            Layer::Structure => "Labs, quizzes and claims",
+            Layer::Model => "Models",
+            Layer::Program => "Expressions and statements",
+            Layer::Run => "Runs",
+            Layer::Claim => "Verdicts",
+        };
+        let _ =
+            write!(text, "\n## {title}\n\n| code | level | meaning | why it matters |\n|---|---|---|---|\n");
+        for rule in rules::all().filter(|rule| rule.layer == layer) {
+            let cell = |text: &str| text.trim_end_matches('.').replace('|', "\\|");
+            let _ = writeln!(
+                text,
+                "| `{}` | {} | {} | {} |",
+                rule.code,
+                rule.severity,
+                cell(rule.summary),
+                cell(rule.why)
+            );
         }
-    };
-    section("Lessons, labs and quizzes", &mut lint::all().map(|r| (r.code, r.summary)));
-    section("Runs and verdicts", &mut rules::RUN_RULES.iter().map(|r| (r.0, r.1)));
-    section("Expressions", &mut labspec_expr::code::ALL.iter().copied());
-    section("Models", &mut xml::code::ALL.iter().copied());
+    }
     text
 }
 

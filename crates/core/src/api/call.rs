@@ -7,6 +7,7 @@ use super::data::{Data, Scope};
 use super::error::Error;
 use super::model::{KeyId, Model};
 use super::planning::Plan;
+use crate::dynamics::simple;
 use crate::dynamics::{jacobian, mass, object, subtree};
 use crate::forces::{actuation, energy};
 use crate::geometry::Distance;
@@ -143,6 +144,9 @@ pub fn set_const<S: Scope>(m: &mut Model, d: &mut Data<S>) -> Result<(), Error> 
     setconst::set_const(m.engine(), &mut d.inner);
     m.touch_constants();
     d.in_step_with(m);
+    if simple::lacks_inertia(m.engine()) {
+        d.plan_again(m);
+    }
     Ok(())
 }
 

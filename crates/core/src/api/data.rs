@@ -226,8 +226,7 @@ impl<S: Scope> Data<S> {
             self.demand.writes.insert(field);
         }
         if self.demand.writes != before {
-            let plan = Plan::by_ways(m, &self.demand, self.inner.plan().ways);
-            reset::set_plan(m, &mut self.inner, plan.inner);
+            self.plan_again(m);
         }
         Ok(())
     }
@@ -238,11 +237,16 @@ impl<S: Scope> Data<S> {
     fn catch_up(&mut self, m: &Model) -> Result<(), Error> {
         self.belongs_to(m)?;
         if !m.edited.is_part_of(&self.demand.writes) {
-            let plan = Plan::by_ways(m, &self.demand, self.inner.plan().ways);
-            reset::set_plan(m, &mut self.inner, plan.inner);
+            self.plan_again(m);
         }
         self.version = m.version;
         Ok(())
+    }
+
+    /// Makes the plan anew, for the model as it is.
+    pub(super) fn plan_again(&mut self, m: &Model) {
+        let plan = Plan::by_ways(m, &self.demand, self.inner.plan().ways);
+        reset::set_plan(m, &mut self.inner, plan.inner);
     }
 
     #[inline(always)]

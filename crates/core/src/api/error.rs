@@ -1,7 +1,7 @@
 //! What can go wrong with a call, and why.
 
 #[cfg(feature = "mjcf")]
-use crate::mjcf::{MjcfDiagnostic, MjcfFileError};
+use crate::mjcf::{Finding, MjcfFileError};
 use crate::model::Obj;
 use crate::model::reflect::FieldId;
 use crate::model::stage::Stage;
@@ -16,7 +16,7 @@ use std::fmt;
 pub enum Error {
     /// The text of a model has mistakes: all that were found, in the order of the text.
     #[cfg(feature = "mjcf")]
-    Model(Vec<MjcfDiagnostic>),
+    Model(Vec<Finding>),
     /// A file cannot be read, or the model in it has mistakes.
     #[cfg(feature = "mjcf")]
     File(MjcfFileError),
@@ -80,7 +80,7 @@ pub enum Error {
 impl Error {
     /// What is wrong with the text of a model, as data: empty for any other error.
     #[cfg(feature = "mjcf")]
-    pub fn diagnostics(&self) -> &[MjcfDiagnostic] {
+    pub fn diagnostics(&self) -> &[Finding] {
         match self {
             Error::Model(list) | Error::File(MjcfFileError::Model { diagnostics: list, .. }) => list,
             _ => &[],

@@ -6,9 +6,9 @@ use crate::mjcf;
 use std::path::Path;
 
 pub use crate::mjcf::{
-    Attr, Element, FileProblem, Files, Folder, Kind, MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH, MAX_DOFS,
-    MAX_ELEMENTS, MAX_FILE, MAX_GEOMS, MAX_MASS, MAX_TEXT, MjcfDiagnostic, MjcfFileError, NoFiles, SchemaRow,
-    Severity, Status, Word, code, schema_rows,
+    Attr, Element, FileProblem, Files, Finding, Folder, Kind, MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH,
+    MAX_DOFS, MAX_ELEMENTS, MAX_FILE, MAX_GEOMS, MAX_MASS, MAX_TEXT, MjcfFileError, NoFiles, SchemaRow,
+    Severity, Status, Word, rules, schema_rows,
 };
 
 /// What came of a model's text.
@@ -17,7 +17,7 @@ pub struct Examined {
     /// The model; `None` when there are errors.
     pub model: Option<Model>,
     /// Errors and warnings in the order of the texts.
-    pub findings: Vec<MjcfDiagnostic>,
+    pub findings: Vec<Finding>,
 }
 
 /// Compiles a model, and tells what it may not be meant to be, besides what is wrong. `path` is where `files` has the text
@@ -28,12 +28,12 @@ pub fn examine(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
 }
 
 /// Compiles a model from its text; the mistakes as they were found.
-pub fn compile(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
+pub fn compile(xml: &str) -> Result<Model, Vec<Finding>> {
     mjcf::compile(xml).map(Model::new)
 }
 
 /// Compiles a model from its text and the files that it names: see [`examine`].
-pub fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<MjcfDiagnostic>> {
+pub fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<Finding>> {
     mjcf::compile_with(xml, files, path).map(Model::new)
 }
 

@@ -6,9 +6,14 @@ use crate::kinds::joint;
 use crate::math::*;
 use crate::model::{Fields, Model};
 
-/// Whether a degree of freedom belongs to one.
+/// Whether a degree of freedom belongs to one. One without inertia is left to the general way, which warns of it.
 pub(crate) fn covers(m: &Model, dof: usize) -> bool {
-    m.dof_simplenum[dof] > 0
+    m.dof_simplenum[dof] > 0 && m.dof_M0[dof] >= MINVAL
+}
+
+/// Whether one of them has no inertia: a plan that was made when it had some does not look.
+pub(crate) fn lacks_inertia(m: &Model) -> bool {
+    (0..m.nv).any(|dof| m.dof_simplenum[dof] > 0 && m.dof_M0[dof] < MINVAL)
 }
 
 /// The constant diagonal of simple bodies in M.

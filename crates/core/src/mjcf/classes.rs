@@ -9,7 +9,8 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use super::schema::{ALTERNATIVES, Kind};
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::rules;
+use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
 
@@ -210,7 +211,7 @@ impl Classes {
             let index = classes.list.len();
             if index > MAX_CLASSES {
                 let message = format!("the model has more than {MAX_CLASSES} default classes");
-                report.error(code::LIMIT, node.span.clone(), message);
+                report.error(rules::LIMIT, node.span.clone(), message);
                 break;
             }
             classes.list.push(Class { parent, entries, nodes });
@@ -258,7 +259,7 @@ impl Classes {
         if let Some(at) = self.room.exceeded.get() {
             let message = format!("lists that defaults complete have more than {MAX_COMPLETED} numbers");
             report
-                .error(code::LIMIT, at..at, message)
+                .error(rules::LIMIT, at..at, message)
                 .why("each element would have a long list of its own")
                 .help("write the lists out, or shorten that of the default");
         }

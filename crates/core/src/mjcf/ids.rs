@@ -2,7 +2,8 @@
 
 use super::names::{NameTable, WORLD};
 use super::spec::{BodySpec, SensorObjects};
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::rules;
+use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Node, Tree};
 use crate::model::Obj;
 use std::collections::BTreeMap;
@@ -158,7 +159,7 @@ impl References<'_> {
         if node.text(attribute).is_none() {
             let message = format!("{} has no `{attribute}`", node.shown());
             report
-                .error(code::MISSING_ATTRIBUTE, node.span.clone(), message)
+                .error(rules::MISSING_ATTRIBUTE, node.span.clone(), message)
                 .help(format!("write `{attribute}=\"…\"` with the name of a {kind}"));
         }
         self.optional(kind, node, attribute)

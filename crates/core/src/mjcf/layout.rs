@@ -5,7 +5,8 @@ use super::spec::{BodySpec, Inertia};
 use crate::kinds::joint;
 use crate::math::{Quat, Vec3};
 use crate::mjcf::body::inertia::shown;
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::rules;
+use crate::mjcf::text::diagnostic::Report;
 
 /// More entries than this in the mass matrix are refused: a long chain with very many branches.
 const MAX_MATRIX: usize = 20_000_000;
@@ -83,7 +84,7 @@ pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
         if body.mocap && (body.parent != 0 || !body.joints.is_empty()) {
             let what = if body.parent == 0 { "has joints" } else { "is not a child of the world" };
             report
-                .error(code::MOCAP, body.span.clone(), format!("{} is a mocap body but {what}", shown(body)))
+                .error(rules::MOCAP, body.span.clone(), format!("{} is a mocap body but {what}", shown(body)))
                 .why("a mocap body is placed from outside: `data.mocap_pos` is its position in the world")
                 .help("make it a child of `worldbody` without joints");
         }
@@ -91,7 +92,7 @@ pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
         for g in body.geoms.iter().filter(|g| g.only_static && moves) {
             report
                 .error(
-                    code::GEOM,
+                    rules::GEOM,
                     g.span.clone(),
                     format!("a plane stands in {}, which can move", shown(body)),
                 )
@@ -117,7 +118,7 @@ fn within_limits(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     for (n, most, what) in counts {
         if n > most {
             report
-                .error(code::LIMIT, 0..0, format!("the model has {n} {what}; the limit is {most}"))
+                .error(rules::LIMIT, 0..0, format!("the model has {n} {what}; the limit is {most}"))
                 .why("larger scenes would take minutes for a step")
                 .help("leave out what the lesson does not need");
         }
@@ -132,7 +133,7 @@ fn check_joints(body: &BodySpec, report: &mut Report) {
         if j.kind == joint::FREE && body.parent != 0 {
             report
                 .error(
-                    code::JOINT,
+                    rules::JOINT,
                     j.span.clone(),
                     format!("a free joint in {}, which is not a child of the world", shown(body)),
                 )
@@ -142,7 +143,7 @@ fn check_joints(body: &BodySpec, report: &mut Report) {
         if after_ball && rotates {
             report
                 .error(
-                    code::JOINT,
+                    rules::JOINT,
                     j.span.clone(),
                     format!("a rotation after the ball joint of {}", shown(body)),
                 )
@@ -155,7 +156,7 @@ fn check_joints(body: &BodySpec, report: &mut Report) {
         if before <= 6 && dofs > 6 {
             report
                 .error(
-                    code::JOINT,
+                    rules::JOINT,
                     j.span.clone(),
                     format!("with this joint {} has more than 6 degrees of freedom", shown(body)),
                 )
@@ -237,7 +238,7 @@ pub(crate) fn pattern(layout: &Layout, simple: &[i32], report: &mut Report) -> O
         }
         p.rownnz.push((p.colind.len() - start) as i32);
         if p.colind.len() > MAX_MATRIX {
-            report.error(code::LIMIT, 0..0, format!("the mass matrix has more than {MAX_MATRIX} entries"));
+            report.error(rules::LIMIT, 0..0, format!("the mass matrix has more than {MAX_MATRIX} entries"));
             return None;
         }
     }
@@ -276,7 +277,7 @@ pub(crate) fn whole_pattern(layout: &Layout, report: &mut Report) -> Option<Whol
         p.colind.extend((i..=i + below[i]).map(|k| k as i32));
         p.rownnz.push((p.colind.len() - start) as i32);
         if p.colind.len() > MAX_MATRIX {
-            report.error(code::LIMIT, 0..0, format!("the mass matrix has more than {MAX_MATRIX} entries"));
+            report.error(rules::LIMIT, 0..0, format!("the mass matrix has more than {MAX_MATRIX} entries"));
             return None;
         }
     }

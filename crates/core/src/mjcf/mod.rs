@@ -8,7 +8,7 @@
 //! repeat an earlier finding in other words wait until that is corrected.
 //!
 //! The meaning of elements and attributes follows MuJoCo's XML reference; the file's own places are in
-//! [`MjcfDiagnostic`].
+//! [`Finding`].
 
 mod actuator;
 mod arrays;
@@ -24,6 +24,7 @@ mod ids;
 mod layout;
 mod names;
 mod passes;
+pub mod rules;
 mod scene;
 mod schema;
 mod sensor;
@@ -41,8 +42,9 @@ use std::path::Path;
 use crate::model::Model;
 use text::diagnostic::Report;
 
+pub use labspec_finding::{Finding, Severity};
 pub use schema::{Attr, Element, Kind, SchemaRow, Status, Word, schema_rows};
-pub use text::diagnostic::{MjcfDiagnostic, MjcfFileError, Severity, code};
+pub use text::diagnostic::MjcfFileError;
 pub use text::files::{FileProblem, Files, Folder, MAX_FILE, NoFiles};
 
 /// Largest text that is read, bytes.
@@ -67,7 +69,7 @@ pub const MAX_ALL_ATTRIBUTES: usize = 1_000_000;
 /// # Errors
 ///
 /// All mistakes that were found, in the order of the text.
-pub(crate) fn compile(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
+pub(crate) fn compile(xml: &str) -> Result<Model, Vec<Finding>> {
     compile_with(xml, &NoFiles, None)
 }
 
@@ -77,11 +79,7 @@ pub(crate) fn compile(xml: &str) -> Result<Model, Vec<MjcfDiagnostic>> {
 /// # Errors
 ///
 /// All mistakes that were found, in the order of the texts. [`examine`] tells warnings, too.
-pub(crate) fn compile_with(
-    xml: &str,
-    files: &dyn Files,
-    path: Option<&str>,
-) -> Result<Model, Vec<MjcfDiagnostic>> {
+pub(crate) fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<Finding>> {
     let Examined { model, mut findings } = examine(xml, files, path);
     findings.retain(|d| d.severity == Severity::Error);
     model.ok_or(findings)
@@ -93,7 +91,7 @@ pub(crate) struct Examined {
     /// The model; `None` when there are errors.
     pub model: Option<Model>,
     /// Errors and warnings in the order of the texts.
-    pub findings: Vec<MjcfDiagnostic>,
+    pub findings: Vec<Finding>,
 }
 
 /// Compiles a model as [`compile_with`] does, and tells what it may not be meant to be, besides what is wrong.
@@ -108,7 +106,7 @@ pub(crate) fn examine(xml: &str, files: &dyn Files, path: Option<&str>) -> Exami
 
 /// Compiles a model that may hold what is not simulated yet.
 #[cfg(test)]
-pub(crate) fn compile_only(xml: &str, files: &dyn Files) -> Result<Model, Vec<MjcfDiagnostic>> {
+pub(crate) fn compile_only(xml: &str, files: &dyn Files) -> Result<Model, Vec<Finding>> {
     let mut report = Report::new();
     match passes::build(xml, files, None, &mut report) {
         Some((_, model)) if report.is_clean() => Ok(model),

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use super::classes::Classes;
 use super::schema::Kind;
-use crate::mjcf::text::diagnostic::{Report, closest, code, shown};
+use crate::mjcf::rules;
+use crate::mjcf::text::diagnostic::{Report, closest, shown};
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
 
@@ -33,7 +34,7 @@ impl<'t> NameTable<'t> {
                 if taken.is_some() {
                     report
                         .error(
-                            code::DUPLICATE_NAME,
+                            rules::DUPLICATE_NAME,
                             a.span.clone(),
                             format!("a second {kind} is named {}", shown(name)),
                         )
@@ -64,7 +65,7 @@ impl<'t> NameTable<'t> {
             return; // it may be the name of something that was left out
         }
         let error =
-            report.error(code::UNKNOWN_NAME, span, format!("there is no {kind} named {}", shown(name)));
+            report.error(rules::UNKNOWN_NAME, span, format!("there is no {kind} named {}", shown(name)));
         match closest(name, self.of(kind)) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None if self.of(kind).next().is_none() => {
@@ -122,7 +123,7 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
                 }
                 Kind::Class if !is_default && classes.find(name).is_none() => {
                     let error = report.error(
-                        code::UNKNOWN_CLASS,
+                        rules::UNKNOWN_CLASS,
                         a.span.clone(),
                         format!("there is no default class named {}", shown(name)),
                     );
@@ -190,7 +191,7 @@ fn check_dangling(
     for d in dangling {
         let message = format!("this default names the {} {}, which does not exist", d.kind, shown(d.name));
         report
-            .warning(code::UNKNOWN_NAME, d.attribute.span.clone(), message)
+            .warning(rules::UNKNOWN_NAME, d.attribute.span.clone(), message)
             .why("no element uses this default yet; with the first one that does, the model will not load")
             .help(format!("remove the attribute, or name a {} that exists", d.kind));
     }
@@ -208,14 +209,14 @@ fn check_class<'t>(
     match (nested, node.text("class")) {
         (true, None) => {
             report
-                .error(code::MISSING_ATTRIBUTE, span, "a nested default has no class name")
+                .error(rules::MISSING_ATTRIBUTE, span, "a nested default has no class name")
                 .why("elements choose a class by its name")
                 .help("write `<default class=\"…\">`");
         }
         (true, Some(name)) if name == "main" || defined.insert(name, 0).is_some() => {
             report
                 .error(
-                    code::DUPLICATE_NAME,
+                    rules::DUPLICATE_NAME,
                     span,
                     format!("the default class {} is defined twice", shown(name)),
                 )
@@ -224,7 +225,7 @@ fn check_class<'t>(
         (false, Some(name)) if name != "main" && node.model == 0 => {
             report
                 .error(
-                    code::UNKNOWN_CLASS,
+                    rules::UNKNOWN_CLASS,
                     span,
                     format!("the outer default class is called {}, not `main`", shown(name)),
                 )

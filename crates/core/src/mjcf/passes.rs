@@ -9,10 +9,11 @@ use super::geom::reshape;
 use super::scene::{fill_scene, read_key, read_scene};
 use super::sensor::read_sensor;
 use super::tendon::{fill_tendon, read_tendon};
-use super::text::diagnostic::{Report, code};
+use super::text::diagnostic::Report;
 use super::text::files::Files;
 use super::text::{load, tree};
 use super::{context, expand, fill, ids, layout, names, settings};
+use crate::mjcf::rules;
 use crate::model::Model;
 
 /// All passes. `None` when something is wrong; then the report says what.
@@ -66,14 +67,14 @@ pub(super) fn build(
         for light in bodies.iter().flat_map(|b| &b.lights).filter(|l| l.texture.is_some()) {
             let message =
                 format!("light `{}` has a texture, and `discardvisual` removes all textures", light.name);
-            cx.report.error(code::CONFLICT, light.span.clone(), message).help("remove the one or the other");
+            cx.report.error(rules::CONFLICT, light.span.clone(), message).help("remove the one or the other");
         }
         for skin in &assets.skins {
             if skin.value.as_ref().is_some_and(|s| s.material.is_some()) {
                 let message =
                     format!("skin `{}` has a material, and `discardvisual` removes all materials", skin.name);
                 cx.report
-                    .error(code::CONFLICT, skin.span.clone(), message)
+                    .error(rules::CONFLICT, skin.span.clone(), message)
                     .help("remove the one or the other");
             }
         }

@@ -3,7 +3,8 @@
 use super::classes::Props;
 use super::spec::List;
 use crate::kinds::{disable, enable};
-use crate::mjcf::text::diagnostic::{Report, code, shown};
+use crate::mjcf::rules;
+use crate::mjcf::text::diagnostic::{Report, shown};
 use crate::mjcf::text::tree::Tree;
 use crate::mjcf::text::values::Value;
 use crate::model::{Options, Statistic};
@@ -30,7 +31,7 @@ pub(crate) fn checked(
     let x = props.real(name)?;
     if !test(x) {
         let span = props.span(name).unwrap_or(0..0);
-        report.error(code::VALUE, span, format!("`{name}` of {owner} is {x}, it must be {must}"));
+        report.error(rules::VALUE, span, format!("`{name}` of {owner} is {x}, it must be {must}"));
     }
     Some(x)
 }
@@ -119,7 +120,7 @@ fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
         _ => {
             report
                 .error(
-                    code::VALUE,
+                    rules::VALUE,
                     p.span("eulerseq").unwrap_or(0..0),
                     format!("`eulerseq` is {}", shown(text)),
                 )
@@ -147,7 +148,7 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     let mut zero = |name: &str, shown: String| {
         let span = p.span(name).unwrap_or(0..0);
         let message = format!("`{name}` of option is {shown}, which has the effect of 0");
-        report.warning(code::NO_EFFECT, span, message).help("write 0, or remove it for the default");
+        report.warning(rules::NO_EFFECT, span, message).help("write 0, or remove it for the default");
     };
     let mut tolerance = |name: &str, default: f64| {
         let x = p.real(name).unwrap_or(default);
@@ -218,7 +219,7 @@ fn disabled_groups(p: &Props, report: &mut Report) -> i32 {
         } else {
             let span = p.span("actuatorgroupdisable").unwrap_or(0..0);
             report
-                .error(code::VALUE, span, format!("`actuatorgroupdisable` of option has {group}"))
+                .error(rules::VALUE, span, format!("`actuatorgroupdisable` of option has {group}"))
                 .why("groups that can be switched off are 0 to 30");
         }
     }
@@ -357,7 +358,7 @@ pub(crate) fn user_width<'l>(
     let span = p.span(size).unwrap_or(0..0);
     if let Some(n) = p.int(size).filter(|&n| n < -1) {
         report
-            .error(code::VALUE, span.clone(), format!("`{size}` of size is {n}, it must be -1 or more"))
+            .error(rules::VALUE, span.clone(), format!("`{size}` of size is {n}, it must be -1 or more"))
             .help("write how many user values each element has, or -1 for as many as its longest list needs");
     }
     let given = p.int(size).and_then(|n| usize::try_from(n).ok());
@@ -371,7 +372,7 @@ pub(crate) fn user_width<'l>(
         if let Some(most) = given.filter(|&most| n > most) {
             let message = format!("`user` has {n} numbers, but `{size}` of size is {most}");
             report
-                .error(code::COUNT, list.span.clone(), message)
+                .error(rules::COUNT, list.span.clone(), message)
                 .help(format!("remove `{size}`, or write a larger number"));
         }
     }
@@ -396,13 +397,15 @@ pub(crate) fn memory(tree: &Tree, report: &mut Report) {
         if text != "-1" && (digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit())) {
             let span = p.span("memory").unwrap_or(0..0);
             let message = format!("`memory` of size is {}, not a number of bytes", shown(text));
-            report.error(code::VALUE, span, message).help("write a whole number such as `64M`, or remove it");
+            report
+                .error(rules::VALUE, span, message)
+                .help("write a whole number such as `64M`, or remove it");
         }
     }
     for name in ["njmax", "nconmax", "nstack"] {
         if let Some(n) = p.int(name).filter(|&n| n < -1) {
             let span = p.span(name).unwrap_or(0..0);
-            report.error(code::VALUE, span, format!("`{name}` of size is {n}, it must be -1 or more"));
+            report.error(rules::VALUE, span, format!("`{name}` of size is {n}, it must be -1 or more"));
         }
     }
 }
@@ -416,7 +419,7 @@ pub(crate) fn userdata(tree: &Tree, report: &mut Report) -> usize {
         Ok(n) if report.take(n, span.clone(), "`nuserdata`") => n,
         Ok(_) => 0,
         Err(_) => {
-            report.error(code::VALUE, span, format!("`nuserdata` of size is {n}, it must be zero or more"));
+            report.error(rules::VALUE, span, format!("`nuserdata` of size is {n}, it must be zero or more"));
             0
         }
     }

@@ -1,7 +1,8 @@
 //! What compiles but cannot be simulated: it is refused.
 
 use crate::kinds::{disable, enable, eqtype, integrator};
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::rules;
+use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::Tree;
 use crate::model::asleep::policy;
 use crate::model::{Model, Obj};
@@ -21,7 +22,7 @@ fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
     let acts = |e: usize| m.eq_type[e] == eqtype::TENDON && m.eq_active0[e];
     if (0..m.neq).any(acts) {
         report
-            .error(code::NOT_SUPPORTED, span(), "trees cannot sleep while an equality ties tendons")
+            .error(rules::NOT_SUPPORTED, span(), "trees cannot sleep while an equality ties tendons")
             .why("MuJoCo has no rule for what wakes them, and refuses such a model, too")
             .help("switch sleeping off, or remove the equality between tendons");
         return;
@@ -29,7 +30,7 @@ fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
     if m.opt.integrator == integrator::DISCRETE && m.opt.disabled(disable::ISLAND) {
         report
             .error(
-                code::NOT_SUPPORTED,
+                rules::NOT_SUPPORTED,
                 span(),
                 "trees cannot sleep with the discrete integrator without islands",
             )
@@ -46,7 +47,7 @@ fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
         let body = m.names.of(Obj::Body).get(m.tree_bodyadr[t] as usize).filter(|name| !name.is_empty());
         let who = body.map_or("a body without a name".into(), |name| format!("body `{name}`"));
         report
-            .error(code::JOINT, span(), format!("{who} cannot start asleep"))
+            .error(rules::JOINT, span(), format!("{who} cannot start asleep"))
             .why("it touches, or is tied to, what does not start asleep: bodies that hold each other sleep together")
             .help("give `sleep=\"init\"` to all that touch at the start, or move them apart");
     }

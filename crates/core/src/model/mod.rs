@@ -5,7 +5,6 @@ pub(crate) mod bytes;
 pub(crate) mod data_fields;
 pub(crate) mod fields;
 pub(crate) mod meter;
-pub(crate) mod nearest;
 pub(crate) mod plan;
 pub mod reflect;
 pub(crate) mod stage;

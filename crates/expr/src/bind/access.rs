@@ -3,14 +3,14 @@
 use super::name::{list, quoted, view_of};
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Expr, ExprKind};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Fix, Span};
+use crate::closest;
 use crate::effects::Access;
 use crate::ir::{Index, Ir, Kind};
 use crate::number;
+use crate::rules;
 use crate::schema::{CollectionId, Field, Help, ObjectId, Type};
-use crate::suggest::closest;
 use crate::value::{Value, View};
+use crate::{Finding, Fix, Span};
 
 /// What chooses a `ctx` variable.
 pub(super) enum GlobalName {
@@ -71,7 +71,7 @@ impl<'a> Binder<'a> {
             && constant
             && let Some(named) = self.schema.named_element(field.key, *i)
         {
-            self.named.push(Fix { span, text: named });
+            self.named.push(Fix::safe(span, named));
         }
     }
 
@@ -97,8 +97,8 @@ impl<'a> Binder<'a> {
             let shown = number::to_text(*x);
             let count = if n == 1 { "1 element".into() } else { format!("{n} elements") };
             self.report(
-                Diagnostic::error(
-                    code::INDEX_RANGE,
+                Finding::error(
+                    rules::INDEX_RANGE,
                     index.span,
                     format!("index {shown} is past the end of this list"),
                 )
@@ -171,8 +171,8 @@ impl<'a> Binder<'a> {
             let object = Span::new(span.start, index.span.start);
             let object = self.text(object).trim_end().trim_end_matches('[').to_owned();
             return self.refuse(
-                Diagnostic::error(
-                    code::NOT_INDEXABLE,
+                Finding::error(
+                    rules::NOT_INDEXABLE,
                     span,
                     format!("`{}` is one number, not an array", field.path),
                 )
@@ -191,8 +191,8 @@ impl<'a> Binder<'a> {
                 Ok(Index::Computed(Box::new(ir)))
             }
             (_, ty) => {
-                let mut report = Diagnostic::error(
-                    code::INDEX_KIND,
+                let mut report = Finding::error(
+                    rules::INDEX_KIND,
                     index.span,
                     format!("the index is {}, not a number", ty.describe()),
                 )
@@ -217,7 +217,7 @@ impl<'a> Binder<'a> {
         let shown = number::to_text(x);
         if x < 0.0 {
             let mut report =
-                Diagnostic::error(code::INDEX_NEGATIVE, span, format!("index {shown} is below zero")).why(
+                Finding::error(rules::INDEX_NEGATIVE, span, format!("index {shown} is below zero")).why(
                     "indexes start at 0; JavaScript gives `undefined` here, it does not count from the end",
                 );
             report = match field.len() {
@@ -230,7 +230,7 @@ impl<'a> Binder<'a> {
         }
         if x.fract() != 0.0 || !x.is_finite() {
             return self.refuse(
-                Diagnostic::error(code::INDEX_FRACTION, span, format!("index {shown} is not a whole number"))
+                Finding::error(rules::INDEX_FRACTION, span, format!("index {shown} is not a whole number"))
                     .why("there is no element between two elements; JavaScript gives `undefined` here")
                     .help("round it, as `Math.floor(x)`, or write the whole number"),
             );
@@ -244,9 +244,9 @@ impl<'a> Binder<'a> {
         Ok(at)
     }
 
-    pub(super) fn not_indexable(&self, thing: &Thing, object: &Expr, index: &Expr, span: Span) -> Diagnostic {
+    pub(super) fn not_indexable(&self, thing: &Thing, object: &Expr, index: &Expr, span: Span) -> Finding {
         let text = self.text(object.span);
-        let error = |message: String| Diagnostic::error(code::NOT_INDEXABLE, span, message);
+        let error = |message: String| Finding::error(rules::NOT_INDEXABLE, span, message);
         let name = match &index.kind {
             ExprKind::String(name) => Some(name.as_str()),
             _ => None,
@@ -288,13 +288,10 @@ impl<'a> Binder<'a> {
     }
 
     /// The finding for a whole array where one number must stand.
-    pub(super) fn whole_array(&self, field: &Field, span: Span) -> Diagnostic {
+    pub(super) fn whole_array(&self, field: &Field, span: Span) -> Finding {
         let text = self.text(span);
-        let report = Diagnostic::error(
-            code::WHOLE_ARRAY,
-            span,
-            format!("`{}` is an array, not one number", field.path),
-        );
+        let report =
+            Finding::error(rules::WHOLE_ARRAY, span, format!("`{}` is an array, not one number", field.path));
         match field.len() {
             Some(1) => report
                 .why("even an array of one element is not its element")
@@ -315,15 +312,15 @@ impl<'a> Binder<'a> {
         id: CollectionId,
         object: Span,
         name: Option<(&str, Span)>,
-    ) -> Diagnostic {
+    ) -> Finding {
         let (text, noun) = (self.text(object), self.schema.noun(id));
         let report =
-            Diagnostic::error(code::NOT_A_VALUE, object, format!("`{text}` needs the name of a {noun}"));
+            Finding::error(rules::NOT_A_VALUE, object, format!("`{text}` needs the name of a {noun}"));
         let names = self.schema.names(id);
         match name {
             Some((name, span)) if names.iter().any(|n| n == name) => {
                 let meant = format!("{text}(\"{name}\")");
-                Diagnostic { span, ..report }.help(format!("write `{meant}`")).fix(span, meant)
+                Finding { span: span.into(), ..report }.help(format!("write `{meant}`")).fix(span, meant)
             }
             _ => match names.first() {
                 Some(first) => report.help(format!("write `{text}(\"{first}\")`")),
@@ -347,7 +344,7 @@ impl<'a> Binder<'a> {
             let message =
                 format!("`{}` takes the name of one {noun}, not {} arguments", self.text(callee), args.len());
             return self.refuse(
-                Diagnostic::error(code::ARGUMENT_COUNT, span, message)
+                Finding::error(rules::ARGUMENT_COUNT, span, message)
                     .help(format!("write `{}(\"…\")`", self.text(callee))),
             );
         };
@@ -366,8 +363,8 @@ impl<'a> Binder<'a> {
             && self.variable(word).is_none()
         {
             return self.refuse(
-                Diagnostic::error(
-                    code::COMPUTED_NAME,
+                Finding::error(
+                    rules::COMPUTED_NAME,
                     arg.span,
                     format!("the name of a {noun} stands in quotes"),
                 )
@@ -382,12 +379,8 @@ impl<'a> Binder<'a> {
             (None, Type::String | Type::Any | Type::Never) => {
                 if names.is_empty() {
                     return self.refuse(
-                        Diagnostic::error(
-                            code::UNKNOWN_OBJECT,
-                            arg.span,
-                            format!("no {noun} has a name here"),
-                        )
-                        .help(format!("give the {noun} a name in the model")),
+                        Finding::error(rules::UNKNOWN_OBJECT, arg.span, format!("no {noun} has a name here"))
+                            .help(format!("give the {noun} a name in the model")),
                     );
                 }
                 self.effects.can_throw = true;
@@ -400,8 +393,8 @@ impl<'a> Binder<'a> {
                     format!("; the names are {}", list(&names))
                 };
                 return self.refuse(
-                    Diagnostic::error(
-                        code::ARGUMENT_TYPE,
+                    Finding::error(
+                        rules::ARGUMENT_TYPE,
                         arg.span,
                         format!("a {noun} is chosen by its name, not by {}", ir.ty.describe()),
                     )
@@ -417,7 +410,7 @@ impl<'a> Binder<'a> {
             return Ok(Chosen::Known(object));
         }
         let report =
-            Diagnostic::error(code::UNKNOWN_OBJECT, arg.span, format!("there is no {noun} named \"{name}\""));
+            Finding::error(rules::UNKNOWN_OBJECT, arg.span, format!("there is no {noun} named \"{name}\""));
         let report = match closest(name, names.iter().map(String::as_str)) {
             Some(meant) => {
                 report.help(format!("did you mean \"{meant}\"?")).fix(arg.span, format!("\"{meant}\""))
@@ -464,14 +457,14 @@ fn owner(field: &Field, n: usize) -> String {
 }
 
 /// The finding for an index past the end.
-pub(super) fn out_of_range(field: &Field, shown: &str, span: Span) -> Diagnostic {
+pub(super) fn out_of_range(field: &Field, shown: &str, span: Span) -> Finding {
     let n = field.len().unwrap_or(0);
     let what = if field.is_empty() {
         format!("`{}` has no elements", field.path)
     } else {
         format!("index {shown} is past the end of `{}`", field.path)
     };
-    let report = Diagnostic::error(code::INDEX_RANGE, span, what);
+    let report = Finding::error(rules::INDEX_RANGE, span, what);
     let shape = if field.shape.len() > 1 && n > 0 {
         format!("{n} numbers, {} in each row", row(field))
     } else {

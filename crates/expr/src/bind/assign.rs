@@ -5,11 +5,11 @@ use super::name::{Use, is_language, machinery, view_of};
 use super::scope::Meaning;
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Gives, Index, Ir, Kind, Place};
+use crate::rules;
 use crate::schema::{Field, FieldKind, Type};
 use crate::value::Value;
+use crate::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// `target = value` of a control that sets.
@@ -115,8 +115,8 @@ impl<'a> Binder<'a> {
         }
         let text = self.text(value.span);
         self.refuse(
-            Diagnostic::error(
-                code::WHOLE_ARRAY,
+            Finding::error(
+                rules::WHOLE_ARRAY,
                 value.span,
                 format!("`{text}` is an array of the simulation; `ctx` keeps values"),
             )
@@ -192,7 +192,7 @@ impl<'a> Binder<'a> {
         let message =
             format!("`{}` is {}; it has no members to assign", self.text(ir.span), ir.ty.describe());
         self.refuse(
-            Diagnostic::error(code::NOT_ASSIGNABLE, span, message)
+            Finding::error(rules::NOT_ASSIGNABLE, span, message)
                 .help("assign a member of a record, or a variable of the lab, as `ctx.peak`"),
         )
     }
@@ -228,7 +228,7 @@ impl<'a> Binder<'a> {
             self.check_ready(&variable, span)?;
             if variable.constant {
                 return self.refuse(
-                    Diagnostic::error(code::ASSIGN_CONST, span, format!("`{name}` is declared with `const`"))
+                    Finding::error(rules::ASSIGN_CONST, span, format!("`{name}` is declared with `const`"))
                         .why("a `const` name keeps its first value; JavaScript stops the program here")
                         .help(format!("declare it with `let {name}`, or use another name")),
                 );
@@ -247,8 +247,7 @@ impl<'a> Binder<'a> {
             return self.refuse(report);
         }
         if is_language(name) {
-            let report =
-                Diagnostic::error(code::NOT_ASSIGNABLE, span, format!("`{name}` cannot be assigned"));
+            let report = Finding::error(rules::NOT_ASSIGNABLE, span, format!("`{name}` cannot be assigned"));
             return self.refuse(match name {
                 "ctx" => report
                     .why("it holds the variables of the lab")
@@ -264,8 +263,8 @@ impl<'a> Binder<'a> {
         self.place_of(thing, &expr, reads)
     }
 
-    fn undeclared(&self, name: &str, span: Span) -> Diagnostic {
-        let report = Diagnostic::error(code::UNKNOWN_NAME, span, format!("`{name}` is not declared"))
+    fn undeclared(&self, name: &str, span: Span) -> Finding {
+        let report = Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` is not declared"))
             .why("an assignment without a declaration would make a variable of the whole page");
         match self.closest_name(name) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(span, meant),
@@ -285,7 +284,7 @@ impl<'a> Binder<'a> {
                 }
                 let text = self.text(target.span).to_owned();
                 self.refuse(
-                    Diagnostic::error(code::ASSIGN_ARRAY, target.span, format!("`{}` is an array and cannot be replaced as a whole", field.path))
+                    Finding::error(rules::ASSIGN_ARRAY, target.span, format!("`{}` is an array and cannot be replaced as a whole", field.path))
                         .why("its elements are the memory of the simulation; an assignment to the name would change none of them")
                         .help(format!("assign an element, as `{text}[0] = …`, or all of them with `{text}.fill(…)` or `{text}.set([…], 0)`")),
                 )
@@ -297,10 +296,10 @@ impl<'a> Binder<'a> {
         }
     }
 
-    fn not_a_place(&self, target: &Expr) -> Diagnostic {
+    fn not_a_place(&self, target: &Expr) -> Finding {
         let text = self.text(target.span);
         let report =
-            Diagnostic::error(code::NOT_ASSIGNABLE, target.span, format!("`{text}` cannot hold a value"));
+            Finding::error(rules::NOT_ASSIGNABLE, target.span, format!("`{text}` cannot hold a value"));
         match &target.kind {
             ExprKind::Number(_) | ExprKind::String(_) | ExprKind::Boolean(_) | ExprKind::Null => report
                 .why("it is a fixed value")
@@ -323,8 +322,8 @@ impl<'a> Binder<'a> {
         match &field.kind {
             FieldKind::State | FieldKind::Input | FieldKind::Constant | FieldKind::Inertial => Ok(()),
             FieldKind::Structure => self.refuse(
-                Diagnostic::error(
-                    code::ASSIGN_STRUCTURE,
+                Finding::error(
+                    rules::ASSIGN_STRUCTURE,
                     span,
                     format!("`{}` is fixed when the model is compiled", field.path),
                 )
@@ -334,8 +333,8 @@ impl<'a> Binder<'a> {
             FieldKind::Derived { by } => {
                 let computed =
                     if by.is_empty() { "computed".to_owned() } else { format!("computed by {by}") };
-                let report = Diagnostic::error(
-                    code::ASSIGN_DERIVED,
+                let report = Finding::error(
+                    rules::ASSIGN_DERIVED,
                     span,
                     format!("`{}` is {computed}; it cannot be set", field.path),
                 )
@@ -361,8 +360,8 @@ impl<'a> Binder<'a> {
         if value.ty != Type::String {
             return;
         }
-        let report = Diagnostic::warning(
-            code::STRING_AS_NUMBER,
+        let report = Finding::warning(
+            rules::STRING_AS_NUMBER,
             value.span,
             "a string is stored where a number belongs",
         );
@@ -385,8 +384,8 @@ impl<'a> Binder<'a> {
     }
 }
 
-fn array_in_element(span: Span) -> Diagnostic {
-    Diagnostic::error(code::ASSIGN_ARRAY, span, "an array cannot be stored in one element")
+fn array_in_element(span: Span) -> Finding {
+    Finding::error(rules::ASSIGN_ARRAY, span, "an array cannot be stored in one element")
         .why("an element is one number")
         .help("store several numbers with `.set([…], offset)`")
 }

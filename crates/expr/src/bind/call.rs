@@ -4,16 +4,16 @@ use super::access::Chosen;
 use super::name::{Use, quoted};
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Expr, ExprKind};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::closest;
 use crate::ir::{Ir, Item, Kind, Step, Tree, Unit};
 use crate::math;
 use crate::natives;
 use crate::prelude;
 use crate::program::{Aggregate, Program};
+use crate::rules;
 use crate::schema::{FunctionId, FunctionInfo, Help, Param, Type};
-use crate::suggest::closest;
 use crate::value::Value;
+use crate::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// `callee(args)`, or `callee?.(args)`
@@ -42,8 +42,8 @@ impl<'a> Binder<'a> {
                 None => {
                     self.only_check(args);
                     self.refuse(
-                        Diagnostic::error(
-                            code::NOT_IN_LANGUAGE,
+                        Finding::error(
+                            rules::NOT_IN_LANGUAGE,
                             callee.span,
                             format!("`{name}(…)` is not in this language"),
                         )
@@ -114,7 +114,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    fn not_callable(&self, thing: &Thing, span: Span) -> Diagnostic {
+    fn not_callable(&self, thing: &Thing, span: Span) -> Finding {
         let text = self.text(span);
         let what = match thing {
             Thing::Field(field) if !field.is_scalar() => "an array",
@@ -123,8 +123,7 @@ impl<'a> Binder<'a> {
             Thing::Value(ir) => ir.ty.describe(),
             _ => "a value",
         };
-        let report =
-            Diagnostic::error(code::NOT_CALLABLE, span, format!("`{text}` is {what}, not a function"));
+        let report = Finding::error(rules::NOT_CALLABLE, span, format!("`{text}` is {what}, not a function"));
         match thing {
             Thing::Field(field) if !field.is_scalar() => report
                 .why("round brackets call a function")
@@ -136,7 +135,7 @@ impl<'a> Binder<'a> {
     }
 
     /// The finding for a function that is named but not called.
-    pub(super) fn not_called(&self, thing: &Thing, span: Span) -> Diagnostic {
+    pub(super) fn not_called(&self, thing: &Thing, span: Span) -> Finding {
         let text = self.text(span);
         let call = match thing {
             Thing::Function(id) => {
@@ -146,7 +145,7 @@ impl<'a> Binder<'a> {
             }
             _ => format!("{text}(…)"),
         };
-        Diagnostic::error(code::NOT_CALLED, span, format!("`{text}` is a function, but it is not called"))
+        Finding::error(rules::NOT_CALLED, span, format!("`{text}` is a function, but it is not called"))
             .why("without arguments in brackets nothing happens, and a function is not a value here")
             .help(format!("write `{call}`"))
     }
@@ -158,8 +157,8 @@ impl<'a> Binder<'a> {
         // `f(v[i], i, v)` in the prelude, which calls functions of its own, too.
         let handed = matches!(args.last().map(|a| &a.kind), Some(ExprKind::Name(list)) if list == "v");
         if self.site.is_some() && handed && function.arity().1.is_none() {
-            let report = Diagnostic::error(
-                code::ARGUMENT_TYPE,
+            let report = Finding::error(
+                rules::ARGUMENT_TYPE,
                 span,
                 format!("`{path}` would get the index and the whole list as well"),
             )
@@ -189,7 +188,7 @@ impl<'a> Binder<'a> {
         if args.len() < least {
             let message = format!("`{path}` needs {}", count(least, "argument"));
             return self.refuse(
-                Diagnostic::error(code::ARGUMENT_COUNT, span, message)
+                Finding::error(rules::ARGUMENT_COUNT, span, message)
                     .why("what is missing is `undefined`, and of that JavaScript makes NaN")
                     .help(format!("write `{path}({})`", if least == 2 { "a, b" } else { "x" })),
             );
@@ -198,7 +197,7 @@ impl<'a> Binder<'a> {
             let first = args.get(most).map_or(span, |a| a.span);
             let last = args.last().map_or(span, |a| a.span);
             let message = format!("`{path}` takes {}, this is ignored", count(most, "argument"));
-            let report = Diagnostic::warning(code::ARGUMENT_COUNT, first.to(last), message)
+            let report = Finding::warning(rules::ARGUMENT_COUNT, first.to(last), message)
                 .why("JavaScript computes without it");
             self.report(if path == "Math.round" {
                 report.help(
@@ -219,14 +218,11 @@ impl<'a> Binder<'a> {
         if bound.is_err() && function.arity().1.is_none() {
             let text = self.text(arg.span);
             for report in self.diagnostics.iter_mut().skip(before) {
-                if report.code == code::WHOLE_ARRAY && report.span == arg.span {
+                if report.code == rules::WHOLE_ARRAY && report.span == arg.span {
                     report.help = Some(format!(
                         "write `{path}(...{text})` for all its elements, or `{text}[0]` for one"
                     ));
-                    report.fix = Some(crate::Fix {
-                        span: Span::new(arg.span.start, arg.span.start),
-                        text: "...".into(),
-                    });
+                    report.fix = Some(crate::Fix::safe(arg.span.start..arg.span.start, "..."));
                 }
             }
         }
@@ -252,8 +248,8 @@ impl<'a> Binder<'a> {
     fn expect_argument(&mut self, ir: &Ir, path: &str) {
         if ir.ty == Type::String {
             self.report(
-                Diagnostic::warning(
-                    code::STRING_AS_NUMBER,
+                Finding::warning(
+                    rules::STRING_AS_NUMBER,
                     ir.span,
                     format!("`{path}` needs a number, this is a string"),
                 )
@@ -273,8 +269,8 @@ impl<'a> Binder<'a> {
     ) -> Attempt<Ir> {
         let info = self.schema.function(id);
         if let Some(spread) = args.iter().find(|a| matches!(a.kind, ExprKind::Spread(_))) {
-            let report = Diagnostic::error(
-                code::ARGUMENT_TYPE,
+            let report = Finding::error(
+                rules::ARGUMENT_TYPE,
                 spread.span,
                 format!("the arguments of `{}` cannot be spread", info.name),
             )
@@ -311,7 +307,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(Kind::Call(id, passed), info.returns, span))
     }
 
-    fn wrong_count(&self, info: &FunctionInfo, args: &[Expr], callee: Span, span: Span) -> Diagnostic {
+    fn wrong_count(&self, info: &FunctionInfo, args: &[Expr], callee: Span, span: Span) -> Finding {
         let signature = self.signature(info);
         let n = info.params.len();
         let wanted = if info.optional > 0 {
@@ -321,7 +317,7 @@ impl<'a> Binder<'a> {
         };
         let message = format!("`{}` takes {wanted}, not {}", info.name, args.len());
         let report =
-            Diagnostic::error(code::ARGUMENT_COUNT, span, message).why(format!("what it does: {}", info.doc));
+            Finding::error(rules::ARGUMENT_COUNT, span, message).why(format!("what it does: {}", info.doc));
         let only_objects =
             !info.params.is_empty() && info.params.iter().all(|p| matches!(p, Param::Object(_)));
         if only_objects {
@@ -363,7 +359,7 @@ impl<'a> Binder<'a> {
                 let object = self.schema.describe(wanted);
                 let message = format!("argument {} of `{}` must be {}", i + 1, info.name, quoted(&object));
                 self.refuse(
-                    Diagnostic::error(code::ARGUMENT_TYPE, span, message)
+                    Finding::error(rules::ARGUMENT_TYPE, span, message)
                         .why("there is only one model and one data in a lab, and they stand in this order")
                         .help(format!("write `{}`", self.signature(info))),
                 )
@@ -432,7 +428,7 @@ impl<'a> Binder<'a> {
     fn wrong_type<T>(&mut self, info: &FunctionInfo, i: usize, ir: &Ir, wanted: &str) -> Attempt<T> {
         let message =
             format!("argument {} of `{}` must be {wanted}, not {}", i + 1, info.name, ir.ty.describe());
-        let report = Diagnostic::error(code::ARGUMENT_TYPE, ir.span, message).why(info.doc.clone());
+        let report = Finding::error(rules::ARGUMENT_TYPE, ir.span, message).why(info.doc.clone());
         let known = ir.known().map(|v| (v.type_of(), v.to_number()));
         self.refuse(match known {
             Some((Type::String, x)) if !x.is_nan() => {
@@ -454,7 +450,7 @@ impl<'a> Binder<'a> {
         let required = info.params.len().saturating_sub(info.optional);
         if args.len() < required || args.len() > info.params.len() {
             let report = self.wrong_count(info, args, Span::new(span.start, span.start), span);
-            return self.refuse(Diagnostic { fix: None, ..report });
+            return self.refuse(Finding { fix: None, ..report });
         }
         let mut programs = Vec::new();
         let mut failed = false;

@@ -4,11 +4,11 @@ use super::facts::Key;
 use super::scope::{Known, Meaning};
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Body, Element, Expr, ExprKind, Function, Name, Pattern};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Ir, Item, Kind, LocalId, Step, Unit, UnitId};
 use crate::operators::BinaryOp;
+use crate::rules;
 use crate::schema::Type;
+use crate::{Finding, Span};
 
 /// Functions of one text, those of the prelude not included.
 const MAX_FUNCTIONS: usize = 200;
@@ -49,8 +49,8 @@ impl<'a> Binder<'a> {
         let span = known.function.span;
         if self.tree.units.len() > MAX_FUNCTIONS {
             return self.refuse(
-                Diagnostic::error(
-                    code::TOO_LONG,
+                Finding::error(
+                    rules::TOO_LONG,
                     span,
                     format!("more than {MAX_FUNCTIONS} functions in one text"),
                 )
@@ -219,8 +219,8 @@ impl<'a> Binder<'a> {
             let name = self.text(Span::new(span.start, args.first().map_or(span.end, |a| a.span.start)));
             let name = name.split('(').next().unwrap_or("").trim();
             self.report(
-                Diagnostic::warning(
-                    code::ARGUMENT_COUNT,
+                Finding::warning(
+                    rules::ARGUMENT_COUNT,
                     span,
                     format!("`{name}` gets {} of {needed} arguments", args.len()),
                 )

@@ -3,11 +3,11 @@
 use super::scope::Meaning;
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Element, Expr, ExprKind, Pattern, Property};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Entry, Ir, Item, Kind, Step};
 use crate::operators::BinaryOp;
+use crate::rules;
 use crate::schema::Type;
+use crate::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// Items of a list, or arguments, with their spreads.
@@ -48,8 +48,8 @@ impl<'a> Binder<'a> {
             return Ok(());
         }
         let text = self.text(value.span);
-        let report = Diagnostic::error(
-            code::NO_PARTS,
+        let report = Finding::error(
+            rules::NO_PARTS,
             value.span,
             format!("`{text}` is {}; it has no elements to go through", value.ty.describe()),
         )

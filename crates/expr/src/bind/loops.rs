@@ -3,12 +3,12 @@
 use super::access::out_of_range;
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{BinaryOp, Expr, ExprKind, Pattern, Stmt, StmtKind};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Ir, Item, Kind, Loop, Place, Step};
 use crate::number;
+use crate::rules;
 use crate::schema::{Field, Type};
 use crate::value::Value;
+use crate::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// `for (init; test; update) body`
@@ -68,7 +68,7 @@ impl<'a> Binder<'a> {
         if let Ok(ir) = bound {
             if ir.known().is_some_and(Value::truthy) && !leaves(&inside) {
                 self.report(
-                    Diagnostic::error(code::BUDGET, test.span, "this loop never ends")
+                    Finding::error(rules::BUDGET, test.span, "this loop never ends")
                         .why("its condition always holds, and nothing in it leaves the loop: the page would hang")
                         .help("write a condition that becomes false, or leave the loop with `break`"),
                 );
@@ -275,13 +275,13 @@ impl<'a> Binder<'a> {
             let text = self.text(index.span);
             let message =
                 format!("in the last turn of the loop `{text}` is {shown}: past the end of `{}`", field.path);
-            return self.refuse(Diagnostic { message, ..report });
+            return self.refuse(Finding { message, ..report });
         }
         if least < 0.0 {
             let shown = number::to_text(least);
             return self.refuse(
-                Diagnostic::error(
-                    code::INDEX_NEGATIVE,
+                Finding::error(
+                    rules::INDEX_NEGATIVE,
                     index.span,
                     format!("in the loop `{}` becomes {shown}, below zero", self.text(index.span)),
                 )

@@ -3,13 +3,13 @@
 use super::name::view_of;
 use super::{Attempt, Binder, Receiver, Thing};
 use crate::ast::{Expr, ExprKind};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Ir, Kind};
 use crate::natives::{self, On, Row};
 use crate::prelude;
+use crate::rules;
 use crate::schema::{Field, Type};
 use crate::value::Value;
+use crate::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// Whether values of a type have a method.
@@ -95,8 +95,8 @@ impl<'a> Binder<'a> {
         }
         if args.iter().any(|a| matches!(a.kind, ExprKind::Spread(_))) {
             return self.refuse(
-                Diagnostic::error(
-                    code::ARGUMENT_TYPE,
+                Finding::error(
+                    rules::ARGUMENT_TYPE,
                     span,
                     format!("the arguments of `{text}` cannot be spread"),
                 )
@@ -119,8 +119,8 @@ impl<'a> Binder<'a> {
             }
             None => {
                 let wanted = arities.iter().min().copied().unwrap_or(1);
-                let report = Diagnostic::error(
-                    code::ARGUMENT_COUNT,
+                let report = Finding::error(
+                    rules::ARGUMENT_COUNT,
                     span,
                     match args.len() {
                         0 => format!("`.{text}` needs a function"),
@@ -138,14 +138,14 @@ impl<'a> Binder<'a> {
         }
     }
 
-    fn needs_function(&self, text: &str, span: Span) -> Diagnostic {
+    fn needs_function(&self, text: &str, span: Span) -> Finding {
         let example = match text {
             "reduce" | "reduceRight" => "(sum, x) => sum + x, 0",
             "sort" | "toSorted" => "(a, b) => a - b",
             "map" | "flatMap" | "forEach" | "Array.from" => "x => 2 * x",
             _ => "x => x > 0",
         };
-        Diagnostic::error(code::ARGUMENT_TYPE, span, format!("`.{text}` needs a function"))
+        Finding::error(rules::ARGUMENT_TYPE, span, format!("`.{text}` needs a function"))
             .why("it is called for every element")
             .help(format!("write `.{text}({example})`"))
     }
@@ -173,8 +173,8 @@ impl<'a> Binder<'a> {
         };
         let point = if row.on == On::Nothing { "" } else { "." };
         self.refuse(
-            Diagnostic::error(
-                code::ARGUMENT_COUNT,
+            Finding::error(
+                rules::ARGUMENT_COUNT,
                 span,
                 format!("`{point}{text}` takes {wanted}, not {}", args.len()),
             )
@@ -211,8 +211,8 @@ impl<'a> Binder<'a> {
                         match ir.known() {
                             Some(Value::Number(x)) if *x >= 0.0 && x.fract() == 0.0 => *x as usize,
                             Some(_) => {
-                                let report = Diagnostic::error(
-                                    code::ARGUMENT_TYPE,
+                                let report = Finding::error(
+                                    rules::ARGUMENT_TYPE,
                                     offset.span,
                                     "the second argument of `.set` must be a whole number from 0 on",
                                 )
@@ -238,8 +238,8 @@ impl<'a> Binder<'a> {
             }
             ("set", [first, ..]) if matches!(first.kind, ExprKind::Number(_)) => {
                 return self.refuse(
-                    Diagnostic::error(
-                        code::ARGUMENT_TYPE,
+                    Finding::error(
+                        rules::ARGUMENT_TYPE,
                         first.span,
                         "`.set` needs its numbers in square brackets",
                     )
@@ -258,8 +258,8 @@ impl<'a> Binder<'a> {
         let Some(n) = field.len().filter(|n| end > *n) else { return Ok(()) };
         let numbers = |n| super::call::count(n, "number");
         self.refuse(
-            Diagnostic::error(
-                code::INDEX_RANGE,
+            Finding::error(
+                rules::INDEX_RANGE,
                 span,
                 format!("{} from index {offset} on do not fit into `{}`", numbers(count), field.path),
             )

@@ -20,15 +20,15 @@ mod statement;
 mod units;
 mod value;
 
-use crate::code;
-use crate::diagnostic::{Diagnostic, Fix, Span};
 use crate::effects::Effects;
 use crate::globals::{Globals, ProgramId};
 use crate::ir::{Ir, Shown, Step, Tree, Unit, UnitId};
 use crate::natives;
 use crate::parse::in_order;
 use crate::program::{Aggregate, Program};
+use crate::rules;
 use crate::schema::{CollectionId, Field, FunctionId, Help, ObjectId, Schema, Type};
+use crate::{Finding, Fix, Span};
 use crate::{math, parse_expression, parse_statements};
 
 pub(crate) use facts::Facts;
@@ -52,7 +52,7 @@ pub struct Compiled {
     /// The program; `None` when there are errors.
     pub program: Option<Program>,
     /// Findings in source order.
-    pub diagnostics: Vec<Diagnostic>,
+    pub diagnostics: Vec<Finding>,
     /// What the parts of the text are, for a person who points at them, if wanted.
     pub help: Vec<(Span, Help)>,
     /// Bare indexes that could be written by the name of their object: `data.qpos[9]` as
@@ -66,7 +66,7 @@ impl Compiled {
         let mut out = String::new();
         let mut at = 0;
         let mut fixes: Vec<&Fix> = self.named.iter().collect();
-        fixes.sort_by_key(|f| f.span);
+        fixes.sort_by_key(|f| (f.span.start, f.span.end));
         for fix in fixes {
             // An index inside an index stays.
             if let Some(before) = source.get(at..fix.span.start) {
@@ -124,7 +124,7 @@ impl<'s> Compiler<'s> {
     fn compile<'t>(
         &mut self,
         source: &'t str,
-        read: &[Diagnostic],
+        read: &[Finding],
         mode: Mode,
         work: &mut dyn FnMut(&mut Binder<'t>) -> Attempt<Type>,
     ) -> Compiled
@@ -161,7 +161,7 @@ impl<'s> Compiler<'s> {
                 continue;
             }
             diagnostics.extend(read.iter().cloned());
-            let failed = diagnostics.iter().any(Diagnostic::is_error);
+            let failed = diagnostics.iter().any(Finding::is_error);
             note_views(&tree.views, &mut effects);
             let program = done.ok().filter(|_| !failed);
             let program = program.map(|result| Program::new(&tree, effects, result, aggregates));
@@ -245,7 +245,7 @@ struct Binder<'a> {
     source: &'a str,
     mode: Mode,
     program: ProgramId,
-    diagnostics: Vec<Diagnostic>,
+    diagnostics: Vec<Finding>,
     effects: Effects,
     aggregates: Vec<Aggregate>,
     next_aggregate: usize,
@@ -313,15 +313,15 @@ impl<'a> Binder<'a> {
         }
     }
 
-    fn report(&mut self, diagnostic: Diagnostic) {
+    fn report(&mut self, diagnostic: Finding) {
         // In a method of the prelude the call is the place.
         self.diagnostics.push(match self.site {
-            Some(span) => Diagnostic { span, fix: None, ..diagnostic },
+            Some(span) => Finding { span: span.into(), fix: None, ..diagnostic },
             None => diagnostic,
         });
     }
 
-    fn refuse<T>(&mut self, diagnostic: Diagnostic) -> Attempt<T> {
+    fn refuse<T>(&mut self, diagnostic: Finding) -> Attempt<T> {
         self.report(diagnostic);
         Err(Reported)
     }
@@ -341,9 +341,9 @@ impl<'a> Binder<'a> {
 }
 
 /// The finding for a function without a result where a value must stand.
-fn no_result(span: Span, source: &str) -> Diagnostic {
+fn no_result(span: Span, source: &str) -> Finding {
     let name = span.text(source).split('(').next().unwrap_or("");
-    Diagnostic::error(code::NO_RESULT, span, format!("`{name}` gives nothing back"))
+    Finding::error(rules::NO_RESULT, span, format!("`{name}` gives nothing back"))
         .why("it is called for what it does; there is no value to go on with")
         .help("call it as a statement of its own, in `setup`, `controller`, `apply` or `run`")
 }

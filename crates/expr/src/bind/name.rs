@@ -2,15 +2,15 @@
 
 use super::{Attempt, Binder, Receiver, Thing};
 use crate::ast::{Expr, ExprKind, Name};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Ir, Kind};
 use crate::math;
 use crate::natives;
 use crate::parse::MAX_DIAGNOSTICS;
+use crate::rules;
 use crate::schema::{Entry, Field, FieldKind, Help, ObjectId, Type};
-use crate::suggest::{closest, ranked};
 use crate::value::{Value, View};
+use crate::{Finding, Span};
+use labspec_finding::{nearest as closest, ranked};
 
 /// Names of the language itself.
 const LANGUAGE: [&str; 14] = [
@@ -184,26 +184,22 @@ impl<'a> Binder<'a> {
         }
     }
 
-    fn unknown_root(&self, name: &str, span: Span, used: Use) -> Diagnostic {
+    fn unknown_root(&self, name: &str, span: Span, used: Use) -> Finding {
         if name == "value" {
-            return Diagnostic::error(code::NO_VALUE_HERE, span, "there is no `value` here")
+            return Finding::error(rules::NO_VALUE_HERE, span, "there is no `value` here")
                 .why("`value` is what a slider or select gives to its own `set` or `apply`")
                 .help("give the control a `param` and read it as `ctx.<param>`");
         }
         if let Some((_, why, help)) = GLOBALS.iter().find(|(names, _, _)| names.contains(&name)) {
-            return Diagnostic::error(
-                code::NOT_IN_LANGUAGE,
-                span,
-                format!("`{name}` is not in this language"),
-            )
-            .why(*why)
-            .help(*help);
+            return Finding::error(rules::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
+                .why(*why)
+                .help(*help);
         }
         let report = match used {
             Use::Callee => {
-                Diagnostic::error(code::UNKNOWN_FUNCTION, span, format!("unknown function `{name}`"))
+                Finding::error(rules::UNKNOWN_FUNCTION, span, format!("unknown function `{name}`"))
             }
-            _ => Diagnostic::error(code::UNKNOWN_NAME, span, format!("unknown name `{name}`")),
+            _ => Finding::error(rules::UNKNOWN_NAME, span, format!("unknown name `{name}`")),
         };
         if self.diagnostics.len() > MAX_DIAGNOSTICS {
             return report; // nobody will read it: not worth a search for what was meant
@@ -366,11 +362,8 @@ impl<'a> Binder<'a> {
         if MACHINERY.contains(&name.text.as_str()) {
             return self.refuse(machinery(&name.text, name.span));
         }
-        let report = Diagnostic::error(
-            code::UNKNOWN_FUNCTION,
-            name.span,
-            format!("`{holder}` has no `{}`", name.text),
-        );
+        let report =
+            Finding::error(rules::UNKNOWN_FUNCTION, name.span, format!("`{holder}` has no `{}`", name.text));
         let names: Vec<&str> = natives::rows()
             .filter_map(|row| row.name.strip_prefix(holder)?.strip_prefix('.'))
             .chain(constants.iter().map(|(n, _)| *n))
@@ -408,13 +401,13 @@ impl<'a> Binder<'a> {
         }
         if name.text == "random" {
             return self.refuse(
-                Diagnostic::error(code::NOT_RANDOM, span, "random numbers are not in this language")
+                Finding::error(rules::NOT_RANDOM, span, "random numbers are not in this language")
                     .why("the same lesson must give the same numbers every time, or its answers cannot be checked")
                     .help("use a fixed sequence, as `Math.sin(1000 * data.time)`, or a control"),
             );
         }
         let report =
-            Diagnostic::error(code::UNKNOWN_FUNCTION, name.span, format!("`Math` has no `{}`", name.text));
+            Finding::error(rules::UNKNOWN_FUNCTION, name.span, format!("`Math` has no `{}`", name.text));
         let report = match closest(&name.text, math::names()) {
             Some(meant) => report.help(format!("did you mean `Math.{meant}`?")).fix(name.span, meant),
             None => report
@@ -440,14 +433,14 @@ impl<'a> Binder<'a> {
                 Ok(Thing::Method(Box::new(Receiver::Field(field)), text.to_owned()))
             }
             text @ ("push" | "pop" | "shift" | "unshift" | "splice") if array => self.refuse(
-                Diagnostic::error(code::NOT_CALLABLE, name.span, format!("`{}` has a fixed number of elements", field.path))
+                Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has a fixed number of elements", field.path))
                     .why(format!("`{text}` changes the number of elements of a list; this array is the memory of the simulation"))
                     .help(format!("store elements, as `{}[0] = 1`, or copy it into a list of your own: `const list = [...{}]`", field.path, field.path)),
             ),
             text if MACHINERY.contains(&text) => self.refuse(machinery(text, name.span)),
             text if array => {
-                let report = Diagnostic::error(
-                    code::UNKNOWN_FIELD,
+                let report = Finding::error(
+                    rules::UNKNOWN_FIELD,
                     name.span,
                     format!("`{}` has no member `{text}`", field.path),
                 )
@@ -463,8 +456,8 @@ impl<'a> Binder<'a> {
                 self.refuse(report)
             }
             text => {
-                let report = Diagnostic::error(
-                    code::UNKNOWN_FIELD,
+                let report = Finding::error(
+                    rules::UNKNOWN_FIELD,
                     name.span,
                     format!("`{}` has no member `{text}`", field.path),
                 )
@@ -480,13 +473,13 @@ impl<'a> Binder<'a> {
         }
     }
 
-    pub(super) fn unknown_member(&self, id: ObjectId, name: &Name, span: Span) -> Diagnostic {
+    pub(super) fn unknown_member(&self, id: ObjectId, name: &Name, span: Span) -> Finding {
         let object = self.schema.describe(id);
         if MACHINERY.contains(&name.text.as_str()) {
             return machinery(&name.text, name.span);
         }
-        let report = Diagnostic::error(
-            code::UNKNOWN_FIELD,
+        let report = Finding::error(
+            rules::UNKNOWN_FIELD,
             name.span,
             format!("{} has no field `{}`", quoted(&object), name.text),
         );
@@ -583,8 +576,8 @@ fn from_entry(entry: Entry, span: Span) -> Thing {
     }
 }
 
-pub(super) fn machinery(name: &str, span: Span) -> Diagnostic {
-    Diagnostic::error(code::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
+pub(super) fn machinery(name: &str, span: Span) -> Finding {
+    Finding::error(rules::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
         .why(
             "it leads behind the values, into JavaScript itself; that this is closed keeps a lesson harmless",
         )

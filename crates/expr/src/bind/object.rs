@@ -5,12 +5,12 @@ use std::sync::Arc;
 use super::name::{MACHINERY, list, machinery, view_of};
 use super::{Attempt, Binder, Receiver, Thing};
 use crate::ast::{Expr, ExprKind, Name};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::closest;
 use crate::ir::{Index, Ir, Kind, Picks};
+use crate::rules;
 use crate::schema::{CollectionId, Entry, Field, Param, Type};
-use crate::suggest::closest;
 use crate::value::{Value, View};
+use crate::{Finding, Span};
 
 /// The most elements that a literal spread of an array of the simulation writes out.
 const MAX_WRITTEN_OUT: usize = 64;
@@ -58,8 +58,8 @@ impl<'a> Binder<'a> {
                 None if info.members.is_empty() => {}
                 None => {
                     let names: Vec<String> = info.members.iter().map(|(n, _)| n.clone()).collect();
-                    let report = Diagnostic::error(
-                        code::UNKNOWN_FIELD,
+                    let report = Finding::error(
+                        rules::UNKNOWN_FIELD,
                         name.span,
                         format!("the result of `{}` has no `{}`", info.name, name.text),
                     )
@@ -75,7 +75,7 @@ impl<'a> Binder<'a> {
     }
 
     /// The finding for a member of something that has none of this name.
-    fn no_member(&self, ty: Type, name: &Name, span: Span, object: Span) -> Diagnostic {
+    fn no_member(&self, ty: Type, name: &Name, span: Span, object: Span) -> Finding {
         let text = name.text.as_str();
         let what = self.text(object);
         let message = if what == ty.describe() {
@@ -83,7 +83,7 @@ impl<'a> Binder<'a> {
         } else {
             format!("`{what}` is {}; it has no member `{text}`", ty.describe())
         };
-        let report = Diagnostic::error(code::UNKNOWN_FIELD, name.span, message);
+        let report = Finding::error(rules::UNKNOWN_FIELD, name.span, message);
         let xyz = ["x", "y", "z"].iter().position(|n| *n == text);
         match (ty, xyz) {
             (Type::List | Type::View, Some(i)) => {
@@ -165,8 +165,8 @@ impl<'a> Binder<'a> {
             let known = names.first().and_then(|n| self.schema.lookup(id, n));
             let report = match known {
                 Some(object) => self.unknown_member(object, name, span),
-                None => Diagnostic::error(
-                    code::UNKNOWN_FIELD,
+                None => Finding::error(
+                    rules::UNKNOWN_FIELD,
                     name.span,
                     format!("no {noun} has a `{}`", name.text),
                 ),

@@ -4,9 +4,9 @@ use super::facts::Key;
 use super::name::is_language;
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Declarator, Element, Function, Name, Pattern, Stmt, StmtKind};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Ir, Kind, Local, LocalId, Step, UnitId};
+use crate::rules;
+use crate::{Finding, Span};
 
 /// A name in reach.
 #[derive(Clone, Debug)]
@@ -133,8 +133,8 @@ impl<'a> Binder<'a> {
                 "it already means something in every text of a lab"
             };
             self.report(
-                Diagnostic::error(
-                    code::NAME_TAKEN,
+                Finding::error(
+                    rules::NAME_TAKEN,
                     name.span,
                     format!("`{}` cannot be declared here", name.text),
                 )
@@ -235,7 +235,7 @@ impl<'a> Binder<'a> {
         }
         let name = &variable.name;
         self.refuse(
-            Diagnostic::error(code::USED_TOO_EARLY, span, format!("`{name}` is used before its declaration"))
+            Finding::error(rules::USED_TOO_EARLY, span, format!("`{name}` is used before its declaration"))
                 .why("statements run from top to bottom: here the name has no value yet")
                 .help(format!("move the declaration of `{name}` up")),
         )

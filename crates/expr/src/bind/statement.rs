@@ -4,11 +4,11 @@ use super::function::ends;
 use super::scope::Meaning;
 use super::{Attempt, Binder, Mode, Thing};
 use crate::ast::{BinaryOp, Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Entry, Ir, Item, Kind, Step};
+use crate::rules;
 use crate::schema::Type;
 use crate::value::Value;
+use crate::{Finding, Span};
 
 impl<'a> Binder<'a> {
     pub(super) fn statement(&mut self, statement: &'a Stmt, steps: &mut Vec<Step>) {
@@ -55,7 +55,7 @@ impl<'a> Binder<'a> {
                 let word = if statement.kind == StmtKind::Break { "break" } else { "continue" };
                 if self.loops == 0 {
                     self.report(
-                        Diagnostic::error(code::UNEXPECTED, span, format!("`{word}` outside of a loop"))
+                        Finding::error(rules::OUTSIDE_LOOP, span, format!("`{word}` outside of a loop"))
                             .why("there is no loop here that it could leave or go on with")
                             .help("remove it, or leave a function with `return`"),
                     );
@@ -87,10 +87,11 @@ impl<'a> Binder<'a> {
         if self.site.is_some() || !(last || ends(steps)) {
             return;
         }
-        let known = self.diagnostics.iter().any(|d| d.code == code::UNREACHABLE && d.span.start < span.start);
+        let known =
+            self.diagnostics.iter().any(|d| d.code == rules::UNREACHABLE && d.span.start < span.start);
         if !known {
             self.report(
-                Diagnostic::warning(code::UNREACHABLE, span, "this is never reached")
+                Finding::warning(rules::UNREACHABLE, span, "this is never reached")
                     .why("the statement before it leaves for good")
                     .help("remove it, or put what comes before under a condition"),
             );
@@ -179,7 +180,7 @@ impl<'a> Binder<'a> {
 
     /// Warns of a statement that changes nothing.
     fn unused(&mut self, expr: &Expr) {
-        let report = Diagnostic::warning(code::UNUSED_RESULT, expr.span, "this statement changes nothing")
+        let report = Finding::warning(rules::UNUSED_RESULT, expr.span, "this statement changes nothing")
             .why("its value is computed and dropped");
         let equality = |op: &BinaryOp| matches!(op, BinaryOp::Equal | BinaryOp::StrictEqual);
         let report = match &expr.kind {
@@ -239,8 +240,8 @@ impl<'a> Binder<'a> {
         };
         if changes {
             return self.refuse(
-                Diagnostic::error(
-                    code::NOT_A_VALUE,
+                Finding::error(
+                    rules::NOT_A_VALUE,
                     value.span,
                     format!(
                         "`{}` is not a value that `{}` can hold and change",

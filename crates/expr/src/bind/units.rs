@@ -2,13 +2,13 @@
 
 use super::Binder;
 use crate::ast::BinaryOp;
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Index, Ir, Kind};
 use crate::math;
 use crate::number;
+use crate::rules;
 use crate::schema::Role;
 use crate::value::{Value, View};
+use crate::{Finding, Span};
 
 /// Functions of an angle.
 const OF_ANGLES: [&str; 3] = ["Math.sin", "Math.cos", "Math.tan"];
@@ -60,8 +60,8 @@ impl<'a> Binder<'a> {
             format!("{w}, a component of a quaternion")
         });
         self.report(
-            Diagnostic::warning(
-                code::QUATERNION_AS_ANGLE,
+            Finding::warning(
+                rules::QUATERNION_AS_ANGLE,
                 ir.span,
                 format!("`{text}` is no angle, and {needs}"),
             )
@@ -86,8 +86,8 @@ fn in_degrees(x: f64) -> bool {
     x.abs() >= 10.0 && x % 5.0 == 0.0 && x.abs() <= 720.0
 }
 
-fn degrees(span: Span, what: &str, meant: String) -> Diagnostic {
-    Diagnostic::warning(code::DEGREES, span, format!("{what}, and this looks like degrees"))
+fn degrees(span: Span, what: &str, meant: String) -> Finding {
+    Finding::warning(rules::DEGREES, span, format!("{what}, and this looks like degrees"))
         .why("a full turn is 2π, about 6.28 radians")
         .help(format!("write `{meant}`"))
         .fix(span, meant)

@@ -3,11 +3,11 @@
 use super::name::quoted;
 use super::{Attempt, Binder, Mode, Reported, Thing, no_result};
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::{Index, Ir, Kind};
+use crate::rules;
 use crate::schema::Type;
 use crate::value::Value;
+use crate::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// A part of the source as a value of any kind.
@@ -55,8 +55,8 @@ impl<'a> Binder<'a> {
         let text = self.text(ir.span);
         let message = format!("`{text}` is {}, not one value", ir.ty.describe());
         let code =
-            if matches!(ir.ty, Type::List | Type::View) { code::WHOLE_ARRAY } else { code::NOT_A_VALUE };
-        let report = Diagnostic::error(code, ir.span, message);
+            if matches!(ir.ty, Type::List | Type::View) { rules::WHOLE_ARRAY } else { rules::NOT_A_VALUE };
+        let report = Finding::error(code, ir.span, message);
         self.refuse(match ir.ty {
             Type::Function => report.why("it is not called").help(format!("write `{text}(…)`")),
             Type::Record => {
@@ -75,9 +75,9 @@ impl<'a> Binder<'a> {
         })
     }
 
-    fn not_a_value(&self, thing: &Thing, span: Span) -> Diagnostic {
+    fn not_a_value(&self, thing: &Thing, span: Span) -> Finding {
         let text = self.text(span);
-        let error = |message: String| Diagnostic::error(code::NOT_A_VALUE, span, message);
+        let error = |message: String| Finding::error(rules::NOT_A_VALUE, span, message);
         match thing {
             Thing::Collection(id) => self.collection_needs_call(*id, span, None),
             Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..) | Thing::Native(_) => {
@@ -155,7 +155,7 @@ impl<'a> Binder<'a> {
             ExprKind::Update { increment, .. } if self.only_reads() => {
                 let symbol = if *increment { "++" } else { "--" };
                 self.refuse(
-                    Diagnostic::error(code::ASSIGN_INSIDE, span, format!("`{symbol}` inside an expression"))
+                    Finding::error(rules::ASSIGN_INSIDE, span, format!("`{symbol}` inside an expression"))
                         .why("this text only reads a value")
                         .help("change the variable in `controller`"),
                 )
@@ -164,7 +164,7 @@ impl<'a> Binder<'a> {
                 self.changing(expr)
             }
             ExprKind::Sequence(_) | ExprKind::Spread(_) => self.refuse(
-                Diagnostic::error(code::UNEXPECTED, span, "this has no place inside an expression")
+                Finding::error(rules::MISPLACED, span, "this has no place inside an expression")
                     .help("write one value"),
             ),
             // Names, members, indexes, calls and functions are things; an error node is already reported.
@@ -179,7 +179,7 @@ impl<'a> Binder<'a> {
         if never && self.site.is_none() && left.known().is_none() {
             let text = self.text(left.span);
             self.report(
-                Diagnostic::warning(code::UNUSED_RESULT, span, "the value behind `??` is never used")
+                Finding::warning(rules::UNUSED_RESULT, span, "the value behind `??` is never used")
                     .why(format!("`{text}` is {}, never `undefined` or `null`", left.ty.describe()))
                     .help(format!("write `{text}` alone")),
             );
@@ -193,10 +193,10 @@ impl<'a> Binder<'a> {
         Ok((left?, right?))
     }
 
-    pub(super) fn assignment_inside(&self, op: Option<BinaryOp>, op_span: Span, span: Span) -> Diagnostic {
+    pub(super) fn assignment_inside(&self, op: Option<BinaryOp>, op_span: Span, span: Span) -> Finding {
         if self.mode == Mode::Expression && op.is_some() {
-            return Diagnostic::error(
-                code::EXPRESSION_ONLY,
+            return Finding::error(
+                rules::EXPRESSION_ONLY,
                 op_span,
                 "an assignment where only a value is read",
             )
@@ -204,11 +204,8 @@ impl<'a> Binder<'a> {
             .help("assign in `controller`, `apply` or `run`, and show the variable here");
         }
         let symbol = self.text(op_span);
-        let report = Diagnostic::error(
-            code::ASSIGN_INSIDE,
-            op_span,
-            format!("`{symbol}` assigns; it does not compare"),
-        );
+        let report =
+            Finding::error(rules::ASSIGN_INSIDE, op_span, format!("`{symbol}` assigns; it does not compare"));
         let report = match self.mode {
             Mode::Statements => {
                 report.why("inside an expression the value would be changed where a test was probably meant")
@@ -273,7 +270,7 @@ impl<'a> Binder<'a> {
         if op == BinaryOp::BitXor {
             let meant = format!("{} ** {}", self.text(left.span), self.text(right.span));
             self.report(
-                Diagnostic::warning(code::XOR_AS_POWER, span, "`^` is not a power")
+                Finding::warning(rules::XOR_AS_POWER, span, "`^` is not a power")
                     .why("in JavaScript it is the bitwise exclusive or: `3 ^ 2` is 1")
                     .help(format!("write `{meant}`"))
                     .fix(span, meant),
@@ -288,8 +285,8 @@ impl<'a> Binder<'a> {
         if ir.ty != Type::String || self.site.is_some() {
             return;
         }
-        let report = Diagnostic::warning(
-            code::STRING_AS_NUMBER,
+        let report = Finding::warning(
+            rules::STRING_AS_NUMBER,
             ir.span,
             format!("`{symbol}` needs a number, this is a string"),
         );
@@ -320,7 +317,7 @@ impl<'a> Binder<'a> {
         let result = if negated { "true" } else { "false" };
         let meant = format!("{}isNaN({other})", if negated { "!" } else { "" });
         let report =
-            Diagnostic::warning(code::COMPARE_NAN, span, format!("this comparison is always {result}"))
+            Finding::warning(rules::COMPARE_NAN, span, format!("this comparison is always {result}"))
                 .why("NaN is not equal to anything, not even to itself, and neither smaller nor larger");
         self.report(match op.power() {
             8 => report.help(format!("write `{meant}`")).fix(span, meant),
@@ -343,7 +340,7 @@ impl<'a> Binder<'a> {
         let last = self.text(Span::new(left.span.end, span.end)).trim_start();
         let meant = format!("{} && {middle} {last}", self.text(left.span));
         self.report(
-            Diagnostic::warning(code::CHAINED_COMPARISON, span, "comparisons do not chain")
+            Finding::warning(rules::CHAINED_COMPARISON, span, "comparisons do not chain")
                 .why(format!(
                     "`{}` is true or false, and that is what is compared next, as 1 or 0",
                     self.text(left.span)

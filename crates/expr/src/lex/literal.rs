@@ -7,12 +7,12 @@ use nom::combinator::{opt, recognize};
 use nom::{IResult, Parser};
 
 use super::{Tok, is_line_end, is_word_part};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::number::from_digits;
+use crate::rules;
+use crate::{Finding, Span};
 
 /// A number at the beginning of `input`.
-pub(super) fn number<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Diagnostic>) -> (&'a str, Tok) {
+pub(super) fn number<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Finding>) -> (&'a str, Tok) {
     let Ok((behind, text)) = alt((prefixed, decimal)).parse(input) else {
         return ("", Tok::Bad); // not reached: the caller saw a digit
     };
@@ -58,8 +58,8 @@ fn plain(text: &str) -> Option<f64> {
 }
 
 /// What is wrong with a number of this value that is followed directly by the letters `tail`.
-fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<Diagnostic> {
-    let bad = |message: String| Diagnostic::error(code::BAD_NUMBER, span, message);
+fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<Finding> {
+    let bad = |message: String| Finding::error(rules::BAD_NUMBER, span, message);
     if tail == "n" {
         return Some(
             bad("big integers are not part of the language".into())
@@ -104,7 +104,7 @@ fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<D
 }
 
 /// A string at the beginning of `input`, which starts with its quote.
-pub(super) fn string<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Diagnostic>) -> (&'a str, Tok) {
+pub(super) fn string<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Finding>) -> (&'a str, Tok) {
     let quote = if input.starts_with('"') { '"' } else { '\'' };
     let mut text = String::new();
     let mut rest = input.get(1..).unwrap_or("");
@@ -112,7 +112,7 @@ pub(super) fn string<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Diagno
         let Some(c) = rest.chars().next().filter(|c| !matches!(c, '\n' | '\r')) else {
             let span = Span::new(at, at + input.len() - rest.len());
             diagnostics.push(
-                Diagnostic::error(code::BAD_STRING, span, "this string is never closed")
+                Finding::error(rules::BAD_STRING, span, "this string is never closed")
                     .why("a string ends on the line where it starts, with the quote that it starts with")
                     .help(format!("write `{quote}` where the string ends")),
             );
@@ -133,7 +133,7 @@ pub(super) fn string<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Diagno
                 let start = at + input.len() - rest.len();
                 let length = 1 + behind.chars().next().map_or(0, char::len_utf8);
                 diagnostics.push(
-                    Diagnostic::error(code::BAD_STRING, Span::new(start, start + length), "this escape is broken")
+                    Finding::error(rules::BAD_STRING, Span::new(start, start + length), "this escape is broken")
                         .why("`\\x` takes two hexadecimal digits, `\\u` four or a code point in braces; other digits have no meaning")
                         .help("write the character itself, or `\\\\` for a backslash"),
                 );
@@ -195,7 +195,7 @@ fn hex(digits: &str) -> Option<u32> {
 }
 
 /// A template literal: texts and the places of the expressions between them. A line end in it is part of the text.
-pub(super) fn template<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Diagnostic>) -> (&'a str, Tok) {
+pub(super) fn template<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Finding>) -> (&'a str, Tok) {
     let (mut texts, mut values) = (Vec::new(), Vec::new());
     let mut text = String::new();
     let mut rest = input.get(1..).unwrap_or("");
@@ -218,12 +218,8 @@ pub(super) fn template<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Diag
                 Some(next) => rest = next,
                 None => {
                     diagnostics.push(
-                        Diagnostic::error(
-                            code::BAD_STRING,
-                            Span::new(here, here + 1),
-                            "this escape is broken",
-                        )
-                        .help("write the character itself, or `\\\\` for a backslash"),
+                        Finding::error(rules::BAD_STRING, Span::new(here, here + 1), "this escape is broken")
+                            .help("write the character itself, or `\\\\` for a backslash"),
                     );
                     rest = behind;
                 }
@@ -240,7 +236,7 @@ pub(super) fn template<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Diag
         }
     }
     diagnostics.push(
-        Diagnostic::error(code::BAD_STRING, Span::new(at, at + 1), "this backquote is never closed")
+        Finding::error(rules::BAD_STRING, Span::new(at, at + 1), "this backquote is never closed")
             .why("a template literal ends with a backquote, and every `${` in it with `}`")
             .help("write a backquote where the text ends"),
     );
@@ -317,7 +313,7 @@ mod tests {
     use super::super::tokens;
     use super::*;
 
-    fn read(source: &str) -> (Tok, Vec<Diagnostic>) {
+    fn read(source: &str) -> (Tok, Vec<Finding>) {
         let mut found = Vec::new();
         let tokens = tokens(source, &mut found);
         (tokens[0].kind.clone(), found)

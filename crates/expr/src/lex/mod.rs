@@ -8,8 +8,8 @@ use nom::bytes::complete::{tag, take_until, take_while, take_while1};
 use nom::combinator::{recognize, rest};
 use nom::{IResult, Parser};
 
-use crate::diagnostic::{Diagnostic, Span};
-use crate::{code, number};
+use crate::{Finding, Span};
+use crate::{number, rules};
 
 /// A piece of the source text.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,12 +44,12 @@ const SYMBOLS: &[&str] = &[
 ];
 
 /// All tokens of a text, the last one [`Tok::End`].
-pub(crate) fn tokens(source: &str, diagnostics: &mut Vec<Diagnostic>) -> Vec<Token> {
+pub(crate) fn tokens(source: &str, diagnostics: &mut Vec<Finding>) -> Vec<Token> {
     tokens_of(source, Span::new(0, source.len()), diagnostics)
 }
 
 /// All tokens of a part of a text, the last one [`Tok::End`].
-pub(crate) fn tokens_of(source: &str, part: Span, diagnostics: &mut Vec<Diagnostic>) -> Vec<Token> {
+pub(crate) fn tokens_of(source: &str, part: Span, diagnostics: &mut Vec<Finding>) -> Vec<Token> {
     let mut tokens = Vec::new();
     let mut input = part.text(source);
     let end = part.start + input.len();
@@ -93,7 +93,7 @@ fn blank(input: &str) -> IResult<&str, &str> {
 }
 
 /// Reports a block comment at the end of a gap that is not closed.
-fn check_comment(gap: &str, start: usize, diagnostics: &mut Vec<Diagnostic>) {
+fn check_comment(gap: &str, start: usize, diagnostics: &mut Vec<Finding>) {
     let mut from = 0;
     while let Some((at, opener)) = next_comment(gap, from) {
         let close = if opener == "/*" { "*/" } else { "\n" };
@@ -102,7 +102,7 @@ fn check_comment(gap: &str, start: usize, diagnostics: &mut Vec<Diagnostic>) {
             None if opener == "/*" => {
                 let span = Span::new(start + at, start + at + 2);
                 diagnostics.push(
-                    Diagnostic::error(code::UNCLOSED_COMMENT, span, "this comment is never closed")
+                    Finding::error(rules::UNCLOSED_COMMENT, span, "this comment is never closed")
                         .why("everything behind it is part of the comment and is not read")
                         .help("write `*/` where the comment ends"),
                 );
@@ -122,7 +122,7 @@ fn next_comment(gap: &str, from: usize) -> Option<(usize, &'static str)> {
 }
 
 /// One token at the beginning of `input`, which starts at byte `at` of the source.
-fn token<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Diagnostic>) -> (&'a str, Tok) {
+fn token<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Finding>) -> (&'a str, Tok) {
     let mut chars = input.chars();
     let first = chars.next().unwrap_or(' ');
     let second = chars.next().unwrap_or(' ');
@@ -144,7 +144,7 @@ fn token<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Diagnostic>) -> (&
     if let Some((behind, text)) = typographic(input) {
         let span = Span::new(at, at + input.len() - behind.len());
         diagnostics.push(
-            Diagnostic::error(code::BAD_CHARACTER, span, "typographic quotes do not make a string")
+            Finding::error(rules::BAD_CHARACTER, span, "typographic quotes do not make a string")
                 .why("word processors put them in place of the plain ones")
                 .help("write `\"` or `'`")
                 .fix(span, format!("\"{text}\"")),
@@ -216,9 +216,9 @@ fn look_alike(c: char) -> Option<&'static str> {
     })
 }
 
-fn bad_character(c: char, span: Span) -> Diagnostic {
+fn bad_character(c: char, span: Span) -> Finding {
     let shown = if c.is_control() { c.escape_unicode().to_string() } else { c.to_string() };
-    let report = Diagnostic::error(code::BAD_CHARACTER, span, format!("`{shown}` has no meaning here"));
+    let report = Finding::error(rules::BAD_CHARACTER, span, format!("`{shown}` has no meaning here"));
     if let Some(text) = look_alike(c) {
         return report
             .why("it looks like an operator, but is another character, as word processors write it")

@@ -1,7 +1,7 @@
 //! Calls of functions of the text, of methods, and functions as values.
 
 use super::{Home, Lowering};
-use crate::diagnostic::Span;
+use crate::Span;
 use crate::ir::{Ir, Item, LocalId, UnitId};
 use crate::natives;
 use crate::value::Value;

@@ -1,7 +1,7 @@
 //! Assignments: to elements of fields, to variables, and to parts of lists and records.
 
 use super::{Home, Lowering, arithmetic};
-use crate::diagnostic::Span;
+use crate::Span;
 use crate::ir::{Gives, Index, Ir, Place};
 use crate::operators::{BinaryOp, LogicalOp};
 use crate::schema::Type;

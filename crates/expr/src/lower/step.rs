@@ -1,7 +1,7 @@
 //! Statements: declarations, conditions, loops and jumps.
 
 use super::{Exits, Home, Inline, Lowering};
-use crate::diagnostic::Span;
+use crate::Span;
 use crate::ir::{Ir, Kind, LocalId, Loop, Step};
 use crate::value::Value;
 use crate::vm::{Num, Op, Slot, Val};

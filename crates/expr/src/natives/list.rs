@@ -1,8 +1,8 @@
 //! Methods of lists, typed arrays and arrays of the simulation (ECMAScript, "Array Objects", "TypedArray Objects").
 
 use super::{Env, Trouble, arg, integer, range, relative};
-use crate::code;
 use crate::heap::Object;
+use crate::rules;
 use crate::schema::Elem;
 use crate::value::{Value, View};
 
@@ -211,7 +211,7 @@ pub(super) fn set(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let n = env.len(list);
     if offset < 0.0 || offset + items.len() as f64 > n as f64 {
         let message = format!("{} values from index {offset} on do not fit into {n} elements", items.len());
-        return Err(Trouble::new(code::INDEX_RANGE, message));
+        return Err(Trouble::new(rules::INDEX_RANGE, message));
     }
     for (i, item) in items.iter().enumerate() {
         store(env, list, offset as usize + i, item)?;
@@ -327,7 +327,7 @@ pub(super) fn with(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
         Some(place) => *place = arg(args, 1).clone(),
         None => {
             return Err(Trouble::new(
-                code::INDEX_RANGE,
+                rules::INDEX_RANGE,
                 format!("there is no element {x}: the list has {}", items.len()),
             ));
         }
@@ -349,7 +349,7 @@ pub(super) fn from(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
         Value::Record(_) => {
             let n = env.heap.get(source, "length").map_or(0.0, |v| integer(v.to_number())).max(0.0);
             if n > 1e6 {
-                return Err(Trouble::new(code::MEMORY, format!("a list of {n} elements is too long")));
+                return Err(Trouble::new(rules::MEMORY, format!("a list of {n} elements is too long")));
             }
             env.spend(n as usize)?;
             vec![Value::Undefined; n as usize]
@@ -417,7 +417,7 @@ pub(super) fn kind(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
 
 /// What `reduce` of nothing does.
 pub(super) fn empty(_: &mut Env<'_>, _: &Value, _: &[Value]) -> Outcome {
-    Err(Trouble::new(code::NO_PARTS, "`reduce` of a list without elements needs a first value"))
+    Err(Trouble::new(rules::NO_PARTS, "`reduce` of a list without elements needs a first value"))
 }
 
 pub(super) fn copy(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {

@@ -9,10 +9,10 @@ mod text;
 pub use number::to_fixed;
 use table::TABLE;
 
-use crate::code;
 use crate::heap::{Full, Heap, MAX_TEXT, Object};
 use crate::ir::Shown;
 use crate::program::Host;
+use crate::rules::{self, Rule};
 use crate::schema::{Elem, Type};
 use crate::value::{Value, View};
 
@@ -49,19 +49,19 @@ type Run = fn(&mut Env<'_>, &Value, &[Value]) -> Result<Value, Trouble>;
 /// Why a method fails.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Trouble {
-    pub(crate) code: &'static str,
+    pub(crate) rule: &'static Rule,
     pub(crate) message: String,
 }
 
 impl Trouble {
-    pub(crate) fn new(code: &'static str, message: impl Into<String>) -> Trouble {
-        Trouble { code, message: message.into() }
+    pub(crate) fn new(rule: &'static Rule, message: impl Into<String>) -> Trouble {
+        Trouble { rule, message: message.into() }
     }
 }
 
 impl From<Full> for Trouble {
     fn from(Full: Full) -> Trouble {
-        Trouble::new(code::MEMORY, "the lists of this lab take more than 64 MB")
+        Trouble::new(rules::MEMORY, "the lists of this lab take more than 64 MB")
     }
 }
 
@@ -162,7 +162,7 @@ pub(crate) fn call(
         _ => {
             let what = receiver.type_of().describe();
             let what = if receiver.is_nothing() { receiver.to_string() } else { what.to_owned() };
-            Err(Trouble::new(code::NOT_CALLABLE, format!("{what} has no method `{}`", name.text())))
+            Err(Trouble::new(rules::NOT_CALLABLE, format!("{what} has no method `{}`", name.text())))
         }
     }
 }
@@ -208,20 +208,20 @@ impl Env<'_> {
             Some(shown) if shown.assignable => {}
             Some(_) => {
                 return Err(Trouble::new(
-                    code::ASSIGN_DERIVED,
+                    rules::ASSIGN_DERIVED,
                     "a computed array is assigned: what is stored there would be overwritten",
                 ));
             }
             None => {
                 return Err(Trouble::new(
-                    code::HOST_STORE,
+                    rules::HOST_STORE,
                     "an array that another text kept is assigned; name it here instead",
                 ));
             }
         }
         if index < self.view_len(view) {
             let stored = self.host.set(view.field, view.first as usize + index, x);
-            stored.map_err(|message| Trouble::new(code::HOST_STORE, message))?;
+            stored.map_err(|message| Trouble::new(rules::HOST_STORE, message))?;
         }
         Ok(())
     }
@@ -297,19 +297,19 @@ impl Env<'_> {
             other => {
                 let what =
                     if other.is_nothing() { other.to_string() } else { other.type_of().describe().into() };
-                Err(Trouble::new(code::NO_PARTS, format!("{what} has no elements to go through")))
+                Err(Trouble::new(rules::NO_PARTS, format!("{what} has no elements to go through")))
             }
         }
     }
 }
 
 pub(crate) fn too_long() -> Trouble {
-    Trouble::new(code::TEXT_TOO_LONG, format!("a string grew beyond {MAX_TEXT} bytes"))
+    Trouble::new(rules::TEXT_TOO_LONG, format!("a string grew beyond {MAX_TEXT} bytes"))
 }
 
 pub(crate) fn out_of_steps() -> Trouble {
     Trouble::new(
-        code::BUDGET,
+        rules::BUDGET,
         "this text does not come to an end: it was stopped, so that the page does not hang",
     )
 }

@@ -1,8 +1,8 @@
 //! Methods of numbers and functions that make numbers (ECMAScript, "Number Objects", "parseFloat", "parseInt").
 
 use super::{Env, Trouble, arg, integer};
-use crate::code;
 use crate::number as convert;
+use crate::rules;
 use crate::value::Value;
 
 type Outcome = Result<Value, Trouble>;
@@ -20,7 +20,7 @@ fn digits(env: &mut Env<'_>, args: &[Value], least: f64) -> Result<Option<usize>
     let x = integer(env.number(arg(args, 0))?);
     if !(least..=100.0).contains(&x) {
         let message = format!("{x} digits: between {least} and 100 are possible");
-        return Err(Trouble::new(code::ARGUMENT_TYPE, message));
+        return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
     }
     Ok(Some(x as usize))
 }
@@ -124,7 +124,7 @@ pub(super) fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> 
     // Of numbers with a fraction engines print different digits; of whole numbers all the same.
     if !(2.0..=36.0).contains(&radix) || x.fract() != 0.0 || x.abs() > 9007199254740992.0 {
         let message = format!("{} cannot be written in base {radix}", convert::to_text(x));
-        return Err(Trouble::new(code::ARGUMENT_TYPE, message));
+        return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
     }
     let (mut rest, mut digits) = (x.abs() as u64, Vec::new());
     while rest > 0 || digits.is_empty() {

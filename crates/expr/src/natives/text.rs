@@ -2,9 +2,9 @@
 //! pair, cut off by an index, becomes the replacement character.
 
 use super::{Env, Trouble, arg, integer, range};
-use crate::code;
 use crate::heap::MAX_TEXT;
 use crate::number::is_space;
+use crate::rules;
 use crate::value::Value;
 
 type Outcome = Result<Value, Trouble>;
@@ -154,7 +154,7 @@ pub(super) fn pad_end(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcom
 pub(super) fn repeat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let count = integer(env.number(arg(args, 0))?);
     if count < 0.0 || count.is_infinite() {
-        return Err(Trouble::new(code::ARGUMENT_TYPE, format!("a text cannot be repeated {count} times")));
+        return Err(Trouble::new(rules::ARGUMENT_TYPE, format!("a text cannot be repeated {count} times")));
     }
     let text = str_of(text);
     if text.len() as f64 * count > MAX_TEXT as f64 {

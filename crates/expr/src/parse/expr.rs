@@ -5,9 +5,9 @@
 
 use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, Name, Property, UnaryOp};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::lex::{self, Tok};
+use crate::rules;
+use crate::{Finding, Span};
 
 /// Binding powers that no operator table holds, see [`BinaryOp::power`].
 const ASSIGNMENT: u8 = 1;
@@ -74,7 +74,7 @@ impl Parser<'_> {
 
     pub(super) fn too_deep<T>(&mut self, span: Span) -> Attempt<T> {
         let message = format!("the expression is nested more than {MAX_DEPTH} levels deep");
-        let report = Diagnostic::error(code::TOO_DEEP, span, message)
+        let report = Finding::error(rules::TOO_DEEP, span, message)
             .why("brackets, signs and each further operator of a chain count as a level")
             .help("split it: keep parts in `const` names, or in `ctx`");
         self.refuse(report)
@@ -165,7 +165,7 @@ impl Parser<'_> {
             Tok::Bad => Err(Reported),
             _ => {
                 let message = format!("expected a name behind `.`, found {}", self.shown());
-                let report = Diagnostic::error(code::UNEXPECTED, span, message)
+                let report = Finding::error(rules::MISSING_NAME, span, message)
                     .help("write the field behind the point, as `data.qpos`, and indexes in brackets, as `data.qpos[2]`");
                 self.refuse(report)
             }
@@ -187,8 +187,8 @@ impl Parser<'_> {
         if let (true, false, ExprKind::Unary { op, operand }) = (power, left.closed, &left.expr.kind) {
             let (sign, base) = (op.symbol(), operand.span.text(self.source));
             let exponent = right.expr.span.text(self.source);
-            let report = Diagnostic::error(
-                code::AMBIGUOUS_POWER,
+            let report = Finding::error(
+                rules::AMBIGUOUS_POWER,
                 left.expr.span,
                 format!("a `{sign}` directly before a power"),
             )
@@ -222,7 +222,7 @@ impl Parser<'_> {
         let question = self.bump();
         let then = self.expression(ASSIGNMENT)?;
         if self.eat(":").is_none() {
-            let report = Diagnostic::error(code::UNEXPECTED, question, "this `?` has no `:`")
+            let report = Finding::error(rules::HALF_CHOICE, question, "this `?` has no `:`")
                 .why(format!("found {} where the other value must stand", self.shown()))
                 .help("a choice is written `test ? a : b`");
             return self.refuse(report);
@@ -358,7 +358,7 @@ impl Parser<'_> {
 
     fn template_value(&mut self, place: Span) -> Attempt<Node> {
         if self.ended() {
-            let report = Diagnostic::error(code::EMPTY, place, "there is nothing between the braces")
+            let report = Finding::error(rules::EMPTY, place, "there is nothing between the braces")
                 .help("write the value that belongs into the text, as `${data.time}`");
             return self.refuse(report);
         }
@@ -422,7 +422,7 @@ impl Parser<'_> {
             Tok::Bad => return Err(Reported),
             _ => {
                 let message = format!("expected a key, found {}", self.shown());
-                let report = Diagnostic::error(code::UNEXPECTED, span, message)
+                let report = Finding::error(rules::MISSING_NAME, span, message)
                     .why("braces inside an expression hold a record: keys and their values")
                     .help("write it as `{a: 1, b: 2}`");
                 return self.refuse(report);
@@ -442,7 +442,7 @@ impl Parser<'_> {
             return self.refuse(refuse::member_function(span));
         }
         let report =
-            Diagnostic::error(code::UNEXPECTED, span, format!("the key `{}` has no value", key.text))
+            Finding::error(rules::MISSING_VALUE, span, format!("the key `{}` has no value", key.text))
                 .help(format!("write `{}: …`", key.text));
         self.refuse(report)
     }
@@ -453,7 +453,7 @@ impl Parser<'_> {
             let span = opener.to(self.bump());
             let what = if closer == "]" { "an index" } else { "an expression" };
             let report =
-                Diagnostic::error(code::UNEXPECTED, span, format!("{what} is missing between the brackets"))
+                Finding::error(rules::MISSING_VALUE, span, format!("{what} is missing between the brackets"))
                     .help(if closer == "]" {
                         "write the index, as `[0]`"
                     } else {
@@ -518,7 +518,7 @@ impl Parser<'_> {
     }
 
     /// The finding when something else stands where a bracket must close.
-    pub(super) fn unclosed(&mut self, opener: Span, closer: &str, before: Span) -> Option<Diagnostic> {
+    pub(super) fn unclosed(&mut self, opener: Span, closer: &str, before: Span) -> Option<Finding> {
         // An index holds no assignment, so `=` shows that its bracket should have been closed.
         let ends = self.ended() || matches!(self.peek(), Tok::Symbol(";" | ")" | "]" | "}" | "="));
         if !ends {
@@ -526,7 +526,7 @@ impl Parser<'_> {
         }
         let open = opener.text(self.source);
         Some(
-            Diagnostic::error(code::UNCLOSED, opener, format!("this `{open}` is never closed"))
+            Finding::error(rules::UNCLOSED, opener, format!("this `{open}` is never closed"))
                 .why(format!("found {} where `{closer}` must stand", self.shown()))
                 .help(format!("write `{closer}` behind `{}`", before.text(self.source)))
                 .fix(before.after(), closer),
@@ -538,7 +538,7 @@ impl Parser<'_> {
         let span = self.span();
         let before = self.last_span().text(self.source);
         let message = format!("expected a value, found {}", self.shown());
-        let mut report = Diagnostic::error(code::UNEXPECTED, span, message);
+        let mut report = Finding::error(rules::MISSING_VALUE, span, message);
         if !before.is_empty() && self.at > 0 {
             report = report.why(format!("`{before}` needs a value behind it"));
         }
@@ -575,8 +575,8 @@ impl Node {
 #[cfg(test)]
 mod tests {
     use super::super::{parse_expression, parse_statements};
-    use crate::code;
     use crate::print::print;
+    use crate::rules;
 
     /// The expression with every operation in parentheses.
     fn grouped(source: &str) -> String {
@@ -632,7 +632,11 @@ mod tests {
     fn a_sign_before_a_power_is_refused() {
         for source in ["-2 ** 2", "2 ** -3 ** 2", "!a ** b"] {
             let found = parse_expression(source).diagnostics;
-            assert_eq!(found.iter().map(|d| d.code).collect::<Vec<_>>(), [code::AMBIGUOUS_POWER], "{source}");
+            assert_eq!(
+                found.iter().map(|d| d.code).collect::<Vec<_>>(),
+                [rules::AMBIGUOUS_POWER],
+                "{source}"
+            );
         }
     }
 

@@ -3,9 +3,9 @@
 use super::expr::Node;
 use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
 use crate::ast::{Body, Element, ExprKind, Function, Name, Pattern, Stmt, StmtKind};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::lex::Tok;
+use crate::rules;
+use crate::{Finding, Span};
 
 /// The binding power of an assignment, the loosest.
 const ASSIGNMENT: u8 = 1;
@@ -70,7 +70,7 @@ impl Parser<'_> {
         let place = self.span();
         let (name, function) = self.function()?;
         let Some(name) = name else {
-            let report = Diagnostic::error(code::UNEXPECTED, place, "this function has no name")
+            let report = Finding::error(rules::MISSING_NAME, place, "this function has no name")
                 .why("a function that stands alone can only be called by its name")
                 .help("write `function name(x) { … }`, or `const name = (x) => …`");
             return self.refuse(report);
@@ -90,8 +90,8 @@ impl Parser<'_> {
             _ => None,
         };
         let Some(opener) = self.eat("(") else {
-            let report = Diagnostic::error(
-                code::UNEXPECTED,
+            let report = Finding::error(
+                rules::MISSING_BRACKET,
                 self.span(),
                 format!("expected `(`, found {}", self.shown()),
             )
@@ -100,8 +100,8 @@ impl Parser<'_> {
         };
         let params = self.parameters(opener)?;
         if !self.is("{") {
-            let report = Diagnostic::error(
-                code::UNEXPECTED,
+            let report = Finding::error(
+                rules::MISSING_BRACKET,
                 self.span(),
                 format!("expected `{{`, found {}", self.shown()),
             )
@@ -132,7 +132,7 @@ impl Parser<'_> {
         if params.len() > MAX_PARAMS {
             let span = opener.to(self.last_span());
             let message = format!("a function of {} parameters", params.len());
-            let report = Diagnostic::error(code::ARGUMENT_COUNT, span, message)
+            let report = Finding::error(rules::ARGUMENT_COUNT, span, message)
                 .why(format!("at most {MAX_PARAMS} are allowed"))
                 .help("pass a list or a record");
             return self.refuse(report);
@@ -204,8 +204,8 @@ impl Parser<'_> {
             }
             let span = self.span();
             let Tok::Word(text) = self.peek() else {
-                let report = Diagnostic::error(
-                    code::UNEXPECTED,
+                let report = Finding::error(
+                    rules::MISSING_NAME,
                     span,
                     format!("expected a key, found {}", self.shown()),
                 )
@@ -238,8 +238,8 @@ impl Parser<'_> {
             Tok::Word(word) => word.clone(),
             Tok::Bad => return Err(Reported),
             _ => {
-                let report = Diagnostic::error(
-                    code::UNEXPECTED,
+                let report = Finding::error(
+                    rules::MISSING_NAME,
                     span,
                     format!("expected {what}, found {}", self.shown()),
                 )
@@ -248,8 +248,8 @@ impl Parser<'_> {
             }
         };
         if refuse::is_reserved(&text) {
-            let report = Diagnostic::error(
-                code::NAME_TAKEN,
+            let report = Finding::error(
+                rules::NAME_TAKEN,
                 span,
                 format!("`{text}` is a word of the language, not a name"),
             )
@@ -265,7 +265,7 @@ impl Parser<'_> {
         let opener = self.bump();
         let statements = self.statements_up_to("}");
         if self.eat("}").is_none() {
-            let report = Diagnostic::error(code::UNCLOSED, opener, "this `{` is never closed")
+            let report = Finding::error(rules::UNCLOSED, opener, "this `{` is never closed")
                 .why("everything behind it is part of the block")
                 .help("write `}` where the block ends");
             return self.refuse(report);

@@ -10,9 +10,18 @@ mod refuse;
 mod stmt;
 
 use crate::ast::{Expr, ExprKind, Stmt};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Parsed, Span};
 use crate::lex::{self, Tok, Token};
+use crate::rules;
+use crate::{Finding, Span};
+
+/// What a parser understood, and what it could not read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parsed<T> {
+    /// The tree; parts that could not be read are [`crate::ast::ExprKind::Error`].
+    pub tree: T,
+    /// Findings in source order.
+    pub diagnostics: Vec<Finding>,
+}
 
 /// Longest source text, in bytes. Real lessons stay below 2,000.
 pub const MAX_SOURCE: usize = 32 * 1024;
@@ -38,14 +47,14 @@ pub fn parse_statements(source: &str) -> Parsed<Vec<Stmt>> {
 }
 
 /// Findings in source order, and not more than anyone reads.
-pub(crate) fn in_order(mut found: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    found.sort_by_key(|d| d.span);
+pub(crate) fn in_order(mut found: Vec<Finding>) -> Vec<Finding> {
+    found.sort_by_key(|d| (d.span.start, d.span.end));
     if found.len() > MAX_DIAGNOSTICS {
         found.truncate(MAX_DIAGNOSTICS);
-        let span = found.last().map_or(Span::default(), |d| d.span.after());
+        let span = found.last().map_or(Span::default(), |d| Span::new(d.span.end, d.span.end));
         found.push(
-            Diagnostic::error(
-                code::TOO_MANY_ERRORS,
+            Finding::error(
+                rules::TOO_MANY_ERRORS,
                 span,
                 format!("more than {MAX_DIAGNOSTICS} mistakes: the rest is not shown"),
             )
@@ -70,7 +79,7 @@ struct Parser<'s> {
     depth: usize,
     /// Height of the highest tree since [`Parser::measured`] began.
     tallest: usize,
-    diagnostics: Vec<Diagnostic>,
+    diagnostics: Vec<Finding>,
 }
 
 impl<'s> Parser<'s> {
@@ -80,7 +89,7 @@ impl<'s> Parser<'s> {
             let message =
                 format!("the text has {} bytes, the language reads at most {MAX_SOURCE}", source.len());
             diagnostics.push(
-                Diagnostic::error(code::TOO_LONG, Span::default(), message)
+                Finding::error(rules::TOO_LONG, Span::default(), message)
                     .help("split it: into several controls, or a `setup` and a `controller`"),
             );
             vec![Token { kind: Tok::Bad, span: Span::default(), newline: false }]
@@ -139,7 +148,7 @@ impl<'s> Parser<'s> {
     }
 
     /// Reports and gives up this part.
-    fn refuse<T>(&mut self, report: Diagnostic) -> Attempt<T> {
+    fn refuse<T>(&mut self, report: Finding) -> Attempt<T> {
         self.diagnostics.push(report);
         Err(Reported)
     }
@@ -195,7 +204,7 @@ impl<'s> Parser<'s> {
     fn whole_expression(&mut self) -> Expr {
         let nothing = Expr { kind: ExprKind::Error, span: self.span() };
         if self.ended() {
-            let report = Diagnostic::error(code::EMPTY, self.span(), "there is nothing to evaluate")
+            let report = Finding::error(rules::EMPTY, self.span(), "there is nothing to evaluate")
                 .help("write an expression, as `data.time`");
             self.diagnostics.push(report);
             return nothing;
@@ -219,13 +228,13 @@ impl<'s> Parser<'s> {
     }
 
     /// What is wrong with a text that goes on behind its expression.
-    fn trailing(&mut self, expr: &Expr) -> Option<Diagnostic> {
+    fn trailing(&mut self, expr: &Expr) -> Option<Finding> {
         let span = self.span();
         if !self.is(";") {
             return self.unexpected_behind(expr.span);
         }
         self.bump();
-        let report = Diagnostic::error(code::EXPRESSION_ONLY, span, "an expression does not end with `;`");
+        let report = Finding::error(rules::EXPRESSION_ONLY, span, "an expression does not end with `;`");
         Some(if self.ended() {
             report
                 .why("this text is one value, not a list of statements")
@@ -276,7 +285,7 @@ mod tests {
             "(".repeat(n) + "1" + &")".repeat(n),
             "a[".repeat(n) + "1" + &"]".repeat(n),
         ] {
-            assert!(codes(&source).contains(&code::TOO_DEEP), "{}", &source[..10]);
+            assert!(codes(&source).contains(&rules::TOO_DEEP.code), "{}", &source[..10]);
         }
     }
 
@@ -284,12 +293,12 @@ mod tests {
     fn many_mistakes_are_cut_short() {
         let found = codes(&"] ;".repeat(2000));
         assert_eq!(found.len(), MAX_DIAGNOSTICS + 1);
-        assert_eq!(found.last(), Some(&code::TOO_MANY_ERRORS));
+        assert_eq!(found.last(), Some(&rules::TOO_MANY_ERRORS.code));
     }
 
     #[test]
     fn long_texts_are_refused() {
-        assert_eq!(codes(&" ".repeat(MAX_SOURCE + 1)), [code::TOO_LONG]);
+        assert_eq!(codes(&" ".repeat(MAX_SOURCE + 1)), [rules::TOO_LONG]);
         assert_eq!(parse_expression(&" ".repeat(MAX_SOURCE + 1)).diagnostics.len(), 1);
     }
 }

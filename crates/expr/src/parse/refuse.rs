@@ -1,11 +1,11 @@
 //! Constructs of JavaScript that lessons do not have, on purpose: each with its reason and what to write instead.
 
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::rules;
+use crate::{Finding, Span};
 
 /// The finding for a construct, in the plural.
-fn never(span: Span, name: &str, why: &str, help: &str) -> Diagnostic {
-    Diagnostic::error(code::NOT_IN_LANGUAGE, span, format!("{name} are not in this language"))
+fn never(span: Span, name: &str, why: &str, help: &str) -> Finding {
+    Finding::error(rules::NOT_IN_LANGUAGE, span, format!("{name} are not in this language"))
         .why(why)
         .help(help)
 }
@@ -17,11 +17,10 @@ const NO_EXCEPTIONS: &str = "mistakes are found before the run, so there is noth
 const STORE_HELP: &str = "keep values in variables of the lab, as `ctx.peak`";
 
 /// The finding for a reserved word of JavaScript where it cannot stand; `None` for a word that is a name.
-pub(super) fn word(word: &str, span: Span) -> Option<Diagnostic> {
+pub(super) fn word(word: &str, span: Span) -> Option<Finding> {
     let name = format!("`{word}`");
-    let misplaced = |help: &str| {
-        Diagnostic::error(code::UNEXPECTED, span, format!("`{word}` has no place here")).help(help)
-    };
+    let misplaced =
+        |help: &str| Finding::error(rules::MISPLACED, span, format!("`{word}` has no place here")).help(help);
     Some(match word {
         "this" | "super" => never(
             span,
@@ -82,7 +81,7 @@ pub(super) fn word(word: &str, span: Span) -> Option<Diagnostic> {
 }
 
 /// `new Date()`
-pub(super) fn new_date(span: Span) -> Diagnostic {
+pub(super) fn new_date(span: Span) -> Finding {
     never(
         span,
         "dates",
@@ -98,7 +97,7 @@ pub(super) fn is_reserved(text: &str) -> bool {
 }
 
 /// The finding for a symbol that starts or continues a construct that is not read.
-pub(super) fn symbol(text: &str, span: Span) -> Option<Diagnostic> {
+pub(super) fn symbol(text: &str, span: Span) -> Option<Finding> {
     Some(match text {
         "/" | "/=" => never(
             span,
@@ -112,7 +111,7 @@ pub(super) fn symbol(text: &str, span: Span) -> Option<Diagnostic> {
 }
 
 /// `for (key in object)`
-pub(super) fn for_in(span: Span) -> Diagnostic {
+pub(super) fn for_in(span: Span) -> Finding {
     never(
         span,
         "`for … in` loops",
@@ -122,7 +121,7 @@ pub(super) fn for_in(span: Span) -> Diagnostic {
 }
 
 /// A label, and `break` or `continue` to one.
-pub(super) fn label(span: Span) -> Diagnostic {
+pub(super) fn label(span: Span) -> Finding {
     never(
         span,
         "labels",
@@ -132,7 +131,7 @@ pub(super) fn label(span: Span) -> Diagnostic {
 }
 
 /// `(...rest) =>`
-pub(super) fn rest(span: Span) -> Diagnostic {
+pub(super) fn rest(span: Span) -> Finding {
     never(
         span,
         "parameters that collect the rest",
@@ -142,14 +141,14 @@ pub(super) fn rest(span: Span) -> Diagnostic {
 }
 
 /// `function*`, `{ get x() {} }` and methods of literals.
-pub(super) fn member_function(span: Span) -> Diagnostic {
+pub(super) fn member_function(span: Span) -> Finding {
     never(span, "generators, getters and methods of literals", NO_OBJECTS, "write `{name: (x) => …}`")
 }
 
 /// The comma operator.
-pub(super) fn comma(span: Span, decimal: Option<(Span, String)>) -> Diagnostic {
+pub(super) fn comma(span: Span, decimal: Option<(Span, String)>) -> Finding {
     if let Some((number, meant)) = decimal {
-        return Diagnostic::error(code::UNEXPECTED, number, "a decimal comma")
+        return Finding::error(rules::DECIMAL_COMMA, number, "a decimal comma")
             .why("a comma separates things; the decimal sign is a point")
             .help(format!("write `{meant}`"))
             .fix(number, meant);
@@ -163,7 +162,7 @@ pub(super) fn comma(span: Span, decimal: Option<(Span, String)>) -> Diagnostic {
 }
 
 /// `var`, which is read as `let` after this.
-pub(super) fn var(span: Span) -> Diagnostic {
+pub(super) fn var(span: Span) -> Finding {
     never(
         span,
         "`var` declarations",
@@ -174,8 +173,8 @@ pub(super) fn var(span: Span) -> Diagnostic {
 }
 
 /// `a ?? b || c` without parentheses.
-pub(super) fn mixed(span: Span) -> Diagnostic {
-    Diagnostic::error(code::AMBIGUOUS_DEFAULT, span, "`??` next to `||` or `&&` without parentheses")
+pub(super) fn mixed(span: Span) -> Finding {
+    Finding::error(rules::AMBIGUOUS_DEFAULT, span, "`??` next to `||` or `&&` without parentheses")
         .why("it could group in two ways; JavaScript refuses it")
         .help("put one of them into parentheses, as `(a ?? b) || c`")
 }

@@ -2,9 +2,9 @@
 
 use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
 use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
-use crate::code;
-use crate::diagnostic::{Diagnostic, Span};
 use crate::lex::Tok;
+use crate::rules;
+use crate::{Finding, Span};
 
 impl Parser<'_> {
     /// All statements to the end of the text.
@@ -109,9 +109,12 @@ impl Parser<'_> {
                 self.bump();
                 let body = Box::new(self.body("do")?);
                 if !self.is_word("while") {
-                    let report =
-                        Diagnostic::error(code::UNEXPECTED, self.span(), "a `do` loop without its `while`")
-                            .help("write `do { … } while (test)`");
+                    let report = Finding::error(
+                        rules::DO_WITHOUT_WHILE,
+                        self.span(),
+                        "a `do` loop without its `while`",
+                    )
+                    .help("write `do { … } while (test)`");
                     return self.refuse(report);
                 }
                 self.bump();
@@ -178,8 +181,8 @@ impl Parser<'_> {
     /// `(test)` behind `if` or `while`.
     fn head(&mut self, word: &str) -> Attempt<Expr> {
         let Some(opener) = self.eat("(") else {
-            let report = Diagnostic::error(
-                code::UNEXPECTED,
+            let report = Finding::error(
+                rules::MISSING_BRACKET,
                 self.span(),
                 format!("expected `(` behind `{word}`, found {}", self.shown()),
             )
@@ -193,20 +196,17 @@ impl Parser<'_> {
     fn body(&mut self, word: &str) -> Attempt<Stmt> {
         let span = self.span();
         if self.eat(";").is_some() {
-            let report = Diagnostic::warning(
-                code::EMPTY_BODY,
-                span,
-                format!("this `;` is all that the `{word}` does"),
-            )
-            .why("the statement behind it runs in any case, and only once")
-            .help("remove the `;`")
-            .fix(span, "");
+            let report =
+                Finding::warning(rules::EMPTY_BODY, span, format!("this `;` is all that the `{word}` does"))
+                    .why("the statement behind it runs in any case, and only once")
+                    .help("remove the `;`")
+                    .fix(span, "");
             self.diagnostics.push(report);
             return Ok(Stmt { kind: StmtKind::Empty, span });
         }
         if self.ended() || self.is("}") {
-            let report = Diagnostic::error(
-                code::UNEXPECTED,
+            let report = Finding::error(
+                rules::MISSING_STATEMENT,
                 span,
                 format!("expected a statement behind `{word}`, found {}", self.shown()),
             )
@@ -216,7 +216,7 @@ impl Parser<'_> {
         let declares = ["const", "let", "function"].iter().any(|w| self.is_word(w));
         if declares {
             let report =
-                Diagnostic::error(code::UNEXPECTED, span, format!("a declaration alone behind `{word}`"))
+                Finding::error(rules::LONE_DECLARATION, span, format!("a declaration alone behind `{word}`"))
                     .why("the name would be gone at once; JavaScript refuses it")
                     .help("put the statements into braces");
             self.diagnostics.push(report);
@@ -241,8 +241,8 @@ impl Parser<'_> {
     fn for_loop(&mut self) -> Attempt<StmtKind> {
         self.bump();
         let Some(opener) = self.eat("(") else {
-            let report = Diagnostic::error(
-                code::UNEXPECTED,
+            let report = Finding::error(
+                rules::MISSING_BRACKET,
                 self.span(),
                 format!("expected `(` behind `for`, found {}", self.shown()),
             )
@@ -292,8 +292,8 @@ impl Parser<'_> {
             }
             if self.is_word("of") {
                 if !declares {
-                    let report = Diagnostic::error(
-                        code::UNEXPECTED,
+                    let report = Finding::error(
+                        rules::LOOP_WITHOUT_CONST,
                         target.span(),
                         "the name of a `for … of` loop needs `const`",
                     )
@@ -316,23 +316,23 @@ impl Parser<'_> {
             return Ok(());
         }
         let report =
-            Diagnostic::error(code::UNEXPECTED, self.span(), format!("expected `;`, found {}", self.shown()))
+            Finding::error(rules::LOOP_HEAD, self.span(), format!("expected `;`, found {}", self.shown()))
                 .why("the head of a `for` has three parts: start, condition, step")
                 .help("write `for (let i = 0; i < n; i++) { … }`");
         self.refuse(report)
     }
 
     /// The finding for a word that opens a statement, when an expression is wanted.
-    pub(super) fn statement_keyword(&self) -> Option<Diagnostic> {
+    pub(super) fn statement_keyword(&self) -> Option<Finding> {
         let Tok::Word(word) = self.peek() else { return None };
         match word.as_str() {
             "const" | "let" | "var" => Some(
-                Diagnostic::error(code::EXPRESSION_ONLY, self.span(), format!("`{word}` declares a name, but only one value is read here"))
+                Finding::error(rules::EXPRESSION_ONLY, self.span(), format!("`{word}` declares a name, but only one value is read here"))
                     .why("this text is an expression: it gives a value and changes nothing")
                     .help("write the expression in one piece, or compute the part in `controller` and keep it in `ctx`"),
             ),
             "if" | "for" | "while" | "do" | "return" | "break" | "continue" => Some(
-                Diagnostic::error(code::EXPRESSION_ONLY, self.span(), format!("`{word}` starts a statement, but only one value is read here"))
+                Finding::error(rules::EXPRESSION_ONLY, self.span(), format!("`{word}` starts a statement, but only one value is read here"))
                     .why("this text is an expression: it gives a value and changes nothing")
                     .help("choose a value with `test ? a : b`, or compute it in `controller` and keep it in `ctx`"),
             ),
@@ -429,7 +429,7 @@ impl Parser<'_> {
         let span = self.span();
         if !matches!(self.peek(), Tok::Word(_) | Tok::Bad | Tok::Symbol("[" | "{")) {
             let report =
-                Diagnostic::error(code::UNEXPECTED, span, format!("expected a name, found {}", self.shown()))
+                Finding::error(rules::MISSING_NAME, span, format!("expected a name, found {}", self.shown()))
                     .why(format!("`{}` declares a name", opener.text(self.source)))
                     .help("write `const angle = data.qpos[0]`");
             return self.refuse(report);
@@ -440,8 +440,8 @@ impl Parser<'_> {
         if value.is_none() && (constant || !matches!(target, Pattern::Name(_))) {
             let text = target.span().text(self.source).to_owned();
             let word = opener.text(self.source);
-            let report = Diagnostic::error(
-                code::UNEXPECTED,
+            let report = Finding::error(
+                rules::DECLARED_WITHOUT_VALUE,
                 span,
                 format!("`{text}` is declared with `{word}` but gets no value"),
             );
@@ -468,7 +468,7 @@ impl Parser<'_> {
     }
 
     /// The finding for whatever stands behind something complete; `None` when it is already reported.
-    pub(super) fn unexpected_behind(&mut self, before: Span) -> Option<Diagnostic> {
+    pub(super) fn unexpected_behind(&mut self, before: Span) -> Option<Finding> {
         let span = self.span();
         let shown = self.shown();
         match self.peek() {
@@ -482,27 +482,27 @@ impl Parser<'_> {
                 Some(refuse::comma(span, decimal))
             }
             Tok::Symbol(closer @ (")" | "]" | "}")) => Some(
-                Diagnostic::error(code::UNEXPECTED, span, format!("`{closer}` closes nothing"))
+                Finding::error(rules::UNOPENED, span, format!("`{closer}` closes nothing"))
                     .why("no bracket is open here")
                     .help("remove it, or write the bracket that it should close")
                     .fix(span, ""),
             ),
             Tok::Symbol(":") => Some(
-                Diagnostic::error(code::UNEXPECTED, span, "`:` without a `?` before it")
+                Finding::error(rules::HALF_CHOICE, span, "`:` without a `?` before it")
                     .help("a choice is written `test ? a : b`"),
             ),
             Tok::Symbol(text) if refuse::symbol(text, span).is_some() && *text != "/" => {
                 refuse::symbol(text, span)
             }
             Tok::Symbol(text) => Some(
-                Diagnostic::error(code::UNEXPECTED, span, format!("`{text}` has no place here"))
+                Finding::error(rules::MISPLACED, span, format!("`{text}` has no place here"))
                     .help("remove it"),
             ),
             Tok::Word(word) if matches!(word.as_str(), "in" | "instanceof") => refuse::word(word, span),
             _ => {
                 let left = shorten(before.text(self.source));
                 Some(
-                    Diagnostic::error(code::UNEXPECTED, span, format!("{shown} stands directly behind `{left}`"))
+                    Finding::error(rules::MISSING_OPERATOR, span, format!("{shown} stands directly behind `{left}`"))
                         .why("nothing between them says how they belong together")
                         .help("write what is missing: an operator, as `*` for a product, a comma in a list, or `;` between statements"),
                 )

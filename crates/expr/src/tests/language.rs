@@ -122,19 +122,19 @@ fn limits_have_their_own_errors() {
         let mut globals = Globals::new();
         let compiled = Compiler::new(&Mock, &mut globals).statements(source);
         let program = compiled.program.unwrap_or_else(|| panic!("{:#?}", compiled.diagnostics));
-        program.run(&mut World::new(), &mut Context::of(&globals), None).map_err(|e| e.code)
+        program.run(&mut World::new(), &mut Context::of(&globals), None).map_err(|e| e.rule.code)
     };
     for (source, expected) in [
-        ("let n = 0; while (n >= 0) n++", code::BUDGET),
-        ("const f = n => f(n + 1) + 1; ctx.a = f(0)", code::CALL_DEPTH),
-        ("const v = []; for (let i = 0; i < 1e7; i++) v.push([i, i, i])", code::MEMORY),
-        ("let s = 'x'; for (let i = 0; i < 60; i++) s += s", code::TEXT_TOO_LONG),
-        ("ctx.a = 'x'.repeat(1e9)", code::TEXT_TOO_LONG),
-        ("ctx.a = ctx.nothing.x", code::NO_PARTS),
-        ("ctx.nothing()", code::NOT_CALLABLE),
-        ("ctx.a = [].reduce((a, b) => a + b)", code::NO_PARTS),
+        ("let n = 0; while (n >= 0) n++", rules::BUDGET),
+        ("const f = n => f(n + 1) + 1; ctx.a = f(0)", rules::CALL_DEPTH),
+        ("const v = []; for (let i = 0; i < 1e7; i++) v.push([i, i, i])", rules::MEMORY),
+        ("let s = 'x'; for (let i = 0; i < 60; i++) s += s", rules::TEXT_TOO_LONG),
+        ("ctx.a = 'x'.repeat(1e9)", rules::TEXT_TOO_LONG),
+        ("ctx.a = ctx.nothing.x", rules::NO_PARTS),
+        ("ctx.nothing()", rules::NOT_CALLABLE),
+        ("ctx.a = [].reduce((a, b) => a + b)", rules::NO_PARTS),
     ] {
-        assert_eq!(code(source), Err(expected), "{source}");
+        assert_eq!(code(source), Err(expected.code), "{source}");
     }
     // A ring of lists is collected, and garbage does not add up.
     let mut globals = Globals::new();

@@ -4,7 +4,7 @@ use crate::mock::Mock;
 use crate::*;
 
 /// All findings of a text, with the line, carets under the span, and the fixed text.
-fn render(source: &str, found: &[Diagnostic]) -> String {
+fn render(source: &str, found: &[Finding]) -> String {
     let mut out = String::new();
     for d in found {
         let start = source[..d.span.start].rfind('\n').map_or(0, |i| i + 1);
@@ -265,7 +265,7 @@ fn variables_that_nothing_stores() {
     compiler.statements("ctx.peak = Math.max(ctx.peak || 0, data.qpos[2])");
     let source = "ctx.peek + ctx.angle + ctx.start";
     compiler.expression(source);
-    let found: Vec<Diagnostic> = globals.unset().into_iter().map(|(_, d)| d).collect();
+    let found: Vec<Finding> = globals.unset().into_iter().map(|(_, d)| d).collect();
     insta::with_settings!({ snapshot_path => "../snapshots", prepend_module_to_snapshot => false, omit_expression => true }, {
         insta::assert_snapshot!("variables_that_nothing_stores", render(source, &found));
     });

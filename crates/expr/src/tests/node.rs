@@ -467,7 +467,9 @@ fn here(source: &str) -> Option<String> {
     match program.run(&mut world, &mut context, None) {
         Ok(_) => show(&context.heap, context.get(slot), 0, &mut out),
         // JavaScript has other limits.
-        Err(e) if [code::TEXT_TOO_LONG, code::MEMORY, code::BUDGET, code::CALL_DEPTH].contains(&e.code) => {
+        Err(e)
+            if [rules::TEXT_TOO_LONG, rules::MEMORY, rules::BUDGET, rules::CALL_DEPTH].contains(&e.rule) =>
+        {
             return None;
         }
         Err(_) => out.push('E'),

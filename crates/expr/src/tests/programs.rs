@@ -147,10 +147,10 @@ fn failures_carry_their_place() {
         program.run(&mut World::new(), &mut Context::new(), None).unwrap_err()
     };
     let error = run("data.time = 1; fail()");
-    assert_eq!((error.code, error.span), (code::HOST_CALL, Span::new(15, 21)));
+    assert_eq!((error.rule, error.span), (rules::HOST_CALL, Span::new(15, 21)));
     assert_eq!(error.to_string(), "this function always fails");
     let error = run("model.opt.timestep = 0");
-    assert_eq!((error.code, error.span), (code::HOST_STORE, Span::new(0, 22)));
+    assert_eq!((error.rule, error.span), (rules::HOST_STORE, Span::new(0, 22)));
 }
 
 #[test]
@@ -164,7 +164,14 @@ fn elements_past_the_end_are_noted() {
     let notes: Vec<String> = context
         .events()
         .iter()
-        .map(|e| format!("{} {}..{}: {e}", e.code(), e.span.start, e.span.end))
+        .map(|e| {
+            format!(
+                "{} {}..{}: {e}",
+                e.rule().map_or("read-past-end", |rule| rule.code),
+                e.span.start,
+                e.span.end
+            )
+        })
         .collect();
     assert_eq!(
         notes,
@@ -185,7 +192,7 @@ fn text_that_grows_without_end_is_stopped() {
         .unwrap();
     let (mut world, mut context) = (World::new(), Context::new());
     let failed = (0..40).find_map(|_| program.run(&mut world, &mut context, None).err());
-    assert_eq!(failed.map(|e| e.code), Some(code::TEXT_TOO_LONG));
+    assert_eq!(failed.map(|e| e.rule), Some(rules::TEXT_TOO_LONG));
 }
 
 #[test]

@@ -302,14 +302,14 @@ fn compile_all(source: &str) {
     for compiled in [compiler.expression(source), compiler.statements(source), compiler.assignment(source)] {
         for d in &compiled.diagnostics {
             assert!(source.get(d.span.start..d.span.end).is_some(), "{source:?}: {d:?}");
-            assert!(code::ALL.iter().any(|(c, _)| *c == d.code));
+            assert!(rules::ALL.iter().any(|rule| *d.code == **rule));
             if let Some(fix) = &d.fix {
                 assert!(source.get(fix.span.start..fix.span.end).is_some(), "{source:?}: {d:?}");
             }
         }
         assert_eq!(
             compiled.program.is_none(),
-            compiled.diagnostics.iter().any(Diagnostic::is_error),
+            compiled.diagnostics.iter().any(Finding::is_error),
             "{source:?}: {:?}",
             compiled.diagnostics
         );

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::diagnostic::Span;
+use crate::Span;
 use crate::ir::{Picks, Shown};
 use crate::math;
 use crate::natives;

@@ -11,14 +11,14 @@ pub(crate) use code::{Code, CodeUnit, Num, Op, Slot, Val};
 
 use std::sync::Arc;
 
-use crate::code as codes;
-use crate::diagnostic::Span;
+use crate::Span;
 use crate::heap::{MAX_TEXT, Object};
 use crate::ir;
 use crate::natives::{self, Env, Trouble};
 use crate::number;
 use crate::operators::BinaryOp;
 use crate::program::{Context, EventKind, Host, RuntimeError, RuntimeEvent};
+use crate::rules;
 use crate::schema::FieldKey;
 use crate::value::{Value, View, truthy};
 
@@ -241,7 +241,7 @@ impl Machine<'_> {
         if self.depth >= MAX_CALLS {
             let message =
                 format!("functions call each other more than {MAX_CALLS} times, one inside the other");
-            return Err(Trouble::new(codes::CALL_DEPTH, message));
+            return Err(Trouble::new(rules::CALL_DEPTH, message));
         }
         self.charge(callee.cost())?;
         self.depth += 1;
@@ -338,7 +338,7 @@ impl Machine<'_> {
                 let done = self.host.work().saturating_sub(before).min(self.budget);
                 self.of_host += done;
                 self.charge(done)?;
-                let result = result.map_err(|message| Trouble::new(codes::HOST_CALL, message))?;
+                let result = result.map_err(|message| Trouble::new(rules::HOST_CALL, message))?;
                 self.put_value(f, dst, result);
             }
             Op::Store(field, index, src) => self.store(field, index as usize, self.num(f, src))?,
@@ -360,7 +360,7 @@ impl Machine<'_> {
                 let value = self.val(f, src).clone();
                 self.check_kept(&value)?;
                 if !self.context.set_named(&name, value) {
-                    return Err(Trouble::new(codes::MEMORY, "too many variables with computed names").into());
+                    return Err(Trouble::new(rules::MEMORY, "too many variables with computed names").into());
                 }
             }
             Op::Fill(view, src) => {
@@ -377,7 +377,7 @@ impl Machine<'_> {
     fn check_kept(&self, value: &Value) -> Result<(), Trouble> {
         if matches!(value, Value::View(_)) {
             return Err(Trouble::new(
-                codes::WHOLE_ARRAY,
+                rules::WHOLE_ARRAY,
                 "an array of the simulation cannot be kept in `ctx`; keep a copy, as `data.qpos.slice()`",
             ));
         }
@@ -444,7 +444,7 @@ impl Machine<'_> {
     }
 
     fn store(&mut self, field: FieldKey, index: usize, x: f64) -> Result<(), Trouble> {
-        self.host.set(field, index, x).map_err(|message| Trouble::new(codes::HOST_STORE, message))
+        self.host.set(field, index, x).map_err(|message| Trouble::new(rules::HOST_STORE, message))
     }
 
     #[cold]
@@ -503,7 +503,7 @@ fn span_of(unit: &CodeUnit, at: usize) -> Span {
 
 #[cold]
 fn failure(trouble: Trouble, unit: &CodeUnit, at: usize) -> Box<RuntimeError> {
-    Box::new(RuntimeError { code: trouble.code, span: span_of(unit, at), message: trouble.message })
+    Box::new(RuntimeError { rule: trouble.rule, span: span_of(unit, at), message: trouble.message })
 }
 
 /// What a value is, for a message.

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::{Code, CodeUnit, Frame, Machine, Op, Slot, Stop, Val, index_of, what, whole_index};
-use crate::code as codes;
 use crate::heap::Object;
 use crate::ir::Picks;
 use crate::natives::{self, Trouble};
+use crate::rules;
 use crate::value::{Value, View};
 
 impl Machine<'_> {
@@ -203,10 +203,10 @@ impl Machine<'_> {
         match of.binary_search_by(|(n, _)| (**n).cmp(&name)) {
             Ok(at) => Ok(of.get(at).map(|(_, v)| v.clone()).unwrap_or_default()),
             Err(_) => {
-                let near = crate::suggest::closest(&name, of.iter().map(|(n, _)| &**n));
+                let near = crate::closest(&name, of.iter().map(|(n, _)| &**n));
                 let meant = near.map(|n| format!("; did you mean \"{n}\"?")).unwrap_or_default();
                 Err(Trouble::new(
-                    codes::UNKNOWN_OBJECT,
+                    rules::UNKNOWN_OBJECT,
                     format!("there is no {noun} named \"{name}\"{meant}"),
                 ))
             }
@@ -272,7 +272,7 @@ impl Machine<'_> {
     fn member(&mut self, code: &Arc<Code>, object: &Value, name: &str) -> Result<Value, Trouble> {
         match object {
             Value::Undefined | Value::Null => Err(Trouble::new(
-                codes::NO_PARTS,
+                rules::NO_PARTS,
                 format!("`{name}` of {object} was read: nothing was stored there before"),
             )),
             Value::Record(_) => Ok(self.context.heap.get(object, name).unwrap_or_default()),
@@ -306,7 +306,7 @@ impl Machine<'_> {
                     // JavaScript lets a list grow by an assignment; holes become `undefined`.
                     if i - n > 1_000_000 {
                         return Err(Trouble::new(
-                            codes::MEMORY,
+                            rules::MEMORY,
                             format!("element {i} of a list of {n} elements"),
                         ));
                     }
@@ -369,7 +369,7 @@ impl Machine<'_> {
             other => {
                 let what = what(other, self.context.heap.object(other));
                 Err(Trouble::new(
-                    codes::NO_PARTS,
+                    rules::NO_PARTS,
                     format!("`{name}` of {what} was assigned: it has no members"),
                 ))
             }
@@ -418,7 +418,7 @@ impl Machine<'_> {
             Object::Closure { code, unit, captures } => (code.clone(), *unit, captures.clone()),
             object => {
                 let message = format!("{} is called, but it is not a function", what(callee, object));
-                return Err(Trouble::new(codes::NOT_CALLABLE, message).into());
+                return Err(Trouble::new(rules::NOT_CALLABLE, message).into());
             }
         };
         let Some(function) = code.units.get(at as usize) else { return Ok(Value::Undefined) };
@@ -449,5 +449,5 @@ impl Machine<'_> {
 }
 
 fn too_early() -> Trouble {
-    Trouble::new(codes::USED_TOO_EARLY, "a name is used before its declaration has run")
+    Trouble::new(rules::USED_TOO_EARLY, "a name is used before its declaration has run")
 }

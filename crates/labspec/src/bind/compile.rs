@@ -1,10 +1,10 @@
 //! Everything a lab computes, bound to its model: statements and expressions as programs, and what they need.
 
 use super::names::{ModelNames, Scope};
-use super::scene::finding;
-use crate::finding::{Finding, Severity};
+use crate::finding::{Finding, Fix};
 use crate::json::{Scalar, fix_in_code};
 use crate::markdown::is_typographic;
+use crate::rules;
 use crate::source::Text;
 use crate::spec::{Action, Control, ControlKind, Lab};
 use labspec_core::reflect::{FieldId, FieldSet, Kind, Object};
@@ -182,8 +182,8 @@ impl Work<'_> {
 
     fn keep(&mut self, text: &Text, compiled: Compiled) -> Option<Bound> {
         // Typographic quotes are told once for a whole text, by their own rule.
-        let quote = |d: &&expr::Diagnostic| {
-            d.code == expr::code::BAD_CHARACTER
+        let quote = |d: &&Finding| {
+            d.code == expr::rules::BAD_CHARACTER.code
                 && text.value.get(d.span.start..).is_some_and(|t| t.starts_with(is_typographic))
         };
         let said = compiled.diagnostics.iter().filter(|d| !quote(d));
@@ -220,7 +220,7 @@ impl Work<'_> {
             && action.set.is_none()
         {
             self.findings.push(
-                warning("value-unused", text.span(), "these statements never use `value`")
+                Finding::warning(rules::VALUE_UNUSED, text.span(), "these statements never use `value`")
                     .why(format!(
                         "moving \"{}\" changes nothing: the chosen value is called `value`",
                         control.label.value
@@ -242,24 +242,13 @@ pub(crate) fn scalar(value: &Scalar) -> Value {
     }
 }
 
-pub(crate) fn warning(
-    code: &'static str,
-    span: std::ops::Range<usize>,
-    message: impl Into<String>,
-) -> Finding {
-    finding(code, span, message).severity(Severity::Warning)
-}
-
 /// A diagnostic of the language, at its place in the lesson.
-pub fn to_finding(d: &expr::Diagnostic, text: &Text) -> Finding {
-    let span = |s: expr::Span| text.span_of(s.start..s.end);
-    Finding {
-        severity: if d.severity == expr::Severity::Error { Severity::Error } else { Severity::Warning },
-        why: d.why.clone(),
-        help: d.help.clone(),
-        fix: d.fix.as_ref().map(|f| fix_in_code(text, f.span.start..f.span.end, &f.text)),
-        ..finding(d.code, span(d.span), d.message.clone())
-    }
+pub fn to_finding(d: &Finding, text: &Text) -> Finding {
+    let fix = d
+        .fix
+        .as_ref()
+        .map(|f| Fix { applicability: f.applicability, ..fix_in_code(text, f.span.clone(), &f.text) });
+    Finding { span: text.span_of(d.span.clone()), fix, ..d.clone() }
 }
 
 /// Whether a program writes a field of this kind, and the first such field.

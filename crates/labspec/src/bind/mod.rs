@@ -14,7 +14,7 @@ pub mod scene;
 mod world;
 
 pub use compile::{ActionProgram, Bound, ControlProgram, Probe, Programs, to_finding};
-pub(crate) use compile::{include, scalar, warning, writes_kind};
+pub(crate) use compile::{include, scalar, writes_kind};
 pub(crate) use names::named_field;
 pub use names::{ModelNames, Scope};
 pub use world::World;

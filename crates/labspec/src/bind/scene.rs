@@ -1,11 +1,12 @@
 //! The model of a lab: from the model folder or from the lab itself, with every mistake at its place.
 
-use crate::finding::{Finding, Severity};
+use crate::finding::{Finding, InFile};
 use crate::lint::{ModelFolder, lesson_folder, root_of};
+use crate::rules;
 use crate::source::{SourceFile, Text};
 use crate::spec::{Lab, Scene};
 use labspec_core::Model;
-use labspec_core::xml::{self, Files, Folder, MjcfDiagnostic, NoFiles};
+use labspec_core::xml::{self, Files, Folder, NoFiles};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -56,7 +57,7 @@ impl Models {
                 // A model that does not exist is reported by the rules of the lesson's structure.
                 if model.is_none() && self.folder.path(&name.value).is_some() {
                     findings.push(
-                        finding("model-broken", name.span(), format!("the model `{}` has mistakes", name.value))
+                        Finding::error(rules::MODEL_BROKEN, name.span(), format!("the model `{}` has mistakes", name.value))
                             .why("this lab cannot run, and its expressions cannot be checked, until the model loads")
                             .help(format!("correct what is reported for {}.xml", name.value)),
                     );
@@ -81,7 +82,7 @@ impl Models {
             }
             Err(message) => {
                 let file = SourceFile::new(shown, "");
-                self.findings.push(finding("model-unreadable", 0..0, message).at(&file));
+                self.findings.push(Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file));
                 self.files.push(file);
                 None
             }
@@ -112,8 +113,8 @@ pub(crate) fn compile_file(file: &SourceFile, path: &Path, root: &Path) -> Compi
     if !examined.findings.is_empty() {
         sources.push(file.clone());
     }
-    let place_of = |d: &MjcfDiagnostic| {
-        let at = d.file.as_ref().map_or(0, |part| part_of(&mut sources, files, part));
+    let place_of = |d: &Finding| {
+        let at = if d.path.is_empty() { 0 } else { part_of(&mut sources, files, &d.path) };
         let finding = from_mjcf(d, d.span.clone());
         sources.get(at).map_or(finding.clone(), |source| finding.at(source))
     };
@@ -131,7 +132,11 @@ pub(crate) fn check_model_file(
         Ok(file) => file,
         Err(message) => {
             let file = SourceFile::new(path.display().to_string(), "");
-            return (None, vec![finding("model-unreadable", 0..0, message).at(&file)], vec![file]);
+            return (
+                None,
+                vec![Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file)],
+                vec![file],
+            );
         }
     };
     let root = root.map_or_else(|| root_of(&lesson_folder(path), &[]), Path::to_path_buf);
@@ -171,50 +176,26 @@ fn joined(folder: &str, path: &str) -> String {
     if folder.is_empty() { path.to_string() } else { format!("{folder}/{path}") }
 }
 
-/// An error of a code that is not in the table of lesson rules: the model compiler's, the language's, ours.
-pub(crate) fn finding(
-    code: &'static str,
-    span: std::ops::Range<usize>,
-    message: impl Into<String>,
-) -> Finding {
-    Finding {
-        code,
-        severity: Severity::Error,
-        path: Arc::from(""),
-        span,
-        message: message.into(),
-        why: None,
-        help: None,
-        fix: None,
-        related: Vec::new(),
-    }
-}
-
 /// How to open more.
 const WIDEN: &str =
     "put an empty file `labspec.toml` into the folder that holds both, or name that folder with --root";
 
-fn inline(d: &MjcfDiagnostic, text: &Text) -> Finding {
+fn inline(d: &Finding, text: &Text) -> Finding {
     from_mjcf(d, text.span_of(d.span.clone()))
 }
 
 /// A mistake in a model, at a place of the file that holds it.
-pub fn from_mjcf(d: &MjcfDiagnostic, span: std::ops::Range<usize>) -> Finding {
-    let severity = match d.severity {
-        xml::Severity::Error => Severity::Error,
-        xml::Severity::Warning => Severity::Warning,
-    };
-    let help = match d.code {
-        // The engine knows no program: how to widen the root is said here.
-        xml::code::OUTSIDE => Some(WIDEN.to_string()),
-        _ => d.help.clone(),
-    };
-    Finding { severity, why: d.why.clone(), help, ..finding(d.code, span, d.message.clone()) }
+pub fn from_mjcf(d: &Finding, span: std::ops::Range<usize>) -> Finding {
+    // The engine knows no program: how to widen the root is said here.
+    let outside = d.code == xml::rules::OUTSIDE.code;
+    let help = if outside { Some(WIDEN.to_string()) } else { d.help.clone() };
+    Finding { span, path: Arc::from(""), position: None, help, ..d.clone() }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::finding::Severity;
 
     const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 

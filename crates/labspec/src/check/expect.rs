@@ -1,13 +1,13 @@
 //! What an author expects of the runs of a lab: that they go well, or, with `"expect": "breaks"`, that one breaks.
 
-use crate::bind::scene::finding;
 use crate::finding::Finding;
+use crate::rules;
 use crate::spec::{Expect, Lab};
 
 /// What a run that breaks is reported as.
-const BROKE: [&str; 2] = ["simulation-diverges", "energy-grows"];
+const BROKE: [&str; 2] = [rules::SIMULATION_DIVERGES.code, rules::ENERGY_GROWS.code];
 /// What is only said of a scene, without a run that shows it.
-const LIKELY: &str = "stiff-for-timestep";
+const LIKELY: &str = rules::STIFF_FOR_TIMESTEP.code;
 
 /// Holds the findings of the runs of one lab, those from `first` on, against what its author expects. `runs` is how
 /// many were made.
@@ -15,14 +15,14 @@ pub(super) fn settle(lab: &Lab, runs: usize, findings: &mut Vec<Finding>, first:
     let Some(Expect::Breaks(place)) = &lab.expect else { return };
     let own = findings.split_off(first.min(findings.len()));
     let broke = own.iter().any(|f| BROKE.contains(&f.code));
-    let impossible = own.iter().any(|f| f.code == "run-impossible");
+    let impossible = own.iter().any(|f| f.code == rules::RUN_IMPOSSIBLE.code);
     findings.extend(own.into_iter().filter(|f| !BROKE.contains(&f.code) && f.code != LIKELY));
     // What was not run shows nothing, and is said elsewhere.
     if broke || impossible || runs == 0 {
         return;
     }
     findings.push(
-        finding("does-not-break", place.clone(), "this lab is said to break, and it does not")
+        Finding::error(rules::DOES_NOT_BREAK, place.clone(), "this lab is said to break, and it does not")
             .why(format!(
                 "{}: a student who waits for what the text speaks of sees a simulation that goes well",
                 if runs == 1 {

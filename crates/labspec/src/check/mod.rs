@@ -13,8 +13,9 @@ pub use entries::ledger;
 pub use trial::Tried;
 
 use crate::bind::Programs;
-use crate::bind::scene::{Models, finding};
-use crate::finding::{self, Finding, Severity};
+use crate::bind::scene::Models;
+use crate::finding::{self, Finding, InFile, Severity};
+use crate::rules;
 use crate::spec::{Lab, LabAddress, Lesson, Scene};
 use labspec_core::Model;
 use std::sync::Arc;
@@ -92,7 +93,7 @@ fn prepare<'l>(lab: &'l Lab, models: &mut Models, findings: &mut Vec<Finding>) -
         // A folder that has no such model is a matter of the lesson's structure, which knows what the folder has.
         if let (Some(Scene::Model(name)), None) = (lab.scene(), models.folder().names()) {
             findings.push(
-                finding("no-model-folder", name.span(), "there is no folder of models, so this lab cannot run")
+                Finding::error(rules::NO_MODEL_FOLDER, name.span(), "there is no folder of models, so this lab cannot run")
                     .why("its expressions, its runs and every claim about it could not be checked")
                     .help(format!("put {}.xml into a folder `models` beside or above the lesson, or name the folder: --models DIR", name.value)),
             );
@@ -101,12 +102,19 @@ fn prepare<'l>(lab: &'l Lab, models: &mut Models, findings: &mut Vec<Finding>) -
     };
     if let Some(key) = lab.key.as_ref().filter(|k| k.value >= model.nkey as f64) {
         findings.push(
-            finding("keyframe-missing", key.span.clone(), format!("the model has no keyframe {}", key.value))
-                .why("the page then silently starts from the default configuration")
-                .help(match model.nkey {
-                    0 => "the model has no keyframes: leave `key` out, or add <keyframe><key …/></keyframe> to it".to_string(),
-                    n => format!("its keyframes are 0 to {}", n - 1),
-                }),
+            Finding::error(
+                rules::KEYFRAME_MISSING,
+                key.span.clone(),
+                format!("the model has no keyframe {}", key.value),
+            )
+            .why("the page then silently starts from the default configuration")
+            .help(match model.nkey {
+                0 => {
+                    "the model has no keyframes: leave `key` out, or add <keyframe><key …/></keyframe> to it"
+                        .to_string()
+                }
+                n => format!("its keyframes are 0 to {}", n - 1),
+            }),
         );
     }
     let before = findings.len();

@@ -1,8 +1,9 @@
 //! What the programs of a lab do that a page lets pass in silence.
 
 use super::refresh;
-use crate::bind::{Bound, ControlProgram, Programs, functions, scalar, warning};
+use crate::bind::{Bound, ControlProgram, Programs, functions, scalar};
 use crate::finding::Finding;
+use crate::rules;
 use crate::run::Session;
 use crate::spec::{Control, ControlKind, Lab};
 use labspec_core::Model;
@@ -18,8 +19,8 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
         let Some(field) = sets(bound, model) else { continue };
         let Some(shown) = lost(control, index, field, lab, model, programs) else { continue };
         findings.push(
-            warning(
-                "lost-at-reset",
+            Finding::warning(
+                rules::LOST_AT_RESET,
                 bound.text.span(),
                 format!("what \"{label}\" sets is lost at the next reset"),
             )

@@ -3,12 +3,13 @@
 use super::stdio::{complain, print_json};
 use super::target::{model_folder_within, root};
 use super::{Color, Failure, ModelOptions, Outcome, interrupted, print};
-use crate::bind::scene::{Models, check_model_file, finding};
+use crate::bind::scene::{Models, check_model_file};
 use crate::check::{self, Checked, Depth};
 use crate::finding::{self, Finding};
 use crate::ledger::{self, Entry, Evidence, Ledger, State, Subject};
 use crate::lint;
 use crate::report::{self, Summary, printable, printable_path};
+use crate::rules;
 use crate::source::SourceFile;
 use crate::spec::{FileKind, Lesson, kind_of, load_lesson_file};
 use clap::ValueEnum;
@@ -167,7 +168,7 @@ fn look(a: &Arguments, depth: Depth) -> Result<Course, Failure> {
         return Err(nothing(&a.paths, &refused));
     }
     for (path, why) in refused {
-        let mut f = finding("unreadable-file", 0..0, why)
+        let mut f = Finding::error(rules::UNREADABLE_FILE, 0..0, why)
             .why("nothing in it was checked")
             .help("mend the file, or leave it out");
         f.path = Arc::from(path.display().to_string());

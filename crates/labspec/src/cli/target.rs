@@ -3,7 +3,7 @@
 use super::{Failure, ModelOptions};
 use crate::bind::Programs;
 use crate::bind::scene::{Compiled, Models, compile_file};
-use crate::finding::{Finding, Severity};
+use crate::finding::{Finding, InFile, Severity};
 use crate::lint::{ModelFolder, lesson_folder, root_of};
 use crate::report::{self, printable};
 use crate::source::{SourceFile, SourceMap, Text};

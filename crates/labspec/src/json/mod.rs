@@ -7,7 +7,6 @@
 
 mod gaps;
 pub(crate) mod literal;
-mod nearest;
 mod node;
 mod parse;
 mod quoted;
@@ -17,7 +16,7 @@ mod strings;
 #[cfg(test)]
 mod tests;
 
-pub use nearest::nearest;
+pub use labspec_finding::nearest;
 pub use node::{Json, Member, Node};
 pub use parse::{Parsed, parse};
 pub use read::{Fields, Number, Scalar};

@@ -153,7 +153,7 @@ pub(crate) fn encode(text: &str) -> String {
 
 /// The change that puts `replacement` in the place of a part of a text that stands in JSON.
 pub(crate) fn fix_in(text: &Text, part: Range<usize>, replacement: &str) -> Fix {
-    Fix { span: text.span_of(part), text: encode(replacement) }
+    Fix::safe(text.span_of(part), encode(replacement))
 }
 
 /// The same for code: quotes of its own are single ones, as nearly all lessons write them, unless this text uses

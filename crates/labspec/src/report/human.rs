@@ -131,6 +131,7 @@ fn written(parts: [&str; 3]) -> (String, Range<usize>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::finding::InFile;
     use crate::lint::rules::keys::UNKNOWN_KEY;
 
     #[test]

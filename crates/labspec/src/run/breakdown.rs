@@ -4,13 +4,14 @@
 use super::Session;
 use crate::advice::growth::Growth;
 use crate::advice::stability::{self, Part, Suspect};
+use crate::rules::{self, Rule};
 use labspec_core::{Model, Obj, Warning, WarningStat, joint};
 
 /// A run that met a bad number or gained energy from nothing, in a teacher's words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Breakdown {
     /// The code of the finding.
-    pub code: &'static str,
+    pub rule: &'static Rule,
     /// What is no number, or what grows, and when.
     pub what: String,
     /// What the page shows.
@@ -59,51 +60,51 @@ impl Breakdown {
         let joint = |adr: &[i32], width| joint_of(model, stat.lastinfo, adr, width);
         let at = format!("at t = {} s", time(stat.first_time));
         let no_number = |what: String| format!("{what} is not a number or above 1e10 {at}");
-        let (code, what, why, help) = match warning {
+        let (rule, what, why, help) = match warning {
             Warning::BadQpos => (
-                "simulation-diverges",
+                rules::SIMULATION_DIVERGES,
                 no_number(format!("the position of {}", joint(&model.jnt_qposadr, joint::nq))),
                 RESET,
                 cause(model),
             ),
             Warning::BadQvel => (
-                "simulation-diverges",
+                rules::SIMULATION_DIVERGES,
                 no_number(format!("the velocity of {}", joint(&model.jnt_dofadr, joint::nv))),
                 RESET,
                 cause(model),
             ),
             Warning::BadQacc => (
-                "simulation-diverges",
+                rules::SIMULATION_DIVERGES,
                 no_number(format!("the acceleration of {}", joint(&model.jnt_dofadr, joint::nv))),
                 RESET,
                 cause(model),
             ),
             Warning::BadCtrl => (
-                "simulation-diverges",
+                rules::SIMULATION_DIVERGES,
                 no_number(format!("control {}", stat.lastinfo)),
                 "MuJoCo then takes all controls as 0: a student sees everything go limp without a word",
                 "guard the expression that is written to `data.ctrl` with a condition".into(),
             ),
             Warning::Inertia => (
-                "engine-warning",
+                rules::ENGINE_WARNING,
                 format!("what {} moves has no inertia above zero {at}", joint(&model.jnt_dofadr, joint::nv)),
                 "a push then gives no acceleration that means anything: things do not move, move backwards or vanish",
                 "give every body that moves a mass and inertia above 0: look at the model, and at what writes `body_mass`, `body_inertia` or `dof_armature`".into(),
             ),
             Warning::ContactFull => (
-                "engine-warning",
+                rules::ENGINE_WARNING,
                 format!("there are more contacts than the {} that are kept {at}", stat.lastinfo),
                 "what is not kept does not push: bodies sink into each other without a word",
                 "let fewer bodies touch, or move them apart at the start".into(),
             ),
             Warning::ConstraintFull => (
-                "engine-warning",
+                rules::ENGINE_WARNING,
                 format!("there are more contacts, limits and other constraints than are kept {at}"),
                 "what is not kept does not push or hold: bodies sink into each other, joints pass their limits without a word",
                 "let fewer bodies touch, or move them apart at the start".into(),
             ),
         };
-        Breakdown { code, what, why, help }
+        Breakdown { rule, what, why, help }
     }
 
     /// Energy that nothing gave.
@@ -115,7 +116,7 @@ impl Breakdown {
             two_digits(g.held),
             joint_of(model, g.dof, &model.jnt_dofadr, joint::nv)
         );
-        Breakdown { code: "energy-grows", what, why: GROWS, help: cause(model) }
+        Breakdown { rule: rules::ENERGY_GROWS, what, why: GROWS, help: cause(model) }
     }
 }
 

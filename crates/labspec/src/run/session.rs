@@ -7,13 +7,14 @@ use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
 use crate::interrupt;
 use crate::source::Text;
 use labspec_core::{self as core, Data, Demand, Model, Plan, Planned, Warning, WarningStat};
-use labspec_expr::{Context, EventKind, Program, RuntimeError, Value, code};
+use labspec_expr::rules::{self, Rule};
+use labspec_expr::{Context, Program, RuntimeError, Value};
 
 /// Something that went wrong in a program while the lab ran; JavaScript would have thrown, or said nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trouble {
     /// Stable code.
-    pub code: &'static str,
+    pub rule: &'static Rule,
     /// The text and the bytes of it that failed.
     pub text: Text,
     /// Bytes of `text`.
@@ -286,7 +287,7 @@ impl<'p> Session<'p> {
     /// The value of an expression now; `None` when it throws, and when the budget is spent. One that came to no end before is
     /// not tried again.
     pub fn evaluate(&mut self, program: &Program, text: &Text) -> Option<Value> {
-        let endless = |t: &Trouble| t.code == code::BUDGET && t.text == *text;
+        let endless = |t: &Trouble| t.rule == rules::BUDGET && t.text == *text;
         if matches!(self.end, Some(End::Budget { .. })) || self.troubles.iter().any(endless) {
             return None;
         }
@@ -312,11 +313,11 @@ impl<'p> Session<'p> {
 
     /// Notes what threw, unless it is the budget of the run that was spent.
     fn threw(&mut self, e: RuntimeError, text: &Text, time: f64) {
-        let spent = e.code == code::BUDGET && (self.left() == 0 || core::exhausted(&self.world.data));
+        let spent = e.rule == rules::BUDGET && (self.left() == 0 || core::exhausted(&self.world.data));
         if spent {
             self.end.get_or_insert(End::Budget { time });
         } else {
-            self.note(e.code, text, e.span.start..e.span.end, e.message);
+            self.note(e.rule, text, e.span.start..e.span.end, e.message);
         }
     }
 
@@ -415,19 +416,19 @@ impl<'p> Session<'p> {
             return good;
         }
         // Reading past the end gives `undefined`, which a lesson may mean; a lost store it cannot.
-        let lost = self.context.events().iter().find(|e| e.kind == EventKind::StorePastEnd).copied();
-        if let Some(event) = lost {
-            self.note(event.code(), text, event.span.start..event.span.end, event.to_string());
+        let broken = self.context.events().iter().find_map(|e| Some((e.rule()?, *e)));
+        if let Some((rule, event)) = broken {
+            self.note(rule, text, event.span.start..event.span.end, event.to_string());
         }
         self.note_warnings();
         good
     }
 
-    fn note(&mut self, code: &'static str, text: &Text, span: std::ops::Range<usize>, message: String) {
-        let known = |t: &Trouble| t.code == code && t.span == span && t.text == *text;
+    fn note(&mut self, rule: &'static Rule, text: &Text, span: std::ops::Range<usize>, message: String) {
+        let known = |t: &Trouble| t.rule == rule && t.span == span && t.text == *text;
         if !self.troubles.iter().any(known) {
             let time = self.world.data.time();
-            self.troubles.push(Trouble { code, text: text.clone(), span, message, time });
+            self.troubles.push(Trouble { rule, text: text.clone(), span, message, time });
         }
     }
 

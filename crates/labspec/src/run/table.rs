@@ -191,7 +191,7 @@ impl Table {
         separated(&self.errors, out, |error, out| write_json_text(error, out))?;
         out.write_all(b"]")?;
         if let Some(b) = &self.breakdown {
-            let b = json!({"code": b.code, "what": b.what, "why": b.why, "help": b.help});
+            let b = json!({"code": b.rule.code, "what": b.what, "why": b.why, "help": b.help});
             write!(out, ",\"breakdown\":{}", printable_json(&b.to_string()))?;
         }
         out.write_all(b"}")
@@ -236,7 +236,7 @@ mod tests {
             "errors": table.errors,
         });
         if let Some(b) = &table.breakdown {
-            whole["breakdown"] = json!({"code": b.code, "what": b.what, "why": b.why, "help": b.help});
+            whole["breakdown"] = json!({"code": b.rule.code, "what": b.what, "why": b.why, "help": b.help});
         }
         whole
     }
@@ -253,8 +253,12 @@ mod tests {
         ];
         table.warnings = vec![("badqacc", 1), ("inertia", 20)];
         table.errors = vec!["x: y".into(), "data\t".into()];
-        table.breakdown =
-            Some(Breakdown { code: "simulation-diverges", what: "a".into(), why: "b", help: "c".into() });
+        table.breakdown = Some(Breakdown {
+            rule: crate::rules::SIMULATION_DIVERGES,
+            what: "a".into(),
+            why: "b",
+            help: "c".into(),
+        });
         assert_eq!(streamed(&table), whole(&table).to_string());
         let mut csv = Vec::new();
         table.write_csv(&mut csv).unwrap();

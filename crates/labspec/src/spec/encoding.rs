@@ -1,14 +1,11 @@
 //! A lesson whose text is not UTF-8: told, and checked all the same.
 
 use super::{Lesson, load_lesson};
-use crate::finding::{Finding, Severity};
+use crate::finding::{Finding, InFile};
 use crate::lint::ModelFolder;
+use crate::rules;
 use crate::source::{BadText, SourceFile};
 use std::path::Path;
-use std::sync::Arc;
-
-/// The code of a file that is not UTF-8.
-pub const NOT_UTF8: &str = "not-utf8";
 
 /// Reads a lesson or a JSON file whatever its encoding: a file that is not UTF-8 has a finding that says where, and is
 /// checked with what cannot be read replaced.
@@ -45,17 +42,9 @@ pub fn not_utf8(bad: BadText) -> Finding {
             (at..at + 1, format!("here is a byte that is not UTF-8 (0x{byte:02X}{old})"))
         }
     };
-    Finding {
-        code: NOT_UTF8,
-        severity: Severity::Error,
-        path: Arc::from(""),
-        span,
-        message,
-        why: Some("a page reads lessons as UTF-8, so such characters are shown as �".into()),
-        help: Some("save the file with the encoding UTF-8".into()),
-        fix: None,
-        related: Vec::new(),
-    }
+    Finding::error(rules::NOT_UTF8, span, message)
+        .why("a page reads lessons as UTF-8, so such characters are shown as �")
+        .help("save the file with the encoding UTF-8")
 }
 
 #[cfg(test)]

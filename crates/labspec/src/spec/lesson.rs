@@ -2,7 +2,7 @@
 
 use super::kind::{FileKind, Nature, kind_of, nature};
 use super::{Lab, Quiz, VerifyLab, lab, quiz};
-use crate::finding::{self, Finding};
+use crate::finding::{self, Finding, InFile};
 use crate::json::{self, Json, Node};
 use crate::lint::rules::fence::{LIMIT, UNKNOWN_SPEC, WRONG_FENCE};
 use crate::lint::rules::json as json_rules;

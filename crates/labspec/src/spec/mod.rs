@@ -15,7 +15,7 @@ mod quiz;
 mod verify;
 
 pub use control::{Action, Choice, Control, ControlKind};
-pub use encoding::{NOT_UTF8, load_lesson_file, not_utf8};
+pub use encoding::{load_lesson_file, not_utf8};
 pub use kind::{FileKind, kind_of};
 pub use lab::{Camera, Expect, Form, Lab, OVERLAYS, Scene};
 pub use lesson::{LabAddress, LabEntry, Lesson, MAX_FINDINGS, Widget, load_lesson};

@@ -5,10 +5,9 @@ use super::bound::Found;
 use super::condition::Weighed;
 use super::outcome::Outcome;
 use super::{BoundVerify, Outcomes, PERTURBED, grounded, shorten, significant};
-use crate::bind::scene::finding;
-use crate::bind::warning;
 use crate::finding::Finding;
 use crate::ledger::{Evidence, State};
+use crate::rules;
 use crate::source::Text;
 use crate::spec::{Question, QuestionKind, Verify};
 use std::ops::Range;
@@ -148,7 +147,7 @@ fn conditions(
 
 /// A comparison that was decided by NaN.
 fn no_number(text: &Text, part: &str) -> Finding {
-    finding("compares-nan", text.span(), format!("`{part}` compares with what is no number"))
+    Finding::error(rules::COMPARES_NAN, text.span(), format!("`{part}` compares with what is no number"))
         .why("a comparison with NaN never holds, whatever the other side is: here it says nothing about the answer. A measure is NaN when its event never happens in the run")
         .help("make the run longer, correct the measure, or ask for it: `isNaN(x)`")
 }
@@ -188,7 +187,7 @@ fn options(
 
     if !held.contains(&answer) {
         let message = format!("the simulation refutes answer {}", name(answer));
-        let mut f = finding("answer-refuted", keyed.span.clone(), message.clone())
+        let mut f = Finding::error(rules::ANSWER_REFUTED, keyed.span.clone(), message.clone())
             .why("a student who predicts right is told that they are wrong")
             .related(condition(answer), format!("this condition {}", words(answer)));
         f = match held.as_slice() {
@@ -205,7 +204,7 @@ fn options(
     if held.len() > 1 {
         let others: Vec<usize> = held.iter().copied().filter(|&i| i != answer).collect();
         let message = format!("besides answer {}, {} holds too", name(answer), names(&others));
-        let mut f = finding("answer-ambiguous", keyed.span.clone(), message.clone())
+        let mut f = Finding::error(rules::ANSWER_AMBIGUOUS, keyed.span.clone(), message.clone())
             .why("a student who chooses the other one is right and is told otherwise")
             .help("word the options, or write their conditions, so that exactly one can hold");
         for i in others {
@@ -274,7 +273,7 @@ fn value(
     if !right(computed) {
         let message = format!("the answer is {answer}, the simulation gives {}", significant(computed));
         findings.push(
-            finding("answer-refuted", keyed.span.clone(), message.clone())
+            Finding::error(rules::ANSWER_REFUTED, keyed.span.clone(), message.clone())
                 .why(format!(
                     "they differ by {}, the tolerance is {}",
                     significant((computed - answer).abs()),
@@ -304,7 +303,7 @@ fn value(
 /// An expression that gives no number where one is claimed.
 fn no_value(text: &Text, x: f64) -> Finding {
     let message = format!("this expression gives {}, which is no number to compare with", shown(x));
-    finding("claim-without-number", text.span(), message)
+    Finding::error(rules::CLAIM_WITHOUT_NUMBER, text.span(), message)
         .why("nothing can be compared with it: its event may never happen in the run, or something is divided by zero")
         .help("make the run longer, or correct the expression")
 }
@@ -314,7 +313,7 @@ fn shown(x: f64) -> &'static str {
 }
 
 fn fragile(span: Range<usize>, how: &str, what: &str) -> Finding {
-    warning("answer-fragile", span, format!("the answer holds, but not {how}: {what}"))
+    Finding::warning(rules::ANSWER_FRAGILE, span, format!("the answer holds, but not {how}: {what}"))
         .why("it depends on numerics that the question does not mention: a student with another setting sees something else")
         .help("state the setting in the question and `set` it in the run, or ask about what does not depend on it")
 }

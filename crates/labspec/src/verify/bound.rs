@@ -3,10 +3,10 @@
 use super::condition::{self, Weighed};
 use super::measure::Measure;
 use super::outcome::{Outcome, OutcomeNames, RunOutcome};
-use crate::bind::scene::finding;
 use crate::bind::{ModelNames, Programs, Scope, functions, include, scalar, to_finding};
 use crate::finding::Finding;
 use crate::ledger::Evidence;
+use crate::rules;
 use crate::run::{self, Breakdown, Budget, End, Numerics, Session};
 use crate::source::Text;
 use crate::spec::{Lab, Run, Verify};
@@ -217,7 +217,7 @@ impl<'a> BoundVerify<'a> {
         session.troubles.clear();
         let value = session.evaluate(program, text);
         findings.extend(session.troubles.iter().map(|t| {
-            finding(t.code, t.text.span_of(t.span.clone()), t.message.clone())
+            Finding::error(t.rule, t.text.span_of(t.span.clone()), t.message.clone())
                 .why("the claim cannot be checked: this expression has no value")
                 .help("correct the expression, or guard it with a condition")
         }));
@@ -244,8 +244,8 @@ impl<'a> BoundVerify<'a> {
         let mut session = Session::start_within(self.programs, self.model, key, &demand, budget);
         let place = run.spec.map_or(self.place.clone(), |r| r.name.span());
         let mut refuse_at = |place: std::ops::Range<usize>, e: run::RunError| {
-            findings.push(finding(
-                "run-impossible",
+            findings.push(Finding::error(
+                rules::RUN_IMPOSSIBLE,
                 place,
                 format!("the run {} cannot be made: {e}", crate::json::read::named(run.name)),
             ));
@@ -301,8 +301,8 @@ impl<'a> BoundVerify<'a> {
         let values = running.into_iter().map(|m| m.finish(&mut session)).collect();
         for t in &session.troubles {
             let span = t.text.span_of(t.span.clone());
-            findings.push(finding(
-                t.code,
+            findings.push(Finding::error(
+                t.rule,
                 span,
                 format!(
                     "{} (in the run {}, at t = {} s)",

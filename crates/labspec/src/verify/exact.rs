@@ -6,11 +6,11 @@
 //! themselves; a wrong one leaves itself.
 
 use super::{BoundVerify, significant};
-use crate::bind::scene::finding;
 use crate::bind::{Bound, ModelNames, Programs, Scope, include, to_finding};
 use crate::finding::Finding;
 use crate::json::nearest;
 use crate::ledger::{Evidence, State};
+use crate::rules;
 use crate::run::{self, Breakdown, Budget, End, Session};
 use crate::spec::{Exact, Lab};
 use labspec_core::{Model, integrator};
@@ -89,8 +89,8 @@ pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<F
             Ok(run) => runs.push(run),
             Err(reason) => {
                 findings.push(
-                    finding(
-                        "closed-form-untried",
+                    Finding::error(
+                        rules::CLOSED_FORM_UNTRIED,
                         claim.form.span(),
                         format!("the closed form cannot be tried: {reason}"),
                     )
@@ -113,8 +113,8 @@ pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<F
         findings.push(wrong.finding(claim));
     } else if state == State::Unchecked {
         findings.push(
-            finding(
-                "closed-form-undecided",
+            Finding::error(
+                rules::CLOSED_FORM_UNDECIDED,
                 claim.form.span(),
                 format!("the runs do not tell whether this is \"{}\": {remark}", claim.trace.value),
             )
@@ -130,7 +130,7 @@ pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<F
 fn no_such_trace(claim: &Exact, lab: &Lab) -> Finding {
     let labels: Vec<&str> = lab.traces().map(|t| t.label.as_str()).collect();
     let message = format!("the lab has no trace \"{}\"", claim.trace.value);
-    let finding = finding("unknown-trace", claim.trace.span(), message)
+    let finding = Finding::error(rules::UNKNOWN_TRACE, claim.trace.span(), message)
         .why("a closed form belongs to a trace; this one is held to nothing");
     match nearest(&claim.trace.value, labels.iter().copied()) {
         Some(right) => finding.help(format!("did you mean \"{right}\"?")),
@@ -156,7 +156,7 @@ impl Wrong {
             significant(self.trace),
             significant(self.form)
         );
-        finding("closed-form-wrong", claim.form.span(), message)
+        Finding::error(rules::CLOSED_FORM_WRONG, claim.form.span(), message)
             .why(self.how.clone())
             .help("correct the formula, or the lab that it describes")
     }

@@ -22,9 +22,9 @@ pub use bound::{Allowance, BoundVerify};
 pub use exact::ClosedForm;
 pub use quote::{Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Style, Unread, quoted};
 
-use crate::bind::scene::finding;
 use crate::finding::Finding;
 use crate::ledger::Evidence;
+use crate::rules;
 use crate::run::Numerics;
 use crate::source::Text;
 use crate::spec::{Question, Verify};
@@ -232,15 +232,15 @@ fn runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>)
         let [name, broke] = [run.name.as_str(), run.broke.as_deref().unwrap_or("")];
         if run.broke.is_some() && !expected {
             findings.push(
-                finding("run-breaks", span.clone(), format!("the run {} breaks: {broke}", crate::json::read::named(name)))
+                Finding::error(rules::RUN_BREAKS, span.clone(), format!("the run {} breaks: {broke}", crate::json::read::named(name)))
                     .why("what it measures is evidence of nothing")
                     .help("mend the run; if the lesson is about this, write \"expect\": \"breaks\" in the run, or a condition that reads its `warnings`"),
             );
         }
         if run.broke.is_none() && expected {
             findings.push(
-                finding(
-                    "does-not-break",
+                Finding::error(
+                    rules::DOES_NOT_BREAK,
                     span.clone(),
                     format!("the run {} is expected to break, and does not", crate::json::read::named(name)),
                 )
@@ -273,7 +273,7 @@ fn grounded(
     if condition::is_bare_constant(&text.value) {
         let message = format!("`{}` is a bare constant: evidence of nothing", text.value.trim());
         findings.push(
-            finding("constant-claim", text.span(), message.clone())
+            Finding::error(rules::CONSTANT_CLAIM, text.span(), message.clone())
                 .why("it is the same whatever the simulation does, so nothing is checked by it")
                 .help("compare something that a run measures, or write the formula that gives the number"),
         );

@@ -5,8 +5,9 @@ use crate::forces::actuation::slots;
 use crate::kinds::{biastype, dyntype, gaintype, joint, trntype};
 use crate::mjcf::body::limits;
 use crate::mjcf::context::Context;
+use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, JointSpec, RangeSpec, TendonSpec};
-use crate::mjcf::text::diagnostic::{MjcfDiagnostic, code};
+use crate::mjcf::text::diagnostic::Said;
 use crate::mjcf::text::tree::Node;
 
 /// Completes an actuator and reports what does not fit.
@@ -71,10 +72,10 @@ struct Check<'c, 'a> {
 
 impl Check<'_, '_> {
     /// An error at one of these attributes, or at the element when they stand in its class.
-    fn error(&mut self, attribute: &str, message: &str) -> &mut MjcfDiagnostic {
+    fn error(&mut self, attribute: &str, message: &str) -> Said<'_> {
         let span = self.node.attribute(attribute).map_or(self.node.span.clone(), |a| a.span.clone());
         let message = format!("{} {message}", self.node.shown());
-        self.cx.report.error(code::ACTUATOR, span, message)
+        self.cx.report.error(rules::ACTUATOR, span, message)
     }
 
     fn limit(&mut self, limit: &mut RangeSpec, of: &limits::Limit) {
@@ -250,7 +251,7 @@ impl Check<'_, '_> {
         if a.nsample < 0 {
             let message = format!("{} keeps a negative number of samples: none", self.node.shown());
             let span = self.node.attribute("nsample").map_or(self.node.span.clone(), |a| a.span.clone());
-            self.cx.report.warning(code::NO_EFFECT, span, message).help("remove `nsample`");
+            self.cx.report.warning(rules::NO_EFFECT, span, message).help("remove `nsample`");
         }
         if a.delay > 0.0 && a.nsample <= 0 {
             self.error("delay", "has a delay, but keeps no past controls")

@@ -3,8 +3,9 @@
 use super::check_actuator::{controls, outputs};
 use crate::forces::{history, transmission};
 use crate::mjcf::arrays::{flat, ints, padded};
+use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, List, RangeSpec};
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::diagnostic::Report;
 use crate::model::Model;
 use crate::setup::lengthrange::{self, Failure, Search};
 use crate::step::workspace::Data;
@@ -117,7 +118,7 @@ pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Searc
     let nv = m.nv.max(1) as f64;
     if pulled as f64 * search.steps(m) * nv * (1.0 + (nv / 64.0).powi(2)) > MAX_SEARCH {
         let message = format!("the ranges of lengths of {pulled} actuators take too many steps to find");
-        report.error(code::LIMIT, first.span.clone(), message).help("write a `lengthrange` for each");
+        report.error(rules::LIMIT, first.span.clone(), message).help("write a `lengthrange` for each");
         return;
     }
     let mut d = Data::unplanned(m);
@@ -135,7 +136,7 @@ pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Searc
         };
         let message = format!("no range of lengths is found for {}: {wrong}", spec.shown);
         report
-            .error(code::ACTUATOR, spec.span.clone(), message)
+            .error(rules::ACTUATOR, spec.span.clone(), message)
             .why("the force of a muscle depends on its length in the range that it can have")
             .help("write `lengthrange`, or limit the joints that it moves");
     }

@@ -1,7 +1,8 @@
 //! An element of `actuator` that is laid over what its class says.
 
 use crate::mjcf::classes::Props;
-use crate::mjcf::text::diagnostic::{MjcfDiagnostic, Report, code};
+use crate::mjcf::rules;
+use crate::mjcf::text::diagnostic::{Report, Said};
 use crate::mjcf::text::tree::Node;
 
 /// An element that is laid over an actuator.
@@ -14,9 +15,9 @@ pub(crate) struct Overlay<'a> {
 
 impl Overlay<'_> {
     /// An error at an attribute, or at the element where it is absent.
-    pub(crate) fn error(&mut self, attribute: &str, message: impl Into<String>) -> &mut MjcfDiagnostic {
+    pub(crate) fn error(&mut self, attribute: &str, message: impl Into<String>) -> Said<'_> {
         let span = self.p.span(attribute).unwrap_or(self.node.span.clone());
-        self.report.error(code::ACTUATOR, span, message)
+        self.report.error(rules::ACTUATOR, span, message)
     }
 
     /// A number that may not be negative, `None` when it is not given.

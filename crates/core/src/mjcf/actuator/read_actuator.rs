@@ -7,8 +7,9 @@ use crate::kinds::{biastype, dyntype, gaintype, trntype};
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::ids::References;
+use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, RangeSpec, TendonSpec, TransmissionSpec};
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Node, name};
 
 /// All actuators in the order of the text.
@@ -144,7 +145,7 @@ fn transmission(
     if let [.., (first, ..), (last, ..)] = given.as_slice() {
         let message = format!("{owner} has both `{first}` and `{last}`: it acts on the latter alone");
         report
-            .warning(code::NO_EFFECT, node.span.clone(), message)
+            .warning(rules::NO_EFFECT, node.span.clone(), message)
             .why("an actuator acts on one thing; of several, MuJoCo takes the last of joint, jointinparent, tendon, cranksite, site, body")
             .help("remove one of them, or write two actuators");
     }
@@ -158,7 +159,7 @@ fn transmission(
                 .map(|(name, ..)| format!("`{name}`"))
                 .collect();
             report
-                .error(code::ACTUATOR, node.span.clone(), format!("{owner} acts on nothing"))
+                .error(rules::ACTUATOR, node.span.clone(), format!("{owner} acts on nothing"))
                 .why("a force needs something to act on")
                 .help(format!("write one of {} with the name of an object", possible.join(", ")));
             return None;
@@ -171,7 +172,11 @@ fn transmission(
     ] {
         if let Some(a) = node.attribute(name).filter(|_| kind != of) {
             report
-                .error(code::ACTUATOR, a.span.clone(), format!("{owner} has `{name}` and acts on a {object}"))
+                .error(
+                    rules::ACTUATOR,
+                    a.span.clone(),
+                    format!("{owner} has `{name}` and acts on a {object}"),
+                )
                 .help(format!(
                     "`{name}` belongs to `{needs}`: remove it, or write `{needs}` in place of `{attribute}`"
                 ));
@@ -188,13 +193,13 @@ fn transmission(
         let joint = attribute == "joint";
         if !joint && second < 0 {
             report
-                .error(code::ACTUATOR, node.span.clone(), format!("{owner} has no `refsite`"))
+                .error(rules::ACTUATOR, node.span.clone(), format!("{owner} has no `refsite`"))
                 .why("an orientation is that of one site relative to another")
                 .help("write `refsite` with a site of the world for an orientation in space");
         }
         if joint && refs.ids.joint(id).is_some_and(|(kind, _)| kind != crate::kinds::joint::BALL) {
             report
-                .error(code::ACTUATOR, node.span.clone(), format!("{owner} acts on a joint that is no ball joint"))
+                .error(rules::ACTUATOR, node.span.clone(), format!("{owner} acts on a joint that is no ball joint"))
                 .why("an orientation has three degrees of freedom")
                 .help("use `position` for a hinge, and `site` with `refsite` for the orientation of a free body");
         }
@@ -202,7 +207,7 @@ fn transmission(
     if kind == trntype::SLIDERCRANK && a.cranklength <= 0.0 {
         let span = node.attribute("cranklength").map_or(node.span.clone(), |a| a.span.clone());
         report
-            .error(code::ACTUATOR, span, format!("`cranklength` of {owner} is {}", a.cranklength))
+            .error(rules::ACTUATOR, span, format!("`cranklength` of {owner} is {}", a.cranklength))
             .why("it is the length of the rod between both sites, which must be larger than zero");
     }
     Some(TransmissionSpec { kind, id: [id, second] })

@@ -12,8 +12,9 @@ use crate::mjcf::asset::mesh::build::{self, Options};
 use crate::mjcf::classes::{Classes, Props};
 use crate::mjcf::expand::Part;
 use crate::mjcf::names::{NameTable, WORLD};
+use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::spec::{BodySpec, PairSpec};
-use crate::mjcf::text::diagnostic::{Report, code, shown};
+use crate::mjcf::text::diagnostic::{Report, shown};
 use crate::mjcf::text::files::{Files, MAX_FILE};
 use crate::mjcf::text::load;
 use crate::mjcf::text::tree::{Node, Tree, name};
@@ -90,7 +91,7 @@ impl Assets {
                 let message = format!("{} has no name", node.shown());
                 reader
                     .report
-                    .error(code::MISSING_ATTRIBUTE, node.span.clone(), message)
+                    .error(rules::MISSING_ATTRIBUTE, node.span.clone(), message)
                     .why("nothing can refer to it")
                     .help("write `name=\"…\"`");
             }
@@ -139,7 +140,7 @@ impl Assets {
             } else if bone.body != WORLD && !kept.contains(bone.body.as_str()) {
                 let message = format!("the bone {} has become part of its parent", shown(&bone.body));
                 report
-                    .error(code::SKIN, span, message)
+                    .error(rules::SKIN, span, message)
                     .why("`fusestatic` removes bodies without joints that nothing in the text refers to")
                     .help("refer to the body in the text, or leave `fusestatic` out");
             }
@@ -161,7 +162,7 @@ impl Assets {
             match build::hull(mesh) {
                 Ok(hull) => mesh.hull = Some(hull),
                 Err(problem) => {
-                    say(problem, code::MESH, &format!("mesh `{}`", asset.name), asset.span.clone(), report);
+                    say(problem, rules::MESH, &format!("mesh `{}`", asset.name), asset.span.clone(), report);
                     asset.value = None;
                 }
             }
@@ -170,10 +171,10 @@ impl Assets {
 }
 
 /// Reports what is wrong with an asset.
-fn say(problem: Problem, code: &'static str, owner: &str, span: Range<usize>, report: &mut Report) {
-    let d = report.error(code, span, format!("{owner} {}", problem.message));
+fn say(problem: Problem, code: &'static Rule, owner: &str, span: Range<usize>, report: &mut Report) {
+    let mut d = report.error(code, span, format!("{owner} {}", problem.message));
     if !problem.why.is_empty() {
-        d.why(problem.why);
+        d = d.why(problem.why);
     }
     d.help(problem.help);
 }
@@ -187,11 +188,11 @@ impl Reader<'_> {
         });
         match made {
             Ok(mesh) => Some(mesh),
-            Err(problem) => self.wrong(problem, code::MESH, node, p),
+            Err(problem) => self.wrong(problem, rules::MESH, node, p),
         }
     }
 
-    fn wrong<T>(&mut self, problem: Problem, code: &'static str, node: &Node, p: &Props) -> Option<T> {
+    fn wrong<T>(&mut self, problem: Problem, code: &'static Rule, node: &Node, p: &Props) -> Option<T> {
         let span = p.span(problem.attribute).unwrap_or(node.span.clone());
         say(problem, code, &node.shown(), span, self.report);
         None
@@ -229,7 +230,7 @@ impl Reader<'_> {
                 },
             });
         };
-        self.wrong(problem, code::MESH, node, p)
+        self.wrong(problem, rules::MESH, node, p)
     }
 
     /// The data of a mesh, and whether it is a surface without inside. `None` when its file cannot be read.
@@ -319,13 +320,13 @@ impl Reader<'_> {
                     let (rows, columns) = (count(field.nrow, "row"), count(field.ncol, "column"));
                     let message = format!("{} has {rows} and {columns}", node.shown());
                     self.report
-                        .warning(code::NO_EFFECT, node.span.clone(), message)
+                        .warning(rules::NO_EFFECT, node.span.clone(), message)
                         .why("the surface is stretched between neighbouring rows and columns: without two of each there is none, and everything falls through, in MuJoCo too")
                         .help("give it at least two rows and two columns, or use a plane");
                 }
                 Some(field)
             }
-            Err(problem) => self.wrong(problem, code::HFIELD, node, &p),
+            Err(problem) => self.wrong(problem, rules::HFIELD, node, &p),
         }
     }
 }
@@ -340,7 +341,7 @@ impl Reader<'_> {
         if !(0..=MAX_GROUP).contains(&group) {
             let problem =
                 Problem::new("group", format!("is in group {group}"), "", "groups of skins are 0 to 5");
-            return self.wrong(problem, code::VALUE, node, &p);
+            return self.wrong(problem, rules::VALUE, node, &p);
         }
         let own: Vec<&Node> = tree.children(at).map(|(_, bone)| bone).collect();
         let made = if p.text("file").is_some() {
@@ -382,7 +383,7 @@ impl Reader<'_> {
                 group,
                 ..skin
             }),
-            Err(problem) => self.wrong(problem, code::SKIN, node, &p),
+            Err(problem) => self.wrong(problem, rules::SKIN, node, &p),
         }
     }
 
@@ -396,7 +397,7 @@ impl Reader<'_> {
             });
         if let Some(attribute) = missing {
             let message = format!("{} has no `{attribute}`", node.shown());
-            self.report.error(code::MISSING_ATTRIBUTE, node.span.clone(), message).help(format!(
+            self.report.error(rules::MISSING_ATTRIBUTE, node.span.clone(), message).help(format!(
                 "write `{attribute}=\"…\"`: a bone is a body, its pose, and the vertices that it carries with their weights"
             ));
             return None;

@@ -5,9 +5,10 @@ use crate::math::{
     quat_to_mat, sub,
 };
 use crate::mjcf::expand::Part;
+use crate::mjcf::rules;
 use crate::mjcf::settings::{Compiler, InertiaFromGeom};
 use crate::mjcf::spec::{BodySpec, GeomSpec, Inertia};
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::diagnostic::Report;
 
 const NONE: Inertia = Inertia { pos: [0.0; 3], quat: IDENTITY, mass: 0.0, moments: [0.0; 3] };
 
@@ -150,7 +151,7 @@ fn check_triangle(body: &BodySpec, inertia: &mut Inertia, compiler: &Compiler, r
     }
     report
         .error(
-            code::INERTIA,
+            rules::INERTIA,
             body.inertial_span.clone().unwrap_or(body.span.clone()),
             format!("the principal moments of inertia of {} are {a}, {b}, {c}", shown(body)),
         )
@@ -178,7 +179,7 @@ pub(crate) fn check_moving(list: &[BodySpec], weld: &[usize], inertias: &[Inerti
             format!("{} can move but has no inertia", shown(body))
         };
         report
-            .error(code::INERTIA, body.span.clone(), message)
+            .error(rules::INERTIA, body.span.clone(), message)
             .why("a force on it would cause an infinite acceleration")
             .help("give it a geom with mass, or an `inertial` with `mass` and `diaginertia`");
     }

@@ -2,7 +2,7 @@
 
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
-use crate::mjcf::text::diagnostic::code;
+use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::text::tree::Node;
 
 /// Names of a range's attributes.
@@ -10,7 +10,7 @@ pub(crate) struct Limit {
     pub(crate) range: &'static str,
     pub(crate) flag: &'static str,
     /// The code of what is wrong with it.
-    pub(crate) code: &'static str,
+    pub(crate) code: &'static Rule,
 }
 
 /// Whether a range holds, and the range. The flag decides; where it is `auto`, a range that is given holds.
@@ -43,7 +43,7 @@ pub(crate) fn decide(
             if given && lower >= upper {
                 let message = format!("the {range} of {owner} is {lower} to {upper}, which limits nothing");
                 cx.report
-                    .warning(code::NO_EFFECT, span.clone(), message)
+                    .warning(rules::NO_EFFECT, span.clone(), message)
                     .why("the lower limit must be smaller than the upper; what does not grow is taken for no limit")
                     .help(match lower > upper {
                         true => format!("write `{range}=\"{upper} {lower}\"`, or remove it"),
@@ -79,15 +79,15 @@ pub(crate) fn decide(
 }
 
 /// The limits of a joint's coordinate.
-pub(crate) const JOINT: Limit = Limit { range: "range", flag: "limited", code: code::JOINT };
+pub(crate) const JOINT: Limit = Limit { range: "range", flag: "limited", code: rules::JOINT };
 /// The limits of the force of actuators on a joint.
 pub(crate) const JOINT_FORCE: Limit =
-    Limit { range: "actuatorfrcrange", flag: "actuatorfrclimited", code: code::JOINT };
+    Limit { range: "actuatorfrcrange", flag: "actuatorfrclimited", code: rules::JOINT };
 /// The limits of a tendon's length.
-pub(crate) const TENDON: Limit = Limit { code: code::TENDON, ..JOINT };
+pub(crate) const TENDON: Limit = Limit { code: rules::TENDON, ..JOINT };
 /// The limits of the force of actuators on a tendon.
-pub(crate) const TENDON_FORCE: Limit = Limit { code: code::TENDON, ..JOINT_FORCE };
+pub(crate) const TENDON_FORCE: Limit = Limit { code: rules::TENDON, ..JOINT_FORCE };
 /// The limits of controls, forces and activations of actuators.
-pub(crate) const CONTROL: Limit = Limit { range: "ctrlrange", flag: "ctrllimited", code: code::ACTUATOR };
-pub(crate) const FORCE: Limit = Limit { range: "forcerange", flag: "forcelimited", code: code::ACTUATOR };
-pub(crate) const ACTIVATION: Limit = Limit { range: "actrange", flag: "actlimited", code: code::ACTUATOR };
+pub(crate) const CONTROL: Limit = Limit { range: "ctrlrange", flag: "ctrllimited", code: rules::ACTUATOR };
+pub(crate) const FORCE: Limit = Limit { range: "forcerange", flag: "forcelimited", code: rules::ACTUATOR };
+pub(crate) const ACTIVATION: Limit = Limit { range: "actrange", flag: "actlimited", code: rules::ACTUATOR };

@@ -5,9 +5,10 @@ use crate::math::{
     quat_normalize,
 };
 use crate::mjcf::classes::Props;
+use crate::mjcf::rules;
 use crate::mjcf::schema::{ALTERNATIVES, is_form};
 use crate::mjcf::settings::Compiler;
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Node, Tree};
 
 /// Vectors shorter than this have no direction.
@@ -30,7 +31,7 @@ pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Rep
     result.map(quat_normalize).unwrap_or_else(|what| {
         let span = p.span(form).unwrap_or(node.span.clone());
         report
-            .error(code::ORIENTATION, span, format!("`{form}` of {}: {what}", node.shown()))
+            .error(rules::ORIENTATION, span, format!("`{form}` of {}: {what}", node.shown()))
             .why("there is no rotation that it describes");
         IDENTITY
     })
@@ -44,7 +45,7 @@ pub(crate) fn check_forms(tree: &Tree, report: &mut Report) {
         // `composite` and `flexcomp` never reach here: what is refused is left out of the tree.
         let [(first, _), (second, span), ..] = names.as_slice() else { continue };
         let message = format!("{} has both `{first}` and `{second}`", node.shown());
-        report.error(code::CONFLICT, span.clone(), message).help(
+        report.error(rules::CONFLICT, span.clone(), message).help(
             match *first == "fullinertia" || *second == "fullinertia" {
                 true => "`fullinertia` finds its own axes: remove the other",
                 false => "an orientation is given once: remove one of them",

@@ -9,10 +9,10 @@ use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::geom::read_geom;
 use crate::mjcf::names::WORLD;
+use crate::mjcf::rules;
 use crate::mjcf::scene::read_scene;
 use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{BodySpec, Inertia, List};
-use crate::mjcf::text::diagnostic::code;
 use crate::mjcf::text::tree::{Node, name};
 
 /// Where an element stands: in a body, and perhaps in frames.
@@ -114,7 +114,7 @@ fn member(cx: &mut Context, i: usize, node: &Node, place: Place, body: &mut Body
         // Directly in `worldbody` the schema refuses them; here a frame stands between.
         let message = format!("`{}` cannot stand in the world", node.element.name);
         cx.report
-            .error(code::MISPLACED_ELEMENT, node.span.clone(), message)
+            .error(rules::MISPLACED_ELEMENT, node.span.clone(), message)
             .help("a frame only places what it holds: write a `body` around it");
         return;
     }
@@ -122,7 +122,7 @@ fn member(cx: &mut Context, i: usize, node: &Node, place: Place, body: &mut Body
         "inertial" => {
             if body.inertial_span.replace(node.span.clone()).is_some() {
                 let message = "a second `inertial` in the same body";
-                cx.report.error(code::REPEATED_ELEMENT, node.span.clone(), message);
+                cx.report.error(rules::REPEATED_ELEMENT, node.span.clone(), message);
             }
             body.inertial = inertial(cx, node).map(|mut inertia| {
                 frame.place(&mut inertia.pos, &mut inertia.quat);
@@ -175,7 +175,7 @@ fn inertial(cx: &mut Context, node: &Node) -> Option<Inertia> {
         if !p.has(name) {
             complete = false;
             cx.report
-                .error(code::MISSING_ATTRIBUTE, node.span.clone(), format!("inertial has no `{name}`"))
+                .error(rules::MISSING_ATTRIBUTE, node.span.clone(), format!("inertial has no `{name}`"))
                 .why(why);
         }
     }
@@ -183,7 +183,7 @@ fn inertial(cx: &mut Context, node: &Node) -> Option<Inertia> {
     let pos = p.reals("pos", [0.0; 3]);
     if p.has("diaginertia") && p.has("fullinertia") {
         cx.report.error(
-            code::CONFLICT,
+            rules::CONFLICT,
             node.span.clone(),
             "inertial has both `diaginertia` and `fullinertia`",
         );
@@ -194,7 +194,7 @@ fn inertial(cx: &mut Context, node: &Node) -> Option<Inertia> {
         if moments.iter().any(|&x| x <= 0.0 || !x.is_finite()) {
             cx.report
                 .error(
-                    code::INERTIA,
+                    rules::INERTIA,
                     p.span("fullinertia").unwrap_or(0..0),
                     "`fullinertia` of inertial is not the inertia of a body",
                 )
@@ -206,7 +206,7 @@ fn inertial(cx: &mut Context, node: &Node) -> Option<Inertia> {
     let moments = p.reals("diaginertia", [0.0; 3]);
     if moments.iter().any(|&x| x < 0.0) {
         cx.report.error(
-            code::INERTIA,
+            rules::INERTIA,
             p.span("diaginertia").unwrap_or(0..0),
             "`diaginertia` of inertial has a negative moment",
         );

@@ -5,8 +5,8 @@ use crate::kinds::joint;
 use crate::math::{norm, normalize};
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
+use crate::mjcf::rules;
 use crate::mjcf::spec::{JointSpec, List, SOLIMP, SOLREF};
-use crate::mjcf::text::diagnostic::code;
 use crate::mjcf::text::tree::{Node, name};
 
 /// An axis shorter than this has no direction.
@@ -64,7 +64,7 @@ fn axis(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> [f64; 3] {
     if length < SHORTEST_AXIS || !length.is_finite() {
         let message = format!("`axis` of {} has no direction", node.shown());
         cx.report
-            .error(code::JOINT, p.span("axis").unwrap_or(node.span.clone()), message)
+            .error(rules::JOINT, p.span("axis").unwrap_or(node.span.clone()), message)
             .why("the joint turns about it or slides along it")
             .help("write a vector such as \"0 1 0\"; its length does not matter");
         return z;
@@ -84,7 +84,7 @@ fn limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [f64; 2
     if kind == joint::BALL && lower < upper && lower != 0.0 {
         let span = p.span("range").unwrap_or(node.span.clone());
         cx.report
-            .error(code::JOINT, span, format!("the range of {} begins at {lower}", node.shown()))
+            .error(rules::JOINT, span, format!("the range of {} begins at {lower}", node.shown()))
             .why("a ball joint's range limits the angle of its rotation, which is never negative")
             .help(format!("write `range=\"0 {upper}\"`"));
     }
@@ -110,7 +110,7 @@ fn springdamper(cx: &mut Context, p: &Props, node: &Node) -> Option<[f64; 2]> {
         let span = p.span("springdamper").unwrap_or(node.span.clone());
         let message = format!("`springdamper` of {} is {} {}", node.shown(), given[0], given[1]);
         cx.report
-            .error(code::JOINT, span, message)
+            .error(rules::JOINT, span, message)
             .why("it gives a time constant (s) and a damping ratio, both larger than zero")
             .help("write for example `springdamper=\"0.5 1\"`, or give `stiffness` and `damping`");
     }

@@ -3,8 +3,9 @@
 use super::inertia::shown;
 use crate::kinds::trntype;
 use crate::mjcf::layout::Layout;
+use crate::mjcf::rules;
 use crate::mjcf::spec::BodySpec;
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::diagnostic::Report;
 use crate::model::Model;
 use crate::model::asleep::policy;
 
@@ -15,7 +16,7 @@ pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
         if carried || body.joints.is_empty() {
             let what = if carried { "is carried by a moving body" } else { "cannot move" };
             report
-                .error(code::JOINT, body.span.clone(), format!("`sleep` of {}, which {what}", shown(body)))
+                .error(rules::JOINT, body.span.clone(), format!("`sleep` of {}, which {what}", shown(body)))
                 .why("a tree falls asleep as a whole; its first moving body decides")
                 .help("move `sleep` to that body");
         }

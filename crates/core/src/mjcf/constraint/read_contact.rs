@@ -2,8 +2,8 @@
 
 use crate::mjcf::context::Context;
 use crate::mjcf::ids::References;
+use crate::mjcf::rules;
 use crate::mjcf::spec::{BodySpec, ExcludeSpec, PairSpec, SOLIMP, SOLREF};
-use crate::mjcf::text::diagnostic::code;
 use crate::mjcf::text::tree::{Node, name};
 
 /// All pairs and exclusions, each in the order of their bodies.
@@ -50,7 +50,7 @@ fn pair(cx: &mut Context, refs: References, node: &Node, body_of: &[i32]) -> Opt
     if !matches!(condim, 1 | 3 | 4 | 6) {
         let span = p.span("condim").unwrap_or(node.span.clone());
         cx.report
-            .error(code::VALUE, span, format!("`condim` of {} is {condim}", node.shown()))
+            .error(rules::VALUE, span, format!("`condim` of {} is {condim}", node.shown()))
             .help("write 1 (frictionless), 3 (sliding), 4 (and spinning) or 6 (and rolling friction)");
     }
     let mut geoms = [geom1?, geom2?];

@@ -4,8 +4,9 @@ use crate::kinds::{eqtype, joint};
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::ids::References;
+use crate::mjcf::rules;
 use crate::mjcf::spec::{EqualitySpec, SOLIMP, SOLREF};
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Node, name};
 use crate::model::Obj;
 
@@ -31,7 +32,7 @@ fn equality(cx: &mut Context, refs: References, node: &Node) -> Option<EqualityS
     let (objtype, obj1, obj2, data) = tied?;
     if obj1 == obj2 {
         report
-            .error(code::EQUALITY, node.span.clone(), format!("{} ties an object to itself", node.shown()))
+            .error(rules::EQUALITY, node.span.clone(), format!("{} ties an object to itself", node.shown()))
             .help("name two different objects; without the second, a body is tied to the world");
     }
     Some(EqualitySpec {
@@ -57,7 +58,11 @@ fn bodies_or_sites(refs: References, p: &Props, node: &Node, report: &mut Report
     if given("site1") || given("site2") {
         if let Some(other) = ["body1", "body2", "anchor", "relpose"].into_iter().find(|a| given(a)) {
             report
-                .error(code::CONFLICT, node.span.clone(), format!("{} has sites and `{other}`", node.shown()))
+                .error(
+                    rules::CONFLICT,
+                    node.span.clone(),
+                    format!("{} has sites and `{other}`", node.shown()),
+                )
                 .why("two sites say everything: they are held together")
                 .help(format!("remove `{other}`, or tie bodies instead of sites"));
         }
@@ -73,7 +78,7 @@ fn bodies_or_sites(refs: References, p: &Props, node: &Node, report: &mut Report
     let body2 = if given("body2") { refs.optional("body", node, "body2") } else { Some(0) };
     if connect && !given("anchor") {
         report
-            .error(code::MISSING_ATTRIBUTE, node.span.clone(), format!("{} has no `anchor`", node.shown()))
+            .error(rules::MISSING_ATTRIBUTE, node.span.clone(), format!("{} has no `anchor`", node.shown()))
             .why("it is the point, in the frame of `body1`, at which both bodies are held together");
     }
     data[..3].copy_from_slice(&p.reals("anchor", [0.0; 3]));
@@ -98,7 +103,7 @@ fn coupled(refs: References, p: &Props, node: &Node, objtype: Obj, report: &mut 
         {
             let span = node.attribute(attribute).map_or(node.span.clone(), |a| a.span.clone());
             report
-                .error(code::EQUALITY, span, format!("{} ties a free or ball joint", node.shown()))
+                .error(rules::EQUALITY, span, format!("{} ties a free or ball joint", node.shown()))
                 .why("it is an equation between coordinates, and such a joint has more than one")
                 .help("use slide or hinge joints, or `weld` or `connect` for bodies");
         }

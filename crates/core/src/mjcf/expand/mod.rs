@@ -18,7 +18,8 @@ use super::schema::{BODY, FRAME, ROOT};
 use super::settings::Compiler;
 use crate::math::{Vec3, add, rotate};
 use crate::mjcf::body::orientation;
-use crate::mjcf::text::diagnostic::{Report, closest, code, shown};
+use crate::mjcf::rules;
+use crate::mjcf::text::diagnostic::{Report, closest, shown};
 use crate::mjcf::text::load::Written;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
@@ -78,7 +79,7 @@ pub(crate) fn model(written: Written, report: &mut Report) -> Expanded {
         if e.is_too_large() {
             let span = e.nodes.get(at).map_or(0..0, |n| n.span.clone());
             report
-                .error(code::LIMIT, span, "the copies are too many or too large")
+                .error(rules::LIMIT, span, "the copies are too many or too large")
                 .why(format!("a model may have {MAX_ELEMENTS} elements, copies included"))
                 .help("lower `count`, also of what stands around it");
             break;
@@ -253,7 +254,7 @@ impl Expander {
         for node in followers.iter().flat_map(|f| &f.incomplete).filter_map(|&at| self.nodes.get(at)) {
             report
                 .error(
-                    code::COPY,
+                    rules::COPY,
                     node.span.clone(),
                     format!("{} ties what is replicated to something that is not", node.shown()),
                 )
@@ -285,7 +286,7 @@ impl Expander {
         let node = self.nodes.get(at)?.clone();
         let Some(prefix) = node.attribute("prefix").and(Some(node.text("prefix").unwrap_or(""))) else {
             report
-                .error(code::MISSING_ATTRIBUTE, node.span.clone(), "attach has no `prefix`")
+                .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "attach has no `prefix`")
                 .why("it goes before every name of the copy, so that names stay unique")
                 .help("write `prefix=\"left_\"`");
             return None;
@@ -293,7 +294,7 @@ impl Expander {
         let part = match (node.text("body"), node.text("frame")) {
             (Some(_), Some(_)) => {
                 report
-                    .error(code::CONFLICT, node.span.clone(), "attach has both `body` and `frame`")
+                    .error(rules::CONFLICT, node.span.clone(), "attach has both `body` and `frame`")
                     .help("name what is attached once: remove one of them");
                 return None;
             }
@@ -328,7 +329,7 @@ impl Expander {
     ) -> Option<()> {
         let Some((kind, name)) = part else {
             report
-                .error(code::MISSING_ATTRIBUTE, node.span.clone(), "attach says neither which model nor which body")
+                .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "attach says neither which model nor which body")
                 .help("write `model=\"…\"` for a model of the assets, or `body=\"…\"` for a copy of a body of this model");
             return None;
         };
@@ -341,7 +342,7 @@ impl Expander {
         if original > at && original < self.written {
             report
                 .error(
-                    code::COPY,
+                    rules::COPY,
                     span,
                     format!("{kind} {} stands after the `attach` that copies it", shown(name)),
                 )
@@ -350,7 +351,7 @@ impl Expander {
         }
         if self.holds(original, at) {
             report
-                .error(code::COPY, span, format!("{kind} {} is attached inside of itself", shown(name)))
+                .error(rules::COPY, span, format!("{kind} {} is attached inside of itself", shown(name)))
                 .why("the copy would hold a copy of itself without end");
             return None;
         }
@@ -501,8 +502,11 @@ fn unknown<'n>(
     span: std::ops::Range<usize>,
     report: &mut Report,
 ) {
-    let error =
-        report.error(code::UNKNOWN_NAME, span, format!("there is no {kind} named {} to attach", shown(name)));
+    let error = report.error(
+        rules::UNKNOWN_NAME,
+        span,
+        format!("there is no {kind} named {} to attach", shown(name)),
+    );
     if let Some(near) = closest(name, known) {
         error.help(format!("did you mean `{near}`?"));
     }
@@ -523,14 +527,14 @@ fn add_main_class(copy: &mut [Node], rename: Rename, request: &Node) {
 fn count(node: &Node, report: &mut Report) -> Option<i32> {
     let Some(attribute) = node.attribute("count") else {
         report
-            .error(code::MISSING_ATTRIBUTE, node.span.clone(), "replicate has no `count`")
+            .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "replicate has no `count`")
             .help("write the number of copies, `count=\"5\"`");
         return None;
     };
     let count = node.int("count")?;
     if count < 0 {
         let message = format!("`count` of replicate is {count}, it must be zero or more");
-        report.error(code::VALUE, attribute.span.clone(), message);
+        report.error(rules::VALUE, attribute.span.clone(), message);
         return None;
     }
     Some(count)

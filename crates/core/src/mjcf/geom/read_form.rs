@@ -6,7 +6,7 @@ use crate::math::{Vec3, norm};
 use crate::mjcf::body::frame::Pose;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
-use crate::mjcf::text::diagnostic::code;
+use crate::mjcf::rules;
 use crate::mjcf::text::tree::Node;
 
 /// What the form of a geom decides.
@@ -72,7 +72,7 @@ pub(crate) fn of_asset(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) 
         None => {
             let message = format!("{} is a {} with a `mesh`", node.shown(), shape.name);
             cx.report
-                .error(code::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
+                .error(rules::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
                 .why("a shape that stands for a mesh must have an inside")
                 .help("write `type=\"mesh\"` for the mesh itself, or `type=\"box\"` for a box in its place");
             None
@@ -91,7 +91,7 @@ pub(crate) fn check(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool
     let span = |name: &str| p.span(name).unwrap_or(node.span.clone());
     if let Some(asset) = needs.filter(|asset| p.text(asset).is_none()) {
         cx.report
-            .error(code::GEOM, span("type"), format!("{owner} has no `{asset}`"))
+            .error(rules::GEOM, span("type"), format!("{owner} has no `{asset}`"))
             .why(format!("its shape is that of the asset: `{asset}` names it"))
             .help(format!("write `{asset}=\"…\"` with the name that it has in `asset`"));
         return false;
@@ -100,16 +100,16 @@ pub(crate) fn check(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool
     if p.text("hfield").is_some() && kind != geom::HFIELD {
         let message = format!("{owner} is a {} with an `hfield`", what(kind));
         cx.report
-            .error(code::GEOM, span("hfield"), message)
+            .error(rules::GEOM, span("hfield"), message)
             .help("write `type=\"hfield\"` for a height field, or leave `hfield` out");
     } else if p.text("mesh").is_some() && p.has("fromto") {
         cx.report
-            .error(code::CONFLICT, span("fromto"), format!("{owner} has both `mesh` and `fromto`"))
+            .error(rules::CONFLICT, span("fromto"), format!("{owner} has both `mesh` and `fromto`"))
             .why("the mesh gives its place and size")
             .help("remove one of them");
     } else if kind == geom::MESH && p.word("shellinertia") == Some(1) {
         cx.report
-            .error(code::CONFLICT, span("shellinertia"), format!("{owner} is a mesh with `shellinertia`"))
+            .error(rules::CONFLICT, span("shellinertia"), format!("{owner} is a mesh with `shellinertia`"))
             .why("a mesh has the same inertia wherever it is used")
             .help("write `inertia=\"shell\"` in the mesh");
     } else {

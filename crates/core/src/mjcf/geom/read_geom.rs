@@ -8,9 +8,9 @@ use crate::mjcf::body::frame::Pose;
 use crate::mjcf::body::orientation;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
+use crate::mjcf::rules;
 use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{GeomSpec, List, SOLIMP, SOLREF};
-use crate::mjcf::text::diagnostic::code;
 use crate::mjcf::text::tree::{Node, name};
 
 /// A `geom` element; `None` when its type was refused.
@@ -112,7 +112,7 @@ pub(crate) fn fromto(
     };
     let span = p.span("fromto").unwrap_or(node.span.clone());
     cx.report
-        .error(code::GEOM, span, problem)
+        .error(rules::GEOM, span, problem)
         .why("`fromto` gives the ends of a capsule, cylinder, ellipsoid or box, and so its place");
     None
 }
@@ -143,7 +143,7 @@ fn check_size(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec
         } else {
             continue;
         };
-        cx.report.error(code::GEOM, span, what).help(help);
+        cx.report.error(rules::GEOM, span, what).help(help);
         break;
     }
 }
@@ -159,7 +159,7 @@ fn check_fit(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3
         let message =
             format!("{} takes the place of its mesh with a {} of zero or less", node.shown(), rule.name);
         cx.report
-            .error(code::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
+            .error(rules::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
             .why(format!("the mesh is too flat or too long for a {}", shape.name))
             .help("choose another `type`: a box fits anything that has a volume");
     }
@@ -177,7 +177,7 @@ fn mass(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, form: &Form) ->
     let moments = if mass > 0.0 { scale(form.moments, mass) } else { [0.0; 3] };
     if !mass.is_finite() || moments.iter().any(|x| !x.is_finite()) {
         let message = format!("the mass or inertia of {owner} is larger than a 64-bit number can be");
-        cx.report.error(code::GEOM, p.span("size").unwrap_or(node.span.clone()), message);
+        cx.report.error(rules::GEOM, p.span("size").unwrap_or(node.span.clone()), message);
     }
     (mass, moments)
 }
@@ -189,7 +189,7 @@ fn condim(cx: &mut Context, p: &Props, node: &Node) -> i32 {
     if !matches!(condim, 1 | 3 | 4 | 6) {
         let message = format!("`condim` of {} is {condim}", node.shown());
         cx.report
-            .error(code::VALUE, span, message)
+            .error(rules::VALUE, span, message)
             .help("write 1 (no friction), 3 (sliding), 4 (and spinning) or 6 (and rolling friction)");
     }
     condim

@@ -2,8 +2,9 @@
 
 use crate::mjcf::classes::Props;
 use crate::mjcf::fill::Sizes;
+use crate::mjcf::rules;
 use crate::mjcf::spec::KeySpec;
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Node, Tree, name};
 
 /// All keyframes in the order of the text, at least `min` of them.
@@ -56,7 +57,7 @@ fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
             let owner = node.shown();
             let message =
                 format!("`{name}` of {owner} has {} number{plural}, the model needs {n}", given.len());
-            report.error(code::KEYFRAME, p.span(name).unwrap_or(0..0), message).why(what);
+            report.error(rules::KEYFRAME, p.span(name).unwrap_or(0..0), message).why(what);
             return None;
         }
         Some(given)

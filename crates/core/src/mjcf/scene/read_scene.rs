@@ -8,8 +8,8 @@ use crate::mjcf::geom::read_geom::fromto;
 use crate::mjcf::geom::{read_form, shapes};
 use crate::mjcf::ids::{Ids, References};
 use crate::mjcf::names::NameTable;
+use crate::mjcf::rules;
 use crate::mjcf::spec::{CameraSpec, LightSpec, List, MaterialSpec, NumericSpec, SiteSpec, TupleSpec};
-use crate::mjcf::text::diagnostic::code;
 use crate::mjcf::text::tree::{Node, Tree, name};
 
 /// Most numbers of a custom list, as in MuJoCo.
@@ -41,7 +41,7 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
     let needed = shape.map_or(0, |s| s.sizes.len());
     if let Some(x) = size.iter().take(needed).find(|&&x| x <= 0.0) {
         let message = format!("`size` of {} has {x}, it must be larger than zero", node.shown());
-        cx.report.error(code::VALUE, p.span("size").unwrap_or(node.span.clone()), message);
+        cx.report.error(rules::VALUE, p.span("size").unwrap_or(node.span.clone()), message);
     }
     SiteSpec {
         node: i,
@@ -65,7 +65,7 @@ fn check_mesh(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
     }
     let message = format!("{} names a mesh but is not one", node.shown());
     cx.report
-        .error(code::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
+        .error(rules::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
         .help("write `type=\"mesh\"`, or leave `mesh` out");
     false
 }
@@ -92,7 +92,7 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
         let [w, h] = resolution;
         let message = format!("{} has a `sensorsize`, but its image has {w} by {h} pixels", node.shown());
         cx.report
-            .error(code::VALUE, p.span("resolution").unwrap_or(node.span.clone()), message)
+            .error(rules::VALUE, p.span("resolution").unwrap_or(node.span.clone()), message)
             .why("the size of one pixel is the size of the sensor divided by the number of pixels")
             .help("write the width and height of the image in pixels, such as `resolution=\"640 480\"`, or remove `sensorsize`");
     }
@@ -104,7 +104,7 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
     {
         let message = format!("{} has a `{name}`, but no `sensorsize` larger than zero", node.shown());
         cx.report
-            .error(code::VALUE, p.span(name).unwrap_or(node.span.clone()), message)
+            .error(rules::VALUE, p.span(name).unwrap_or(node.span.clone()), message)
             .why("the field of view follows from both, and MuJoCo refuses one without the other")
             .help("write the width and height of the sensor in metres, or write `fovy` instead");
     }
@@ -121,7 +121,7 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
     if sensorsize[1] <= 0.0 && fovy >= 180.0 {
         let message = format!("`fovy` of {} is {fovy}, it must be less than 180", node.shown());
         cx.report
-            .error(code::VALUE, p.span("fovy").unwrap_or(node.span.clone()), message)
+            .error(rules::VALUE, p.span("fovy").unwrap_or(node.span.clone()), message)
             .why("it is an angle in degrees, from the lower to the upper edge of the picture");
     }
     CameraSpec {
@@ -152,7 +152,7 @@ fn output(cx: &mut Context, p: &Props, node: &Node) -> i32 {
             None => {
                 let span = p.span("output").unwrap_or(node.span.clone());
                 cx.report
-                    .error(code::VALUE, span, format!("`{word}` is no image that a camera makes"))
+                    .error(rules::VALUE, span, format!("`{word}` is no image that a camera makes"))
                     .help(format!("write some of {}", IMAGES.join(", ")));
             }
         }
@@ -171,7 +171,7 @@ pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) ->
     if p.list("dir").is_some_and(|dir| dir.iter().all(|&x| x == 0.0)) {
         let span = p.span("dir").unwrap_or(node.span.clone());
         cx.report
-            .error(code::VALUE, span, format!("`dir` of {} has no length", node.shown()))
+            .error(rules::VALUE, span, format!("`dir` of {} has no length", node.shown()))
             .why("it is the direction in which the light shines")
             .help("write for example `dir=\"0 0 -1\"` for a light from above");
     }
@@ -269,7 +269,7 @@ pub(crate) fn numerics(cx: &mut Context) -> Vec<NumericSpec> {
         if let Some(problem) = problem {
             let span = p.span("size").unwrap_or(node.span.clone());
             cx.report.error(
-                code::COUNT,
+                rules::COUNT,
                 span,
                 format!("the size of {} is {size}, but {problem}", node.shown()),
             );
@@ -291,7 +291,7 @@ pub(crate) fn texts(
             if let Some(data) = node.attribute("data").filter(|_| node.text("data").is_none()) {
                 let message = format!("`data` of {} is empty", node.shown());
                 report
-                    .error(code::VALUE, data.span.clone(), message)
+                    .error(rules::VALUE, data.span.clone(), message)
                     .help("write a text, or remove the element");
             }
         })
@@ -337,7 +337,9 @@ fn element_of(cx: &mut Context, ids: &Ids, names: &NameTable, p: &Props, node: &
     let Some(&(word, number)) = KINDS.iter().find(|(word, _)| *word == kind) else {
         let span = p.span("objtype").unwrap_or(node.span.clone());
         let message = format!("`{kind}` is no kind of object that a tuple can hold");
-        cx.report.error(code::VALUE, span, message).help("write body, joint, geom, site, tendon or actuator");
+        cx.report
+            .error(rules::VALUE, span, message)
+            .help("write body, joint, geom, site, tendon or actuator");
         return None;
     };
     let word = if word == "xbody" { "body" } else { word };

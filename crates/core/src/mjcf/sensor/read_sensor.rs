@@ -5,9 +5,10 @@
 use crate::kinds::joint;
 use crate::mjcf::classes::Props;
 use crate::mjcf::ids::References;
+use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{List, SensorObjects, SensorSpec, SensorTiming, TendonSpec};
-use crate::mjcf::text::diagnostic::{Report, code, shown};
+use crate::mjcf::text::diagnostic::{Report, shown};
 use crate::mjcf::text::tree::{Node, Tree, name};
 use crate::model::Obj;
 use crate::sensor::{CONTACT_DATA, Datatype, KINDS, Kind, RAY_DATA, Senses, When, data_size};
@@ -47,7 +48,7 @@ pub(crate) fn sensors(
             if values > MAX_VALUES {
                 report
                     .error(
-                        code::LIMIT,
+                        rules::LIMIT,
                         node.span.clone(),
                         format!("the sensors have more than {MAX_VALUES} values"),
                     )
@@ -73,7 +74,7 @@ impl Context<'_> {
         let unit = matches!(datatype, Datatype::Axis | Datatype::Quaternion);
         if cutoff > 0.0 && unit && kind.senses != Senses::Pair {
             let what = if datatype == Datatype::Axis { "an axis" } else { "a quaternion" };
-            self.error_at("cutoff", code::SENSOR, format!("{} has a cutoff", self.node.shown()))
+            self.error_at("cutoff", rules::SENSOR, format!("{} has a cutoff", self.node.shown()))
                 .why(format!("clamping the numbers of {what} would leave no rotation"))
                 .help("remove `cutoff`");
         }
@@ -96,9 +97,9 @@ impl Context<'_> {
     fn error_at(
         &mut self,
         attribute: &str,
-        code: &'static str,
+        code: &'static Rule,
         message: String,
-    ) -> &mut crate::mjcf::text::diagnostic::MjcfDiagnostic {
+    ) -> crate::mjcf::text::diagnostic::Said<'_> {
         let span = self.node.attribute(attribute).map_or(self.node.span.clone(), |a| a.span.clone());
         self.report.error(code, span, message)
     }
@@ -122,20 +123,20 @@ impl Context<'_> {
             let span = self.p.span("nsample").unwrap_or(self.node.span.clone());
             self.report
                 .warning(
-                    code::NO_EFFECT,
+                    rules::NO_EFFECT,
                     span,
                     format!("`nsample` of {owner} is negative, which keeps no values"),
                 )
                 .help("it is the number of values that are kept: write 0, or remove it");
         }
         if timing.delay > 0.0 && timing.nsample <= 0 {
-            self.error_at("delay", code::CONFLICT, format!("{owner} has a delay but keeps no values"))
+            self.error_at("delay", rules::CONFLICT, format!("{owner} has a delay but keeps no values"))
                 .why("a delayed value is read from the past ones")
                 .help("write `nsample`: at least the delay divided by the timestep, rounded up");
         }
         let in_range = period > 0.0 && phase > -period || period == 0.0;
         if !in_range || phase > 0.0 {
-            self.error_at("interval", code::VALUE, format!("`interval` of {owner} is out of range"))
+            self.error_at("interval", rules::VALUE, format!("`interval` of {owner} is out of range"))
                 .why("it is a period, s, and the time of the first reading before the start")
                 .help("the period is zero or more, the second number between minus the period and zero");
         }
@@ -146,7 +147,7 @@ impl Context<'_> {
     fn missing<T>(&mut self, attributes: &[&str]) -> Option<T> {
         let list: Vec<String> = attributes.iter().map(|a| format!("`{a}`")).collect();
         let message = format!("{} has no {}", self.node.shown(), list.join(" or "));
-        self.error_at("", code::MISSING_ATTRIBUTE, message).why("it says what the sensor reads");
+        self.error_at("", rules::MISSING_ATTRIBUTE, message).why("it says what the sensor reads");
         None
     }
 
@@ -162,7 +163,7 @@ impl Context<'_> {
         let Some((at, &(attribute, kind))) = given.next() else { return Some(None) };
         if let Some((_, &(other, _))) = given.next() {
             let message = format!("{} has both `{attribute}` and `{other}`", self.node.shown());
-            self.error_at(other, code::CONFLICT, message)
+            self.error_at(other, rules::CONFLICT, message)
                 .why("they are two ways to name the same side")
                 .help("keep one of them");
             return None;
@@ -204,7 +205,7 @@ impl Context<'_> {
                 let (site, camera) = (self.required("site", "site"), self.required("camera", "camera"));
                 if camera.is_some_and(|camera| self.refs.ids.is_blind(camera)) {
                     let message = format!("the camera of {} has no resolution", self.node.shown());
-                    self.error_at("camera", code::SENSOR, message)
+                    self.error_at("camera", rules::SENSOR, message)
                         .why("the place in the image is counted in pixels")
                         .help("give the camera a `resolution` without zeros");
                 }
@@ -275,7 +276,7 @@ impl Context<'_> {
         };
         if first == second {
             let message = format!("both sides of {} are the same", self.node.shown());
-            self.error_at("geom2", code::SENSOR, message).help("name two different geoms or bodies");
+            self.error_at("geom2", rules::SENSOR, message).help("name two different geoms or bodies");
             return None;
         }
         Some(SensorObjects::of(first.0, first.1).with_reference(second.0, second.1))
@@ -306,7 +307,7 @@ impl Context<'_> {
         }
         let is = ["free", "ball", "slide", "hinge"].get(is as usize).copied().unwrap_or("");
         let joint = shown(self.node.text("joint").unwrap_or(""));
-        self.error_at("joint", code::SENSOR, format!("`{}` reads joint {joint}, a {is} joint", kind.name))
+        self.error_at("joint", rules::SENSOR, format!("`{}` reads joint {joint}, a {is} joint", kind.name))
             .help(format!("it needs {needs}; `framepos` and `framequat` read the pose of any body"));
     }
 
@@ -316,7 +317,7 @@ impl Context<'_> {
             self.node.element.name,
             shown(self.node.text(what).unwrap_or(""))
         );
-        self.error_at(what, code::SENSOR, message)
+        self.error_at(what, rules::SENSOR, message)
             .why("the sensor would be zero for ever")
             .help(format!("give the {what} a `range`, or remove the sensor"));
     }
@@ -328,7 +329,7 @@ impl Context<'_> {
                 let mask = self.data_fields(&RAY_DATA)?;
                 if objects.objtype == Obj::Camera as i32 && self.refs.ids.is_negative(objects.objid) {
                     let message = format!("the camera of {} has a negative resolution", self.node.shown());
-                    self.error_at("camera", code::SENSOR, message)
+                    self.error_at("camera", rules::SENSOR, message)
                         .help("write its width and height in pixels");
                     return None;
                 }
@@ -339,7 +340,7 @@ impl Context<'_> {
                 let mask = self.data_fields(&CONTACT_DATA)?;
                 let num = self.p.int("num").unwrap_or(1);
                 if num <= 0 {
-                    self.error_at("num", code::VALUE, format!("`num` of {} is {num}", self.node.shown()))
+                    self.error_at("num", rules::VALUE, format!("`num` of {} is {num}", self.node.shown()))
                         .help("it is the number of contacts that the sensor shows, one or more");
                     return None;
                 }
@@ -352,7 +353,7 @@ impl Context<'_> {
                 }
                 let dim = self.p.int("dim")?;
                 if dim < 0 {
-                    self.error_at("dim", code::VALUE, format!("`dim` of {} is negative", self.node.shown()));
+                    self.error_at("dim", rules::VALUE, format!("`dim` of {} is negative", self.node.shown()));
                     return None;
                 }
                 Some(([0; 3], dim))
@@ -367,7 +368,7 @@ impl Context<'_> {
         let dim = n.saturating_mul(size);
         if dim > MAX_VALUES {
             let message = format!("{} has more than {MAX_VALUES} values", self.node.shown());
-            self.error_at("", code::LIMIT, message).help("lower `num` or the camera's `resolution`");
+            self.error_at("", rules::LIMIT, message).help("lower `num` or the camera's `resolution`");
             return None;
         }
         Some(dim as i32)
@@ -382,12 +383,12 @@ impl Context<'_> {
         for word in text.split_ascii_whitespace() {
             let Some(at) = fields.iter().position(|(name, _)| *name == word) else {
                 let message = format!("`data` of {} lists {}", self.node.shown(), shown(word));
-                self.error_at("data", code::KEYWORD, message).help(format!("it can list: {all}"));
+                self.error_at("data", rules::KEYWORD, message).help(format!("it can list: {all}"));
                 return None;
             };
             if last.is_some_and(|last| at <= last) {
                 let message = format!("`data` of {} lists its fields out of order", self.node.shown());
-                self.error_at("data", code::KEYWORD, message)
+                self.error_at("data", rules::KEYWORD, message)
                     .why("values always come in one order, and each field once")
                     .help(format!("the order is: {all}"));
                 return None;
@@ -416,7 +417,7 @@ impl Context<'_> {
         };
         if dim != needed {
             let message = format!("`dim` of {} is {dim}, its `datatype` has {needed}", self.node.shown());
-            self.error_at("dim", code::CONFLICT, message).help(format!("write `dim=\"{needed}\"`"));
+            self.error_at("dim", rules::CONFLICT, message).help(format!("write `dim=\"{needed}\"`"));
         }
         (datatype, self.p.word("needstage").unwrap_or(When::Acceleration as i32))
     }

@@ -3,8 +3,9 @@
 use crate::forces::tendon;
 use crate::kinds::{trntype, wraptype};
 use crate::mjcf::arrays::{flat, ints, padded};
+use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, TendonSpec};
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::diagnostic::Report;
 use crate::model::Model;
 
 /// More entries than this in the Jacobians of all tendons are refused.
@@ -84,6 +85,6 @@ pub(crate) fn pattern(m: &mut Model, list: &[TendonSpec], report: &mut Report) -
         return report.take(2 * m.nJten, span, "the Jacobians of all tendons").then_some(());
     }
     let message = format!("the Jacobians of all tendons have more than {MAX_JACOBIAN} entries");
-    report.error(code::LIMIT, span, message).help("leave out what the lesson does not need");
+    report.error(rules::LIMIT, span, message).help("leave out what the lesson does not need");
     None
 }

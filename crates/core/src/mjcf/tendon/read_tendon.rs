@@ -5,9 +5,10 @@ use crate::mjcf::body::limits;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::ids::References;
+use crate::mjcf::rules;
 use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{List, SOLIMP, SOLREF, TendonSpec, WrapSpec};
-use crate::mjcf::text::diagnostic::{Report, code};
+use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Node, name};
 
 /// All tendons in the order of the text.
@@ -26,7 +27,7 @@ fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSp
     if actfrclimited && !(actfrcrange[0] <= 0.0 && 0.0 <= actfrcrange[1]) {
         let span = p.span("actuatorfrcrange").unwrap_or(node.span.clone());
         cx.report
-            .error(code::TENDON, span, format!("the actuatorfrcrange of {} excludes zero", node.shown()))
+            .error(rules::TENDON, span, format!("the actuatorfrcrange of {} excludes zero", node.shown()))
             .why(
                 "the forces of its actuators are scaled until their sum is in the range, and nothing scales a sum of zero",
             );
@@ -36,7 +37,7 @@ fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSp
     let armature = checked(&p, "armature", &owner, |x| x >= 0.0, "zero or more", cx.report).unwrap_or(0.0);
     if armature > 0.0 && path.iter().any(|w| matches!(w.kind, wraptype::SPHERE | wraptype::CYLINDER)) {
         cx.report
-            .error(code::TENDON, p.span("armature").unwrap_or(0..0), format!("{owner} has armature and wraps around a geom"))
+            .error(rules::TENDON, p.span("armature").unwrap_or(0..0), format!("{owner} has armature and wraps around a geom"))
             .why("the inertia of a tendon needs the second derivative of its length, which is not known for wrapping")
             .help("remove `armature`, or lead the tendon through sites only");
     }
@@ -80,7 +81,7 @@ fn springlength(cx: &mut Context, p: &Props, node: &Node) -> [f64; 2] {
     if lower > upper {
         let span = p.span("springlength").unwrap_or(node.span.clone());
         cx.report
-            .error(code::TENDON, span, format!("the springlength of {} is {lower} to {upper}", node.shown()))
+            .error(rules::TENDON, span, format!("the springlength of {} is {lower} to {upper}", node.shown()))
             .why("between both lengths the spring is relaxed, so the first must be the smaller one")
             .help(format!("write `springlength=\"{upper} {lower}\"`"));
     }
@@ -97,7 +98,7 @@ fn path(cx: &mut Context, refs: References, i: usize, node: &Node) -> Vec<WrapSp
             _ => ("sites", "<site site=\"…\"/>"),
         };
         cx.report
-            .error(code::TENDON, node.span.clone(), format!("{} has no path", node.shown()))
+            .error(rules::TENDON, node.span.clone(), format!("{} has no path", node.shown()))
             .why(format!("its length is measured along its {what}"))
             .help(format!("write `{one}` inside it"));
         return Vec::new();
@@ -118,7 +119,7 @@ fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> 
     let number = |name: &str, report: &mut Report| {
         if !p.has(name) {
             let message = format!("{} has no `{name}`", node.shown());
-            report.error(code::MISSING_ATTRIBUTE, node.span.clone(), message);
+            report.error(rules::MISSING_ATTRIBUTE, node.span.clone(), message);
         }
         p.real(name)
     };
@@ -142,7 +143,7 @@ fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> 
                 _ => {
                     let span = node.attribute("geom").map_or(node.span.clone(), |a| a.span.clone());
                     report
-                        .error(code::TENDON, span, "a tendon goes around spheres and cylinders only")
+                        .error(rules::TENDON, span, "a tendon goes around spheres and cylinders only")
                         .help("put a sphere or cylinder there; with `contype=\"0\" conaffinity=\"0\"` it touches nothing");
                     return None;
                 }
@@ -156,7 +157,7 @@ fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> 
                 let span = p.span("divisor").unwrap_or(node.span.clone());
                 report
                     .error(
-                        code::TENDON,
+                        rules::TENDON,
                         span,
                         format!("`divisor` of a pulley is {divisor}, it must be larger than zero"),
                     )
@@ -192,7 +193,7 @@ fn check_path(nodes: &[&Node], path: &[WrapSpec], report: &mut Report) {
             _ => continue,
         };
         report
-            .error(code::TENDON, node.span.clone(), format!("in the path of a tendon: {message}"))
+            .error(rules::TENDON, node.span.clone(), format!("in the path of a tendon: {message}"))
             .help(help);
     }
 }

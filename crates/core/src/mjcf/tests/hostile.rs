@@ -1,7 +1,7 @@
 //! Texts made to break the compiler: it must answer with diagnostics, quickly, and never panic.
 
 use super::world;
-use crate::mjcf::{MAX_DEPTH, code, compile};
+use crate::mjcf::{MAX_DEPTH, compile, rules};
 
 fn first_code(xml: &str) -> Option<&'static str> {
     compile(xml).err().and_then(|list| list.first().map(|d| d.code))
@@ -14,19 +14,22 @@ fn deep_nesting_is_refused_and_what_is_allowed_compiles() {
         world(&format!("{open}{}", "</body>".repeat(n)))
     };
     assert_eq!(compile(&nested(300)).map(|m| m.nv), Ok(300));
-    assert_eq!(first_code(&nested(MAX_DEPTH + 1)), Some(code::LIMIT));
-    assert_eq!(first_code(&"<mujoco>".repeat(1_000_000)), Some(code::LIMIT));
+    assert_eq!(first_code(&nested(MAX_DEPTH + 1)), Some(rules::LIMIT.code));
+    assert_eq!(first_code(&"<mujoco>".repeat(1_000_000)), Some(rules::LIMIT.code));
 }
 
 #[test]
 fn memory_cannot_be_asked_for() {
     let keys = "<mujoco><size nkey='2147483647'/><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>";
-    assert_eq!(first_code(keys), Some(code::LIMIT));
+    assert_eq!(first_code(keys), Some(rules::LIMIT.code));
     let classes = format!("<mujoco><default>{}</default></mujoco>", "<default class='a'/>".repeat(5000));
     assert!(compile(&classes).is_err());
     let chain = "<body><joint type='slide'/><geom size='1'/>".repeat(900);
     let leaves = "<body><joint type='slide'/><geom size='1'/></body>".repeat(40_000);
-    assert_eq!(first_code(&world(&format!("{chain}{leaves}{}", "</body>".repeat(900)))), Some(code::LIMIT));
+    assert_eq!(
+        first_code(&world(&format!("{chain}{leaves}{}", "</body>".repeat(900)))),
+        Some(rules::LIMIT.code)
+    );
 }
 
 #[test]
@@ -122,10 +125,10 @@ fn tendons_and_user_values_cannot_ask_for_memory() {
         format!("<worldbody><site name='a'/>{chain}<site name='b'/>{}</worldbody>", "</body>".repeat(900));
     let tendons = "<spatial><site site='a'/><site site='b'/></spatial>".repeat(30_000);
     let xml = format!("<mujoco>{world}<tendon>{tendons}</tendon></mujoco>");
-    assert_eq!(first_code(&xml), Some(code::LIMIT));
+    assert_eq!(first_code(&xml), Some(rules::LIMIT.code));
 
     let users = "<mujoco><size nuser_body='2147483647'/><worldbody/></mujoco>";
-    assert_eq!(first_code(users), Some(code::LIMIT));
+    assert_eq!(first_code(users), Some(rules::LIMIT.code));
 }
 
 /// Parameters of a path that a program may write: no number of them leads outside the model.
@@ -152,36 +155,36 @@ fn ranges_of_lengths_cannot_ask_for_time() {
         "<replicate count='900'><body><joint name='j' range='0 1'/><geom size='1'/></body></replicate>";
     let muscles = "<muscle joint='j000'/>".repeat(6);
     let xml = format!("<mujoco><worldbody>{bodies}</worldbody><actuator>{muscles}</actuator></mujoco>");
-    assert_eq!(first_code(&xml), Some(code::LIMIT));
+    assert_eq!(first_code(&xml), Some(rules::LIMIT.code));
 }
 
 /// What a short text asks for is counted over the whole model, and the element where it becomes too much is named.
 #[test]
 fn numbers_have_one_budget() {
     let lists: String = (0..1000).map(|i| format!("<numeric name='n{i}' size='1000000'/>")).collect();
-    assert_eq!(first_code(&format!("<mujoco><custom>{lists}</custom></mujoco>")), Some(code::COUNT));
+    assert_eq!(first_code(&format!("<mujoco><custom>{lists}</custom></mujoco>")), Some(rules::COUNT.code));
     let sites = "<site/>".repeat(2000);
     let each = |size: &str, n: usize| {
         format!("<mujoco><size {size}='{n}'/><worldbody><camera/>{sites}</worldbody></mujoco>")
     };
-    assert_eq!(first_code(&each("nuser_site", 20_000)), Some(code::LIMIT));
-    assert_eq!(first_code(&each("nuserdata", 2_000_000_000)), Some(code::LIMIT));
+    assert_eq!(first_code(&each("nuser_site", 20_000)), Some(rules::LIMIT.code));
+    assert_eq!(first_code(&each("nuserdata", 2_000_000_000)), Some(rules::LIMIT.code));
     // Each is within the budget, all together are not.
     let both = "<mujoco><size nuserdata='15000000' nuser_site='7500'/><worldbody>".to_string()
         + &sites
         + "</worldbody></mujoco>";
-    assert_eq!(first_code(&both), Some(code::LIMIT));
+    assert_eq!(first_code(&both), Some(rules::LIMIT.code));
     let d = compile(&both).unwrap_err().remove(0);
     assert!(d.message.contains("nuserdata") || d.message.contains("user values"), "{d}");
     // A default gives its list to every element: once, as long as they say nothing else.
     let list = "1 ".repeat(100_000);
     let shared =
         format!("<mujoco><default><site user='{list}'/></default><worldbody>{sites}</worldbody></mujoco>");
-    assert_eq!(first_code(&shared), Some(code::LIMIT));
+    assert_eq!(first_code(&shared), Some(rules::LIMIT.code));
     let sites = "<site user='2'/>".repeat(2000);
     let own =
         format!("<mujoco><default><site user='{list}'/></default><worldbody>{sites}</worldbody></mujoco>");
-    assert_eq!(first_code(&own), Some(code::LIMIT));
+    assert_eq!(first_code(&own), Some(rules::LIMIT.code));
     let classes = (0..1900).map(|i| format!("<default class='c{i}'/>")).collect::<String>();
     let inherited = format!("<mujoco><default><site user='{list}'/>{classes}</default></mujoco>");
     assert!(compile(&inherited).is_ok());

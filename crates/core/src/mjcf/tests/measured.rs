@@ -1,6 +1,6 @@
 //! Small texts against what MuJoCo 3.14.0 says of them: `golden/cases.py` recorded it.
 
-use crate::mjcf::{NoFiles, Severity, code, compile, examine};
+use crate::mjcf::{NoFiles, Severity, compile, examine, rules};
 use crate::step::forward::forward;
 use crate::step::workspace::Data;
 
@@ -19,7 +19,7 @@ fn text_between_elements_loads_where_mujoco_loads_it() {
     for (answer, text) in cases(include_str!("../golden/texts.txt")) {
         let examined = examine(&text, &NoFiles, None);
         let ours = if examined.model.is_some() { "loads" } else { "refused" };
-        let texts: Vec<_> = examined.findings.iter().filter(|d| d.code == code::TEXT).collect();
+        let texts: Vec<_> = examined.findings.iter().filter(|d| d.code == rules::TEXT).collect();
         if ours != answer || texts.iter().any(|d| d.severity == Severity::Error) {
             wrong.push(format!("{answer} there, {ours} here: {text:?}: {:?}", examined.findings.first()));
         }

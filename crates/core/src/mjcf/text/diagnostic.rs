@@ -4,85 +4,36 @@
 //! A model may be written in several files. The passes know one text, in which the files follow each other: a
 //! span is a range of bytes there, and only [`Report::finish`] tells which file it belongs to.
 
+use crate::mjcf::rules::{self, Rule};
+use labspec_finding::{Finding, Lines};
 use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::rc::Rc;
 
-pub(crate) use crate::model::nearest::closest;
+pub(crate) use labspec_finding::nearest as closest;
 
 /// More findings than this are not listed: the first mistakes explain the rest.
 const MAX_DIAGNOSTICS: usize = 100;
 /// Numbers that a model may ask for: 200 MB, which are copied once or twice on their way.
 const MAX_NUMBERS: usize = 25_000_000;
 
-/// How bad a finding is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Severity {
-    /// The model does not load.
-    Error,
-    /// The model loads, and probably is not what its author meant.
-    Warning,
-}
+/// A finding that has just been added, to which its reason and the next step are said.
+pub(crate) struct Said<'r>(&'r mut Finding);
 
-/// One finding in an MJCF file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MjcfDiagnostic {
-    /// Stable code, one of [`code`].
-    pub code: &'static str,
-    /// Whether the model loads all the same.
-    pub severity: Severity,
-    /// The file, seen from the folder of the model; `None` for the model itself.
-    pub file: Option<String>,
-    /// Bytes of the file's text.
-    pub span: Range<usize>,
-    /// Line of the start of `span`, from 1.
-    pub line: usize,
-    /// Column of the start of `span`, from 1, in characters.
-    pub column: usize,
-    /// What is wrong.
-    pub message: String,
-    /// Why it matters.
-    pub why: Option<String>,
-    /// What to write instead.
-    pub help: Option<String>,
-}
-
-impl MjcfDiagnostic {
+impl Said<'_> {
     /// Adds the reason why it matters.
-    pub(crate) fn why(&mut self, why: impl Into<String>) -> &mut Self {
-        self.why = Some(why.into());
+    pub(crate) fn why(self, why: impl Into<String>) -> Self {
+        self.0.why = Some(why.into());
         self
     }
 
     /// Adds what to write instead.
-    pub(crate) fn help(&mut self, help: impl Into<String>) -> &mut Self {
-        self.help = Some(help.into());
+    pub(crate) fn help(self, help: impl Into<String>) -> Self {
+        self.0.help = Some(help.into());
         self
     }
 }
-
-impl fmt::Display for MjcfDiagnostic {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(file) = &self.file {
-            write!(f, "{file}:")?;
-        }
-        let severity = match self.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-        };
-        write!(f, "{}:{}: {severity}[{}]: {}", self.line, self.column, self.code, self.message)?;
-        if let Some(why) = &self.why {
-            write!(f, "\n  why: {why}")?;
-        }
-        if let Some(help) = &self.help {
-            write!(f, "\n  help: {help}")?;
-        }
-        Ok(())
-    }
-}
-
-impl std::error::Error for MjcfDiagnostic {}
 
 /// Why a model file could not be compiled.
 #[derive(Debug)]
@@ -111,7 +62,7 @@ pub enum MjcfFileError {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        diagnostics: Vec<MjcfDiagnostic>,
+        diagnostics: Vec<Finding>,
     },
 }
 
@@ -137,8 +88,8 @@ impl fmt::Display for MjcfFileError {
             MjcfFileError::Model { path, diagnostics } => {
                 for (i, d) in diagnostics.iter().enumerate() {
                     let separator = if i == 0 { "" } else { "\n" };
-                    match (&d.file, path.parent()) {
-                        (Some(_), Some(folder)) => {
+                    match (d.path.is_empty(), path.parent()) {
+                        (false, Some(folder)) => {
                             write!(f, "{separator}{}", folder.join(d.to_string()).display())?
                         }
                         _ => write!(f, "{separator}{}:{d}", path.display())?,
@@ -159,54 +110,6 @@ impl std::error::Error for MjcfFileError {
     }
 }
 
-/// Stable codes of the findings.
-pub mod code {
-    macro_rules! codes {
-        ($($name:ident = $code:literal, $doc:literal;)*) => {
-            $(#[doc = $doc] pub const $name: &str = $code;)*
-            /// All codes, each with what it means.
-            pub const ALL: &[(&str, &str)] = &[$(($code, $doc)),*];
-        };
-    }
-    codes! {
-        XML = "mjcf-xml", "The text is not well-formed XML.";
-        LIMIT = "mjcf-limit", "The model is larger or more deeply nested than the limits allow.";
-        FILE = "mjcf-file", "A file that the model names cannot be read, or may not be.";
-        OUTSIDE = "mjcf-file-outside", "A file that the model names lies outside of what may be opened.";
-        TEXT = "mjcf-text", "There is text where only elements belong.";
-        NO_EFFECT = "mjcf-no-effect", "What is written there has no effect.";
-        UNKNOWN_ELEMENT = "mjcf-unknown-element", "MJCF has no such element.";
-        MISPLACED_ELEMENT = "mjcf-misplaced-element", "The element does not belong here.";
-        REPEATED_ELEMENT = "mjcf-repeated-element", "The element may stand only once.";
-        UNKNOWN_ATTRIBUTE = "mjcf-unknown-attribute", "The element has no such attribute.";
-        MISSING_ATTRIBUTE = "mjcf-missing-attribute", "The element needs an attribute that is missing.";
-        CONFLICT = "mjcf-conflicting-attributes", "Two attributes say different things.";
-        NOT_SUPPORTED = "mjcf-not-supported", "The element, attribute or value is MJCF, but labspec does not support it yet.";
-        NUMBER = "mjcf-number", "The value is not a number, or not a finite one.";
-        COUNT = "mjcf-count", "There are too many or too few numbers.";
-        KEYWORD = "mjcf-keyword", "The value is none of the keywords.";
-        VALUE = "mjcf-value", "The value is out of its range.";
-        DUPLICATE_NAME = "mjcf-duplicate-name", "Two objects of one kind have the same name.";
-        UNKNOWN_NAME = "mjcf-unknown-name", "The name belongs to no object.";
-        UNKNOWN_CLASS = "mjcf-unknown-class", "There is no such default class.";
-        COPY = "mjcf-copy", "A `replicate` or `attach` cannot copy what it should.";
-        ORIENTATION = "mjcf-orientation", "The orientation is given twice, or has no direction.";
-        JOINT = "mjcf-joint", "The joints of a body do not fit together.";
-        MOCAP = "mjcf-mocap", "A mocap body must be a child of the world without joints.";
-        MESH = "mjcf-mesh", "The data of a mesh do not make a body.";
-        SKIN = "mjcf-skin", "The data of a skin do not make a surface that bodies carry.";
-        HFIELD = "mjcf-hfield", "The data of a height field do not make a ground.";
-        GEOM = "mjcf-geom", "The geom lacks a size, or may not be here.";
-        INERTIA = "mjcf-inertia", "A moving body has no mass or an impossible inertia.";
-        TENDON = "mjcf-tendon", "The path of a tendon is incomplete, or its numbers are out of range.";
-        EQUALITY = "mjcf-equality", "The equality constraint does not say what it ties.";
-        CONTACT = "mjcf-contact", "The contact pair does not say which geoms may touch.";
-        ACTUATOR = "mjcf-actuator", "The parts of an actuator do not fit together, or its numbers are out of range.";
-        SENSOR = "mjcf-sensor", "The sensor cannot measure that object.";
-        KEYFRAME = "mjcf-keyframe", "The keyframe does not fit the model.";
-    }
-}
-
 /// A text that a model is written in.
 struct Source {
     /// `None` for the model itself.
@@ -220,8 +123,8 @@ struct Source {
 pub(crate) struct Report {
     sources: Vec<Source>,
     /// Errors.
-    list: Vec<MjcfDiagnostic>,
-    warnings: Vec<MjcfDiagnostic>,
+    list: Vec<Finding>,
+    warnings: Vec<Finding>,
     /// Numbers that the model has room for, by now.
     numbers: usize,
     /// Something was left out because it is not supported: names that it would define are missing, and
@@ -250,21 +153,21 @@ impl Report {
     /// Adds an error at a range of bytes.
     pub(crate) fn error(
         &mut self,
-        code: &'static str,
+        rule: &'static Rule,
         span: Range<usize>,
         message: impl Into<String>,
-    ) -> &mut MjcfDiagnostic {
-        add(&mut self.list, Severity::Error, code, span, message.into())
+    ) -> Said<'_> {
+        add(&mut self.list, Finding::error(rule, span, message))
     }
 
     /// Adds a warning at a range of bytes: the model loads all the same.
     pub(crate) fn warning(
         &mut self,
-        code: &'static str,
+        rule: &'static Rule,
         span: Range<usize>,
         message: impl Into<String>,
-    ) -> &mut MjcfDiagnostic {
-        add(&mut self.warnings, Severity::Warning, code, span, message.into())
+    ) -> Said<'_> {
+        add(&mut self.warnings, Finding::warning(rule, span, message))
     }
 
     /// Counts numbers that the arrays of a model take, beyond those that stand in its text. `false` when all together are
@@ -274,10 +177,10 @@ impl Report {
         if self.numbers <= MAX_NUMBERS {
             return true;
         }
-        if !self.list.iter().any(|d| d.code == code::LIMIT) {
+        if !self.list.iter().any(|d| d.code == rules::LIMIT) {
             let message =
                 format!("{what} would take {numbers} numbers, a model may hold {MAX_NUMBERS} in all");
-            self.error(code::LIMIT, span, message)
+            self.error(rules::LIMIT, span, message)
                 .why("a short text could ask for more memory than a computer has")
                 .help("ask for fewer here, or elsewhere in the model");
         }
@@ -296,63 +199,37 @@ impl Report {
 
     /// The findings in the order of the texts, each with its file, line and column. What copies of one element
     /// have in common is said once.
-    pub(crate) fn finish(mut self) -> Vec<MjcfDiagnostic> {
+    pub(crate) fn finish(mut self) -> Vec<Finding> {
         self.list.truncate(MAX_DIAGNOSTICS);
         self.warnings.truncate(MAX_DIAGNOSTICS);
         self.list.append(&mut self.warnings);
         self.list.sort_by_key(|d| (d.span.start, d.span.end));
         self.list.dedup_by(|a, b| (a.code, &a.span, &a.message) == (b.code, &b.span, &b.message));
-        let (mut source, mut at, mut line, mut column) = (usize::MAX, 0, 1, 1);
+        let mut lines: Vec<Option<Lines>> = vec![None; self.sources.len()];
         for d in &mut self.list {
             let i = self.sources.partition_point(|s| s.base <= d.span.start).saturating_sub(1);
-            let Some(Source { file, text, base }) = self.sources.get(i) else { continue };
-            if i != source {
-                (source, at, line, column) = (i, 0, 1, 1);
-            }
-            d.file = file.clone();
+            let (Some(Source { file, text, base }), Some(lines)) = (self.sources.get(i), lines.get_mut(i))
+            else {
+                continue;
+            };
+            d.path = file.as_deref().unwrap_or("").into();
             // A span that was computed on decoded text may end inside a character.
             let start = boundary(text, d.span.start - base);
             d.span = start..boundary(text, d.span.end.saturating_sub(*base)).max(start);
-            for c in text.get(at..start).unwrap_or("").chars() {
-                if c == '\n' {
-                    line += 1;
-                    column = 1;
-                } else {
-                    column += 1;
-                }
-            }
-            at = start;
-            (d.line, d.column) = (line, column);
+            d.position = Some(lines.get_or_insert_with(|| Lines::of(text)).position(text, start));
         }
         self.list
     }
 }
 
 /// Adds a finding to a list; one beyond the limit stands for all that follow.
-fn add<'l>(
-    list: &'l mut Vec<MjcfDiagnostic>,
-    severity: Severity,
-    code: &'static str,
-    span: Range<usize>,
-    message: String,
-) -> &'l mut MjcfDiagnostic {
+fn add(list: &mut Vec<Finding>, finding: Finding) -> Said<'_> {
     if list.len() > MAX_DIAGNOSTICS {
         list.pop();
     }
-    let d = MjcfDiagnostic {
-        code,
-        severity,
-        file: None,
-        span,
-        line: 0,
-        column: 0,
-        message,
-        why: None,
-        help: None,
-    };
     let at = list.len();
-    list.push(d);
-    &mut list[at] // just pushed
+    list.push(finding);
+    Said(&mut list[at]) // just pushed
 }
 
 /// The start of the character that holds a byte; the end of the text for a byte beyond it.
@@ -379,11 +256,22 @@ mod tests {
         let mut r = Report::new();
         assert_eq!(r.source(None, "äö\nxyz".into()), 0);
         let base = r.source(Some("b.xml"), "\nx".into());
-        r.error(code::XML, base + 1..base + 2, "x");
-        r.error(code::XML, 7..8, "z");
-        r.error(code::XML, 2..4, "ö");
-        r.error(code::XML, 2..4, "ö");
-        let places: Vec<_> = r.finish().into_iter().map(|d| (d.file, d.line, d.column, d.span)).collect();
-        assert_eq!(places, [(None, 1, 2, 2..4), (None, 2, 3, 7..8), (Some("b.xml".into()), 2, 1, 1..2)]);
+        r.error(rules::XML, base + 1..base + 2, "x");
+        r.error(rules::XML, 7..8, "z");
+        r.error(rules::XML, 2..4, "ö");
+        r.error(rules::XML, 2..4, "ö");
+        let places: Vec<_> = r
+            .finish()
+            .into_iter()
+            .map(|d| (d.path, d.position.map(|at| (at.line, at.column)), d.span))
+            .collect();
+        assert_eq!(
+            places,
+            [
+                ("".into(), Some((1, 2)), 2..4),
+                ("".into(), Some((2, 3)), 7..8),
+                ("b.xml".into(), Some((2, 1)), 1..2)
+            ]
+        );
     }
 }

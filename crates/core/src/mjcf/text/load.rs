@@ -8,11 +8,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::diagnostic::{Report, code, shown};
+use super::diagnostic::{Report, shown};
 use super::files::{FileProblem, Files, clean, folder_of};
 use super::scan;
 use super::tree::{self, Tree};
 use super::xml::{self, Element};
+use crate::mjcf::rules;
 use crate::mjcf::{MAX_TEXT, names};
 
 /// More files than this are not read.
@@ -107,13 +108,13 @@ impl<'f> Loader<'f> {
         let span = element.span.clone();
         if !element.children.is_empty() {
             report
-                .error(code::FILE, span, "`include` holds elements")
+                .error(rules::FILE, span, "`include` holds elements")
                 .help("write `<include file=\"…\"/>`: what the file holds takes its place");
             return Vec::new();
         }
         let Some(file) = element.attribute("file") else {
             report
-                .error(code::MISSING_ATTRIBUTE, span, "include has no `file`")
+                .error(rules::MISSING_ATTRIBUTE, span, "include has no `file`")
                 .help("write `<include file=\"parts/arm.xml\"/>`");
             return Vec::new();
         };
@@ -121,7 +122,7 @@ impl<'f> Loader<'f> {
         let Some((path, text)) = self.text(&name, folder, &span, report) else { return Vec::new() };
         if !included.insert(path.clone()) {
             report
-                .error(code::FILE, span, format!("the file {} is included twice", shown(&path)))
+                .error(rules::FILE, span, format!("the file {} is included twice", shown(&path)))
                 .why("its elements would all be there twice, or a file would include itself without end")
                 .help("include it once; `replicate` and `attach` make copies");
             return Vec::new();
@@ -130,7 +131,7 @@ impl<'f> Loader<'f> {
         let root = self.parse(&text, base, list, report).and_then(|root| list.get(root));
         let children = root.map_or(Vec::new(), |r| r.children.clone());
         if root.is_some() && children.is_empty() {
-            report.error(code::FILE, span, format!("the included file {} holds no elements", shown(&path)));
+            report.error(rules::FILE, span, format!("the included file {} holds no elements", shown(&path)));
         }
         children
     }
@@ -142,7 +143,7 @@ impl<'f> Loader<'f> {
         for (_, node) in assets.filter(|(_, n)| n.element.name == "model") {
             let Some(file) = node.attribute("file").filter(|_| node.text("file").is_some()) else {
                 report
-                    .error(code::MISSING_ATTRIBUTE, node.span.clone(), "model has no `file`")
+                    .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "model has no `file`")
                     .help("write `<model name=\"…\" file=\"….xml\"/>`");
                 continue;
             };
@@ -150,7 +151,7 @@ impl<'f> Loader<'f> {
             let Some((path, text)) = self.text(written, folder, &file.span, report) else { continue };
             if self.open.contains(&path) || self.open.len() > MAX_NESTED {
                 report
-                    .error(code::FILE, file.span.clone(), format!("the model {} holds itself", shown(&path)))
+                    .error(rules::FILE, file.span.clone(), format!("the model {} holds itself", shown(&path)))
                     .why("a model that attaches a model that attaches it again has no end");
                 continue;
             }
@@ -159,7 +160,7 @@ impl<'f> Loader<'f> {
             let name = node.text("name").or(own).unwrap_or("MuJoCo Model").to_string();
             if models.contains_key(&name) {
                 let message = format!("a second model is named {}", shown(&name));
-                report.error(code::DUPLICATE_NAME, node.span.clone(), message).help(
+                report.error(rules::DUPLICATE_NAME, node.span.clone(), message).help(
                     "a model without `name` has the name that stands in its file: give one of them another",
                 );
             }
@@ -178,7 +179,7 @@ impl<'f> Loader<'f> {
     ) -> Option<(String, Rc<str>)> {
         self.files_read += 1;
         if self.files_read > MAX_FILES {
-            report.error(code::LIMIT, span.clone(), format!("the model has more than {MAX_FILES} files"));
+            report.error(rules::LIMIT, span.clone(), format!("the model has more than {MAX_FILES} files"));
             return None;
         }
         let left = MAX_TEXT.saturating_sub(report.bytes());
@@ -189,7 +190,7 @@ impl<'f> Loader<'f> {
                 let byte = e.utf8_error().valid_up_to();
                 let message =
                     format!("{} is not UTF-8 text: byte {byte} does not belong to a character", shown(&path));
-                report.error(code::FILE, span.clone(), message);
+                report.error(rules::FILE, span.clone(), message);
                 None
             }
         }
@@ -208,7 +209,7 @@ pub(crate) fn read(
     let Some(path) = clean(folder, written) else {
         report
             .error(
-                code::FILE,
+                rules::FILE,
                 span.clone(),
                 format!("{} is not a path from the folder of the model", shown(written)),
             )
@@ -221,26 +222,30 @@ pub(crate) fn read(
         Ok(bytes) => return Some((path, bytes)),
         Err(FileProblem::NoFolder) => report
             .error(
-                code::FILE,
+                rules::FILE,
                 span.clone(),
                 format!("the file {name} is not read: this model is given as text"),
             )
             .why("a text has no folder in which files could be found")
             .help("save the model as a file and load that, or write here what the file holds"),
         Err(FileProblem::Missing) => report
-            .error(code::FILE, span.clone(), format!("there is no file {name}"))
+            .error(rules::FILE, span.clone(), format!("there is no file {name}"))
             .why("paths are seen from the folder of the model, also those in included files"),
         Err(FileProblem::Outside) => report
-            .error(code::OUTSIDE, span.clone(), format!("the file {name} lies outside of what may be opened"))
+            .error(
+                rules::OUTSIDE,
+                span.clone(),
+                format!("the file {name} lies outside of what may be opened"),
+            )
             .why(
                 "a model may read only what lies under one root, links resolved: it may come from a stranger",
             )
             .help("put the file into the folder of the model, or choose a root that holds both"),
         Err(FileProblem::TooLarge) => report
-            .error(code::LIMIT, span.clone(), format!("the file {name} is too large"))
+            .error(rules::LIMIT, span.clone(), format!("the file {name} is too large"))
             .why("all texts of a model together have a limit, and so has every other file"),
         Err(FileProblem::Unreadable(what)) => {
-            report.error(code::FILE, span.clone(), format!("the file {name} cannot be read: {what}"))
+            report.error(rules::FILE, span.clone(), format!("the file {name} cannot be read: {what}"))
         }
     };
     None

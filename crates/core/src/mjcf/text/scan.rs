@@ -7,7 +7,8 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::diagnostic::{Report, code};
+use super::diagnostic::Report;
+use crate::mjcf::rules;
 use crate::mjcf::{MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH, MAX_ELEMENTS, MAX_TEXT};
 
 /// What all texts of a model hold so far.
@@ -104,7 +105,7 @@ fn pass_over(text: &str, range: Range<usize>, base: usize, changes: &mut Changes
     changes.blanks.push(start..range.end);
     report
         .warning(
-            code::TEXT,
+            rules::TEXT,
             base + start..base + start + first.len(),
             "this text stands between elements, where it has no effect",
         )
@@ -123,7 +124,7 @@ fn within_limits(
     let size = report.bytes();
     if size > MAX_TEXT {
         let message = format!("the model has {size} bytes, at most {MAX_TEXT} are read");
-        report.error(code::LIMIT, base..base, message);
+        report.error(rules::LIMIT, base..base, message);
         return false;
     }
     let bytes = text.as_bytes();
@@ -147,7 +148,7 @@ fn within_limits(
         } else if rest.starts_with(b"<!") {
             report
                 .error(
-                    code::XML,
+                    rules::XML,
                     base + open..base + open + 2,
                     "a document type or entity is declared, which a model has no use for",
                 )
@@ -163,7 +164,7 @@ fn within_limits(
             counts.elements += 1;
             for &at in &tag.joined {
                 report
-                    .warning(code::TEXT, base + at..base + at, "a blank is missing between two attributes")
+                    .warning(rules::TEXT, base + at..base + at, "a blank is missing between two attributes")
                     .help("put a space here");
             }
             changes.inserted.extend(&tag.joined);
@@ -171,7 +172,7 @@ fn within_limits(
             let name = base + open..base + open + 1;
             if tag.attributes > MAX_ATTRIBUTES {
                 report.error(
-                    code::LIMIT,
+                    rules::LIMIT,
                     name,
                     format!("an element has more than {MAX_ATTRIBUTES} attributes"),
                 );
@@ -180,7 +181,7 @@ fn within_limits(
             if let Some(at) = tag.namespace {
                 report
                     .error(
-                        code::XML,
+                        rules::XML,
                         base + at..base + at + 5,
                         "an XML namespace is declared, which a model has no use for",
                     )
@@ -193,17 +194,17 @@ fn within_limits(
             ended |= depth == 0;
             if depth > MAX_DEPTH {
                 report
-                    .error(code::LIMIT, name, format!("elements are nested more than {MAX_DEPTH} deep"))
+                    .error(rules::LIMIT, name, format!("elements are nested more than {MAX_DEPTH} deep"))
                     .help("a kinematic chain this long can be cut into several trees");
                 return false;
             }
             if counts.elements > MAX_ELEMENTS {
-                report.error(code::LIMIT, name, format!("the model has more than {MAX_ELEMENTS} elements"));
+                report.error(rules::LIMIT, name, format!("the model has more than {MAX_ELEMENTS} elements"));
                 return false;
             }
             if counts.attributes > MAX_ALL_ATTRIBUTES {
                 let message = format!("the model has more than {MAX_ALL_ATTRIBUTES} attributes");
-                report.error(code::LIMIT, name, message);
+                report.error(rules::LIMIT, name, message);
                 return false;
             }
             tag.end
@@ -286,12 +287,12 @@ mod tests {
     #[test]
     fn hostile_sizes_are_refused_before_parsing() {
         assert_eq!(code_of("<a b='>' c=\"<\"/><!-- <<< --><d></d>"), None);
-        assert_eq!(code_of(&"<a>".repeat(MAX_DEPTH + 1)), Some(code::LIMIT));
-        assert_eq!(code_of(&"<a/>".repeat(MAX_ELEMENTS + 1)), Some(code::LIMIT));
-        assert_eq!(code_of(&format!("<a {}/>", "x='' ".repeat(MAX_ATTRIBUTES + 1))), Some(code::LIMIT));
-        assert_eq!(code_of("<!DOCTYPE x [<!ENTITY a 'b'>]><a/>"), Some(code::XML));
+        assert_eq!(code_of(&"<a>".repeat(MAX_DEPTH + 1)), Some(rules::LIMIT.code));
+        assert_eq!(code_of(&"<a/>".repeat(MAX_ELEMENTS + 1)), Some(rules::LIMIT.code));
+        assert_eq!(code_of(&format!("<a {}/>", "x='' ".repeat(MAX_ATTRIBUTES + 1))), Some(rules::LIMIT.code));
+        assert_eq!(code_of("<!DOCTYPE x [<!ENTITY a 'b'>]><a/>"), Some(rules::XML.code));
         assert_eq!(code_of("<a b='"), None);
-        assert_eq!(code_of("<a  xmlns:b='c'/>"), Some(code::XML));
+        assert_eq!(code_of("<a  xmlns:b='c'/>"), Some(rules::XML.code));
     }
 
     #[test]

@@ -4,10 +4,11 @@
 
 use std::ops::Range;
 
-use super::diagnostic::{Report, closest, code, shown};
+use super::diagnostic::{Report, closest, shown};
 use super::values::{self, Value};
 use super::xml::Element as Xml;
 use crate::mjcf::MAX_DEPTH;
+use crate::mjcf::rules;
 use crate::mjcf::schema::{Attr, Element, INCLUDE, ROOT, Status, parents_of};
 
 /// An attribute of an element.
@@ -106,7 +107,7 @@ pub(crate) fn check(list: &[Xml], root: usize, report: &mut Report) -> Option<Tr
     if name != ROOT.name {
         let span = list.get(root).map_or(0..0, |r| r.span.clone());
         report
-            .error(code::UNKNOWN_ELEMENT, span, format!("the root element is {}, not `mujoco`", shown(name)))
+            .error(rules::UNKNOWN_ELEMENT, span, format!("the root element is {}, not `mujoco`", shown(name)))
             .help("a model is written as `<mujoco> … </mujoco>`");
         return None;
     }
@@ -120,7 +121,7 @@ pub(crate) fn check(list: &[Xml], root: usize, report: &mut Report) -> Option<Tr
         }
         if depth > MAX_DEPTH {
             report.error(
-                code::LIMIT,
+                rules::LIMIT,
                 xml.span.clone(),
                 format!("elements are nested more than {MAX_DEPTH} deep"),
             );
@@ -173,7 +174,7 @@ fn children(
         let span = child.span.clone();
         if child.namespace {
             report.error(
-                code::UNKNOWN_ELEMENT,
+                rules::UNKNOWN_ELEMENT,
                 span,
                 format!("the element {} is in an XML namespace", shown(name)),
             );
@@ -186,14 +187,14 @@ fn children(
         if known.status == Status::Unsupported {
             report.incomplete = true;
             report
-                .error(code::NOT_SUPPORTED, span, format!("`{name}` is not supported yet"))
+                .error(rules::NOT_SUPPORTED, span, format!("`{name}` is not supported yet"))
                 .why("leaving it out silently would change what the model computes");
             continue;
         }
         if known.once && seen.contains(&known.name) {
             report
                 .error(
-                    code::REPEATED_ELEMENT,
+                    rules::REPEATED_ELEMENT,
                     span,
                     format!("a second `{name}` in the same `{}`", element.name),
                 )
@@ -214,12 +215,12 @@ fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, re
     if !places.is_empty() {
         let list: Vec<_> = places.iter().map(|p| format!("`{p}`")).collect();
         report
-            .error(code::MISPLACED_ELEMENT, span, format!("`{name}` cannot stand in `{}`", element.name))
+            .error(rules::MISPLACED_ELEMENT, span, format!("`{name}` cannot stand in `{}`", element.name))
             .help(format!("it belongs into {}", list.join(" or ")));
         return;
     }
     let error = report.error(
-        code::UNKNOWN_ELEMENT,
+        rules::UNKNOWN_ELEMENT,
         span,
         format!("there is no element {} in `{}`", shown(name), element.name),
     );
@@ -242,7 +243,7 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<
         let span = a.value_span.clone();
         if a.value.trim().is_empty() && attr.kind.counts() && !needs_number(element.name, attr.name) {
             let message = format!("`{}` of {} is empty, which counts as not given", attr.name, element.name);
-            report.warning(code::NO_EFFECT, span.clone(), message).help("write its numbers, or remove it");
+            report.warning(rules::NO_EFFECT, span.clone(), message).help("write its numbers, or remove it");
             if counts_empty(element.name, attr.name) {
                 list.push(Attribute { attr, value: Value::Bad, span });
             }
@@ -254,7 +255,7 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<
                 Value::Bad
             }
             (_, Err(p)) => {
-                refused_word |= p.code == code::NOT_SUPPORTED;
+                refused_word |= p.code == rules::NOT_SUPPORTED;
                 // Inside the value only when the text was not changed by character references.
                 let at = match p.at {
                     Some(at) if a.exact => span.start + at.start..span.start + at.end,
@@ -270,7 +271,7 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<
             (Status::Only(default), Ok(value)) if !same_as(attr, &value, default) => {
                 report
                     .error(
-                        code::NOT_SUPPORTED,
+                        rules::NOT_SUPPORTED,
                         span.clone(),
                         format!("`{}` of {} is not supported yet", attr.name, element.name),
                     )
@@ -285,7 +286,7 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<
     exclusive(&list, element, report);
     for (name, span) in refused.into_iter().filter(|_| !refused_word) {
         report
-            .error(code::NOT_SUPPORTED, span, format!("`{name}` of {} is not supported yet", element.name))
+            .error(rules::NOT_SUPPORTED, span, format!("`{name}` of {} is not supported yet", element.name))
             .why("ignoring it would change what the model computes");
     }
     list
@@ -325,7 +326,7 @@ fn exclusive(list: &[Attribute], element: &Element, report: &mut Report) {
         if let (Some(_), Some(other)) = (find(first), find(second)) {
             let message = format!("{} has both `{first}` and `{second}`", element.name);
             report
-                .error(code::CONFLICT, other.span.clone(), message)
+                .error(rules::CONFLICT, other.span.clone(), message)
                 .why("each of them decides the same, and MuJoCo refuses a model that gives both")
                 .help("keep one of them");
         }
@@ -344,7 +345,7 @@ fn same_as(attr: &Attr, value: &Value, default: &str) -> bool {
 
 fn unknown_attribute(name: &str, span: Range<usize>, element: &'static Element, report: &mut Report) {
     let message = format!("{} has no attribute {}", element.name, shown(name));
-    let error = report.error(code::UNKNOWN_ATTRIBUTE, span, message);
+    let error = report.error(rules::UNKNOWN_ATTRIBUTE, span, message);
     if let Some(near) = closest(name, element.attributes().map(|a| a.name)) {
         error.help(format!("did you mean `{near}`?"));
     } else if element.attributes().next().is_none() {

@@ -4,7 +4,8 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::diagnostic::{closest, code, shown};
+use super::diagnostic::{closest, shown};
+use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::schema::{Kind, Word};
 
 /// The value of an attribute. Lists are shared by all copies of an element and all that takes a default.
@@ -28,7 +29,7 @@ const LONGEST_NAME: usize = 1000;
 /// What is wrong with a value.
 #[derive(Debug)]
 pub(crate) struct Problem {
-    pub(crate) code: &'static str,
+    pub(crate) code: &'static Rule,
     /// Bytes of the value's text; all of it when `None`.
     pub(crate) at: Option<Range<usize>>,
     /// Continues a sentence that begins with the attribute's name: "`size` of geom …".
@@ -37,7 +38,7 @@ pub(crate) struct Problem {
 }
 
 impl Problem {
-    fn new(code: &'static str, message: String) -> Problem {
+    fn new(code: &'static Rule, message: String) -> Problem {
         Problem { code, at: None, message, help: None }
     }
 }
@@ -55,7 +56,7 @@ pub(crate) fn parse(kind: Kind, text: &str) -> Result<Value, Problem> {
         }
         Kind::Words(words) => keyword(words, text),
         Kind::Name(_) | Kind::Ref(_) | Kind::Class if text.len() > LONGEST_NAME => Err(Problem::new(
-            code::LIMIT,
+            rules::LIMIT,
             format!("is too long: {} bytes, a name may have at most {LONGEST_NAME}", text.len()),
         )),
         Kind::Name(_) | Kind::Ref(_) | Kind::Class | Kind::Text => Ok(Value::Text(text.to_string())),
@@ -68,12 +69,12 @@ fn keyword(words: &[Word], text: &str) -> Result<Value, Problem> {
             return Ok(Value::Word(word.value));
         }
         let mut problem =
-            Problem::new(code::NOT_SUPPORTED, format!("is {}, which is not supported yet", shown(text)));
+            Problem::new(rules::NOT_SUPPORTED, format!("is {}, which is not supported yet", shown(text)));
         problem.help = Some(format!("supported: {}", listed(words)));
         return Err(problem);
     }
     let mut problem =
-        Problem::new(code::KEYWORD, format!("is {}, which is not one of its keywords", shown(text)));
+        Problem::new(rules::KEYWORD, format!("is {}, which is not one of its keywords", shown(text)));
     problem.help = Some(match closest(text.trim(), words.iter().filter(|w| w.supported).map(|w| w.text)) {
         Some(word) => format!("did you mean `{word}`?"),
         None => format!("write one of: {}", listed(words)),
@@ -112,10 +113,10 @@ fn real(word: &str) -> Result<f64, Problem> {
     match word.parse::<f64>() {
         Ok(x) if plain && x.is_finite() => Ok(x),
         Ok(_) if plain => Err(Problem::new(
-            code::NUMBER,
+            rules::NUMBER,
             format!("has {}, which is larger than a 64-bit number can be", shown(word)),
         )),
-        Ok(_) => Err(Problem::new(code::NUMBER, format!("has {}: numbers must be finite", shown(word)))),
+        Ok(_) => Err(Problem::new(rules::NUMBER, format!("has {}: numbers must be finite", shown(word)))),
         Err(_) => Err(not_a_number(word, "number")),
     }
 }
@@ -127,7 +128,7 @@ fn integer(word: &str) -> Result<i32, Problem> {
     let digits = word.trim_start_matches(['+', '-']);
     if !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()) {
         return Err(Problem::new(
-            code::NUMBER,
+            rules::NUMBER,
             format!("has {}, which does not fit into a 32-bit integer", shown(word)),
         ));
     }
@@ -136,7 +137,7 @@ fn integer(word: &str) -> Result<i32, Problem> {
 
 fn not_a_number(word: &str, noun: &str) -> Problem {
     let mut problem =
-        Problem::new(code::NUMBER, format!("has {}, which is not {} {noun}", shown(word), article(noun)));
+        Problem::new(rules::NUMBER, format!("has {}, which is not {} {noun}", shown(word), article(noun)));
     if word.contains(',') {
         problem.help = Some("separate numbers by spaces and write decimals with a point".into());
     }
@@ -162,7 +163,7 @@ fn check_count(n: usize, min: usize, max: usize, noun: &str) -> Result<(), Probl
         (_, b) if n > b => format!("at most {b}"),
         (a, _) => format!("at least {a}"),
     };
-    Err(Problem::new(code::COUNT, format!("{has}, it takes {needs}")))
+    Err(Problem::new(rules::COUNT, format!("{has}, it takes {needs}")))
 }
 
 #[cfg(test)]
@@ -188,7 +189,7 @@ mod tests {
     fn a_problem_points_at_the_number() {
         let problem = parse(Kind::Reals(3, 3), "1  x2 3").unwrap_err();
         assert_eq!(problem.at, Some(3..5));
-        assert_eq!(parse(Kind::Ints(1, 1), "99999999999").unwrap_err().code, code::NUMBER);
+        assert_eq!(parse(Kind::Ints(1, 1), "99999999999").unwrap_err().code, rules::NUMBER);
         assert_eq!(parse(Kind::Reals(2, 3), "1").unwrap_err().message, "has 1 number, it takes at least 2");
     }
 }

@@ -7,8 +7,9 @@ use std::ops::Range;
 
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
-use super::diagnostic::{Report, code, shown};
+use super::diagnostic::{Report, shown};
 use super::scan::Prepared;
+use crate::mjcf::rules;
 
 /// An attribute as it is written.
 #[derive(Debug)]
@@ -143,7 +144,7 @@ fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Report)
         }
     };
     let (at, end) = (prepared.written(at), prepared.written(end));
-    report.error(code::XML, base + at..base + end, message).help(help);
+    report.error(rules::XML, base + at..base + end, message).help(help);
 }
 
 /// The byte of a line and column that count from 1, the column in characters.

@@ -9,8 +9,9 @@ mod difference;
 
 pub(super) use difference::digits;
 
-use crate::bind::{Bound, ControlProgram, Programs, functions, warning, writes_kind};
+use crate::bind::{Bound, ControlProgram, Programs, functions, writes_kind};
 use crate::finding::Finding;
+use crate::rules;
 use crate::spec::{Lab, Run, Verify};
 use bench::{Amended, Bench};
 use labspec_core::Model;
@@ -130,8 +131,8 @@ impl Bench<'_> {
         let name = s.field.info().name;
         let when = if s.late { "after the last" } else { "without" };
         let text = &s.bound.text;
-        let finding = warning(
-            "missing-setconst",
+        let finding = Finding::warning(
+            rules::MISSING_SETCONST,
             text.span(),
             format!("`model.{name}` is changed {when} `mj.mj_setConst(model, data)`"),
         );

@@ -3,8 +3,6 @@
 use super::super::Ready;
 use super::Trial;
 use super::seen::Seen;
-use crate::bind::scene::finding;
-use crate::bind::warning;
 use crate::finding::Finding;
 use crate::run::{self, Breakdown, Budget, End, Session, Trouble};
 use labspec_core::Model;
@@ -94,19 +92,23 @@ pub(super) fn make(
 
 /// A program that threw, at its place.
 fn trouble(t: &Trouble, done: &str) -> Finding {
-    finding(t.code, t.text.span_of(t.span.clone()), format!("{} ({done}, at t = {} s)", t.message, t.time))
-        .why("on the page an error in `setup` or `controller` freezes the lab, and one in a trace shows nan")
-        .help("correct the statement, or guard it with a condition")
+    Finding::error(
+        t.rule,
+        t.text.span_of(t.span.clone()),
+        format!("{} ({done}, at t = {} s)", t.message, t.time),
+    )
+    .why("on the page an error in `setup` or `controller` freezes the lab, and one in a trace shows nan")
+    .help("correct the statement, or guard it with a condition")
 }
 
 /// What the engine warned of, or energy from nothing, with time, joint and likely cause.
 fn broken(session: &Session<'_>, done: &str, place: Range<usize>) -> Vec<Finding> {
     let told = |b: Breakdown| {
-        let what = match b.code {
+        let what = match b.rule.code {
             "engine-warning" => format!("the engine warns {done}: {}", b.what),
             _ => format!("the simulation breaks {done}: {}", b.what),
         };
-        warning(b.code, place.clone(), what).why(b.why).help(b.help)
+        Finding::warning(b.rule, place.clone(), what).why(b.why).help(b.help)
     };
     Breakdown::all(session).into_iter().map(told).collect()
 }

@@ -6,9 +6,8 @@ mod seen;
 
 use super::{RanLab, Ready};
 use crate::advice::stability;
-use crate::bind::scene::finding;
-use crate::bind::warning;
 use crate::finding::Finding;
+use crate::rules;
 use crate::run::{self, Budget, RunOptions};
 use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson};
 use attempt::{Attempt, Ended};
@@ -59,7 +58,7 @@ impl Trial<'_> {
 
 /// A run that cannot be made.
 fn impossible(place: Range<usize>, e: run::RunError) -> Finding {
-    finding("run-impossible", place, e.0)
+    Finding::error(rules::RUN_IMPOSSIBLE, place, e.0)
 }
 
 /// A lab on its way through its runs.
@@ -265,7 +264,7 @@ fn too_stiff(model: &Model, place: Range<usize>, covered: f64) -> Option<Finding
     let worst = stability::suspects(model).into_iter().next()?;
     let [owner, how] = [run::owner(model, &worst), run::how_stiff(&worst)];
     Some(
-        warning("stiff-for-timestep", place, format!("{owner} is {how} for its timestep"))
+        Finding::warning(rules::STIFF_FOR_TIMESTEP, place, format!("{owner} is {how} for its timestep"))
             .why(format!(
                 "nothing goes wrong in the {} s that were run, but once it is pushed, every step pushes back farther than the last one missed: it swings ever wider, without a word from MuJoCo until a number is beyond 1e10",
                 seconds(covered)

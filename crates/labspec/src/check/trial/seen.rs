@@ -4,8 +4,9 @@
 //! is certain that no run ever fills the gap.
 
 use super::super::Ready;
-use crate::bind::{Bound, warning};
+use crate::bind::Bound;
 use crate::finding::Finding;
+use crate::rules::{self, Rule};
 use crate::run::{Session, Trouble};
 use crate::source::Text;
 use labspec_expr::Value;
@@ -41,7 +42,7 @@ pub(super) struct Seen<'a> {
     gaps: BTreeSet<u32>,
     found: Vec<Finding>,
     /// What threw before.
-    troubles: Vec<(&'static str, Text, std::ops::Range<usize>)>,
+    troubles: Vec<(&'static Rule, Text, std::ops::Range<usize>)>,
 }
 
 /// Whether a word stands in a text.
@@ -125,9 +126,13 @@ impl<'a> Seen<'a> {
         let empty = self.shown.iter().filter(|s| all && !s.ever && s.reported.is_empty());
         let told = |s: &Shown<'_>| {
             s.gap.as_ref().map(|_| {
-                warning("shows-nan", s.bound.text.span(), format!("{} shows nan in every run", s.name))
-                    .why("a student sees nan, or no curve at all, whatever they do")
-                    .help("it reads a variable that is never stored: look at what is to store it")
+                Finding::warning(
+                    rules::SHOWS_NAN,
+                    s.bound.text.span(),
+                    format!("{} shows nan in every run", s.name),
+                )
+                .why("a student sees nan, or no curve at all, whatever they do")
+                .help("it reads a variable that is never stored: look at what is to store it")
             })
         };
         empty.filter_map(told).collect()
@@ -135,12 +140,12 @@ impl<'a> Seen<'a> {
 
     /// Whether a program has not thrown like this in a run before.
     pub(super) fn is_new(&mut self, t: &Trouble) -> bool {
-        let known = |(code, text, span): &(&str, Text, std::ops::Range<usize>)| {
-            *code == t.code && *text == t.text && *span == t.span
+        let known = |(code, text, span): &(&'static Rule, Text, std::ops::Range<usize>)| {
+            *code == t.rule && *text == t.text && *span == t.span
         };
         let new = !self.troubles.iter().any(known);
         if new {
-            self.troubles.push((t.code, t.text.clone(), t.span.clone()));
+            self.troubles.push((t.rule, t.text.clone(), t.span.clone()));
         }
         new
     }
@@ -167,27 +172,27 @@ impl Shown<'_> {
         } else {
             ["a student cannot tell whether the lab or the physics is broken", "readout"]
         };
-        let (code, message, why, help) = match kind {
+        let (rule, message, why, help) = match kind {
             Kind::Nan => (
-                "shows-nan",
+                rules::SHOWS_NAN,
                 format!("{name} shows nan ({at})"),
                 sees,
                 format!("0 / 0, the root of a negative number or an element that does not exist gives nan: guard it with a condition, or write `NaN` for a gap that is meant, as `data.ncon > 0 ? … : NaN` in this {what}"),
             ),
             Kind::Infinite => (
-                "shows-infinite",
+                rules::SHOWS_INFINITE,
                 format!("{name} shows {} ({at})", if value.to_number() > 0.0 { "inf" } else { "-inf" }),
                 sees,
                 "a number is divided by 0 there: guard it with a condition, or write `NaN` for a gap that is meant".to_owned(),
             ),
             Kind::Text => (
-                "text-in-plot",
+                rules::TEXT_IN_PLOT,
                 format!("{name} is a text, \"{}\" ({at})", shortened(value)),
                 "a plot draws numbers: the curve is missing, or drawn from what the page makes of the text",
                 "leave out what makes it a text, as `.toFixed(…)`, or show it as a readout".to_owned(),
             ),
         };
-        warning(code, self.bound.text.span(), message).why(why).help(help)
+        Finding::warning(rule, self.bound.text.span(), message).why(why).help(help)
     }
 }
 

@@ -2,20 +2,21 @@
 
 use super::plot::{DISTINCT, repeated};
 use crate::finding::{Finding, Severity};
-use crate::lint::{Example, Rule};
 use crate::spec::{ControlKind, Lab};
+use labspec_finding::{Example, Layer, Rule};
 
 /// `min` is not below `max`.
 pub static EMPTY_RANGE: Rule = Rule {
     code: "empty-range",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "the lower end of a range is not below its upper end",
     why: "the slider cannot move, or the plot has no height",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "mass", "set": "model.body_mass[1]", "min": 5, "max": 1, "value": 1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 5, "max": 1, "value": 1}]}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "mass", "set": "model.body_mass[1]", "min": 1, "max": 5, "value": 1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": 1}]}"#,
     ),
 };
 
@@ -23,13 +24,14 @@ pub static EMPTY_RANGE: Rule = Rule {
 pub static SLIDER_VALUE: Rule = Rule {
     code: "slider-value",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "the start value of a slider lies outside of its range",
     why: "the page moves the slider to the nearest end, but the lab starts with the value that is written here",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "mass", "set": "model.body_mass[1]", "min": 1, "max": 5, "value": 0.1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": 0.1}]}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "mass", "set": "model.body_mass[1]", "min": 0.1, "max": 5, "value": 0.1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 0.1, "max": 5, "value": 0.1}]}"#,
     ),
 };
 
@@ -37,13 +39,14 @@ pub static SLIDER_VALUE: Rule = Rule {
 pub static SLIDER_STEP: Rule = Rule {
     code: "slider-step",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "the step of a slider is not positive, or larger than its range",
     why: "the slider cannot be moved",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "mass", "set": "model.body_mass[1]", "min": 1, "max": 5, "step": 10, "value": 1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "step": 10, "value": 1}]}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "mass", "set": "model.body_mass[1]", "min": 1, "max": 5, "step": 0.1, "value": 1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "step": 0.1, "value": 1}]}"#,
     ),
 };
 
@@ -51,6 +54,7 @@ pub static SLIDER_STEP: Rule = Rule {
 pub static SELECT_VALUE: Rule = Rule {
     code: "select-value",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "the start value of a select is none of its options",
     why: "the page shows the first option, but the lab starts with the value that is written here",
     bad: Example::Lab(
@@ -65,6 +69,7 @@ pub static SELECT_VALUE: Rule = Rule {
 pub static SELECT_OPTIONS: Rule = Rule {
     code: "select-options",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "the options of a select are not a list of [text, value] pairs",
     why: "the page shows the first element and assigns the second",
     bad: Example::Lab(
@@ -79,13 +84,14 @@ pub static SELECT_OPTIONS: Rule = Rule {
 pub static NO_EFFECT: Rule = Rule {
     code: "control-without-effect",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a slider or select has none of `set`, `apply` and `param`",
     why: "it moves, but nothing in the lab changes",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "mass", "min": 1, "max": 5, "value": 1}]}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "mass", "set": "model.body_mass[1]", "min": 1, "max": 5, "value": 1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": 1}]}"#,
     ),
 };
 
@@ -93,6 +99,7 @@ pub static NO_EFFECT: Rule = Rule {
 pub static DUPLICATE_CONTROL: Rule = Rule {
     code: "duplicate-control",
     severity: Severity::Warning,
+    layer: Layer::Structure,
     summary: "two controls of a lab have the same label",
     why: "a student cannot tell them apart, and neither can a run that sets controls by their labels",
     bad: Example::Lab(
@@ -107,10 +114,11 @@ pub static DUPLICATE_CONTROL: Rule = Rule {
 pub static APPLY_UNUSED: Rule = Rule {
     code: "apply-unused",
     severity: Severity::Warning,
+    layer: Layer::Structure,
     summary: "a control has both `set` and `apply`",
     why: "the page does what `set` says and never looks at `apply`: those statements do nothing",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "mass", "set": "model.body_mass[1]", "apply": "mj.mj_setConst(model, data)", "min": 1, "max": 5, "value": 1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "apply": "mj.mj_setConst(model, data)", "min": 1, "max": 5, "value": 1}]}"#,
     ),
     good: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "mass", "apply": "model.body_mass[1] = value; mj.mj_setConst(model, data)", "min": 1, "max": 5, "value": 1, "reset": true}]}"#,

@@ -1,14 +1,15 @@
 //! Fences that are damaged, missing or mislabelled. What counts as damage is decided in `markdown/`.
 
 use crate::finding::{Finding, Severity};
-use crate::lint::{Example, Rule};
 use crate::markdown::{BlockKind, Opener};
+use labspec_finding::{Example, Layer, Rule};
 use std::ops::Range;
 
 /// A fence without its closing line.
 pub static UNCLOSED: Rule = Rule {
     code: "fence-unclosed",
     severity: Severity::Error,
+    layer: Layer::Source,
     summary: "the closing line of a fence is missing",
     why: "everything below it counts as part of the fence: text, labs and quizzes disappear from the page",
     bad: Example::Lesson("```lab simlab\n{\"model\": \"ball\"}\n\nNow press play.\n"),
@@ -19,6 +20,7 @@ pub static UNCLOSED: Rule = Rule {
 pub static ON_LINE: Rule = Rule {
     code: "fence-line",
     severity: Severity::Error,
+    layer: Layer::Source,
     summary: "JSON or code stands on the opening line of a fence",
     why: "what stands on that line is the name of the fence's kind, not its content, so it is lost",
     bad: Example::Lesson("```lab simlab {\"model\": \"ball\"}\n```\n"),
@@ -29,6 +31,7 @@ pub static ON_LINE: Rule = Rule {
 pub static MISSING: Rule = Rule {
     code: "fence-missing",
     severity: Severity::Error,
+    layer: Layer::Source,
     summary: "a lab or a quiz stands in the text without a fence",
     why: "students read the JSON instead of using what it describes",
     bad: Example::Lesson(
@@ -43,6 +46,7 @@ pub static MISSING: Rule = Rule {
 pub static UNSEEN: Rule = Rule {
     code: "fence-unseen",
     severity: Severity::Error,
+    layer: Layer::Source,
     summary: "Markdown does not take an opening line for a fence",
     why: "a fence line must hold no further backtick and must not stand inside of HTML; the block is shown as text",
     bad: Example::Lesson("<div>\n```lab simlab\n{\"model\": \"ball\"}\n```\n</div>\n"),
@@ -53,6 +57,7 @@ pub static UNSEEN: Rule = Rule {
 pub static WRONG_FENCE: Rule = Rule {
     code: "fence-kind",
     severity: Severity::Error,
+    layer: Layer::Source,
     summary: "a fence says `lab` but holds a quiz, or the other way round",
     why: "the page reads it as what the fence says and shows an empty block",
     bad: Example::Lesson(
@@ -67,6 +72,7 @@ pub static WRONG_FENCE: Rule = Rule {
 pub static MISSPELT: Rule = Rule {
     code: "fence-name",
     severity: Severity::Error,
+    layer: Layer::Source,
     summary: "the kind of a fence is misspelt",
     why: "the page shows the JSON as a listing, or finds no such widget",
     bad: Example::Lesson("```Lab simlab\n{\"model\": \"ball\", \"plots\": []}\n```\n"),
@@ -77,6 +83,7 @@ pub static MISSPELT: Rule = Rule {
 pub static UNKNOWN_SPEC: Rule = Rule {
     code: "unknown-spec",
     severity: Severity::Error,
+    layer: Layer::Source,
     summary: "a JSON file holds neither a lab nor a quiz",
     why: "nothing in it can be shown",
     bad: Example::Json(r#"{"title": "Falling"}"#),
@@ -87,6 +94,7 @@ pub static UNKNOWN_SPEC: Rule = Rule {
 pub static LIMIT: Rule = Rule {
     code: "lesson-limit",
     severity: Severity::Error,
+    layer: Layer::Source,
     summary: "a lesson is too large, has too many fences, or too many mistakes to list",
     why: "limits keep a checker responsive whatever it is given",
     bad: Example::Repeated("```text\nz = 1 m\n```\n\n", 2001),

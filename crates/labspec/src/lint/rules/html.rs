@@ -1,15 +1,16 @@
 //! Names of model elements written as tags: a browser takes them for HTML and shows nothing.
 
 use crate::finding::{Finding, Severity};
-use crate::lint::{Example, Rule};
 use crate::source::Text;
 use crate::spec::{Lab, Quiz};
+use labspec_finding::{Example, Layer, Rule};
 use std::ops::Range;
 
 /// An MJCF element that is not escaped.
 pub static UNESCAPED: Rule = Rule {
     code: "unescaped-element",
     severity: Severity::Warning,
+    layer: Layer::Structure,
     summary: "the name of a model element stands in the text as a tag",
     why: "a browser takes it for HTML: the name disappears, or a form control appears",
     bad: Example::Lesson("Both are set in the <option> element.\n"),

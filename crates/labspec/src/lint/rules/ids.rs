@@ -1,16 +1,17 @@
 //! Ids of quizzes: unique in a lesson, and in a course.
 
-use crate::finding::{Finding, Place, Severity};
+use crate::finding::{Finding, InFile, Place, Severity};
 use crate::json::read::named;
-use crate::lint::{Example, Rule};
 use crate::source::Text;
 use crate::spec::Lesson;
+use labspec_finding::{Example, Layer, Rule};
 use std::collections::HashMap;
 
 /// An id that two quizzes share.
 pub static DUPLICATE_ID: Rule = Rule {
     code: "duplicate-id",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "two quizzes have the same id",
     why: "the page stores answers under the id, so an answer to one quiz shows up as an answer to the other",
     bad: Example::Lesson(

@@ -1,12 +1,13 @@
 //! JSON that a page cannot read. The checks are in `json/`.
 
 use crate::finding::Severity;
-use crate::lint::{Example, Rule};
+use labspec_finding::{Example, Layer, Rule};
 
 /// The JSON of a block is broken.
 pub static SYNTAX: Rule = Rule {
     code: "json-syntax",
     severity: Severity::Error,
+    layer: Layer::Json,
     summary: "the JSON of a block is broken",
     why: "the page reads the block as a whole, so one wrong character removes the whole lab or quiz",
     bad: Example::Lab(r#"{"model": "ball", "stopAt": 2 "dock": true}"#),
@@ -17,6 +18,7 @@ pub static SYNTAX: Rule = Rule {
 pub static DUPLICATE_KEY: Rule = Rule {
     code: "duplicate-key",
     severity: Severity::Error,
+    layer: Layer::Json,
     summary: "a key is written twice in one object",
     why: "only the last one counts; the other is silently ignored",
     bad: Example::Lab(r#"{"model": "ball", "stopAt": 1, "stopAt": 2}"#),
@@ -27,6 +29,7 @@ pub static DUPLICATE_KEY: Rule = Rule {
 pub static LIMIT: Rule = Rule {
     code: "json-limit",
     severity: Severity::Error,
+    layer: Layer::Json,
     summary: "the JSON is nested too deeply or holds too many values",
     why: "limits keep a checker and a page responsive whatever they are given",
     bad: Example::Lab(

@@ -1,14 +1,15 @@
 //! Formulas whose backslash JSON has taken for an escape.
 
 use crate::finding::{Finding, Severity};
-use crate::lint::{Example, Rule};
 use crate::source::Text;
 use crate::spec::{Lab, Quiz};
+use labspec_finding::{Example, Layer, Rule};
 
 /// A command of LaTeX that begins with an escape of JSON.
 pub static LATEX: Rule = Rule {
     code: "latex-escape",
     severity: Severity::Warning,
+    layer: Layer::Structure,
     summary: "a LaTeX command in JSON is written with one backslash",
     why: "JSON reads `\\t`, `\\f`, `\\b`, `\\n` and `\\r` as invisible characters, so the formula loses its command",
     bad: Example::Lab(r#"{"model": "ball", "note": "the time constant $\tau$"}"#),

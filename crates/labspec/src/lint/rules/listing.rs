@@ -2,15 +2,16 @@
 
 use super::quotes::TYPOGRAPHIC;
 use crate::finding::{Finding, Severity};
-use crate::lint::{Example, Rule};
 use crate::markdown::is_typographic;
 use crate::source::Text;
+use labspec_finding::{Example, Layer, Rule};
 use std::ops::Range;
 
 /// Underscores that Markdown took for emphasis.
 pub static UNDERSCORES: Rule = Rule {
     code: "listing-underscores",
     severity: Severity::Warning,
+    layer: Layer::Source,
     summary: "a Python listing lost the underscores of `__name__`",
     why: "Markdown takes double underscores for emphasis outside of a fence; the listing does not run",
     bad: Example::Lesson("```python\nif name == \"main\":\n    main()\n```\n"),
@@ -21,6 +22,7 @@ pub static UNDERSCORES: Rule = Rule {
 pub static LINE_BREAKS: Rule = Rule {
     code: "listing-line-breaks",
     severity: Severity::Warning,
+    layer: Layer::Source,
     summary: "a Python listing lost its line breaks",
     why: "several statements stand on one line, which Python does not accept",
     bad: Example::Lesson("```python\ndef fall(h): z = 1.0 v = 0.0 return z - v * h\n```\n"),
@@ -31,6 +33,7 @@ pub static LINE_BREAKS: Rule = Rule {
 pub static INDENTATION: Rule = Rule {
     code: "listing-indentation",
     severity: Severity::Warning,
+    layer: Layer::Source,
     summary: "a Python listing lost its indentation",
     why: "a line that ends with a colon needs an indented line below it; the listing does not run",
     bad: Example::Lesson("```python\nfor step in range(10):\nprint(step)\n```\n"),

@@ -15,7 +15,7 @@ pub mod quotes;
 pub mod ranges;
 pub mod verify;
 
-use super::Rule;
+use labspec_finding::Rule;
 
 /// All rules, in the order in which they are documented.
 pub(super) const FAMILIES: &[&[&Rule]] = &[

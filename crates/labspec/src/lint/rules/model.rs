@@ -5,14 +5,16 @@ use crate::json::{
     encode, nearest,
     read::{named, shorten},
 };
-use crate::lint::{Example, ModelFolder, Rule};
+use crate::lint::ModelFolder;
 use crate::source::Text;
 use crate::spec::{Lab, Scene};
+use labspec_finding::{Example, Layer, Rule};
 
 /// Both `model` and `xml`, or neither.
 pub static ONE_MODEL: Rule = Rule {
     code: "one-model",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a lab names no model, or has both `model` and `xml`",
     why: "a lab simulates exactly one model",
     bad: Example::Lab(r#"{"title": "Falling", "readouts": [{"label": "t", "expr": "data.time"}]}"#),
@@ -25,6 +27,7 @@ pub static ONE_MODEL: Rule = Rule {
 pub static UNKNOWN_MODEL: Rule = Rule {
     code: "unknown-model",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "the model is not in the folder of models",
     why: "the page cannot load it, and shows an empty lab",
     bad: Example::Lab(r#"{"model": "bal"}"#),
@@ -35,6 +38,7 @@ pub static UNKNOWN_MODEL: Rule = Rule {
 pub static MODEL_NAME: Rule = Rule {
     code: "model-name",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a model is named by a path or with its extension",
     why: "a model is a name in the folder of models; nothing outside that folder is opened",
     bad: Example::Lab(r#"{"model": "../other/ball.xml"}"#),

@@ -3,15 +3,16 @@
 use super::control::EMPTY_RANGE;
 use crate::finding::{Finding, Severity};
 use crate::json::read::named;
-use crate::lint::{Example, Rule};
 use crate::source::Text;
 use crate::spec::Lab;
+use labspec_finding::{Example, Layer, Rule};
 use std::collections::HashMap;
 
 /// A plot without curves.
 pub static EMPTY_PLOT: Rule = Rule {
     code: "empty-plot",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a plot has no traces",
     why: "it shows an empty frame",
     bad: Example::Lab(r#"{"model": "ball", "plots": [{"ylabel": "height (m)", "traces": []}]}"#),
@@ -24,13 +25,14 @@ pub static EMPTY_PLOT: Rule = Rule {
 pub static DUPLICATE_TRACE: Rule = Rule {
     code: "duplicate-trace",
     severity: Severity::Warning,
+    layer: Layer::Structure,
     summary: "two traces of a plot have the same label",
     why: "the legend cannot tell them apart",
     bad: Example::Lab(
-        r#"{"model": "ball", "plots": [{"traces": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "z", "expr": "data.qpos[9]"}]}]}"#,
+        r#"{"model": "ball", "plots": [{"traces": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "z", "expr": "data.qpos[7]"}]}]}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "plots": [{"traces": [{"label": "z, heavy", "expr": "data.qpos[2]"}, {"label": "z, light", "expr": "data.qpos[9]"}]}]}"#,
+        r#"{"model": "ball", "plots": [{"traces": [{"label": "height", "expr": "data.qpos[2]"}, {"label": "angle", "expr": "data.qpos[7]"}]}]}"#,
     ),
 };
 
@@ -38,13 +40,14 @@ pub static DUPLICATE_TRACE: Rule = Rule {
 pub static DUPLICATE_READOUT: Rule = Rule {
     code: "duplicate-readout",
     severity: Severity::Warning,
+    layer: Layer::Structure,
     summary: "two readouts of a lab have the same label",
     why: "a student cannot tell them apart",
     bad: Example::Lab(
-        r#"{"model": "ball", "readouts": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "z", "expr": "data.qpos[9]"}]}"#,
+        r#"{"model": "ball", "readouts": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "z", "expr": "data.qpos[7]"}]}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "readouts": [{"label": "z, heavy", "expr": "data.qpos[2]"}, {"label": "z, light", "expr": "data.qpos[9]"}]}"#,
+        r#"{"model": "ball", "readouts": [{"label": "height", "expr": "data.qpos[2]"}, {"label": "angle", "expr": "data.qpos[7]"}]}"#,
     ),
 };
 

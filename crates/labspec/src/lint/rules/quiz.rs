@@ -2,13 +2,14 @@
 
 use super::plot::repeated;
 use crate::finding::{Finding, Severity};
-use crate::lint::{Example, Rule};
 use crate::spec::{Question, QuestionKind, Quiz};
+use labspec_finding::{Example, Layer, Rule};
 
 /// A quiz without questions.
 pub static EMPTY_QUIZ: Rule = Rule {
     code: "empty-quiz",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a quiz has no questions",
     why: "it shows a title and nothing to do",
     bad: Example::Quiz(r#"{"id": "fall", "questions": []}"#),
@@ -21,6 +22,7 @@ pub static EMPTY_QUIZ: Rule = Rule {
 pub static FEW_OPTIONS: Rule = Rule {
     code: "too-few-options",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a question has fewer than two options",
     why: "there is nothing to choose",
     bad: Example::Quiz(
@@ -35,6 +37,7 @@ pub static FEW_OPTIONS: Rule = Rule {
 pub static ANSWER_RANGE: Rule = Rule {
     code: "answer-range",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "the answer is not the index of an option",
     why: "no choice is right, and every student is told to be wrong",
     bad: Example::Quiz(
@@ -49,6 +52,7 @@ pub static ANSWER_RANGE: Rule = Rule {
 pub static DUPLICATE_OPTION: Rule = Rule {
     code: "duplicate-option",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "two options of a question have the same text",
     why: "one of them is graded as wrong although it says what the right one says, or it is a copy left over",
     bad: Example::Quiz(
@@ -63,6 +67,7 @@ pub static DUPLICATE_OPTION: Rule = Rule {
 pub static ZERO_TOLERANCE: Rule = Rule {
     code: "zero-tolerance",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a numeric question with the answer 0 states no tolerance",
     why: "the default is 2 % of the answer, and 2 % of 0 is 0: only an exact 0 counts as right",
     bad: Example::Quiz(
@@ -77,6 +82,7 @@ pub static ZERO_TOLERANCE: Rule = Rule {
 pub static TOLERANCE: Rule = Rule {
     code: "impossible-tolerance",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "the tolerance of a numeric question is negative, or 0 for an answer that is no whole number",
     why: "an answer is right when it is off by no more than `tol`; a count may be asked exactly, a measured number may not",
     bad: Example::Quiz(

@@ -2,14 +2,15 @@
 
 use crate::finding::{Finding, Severity};
 use crate::json::fix_in;
-use crate::lint::{Example, Rule};
 use crate::markdown::is_typographic;
 use crate::spec::Lab;
+use labspec_finding::{Example, Layer, Rule};
 
 /// A typographic quote in code.
 pub static TYPOGRAPHIC: Rule = Rule {
     code: "typographic-quote",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a typographic quote stands where a program needs a straight one",
     why: "word processors replace straight quotes; programs read “ ” ‘ ’ as letters",
     bad: Example::Lesson("```lab simlab\n{“model”: “ball”}\n```\n"),

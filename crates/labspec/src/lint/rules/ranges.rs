@@ -2,8 +2,8 @@
 
 use crate::finding::{Finding, Severity};
 use crate::json::{Number, nearest, read::named};
-use crate::lint::{Example, Rule};
 use crate::spec::{ControlKind, Lab, OVERLAYS};
+use labspec_finding::{Example, Layer, Rule};
 
 /// Most decimals that a number is printed with: a double has 17 significant digits.
 pub const MAX_DIGITS: u32 = 17;
@@ -12,6 +12,7 @@ pub const MAX_DIGITS: u32 = 17;
 pub static NOT_POSITIVE: Rule = Rule {
     code: "not-positive",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a time, size or speed is zero or negative",
     why: "with nothing left to run or to draw, the lab shows nothing",
     bad: Example::Lab(r#"{"model": "ball", "stopAt": 0}"#),
@@ -22,6 +23,7 @@ pub static NOT_POSITIVE: Rule = Rule {
 pub static DIGITS: Rule = Rule {
     code: "digits-range",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "`digits` is not between 0 and 17",
     why: "a number has 17 significant digits at most; a negative count makes the page throw",
     bad: Example::Lab(
@@ -36,6 +38,7 @@ pub static DIGITS: Rule = Rule {
 pub static KEYFRAME: Rule = Rule {
     code: "keyframe-range",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "`key` is negative",
     why: "keyframes are counted from 0; a negative one is silently ignored",
     bad: Example::Lab(r#"{"model": "ball", "key": -1}"#),
@@ -46,6 +49,7 @@ pub static KEYFRAME: Rule = Rule {
 pub static UNKNOWN_OVERLAY: Rule = Rule {
     code: "unknown-overlay",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "`overlays` or `toggles` name something that cannot be drawn",
     why: "nothing is drawn, or the checkbox does nothing",
     bad: Example::Lab(r#"{"model": "ball", "toggles": ["contact"]}"#),

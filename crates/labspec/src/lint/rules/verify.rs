@@ -3,21 +3,22 @@
 use super::ranges::positive;
 use crate::finding::{Finding, Severity};
 use crate::json::{encode, nearest, read::named};
-use crate::lint::{Example, Rule};
 use crate::source::Text;
 use crate::spec::{ControlKind, Lab, Lesson, QuestionKind, Verify, VerifyLab};
+use labspec_finding::{Example, Layer, Rule};
 
 /// A lab that the lesson does not have.
 pub static UNKNOWN_LAB: Rule = Rule {
     code: "unknown-lab",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a `verify` object refers to a lab that the lesson does not have",
     why: "nothing can be run, so nothing is checked",
     bad: Example::Quiz(
-        r##"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.4, "verify": {"lab": "#1", "runs": {"run": {"until": 1}}, "value": "final(data.qvel[2])"}}]}"##,
+        r##"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": {"lab": "#1", "runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"##,
     ),
     good: Example::Lesson(
-        "```lab simlab\n{\"model\": \"ball\"}\n```\n\n```quiz\n{\"id\": \"fall\", \"questions\": [{\"kind\": \"numeric\", \"q\": \"How fast?\", \"answer\": 4.4, \"verify\": {\"lab\": \"#1\", \"runs\": {\"run\": {\"until\": 1}}, \"value\": \"final(data.qvel[2])\"}}]}\n```\n",
+        "```lab simlab\n{\"model\": \"ball\"}\n```\n\n```quiz\n{\"id\": \"fall\", \"questions\": [{\"kind\": \"numeric\", \"q\": \"How fast?\", \"answer\": 3.924, \"verify\": {\"lab\": \"#1\", \"runs\": {\"run\": {\"until\": 0.4}}, \"value\": \"final(-data.qvel[2])\"}}]}\n```\n",
     ),
 };
 
@@ -25,13 +26,14 @@ pub static UNKNOWN_LAB: Rule = Rule {
 pub static NO_LAB: Rule = Rule {
     code: "verify-without-lab",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a `verify` object has no lab to run",
     why: "the question has no `sim`, so `verify` must say which lab it is about",
     bad: Example::Quiz(
-        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.4, "verify": {"value": "final(data.qvel[2])"}}]}"#,
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": {"runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"#,
     ),
     good: Example::Quiz(
-        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.4, "verify": {"lab": {"model": "ball"}, "value": "final(data.qvel[2])"}}]}"#,
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": {"lab": {"model": "ball"}, "runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"#,
     ),
 };
 
@@ -39,13 +41,14 @@ pub static NO_LAB: Rule = Rule {
 pub static UNKNOWN_CONTROL: Rule = Rule {
     code: "unknown-control",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a run sets or presses a control that the lab does not have",
     why: "the run would not be the one that the text talks about",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "mass", "set": "model.body_mass[1]", "min": 1, "max": 5, "value": 1}], "verify": {"runs": {"heavy": {"set": {"maas": 5}}}, "says": [["1 m", "final(data.qpos[2])"]]}}"#,
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": 1}], "verify": {"runs": {"heavy": {"set": {"fricton": 2}}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "mass", "set": "model.body_mass[1]", "min": 1, "max": 5, "value": 1}], "verify": {"runs": {"heavy": {"set": {"mass": 5}}}, "says": [["1 m", "final(data.qpos[2])"]]}}"#,
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": 1}], "verify": {"runs": {"heavy": {"set": {"friction": 2}, "until": 2}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),
 };
 
@@ -53,13 +56,14 @@ pub static UNKNOWN_CONTROL: Rule = Rule {
 pub static ANSWERS: Rule = Rule {
     code: "verify-answer",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "`verify` has no condition for each option, or a value where no number is asked",
     why: "exactly the condition of the right option must hold, so every option needs one",
     bad: Example::Quiz(
-        r#"{"id": "fall", "questions": [{"kind": "predict", "q": "Which lands first?", "options": ["heavy", "light", "neither"], "answer": 2, "sim": {"model": "ball"}, "verify": {"options": ["a < b", "b < a"]}}]}"#,
+        r#"{"id": "fall", "questions": [{"kind": "predict", "q": "What does it do?", "options": ["falls", "rises", "stays"], "answer": 0, "sim": {"model": "ball"}, "verify": {"runs": {"run": {"until": 0.4}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["z < 0.9", "z > 1.1"]}}]}"#,
     ),
     good: Example::Quiz(
-        r#"{"id": "fall", "questions": [{"kind": "predict", "q": "Which lands first?", "options": ["heavy", "light", "neither"], "answer": 2, "sim": {"model": "ball"}, "verify": {"options": ["a < b", "b < a", "a == b"]}}]}"#,
+        r#"{"id": "fall", "questions": [{"kind": "predict", "q": "What does it do?", "options": ["falls", "rises", "stays"], "answer": 0, "sim": {"model": "ball"}, "verify": {"runs": {"run": {"until": 0.4}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["z < 0.9", "z > 1.1", "0.9 <= z && z <= 1.1"]}}]}"#,
     ),
 };
 
@@ -67,11 +71,14 @@ pub static ANSWERS: Rule = Rule {
 pub static NOTHING: Rule = Rule {
     code: "verify-nothing",
     severity: Severity::Warning,
+    layer: Layer::Structure,
     summary: "a `verify` object claims nothing",
     why: "its runs are made, but nothing is compared with them",
-    bad: Example::Lab(r#"{"model": "ball", "verify": {"runs": {"drop": {"until": 1}}}}"#),
+    bad: Example::Lab(
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2}}}}"#,
+    ),
     good: Example::Lab(
-        r#"{"model": "ball", "verify": {"runs": {"drop": {"until": 1}}, "says": [["0.05 m", "final(data.qpos[2])"]]}}"#,
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),
 };
 
@@ -79,13 +86,14 @@ pub static NOTHING: Rule = Rule {
 pub static RUN_LENGTH: Rule = Rule {
     code: "run-length",
     severity: Severity::Error,
+    layer: Layer::Structure,
     summary: "a run has both `until` and `steps`",
     why: "they may contradict each other",
     bad: Example::Lab(
-        r#"{"model": "ball", "verify": {"runs": {"drop": {"until": 1, "steps": 500}}, "says": [["0.05 m", "final(data.qpos[2])"]]}}"#,
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2, "steps": 500}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "verify": {"runs": {"drop": {"until": 1}}, "says": [["0.05 m", "final(data.qpos[2])"]]}}"#,
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),
 };
 

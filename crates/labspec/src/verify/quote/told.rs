@@ -3,9 +3,8 @@
 use super::QuoteOutcome;
 use super::number::{Form, Quoted, ten};
 use super::unit::Shift;
-use crate::bind::scene::finding;
-use crate::bind::warning;
 use crate::finding::{Finding, Severity};
+use crate::rules;
 use crate::spec::Said;
 use crate::verify::significant;
 use std::ops::Range;
@@ -30,13 +29,13 @@ fn shown(said: &Said) -> String {
 }
 
 pub(super) fn no_number(said: &Said) -> Finding {
-    finding("quote-without-number", said.quote.span(), "there is no number in this quote")
+    Finding::error(rules::QUOTE_WITHOUT_NUMBER, said.quote.span(), "there is no number in this quote")
         .why("nothing was compared: digits of names, indexes and exponents, as in t2, x_1 or L^2, are no numbers")
         .help("quote the number as the text prints it, such as \"0.442 s\"")
 }
 
 pub(super) fn unread(said: &Said, form: &str) -> Finding {
-    finding("quote-unclear", said.quote.span(), format!("\"{}\" is {form}, which is not read", shown(said)))
+    Finding::error(rules::QUOTE_UNCLEAR, said.quote.span(), format!("\"{}\" is {form}, which is not read", shown(said)))
         .why("nothing was compared: it is better to say so than to guess which number is meant")
         .help(match form {
             "a bound and not a number" => "quote the number alone, or state the bound as a condition under `options`",
@@ -45,8 +44,8 @@ pub(super) fn unread(said: &Said, form: &str) -> Finding {
 }
 
 pub(super) fn not_found(said: &Said, hidden: Option<Range<usize>>) -> Finding {
-    let found = warning(
-        "quote-not-found",
+    let found = Finding::warning(
+        rules::QUOTE_NOT_FOUND,
         said.quote.span(),
         format!("no reader sees \"{}\" as a number of its own", shown(said)),
     )
@@ -72,7 +71,7 @@ pub(super) fn no_value(said: &Said, computed: f64) -> Finding {
             "it divides by zero, or something grows without end",
         )
     };
-    finding("quote-without-value", said.expr.span(), message)
+    Finding::error(rules::QUOTE_WITHOUT_VALUE, said.expr.span(), message)
         .why(why)
         .help("make the run long enough for the event, or correct the expression")
         .related(said.quote.span(), "the number that it is about")
@@ -80,7 +79,7 @@ pub(super) fn no_value(said: &Said, computed: f64) -> Finding {
 
 /// A finding at the places where the quote stands: the first one, and the others as related places.
 fn at_places(
-    code: &'static str,
+    rule: &'static rules::Rule,
     severity: Severity,
     said: &Said,
     outcome: &QuoteOutcome,
@@ -88,7 +87,7 @@ fn at_places(
 ) -> Finding {
     let mut places = outcome.places.iter();
     let first = places.next().cloned().unwrap_or(said.quote.span());
-    let mut found = finding(code, first, message).severity(severity);
+    let mut found = Finding::error(rule, first, message).severity(severity);
     for place in places.by_ref().take(MAX_RELATED) {
         found = found.related(place.clone(), "the text says it here too");
     }
@@ -121,7 +120,7 @@ pub(super) fn wrong(said: &Said, outcome: &QuoteOutcome, read: &Quoted) -> Findi
     };
     let message =
         format!("the text says {}{}, the simulation gives {right}{within}", shown(said), as_read(said, read));
-    let found = at_places("quote-wrong", Severity::Error, said, outcome, message)
+    let found = at_places(rules::QUOTE_WRONG, Severity::Error, said, outcome, message)
         .why("a reader who measures it finds another number");
     if !outcome.moved.is_empty() {
         return found.help(format!(
@@ -144,7 +143,7 @@ pub(super) fn of_timestep(said: &Said, outcome: &QuoteOutcome, read: &Quoted) ->
         printed(read, outcome.computed),
         list(outcome)
     );
-    at_places("quote-of-timestep", Severity::Note, said, outcome, message)
+    at_places(rules::QUOTE_OF_TIMESTEP, Severity::Note, said, outcome, message)
         .why("the number is right for this timestep only; a reader with another one finds another number")
         .help("state it with its timestep, and `set` the timestep in the run; there is nothing to rewrite")
 }
@@ -156,7 +155,7 @@ pub(super) fn chaotic(said: &Said, outcome: &QuoteOutcome, read: &Quoted, values
         printed(read, outcome.computed),
         list(outcome)
     );
-    at_places("quote-chaotic", Severity::Warning, said, outcome, message)
+    at_places(rules::QUOTE_CHAOTIC, Severity::Warning, said, outcome, message)
         .why("such a start is within rounding of the lesson's own: another computer, or another version of the simulator, prints other digits")
         .help(match agreed(read, values) {
             Some(text) => format!("print fewer digits: {text} is what all of these runs give; or quote a shorter run"),
@@ -191,7 +190,7 @@ pub(super) fn doubtful(
         ),
         None => format!("\"{}\" was read as {read}, but {why}: the expression gives {value}", shown(said)),
     };
-    finding("quote-unclear", said.quote.span(), message)
+    Finding::error(rules::QUOTE_UNCLEAR, said.quote.span(), message)
         .why("nothing is called right or wrong that can be read in two ways")
         .help("quote only the number that the expression gives, with a point before its decimals")
         .related(said.expr.span(), format!("this is {value}"))
@@ -210,7 +209,7 @@ pub(super) fn other_unit(said: &Said, outcome: &QuoteOutcome, read: &Quoted, shi
         shown(said),
         as_read(said, read)
     );
-    finding("quote-unit", said.expr.span(), format!("{message}{what}"))
+    Finding::error(rules::QUOTE_UNIT, said.expr.span(), format!("{message}{what}"))
         .why("only numbers in the same unit can be compared")
         .help(format!("{action} the expression by {factor}"))
         .related(outcome.places.first().cloned().unwrap_or(said.quote.span()), "the text says it here")

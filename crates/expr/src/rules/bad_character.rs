@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A character that has no meaning in the language.
+pub const BAD_CHARACTER: &Rule = &Rule {
+    code: "bad-character",
+    severity: Severity::Error,
+    layer: Layer::Program,
+    summary: "a character that has no meaning in the language",
+    why: "JavaScript refuses the whole text, and the page shows nan",
+    bad: Example::Expression("data.qpos[7] × 2"),
+    good: Example::Expression("data.qpos[7] * 2"),
+};

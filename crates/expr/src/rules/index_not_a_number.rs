@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// An index that is not a number.
+pub const INDEX_KIND: &Rule = &Rule {
+    code: "index-not-a-number",
+    severity: Severity::Error,
+    layer: Layer::Program,
+    summary: "an index that is not a number",
+    why: "JavaScript gives undefined there, and the page shows nan",
+    bad: Example::Expression("data.qpos[true]"),
+    good: Example::Expression("data.qpos[1]"),
+};

@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A name or a key is missing.
+pub const MISSING_NAME: &Rule = &Rule {
+    code: "missing-name",
+    severity: Severity::Error,
+    layer: Layer::Program,
+    summary: "a name or a key is missing",
+    why: "JavaScript refuses the whole text, and the page shows nan",
+    bad: Example::Expression("data."),
+    good: Example::Expression("data.time"),
+};

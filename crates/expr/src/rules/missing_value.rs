@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A value is missing.
+pub const MISSING_VALUE: &Rule = &Rule {
+    code: "missing-value",
+    severity: Severity::Error,
+    layer: Layer::Program,
+    summary: "a value is missing",
+    why: "JavaScript refuses the whole text, and the page shows nan",
+    bad: Example::Expression("data.qpos[7] * "),
+    good: Example::Expression("data.qpos[7] * 2"),
+};

@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A function is named but not called.
+pub const NOT_CALLED: &Rule = &Rule {
+    code: "not-called",
+    severity: Severity::Error,
+    layer: Layer::Program,
+    summary: "a function is named but not called",
+    why: "nothing happens, or the text of the function is shown",
+    bad: Example::Statements("mj.mj_forward"),
+    good: Example::Statements("mj.mj_forward(model, data)"),
+};

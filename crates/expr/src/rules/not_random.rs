@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A random number.
+pub const NOT_RANDOM: &Rule = &Rule {
+    code: "not-random",
+    severity: Severity::Error,
+    layer: Layer::Program,
+    summary: "a random number",
+    why: "the same lesson must give the same numbers, for every student and every check",
+    bad: Example::Expression("Math.random()"),
+    good: Example::Expression("Math.sin(1e3 * data.time)"),
+};

@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A string stands where a number is needed.
+pub const STRING_AS_NUMBER: &Rule = &Rule {
+    code: "string-as-number",
+    severity: Severity::Warning,
+    layer: Layer::Program,
+    summary: "a string stands where a number is needed",
+    why: "JavaScript converts it silently: `\"2\" + 1` is \"21\"",
+    bad: Example::Expression("data.time - '1'"),
+    good: Example::Expression("data.time - 1"),
+};

@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// The expression is nested deeper than the language accepts.
+pub const TOO_DEEP: &Rule = &Rule {
+    code: "too-deep",
+    severity: Severity::Error,
+    layer: Layer::Program,
+    summary: "the expression is nested deeper than the language accepts",
+    why: "a limit keeps a page responsive whatever it is given",
+    bad: Example::Long("", "(", 300, "data.time"),
+    good: Example::Expression("(data.time)"),
+};

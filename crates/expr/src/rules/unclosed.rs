@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A bracket that is not closed.
+pub const UNCLOSED: &Rule = &Rule {
+    code: "unclosed",
+    severity: Severity::Error,
+    layer: Layer::Program,
+    summary: "a bracket that is not closed",
+    why: "JavaScript refuses the whole text, and the page shows nan",
+    bad: Example::Expression("Math.sin(data.qpos[7]"),
+    good: Example::Expression("Math.sin(data.qpos[7])"),
+};

@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// An object has no member of this name.
+pub const UNKNOWN_FIELD: &Rule = &Rule {
+    code: "unknown-field",
+    severity: Severity::Error,
+    layer: Layer::Program,
+    summary: "an object has no member of this name",
+    why: "JavaScript gives undefined there, and the page shows nan",
+    bad: Example::Expression("data.qpso[7]"),
+    good: Example::Expression("data.qpos[7]"),
+};

@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A statement that changes nothing.
+pub const UNUSED_RESULT: &Rule = &Rule {
+    code: "unused-result",
+    severity: Severity::Warning,
+    layer: Layer::Program,
+    summary: "a statement that changes nothing",
+    why: "a value is computed and thrown away",
+    bad: Example::Statements("data.qpos[7] + 1"),
+    good: Example::Statements("data.qpos[7] += 1"),
+};

@@ -1,0 +1,15 @@
+//! What a check has to say, whoever checks: the compiler of models, the language, the rules of lessons, a run.
+//!
+//! A [`Rule`] says once what is wrong, why it matters, and how the wrong and the right thing look. A [`Finding`] is one
+//! place where a rule is broken, in words for the person who wrote it. The engine, the language and the lessons speak in this
+//! one type, so that a program that shows findings knows one type, too.
+
+mod finding;
+mod nearest;
+mod place;
+mod rule;
+
+pub use finding::{Applicability, Finding, Fix, Severity, sort};
+pub use nearest::{distance, nearest, ranked};
+pub use place::{Lines, Place, Position, Span};
+pub use rule::{Example, Layer, Rule};

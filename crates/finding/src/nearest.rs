@@ -1,0 +1,108 @@
+//! "Did you mean": the candidate nearest to what was written. There is no other edit distance in the project.
+
+/// Names longer than this are not compared: nobody means them, and the cost grows with the product of lengths.
+const LONGEST: usize = 64;
+
+/// The candidate that was probably meant by `written`: the same word in other letters' case, one with few
+/// edits (insert, delete, replace, swap neighbours), one that begins with the word or that the word begins with
+/// (`expression` for `expr`), or one that holds the word as one of its parts (`mass` for `body_mass`). Of equals the
+/// first wins.
+pub fn nearest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    ranked(written, candidates).map(|(_, candidate)| candidate)
+}
+
+/// The same with its distance, for comparing the best of several lists.
+pub fn ranked<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<(usize, &'a str)> {
+    if written.is_empty() || written.len() > LONGEST {
+        return None;
+    }
+    // One edit for short words, more for longer ones.
+    let allowed = written.chars().count().div_ceil(3).min(3);
+    // A single letter is one edit away from every other one: only its own capital was meant.
+    let most = if written.chars().nth(1).is_none() { 1 } else { 10 * allowed + 1 };
+    let scored = candidates.into_iter().filter(|c| c.len() <= LONGEST && *c != written).filter_map(|c| {
+        let cost = cost(written, c);
+        (cost <= most).then_some((cost, c))
+    });
+    scored.min_by_key(|(cost, _)| *cost)
+}
+
+/// How far the candidate is from what was written, in tenths of an edit.
+fn cost(written: &str, candidate: &str) -> usize {
+    if written.eq_ignore_ascii_case(candidate) {
+        return 1;
+    }
+    let parts = |s: &str| {
+        s.split(['_', '/', '.']).filter(|p| !p.is_empty()).map(str::to_lowercase).collect::<Vec<_>>()
+    };
+    let (a, mut b) = (parts(written), parts(candidate));
+    b.sort_unstable();
+    let mut sorted = a.clone();
+    sorted.sort_unstable();
+    if sorted == b {
+        return 5; // the same parts in another order
+    }
+    // Letters of another case are hardly a difference.
+    let same_case = 10 * distance(written, candidate);
+    let edits = same_case.min(1 + 10 * distance(&written.to_lowercase(), &candidate.to_lowercase()));
+    // `mass` for `body_mass`: the fewer parts are missing, the better.
+    let holds = !a.is_empty() && written.len() >= 3 && a.iter().all(|p| b.contains(p));
+    let edits = if holds { edits.min(8 + b.len()) } else { edits };
+    let (written, candidate) = (written.to_lowercase(), candidate.to_lowercase());
+    let begins = written.len().min(candidate.len()) >= 3
+        && (written.starts_with(&candidate) || candidate.starts_with(&written));
+    if begins { edits.min(10) } else { edits }
+}
+
+/// Optimal string alignment distance: insertions, deletions, replacements and swaps of neighbours.
+pub fn distance(a: &str, b: &str) -> usize {
+    let a: Vec<char> = a.chars().collect();
+    let b: Vec<char> = b.chars().collect();
+    let mut before: Vec<usize> = vec![0; b.len() + 1];
+    let mut last: Vec<usize> = (0..=b.len()).collect();
+    for i in 0..a.len() {
+        let mut row = vec![i + 1; b.len() + 1];
+        for j in 0..b.len() {
+            let replace = last[j] + usize::from(a[i] != b[j]);
+            row[j + 1] = replace.min(last[j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                row[j + 1] = row[j + 1].min(before[j - 1] + 1);
+            }
+        }
+        before = last;
+        last = row;
+    }
+    last[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_what_was_meant() {
+        let names = ["qpos", "qvel", "qacc", "body_mass", "body_inertia", "xpos", "geom_friction", "time"];
+        for (written, meant) in [
+            ("qpso", Some("qpos")),
+            ("Qpos", Some("qpos")),
+            ("qpos2", Some("qpos")),
+            ("mass", Some("body_mass")),
+            ("mass_body", Some("body_mass")),
+            ("geom_frction", Some("geom_friction")),
+            ("tiem", Some("time")),
+            ("position", None),
+            ("tim", Some("time")),
+            ("inertia", Some("body_inertia")),
+            ("q", None),
+            ("banana", None),
+            ("", None),
+        ] {
+            assert_eq!(nearest(written, names), meant, "{written}");
+        }
+    }
+
+    #[test]
+    fn long_names_cost_nothing() {
+        assert_eq!(nearest(&"q".repeat(100_000), ["qpos"]), None);
+    }
+}

@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// The model of a lab has mistakes.
+pub const MODEL_BROKEN: &Rule = &Rule {
+    code: "model-broken",
+    severity: Severity::Error,
+    layer: Layer::Model,
+    summary: "the model of a lab has mistakes",
+    why: "The lab cannot run, and its expressions cannot be checked, until the model loads",
+    bad: Example::Files(&[("lesson.md", b"```lab simlab\n{\"model\": \"ball\"}\n```\n"), ("models/ball.xml", b"<mujoco><worldbody><gemo size='.1'/></worldbody></mujoco>")]),
+    good: Example::Files(&[("lesson.md", b"```lab simlab\n{\"model\": \"ball\"}\n```\n"), ("models/ball.xml", b"<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>")]),
+};

@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A file is not UTF-8.
+pub const NOT_UTF8: &Rule = &Rule {
+    code: "not-utf8",
+    severity: Severity::Error,
+    layer: Layer::Source,
+    summary: "a file is not UTF-8",
+    why: "A page reads lessons as UTF-8: letters beyond plain English are shown as a black diamond",
+    bad: Example::Files(&[("lesson.md", b"A fall of 5 \xb5m.\n")]),
+    good: Example::Files(&[("lesson.md", b"A fall of 5 \xc2\xb5m.\n")]),
+};

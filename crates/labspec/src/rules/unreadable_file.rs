@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A file cannot be read.
+pub const UNREADABLE_FILE: &Rule = &Rule {
+    code: "unreadable-file",
+    severity: Severity::Error,
+    layer: Layer::Source,
+    summary: "a file cannot be read",
+    why: "Nothing in it was checked",
+    bad: Example::Repeated("A ball falls.\n", 1300000),
+    good: Example::Repeated("A ball falls.\n", 13),
+};
