@@ -4,6 +4,7 @@
 use crate::program::{folder, json_of, run_in};
 use crate::support::report::hold_value;
 use crate::support::schema::schemas;
+use crate::support::workspace;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -185,4 +186,93 @@ fn places_lead_to_their_text() {
     let characters: Vec<char> = lesson.lines().nth(number("/line") - 1).unwrap().chars().collect();
     let part: String = characters[number("/column") - 1..number("/endColumn") - 1].iter().collect();
     assert_eq!(part, text);
+}
+
+/// The guide for people who write such programs: its files, its commands, and what they print.
+#[test]
+fn the_examples_of_the_guide_are_real() {
+    let guide = std::fs::read_to_string(workspace().join("docs/reports.md")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let (mut lines, mut before, mut command) = (guide.lines(), "", "");
+    let mut shown = BTreeSet::new();
+    while let Some(line) = lines.next() {
+        let ticks = line.len() - line.trim_start_matches('`').len();
+        if ticks < 3 {
+            before = if line.is_empty() { before } else { line };
+            continue;
+        }
+        let inside: Vec<&str> = lines.by_ref().take_while(|l| *l != &line[..ticks]).collect();
+        match &line[ticks..] {
+            "text" => {
+                let name = before.rsplit('`').nth(1).unwrap();
+                let path = folder.path().join(name);
+                std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+                std::fs::write(path, inside.join("\n") + "\n").unwrap();
+            }
+            "sh" => command = inside[0],
+            "json" => {
+                let (words, code) = command.split_once("   # exit code ").unwrap();
+                let arguments: Vec<&str> = words.split_whitespace().skip(1).collect();
+                let done = run_in(folder.path(), &arguments);
+                assert_eq!(done.code.to_string(), code, "{command}\n{}", done.stderr);
+                let told = |text: &str| {
+                    let mut report: Value = serde_json::from_str(text).unwrap();
+                    unmeasured(&mut report);
+                    serde_json::to_string_pretty(&report).unwrap()
+                };
+                // Texts, because the order of keys is part of the promise.
+                similar(command, &told(&inside.join("\n")), &told(&done.stdout));
+                shown.insert(arguments[0].to_string());
+            }
+            other => panic!("a block of {other}"),
+        }
+    }
+    let all: BTreeSet<String> = schemas().keys().map(|f| f[7..f.len() - 5].to_string()).collect();
+    assert_eq!(shown, all);
+}
+
+/// Run times and the version are of the machine and of the day.
+fn unmeasured(value: &mut Value) {
+    for (key, value) in value.as_object_mut().into_iter().flatten() {
+        match key.as_str() {
+            "minNs" | "medianNs" | "microsecondsPerSecond" => *value = json!(0),
+            "version" => *value = json!(""),
+            _ => unmeasured(value),
+        }
+    }
+    value.as_array_mut().into_iter().flatten().for_each(unmeasured);
+}
+
+/// The first line in which two texts differ.
+fn similar(what: &str, shown: &str, real: &str) {
+    let mut lines = shown.lines().zip(real.lines());
+    let differ = lines.find(|(shown, real)| shown != real);
+    assert!(shown == real, "{what}: the guide shows {differ:?}, in\n{real}");
+}
+
+/// Numbers of every pattern of bits, written as literals into a lab, come out of the program as they went in.
+#[test]
+fn every_bit_survives_the_program() {
+    let folder = folder();
+    let mut bits = 0x1234_5678_9abc_def1_u64;
+    let mut next = || {
+        // xorshift64
+        bits ^= bits << 13;
+        bits ^= bits >> 7;
+        bits ^= bits << 17;
+        f64::from_bits(bits)
+    };
+    let numbers: Vec<f64> =
+        std::iter::repeat_with(&mut next).filter(|x| x.is_finite()).take(10_000).collect();
+    for some in numbers.chunks(1000) {
+        let readout = |(i, x): (usize, &f64)| json!({"label": format!("r{i}"), "expr": format!("{x:?}")});
+        let readouts: Vec<Value> = some.iter().enumerate().map(readout).collect();
+        let lab = json!({"model": "free_fall", "readouts": readouts});
+        std::fs::write(folder.path().join("many.json"), lab.to_string()).unwrap();
+        let done = run_in(folder.path(), &["run", "many.json", "--steps", "0", "--format", "json"]);
+        let table: Value = serde_json::from_str(&done.stdout).unwrap();
+        let row = table["rows"][0].as_array().unwrap();
+        let read: Vec<u64> = row.iter().skip(1).map(|x| x.as_f64().unwrap().to_bits()).collect();
+        assert!(read == some.iter().map(|x| x.to_bits()).collect::<Vec<_>>());
+    }
 }

@@ -77,14 +77,15 @@ pub fn set_place(object: &mut Value, files: &[&SourceFile], path: &str, span: &R
         let place = file.zip(offset).map(|(f, offset)| f.editor_position(offset));
         place.map(|EditorPosition { line, character }| json!({"line": line, "character": character}))
     };
+    let (from, to) = (at(start), at(end));
     let range = editor(start).zip(editor(end)).map(|(start, end)| json!({"start": start, "end": end}));
     object["file"] = json!(path);
     object["start"] = json!(start);
     object["end"] = json!(end);
-    object["line"] = json!(at(start).map(|p| p.line));
-    object["column"] = json!(at(start).map(|p| p.column));
-    object["endLine"] = json!(at(end).map(|p| p.line));
-    object["endColumn"] = json!(at(end).map(|p| p.column));
+    object["line"] = json!(from.map(|p| p.line));
+    object["column"] = json!(from.map(|p| p.column));
+    object["endLine"] = json!(to.map(|p| p.line));
+    object["endColumn"] = json!(to.map(|p| p.column));
     object["range"] = json!(range);
 }
 
