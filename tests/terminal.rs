@@ -244,4 +244,5 @@ fn ctrl_c_prints_what_is_finished() {
         "timeout --foreground --preserve-status --signal=INT --kill-after=60 2 $L bench slow.json --steps 20000000 > out",
     );
     assert_eq!(exit, Some(130));
+    hold(&std::fs::read_to_string(folder.path().join("out")).unwrap());
 }
