@@ -97,6 +97,7 @@ fn every_report_keeps_its_promise() {
     let here = folder.path();
     std::fs::write(here.join("odd.json"), odd_lab()).unwrap();
     std::fs::write(here.join("breaks.json"), broken_lab()).unwrap();
+    std::fs::write(here.join("empty.md"), "# Words\n").unwrap();
     std::fs::write(
         here.join("bad.md"),
         b"\xef\xbb\xbf# \xe9\r\n```lab simlab\r\n{\"modle\": \"free_fall\"}\r\n```\r\n",
@@ -117,6 +118,8 @@ fn every_report_keeps_its_promise() {
         (&["verify", "clean.md", "--format", "json"], 0),
         (&["verify", "wrong.md", "--format", "json"], 1),
         (&["verify", "breaks.json", "--format", "json"], 1),
+        (&["verify", "models/free_fall.xml", "--format", "json"], 2),
+        (&["check", "empty.md", "--format", "json"], 2),
         (&["run", "clean.md#1", "--steps", "3", "--format", "json"], 0),
         (&["run", "odd.json", "--steps", "3", "--format", "json"], 1),
         (&["run", "breaks.json", "--format", "json"], 1),
@@ -133,6 +136,11 @@ fn every_report_keeps_its_promise() {
         let done = run_in(here, arguments);
         assert_eq!(done.code, code, "{arguments:?}\n{}{}", done.stdout, done.stderr);
         seen.insert(arguments[0]);
+        if matches!(arguments[0], "check" | "verify") {
+            let report: Value = serde_json::from_str(&done.stdout).unwrap();
+            let outcome = ["clean", "findings", "nothing"][code as usize];
+            assert_eq!(report["summary"]["outcome"], outcome, "{arguments:?}");
+        }
         // Nothing of this machine: what was named relatively is told relatively.
         let place = here.to_string_lossy().into_owned();
         let real = here.canonicalize().unwrap().to_string_lossy().into_owned();

@@ -61,39 +61,45 @@ struct Course {
 
 fn work(a: &Arguments, depth: Depth, evidence: bool) -> Result<Outcome, Failure> {
     let course = look(a, depth)?;
-    let outcome = course.ledger.outcome();
+    let found = course.ledger.outcome();
     let named = || a.paths.iter().map(|p| printable_path(p)).collect::<Vec<_>>().join(", ");
     let claimed = |e: &Entry| {
         let claims = [Subject::Answer, Subject::Quote, Subject::ClosedForm, Subject::Run];
         claims.contains(&e.subject) && e.state != State::NotClaimed
     };
     let idle = evidence && !course.ledger.entries().iter().any(claimed);
+    // Where nothing is claimed there is nothing to verify.
+    let outcome = match found {
+        ledger::Outcome::Clean if idle => ledger::Outcome::Nothing,
+        found => found,
+    };
     let mut sources: Vec<&SourceFile> = course.checked.iter().map(|c| &c.lesson.file).collect();
     sources.extend(&course.sources);
     match a.format {
         Format::Human => {
             let mut text = report::human(&course.findings, &sources, a.color.on());
             text.push_str(&overview(&course, evidence));
-            if !(idle && outcome == ledger::Outcome::Clean) {
+            if outcome == found {
                 let _ = writeln!(text, "{}", last_line(&course));
             }
             print(&text)?;
         }
         Format::Json => {
             let name = if evidence { "verify" } else { "check" };
-            let value = machine::value(name, &course.checked, &course.findings, &course.ledger, &sources);
+            let value =
+                machine::value(name, outcome, &course.checked, &course.findings, &course.ledger, &sources);
             print_json(&value, true)?;
         }
     }
     match outcome {
         ledger::Outcome::Findings => Ok(Outcome::Findings),
-        ledger::Outcome::Nothing => {
-            Err(format!("there is nothing to check in {}: no lab, no question and no model", named()))
-        }
-        ledger::Outcome::Clean if idle => Err(format!(
+        ledger::Outcome::Nothing if found == ledger::Outcome::Clean => Err(format!(
             "there is nothing to verify in {}: no question and no lab carries a `verify` object",
             named()
         )),
+        ledger::Outcome::Nothing => {
+            Err(format!("there is nothing to check in {}: no lab, no question and no model", named()))
+        }
         ledger::Outcome::Clean => Ok(Outcome::Clean),
     }
 }
