@@ -59,13 +59,31 @@ fn check_for_programs() {
     let report = run(&["check", "wrong.md", "--format", "json"]);
     assert_eq!(report.code, 1);
     let report: Value = serde_json::from_str(&report.stdout).unwrap();
-    assert_eq!(keys(&report), ["findings", "summary", "lessons", "ledger"]);
+    assert_eq!(keys(&report), ["schemaVersion", "report", "findings", "summary", "lessons", "ledger"]);
     let lesson = &report["lessons"][0];
     assert_eq!(keys(lesson), ["file", "labs", "claims"]);
     let lab = ["address", "title", "runs", "ran", "broke", "seconds", "covered", "skipped", "ended"];
     assert_eq!(keys(&lesson["labs"][0]), lab);
     let claim = &lesson["claims"][0];
-    assert_eq!(keys(claim), ["name", "line", "answer", "quotes", "closed_forms", "runs", "measures"]);
+    assert_eq!(
+        keys(claim),
+        [
+            "name",
+            "file",
+            "start",
+            "end",
+            "line",
+            "column",
+            "endLine",
+            "endColumn",
+            "range",
+            "answer",
+            "quotes",
+            "closedForms",
+            "runs",
+            "measures"
+        ]
+    );
     assert_eq!(claim["answer"]["verdict"], "refuted");
     assert_eq!(claim["quotes"][0]["verdict"], "refuted");
     assert_eq!(report["summary"]["outcome"], "findings");

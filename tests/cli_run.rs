@@ -17,7 +17,21 @@ fn run_for_people() {
 #[test]
 fn run_for_programs() {
     let table = json_of(&["run", "clean.md#1", "--steps", "500", "--every", "100", "--format", "json"]);
-    assert_eq!(keys(&table), ["version", "timestep", "columns", "rows", "warnings", "errors"]);
+    assert_eq!(
+        keys(&table),
+        [
+            "schemaVersion",
+            "report",
+            "version",
+            "timestep",
+            "columns",
+            "types",
+            "rows",
+            "warnings",
+            "errors",
+            "breakdown"
+        ]
+    );
     let columns = [
         "time",
         "plot/0/heavy",
@@ -82,7 +96,7 @@ fn a_run_that_breaks_is_a_finding() {
 fn plan_gives_reasons() {
     snapshot("plan", shown(&["plan", "fall.json"]));
     let plan = json_of(&["plan", "clean.md#1", "--format", "json"]);
-    assert_eq!(keys(&plan), ["reads", "writes", "stages"]);
+    assert_eq!(keys(&plan), ["schemaVersion", "report", "reads", "writes", "stages"]);
     assert_eq!(plan["reads"], json!(["time", "qpos", "ncon"]));
     assert_eq!(keys(&plan["stages"][0]), ["stage", "keep", "reason"]);
 }
@@ -102,11 +116,14 @@ fn precision_against_the_closed_form() {
         .collect();
     snapshot("precision", stripped.join("\n"));
     let report = json_of(&["precision", "fall.json", "--format", "json", "--until", "0.2"]);
-    assert_eq!(keys(&report), ["traces", "truth", "uncertainty", "length", "rows"]);
-    assert_eq!(report["truth"], json!(["closed form"]));
+    assert_eq!(
+        keys(&report),
+        ["schemaVersion", "report", "traces", "truth", "length", "rows", "uncertainty"]
+    );
+    assert_eq!(report["truth"], json!(["closedForm"]));
     assert_eq!(
         keys(&report["rows"][0]),
-        ["integrator", "timestep", "errors", "orders", "us_per_second", "diverged"]
+        ["integrator", "timestep", "diverged", "errors", "orders", "microsecondsPerSecond"]
     );
     // Euler is of first order: the error is g h t / 2.
     let error = report["rows"][2]["errors"][0].as_f64().unwrap();
@@ -135,7 +152,20 @@ fn record_repeats_the_states_of_a_recording() {
     let done = run_in(folder.path(), &[&arguments[..], &["--tight", "--option", "timestep=0.001"]].concat());
     assert_eq!((done.code, done.stderr.as_str()), (0, ""));
     let ours: Value = serde_json::from_str(&done.stdout).unwrap();
-    assert_eq!(keys(&ours), ["version", "sizes", "names", "model", "forward", "trajectory", "warnings"]);
+    assert_eq!(
+        keys(&ours),
+        [
+            "schemaVersion",
+            "report",
+            "version",
+            "sizes",
+            "names",
+            "model",
+            "forward",
+            "trajectory",
+            "warnings"
+        ]
+    );
     assert_eq!(ours["sizes"], json!({"nq": 14, "nv": 12}));
     assert_eq!(ours["model"], json!({"body_mass": [0.0, 2.0, 0.1]}));
     let counts: Vec<&Value> = ours["forward"].as_array().unwrap().iter().map(|f| &f["ncon"]).collect();
@@ -205,8 +235,11 @@ fn labs_keep_every_bit() {
 fn bench_prints_json() {
     for target in ["models/ball_drop.xml", "clean.md#1"] {
         let bench = json_of(&["bench", target, "--steps", "200", "--warm", "10", "--repeat", "3"]);
-        assert_eq!(keys(&bench), ["min_ns", "median_ns", "steps", "nv", "ncon", "nefc", "time"]);
+        assert_eq!(
+            keys(&bench),
+            ["schemaVersion", "report", "minNs", "medianNs", "steps", "nv", "ncon", "nefc", "time"]
+        );
         assert_eq!((&bench["steps"], &bench["nv"]), (&json!(200), &json!(12)));
-        assert!(bench["min_ns"].as_f64().unwrap() <= bench["median_ns"].as_f64().unwrap());
+        assert!(bench["minNs"].as_f64().unwrap() <= bench["medianNs"].as_f64().unwrap());
     }
 }

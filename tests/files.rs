@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::program::{Done, folder, program, run_in};
+use crate::support::report::hold;
 use serde_json::json;
 use std::path::Path;
 use std::process::Command;
@@ -17,7 +18,11 @@ fn script(folder: &Path, script: &str) -> Done {
     let output = command.current_dir(folder).arg("-c").arg(script).env("L", binary).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
     let code = output.status.code().unwrap_or_else(|| 1000 + output.status.signal().unwrap_or(0));
-    Done { code, stdout: text(output.stdout), stderr: text(output.stderr) }
+    let done = Done { code, stdout: text(output.stdout), stderr: text(output.stderr) };
+    if code < 1000 {
+        hold(&done.stdout);
+    }
+    done
 }
 
 fn read(folder: &Path, name: &str) -> String {

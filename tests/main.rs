@@ -24,6 +24,7 @@ mod program;
 mod readme;
 mod recorded;
 mod refresh;
+mod reports;
 mod rules;
 mod scenes;
 mod settings;

@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::model_text;
+use crate::support::report::hold_command;
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -108,10 +109,17 @@ pub(crate) fn program(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
+/// What a command prints for programs is held against its schema, in every test.
 pub(crate) fn run_in(folder: &Path, arguments: &[&str]) -> Done {
     let output = program(folder, arguments).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    Done { code: output.status.code().unwrap(), stdout: text(output.stdout), stderr: text(output.stderr) }
+    let done = Done {
+        code: output.status.code().unwrap(),
+        stdout: text(output.stdout),
+        stderr: text(output.stderr),
+    };
+    hold_command(folder, arguments, done.code, &done.stdout);
+    done
 }
 
 pub(crate) fn run(arguments: &[&str]) -> Done {

@@ -2,13 +2,16 @@
 
 #![allow(clippy::unwrap_used)]
 
+use crate::support::report::hold;
 use crate::support::workspace;
 use std::process::Command;
 
 fn run(arguments: &[&str]) -> String {
     let program = env!("CARGO_BIN_EXE_labspec");
     let done = Command::new(program).args(arguments).current_dir(workspace()).output().unwrap();
-    String::from_utf8(done.stdout).unwrap()
+    let shown = String::from_utf8(done.stdout).unwrap();
+    hold(&shown);
+    shown
 }
 
 fn file(name: &str) -> String {

@@ -3,6 +3,9 @@
 // A test that cannot read its own inputs has to fail.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+pub(crate) mod report;
+pub(crate) mod schema;
+
 use labspec::bind::scene::Models;
 use labspec::check::{self, Checked, Depth};
 use labspec::lint::ModelFolder;

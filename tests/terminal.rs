@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::program::{folder, json_of, program, run_in};
+use crate::support::report::hold;
 use serde_json::json;
 use std::path::Path;
 
@@ -216,7 +217,9 @@ fn ctrl_c_prints_what_is_finished() {
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
         // (`--foreground`: else `timeout` sends the signal twice, which ends the program at once.)
         // `timeout` itself says 124; the program's own code is asked for below.
-        read("out")
+        let shown = read("out");
+        hold(&shown);
+        shown
     };
     let shown = interrupt("run slow.json");
     assert!(shown.contains("stopped by Ctrl-C at t = ") && shown.starts_with("Slow, after"), "{shown}");
@@ -241,4 +244,5 @@ fn ctrl_c_prints_what_is_finished() {
         "timeout --foreground --preserve-status --signal=INT --kill-after=60 2 $L bench slow.json --steps 20000000 > out",
     );
     assert_eq!(exit, Some(130));
+    hold(&std::fs::read_to_string(folder.path().join("out")).unwrap());
 }

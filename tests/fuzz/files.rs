@@ -4,6 +4,7 @@
 use super::{Random, tries};
 use crate::program::{CLEAN, FALL, wrong};
 use crate::support::model_text;
+use crate::support::report::hold;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -176,7 +177,10 @@ fn run(root: &Path, said: &Path, arguments: &[String]) -> Result<String, String>
     };
     let text = String::from_utf8_lossy(&std::fs::read(said.join("stderr")).unwrap()).into_owned();
     match status.code() {
-        Some(0..=2) => Ok(text),
+        Some(0..=2) => {
+            hold(&String::from_utf8_lossy(&std::fs::read(said.join("stdout")).unwrap()));
+            Ok(text)
+        }
         other => Err(format!("ends with {other:?}: {text}")),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::stdio::print_json;
 use super::{Failure, ModelOptions, Outcome, interrupted, target};
+use crate::report::{report, set_number};
 use crate::run::Session;
 use labspec_core::reflect::FieldSet;
 use labspec_core::{Data, Demand, Plan, Way, Ways};
@@ -91,16 +92,16 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     }
     nanoseconds.sort_by(f64::total_cmp);
     let d = session.world.data.fields();
-    let value = json!({
-        "min_ns": nanoseconds.first(),
-        "median_ns": nanoseconds.get(nanoseconds.len() / 2),
+    let mut value = json!({
+        "minNs": nanoseconds.first(),
+        "medianNs": nanoseconds.get(nanoseconds.len() / 2),
         "steps": steps,
         "nv": target.model.nv,
         "ncon": d.ncon,
         "nefc": d.nefc,
-        "time": d.time,
     });
-    print_json(&value, false)?;
+    set_number(&mut value, "time", d.time);
+    print_json(&report("bench", value), false)?;
     Ok(Outcome::Clean)
 }
 

@@ -2,7 +2,7 @@
 
 use super::stdio::{complain, print_json};
 use super::target::{model_folder_within, root};
-use super::{Color, Failure, ModelOptions, Outcome, interrupted, print};
+use super::{Color, Failure, ModelOptions, Outcome, interrupted, machine, print};
 use crate::bind::scene::{Models, check_model_file};
 use crate::check::{self, Checked, Depth};
 use crate::finding::{self, Finding};
@@ -13,7 +13,6 @@ use crate::rules;
 use crate::source::SourceFile;
 use crate::spec::{FileKind, Lesson, kind_of, load_lesson_file};
 use clap::ValueEnum;
-use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::IsTerminal;
@@ -63,42 +62,45 @@ struct Course {
 
 fn work(a: &Arguments, depth: Depth, evidence: bool) -> Result<Outcome, Failure> {
     let course = look(a, depth)?;
-    let outcome = course.ledger.outcome();
+    let found = course.ledger.outcome();
     let named = || a.paths.iter().map(|p| printable_path(p)).collect::<Vec<_>>().join(", ");
     let claimed = |e: &Entry| {
         let claims = [Subject::Answer, Subject::Quote, Subject::ClosedForm, Subject::Run];
         claims.contains(&e.subject) && e.state != State::NotClaimed
     };
     let idle = evidence && !course.ledger.entries().iter().any(claimed);
+    // Where nothing is claimed there is nothing to verify.
+    let outcome = match found {
+        ledger::Outcome::Clean if idle => ledger::Outcome::Nothing,
+        found => found,
+    };
     let mut sources: Vec<&SourceFile> = course.checked.iter().map(|c| &c.lesson.file).collect();
     sources.extend(&course.sources);
     match a.format {
         Format::Human => {
             let mut text = report::human(&course.findings, &sources, a.color.on());
             text.push_str(&overview(&course, evidence));
-            if !(idle && outcome == ledger::Outcome::Clean) {
+            if outcome == found {
                 let _ = writeln!(text, "{}", last_line(&course));
             }
             print(&text)?;
         }
         Format::Json => {
-            let mut value = report::json(&course.findings, &sources);
-            value["summary"]["outcome"] = json!(word(outcome));
-            value["summary"]["claims"] = counts(&course.ledger);
-            value["lessons"] = course.checked.iter().map(lesson_json).collect();
-            value["ledger"] = course.ledger.entries().iter().map(|e| entry_json(e, &sources)).collect();
+            let name = if evidence { "verify" } else { "check" };
+            let value =
+                machine::value(name, outcome, &course.checked, &course.findings, &course.ledger, &sources);
             print_json(&value, true)?;
         }
     }
     match outcome {
         ledger::Outcome::Findings => Ok(Outcome::Findings),
-        ledger::Outcome::Nothing => {
-            Err(format!("there is nothing to check in {}: no lab, no question and no model", named()))
-        }
-        ledger::Outcome::Clean if idle => Err(format!(
+        ledger::Outcome::Nothing if found == ledger::Outcome::Clean => Err(format!(
             "there is nothing to verify in {}: no question and no lab carries a `verify` object",
             named()
         )),
+        ledger::Outcome::Nothing => {
+            Err(format!("there is nothing to check in {}: no lab, no question and no model", named()))
+        }
         ledger::Outcome::Clean => Ok(Outcome::Clean),
     }
 }
@@ -357,89 +359,4 @@ fn last_line(course: &Course) -> String {
         _ => found.to_string(),
     };
     format!("{}: {judgement}", course.ledger.summary())
-}
-
-fn word(outcome: ledger::Outcome) -> &'static str {
-    match outcome {
-        ledger::Outcome::Clean => "clean",
-        ledger::Outcome::Findings => "findings",
-        ledger::Outcome::Nothing => "nothing",
-    }
-}
-
-fn counts(ledger: &Ledger) -> Value {
-    let mut all = serde_json::Map::new();
-    for subject in Subject::ALL {
-        let c = ledger.count(subject);
-        let counted = json!({"simulated": c.simulated, "computed": c.computed, "false": c.wrong, "unchecked": c.unchecked, "not claimed": c.not_claimed});
-        all.insert(subject.as_str().to_string(), counted);
-    }
-    Value::Object(all)
-}
-
-fn entry_json(e: &Entry, sources: &[&SourceFile]) -> Value {
-    let evidence = match e.state {
-        State::True(Evidence::Simulated) => json!("simulated"),
-        State::True(Evidence::Computed) => json!("computed"),
-        _ => Value::Null,
-    };
-    let line = sources.iter().find(|f| *f.path() == e.path).map(|f| f.position(e.span.start).line);
-    json!({
-        "subject": e.subject.as_str(), "owner": e.owner, "what": e.what, "file": &*e.path, "line": line,
-        "state": e.state.as_str(), "evidence": evidence, "word": e.word, "remark": e.remark,
-    })
-}
-
-/// A number, or its name where JSON has none.
-fn number(x: f64) -> Value {
-    if x.is_finite() { json!(x) } else { json!(labspec_expr::Value::Number(x).to_string()) }
-}
-
-fn lesson_json(c: &Checked) -> Value {
-    let labs: Vec<Value> = c
-        .labs
-        .iter()
-        .map(|l| {
-            let tried = l.tried.as_ref();
-            json!({
-                "address": l.address.to_string(), "title": l.title, "runs": l.runs, "ran": l.ran,
-                "broke": tried.map(|t| t.broke), "seconds": tried.map(|t| number(t.wanted)),
-                "covered": tried.map(|t| number(t.covered)), "skipped": tried.map(|t| t.skipped),
-                "ended": tried.and_then(|t| t.ended.clone()),
-            })
-        })
-        .collect();
-    let claims: Vec<Value> = c.claims.iter().map(|claim| claim_json(claim, c)).collect();
-    json!({"file": &**c.lesson.file.path(), "labs": labs, "claims": claims})
-}
-
-fn claim_json(claim: &check::Claim, c: &Checked) -> Value {
-    let j = &claim.judgement;
-    let line = c.lesson.file.position(claim.span.start).line;
-    let answer = j.answer.as_ref().map_or(Value::Null, |a| {
-        let options: Vec<Value> = a
-            .weights
-            .iter()
-            .map(|w| json!({"option": w.option, "holds": w.holds, "margin": w.margin.map(number)}))
-            .collect();
-        json!({"verdict": a.verdict.as_str(), "reason": a.reason, "options": options})
-    });
-    let quotes: Vec<Value> = j
-        .quotes
-        .iter()
-        .map(|q| json!({"text": q.text, "verdict": q.verdict(), "reason": q.reason, "computed": number(q.computed)}))
-        .collect();
-    let exact: Vec<Value> = j
-        .exact
-        .iter()
-        .map(|e| json!({"trace": e.trace, "state": e.state.as_str(), "reason": e.remark}))
-        .collect();
-    let runs: Vec<Value> =
-        j.runs.iter().map(|r| json!({"name": r.name, "broke": r.broke, "expected": r.expected})).collect();
-    let measures: serde_json::Map<String, Value> = j
-        .measures
-        .iter()
-        .map(|m| (m.name.clone(), json!({"value": number(m.value), "halved": m.halved.map(number)})))
-        .collect();
-    json!({"name": claim.name, "line": line, "answer": answer, "quotes": quotes, "closed_forms": exact, "runs": runs, "measures": measures})
 }

@@ -4,6 +4,7 @@ mod bench;
 mod check;
 mod explain;
 mod fmt;
+mod machine;
 mod output;
 mod plan;
 mod precision;

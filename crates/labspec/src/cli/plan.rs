@@ -2,7 +2,7 @@
 
 use super::stdio::print_json;
 use super::{Failure, ModelOptions, Outcome, print, target};
-use crate::report::printable;
+use crate::report::{printable, report};
 use clap::ValueEnum;
 use labspec_core::Plan;
 use serde_json::{Value, json};
@@ -61,7 +61,7 @@ pub(super) fn plan(a: &Arguments) -> Result<Outcome, Failure> {
                 .collect();
             let value =
                 json!({"reads": list(&demand.reads), "writes": list(&demand.writes), "stages": stages});
-            print_json(&value, true)?;
+            print_json(&report("plan", value), true)?;
         }
     }
     Ok(Outcome::Clean)

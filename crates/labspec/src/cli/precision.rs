@@ -4,7 +4,7 @@ use super::output::{Wanted, look_ahead};
 use super::stdio::print_json;
 use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
 use crate::precision::{Report, Truth, compare};
-use crate::report::printable;
+use crate::report::{key, printable, set_number, set_numbers};
 use crate::verify::significant;
 use clap::ValueEnum;
 use serde_json::{Value, json};
@@ -93,16 +93,24 @@ fn value(report: &Report) -> Value {
         .rows
         .iter()
         .map(|r| {
-            json!({
-                "integrator": r.integrator, "timestep": r.timestep, "errors": r.errors, "orders": r.orders,
-                "us_per_second": r.cost, "diverged": r.diverged,
-            })
+            let mut row = json!({"integrator": r.integrator, "timestep": r.timestep, "diverged": r.diverged});
+            set_numbers(&mut row, "errors", &all(&r.errors));
+            set_numbers(&mut row, "orders", &r.orders);
+            set_number(&mut row, "microsecondsPerSecond", r.cost);
+            row
         })
         .collect();
-    let truth: Vec<&str> = report
-        .truth
-        .iter()
-        .map(|t| if *t == Truth::ClosedForm { "closed form" } else { "tiny steps" })
-        .collect();
-    json!({"traces": report.traces, "truth": truth, "uncertainty": report.uncertainty, "length": report.length, "rows": rows})
+    let words = |truth: &Truth| if *truth == Truth::ClosedForm { "closed form" } else { "tiny steps" };
+    let truth: Vec<String> = report.truth.iter().map(|t| key(words(t))).collect();
+    let mut value = json!({"traces": report.traces, "truth": truth, "length": report.length, "rows": rows});
+    // A closed form is not off: there is no number for it, not one that was lost.
+    let reference = report.truth.iter().zip(&report.uncertainty);
+    let uncertainty: Vec<Option<f64>> =
+        reference.map(|(t, &x)| (*t == Truth::TinySteps).then_some(x)).collect();
+    set_numbers(&mut value, "uncertainty", &uncertainty);
+    crate::report::report("precision", value)
+}
+
+fn all(numbers: &[f64]) -> Vec<Option<f64>> {
+    numbers.iter().copied().map(Some).collect()
 }

@@ -2,12 +2,12 @@
 
 use super::stdio::print_json;
 use super::{Failure, ModelOptions, Outcome, interrupted, target};
-use crate::report::{printable, printable_path};
+use crate::report::{printable, printable_path, report, set_number, set_numbers};
 use crate::run::MAX_STEPS;
 use crate::source::read_text;
 use labspec_core::reflect::{self, Object, View};
 use labspec_core::{self as core, Data, Model, Warning};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// Arguments of `record`.
@@ -67,7 +67,7 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
     }
     let mut d = Data::new(&m);
 
-    let model = names(&oracle["model"], |name| field(&m, &d, Object::Model, name));
+    let model = names(&oracle["model"], |row, name| set_field(row, &m, &d, Object::Model, name));
     let mut forward = Vec::new();
     let mut written = 0;
     for state in oracle["forward"].as_array().into_iter().flatten() {
@@ -76,15 +76,13 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
             set_array(&mut m, &mut d, name, &state[name])?;
         }
         core::forward(&m, &mut d)?;
-        let mut row = names(state, |name| match name {
-            "contact" => Some(contacts(&d)),
-            "M" => core::full_m(&m, &d).ok().map(|m| numbers(&m)),
-            _ => field(&m, &d, Object::Data, name),
+        let row = names(state, |row, name| match name {
+            "contact" => row[name] = contacts(&d),
+            // As it was recorded, not as a step may have changed it.
+            _ if STATE.contains(&name) => set_list(row, name, &recorded(&state[name])),
+            "M" => core::full_m(&m, &d).iter().for_each(|m| set_list(row, name, m)),
+            _ => set_field(row, &m, &d, Object::Data, name),
         });
-        for name in STATE {
-            row.insert(name.into(), state[name].clone());
-        }
-        let row = Value::Object(row);
         written += size(&row);
         if written > MAX_NUMBERS {
             return Err(format!(
@@ -105,16 +103,20 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
             break;
         }
         if i % every == 0 {
-            trajectory.push(json!({
-                "time": d.time, "qpos": numbers(&d.qpos), "qvel": numbers(&d.qvel), "act": numbers(&d.act),
-                "ncon": d.ncon, "nefc": d.nefc,
-            }));
+            let mut row = json!({});
+            set_number(&mut row, "time", d.time);
+            set_list(&mut row, "qpos", &d.qpos);
+            set_list(&mut row, "qvel", &d.qvel);
+            set_list(&mut row, "act", &d.act);
+            row["ncon"] = json!(d.ncon);
+            row["nefc"] = json!(d.nefc);
+            trajectory.push(row);
         }
         if i < a.steps {
             core::step(&m, &mut d)?;
         }
     }
-    let warnings: Map<String, Value> = Warning::ALL
+    let warnings: serde_json::Map<String, Value> = Warning::ALL
         .iter()
         .zip(&d.warning)
         .filter(|(_, s)| s.number > 0)
@@ -122,10 +124,10 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
         .collect();
     let value = json!({
         "version": concat!("labspec ", env!("CARGO_PKG_VERSION")),
-        "sizes": names(&oracle["sizes"], |name| reflect::size(&m, name).map(|n| json!(n))),
+        "sizes": names(&oracle["sizes"], |row, name| reflect::size(&m, name).iter().for_each(|n| row[name] = json!(n))),
         "names": {}, "model": model, "forward": forward, "trajectory": trajectory, "warnings": warnings,
     });
-    print_json(&value, false)?;
+    print_json(&report("record", value), false)?;
     Ok(Outcome::Clean)
 }
 
@@ -145,24 +147,25 @@ fn start(m: &Model, d: &mut Data) -> Result<(), core::Error> {
     }
 }
 
-/// The entries of a recorded object that we know.
-fn names(recorded: &Value, value: impl Fn(&str) -> Option<Value>) -> Map<String, Value> {
+/// An object with those entries of a recorded object that we know, which `set` writes.
+fn names(recorded: &Value, set: impl Fn(&mut Value, &str)) -> Value {
+    let mut row = json!({});
     let keys = recorded.as_object().into_iter().flat_map(|o| o.keys());
-    keys.filter_map(|k| Some((k.clone(), value(k)?))).collect()
+    keys.for_each(|k| set(&mut row, k));
+    row
 }
 
-fn field(m: &Model, d: &Data, object: Object, name: &str) -> Option<Value> {
-    let f = reflect::field(object, name)?;
-    let view = core::view(m, d, f).ok()?;
-    // Arrays as lists, counts as numbers.
-    Some(match view {
-        View::Size(n) => json!(n),
-        _ => numbers(&(0..view.len()).filter_map(|i| view.get(i)).collect::<Vec<_>>()),
-    })
+/// Arrays as lists, counts as numbers; nothing for a field that there is not.
+fn set_field(row: &mut Value, m: &Model, d: &Data, object: Object, name: &str) {
+    let Some(view) = reflect::field(object, name).and_then(|f| core::view(m, d, f).ok()) else { return };
+    match view {
+        View::Size(n) => row[name] = json!(n),
+        _ => set_list(row, name, &(0..view.len()).filter_map(|i| view.get(i)).collect::<Vec<_>>()),
+    }
 }
 
-fn numbers(values: &[f64]) -> Value {
-    values.iter().map(|&x| if x.is_finite() { json!(x) } else { Value::Null }).collect()
+fn set_list(row: &mut Value, name: &str, values: &[f64]) {
+    set_numbers(row, name, &values.iter().copied().map(Some).collect::<Vec<_>>());
 }
 
 fn contacts(d: &Data) -> Value {
@@ -175,27 +178,37 @@ fn contacts(d: &Data) -> Value {
     });
     rows.iter()
         .map(|c| {
-            json!({
-                "geom1": c.geom1, "geom2": c.geom2, "dist": c.dist, "pos": numbers(&c.pos), "frame": numbers(&c.frame),
-                "friction": numbers(&c.friction), "dim": c.dim, "solref": numbers(&c.solref), "solimp": numbers(&c.solimp),
-            })
+            let mut row = json!({"geom1": c.geom1, "geom2": c.geom2});
+            set_number(&mut row, "dist", c.dist);
+            set_list(&mut row, "pos", &c.pos);
+            set_list(&mut row, "frame", &c.frame);
+            set_list(&mut row, "friction", &c.friction);
+            row["dim"] = json!(c.dim);
+            set_list(&mut row, "solref", &c.solref);
+            set_list(&mut row, "solimp", &c.solimp);
+            row
         })
         .collect()
+}
+
+/// The numbers of a recorded array; NaN for what is none.
+fn recorded(values: &Value) -> Vec<f64> {
+    values.as_array().into_iter().flatten().map(|v| v.as_f64().unwrap_or(f64::NAN)).collect()
 }
 
 /// Writes a recorded array into the data.
 fn set_array(m: &mut Model, d: &mut Data, name: &str, values: &Value) -> Result<(), Failure> {
     let Some(f) = reflect::field(Object::Data, name) else { return Ok(()) };
     let expected = core::length(m, d, f);
-    let list = values.as_array().map_or(&[][..], Vec::as_slice);
+    let list = recorded(values);
     if list.len() != expected {
         return Err(format!(
             "the recording has {} numbers for {name}, the model {expected}: is it of another model?",
             list.len()
         ));
     }
-    for (i, v) in list.iter().enumerate() {
-        core::view_mut(m, d, f)?.set(i, v.as_f64().unwrap_or(f64::NAN));
+    for (i, x) in list.into_iter().enumerate() {
+        core::view_mut(m, d, f)?.set(i, x);
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ mod machine;
 mod printable;
 
 pub use human::human;
-pub use machine::json;
+pub use machine::{SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers, set_place};
 pub use printable::{printable, printable_json, printable_lines, printable_path};
 
 use crate::finding::{Finding, Severity};

@@ -6,6 +6,7 @@ mod samples;
 mod session;
 pub mod settings;
 mod table;
+mod written;
 
 pub use breakdown::{Breakdown, how_stiff, owner, remedy, time, two_digits};
 pub use budget::{Budget, End};

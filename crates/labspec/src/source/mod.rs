@@ -4,9 +4,11 @@
 //! quote), a JSON string without its escapes, an expression in it. Every layer keeps a [`SourceMap`] back to
 //! the layer below; composed, they turn a byte of an expression into a line and column of the lesson.
 
+mod editor;
 mod map;
 
 use crate::report::printable_path;
+pub use editor::EditorPosition;
 pub use map::{Piece, SourceMap};
 use std::ops::Range;
 use std::path::Path;
@@ -22,6 +24,8 @@ pub struct SourceFile {
     text: Arc<str>,
     /// Byte offset of the first byte of every line.
     line_starts: Vec<usize>,
+    /// Byte offset behind every `\r` that stands alone, which ends a line for editors.
+    returns: Vec<usize>,
 }
 
 /// A line and a column, both counted from 1; columns count characters.
@@ -53,7 +57,8 @@ impl SourceFile {
         let text = text.into();
         let line_starts =
             std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i.saturating_add(1))).collect();
-        SourceFile { path: path.into(), text, line_starts }
+        let returns = editor::single_returns(&text);
+        SourceFile { path: path.into(), text, line_starts, returns }
     }
 
     /// Reads a file of at most [`MAX_FILE`] bytes of UTF-8.

@@ -1,0 +1,199 @@
+//! JSON Schema 2020-12, as far as `docs/schema` uses it. A keyword that is not known here fails, so that nothing in a
+//! schema is passed over. (The small crates that do this ask for a hundred others.)
+
+use super::{read_json, workspace};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The schemas of `docs/schema`, by file name.
+pub(crate) fn schemas() -> BTreeMap<String, Value> {
+    let folder = std::fs::read_dir(workspace().join("docs/schema")).unwrap();
+    let files = folder.map(|e| e.unwrap().path());
+    files.map(|p| (p.file_name().unwrap().to_string_lossy().into_owned(), read_json(&p))).collect()
+}
+
+/// What is wrong with a value, each with the place of it; empty when the schema in this file holds.
+pub(crate) fn problems(schemas: &BTreeMap<String, Value>, file: &str, value: &Value) -> Vec<String> {
+    let mut look = Look { schemas, problems: Vec::new() };
+    look.check(file, &schemas[file], value, "");
+    look.problems
+}
+
+struct Look<'s> {
+    schemas: &'s BTreeMap<String, Value>,
+    problems: Vec<String>,
+}
+
+/// Keys of an object that a schema has spoken of.
+type Spoken = BTreeSet<String>;
+
+impl<'s> Look<'s> {
+    fn check(&mut self, file: &str, schema: &'s Value, value: &Value, at: &str) -> Spoken {
+        let mut spoken = Spoken::new();
+        let Some(keywords) = schema.as_object() else {
+            if schema == &Value::Bool(false) {
+                self.problems.push(format!("{at} must not be there"));
+            }
+            return spoken;
+        };
+        for (keyword, want) in keywords {
+            let holds = match keyword.as_str() {
+                "$schema" | "title" | "description" | "$defs" => true,
+                // Looked at when all others have spoken.
+                "unevaluatedProperties" => true,
+                "const" => value == want,
+                "enum" => list(want).contains(value),
+                "type" => match want {
+                    Value::Array(any) => any.iter().any(|name| is(value, name)),
+                    name => is(value, name),
+                },
+                "minimum" => value.as_f64().is_none_or(|x| x >= want.as_f64().unwrap()),
+                "minItems" => value.as_array().is_none_or(|l| l.len() as u64 >= want.as_u64().unwrap()),
+                "maxItems" => value.as_array().is_none_or(|l| l.len() as u64 <= want.as_u64().unwrap()),
+                "required" => value
+                    .as_object()
+                    .is_none_or(|o| list(want).iter().all(|key| o.contains_key(key.as_str().unwrap()))),
+                "$ref" => {
+                    let (file, schema) = self.follow(file, want.as_str().unwrap());
+                    spoken.extend(self.check(&file, schema, value, at));
+                    true
+                }
+                "allOf" => {
+                    list(want).iter().for_each(|s| spoken.extend(self.check(file, s, value, at)));
+                    true
+                }
+                "anyOf" => {
+                    spoken.extend(self.any_of(file, list(want), value, at));
+                    true
+                }
+                "properties" => {
+                    for (key, schema) in want.as_object().unwrap() {
+                        if let Some(inside) = value.get(key) {
+                            self.check(file, schema, inside, &format!("{at}/{key}"));
+                            spoken.insert(key.clone());
+                        }
+                    }
+                    true
+                }
+                "additionalProperties" => {
+                    let known = keywords.get("properties").and_then(Value::as_object);
+                    for (key, inside) in value.as_object().into_iter().flatten() {
+                        if known.is_none_or(|known| !known.contains_key(key)) {
+                            self.check(file, want, inside, &format!("{at}/{key}"));
+                            spoken.insert(key.clone());
+                        }
+                    }
+                    true
+                }
+                "prefixItems" => {
+                    let items = value.as_array().into_iter().flatten().enumerate();
+                    for ((i, inside), schema) in items.zip(list(want)) {
+                        self.check(file, schema, inside, &format!("{at}/{i}"));
+                    }
+                    true
+                }
+                "items" => {
+                    for (i, inside) in value.as_array().into_iter().flatten().enumerate() {
+                        self.check(file, want, inside, &format!("{at}/{i}"));
+                    }
+                    true
+                }
+                _ => panic!("{file} uses `{keyword}`, which is not known here"),
+            };
+            if !holds {
+                let value: String = value.to_string().chars().take(200).collect();
+                self.problems.push(format!("{at}: `{keyword}: {want}` does not hold for {value}"));
+            }
+        }
+        if let Some(schema) = keywords.get("unevaluatedProperties") {
+            for (key, inside) in value.as_object().into_iter().flatten() {
+                if !spoken.contains(key) {
+                    self.check(file, schema, inside, &format!("{at}/{key}"));
+                }
+            }
+        }
+        spoken
+    }
+
+    /// Keys that the schemas which hold have spoken of. When none holds: the problems of the one that comes closest,
+    /// which is one that fails inside of the value, not at the value itself.
+    fn any_of(&mut self, file: &str, any: &'s [Value], value: &Value, at: &str) -> Spoken {
+        let mut closest = None;
+        let mut spoken = Spoken::new();
+        for schema in any {
+            let mut alone = Look { schemas: self.schemas, problems: Vec::new() };
+            let of = alone.check(file, schema, value, at);
+            spoken.extend(of.into_iter().filter(|_| alone.problems.is_empty()));
+            let here = alone.problems.iter().filter(|p| p.starts_with(&format!("{at}:"))).count();
+            let far = (here, alone.problems.len());
+            if closest.as_ref().is_none_or(|(least, _)| far < *least) {
+                closest = Some((far, alone.problems));
+            }
+        }
+        self.problems.extend(closest.into_iter().flat_map(|(_, problems)| problems));
+        spoken
+    }
+
+    /// `#/$defs/place` of the same file, or another file.
+    fn follow(&self, file: &str, to: &str) -> (String, &'s Value) {
+        let (name, inside) = to.split_once('#').unwrap_or((to, ""));
+        let name = if name.is_empty() { file } else { name };
+        let schema = self.schemas[name].pointer(inside);
+        (name.into(), schema.unwrap_or_else(|| panic!("{file}: `{to}` leads nowhere")))
+    }
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().map(Vec::as_slice).unwrap()
+}
+
+fn is(value: &Value, name: &Value) -> bool {
+    match name.as_str().unwrap() {
+        "null" => value.is_null(),
+        "boolean" => value.is_boolean(),
+        "number" => value.is_number(),
+        "integer" => value.is_i64() || value.is_u64(),
+        "string" => value.is_string(),
+        "array" => value.is_array(),
+        "object" => value.is_object(),
+        other => panic!("there is no type `{other}`"),
+    }
+}
+
+/// The validator itself: each keyword can fail, and says where.
+#[test]
+fn every_keyword_can_fail() {
+    use serde_json::json;
+    let schema = json!({
+        "type": "object", "required": ["a"], "allOf": [{"$ref": "#/$defs/named"}], "unevaluatedProperties": false,
+        "properties": {
+            "a": {"anyOf": [{"type": "null"}, {"type": "array", "items": {"type": "integer", "minimum": 0}}]},
+            "b": {"prefixItems": [{"const": 1}, {"enum": ["x", null]}], "minItems": 2, "maxItems": 2},
+            "c": {"additionalProperties": {"type": ["number", "boolean"]}},
+            "d": {"properties": {"e": {}}, "additionalProperties": false},
+        },
+        "$defs": {"named": {"properties": {"name": {"type": "string"}}}},
+    });
+    let schemas = BTreeMap::from([("s".to_string(), schema)]);
+    let good = json!({"a": [1, 2], "b": [1, null], "c": {"x": 1.5, "y": true}, "d": {"e": []}, "name": "n"});
+    assert_eq!(problems(&schemas, "s", &good), Vec::<String>::new());
+    for (place, wrong) in [
+        ("", json!([])),
+        ("", json!({"name": "n"})),
+        ("/name", json!({"a": null, "name": 1})),
+        ("/other", json!({"a": null, "other": 1})),
+        ("/a", json!({"a": 7})),
+        ("/a/1", json!({"a": [1, -1]})),
+        ("/a/0", json!({"a": [0.5]})),
+        ("/b/0", json!({"a": null, "b": [2, "x"]})),
+        ("/b/1", json!({"a": null, "b": [1, "y"]})),
+        ("/b", json!({"a": null, "b": [1]})),
+        ("/b", json!({"a": null, "b": [1, "x", 0]})),
+        ("/c/z", json!({"a": null, "c": {"z": null}})),
+        ("/d/f", json!({"a": null, "d": {"f": 1}})),
+    ] {
+        let found = problems(&schemas, "s", &wrong);
+        let start = |p: &String| p.starts_with(&format!("{place}:")) || p.starts_with(&format!("{place} "));
+        assert!(!found.is_empty() && found.iter().all(start), "{wrong}: {found:?}");
+    }
+}
