@@ -25,6 +25,7 @@ mod readme;
 mod recorded;
 mod refresh;
 mod scenes;
+mod schema;
 mod settings;
 mod sleep;
 mod stability;

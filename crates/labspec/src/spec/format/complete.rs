@@ -95,14 +95,12 @@ fn root(scope: &Scope) -> Holder {
         let other = if object.name == LAB.name { &QUIZ } else { &LAB };
         scope.keys.iter().any(|(name, _)| object.key(name).is_some() && other.key(name).is_none())
     };
-    Holder::Keys(match (has(&LAB), has(&QUIZ)) {
-        (_, true) => QUIZ.keys.iter().collect(),
-        (true, false) => LAB.keys.iter().collect(),
-        (false, false) => {
-            let more = QUIZ.keys.iter().filter(|k| LAB.key(k.name).is_none());
-            LAB.keys.iter().chain(more).collect()
-        }
-    })
+    let objects: &[&'static Object] = match (has(&LAB), has(&QUIZ)) {
+        (_, true) => &[&QUIZ],
+        (true, false) => &[&LAB],
+        (false, false) => &[&LAB, &QUIZ],
+    };
+    Holder::Keys(allowed(objects, scope))
 }
 
 /// What a place of an object or a list takes.
@@ -156,7 +154,7 @@ fn allowed(objects: &[&'static Object], scope: &Scope) -> Vec<&'static Key> {
             object.together.iter().any(|rule| match rule {
                 Together::ExactlyOne(names) => other(names),
                 Together::AtMostOne(names) | Together::FirstCounts(names) => other(names.as_slice()),
-                Together::AtLeastOne(_) => false,
+                Together::AtLeastOne(_) | Together::OneAdvised(_) => false,
             })
         };
         for key in object.keys {

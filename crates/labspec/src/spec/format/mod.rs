@@ -5,6 +5,8 @@
 //! completions are written from here. A key that is not declared does not exist.
 
 mod complete;
+#[cfg(test)]
+mod complete_tests;
 mod control;
 mod describe;
 mod lab;
@@ -54,6 +56,8 @@ pub enum Together {
     ExactlyOne(&'static [&'static str]),
     /// One of these must stand, or several.
     AtLeastOne(&'static [&'static str]),
+    /// Without any of these the object is of no use, which is a warning.
+    OneAdvised(&'static [&'static str]),
     /// These two exclude each other.
     AtMostOne(&'static [&'static str; 2]),
     /// Where both of these stand, the second one does nothing, which is a warning.

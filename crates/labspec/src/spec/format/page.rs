@@ -50,6 +50,7 @@ fn section(text: &mut String, object: &Object) {
         let (count, names, rule) = match rule {
             Together::ExactlyOne(names) => ("Exactly one", *names, "must stand"),
             Together::AtLeastOne(names) => ("At least one", *names, "must stand"),
+            Together::OneAdvised(names) => ("At least one", *names, "should stand"),
             Together::AtMostOne(names) => ("Only one", names.as_slice(), "may stand"),
             Together::FirstCounts(names) => ("Only the first", names.as_slice(), "counts"),
         };

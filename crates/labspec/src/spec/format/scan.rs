@@ -68,14 +68,18 @@ struct Scanner<'a> {
     next: Next,
     /// The key whose value comes next.
     key: String,
+    /// How many characters may still be looked at for the ends of strings.
+    budget: usize,
     scan: Scan,
 }
 
 /// Reads a text. The offset is a place between two characters of it.
 pub(super) fn scan(text: &str, offset: usize) -> Scan {
     let (open, scan) = (Vec::new(), Scan::default());
-    let mut s = Scanner { text, offset, at: 0, open, next: Next::Value, key: String::new(), scan };
-    loop {
+    // Lines of broken strings are looked at more than once.
+    let budget = 16 * text.len() + 1000;
+    let mut s = Scanner { text, offset, at: 0, open, next: Next::Value, key: String::new(), budget, scan };
+    while s.budget > 0 {
         s.gap();
         let Some(c) = s.rest().chars().next() else { break };
         match c {
@@ -88,6 +92,7 @@ pub(super) fn scan(text: &str, offset: usize) -> Scan {
             '}' | ']' => s.leave(c == ']'),
             ',' => {
                 s.at += 1;
+                s.key.clear();
                 s.next = if s.in_list() { Next::Value } else { Next::Key };
             }
             ':' => {
@@ -150,10 +155,6 @@ impl<'a> Scanner<'a> {
     }
 
     fn enter(&mut self, list: bool) {
-        // Behind a value without a comma, the next one; in the place of a key, a value without one.
-        if self.next == Next::Comma && !self.in_list() {
-            self.key.clear();
-        }
         let parent = self.open.last().map(|&p| (p, self.step()));
         self.valued(None);
         self.open.push(self.scan.scopes.len());
@@ -165,6 +166,7 @@ impl<'a> Scanner<'a> {
     /// A bracket closes the nearest one of its kind, and what is open inside of it.
     fn leave(&mut self, list: bool) {
         self.at += 1;
+        self.key.clear();
         let own = |&scope: &usize| self.scan.scopes.get(scope).is_some_and(|s| s.list == list);
         if let Some(i) = self.open.iter().rposition(own) {
             self.open.truncate(i);
@@ -221,9 +223,10 @@ impl<'a> Scanner<'a> {
     }
 
     /// The end of the string that begins here: behind its quote, or at the end of the line.
-    fn closed(&self) -> usize {
+    fn closed(&mut self) -> usize {
         let mut escaped = false;
         for (i, c) in self.rest().char_indices().skip(1) {
+            self.budget = self.budget.saturating_sub(1);
             match c {
                 '\n' | '\r' => return self.at + i,
                 _ if escaped => escaped = false,

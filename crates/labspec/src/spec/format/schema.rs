@@ -108,7 +108,7 @@ fn rule(rule: &Together) -> Option<Value> {
         Together::ExactlyOne(names) => json!({"oneOf": each(names)}),
         Together::AtLeastOne(names) => json!({"anyOf": each(names)}),
         Together::AtMostOne(names) => json!({"not": {"required": names}}),
-        Together::FirstCounts(_) => return None,
+        Together::OneAdvised(_) | Together::FirstCounts(_) => return None,
     })
 }
 

@@ -40,7 +40,7 @@ fn with_key(object: &Object, name: &str, value: Value) -> Value {
         let names: &[&str] = match rule {
             Together::ExactlyOne(names) => names,
             Together::AtMostOne(names) | Together::FirstCounts(names) => names.as_slice(),
-            Together::AtLeastOne(_) => &[],
+            Together::AtLeastOne(_) | Together::OneAdvised(_) => &[],
         };
         if names.contains(&name) {
             names.iter().for_each(|n| drop(members.remove(*n)));
@@ -324,5 +324,36 @@ fn declared_defaults_are_of_their_type() {
             _ => default == json!({}),
         };
         assert!(fits, "{at}");
+    }
+}
+
+/// What keys ask of each other is what is found, and how bad it is.
+#[test]
+fn what_keys_ask_of_each_other_is_checked() {
+    for object in OBJECTS {
+        for rule in object.together {
+            let (names, without, all): (&[&str], _, _) = match rule {
+                Together::ExactlyOne(names) => (names, Some(true), Some(true)),
+                Together::AtLeastOne(names) => (names, Some(true), None),
+                Together::OneAdvised(names) => (names, Some(false), None),
+                Together::AtMostOne(names) => (names.as_slice(), None, Some(true)),
+                Together::FirstCounts(names) => (names.as_slice(), None, Some(false)),
+            };
+            let mut whole = parse(object.minimal);
+            names.iter().for_each(|name| drop(whole.as_object_mut().unwrap().remove(*name)));
+            let mut both = whole.clone();
+            for name in names {
+                let example = parse(object.key(name).unwrap().example);
+                both.as_object_mut().unwrap().insert((*name).into(), example);
+            }
+            for (value, is_error) in [(whole, without), (both, all)] {
+                let Some(is_error) = is_error else { continue };
+                for (root, value) in roots(object, &value) {
+                    let lesson = load(root, &value);
+                    assert!(!lesson.findings.is_empty(), "{}: {rule:?}", object.name);
+                    assert_eq!(lesson.has_errors(), is_error, "{}: {rule:?}", object.name);
+                }
+            }
+        }
     }
 }

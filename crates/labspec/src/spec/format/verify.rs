@@ -82,7 +82,7 @@ pub static VERIFY: Object = Object {
         )
         .or(Absent::Empty),
     ],
-    together: &[Together::AtLeastOne(&["options", "value", "says", "exact"])],
+    together: &[Together::OneAdvised(&["options", "value", "says", "exact"])],
 };
 
 static EXPECTED: [Word; 1] =
