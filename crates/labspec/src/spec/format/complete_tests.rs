@@ -101,6 +101,8 @@ fn in_code_and_free_text_and_between_values_there_is_nothing() {
         r#"{"model": "¦fall"}"#,
         r#"{"setup": "ctx.a = ¦1"}"#,
         r#"{"setup": "ctx.a = {¦"#,
+        r#"{"setup": "a = ¦1" "stopAt": 1}"#,
+        "{\"setup\": \"a = ¦1\n \"stopAt\": 1}",
         r#"{"setup": "ctx.a = {'¦"#,
         r#"{"readouts": [{"label": "t", "expr": "data.¦time"}]}"#,
         r#"{"readouts": [{"label": "t", "expr": "data.¦"#,

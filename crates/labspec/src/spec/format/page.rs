@@ -2,7 +2,7 @@
 
 use super::describe::{default, takes};
 use super::{Absent, CONTROL, EVENTS, FIRST, Family, Key, LAB, Need, OBJECTS, OVERLAYS, Object, QUESTION};
-use super::{Together, Word};
+use super::{Together, Type, Word};
 use std::fmt::Write;
 
 /// The reference page of the format, as Markdown.
@@ -10,7 +10,8 @@ pub fn page() -> String {
     let mut text = String::from(
         "# Format\n\nEvery object of labs, quizzes and checks, with all its keys. The guide is [lessons.md](../lessons.md); \
          code is explained in [language.md](language.md). An editor that knows JSON Schema takes the same from \
-         [lab.json](../schema/lab.json) and [quiz.json](../schema/quiz.json), which `labspec schema` prints.\n\n\
+         [lab.json](../schema/lab.json) and [quiz.json](../schema/quiz.json), which `labspec schema` prints; one that embeds \
+         labspec asks `labspec::spec::format::completions`.\n\n\
          A key that does not stand here is an error where it is written. \
          Examples are of `specs/models/fall.xml`: one ball, 2 m above nothing.\n\nAll keys are there since version ",
     );
@@ -69,13 +70,26 @@ fn section(text: &mut String, object: &Object) {
             key.name,
             cell(&match object.tag.filter(|(tag, _)| *tag == key.name) {
                 Some((_, word)) => format!("\"{word}\""),
-                None => takes(key),
+                None => takes(key) + &link(&key.of),
             }),
             cell(&left_out(key)),
             cell(key.doc),
             cell(key.example)
         );
     }
+}
+
+/// A link to the keys of the objects that stand here.
+fn link(of: &Type) -> String {
+    let heading = match of {
+        Type::Object(object) => heading(object),
+        Type::OneOf(family) => capital(family.name),
+        Type::List(item) => return link(item),
+        Type::Map(map) => return link(&map.of),
+        Type::Either(a, b) => return link(a) + &link(b),
+        _ => return String::new(),
+    };
+    format!(" ([keys](#{}))", heading.to_lowercase().replace(' ', "-"))
 }
 
 /// What an object is called, without its article.

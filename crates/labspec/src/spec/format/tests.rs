@@ -306,6 +306,13 @@ fn what_counts_where_a_key_is_left_out_is_what_is_declared() {
     );
     let quiz = load(&QUIZ, &quiz).quizzes.pop().unwrap();
     assert_eq!(quiz.title(), "Knowledge check");
+    let says = |object: &Object, key: &str, what: String| match object.key(key).unwrap().absent {
+        Absent::Said(words) => assert!(words.contains(&what), "{words}"),
+        other => panic!("{other:?}"),
+    };
+    says(&NUMERIC, "tol", format!("{} %", 100.0 * TOLERANCE));
+    says(&RUN, "until", format!("{RUN_LENGTH} s"));
+    assert!(LAB.key("stopAt").unwrap().doc.contains(&format!("{RUN_LENGTH} s")));
     assert_eq!(quiz.questions[1].as_ref().unwrap().numeric(), Some((-50.0, 1.0)));
 }
 

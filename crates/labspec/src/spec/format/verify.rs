@@ -3,6 +3,9 @@
 use super::{Absent, LAB, Map, Object, Part, Together, Type, Word, key};
 use crate::spec::Form;
 
+/// How long a run is where nothing says it, in s.
+pub const RUN_LENGTH: f64 = 2.0;
+
 static EXPRESSION: Type = Type::Code(Form::Expression);
 static TEXT: Type = Type::Text;
 static INLINE: Type = Type::Object(&LAB);
