@@ -27,6 +27,7 @@ mod refresh;
 mod reports;
 mod rules;
 mod scenes;
+mod schema;
 mod settings;
 mod sleep;
 mod stability;

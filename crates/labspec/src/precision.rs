@@ -9,6 +9,7 @@ use crate::finding::Finding;
 use crate::interrupt;
 use crate::run::{self, RunError, Session};
 use crate::spec::Lab;
+use crate::spec::format::RUN_LENGTH;
 use crate::svg::{Method, MethodPoint, WorkPrecision, work_precision};
 use labspec_core::{Model, Warning, integrator};
 use labspec_expr::Compiler;
@@ -94,7 +95,7 @@ pub fn compare(
     }
     let own = start(lab, model, programs).world.model.opt.timestep;
     let coarse = own * STEPS[0];
-    let length = until.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(2.0);
+    let length = until.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
     // Samples at multiples of the coarsest step, which every run meets exactly.
     let count = run::count_steps(lab, Some(length), None, coarse)?.max(1);
     let finest = STEPS.iter().fold(1.0f64, |a, &b| a.min(b)) * own;

@@ -1,9 +1,11 @@
-//! The reference pages under `docs/reference`: written from the tables, never by hand.
+//! The reference pages under `docs/reference` and the JSON Schemas under `docs/schema`: written from the tables, never by
+//! hand.
 //!
-//! `cargo run -p labspec -- reference docs/reference` writes them; a test fails when they are stale.
+//! `cargo run -p labspec -- reference docs/reference` writes both; a test fails when they are stale.
 
 use crate::bind::{functions, named_field as by_name};
 use crate::rules;
+use crate::spec::format;
 use labspec_core::reflect::{self, Kind, Object, Stage};
 use labspec_core::xml::{self, Status};
 use labspec_finding::Layer;
@@ -12,12 +14,23 @@ use std::fmt::Write;
 /// File name and text of each page.
 pub fn pages() -> Vec<(&'static str, String)> {
     vec![
+        ("format.md", format!("{GENERATED}\n{}", format::page())),
         ("fields.md", fields()),
         ("functions.md", function_list()),
         ("language.md", format!("{GENERATED}\n{}", labspec_expr::language_page())),
         ("codes.md", codes()),
         ("compatibility.md", compatibility()),
     ]
+}
+
+/// File name and text of each schema.
+pub fn schemas() -> Vec<(&'static str, String)> {
+    vec![("lab.json", schema(format::Root::Lab)), ("quiz.json", schema(format::Root::Quiz))]
+}
+
+/// A schema as text.
+pub(crate) fn schema(root: format::Root) -> String {
+    format!("{:#}\n", format::schema(root))
 }
 
 const GENERATED: &str =
@@ -242,8 +255,12 @@ mod tests {
     #[test]
     fn the_pages_are_up_to_date() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference");
-        for (name, text) in super::pages() {
-            let written = std::fs::read_to_string(folder.join(name)).unwrap_or_default();
+        let pages = super::pages().into_iter().map(|(name, text)| (folder.join(name), text));
+        let schemas =
+            super::schemas().into_iter().map(|(name, text)| (folder.join("../schema").join(name), text));
+        for (path, text) in pages.chain(schemas) {
+            let written = std::fs::read_to_string(&path).unwrap_or_default();
+            let name = path.display();
             assert!(written == text, "{name} is stale: cargo run -p labspec -- reference docs/reference");
         }
     }

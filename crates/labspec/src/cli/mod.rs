@@ -10,6 +10,7 @@ mod plan;
 mod precision;
 mod record;
 mod run;
+mod schema;
 mod stdio;
 mod target;
 
@@ -47,11 +48,13 @@ enum Command {
     Plan(plan::Arguments),
     /// What a finding's code means, with an example; without a code, the list of all
     Explain(explain::Arguments),
+    /// Print the JSON Schema of labs and quizzes, for editors: lab, quiz, or lesson for a JSON file of both
+    Schema(schema::Arguments),
     /// For engineers: our engine's numbers for the states of a recording of MuJoCo
     Record(record::Arguments),
     /// For engineers: time of a step
     Bench(bench::Arguments),
-    /// Write the reference pages
+    /// Write the reference pages, and the JSON Schemas into the folder `schema` beside them
     #[command(hide = true)]
     Reference {
         /// The folder
@@ -120,6 +123,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Precision(a) => precision::precision(a),
         Command::Plan(a) => plan::plan(a),
         Command::Explain(a) => explain::explain(a),
+        Command::Schema(a) => schema::schema(a),
         Command::Record(a) => record::record(a),
         Command::Bench(a) => bench::bench(a),
         Command::Reference { folder } => reference(folder),
@@ -165,9 +169,16 @@ fn usage(e: &clap::Error) -> ExitCode {
 }
 
 fn reference(folder: &std::path::Path) -> Result<Outcome, Failure> {
-    std::fs::create_dir_all(folder).map_err(|e| format!("cannot make {}: {e}", printable_path(folder)))?;
+    let schemas = folder.parent().unwrap_or(folder).join("schema");
+    for folder in [folder, &schemas] {
+        std::fs::create_dir_all(folder)
+            .map_err(|e| format!("cannot make {}: {e}", printable_path(folder)))?;
+    }
     for (name, text) in crate::reference::pages() {
         write_file(&folder.join(name), &text)?;
+    }
+    for (name, text) in crate::reference::schemas() {
+        write_file(&schemas.join(name), &text)?;
     }
     Ok(Outcome::Clean)
 }

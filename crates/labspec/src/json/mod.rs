@@ -19,7 +19,7 @@ mod tests;
 pub use labspec_finding::nearest;
 pub use node::{Json, Member, Node};
 pub use parse::{Parsed, parse};
-pub use read::{Fields, Number, Scalar};
+pub use read::{Number, Scalar};
 pub(crate) use strings::{encode, fix_in, fix_in_code};
 
 /// Deepest nesting of arrays and objects. Labs need about 8.

@@ -17,6 +17,7 @@ pub use table::{Cell, Table, shown};
 
 use crate::bind::Programs;
 use crate::spec::Lab;
+use crate::spec::format::RUN_LENGTH;
 use labspec_core::Model;
 use labspec_expr::Value;
 
@@ -41,8 +42,6 @@ pub const MAX_STEPS: usize = 20_000_000;
 const MAX_CELLS: usize = 10_000_000;
 /// Most bytes of the texts in it.
 const MAX_TEXT: usize = 64 << 20;
-/// Length of a run when nothing states one, s.
-const DEFAULT_LENGTH: f64 = 2.0;
 
 /// Why a run did not start.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,7 +71,7 @@ pub fn count_steps(
             false => Err(RunError(format!("a run of {n} steps is too long; the limit is {MAX_STEPS}"))),
         };
     }
-    let length = until.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(DEFAULT_LENGTH);
+    let length = until.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
     let text = |x: f64| Value::Number(x).to_string();
     if !(0.0..f64::INFINITY).contains(&length) {
         return Err(RunError(format!(

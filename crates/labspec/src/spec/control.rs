@@ -1,7 +1,9 @@
 //! Sliders, selects and buttons.
 
+use super::fields::Fields;
+use super::format::{BUTTON, CONTROL, MAX_DIGITS, SELECT, SLIDER, texts};
 use crate::finding::Finding;
-use crate::json::{Fields, Json, Node, Number, Scalar, read};
+use crate::json::{Json, Node, Number, Scalar, read};
 use crate::lint::rules::control::SELECT_OPTIONS;
 use crate::lint::rules::keys::WRONG_TYPE;
 use crate::source::Text;
@@ -33,7 +35,7 @@ pub enum ControlKind {
         step: Option<Number>,
         /// Start value.
         value: Number,
-        /// Decimals shown; `None` means 3.
+        /// Decimals shown, see [`Control::digits`].
         digits: Option<Number>,
         /// What a change does.
         action: Action,
@@ -106,22 +108,20 @@ impl Control {
     }
 }
 
-/// Decimals to show: 3 unless stated, and never more than the rule on `digits` allows.
+/// Decimals to show, never more than the rule on `digits` allows.
 pub(super) fn decimals(digits: Option<&Number>) -> u32 {
-    digits.map_or(3, |d| d.value.clamp(0.0, f64::from(crate::lint::rules::ranges::MAX_DIGITS)) as u32)
+    digits.map_or(SLIDER.number("digits"), |d| d.value.clamp(0.0, f64::from(MAX_DIGITS))) as u32
 }
 
 /// Reads a control.
 pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Control> {
-    let mut fields = Fields::open(node, "a control", findings)?;
-    fields.keys(super::keys::CONTROL);
+    let mut fields = Fields::open_one(node, &CONTROL, findings)?;
     let kind = fields.text("type");
-    let control = match kind.as_ref().map(Text::as_str) {
-        None => slider(&mut fields),
-        Some("select") => select(&mut fields),
-        Some("button") => button(&mut fields),
-        Some("slider") => slider(&mut fields),
-        Some(other) => {
+    let control = match kind.as_ref().map_or("slider", Text::as_str) {
+        "slider" => slider(&mut fields),
+        "select" => select(&mut fields),
+        "button" => button(&mut fields),
+        other => {
             let span = kind.as_ref().map_or(node.span.clone(), Text::span);
             let finding = Finding::new(
                 &WRONG_TYPE,
@@ -129,7 +129,7 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Control> 
                 format!("there is no control of type {}", read::named(other)),
             )
             .why("the page knows sliders, selects and buttons; it shows nothing for anything else");
-            fields.findings.push(match crate::json::nearest(other, ["slider", "select", "button"]) {
+            fields.findings.push(match crate::json::nearest(other, texts(CONTROL.words)) {
                 Some(right) => finding.help(format!("did you mean `{right}`?")).fix(span, right),
                 None => finding.help("write \"select\" or \"button\"; without `type` it is a slider"),
             });
@@ -142,33 +142,30 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Control> 
     Some(Control { span: node.span.clone(), label, kind })
 }
 
-const LABEL: &str = "the label is what the student reads, and how runs address the control";
-
 fn slider(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
-    fields.rename("a slider");
-    let label = fields.need_text("label", LABEL);
+    fields.narrow(&SLIDER);
+    let label = fields.text("label");
     let unit = fields.text("unit");
-    let min = fields.need_number("min", "a slider needs two ends");
-    let max = fields.need_number("max", "a slider needs two ends");
+    let min = fields.number("min");
+    let max = fields.number("max");
     let step = fields.number("step");
-    let value =
-        fields.need_number("value", "without it the slider starts as NaN, and NaN is what gets assigned");
+    let value = fields.number("value");
     let digits = fields.whole("digits");
     let action = action(fields);
     Some((label?, ControlKind::Slider { unit, min: min?, max: max?, step, value: value?, digits, action }))
 }
 
 fn select(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
-    fields.rename("a select");
-    let label = fields.need_text("label", LABEL);
-    let options = fields.need_list("options", "a select offers a list of [text, value] pairs");
+    fields.narrow(&SELECT);
+    let label = fields.text("label");
+    let options = fields.items("options");
     if options.is_some_and(<[Node]>::is_empty) {
         fields.findings.push(crate::lint::rules::control::nothing_offered(fields.span()));
     }
     // A broken option has been reported; without it, the start value cannot be judged.
     let options = options.map(|nodes| nodes.iter().map(|n| choice(n, fields.findings)).collect::<Vec<_>>());
     let options: Option<Vec<Choice>> = options.and_then(|all| all.into_iter().collect());
-    let value = fields.need_scalar("value", "without it the select starts with no value");
+    let value = fields.scalar("value");
     let action = action(fields);
     Some((label?, ControlKind::Select { options: options?, value: value?, action }))
 }
@@ -192,9 +189,9 @@ fn choice(node: &Node, findings: &mut Vec<Finding>) -> Option<Choice> {
 }
 
 fn button(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
-    fields.rename("a button");
-    let label = fields.need_text("label", LABEL);
-    let run = fields.need_text("run", "without statements the button does nothing");
+    fields.narrow(&BUTTON);
+    let label = fields.text("label");
+    let run = fields.text("run");
     Some((label?, ControlKind::Button { run: run? }))
 }
 

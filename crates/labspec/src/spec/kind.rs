@@ -1,7 +1,8 @@
 //! What a file is, by its name, and what a JSON object was meant to be, by its keys.
 
-use super::keys;
-use crate::json::{Json, Node, nearest, read::fits};
+use super::fields::fits;
+use super::format::{LAB, Object, QUIZ};
+use crate::json::{Json, Node, nearest};
 use std::path::Path;
 
 /// What a file is, by its ending, in capitals or not.
@@ -47,26 +48,27 @@ pub(super) fn nature(node: &Node) -> Nature {
         Nature::Quiz
     } else if OF_LABS.iter().any(|key| node.get(key).is_some()) {
         Nature::Lab
-    } else if nearly(node, keys::QUIZ, &["questions"]) {
+    } else if nearly(node, &QUIZ, &["questions"]) {
         Nature::Quiz
-    } else if nearly(node, keys::LAB, &OF_LABS) {
+    } else if nearly(node, &LAB, &OF_LABS) {
         Nature::Lab
     } else {
         Nature::Neither
     }
 }
 
-/// Whether an object has most of its keys from a list, and one that is nearly a telling one.
-fn nearly(node: &Node, all: &[&'static str], telling: &[&'static str]) -> bool {
+/// Whether an object has most of its keys from a declared one, and one that is nearly a telling one.
+fn nearly(node: &Node, object: &Object, telling: &[&'static str]) -> bool {
     let members = node.members();
     let (mut ours, mut near) = (0, false);
     for member in members.iter().take(100) {
         let key = member.key.as_str();
-        if all.contains(&key) {
+        if object.key(key).is_some() {
             ours += 1;
         } else if !OTHER_WORDS.contains(&key.to_ascii_lowercase().as_str())
             && let Some(meant) = nearest(key, telling.iter().copied())
-            && (fits(meant, &member.value.json) || matches!(member.value.json, Json::Object(_)))
+            && (object.key(meant).is_some_and(|k| fits(&k.of, &member.value.json))
+                || matches!(member.value.json, Json::Object(_)))
         {
             ours += 1;
             near = true;

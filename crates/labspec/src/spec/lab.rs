@@ -1,15 +1,13 @@
 //! The lab object.
 
+use super::fields::Fields;
+use super::format::{CAMERA, LAB};
 use super::{Control, Plot, Readout, Verify, control, plot, verify};
 use crate::finding::Finding;
-use crate::json::{Fields, Json, Node, Number, read};
+use crate::json::{Json, Node, Number, read};
 use crate::lint::rules::keys::WRONG_TYPE;
 use crate::source::Text;
 use std::ops::Range;
-
-/// What can be drawn over the scene: keys of `overlays`, items of `toggles`.
-pub const OVERLAYS: [&str; 8] =
-    ["frames", "joints", "contacts", "forces", "com", "sites", "cameras", "shadows"];
 
 /// A lab: a scene, what a student can change, and what is shown of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,11 +22,11 @@ pub struct Lab {
     pub key: Option<Number>,
     /// Shown title.
     pub title: Option<Text>,
-    /// Shown kind; `None` means "Lab".
+    /// Shown kind, see [`Lab::kind`].
     pub kind: Option<Text>,
     /// Shown note, HTML.
     pub note: Option<Text>,
-    /// Pixels; `None` means 300.
+    /// Pixels, see [`Lab::height`].
     pub height: Option<Number>,
     /// Layout: docked beside the text.
     pub dock: bool,
@@ -40,11 +38,11 @@ pub struct Lab {
     pub overlays: Vec<(Text, bool)>,
     /// Overlays that get a checkbox.
     pub toggles: Vec<Text>,
-    /// Metres per newton for drawn forces; `None` means 0.02.
+    /// Metres per newton for drawn forces, see [`Lab::force_scale`].
     pub force_scale: Option<Number>,
     /// A site whose path is drawn.
     pub trail: Option<Text>,
-    /// Playback speeds; empty means 0.1, 0.25, 1, 4.
+    /// Playback speeds, see [`Lab::speeds`].
     pub speeds: Vec<Number>,
     /// Seconds; the run pauses once time reaches it.
     pub stop_at: Option<Number>,
@@ -77,9 +75,9 @@ pub enum Expect {
 /// The view of a lab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// Degrees; -55 by default.
+    /// Degrees.
     pub azimuth: f64,
-    /// Degrees; 25 by default.
+    /// Degrees.
     pub elevation: f64,
     /// Metres; `None` means 1.9 times the extent of the model.
     pub distance: Option<f64>,
@@ -89,7 +87,12 @@ pub struct Camera {
 
 impl Default for Camera {
     fn default() -> Camera {
-        Camera { azimuth: -55.0, elevation: 25.0, distance: None, target: None }
+        Camera {
+            azimuth: CAMERA.number("azimuth"),
+            elevation: CAMERA.number("elevation"),
+            distance: None,
+            target: None,
+        }
     }
 }
 
@@ -150,7 +153,30 @@ impl Lab {
 
     /// Title, or a text that stands for it.
     pub fn title(&self) -> &str {
-        self.title.as_ref().map_or("", Text::as_str)
+        self.title.as_ref().map_or(LAB.text("title"), Text::as_str)
+    }
+
+    /// The word above the title.
+    pub fn kind(&self) -> &str {
+        self.kind.as_ref().map_or(LAB.text("kind"), Text::as_str)
+    }
+
+    /// Height of the picture in pixels.
+    pub fn height(&self) -> f64 {
+        self.height.as_ref().map_or(LAB.number("height"), |h| h.value)
+    }
+
+    /// Metres per newton for drawn forces.
+    pub fn force_scale(&self) -> f64 {
+        self.force_scale.as_ref().map_or(LAB.number("forceScale"), |s| s.value)
+    }
+
+    /// Playback speeds.
+    pub fn speeds(&self) -> Vec<f64> {
+        match self.speeds.as_slice() {
+            [] => LAB.numbers("speeds").to_vec(),
+            own => own.iter().map(|s| s.value).collect(),
+        }
     }
 
     /// The control with this label.
@@ -195,8 +221,7 @@ pub enum Form {
 
 /// Reads a lab.
 pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Lab> {
-    let mut fields = Fields::open(node, "a lab", findings)?;
-    fields.keys(super::keys::LAB);
+    let mut fields = Fields::open(node, &LAB, findings)?;
     let f = &mut fields;
     let lab = Lab {
         span: f.span(),
@@ -252,8 +277,7 @@ fn expected(text: &Text, findings: &mut Vec<Finding>) -> Option<Expect> {
 }
 
 fn camera(node: &Node, findings: &mut Vec<Finding>) -> Option<Camera> {
-    let mut fields = Fields::open(node, "a camera", findings)?;
-    fields.keys(super::keys::CAMERA);
+    let mut fields = Fields::open(node, &CAMERA, findings)?;
     let standard = Camera::default();
     let camera = Camera {
         azimuth: fields.number("azimuth").map_or(standard.azimuth, |n| n.value),

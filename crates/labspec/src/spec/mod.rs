@@ -6,7 +6,8 @@
 
 mod control;
 mod encoding;
-mod keys;
+mod fields;
+pub mod format;
 mod kind;
 mod lab;
 mod lesson;
@@ -17,7 +18,7 @@ mod verify;
 pub use control::{Action, Choice, Control, ControlKind};
 pub use encoding::{load_lesson_file, not_utf8};
 pub use kind::{FileKind, kind_of};
-pub use lab::{Camera, Expect, Form, Lab, OVERLAYS, Scene};
+pub use lab::{Camera, Expect, Form, Lab, Scene};
 pub use lesson::{LabAddress, LabEntry, Lesson, MAX_FINDINGS, Widget, load_lesson};
 pub use plot::{Plot, Readout, RefLine, Trace};
 pub use quiz::{ChoiceStyle, Question, QuestionKind, Quiz};

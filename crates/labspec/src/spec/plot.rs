@@ -1,7 +1,9 @@
 //! Plots, their traces and reference lines, and readouts.
 
+use super::fields::Fields;
+use super::format::{PLOT, READOUT, REF_LINE, TRACE};
 use crate::finding::Finding;
-use crate::json::{Fields, Node, Number};
+use crate::json::{Node, Number};
 use crate::lint::rules::plot::empty;
 use crate::source::Text;
 use std::ops::Range;
@@ -13,15 +15,15 @@ pub struct Plot {
     pub span: Range<usize>,
     /// Label of the vertical axis.
     pub ylabel: Option<Text>,
-    /// Label of the horizontal axis; `None` means "time (s)".
+    /// Label of the horizontal axis, see [`Plot::xlabel`].
     pub xlabel: Option<Text>,
-    /// Seconds shown; `None` means 5.
+    /// Seconds shown, see [`Plot::window`].
     pub window: Option<Number>,
     /// Lower end of the vertical axis; `None` follows the data.
     pub ymin: Option<Number>,
     /// Upper end of the vertical axis; `None` follows the data.
     pub ymax: Option<Number>,
-    /// Pixels; `None` means 140.
+    /// Pixels, see [`Plot::height`].
     pub height: Option<Number>,
     /// Horizontal lines.
     pub ref_lines: Vec<RefLine>,
@@ -60,19 +62,24 @@ pub struct Readout {
     pub label: Text,
     /// Expression; a number, a text or a truth value.
     pub expr: Text,
-    /// Decimals; `None` means 3.
+    /// Decimals, see [`Readout::digits`].
     pub digits: Option<Number>,
 }
 
 impl Plot {
     /// Seconds shown.
     pub fn window(&self) -> f64 {
-        self.window.as_ref().map_or(5.0, |w| w.value)
+        self.window.as_ref().map_or(PLOT.number("window"), |w| w.value)
+    }
+
+    /// Height in pixels.
+    pub fn height(&self) -> f64 {
+        self.height.as_ref().map_or(PLOT.number("height"), |h| h.value)
     }
 
     /// Label of the horizontal axis.
     pub fn xlabel(&self) -> &str {
-        self.xlabel.as_ref().map_or("time (s)", Text::as_str)
+        self.xlabel.as_ref().map_or(PLOT.text("xlabel"), Text::as_str)
     }
 }
 
@@ -85,8 +92,7 @@ impl Readout {
 
 /// Reads a plot.
 pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Plot> {
-    let mut fields = Fields::open(node, "a plot", findings)?;
-    fields.keys(super::keys::PLOT);
+    let mut fields = Fields::open(node, &PLOT, findings)?;
     let nodes = fields.list("traces");
     if nodes.is_empty() {
         fields.findings.push(empty(fields.span()));
@@ -107,18 +113,17 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Plot> {
 }
 
 fn ref_line(node: &Node, findings: &mut Vec<Finding>) -> Option<RefLine> {
-    let mut fields = Fields::open(node, "a reference line", findings)?;
-    let y = fields.need_number("y", "it is the height of the line");
+    let mut fields = Fields::open(node, &REF_LINE, findings)?;
+    let y = fields.number("y");
     let label = fields.text("label");
     fields.finish();
     Some(RefLine { y: y?, label })
 }
 
 fn trace(node: &Node, findings: &mut Vec<Finding>) -> Option<Trace> {
-    let mut fields = Fields::open(node, "a trace", findings)?;
-    fields.keys(super::keys::TRACE);
-    let label = fields.need_text("label", "the legend and the written table name the curve by it");
-    let expr = fields.need_text("expr", "it is the expression that is drawn");
+    let mut fields = Fields::open(node, &TRACE, findings)?;
+    let label = fields.text("label");
+    let expr = fields.text("expr");
     let dash = fields.flag("dash");
     let span = fields.span();
     fields.finish();
@@ -127,10 +132,9 @@ fn trace(node: &Node, findings: &mut Vec<Finding>) -> Option<Trace> {
 
 /// Reads a readout.
 pub(super) fn readout(node: &Node, findings: &mut Vec<Finding>) -> Option<Readout> {
-    let mut fields = Fields::open(node, "a readout", findings)?;
-    fields.keys(super::keys::READOUT);
-    let label = fields.need_text("label", "a number without a name tells nothing");
-    let expr = fields.need_text("expr", "it is the expression that is shown");
+    let mut fields = Fields::open(node, &READOUT, findings)?;
+    let label = fields.text("label");
+    let expr = fields.text("expr");
     let digits = fields.whole("digits");
     let span = fields.span();
     fields.finish();

@@ -1,8 +1,10 @@
 //! The quiz object and its kinds of questions.
 
+use super::fields::Fields;
+use super::format::{CODE, DEBUG, MCQ, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TOLERANCE, texts};
 use super::{Lab, Verify, lab, verify};
-use crate::finding::{Finding, Severity};
-use crate::json::{Fields, Node, Number, read};
+use crate::finding::Finding;
+use crate::json::{Node, Number, read};
 use crate::lint::rules::keys::WRONG_TYPE;
 use crate::source::Text;
 use std::ops::Range;
@@ -14,7 +16,7 @@ pub struct Quiz {
     pub span: Range<usize>,
     /// Its id, unique in a course: answers are stored under it.
     pub id: Option<Text>,
-    /// Shown title; `None` means "Knowledge check".
+    /// Shown title, see [`Quiz::title`].
     pub title: Option<Text>,
     /// The questions. One that could not be understood is `None`, so that the numbers of the others stay.
     pub questions: Vec<Option<Question>>,
@@ -55,7 +57,7 @@ pub enum QuestionKind {
     Numeric {
         /// The right answer.
         answer: Option<Number>,
-        /// How far an answer may be off; `None` means 2 % of the answer.
+        /// How far an answer may be off, see [`Question::numeric`].
         tol: Option<Number>,
         /// Unit, for display.
         unit: Option<Text>,
@@ -93,7 +95,7 @@ impl Question {
     pub fn numeric(&self) -> Option<(f64, f64)> {
         match &self.kind {
             QuestionKind::Numeric { answer: Some(answer), tol, .. } => {
-                Some((answer.value, tol.as_ref().map_or(0.02 * answer.value.abs(), |t| t.value)))
+                Some((answer.value, tol.as_ref().map_or(TOLERANCE * answer.value.abs(), |t| t.value)))
             }
             _ => None,
         }
@@ -123,6 +125,11 @@ impl Question {
 }
 
 impl Quiz {
+    /// The shown title.
+    pub fn title(&self) -> &str {
+        self.title.as_ref().map_or(QUIZ.text("title"), Text::as_str)
+    }
+
     /// The questions that were understood, with their numbers from 1.
     pub fn numbered(&self) -> impl Iterator<Item = (usize, &Question)> {
         self.questions.iter().enumerate().filter_map(|(i, q)| q.as_ref().map(|q| (i + 1, q)))
@@ -131,24 +138,20 @@ impl Quiz {
 
 /// Reads a quiz.
 pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Quiz> {
-    let mut fields = Fields::open(node, "a quiz", findings)?;
-    fields.keys(super::keys::QUIZ);
-    let id = fields.need_text("id", "the page stores a student's answers under the id of the quiz");
+    let mut fields = Fields::open(node, &QUIZ, findings)?;
+    let id = fields.text("id");
     let title = fields.text("title");
-    let questions = fields.need_list("questions", "a quiz is a list of questions");
+    let questions = fields.items("questions");
     let questions = questions.unwrap_or_default().iter().map(|n| question(n, fields.findings)).collect();
     let span = fields.span();
     fields.finish();
     Some(Quiz { span, id, title, questions })
 }
 
-const KINDS: [&str; 6] = ["mcq", "debug", "predict", "numeric", "open", "code"];
-
 fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
-    let mut fields = Fields::open(node, "a question", findings)?;
-    fields.keys(super::keys::QUESTION);
+    let mut fields = Fields::open_one(node, &QUESTION, findings)?;
     let kind = fields.text("kind");
-    let q = fields.need_text("q", "it is the text of the question");
+    let q = fields.text("q");
     let explain = fields.text("explain");
     let label = fields.text("label");
     let asked = match kind.as_ref().map_or("mcq", Text::as_str) {
@@ -157,7 +160,7 @@ fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
         "predict" => choice(&mut fields, ChoiceStyle::Predict),
         "numeric" => Some(numeric(&mut fields)),
         word @ ("open" | "code") => {
-            fields.rename("an open question");
+            fields.narrow(if word == "code" { &CODE } else { &OPEN });
             Some(QuestionKind::Open { code: word == "code", reference: fields.text("reference") })
         }
         other => {
@@ -168,9 +171,10 @@ fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
                 format!("there is no question of kind {}", read::named(other)),
             )
             .why("the page does not know how to ask it, nor how to grade it");
-            fields.findings.push(match crate::json::nearest(other, KINDS) {
+            fields.findings.push(match crate::json::nearest(other, texts(QUESTION.words)) {
                 Some(right) => finding.help(format!("did you mean `{right}`?")).fix(span, right),
-                None => finding.help(format!("the kinds are {}", KINDS.join(", "))),
+                None => finding
+                    .help(format!("the kinds are {}", texts(QUESTION.words).collect::<Vec<_>>().join(", "))),
             });
             return None;
         }
@@ -183,34 +187,27 @@ fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
 
 /// `None` when an option is broken, which is reported: without it, indexes mean nothing.
 fn choice(fields: &mut Fields<'_, '_>, style: ChoiceStyle) -> Option<QuestionKind> {
-    let options = fields.need_list("options", "the student chooses one of them");
+    let options = fields.items("options");
     let options: Option<Vec<Option<Text>>> =
         options.map(|nodes| nodes.iter().map(|n| read::text(n, "an option", fields.findings)).collect());
     let options: Option<Vec<Text>> = options.and_then(|all| all.into_iter().collect());
-    let answer = fields.need_whole("answer", "it is the index of the right option, from 0");
+    let answer = fields.whole("answer");
     let mut sim = None;
     match style {
-        ChoiceStyle::Mcq => fields.rename("a question of kind mcq"),
-        ChoiceStyle::Debug => fields.rename("a question of kind debug"),
+        ChoiceStyle::Mcq => fields.narrow(&MCQ),
+        ChoiceStyle::Debug => fields.narrow(&DEBUG),
         ChoiceStyle::Predict => {
-            fields.rename("a question of kind predict");
-            match fields.node("sim") {
-                Some(node) => sim = lab::read(node, fields.findings).map(Box::new),
-                None => fields.missing(
-                    "sim",
-                    "a prediction is followed by the simulation that settles it; without one, use kind mcq",
-                    Severity::Warning,
-                ),
-            }
+            fields.narrow(&PREDICT);
+            sim = fields.node("sim").and_then(|n| lab::read(n, fields.findings)).map(Box::new);
         }
     }
     Some(QuestionKind::Choice { style, options: options?, answer, sim })
 }
 
 fn numeric(fields: &mut Fields<'_, '_>) -> QuestionKind {
-    fields.rename("a question of kind numeric");
+    fields.narrow(&NUMERIC);
     QuestionKind::Numeric {
-        answer: fields.need_number("answer", "without it no answer is right"),
+        answer: fields.number("answer"),
         tol: fields.number("tol"),
         unit: fields.text("unit"),
     }

@@ -2,9 +2,11 @@
 //!
 //! Here it is only read; expressions stay texts with their places.
 
+use super::fields::Fields;
+use super::format::{CLOSED_FORM, RUN, VERIFY};
 use super::{Form, Lab, LabAddress, lab};
 use crate::finding::Finding;
-use crate::json::{Fields, Json, Member, Node, Number, Scalar, read};
+use crate::json::{Json, Member, Node, Number, Scalar, read};
 use crate::lint::rules::keys::{UNKNOWN_KEY, WRONG_TYPE};
 use crate::lint::rules::verify::claims_nothing;
 use crate::source::Text;
@@ -95,8 +97,7 @@ impl Verify {
 /// Reads a `verify` object.
 pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Verify> {
     let before = findings.len();
-    let mut fields = Fields::open(node, "a verify object", findings)?;
-    fields.keys(super::keys::VERIFY);
+    let mut fields = Fields::open(node, &VERIFY, findings)?;
     let f = &mut fields;
     if !["options", "value", "says", "exact"].iter().any(|key| f.has(key)) {
         f.findings.push(claims_nothing(f.span()));
@@ -154,8 +155,7 @@ fn which(node: &Node, findings: &mut Vec<Finding>) -> Option<VerifyLab> {
 }
 
 fn run(member: &Member, findings: &mut Vec<Finding>) -> Option<Run> {
-    let mut fields = Fields::open(&member.value, "a run", findings)?;
-    fields.keys(super::keys::RUN);
+    let mut fields = Fields::open(&member.value, &RUN, findings)?;
     let f = &mut fields;
     let run = Run {
         name: member.key.clone(),
@@ -198,8 +198,8 @@ fn exact(member: &Member, findings: &mut Vec<Finding>) -> Option<Exact> {
         let form = read::text(&member.value, &read::shorten(&trace.value), findings)?;
         return Some(Exact { trace, form, tol: None });
     }
-    let mut fields = Fields::open(&member.value, "a closed form", findings)?;
-    let form = fields.need_text("is", "without it there is nothing that the trace is held to");
+    let mut fields = Fields::open(&member.value, &CLOSED_FORM, findings)?;
+    let form = fields.text("is");
     let tol = fields.number("tol");
     fields.finish();
     Some(Exact { trace, form: form?, tol })

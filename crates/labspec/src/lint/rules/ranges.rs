@@ -2,11 +2,9 @@
 
 use crate::finding::{Finding, Severity};
 use crate::json::{Number, nearest, read::named};
-use crate::spec::{ControlKind, Lab, OVERLAYS};
+use crate::spec::format::{LAB, MAX_DIGITS, OVERLAYS, Object, PLOT, READOUT, SLIDER, texts};
+use crate::spec::{ControlKind, Lab};
 use labspec_finding::{Example, Layer, Rule};
-
-/// Most decimals that a number is printed with: a double has 17 significant digits.
-pub const MAX_DIGITS: u32 = 17;
 
 /// A number that must be greater than zero.
 pub static NOT_POSITIVE: Rule = Rule {
@@ -59,23 +57,23 @@ pub static UNKNOWN_OVERLAY: Rule = Rule {
 pub(in crate::lint) const RULES: &[&Rule] = &[&NOT_POSITIVE, &DIGITS, &KEYFRAME, &UNKNOWN_OVERLAY];
 
 pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
-    positive("stopAt", lab.stop_at.as_ref(), "the time in seconds at which the lab pauses", findings);
-    positive("height", lab.height.as_ref(), "pixels", findings);
-    positive("forceScale", lab.force_scale.as_ref(), "metres per newton", findings);
+    positive(&LAB, "stopAt", lab.stop_at.as_ref(), "the time in seconds at which the lab pauses", findings);
+    positive(&LAB, "height", lab.height.as_ref(), "pixels", findings);
+    positive(&LAB, "forceScale", lab.force_scale.as_ref(), "metres per newton", findings);
     lab.speeds
         .iter()
-        .for_each(|s| positive("speeds", Some(s), "how many times as fast as reality", findings));
+        .for_each(|s| positive(&LAB, "speeds", Some(s), "how many times as fast as reality", findings));
     for plot in &lab.plots {
-        positive("window", plot.window.as_ref(), "seconds", findings);
-        positive("height", plot.height.as_ref(), "pixels", findings);
+        positive(&PLOT, "window", plot.window.as_ref(), "seconds", findings);
+        positive(&PLOT, "height", plot.height.as_ref(), "pixels", findings);
     }
     for control in &lab.controls {
         if let ControlKind::Slider { digits: count, .. } = &control.kind {
-            digits(count.as_ref(), findings);
+            digits(&SLIDER, count.as_ref(), findings);
         }
     }
-    lab.readouts.iter().for_each(|r| digits(r.digits.as_ref(), findings));
-    if let Some(key) = lab.key.as_ref().filter(|k| k.value < 0.0) {
+    lab.readouts.iter().for_each(|r| digits(&READOUT, r.digits.as_ref(), findings));
+    if let Some(key) = lab.key.as_ref().filter(|k| !LAB.allows("key", k.value)) {
         findings.push(
             Finding::new(
                 &KEYFRAME,
@@ -87,21 +85,28 @@ pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     }
     let toggles = lab.toggles.iter();
     for name in toggles.chain(lab.overlays.iter().map(|(name, _)| name)) {
-        if OVERLAYS.contains(&name.as_str()) {
+        if texts(&OVERLAYS).any(|known| known == name.as_str()) {
             continue;
         }
         let finding =
             Finding::new(&UNKNOWN_OVERLAY, name.span(), format!("{} cannot be drawn", named(name.as_str())));
-        findings.push(match nearest(name.as_str(), OVERLAYS) {
+        findings.push(match nearest(name.as_str(), texts(&OVERLAYS)) {
             Some(right) => finding.help(format!("did you mean `{right}`?")).fix(name.span(), right),
-            None => finding.help(format!("what can be drawn: {}", OVERLAYS.join(", "))),
+            None => finding
+                .help(format!("what can be drawn: {}", texts(&OVERLAYS).collect::<Vec<_>>().join(", "))),
         });
     }
 }
 
-/// Reports a number that is not greater than zero.
-pub(super) fn positive(name: &str, number: Option<&Number>, means: &str, findings: &mut Vec<Finding>) {
-    if let Some(number) = number.filter(|n| n.value <= 0.0) {
+/// Reports a number that its key does not allow, which is one that is not greater than zero.
+pub(super) fn positive(
+    object: &Object,
+    name: &str,
+    number: Option<&Number>,
+    means: &str,
+    findings: &mut Vec<Finding>,
+) {
+    if let Some(number) = number.filter(|n| !object.allows(name, n.value)) {
         findings.push(
             Finding::new(
                 &NOT_POSITIVE,
@@ -113,8 +118,8 @@ pub(super) fn positive(name: &str, number: Option<&Number>, means: &str, finding
     }
 }
 
-fn digits(number: Option<&Number>, findings: &mut Vec<Finding>) {
-    if let Some(n) = number.filter(|n| !(0.0..=f64::from(MAX_DIGITS)).contains(&n.value)) {
+fn digits(object: &Object, number: Option<&Number>, findings: &mut Vec<Finding>) {
+    if let Some(n) = number.filter(|n| !object.allows("digits", n.value)) {
         findings.push(
             Finding::new(
                 &DIGITS,

@@ -4,6 +4,7 @@ use super::ranges::positive;
 use crate::finding::{Finding, Severity};
 use crate::json::{encode, nearest, read::named};
 use crate::source::Text;
+use crate::spec::format::RUN;
 use crate::spec::{ControlKind, Lab, Lesson, QuestionKind, Verify, VerifyLab};
 use labspec_finding::{Example, Layer, Rule};
 
@@ -194,8 +195,8 @@ fn check_one(verify: &Verify, lab: Option<&Lab>, findings: &mut Vec<Finding>) {
     // A hostile object can set thousands of controls; the first mistakes are enough.
     let most = findings.len() + 50;
     for run in &verify.runs {
-        positive("until", run.until.as_ref(), "the length of the run in seconds", findings);
-        positive("steps", run.steps.as_ref(), "the length of the run in steps", findings);
+        positive(&RUN, "until", run.until.as_ref(), "the length of the run in seconds", findings);
+        positive(&RUN, "steps", run.steps.as_ref(), "the length of the run in steps", findings);
         if let (Some(until), Some(steps)) = (&run.until, &run.steps) {
             findings.push(
                 Finding::new(&RUN_LENGTH, steps.span.clone(), "this run has both `until` and `steps`")

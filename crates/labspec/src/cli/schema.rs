@@ -1,0 +1,32 @@
+//! `labspec schema`.
+
+use super::{Failure, Outcome, print};
+use crate::spec::format;
+use clap::ValueEnum;
+
+/// Arguments of `schema`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    /// What the schema is of
+    #[arg(value_enum, default_value = "lesson")]
+    of: Of,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Of {
+    /// A lab
+    Lab,
+    /// A quiz
+    Quiz,
+    /// A JSON file: a lab, a quiz, or a list of them
+    Lesson,
+}
+
+pub(super) fn schema(a: &Arguments) -> Result<Outcome, Failure> {
+    let root = match a.of {
+        Of::Lab => format::Root::Lab,
+        Of::Quiz => format::Root::Quiz,
+        Of::Lesson => format::Root::Lesson,
+    };
+    print(&crate::reference::schema(root)).map(|()| Outcome::Clean)
+}

@@ -1,0 +1,264 @@
+//! Reads the declared keys of one object, and collects what is wrong instead of stopping at the first mistake.
+
+use super::format::{Family, Key, Need, Object, Type};
+use crate::finding::{Finding, Severity};
+use crate::json::read::{number, scalar, shorten, text, whole, wrong, wrong_key};
+use crate::json::{Json, Member, Node, Number, Scalar, nearest};
+use crate::lint::rules::keys::{MISSING_KEY, UNKNOWN_KEY};
+use crate::source::Text;
+use std::ops::Range;
+
+/// The keys of one object, read one by one. [`Fields::finish`] reports what stands there and is not declared, and what
+/// is missing.
+pub(super) struct Fields<'n, 'f> {
+    /// What the object is, with its article: "a slider".
+    what: &'static str,
+    /// The keys that it may have.
+    keys: Vec<&'static Key>,
+    members: &'n [Member],
+    span: Range<usize>,
+    /// Misspelt keys: what was meant, and the index of the member.
+    meant: Vec<(&'static str, usize)>,
+    missing: Vec<(&'static str, Finding)>,
+    /// Where findings go.
+    pub(super) findings: &'f mut Vec<Finding>,
+}
+
+impl<'n, 'f> Fields<'n, 'f> {
+    /// Opens an object; anything else is a finding and `None`.
+    pub(super) fn open(
+        node: &'n Node,
+        object: &'static Object,
+        findings: &'f mut Vec<Finding>,
+    ) -> Option<Fields<'n, 'f>> {
+        Fields::with(node, object.what, object.keys.iter().collect(), findings)
+    }
+
+    /// Opens an object of a family; [`Fields::narrow`] says which one, once it is known.
+    pub(super) fn open_one(
+        node: &'n Node,
+        family: &'static Family,
+        findings: &'f mut Vec<Finding>,
+    ) -> Option<Fields<'n, 'f>> {
+        Fields::with(node, family.what, family.keys(), findings)
+    }
+
+    fn with(
+        node: &'n Node,
+        what: &'static str,
+        keys: Vec<&'static Key>,
+        findings: &'f mut Vec<Finding>,
+    ) -> Option<Fields<'n, 'f>> {
+        let Json::Object(members) = &node.json else {
+            wrong(findings, node, what, "an object { … }");
+            return None;
+        };
+        let (span, meant, missing) = (node.span.clone(), Vec::new(), Vec::new());
+        let mut fields = Fields { what, keys, members, span, meant, missing, findings };
+        fields.guess();
+        Some(fields)
+    }
+
+    /// Finds out what misspelt keys mean. They are then read as what was meant (and reported by [`Fields::finish`]),
+    /// so that one letter does not make everything else wrong.
+    fn guess(&mut self) {
+        for (i, member) in self.members.iter().enumerate().take(200) {
+            let key = member.key.as_str();
+            if self.key(key).is_some() || self.meant.len() >= 20 {
+                continue;
+            }
+            let fitting = self.keys.iter().filter(|k| fits(&k.of, &member.value.json)).map(|k| k.name);
+            if let Some(right) = nearest(key, fitting)
+                && !self.has(right)
+            {
+                self.meant.push((right, i));
+            }
+        }
+    }
+
+    fn key(&self, name: &str) -> Option<&'static Key> {
+        self.keys.iter().find(|k| k.name == name).copied()
+    }
+
+    /// Says which object of the family it is.
+    pub(super) fn narrow(&mut self, object: &'static Object) {
+        self.what = object.what;
+        self.keys = object.keys.iter().collect();
+    }
+
+    /// Bytes of the object, brackets included.
+    pub(super) fn span(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
+    /// The value of a key. Of two equal keys the last one counts, as in `JSON.parse`. One that is missing and must not
+    /// be is remembered.
+    pub(super) fn node(&mut self, key: &'static str) -> Option<&'n Node> {
+        debug_assert!(self.key(key).is_some(), "{} has no key {key}", self.what);
+        let exact = self.members.iter().rev().find(|m| m.key.value == key);
+        let meant =
+            || self.meant.iter().find(|(right, _)| *right == key).and_then(|(_, i)| self.members.get(*i));
+        let found = exact.or_else(meant).map(|m| &m.value);
+        if found.is_none() {
+            match self.key(key).map(|k| k.need) {
+                Some(Need::Must(why)) => self.missing(key, why, Severity::Error),
+                Some(Need::Advised(why)) => self.missing(key, why, Severity::Warning),
+                Some(Need::Optional) | None => {}
+            }
+        }
+        found
+    }
+
+    /// Whether the object has this key, perhaps misspelt.
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.members.iter().any(|m| m.key.value == key) || self.meant.iter().any(|(right, _)| *right == key)
+    }
+
+    /// Remembers that a key is missing, at the opening bracket of the object.
+    fn missing(&mut self, key: &'static str, why: &str, severity: Severity) {
+        if self.missing.iter().any(|(k, _)| *k == key) {
+            return;
+        }
+        let open = self.span.start..self.span.end.min(self.span.start + 1);
+        let finding = Finding::new(&MISSING_KEY, open, format!("{} needs `{key}`", self.what));
+        self.missing.push((key, finding.severity(severity).why(why).help(format!("add \"{key}\": …"))));
+    }
+
+    /// A text.
+    pub(super) fn text(&mut self, key: &'static str) -> Option<Text> {
+        let node = self.node(key)?;
+        text(node, key, self.findings)
+    }
+
+    /// A number.
+    pub(super) fn number(&mut self, key: &'static str) -> Option<Number> {
+        let node = self.node(key)?;
+        number(node, key, self.findings)
+    }
+
+    /// A whole number; its sign and range are for the rules.
+    pub(super) fn whole(&mut self, key: &'static str) -> Option<Number> {
+        let node = self.node(key)?;
+        whole(node, key, self.findings)
+    }
+
+    /// A truth value; absent or wrong means `false`.
+    pub(super) fn flag(&mut self, key: &'static str) -> bool {
+        let Some(node) = self.node(key) else { return false };
+        match node.json {
+            Json::Bool(b) => b,
+            _ => {
+                wrong_key(self.findings, node, key, "true or false, without quotes");
+                false
+            }
+        }
+    }
+
+    /// A number, text or truth value.
+    pub(super) fn scalar(&mut self, key: &'static str) -> Option<Scalar> {
+        let node = self.node(key)?;
+        scalar(node, key, self.findings)
+    }
+
+    /// The items of a list; wrong means none. `None` where the key is missing.
+    pub(super) fn items(&mut self, key: &'static str) -> Option<&'n [Node]> {
+        let node = self.node(key)?;
+        Some(match &node.json {
+            Json::Array(items) => items,
+            _ => {
+                wrong_key(self.findings, node, key, "a list [ … ]");
+                &[]
+            }
+        })
+    }
+
+    /// The items of a list; absent or wrong means none.
+    pub(super) fn list(&mut self, key: &'static str) -> &'n [Node] {
+        self.items(key).unwrap_or_default()
+    }
+
+    /// The members of an object of free keys; absent or wrong means none.
+    pub(super) fn map(&mut self, key: &'static str) -> &'n [Member] {
+        let Some(node) = self.node(key) else { return &[] };
+        match &node.json {
+            Json::Object(members) => members,
+            _ => {
+                wrong_key(self.findings, node, key, "an object { … }");
+                &[]
+            }
+        }
+    }
+
+    /// Reports every key that is not declared, and those that are missing unless they are only misspelt.
+    pub(super) fn finish(self) {
+        let (mut misspelt, mut reported) = (Vec::new(), 0);
+        for (i, member) in self.members.iter().enumerate() {
+            let key = member.key.as_str();
+            if self.key(key).is_some() {
+                continue;
+            }
+            let finding = Finding::new(
+                &UNKNOWN_KEY,
+                member.key.span(),
+                match key.trim().is_empty() {
+                    true => format!("a key of {} has no name", self.what),
+                    false => format!("{} has no key `{}`", self.what, shorten(key)),
+                },
+            );
+            // Suggestions for the first ones only: a hostile object can have thousands.
+            let known = || self.keys.iter().take(if reported < 20 { usize::MAX } else { 0 });
+            let meant = self.meant.iter().find(|(right, at)| *at == i && self.key(right).is_some());
+            let there =
+                |right: &str| self.members.iter().any(|m| m.key.value == right) || misspelt.contains(&right);
+            let fitting =
+                || nearest(key, known().filter(|k| fits(&k.of, &member.value.json)).map(|k| k.name));
+            let near = meant.map(|(right, _)| *right).or_else(fitting);
+            self.findings.push(match near.or_else(|| nearest(key, known().map(|k| k.name))) {
+                Some(right) if there(right) => finding.help(format!(
+                    "did you mean `{right}`? the object has it already: delete one of the two"
+                )),
+                Some(right) if near.is_some() => {
+                    misspelt.push(right);
+                    finding.help(format!("did you mean `{right}`?")).fix(member.key.span(), right)
+                }
+                Some(right) => {
+                    misspelt.push(right);
+                    let takes = self.key(right).map_or("a single value", |k| takes(&k.of));
+                    finding.help(format!("did you mean `{right}`? it takes {takes}"))
+                }
+                None => {
+                    let names: Vec<&str> = self.keys.iter().map(|k| k.name).collect();
+                    finding.help(format!("its keys are {}", names.join(", ")))
+                }
+            });
+            reported += 1;
+        }
+        let missing = self.missing.into_iter().filter(|(key, _)| !misspelt.contains(key));
+        self.findings.extend(missing.map(|(_, finding)| finding));
+    }
+}
+
+/// Whether such a value can stand where this is taken: a list, an object, or a single value.
+pub(super) fn fits(of: &Type, value: &Json) -> bool {
+    match (of, value) {
+        (_, Json::Broken) => true,
+        (Type::Either(a, b), _) => fits(a, value) || fits(b, value),
+        (_, Json::Array(_)) => takes(of) == A_LIST,
+        (_, Json::Object(_)) => takes(of) == AN_OBJECT,
+        _ => takes(of) == A_SINGLE_VALUE,
+    }
+}
+
+const A_LIST: &str = "a list [ … ]";
+const AN_OBJECT: &str = "an object { … }";
+const A_SINGLE_VALUE: &str = "a single value";
+
+/// What is taken, in the author's words.
+fn takes(of: &Type) -> &'static str {
+    match of {
+        Type::List(_) | Type::Numbers(_) | Type::Pair(_) => A_LIST,
+        Type::Map(_) | Type::Switches(_) | Type::Object(_) | Type::OneOf(_) => AN_OBJECT,
+        Type::Either(first, _) => takes(first),
+        _ => A_SINGLE_VALUE,
+    }
+}

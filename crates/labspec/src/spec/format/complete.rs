@@ -1,0 +1,233 @@
+//! What can be written at a place of a lab or a quiz: the keys that are not there yet, or the words that a key takes.
+
+use super::describe::{default, takes};
+use super::scan::{Scan, Scope, Spot, Step, scan};
+use super::{Family, Key, LAB, Object, QUIZ, Together, Type, Word};
+use std::ops::Range;
+
+/// Something that can be written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Completion {
+    /// The key or the word, without quotes.
+    pub text: &'static str,
+    /// A key of an object, rather than a value.
+    pub is_key: bool,
+    /// The bytes that it replaces: what is written there already, quotes included.
+    pub replace: Range<usize>,
+    /// What to write in their place: JSON, for a key with the colon where none follows.
+    pub insert: String,
+    /// What it means.
+    pub doc: &'static str,
+    /// What the key takes, in words.
+    pub takes: String,
+    /// What counts where the key is left out, as JSON.
+    pub default: Option<String>,
+    /// The object is wrong without this key.
+    pub required: bool,
+}
+
+/// What can be written at a byte offset of the JSON of a lab or a quiz, or of a list of them, in the order of the
+/// reference page. The text may be incomplete and broken. What is written there already chooses among the words; where
+/// no word begins so, all are given. Inside of code and of free text there is nothing.
+pub fn completions(text: &str, offset: usize) -> Vec<Completion> {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    let found = scan(text, offset);
+    let Some(spot) = &found.spot else { return Vec::new() };
+    let Some(scope) = found.scopes.get(spot.scope) else { return Vec::new() };
+    let holder = holder(&found, spot.scope);
+    let colon = text.get(spot.written.end..).is_some_and(|t| t.trim_start().starts_with(':'));
+    let all = match &spot.value {
+        None => keys(&holder, scope, spot, colon),
+        Some(step) => {
+            let key = match (&holder, step) {
+                (Holder::Keys(keys), Step::Key(name)) => keys.iter().find(|k| k.name == name).copied(),
+                _ => None,
+            };
+            values(key, inside(&holder, step), scope, spot)
+        }
+    };
+    let written = text.get(spot.written.start..offset).unwrap_or("").trim_start_matches('"').to_lowercase();
+    let begins = |c: &Completion| c.text.to_lowercase().starts_with(&written);
+    match all.iter().any(begins) {
+        true => all.into_iter().filter(begins).collect(),
+        false => all,
+    }
+}
+
+/// What an object or a list is, by the declaration.
+enum Holder {
+    /// An object that may have these keys.
+    Keys(Vec<&'static Key>),
+    /// An object of free names, or a list, of this type.
+    Of(Type),
+    /// Nothing that is declared.
+    Unknown,
+}
+
+fn holder(found: &Scan, index: usize) -> Holder {
+    // From the outermost to this one.
+    let mut road = vec![index];
+    while let Some((parent, _)) = road.last().and_then(|&i| found.scopes.get(i)?.parent.as_ref()) {
+        road.push(*parent);
+    }
+    let mut at = Holder::Unknown;
+    for (depth, scope) in road.iter().rev().filter_map(|&i| found.scopes.get(i)).enumerate() {
+        let outer_list = depth == 1 && matches!(at, Holder::Unknown);
+        at = match &scope.parent {
+            None if scope.list => Holder::Unknown,
+            None => root(scope),
+            Some((_, Step::Item(_))) if outer_list && !scope.list => root(scope),
+            Some((_, step)) => match inside(&at, step) {
+                Some(of) => of_type(of, scope),
+                None => Holder::Unknown,
+            },
+        };
+    }
+    at
+}
+
+/// The object of a whole text: a quiz or a lab, and perhaps either.
+fn root(scope: &Scope) -> Holder {
+    let has = |object: &Object| {
+        let other = if object.name == LAB.name { &QUIZ } else { &LAB };
+        scope.keys.iter().any(|(name, _)| object.key(name).is_some() && other.key(name).is_none())
+    };
+    let objects: &[&'static Object] = match (has(&LAB), has(&QUIZ)) {
+        (_, true) => &[&QUIZ],
+        (true, false) => &[&LAB],
+        (false, false) => &[&LAB, &QUIZ],
+    };
+    Holder::Keys(allowed(objects, scope))
+}
+
+/// What a place of an object or a list takes.
+fn inside(holder: &Holder, step: &Step) -> Option<Type> {
+    match (holder, step) {
+        (Holder::Keys(keys), Step::Key(name)) => keys.iter().find(|k| k.name == name).map(|k| k.of),
+        (Holder::Of(Type::Map(map)), Step::Key(_)) => Some(map.of),
+        (Holder::Of(Type::Switches(_)), Step::Key(_)) => Some(Type::Flag),
+        (Holder::Of(Type::List(item)), Step::Item(_)) => Some(**item),
+        (Holder::Of(Type::Pair(parts)), Step::Item(i)) => parts.get(*i).map(|p| p.of),
+        _ => None,
+    }
+}
+
+/// What an object or a list of this type is.
+fn of_type(of: Type, scope: &Scope) -> Holder {
+    match (of, scope.list) {
+        (Type::Either(a, b), _) => match of_type(*a, scope) {
+            Holder::Unknown => of_type(*b, scope),
+            found => found,
+        },
+        (Type::Object(object), false) => Holder::Keys(allowed(&[object], scope)),
+        (Type::OneOf(family), false) => Holder::Keys(allowed(&meant(family, scope), scope)),
+        (Type::Map(_) | Type::Switches(_), false) | (Type::List(_) | Type::Pair(_), true) => Holder::Of(of),
+        _ => Holder::Unknown,
+    }
+}
+
+/// The objects of a family that this one can be: the one that its word tells, else those that have all its keys.
+fn meant(family: &'static Family, scope: &Scope) -> Vec<&'static Object> {
+    let word = scope.keys.iter().find(|(name, _)| name == family.key).and_then(|(_, word)| word.as_deref());
+    if let Some(object) = word.and_then(|w| family.object(Some(w))) {
+        return vec![object];
+    }
+    let known = family.keys();
+    let ours = |name: &str| known.iter().any(|k| k.name == name);
+    let fits =
+        |object: &&Object| scope.keys.iter().all(|(name, _)| !ours(name) || object.key(name).is_some());
+    let some: Vec<&'static Object> = family.objects.iter().copied().filter(fits).collect();
+    if some.is_empty() { family.objects.to_vec() } else { some }
+}
+
+/// The keys of objects, each once, that are not excluded by those that stand there.
+fn allowed(objects: &[&'static Object], scope: &Scope) -> Vec<&'static Key> {
+    let mut all: Vec<&'static Key> = Vec::new();
+    for object in objects {
+        let stands = |name: &str| scope.keys.iter().any(|(key, _)| key == name);
+        let excluded = |name: &str| {
+            let other =
+                |names: &[&str]| names.contains(&name) && names.iter().any(|n| *n != name && stands(n));
+            object.together.iter().any(|rule| match rule {
+                Together::ExactlyOne(names) => other(names),
+                Together::AtMostOne(names) | Together::FirstCounts(names) => other(names.as_slice()),
+                Together::AtLeastOne(_) | Together::OneAdvised(_) => false,
+            })
+        };
+        for key in object.keys {
+            if !all.iter().any(|k| k.name == key.name) && (stands(key.name) || !excluded(key.name)) {
+                all.push(key);
+            }
+        }
+    }
+    all
+}
+
+fn keys(holder: &Holder, scope: &Scope, spot: &Spot, colon: bool) -> Vec<Completion> {
+    let stands = |name: &str| scope.keys.iter().any(|(key, _)| key == name);
+    let insert = |name: &str| format!("\"{name}\"{}", if colon { "" } else { ": " });
+    match holder {
+        Holder::Keys(keys) => keys
+            .iter()
+            .filter(|k| !stands(k.name))
+            .map(|k| Completion {
+                text: k.name,
+                is_key: true,
+                replace: spot.written.clone(),
+                insert: insert(k.name),
+                doc: k.doc,
+                takes: takes(k),
+                default: default(k).map(|value| value.to_string()),
+                required: k.required(),
+            })
+            .collect(),
+        Holder::Of(Type::Switches(words)) => words
+            .iter()
+            .filter(|w| !stands(w.text))
+            .map(|w| Completion {
+                text: w.text,
+                is_key: true,
+                replace: spot.written.clone(),
+                insert: insert(w.text),
+                doc: w.doc,
+                takes: "true or false".into(),
+                default: Some("false".into()),
+                required: false,
+            })
+            .collect(),
+        Holder::Of(_) | Holder::Unknown => Vec::new(),
+    }
+}
+
+/// The words that a place takes. `key` is what it is the value of.
+fn values(key: Option<&'static Key>, of: Option<Type>, scope: &Scope, spot: &Spot) -> Vec<Completion> {
+    let value = |text: &'static str, insert: String, doc: &'static str, takes: String| Completion {
+        text,
+        is_key: false,
+        replace: spot.written.clone(),
+        insert,
+        doc,
+        takes,
+        default: key.and_then(default).map(|value| value.to_string()),
+        required: false,
+    };
+    match of {
+        Some(Type::Words(words)) => {
+            let takes = || words.iter().map(|w| format!("\"{}\"", w.text)).collect::<Vec<_>>().join(", ");
+            let free = |w: &&Word| !scope.list || !scope.texts.iter().any(|t| t == w.text);
+            words
+                .iter()
+                .filter(free)
+                .map(|w| value(w.text, format!("\"{}\"", w.text), w.doc, takes()))
+                .collect()
+        }
+        Some(Type::Flag) => {
+            let doc = key.map_or("whether it is drawn", |k| k.doc);
+            ["true", "false"].map(|word| value(word, word.into(), doc, "true or false".into())).into()
+        }
+        _ => Vec::new(),
+    }
+}

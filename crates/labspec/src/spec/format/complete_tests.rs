@@ -1,0 +1,244 @@
+//! Completions, where an author writes.
+
+use super::*;
+use crate::markdown::{self, BlockKind};
+use crate::source::SourceFile;
+use proptest::prelude::*;
+use std::ops::Range;
+
+/// The words at the bar, which is taken out of the text.
+fn at(marked: &str) -> Vec<&'static str> {
+    all(marked).into_iter().map(|c| c.text).collect()
+}
+
+fn all(marked: &str) -> Vec<Completion> {
+    let offset = marked.find('¦').unwrap();
+    completions(&marked.replace('¦', ""), offset)
+}
+
+/// The text with a completion put in.
+fn taken(marked: &str, word: &str) -> String {
+    let completion = all(marked).into_iter().find(|c| c.text == word).unwrap();
+    let mut text = marked.replace('¦', "");
+    text.replace_range(completion.replace, &completion.insert);
+    text
+}
+
+fn names(object: &Object, but: &[&str]) -> Vec<&'static str> {
+    object.keys.iter().map(|k| k.name).filter(|k| !but.contains(k)).collect()
+}
+
+#[test]
+fn behind_a_brace_or_a_comma_stand_the_keys_that_are_not_there_yet() {
+    assert_eq!(at(r#"{"model": "fall", ¦}"#), names(&LAB, &["model", "xml"]));
+    assert_eq!(at(r#"{¦ "model": "fall", "camera": {}}"#), names(&LAB, &["model", "xml", "camera"]));
+    assert_eq!(at(r#"{"model": "fall", "camera": {¦"#), names(&CAMERA, &[]));
+    assert_eq!(at(r#"{"model": "fall", "plots": [{"traces": [{¦}]}]}"#), names(&TRACE, &[]));
+    assert_eq!(at(r#"{"plots": [{"traces": [], "refLines": [{"y": 1, ¦"#), ["label"]);
+    assert_eq!(at(r#"{"verify": {"runs": {"a": {"until": 1, ¦}}}}"#), names(&RUN, &["until", "steps"]));
+    assert_eq!(at(r#"{"verify": {"exact": {"z": {¦}}}}"#), ["is", "tol"]);
+    assert_eq!(at(r#"{"verify": {"lab": {¦}}}"#), names(&LAB, &[]));
+    assert_eq!(at(r#"{"id": "a", ¦}"#), ["title", "questions"]);
+    assert_eq!(at(r#"[{"model": "fall"}, {"id": "a", ¦"#), ["title", "questions"]);
+    assert_eq!(
+        at(r#"{"id": "a", "questions": [{"kind": "predict", "sim": {"xml": "", ¦"#),
+        names(&LAB, &["model", "xml"])
+    );
+    // Nothing tells yet which one it is.
+    let both = at("{¦");
+    assert!(both.starts_with(&names(&LAB, &[])) && both.ends_with(&["id", "questions"]));
+}
+
+#[test]
+fn the_word_of_a_family_tells_the_keys_and_so_do_the_keys() {
+    assert_eq!(at(r#"{"controls": [{"type": "button", ¦}]}"#), ["label", "run"]);
+    assert_eq!(at(r#"{"controls": [{¦ "label": "a", "type": "button"}]}"#), ["run"]);
+    let keys = at(r#"{"controls": [{"label": "a", "min": 0, ¦}]}"#);
+    assert_eq!(keys, names(&SLIDER, &["label", "min"]));
+    let keys = at(r#"{"controls": [{"label": "a", ¦}]}"#);
+    assert!(keys.contains(&"run") && keys.contains(&"options") && keys.contains(&"min"));
+    // With `set`, `apply` does nothing.
+    assert!(!at(r#"{"controls": [{"type": "slider", "set": "x", ¦}]}"#).contains(&"apply"));
+    assert_eq!(at(r#"{"questions": [{"kind": "numeric", "q": "?", ¦}]}"#), names(&NUMERIC, &["kind", "q"]));
+    assert!(!at(r#"{"questions": [{"tol": 1, ¦}]}"#).contains(&"options"));
+}
+
+#[test]
+fn what_is_written_chooses() {
+    assert_eq!(at(r#"{"model": "fall", "con¦"#), ["controller", "controls"]);
+    assert_eq!(at(r#"{"model": "fall", "con¦": []}"#), ["controller", "controls"]);
+    assert_eq!(at(r#"{"model": "fall", con¦ }"#), ["controller", "controls"]);
+    assert_eq!(at("{\"model\": \"fall\", \"con¦\n \"controls\": []}"), ["controller"]);
+    assert_eq!(at(r#"{"model": "fall", "con¦, "controls": [{"label": "a"}]}"#), ["controller"]);
+    assert_eq!(at(r#"{"model": "fall", "¦"}"#), names(&LAB, &["model", "xml"]));
+    // No key begins like this: all are given.
+    assert_eq!(at(r#"{"model": "fall", "zzz¦"}"#), names(&LAB, &["model", "xml"]));
+    assert_eq!(taken(r#"{"model": "fall", "con¦"}"#, "controls"), r#"{"model": "fall", "controls": }"#);
+    assert_eq!(taken(r#"{"con¦t": []}"#, "controls"), r#"{"controls": []}"#);
+    assert_eq!(taken("{\"con¦\n\"model\": 1}", "controls"), "{\"controls\": \n\"model\": 1}");
+}
+
+#[test]
+fn a_value_takes_its_words() {
+    assert_eq!(at(r#"{"controls": [{"type": "¦"}]}"#), ["slider", "select", "button"]);
+    assert_eq!(at(r#"{"controls": [{"type": ¦}]}"#), ["slider", "select", "button"]);
+    assert_eq!(at(r#"{"controls": [{"type": "s¦, "label": "a"}]}"#), ["slider", "select"]);
+    assert_eq!(at("{\"controls\": [{\"type\": \"b¦}]}"), ["button"]);
+    assert_eq!(at(r#"{"questions": [{"kind": "¦mcq", "q": "?"}]}"#).len(), 6);
+    assert_eq!(at(r#"{"id": "a", "questions": [{"kind": "n¦"}]}"#), ["numeric"]);
+    assert_eq!(at(r#"{"expect": ¦, "model": "a"}"#), ["breaks"]);
+    assert_eq!(at(r#"{"model": "a", "dock": ¦}"#), ["true", "false"]);
+    assert_eq!(at(r#"{"model": "a", "dock": t¦}"#), ["true"]);
+    assert_eq!(at(r#"{"model": "a", "toggles": ["com", "¦", "sites"]}"#).len(), OVERLAYS.len() - 2);
+    assert_eq!(at(r#"{"model": "a", "overlays": {"com": true, "s¦"}}"#), ["sites", "shadows"]);
+    assert_eq!(at(r#"{"model": "a", "overlays": {"com": ¦}}"#), ["true", "false"]);
+    assert_eq!(taken(r#"{"controls": [{"type": se¦}]}"#, "select"), r#"{"controls": [{"type": "select"}]}"#);
+}
+
+#[test]
+fn in_code_and_free_text_and_between_values_there_is_nothing() {
+    for marked in [
+        r#"{"model": "¦fall"}"#,
+        r#"{"setup": "ctx.a = ¦1"}"#,
+        r#"{"setup": "ctx.a = {¦"#,
+        r#"{"setup": "a = se¦t" "stopAt": 1}"#,
+        "{\"setup\": \"a = se¦t\n \"stopAt\": 1}",
+        r#"{"setup": "ctx.a = {'¦"#,
+        r#"{"readouts": [{"label": "t", "expr": "data.¦time"}]}"#,
+        r#"{"readouts": [{"label": "t", "expr": "data.¦"#,
+        r#"{"stopAt": ¦}"#,
+        r#"{"stopAt": 1¦}"#,
+        r#"{"model": "fall" ¦}"#,
+        r#"{"model"¦: "fall"}"#,
+        r#"{"model": "fall"}¦"#,
+        r#"{"verify": {"measure": {"¦"}}}"#,
+        r#"{"verify": {"runs": {"a": {"set": {¦"#,
+        r#"{"questions": [{"options": ["a", ¦]}]}"#,
+        r#"{"no such key": {¦}}"#,
+        r#"{"model": {"a": {¦}}}"#,
+        r#"[[{¦"#,
+        "¦",
+        "# A lesson¦",
+    ] {
+        assert_eq!(at(marked), Vec::<&str>::new(), "{marked}");
+    }
+}
+
+#[test]
+fn each_says_what_it_means_what_it_takes_and_what_counts_without_it() {
+    let height = all(r#"{"model": "fall", "hei¦"#).remove(0);
+    assert_eq!(
+        (height.text, height.doc, height.takes.as_str(), height.default.as_deref(), height.required),
+        ("height", "the height of the picture", "number above 0, in px", Some("300"), false)
+    );
+    let select = all(r#"{"controls": [{"type": "sel¦"}]}"#).remove(0);
+    assert_eq!((select.text, select.doc, select.is_key), ("select", "one of several values", false));
+    assert_eq!(
+        (select.takes.as_str(), select.default.as_deref()),
+        (r#""slider", "select", "button""#, Some("\"slider\""))
+    );
+    assert!(all(r#"{"plots": [{"¦"#)[0].required);
+}
+
+/// The JSON of all fences of our lessons.
+fn bodies() -> Vec<String> {
+    let mut all = Vec::new();
+    for text in [
+        include_str!("../../../../../specs/lessons/01-what-a-step-computes.md"),
+        include_str!("../../../../../specs/lessons/02-bounce-and-swing.md"),
+    ] {
+        let scan = markdown::scan(&SourceFile::new("a.md", text));
+        let ours = scan.blocks.into_iter().filter(|b| !matches!(b.kind, BlockKind::Code { .. }));
+        all.extend(ours.map(|b| b.body.value));
+        all.push(text.into());
+    }
+    assert!(all.len() > 8);
+    all
+}
+
+#[test]
+fn no_offset_of_a_lesson_is_a_panic() {
+    for text in bodies() {
+        for offset in 0..=text.len() + 1 {
+            for c in completions(&text, offset) {
+                assert!(text.get(c.replace).is_some());
+            }
+        }
+    }
+}
+
+/// The keys of a tree with their places, and of each the object it stands in.
+fn keys_of(node: &crate::json::Node, out: &mut Vec<(Range<usize>, String, Vec<String>)>) {
+    if let crate::json::Json::Array(items) = &node.json {
+        items.iter().for_each(|item| keys_of(item, out));
+    }
+    for member in node.members() {
+        let all = node.members().iter().map(|m| m.key.value.clone()).collect();
+        out.push((member.key.span(), member.key.value.clone(), all));
+        keys_of(&member.value, out);
+    }
+}
+
+/// At every key of every real lab and quiz, that key is offered and none of the others that stand there: whether the
+/// key is whole, half, or not yet written.
+#[test]
+fn at_every_key_of_a_lesson_it_is_offered_and_its_neighbours_are_not() {
+    let mut tried = 0;
+    for text in bodies() {
+        let parsed = crate::json::parse(&text, &crate::source::SourceMap::verbatim(0..text.len()));
+        if parsed.broken {
+            continue;
+        }
+        let mut keys = Vec::new();
+        keys_of(&parsed.node.unwrap(), &mut keys);
+        let declared = |name: &str| OBJECTS.iter().any(|o| o.key(name).is_some());
+        for (span, name, all) in keys {
+            let whole = completions(&text, span.start);
+            // A name that the author chose: the label of a control, a run, a measure.
+            if whole.is_empty() || !declared(&name) {
+                continue;
+            }
+            tried += 1;
+            // Written out to its second letter, with everything behind it, or with nothing.
+            let half = span.start + name.len().min(2);
+            let (before, cut) = (&text[..half], &text[half..]);
+            let unclosed = format!("{before}\n{}", cut.split_once(',').map_or("", |(_, rest)| rest));
+            for (text, offset) in
+                [(&text, span.start), (&text, span.end), (&before.to_string(), half), (&unclosed, half)]
+            {
+                let offered: Vec<&str> = completions(text, offset).into_iter().map(|c| c.text).collect();
+                assert!(offered.contains(&name.as_str()), "{name} at {offset}: {offered:?}\n{text}");
+            }
+            for other in all.iter().filter(|k| **k != name) {
+                assert!(!whole.iter().any(|c| c.text == other), "{other} beside {name}");
+            }
+        }
+    }
+    assert!(tried > 200, "{tried}");
+}
+
+/// Every quote of this line could begin a string that goes to its end.
+#[test]
+fn a_hostile_line_takes_no_longer_than_its_length() {
+    for piece in ["\"a,\\", "\"\\", "{\"", "[\"a, ", "\"a\"b"] {
+        let text = format!("{{{}", piece.repeat(200_000));
+        completions(&text, text.len());
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+    /// No text is a panic, and what is replaced is a part of it.
+    #[test]
+    fn no_text_is_a_panic(pieces in prop::collection::vec(prop::sample::select(vec![
+        "{", "}", "[", "]", ",", ":", "\"", "\\", "\n", " ", "é", "😀", "\"model\"", "\"controls\": [", "\"type\": \"",
+        "\"kind\"", "\"questions\": [{", "\"overlays\": {", "\"verify\": {\"runs\": {\"a\": {", "1", "true", "com", "/*",
+    ]), 0..30)) {
+        let text = pieces.concat();
+        for offset in 0..=text.len() {
+            for c in completions(&text, offset) {
+                prop_assert!(text.get(c.replace).is_some());
+            }
+        }
+    }
+}

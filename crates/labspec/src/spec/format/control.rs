@@ -1,0 +1,144 @@
+//! Sliders, selects and buttons.
+
+use super::plot::DIGITS;
+use super::{Absent, Family, Key, Object, Part, Together, Type, Word, key};
+use crate::spec::Form;
+
+static TYPES: [Word; 3] = [
+    Word { text: "slider", doc: "a number between two ends" },
+    Word { text: "select", doc: "one of several values" },
+    Word { text: "button", doc: "statements that run at a press" },
+];
+
+/// A slider, a select or a button.
+pub static CONTROL: Family = Family {
+    name: "control",
+    what: "a control",
+    doc: "What a student can change.",
+    key: "type",
+    words: &TYPES,
+    objects: &[&SLIDER, &SELECT, &BUTTON],
+};
+
+const TYPE: Key = key("type", Type::Words(&TYPES), "which control it is", r#""select""#);
+
+const LABEL: Key =
+    key("label", Type::Text, "the name that a student reads; runs address the control by it", r#""gravity""#)
+        .must("the label is what the student reads, and how runs address the control");
+
+const SET: Key =
+    key("set", Type::Code(Form::Target), "the field that gets the value", r#""model.opt.gravity[2]""#);
+
+const APPLY: Key = key(
+    "apply",
+    Type::Code(Form::Statements),
+    "statements that see the value as `value`",
+    r#""model.body_mass[1] = 1 + 0.05 * Math.abs(value); mj.mj_setConst(model, data)""#,
+);
+
+const PARAM: Key = key(
+    "param",
+    Type::Text,
+    "the name under which the value is stored: code reads it as `ctx.NAME`",
+    r#""push""#,
+);
+
+const INIT: Key = key(
+    "init",
+    Type::Flag,
+    "whether the value is applied again after every reset; needed where it is written into `data`, which a reset clears",
+    "true",
+);
+
+const RESET: Key = key("reset", Type::Flag, "whether a change is followed by a reset", "true");
+
+/// What a slider and a select ask for.
+const EFFECT: &[Together] =
+    &[Together::AtLeastOne(&["set", "apply", "param"]), Together::FirstCounts(&["set", "apply"])];
+
+/// A slider.
+pub static SLIDER: Object = Object {
+    name: "slider",
+    what: "a slider",
+    doc: "A number between two ends.",
+    tag: Some(("type", "slider")),
+    minimal: r#"{"label": "gravity", "min": -20, "max": 0, "value": -9.81, "set": "model.opt.gravity[2]"}"#,
+    keys: &[
+        Key { example: r#""slider""#, absent: Absent::Text("slider"), ..TYPE },
+        LABEL,
+        key("unit", Type::Text, "the unit, shown behind the value", r#""m/s^2""#),
+        key("min", Type::Number, "the lower end; below `max`", "-20").must("a slider needs two ends"),
+        key("max", Type::Number, "the upper end", "0").must("a slider needs two ends"),
+        key(
+            "step",
+            Type::Number,
+            "the values that the slider can take begin at `min` and are this far apart",
+            "0.01",
+        )
+        .positive()
+        .or(Absent::Said("a hundredth of the range")),
+        key("value", Type::Number, "the value at the start, between the two ends", "-9.81")
+            .must("without it the slider starts as NaN, and NaN is what gets assigned"),
+        DIGITS,
+        SET,
+        APPLY,
+        PARAM,
+        INIT,
+        RESET,
+    ],
+    together: EFFECT,
+};
+
+static CHOICE_PARTS: [Part; 2] =
+    [Part { what: "the text that is shown", of: Type::Text }, Part { what: "the value", of: Type::Scalar }];
+static CHOICE: Type = Type::Pair(&CHOICE_PARTS);
+
+/// A select.
+pub static SELECT: Object = Object {
+    name: "select",
+    what: "a select",
+    doc: "One of several values, chosen by its text.",
+    tag: Some(("type", "select")),
+    minimal: r#"{"type": "select", "label": "integrator", "options": [["Euler", 0], ["RK4", 1]], "value": 0, "set": "model.opt.integrator"}"#,
+    keys: &[
+        TYPE.must(""),
+        Key { example: r#""integrator""#, ..LABEL },
+        key(
+            "options",
+            Type::List(&CHOICE),
+            "what can be chosen: for each choice the text that is shown, and the value",
+            r#"[["Euler", 0], ["RK4", 1], ["implicit", 2]]"#,
+        )
+        .items(1)
+        .must("a select offers a list of [text, value] pairs"),
+        key("value", Type::Scalar, "the value at the start, one of those in `options`", "1")
+            .must("without it the select starts with no value"),
+        Key { example: r#""model.opt.integrator""#, ..SET },
+        Key { example: r#""model.opt.timestep = 0.002 / (1 + value)""#, ..APPLY },
+        PARAM,
+        INIT,
+        RESET,
+    ],
+    together: EFFECT,
+};
+
+/// A button.
+pub static BUTTON: Object = Object {
+    name: "button",
+    what: "a button",
+    doc: "Statements that run whenever a student presses it. Nothing is reset; `mj_forward` follows.",
+    tag: Some(("type", "button")),
+    minimal: r#"{"type": "button", "label": "Push", "run": "data.joint('ball').qvel[0] = 1"}"#,
+    keys: &[
+        Key { example: r#""button""#, ..TYPE }.must(""),
+        Key { example: r#""Push""#, doc: "the text on the button; runs press it by this name", ..LABEL },
+        key(
+            "run",
+            Type::Code(Form::Statements),
+            "what a press does: it may set the state (a velocity is a kick), forces, fields of the model, or names of `ctx` that `controller` reads",
+            r#""data.joint('ball').qvel[0] = 1""#,
+        )
+        .must("without statements the button does nothing"),
+    ],
+    together: &[],
+};

@@ -1,0 +1,95 @@
+//! What a key takes, in words: for the reference page, and for who writes in an editor.
+
+use super::{Absent, Key, Limits, Type, texts};
+use crate::spec::Form;
+use serde_json::{Value, json};
+
+/// What a key takes, with its unit and its limits: `number above 0, in s`.
+pub(super) fn takes(key: &Key) -> String {
+    let mut text = kind(&key.of);
+    text.push_str(&limits(&key.limits));
+    if !key.unit.is_empty() {
+        text.push_str(&format!(", in {}", key.unit));
+    }
+    match key.items {
+        0 => {}
+        1 => text.push_str(", at least one"),
+        n => text.push_str(&format!(", at least {n}")),
+    }
+    text
+}
+
+fn kind(of: &Type) -> String {
+    match of {
+        Type::Text => "text".into(),
+        Type::Html => "text, may hold HTML".into(),
+        Type::Code(Form::Expression) => "code: an expression".into(),
+        Type::Code(Form::Statements) => "code: statements".into(),
+        Type::Code(Form::Target) => "code: a field that can be assigned to".into(),
+        Type::Number => "number".into(),
+        Type::Whole => "whole number".into(),
+        Type::Flag => "true or false".into(),
+        Type::Scalar => "number, text, true or false".into(),
+        Type::Words(words) => {
+            let all: Vec<String> = texts(words).map(|w| format!("\"{w}\"")).collect();
+            all.join(", ")
+        }
+        Type::List(item) => format!("list of {}", plural(item)),
+        Type::Numbers(n) => format!("list of {n} numbers"),
+        Type::Pair([first, second]) => format!("[{}, {}]", first.what, second.what),
+        Type::Map(map) => format!("object: {} → {}", map.names, kind(&map.of)),
+        Type::Switches(_) => "object: word → true or false".into(),
+        Type::Object(object) => object.what.into(),
+        Type::OneOf(family) => family.what.into(),
+        Type::Either(a, b) => format!("{}, or {}", kind(a), kind(b)),
+    }
+}
+
+fn plural(of: &Type) -> String {
+    match of {
+        Type::Text => "texts".into(),
+        Type::Html => "texts, may hold HTML".into(),
+        Type::Code(Form::Expression) => "expressions".into(),
+        Type::Number => "numbers".into(),
+        Type::Object(object) => format!("{} objects", object.name),
+        Type::OneOf(family) => format!("{} objects", family.name),
+        Type::Pair(_) => format!("pairs {}", kind(of)),
+        Type::Words(_) => format!("words: {}", kind(of)),
+        other => kind(other),
+    }
+}
+
+fn limits(limits: &Limits) -> String {
+    match (limits.above, limits.least, limits.most) {
+        (_, Some(least), Some(most)) => format!(" from {least} to {most}"),
+        (Some(above), ..) => format!(" above {above}"),
+        (_, Some(least), _) => format!(" of at least {least}"),
+        (.., Some(most)) => format!(" of at most {most}"),
+        _ => String::new(),
+    }
+}
+
+/// What counts where a key is left out, as JSON. `None` where it is nothing, or depends on the rest.
+pub(super) fn default(key: &Key) -> Option<Value> {
+    Some(match key.absent {
+        Absent::Nothing | Absent::Said(_) => return None,
+        Absent::Number(x) => number(x),
+        Absent::Text(text) => json!(text),
+        Absent::False => json!(false),
+        Absent::Numbers(all) => all.iter().map(|x| number(*x)).collect(),
+        Absent::Empty if matches!(key.of, Type::List(_)) => json!([]),
+        Absent::Empty => json!({}),
+    })
+}
+
+/// A number as people write it: without decimals where it has none.
+pub(super) fn number(x: f64) -> Value {
+    if x.fract() == 0.0 && x.abs() < 1e15 { json!(x as i64) } else { json!(x) }
+}
+
+impl Key {
+    /// Whether an object without this key is wrong.
+    pub fn required(&self) -> bool {
+        self.items > 0 || matches!(self.need, super::Need::Must(_))
+    }
+}

@@ -1,0 +1,209 @@
+//! The lab and its camera, and the order in which things happen.
+
+use super::{Absent, CONTROL, Key, Object, PLOT, READOUT, Together, Type, VERIFY, Word, key};
+use crate::spec::Form;
+
+/// What can be drawn over the scene.
+pub static OVERLAYS: [Word; 8] = [
+    Word { text: "frames", doc: "coordinate frames" },
+    Word { text: "joints", doc: "joints" },
+    Word { text: "contacts", doc: "the points of contact" },
+    Word { text: "forces", doc: "the forces of contacts; `forceScale` says how long" },
+    Word { text: "com", doc: "centres of mass" },
+    Word { text: "sites", doc: "sites" },
+    Word { text: "cameras", doc: "cameras" },
+    Word { text: "shadows", doc: "shadows" },
+];
+
+static OVERLAY: Type = Type::Words(&OVERLAYS);
+static ONE_CONTROL: Type = Type::OneOf(&CONTROL);
+static ONE_PLOT: Type = Type::Object(&PLOT);
+static ONE_READOUT: Type = Type::Object(&READOUT);
+static NUMBER: Type = Type::Number;
+
+/// What a lab can be expected to do.
+static EXPECTED: [Word; 1] = [Word {
+    text: "breaks",
+    doc: "the simulation meets a bad number or gains energy from nothing, and that is the lesson",
+}];
+
+/// `verify`, on a lab and on a question. (A function: a constant may not lead back to itself.)
+pub(super) const fn verify_key() -> Key {
+    key(
+        "verify",
+        Type::Object(&VERIFY),
+        "how a machine can check what the text claims; the page does not read it",
+        r##"{"lab": "#1", "measure": {"speed": "final(-data.joint('ball').qvel[2])"}, "says": [["9.81 m/s", "speed"]]}"##,
+    )
+}
+
+/// A lab.
+pub static LAB: Object = Object {
+    name: "lab",
+    what: "a lab",
+    doc: "A model, what a student can change, and what is shown of it.",
+    tag: None,
+    minimal: r#"{"model": "fall"}"#,
+    keys: &[
+        key(
+            "model",
+            Type::Text,
+            "the name of a model in the folder of models, without path and ending",
+            r#""fall""#,
+        ),
+        key(
+            "xml",
+            Type::Text,
+            "a model (MJCF) written here, in the place of `model`",
+            r#""<mujoco><worldbody><body name='ball'><freejoint name='ball'/><geom size='0.1'/></body></worldbody></mujoco>""#,
+        ),
+        key(
+            "key",
+            Type::Whole,
+            "the keyframe of the model from which the lab starts and to which a reset returns, counted from 0",
+            "0",
+        )
+        .at_least(0.0)
+        .or(Absent::Said("the model's own start")),
+        key("title", Type::Text, "the title of the lab", r#""A fall""#).or(Absent::Text("")),
+        key("kind", Type::Text, "the word above the title", r#""Experiment""#).or(Absent::Text("Lab")),
+        key(
+            "note",
+            Type::Html,
+            "a remark below the lab",
+            r#""Moving the slider starts the fall again.""#,
+        ),
+        key("height", Type::Number, "the height of the picture", "220")
+            .unit("px")
+            .positive()
+            .or(Absent::Number(300.0)),
+        key("dock", Type::Flag, "whether the lab is docked beside the text", "true"),
+        key("autoplay", Type::Flag, "whether the lab plays as soon as it is shown", "true"),
+        key(
+            "camera",
+            Type::Object(&CAMERA),
+            "from where the scene is seen",
+            r#"{"azimuth": -90, "elevation": 0, "distance": 3, "target": [0, 0, 1]}"#,
+        )
+        .or(Absent::Empty),
+        key(
+            "overlays",
+            Type::Switches(&OVERLAYS),
+            "what is drawn over the scene at the start",
+            r#"{"frames": true}"#,
+        )
+        .or(Absent::Empty),
+        key(
+            "toggles",
+            Type::List(&OVERLAY),
+            "overlays that get a checkbox, with which a student draws or hides them",
+            r#"["contacts", "forces"]"#,
+        )
+        .or(Absent::Empty),
+        key("forceScale", Type::Number, "how long a drawn force of 1 N is", "0.05")
+            .unit("m/N")
+            .positive()
+            .or(Absent::Number(0.02)),
+        key(
+            "trail",
+            Type::Text,
+            "the name of a site of the model; the path that it takes is drawn as a line",
+            r#""tip""#,
+        ),
+        key(
+            "speeds",
+            Type::List(&NUMBER),
+            "the speeds of playback that a student can choose; 1 is as fast as reality, 0.1 slow motion",
+            "[0.25, 1]",
+        )
+        .positive()
+        .or(Absent::Numbers(&[0.1, 0.25, 1.0, 4.0])),
+        key(
+            "stopAt",
+            Type::Number,
+            "the lab pauses once the simulation reaches this time; a check runs the lab this long, or 2 s",
+            "1",
+        )
+        .unit("s")
+        .positive()
+        .or(Absent::Said("the lab plays on")),
+        key(
+            "setup",
+            Type::Code(Form::Statements),
+            "runs after the load and after every reset, behind the values of the controls",
+            r#""data.joint('ball').qvel[2] = 1""#,
+        ),
+        key(
+            "controller",
+            Type::Code(Form::Statements),
+            "runs before every step",
+            r#""data.body('ball').xfrc_applied[0] = 0.1""#,
+        ),
+        key(
+            "controls",
+            Type::List(&ONE_CONTROL),
+            "sliders, selects and buttons, in the order shown",
+            r#"[{"label": "gravity", "set": "model.opt.gravity[2]", "min": -20, "max": 0, "value": -9.81}]"#,
+        )
+        .or(Absent::Empty),
+        key(
+            "plots",
+            Type::List(&ONE_PLOT),
+            "plots over time, in the order shown",
+            r#"[{"traces": [{"label": "height (m)", "expr": "data.joint('ball').qpos[2]"}]}]"#,
+        )
+        .or(Absent::Empty),
+        key(
+            "readouts",
+            Type::List(&ONE_READOUT),
+            "values shown as text, in the order shown",
+            r#"[{"label": "time (s)", "expr": "data.time"}]"#,
+        )
+        .or(Absent::Empty),
+        verify_key(),
+        key(
+            "expect",
+            Type::Words(&EXPECTED),
+            "what the lab is meant to do; then nothing is said when a run does it, and it is an error when none does",
+            r#""breaks""#,
+        )
+        .or(Absent::Said("every run goes well")),
+    ],
+    together: &[Together::ExactlyOne(&["model", "xml"])],
+};
+
+/// The view of a lab.
+pub static CAMERA: Object = Object {
+    name: "camera",
+    what: "a camera",
+    doc: "From where the scene is seen. It looks at the target from a distance, in a direction given by two angles.",
+    tag: None,
+    minimal: "{}",
+    keys: &[
+        key("azimuth", Type::Number, "the direction in which the camera looks, around the vertical", "-90")
+            .unit("degrees")
+            .or(Absent::Number(-55.0)),
+        key("elevation", Type::Number, "how far above the horizon the camera stands", "8")
+            .unit("degrees")
+            .or(Absent::Number(25.0)),
+        key("distance", Type::Number, "how far the camera is from its target", "2")
+            .unit("m")
+            .or(Absent::Said("1.9 times the extent of the model")),
+        key("target", Type::Numbers(3), "the point that the camera looks at: x, y, z", "[0, 0, 0.4]")
+            .unit("m")
+            .or(Absent::Said("the centre of the model")),
+    ],
+    together: &[],
+};
+
+/// The order in which things happen in a lab.
+pub static EVENTS: [&str; 8] = [
+    "The model loads, its data are made, and `mj_forward` computes what follows. With `key`, the data are set to that keyframe.",
+    "Each control in its order: its `value` is stored as `ctx.<param>`, then `set` or `apply` runs with it. There is no reset in between.",
+    "`setup` runs, then each control with `init` is applied again, in order, then `mj_forward`.",
+    "Each step: first `controller`, then `mj_step`. Traces and readouts are evaluated between two steps: at the start, and after every step.",
+    "A student moves a control: its value is stored and `set` or `apply` runs, as in 2. With `reset` a whole reset follows, else `mj_forward`.",
+    "A student presses a button: its `run`, then `mj_forward`.",
+    "A reset: the data go back to the start or to the keyframe, `mj_forward`, then 3 again. The model and `ctx` keep what was written: a reset restores data, never the model.",
+    "Once the time reaches `stopAt`, the lab pauses. A step that meets a bad number warns and starts the data anew, with the time 0; plots begin again whenever the time goes back.",
+];

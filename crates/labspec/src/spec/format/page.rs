@@ -1,0 +1,151 @@
+//! `docs/reference/format.md`: a section for every object, a line for every key.
+
+use super::describe::{default, takes};
+use super::{Absent, CONTROL, EVENTS, FIRST, Family, Key, LAB, Need, OBJECTS, OVERLAYS, Object, QUESTION};
+use super::{Together, Type, Word};
+use std::fmt::Write;
+
+/// The reference page of the format, as Markdown.
+pub fn page() -> String {
+    let mut text = String::from(
+        "# Format\n\nEvery object of labs, quizzes and checks, with all its keys. The guide is [lessons.md](../lessons.md); \
+         code is explained in [language.md](language.md). An editor that knows JSON Schema takes the same from \
+         [lab.json](../schema/lab.json) and [quiz.json](../schema/quiz.json), which `labspec schema` prints; one that embeds \
+         labspec asks `labspec::spec::format::completions`.\n\n\
+         A key that does not stand here is an error where it is written. \
+         Examples are of `specs/models/fall.xml`: one ball, 2 m above nothing.\n\nAll keys are there since version ",
+    );
+    let _ = writeln!(text, "{FIRST}, unless a line says otherwise.");
+    for object in OBJECTS {
+        if CONTROL.objects.first().is_some_and(|first| first.name == object.name) {
+            family(&mut text, &CONTROL);
+        }
+        if QUESTION.objects.first().is_some_and(|first| first.name == object.name) {
+            family(&mut text, &QUESTION);
+        }
+        section(&mut text, object);
+        if object.name == LAB.name {
+            words(&mut text, "Overlays", &OVERLAYS);
+            events(&mut text);
+        }
+    }
+    text
+}
+
+fn family(text: &mut String, family: &Family) {
+    let first = family.words.first().map_or("", |w| w.text);
+    let _ = write!(
+        text,
+        "\n## {}\n\n{} `{}` tells which one it is; without it, it is `{first}`.\n",
+        capital(family.name),
+        family.doc,
+        family.key
+    );
+    table(text, family.key, family.words);
+}
+
+fn section(text: &mut String, object: &Object) {
+    let level = if object.tag.is_some() { "###" } else { "##" };
+    let _ = write!(text, "\n{level} {}\n\n{}", heading(object), object.doc);
+    for rule in object.together {
+        let (count, names, rule) = match rule {
+            Together::ExactlyOne(names) => ("Exactly one", *names, "must stand"),
+            Together::AtLeastOne(names) => ("At least one", *names, "must stand"),
+            Together::OneAdvised(names) => ("At least one", *names, "should stand"),
+            Together::AtMostOne(names) => ("Only one", names.as_slice(), "may stand"),
+            Together::FirstCounts(names) => ("Only the first", names.as_slice(), "counts"),
+        };
+        let names: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
+        let _ = write!(text, " {count} of {} {rule}.", names.join(", "));
+    }
+    if object.minimal != "{}" {
+        let _ = write!(text, "\n\n```json\n{}\n```", object.minimal);
+    }
+    text.push_str("\n\n| key | what it takes | left out | meaning | example |\n|---|---|---|---|---|\n");
+    for key in object.keys {
+        let since = if key.since == FIRST { String::new() } else { format!(" (since {})", key.since) };
+        let _ = writeln!(
+            text,
+            "| `{}` | {} | {} | {}{since} | `{}` |",
+            key.name,
+            cell(&match object.tag.filter(|(tag, _)| *tag == key.name) {
+                Some((_, word)) => format!("\"{word}\""),
+                None => takes(key) + &link(&key.of),
+            }),
+            cell(&left_out(key)),
+            cell(key.doc),
+            cell(key.example)
+        );
+    }
+}
+
+/// A link to the keys of the objects that stand here.
+fn link(of: &Type) -> String {
+    let heading = match of {
+        Type::Object(object) => heading(object),
+        Type::OneOf(family) => capital(family.name),
+        Type::List(item) => return link(item),
+        Type::Map(map) => return link(&map.of),
+        Type::Either(a, b) => return link(a) + &link(b),
+        _ => return String::new(),
+    };
+    format!(" ([keys](#{}))", heading.to_lowercase().replace(' ', "-"))
+}
+
+/// What an object is called, without its article.
+fn heading(object: &Object) -> String {
+    capital(object.what.split_once(' ').map_or(object.what, |(_, name)| name))
+}
+
+/// What happens where a key is left out.
+fn left_out(key: &Key) -> String {
+    if key.required() {
+        return "an error".into();
+    }
+    match (key.absent, key.need) {
+        (Absent::Said(words), _) => words.into(),
+        (_, Need::Advised(_)) => "a warning".into(),
+        (Absent::Text(""), _) => "–".into(),
+        _ => default(key).map_or("–".into(), |value| format!("`{}`", spaced(&value))),
+    }
+}
+
+/// JSON with a space behind every comma, as people write it.
+fn spaced(value: &serde_json::Value) -> String {
+    match value.as_array() {
+        Some(items) => {
+            let items: Vec<String> = items.iter().map(spaced).collect();
+            format!("[{}]", items.join(", "))
+        }
+        None => value.to_string(),
+    }
+}
+
+fn words(text: &mut String, title: &str, words: &[Word]) {
+    let _ = write!(text, "\n### {title}\n\nWords of `overlays` and `toggles`.\n");
+    table(text, "word", words);
+}
+
+fn table(text: &mut String, head: &str, words: &[Word]) {
+    let _ = write!(text, "\n| {head} | meaning |\n|---|---|\n");
+    for word in words {
+        let _ = writeln!(text, "| `{}` | {} |", word.text, cell(word.doc));
+    }
+}
+
+fn events(text: &mut String) {
+    text.push_str("\n### What happens when\n\n");
+    for (i, event) in EVENTS.iter().enumerate() {
+        let _ = writeln!(text, "{}. {event}", i + 1);
+    }
+}
+
+/// Text in a table: its bars are no borders.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
+
+fn capital(name: &str) -> String {
+    let mut chars = name.chars();
+    chars.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default() + chars.as_str()
+}

@@ -1,0 +1,202 @@
+//! The quiz and its kinds of questions.
+
+use super::lab::verify_key;
+use super::{Absent, Family, Key, LAB, Object, Type, Word, key};
+
+static KINDS: [Word; 6] = [
+    Word { text: "mcq", doc: "one of several options" },
+    Word { text: "debug", doc: "the same, about something that is wrong and has to be found" },
+    Word { text: "predict", doc: "the same, before a simulation shows who was right" },
+    Word { text: "numeric", doc: "a number, right within a tolerance" },
+    Word { text: "open", doc: "a text, which is not graded" },
+    Word { text: "code", doc: "a program, which is not graded" },
+];
+
+/// A question of any kind.
+pub static QUESTION: Family = Family {
+    name: "question",
+    what: "a question",
+    doc: "What a quiz asks.",
+    key: "kind",
+    words: &KINDS,
+    objects: &[&MCQ, &DEBUG, &PREDICT, &NUMERIC, &OPEN, &CODE],
+};
+
+static ONE_QUESTION: Type = Type::OneOf(&QUESTION);
+static HTML: Type = Type::Html;
+
+/// A quiz.
+pub static QUIZ: Object = Object {
+    name: "quiz",
+    what: "a quiz",
+    doc: "Questions with answers.",
+    tag: None,
+    minimal: r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]}"#,
+    keys: &[
+        key("id", Type::Text, "its name, unique in a course: the page stores answers under it", r#""fall""#)
+            .must("the page stores a student's answers under the id of the quiz"),
+        key("title", Type::Text, "the title of the quiz", r#""Predict before you run""#)
+            .or(Absent::Text("Knowledge check")),
+        key(
+            "questions",
+            Type::List(&ONE_QUESTION),
+            "the questions, in the order shown",
+            r#"[{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]"#,
+        )
+        .items(1)
+        .must("a quiz is a list of questions"),
+    ],
+    together: &[],
+};
+
+const KIND: Key = key("kind", Type::Words(&KINDS), "how the question is answered", r#""mcq""#);
+
+const Q: Key = key("q", Type::Html, "the question", r#""How fast is the ball after 1 s?""#)
+    .must("it is the text of the question");
+
+const EXPLAIN: Key =
+    key("explain", Type::Html, "shown after the answer", r#""<p>It gains 9.81 m/s in every second.</p>""#);
+
+const NAME: Key = key("label", Type::Text, "a short name above the question", r#""Fall""#);
+
+const OPTIONS: Key = key(
+    "options",
+    Type::List(&HTML),
+    "what a student can choose from, in the order shown",
+    r#"["about 5 m/s", "about 10 m/s", "about 20 m/s"]"#,
+)
+.items(2)
+.must("the student chooses one of them");
+
+const ANSWER: Key = key("answer", Type::Whole, "the index of the right option, counted from 0", "1")
+    .at_least(0.0)
+    .must("it is the index of the right option, from 0");
+
+/// A question with options.
+pub static MCQ: Object = Object {
+    name: "mcq",
+    what: "a question of kind mcq",
+    doc: "The student chooses one of several options, and has one try.",
+    tag: Some(("kind", "mcq")),
+    minimal: r#"{"q": "How fast is the ball after 1 s?", "options": ["about 5 m/s", "about 10 m/s", "about 20 m/s"], "answer": 1}"#,
+    keys: &[Key { absent: Absent::Text("mcq"), ..KIND }, Q, EXPLAIN, NAME, OPTIONS, ANSWER, verify_key()],
+    together: &[],
+};
+
+/// A question about a mistake.
+pub static DEBUG: Object = Object {
+    name: "debug",
+    what: "a question of kind debug",
+    doc: "As `mcq`, about something that is wrong: a listing, a model or a plot, of which the student finds the fault.",
+    tag: Some(("kind", "debug")),
+    minimal: r#"{"kind": "debug", "q": "The ball rises. What is wrong?", "options": ["gravity is positive", "the mass is too large"], "answer": 0}"#,
+    keys: &[
+        Key { example: r#""debug""#, ..KIND }.must(""),
+        Key { example: r#""The ball rises. What is wrong?""#, ..Q },
+        EXPLAIN,
+        NAME,
+        Key { example: r#"["gravity is positive", "the mass is too large"]"#, ..OPTIONS },
+        ANSWER,
+        verify_key(),
+    ],
+    together: &[],
+};
+
+/// A question that a simulation answers.
+pub static PREDICT: Object = Object {
+    name: "predict",
+    what: "a question of kind predict",
+    doc: "As `mcq`; once the student has chosen, a lab shows what happens.",
+    tag: Some(("kind", "predict")),
+    minimal: r#"{"kind": "predict", "q": "How fast is the ball after 1 s?", "options": ["about 5 m/s", "about 10 m/s"], "answer": 1, "sim": {"model": "fall"}}"#,
+    keys: &[
+        Key { example: r#""predict""#, ..KIND }.must(""),
+        Q,
+        EXPLAIN,
+        NAME,
+        OPTIONS,
+        ANSWER,
+        key(
+            "sim",
+            Type::Object(&LAB),
+            "the lab that is shown after the choice",
+            r#"{"model": "fall", "readouts": [{"label": "speed (m/s)", "expr": "-data.joint('ball').qvel[2]"}]}"#,
+        )
+        .advised("a prediction is followed by the simulation that settles it; without one, use kind mcq"),
+        verify_key(),
+    ],
+    together: &[],
+};
+
+/// How far a numeric answer may be off where the question does not say: this part of the answer.
+pub const TOLERANCE: f64 = 0.02;
+
+/// A question that asks for a number.
+pub static NUMERIC: Object = Object {
+    name: "numeric",
+    what: "a question of kind numeric",
+    doc: "The student types a number, and may try again.",
+    tag: Some(("kind", "numeric")),
+    minimal: r#"{"kind": "numeric", "q": "How fast is the ball after 1 s, in m/s?", "answer": 9.81}"#,
+    keys: &[
+        Key { example: r#""numeric""#, ..KIND }.must(""),
+        Key { example: r#""How fast is the ball after 1 s, in m/s?""#, ..Q },
+        EXPLAIN,
+        NAME,
+        key("answer", Type::Number, "the right number", "9.81").must("without it no answer is right"),
+        key(
+            "tol",
+            Type::Number,
+            "how far an answer may be off, in its unit: it is right when |given - answer| is no larger",
+            "0.1",
+        )
+        .at_least(0.0)
+        .or(Absent::Said("2 % of the answer; an answer of 0 needs one")),
+        key("unit", Type::Text, "the unit, shown behind the box", r#""m/s""#),
+        verify_key(),
+    ],
+    together: &[],
+};
+
+const REFERENCE: Key = key(
+    "reference",
+    Type::Html,
+    "an answer to compare with, shown after the student's own",
+    r#""<p>Because weight and inertia both grow with mass.</p>""#,
+);
+
+/// A question that asks for a text.
+pub static OPEN: Object = Object {
+    name: "open",
+    what: "an open question",
+    doc: "The student writes a text, and compares it with the reference. It is not graded.",
+    tag: Some(("kind", "open")),
+    minimal: r#"{"kind": "open", "q": "Why does mass not matter?"}"#,
+    keys: &[
+        Key { example: r#""open""#, ..KIND }.must(""),
+        Key { example: r#""Why does mass not matter?""#, ..Q },
+        EXPLAIN,
+        NAME,
+        REFERENCE,
+        verify_key(),
+    ],
+    together: &[],
+};
+
+/// A question that asks for a program.
+pub static CODE: Object = Object {
+    name: "code",
+    what: "a question of kind code",
+    doc: "As `open`, with a program in the place of the text.",
+    tag: Some(("kind", "code")),
+    minimal: r#"{"kind": "code", "q": "Print the height of the ball after every step."}"#,
+    keys: &[
+        Key { example: r#""code""#, ..KIND }.must(""),
+        Key { example: r#""Print the height of the ball after every step.""#, ..Q },
+        EXPLAIN,
+        NAME,
+        Key { example: r#""<pre>mujoco.mj_step(model, data)\nprint(data.qpos[2])</pre>""#, ..REFERENCE },
+        verify_key(),
+    ],
+    together: &[],
+};

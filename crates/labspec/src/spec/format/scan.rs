@@ -1,0 +1,269 @@
+//! Where in a JSON text an offset lies: in which objects and lists, at a key or at a value. The text may be broken, there
+//! most of all: somebody is writing it.
+//!
+//! One pass over the characters. Commas and colons may be missing; a string that is not closed ends with its first word,
+//! or with its line.
+
+use crate::json::MAX_DEPTH;
+use std::ops::Range;
+
+/// An object or a list.
+#[derive(Debug, Default)]
+pub(super) struct Scope {
+    /// What it stands in, and where there.
+    pub(super) parent: Option<(usize, Step)>,
+    /// A list rather than an object.
+    pub(super) list: bool,
+    /// The keys of an object and, of those that are texts, the values. Without the key at the offset.
+    pub(super) keys: Vec<(String, Option<String>)>,
+    /// The texts of a list, without the one at the offset.
+    pub(super) texts: Vec<String>,
+    /// How many items of a list have begun.
+    items: usize,
+}
+
+/// A place in an object or in a list.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Step {
+    /// The value of this key.
+    Key(String),
+    /// This item, from 0.
+    Item(usize),
+}
+
+/// What lies at the offset.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Spot {
+    /// The object or list.
+    pub(super) scope: usize,
+    /// Where a value stands or is to be written; `None` for a key.
+    pub(super) value: Option<Step>,
+    /// The bytes of what is written there, quotes included; empty where nothing is.
+    pub(super) written: Range<usize>,
+}
+
+/// What a text holds, as far as it can be told.
+#[derive(Debug, Default)]
+pub(super) struct Scan {
+    /// The objects and lists; the first one is the outermost.
+    pub(super) scopes: Vec<Scope>,
+    /// What lies at the offset; `None` where neither a key nor a value can stand.
+    pub(super) spot: Option<Spot>,
+}
+
+/// What comes next.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Next {
+    Key,
+    Colon,
+    Value,
+    Comma,
+}
+
+struct Scanner<'a> {
+    text: &'a str,
+    offset: usize,
+    at: usize,
+    open: Vec<usize>,
+    next: Next,
+    /// The key whose value comes next.
+    key: String,
+    /// How many characters may still be looked at for the ends of strings.
+    budget: usize,
+    scan: Scan,
+}
+
+/// Reads a text. The offset is a place between two characters of it.
+pub(super) fn scan(text: &str, offset: usize) -> Scan {
+    let (open, scan) = (Vec::new(), Scan::default());
+    // Lines of broken strings are looked at more than once.
+    let budget = 16 * text.len() + 1000;
+    let mut s = Scanner { text, offset, at: 0, open, next: Next::Value, key: String::new(), budget, scan };
+    while s.budget > 0 {
+        s.gap();
+        let Some(c) = s.rest().chars().next() else { break };
+        match c {
+            '{' | '[' => {
+                if s.open.len() >= MAX_DEPTH {
+                    break;
+                }
+                s.enter(c == '[');
+            }
+            '}' | ']' => s.leave(c == ']'),
+            ',' => {
+                s.at += 1;
+                s.key.clear();
+                s.next = if s.in_list() { Next::Value } else { Next::Key };
+            }
+            ':' => {
+                s.at += 1;
+                if s.next == Next::Colon {
+                    s.next = Next::Value;
+                }
+            }
+            '"' => s.string(),
+            c if is_word(c) => s.word(),
+            c => s.at += c.len_utf8(),
+        }
+    }
+    s.scan
+}
+
+fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || matches!(c, '_' | '$' | '-' | '+' | '.')
+}
+
+impl<'a> Scanner<'a> {
+    fn rest(&self) -> &'a str {
+        self.text.get(self.at..).unwrap_or("")
+    }
+
+    fn in_list(&self) -> bool {
+        self.scope().is_none_or(|s| s.list)
+    }
+
+    fn scope(&self) -> Option<&Scope> {
+        self.scan.scopes.get(*self.open.last()?)
+    }
+
+    /// Walks over spaces; the offset may lie among them.
+    fn gap(&mut self) {
+        let start = self.at;
+        self.at += self.rest().len() - self.rest().trim_start().len();
+        if (start..=self.at).contains(&self.offset) {
+            self.mark(self.offset..self.offset);
+        }
+    }
+
+    /// Takes what is written here for what lies at the offset, if a key or a value can stand here.
+    fn mark(&mut self, written: Range<usize>) {
+        let Some(&scope) = self.open.last() else { return };
+        let value = match self.next {
+            Next::Key => None,
+            Next::Value => Some(self.step()),
+            Next::Colon | Next::Comma => return,
+        };
+        self.scan.spot = Some(Spot { scope, value, written });
+    }
+
+    /// The place of the value that comes next.
+    fn step(&self) -> Step {
+        match self.scope() {
+            Some(scope) if scope.list => Step::Item(scope.items),
+            _ => Step::Key(self.key.clone()),
+        }
+    }
+
+    fn enter(&mut self, list: bool) {
+        let parent = self.open.last().map(|&p| (p, self.step()));
+        self.valued(None);
+        self.open.push(self.scan.scopes.len());
+        self.scan.scopes.push(Scope { parent, list, ..Scope::default() });
+        self.next = if list { Next::Value } else { Next::Key };
+        self.at += 1;
+    }
+
+    /// A bracket closes the nearest one of its kind, and what is open inside of it.
+    fn leave(&mut self, list: bool) {
+        self.at += 1;
+        self.key.clear();
+        let own = |&scope: &usize| self.scan.scopes.get(scope).is_some_and(|s| s.list == list);
+        if let Some(i) = self.open.iter().rposition(own) {
+            self.open.truncate(i);
+            self.next = Next::Comma;
+        }
+    }
+
+    /// A value stands here: a text, or something else.
+    fn valued(&mut self, text: Option<String>) {
+        let key = std::mem::take(&mut self.key);
+        if let Some(scope) = self.open.last().and_then(|&i| self.scan.scopes.get_mut(i)) {
+            if scope.list {
+                scope.items += 1;
+                scope.texts.extend(text);
+            } else if let Some((name, value)) = scope.keys.last_mut()
+                && *name == key
+            {
+                *value = text;
+            }
+        }
+        self.next = Next::Comma;
+    }
+
+    fn string(&mut self) {
+        let (start, mut end) = (self.at, self.closed());
+        let behind = |end: usize| self.text.get(end..).unwrap_or("").trim_start();
+        let colon = behind(end).starts_with(':');
+        if self.in_list() {
+            self.next = Next::Value;
+        } else if colon || self.next == Next::Comma {
+            // A key, whatever was expected: the comma or the value before it is missing.
+            self.next = Next::Key;
+        } else if self.next == Next::Colon {
+            self.next = Next::Value;
+        }
+        let is_key = self.next == Next::Key;
+        let inside = self.text.get(start + 1..end).unwrap_or("");
+        let word = start + 1 + inside.find(|c| !is_word(c)).unwrap_or(inside.len());
+        let ended = self.text.get(start + 1..end).is_some_and(|t| t.ends_with('"'));
+        let half = if is_key {
+            !colon && (!ended || word + 1 < end)
+        } else {
+            let stops = |t: &str| t.trim_start_matches([' ', '\t']).starts_with([',', '}', ']']);
+            let next = self.text.get(end..).unwrap_or("").trim_start_matches([' ', '\t']);
+            let fine = ended && (next.is_empty() || next.starts_with([',', '}', ']', '\n', '\r']));
+            !fine && (stops(behind(word)) || behind(word).is_empty())
+        };
+        if half {
+            end = word;
+        }
+        let closed = ended && !half;
+        let value = self.text.get(start + 1..end - usize::from(closed)).unwrap_or("").to_string();
+        self.put(start..end, value, closed, true);
+    }
+
+    /// The end of the string that begins here: behind its quote, or at the end of the line.
+    fn closed(&mut self) -> usize {
+        let mut escaped = false;
+        for (i, c) in self.rest().char_indices().skip(1) {
+            self.budget = self.budget.saturating_sub(1);
+            match c {
+                '\n' | '\r' => return self.at + i,
+                _ if escaped => escaped = false,
+                '\\' => escaped = true,
+                '"' => return self.at + i + 1,
+                _ => {}
+            }
+        }
+        self.text.len()
+    }
+
+    /// A number, `true`, or a word that lacks its quotes.
+    fn word(&mut self) {
+        let length = self.rest().find(|c| !is_word(c)).unwrap_or(self.rest().len());
+        let range = self.at..self.at + length;
+        if self.next == Next::Comma {
+            self.next = if self.in_list() { Next::Value } else { Next::Key };
+        }
+        let value = self.text.get(range.clone()).unwrap_or("").to_string();
+        self.put(range, value, false, false);
+    }
+
+    /// Takes in a key or a value.
+    fn put(&mut self, range: Range<usize>, value: String, closed: bool, quoted: bool) {
+        let within = range.start < self.offset && self.offset < range.end + usize::from(!closed);
+        if within {
+            self.mark(range.clone());
+        }
+        self.at = range.end;
+        if self.next == Next::Key && !self.in_list() {
+            self.key.clone_from(&value);
+            self.next = Next::Colon;
+            if !within && let Some(scope) = self.open.last().and_then(|&i| self.scan.scopes.get_mut(i)) {
+                scope.keys.push((value, None));
+            }
+        } else {
+            self.valued(Some(value).filter(|_| quoted && !within));
+        }
+    }
+}

@@ -1,0 +1,366 @@
+//! The declaration is whole, its examples are right, and the readers do what it says.
+
+use super::*;
+use crate::bind::scene::Models;
+use crate::check::{self, Depth};
+use crate::finding::Finding;
+use crate::lint::ModelFolder;
+use crate::source::SourceFile;
+use crate::spec::{Camera, ControlKind, Lab, Lesson, load_lesson};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+
+/// The lab that the examples of `verify` run: all the labels that they name.
+const SCENE: &str = r#"{"model": "fall", "stopAt": 1, "controls": [
+    {"label": "gravity", "min": -20, "max": 0, "step": 0.01, "value": -9.81, "set": "model.opt.gravity[2]", "reset": true},
+    {"type": "button", "label": "Push", "run": "data.joint('ball').qvel[0] = 1"}],
+  "plots": [{"traces": [{"label": "height", "expr": "data.joint('ball').qpos[2]"}]}]}"#;
+
+fn parse(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}: {text}"))
+}
+
+/// A value of a type that holds an object; `None` for types that cannot.
+fn holding(of: &Type, object: &Object, value: &Value) -> Option<Value> {
+    match of {
+        Type::Object(o) if o.name == object.name => Some(value.clone()),
+        Type::OneOf(f) if f.objects.iter().any(|o| o.name == object.name) => Some(value.clone()),
+        Type::List(item) => Some(json!([holding(item, object, value)?])),
+        Type::Map(map) => Some(json!({"height": holding(&map.of, object, value)?})),
+        Type::Either(a, b) => holding(a, object, value).or_else(|| holding(b, object, value)),
+        _ => None,
+    }
+}
+
+/// A key in the smallest object of its kind, without those that exclude it.
+fn with_key(object: &Object, name: &str, value: Value) -> Value {
+    let mut whole = parse(object.minimal);
+    let members = whole.as_object_mut().unwrap();
+    for rule in object.together {
+        let names: &[&str] = match rule {
+            Together::ExactlyOne(names) => names,
+            Together::AtMostOne(names) | Together::FirstCounts(names) => names.as_slice(),
+            Together::AtLeastOne(_) | Together::OneAdvised(_) => &[],
+        };
+        if names.contains(&name) {
+            names.iter().for_each(|n| drop(members.remove(*n)));
+        }
+    }
+    members.insert(name.into(), value);
+    whole
+}
+
+/// All labs and quizzes that hold this object in the smallest objects around it, the nearest ones first.
+fn roots(object: &'static Object, value: &Value) -> Vec<(&'static Object, Value)> {
+    let (mut open, mut all) = (vec![(object, value.clone())], Vec::new());
+    let mut seen = BTreeSet::new();
+    while let Some((object, value)) = open.pop() {
+        if [LAB.name, QUIZ.name].contains(&object.name) {
+            all.push((object, value));
+            continue;
+        }
+        if !seen.insert(object.name) {
+            continue;
+        }
+        for parent in OBJECTS {
+            for key in parent.keys {
+                if let Some(held) = holding(&key.of, object, &value) {
+                    open.push((parent, with_key(parent, key.name, held)));
+                }
+            }
+        }
+    }
+    all
+}
+
+/// A lesson of prose, the scene, and a lab or a quiz.
+fn lesson_text(object: &Object, value: &Value) -> String {
+    let fence = if object.name == LAB.name { "lab simlab" } else { "quiz" };
+    format!(
+        "After 1 s the ball falls with 9.81 m/s.\n\n```lab simlab\n{SCENE}\n```\n\n```{fence}\n{value}\n```\n"
+    )
+}
+
+fn load(object: &Object, value: &Value) -> Lesson {
+    let models = ModelFolder::with_names(["fall"]);
+    load_lesson(SourceFile::new("t.md", lesson_text(object, value)), &models)
+}
+
+/// What is found when labs run and claims are checked, with the model of the examples, which gets a keyframe.
+fn checked(object: &Object, value: &Value) -> Vec<Finding> {
+    let folder = tempfile::tempdir().unwrap();
+    let model = include_str!("../../../../../specs/models/fall.xml");
+    let model = model.replace("</mujoco>", "<keyframe><key qpos='0 0 1 1 0 0 0'/></keyframe></mujoco>");
+    std::fs::write(folder.path().join("fall.xml"), model).unwrap();
+    let mut models = Models::new(ModelFolder::open(folder.path()).unwrap());
+    let lesson = load_lesson(SourceFile::new("t.md", lesson_text(object, value)), models.folder());
+    check::check(lesson, &mut models, Depth { labs: true, claims: true }).findings
+}
+
+fn every_key() -> impl Iterator<Item = (&'static Object, &'static Key)> {
+    OBJECTS.into_iter().flat_map(|o| o.keys.iter().map(move |k| (o, k)))
+}
+
+#[test]
+fn every_object_is_declared_once_and_can_be_reached() {
+    let names: BTreeSet<_> = OBJECTS.iter().map(|o| o.name).collect();
+    assert_eq!(names.len(), OBJECTS.len());
+    for object in OBJECTS {
+        let keys: BTreeSet<_> = object.keys.iter().map(|k| k.name).collect();
+        assert_eq!(keys.len(), object.keys.len(), "{}", object.name);
+        assert!(!roots(object, &parse(object.minimal)).is_empty(), "{}", object.name);
+    }
+    for family in [&CONTROL, &QUESTION] {
+        let told: Vec<_> = family.objects.iter().filter_map(|o| o.tag).collect();
+        let words: Vec<_> = family.words.iter().map(|w| (family.key, w.text)).collect();
+        assert_eq!(told, words);
+        for object in family.objects {
+            assert!(OBJECTS.iter().any(|o| o.name == object.name));
+            let first = family.object(None).unwrap().name == object.name;
+            assert_eq!(object.key(family.key).unwrap().required(), !first, "{}", object.name);
+        }
+    }
+}
+
+#[test]
+fn every_key_says_what_it_means() {
+    let package: Vec<u32> =
+        env!("CARGO_PKG_VERSION").split('.').map(|part| part.parse().unwrap()).take(2).collect();
+    for (object, key) in every_key() {
+        let at = format!("{}.{}", object.name, key.name);
+        assert!(key.doc.len() > 8 && !key.doc.ends_with('.'), "{at}");
+        let since: Vec<u32> = key.since.split('.').map(|part| part.parse().unwrap()).collect();
+        assert!(since.len() == 2 && since <= package, "{at}: since {}", key.since);
+        if let Some(Value::Number(n)) = describe::default(key) {
+            assert!(key.limits.allow(n.as_f64().unwrap()), "{at}");
+        }
+    }
+}
+
+#[test]
+fn every_smallest_object_is_whole_and_every_key_that_must_stand_does() {
+    for object in OBJECTS {
+        let whole = parse(object.minimal);
+        // A quiz can hold what no lab does, and the other way round: one of them must have nothing to complain about.
+        let clean = roots(object, &whole).iter().any(|(root, value)| load(root, value).findings.is_empty());
+        assert!(clean, "{}", object.name);
+        for key in object.keys {
+            let mut without = whole.clone();
+            let stood = without.as_object_mut().unwrap().remove(key.name).is_some();
+            let needed = key.required() || matches!(key.need, Need::Advised(_));
+            assert!(stood || !needed, "{}.{}", object.name, key.name);
+            // Without its word an object is another one, or none.
+            if needed && object.tag.is_none_or(|(tag, _)| tag != key.name) {
+                for (root, value) in roots(object, &without) {
+                    assert!(!load(root, &value).findings.is_empty(), "{}.{}", object.name, key.name);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_example_is_right() {
+    for (object, key) in every_key() {
+        let whole = with_key(object, key.name, parse(key.example));
+        let all = roots(object, &whole);
+        let clean: Vec<_> = all.iter().filter(|(root, v)| load(root, v).findings.is_empty()).collect();
+        assert!(!clean.is_empty(), "{}.{}: {:#?}", object.name, key.name, {
+            let (root, value) = &all[0];
+            load(root, value).findings
+        });
+        // Conditions belong to questions with options, values to numeric ones; everything else may stand everywhere.
+        let only_some = object.name == VERIFY.name && ["options", "value"].contains(&key.name);
+        assert_eq!(only_some, clean.len() < all.len(), "{}.{}", object.name, key.name);
+    }
+}
+
+#[test]
+fn every_example_runs() {
+    let mut wrong = Vec::new();
+    for (object, key) in every_key() {
+        let whole = with_key(object, key.name, parse(key.example));
+        let all = roots(object, &whole);
+        let found: Vec<Vec<Finding>> = all.iter().map(|(root, value)| checked(root, value)).collect();
+        // Nothing breaks here, and that is what this key is about.
+        if key.name == "expect" {
+            let told = |f: &Vec<Finding>| f.len() == 1 && f.iter().all(|f| f.message.contains("break"));
+            assert!(found.iter().all(told), "{found:#?}");
+            continue;
+        }
+        if !found.iter().any(Vec::is_empty) {
+            wrong.push(format!("{}.{}: {:?}", object.name, key.name, found.first().and_then(|f| f.first())));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Values of another type than this one, each with the part of it that is wrong.
+fn wrong(of: &Type) -> Vec<(Value, Value)> {
+    let whole = |all: &[Value]| all.iter().map(|v| (v.clone(), v.clone())).collect::<Vec<_>>();
+    let inside = |of: &Type, hold: &dyn Fn(Value) -> Value| {
+        wrong(of).into_iter().map(|(v, part)| (hold(v), part)).collect::<Vec<_>>()
+    };
+    match of {
+        Type::Text | Type::Html | Type::Code(_) => whole(&[json!(707), json!(true), json!(["a"])]),
+        Type::Number => whole(&[json!("seven"), json!(true), json!([707])]),
+        Type::Whole => whole(&[json!("seven"), json!(1.5)]),
+        Type::Flag => whole(&[json!("yes"), json!(707)]),
+        Type::Scalar => whole(&[json!([707]), json!(null)]),
+        Type::Words(_) => whole(&[json!("no such word"), json!(707)]),
+        Type::List(item) => [whole(&[json!(707), json!({"a": 1})]), inside(item, &|v| json!([v]))].concat(),
+        Type::Numbers(n) => whole(&[json!(707), json!(vec![0; n + 1])]),
+        Type::Pair(parts) => {
+            let [first, second] = *parts;
+            let mut all = whole(&[json!(707), json!(["a"])]);
+            let good = |of: &Type| if matches!(of, Type::Number) { json!(1) } else { json!("a") };
+            all.extend(inside(&first.of, &|v| json!([v, good(&second.of)])));
+            all.extend(inside(&second.of, &|v| json!([good(&first.of), v])));
+            all
+        }
+        Type::Map(map) => [whole(&[json!(707)]), inside(&map.of, &|v| json!({"height": v}))].concat(),
+        Type::Switches(_) => vec![(json!(707), json!(707)), (json!({"com": 707}), json!(707))],
+        Type::Object(_) | Type::OneOf(_) => whole(&[json!(707), json!(["a"])]),
+        Type::Either(..) => whole(&[json!(707)]),
+    }
+}
+
+#[test]
+fn a_wrong_type_is_found_where_it_stands() {
+    let mut tried = 0;
+    for (object, key) in every_key() {
+        for (value, part) in wrong(&key.of) {
+            for (root, whole) in roots(object, &with_key(object, key.name, value.clone())) {
+                let lesson = load(root, &whole);
+                // The last one: the scene stands before it.
+                let written = format!("\"{}\":{value}", key.name);
+                let text = lesson.file.text();
+                let at = text.rfind(&written).unwrap_or_else(|| panic!("{written} in {text}"))
+                    + key.name.len()
+                    + 3;
+                let part = at + value.to_string().find(&part.to_string()).unwrap();
+                let found = lesson
+                    .findings
+                    .iter()
+                    .any(|f| f.span.start <= part + 1 && f.span.end > part && f.span.start >= at);
+                assert!(found, "{}.{} = {value}: {:#?}", object.name, key.name, lesson.findings);
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 500, "{tried}");
+}
+
+#[test]
+fn a_number_beyond_its_limits_is_found() {
+    let mut tried = 0;
+    for (object, key) in every_key() {
+        let Limits { above, least, most } = key.limits;
+        let wrong = [above, least.map(|x| x - 1.0), most.map(|x| x + 1.0)];
+        for x in wrong.into_iter().flatten() {
+            let value = if matches!(key.of, Type::List(_)) { json!([x]) } else { describe::number(x) };
+            for (root, whole) in roots(object, &with_key(object, key.name, value)) {
+                assert!(load(root, &whole).has_errors(), "{}.{} = {x}", object.name, key.name);
+                tried += 1;
+            }
+        }
+        if key.items > 0 {
+            let few = parse(key.example).as_array().unwrap()[..key.items - 1].to_vec();
+            for (root, whole) in roots(object, &with_key(object, key.name, json!(few))) {
+                assert!(load(root, &whole).has_errors(), "{}.{}", object.name, key.name);
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 15, "{tried}");
+}
+
+fn lab(text: &str) -> Lab {
+    load(&LAB, &parse(text)).labs.pop().unwrap().lab.unwrap()
+}
+
+/// Where a default is declared, the value that is written and the one that is left out are the same to the reader.
+#[test]
+fn what_counts_where_a_key_is_left_out_is_what_is_declared() {
+    let bare = lab(r#"{"model": "fall", "plots": [{"traces": [{"label": "z", "expr": "data.time"}]}],
+        "readouts": [{"label": "t", "expr": "data.time"}],
+        "controls": [{"label": "g", "min": 0, "max": 1, "value": 0, "param": "g"}]}"#);
+    let default = |object: &Object, key: &str| describe::default(object.key(key).unwrap());
+    assert_eq!(Some(json!(bare.title())), default(&LAB, "title"));
+    assert_eq!(Some(json!(bare.kind())), default(&LAB, "kind"));
+    assert_eq!((bare.height(), bare.force_scale()), (300.0, 0.02));
+    assert_eq!(bare.speeds(), [0.1, 0.25, 1.0, 4.0]);
+    assert_eq!((bare.camera.azimuth, bare.camera.elevation), (-55.0, 25.0));
+    assert_eq!(bare.camera, lab(r#"{"model": "fall", "camera": {"azimuth": -55, "elevation": 25}}"#).camera);
+    assert_eq!(bare.camera, Camera::default());
+    let plot = &bare.plots[0];
+    assert_eq!((plot.window(), plot.height(), plot.xlabel()), (5.0, 140.0, "time (s)"));
+    assert_eq!((bare.readouts[0].digits(), bare.controls[0].digits()), (3, Some(3)));
+    let flags = (bare.dock, bare.autoplay, plot.traces[0].dash);
+    let action = bare.controls[0].action().unwrap();
+    assert_eq!((flags, action.init, action.reset), ((false, false, false), false, false));
+    assert_eq!(bare.controls[0].step(), Some(0.01));
+    assert!(matches!(bare.controls[0].kind, ControlKind::Slider { .. }));
+    let quiz = parse(
+        r#"{"id": "a", "questions": [{"q": "?", "options": ["a", "b"], "answer": 0}, {"kind": "numeric", "q": "?", "answer": -50}]}"#,
+    );
+    let quiz = load(&QUIZ, &quiz).quizzes.pop().unwrap();
+    assert_eq!(quiz.title(), "Knowledge check");
+    let says = |object: &Object, key: &str, what: String| match object.key(key).unwrap().absent {
+        Absent::Said(words) => assert!(words.contains(&what), "{words}"),
+        other => panic!("{other:?}"),
+    };
+    says(&NUMERIC, "tol", format!("{} %", 100.0 * TOLERANCE));
+    says(&RUN, "until", format!("{RUN_LENGTH} s"));
+    assert!(LAB.key("stopAt").unwrap().doc.contains(&format!("{RUN_LENGTH} s")));
+    assert_eq!(quiz.questions[1].as_ref().unwrap().numeric(), Some((-50.0, 1.0)));
+}
+
+/// Every number, list of numbers and text that is declared as a default is read from the declaration: nowhere else stands
+/// what could differ from it.
+#[test]
+fn declared_defaults_are_of_their_type() {
+    for (object, key) in every_key() {
+        let at = format!("{}.{}", object.name, key.name);
+        let Some(default) = describe::default(key) else { continue };
+        let fits = match key.of {
+            Type::Number | Type::Whole => default.is_number() && object.number(key.name).is_finite(),
+            Type::Text | Type::Words(_) => default.as_str() == Some(object.text(key.name)),
+            Type::Flag => default == json!(false),
+            Type::List(_) => default.is_array(),
+            _ => default == json!({}),
+        };
+        assert!(fits, "{at}");
+    }
+}
+
+/// What keys ask of each other is what is found, and how bad it is.
+#[test]
+fn what_keys_ask_of_each_other_is_checked() {
+    for object in OBJECTS {
+        for rule in object.together {
+            let (names, without, all): (&[&str], _, _) = match rule {
+                Together::ExactlyOne(names) => (names, Some(true), Some(true)),
+                Together::AtLeastOne(names) => (names, Some(true), None),
+                Together::OneAdvised(names) => (names, Some(false), None),
+                Together::AtMostOne(names) => (names.as_slice(), None, Some(true)),
+                Together::FirstCounts(names) => (names.as_slice(), None, Some(false)),
+            };
+            let mut whole = parse(object.minimal);
+            names.iter().for_each(|name| drop(whole.as_object_mut().unwrap().remove(*name)));
+            let mut both = whole.clone();
+            for name in names {
+                let example = parse(object.key(name).unwrap().example);
+                both.as_object_mut().unwrap().insert((*name).into(), example);
+            }
+            for (value, is_error) in [(whole, without), (both, all)] {
+                let Some(is_error) = is_error else { continue };
+                for (root, value) in roots(object, &value) {
+                    let lesson = load(root, &value);
+                    assert!(!lesson.findings.is_empty(), "{}: {rule:?}", object.name);
+                    assert_eq!(lesson.has_errors(), is_error, "{}: {rule:?}", object.name);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! What a machine can check: runs, measures over them, and what must hold.
+
+use super::{Absent, LAB, Map, Object, Part, Together, Type, Word, key};
+use crate::spec::Form;
+
+/// How long a run is where nothing says it, in s.
+pub const RUN_LENGTH: f64 = 2.0;
+
+static EXPRESSION: Type = Type::Code(Form::Expression);
+static TEXT: Type = Type::Text;
+static INLINE: Type = Type::Object(&LAB);
+static EXACT: Type = Type::Object(&CLOSED_FORM);
+
+static RUNS: Map = Map { names: "the name of a run", of: Type::Object(&RUN) };
+static MEASURES: Map = Map { names: "the name of a measure", of: Type::Code(Form::Expression) };
+static FORMS: Map = Map { names: "the label of a trace", of: Type::Either(&EXPRESSION, &EXACT) };
+static SETTINGS: Map = Map { names: "the label of a slider or a select", of: Type::Scalar };
+
+static QUOTE: [Part; 2] = [
+    Part { what: "the text that a reader sees, with its number", of: Type::Text },
+    Part { what: "what the number must be", of: Type::Code(Form::Expression) },
+];
+static SAID: Type = Type::Pair(&QUOTE);
+
+static PRESSED: [Part; 2] = [
+    Part { what: "the label of a button", of: Type::Text },
+    Part { what: "the time in s", of: Type::Number },
+];
+static PRESS: Type = Type::Pair(&PRESSED);
+
+/// What is claimed, and how it is checked.
+pub static VERIFY: Object = Object {
+    name: "verify",
+    what: "a verify object",
+    doc: "How a machine can check what the text claims: runs of a lab, measures taken in every run, and what must hold. The guide is [verify.md](../verify.md).",
+    tag: None,
+    minimal: r##"{"lab": "#1", "measure": {"speed": "final(-data.joint('ball').qvel[2])"}, "says": [["9.81 m/s", "speed"]]}"##,
+    keys: &[
+        key(
+            "lab",
+            Type::Either(&TEXT, &INLINE),
+            "the lab that runs: `#2` is the second lab of the lesson, `#quiz-id.1` the sim of the first question of a quiz; or a lab written here",
+            r##""#1""##,
+        )
+        .or(Absent::Said("the question's own `sim`, or the lab that carries this object")),
+        key(
+            "runs",
+            Type::Map(&RUNS),
+            "runs by name; measures are read as `run.measure`, or by their own name where there is one run",
+            r#"{"earth": {"set": {"gravity": -9.81}, "until": 1}}"#,
+        )
+        .or(Absent::Said("one run of the lab as it stands")),
+        key(
+            "measure",
+            Type::Map(&MEASURES),
+            "expressions by name, taken in every run; see [measures](functions.md)",
+            r#"{"speed": "final(-data.joint('ball').qvel[2])"}"#,
+        )
+        .or(Absent::Empty),
+        key(
+            "options",
+            Type::List(&EXPRESSION),
+            "on a question with options: one condition for each, in their order; that of the right option alone must hold",
+            r#"["speed < 7", "speed > 7 && speed < 15", "speed > 15"]"#,
+        )
+        .or(Absent::Empty),
+        key(
+            "value",
+            Type::Code(Form::Expression),
+            "on a numeric question: what its answer must be, within `tol`",
+            r#""speed""#,
+        ),
+        key(
+            "says",
+            Type::List(&SAID),
+            "numbers that the text states: what a reader sees, and the expression whose value it is",
+            r#"[["9.81 m/s", "speed"]]"#,
+        )
+        .or(Absent::Empty),
+        key(
+            "exact",
+            Type::Map(&FORMS),
+            "closed forms that traces must follow, by the label of the trace; an object states how far they may be off",
+            r#"{"height": "2 - 0.5 * 9.81 * data.time ** 2"}"#,
+        )
+        .or(Absent::Empty),
+    ],
+    together: &[Together::OneAdvised(&["options", "value", "says", "exact"])],
+};
+
+static EXPECTED: [Word; 1] =
+    [Word { text: "breaks", doc: "the lesson shows this run breaking, and then it must" }];
+
+/// A run.
+pub static RUN: Object = Object {
+    name: "run",
+    what: "a run",
+    doc: "One run of the lab, with what a student does in it.",
+    tag: None,
+    minimal: r#"{"until": 1}"#,
+    keys: &[
+        key(
+            "set",
+            Type::Map(&SETTINGS),
+            "values that controls are set to before the run, by their labels; a slider takes only what a student can reach",
+            r#"{"gravity": -9.81}"#,
+        )
+        .or(Absent::Empty),
+        key(
+            "press",
+            Type::List(&PRESS),
+            "buttons that are pressed, each with the time at which it is",
+            r#"[["Push", 0.5]]"#,
+        )
+        .or(Absent::Empty),
+        key(
+            "setup",
+            Type::Code(Form::Statements),
+            "runs after the lab's own `setup`",
+            r#""model.opt.timestep = 0.001""#,
+        ),
+        key("until", Type::Number, "how long the run is", "1")
+            .unit("s")
+            .positive()
+            .or(Absent::Said("`steps`, else the lab's `stopAt`, else 2 s")),
+        key("steps", Type::Whole, "how long the run is, in steps", "500").positive(),
+        key("expect", Type::Words(&EXPECTED), "what the run is meant to do", r#""breaks""#)
+            .or(Absent::Said("the run goes well")),
+    ],
+    together: &[Together::AtMostOne(&["until", "steps"])],
+};
+
+/// A closed form with a tolerance.
+pub static CLOSED_FORM: Object = Object {
+    name: "closedForm",
+    what: "a closed form",
+    doc: "A formula that a trace must follow, with the distance that is allowed.",
+    tag: None,
+    minimal: r#"{"is": "2 - 0.5 * 9.81 * data.time ** 2", "tol": 0.01}"#,
+    keys: &[
+        key(
+            "is",
+            Type::Code(Form::Expression),
+            "the formula, in the language of the lab",
+            r#""2 - 0.5 * 9.81 * data.time ** 2""#,
+        )
+        .must("without it there is nothing that the trace is held to"),
+        key("tol", Type::Number, "how far the trace may be from it at most, in the trace's unit", "0.01")
+            .or(Absent::Said("the convergence of the lab itself decides")),
+    ],
+    together: &[],
+};
