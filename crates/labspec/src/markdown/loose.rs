@@ -2,7 +2,7 @@
 
 use super::fence::opener;
 use super::{Block, BlockKind, Scan, extent, line_start};
-use crate::lint::rules::fence;
+use crate::lint::fence;
 use crate::source::{SourceMap, Text};
 use std::ops::Range;
 

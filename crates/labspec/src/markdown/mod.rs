@@ -13,8 +13,8 @@ pub(crate) use extent::is_typographic;
 pub(crate) use fence::Opener;
 
 use crate::finding::Finding;
-use crate::lint::rules;
 use crate::source::{SourceFile, SourceMap, Text};
+use crate::{lint, rules};
 use fence::opener;
 use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag, TagEnd};
 use std::ops::Range;
@@ -77,7 +77,7 @@ pub fn scan(file: &SourceFile) -> Scan {
     let is_markup = |b: u8| b"[]()*_~`<>&!|\\".contains(&b);
     if text.bytes().filter(|&b| is_markup(b)).take(MAX_MARKUP + 1).count() > MAX_MARKUP {
         scan.findings.push(
-            Finding::new(&rules::fence::LIMIT, 0..0, "nothing of this lesson is checked")
+            Finding::new(rules::LESSON_LIMIT, 0..0, "nothing of this lesson is checked")
                 .why(format!("it has more than {MAX_MARKUP} characters of markup"))
                 .help("split the lesson"),
         );
@@ -88,7 +88,7 @@ pub fn scan(file: &SourceFile) -> Scan {
         read += text.len() - from;
         if scan.blocks.len() >= MAX_BLOCKS || read > MAX_REREAD + text.len() {
             scan.findings.push(
-                Finding::new(&rules::fence::LIMIT, from..from, "from here on, nothing is checked")
+                Finding::new(rules::LESSON_LIMIT, from..from, "from here on, nothing is checked")
                     .why(format!("the lesson has more than {MAX_BLOCKS} fences, or too many damaged ones"))
                     .help("split the lesson, or repair the first fences and check again"),
             );
@@ -138,7 +138,7 @@ fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
             Event::Html(_) | Event::InlineHtml(_) => {
                 let left = MAX_TAGS - scan.tags;
                 if left > 0 {
-                    let found = rules::html::in_markdown(text, range, left);
+                    let found = lint::html::in_markdown(text, range, left);
                     scan.tags += found.len();
                     scan.findings.extend(found);
                 }
@@ -179,7 +179,7 @@ fn block(text: &str, span: Range<usize>, body: Text, scan: &mut Scan) -> Option<
     let body = with_first_line(text, &open, body);
     let mut kind = open.kind();
     if let Some((right, meant)) = fence::meant(&open, &kind, &body.value) {
-        scan.findings.push(rules::fence::misspelt(&open, right));
+        scan.findings.push(lint::fence::misspelt(&open, right));
         kind = meant;
     }
     let cut = match &kind {
@@ -189,22 +189,22 @@ fn block(text: &str, span: Range<usize>, body: Text, scan: &mut Scan) -> Option<
     let mut body = body;
     let mut span = span;
     if let Some(first) = open.rest.clone() {
-        scan.findings.push(rules::fence::text_on_line(text, &open, first, &kind));
+        scan.findings.push(lint::fence::text_on_line(text, &open, first, &kind));
     }
     let mut resume = None;
     if let Some(cut) = cut {
         let end = body.map.span(0..cut.end).end;
         resume = cut.resume.map(|at| line_start(text, body.map.span(at..at).start));
-        scan.findings.push(rules::fence::unclosed(text, &open, end, resume, &kind));
+        scan.findings.push(lint::fence::unclosed(text, &open, end, resume, &kind));
         span.end = resume.unwrap_or(span.end);
         body.value.truncate(cut.end);
         body.map = SourceMap::verbatim(0..cut.end).then(&body.map);
     } else if !closed {
         let end = body.map.span(0..body.value.trim_end().len()).end.max(open.line.end);
-        scan.findings.push(rules::fence::unclosed(text, &open, end, None, &kind));
+        scan.findings.push(lint::fence::unclosed(text, &open, end, None, &kind));
     }
     if let BlockKind::Code { language, .. } = &kind {
-        rules::listing::check(language, &body, closed && resume.is_none(), &mut scan.findings);
+        lint::listing::check(language, &body, closed && resume.is_none(), &mut scan.findings);
     }
     scan.code.push(span.clone());
     scan.blocks.push(Block { kind, span, info: open.head, body });

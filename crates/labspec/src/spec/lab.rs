@@ -5,7 +5,7 @@ use super::format::{CAMERA, LAB};
 use super::{Control, Plot, Readout, Verify, control, plot, verify};
 use crate::finding::Finding;
 use crate::json::{Json, Node, Number, read};
-use crate::lint::rules::keys::WRONG_TYPE;
+use crate::rules;
 use crate::source::Text;
 use std::ops::Range;
 
@@ -265,7 +265,7 @@ fn expected(text: &Text, findings: &mut Vec<Finding>) -> Option<Expect> {
         return Some(Expect::Breaks(text.span()));
     }
     let what = format!("`expect` cannot be {}", read::named(text.as_str()));
-    let finding = Finding::new(&WRONG_TYPE, text.span(), what)
+    let finding = Finding::new(rules::WRONG_TYPE, text.span(), what)
         .why("it says what is meant to happen when the lab runs; there is one thing that it can say");
     findings.push(match crate::json::nearest(text.as_str(), ["breaks"]) {
         Some(right) => finding.help(format!("did you mean `{right}`?")).fix(text.span(), right),
@@ -301,7 +301,7 @@ fn point(node: &Node, findings: &mut Vec<Finding>) -> Option<[f64; 3]> {
         return None;
     }
     findings.push(
-        Finding::new(&WRONG_TYPE, node.span.clone(), "`target` must be three numbers, in metres")
+        Finding::new(rules::WRONG_TYPE, node.span.clone(), "`target` must be three numbers, in metres")
             .help("write \"target\": [0, 0, 0.5]"),
     );
     None
@@ -315,7 +315,7 @@ fn overlays(fields: &mut Fields<'_, '_>) -> Vec<(Text, bool)> {
             Json::Broken => {}
             _ => fields.findings.push(
                 Finding::new(
-                    &WRONG_TYPE,
+                    rules::WRONG_TYPE,
                     member.value.span.clone(),
                     "an overlay is switched by true or false",
                 )

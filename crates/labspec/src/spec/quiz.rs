@@ -5,7 +5,7 @@ use super::format::{CODE, DEBUG, MCQ, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TO
 use super::{Lab, Verify, lab, verify};
 use crate::finding::Finding;
 use crate::json::{Node, Number, read};
-use crate::lint::rules::keys::WRONG_TYPE;
+use crate::rules;
 use crate::source::Text;
 use std::ops::Range;
 
@@ -166,7 +166,7 @@ fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
         other => {
             let span = kind.as_ref().map_or(node.span.clone(), Text::span);
             let finding = Finding::new(
-                &WRONG_TYPE,
+                rules::WRONG_TYPE,
                 span.clone(),
                 format!("there is no question of kind {}", read::named(other)),
             )

@@ -1,14 +1,13 @@
-//! Ids of quizzes: unique in a lesson, and in a course.
-
-use crate::finding::{Finding, InFile, Place, Severity};
+use crate::finding::{Finding, InFile, Place};
 use crate::json::read::named;
 use crate::source::Text;
 use crate::spec::Lesson;
-use labspec_finding::{Example, Layer, Rule};
 use std::collections::HashMap;
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// An id that two quizzes share.
-pub static DUPLICATE_ID: Rule = Rule {
+pub const DUPLICATE_ID: &Rule = &Rule {
     code: "duplicate-id",
     severity: Severity::Error,
     layer: Layer::Structure,
@@ -22,9 +21,9 @@ pub static DUPLICATE_ID: Rule = Rule {
     ),
 };
 
-pub(in crate::lint) const RULES: &[&Rule] = &[&DUPLICATE_ID];
+pub(super) const CHECK: Check = Check::Lesson(check);
 
-pub(in crate::lint) fn within(lesson: &Lesson, findings: &mut Vec<Finding>) {
+fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let mut first: HashMap<&str, &Text> = HashMap::new();
     for id in lesson.quizzes.iter().filter_map(|q| q.id.as_ref()) {
         match first.get(id.as_str()) {
@@ -38,7 +37,7 @@ pub(in crate::lint) fn within(lesson: &Lesson, findings: &mut Vec<Finding>) {
     }
 }
 
-pub(in crate::lint) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
+pub(crate) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
     let mut findings = Vec::new();
     let mut first: HashMap<&str, (&Lesson, &Text)> = HashMap::new();
     for lesson in lessons {
@@ -65,8 +64,12 @@ pub(in crate::lint) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
 }
 
 fn duplicate(id: &Text) -> Finding {
-    Finding::new(&DUPLICATE_ID, id.span(), format!("another quiz has the id {} too", named(id.as_str())))
-        .help("give every quiz its own id, such as the number of the lesson and a word")
+    Finding::new(
+        DUPLICATE_ID,
+        id.span(),
+        format!("another quiz has the id {} too", named(id.as_str())),
+    )
+    .help("give every quiz its own id, such as the number of the lesson and a word")
 }
 
 #[cfg(test)]

@@ -1,13 +1,12 @@
-//! Typographic quotes where a program reads: in JSON, in listings, in expressions.
-
-use crate::finding::{Finding, Severity};
+use crate::finding::Finding;
 use crate::json::fix_in;
 use crate::markdown::is_typographic;
 use crate::spec::Lab;
-use labspec_finding::{Example, Layer, Rule};
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A typographic quote in code.
-pub static TYPOGRAPHIC: Rule = Rule {
+pub const TYPOGRAPHIC_QUOTE: &Rule = &Rule {
     code: "typographic-quote",
     severity: Severity::Error,
     layer: Layer::Structure,
@@ -17,10 +16,10 @@ pub static TYPOGRAPHIC: Rule = Rule {
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\", \"note\": \"a “ball”\"}\n```\n"),
 };
 
-pub(in crate::lint) const RULES: &[&Rule] = &[&TYPOGRAPHIC];
+pub(super) const CHECK: Check = Check::Lab(check);
 
 /// Looks into the statements and expressions of a lab: one finding for all quotes of a text, with one repair.
-pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
+fn check(lab: &Lab, findings: &mut Vec<Finding>) {
     for (_, code) in lab.code() {
         let (mut quoted, mut found) = (None, Vec::new());
         for (at, c) in code.value.char_indices() {
@@ -39,7 +38,7 @@ pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
         };
         let part = first.start..last.end;
         let right = code.value.get(part.clone()).unwrap_or("").replace(is_typographic, "'");
-        let mut finding = Finding::new(&TYPOGRAPHIC, code.span_of(first.clone()), message)
+        let mut finding = Finding::new(TYPOGRAPHIC_QUOTE, code.span_of(first.clone()), message)
             .help("write ' around names: data.body('ball')");
         // What stands in plain quotes between them keeps its own.
         if !right.contains(['"', '`']) && found.len() == right.matches('\'').count() && found.len() % 2 == 0 {

@@ -1,23 +1,10 @@
 //! Names of model elements written as tags: a browser takes them for HTML and shows nothing.
 
-use crate::finding::{Finding, Severity};
+use crate::finding::Finding;
+use crate::rules;
 use crate::source::Text;
 use crate::spec::{Lab, Quiz};
-use labspec_finding::{Example, Layer, Rule};
 use std::ops::Range;
-
-/// An MJCF element that is not escaped.
-pub static UNESCAPED: Rule = Rule {
-    code: "unescaped-element",
-    severity: Severity::Warning,
-    layer: Layer::Structure,
-    summary: "the name of a model element stands in the text as a tag",
-    why: "a browser takes it for HTML: the name disappears, or a form control appears",
-    bad: Example::Lesson("Both are set in the <option> element.\n"),
-    good: Example::Lesson("Both are set in the `<option>` element, that is &lt;option&gt;.\n"),
-};
-
-pub(in crate::lint) const RULES: &[&Rule] = &[&UNESCAPED];
 
 /// Elements of MJCF that no lesson means as HTML (XML reference of MuJoCo 3). Elements that HTML or SVG
 /// fragments really use (`text`, `image`, `frame`, `filter`, `layer`) are left out.
@@ -117,7 +104,7 @@ fn tags(html: &str) -> Vec<(Range<usize>, &str)> {
 fn finding(tag: &str, span: Range<usize>) -> Finding {
     let shown = crate::json::read::shorten(tag);
     let escaped = tag.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
-    Finding::new(&UNESCAPED, span.clone(), format!("a browser takes `{shown}` for HTML"))
+    Finding::new(rules::UNESCAPED_ELEMENT, span.clone(), format!("a browser takes `{shown}` for HTML"))
         .help(format!("write {}", crate::json::read::shorten(&escaped)))
         .fix(span, escaped)
 }
@@ -153,11 +140,11 @@ fn in_text(text: &Text, findings: &mut Vec<Finding>) {
     }
 }
 
-pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
+pub(super) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     lab.note.iter().for_each(|note| in_text(note, findings));
 }
 
-pub(in crate::lint) fn check_quiz(quiz: &Quiz, findings: &mut Vec<Finding>) {
+pub(super) fn check_quiz(quiz: &Quiz, findings: &mut Vec<Finding>) {
     for (_, question) in quiz.numbered() {
         question.html().into_iter().for_each(|html| in_text(html, findings));
     }

@@ -1,46 +1,10 @@
 //! Listings that lost what a program needs on their way through a text editor.
 
-use super::quotes::TYPOGRAPHIC;
-use crate::finding::{Finding, Severity};
+use crate::finding::Finding;
 use crate::markdown::is_typographic;
+use crate::rules;
 use crate::source::Text;
-use labspec_finding::{Example, Layer, Rule};
 use std::ops::Range;
-
-/// Underscores that Markdown took for emphasis.
-pub static UNDERSCORES: Rule = Rule {
-    code: "listing-underscores",
-    severity: Severity::Warning,
-    layer: Layer::Source,
-    summary: "a Python listing lost the underscores of `__name__`",
-    why: "Markdown takes double underscores for emphasis outside of a fence; the listing does not run",
-    bad: Example::Lesson("```python\nif name == \"main\":\n    main()\n```\n"),
-    good: Example::Lesson("```python\nif __name__ == \"__main__\":\n    main()\n```\n"),
-};
-
-/// Several statements on one line.
-pub static LINE_BREAKS: Rule = Rule {
-    code: "listing-line-breaks",
-    severity: Severity::Warning,
-    layer: Layer::Source,
-    summary: "a Python listing lost its line breaks",
-    why: "several statements stand on one line, which Python does not accept",
-    bad: Example::Lesson("```python\ndef fall(h): z = 1.0 v = 0.0 return z - v * h\n```\n"),
-    good: Example::Lesson("```python\ndef fall(h):\n    z = 1.0\n    v = 0.0\n    return z - v * h\n```\n"),
-};
-
-/// A block that is not indented.
-pub static INDENTATION: Rule = Rule {
-    code: "listing-indentation",
-    severity: Severity::Warning,
-    layer: Layer::Source,
-    summary: "a Python listing lost its indentation",
-    why: "a line that ends with a colon needs an indented line below it; the listing does not run",
-    bad: Example::Lesson("```python\nfor step in range(10):\nprint(step)\n```\n"),
-    good: Example::Lesson("```python\nfor step in range(10):\n    print(step)\n```\n"),
-};
-
-pub(in crate::lint) const RULES: &[&Rule] = &[&UNDERSCORES, &LINE_BREAKS, &INDENTATION];
 
 /// Looks at a listing. An unclosed one may hold text that is no code: it is read up to an empty line or a table.
 pub(crate) fn check(language: &str, body: &Text, closed: bool, findings: &mut Vec<Finding>) {
@@ -182,7 +146,7 @@ fn typographic(body: &Text, scan: &Scan, findings: &mut Vec<Finding>) {
     }
     let on = if lines.len() > 1 { format!(", on {} lines", lines.len()) } else { String::new() };
     let mut finding = Finding::new(
-        &TYPOGRAPHIC,
+        rules::TYPOGRAPHIC_QUOTE,
         body.span_of(first.clone()),
         format!("typographic quotes in a listing{on}"),
     )
@@ -208,7 +172,7 @@ fn python(body: &Text, code: &str, scan: &Scan, findings: &mut Vec<Finding>) {
             let end = content.start + "if name".len();
             findings.push(
                 Finding::new(
-                    &UNDERSCORES,
+                    rules::LISTING_UNDERSCORES,
                     body.span_of(content.start..end),
                     "the underscores of `__name__` are gone",
                 )
@@ -222,9 +186,13 @@ fn python(body: &Text, code: &str, scan: &Scan, findings: &mut Vec<Finding>) {
             && indent <= outer
         {
             findings.push(
-                Finding::new(&INDENTATION, body.span_of(content.clone()), "this line must be indented")
-                    .related(body.span_of(span), "the line that it belongs to")
-                    .help("indent the block by four spaces"),
+                Finding::new(
+                    rules::LISTING_INDENTATION,
+                    body.span_of(content.clone()),
+                    "this line must be indented",
+                )
+                .related(body.span_of(span), "the line that it belongs to")
+                .help("indent the block by four spaces"),
             );
         }
         if bare.trim_end().ends_with(':') {
@@ -232,8 +200,12 @@ fn python(body: &Text, code: &str, scan: &Scan, findings: &mut Vec<Finding>) {
         } else if let Some(second) = second_assignment(bare) {
             let from = start + second;
             findings.push(
-                Finding::new(&LINE_BREAKS, body.span_of(from..content.end), "several statements on one line")
-                    .help("give every statement its own line, indented below the `def`"),
+                Finding::new(
+                    rules::LISTING_LINE_BREAKS,
+                    body.span_of(from..content.end),
+                    "several statements on one line",
+                )
+                .help("give every statement its own line, indented below the `def`"),
             );
         }
     }

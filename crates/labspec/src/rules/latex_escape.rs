@@ -1,12 +1,11 @@
-//! Formulas whose backslash JSON has taken for an escape.
-
-use crate::finding::{Finding, Severity};
+use crate::finding::Finding;
 use crate::source::Text;
-use crate::spec::{Lab, Quiz};
-use labspec_finding::{Example, Layer, Rule};
+use crate::spec::Lesson;
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A command of LaTeX that begins with an escape of JSON.
-pub static LATEX: Rule = Rule {
+pub const LATEX_ESCAPE: &Rule = &Rule {
     code: "latex-escape",
     severity: Severity::Warning,
     layer: Layer::Structure,
@@ -16,7 +15,7 @@ pub static LATEX: Rule = Rule {
     good: Example::Lab(r#"{"model": "ball", "note": "the time constant $\\tau$"}"#),
 };
 
-pub(in crate::lint) const RULES: &[&Rule] = &[&LATEX];
+pub(super) const CHECK: Check = Check::Lesson(check);
 
 /// What an escape makes of the commands that begin with its letter.
 const COMMANDS: [(char, char, &[&str]); 5] = [
@@ -48,7 +47,7 @@ fn check_text(text: &Text, findings: &mut Vec<Finding>) {
         let whole = span.start..text.span_of(at..at + command.len()).end;
         findings.push(
             Finding::new(
-                &LATEX,
+                LATEX_ESCAPE,
                 whole,
                 format!("`\\{command}` loses its backslash: JSON reads `\\{letter}` as an escape"),
             )
@@ -58,12 +57,9 @@ fn check_text(text: &Text, findings: &mut Vec<Finding>) {
     }
 }
 
-pub(in crate::lint) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
-    lab.note.iter().for_each(|note| check_text(note, findings));
-}
-
-pub(in crate::lint) fn check_quiz(quiz: &Quiz, findings: &mut Vec<Finding>) {
-    for (_, question) in quiz.numbered() {
+fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    lesson.all_labs().into_iter().filter_map(|lab| lab.note.as_ref()).for_each(|note| check_text(note, findings));
+    for (_, question) in lesson.quizzes.iter().flat_map(|quiz| quiz.numbered()) {
         question.html().into_iter().for_each(|html| check_text(html, findings));
     }
 }
