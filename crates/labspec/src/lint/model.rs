@@ -49,7 +49,7 @@ pub(crate) fn missing(name: &Text, models: &ModelFolder) -> Option<Finding> {
     let finding =
         Finding::new(rules::UNKNOWN_MODEL, name.span(), format!("there is no model `{}`", shorten(text)));
     Some(match nearest(text, names.iter().map(String::as_str)) {
-        Some(right) => finding.help(format!("did you mean `{right}`?")).fix(name.span(), encode(right)),
+        Some(right) => finding.help(format!("did you mean `{right}`?")).guess(name.span(), encode(right)),
         None if names.is_empty() => finding.help("the folder of models is empty"),
         None => {
             let some: Vec<&str> = names.iter().map(String::as_str).take(12).collect();

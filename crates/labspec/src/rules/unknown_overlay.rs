@@ -24,7 +24,7 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
         let found =
             Finding::new(UNKNOWN_OVERLAY, name.span(), format!("{} cannot be drawn", named(name.as_str())));
         findings.push(match nearest(name.as_str(), texts(&OVERLAYS)) {
-            Some(right) => found.help(format!("did you mean `{right}`?")).fix(name.span(), right),
+            Some(right) => found.help(format!("did you mean `{right}`?")).guess(name.span(), right),
             None => found
                 .help(format!("what can be drawn: {}", texts(&OVERLAYS).collect::<Vec<_>>().join(", "))),
         });

@@ -129,7 +129,7 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Control> 
             )
             .why("the page knows sliders, selects and buttons; it shows nothing for anything else");
             fields.findings.push(match crate::json::nearest(other, texts(CONTROL.words)) {
-                Some(right) => finding.help(format!("did you mean `{right}`?")).fix(span, right),
+                Some(right) => finding.help(format!("did you mean `{right}`?")).guess(span, right),
                 None => finding.help("write \"select\" or \"button\"; without `type` it is a slider"),
             });
             // Its other keys cannot be judged.

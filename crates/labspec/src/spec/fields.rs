@@ -219,7 +219,7 @@ impl<'n, 'f> Fields<'n, 'f> {
                 )),
                 Some(right) if near.is_some() => {
                     misspelt.push(right);
-                    finding.help(format!("did you mean `{right}`?")).fix(member.key.span(), right)
+                    finding.help(format!("did you mean `{right}`?")).guess(member.key.span(), right)
                 }
                 Some(right) => {
                     misspelt.push(right);

@@ -268,7 +268,7 @@ fn expected(text: &Text, findings: &mut Vec<Finding>) -> Option<Expect> {
     let finding = Finding::new(rules::WRONG_TYPE, text.span(), what)
         .why("it says what is meant to happen when the lab runs; there is one thing that it can say");
     findings.push(match crate::json::nearest(text.as_str(), ["breaks"]) {
-        Some(right) => finding.help(format!("did you mean `{right}`?")).fix(text.span(), right),
+        Some(right) => finding.help(format!("did you mean `{right}`?")).guess(text.span(), right),
         None => {
             finding.help("write \"breaks\" when the lab is about a simulation that breaks, else leave it out")
         }

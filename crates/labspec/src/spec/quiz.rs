@@ -172,7 +172,7 @@ fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
             )
             .why("the page does not know how to ask it, nor how to grade it");
             fields.findings.push(match crate::json::nearest(other, texts(QUESTION.words)) {
-                Some(right) => finding.help(format!("did you mean `{right}`?")).fix(span, right),
+                Some(right) => finding.help(format!("did you mean `{right}`?")).guess(span, right),
                 None => finding
                     .help(format!("the kinds are {}", texts(QUESTION.words).collect::<Vec<_>>().join(", "))),
             });
