@@ -65,7 +65,9 @@ impl<'a> Binder<'a> {
                     )
                     .why(format!("it has {}", list(&names)));
                     return self.refuse(match closest(&name.text, names.iter().map(String::as_str)) {
-                        Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
+                        Some(meant) => {
+                            report.help(format!("did you mean `{meant}`?")).guess(name.span, meant)
+                        }
                         None => report.help("use one of them"),
                     });
                 }

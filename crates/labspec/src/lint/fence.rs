@@ -1,18 +1,34 @@
 //! Fences that are damaged, missing or mislabelled. What counts as damage is decided in `markdown/`.
 
 use crate::finding::{Finding, Severity};
-use crate::markdown::{BlockKind, Opener};
+use crate::markdown::{BlockKind, MAX_BLOCKS, MAX_MARKUP, Opener, Problem};
 use crate::rules;
 use std::ops::Range;
 
+/// What is said about damaged fences.
+pub(super) fn told(text: &str, problem: &Problem) -> Finding {
+    match problem {
+        Problem::TooMuchMarkup => {
+            Finding::new(rules::LESSON_LIMIT, 0..0, "nothing of this lesson is checked")
+                .why(format!("it has more than {MAX_MARKUP} characters of markup"))
+                .help("split the lesson")
+        }
+        Problem::TooManyBlocks(from) => {
+            Finding::new(rules::LESSON_LIMIT, *from..*from, "from here on, nothing is checked")
+                .why(format!("the lesson has more than {MAX_BLOCKS} fences, or too many damaged ones"))
+                .help("split the lesson, or repair the first fences and check again")
+        }
+        Problem::Misspelt { open, right } => misspelt(open, right),
+        Problem::TextOnLine { open, rest, kind } => text_on_line(text, open, rest.clone(), kind),
+        Problem::Unclosed { open, end, resume, kind } => unclosed(text, open, *end, *resume, kind),
+        Problem::Missing { object, kind } => missing(text, object, kind),
+        Problem::Unseen(open) => unseen(open),
+        Problem::Indented(open) => indented(open),
+    }
+}
+
 /// A fence without its closing line: `end` is where its content ends, `resume` where the lesson goes on.
-pub(crate) fn unclosed(
-    text: &str,
-    open: &Opener,
-    end: usize,
-    resume: Option<usize>,
-    kind: &BlockKind,
-) -> Finding {
+fn unclosed(text: &str, open: &Opener, end: usize, resume: Option<usize>, kind: &BlockKind) -> Finding {
     let closing = open.closing();
     let finding = Finding::new(rules::FENCE_UNCLOSED, open.head.clone(), "this fence is never closed");
     match kind {
@@ -40,14 +56,14 @@ pub(crate) fn unclosed(
 }
 
 /// A fence that was meant to be another kind.
-pub(crate) fn misspelt(open: &Opener, right: &str) -> Finding {
+fn misspelt(open: &Opener, right: &str) -> Finding {
     Finding::new(rules::FENCE_NAME, open.head.clone(), "the kind of this fence is misspelt")
         .help(format!("write {}{right}", open.closing()))
         .fix(open.head.clone(), format!("{}{right}", open.closing()))
 }
 
 /// Content on the opening line, beginning at `rest`.
-pub(crate) fn text_on_line(text: &str, open: &Opener, rest: Range<usize>, kind: &BlockKind) -> Finding {
+fn text_on_line(text: &str, open: &Opener, rest: Range<usize>, kind: &BlockKind) -> Finding {
     let what = match kind {
         BlockKind::Code { .. } => "a listing begins on the line of its fence",
         _ => "JSON begins on the line of its fence",
@@ -60,7 +76,7 @@ pub(crate) fn text_on_line(text: &str, open: &Opener, rest: Range<usize>, kind: 
 }
 
 /// A lab or a quiz without a fence.
-pub(crate) fn missing(text: &str, object: &Range<usize>, kind: &BlockKind) -> Finding {
+fn missing(text: &str, object: &Range<usize>, kind: &BlockKind) -> Finding {
     let (what, fence) = match kind {
         BlockKind::Quiz => ("a quiz", "```quiz"),
         _ => ("a lab", "```lab simlab"),
@@ -84,7 +100,7 @@ fn line_below(text: &str, end: usize, prefix: &str, line: &str) -> String {
 }
 
 /// A fence inside of an indented code block.
-pub(crate) fn indented(open: &Opener) -> Finding {
+fn indented(open: &Opener) -> Finding {
     Finding::new(
         rules::FENCE_UNSEEN,
         open.head.clone(),
@@ -96,7 +112,7 @@ pub(crate) fn indented(open: &Opener) -> Finding {
 }
 
 /// A fence that Markdown does not see.
-pub(crate) fn unseen(open: &Opener) -> Finding {
+fn unseen(open: &Opener) -> Finding {
     Finding::new(rules::FENCE_UNSEEN, open.head.clone(), "Markdown does not see a fence here")
         .help("put an empty line above it, and only the kind of the fence on the line itself")
 }

@@ -15,8 +15,31 @@ pub use models::ModelFolder;
 pub(crate) use models::{lesson_folder, root_of};
 
 use crate::finding::Finding;
+use crate::markdown::{BlockKind, Scan};
 use crate::rules::{self, CHECKS, Check};
 use crate::spec::Lesson;
+
+/// Most names of model elements that are reported one by one.
+const MAX_TAGS: usize = 500;
+
+/// What is said about the text of a lesson: its fences, its HTML, its listings.
+pub(crate) fn check_text(text: &str, scan: &Scan, findings: &mut Vec<Finding>) {
+    findings.extend(scan.problems.iter().map(|problem| fence::told(text, problem)));
+    let mut tags = 0;
+    for range in &scan.html {
+        let found = html::in_markdown(text, range.clone(), MAX_TAGS - tags);
+        tags += found.len();
+        findings.extend(found);
+        if tags >= MAX_TAGS {
+            break;
+        }
+    }
+    for block in &scan.blocks {
+        if let BlockKind::Code { language, .. } = &block.kind {
+            listing::check(language, &block.body, block.whole, findings);
+        }
+    }
+}
 
 /// Walks a lesson with all checks.
 pub(crate) fn check(lesson: &Lesson, models: &ModelFolder, findings: &mut Vec<Finding>) {

@@ -207,7 +207,7 @@ pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
 fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
     let file = lesson.file.clone();
     let (scan, text) = (markdown::scan(&file), file.text());
-    lesson.findings.extend(scan.findings);
+    lint::check_text(text, &scan, &mut lesson.findings);
     for block in &scan.blocks {
         // More than anybody reads: what follows would be cut off anyway.
         if lesson.findings.len() > 10 * MAX_FINDINGS {
