@@ -1,9 +1,7 @@
 //! The model of a lab: from the model folder or from the lab itself, with every mistake at its place.
 
 use crate::finding::{Finding, InFile};
-use crate::lint::ModelFolder;
-#[cfg(feature = "cli")]
-use crate::lint::{lesson_folder, root_of};
+use crate::lint::{ModelFolder, lesson_folder, root_of};
 use crate::models::FilesOf;
 use crate::rules;
 use crate::source::{SourceFile, Text};
@@ -138,8 +136,7 @@ fn compile_source(file: &SourceFile, files: &dyn Files, name: Option<&str>) -> C
 
 /// Compiles a model file, for itself: the model, what is to be said of it, and the files that this is about. A file that
 /// cannot be read is a finding, too. `root` is what it may read; by default what [`root_of`] finds.
-#[cfg(feature = "cli")]
-pub(crate) fn check_model_file(
+pub fn check_model_file(
     path: &Path,
     root: Option<&Path>,
 ) -> (Option<Arc<Model>>, Vec<Finding>, Vec<SourceFile>) {

@@ -8,9 +8,7 @@ mod refresh;
 mod trial;
 
 pub use claims::Claim;
-#[cfg(feature = "cli")]
-pub(crate) use entries::evidence;
-pub use entries::ledger;
+pub use entries::{evidence, ledger};
 pub use trial::Tried;
 
 use crate::bind::Programs;
@@ -105,17 +103,18 @@ pub(crate) fn bind(
     let Some(model) = models.of(lab, findings) else {
         // A folder that has no such model is a matter of the lesson's structure, which knows what the folder has.
         if let (Some(Scene::Model(name)), None) = (lab.scene(), models.folder().names()) {
-            let given = models.folder().given().is_some();
-            let unknown = given && !models.folder().has(&name.value);
-            findings.extend(unknown.then(|| {
-                Finding::new(&UNKNOWN_MODEL, name.span(), format!("there is no model `{}`", name.value))
-                    .help("name a model that there is")
-            }));
-            findings.extend((!given).then(||
-                Finding::error(rules::NO_MODEL_FOLDER, name.span(), "there is no folder of models, so this lab cannot run")
+            let folder = models.folder();
+            findings.extend(match folder.given() {
+                Some(_) if folder.has(&name.value) => None,
+                Some(_) => Some(
+                    Finding::new(&UNKNOWN_MODEL, name.span(), format!("there is no model `{}`", name.value))
+                        .help("name a model that there is"),
+                ),
+                None => Some(Finding::error(rules::NO_MODEL_FOLDER, name.span(), "there is no folder of models, so this lab cannot run")
                     .why("its expressions, its runs and every claim about it could not be checked")
                     .help(format!("put {}.xml into a folder `models` beside or above the lesson, or name the folder: --models DIR", name.value)),
-            ));
+                ),
+            });
         }
         return None;
     };
