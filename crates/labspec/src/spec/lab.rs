@@ -146,6 +146,12 @@ impl Lab {
         }
     }
 
+    /// Where to point when the whole lab is meant: at its model.
+    pub fn place(&self) -> Range<usize> {
+        let scene = self.model.as_ref().or(self.xml.as_ref());
+        scene.map_or(self.span.start..self.span.start + 1, Text::span)
+    }
+
     /// Index of the keyframe to start from.
     pub fn keyframe(&self) -> Option<usize> {
         self.key.as_ref().map(|k| k.value.max(0.0) as usize)
