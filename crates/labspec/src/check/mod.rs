@@ -14,7 +14,6 @@ pub use trial::Tried;
 use crate::bind::Programs;
 use crate::bind::scene::Models;
 use crate::finding::{self, Finding, InFile, Severity};
-use crate::lint::rules::model::UNKNOWN_MODEL;
 use crate::rules;
 use crate::spec::{Lab, LabAddress, Lesson, Scene};
 use labspec_core::Model;
@@ -107,7 +106,7 @@ pub(crate) fn bind(
             findings.extend(match folder.given() {
                 Some(_) if folder.has(&name.value) => None,
                 Some(_) => Some(
-                    Finding::new(&UNKNOWN_MODEL, name.span(), format!("there is no model `{}`", name.value))
+                    Finding::new(rules::UNKNOWN_MODEL, name.span(), format!("there is no model `{}`", name.value))
                         .help("name a model that there is"),
                 ),
                 None => Some(Finding::error(rules::NO_MODEL_FOLDER, name.span(), "there is no folder of models, so this lab cannot run")
