@@ -143,6 +143,17 @@ pub enum Outcome {
     Nothing,
 }
 
+impl Outcome {
+    /// `clean`, `findings` or `nothing`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Outcome::Clean => "clean",
+            Outcome::Findings => "findings",
+            Outcome::Nothing => "nothing",
+        }
+    }
+}
+
 impl Ledger {
     /// Adds a claim.
     pub fn add(&mut self, entry: Entry) {

@@ -18,20 +18,12 @@ pub(super) fn value(
     sources: &[&SourceFile],
 ) -> Value {
     let mut value = report::json(findings, sources);
-    value["summary"]["outcome"] = json!(word(outcome));
+    value["summary"]["outcome"] = json!(outcome.as_str());
     value["summary"]["claims"] =
         Subject::ALL.iter().map(|s| (key(s.as_str()), count(&ledger.count(*s)))).collect();
     value["lessons"] = checked.iter().map(lesson).collect();
     value["ledger"] = ledger.entries().iter().map(|e| entry(e, sources)).collect();
     report::report(name, value)
-}
-
-fn word(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Clean => "clean",
-        Outcome::Findings => "findings",
-        Outcome::Nothing => "nothing",
-    }
 }
 
 fn count(c: &Count) -> Value {
