@@ -15,6 +15,7 @@ pub mod advice;
 pub mod bind;
 pub mod check;
 pub mod cli;
+mod digest;
 pub mod finding;
 pub mod format;
 mod interrupt;

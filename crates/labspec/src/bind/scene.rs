@@ -1,5 +1,6 @@
 //! The model of a lab: from the model folder or from the lab itself, with every mistake at its place.
 
+use super::parts::{self, Part, Remembering};
 use crate::finding::{Finding, InFile};
 use crate::lint::{ModelFolder, lesson_folder, root_of};
 use crate::rules;
@@ -8,17 +9,35 @@ use crate::spec::{Lab, Scene};
 use labspec_core::Model;
 use labspec_core::xml::{self, Files, Folder, NoFiles};
 use std::collections::BTreeMap;
-use std::path::Path;
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-/// Models by name, compiled once, and the files they came from.
+/// Models by name, compiled once, and the files they came from. Threads may share them: whoever asks first compiles, the
+/// others wait.
 #[derive(Debug, Default)]
 pub struct Models {
     folder: ModelFolder,
-    compiled: BTreeMap<String, Option<Arc<Model>>>,
+    compiled: Mutex<BTreeMap<String, Arc<OnceLock<Loaded>>>>,
+    /// What is to be said of each model, until somebody takes it.
+    said: Mutex<BTreeMap<String, (Vec<Finding>, Vec<SourceFile>)>>,
+    /// Digests of parts, looked at once.
+    marks: Mutex<BTreeMap<(String, bool, usize), String>>,
+    /// The files of the models whose findings were taken.
     files: Vec<SourceFile>,
-    /// Findings in the model files themselves.
-    findings: Vec<Finding>,
+}
+
+/// A model of the folder.
+#[derive(Debug)]
+struct Loaded {
+    model: Option<Arc<Model>>,
+    /// Something was found in its files.
+    talks: bool,
+    parts: Vec<Part>,
+}
+
+/// What a mutex holds, whatever became of the others who held it.
+fn open<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Models {
@@ -32,19 +51,24 @@ impl Models {
         &self.folder
     }
 
-    /// The files of the models that had something to say.
+    /// The files of the models that had something to say, as far as it was taken.
     pub fn files(&self) -> &[SourceFile] {
         &self.files
     }
 
-    /// Takes what was found in model files since the last call.
+    /// Takes what was found in model files since the last call, by the names of the models.
     pub fn take_findings(&mut self) -> Vec<Finding> {
-        std::mem::take(&mut self.findings)
+        let mut findings = Vec::new();
+        for (of_model, files) in std::mem::take(&mut *open(&self.said)).into_values() {
+            findings.extend(of_model);
+            self.files.extend(files);
+        }
+        findings
     }
 
     /// The model of a lab. `None` when there is none or it has mistakes; those in an inline model are added to
     /// `findings`, those in a model file to the findings of the models, once.
-    pub fn of(&mut self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
+    pub fn of(&self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
         match lab.scene()? {
             Scene::Xml(text) => {
                 let examined = xml::examine(&text.value, &NoFiles, None);
@@ -52,8 +76,7 @@ impl Models {
                 examined.model.map(Arc::new)
             }
             Scene::Model(name) => {
-                let known = self.compiled.get(&name.value).cloned();
-                let model = known.unwrap_or_else(|| self.load(&name.value));
+                let model = self.load(&name.value);
                 // A model that does not exist is reported by the rules of the lesson's structure.
                 if model.is_none() && self.folder.path(&name.value).is_some() {
                     findings.push(
@@ -67,28 +90,78 @@ impl Models {
         }
     }
 
-    fn load(&mut self, name: &str) -> Option<Arc<Model>> {
+    /// The model with this name; `None` when there is none or it has mistakes, which are then findings of the models.
+    pub(crate) fn load(&self, name: &str) -> Option<Arc<Model>> {
+        self.loaded(name, |loaded| loaded.model.clone())?
+    }
+
+    /// What a model that is in the folder was made of, and whether something is said of it.
+    pub(crate) fn parts(&self, name: &str) -> Option<(Vec<Part>, bool)> {
+        self.loaded(name, |loaded| (loaded.parts.clone(), loaded.talks))
+    }
+
+    /// Every file that was looked at, and the folder.
+    pub(crate) fn read(&self) -> Vec<PathBuf> {
+        let Some(folder) = self.folder.path_of_folder() else { return Vec::new() };
+        let mut paths = vec![folder.to_path_buf()];
+        let compiled = open(&self.compiled);
+        for (name, loaded) in compiled.iter() {
+            paths.extend(self.folder.path(name));
+            paths.extend(loaded.get().into_iter().flat_map(|l| l.parts.iter().map(|p| folder.join(&p.path))));
+        }
+        paths.extend(open(&self.marks).keys().map(|(part, ..)| folder.join(part)));
+        paths
+    }
+
+    fn loaded<T>(&self, name: &str, what: impl Fn(&Loaded) -> T) -> Option<T> {
         let path = self.folder.path(name)?;
+        let cell = open(&self.compiled).entry(name.to_string()).or_default().clone();
+        Some(what(cell.get_or_init(|| self.compile(name, &path))))
+    }
+
+    fn compile(&self, name: &str, path: &Path) -> Loaded {
         // The folder and the file: enough to find it, and the same on every machine.
         let folder = path.parent().and_then(|p| p.file_name()).and_then(|f| f.to_str()).unwrap_or("models");
         let shown = format!("{folder}/{name}.xml");
-        let model = match SourceFile::read(&path) {
+        let read = SourceFile::read(path);
+        let mark = parts::mark_of_text(read.as_ref().map(SourceFile::text).map_err(String::as_str));
+        let mut made_of = vec![Part { path: String::new(), limit: 0, mark }];
+        let (model, findings, files) = match read {
             Ok(file) => {
                 let file = SourceFile::new(shown, file.text());
-                let compiled = compile_file(&file, &path, self.folder.root());
-                self.findings.extend(compiled.findings);
-                self.files.extend(compiled.files);
-                compiled.model.map(Arc::new)
+                let compiled = compile_file(&file, path, self.folder.root());
+                made_of.extend(compiled.parts);
+                (compiled.model.map(Arc::new), compiled.findings, compiled.files)
             }
             Err(message) => {
                 let file = SourceFile::new(shown, "");
-                self.findings.push(Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file));
-                self.files.push(file);
-                None
+                (None, vec![Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file)], vec![file])
             }
         };
-        self.compiled.insert(name.to_string(), model.clone());
-        model
+        let talks = !findings.is_empty();
+        open(&self.said).insert(name.to_string(), (findings, files));
+        Loaded { model, talks, parts: made_of }
+    }
+
+    /// Whether a model's files still are what they were.
+    pub(crate) fn is_made_of(&self, name: &str, parts: &[Part]) -> bool {
+        let Some(path) = self.folder.path(name) else { return false };
+        let place = path.parent().unwrap_or(Path::new(""));
+        let folder = Folder::at(self.folder.root(), place).ok();
+        let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
+        parts.iter().any(|part| part.path.is_empty())
+            && parts.iter().all(|part| {
+                let named = if part.path.is_empty() { format!("{name}.xml") } else { part.path.clone() };
+                // The text of a model and the bytes of the same file, attached, have digests of their own.
+                let at = (named, part.path.is_empty(), part.limit);
+                let known = open(&self.marks).get(&at).cloned();
+                let mark = known.unwrap_or_else(|| {
+                    let mark = parts::mark_now(&path, files, &part.path, part.limit);
+                    open(&self.marks).insert(at, mark.clone());
+                    mark
+                });
+                mark == part.mark
+            })
     }
 }
 
@@ -100,6 +173,8 @@ pub(crate) struct Compiled {
     pub(crate) findings: Vec<Finding>,
     /// Empty when there are no findings.
     pub(crate) files: Vec<SourceFile>,
+    /// The other files that it was made of.
+    pub(crate) parts: Vec<Part>,
 }
 
 /// Compiles the model of a file. What it names (included text, models to attach, meshes) is looked for from the folder of
@@ -108,7 +183,8 @@ pub(crate) fn compile_file(file: &SourceFile, path: &Path, root: &Path) -> Compi
     let place = path.parent().unwrap_or(Path::new(""));
     let folder = Folder::at(root, place).ok();
     let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
-    let examined = xml::examine(file.text(), files, path.file_name().and_then(|n| n.to_str()));
+    let remembering = Remembering::new(files);
+    let examined = xml::examine(file.text(), &remembering, path.file_name().and_then(|n| n.to_str()));
     let mut sources = Vec::new();
     if !examined.findings.is_empty() {
         sources.push(file.clone());
@@ -119,7 +195,7 @@ pub(crate) fn compile_file(file: &SourceFile, path: &Path, root: &Path) -> Compi
         sources.get(at).map_or(finding.clone(), |source| finding.at(source))
     };
     let findings = examined.findings.iter().map(place_of).collect();
-    Compiled { model: examined.model, findings, files: sources }
+    Compiled { model: examined.model, findings, files: sources, parts: remembering.parts() }
 }
 
 /// Compiles a model file, for itself: the model, what is to be said of it, and the files that this is about. A file that
@@ -140,7 +216,7 @@ pub(crate) fn check_model_file(
         }
     };
     let root = root.map_or_else(|| root_of(&lesson_folder(path), &[]), Path::to_path_buf);
-    let Compiled { model, findings, mut files } = compile_file(&file, path, &root);
+    let Compiled { model, findings, mut files, .. } = compile_file(&file, path, &root);
     if files.is_empty() {
         files.push(file);
     }
