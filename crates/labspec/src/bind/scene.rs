@@ -19,12 +19,15 @@ pub struct Models {
     folder: ModelFolder,
     compiled: Mutex<BTreeMap<String, Arc<OnceLock<Loaded>>>>,
     /// What is to be said of each model, until somebody takes it.
-    said: Mutex<BTreeMap<String, (Vec<Finding>, Vec<SourceFile>)>>,
+    said: Mutex<BTreeMap<String, Said>>,
     /// Digests of parts, looked at once.
     marks: Mutex<BTreeMap<(String, bool, usize), String>>,
     /// The files of the models whose findings were taken.
     files: Vec<SourceFile>,
 }
+
+/// What is to be said of a model, and the files that this is about.
+type Said = (Vec<Finding>, Vec<SourceFile>);
 
 /// A model of the folder.
 #[derive(Debug)]
