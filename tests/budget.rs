@@ -283,7 +283,7 @@ fn real_labs_are_covered() {
         println!("skipped: {} is not there", shared.display());
         return;
     }
-    let mut models = Models::new(ModelFolder::open(&shared.join("corpus/models")).unwrap());
+    let models = Models::new(ModelFolder::open(&shared.join("corpus/models")).unwrap());
     let mut runs = 0;
     for folder in ["corpus/labs", "corpus/quizzes"] {
         for entry in std::fs::read_dir(shared.join(folder)).unwrap() {
@@ -292,7 +292,7 @@ fn real_labs_are_covered() {
                 continue;
             }
             let lesson = load_lesson(SourceFile::read(&path).unwrap(), models.folder());
-            let checked = check::check(lesson, &mut models, Depth { labs: true, claims: false });
+            let checked = check::check(lesson, &models, Depth { labs: true, claims: false });
             for lab in &checked.labs {
                 let t = lab.tried.as_ref().unwrap();
                 assert_eq!(

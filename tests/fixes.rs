@@ -35,8 +35,8 @@ impl Case {
     fn findings(&self, text: &str) -> (Vec<Finding>, usize) {
         let lesson = load_lesson(SourceFile::new(self.name.as_str(), text), &self.models);
         let broken = lesson.broken.len();
-        let mut models = Models::new(self.models.clone());
-        let checked = check::check(lesson, &mut models, Depth { labs: false, claims: false });
+        let models = Models::new(self.models.clone());
+        let checked = check::check(lesson, &models, Depth { labs: false, claims: false });
         (checked.findings, broken)
     }
 }

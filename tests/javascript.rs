@@ -326,7 +326,7 @@ fn compare_lessons(lessons: &[PathBuf], models: &Path) {
     for path in lessons {
         let text = std::fs::read_to_string(path).unwrap();
         let lesson = load_lesson(SourceFile::new(path.display().to_string(), text), &folder);
-        let mut models = Models::new(folder.clone());
+        let models = Models::new(folder.clone());
         for lab in lesson.all_labs() {
             let name = format!("{} {}", path.display(), lab.title());
             let Some(model) = models.of(lab, &mut Vec::new()) else { panic!("{name} has no model") };

@@ -7,6 +7,7 @@ mod cli;
 mod cli_run;
 mod conformance;
 mod constrained;
+mod courses;
 mod examples;
 mod files;
 mod fixes;

@@ -106,6 +106,8 @@ pub(crate) struct Done {
 pub(crate) fn program(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_labspec"));
     command.current_dir(folder).args(arguments).env_remove("CLICOLOR_FORCE").stdin(Stdio::null());
+    // Nothing is kept, and nothing of the person who runs the tests is read.
+    command.env("LABSPEC_CACHE", "");
     command
 }
 

@@ -8,7 +8,12 @@ use std::process::Command;
 
 fn run(arguments: &[&str]) -> String {
     let program = env!("CARGO_BIN_EXE_labspec");
-    let done = Command::new(program).args(arguments).current_dir(workspace()).output().unwrap();
+    let done = Command::new(program)
+        .args(arguments)
+        .env("LABSPEC_CACHE", "")
+        .current_dir(workspace())
+        .output()
+        .unwrap();
     let shown = String::from_utf8(done.stdout).unwrap();
     hold(&shown);
     shown
@@ -39,6 +44,7 @@ fn the_findings_of_the_readme_are_real() {
     std::fs::write(folder.path().join("wrong.md"), WRONG).unwrap();
     let done = Command::new(env!("CARGO_BIN_EXE_labspec"))
         .args(["check", "wrong.md", "--models"])
+        .env("LABSPEC_CACHE", "")
         .arg(workspace().join("specs/models"))
         .current_dir(folder.path())
         .output()

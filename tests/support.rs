@@ -90,9 +90,9 @@ pub(crate) fn numbers(recorded: &Value) -> Vec<f64> {
 
 /// Checks a lesson or a lab given as text, with runs and verdicts; models are inline.
 pub(crate) fn check_text(name: &str, text: &str) -> Checked {
-    let mut models = Models::new(ModelFolder::unknown());
+    let models = Models::new(ModelFolder::unknown());
     let lesson = load_lesson(SourceFile::new(name, text), models.folder());
-    check::check(lesson, &mut models, Depth { labs: true, claims: true })
+    check::check(lesson, &models, Depth { labs: true, claims: true })
 }
 
 /// The codes of everything that was found.

@@ -154,7 +154,16 @@ fn code(folder: &Path, script: &str) -> Option<i32> {
     let mut command = program(folder, &[]);
     let binary = command.get_program().to_os_string();
     command = std::process::Command::new("sh");
-    command.current_dir(folder).arg("-c").arg(script).env("L", binary).output().unwrap().status.code()
+    command
+        .current_dir(folder)
+        .arg("-c")
+        .arg(script)
+        .env("L", binary)
+        .env("LABSPEC_CACHE", "")
+        .output()
+        .unwrap()
+        .status
+        .code()
 }
 
 #[cfg(target_os = "linux")]

@@ -157,6 +157,7 @@ fn run(root: &Path, said: &Path, arguments: &[String]) -> Result<String, String>
     let out = |name: &str| File::create(said.join(name)).unwrap();
     let mut child = Command::new(env!("CARGO_BIN_EXE_labspec"))
         .args(arguments)
+        .env("LABSPEC_CACHE", "")
         .current_dir(root)
         .stdin(Stdio::null())
         .stdout(out("stdout"))

@@ -198,7 +198,10 @@ def main():
         profile, ways = (profiles(folder), ablation(folder)) if counted else ("", "")
     if a.out:
         where = processor_of if a.ways else processor()
-        a.out.write_text(PAGE.format(table="\n".join(lines), processor=where, ways=ways, profile=profile))
+        # What is written by hand at the end stays.
+        _, mark, rest = (a.out.read_text() if a.out.exists() else "").partition("\n## Checks\n")
+        page = PAGE.format(table="\n".join(lines), processor=where, ways=ways, profile=profile)
+        a.out.write_text(page.rstrip("\n") + "\n" + mark + rest)
     return 0
 
 

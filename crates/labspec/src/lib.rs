@@ -20,6 +20,7 @@ pub mod check;
 pub mod checker;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod digest;
 pub mod engine;
 pub mod error;
 pub mod finding;

@@ -221,8 +221,8 @@ mod tests {
             "runs": {"run": {"until": 0.1}}, "measure": {"m": code}, "says": [["0", "run.m"]], "options": ["true"],
         }});
         let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
-        let mut models = Models::new(ModelFolder::unknown());
-        let checked = check::check(lesson, &mut models, Depth { labs: false, claims: true });
+        let models = Models::new(ModelFolder::unknown());
+        let checked = check::check(lesson, &models, Depth { labs: false, claims: true });
         let value = checked.claims.first().and_then(|c| c.judgement.measures.first()).map(|m| m.value);
         crate::verify::significant(value.unwrap_or_else(|| panic!("{code}: {:#?}", checked.findings)))
     }

@@ -1,25 +1,47 @@
 //! The model of a lab: from the model folder or from the lab itself, with every mistake at its place.
 
+use super::parts::{self, Part, Remembering};
 use crate::finding::{Finding, InFile};
 use crate::lint::{ModelFolder, lesson_folder, root_of};
-use crate::models::FilesOf;
+use crate::models::{self, FilesOf};
 use crate::rules;
 use crate::source::{SourceFile, Text};
 use crate::spec::{Lab, Scene};
 use labspec_core::Model;
 use labspec_core::xml::{self, Files, Folder, NoFiles};
 use std::collections::BTreeMap;
-use std::path::Path;
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-/// Models by name, compiled once, and the files they came from.
+/// Models by name, compiled once, and the files they came from. Threads may share them: whoever asks first compiles, the
+/// others wait.
 #[derive(Debug, Default)]
 pub struct Models {
     folder: ModelFolder,
-    compiled: BTreeMap<String, Option<Arc<Model>>>,
+    compiled: Mutex<BTreeMap<String, Arc<OnceLock<Loaded>>>>,
+    /// What is to be said of each model, until somebody takes it.
+    said: Mutex<BTreeMap<String, Said>>,
+    /// Digests of parts, looked at once.
+    marks: Mutex<BTreeMap<(String, bool, usize), String>>,
+    /// The files of the models whose findings were taken.
     files: Vec<SourceFile>,
-    /// Findings in the model files themselves.
-    findings: Vec<Finding>,
+}
+
+/// What is to be said of a model, and the files that this is about.
+type Said = (Vec<Finding>, Vec<SourceFile>);
+
+/// A model of the folder.
+#[derive(Debug)]
+struct Loaded {
+    model: Option<Arc<Model>>,
+    /// Something was found in its files.
+    talks: bool,
+    parts: Vec<Part>,
+}
+
+/// What a mutex holds, whatever became of the others who held it.
+fn open<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Models {
@@ -33,19 +55,24 @@ impl Models {
         &self.folder
     }
 
-    /// The files of the models that had something to say.
+    /// The files of the models that had something to say, as far as it was taken.
     pub fn files(&self) -> &[SourceFile] {
         &self.files
     }
 
-    /// Takes what was found in model files since the last call.
+    /// Takes what was found in model files since the last call, by the names of the models.
     pub fn take_findings(&mut self) -> Vec<Finding> {
-        std::mem::take(&mut self.findings)
+        let mut findings = Vec::new();
+        for (of_model, files) in std::mem::take(&mut *open(&self.said)).into_values() {
+            findings.extend(of_model);
+            self.files.extend(files);
+        }
+        findings
     }
 
     /// The model of a lab. `None` when there is none or it has mistakes; those in an inline model are added to
     /// `findings`, those in a model file to the findings of the models, once.
-    pub fn of(&mut self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
+    pub fn of(&self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
         match lab.scene()? {
             Scene::Xml(text) => {
                 let examined = xml::examine(&text.value, &NoFiles, None);
@@ -53,8 +80,7 @@ impl Models {
                 examined.model.map(Arc::new)
             }
             Scene::Model(name) => {
-                let known = self.compiled.get(&name.value).cloned();
-                let model = known.unwrap_or_else(|| self.load(&name.value));
+                let model = self.load(&name.value);
                 // A model that does not exist is reported by the rules of the lesson's structure.
                 if model.is_none() && self.folder.has(&name.value) {
                     findings.push(
@@ -68,34 +94,99 @@ impl Models {
         }
     }
 
-    fn load(&mut self, name: &str) -> Option<Arc<Model>> {
-        if let Some(models) = self.folder.given() {
-            let file = SourceFile::new(format!("models/{name}.xml"), models.text(name)?);
-            let compiled = compile_source(&file, &FilesOf(models), Some(&format!("{name}.xml")));
-            return self.keep(name, compiled);
+    /// The model with this name; `None` when there is none or it has mistakes, which are then findings of the models.
+    pub(crate) fn load(&self, name: &str) -> Option<Arc<Model>> {
+        self.loaded(name, |loaded| loaded.model.clone())?
+    }
+
+    /// What a model that is in the folder was made of, and whether something is said of it.
+    pub(crate) fn parts(&self, name: &str) -> Option<(Vec<Part>, bool)> {
+        self.loaded(name, |loaded| (loaded.parts.clone(), loaded.talks))
+    }
+
+    /// Every file that was looked at, and the folder.
+    pub(crate) fn read(&self) -> Vec<PathBuf> {
+        let Some(folder) = self.folder.path_of_folder() else { return Vec::new() };
+        let mut paths = vec![folder.to_path_buf()];
+        let compiled = open(&self.compiled);
+        for (name, loaded) in compiled.iter() {
+            paths.extend(self.folder.path(name));
+            paths.extend(loaded.get().into_iter().flat_map(|l| l.parts.iter().map(|p| folder.join(&p.path))));
         }
-        let path = self.folder.path(name)?;
+        paths.extend(open(&self.marks).keys().map(|(part, ..)| folder.join(part)));
+        paths
+    }
+
+    fn loaded<T>(&self, name: &str, what: impl Fn(&Loaded) -> T) -> Option<T> {
+        let known = open(&self.compiled).get(name).cloned();
+        let cell = match known {
+            Some(cell) => cell,
+            None if self.folder.has(name) => {
+                open(&self.compiled).entry(name.to_string()).or_default().clone()
+            }
+            None => return None,
+        };
+        let compile = || match (self.folder.given(), self.folder.path(name)) {
+            (Some(models), _) => self.compile_given(name, models),
+            (None, path) => self.compile(name, &path.unwrap_or_default()),
+        };
+        Some(what(cell.get_or_init(compile)))
+    }
+
+    /// A model that is no file: nothing else is opened for it, and nothing of it is kept for another time.
+    fn compile_given(&self, name: &str, models: &dyn models::Models) -> Loaded {
+        let text = models.text(name).unwrap_or_default();
+        let file = SourceFile::new(format!("models/{name}.xml"), text);
+        let Compiled { model, findings, files, parts } =
+            compile_source(&file, &FilesOf(models), Some(&format!("{name}.xml")));
+        let talks = !findings.is_empty();
+        open(&self.said).insert(name.to_string(), (findings, files));
+        Loaded { model: model.map(Arc::new), talks, parts }
+    }
+
+    fn compile(&self, name: &str, path: &Path) -> Loaded {
         // The folder and the file: enough to find it, and the same on every machine.
         let folder = path.parent().and_then(|p| p.file_name()).and_then(|f| f.to_str()).unwrap_or("models");
         let shown = format!("{folder}/{name}.xml");
-        let compiled = match SourceFile::read(&path) {
-            Ok(file) => compile_file(&SourceFile::new(shown, file.text()), &path, self.folder.root()),
+        let read = SourceFile::read(path);
+        let mark = parts::mark_of_text(read.as_ref().map(SourceFile::text).map_err(String::as_str));
+        let mut made_of = vec![Part { path: String::new(), limit: 0, mark }];
+        let (model, findings, files) = match read {
+            Ok(file) => {
+                let file = SourceFile::new(shown, file.text());
+                let compiled = compile_file(&file, path, self.folder.root());
+                made_of.extend(compiled.parts);
+                (compiled.model.map(Arc::new), compiled.findings, compiled.files)
+            }
             Err(message) => {
                 let file = SourceFile::new(shown, "");
-                let finding = Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file);
-                Compiled { model: None, findings: vec![finding], files: vec![file] }
+                (None, vec![Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file)], vec![file])
             }
         };
-        self.keep(name, compiled)
+        let talks = !findings.is_empty();
+        open(&self.said).insert(name.to_string(), (findings, files));
+        Loaded { model, talks, parts: made_of }
     }
 
-    /// Remembers what came of a model.
-    fn keep(&mut self, name: &str, compiled: Compiled) -> Option<Arc<Model>> {
-        self.findings.extend(compiled.findings);
-        self.files.extend(compiled.files);
-        let model = compiled.model.map(Arc::new);
-        self.compiled.insert(name.to_string(), model.clone());
-        model
+    /// Whether a model's files still are what they were.
+    pub(crate) fn is_made_of(&self, name: &str, parts: &[Part]) -> bool {
+        let Some(path) = self.folder.path(name) else { return false };
+        let place = path.parent().unwrap_or(Path::new(""));
+        let folder = Folder::at(self.folder.root(), place).ok();
+        let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
+        parts.iter().any(|part| part.path.is_empty())
+            && parts.iter().all(|part| {
+                let named = if part.path.is_empty() { format!("{name}.xml") } else { part.path.clone() };
+                // The text of a model and the bytes of the same file, attached, have digests of their own.
+                let at = (named, part.path.is_empty(), part.limit);
+                let known = open(&self.marks).get(&at).cloned();
+                let mark = known.unwrap_or_else(|| {
+                    let mark = parts::mark_now(&path, files, &part.path, part.limit);
+                    open(&self.marks).insert(at, mark.clone());
+                    mark
+                });
+                mark == part.mark
+            })
     }
 }
 
@@ -107,6 +198,8 @@ pub(crate) struct Compiled {
     pub(crate) findings: Vec<Finding>,
     /// Empty when there are no findings.
     pub(crate) files: Vec<SourceFile>,
+    /// The other files that it was made of.
+    pub(crate) parts: Vec<Part>,
 }
 
 /// Compiles the model of a file. What it names (included text, models to attach, meshes) is looked for from the folder of
@@ -120,7 +213,8 @@ pub(crate) fn compile_file(file: &SourceFile, path: &Path, root: &Path) -> Compi
 
 /// Compiles the text of a model, which `files` has as `name`.
 fn compile_source(file: &SourceFile, files: &dyn Files, name: Option<&str>) -> Compiled {
-    let examined = xml::examine(file.text(), files, name);
+    let remembering = Remembering::new(files);
+    let examined = xml::examine(file.text(), &remembering, name);
     let mut sources = Vec::new();
     if !examined.findings.is_empty() {
         sources.push(file.clone());
@@ -131,12 +225,12 @@ fn compile_source(file: &SourceFile, files: &dyn Files, name: Option<&str>) -> C
         sources.get(at).map_or(finding.clone(), |source| finding.at(source))
     };
     let findings = examined.findings.iter().map(place_of).collect();
-    Compiled { model: examined.model, findings, files: sources }
+    Compiled { model: examined.model, findings, files: sources, parts: remembering.parts() }
 }
 
 /// Compiles a model file, for itself: the model, what is to be said of it, and the files that this is about. A file that
 /// cannot be read is a finding, too. `root` is what it may read; by default what [`root_of`] finds.
-pub fn check_model_file(
+pub(crate) fn check_model_file(
     path: &Path,
     root: Option<&Path>,
 ) -> (Option<Arc<Model>>, Vec<Finding>, Vec<SourceFile>) {
@@ -152,7 +246,7 @@ pub fn check_model_file(
         }
     };
     let root = root.map_or_else(|| root_of(&lesson_folder(path), &[]), Path::to_path_buf);
-    let Compiled { model, findings, mut files } = compile_file(&file, path, &root);
+    let Compiled { model, findings, mut files, .. } = compile_file(&file, path, &root);
     if files.is_empty() {
         files.push(file);
     }

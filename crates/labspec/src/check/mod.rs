@@ -5,6 +5,7 @@ mod entries;
 mod expect;
 mod programs;
 mod refresh;
+pub(crate) mod stored;
 mod trial;
 
 pub use claims::Claim;
@@ -69,16 +70,33 @@ struct Ready<'l> {
     mistakes: usize,
 }
 
+/// What a check found beyond the structure of a lesson, not yet tied to its file.
+#[derive(Debug, Default)]
+pub(crate) struct Found {
+    pub(crate) findings: Vec<Finding>,
+    pub(crate) labs: Vec<RanLab>,
+    pub(crate) claims: Vec<Claim>,
+}
+
 /// Checks a lesson that has been read. Findings of model files are left in `models`.
-pub fn check(lesson: Lesson, models: &mut Models, depth: Depth) -> Checked {
+pub fn check(lesson: Lesson, models: &Models, depth: Depth) -> Checked {
+    let found = examine(&lesson, models, depth);
+    join(lesson, found)
+}
+
+/// Binds, runs and verifies.
+pub(crate) fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
     let mut findings = Vec::new();
-    let (labs, claims) = {
-        let ready: Vec<Ready<'_>> =
-            lesson.all_labs().into_iter().filter_map(|lab| prepare(lab, models, &mut findings)).collect();
-        let labs = if depth.labs { trial::run_labs(&lesson, &ready, &mut findings) } else { Vec::new() };
-        let claims = if depth.claims { claims::check(&lesson, &ready, &mut findings) } else { Vec::new() };
-        (labs, claims)
-    };
+    let ready: Vec<Ready<'_>> =
+        lesson.all_labs().into_iter().filter_map(|lab| prepare(lab, models, &mut findings)).collect();
+    let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
+    let claims = if depth.claims { claims::check(lesson, &ready, &mut findings) } else { Vec::new() };
+    Found { findings, labs, claims }
+}
+
+/// A lesson together with what was found.
+pub(crate) fn join(lesson: Lesson, found: Found) -> Checked {
+    let Found { mut findings, labs, claims } = found;
     let mut all = lesson.findings.clone();
     lesson.withhold_fixes(&mut findings);
     all.extend(findings.into_iter().map(|f| f.at(&lesson.file)));
@@ -87,7 +105,7 @@ pub fn check(lesson: Lesson, models: &mut Models, depth: Depth) -> Checked {
 }
 
 /// Loads the model of a lab and binds its programs, and looks at what they do.
-fn prepare<'l>(lab: &'l Lab, models: &mut Models, findings: &mut Vec<Finding>) -> Option<Ready<'l>> {
+fn prepare<'l>(lab: &'l Lab, models: &Models, findings: &mut Vec<Finding>) -> Option<Ready<'l>> {
     let (model, programs, mistakes) = bind(lab, models, findings)?;
     programs::check(lab, &model, &programs, findings);
     Some(Ready { lab, model, programs, mistakes })
@@ -96,7 +114,7 @@ fn prepare<'l>(lab: &'l Lab, models: &mut Models, findings: &mut Vec<Finding>) -
 /// Loads the model of a lab and binds its programs; with the number of errors in its code.
 pub(crate) fn bind(
     lab: &Lab,
-    models: &mut Models,
+    models: &Models,
     findings: &mut Vec<Finding>,
 ) -> Option<(Arc<Model>, Programs, usize)> {
     let Some(model) = models.of(lab, findings) else {

@@ -1,6 +1,6 @@
 //! `labspec fmt`.
 
-use super::check::{collect, is_other_json};
+use super::course::{collect, is_other_json};
 use super::target::model_folder;
 use super::{Failure, ModelOptions, Outcome, interrupted, print, write_file};
 use crate::bind::scene::Models;

@@ -1,7 +1,9 @@
 //! The command line: one file per command, each a thin layer over the library.
 
 mod bench;
+mod cache;
 mod check;
+mod course;
 mod explain;
 mod fmt;
 mod machine;
@@ -13,6 +15,7 @@ mod run;
 mod schema;
 mod stdio;
 mod target;
+mod watch;
 
 use crate::interrupt;
 use crate::report::{printable_lines, printable_path};

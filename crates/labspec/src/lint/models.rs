@@ -99,6 +99,11 @@ impl ModelFolder {
         &self.root
     }
 
+    /// The folder itself; `None` when models are only known by name, or not at all.
+    pub(crate) fn path_of_folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
+    }
+
     /// The names, sorted; `None` when no folder is known.
     pub fn names(&self) -> Option<&[String]> {
         self.names.as_deref()

@@ -92,9 +92,9 @@ fn checked(object: &Object, value: &Value) -> Vec<Finding> {
     let model = include_str!("../../../../../specs/models/fall.xml");
     let model = model.replace("</mujoco>", "<keyframe><key qpos='0 0 1 1 0 0 0'/></keyframe></mujoco>");
     std::fs::write(folder.path().join("fall.xml"), model).unwrap();
-    let mut models = Models::new(ModelFolder::open(folder.path()).unwrap());
+    let models = Models::new(ModelFolder::open(folder.path()).unwrap());
     let lesson = load_lesson(SourceFile::new("t.md", lesson_text(object, value)), models.folder());
-    check::check(lesson, &mut models, Depth { labs: true, claims: true }).findings
+    check::check(lesson, &models, Depth { labs: true, claims: true }).findings
 }
 
 fn every_key() -> impl Iterator<Item = (&'static Object, &'static Key)> {

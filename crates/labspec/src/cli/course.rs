@@ -1,0 +1,301 @@
+//! The files of a course, each read and checked, on as many threads as there are.
+//!
+//! What came of a file does not depend on the thread that checked it, and is put together in the order of the files.
+
+use super::cache::Cache;
+use super::stdio::complain;
+use super::target::{model_folder_within, root};
+use super::{Failure, ModelOptions, interrupted};
+use crate::bind::scene::{Models, check_model_file};
+use crate::check::{self, Checked, Depth};
+use crate::finding::{self, Finding};
+use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
+use crate::lint::{self, ModelFolder};
+use crate::report::printable_path;
+use crate::rules;
+use crate::source::SourceFile;
+use crate::spec::{FileKind, Lesson, kind_of, load_lesson_file};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What is checked, and how.
+pub(super) struct Plan<'a> {
+    pub(super) paths: &'a [PathBuf],
+    pub(super) models: &'a ModelOptions,
+    pub(super) depth: Depth,
+    /// Most threads.
+    pub(super) jobs: usize,
+    /// Names of files are shown while they are checked.
+    pub(super) progress: bool,
+}
+
+/// Everything that was checked, and what it came to.
+#[derive(Default)]
+pub(super) struct Course {
+    pub(super) checked: Vec<Checked>,
+    pub(super) findings: Vec<Finding>,
+    pub(super) ledger: Ledger,
+    /// Files that are shown with findings, besides the lessons.
+    pub(super) sources: Vec<SourceFile>,
+    /// Every file that it depends on, and the folders of models.
+    pub(super) read: BTreeSet<PathBuf>,
+}
+
+/// What is to be done with a file.
+enum Task {
+    /// Check the lesson, with the models of this number.
+    Lesson(usize),
+    /// Check the model; what it names lies below this folder.
+    Model(PathBuf),
+    /// Nothing, for this reason.
+    Refuse(String),
+}
+
+/// What came of a file.
+enum Done {
+    Lesson(Box<Checked>),
+    /// JSON that is not ours.
+    Other,
+    Model(bool, Vec<Finding>, Vec<SourceFile>),
+    /// It could not be read.
+    Refused(String),
+    /// Ctrl-C was pressed before it was checked.
+    Interrupted,
+}
+
+/// The stack of a thread: that of a main thread, so that what is deep is as deep on each.
+const STACK: usize = 8 << 20;
+
+/// Reads and checks every file. One that cannot be read is a finding and hides nothing of the others.
+pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
+    let (files, problems) = collect(plan.paths);
+    if files.is_empty() {
+        return Err(nothing(plan.paths, &problems));
+    }
+    let (tasks, mut by_folder) = tasks(plan, &files)?;
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            let (Some(task), Some((path, named))) = (tasks.get(i), files.get(i)) else { return done };
+            done.push((i, one(plan, cache, task, path, *named, &by_folder)));
+        }
+    };
+    let mut done = std::thread::scope(|scope| {
+        let others = 1..plan.jobs.min(files.len());
+        // Where the system gives no thread, those that there are do all the work.
+        let thread = || std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work).ok();
+        let threads: Vec<_> = others.map_while(|_| thread()).collect();
+        let mut done = work();
+        for thread in threads {
+            match thread.join() {
+                Ok(more) => done.extend(more),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        done
+    });
+    if plan.progress {
+        complain("\r\x1b[K");
+    }
+    done.sort_by_key(|(i, _)| *i);
+    let mut course = Course::default();
+    let mut refused: Vec<(PathBuf, String)> = problems;
+    let mut read = 0;
+    for ((path, _), (_, done)) in files.iter().zip(done) {
+        course.read.insert(path.clone());
+        read += usize::from(!matches!(done, Done::Refused(_)));
+        match done {
+            Done::Lesson(checked) => course.checked.push(*checked),
+            Done::Other => {}
+            Done::Model(loads, findings, files) => {
+                course.ledger.add(model_entry(path, loads));
+                course.findings.extend(findings);
+                course.sources.extend(files);
+            }
+            Done::Refused(why) => refused.push((path.clone(), why)),
+            // What was asked for and not looked at is no silence.
+            Done::Interrupted => refused.push((path.clone(), "interrupted before it was checked".into())),
+        }
+    }
+    if read == 0 {
+        return Err(nothing(plan.paths, &refused));
+    }
+    for (path, why) in refused {
+        let mut f = Finding::error(rules::UNREADABLE_FILE, 0..0, why)
+            .why("nothing in it was checked")
+            .help("mend the file, or leave it out");
+        f.path = Arc::from(path.display().to_string());
+        course.findings.push(f);
+    }
+    let lessons: Vec<_> = course.checked.iter().map(|c| &c.lesson).collect();
+    course.findings.extend(lint::check_course(&lessons));
+    course.findings.extend(course.checked.iter().flat_map(|c| c.findings.iter().cloned()));
+    for models in &mut by_folder {
+        course.findings.extend(models.take_findings());
+        course.sources.extend(models.files().iter().cloned());
+        course.read.extend(models.read());
+    }
+    finding::sort(&mut course.findings);
+    let models = std::mem::take(&mut course.ledger);
+    course.ledger = check::ledger(&course.checked, &course.findings);
+    course.ledger.append(models);
+    Ok(course)
+}
+
+/// What is to be done with each file, and the models that lessons share, compiled once for each folder.
+fn tasks(plan: &Plan<'_>, files: &[(PathBuf, bool)]) -> Result<(Vec<Task>, Vec<Models>), Failure> {
+    let mut tasks = Vec::new();
+    // Lessons of one folder have one folder of models, which is found and listed once.
+    let mut near: BTreeMap<PathBuf, String> = BTreeMap::new();
+    let mut folders: BTreeMap<String, ModelFolder> = BTreeMap::new();
+    let mut of_lessons = Vec::new();
+    for (path, _) in files {
+        let task = match kind_of(path) {
+            FileKind::Lesson | FileKind::Json => {
+                let place = lint::lesson_folder(path);
+                let name = match near.get(&place) {
+                    Some(name) => name.clone(),
+                    None => {
+                        let folder = model_folder_within(plan.models, path, plan.paths)?;
+                        let name = format!("{folder:?}");
+                        folders.insert(name.clone(), folder);
+                        near.insert(place, name.clone());
+                        name
+                    }
+                };
+                of_lessons.push((tasks.len(), name));
+                Task::Lesson(0)
+            }
+            FileKind::Model => Task::Model(root(plan.models, &lint::lesson_folder(path), &[])?),
+            FileKind::Unknown => {
+                let shown = printable_path(path);
+                Task::Refuse(format!(
+                    "{shown} is no lesson: lessons are Markdown (.md, .markdown, .mdx, .qmd, .Rmd) or JSON, models are .xml"
+                ))
+            }
+        };
+        tasks.push(task);
+    }
+    let numbers: BTreeMap<&String, usize> = folders.keys().zip(0..).collect();
+    for (i, name) in &of_lessons {
+        if let (Some(task), Some(number)) = (tasks.get_mut(*i), numbers.get(name)) {
+            *task = Task::Lesson(*number);
+        }
+    }
+    Ok((tasks, folders.into_values().map(Models::new).collect()))
+}
+
+/// Checks one file.
+fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by_folder: &[Models]) -> Done {
+    if interrupted() {
+        return Done::Interrupted;
+    }
+    if plan.progress {
+        complain(&format!("\r\x1b[Kchecking {}", printable_path(path)));
+    }
+    let models = match task {
+        Task::Refuse(why) => return Done::Refused(why.clone()),
+        Task::Model(root) => {
+            let (model, findings, files) = check_model_file(path, Some(root));
+            return Done::Model(model.is_some(), findings, files);
+        }
+        Task::Lesson(number) => by_folder.get(*number),
+    };
+    let Some(models) = models else { return Done::Other };
+    let lesson = match load_lesson_file(path, models.folder()) {
+        Ok(lesson) => lesson,
+        Err(why) => return Done::Refused(why),
+    };
+    if !named && is_other_json(&lesson) {
+        return Done::Other;
+    }
+    let found = cache.examine(path, &lesson, models, plan.depth, interrupted);
+    // Runs may have been cut short: half of a check is none.
+    if interrupted() { Done::Interrupted } else { Done::Lesson(Box::new(check::join(lesson, found))) }
+}
+
+/// The claim of a model that was named itself.
+fn model_entry(path: &Path, loads: bool) -> Entry {
+    let (state, word) =
+        if loads { (State::True(Evidence::Computed), "loads") } else { (State::False, "refused") };
+    let path: Arc<str> = Arc::from(path.display().to_string());
+    Entry {
+        subject: Subject::Model,
+        owner: path.to_string(),
+        path,
+        span: 0..0,
+        state,
+        word,
+        what: String::new(),
+        remark: String::new(),
+    }
+}
+
+/// Why nothing was checked, and what to do.
+fn nothing(paths: &[PathBuf], problems: &[(PathBuf, String)]) -> Failure {
+    let names: Vec<String> = paths.iter().map(|p| printable_path(p)).collect();
+    match problems {
+        [] => format!("no lessons in {}: name .md or .json files, or a folder of them", names.join(", ")),
+        all => all.iter().map(|(_, why)| why.as_str()).collect::<Vec<_>>().join("\nlabspec: "),
+    }
+}
+
+/// Other JSON lies in folders of lessons; a file that was named is always ours.
+pub(super) fn is_other_json(lesson: &Lesson) -> bool {
+    lesson.findings.iter().any(|f| f.code == "unknown-spec")
+}
+
+/// The files to check, in a fixed order, and whether each was named itself; and what could not be read.
+#[allow(clippy::type_complexity)]
+pub(super) fn collect(paths: &[PathBuf]) -> (Vec<(PathBuf, bool)>, Vec<(PathBuf, String)>) {
+    let (mut files, mut problems) = (Vec::new(), Vec::new());
+    for path in paths {
+        match std::fs::metadata(path) {
+            Err(e) => problems.push((path.clone(), format!("cannot read {}: {e}", printable_path(path)))),
+            Ok(meta) if meta.is_dir() => walk(path, &mut files, &mut problems, 0),
+            Ok(_) => files.push((path.clone(), true)),
+        }
+    }
+    (files, problems)
+}
+
+/// Deepest nesting of folders.
+const MAX_DEPTH: usize = 32;
+
+fn walk(
+    folder: &Path,
+    files: &mut Vec<(PathBuf, bool)>,
+    problems: &mut Vec<(PathBuf, String)>,
+    depth: usize,
+) {
+    let mut problem = |why: String| problems.push((folder.to_path_buf(), why));
+    if depth > MAX_DEPTH {
+        return problem(format!("{} is nested more than {MAX_DEPTH} folders deep", printable_path(folder)));
+    }
+    let list = std::fs::read_dir(folder).and_then(|all| all.map(|e| e.map(|e| e.path())).collect());
+    let mut entries: Vec<PathBuf> = match list {
+        Ok(entries) => entries,
+        Err(e) => return problem(format!("cannot read {}: {e}", printable_path(folder))),
+    };
+    entries.sort();
+    for path in entries {
+        let hidden = path
+            .file_name()
+            .and_then(|n| n.to_str())
+            .is_some_and(|n| n.starts_with('.') || n == "node_modules");
+        // Links are not followed: they may lead out of the folder, or round in a circle.
+        let Ok(meta) = std::fs::symlink_metadata(&path) else { continue };
+        if hidden || meta.is_symlink() {
+            continue;
+        }
+        if meta.is_dir() {
+            walk(&path, files, problems, depth + 1);
+        } else if matches!(kind_of(&path), FileKind::Lesson | FileKind::Json) {
+            files.push((path, false));
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! Many lessons at once: on several threads, from the cache, and again as files change. The bytes are always the same.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::needs::needs;
+use crate::program::{folder, program, wrong};
+use crate::support::workspace;
+use std::path::Path;
+
+/// Output and exit code, with a folder for results or without.
+fn shown(here: &Path, cache: Option<&Path>, arguments: &[&str]) -> (String, Option<i32>) {
+    let mut command = program(here, arguments);
+    if let Some(cache) = cache {
+        command.env("LABSPEC_CACHE", cache);
+    }
+    let output = command.output().unwrap();
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "", "{arguments:?}");
+    (String::from_utf8(output.stdout).unwrap(), output.status.code())
+}
+
+/// Every lesson there is.
+fn all_lessons() -> Vec<&'static str> {
+    let mut folders = vec!["specs/lessons", "tests/lessons"];
+    if needs("../shared/corpus") {
+        folders.extend(["../shared/corpus/labs", "../shared/corpus/quizzes"]);
+    }
+    folders
+}
+
+#[test]
+fn threads_and_the_cache_change_no_byte() {
+    let kept = tempfile::tempdir().unwrap();
+    for folder in all_lessons() {
+        for format in ["human", "json"] {
+            let of = |cache: Option<&Path>, more: &[&str]| {
+                let all = [&["check", folder, "--format", format], more].concat();
+                shown(&workspace(), cache, &all)
+            };
+            let alone = of(None, &["--jobs", "1"]);
+            assert!(alone.0.len() > 1000 && alone.1.is_some_and(|code| code < 2), "{folder}: {}", alone.0);
+            for (cache, more) in [
+                (None, &["--jobs", "2"][..]),
+                (None, &["--jobs", "8"]),
+                // The first fills the cache for the second; the other format reads what both left.
+                (Some(kept.path()), &["--jobs", "2"]),
+                (Some(kept.path()), &[]),
+            ] {
+                assert!(of(cache, more) == alone, "{folder} {format} {more:?}");
+            }
+        }
+    }
+    // One file for each lesson, and one for the program.
+    let files = std::fs::read_dir(kept.path()).unwrap().count();
+    assert!(files > 50, "{files}");
+}
+
+#[test]
+fn without_a_cache_nothing_is_kept() {
+    let (folder, kept) = (folder(), tempfile::tempdir().unwrap());
+    let files = || std::fs::read_dir(kept.path()).unwrap().count();
+    shown(folder.path(), Some(kept.path()), &["check", "clean.md", "--no-cache"]);
+    assert_eq!(files(), 0);
+    shown(folder.path(), Some(kept.path()), &["check", "clean.md"]);
+    assert_eq!(files(), 2);
+    // Where nothing can be written, nothing is kept, and nothing is missing.
+    let blocked = folder.path().join("fall.json");
+    let [here, there] =
+        [None, Some(blocked.as_path())].map(|c| shown(folder.path(), c, &["check", "clean.md"]));
+    assert_eq!(here, there);
+}
+
+/// A model that changes, entries that are damaged: the report is that of a check without a cache.
+#[test]
+fn what_is_kept_is_never_trusted_beyond_its_bytes() {
+    let (folder, kept) = (folder(), tempfile::tempdir().unwrap());
+    let arguments = ["check", "clean.md", "wrong.md", "fall.json", "broken/lesson.md"];
+    let same = || {
+        let cached = shown(folder.path(), Some(kept.path()), &arguments);
+        assert_eq!(cached, shown(folder.path(), None, &arguments));
+        cached.0
+    };
+    let before = same();
+    assert_eq!(same(), before);
+    let model = folder.path().join("models/free_fall.xml");
+    let text = std::fs::read_to_string(&model).unwrap();
+    std::fs::write(&model, text.replace("<mujoco", "<mujoco><option gravity='0 0 -3'/></mujoco><mujoco"))
+        .unwrap();
+    assert_ne!(same(), before);
+    std::fs::write(&model, &text).unwrap();
+    assert_eq!(same(), before);
+    let files = || std::fs::read_dir(kept.path()).unwrap().map(|f| f.unwrap().path());
+    for cut in [0, 1, 64, 65, 100] {
+        for path in files() {
+            let bytes = std::fs::read(&path).unwrap();
+            std::fs::write(&path, &bytes[..cut.min(bytes.len())]).unwrap();
+        }
+        assert_eq!(same(), before);
+    }
+    // Entries that changed places.
+    let names: Vec<_> = files().collect();
+    let texts: Vec<_> = names.iter().map(|p| std::fs::read(p).unwrap()).collect();
+    for (path, text) in names.iter().zip(texts.iter().cycle().skip(1)) {
+        std::fs::write(path, text).unwrap();
+    }
+    assert_eq!(same(), before);
+}
+
+/// A program that does not outlive its test.
+#[cfg(unix)]
+struct Running(std::process::Child);
+
+#[cfg(unix)]
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+    }
+}
+
+/// A report, another one after a change, and an end by Ctrl-C.
+#[cfg(unix)]
+#[test]
+fn watching_checks_again_what_changed() {
+    use std::io::{BufRead, BufReader};
+    use std::process::Stdio;
+    use std::sync::mpsc;
+    use std::time::Duration;
+
+    let folder = folder();
+    let mut command = program(folder.path(), &["check", "clean.md", "--watch"]);
+    let mut child = Running(command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap());
+    let (sender, lines) = mpsc::channel();
+    for stream in [
+        Box::new(child.0.stdout.take().unwrap()) as Box<dyn std::io::Read + Send>,
+        Box::new(child.0.stderr.take().unwrap()),
+    ] {
+        let sender = sender.clone();
+        std::thread::spawn(move || {
+            for line in BufReader::new(stream).lines().map_while(Result::ok) {
+                let _ = sender.send(line);
+            }
+        });
+    }
+    drop(sender);
+    let wait_for = |what: &str| {
+        let mut seen = Vec::new();
+        loop {
+            match lines.recv_timeout(Duration::from_secs(60)) {
+                Ok(line) if line.contains(what) => return,
+                Ok(line) => seen.push(line),
+                Err(e) => panic!("{what}: {e}\n{}", seen.join("\n")),
+            }
+        }
+    };
+    wait_for("nothing to complain about");
+    std::fs::write(folder.path().join("clean.md"), wrong()).unwrap();
+    wait_for("error[answer-refuted]");
+    wait_for("1 file, 1 lab run");
+    // A model is a part of the lesson.
+    std::fs::write(folder.path().join("clean.md"), crate::program::CLEAN).unwrap();
+    wait_for("nothing to complain about");
+    let model = folder.path().join("models/ball_drop.xml");
+    std::fs::write(model, "<mujoco><worldbody><body><goem/></body></worldbody></mujoco>").unwrap();
+    wait_for("goem");
+    let id = child.0.id().to_string();
+    assert!(std::process::Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    assert_eq!(child.0.wait().unwrap().code(), Some(130));
+}
