@@ -36,6 +36,7 @@ mod structure;
 mod support;
 mod terminal;
 mod trust;
+mod tutorial;
 mod verify;
 mod ways;
 mod zoo;
