@@ -15,6 +15,7 @@ mod javascript;
 mod labs;
 mod ledger;
 mod lessons;
+mod links;
 mod loads;
 mod needs;
 mod numbers;
