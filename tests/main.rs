@@ -37,6 +37,7 @@ mod structure;
 mod support;
 mod terminal;
 mod trust;
+#[cfg(unix)]
 mod tutorial;
 mod verify;
 mod ways;
