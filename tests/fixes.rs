@@ -8,7 +8,8 @@ use crate::support::{check_text, workspace};
 use labspec::bind::scene::Models;
 use labspec::check::{self, Depth};
 use labspec::finding::{Finding, Fix, Severity};
-use labspec::lint::{self, ModelFolder};
+use labspec::lint::ModelFolder;
+use labspec::rules;
 use labspec::source::SourceFile;
 use labspec::spec::load_lesson;
 use proptest::prelude::*;
@@ -156,7 +157,7 @@ fn fixes_of_the_wrong_lessons_hold() {
 
 #[test]
 fn fixes_of_the_bad_examples_of_rules_hold() {
-    let examples = lint::all().map(|rule| Case::new(rule.bad.name(), &rule.bad.text()));
+    let examples = rules::LESSONS.iter().map(|rule| Case::new(rule.bad.name(), &rule.bad.text()));
     all_hold(examples, 10);
 }
 

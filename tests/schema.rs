@@ -1,11 +1,10 @@
 //! The published JSON Schemas: what the reader takes without an error they take too, and what is wrong they refuse.
-//!
-//! A validator for the keywords that they use stands here: the crates that know all of them bring some fifty others.
 
 // A test that cannot read its own inputs has to fail.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::needs::needs;
+use crate::support::schema::problems;
 use crate::support::workspace;
 use labspec::lint::ModelFolder;
 use labspec::markdown::{self, BlockKind};
@@ -13,66 +12,11 @@ use labspec::source::SourceFile;
 use labspec::spec::format::{OBJECTS, Root, schema};
 use labspec::spec::load_lesson;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Whether a value is what a schema says. A keyword that is not known here fails the test.
-fn valid(value: &Value, rule: &Value, root: &Value) -> bool {
-    let Some(rule) = rule.as_object() else { return rule.as_bool().unwrap() };
-    let holds = |rule: &Value| valid(value, rule, root);
-    let all = |rules: &Value| rules.as_array().unwrap().iter().filter(|r| holds(r)).count();
-    rule.iter().all(|(keyword, rule_of)| match keyword.as_str() {
-        "$schema" | "$defs" | "title" | "description" | "default" | "examples" | "then" | "else" => true,
-        "$ref" => holds(root.pointer(&rule_of.as_str().unwrap()[1..]).unwrap()),
-        "type" => match rule_of {
-            Value::Array(types) => types.iter().any(|t| is(value, t)),
-            one => is(value, one),
-        },
-        "const" => value == rule_of,
-        "enum" => rule_of.as_array().unwrap().contains(value),
-        "allOf" => all(rule_of) == rule_of.as_array().unwrap().len(),
-        "anyOf" => all(rule_of) > 0,
-        "oneOf" => all(rule_of) == 1,
-        "not" => !holds(rule_of),
-        "if" => rule.get(if holds(rule_of) { "then" } else { "else" }).is_none_or(holds),
-        "required" => value
-            .as_object()
-            .is_none_or(|o| rule_of.as_array().unwrap().iter().all(|k| o.contains_key(k.as_str().unwrap()))),
-        "properties" => value.as_object().is_none_or(|o| {
-            rule_of.as_object().unwrap().iter().all(|(k, r)| o.get(k).is_none_or(|v| valid(v, r, root)))
-        }),
-        "additionalProperties" => value.as_object().is_none_or(|o| {
-            let known = rule.get("properties").and_then(Value::as_object);
-            let others = o.iter().filter(|(k, _)| known.is_none_or(|known| !known.contains_key(*k)));
-            others.into_iter().all(|(_, v)| valid(v, rule_of, root))
-        }),
-        "items" => value.as_array().is_none_or(|a| a.iter().all(|v| valid(v, rule_of, root))),
-        "prefixItems" => value
-            .as_array()
-            .is_none_or(|a| a.iter().zip(rule_of.as_array().unwrap()).all(|(v, r)| valid(v, r, root))),
-        "minItems" => value.as_array().is_none_or(|a| a.len() as u64 >= rule_of.as_u64().unwrap()),
-        "maxItems" => value.as_array().is_none_or(|a| a.len() as u64 <= rule_of.as_u64().unwrap()),
-        "minimum" => value.as_f64().is_none_or(|x| x >= rule_of.as_f64().unwrap()),
-        "maximum" => value.as_f64().is_none_or(|x| x <= rule_of.as_f64().unwrap()),
-        "exclusiveMinimum" => value.as_f64().is_none_or(|x| x > rule_of.as_f64().unwrap()),
-        other => panic!("the validator of this test does not know `{other}`"),
-    })
-}
-
-fn is(value: &Value, name: &Value) -> bool {
-    match name.as_str().unwrap() {
-        "object" => value.is_object(),
-        "array" => value.is_array(),
-        "string" => value.is_string(),
-        "boolean" => value.is_boolean(),
-        "number" => value.is_number(),
-        "integer" => value.as_f64().is_some_and(|x| x.fract() == 0.0),
-        other => panic!("the validator of this test does not know the type `{other}`"),
-    }
-}
-
 fn accepts(root: Root, value: &Value) -> bool {
-    let schema = schema(root);
-    valid(value, &schema, &schema)
+    problems(&BTreeMap::from([("this".to_string(), schema(root))]), "this", value).is_empty()
 }
 
 fn parse(text: &str) -> Value {
@@ -143,13 +87,15 @@ fn real_labs_and_quizzes_pass() {
 
 #[test]
 fn every_smallest_object_and_every_example_passes() {
-    let root = schema(Root::Lesson);
+    let all = BTreeMap::from([("this".to_string(), schema(Root::Lesson))]);
     for object in OBJECTS {
-        let rule = &root["$defs"][object.name];
-        assert!(valid(&parse(object.minimal), rule, &root), "{}", object.name);
+        let place = format!("this#/$defs/{}", object.name);
+        let rule = &all["this"]["$defs"][object.name];
+        assert_eq!(problems(&all, &place, &parse(object.minimal)), [""; 0], "{}", object.name);
         for key in object.keys {
+            let place = format!("{place}/properties/{}", key.name);
             let rule = &rule["properties"][key.name];
-            assert!(valid(&parse(key.example), rule, &root), "{}.{}", object.name, key.name);
+            assert_eq!(problems(&all, &place, &parse(key.example)), [""; 0], "{}.{}", object.name, key.name);
             assert_eq!(rule["examples"][0], parse(key.example));
             assert!(rule["description"].as_str().is_some_and(|d| d.starts_with(key.doc)));
         }

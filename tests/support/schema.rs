@@ -5,17 +5,21 @@ use super::{read_json, workspace};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The schemas of `docs/schema`, by file name.
+/// The schemas of reports in `docs/schema`, by file name.
 pub(crate) fn schemas() -> BTreeMap<String, Value> {
     let folder = std::fs::read_dir(workspace().join("docs/schema")).unwrap();
     let files = folder.map(|e| e.unwrap().path());
-    files.map(|p| (p.file_name().unwrap().to_string_lossy().into_owned(), read_json(&p))).collect()
+    let named = files.map(|p| (p.file_name().unwrap().to_string_lossy().into_owned(), p));
+    let reports = named.filter(|(name, _)| name.starts_with("report-"));
+    reports.map(|(name, p)| (name, read_json(&p))).collect()
 }
 
-/// What is wrong with a value, each with the place of it; empty when the schema in this file holds.
-pub(crate) fn problems(schemas: &BTreeMap<String, Value>, file: &str, value: &Value) -> Vec<String> {
+/// What is wrong with a value, each with the place of it; empty when the schema holds: that of a file, or a part of it
+/// (`lesson.json#/$defs/lab`).
+pub(crate) fn problems(schemas: &BTreeMap<String, Value>, name: &str, value: &Value) -> Vec<String> {
     let mut look = Look { schemas, problems: Vec::new() };
-    look.check(file, &schemas[file], value, "");
+    let (file, schema) = look.follow("", name);
+    look.check(&file, schema, value, "");
     look.problems
 }
 
@@ -38,7 +42,9 @@ impl<'s> Look<'s> {
         };
         for (keyword, want) in keywords {
             let holds = match keyword.as_str() {
-                "$schema" | "title" | "description" | "$defs" => true,
+                "$schema" | "title" | "description" | "$defs" | "default" | "examples" => true,
+                // What `if` decides between.
+                "then" | "else" => true,
                 // Looked at when all others have spoken.
                 "unevaluatedProperties" => true,
                 "const" => value == want,
@@ -48,6 +54,8 @@ impl<'s> Look<'s> {
                     name => is(value, name),
                 },
                 "minimum" => value.as_f64().is_none_or(|x| x >= want.as_f64().unwrap()),
+                "maximum" => value.as_f64().is_none_or(|x| x <= want.as_f64().unwrap()),
+                "exclusiveMinimum" => value.as_f64().is_none_or(|x| x > want.as_f64().unwrap()),
                 "minItems" => value.as_array().is_none_or(|l| l.len() as u64 >= want.as_u64().unwrap()),
                 "maxItems" => value.as_array().is_none_or(|l| l.len() as u64 <= want.as_u64().unwrap()),
                 "required" => value
@@ -64,6 +72,23 @@ impl<'s> Look<'s> {
                 }
                 "anyOf" => {
                     spoken.extend(self.any_of(file, list(want), value, at));
+                    true
+                }
+                "oneOf" => {
+                    let holding: Vec<Spoken> =
+                        list(want).iter().filter_map(|s| self.holds(file, s, value)).collect();
+                    let one = holding.len() == 1;
+                    spoken.extend(holding.into_iter().flatten());
+                    one
+                }
+                "not" => self.holds(file, want, value).is_none(),
+                "if" => {
+                    let holding = self.holds(file, want, value);
+                    let next = if holding.is_some() { "then" } else { "else" };
+                    spoken.extend(holding.into_iter().flatten());
+                    if let Some(schema) = keywords.get(next) {
+                        spoken.extend(self.check(file, schema, value, at));
+                    }
                     true
                 }
                 "properties" => {
@@ -115,6 +140,13 @@ impl<'s> Look<'s> {
         spoken
     }
 
+    /// The keys that a schema has spoken of, when it holds.
+    fn holds(&self, file: &str, schema: &'s Value, value: &Value) -> Option<Spoken> {
+        let mut alone = Look { schemas: self.schemas, problems: Vec::new() };
+        let spoken = alone.check(file, schema, value, "");
+        alone.problems.is_empty().then_some(spoken)
+    }
+
     /// Keys that the schemas which hold have spoken of. When none holds: the problems of the one that comes closest,
     /// which is one that fails inside of the value, not at the value itself.
     fn any_of(&mut self, file: &str, any: &'s [Value], value: &Value, at: &str) -> Spoken {
@@ -152,7 +184,7 @@ fn is(value: &Value, name: &Value) -> bool {
         "null" => value.is_null(),
         "boolean" => value.is_boolean(),
         "number" => value.is_number(),
-        "integer" => value.is_i64() || value.is_u64(),
+        "integer" => value.as_f64().is_some_and(|x| x.fract() == 0.0),
         "string" => value.is_string(),
         "array" => value.is_array(),
         "object" => value.is_object(),
@@ -171,11 +203,13 @@ fn every_keyword_can_fail() {
             "b": {"prefixItems": [{"const": 1}, {"enum": ["x", null]}], "minItems": 2, "maxItems": 2},
             "c": {"additionalProperties": {"type": ["number", "boolean"]}},
             "d": {"properties": {"e": {}}, "additionalProperties": false},
+            "f": {"oneOf": [{"maximum": 3}, {"exclusiveMinimum": 2}], "not": {"const": 5}},
+            "g": {"if": {"type": "string"}, "then": {"const": "x"}, "else": {"const": 0}},
         },
         "$defs": {"named": {"properties": {"name": {"type": "string"}}}},
     });
     let schemas = BTreeMap::from([("s".to_string(), schema)]);
-    let good = json!({"a": [1, 2], "b": [1, null], "c": {"x": 1.5, "y": true}, "d": {"e": []}, "name": "n"});
+    let good = json!({"a": [1, 2], "b": [1, null], "c": {"x": 1.5, "y": true}, "d": {"e": []}, "name": "n", "f": 2, "g": "x"});
     assert_eq!(problems(&schemas, "s", &good), Vec::<String>::new());
     for (place, wrong) in [
         ("", json!([])),
@@ -191,6 +225,10 @@ fn every_keyword_can_fail() {
         ("/b", json!({"a": null, "b": [1, "x", 0]})),
         ("/c/z", json!({"a": null, "c": {"z": null}})),
         ("/d/f", json!({"a": null, "d": {"f": 1}})),
+        ("/f", json!({"a": null, "f": 2.5})),
+        ("/f", json!({"a": null, "f": 5})),
+        ("/g", json!({"a": null, "g": "y"})),
+        ("/g", json!({"a": null, "g": 1})),
     ] {
         let found = problems(&schemas, "s", &wrong);
         let start = |p: &String| p.starts_with(&format!("{place}:")) || p.starts_with(&format!("{place} "));

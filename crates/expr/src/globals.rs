@@ -159,7 +159,9 @@ fn unset_report(name: &str, span: Span, known: &[&str]) -> Finding {
     let report = Finding::warning(rules::UNSET_GLOBAL, span, format!("nothing ever stores `ctx.{name}`"))
         .why("it is `undefined` in every run, and a computation with it gives NaN");
     match closest(name, known.iter().copied()) {
-        Some(meant) => report.help(format!("did you mean `ctx.{meant}`?")).fix(span, format!("ctx.{meant}")),
+        Some(meant) => {
+            report.help(format!("did you mean `ctx.{meant}`?")).guess(span, format!("ctx.{meant}"))
+        }
         None => report.help(format!(
             "store it first, as `ctx.{name} = 0` in `setup`, or give a control `\"param\": \"{name}\"`"
         )),

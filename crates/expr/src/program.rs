@@ -164,6 +164,15 @@ impl Context {
         Context { named: globals.named().clone(), ..Context::default() }
     }
 
+    /// Takes in the variables of texts that were compiled since. What was stored under a computed name before any text named
+    /// it is found under that name from now on.
+    pub fn learn(&mut self, globals: &Globals) {
+        self.named.clone_from(globals.named());
+        let now_named: Vec<(u32, Value)> =
+            self.named.iter().filter_map(|(name, slot)| Some((*slot, self.unnamed.remove(name)?))).collect();
+        now_named.into_iter().for_each(|(slot, value)| self.set(slot, value));
+    }
+
     /// Lets the next run do so much work and no more, in units of about a nanosecond; work of the host counts too. A run
     /// has a limit of its own besides, see [`rules::BUDGET`].
     pub fn allow(&mut self, units: u64) {

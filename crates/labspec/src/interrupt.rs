@@ -12,6 +12,7 @@ pub(crate) fn requested() -> bool {
 }
 
 /// From now on Ctrl-C sets the flag; a second one ends the program at once, with exit code 130.
+#[cfg(feature = "cli")]
 pub(crate) fn listen() {
     #[cfg(any(unix, windows))]
     {

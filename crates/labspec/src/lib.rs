@@ -10,11 +10,18 @@
 //! * [`format`](mod@format): the code of a lesson laid out anew
 //! * [`ledger`]: every claim with what became of it, from which all verdicts and exit codes follow
 //! * [`finding`], [`report`]: what is wrong, and how it is shown to people and programs
+//!
+//! Frontends hold three objects, and the rest through them: a [`Player`] is a lab that is open on a page, a [`Checker`]
+//! checks lessons from memory, an [`Engine`] is a model with the language. [`Models`] is where models come from.
 
 pub mod advice;
 pub mod bind;
 pub mod check;
+pub mod checker;
+#[cfg(feature = "cli")]
 pub mod cli;
+pub mod engine;
+pub mod error;
 pub mod finding;
 pub mod format;
 mod interrupt;
@@ -22,6 +29,8 @@ pub mod json;
 pub mod ledger;
 pub mod lint;
 pub mod markdown;
+pub mod models;
+pub mod player;
 pub mod precision;
 pub mod reference;
 pub mod report;
@@ -31,3 +40,11 @@ pub mod source;
 pub mod spec;
 pub mod svg;
 pub mod verify;
+
+pub use checker::{Checker, Report};
+pub use engine::{Engine, Expression, Statements};
+pub use error::Error;
+pub use finding::Finding;
+pub use labspec_expr::Value;
+pub use models::{Models, NoModels};
+pub use player::Player;

@@ -7,12 +7,13 @@
 use crate::bind::{Bound, ModelNames, Programs, Scope, to_finding};
 use crate::finding::Finding;
 use crate::interrupt;
-use crate::run::{self, RunError, Session};
+use crate::run::{self, Play, RunError, Session};
 use crate::spec::Lab;
 use crate::spec::format::RUN_LENGTH;
 use crate::svg::{Method, MethodPoint, WorkPrecision, work_precision};
 use labspec_core::{Model, Warning, integrator};
 use labspec_expr::Compiler;
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// The integrators that are compared.
@@ -224,22 +225,22 @@ fn samples(case: &Case<'_>, kind: i32, h: f64) -> Samples {
         diverged: false,
         seconds: 0.0,
     };
-    for _ in 0..*count {
-        let clock = Instant::now();
-        for _ in 0..per_sample {
-            if interrupt::requested() {
-                return s;
-            }
-            session.step();
-        }
+    let mut clock = Instant::now();
+    let played = Play { every: per_sample, ..Play::steps(count * per_sample) };
+    run::play(&mut session, &played, |session, made| {
         s.seconds += clock.elapsed().as_secs_f64();
-        for (i, t) in targets.iter().enumerate() {
+        // The start is the same for all.
+        for (i, t) in targets.iter().enumerate().filter(|_| made > 0) {
             let mut value =
                 |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
             s.values[i].push(value(t.bound));
             s.exact[i].push(t.exact.as_ref().map_or(f64::NAN, &mut value));
         }
-    }
+        clock = Instant::now();
+        ControlFlow::Continue(())
+    });
+    // Where a run ended before its time, nothing is known.
+    s.values.iter_mut().chain(&mut s.exact).for_each(|list| list.resize(*count, f64::NAN));
     s.diverged = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc]
         .iter()
         .any(|&w| session.warnings[w as usize].number > 0);

@@ -120,6 +120,11 @@ impl Model {
         crate::step::store::read(bytes).map(Model::new).ok_or(Error::NotAModel)
     }
 
+    /// Which model this is: its clones answer the same, whatever is edited in them, and no other model of this program does.
+    pub fn identity(&self) -> u64 {
+        self.id
+    }
+
     /// What can be written of the model. Data that were planned for other parameters are planned again at their next use.
     pub fn edit(&mut self) -> ModelEdit<'_> {
         (self.version, self.edited) = (next(), FieldSet::ALL);

@@ -413,7 +413,7 @@ impl<'a> Binder<'a> {
             Finding::error(rules::UNKNOWN_OBJECT, arg.span, format!("there is no {noun} named \"{name}\""));
         let report = match closest(name, names.iter().map(String::as_str)) {
             Some(meant) => {
-                report.help(format!("did you mean \"{meant}\"?")).fix(arg.span, format!("\"{meant}\""))
+                report.help(format!("did you mean \"{meant}\"?")).guess(arg.span, format!("\"{meant}\""))
             }
             None if names.is_empty() => report
                 .why(format!("no {noun} has a name here"))

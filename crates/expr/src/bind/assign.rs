@@ -267,7 +267,7 @@ impl<'a> Binder<'a> {
         let report = Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` is not declared"))
             .why("an assignment without a declaration would make a variable of the whole page");
         match self.closest_name(name) {
-            Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(span, meant),
+            Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => report.help(format!(
                 "write `const {name} = …` for this text only, or `ctx.{name} = …` to keep it in the lab"
             )),

@@ -205,7 +205,7 @@ impl<'a> Binder<'a> {
             return report; // nobody will read it: not worth a search for what was meant
         }
         match self.meant_by_root(name, used) {
-            Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(span, meant),
+            Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => {
                 let own = match used {
                     Use::Callee => {
@@ -369,7 +369,7 @@ impl<'a> Binder<'a> {
             .chain(constants.iter().map(|(n, _)| *n))
             .collect();
         self.refuse(match closest(&name.text, names.iter().copied()) {
-            Some(meant) => report.help(format!("did you mean `{holder}.{meant}`?")).fix(name.span, meant),
+            Some(meant) => report.help(format!("did you mean `{holder}.{meant}`?")).guess(name.span, meant),
             None => {
                 let names: Vec<String> = names.iter().map(|n| (*n).to_owned()).collect();
                 report.why(format!("it has {}", list(&names)))
@@ -409,7 +409,7 @@ impl<'a> Binder<'a> {
         let report =
             Finding::error(rules::UNKNOWN_FUNCTION, name.span, format!("`Math` has no `{}`", name.text));
         let report = match closest(&name.text, math::names()) {
-            Some(meant) => report.help(format!("did you mean `Math.{meant}`?")).fix(name.span, meant),
+            Some(meant) => report.help(format!("did you mean `Math.{meant}`?")).guess(name.span, meant),
             None => report
                 .why("`Math` has the functions and constants of JavaScript")
                 .help("write it with `+ - * / % **` and the functions there are"),
@@ -464,7 +464,7 @@ impl<'a> Binder<'a> {
                 .why("it is one number");
                 let methods = self.method_names(Type::Number);
                 self.refuse(match closest(text, methods.iter().map(String::as_str)) {
-                    Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(name.span, meant),
+                    Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
                     None => report
                         .help(format!("remove `.{text}`"))
                         .fix(Span::new(object.end, name.span.end), ""),
@@ -503,7 +503,7 @@ impl<'a> Binder<'a> {
                     .help(format!("did you mean `{path}`?"))
                     .fix(span, path)
             }
-            (Some((_, meant)), _) => report.help(format!("did you mean `{meant}`?")).fix(name.span, meant),
+            (Some((_, meant)), _) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
             (None, _) if names.is_empty() => report.why("it has no fields at all"),
             (None, _) => report.why(format!("its fields are {}", list(&names))),
         }

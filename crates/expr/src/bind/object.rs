@@ -65,7 +65,9 @@ impl<'a> Binder<'a> {
                     )
                     .why(format!("it has {}", list(&names)));
                     return self.refuse(match closest(&name.text, names.iter().map(String::as_str)) {
-                        Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(name.span, meant),
+                        Some(meant) => {
+                            report.help(format!("did you mean `{meant}`?")).guess(name.span, meant)
+                        }
                         None => report.help("use one of them"),
                     });
                 }
@@ -91,7 +93,7 @@ impl<'a> Binder<'a> {
                 report.why("elements are chosen by index").help(format!("write `{meant}`")).fix(span, meant)
             }
             _ => match closest(text, self.method_names(ty).iter().map(String::as_str)) {
-                Some(meant) => report.help(format!("did you mean `{meant}`?")).fix(name.span, meant),
+                Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
                 None if matches!(ty, Type::Undefined | Type::Null) => {
                     report.why("JavaScript stops the text here").help("test for it first, or write `?.`")
                 }

@@ -48,7 +48,7 @@ pub struct Growth {
 }
 
 /// What a run is held against: its start, and data of its own so that looking leaves the run alone.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Watch {
     own: Data<Planned>,
     start: Option<Start>,

@@ -2,6 +2,7 @@
 
 use crate::finding::{Finding, InFile};
 use crate::lint::{ModelFolder, lesson_folder, root_of};
+use crate::models::FilesOf;
 use crate::rules;
 use crate::source::{SourceFile, Text};
 use crate::spec::{Lab, Scene};
@@ -55,7 +56,7 @@ impl Models {
                 let known = self.compiled.get(&name.value).cloned();
                 let model = known.unwrap_or_else(|| self.load(&name.value));
                 // A model that does not exist is reported by the rules of the lesson's structure.
-                if model.is_none() && self.folder.path(&name.value).is_some() {
+                if model.is_none() && self.folder.has(&name.value) {
                     findings.push(
                         Finding::error(rules::MODEL_BROKEN, name.span(), format!("the model `{}` has mistakes", name.value))
                             .why("this lab cannot run, and its expressions cannot be checked, until the model loads")
@@ -68,25 +69,31 @@ impl Models {
     }
 
     fn load(&mut self, name: &str) -> Option<Arc<Model>> {
+        if let Some(models) = self.folder.given() {
+            let file = SourceFile::new(format!("models/{name}.xml"), models.text(name)?);
+            let compiled = compile_source(&file, &FilesOf(models), Some(&format!("{name}.xml")));
+            return self.keep(name, compiled);
+        }
         let path = self.folder.path(name)?;
         // The folder and the file: enough to find it, and the same on every machine.
         let folder = path.parent().and_then(|p| p.file_name()).and_then(|f| f.to_str()).unwrap_or("models");
         let shown = format!("{folder}/{name}.xml");
-        let model = match SourceFile::read(&path) {
-            Ok(file) => {
-                let file = SourceFile::new(shown, file.text());
-                let compiled = compile_file(&file, &path, self.folder.root());
-                self.findings.extend(compiled.findings);
-                self.files.extend(compiled.files);
-                compiled.model.map(Arc::new)
-            }
+        let compiled = match SourceFile::read(&path) {
+            Ok(file) => compile_file(&SourceFile::new(shown, file.text()), &path, self.folder.root()),
             Err(message) => {
                 let file = SourceFile::new(shown, "");
-                self.findings.push(Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file));
-                self.files.push(file);
-                None
+                let finding = Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file);
+                Compiled { model: None, findings: vec![finding], files: vec![file] }
             }
         };
+        self.keep(name, compiled)
+    }
+
+    /// Remembers what came of a model.
+    fn keep(&mut self, name: &str, compiled: Compiled) -> Option<Arc<Model>> {
+        self.findings.extend(compiled.findings);
+        self.files.extend(compiled.files);
+        let model = compiled.model.map(Arc::new);
         self.compiled.insert(name.to_string(), model.clone());
         model
     }
@@ -108,7 +115,12 @@ pub(crate) fn compile_file(file: &SourceFile, path: &Path, root: &Path) -> Compi
     let place = path.parent().unwrap_or(Path::new(""));
     let folder = Folder::at(root, place).ok();
     let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
-    let examined = xml::examine(file.text(), files, path.file_name().and_then(|n| n.to_str()));
+    compile_source(file, files, path.file_name().and_then(|n| n.to_str()))
+}
+
+/// Compiles the text of a model, which `files` has as `name`.
+fn compile_source(file: &SourceFile, files: &dyn Files, name: Option<&str>) -> Compiled {
+    let examined = xml::examine(file.text(), files, name);
     let mut sources = Vec::new();
     if !examined.findings.is_empty() {
         sources.push(file.clone());
@@ -124,7 +136,7 @@ pub(crate) fn compile_file(file: &SourceFile, path: &Path, root: &Path) -> Compi
 
 /// Compiles a model file, for itself: the model, what is to be said of it, and the files that this is about. A file that
 /// cannot be read is a finding, too. `root` is what it may read; by default what [`root_of`] finds.
-pub(crate) fn check_model_file(
+pub fn check_model_file(
     path: &Path,
     root: Option<&Path>,
 ) -> (Option<Arc<Model>>, Vec<Finding>, Vec<SourceFile>) {

@@ -20,7 +20,7 @@ pub struct Claim {
 
 impl Claim {
     /// Whether anything about it is not simply true: then its evidence is shown.
-    pub(crate) fn is_doubtful(&self) -> bool {
+    pub fn is_doubtful(&self) -> bool {
         let doubtful = |state: State| matches!(state, State::False | State::Unchecked);
         let judgement = &self.judgement;
         judgement.answer.as_ref().is_some_and(|a| doubtful(a.verdict.state()))

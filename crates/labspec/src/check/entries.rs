@@ -187,7 +187,7 @@ fn run(r: &RunReport, unmade: Option<&str>) -> (State, &'static str, String) {
 
 /// The lines under a claim that show how it was found: measures with their value at half the timestep, and how each
 /// condition held.
-pub(crate) fn evidence(claim: &Claim) -> Vec<String> {
+pub fn evidence(claim: &Claim) -> Vec<String> {
     let measure = |m: &Measured| match m.halved {
         Some(x) => {
             format!("{} = {}   ({} at half the timestep)", m.name, significant(m.value), significant(x))

@@ -8,8 +8,7 @@ mod refresh;
 mod trial;
 
 pub use claims::Claim;
-pub(crate) use entries::evidence;
-pub use entries::ledger;
+pub use entries::{evidence, ledger};
 pub use trial::Tried;
 
 use crate::bind::Programs;
@@ -87,16 +86,34 @@ pub fn check(lesson: Lesson, models: &mut Models, depth: Depth) -> Checked {
     Checked { lesson, findings: all, labs, claims }
 }
 
-/// Loads the model of a lab and binds its programs.
+/// Loads the model of a lab and binds its programs, and looks at what they do.
 fn prepare<'l>(lab: &'l Lab, models: &mut Models, findings: &mut Vec<Finding>) -> Option<Ready<'l>> {
+    let (model, programs, mistakes) = bind(lab, models, findings)?;
+    programs::check(lab, &model, &programs, findings);
+    Some(Ready { lab, model, programs, mistakes })
+}
+
+/// Loads the model of a lab and binds its programs; with the number of errors in its code.
+pub(crate) fn bind(
+    lab: &Lab,
+    models: &mut Models,
+    findings: &mut Vec<Finding>,
+) -> Option<(Arc<Model>, Programs, usize)> {
     let Some(model) = models.of(lab, findings) else {
         // A folder that has no such model is a matter of the lesson's structure, which knows what the folder has.
         if let (Some(Scene::Model(name)), None) = (lab.scene(), models.folder().names()) {
-            findings.push(
-                Finding::error(rules::NO_MODEL_FOLDER, name.span(), "there is no folder of models, so this lab cannot run")
+            let folder = models.folder();
+            findings.extend(match folder.given() {
+                Some(_) if folder.has(&name.value) => None,
+                Some(_) => Some(
+                    Finding::new(rules::UNKNOWN_MODEL, name.span(), format!("there is no model `{}`", name.value))
+                        .help("name a model that there is"),
+                ),
+                None => Some(Finding::error(rules::NO_MODEL_FOLDER, name.span(), "there is no folder of models, so this lab cannot run")
                     .why("its expressions, its runs and every claim about it could not be checked")
                     .help(format!("put {}.xml into a folder `models` beside or above the lesson, or name the folder: --models DIR", name.value)),
-            );
+                ),
+            });
         }
         return None;
     };
@@ -120,6 +137,5 @@ fn prepare<'l>(lab: &'l Lab, models: &mut Models, findings: &mut Vec<Finding>) -
     let before = findings.len();
     let programs = Programs::compile(lab, &model, findings);
     let mistakes = findings.iter().skip(before).filter(|f| f.severity == Severity::Error).count();
-    programs::check(lab, &model, &programs, findings);
-    Some(Ready { lab, model, programs, mistakes })
+    Some((model, programs, mistakes))
 }

@@ -8,7 +8,7 @@
 use super::node::{Json, Member, Node};
 use super::{MAX_DEPTH, MAX_MISTAKES, MAX_VALUES, say};
 use crate::finding::Finding;
-use crate::lint::rules::json::DUPLICATE_KEY;
+use crate::rules;
 use crate::source::{SourceMap, Text};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
@@ -344,9 +344,13 @@ impl<'a> Parser<'a> {
         };
         if self.placed.len() < MAX_MISTAKES {
             self.placed.push(
-                Finding::new(&DUPLICATE_KEY, key.span(), format!("{shown} is written twice in one object"))
-                    .related(earlier, "the first one, which is ignored")
-                    .help("keep one of the two"),
+                Finding::new(
+                    rules::DUPLICATE_KEY,
+                    key.span(),
+                    format!("{shown} is written twice in one object"),
+                )
+                .related(earlier, "the first one, which is ignored")
+                .help("keep one of the two"),
             );
         }
     }

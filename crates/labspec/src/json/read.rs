@@ -3,7 +3,7 @@
 use super::literal::repaired;
 use super::{Json, Node};
 use crate::finding::Finding;
-use crate::lint::rules::keys::WRONG_TYPE;
+use crate::rules;
 use crate::source::Text;
 use std::ops::Range;
 
@@ -95,7 +95,7 @@ pub(crate) fn whole(node: &Node, what: &str, findings: &mut Vec<Finding>) -> Opt
     }
     findings.push(
         Finding::new(
-            &WRONG_TYPE,
+            rules::WRONG_TYPE,
             node.span.clone(),
             format!("`{what}` is a whole number, not {}", number.value),
         )
@@ -128,7 +128,7 @@ pub(crate) fn wrong(findings: &mut Vec<Finding>, node: &Node, what: &str, expect
         return;
     }
     let finding = Finding::new(
-        &WRONG_TYPE,
+        rules::WRONG_TYPE,
         node.span.clone(),
         format!("{what} must be {expected}; this is {}", node.describe()),
     );

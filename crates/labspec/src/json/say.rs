@@ -6,13 +6,12 @@ use super::read::shorten;
 use super::strings::Trouble;
 use super::{MAX_DEPTH, MAX_VALUES};
 use crate::finding::Finding;
-use crate::lint::rules::json::{LIMIT, SYNTAX};
-use crate::lint::rules::quotes::TYPOGRAPHIC;
+use crate::rules;
 use crate::source::SourceMap;
 use std::ops::Range;
 
 fn syntax(span: Range<usize>, message: impl Into<String>) -> Finding {
-    Finding::new(&SYNTAX, span, message)
+    Finding::new(rules::JSON_SYNTAX, span, message)
 }
 
 /// A finding about bytes of a text, at its bytes of the file. A change that would reach over what stands between
@@ -34,12 +33,12 @@ pub(super) fn nothing() -> Finding {
 }
 
 pub(super) fn too_deep(at: usize) -> Finding {
-    Finding::new(&LIMIT, at..at + 1, format!("more than {MAX_DEPTH} brackets inside each other"))
+    Finding::new(rules::JSON_LIMIT, at..at + 1, format!("more than {MAX_DEPTH} brackets inside each other"))
         .help("a lab needs about eight; look for a bracket that is not closed")
 }
 
 pub(super) fn too_many(at: usize) -> Finding {
-    Finding::new(&LIMIT, at..at + 1, format!("more than {MAX_VALUES} values in one JSON text"))
+    Finding::new(rules::JSON_LIMIT, at..at + 1, format!("more than {MAX_VALUES} values in one JSON text"))
         .help("split it into several labs")
 }
 
@@ -339,7 +338,7 @@ fn crowd(kind: Kind, count: usize, span: Range<usize>, text: &str) -> Finding {
     let c = text.get(span.clone()).and_then(|t| t.chars().next()).unwrap_or(' ');
     match kind {
         Kind::Typographic => {
-            Finding::new(&TYPOGRAPHIC, span, format!("{count} typographic quote{s} where JSON needs \""))
+            Finding::new(rules::TYPOGRAPHIC_QUOTE, span, format!("{count} typographic quote{s} where JSON needs \""))
                 .help("write straight quotes: \"model\": \"…\"; here they were read as straight ones, so the rest is checked")
         }
         Kind::Single => {

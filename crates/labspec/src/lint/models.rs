@@ -1,9 +1,12 @@
 //! The folder of models that lessons name, and the root below which files may be opened. The folder is listed once.
 
+use crate::models::Models;
+use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The models a lesson may name.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Default)]
 pub struct ModelFolder {
     /// `None` when models are only known by name, or not at all.
     folder: Option<PathBuf>,
@@ -11,6 +14,26 @@ pub struct ModelFolder {
     root: PathBuf,
     /// Names without extension, sorted; `None` when nothing is known, so that nothing can be missing.
     names: Option<Vec<String>>,
+    /// Models that somebody gives, without a folder.
+    given: Option<Arc<dyn Models>>,
+}
+
+impl fmt::Debug for ModelFolder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ModelFolder { folder, root, names, given } = self;
+        let mut shown = f.debug_struct("ModelFolder");
+        shown.field("folder", folder).field("root", root).field("names", names);
+        shown.field("given", &given.is_some()).finish()
+    }
+}
+
+impl<M: Models + 'static> From<M> for ModelFolder {
+    /// Models that somebody gives take the place of a folder.
+    fn from(models: M) -> ModelFolder {
+        let mut names = models.names();
+        names.iter_mut().for_each(|names| names.sort());
+        ModelFolder { names, given: Some(Arc::new(models)), ..ModelFolder::default() }
+    }
 }
 
 impl ModelFolder {
@@ -54,7 +77,7 @@ impl ModelFolder {
             }
         }
         names.sort();
-        Ok(ModelFolder { folder: Some(folder), root, names: Some(names) })
+        Ok(ModelFolder { folder: Some(folder), root, names: Some(names), given: None })
     }
 
     /// The folder `models` beside a lesson or above it, whichever is nearer; unknown when there is none. The root is
@@ -79,6 +102,16 @@ impl ModelFolder {
     /// The names, sorted; `None` when no folder is known.
     pub fn names(&self) -> Option<&[String]> {
         self.names.as_deref()
+    }
+
+    /// The models that somebody gives in place of a folder.
+    pub(crate) fn given(&self) -> Option<&dyn Models> {
+        self.given.as_deref()
+    }
+
+    /// Whether there is a model of this name.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.given.as_ref().map_or(self.path(name).is_some(), |models| models.text(name).is_some())
     }
 
     /// The file of a model; `None` when the folder has no such model.

@@ -5,7 +5,8 @@ use crate::json::nearest;
 use std::ops::Range;
 
 /// The opening line of a fence.
-pub(crate) struct Opener {
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Opener {
     /// The fence character.
     mark: char,
     /// How many of them.

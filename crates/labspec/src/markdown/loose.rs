@@ -1,8 +1,8 @@
 //! Labs and quizzes that stand in the text without a fence that Markdown sees.
 
+use super::Problem;
 use super::fence::opener;
 use super::{Block, BlockKind, Scan, extent, line_start};
-use crate::lint::rules::fence;
 use crate::source::{SourceMap, Text};
 use std::ops::Range;
 
@@ -83,7 +83,7 @@ pub(super) fn find(text: &str, scan: &mut Scan) {
         for bare in bare_json(part) {
             let object = bare.object.start + range.start..bare.object.end + range.start;
             let kind = if bare.is_quiz { BlockKind::Quiz } else { BlockKind::Lab("simlab".into()) };
-            scan.findings.push(fence::missing(text, &object, &kind));
+            scan.problems.push(Problem::Missing { object: object.clone(), kind: kind.clone() });
             let head = object.start..object.start + 1;
             scan.blocks.push(loose_block(text, kind, object.clone(), head, object));
         }
@@ -105,7 +105,7 @@ pub(super) fn unseen_fence(text: &str, within: Range<usize>, scan: &mut Scan) ->
         if matches!(kind, BlockKind::Code { .. }) {
             continue;
         }
-        scan.findings.push(fence::unseen(&open));
+        scan.problems.push(Problem::Unseen(open.clone()));
         let from = open.rest.as_ref().map_or(at, |rest| rest.start);
         let after = text.get(from..ceil(text, from.saturating_add(MAX_OBJECT)))?;
         let Some(end) = extent::json_end(after).map(|end| from + end) else { return Some(at) };
@@ -137,7 +137,7 @@ pub(super) fn indented_fence(text: &str, within: Range<usize>, scan: &mut Scan) 
         let holds_json =
             below.strip_prefix('{').is_some_and(|t| t.trim_start().starts_with(extent::is_quote));
         if holds_json && !matches!(open.kind(), BlockKind::Code { .. }) {
-            scan.findings.push(fence::indented(&open));
+            scan.problems.push(Problem::Indented(open));
         }
     }
 }
@@ -150,5 +150,5 @@ fn loose_block(
     object: Range<usize>,
 ) -> Block {
     let value = text.get(object.clone()).unwrap_or("").to_string();
-    Block { kind, span, info, body: Text { value, map: SourceMap::verbatim(object) } }
+    Block { kind, span, info, body: Text { value, map: SourceMap::verbatim(object) }, whole: true }
 }

@@ -10,10 +10,8 @@ mod fence;
 mod loose;
 
 pub(crate) use extent::is_typographic;
-pub(crate) use fence::Opener;
+pub use fence::Opener;
 
-use crate::finding::Finding;
-use crate::lint::rules;
 use crate::source::{SourceFile, SourceMap, Text};
 use fence::opener;
 use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag, TagEnd};
@@ -24,9 +22,7 @@ pub const MAX_BLOCKS: usize = 2000;
 /// Most bytes that are read again after damage. Every damaged fence means one more pass over what follows it.
 const MAX_REREAD: usize = 64 << 20;
 /// Most characters of markup in a lesson: the Markdown parser keeps some sixty bytes for each.
-const MAX_MARKUP: usize = 4 << 20;
-/// Most names of model elements that are reported one by one.
-const MAX_TAGS: usize = 500;
+pub(crate) const MAX_MARKUP: usize = 4 << 20;
 
 /// What a fence holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,6 +51,55 @@ pub struct Block {
     pub info: Range<usize>,
     /// What stands inside, without the prefixes of quotes and lists.
     pub body: Text,
+    /// Whether its end is known: it is closed, and nothing was cut off.
+    pub whole: bool,
+}
+
+/// What is wrong with the fences of a lesson. What is said about it, and how it is repaired, is the business of `lint`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Problem {
+    /// More characters of markup than are read.
+    TooMuchMarkup,
+    /// More fences, or more damaged ones, than are read; from this byte on, nothing was.
+    TooManyBlocks(usize),
+    /// A fence that was meant to be another kind.
+    Misspelt {
+        /// Its opening line.
+        open: Opener,
+        /// What was meant.
+        right: String,
+    },
+    /// JSON or code stands on the opening line.
+    TextOnLine {
+        /// The opening line.
+        open: Opener,
+        /// What stands behind its kind.
+        rest: Range<usize>,
+        /// What the fence holds.
+        kind: BlockKind,
+    },
+    /// The closing line is missing.
+    Unclosed {
+        /// The opening line.
+        open: Opener,
+        /// Where the content ends.
+        end: usize,
+        /// Where the lesson goes on.
+        resume: Option<usize>,
+        /// What the fence holds.
+        kind: BlockKind,
+    },
+    /// A lab or a quiz without any fence.
+    Missing {
+        /// Its bytes.
+        object: Range<usize>,
+        /// What it is.
+        kind: BlockKind,
+    },
+    /// A fence that Markdown does not see.
+    Unseen(Opener),
+    /// A fence that is indented like code.
+    Indented(Opener),
 }
 
 /// The blocks of a lesson in order, and what is wrong with them.
@@ -62,12 +107,12 @@ pub struct Block {
 pub struct Scan {
     /// The blocks.
     pub blocks: Vec<Block>,
-    /// Damage, and markup that a browser would swallow.
-    pub findings: Vec<Finding>,
+    /// Damage.
+    pub problems: Vec<Problem>,
+    /// HTML in the prose.
+    pub html: Vec<Range<usize>>,
     /// Every stretch that is code and therefore not prose.
     code: Vec<Range<usize>>,
-    /// Names of model elements that stand as tags.
-    tags: usize,
 }
 
 /// Finds all fences of a lesson.
@@ -76,22 +121,14 @@ pub fn scan(file: &SourceFile) -> Scan {
     let mut scan = Scan::default();
     let is_markup = |b: u8| b"[]()*_~`<>&!|\\".contains(&b);
     if text.bytes().filter(|&b| is_markup(b)).take(MAX_MARKUP + 1).count() > MAX_MARKUP {
-        scan.findings.push(
-            Finding::new(&rules::fence::LIMIT, 0..0, "nothing of this lesson is checked")
-                .why(format!("it has more than {MAX_MARKUP} characters of markup"))
-                .help("split the lesson"),
-        );
+        scan.problems.push(Problem::TooMuchMarkup);
         return scan;
     }
     let (mut from, mut read) = (0, 0);
     loop {
         read += text.len() - from;
         if scan.blocks.len() >= MAX_BLOCKS || read > MAX_REREAD + text.len() {
-            scan.findings.push(
-                Finding::new(&rules::fence::LIMIT, from..from, "from here on, nothing is checked")
-                    .why(format!("the lesson has more than {MAX_BLOCKS} fences, or too many damaged ones"))
-                    .help("split the lesson, or repair the first fences and check again"),
-            );
+            scan.problems.push(Problem::TooManyBlocks(from));
             break;
         }
         match pass(text, from, &mut scan) {
@@ -135,14 +172,7 @@ fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
                     return Some(resume);
                 }
             }
-            Event::Html(_) | Event::InlineHtml(_) => {
-                let left = MAX_TAGS - scan.tags;
-                if left > 0 {
-                    let found = rules::html::in_markdown(text, range, left);
-                    scan.tags += found.len();
-                    scan.findings.extend(found);
-                }
-            }
+            Event::Html(_) | Event::InlineHtml(_) => scan.html.push(range),
             _ => {}
         }
     }
@@ -179,7 +209,7 @@ fn block(text: &str, span: Range<usize>, body: Text, scan: &mut Scan) -> Option<
     let body = with_first_line(text, &open, body);
     let mut kind = open.kind();
     if let Some((right, meant)) = fence::meant(&open, &kind, &body.value) {
-        scan.findings.push(rules::fence::misspelt(&open, right));
+        scan.problems.push(Problem::Misspelt { open: open.clone(), right: right.to_string() });
         kind = meant;
     }
     let cut = match &kind {
@@ -189,25 +219,22 @@ fn block(text: &str, span: Range<usize>, body: Text, scan: &mut Scan) -> Option<
     let mut body = body;
     let mut span = span;
     if let Some(first) = open.rest.clone() {
-        scan.findings.push(rules::fence::text_on_line(text, &open, first, &kind));
+        scan.problems.push(Problem::TextOnLine { open: open.clone(), rest: first, kind: kind.clone() });
     }
     let mut resume = None;
     if let Some(cut) = cut {
         let end = body.map.span(0..cut.end).end;
         resume = cut.resume.map(|at| line_start(text, body.map.span(at..at).start));
-        scan.findings.push(rules::fence::unclosed(text, &open, end, resume, &kind));
+        scan.problems.push(Problem::Unclosed { open: open.clone(), end, resume, kind: kind.clone() });
         span.end = resume.unwrap_or(span.end);
         body.value.truncate(cut.end);
         body.map = SourceMap::verbatim(0..cut.end).then(&body.map);
     } else if !closed {
         let end = body.map.span(0..body.value.trim_end().len()).end.max(open.line.end);
-        scan.findings.push(rules::fence::unclosed(text, &open, end, None, &kind));
-    }
-    if let BlockKind::Code { language, .. } = &kind {
-        rules::listing::check(language, &body, closed && resume.is_none(), &mut scan.findings);
+        scan.problems.push(Problem::Unclosed { open: open.clone(), end, resume: None, kind: kind.clone() });
     }
     scan.code.push(span.clone());
-    scan.blocks.push(Block { kind, span, info: open.head, body });
+    scan.blocks.push(Block { kind, span, info: open.head, body, whole: closed && resume.is_none() });
     resume
 }
 
@@ -241,15 +268,11 @@ mod tests {
         scan(&SourceFile::new("t.md", text))
     }
 
-    fn codes(scan: &Scan) -> Vec<&'static str> {
-        scan.findings.iter().map(|f| f.code).collect()
-    }
-
     #[test]
     fn fences_in_quotes_and_lists_lose_their_prefixes_and_keep_their_places() {
         let text = "> ```lab simlab\n> {\"model\":\n>  \"ball\"}\n> ```\n\n1. x\n\n   ```quiz\n   {\"id\": 1}\n   ```\r\n";
         let scan = scanned(text);
-        assert_eq!(codes(&scan), Vec::<&str>::new());
+        assert_eq!(scan.problems, []);
         assert_eq!(scan.blocks[0].body.value, "{\"model\":\n \"ball\"}\n");
         let at = scan.blocks[0].body.value.find("ball").unwrap();
         assert_eq!(&text[scan.blocks[0].body.span_of(at..at + 4)], "ball");
@@ -260,7 +283,7 @@ mod tests {
     #[test]
     fn a_longer_fence_that_shows_a_fence_is_no_damage() {
         let scan = scanned("````markdown\n```lab simlab\n{}\n```\n````\n\n~~~\n```quiz\n~~~\n");
-        assert_eq!(codes(&scan), Vec::<&str>::new());
+        assert_eq!(scan.problems, []);
         assert_eq!(scan.blocks.len(), 2);
     }
 
@@ -269,7 +292,7 @@ mod tests {
         let scan = scanned(
             "```lab simlab\n{\"model\": \"a\"}\nSome prose.\n\n```quiz\n{\"id\": \"q\"}\n```\n\n```lab\n{}\n```\n",
         );
-        assert_eq!(codes(&scan), ["fence-unclosed"]);
+        assert!(matches!(scan.problems[..], [Problem::Unclosed { .. }]));
         let kinds: Vec<_> = scan.blocks.iter().map(|b| b.kind.clone()).collect();
         let lab = BlockKind::Lab("simlab".into());
         assert_eq!(kinds, [lab.clone(), BlockKind::Quiz, lab]);
@@ -279,7 +302,7 @@ mod tests {
     #[test]
     fn prose_swallowed_by_a_lab_is_cut_off_at_the_end_of_its_object() {
         let scan = scanned("```lab\n{\"model\": \"a\"}\nSome prose.\n\n```\ncode\n```\n");
-        assert_eq!(codes(&scan)[0], "fence-unclosed");
+        assert!(matches!(scan.problems[0], Problem::Unclosed { .. }));
         assert_eq!(scan.blocks[0].body.value.trim(), "{\"model\": \"a\"}");
         assert_eq!(scan.blocks[1].body.value, "code\n");
     }
@@ -289,7 +312,7 @@ mod tests {
         let many = "```lab {\n".repeat(3000);
         let scan = scanned(&many);
         assert!(scan.blocks.len() <= MAX_BLOCKS);
-        assert!(codes(&scan).contains(&"lesson-limit"));
+        assert!(scan.problems.iter().any(|p| matches!(p, Problem::TooManyBlocks(_))));
         for text in [
             "```",
             "```lab",

@@ -132,15 +132,16 @@ fn written(parts: [&str; 3]) -> (String, Range<usize>) {
 mod tests {
     use super::*;
     use crate::finding::InFile;
-    use crate::lint::rules::keys::UNKNOWN_KEY;
+    use crate::rules;
 
     #[test]
     fn long_lines_are_shortened_around_the_mark() {
         let text = format!("first\n{}\"exprr\"{}\n", "ä ".repeat(1000), " tail".repeat(1000));
         let file = SourceFile::new("long.md", text.as_str());
         let at = text.find("exprr").unwrap();
-        let finding =
-            Finding::new(&UNKNOWN_KEY, at..at + 5, "no key `exprr`").help("did you mean `expr`?").at(&file);
+        let finding = Finding::new(rules::UNKNOWN_KEY, at..at + 5, "no key `exprr`")
+            .help("did you mean `expr`?")
+            .at(&file);
         let shown = human(&[finding], &[&file], false);
         assert!(shown.lines().all(|l| l.chars().count() < 130), "{shown}");
         insta::assert_snapshot!(shown);
@@ -150,12 +151,12 @@ mod tests {
     fn spans_over_lines_and_behind_the_end_are_survived() {
         let file = SourceFile::new("a.md", "one\ntwo");
         for span in [0..7, 2..5, 7..7, 90..100, 3..3] {
-            let finding = Finding::new(&UNKNOWN_KEY, span, "x").at(&file);
+            let finding = Finding::new(rules::UNKNOWN_KEY, span, "x").at(&file);
             assert!(human(&[finding], &[&file], true).contains("unknown-key"));
         }
         let empty = SourceFile::new("e.md", "");
         assert!(
-            human(&[Finding::new(&UNKNOWN_KEY, 0..0, "x\u{1b}[2J").at(&empty)], &[&empty], false)
+            human(&[Finding::new(rules::UNKNOWN_KEY, 0..0, "x\u{1b}[2J").at(&empty)], &[&empty], false)
                 .contains("e.md:1:1")
         );
     }

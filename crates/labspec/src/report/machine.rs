@@ -49,7 +49,7 @@ fn one(finding: &Finding, files: &[&SourceFile]) -> Value {
     value["why"] = json!(finding.why);
     value["help"] = json!(finding.help);
     value["fix"] = finding.fix.as_ref().map_or(Value::Null, |fix| {
-        let mut value = json!({"text": fix.text});
+        let mut value = json!({"text": fix.text, "applicability": fix.applicability.as_str()});
         set_place(&mut value, files, &finding.path, &fix.span);
         value
     });

@@ -1,9 +1,11 @@
 //! Findings for people and for programs.
 
+#[cfg(feature = "cli")]
 mod human;
 mod machine;
 mod printable;
 
+#[cfg(feature = "cli")]
 pub use human::human;
 pub use machine::{SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers, set_place};
 pub use printable::{printable, printable_json, printable_lines, printable_path};

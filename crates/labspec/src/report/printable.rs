@@ -18,6 +18,7 @@ pub fn printable_lines(text: &str) -> Cow<'_, str> {
 }
 
 /// The same for a line of a lesson, which may hold tabs.
+#[cfg(feature = "cli")]
 pub(super) fn printable_line(text: &str) -> Cow<'_, str> {
     written_out(text, |c| c != '\t' && is_hidden(c), |c, out| out.extend(c.escape_default()))
 }

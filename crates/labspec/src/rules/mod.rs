@@ -1,21 +1,95 @@
-//! Every rule, whatever part of labspec it comes from: those of the lessons, of the language and of models, and those that need
-//! a run or a claim, which are declared here, each on a page of its own.
+//! Every rule, whatever part of labspec it comes from. Those of lessons, runs and claims are declared here, each on a page of its
+//! own, with its check where it has one; those of the language and of models in their crates.
+//!
+//! A new rule of lessons is a file here and a line in the list below.
 
 pub mod example;
 
+pub(crate) use duplicate_id::across;
+pub(crate) use empty_plot::empty;
 pub use labspec_finding::Rule;
+pub(crate) use select_options::nothing_offered;
+pub(crate) use verify_nothing::claims_nothing;
 
-use crate::lint;
+use crate::finding::Finding;
+use crate::spec::{Control, Lab, Lesson, Question, Quiz};
 
 macro_rules! rules {
-    ($($file:ident :: $name:ident,)*) => {
+    ($($file:ident :: $name:ident $(+ $check:ident)?,)*) => {
         $(mod $file; pub use $file::$name;)*
-        /// The rules that need a model, a run or a claim.
-        pub const RUNS: &[&Rule] = &[$($name),*];
+        /// The rules of lessons, their runs and their claims.
+        pub const LESSONS: &[&Rule] = &[$($name),*];
+        /// The checks of a lesson's structure. Other rules are told by whoever reads, binds or runs.
+        pub(crate) const CHECKS: &[Check] = &[$($($file::$check,)?)*];
     };
 }
 
+/// What a rule looks at. The runner walks the lesson ([`crate::lint`]).
+pub(crate) enum Check {
+    /// Every lab, those of questions too.
+    Lab(fn(&Lab, &mut Vec<Finding>)),
+    /// Every control of every lab.
+    Control(fn(&Control, &mut Vec<Finding>)),
+    /// Every quiz.
+    Quiz(fn(&Quiz, &mut Vec<Finding>)),
+    /// Every question.
+    Question(fn(&Question, &mut Vec<Finding>)),
+    /// The lesson as a whole.
+    Lesson(fn(&Lesson, &mut Vec<Finding>)),
+}
+
 rules! {
+    fence_unclosed::FENCE_UNCLOSED,
+    fence_line::FENCE_LINE,
+    fence_missing::FENCE_MISSING,
+    fence_unseen::FENCE_UNSEEN,
+    fence_kind::FENCE_KIND,
+    fence_name::FENCE_NAME,
+    unknown_spec::UNKNOWN_SPEC,
+    lesson_limit::LESSON_LIMIT,
+    typographic_quote::TYPOGRAPHIC_QUOTE + CHECK,
+    listing_underscores::LISTING_UNDERSCORES,
+    listing_line_breaks::LISTING_LINE_BREAKS,
+    listing_indentation::LISTING_INDENTATION,
+    unescaped_element::UNESCAPED_ELEMENT,
+    latex_escape::LATEX_ESCAPE + CHECK,
+    json_syntax::JSON_SYNTAX,
+    duplicate_key::DUPLICATE_KEY,
+    json_limit::JSON_LIMIT,
+    unknown_key::UNKNOWN_KEY,
+    missing_key::MISSING_KEY,
+    wrong_type::WRONG_TYPE,
+    one_model::ONE_MODEL + CHECK,
+    unknown_model::UNKNOWN_MODEL,
+    model_name::MODEL_NAME,
+    not_positive::NOT_POSITIVE + CHECK,
+    digits_range::DIGITS_RANGE + CHECK,
+    keyframe_range::KEYFRAME_RANGE + CHECK,
+    unknown_overlay::UNKNOWN_OVERLAY + CHECK,
+    empty_range::EMPTY_RANGE + CHECK,
+    slider_value::SLIDER_VALUE + CHECK,
+    slider_step::SLIDER_STEP + CHECK,
+    select_value::SELECT_VALUE + CHECK,
+    select_options::SELECT_OPTIONS,
+    control_without_effect::CONTROL_WITHOUT_EFFECT + CHECK,
+    duplicate_control::DUPLICATE_CONTROL + CHECK,
+    apply_unused::APPLY_UNUSED + CHECK,
+    empty_plot::EMPTY_PLOT,
+    duplicate_trace::DUPLICATE_TRACE + CHECK,
+    duplicate_readout::DUPLICATE_READOUT + CHECK,
+    empty_quiz::EMPTY_QUIZ + CHECK,
+    too_few_options::TOO_FEW_OPTIONS + CHECK,
+    answer_range::ANSWER_RANGE + CHECK,
+    duplicate_option::DUPLICATE_OPTION + CHECK,
+    zero_tolerance::ZERO_TOLERANCE + CHECK,
+    impossible_tolerance::IMPOSSIBLE_TOLERANCE + CHECK,
+    duplicate_id::DUPLICATE_ID + CHECK,
+    unknown_lab::UNKNOWN_LAB + CHECK,
+    verify_without_lab::VERIFY_WITHOUT_LAB + CHECK,
+    unknown_control::UNKNOWN_CONTROL + CHECK,
+    verify_answer::VERIFY_ANSWER + CHECK,
+    verify_nothing::VERIFY_NOTHING,
+    run_length::RUN_LENGTH + CHECK,
     model_broken::MODEL_BROKEN,
     not_utf8::NOT_UTF8,
     model_unreadable::MODEL_UNREADABLE,
@@ -55,11 +129,11 @@ rules! {
     quote_chaotic::QUOTE_CHAOTIC,
 }
 
-/// All rules: of lessons, of runs and claims, of the language, of models.
+/// All rules: of lessons with their runs and claims, of the language, of models.
 pub fn all() -> impl Iterator<Item = &'static Rule> {
     let language = labspec_expr::rules::ALL.iter().copied();
     let models = labspec_core::xml::rules::ALL.iter().copied();
-    lint::all().chain(RUNS.iter().copied()).chain(language).chain(models)
+    LESSONS.iter().copied().chain(language).chain(models)
 }
 
 /// The rule with this code.

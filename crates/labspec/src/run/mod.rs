@@ -2,24 +2,31 @@
 
 mod breakdown;
 mod budget;
+mod held;
+mod play;
 mod samples;
 mod session;
 pub mod settings;
 mod table;
+mod told;
 mod written;
 
 pub use breakdown::{Breakdown, how_stiff, owner, remedy, time, two_digits};
 pub use budget::{Budget, End};
+pub use held::Held;
+pub use play::{Play, play};
 pub use samples::Samples;
 pub use session::{Numerics, Session, Trouble};
 pub use settings::{presses, presses_within, set_controls};
 pub use table::{Cell, Table, shown};
+pub use told::{broken, threw};
 
 use crate::bind::Programs;
 use crate::spec::Lab;
 use crate::spec::format::RUN_LENGTH;
 use labspec_core::Model;
 use labspec_expr::Value;
+use std::ops::ControlFlow;
 
 /// What is done to a lab while it runs.
 #[derive(Clone, Debug, Default)]
@@ -124,26 +131,16 @@ pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) 
     }
 
     let mut samples = Samples::new(programs, steps / every + 2);
-    let mut pending = presses.as_slice();
-    session.press_due(&mut pending);
-    samples.take(&mut session);
-    session.watch(steps);
-    for i in 1..=steps {
-        session.press_due(&mut pending);
-        session.step();
-        // What the page shows does not change any more, or is not known.
-        if session.ended().is_some() {
-            break;
-        }
-        if i % every == 0 || i == steps {
-            samples.take(&mut session);
-            if samples.text() > MAX_TEXT {
-                return Err(RunError(format!(
-                    "the texts that the readouts show come to more than {} MB after {i} steps; show numbers or short texts, or sample less often with --every",
-                    MAX_TEXT >> 20
-                )));
-            }
-        }
+    let played = Play { steps, every, presses: &presses, watched: true };
+    let made = play(&mut session, &played, |session, _| {
+        samples.take(session);
+        if samples.text() > MAX_TEXT { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    if samples.text() > MAX_TEXT {
+        return Err(RunError(format!(
+            "the texts that the readouts show come to more than {} MB after {made} steps; show numbers or short texts, or sample less often with --every",
+            MAX_TEXT >> 20
+        )));
     }
     let mut table = Table::new(timestep, programs.probes.iter().map(|p| p.name.clone()));
     table.rows = samples.rows();

@@ -1,6 +1,7 @@
 //! One run of a lab: the order of events of the lab format, step by step.
 
 use super::budget::{Budget, End};
+use super::held::Held;
 use super::table::Cell;
 use crate::advice::growth::{self, Growth, Watch};
 use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
@@ -41,8 +42,8 @@ impl Numerics {
     pub const NOMINAL: Numerics = Numerics { timestep: 1.0, tight: false, nudge: 0.0 };
 }
 
-/// A running lab.
-#[derive(Debug)]
+/// A running lab. Its clone goes on as it would.
+#[derive(Clone, Debug)]
 pub struct Session<'p> {
     /// The model and its data.
     pub world: World,
@@ -52,7 +53,7 @@ pub struct Session<'p> {
     pub troubles: Vec<Trouble>,
     /// Warnings of the engine, also those of before a reset.
     pub warnings: [WarningStat; Warning::COUNT],
-    programs: &'p Programs,
+    programs: Held<'p>,
     key: Option<usize>,
     /// The current value of each control.
     values: Vec<Value>,
@@ -73,7 +74,7 @@ const LOOKS: usize = 24;
 const BETWEEN: usize = 50;
 
 /// A run that is watched for growth.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Watched {
     watch: Watch,
     found: Option<Growth>,
@@ -83,34 +84,39 @@ struct Watched {
 
 impl<'p> Session<'p> {
     /// Loads the lab: steps 1 to 3 of the order of events.
-    pub fn start(programs: &'p Programs, model: &Model, key: Option<usize>, demand: &Demand) -> Session<'p> {
+    pub fn start(
+        programs: impl Into<Held<'p>>,
+        model: &Model,
+        key: Option<usize>,
+        demand: &Demand,
+    ) -> Session<'p> {
         Session::start_within(programs, model, key, demand, Budget::ASKED)
     }
 
     /// The same with another budget.
     pub fn start_within(
-        programs: &'p Programs,
+        programs: impl Into<Held<'p>>,
         model: &Model,
         key: Option<usize>,
         demand: &Demand,
         budget: Budget,
     ) -> Session<'p> {
         let data = Data::planned(model, Plan::new(model, demand));
-        Session::load(programs, model, key, data, budget)
+        Session::load(programs.into(), model, key, data, budget)
     }
 
     /// The same with data whose plan is already decided.
     pub fn start_with(
-        programs: &'p Programs,
+        programs: impl Into<Held<'p>>,
         model: &Model,
         key: Option<usize>,
         data: Data<Planned>,
     ) -> Session<'p> {
-        Session::load(programs, model, key, data, Budget::ASKED)
+        Session::load(programs.into(), model, key, data, Budget::ASKED)
     }
 
     fn load(
-        programs: &'p Programs,
+        programs: Held<'p>,
         model: &Model,
         key: Option<usize>,
         data: Data<Planned>,
@@ -139,13 +145,33 @@ impl<'p> Session<'p> {
         if session.key.is_some() {
             session.reset_data();
         }
-        for i in 0..programs.controls.len() {
-            if let ControlProgram::Change(value, _) = &programs.controls[i].1 {
-                session.apply(i, value.clone());
-            }
+        for i in 0..session.values.len() {
+            session.apply(i, session.values[i].clone());
         }
         session.after_reset();
         session
+    }
+
+    /// The programs of the lab.
+    pub fn programs(&self) -> &Programs {
+        &self.programs
+    }
+
+    /// The current value of each control; `undefined` for a button.
+    pub fn values(&self) -> &[Value] {
+        &self.values
+    }
+
+    /// Lets the run do so much work from here on, whatever it did before: for a page, which plays for as long as somebody
+    /// looks. A run that has ended stays ended.
+    pub fn renew(&mut self, budget: Budget) {
+        self.budget = self.spent().saturating_add(budget.left);
+    }
+
+    /// Starts over, also after an end: the same reset as [`Session::reset`], and the lab is no longer frozen.
+    pub fn start_over(&mut self) {
+        self.end = None;
+        self.reset();
     }
 
     /// The work that was done, in units of about a nanosecond.
@@ -183,8 +209,9 @@ impl<'p> Session<'p> {
     /// A control changes: step 5.
     pub fn set_control(&mut self, index: usize, value: Value) {
         let Some((_, ControlProgram::Change(_, action))) = self.programs.controls.get(index) else { return };
+        let resets = action.reset;
         self.apply(index, value);
-        if action.reset {
+        if resets {
             self.reset();
         } else {
             self.forward();
@@ -193,7 +220,8 @@ impl<'p> Session<'p> {
 
     /// A button is pressed.
     pub fn press(&mut self, index: usize) {
-        if let Some((_, ControlProgram::Press(Some(bound)))) = self.programs.controls.get(index) {
+        let programs = self.programs.clone();
+        if let Some((_, ControlProgram::Press(Some(bound)))) = programs.controls.get(index) {
             self.execute(&bound.program, &bound.text, None);
             self.forward();
         }
@@ -221,10 +249,8 @@ impl<'p> Session<'p> {
             return;
         }
         let time = self.world.data.time();
-        if let Some(bound) = &self.programs.controller
-            && !self.execute(&bound.program, &bound.text, None)
-        {
-            self.end.get_or_insert(End::Threw);
+        if self.programs.controller.is_some() {
+            self.control();
         }
         if !self.go() {
             return;
@@ -248,6 +274,16 @@ impl<'p> Session<'p> {
             w.found = growth::look(&mut w.watch, model, data);
         }
         self.note_warnings();
+    }
+
+    /// The controller.
+    fn control(&mut self) {
+        let programs = self.programs.clone();
+        if let Some(bound) = &programs.controller
+            && !self.execute(&bound.program, &bound.text, None)
+        {
+            self.end.get_or_insert(End::Threw);
+        }
     }
 
     /// Watches the run of so many steps that begins here for energy that nothing gave it. Programs that write in
@@ -277,7 +313,8 @@ impl<'p> Session<'p> {
     pub fn sample(&mut self) -> Vec<Cell> {
         let mut row = Vec::with_capacity(self.programs.probes.len() + 1);
         row.push(Cell::Number(self.world.data.time()));
-        for probe in &self.programs.probes {
+        let programs = self.programs.clone();
+        for probe in &programs.probes {
             let value = probe.bound.as_ref().and_then(|b| self.evaluate(&b.program, &b.text));
             row.push(value.map_or(Cell::Nothing, Cell::from));
         }
@@ -365,15 +402,15 @@ impl<'p> Session<'p> {
 
     /// Step 3: setup, the `init` controls, forward.
     fn after_reset(&mut self) {
-        let programs = self.programs;
+        let programs = self.programs.clone();
         if let Some(bound) = &programs.setup
             && self.end.is_none()
             && !self.execute(&bound.program, &bound.text, None)
         {
             self.end.get_or_insert(End::Threw);
         }
-        for i in 0..programs.controls.len() {
-            if let ControlProgram::Change(_, action) = &programs.controls[i].1
+        for (i, (_, control)) in programs.controls.iter().enumerate() {
+            if let ControlProgram::Change(_, action) = control
                 && action.init
             {
                 let value = self.values[i].clone();
@@ -385,7 +422,7 @@ impl<'p> Session<'p> {
 
     /// Stores the value of a control and does what it says.
     fn apply(&mut self, index: usize, value: Value) {
-        let programs = self.programs;
+        let programs = self.programs.clone();
         if let Some((_, ControlProgram::Change(_, action))) = programs.controls.get(index) {
             self.values[index] = value.clone();
             if let Some(slot) = action.param {

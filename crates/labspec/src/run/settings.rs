@@ -219,7 +219,8 @@ fn number(x: f64) -> String {
     Value::Number(short).to_string()
 }
 
-fn unknown(label: &str, programs: &Programs) -> RunError {
+/// That there is no control with this label, and which there are.
+pub(crate) fn unknown(label: &str, programs: &Programs) -> RunError {
     let labels: Vec<&str> = programs.controls.iter().map(|(l, _)| l.as_str()).collect();
     let known = match labels.as_slice() {
         [] => "this lab has no controls".to_string(),

@@ -4,8 +4,7 @@ use super::fields::Fields;
 use super::format::{BUTTON, CONTROL, MAX_DIGITS, SELECT, SLIDER, texts};
 use crate::finding::Finding;
 use crate::json::{Json, Node, Number, Scalar, read};
-use crate::lint::rules::control::SELECT_OPTIONS;
-use crate::lint::rules::keys::WRONG_TYPE;
+use crate::rules;
 use crate::source::Text;
 use std::ops::Range;
 
@@ -124,13 +123,13 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Control> 
         other => {
             let span = kind.as_ref().map_or(node.span.clone(), Text::span);
             let finding = Finding::new(
-                &WRONG_TYPE,
+                rules::WRONG_TYPE,
                 span.clone(),
                 format!("there is no control of type {}", read::named(other)),
             )
             .why("the page knows sliders, selects and buttons; it shows nothing for anything else");
             fields.findings.push(match crate::json::nearest(other, texts(CONTROL.words)) {
-                Some(right) => finding.help(format!("did you mean `{right}`?")).fix(span, right),
+                Some(right) => finding.help(format!("did you mean `{right}`?")).guess(span, right),
                 None => finding.help("write \"select\" or \"button\"; without `type` it is a slider"),
             });
             // Its other keys cannot be judged.
@@ -160,7 +159,7 @@ fn select(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
     let label = fields.text("label");
     let options = fields.items("options");
     if options.is_some_and(<[Node]>::is_empty) {
-        fields.findings.push(crate::lint::rules::control::nothing_offered(fields.span()));
+        fields.findings.push(rules::nothing_offered(fields.span()));
     }
     // A broken option has been reported; without it, the start value cannot be judged.
     let options = options.map(|nodes| nodes.iter().map(|n| choice(n, fields.findings)).collect::<Vec<_>>());
@@ -182,8 +181,12 @@ fn choice(node: &Node, findings: &mut Vec<Finding>) -> Option<Choice> {
         return Some(Choice { text: text?, value: value? });
     }
     findings.push(
-        Finding::new(&SELECT_OPTIONS, node.span.clone(), "an option of a select is a pair [text, value]")
-            .help("write [\"RK4\", 1]"),
+        Finding::new(
+            rules::SELECT_OPTIONS,
+            node.span.clone(),
+            "an option of a select is a pair [text, value]",
+        )
+        .help("write [\"RK4\", 1]"),
     );
     None
 }

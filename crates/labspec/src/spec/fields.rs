@@ -4,7 +4,7 @@ use super::format::{Family, Key, Need, Object, Type};
 use crate::finding::{Finding, Severity};
 use crate::json::read::{number, scalar, shorten, text, whole, wrong, wrong_key};
 use crate::json::{Json, Member, Node, Number, Scalar, nearest};
-use crate::lint::rules::keys::{MISSING_KEY, UNKNOWN_KEY};
+use crate::rules;
 use crate::source::Text;
 use std::ops::Range;
 
@@ -120,7 +120,7 @@ impl<'n, 'f> Fields<'n, 'f> {
             return;
         }
         let open = self.span.start..self.span.end.min(self.span.start + 1);
-        let finding = Finding::new(&MISSING_KEY, open, format!("{} needs `{key}`", self.what));
+        let finding = Finding::new(rules::MISSING_KEY, open, format!("{} needs `{key}`", self.what));
         self.missing.push((key, finding.severity(severity).why(why).help(format!("add \"{key}\": …"))));
     }
 
@@ -198,7 +198,7 @@ impl<'n, 'f> Fields<'n, 'f> {
                 continue;
             }
             let finding = Finding::new(
-                &UNKNOWN_KEY,
+                rules::UNKNOWN_KEY,
                 member.key.span(),
                 match key.trim().is_empty() {
                     true => format!("a key of {} has no name", self.what),
@@ -219,7 +219,7 @@ impl<'n, 'f> Fields<'n, 'f> {
                 )),
                 Some(right) if near.is_some() => {
                     misspelt.push(right);
-                    finding.help(format!("did you mean `{right}`?")).fix(member.key.span(), right)
+                    finding.help(format!("did you mean `{right}`?")).guess(member.key.span(), right)
                 }
                 Some(right) => {
                     misspelt.push(right);

@@ -5,7 +5,7 @@ use super::format::{CAMERA, LAB};
 use super::{Control, Plot, Readout, Verify, control, plot, verify};
 use crate::finding::Finding;
 use crate::json::{Json, Node, Number, read};
-use crate::lint::rules::keys::WRONG_TYPE;
+use crate::rules;
 use crate::source::Text;
 use std::ops::Range;
 
@@ -146,6 +146,12 @@ impl Lab {
         }
     }
 
+    /// Where to point when the whole lab is meant: at its model.
+    pub fn place(&self) -> Range<usize> {
+        let scene = self.model.as_ref().or(self.xml.as_ref());
+        scene.map_or(self.span.start..self.span.start + 1, Text::span)
+    }
+
     /// Index of the keyframe to start from.
     pub fn keyframe(&self) -> Option<usize> {
         self.key.as_ref().map(|k| k.value.max(0.0) as usize)
@@ -265,10 +271,10 @@ fn expected(text: &Text, findings: &mut Vec<Finding>) -> Option<Expect> {
         return Some(Expect::Breaks(text.span()));
     }
     let what = format!("`expect` cannot be {}", read::named(text.as_str()));
-    let finding = Finding::new(&WRONG_TYPE, text.span(), what)
+    let finding = Finding::new(rules::WRONG_TYPE, text.span(), what)
         .why("it says what is meant to happen when the lab runs; there is one thing that it can say");
     findings.push(match crate::json::nearest(text.as_str(), ["breaks"]) {
-        Some(right) => finding.help(format!("did you mean `{right}`?")).fix(text.span(), right),
+        Some(right) => finding.help(format!("did you mean `{right}`?")).guess(text.span(), right),
         None => {
             finding.help("write \"breaks\" when the lab is about a simulation that breaks, else leave it out")
         }
@@ -301,7 +307,7 @@ fn point(node: &Node, findings: &mut Vec<Finding>) -> Option<[f64; 3]> {
         return None;
     }
     findings.push(
-        Finding::new(&WRONG_TYPE, node.span.clone(), "`target` must be three numbers, in metres")
+        Finding::new(rules::WRONG_TYPE, node.span.clone(), "`target` must be three numbers, in metres")
             .help("write \"target\": [0, 0, 0.5]"),
     );
     None
@@ -315,7 +321,7 @@ fn overlays(fields: &mut Fields<'_, '_>) -> Vec<(Text, bool)> {
             Json::Broken => {}
             _ => fields.findings.push(
                 Finding::new(
-                    &WRONG_TYPE,
+                    rules::WRONG_TYPE,
                     member.value.span.clone(),
                     "an overlay is switched by true or false",
                 )

@@ -4,11 +4,9 @@ use super::kind::{FileKind, Nature, kind_of, nature};
 use super::{Lab, Quiz, VerifyLab, lab, quiz};
 use crate::finding::{self, Finding, InFile};
 use crate::json::{self, Json, Node};
-use crate::lint::rules::fence::{LIMIT, UNKNOWN_SPEC, WRONG_FENCE};
-use crate::lint::rules::json as json_rules;
-use crate::lint::rules::quotes::TYPOGRAPHIC;
 use crate::lint::{self, ModelFolder};
 use crate::markdown::{self, Block, BlockKind};
+use crate::rules;
 use crate::source::{MAX_FILE, SourceFile, SourceMap, Text};
 use std::ops::Range;
 use std::path::Path;
@@ -146,7 +144,7 @@ impl Lesson {
         for finding in
             findings.iter_mut().filter(|f| f.fix.as_ref().is_some_and(|fix| self.is_broken(&fix.span)))
         {
-            if ![json_rules::SYNTAX.code, TYPOGRAPHIC.code].contains(&finding.code) {
+            if ![rules::JSON_SYNTAX.code, rules::TYPOGRAPHIC_QUOTE.code].contains(&finding.code) {
                 finding.fix = None;
             }
         }
@@ -178,7 +176,11 @@ pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
     };
     if lesson.file.text().len() as u64 > MAX_FILE {
         let limit = MAX_FILE >> 20;
-        lesson.findings.push(Finding::new(&LIMIT, 0..0, format!("this file is larger than {limit} MB")));
+        lesson.findings.push(Finding::new(
+            rules::LESSON_LIMIT,
+            0..0,
+            format!("this file is larger than {limit} MB"),
+        ));
     } else if kind_of(Path::new(&**lesson.file.path())) == FileKind::Json {
         json_file(&mut lesson);
     } else {
@@ -194,7 +196,7 @@ pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
         lesson.findings.truncate(MAX_FINDINGS);
         let end = lesson.file.text().len();
         lesson.findings.push(
-            Finding::new(&LIMIT, end..end, format!("{more} more findings are not shown"))
+            Finding::new(rules::LESSON_LIMIT, end..end, format!("{more} more findings are not shown"))
                 .help("fix the first ones, then check again")
                 .at(&lesson.file),
         );
@@ -205,7 +207,7 @@ pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
 fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
     let file = lesson.file.clone();
     let (scan, text) = (markdown::scan(&file), file.text());
-    lesson.findings.extend(scan.findings);
+    lint::check_text(text, &scan, &mut lesson.findings);
     for block in &scan.blocks {
         // More than anybody reads: what follows would be cut off anyway.
         if lesson.findings.len() > 10 * MAX_FINDINGS {
@@ -219,7 +221,7 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
                 {
                     lesson.findings.push(
                         Finding::new(
-                            &WRONG_FENCE,
+                            rules::FENCE_KIND,
                             block.info.clone(),
                             "this fence says `lab`, but it holds a quiz",
                         )
@@ -239,7 +241,7 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
                     _ => None,
                 });
                 if let Some(model) = &model {
-                    lesson.findings.extend(lint::rules::model::missing(model, models));
+                    lesson.findings.extend(lint::model::missing(model, models));
                 }
                 lesson.widgets.push(Widget { name: widget.clone(), span: block.span.clone(), model });
             }
@@ -248,7 +250,7 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
                 if nature(&node) == Nature::Lab {
                     lesson.findings.push(
                         Finding::new(
-                            &WRONG_FENCE,
+                            rules::FENCE_KIND,
                             block.info.clone(),
                             "this fence says `quiz`, but it holds a lab",
                         )
@@ -278,7 +280,7 @@ fn body(block: &Block, lesson: &mut Lesson) -> Option<Node> {
     if block.body.value.trim().is_empty() {
         lesson.broken.push(block.span.clone());
         lesson.findings.push(
-            Finding::new(&json_rules::SYNTAX, block.info.clone(), "this fence is empty")
+            Finding::new(rules::JSON_SYNTAX, block.info.clone(), "this fence is empty")
                 .help("write one JSON object between the two ``` lines: { … }"),
         );
         return None;
@@ -327,7 +329,7 @@ fn json_item(lesson: &mut Lesson, node: &Node) {
         Nature::Neither => {
             let open = node.span.start..node.span.end.min(node.span.start + 1);
             lesson.findings.push(
-                Finding::new(&UNKNOWN_SPEC, open, "neither a lab nor a quiz")
+                Finding::new(rules::UNKNOWN_SPEC, open, "neither a lab nor a quiz")
                     .help("a lab has a `model` or an `xml`; a quiz has `questions`"),
             );
         }

@@ -4,7 +4,7 @@ use super::fields::Fields;
 use super::format::{PLOT, READOUT, REF_LINE, TRACE};
 use crate::finding::Finding;
 use crate::json::{Node, Number};
-use crate::lint::rules::plot::empty;
+use crate::rules::empty;
 use crate::source::Text;
 use std::ops::Range;
 

@@ -5,7 +5,7 @@ use super::format::{CODE, DEBUG, MCQ, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TO
 use super::{Lab, Verify, lab, verify};
 use crate::finding::Finding;
 use crate::json::{Node, Number, read};
-use crate::lint::rules::keys::WRONG_TYPE;
+use crate::rules;
 use crate::source::Text;
 use std::ops::Range;
 
@@ -166,13 +166,13 @@ fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
         other => {
             let span = kind.as_ref().map_or(node.span.clone(), Text::span);
             let finding = Finding::new(
-                &WRONG_TYPE,
+                rules::WRONG_TYPE,
                 span.clone(),
                 format!("there is no question of kind {}", read::named(other)),
             )
             .why("the page does not know how to ask it, nor how to grade it");
             fields.findings.push(match crate::json::nearest(other, texts(QUESTION.words)) {
-                Some(right) => finding.help(format!("did you mean `{right}`?")).fix(span, right),
+                Some(right) => finding.help(format!("did you mean `{right}`?")).guess(span, right),
                 None => finding
                     .help(format!("the kinds are {}", texts(QUESTION.words).collect::<Vec<_>>().join(", "))),
             });

@@ -7,8 +7,8 @@ use super::format::{CLOSED_FORM, RUN, VERIFY};
 use super::{Form, Lab, LabAddress, lab};
 use crate::finding::Finding;
 use crate::json::{Json, Member, Node, Number, Scalar, read};
-use crate::lint::rules::keys::{UNKNOWN_KEY, WRONG_TYPE};
-use crate::lint::rules::verify::claims_nothing;
+use crate::rules;
+use crate::rules::claims_nothing;
 use crate::source::Text;
 use std::ops::Range;
 
@@ -114,10 +114,14 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Verify> {
     };
     fields.finish();
     // The page does not read this object: it is nothing to the student, and everything to the check.
-    for finding in
-        findings.iter_mut().skip(before).filter(|f| [UNKNOWN_KEY.code, WRONG_TYPE.code].contains(&f.code))
+    for finding in findings
+        .iter_mut()
+        .skip(before)
+        .filter(|f| [rules::UNKNOWN_KEY.code, rules::WRONG_TYPE.code].contains(&f.code))
     {
-        if finding.why.as_deref() == Some(UNKNOWN_KEY.why) || finding.why.as_deref() == Some(WRONG_TYPE.why) {
+        if finding.why.as_deref() == Some(rules::UNKNOWN_KEY.why)
+            || finding.why.as_deref() == Some(rules::WRONG_TYPE.why)
+        {
             finding.why = Some(
                 "`verify` is read by this checker only: what it does not understand is not checked".into(),
             );
@@ -132,7 +136,7 @@ fn which(node: &Node, findings: &mut Vec<Finding>) -> Option<VerifyLab> {
             Some(address) => Some(VerifyLab::Reference(text.clone(), address)),
             None => {
                 findings.push(
-                    Finding::new(&WRONG_TYPE, text.span(), format!("{} is not a place of a lab", read::named(&text.value)))
+                    Finding::new(rules::WRONG_TYPE, text.span(), format!("{} is not a place of a lab", read::named(&text.value)))
                         .help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object"),
                 );
                 None
@@ -143,7 +147,7 @@ fn which(node: &Node, findings: &mut Vec<Finding>) -> Option<VerifyLab> {
         _ => {
             findings.push(
                 Finding::new(
-                    &WRONG_TYPE,
+                    rules::WRONG_TYPE,
                     node.span.clone(),
                     format!("`lab` must be a text or a lab object; this is {}", node.describe()),
                 )
@@ -181,7 +185,7 @@ fn breaks(text: &Text, findings: &mut Vec<Finding>) -> bool {
     if text.value != "breaks" {
         findings.push(
             Finding::new(
-                &WRONG_TYPE,
+                rules::WRONG_TYPE,
                 text.span(),
                 format!("a run cannot be expected to be {}", read::named(&text.value)),
             )
@@ -217,7 +221,7 @@ fn press(node: &Node, findings: &mut Vec<Finding>) -> Option<(Text, Number)> {
         return Some((label?, time?));
     }
     findings.push(
-        Finding::new(&WRONG_TYPE, node.span.clone(), "a press is a pair [label, time]")
+        Finding::new(rules::WRONG_TYPE, node.span.clone(), "a press is a pair [label, time]")
             .help("write [\"Drop\", 0.5]: the button's label and the time in seconds"),
     );
     None
@@ -235,8 +239,12 @@ fn said(node: &Node, findings: &mut Vec<Finding>) -> Option<Said> {
         return Some(Said { quote: quote?, expr: expr? });
     }
     findings.push(
-        Finding::new(&WRONG_TYPE, node.span.clone(), "what the text says is a pair [quote, expression]")
-            .help("write [\"0.442 s\", \"fine.touch\"]"),
+        Finding::new(
+            rules::WRONG_TYPE,
+            node.span.clone(),
+            "what the text says is a pair [quote, expression]",
+        )
+        .help("write [\"0.442 s\", \"fine.touch\"]"),
     );
     None
 }

@@ -7,7 +7,7 @@ use crate::bind::{ModelNames, Programs, Scope, functions, include, scalar, to_fi
 use crate::finding::Finding;
 use crate::ledger::Evidence;
 use crate::rules;
-use crate::run::{self, Breakdown, Budget, End, Numerics, Session};
+use crate::run::{self, Breakdown, Budget, End, Numerics, Play, Session};
 use crate::source::Text;
 use crate::spec::{Lab, Run, Verify};
 use labspec_core::reflect::{self, FieldId, Object};
@@ -15,6 +15,7 @@ use labspec_core::{Demand, Model};
 use labspec_expr::{Compiled, Compiler, Effects, Globals, Program, Value};
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 /// Most steps of one run of a `verify` object.
 const MAX_VERIFY_STEPS: usize = 2_000_000;
@@ -285,18 +286,11 @@ impl<'a> BoundVerify<'a> {
         }
         let mut running: Vec<Measure<'_>> =
             measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
-        let mut pending = press.as_slice();
-        session.press_due(&mut pending);
-        running.iter_mut().for_each(|m| m.sample(&mut session));
-        session.watch(count);
-        for _ in 0..count {
-            session.press_due(&mut pending);
-            session.step();
-            if session.ended().is_some() {
-                break;
-            }
-            running.iter_mut().for_each(|m| m.sample(&mut session));
-        }
+        let played = Play { steps: count, every: 1, presses: &press, watched: true };
+        run::play(&mut session, &played, |session, _| {
+            running.iter_mut().for_each(|m| m.sample(session));
+            ControlFlow::Continue(())
+        });
         self.allowance.0.set(budget.left.saturating_sub(session.spent()));
         let values = running.into_iter().map(|m| m.finish(&mut session)).collect();
         for t in &session.troubles {

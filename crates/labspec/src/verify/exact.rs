@@ -11,11 +11,11 @@ use crate::finding::Finding;
 use crate::json::nearest;
 use crate::ledger::{Evidence, State};
 use crate::rules;
-use crate::run::{self, Breakdown, Budget, End, Session};
+use crate::run::{self, Breakdown, Budget, End, Play, Session};
 use crate::spec::{Exact, Lab};
 use labspec_core::{Model, integrator};
 use labspec_expr::Compiler;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 /// Most steps of the run at the lab's own timestep; the others take two and four times as many.
 const MAX_STEPS: usize = 50_000;
@@ -246,22 +246,24 @@ impl Case<'_> {
         let every = count.div_ceil(SAMPLES);
         *session.world.model.edit().opt.timestep = h / parts as f64;
         let mut found = Differences { times: Vec::new(), values: Vec::new() };
-        session.watch(count * parts);
-        for step in 0..=count {
-            if step > 0 {
-                (0..parts).for_each(|_| session.step());
+        let mut gap = None;
+        let played = Play { steps: count * parts, every: every * parts, presses: &[], watched: true };
+        run::play(&mut session, &played, |session, _| {
+            let mut value =
+                |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
+            let pair = [value(self.trace), value(self.form)];
+            let time = session.world.data.time();
+            if pair.iter().any(|x| !x.is_finite()) {
+                gap = Some(time);
+                return ControlFlow::Break(());
             }
-            if step % every == 0 || step == count {
-                let mut value =
-                    |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
-                let pair = [value(self.trace), value(self.form)];
-                if pair.iter().any(|x| !x.is_finite()) {
-                    let time = significant(session.world.data.time());
-                    return Err(format!("at t = {time} s the trace or the formula is no number"));
-                }
-                found.times.push(session.world.data.time());
-                found.values.push(pair);
-            }
+            found.times.push(time);
+            found.values.push(pair);
+            ControlFlow::Continue(())
+        });
+        if let Some(time) = gap {
+            let time = significant(time);
+            return Err(format!("at t = {time} s the trace or the formula is no number"));
         }
         if let Some(End::Budget { time }) = session.ended() {
             return Err(format!(
@@ -272,9 +274,10 @@ impl Case<'_> {
         if let Some(trouble) = session.troubles.first() {
             return Err(trouble.message.clone());
         }
-        match Breakdown::of(&session) {
-            Some(breakdown) => Err(format!("the run breaks: {}", breakdown.what)),
-            None => Ok(found),
+        match (Breakdown::of(&session), session.ended()) {
+            (Some(breakdown), _) => Err(format!("the run breaks: {}", breakdown.what)),
+            (None, Some(_)) => Err("the run ends before its time".to_string()),
+            (None, None) => Ok(found),
         }
     }
 }

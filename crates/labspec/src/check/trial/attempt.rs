@@ -4,9 +4,9 @@ use super::super::Ready;
 use super::Trial;
 use super::seen::Seen;
 use crate::finding::Finding;
-use crate::run::{self, Breakdown, Budget, End, Session, Trouble};
+use crate::run::{self, Budget, End, Play, Session};
 use labspec_core::Model;
-use std::ops::Range;
+use std::ops::ControlFlow;
 
 /// How often what a lab shows is looked at, at least, besides its start.
 const SAMPLES: usize = 200;
@@ -54,23 +54,11 @@ pub(super) fn make(
     let until = lab.stop_at.is_none().then(|| wanted.min(timestep * (run::MAX_STEPS - 1) as f64));
     let steps = run::count_steps(lab, until, None, timestep)?;
 
-    let mut pending = presses.as_slice();
-    session.press_due(&mut pending);
-    seen.look(&mut session, &trial.done);
-    session.watch(steps);
-    let every = (steps / SAMPLES).max(1);
-    let mut made = 0;
-    for i in 1..=steps {
-        session.press_due(&mut pending);
-        session.step();
-        if session.ended().is_some() {
-            break;
-        }
-        made = i;
-        if i % every == 0 || i == steps {
-            seen.look(&mut session, &trial.done);
-        }
-    }
+    let played = Play { steps, every: (steps / SAMPLES).max(1), presses: &presses, watched: true };
+    let made = run::play(&mut session, &played, |session, _| {
+        seen.look(session, &trial.done);
+        ControlFlow::Continue(())
+    });
     let ended = match session.ended() {
         None => None,
         Some(End::Threw) => Some(Ended::Threw),
@@ -80,35 +68,12 @@ pub(super) fn make(
     let before = findings.len();
     for t in &session.troubles {
         if seen.is_new(t) {
-            findings.push(trouble(t, &trial.done));
+            findings.push(run::threw(t, &trial.done));
         }
     }
-    findings.extend(broken(&session, &trial.done, place));
+    findings.extend(run::broken(&session, &trial.done, place));
     let broke = findings.len() > before;
     findings.extend(seen.take());
     let spent = session.spent();
     Ok(Attempt { covered, spent, broke, ended, model: session.world.model })
-}
-
-/// A program that threw, at its place.
-fn trouble(t: &Trouble, done: &str) -> Finding {
-    Finding::error(
-        t.rule,
-        t.text.span_of(t.span.clone()),
-        format!("{} ({done}, at t = {} s)", t.message, t.time),
-    )
-    .why("on the page an error in `setup` or `controller` freezes the lab, and one in a trace shows nan")
-    .help("correct the statement, or guard it with a condition")
-}
-
-/// What the engine warned of, or energy from nothing, with time, joint and likely cause.
-fn broken(session: &Session<'_>, done: &str, place: Range<usize>) -> Vec<Finding> {
-    let told = |b: Breakdown| {
-        let what = match b.rule.code {
-            "engine-warning" => format!("the engine warns {done}: {}", b.what),
-            _ => format!("the simulation breaks {done}: {}", b.what),
-        };
-        Finding::warning(b.rule, place.clone(), what).why(b.why).help(b.help)
-    };
-    Breakdown::all(session).into_iter().map(told).collect()
 }

@@ -52,7 +52,7 @@ struct Trial<'a> {
 impl Trial<'_> {
     /// Where to point.
     fn place(&self, lab: &Lab) -> Range<usize> {
-        self.control.map_or(lab_place(lab), |c| c.label.span())
+        self.control.map_or(lab.place(), |c| c.label.span())
     }
 }
 
@@ -149,7 +149,7 @@ fn begin<'a>(ready: &'a Ready<'a>, budget: Budget, left: &mut u64, findings: &mu
         Ok(attempt) => {
             *left = left.saturating_sub(attempt.spent);
             if !attempt.broke
-                && let Some(f) = too_stiff(&attempt.model, lab_place(ready.lab), attempt.covered)
+                && let Some(f) = too_stiff(&attempt.model, ready.lab.place(), attempt.covered)
             {
                 findings.push(f);
             }
@@ -251,12 +251,6 @@ fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
         }
     }
     trials
-}
-
-/// Where to point when a whole lab is meant: at its model.
-fn lab_place(lab: &Lab) -> Range<usize> {
-    let scene = lab.model.as_ref().or(lab.xml.as_ref());
-    scene.map_or(lab.span.start..lab.span.start + 1, |t| t.span())
 }
 
 /// What of a lab's scene no step of its length can follow, though its run did not show it.

@@ -1,0 +1,73 @@
+//! A lesson checked from memory: text in, findings and the ledger out.
+
+use crate::bind::scene;
+use crate::check::{self, Checked, Depth};
+use crate::error::located;
+use crate::finding::{self, Finding};
+use crate::ledger::{Entry, Ledger, Outcome};
+use crate::lint::{self, ModelFolder};
+use crate::source::SourceFile;
+use crate::spec::load_lesson;
+
+/// Checks lessons, one after the other. Models are compiled once.
+#[derive(Debug)]
+pub struct Checker {
+    models: scene::Models,
+    depth: Depth,
+}
+
+/// What a check came to.
+#[derive(Debug)]
+pub struct Report {
+    /// The lesson, its labs and its claims, one by one.
+    pub checked: Checked,
+    /// Everything that is wrong or doubtful, in order, with line and column; also what is wrong in its models.
+    pub findings: Vec<Finding>,
+    /// Every claim with what became of it.
+    pub ledger: Ledger,
+}
+
+impl Report {
+    /// What it all comes to.
+    pub fn outcome(&self) -> Outcome {
+        self.ledger.outcome()
+    }
+
+    /// Every claim with what became of it, in order.
+    pub fn entries(&self) -> &[Entry] {
+        self.ledger.entries()
+    }
+}
+
+impl Checker {
+    /// A checker of lessons whose labs name these models: a map, a closure ([`Models`](crate::Models)), or a folder
+    /// ([`ModelFolder`]). Only a folder is ever looked for among files.
+    pub fn new(models: impl Into<ModelFolder>) -> Checker {
+        Checker { models: scene::Models::new(models.into()), depth: Depth { labs: true, claims: true } }
+    }
+
+    /// The same without runs of labs or without verdicts on claims: quicker, and it says less.
+    pub fn depth(mut self, depth: Depth) -> Checker {
+        self.depth = depth;
+        self
+    }
+
+    /// Checks a lesson. `path` is its name in findings, and says by its ending what it is: Markdown, or JSON.
+    pub fn check(&mut self, path: &str, text: &str) -> Report {
+        let lesson = load_lesson(SourceFile::new(path, text), self.models.folder());
+        let checked = check::check(lesson, &mut self.models, self.depth);
+        let mut findings = lint::check_course(&[&checked.lesson]);
+        findings.extend(checked.findings.iter().cloned());
+        findings.extend(self.models.take_findings());
+        finding::sort(&mut findings);
+        let ledger = check::ledger(std::slice::from_ref(&checked), &findings);
+        let files = std::iter::once(&checked.lesson.file).chain(self.models.files());
+        let files: Vec<&SourceFile> = files.collect();
+        let place = |f: Finding| match files.iter().find(|file| *file.path() == f.path) {
+            Some(file) => located(f, file),
+            None => f,
+        };
+        let findings = findings.into_iter().map(place).collect();
+        Report { checked, findings, ledger }
+    }
+}

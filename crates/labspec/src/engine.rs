@@ -1,0 +1,179 @@
+//! A model with the accessor language: what it takes to ask a simulation for a number in one line.
+
+use crate::bind::{ModelNames, Scope, World};
+use crate::error::{Error, located};
+use crate::finding::Finding;
+use crate::source::SourceFile;
+use labspec_core::{self as core, Data, Demand, Model, Plan};
+use labspec_expr::{Compiled, Compiler, Context, Globals, Program, Value};
+
+/// What the texts of an engine may do in one run, in units of about a nanosecond.
+const WORK: u64 = 1_000_000_000;
+
+/// A model, its data, and the variables of the texts that are compiled for it. Its clone goes on as it would.
+#[derive(Clone, Debug)]
+pub struct Engine {
+    world: World,
+    context: Context,
+    globals: Globals,
+}
+
+impl Engine {
+    /// Compiles a model from MJCF, at its default configuration.
+    ///
+    /// # Errors
+    /// All mistakes of the model.
+    pub fn compile(xml: &str) -> Result<Engine, Error> {
+        let model = core::xml::compile(xml).map_err(|list| findings(list, "model.xml", xml))?;
+        Engine::of(model)
+    }
+
+    /// The engine of a model that is already compiled.
+    ///
+    /// # Errors
+    /// The engine refuses the model's first pass.
+    pub fn of(model: Model) -> Result<Engine, Error> {
+        let mut data = Data::planned(&model, Plan::new(&model, &Demand::ANY));
+        core::forward(&model, &mut data).map_err(refused)?;
+        let world = World { model, data, key: None };
+        Ok(Engine { world, context: Context::new(), globals: Globals::new() })
+    }
+
+    /// Compiles an expression: names, indexes and types are checked against the model. All texts of an engine share
+    /// their `ctx` variables.
+    ///
+    /// # Errors
+    /// All mistakes of the text.
+    pub fn expression(&mut self, text: &str) -> Result<Expression, Error> {
+        self.bind(text, "expression", |compiler| compiler.expression(text)).map(Expression)
+    }
+
+    /// Compiles statements.
+    ///
+    /// # Errors
+    /// All mistakes of the text.
+    pub fn statements(&mut self, text: &str) -> Result<Statements, Error> {
+        self.bind(text, "statements", |compiler| compiler.statements(text)).map(Statements)
+    }
+
+    /// One step of the model's timestep.
+    ///
+    /// # Errors
+    /// The engine refuses it.
+    pub fn step(&mut self) -> Result<(), Error> {
+        core::step(&self.world.model, &mut self.world.data).map_err(refused)
+    }
+
+    /// Computes all that follows from the state.
+    ///
+    /// # Errors
+    /// The engine refuses it.
+    pub fn forward(&mut self) -> Result<(), Error> {
+        core::forward(&self.world.model, &mut self.world.data).map_err(refused)
+    }
+
+    /// Simulated time, s.
+    pub fn time(&self) -> f64 {
+        self.world.data.time()
+    }
+
+    /// The model as it is now.
+    pub fn model(&self) -> &Model {
+        &self.world.model
+    }
+
+    fn bind(
+        &mut self,
+        text: &str,
+        what: &'static str,
+        compile: impl FnOnce(&mut Compiler<'_>) -> Compiled,
+    ) -> Result<Accessor, Error> {
+        let names = ModelNames { model: &self.world.model, scope: Scope::Lab };
+        // A text with mistakes leaves no variables behind.
+        let mut globals = self.globals.clone();
+        let compiled = compile(&mut Compiler::new(&names, &mut globals));
+        let Some(program) = compiled.program else { return Err(findings(compiled.diagnostics, what, text)) };
+        self.context.learn(&globals);
+        self.globals = globals;
+        Ok(Accessor { program, text: text.into(), what, model: self.world.model.identity() })
+    }
+}
+
+/// A compiled text, and the model that it was compiled for.
+#[derive(Clone, Debug)]
+struct Accessor {
+    program: Program,
+    text: String,
+    what: &'static str,
+    model: u64,
+}
+
+impl Accessor {
+    fn run(&self, engine: &mut Engine) -> Result<Value, Error> {
+        if self.model != engine.world.model.identity() {
+            return Err(Error::Call(format!(
+                "`{}` was compiled for another model: its names and indexes mean nothing here; compile it with this engine",
+                self.text
+            )));
+        }
+        core::limit(&mut engine.world.data, WORK);
+        engine.context.allow(WORK);
+        let result = self.program.run(&mut engine.world, &mut engine.context, None);
+        core::limit(&mut engine.world.data, u64::MAX);
+        let failed = |rule, span: labspec_expr::Span, message: String| {
+            let finding = Finding::error(rule, span.start..span.end, message);
+            findings(vec![finding], self.what, &self.text)
+        };
+        let value = result.map_err(|e| failed(e.rule, e.span, e.message))?;
+        // A store past the end does nothing in JavaScript; nobody means it.
+        match engine.context.events().iter().find_map(|e| Some((e.rule()?, *e))) {
+            Some((rule, event)) => Err(failed(rule, event.span, event.to_string())),
+            None => Ok(value),
+        }
+    }
+}
+
+/// An expression: a question to the simulation.
+#[derive(Clone, Debug)]
+pub struct Expression(Accessor);
+
+impl Expression {
+    /// Its value now: a number, a text, a truth value, or nothing.
+    ///
+    /// # Errors
+    /// The engine is that of another model, or the expression fails.
+    pub fn value(&self, engine: &mut Engine) -> Result<Value, Error> {
+        self.0.run(engine)
+    }
+
+    /// Its value as a number, as JavaScript makes one of it.
+    ///
+    /// # Errors
+    /// As for [`Expression::value`].
+    pub fn number(&self, engine: &mut Engine) -> Result<f64, Error> {
+        self.value(engine).map(|value| value.to_number())
+    }
+}
+
+/// Statements: something done to the simulation.
+#[derive(Clone, Debug)]
+pub struct Statements(Accessor);
+
+impl Statements {
+    /// Runs them once.
+    ///
+    /// # Errors
+    /// The engine is that of another model, or a statement fails; those before it have been done.
+    pub fn run(&self, engine: &mut Engine) -> Result<(), Error> {
+        self.0.run(engine).map(drop)
+    }
+}
+
+fn findings(list: Vec<Finding>, path: &str, text: &str) -> Error {
+    let file = SourceFile::new(path, text);
+    Error::Findings(list.into_iter().filter(Finding::is_error).map(|f| located(f, &file)).collect())
+}
+
+fn refused(e: core::Error) -> Error {
+    Error::Call(e.to_string())
+}

@@ -1,0 +1,60 @@
+//! The one error of the library as frontends hold it.
+
+use crate::finding::{Finding, InFile};
+use crate::run::RunError;
+use crate::source::SourceFile;
+use labspec_finding::Position;
+use std::fmt;
+
+/// Why something could not be done.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Error {
+    /// What was given has mistakes, or it broke: each is a finding with its place.
+    Findings(Vec<Finding>),
+    /// The call asks for what there is not. A sentence says what there is.
+    Call(String),
+}
+
+impl Error {
+    /// The findings; none when the call itself was wrong.
+    pub fn findings(&self) -> &[Finding] {
+        match self {
+            Error::Findings(list) => list,
+            Error::Call(_) => &[],
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::Findings(list) => {
+                for (i, finding) in list.iter().enumerate() {
+                    let end = if i + 1 < list.len() { "\n" } else { "" };
+                    write!(f, "{finding}{end}")?;
+                }
+                Ok(())
+            }
+            Error::Call(sentence) => f.write_str(sentence),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+impl From<RunError> for Error {
+    fn from(e: RunError) -> Error {
+        Error::Call(e.0)
+    }
+}
+
+/// A finding in a file, with line and column.
+pub(crate) fn located(finding: Finding, file: &SourceFile) -> Finding {
+    let mut finding = if finding.path.is_empty() { finding.at(file) } else { finding };
+    if finding.path == *file.path() {
+        let at = file.position(finding.span.start);
+        let utf16 = file.editor_position(finding.span.start).character;
+        finding.position = Some(Position { line: at.line, column: at.column, utf16 });
+    }
+    finding
+}

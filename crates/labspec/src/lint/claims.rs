@@ -1,0 +1,37 @@
+//! The `verify` objects of a lesson, each with whom it belongs to.
+
+use crate::spec::{Lab, Lesson, Question, Verify, VerifyLab};
+
+/// A `verify` object.
+pub(crate) struct Claim<'a> {
+    /// The object.
+    pub(crate) verify: &'a Verify,
+    /// The lab that carries it, or the `sim` of its question.
+    pub(crate) own: Option<&'a Lab>,
+    /// Its question; `None` on a lab.
+    pub(crate) question: Option<&'a Question>,
+}
+
+/// All of a lesson: those of labs, then those of questions.
+pub(crate) fn all(lesson: &Lesson) -> impl Iterator<Item = Claim<'_>> {
+    let of_labs = lesson
+        .all_labs()
+        .into_iter()
+        .filter_map(|lab| Some(Claim { verify: lab.verify.as_ref()?, own: Some(lab), question: None }));
+    let questions = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered());
+    of_labs.chain(questions.filter_map(|(_, question)| {
+        Some(Claim { verify: question.verify.as_ref()?, own: question.sim(), question: Some(question) })
+    }))
+}
+
+impl<'a> Claim<'a> {
+    /// The lab that it is about; `None` when there is none, or when it could not be read.
+    pub(crate) fn lab(&self, lesson: &'a Lesson) -> Option<&'a Lab> {
+        match &self.verify.lab {
+            Some(VerifyLab::Inline(lab)) => Some(lab),
+            Some(VerifyLab::Broken) => None,
+            Some(VerifyLab::Reference(_, address)) => lesson.lab(address),
+            None => self.own,
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! Names of model elements written as tags: a browser takes them for HTML and shows nothing.
+
+use crate::finding::Finding;
+use crate::rules;
+use crate::source::Text;
+use crate::spec::{Lab, Quiz};
+use std::ops::Range;
+
+/// Elements of MJCF that no lesson means as HTML (XML reference of MuJoCo 3). Elements that HTML or SVG
+/// fragments really use (`text`, `image`, `frame`, `filter`, `layer`) are left out.
+const ELEMENTS: [&str; 64] = [
+    "accelerometer",
+    "actuator",
+    "adhesion",
+    "asset",
+    "attach",
+    "body",
+    "camera",
+    "compiler",
+    "composite",
+    "connect",
+    "contact",
+    "custom",
+    "cylinder",
+    "default",
+    "deformable",
+    "equality",
+    "exclude",
+    "extension",
+    "fixed",
+    "flag",
+    "flex",
+    "flexcomp",
+    "force",
+    "framepos",
+    "framequat",
+    "freejoint",
+    "general",
+    "geom",
+    "global",
+    "gyro",
+    "headlight",
+    "hfield",
+    "include",
+    "inertial",
+    "intvelocity",
+    "joint",
+    "jointpos",
+    "jointvel",
+    "key",
+    "keyframe",
+    "light",
+    "material",
+    "mesh",
+    "motor",
+    "mujoco",
+    "muscle",
+    "numeric",
+    "option",
+    "pair",
+    "plugin",
+    "position",
+    "quality",
+    "replicate",
+    "sensor",
+    "site",
+    "size",
+    "skin",
+    "spatial",
+    "statistic",
+    "tendon",
+    "texture",
+    "touch",
+    "velocity",
+    "weld",
+];
+const WORLD: &str = "worldbody";
+
+/// Tags of model elements in a piece of HTML: byte range and name.
+fn tags(html: &str) -> Vec<(Range<usize>, &str)> {
+    let mut found = Vec::new();
+    for (at, _) in html.match_indices('<') {
+        let inside = html.get(at + 1..).unwrap_or("");
+        let inside = inside.strip_prefix('/').unwrap_or(inside);
+        let length = inside.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(inside.len());
+        let name = inside.get(..length).unwrap_or("");
+        let after = inside.get(length..).unwrap_or("");
+        if !after.starts_with(['>', '/', ' ', '\n', '\t']) || !(ELEMENTS.contains(&name) || name == WORLD) {
+            continue;
+        }
+        // Attributes end soon; a `<` before the `>` means that this tag has none.
+        let start = html.len() - after.len();
+        let end = after.find(['>', '<']).filter(|&i| after.get(i..).is_some_and(|a| a.starts_with('>')));
+        let end = end.map_or(start, |i| start + i + 1);
+        found.push((at..end, name));
+    }
+    // A form that really offers options is HTML.
+    if html.contains("<select") {
+        found.retain(|(_, name)| *name != "option");
+    }
+    found
+}
+
+fn finding(tag: &str, span: Range<usize>) -> Finding {
+    let shown = crate::json::read::shorten(tag);
+    let escaped = tag.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    Finding::new(rules::UNESCAPED_ELEMENT, span.clone(), format!("a browser takes `{shown}` for HTML"))
+        .help(format!("write {}", crate::json::read::shorten(&escaped)))
+        .fix(span, escaped)
+}
+
+/// Most findings in one text of a lab or a quiz.
+const MAX_IN_TEXT: usize = 100;
+
+/// Looks into HTML that stands in the Markdown text, for so many findings at most.
+pub(crate) fn in_markdown(text: &str, range: Range<usize>, most: usize) -> Vec<Finding> {
+    let html = text.get(range.clone()).unwrap_or("");
+    tags(html)
+        .into_iter()
+        .take(most)
+        .map(|(tag, _)| {
+            let span = range.start + tag.start..range.start + tag.end;
+            let shown = html.get(tag).unwrap_or("");
+            finding(shown, span).help(format!(
+                "write it as code, `{shown}` between backticks, or as {}",
+                shown.replace('<', "&lt;").replace('>', "&gt;")
+            ))
+        })
+        .collect()
+}
+
+fn in_text(text: &Text, findings: &mut Vec<Finding>) {
+    for (tag, _) in tags(text.as_str()).into_iter().take(MAX_IN_TEXT) {
+        let mut found = finding(text.value.get(tag.clone()).unwrap_or(""), text.span_of(tag));
+        // Inside of JSON the quotes of attributes are escaped; the replacement must be so too.
+        if let Some(fix) = &mut found.fix {
+            fix.text = fix.text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
+        }
+        findings.push(found);
+    }
+}
+
+pub(super) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
+    lab.note.iter().for_each(|note| in_text(note, findings));
+}
+
+pub(super) fn check_quiz(quiz: &Quiz, findings: &mut Vec<Finding>) {
+    for (_, question) in quiz.numbered() {
+        question.html().into_iter().for_each(|html| in_text(html, findings));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn model_elements_are_told_from_html() {
+        let names =
+            |html| tags(html).into_iter().map(|(range, _)| html[range].to_string()).collect::<Vec<_>>();
+        assert_eq!(
+            names("in <code><option></code>, <geom size=\"1\"/> and <b>bold</b>"),
+            ["<option>", "<geom size=\"1\"/>"]
+        );
+        assert_eq!(names("</worldbody> &lt;option&gt; 1 <geom"), ["</worldbody>"]);
+        assert!(names("<select><option>a</option></select> a<body> b").len() == 1);
+        assert!(names("x <key2> < option >").is_empty());
+    }
+}

@@ -1,0 +1,33 @@
+//! Texts that stand twice where they should differ.
+
+use crate::finding::Finding;
+use crate::json::read::named;
+use crate::source::Text;
+use labspec_finding::Rule;
+use std::collections::HashMap;
+
+/// What to do about labels that repeat.
+pub(crate) const DISTINCT: &str = "say in the label what makes it different";
+
+/// Reports every text that stood there before.
+pub(crate) fn repeated<'a>(
+    rule: &Rule,
+    what: &str,
+    help: &str,
+    texts: impl Iterator<Item = &'a Text>,
+    findings: &mut Vec<Finding>,
+) {
+    let mut first: HashMap<&str, &Text> = HashMap::new();
+    for text in texts {
+        match first.get(text.as_str()) {
+            Some(before) => findings.push(
+                Finding::new(rule, text.span(), format!("two {what} {}", named(text.as_str())))
+                    .related(before.span(), "the first one")
+                    .help(help),
+            ),
+            None => {
+                first.insert(text.as_str(), text);
+            }
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Where the models of labs come from: a folder, a map in memory, or whatever answers for a name.
+
+use labspec_core::xml::{FileProblem, Files};
+use std::collections::BTreeMap;
+
+/// Models by name, as labs name them: without folder and ending.
+///
+/// There are three kinds of it: maps and lists in memory, closures `Fn(&str) -> Option<String>`, and, for a folder,
+/// [`ModelFolder`](crate::lint::ModelFolder), which takes the place of all of them.
+pub trait Models: Send + Sync {
+    /// The MJCF of a model; `None` when there is no model of this name.
+    fn text(&self, name: &str) -> Option<String>;
+
+    /// The names of all models, when they are known: then a misspelt one gets a suggestion.
+    fn names(&self) -> Option<Vec<String>> {
+        None
+    }
+
+    /// A file that a model names: included text, a mesh, a picture. `path` is seen from where the models lie. Without
+    /// an answer of one's own, models may include each other, `NAME.xml`, and nothing else.
+    ///
+    /// # Errors
+    /// Why there are no bytes; more than `limit` of them are refused.
+    fn file(&self, path: &str, limit: usize) -> Result<Vec<u8>, FileProblem> {
+        let text = path.strip_suffix(".xml").and_then(|name| self.text(name)).ok_or(FileProblem::Missing)?;
+        if text.len() > limit { Err(FileProblem::TooLarge) } else { Ok(text.into_bytes()) }
+    }
+}
+
+/// No models: for labs that hold their own, as `xml`.
+#[derive(Clone, Copy, Debug)]
+pub struct NoModels;
+
+impl Models for NoModels {
+    fn text(&self, _: &str) -> Option<String> {
+        None
+    }
+
+    fn names(&self) -> Option<Vec<String>> {
+        Some(Vec::new())
+    }
+}
+
+/// Models in memory, by name.
+impl Models for BTreeMap<String, String> {
+    fn text(&self, name: &str) -> Option<String> {
+        self.get(name).cloned()
+    }
+
+    fn names(&self) -> Option<Vec<String>> {
+        Some(self.keys().cloned().collect())
+    }
+}
+
+/// A few models: pairs of name and MJCF.
+impl<const N: usize> Models for [(&str, &str); N] {
+    fn text(&self, name: &str) -> Option<String> {
+        self.iter().find(|(known, _)| *known == name).map(|(_, text)| (*text).to_string())
+    }
+
+    fn names(&self) -> Option<Vec<String>> {
+        Some(self.iter().map(|(name, _)| (*name).to_string()).collect())
+    }
+}
+
+impl<F: Fn(&str) -> Option<String> + Send + Sync> Models for F {
+    fn text(&self, name: &str) -> Option<String> {
+        self(name)
+    }
+}
+
+/// The files of models, as the compiler of models asks for them.
+pub(crate) struct FilesOf<'m>(pub(crate) &'m dyn Models);
+
+impl Files for FilesOf<'_> {
+    fn read(&self, path: &str, limit: usize) -> Result<Vec<u8>, FileProblem> {
+        self.0.file(path, limit)
+    }
+}

@@ -1,0 +1,84 @@
+//! From a text to a lab that is ready to play.
+
+use super::{Player, Saved, control, shown};
+use crate::bind::scene::Models;
+use crate::check;
+use crate::error::{Error, located};
+use crate::finding::Finding;
+use crate::lint::ModelFolder;
+use crate::run::{self, Session};
+use crate::source::SourceFile;
+use crate::spec::{Lab, LabAddress, load_lesson};
+use labspec_core::Demand;
+use labspec_core::reflect::FieldSet;
+use std::sync::Arc;
+
+impl Player {
+    /// Opens a lab from its JSON. `models` are what it may name: a map, a closure, a folder, or
+    /// [`NoModels`](crate::NoModels).
+    ///
+    /// # Errors
+    /// It is no lab, or its model has mistakes. Mistakes in its code stop nothing: as on every page, what has one shows
+    /// nothing, and [`Player::findings`] says why.
+    pub fn of_lab(json: &str, models: impl Into<ModelFolder>) -> Result<Player, Error> {
+        Player::of_lesson("lab.json", json, "#1", models)
+    }
+
+    /// Opens a lab of a lesson by its address: `#2` is the second one, `#quiz-id.1` that of a question. The ending of
+    /// `path` says what the text is: Markdown or JSON.
+    ///
+    /// # Errors
+    /// As for [`Player::of_lab`], and when there is no lab at this address.
+    pub fn of_lesson(
+        path: &str,
+        text: &str,
+        address: &str,
+        models: impl Into<ModelFolder>,
+    ) -> Result<Player, Error> {
+        let mut models = Models::new(models.into());
+        let lesson = load_lesson(SourceFile::new(path, text), models.folder());
+        let Some(lab) = LabAddress::parse(address).and_then(|address| lesson.lab(&address)) else {
+            let errors = lesson.findings.iter().filter(|f| f.is_error()).cloned();
+            let errors: Vec<Finding> = errors.map(|f| located(f, &lesson.file)).collect();
+            let known: Vec<String> =
+                lesson.addressed().iter().map(|(address, _)| address.to_string()).collect();
+            return Err(match (known.is_empty(), errors.is_empty()) {
+                (false, _) => {
+                    Error::Call(format!("there is no lab {address} here; there is {}", known.join(", ")))
+                }
+                (true, false) => Error::Findings(errors),
+                (true, true) => Error::Call(format!("{path} has no lab")),
+            });
+        };
+        let within = |f: &Finding| lab.span.start <= f.span.start && f.span.end <= lab.span.end;
+        let mut loaded: Vec<Finding> = lesson.findings.iter().filter(|f| within(f)).cloned().collect();
+        let bound = check::bind(lab, &mut models, &mut loaded);
+        loaded.extend(models.take_findings());
+        let files: Vec<&SourceFile> = std::iter::once(&lesson.file).chain(models.files()).collect();
+        for finding in &mut loaded {
+            let path = if finding.path.is_empty() { lesson.file.path() } else { &finding.path };
+            if let Some(file) = files.iter().find(|file| file.path() == path) {
+                *finding = located(finding.clone(), file);
+            }
+        }
+        let Some((model, programs, _)) = bound else {
+            loaded.retain(Finding::is_error);
+            return Err(Error::Findings(loaded));
+        };
+        let lab = Arc::new(lab.clone());
+        // Whoever draws a scene may read everything.
+        let demand = Demand { reads: FieldSet::ALL, ..programs.demand };
+        let mut session = Session::start(Arc::new(programs), &model, lab.keyframe(), &demand);
+        session.watch(length(&lab, session.world.model.opt.timestep));
+        let (controls, shown) = (control::list(&lab), shown::list(&lab));
+        let now = Saved { lab: Arc::clone(&lab), session, cells: Vec::new(), numbers: Vec::new() };
+        let mut player = Player { lab, file: lesson.file.clone(), loaded, controls, shown, now };
+        player.look();
+        Ok(player)
+    }
+}
+
+/// How many steps a page plays, as far as the lab says.
+fn length(lab: &Lab, timestep: f64) -> usize {
+    run::count_steps(lab, None, None, timestep).unwrap_or(run::MAX_STEPS)
+}

@@ -1,0 +1,293 @@
+//! A lab as a page holds it: loaded, moved, played, read, saved. Every frontend maps this one object.
+//!
+//! The order of events is that of [`Session`]; a call does what the student's hand does, and nothing else. No call panics,
+//! whatever it is given: what cannot be done is an [`Error`], and what breaks while the lab plays is a [`Finding`].
+
+mod control;
+mod load;
+mod shown;
+
+pub use control::{Control, ControlKind, Which};
+pub use shown::{Place, Shown};
+
+use crate::error::{Error, located};
+use crate::finding::Finding;
+use crate::rules;
+use crate::run::{self, Budget, Cell, End, Play, Session, settings};
+use crate::source::SourceFile;
+use crate::spec::Lab;
+use labspec_core::reflect::{FieldSet, Object};
+use labspec_core::{Data, Model, Planned};
+use labspec_expr::Value;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+/// A lab that is open on a page. Its clone goes on as it would.
+#[derive(Clone, Debug)]
+pub struct Player {
+    lab: Arc<Lab>,
+    file: SourceFile,
+    /// What was found when it was loaded.
+    loaded: Vec<Finding>,
+    controls: Vec<Control>,
+    shown: Vec<Shown>,
+    now: Saved,
+}
+
+/// A state of a lab: all that decides how it goes on, the model and the `ctx` variables included.
+#[derive(Clone, Debug)]
+pub struct Saved {
+    lab: Arc<Lab>,
+    session: Session<'static>,
+    cells: Vec<Cell>,
+    numbers: Vec<f64>,
+}
+
+impl Player {
+    /// The controls, in the order in which they are drawn.
+    pub fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    /// The traces of the plots, then the readouts: what [`Player::values`] and [`Player::numbers`] hold, in their order.
+    pub fn shown(&self) -> &[Shown] {
+        &self.shown
+    }
+
+    /// The lab as it is written: title, camera, plots.
+    pub fn lab(&self) -> &Lab {
+        &self.lab
+    }
+
+    /// What each trace and readout shows now.
+    pub fn values(&self) -> &[Cell] {
+        &self.now.cells
+    }
+
+    /// The same as numbers; NaN for what is none.
+    pub fn numbers(&self) -> &[f64] {
+        &self.now.numbers
+    }
+
+    /// Where a control stands; `None` when there is no such control, `undefined` for a button.
+    pub fn value<'w>(&self, which: impl Into<Which<'w>>) -> Option<&Value> {
+        self.now.session.values().get(self.index(which.into()).ok()?)
+    }
+
+    /// Simulated time, s.
+    pub fn time(&self) -> f64 {
+        self.now.session.world.data.time()
+    }
+
+    /// Length of a step now, s.
+    pub fn timestep(&self) -> f64 {
+        self.model().opt.timestep
+    }
+
+    /// The model as controls and programs left it.
+    pub fn model(&self) -> &Model {
+        &self.now.session.world.model
+    }
+
+    /// The data, to draw the scene from.
+    pub fn data(&self) -> &Data<Planned> {
+        &self.now.session.world.data
+    }
+
+    /// Whether the lab stands still until it is reset: it reached its `stopAt`, or it froze.
+    pub fn is_over(&self) -> bool {
+        self.now.session.ended().is_some() || self.stop().is_some_and(|stop| self.time() >= stop)
+    }
+
+    /// Moves a slider, or chooses an option by its value or its text.
+    ///
+    /// # Errors
+    /// There is no such control, it is a button, no student can choose this value, or the lab is frozen.
+    pub fn set<'w>(&mut self, which: impl Into<Which<'w>>, value: impl Into<Value>) -> Result<(), Error> {
+        let index = self.index(which.into())?;
+        let Some(control) = self.lab.controls.get(index) else { return Err(self.unknown(index)) };
+        let value = settings::value(control, &value.into())?;
+        self.act(|session| session.set_control(index, value))
+    }
+
+    /// Presses a button.
+    ///
+    /// # Errors
+    /// There is no such control, it is no button, or the lab is frozen.
+    pub fn press<'w>(&mut self, which: impl Into<Which<'w>>) -> Result<(), Error> {
+        let index = self.index(which.into())?;
+        let Some(control) = self.controls.get(index) else { return Err(self.unknown(index)) };
+        let ControlKind::Button = control.kind else {
+            let label = &control.label;
+            return Err(Error::Call(format!("\"{label}\" is not a button: set it instead of pressing it")));
+        };
+        self.act(|session| session.press(index))
+    }
+
+    /// One step.
+    ///
+    /// # Errors
+    /// The lab is frozen.
+    pub fn step(&mut self) -> Result<(), Error> {
+        self.act(Session::step)
+    }
+
+    /// Back to the start, as the page's button does it: controls, model and `ctx` keep what they hold. A frozen lab plays
+    /// again.
+    pub fn reset(&mut self) {
+        self.now.session.renew(Budget::TRIAL);
+        self.now.session.start_over();
+        self.look();
+    }
+
+    /// Plays until a time, or until the lab stops by itself; returns the number of steps. A time that has passed is no step.
+    ///
+    /// # Errors
+    /// The time is none, it is too many steps away, or the lab is frozen before it gets there.
+    pub fn play_to(&mut self, time: f64) -> Result<usize, Error> {
+        let ahead = (time - self.time()).max(0.0);
+        if time.is_nan() {
+            return Err(Error::Call("a lab is played to a time in seconds, not to NaN".into()));
+        }
+        let steps = run::count_steps(&self.lab, Some(ahead), None, self.timestep())?;
+        let stop = self.stop().unwrap_or(f64::INFINITY).min(time);
+        self.now.session.renew(Budget::ASKED);
+        let made = run::play(&mut self.now.session, &Play::steps(steps), |session, _| {
+            if session.world.data.time() >= stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        self.look();
+        self.frozen().map_or(Ok(made), Err)
+    }
+
+    /// Everything that was found: in the lab when it was loaded, and whatever broke since, with its time.
+    pub fn findings(&self) -> Vec<Finding> {
+        let session = &self.now.session;
+        let done = self.done();
+        let mut all = self.loaded.clone();
+        let troubles = session.troubles.iter().map(|t| run::threw(t, &done));
+        let broken = run::broken(session, &done, self.lab.place());
+        all.extend(troubles.chain(broken).chain(self.spent()).map(|f| located(f, &self.file)));
+        all
+    }
+
+    /// The state, to come back to.
+    pub fn save(&self) -> Saved {
+        self.now.clone()
+    }
+
+    /// Back to a saved state: from there on everything is what it was, to the bit.
+    ///
+    /// # Errors
+    /// It was saved by another lab.
+    pub fn restore(&mut self, saved: &Saved) -> Result<(), Error> {
+        if !Arc::ptr_eq(&self.lab, &saved.lab) {
+            return Err(Error::Call(
+                "this state was saved by another lab, or by this one before it was loaded anew".into(),
+            ));
+        }
+        self.now.clone_from(saved);
+        Ok(())
+    }
+
+    /// The fields that the programs of the lab read: `data.qpos`, `model.opt.timestep`.
+    pub fn reads(&self) -> Vec<String> {
+        names(&self.now.session.programs().demand.reads)
+    }
+
+    /// The fields that the programs of the lab write.
+    pub fn writes(&self) -> Vec<String> {
+        names(&self.now.session.programs().demand.writes)
+    }
+
+    fn stop(&self) -> Option<f64> {
+        self.lab.stop_at.as_ref().map(|stop| stop.value)
+    }
+
+    /// Does something to the lab, and looks at what it shows then.
+    fn act(&mut self, what: impl FnOnce(&mut Session<'static>)) -> Result<(), Error> {
+        if let Some(frozen) = self.frozen() {
+            return Err(frozen);
+        }
+        self.now.session.renew(Budget::TRIAL);
+        what(&mut self.now.session);
+        self.look();
+        self.frozen().map_or(Ok(()), Err)
+    }
+
+    /// Takes the values of everything that is shown.
+    fn look(&mut self) {
+        let mut row = self.now.session.sample().into_iter();
+        // Time stands first.
+        row.next();
+        self.now.cells.clear();
+        self.now.cells.extend(row);
+        self.now.numbers.clear();
+        self.now.numbers.extend(self.now.cells.iter().map(Cell::number));
+    }
+
+    /// Why the lab stands still, if something broke it.
+    fn frozen(&self) -> Option<Error> {
+        let session = &self.now.session;
+        session.ended()?;
+        let troubles = session.troubles.last().map(|t| run::threw(t, &self.done()));
+        let all: Vec<Finding> =
+            self.spent().or(troubles).map(|f| located(f, &self.file)).into_iter().collect();
+        Some(if all.is_empty() {
+            Error::Call("the engine refused a call: reset the lab".into())
+        } else {
+            Error::Findings(all)
+        })
+    }
+
+    /// A lab that does more than a page can wait for.
+    fn spent(&self) -> Option<Finding> {
+        let Some(End::Budget { time }) = self.now.session.ended() else { return None };
+        let what = format!(
+            "the lab was stopped at t = {} s: it does more work than a page can wait for",
+            run::time(*time)
+        );
+        let finding = Finding::error(rules::RUN_IMPOSSIBLE, self.lab.place(), what);
+        Some(finding.why("the page would stand still").help("simplify the scene or its programs"))
+    }
+
+    /// What was done to the lab, for findings.
+    fn done(&self) -> String {
+        let moved = self.controls.iter().zip(self.now.session.values()).filter(|(c, now)| c.start != **now);
+        let list: Vec<String> = moved.map(|(c, now)| format!("\"{}\" at {now}", c.label)).collect();
+        if list.is_empty() { "as it stands".into() } else { format!("with {}", list.join(", ")) }
+    }
+
+    fn index(&self, which: Which<'_>) -> Result<usize, Error> {
+        match which {
+            Which::Index(index) if index < self.controls.len() => Ok(index),
+            Which::Index(index) => Err(self.unknown(index)),
+            Which::Label(label) => {
+                let programs = self.now.session.programs();
+                let found = programs.control(label).map(|(index, _)| index);
+                found.ok_or_else(|| settings::unknown(label, programs).into())
+            }
+        }
+    }
+
+    fn unknown(&self, index: usize) -> Error {
+        Error::Call(match self.controls.len() {
+            0 => "this lab has no controls".into(),
+            n => format!("there is no control {index}: this lab has {n}, counted from 0"),
+        })
+    }
+}
+
+/// The names of fields, as programs write them.
+fn names(fields: &FieldSet) -> Vec<String> {
+    let name = |f: labspec_core::reflect::FieldId| {
+        let info = f.info();
+        let holder = match info.object {
+            Object::Data => "data",
+            Object::Model => "model",
+            Object::Option => "model.opt",
+            Object::Statistic => "model.stat",
+        };
+        format!("{holder}.{}", info.name)
+    };
+    fields.iter().map(name).collect()
+}

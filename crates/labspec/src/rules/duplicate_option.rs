@@ -1,0 +1,29 @@
+use crate::finding::Finding;
+use crate::lint::repeated::repeated;
+use crate::spec::{Question, QuestionKind};
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// Two options with one text.
+pub const DUPLICATE_OPTION: &Rule = &Rule {
+    code: "duplicate-option",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "two options of a question have the same text",
+    why: "one of them is graded as wrong although it says what the right one says, or it is a copy left over",
+    bad: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no", "no"], "answer": 1}]}"#,
+    ),
+    good: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Question(check);
+
+fn check(question: &Question, findings: &mut Vec<Finding>) {
+    if let QuestionKind::Choice { options, .. } = &question.kind {
+        let help = "change or delete one of them";
+        repeated(DUPLICATE_OPTION, "options have the text", help, options.iter(), findings);
+    }
+}

@@ -1,0 +1,29 @@
+use crate::finding::Finding;
+use crate::lint::repeated::{DISTINCT, repeated};
+use crate::spec::Lab;
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// Two curves of a plot with one name.
+pub const DUPLICATE_TRACE: &Rule = &Rule {
+    code: "duplicate-trace",
+    severity: Severity::Warning,
+    layer: Layer::Structure,
+    summary: "two traces of a plot have the same label",
+    why: "the legend cannot tell them apart",
+    bad: Example::Lab(
+        r#"{"model": "ball", "plots": [{"traces": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "z", "expr": "data.qpos[7]"}]}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"model": "ball", "plots": [{"traces": [{"label": "height", "expr": "data.qpos[2]"}, {"label": "angle", "expr": "data.qpos[7]"}]}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Lab(check);
+
+fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+    for plot in &lab.plots {
+        let labels = plot.traces.iter().map(|t| &t.label);
+        repeated(DUPLICATE_TRACE, "traces of this plot have the label", DISTINCT, labels, findings);
+    }
+}

@@ -1,0 +1,28 @@
+use crate::finding::Finding;
+use crate::spec::Quiz;
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A quiz without questions.
+pub const EMPTY_QUIZ: &Rule = &Rule {
+    code: "empty-quiz",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "a quiz has no questions",
+    why: "it shows a title and nothing to do",
+    bad: Example::Quiz(r#"{"id": "fall", "questions": []}"#),
+    good: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Quiz(check);
+
+fn check(quiz: &Quiz, findings: &mut Vec<Finding>) {
+    if quiz.questions.is_empty() {
+        findings.push(
+            Finding::new(EMPTY_QUIZ, quiz.span.start..quiz.span.start + 1, "this quiz has no questions")
+                .help("add \"questions\": [{\"q\": …, \"options\": […], \"answer\": 0}]"),
+        );
+    }
+}

@@ -1,0 +1,33 @@
+use crate::finding::Finding;
+use crate::spec::{Question, QuestionKind};
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A tolerance that no typed number can meet.
+pub const IMPOSSIBLE_TOLERANCE: &Rule = &Rule {
+    code: "impossible-tolerance",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "the tolerance of a numeric question is negative, or 0 for an answer that is no whole number",
+    why: "an answer is right when it is off by no more than `tol`; a count may be asked exactly, a measured number may not",
+    bad: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": 0}]}"#,
+    ),
+    good: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How many steps?", "answer": 250, "tol": 0}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Question(check);
+
+fn check(question: &Question, findings: &mut Vec<Finding>) {
+    let QuestionKind::Numeric { answer: Some(answer), tol: Some(tol), .. } = &question.kind else { return };
+    let whole = answer.value.fract() == 0.0;
+    if tol.value < 0.0 || (tol.value == 0.0 && !whole) {
+        let message = format!("no answer can be within {} of {}", tol.value, answer.value);
+        findings.push(
+            Finding::new(IMPOSSIBLE_TOLERANCE, tol.span.clone(), message)
+                .help("write how far an answer may be off, in its unit; leave `tol` out for 2 %"),
+        );
+    }
+}

@@ -1,0 +1,28 @@
+use crate::finding::Finding;
+use crate::spec::Lab;
+use crate::spec::format::LAB;
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A negative keyframe.
+pub const KEYFRAME_RANGE: &Rule = &Rule {
+    code: "keyframe-range",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "`key` is negative",
+    why: "keyframes are counted from 0; a negative one is silently ignored",
+    bad: Example::Lab(r#"{"model": "ball", "key": -1}"#),
+    good: Example::Lab(r#"{"model": "ball", "key": 0}"#),
+};
+
+pub(super) const CHECK: Check = Check::Lab(check);
+
+fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+    if let Some(key) = lab.key.as_ref().filter(|k| !LAB.allows("key", k.value)) {
+        let message = format!("`key` is {}, but keyframes are counted from 0", key.value);
+        findings.push(
+            Finding::new(KEYFRAME_RANGE, key.span.clone(), message)
+                .help("write 0 for the first keyframe, or leave `key` out"),
+        );
+    }
+}

@@ -1,0 +1,35 @@
+use crate::finding::Finding;
+use crate::spec::Lab;
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// Both `model` and `xml`, or neither.
+pub const ONE_MODEL: &Rule = &Rule {
+    code: "one-model",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "a lab names no model, or has both `model` and `xml`",
+    why: "a lab simulates exactly one model",
+    bad: Example::Lab(r#"{"title": "Falling", "readouts": [{"label": "t", "expr": "data.time"}]}"#),
+    good: Example::Lab(
+        r#"{"title": "Falling", "model": "ball", "readouts": [{"label": "t", "expr": "data.time"}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Lab(check);
+
+fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+    match (&lab.model, &lab.xml) {
+        (Some(model), Some(xml)) => findings.push(
+            Finding::new(ONE_MODEL, xml.span(), "this lab has both `model` and `xml`")
+                .related(model.span(), "the model is named here")
+                .help("delete one of the two"),
+        ),
+        (None, None) => findings.push(
+            Finding::new(ONE_MODEL, lab.span.start..lab.span.start + 1, "this lab has no model").help(
+                "add \"model\": \"NAME\" for a model of the folder, or \"xml\": \"<mujoco>…</mujoco>\"",
+            ),
+        ),
+        _ => {}
+    }
+}

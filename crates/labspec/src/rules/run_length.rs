@@ -1,0 +1,34 @@
+use crate::finding::Finding;
+use crate::lint::claims;
+use crate::spec::Lesson;
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A run with two lengths.
+pub const RUN_LENGTH: &Rule = &Rule {
+    code: "run-length",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "a run has both `until` and `steps`",
+    why: "they may contradict each other",
+    bad: Example::Lab(
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2, "steps": 500}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
+    ),
+    good: Example::Lab(
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Lesson(check);
+
+fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    for run in claims::all(lesson).flat_map(|claim| &claim.verify.runs) {
+        if let (Some(until), Some(steps)) = (&run.until, &run.steps) {
+            findings.push(
+                Finding::new(RUN_LENGTH, steps.span.clone(), "this run has both `until` and `steps`")
+                    .related(until.span.clone(), "its length in seconds")
+                    .help("keep one of the two"),
+            );
+        }
+    }
+}

@@ -1,0 +1,23 @@
+use crate::finding::Finding;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// Options that are not pairs, or none at all.
+pub const SELECT_OPTIONS: &Rule = &Rule {
+    code: "select-options",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "the options of a select are not a list of [text, value] pairs",
+    why: "the page shows the first element and assigns the second",
+    bad: Example::Lab(
+        r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": ["Euler", ["RK4", 1]], "value": 1}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", 1]], "value": 1}]}"#,
+    ),
+};
+
+/// A select without options, found while it is read.
+pub(crate) fn nothing_offered(span: std::ops::Range<usize>) -> Finding {
+    Finding::new(SELECT_OPTIONS, span.start..span.start + 1, "this select offers nothing")
+        .help("write \"options\": [[\"Euler\", 0], [\"RK4\", 1]]")
+}

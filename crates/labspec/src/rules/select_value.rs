@@ -1,0 +1,32 @@
+use crate::finding::Finding;
+use crate::spec::{Control, ControlKind};
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A select that starts with none of its options.
+pub const SELECT_VALUE: &Rule = &Rule {
+    code: "select-value",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "the start value of a select is none of its options",
+    why: "the page shows the first option, but the lab starts with the value that is written here",
+    bad: Example::Lab(
+        r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", 1]], "value": 3}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", 1]], "value": 1}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Control(check);
+
+fn check(control: &Control, findings: &mut Vec<Finding>) {
+    let ControlKind::Select { options, value, .. } = &control.kind else { return };
+    if !options.is_empty() && !options.iter().any(|o| o.value.same(value)) {
+        let all: Vec<String> = options.iter().take(8).map(|o| o.value.show()).collect();
+        findings.push(
+            Finding::new(SELECT_VALUE, value.span(), format!("{} is none of the options", value.show()))
+                .help(format!("write one of their values: {}", all.join(", "))),
+        );
+    }
+}

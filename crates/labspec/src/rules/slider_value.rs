@@ -1,0 +1,35 @@
+use crate::finding::Finding;
+use crate::spec::{Control, ControlKind};
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A start value that the slider cannot show.
+pub const SLIDER_VALUE: &Rule = &Rule {
+    code: "slider-value",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "the start value of a slider lies outside of its range",
+    why: "the page moves the slider to the nearest end, but the lab starts with the value that is written here",
+    bad: Example::Lab(
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": 0.1}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 0.1, "max": 5, "value": 0.1}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Control(check);
+
+fn check(control: &Control, findings: &mut Vec<Finding>) {
+    let ControlKind::Slider { min, max, value, .. } = &control.kind else { return };
+    // An empty range is another rule's.
+    if min.value < max.value && !(min.value..=max.value).contains(&value.value) {
+        let end = if value.value < min.value { min } else { max };
+        let message = format!("the start value {} is not between {} and {}", value.value, min.value, max.value);
+        findings.push(
+            Finding::new(SLIDER_VALUE, value.span.clone(), message)
+                .related(end.span.clone(), "the nearest end")
+                .help("change the value, or widen the range so that it holds the value"),
+        );
+    }
+}

@@ -1,0 +1,33 @@
+use crate::finding::Finding;
+use crate::spec::{Question, QuestionKind};
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// Fewer than two options.
+pub const TOO_FEW_OPTIONS: &Rule = &Rule {
+    code: "too-few-options",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "a question has fewer than two options",
+    why: "there is nothing to choose",
+    bad: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["no"], "answer": 0}]}"#,
+    ),
+    good: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Question(check);
+
+fn check(question: &Question, findings: &mut Vec<Finding>) {
+    let QuestionKind::Choice { options, .. } = &question.kind else { return };
+    if options.len() < 2 {
+        let plural = if options.len() == 1 { "" } else { "s" };
+        let message = format!("this question has {} option{plural}", options.len());
+        findings.push(
+            Finding::new(TOO_FEW_OPTIONS, question.q.span(), message)
+                .help("give at least two, or make it a question of kind numeric or open"),
+        );
+    }
+}

@@ -1,0 +1,49 @@
+use crate::finding::Finding;
+use crate::json::fix_in;
+use crate::markdown::is_typographic;
+use crate::spec::Lab;
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A typographic quote in code.
+pub const TYPOGRAPHIC_QUOTE: &Rule = &Rule {
+    code: "typographic-quote",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "a typographic quote stands where a program needs a straight one",
+    why: "word processors replace straight quotes; programs read “ ” ‘ ’ as letters",
+    bad: Example::Lesson("```lab simlab\n{“model”: “ball”}\n```\n"),
+    good: Example::Lesson("```lab simlab\n{\"model\": \"ball\", \"note\": \"a “ball”\"}\n```\n"),
+};
+
+pub(super) const CHECK: Check = Check::Lab(check);
+
+/// Looks into the statements and expressions of a lab: one finding for all quotes of a text, with one repair.
+fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+    for (_, code) in lab.code() {
+        let (mut quoted, mut found) = (None, Vec::new());
+        for (at, c) in code.value.char_indices() {
+            match (quoted, c) {
+                (None, '\'' | '"' | '`') => quoted = Some(c),
+                (Some(open), _) if open == c => quoted = None,
+                (None, _) if is_typographic(c) => found.push(at..at + c.len_utf8()),
+                _ => {}
+            }
+        }
+        let (Some(first), Some(last)) = (found.first(), found.last()) else { continue };
+        let shown = code.value.get(first.clone()).unwrap_or("");
+        let message = match found.len() {
+            1 => format!("the typographic quote {shown} in an expression"),
+            n => format!("{n} typographic quotes in an expression, {shown} the first"),
+        };
+        let part = first.start..last.end;
+        let right = code.value.get(part.clone()).unwrap_or("").replace(is_typographic, "'");
+        let mut finding = Finding::new(TYPOGRAPHIC_QUOTE, code.span_of(first.clone()), message)
+            .help("write ' around names: data.body('ball')");
+        // What stands in plain quotes between them keeps its own.
+        if !right.contains(['"', '`']) && found.len() == right.matches('\'').count() && found.len() % 2 == 0 {
+            finding.fix = Some(fix_in(code, part, &right));
+        }
+        findings.push(finding);
+    }
+}

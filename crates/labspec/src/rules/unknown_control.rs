@@ -1,0 +1,58 @@
+use crate::finding::Finding;
+use crate::json::{encode, nearest, read::named};
+use crate::lint::claims;
+use crate::source::Text;
+use crate::spec::{ControlKind, Lab, Lesson};
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A run that sets or presses a control that the lab does not have.
+pub const UNKNOWN_CONTROL: &Rule = &Rule {
+    code: "unknown-control",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "a run sets or presses a control that the lab does not have",
+    why: "the run would not be the one that the text talks about",
+    bad: Example::Lab(
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": 1}], "verify": {"runs": {"heavy": {"set": {"fricton": 2}}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
+    ),
+    good: Example::Lab(
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": 1}], "verify": {"runs": {"heavy": {"set": {"friction": 2}, "until": 2}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Lesson(check);
+
+/// A hostile object can set thousands of controls; the first mistakes are enough.
+const MOST: usize = 50;
+const LOOKED_AT: usize = 200;
+
+fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    for claim in claims::all(lesson) {
+        let Some(lab) = claim.lab(lesson) else { continue };
+        let labels = claim.verify.runs.iter().flat_map(|run| {
+            let set = run.set.iter().take(LOOKED_AT).map(|(label, _)| (label, false));
+            set.chain(run.press.iter().take(LOOKED_AT).map(|(label, _)| (label, true)))
+        });
+        findings.extend(labels.filter_map(|(label, press)| missing(label, lab, press)).take(MOST));
+    }
+}
+
+/// Whether the lab has a control of this label that can be set, or pressed.
+fn missing(label: &Text, lab: &Lab, press: bool) -> Option<Finding> {
+    let fits = |kind: &ControlKind| matches!(kind, ControlKind::Button { .. }) == press;
+    // A control that could not be read may be the one that is meant.
+    if lab.unread_controls || lab.control(label.as_str()).is_some_and(|c| fits(&c.kind)) {
+        return None;
+    }
+    let what = if press { "button" } else { "slider or select" };
+    let labels: Vec<&str> =
+        lab.controls.iter().filter(|c| fits(&c.kind)).map(|c| c.label.as_str()).take(LOOKED_AT).collect();
+    let message = format!("the lab has no {what} {}", named(label.as_str()));
+    let found = Finding::new(UNKNOWN_CONTROL, label.span(), message);
+    Some(match nearest(label.as_str(), labels.iter().copied()) {
+        Some(right) => found.help(format!("did you mean `{right}`?")).guess(label.span(), encode(right)),
+        None if labels.is_empty() => found.help(format!("the lab has no {what} at all")),
+        None => found.help(format!("it has {}", labels.join(", "))),
+    })
+}

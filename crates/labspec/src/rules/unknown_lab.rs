@@ -1,0 +1,42 @@
+use crate::finding::Finding;
+use crate::json::read::named;
+use crate::lint::claims;
+use crate::spec::{LabAddress, Lesson, VerifyLab};
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A lab that the lesson does not have.
+pub const UNKNOWN_LAB: &Rule = &Rule {
+    code: "unknown-lab",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "a `verify` object refers to a lab that the lesson does not have",
+    why: "nothing can be run, so nothing is checked",
+    bad: Example::Quiz(
+        r##"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": {"lab": "#1", "runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"##,
+    ),
+    good: Example::Lesson(
+        "```lab simlab\n{\"model\": \"ball\"}\n```\n\n```quiz\n{\"id\": \"fall\", \"questions\": [{\"kind\": \"numeric\", \"q\": \"How fast?\", \"answer\": 3.924, \"verify\": {\"lab\": \"#1\", \"runs\": {\"run\": {\"until\": 0.4}}, \"value\": \"final(-data.qvel[2])\"}}]}\n```\n",
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Lesson(check);
+
+fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    for claim in claims::all(lesson) {
+        let Some(VerifyLab::Reference(text, address)) = &claim.verify.lab else { continue };
+        // A lab that is there and could not be read has been told of.
+        let broken = matches!(address, LabAddress::Lab(n) if *n <= lesson.labs.len());
+        if broken || lesson.lab(address).is_some() {
+            continue;
+        }
+        let all: Vec<String> = lesson.addressed().iter().take(12).map(|(a, _)| a.to_string()).collect();
+        let message = format!("there is no lab {} in this lesson", named(text.as_str()));
+        let found = Finding::new(UNKNOWN_LAB, text.span(), message);
+        findings.push(if all.is_empty() {
+            found.help("write a lab object here, or put a lab into the lesson")
+        } else {
+            found.help(format!("the lesson has {}", all.join(", ")))
+        });
+    }
+}

@@ -1,0 +1,12 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A model that the folder does not have.
+pub const UNKNOWN_MODEL: &Rule = &Rule {
+    code: "unknown-model",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "the model is not in the folder of models",
+    why: "the page cannot load it, and shows an empty lab",
+    bad: Example::Lab(r#"{"model": "bal"}"#),
+    good: Example::Lab(r#"{"model": "ball"}"#),
+};

@@ -1,0 +1,32 @@
+use crate::finding::Finding;
+use crate::json::{nearest, read::named};
+use crate::spec::Lab;
+use crate::spec::format::{OVERLAYS, texts};
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// An overlay that does not exist.
+pub const UNKNOWN_OVERLAY: &Rule = &Rule {
+    code: "unknown-overlay",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "`overlays` or `toggles` name something that cannot be drawn",
+    why: "nothing is drawn, or the checkbox does nothing",
+    bad: Example::Lab(r#"{"model": "ball", "toggles": ["contact"]}"#),
+    good: Example::Lab(r#"{"model": "ball", "toggles": ["contacts"]}"#),
+};
+
+pub(super) const CHECK: Check = Check::Lab(check);
+
+fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+    let written = lab.toggles.iter().chain(lab.overlays.iter().map(|(name, _)| name));
+    for name in written.filter(|name| texts(&OVERLAYS).all(|known| known != name.as_str())) {
+        let found =
+            Finding::new(UNKNOWN_OVERLAY, name.span(), format!("{} cannot be drawn", named(name.as_str())));
+        findings.push(match nearest(name.as_str(), texts(&OVERLAYS)) {
+            Some(right) => found.help(format!("did you mean `{right}`?")).guess(name.span(), right),
+            None => found
+                .help(format!("what can be drawn: {}", texts(&OVERLAYS).collect::<Vec<_>>().join(", "))),
+        });
+    }
+}

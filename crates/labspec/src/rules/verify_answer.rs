@@ -1,0 +1,58 @@
+use crate::finding::Finding;
+use crate::lint::claims;
+use crate::source::Text;
+use crate::spec::{Lesson, QuestionKind};
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// Conditions that do not match the options, or a value where there is no number.
+pub const VERIFY_ANSWER: &Rule = &Rule {
+    code: "verify-answer",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "`verify` has no condition for each option, or a value where no number is asked",
+    why: "exactly the condition of the right option must hold, so every option needs one",
+    bad: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "predict", "q": "What does it do?", "options": ["falls", "rises", "stays"], "answer": 0, "sim": {"model": "ball"}, "verify": {"runs": {"run": {"until": 0.4}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["z < 0.9", "z > 1.1"]}}]}"#,
+    ),
+    good: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "predict", "q": "What does it do?", "options": ["falls", "rises", "stays"], "answer": 0, "sim": {"model": "ball"}, "verify": {"runs": {"run": {"until": 0.4}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["z < 0.9", "z > 1.1", "0.9 <= z && z <= 1.1"]}}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Lesson(check);
+
+fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    for claim in claims::all(lesson) {
+        let verify = claim.verify;
+        let Some(question) = claim.question else {
+            for text in verify.options.first().into_iter().chain(&verify.value) {
+                findings.push(
+                    Finding::new(VERIFY_ANSWER, text.span(), "a lab has no answer to compare this with")
+                        .help("move it to the question, or say it as [quote, expression] under `says`"),
+                );
+            }
+            continue;
+        };
+        let options = match &question.kind {
+            QuestionKind::Choice { options, .. } => options.len(),
+            _ => 0,
+        };
+        let conditions = verify.options.len();
+        if conditions > 0 && conditions != options {
+            let span = verify.options.first().map_or(verify.span.clone(), Text::span);
+            findings.push(
+                Finding::new(VERIFY_ANSWER, span, format!("{conditions} conditions for {options} options"))
+                    .help("write one condition per option, in their order"),
+            );
+        }
+        if let Some(value) = &verify.value
+            && !matches!(question.kind, QuestionKind::Numeric { .. })
+        {
+            findings.push(
+                Finding::new(VERIFY_ANSWER, value.span(), "this question asks for no number")
+                    .help("`value` is for questions of kind numeric; use `options` or `says`"),
+            );
+        }
+    }
+}

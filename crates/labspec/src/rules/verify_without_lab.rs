@@ -1,0 +1,32 @@
+use crate::finding::Finding;
+use crate::lint::claims;
+use crate::spec::Lesson;
+use super::Check;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// No lab to run.
+pub const VERIFY_WITHOUT_LAB: &Rule = &Rule {
+    code: "verify-without-lab",
+    severity: Severity::Error,
+    layer: Layer::Structure,
+    summary: "a `verify` object has no lab to run",
+    why: "the question has no `sim`, so `verify` must say which lab it is about",
+    bad: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": {"runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"#,
+    ),
+    good: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": {"lab": {"model": "ball"}, "runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Lesson(check);
+
+fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    for claim in claims::all(lesson).filter(|c| c.verify.lab.is_none() && c.own.is_none()) {
+        let start = claim.verify.span.start;
+        findings.push(
+            Finding::new(VERIFY_WITHOUT_LAB, start..start + 1, "there is no lab that could run")
+                .help("add \"lab\": \"#1\" for the first lab of the lesson, or a lab object"),
+        );
+    }
+}

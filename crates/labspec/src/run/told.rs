@@ -1,0 +1,28 @@
+//! What went wrong in a run, as findings.
+
+use super::{Breakdown, Session, Trouble};
+use crate::finding::Finding;
+use std::ops::Range;
+
+/// A program that threw, at its place. `done` says what was done to the lab: `as it stands`.
+pub fn threw(t: &Trouble, done: &str) -> Finding {
+    Finding::error(
+        t.rule,
+        t.text.span_of(t.span.clone()),
+        format!("{} ({done}, at t = {} s)", t.message, t.time),
+    )
+    .why("on the page an error in `setup` or `controller` freezes the lab, and one in a trace shows nan")
+    .help("correct the statement, or guard it with a condition")
+}
+
+/// What broke, at `place`: what the engine warned of, or energy from nothing, with time, joint and likely cause.
+pub fn broken(session: &Session<'_>, done: &str, place: Range<usize>) -> Vec<Finding> {
+    let told = |b: Breakdown| {
+        let what = match b.rule.code {
+            "engine-warning" => format!("the engine warns {done}: {}", b.what),
+            _ => format!("the simulation breaks {done}: {}", b.what),
+        };
+        Finding::warning(b.rule, place.clone(), what).why(b.why).help(b.help)
+    };
+    Breakdown::all(session).into_iter().map(told).collect()
+}

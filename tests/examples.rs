@@ -1,0 +1,41 @@
+//! The examples of the library: they run, print what the guide shows, and stand in the guide as they are.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::support::workspace;
+
+#[path = "../crates/labspec/examples/accessor.rs"]
+mod accessor;
+#[path = "../crates/labspec/examples/lab.rs"]
+mod lab;
+#[path = "../crates/labspec/examples/lesson.rs"]
+mod lesson;
+
+fn file(path: &str) -> String {
+    std::fs::read_to_string(workspace().join(path)).unwrap()
+}
+
+#[test]
+fn examples_print_what_the_guide_shows() {
+    accessor::main().unwrap();
+    lab::main().unwrap();
+    lesson::main().unwrap();
+    let all = [
+        ("accessor", accessor::accessor().unwrap()),
+        ("lab", lab::lab().unwrap()),
+        ("lesson", lesson::lesson()),
+    ];
+    let guide = file("docs/embedding.md");
+    for (name, printed) in all {
+        insta::with_settings!({prepend_module_to_snapshot => false}, {
+            insta::assert_snapshot!(format!("example-{name}"), printed);
+        });
+        let code = file(&format!("crates/labspec/examples/{name}.rs"));
+        assert!(code.lines().count() <= 30, "{name} is long");
+        assert!(guide.contains(&format!("```rust\n{code}```")), "docs/embedding.md shows another {name}.rs");
+        assert!(
+            guide.contains(&format!("```text\n{printed}```")),
+            "docs/embedding.md shows another output:\n{printed}"
+        );
+    }
+}

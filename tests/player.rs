@@ -1,0 +1,326 @@
+//! A lab as a page holds it, models from anywhere, and the language without a lab.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::support::{model_text, workspace};
+use labspec::lint::ModelFolder;
+use labspec::player::{ControlKind, Place};
+use labspec::run::{self, RunOptions};
+use labspec::spec::load_lesson;
+use labspec::{Checker, Engine, Error, Models, NoModels, Player, Value};
+use labspec_core::xml::FileProblem;
+use std::collections::BTreeMap;
+
+const LAB: &str = r#"{
+  "model": "ball_drop", "setup": "data.qpos[2] = ctx.height",
+  "controls": [
+    {"label": "height", "unit": "m", "param": "height", "min": 0.5, "max": 2, "step": 0.5, "value": 1, "reset": true},
+    {"type": "select", "label": "solver", "set": "model.opt.solver", "options": [["PGS", 0], ["Newton", 2]], "value": 2},
+    {"type": "button", "label": "Kick", "run": "data.qvel[2] = 2; ctx.kicks = (ctx.kicks || 0) + 1"}],
+  "controller": "ctx.peak = Math.max(ctx.peak || 0, data.qpos[2])",
+  "plots": [{"ylabel": "height (m)", "traces": [{"label": "heavy", "expr": "data.qpos[2]"}, {"label": "v (m/s)", "expr": "data.qvel[2]"}]}],
+  "readouts": [{"label": "peak (m)", "expr": "ctx.peak || 0", "digits": 4}, {"label": "kicks", "expr": "ctx.kicks || 'none'"}]
+}"#;
+
+fn models() -> BTreeMap<String, String> {
+    ["ball_drop", "pendulum"].into_iter().map(|name| (name.to_string(), model_text(name))).collect()
+}
+
+fn player() -> Player {
+    Player::of_lab(LAB, models()).unwrap()
+}
+
+fn bits(player: &Player) -> Vec<u64> {
+    let d = player.data().fields();
+    let all = d.qpos.iter().chain(&d.qvel).chain(&d.qacc).chain(player.numbers());
+    std::iter::once(&d.time).chain(all).map(|x| x.to_bits()).collect()
+}
+
+#[test]
+fn a_page_draws_what_the_lab_says() {
+    let player = player();
+    let labels: Vec<&str> = player.controls().iter().map(|c| c.label.as_str()).collect();
+    assert_eq!(labels, ["height", "solver", "Kick"]);
+    let ControlKind::Slider { min, max, step, unit, digits } = &player.controls()[0].kind else {
+        unreachable!()
+    };
+    assert_eq!((*min, *max, *step, unit.as_str(), *digits), (0.5, 2.0, 0.5, "m", 3));
+    let options = vec![("PGS".to_string(), Value::Number(0.0)), ("Newton".to_string(), Value::Number(2.0))];
+    assert_eq!(player.controls()[1].kind, ControlKind::Select { options });
+    assert_eq!(player.controls()[2].kind, ControlKind::Button);
+    let shown: Vec<_> = player.shown().iter().map(|s| (s.label.as_str(), s.unit.as_str(), s.place)).collect();
+    let expected = [
+        ("heavy", "m", Place::Plot(0)),
+        ("v (m/s)", "m/s", Place::Plot(0)),
+        ("peak (m)", "m", Place::Readout(4)),
+        ("kicks", "", Place::Readout(3)),
+    ];
+    assert_eq!(shown, expected);
+    assert_eq!((player.numbers().len(), player.values()[3].shown(3).as_str()), (4, "none"));
+    assert_eq!(player.reads(), ["data.qpos", "data.qvel"]);
+    assert_eq!(player.writes(), ["model.opt.solver", "data.qpos", "data.qvel"]);
+    assert_eq!(player.findings(), []);
+}
+
+/// A player that is stepped shows what `run` writes, bit for bit, whatever a frontend asks for in between.
+#[test]
+fn a_player_goes_the_way_of_a_run() {
+    let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
+    let lab = lesson.all_labs()[0];
+    let model = crate::support::model("ball_drop");
+    let programs = labspec::bind::Programs::compile(lab, &model, &mut Vec::new());
+    let options = RunOptions {
+        steps: Some(400),
+        set: vec![("height".into(), Value::Number(1.5))],
+        press: vec![("Kick".into(), 0.3)],
+        ..RunOptions::default()
+    };
+    let table = run::run(lab, &model, &programs, &options).unwrap();
+    let mut player = player();
+    player.set("height", 1.5).unwrap();
+    for (i, row) in table.rows.iter().enumerate() {
+        // A run presses before the step, and its first sample is the start.
+        if i > 0 {
+            player.step().unwrap();
+        }
+        let row: Vec<u64> = row[1..].iter().map(|c| c.number().to_bits()).collect();
+        assert_eq!(player.numbers().iter().map(|x| x.to_bits()).collect::<Vec<_>>(), row, "row {i}");
+        if player.time() >= 0.3 - 1e-12 && player.values()[3].shown(0) == "none" {
+            player.press("Kick").unwrap();
+        }
+    }
+    assert_eq!(player.values()[3].shown(0), "1");
+}
+
+#[test]
+fn a_saved_state_goes_on_to_the_bit() {
+    let mut player = player();
+    player.set("height", 0.5).unwrap();
+    player.play_to(0.3).unwrap();
+    let saved = player.save();
+    let go_on = |player: &mut Player| {
+        player.press(2).unwrap();
+        player.set("solver", "PGS").unwrap();
+        player.play_to(0.7).unwrap();
+        player.reset();
+        player.play_to(0.5).unwrap();
+        bits(player)
+    };
+    let first = go_on(&mut player);
+    assert_ne!(bits(&player), {
+        player.restore(&saved).unwrap();
+        bits(&player)
+    });
+    assert_eq!(player.value("solver"), Some(&Value::Number(2.0)));
+    assert_eq!(go_on(&mut player), first);
+    // Without the restored model, the solver would be another one.
+    assert!(matches!(self::player().restore(&saved), Err(Error::Call(_))));
+}
+
+#[test]
+fn controls_and_resets_keep_the_order_of_the_format() {
+    let mut player = player();
+    assert_eq!(player.numbers()[0], 1.0);
+    player.play_to(0.2).unwrap();
+    // `reset: true` starts over with the new value; `ctx` is kept.
+    player.set(0, 2.0).unwrap();
+    assert_eq!((player.time(), player.numbers()[0], player.numbers()[2]), (0.0, 2.0, 1.0));
+    player.press("Kick").unwrap();
+    assert_eq!(player.numbers()[1], 2.0);
+    player.reset();
+    assert_eq!((player.numbers()[1], player.values()[3].shown(0)), (0.0, "1".into()));
+    assert_eq!(player.play_to(0.1).unwrap(), (0.1 / player.timestep()).round() as usize);
+    assert_eq!(player.play_to(0.05).unwrap(), 0);
+}
+
+#[test]
+fn nonsense_is_an_error() {
+    let mut player = player();
+    let start = bits(&player);
+    for label in ["", "Height", "🦀", "kick", &"x".repeat(100_000)] {
+        assert!(matches!(player.set(label, 1.0), Err(Error::Call(_))), "{label}");
+        assert!(matches!(player.press(label), Err(Error::Call(_))), "{label}");
+        assert_eq!(player.value(label), None);
+    }
+    for index in [3, 4, usize::MAX] {
+        assert!(player.set(index, 1.0).is_err() && player.press(index).is_err());
+        assert_eq!(player.value(index), None);
+    }
+    for value in [f64::NAN, f64::INFINITY, -1.0, 0.75, 1e300] {
+        assert!(player.set("height", value).is_err(), "{value}");
+        assert!(player.set("solver", value).is_err(), "{value}");
+    }
+    assert!(player.set("height", "1").is_err() && player.set("height", true).is_err());
+    assert!(player.set("Kick", 1.0).is_err() && player.press("height").is_err());
+    for time in [f64::NAN, f64::INFINITY, 1e300] {
+        assert!(player.play_to(time).is_err(), "{time}");
+    }
+    for time in [f64::NEG_INFINITY, -1.0, 0.0, -0.0] {
+        assert_eq!(player.play_to(time).unwrap(), 0, "{time}");
+    }
+    assert_eq!(bits(&player), start);
+    let hint = player.set("heigth", 1.0).unwrap_err().to_string();
+    assert!(hint.contains("did you mean \"height\"?"), "{hint}");
+    for text in
+        ["", "{", "[]", "{\"model\": 1}", "{\"model\": \"nothing\"}", "{\"xml\": \"<mujoco\"}", "\u{0}"]
+    {
+        let refused = Player::of_lab(text, models()).unwrap_err();
+        assert!(!refused.to_string().is_empty(), "{text}");
+    }
+    for address in ["#2", "", "#", "#0", "#99999999999999999999", "#a.1"] {
+        assert!(Player::of_lesson("lab.json", LAB, address, models()).is_err(), "{address}");
+    }
+}
+
+#[test]
+fn what_breaks_is_a_finding_with_its_time() {
+    let broken = |controller: &str| {
+        let lab = serde_json::json!({"model": "ball_drop", "controller": controller, "readouts": [{"label": "z", "expr": "data.qpoz[2]"}]});
+        Player::of_lab(&lab.to_string(), models()).unwrap()
+    };
+    // A mistake in a readout is told at once, and the readout shows nothing.
+    let mut player = broken("data.time > 0.1 ? data.qvel[2] = Infinity : 0");
+    let codes = |player: &Player| player.findings().iter().map(|f| f.code).collect::<Vec<_>>();
+    let loaded = codes(&player);
+    assert!(loaded.contains(&"unknown-field"), "{loaded:?}");
+    assert!(player.numbers()[0].is_nan());
+    player.play_to(0.2).unwrap();
+    let found = player.findings();
+    let last = found.iter().find(|f| f.code == "simulation-diverges").unwrap();
+    assert!(last.message.contains("at t = 0.1") && last.position.is_some(), "{last}");
+
+    // A controller that throws freezes the lab until it is reset.
+    let mut player = broken("data.time > 0.1 ? model.opt.timestep = -1 : 0");
+    let frozen = player.play_to(0.2).unwrap_err();
+    assert_eq!(frozen.findings().len(), 1, "{frozen}");
+    assert!(player.is_over() && player.time() < 0.11);
+    assert!(player.step().is_err());
+    player.reset();
+    assert!(!player.is_over() && player.step().is_ok());
+
+    // One that never ends stops the lab, not the page.
+    let mut player = broken("for (let i = 0; i < 1e9; i++) { ctx.x = i }");
+    assert!(player.step().is_err() && player.is_over());
+}
+
+#[test]
+fn a_lab_stops_where_it_says() {
+    let lab = LAB.replacen('{', "{\"stopAt\": 0.25, ", 1);
+    let mut player = Player::of_lab(&lab, models()).unwrap();
+    player.play_to(10.0).unwrap();
+    assert!(player.is_over() && (0.25..0.25 + player.timestep()).contains(&player.time()));
+    assert_eq!(player.play_to(10.0).unwrap(), 0);
+    player.reset();
+    assert!(!player.is_over());
+}
+
+#[test]
+fn a_player_can_be_sent_to_another_thread() {
+    let mut player = player();
+    let elsewhere = std::thread::spawn(move || {
+        player.play_to(0.5).unwrap();
+        bits(&player)
+    });
+    let mut own = self::player();
+    own.play_to(0.5).unwrap();
+    assert_eq!(elsewhere.join().unwrap(), bits(&own));
+}
+
+/// A lesson of the repository from its folder, from memory, and from a closure: the same findings and the same ledger.
+#[test]
+fn a_lesson_is_the_same_wherever_its_models_come_from() {
+    let folder = workspace().join("specs/models");
+    let list: BTreeMap<String, String> = crate::support::models(&folder)
+        .into_iter()
+        .map(|name| (name.clone(), std::fs::read_to_string(folder.join(format!("{name}.xml"))).unwrap()))
+        .collect();
+    let text = std::fs::read_to_string(workspace().join("specs/lessons/02-bounce-and-swing.md")).unwrap();
+    let text = text.replace("\"0.297 m\"", "\"0.3 m\"");
+    let closure = list.clone();
+    let all = [
+        Checker::new(ModelFolder::open(&folder).unwrap()),
+        Checker::new(list),
+        Checker::new(move |name: &str| closure.get(name).cloned()),
+    ];
+    let mut reports = all.map(|mut checker| checker.check("lesson.md", &text)).into_iter();
+    let first = reports.next().unwrap();
+    assert!(!first.findings.is_empty() && first.entries().len() > 8);
+    assert_eq!(first.outcome(), labspec::ledger::Outcome::Findings);
+    for report in reports {
+        assert_eq!((&report.findings, &report.ledger), (&first.findings, &first.ledger));
+    }
+}
+
+#[test]
+fn a_model_that_there_is_not_is_told() {
+    let lesson = "```lab\n{\"model\": \"drop\"}\n```\n";
+    let codes = |mut checker: Checker| {
+        checker.check("a.md", lesson).findings.iter().map(|f| f.code).collect::<Vec<_>>()
+    };
+    assert_eq!(codes(Checker::new(NoModels)), ["unknown-model"]);
+    assert_eq!(codes(Checker::new(|_: &str| None)), ["unknown-model"]);
+    assert_eq!(codes(Checker::new(ModelFolder::unknown())), ["no-model-folder"]);
+    // Its mistakes stand in its own text.
+    let mut checker = Checker::new([("drop", "<mujoco>\n<bdy/></mujoco>")]);
+    let report = checker.check("a.md", lesson);
+    let inside = report.findings.iter().find(|f| &*f.path == "models/drop.xml").unwrap();
+    assert_eq!(inside.position.map(|p| p.line), Some(2), "{inside}");
+    assert!(report.findings.iter().any(|f| f.code == "model-broken"));
+}
+
+#[test]
+fn models_in_memory_include_each_other() {
+    let models = [
+        ("a", "<mujoco><include file='b.xml'/></mujoco>"),
+        ("b", "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>"),
+    ];
+    let player = Player::of_lab("{\"model\": \"a\"}", models).unwrap();
+    assert_eq!(player.model().ngeom, 1);
+    assert_eq!(models.file("b.xml", 3), Err(FileProblem::TooLarge));
+    assert_eq!(models.file("c.xml", 1000), Err(FileProblem::Missing));
+    assert_eq!(models.file("b.obj", 1000), Err(FileProblem::Missing));
+}
+
+#[test]
+fn a_text_knows_its_model() {
+    let mut drop = Engine::compile(&model_text("ball_drop")).unwrap();
+    let mut other = Engine::compile(&model_text("ball_drop")).unwrap();
+    let z = drop.expression("data.qpos[2]").unwrap();
+    let push = drop.statements("data.qvel[2] = 1; ctx.pushed = true").unwrap();
+    assert_eq!(z.number(&mut drop).unwrap(), 1.0);
+    // Even of the same text: another model is another model.
+    for refused in [z.number(&mut other).map(drop_number), push.run(&mut other)] {
+        let Err(Error::Call(why)) = refused else { unreachable!("{refused:?}") };
+        assert!(why.contains("another model"), "{why}");
+    }
+    // A copy of the engine is the same model, in another state.
+    let mut copy = drop.clone();
+    push.run(&mut copy).unwrap();
+    copy.step().unwrap();
+    assert!(z.number(&mut copy).unwrap() > z.number(&mut drop).unwrap());
+    let pushed = drop.expression("ctx.pushed");
+    assert_eq!(pushed.unwrap().value(&mut drop).unwrap(), Value::Undefined);
+}
+
+fn drop_number(_: f64) {}
+
+#[test]
+fn variables_of_an_engine_are_shared_by_its_texts() {
+    let mut engine = Engine::compile(&model_text("pendulum")).unwrap();
+    engine
+        .statements("for (let i = 0; i < 3; i++) { ctx['q' + i] = 10 * i }")
+        .unwrap()
+        .run(&mut engine)
+        .unwrap();
+    // Named by a text only after it was stored under a computed name.
+    let sum = engine.expression("ctx.q1 + ctx.q2").unwrap();
+    assert_eq!(sum.number(&mut engine).unwrap(), 30.0);
+    engine.statements("ctx['q' + 1] = 5").unwrap().run(&mut engine).unwrap();
+    assert_eq!(sum.number(&mut engine).unwrap(), 25.0);
+
+    let typo = engine.expression("data.qpos[7]").unwrap_err();
+    assert_eq!(typo.findings()[0].code, "index-out-of-range");
+    assert!(Engine::compile("<mujoco><bdy/></mujoco>").unwrap_err().findings()[0].position.is_some());
+    let endless = engine.statements("for (let i = 0; i >= 0; i++) { ctx.x = i }").unwrap();
+    assert_eq!(endless.run(&mut engine).unwrap_err().findings().len(), 1);
+}
