@@ -17,6 +17,7 @@ mod javascript;
 mod labs;
 mod ledger;
 mod lessons;
+mod links;
 mod loads;
 mod needs;
 mod numbers;
@@ -39,6 +40,8 @@ mod structure;
 mod support;
 mod terminal;
 mod trust;
+#[cfg(unix)]
+mod tutorial;
 mod verify;
 mod ways;
 mod zoo;

@@ -72,3 +72,39 @@ fn the_picture_of_the_readme_is_of_the_lesson() {
         "see the README for its command"
     );
 }
+
+/// Every command that is not for engineers alone stands in the table.
+#[test]
+fn the_readme_names_every_command() {
+    let help = run(&["--help"]);
+    let commands = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
+    let readme = file("README.md");
+    let mut count = 0;
+    for line in commands.lines().filter(|l| !l.contains("For engineers")) {
+        let name = line.split_whitespace().next().unwrap();
+        if line.starts_with("   ") || name == "help" {
+            continue;
+        }
+        assert!(readme.contains(&format!("| `labspec {name} ")), "{name} is not in the README");
+        count += 1;
+    }
+    assert!(count > 7, "{help}");
+}
+
+/// Rows of the first table of a page: the scene, and the numbers behind it.
+fn rows(page: &str) -> Vec<Vec<String>> {
+    let table = page.lines().skip_while(|l| !l.starts_with("| scene |")).skip(2);
+    let cells = |l: &str| l.split('|').map(|c| c.trim().to_string()).filter(|c| !c.is_empty()).collect();
+    table.take_while(|l| l.starts_with('|')).map(cells).collect()
+}
+
+/// The README shows some columns of the measurement, and changes none.
+#[test]
+fn the_speeds_of_the_readme_are_those_that_were_measured() {
+    let (shown, measured) = (rows(&file("README.md")), rows(&file("docs/measured/speed.md")));
+    assert!(shown.len() > 8 && shown.len() == measured.len());
+    for (shown, measured) in shown.iter().zip(&measured) {
+        let columns = [0, 1, 2, 3, 4, 5, 7, 8, 10].map(|i| measured[i].clone());
+        assert_eq!(*shown, columns);
+    }
+}

@@ -1,5 +1,5 @@
 //! Stiff and extreme scenes, ours beside MuJoCo 3.14.0's: `golden/stability.py` states the cases and recorded theirs, this
-//! writes `docs/stability.md`.
+//! writes `docs/measured/stability.md`.
 //!
 //! The scenes and searches run as a test. Long runs (10 million steps) are shortened there; `LABSPEC_STABILITY=long` with
 //! `LABSPEC_BLESS=1` runs them in full, best in a release build, and keeps what they came to in `golden/stability_long.json`.
@@ -300,7 +300,7 @@ fn stiff_and_extreme_scenes() {
             number(ours, "norm")
         );
     }
-    let path = workspace().join("docs/stability.md");
+    let path = workspace().join("docs/measured/stability.md");
     if bless {
         std::fs::write(&path, &text).unwrap();
     }
@@ -319,6 +319,6 @@ fn stiff_and_extreme_scenes() {
     );
     assert!(
         subjects(&kept) == subjects(&text),
-        "docs/stability.md is stale: LABSPEC_BLESS=1 cargo test -p labspec --test all stiff"
+        "docs/measured/stability.md is stale: LABSPEC_BLESS=1 cargo test -p labspec --test all stiff"
     );
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Stiff and extreme scenes, and what MuJoCo 3.14.0 makes of them: the cases of tests/stability.rs and docs/stability.md.
+"""Stiff and extreme scenes, and what MuJoCo 3.14.0 makes of them: the cases of tests/stability.rs and docs/measured/stability.md.
 
     python3 -m venv mj && mj/bin/pip install mujoco==3.14.0 numpy
     mj/bin/python stability.py

@@ -2,7 +2,7 @@
 """Cost of a step beside MuJoCo's: time, measured in the same run, and instructions, which repeat.
 
     cargo build --release -p labspec
-    tests/speed/compare.py BENCH_MUJOCO [--out docs/speed.md] [NAME=MODEL.xml[,warm[,steps[,off]]] ...]
+    tests/speed/compare.py BENCH_MUJOCO [--out docs/measured/speed.md] [NAME=MODEL.xml[,warm[,steps[,off]]] ...]
 
 BENCH_MUJOCO is the program made from `bench_mujoco.c` of the oracle. Without models, those of SCENES are measured, which
 are in ../shared. `off` names what is switched off on both sides: `contact` or `constraint`.
@@ -210,7 +210,7 @@ PAGE = """# Speed
 The cost of one step beside MuJoCo 3.14.0, measured on {processor} by
 
     cargo build --release -p labspec
-    tests/speed/compare.py BENCH_MUJOCO --out docs/speed.md
+    tests/speed/compare.py BENCH_MUJOCO --out docs/measured/speed.md
 
 {table}
 

@@ -73,7 +73,7 @@ fn table(out: &mut String, title: &str, rows: Vec<Row>) {
 /// The page, in Markdown.
 pub fn language_page() -> String {
     let mut out = String::from(
-        "# The language of lessons\n\nThe core of JavaScript that lessons write. Values are JavaScript's, bit for bit: double arithmetic, `%`, `||` that gives an operand, numbers to text. Of `Math`, what the standard leaves to the engine (`sin`, `exp`, `pow`, `**` …) is the same on every machine, and as near to node's as [measured](../math.md).\n\n## Grammar\n\n```ebnf",
+        "# The language of lessons\n\nThe core of JavaScript that lessons write. Values are JavaScript's, bit for bit: double arithmetic, `%`, `||` that gives an operand, numbers to text. Of `Math`, what the standard leaves to the engine (`sin`, `exp`, `pow`, `**` …) is the same on every machine, and as near to node's as [measured](../measured/math.md).\n\n## Grammar\n\n```ebnf",
     );
     out.push_str(GRAMMAR);
     out.push_str("```\n\nA statement ends with `;`, with a line end where JavaScript ends it, or with `}`. Comments are `// …` and `/* … */`.\n\n## Operators\n\nFrom the loosest to the tightest:\n\n| level | operators |\n|---|---|\n");

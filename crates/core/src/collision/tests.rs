@@ -116,7 +116,7 @@ fn examined(m: &Model) -> (f64, usize) {
 }
 
 /// From 10 to 10,000 geoms in a heap, a layer and a row, of one size or of very different ones: the pairs looked at grow
-/// with the number of geoms. `docs/contacts.md` has the table (`--nocapture`).
+/// with the number of geoms. `docs/measured/contacts.md` has the table (`--nocapture`).
 #[test]
 fn cost_grows_with_the_number_of_geoms() {
     for (name, dims) in [("heap", 3), ("layer", 2), ("row", 1)] {

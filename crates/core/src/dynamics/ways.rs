@@ -3,7 +3,7 @@
 //! The general way is that of `kinematics`, `com`, `mass` (composite bodies, elimination of rows) and `rne` (recursion). A
 //! short way replaces some of it for trees of its kind, and nothing else; which tree takes which follows from the structure
 //! of the model when data are made for it, never from a plan. Any can be forbidden ([`Ways`]): a test holds each against the
-//! general one, and `docs/speed.md` says what each is worth.
+//! general one, and `docs/measured/speed.md` says what each is worth.
 
 use super::{articulated, chain, serial, simple};
 use crate::model::Model;

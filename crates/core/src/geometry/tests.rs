@@ -1,7 +1,7 @@
 //! Rays, distances and contacts against what MuJoCo 3.14.0 finds: `golden/record.py` recorded it.
 //!
 //! `LABSPEC_GEOMETRY` may name a folder with more cases than the repository keeps; then every pair's worst difference
-//! is printed as well, and the tables of `docs/contacts.md` are written to `contacts.md` and `distances.md` in it.
+//! is printed as well, and the tables of `docs/measured/contacts.md` are written to `contacts.md` and `distances.md` in it.
 
 mod figures;
 mod random;

@@ -1,6 +1,6 @@
 //! Functions of `Math` beside node's: how often the bits agree, and by how many units in the last place (ulp) they differ
 //! at most. `LABSPEC_BLESS=1 cargo test -p labspec-expr tests::math` asks node for 100,000 arguments of each function and
-//! writes `docs/math.md`; a few of its answers are kept in `math.txt`, so that every machine holds ours to the table.
+//! writes `docs/measured/math.md`; a few of its answers are kept in `math.txt`, so that every machine holds ours to the table.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -185,7 +185,7 @@ fn place(file: &str) -> PathBuf {
 
 /// The largest difference of each function in the table.
 fn limits() -> impl Fn(&str) -> u64 {
-    let table = std::fs::read_to_string(place("../../docs/math.md")).unwrap();
+    let table = std::fs::read_to_string(place("../../docs/measured/math.md")).unwrap();
     let row = |line: &str| {
         let cells: Vec<&str> = line.split('|').map(str::trim).collect();
         Some((cells.get(1)?.strip_prefix('`')?.strip_suffix('`')?.to_owned(), cells.get(4)?.parse().ok()?))
@@ -246,7 +246,7 @@ fn the_table_is_what_node_and_we_give() {
         }
     }
     if bless {
-        std::fs::write(place("../../docs/math.md"), table(&rows)).unwrap();
+        std::fs::write(place("../../docs/measured/math.md"), table(&rows)).unwrap();
         std::fs::write(place("src/tests/math.txt"), kept).unwrap();
     }
 }

@@ -1,4 +1,4 @@
-//! The speed of the language beside other evaluators, in one table: `cargo run --release -- ../../../docs/speed-language.md`
+//! The speed of the language beside other evaluators, in one table: `cargo run --release -- ../../../docs/measured/speed-language.md`
 //! in this folder. Real labs are those of `../shared/corpus`.
 
 use fasteval::{Compiler as _, Evaler};
@@ -189,7 +189,7 @@ fn corpus() -> Vec<(String, Lab, Arc<Model>)> {
 
 fn main() {
     let mut page = String::from(
-        "# Speed of the language\n\nMeasured by `cargo run --release -- ../../../docs/speed-language.md` in `tests/speed/expr`: the best of 25 rounds.\n\n## The error of a free fall\n\n",
+        "# Speed of the language\n\nMeasured by `cargo run --release -- ../../../docs/measured/speed-language.md` in `tests/speed/expr`: the best of 25 rounds.\n\n## The error of a free fall\n\n",
     );
     let _ = write!(page, "    {ERROR}\n\n| evaluator | ns | beside native |\n|---|---:|---:|\n");
     let rows = error_expression();

@@ -141,7 +141,7 @@ fn nearest_of_segment([a, b]: [Vec2; 2]) -> Vec2 {
 ///
 /// are the sines of the two angles with the radius. g(0) ≤ 0 ≤ g(Δ): Newton's method, kept between both, ends at the last
 /// bit. (The real library stops where its own equation holds to 1e-6, and takes the direction half way between both ends
-/// where Newton's method leaves the interval: docs/parity.md.)
+/// where Newton's method leaves the interval: docs/measured/parity.md.)
 fn inside(q: [Vec2; 2], radius: f64) -> Option<Touch> {
     /// Newton's method needs about six; halving alone fifty.
     const ITERATIONS: usize = 100;

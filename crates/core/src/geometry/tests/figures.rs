@@ -1,4 +1,4 @@
-//! Figures of many pairs for `docs/contacts.md`, written when `LABSPEC_GEOMETRY` names a folder of recordings.
+//! Figures of many pairs for `docs/measured/contacts.md`, written when `LABSPEC_GEOMETRY` names a folder of recordings.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;

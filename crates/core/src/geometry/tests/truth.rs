@@ -6,7 +6,7 @@
 //! corners the least over the normals of all faces of both and over all pairs of edges (separating axes), for round bodies
 //! the least over directions that cover the sphere, each of the best walked downhill.
 //!
-//! `LABSPEC_CASES` says how many random configurations there are for each pair (100,000 for `docs/contacts.md`).
+//! `LABSPEC_CASES` says how many random configurations there are for each pair (100,000 for `docs/measured/contacts.md`).
 
 use super::Random;
 use crate::geometry::convex::{Convex, Nearest, Room, nearest};

@@ -1,0 +1,145 @@
+//! The tutorial, followed word for word: its files are written, its changes made, its commands typed, and the terminal shows
+//! what the page shows.
+//!
+//! A block belongs to the line of words before it. `diff` changes the file that the line names last; `sh` is typed, and a block of
+//! `text` behind it is what then stands on the terminal; any other block is written into the file that the line names last, or,
+//! where the line begins with "Add", behind what the file holds. A picture of the page is the file of that name.
+//!
+//! `LABSPEC_BLESS=1 cargo test -p labspec --test all tutorial` writes into the page and its pictures what is shown now.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::support::workspace;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The words and blocks of a page, in their order.
+enum Part<'a> {
+    Words(&'a str),
+    Block { ticks: &'a str, kind: &'a str, inside: String },
+}
+
+fn parts(page: &str) -> Vec<Part<'_>> {
+    let (mut lines, mut out) = (page.lines(), Vec::new());
+    while let Some(line) = lines.next() {
+        let kind = line.trim_start_matches('`');
+        let ticks = &line[..line.len() - kind.len()];
+        if ticks.len() < 3 {
+            out.push(Part::Words(line));
+            continue;
+        }
+        let inside = lines.by_ref().take_while(|l| *l != ticks).map(|l| format!("{l}\n")).collect();
+        out.push(Part::Block { ticks, kind, inside });
+    }
+    out
+}
+
+/// A terminal: a folder in which one is, and a shell with the program among its commands.
+struct Terminal {
+    here: PathBuf,
+}
+
+impl Terminal {
+    /// What a block of commands prints. `cd` lasts for the blocks that follow.
+    fn types(&mut self, commands: &str) -> String {
+        let program = Path::new(env!("CARGO_BIN_EXE_labspec")).parent().unwrap();
+        let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
+        let place = self.here.join("place");
+        let done = Command::new("sh")
+            .args(["-c", &format!("exec 2>&1\n{commands}\npwd > '{}'", place.display())])
+            .current_dir(&self.here)
+            .env("PATH", path)
+            .output()
+            .unwrap();
+        self.here = std::fs::read_to_string(&place).unwrap().trim_end().into();
+        std::fs::remove_file(place).unwrap();
+        String::from_utf8(done.stdout).unwrap()
+    }
+
+    /// Makes a change as a page shows it: lines that go begin with `-`, lines that come with `+`, others stay.
+    fn changes(&self, name: &str, change: &str) {
+        let side = |gone: char| -> String {
+            let lines = change.lines().filter(|l| !l.starts_with(gone));
+            lines.map(|l| format!("{}\n", l.get(1..).unwrap_or_default())).collect()
+        };
+        let (before, after) = (side('+'), side('-'));
+        let text = std::fs::read_to_string(self.here.join(name)).unwrap();
+        assert_eq!(text.matches(&before).count(), 1, "{name} has this not once:\n{before}");
+        std::fs::write(self.here.join(name), text.replace(&before, &after)).unwrap();
+    }
+}
+
+/// The one block that is not typed: it builds the program, and the test was given one.
+const BUILD: &str = "cargo install --path crates/labspec --locked\nlabspec --version\n";
+
+#[test]
+fn the_tutorial_is_followed_word_for_word() {
+    let page_file = workspace().join("docs/tutorial.md");
+    let page = std::fs::read_to_string(&page_file).unwrap();
+    let bless = std::env::var_os("LABSPEC_BLESS").is_some();
+    let folder = tempfile::tempdir().unwrap();
+    let mut terminal = Terminal { here: folder.path().into() };
+    // What stands on the terminal and was not looked at, and the page as it should be.
+    let (mut shown, mut real) = (None, String::new());
+    let (mut before, mut typed, mut pictures) = ("", 0, 0);
+    for part in parts(&page) {
+        let (ticks, kind, inside) = match part {
+            Part::Words(line) => {
+                if !line.is_empty() {
+                    assert_eq!(
+                        shown.take().unwrap_or_default(),
+                        "",
+                        "nothing of this is shown before {line}"
+                    );
+                    before = line;
+                }
+                if let Some((_, rest)) = line.split_once("](pictures/") {
+                    let name = rest.split(')').next().unwrap();
+                    let drawn = std::fs::read_to_string(terminal.here.join(name)).unwrap();
+                    let kept = workspace().join("docs/pictures").join(name);
+                    if bless {
+                        std::fs::write(&kept, &drawn).unwrap();
+                    }
+                    assert!(drawn == std::fs::read_to_string(kept).unwrap(), "{name} shows something else");
+                    pictures += 1;
+                }
+                real += &format!("{line}\n");
+                continue;
+            }
+            Part::Block { ticks, kind, inside } => (ticks, kind, inside),
+        };
+        let name = before.rsplit('`').nth(1);
+        let mut block = inside.clone();
+        match kind {
+            "sh" if inside == BUILD => shown = Some(terminal.types("labspec --version")),
+            "sh" => shown = Some(terminal.types(&inside)),
+            "text" => {
+                block = shown.take().unwrap();
+                typed += 1;
+            }
+            "diff" => terminal.changes(name.unwrap(), &inside),
+            _ => {
+                let path = terminal.here.join(name.unwrap());
+                let old = if before.starts_with("Add") {
+                    std::fs::read_to_string(&path).unwrap() + "\n"
+                } else {
+                    assert!(!path.exists(), "{} is written twice", path.display());
+                    String::new()
+                };
+                std::fs::write(path, old + &inside).unwrap();
+            }
+        }
+        if !bless {
+            assert!(
+                inside == block,
+                "behind \"{before}\" the page shows\n{inside}\nand the terminal\n{block}"
+            );
+        }
+        real += &format!("{ticks}{kind}\n{block}{ticks}\n");
+    }
+    assert!(typed > 8 && pictures > 0, "{typed} {pictures}");
+    if bless {
+        std::fs::write(&page_file, &real).unwrap();
+    }
+    assert!(real == std::fs::read_to_string(&page_file).unwrap());
+}
