@@ -55,7 +55,7 @@ impl Checker {
     /// Checks a lesson. `path` is its name in findings, and says by its ending what it is: Markdown, or JSON.
     pub fn check(&mut self, path: &str, text: &str) -> Report {
         let lesson = load_lesson(SourceFile::new(path, text), self.models.folder());
-        let checked = check::check(lesson, &mut self.models, self.depth);
+        let checked = check::check(lesson, &self.models, self.depth);
         let mut findings = lint::check_course(&[&checked.lesson]);
         findings.extend(checked.findings.iter().cloned());
         findings.extend(self.models.take_findings());

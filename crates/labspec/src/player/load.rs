@@ -52,7 +52,7 @@ impl Player {
         };
         let within = |f: &Finding| lab.span.start <= f.span.start && f.span.end <= lab.span.end;
         let mut loaded: Vec<Finding> = lesson.findings.iter().filter(|f| within(f)).cloned().collect();
-        let bound = check::bind(lab, &mut models, &mut loaded);
+        let bound = check::bind(lab, &models, &mut loaded);
         loaded.extend(models.take_findings());
         let files: Vec<&SourceFile> = std::iter::once(&lesson.file).chain(models.files()).collect();
         for finding in &mut loaded {
