@@ -93,6 +93,18 @@ fn a_player_goes_the_way_of_a_run() {
 }
 
 #[test]
+fn a_page_gets_every_sample_of_a_curve() {
+    let (mut stepped, mut played) = (player(), player());
+    let mut curve = Vec::new();
+    let steps = played.play_with(0.1, |time, values| curve.push((time, values.to_vec()))).unwrap();
+    assert_eq!((steps, curve.len()), (50, 50));
+    for (time, values) in curve {
+        stepped.step().unwrap();
+        assert_eq!((stepped.time(), stepped.values()), (time, values.as_slice()));
+    }
+}
+
+#[test]
 fn a_saved_state_goes_on_to_the_bit() {
     let mut player = player();
     player.set("height", 0.5).unwrap();

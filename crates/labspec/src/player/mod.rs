@@ -145,14 +145,33 @@ impl Player {
     /// # Errors
     /// The time is none, it is too many steps away, or the lab is frozen before it gets there.
     pub fn play_to(&mut self, time: f64) -> Result<usize, Error> {
-        let ahead = (time - self.time()).max(0.0);
+        self.play(time, |_, _| ())
+    }
+
+    /// The same for a page that draws curves: `each` gets the time and the values after every step.
+    ///
+    /// # Errors
+    /// As for [`Player::play_to`].
+    pub fn play_with(&mut self, time: f64, mut each: impl FnMut(f64, &[Cell])) -> Result<usize, Error> {
+        self.play(time, |session, made| {
+            if made > 0
+                && let Some((_, values)) = session.sample().split_first()
+            {
+                each(session.world.data.time(), values);
+            }
+        })
+    }
+
+    fn play(&mut self, time: f64, mut each: impl FnMut(&mut Session<'_>, usize)) -> Result<usize, Error> {
         if time.is_nan() {
             return Err(Error::Call("a lab is played to a time in seconds, not to NaN".into()));
         }
+        let ahead = (time - self.time()).max(0.0);
         let steps = run::count_steps(&self.lab, Some(ahead), None, self.timestep())?;
         let stop = self.stop().unwrap_or(f64::INFINITY).min(time);
         self.now.session.renew(Budget::ASKED);
-        let made = run::play(&mut self.now.session, &Play::steps(steps), |session, _| {
+        let made = run::play(&mut self.now.session, &Play::steps(steps), |session, made| {
+            each(session, made);
             if session.world.data.time() >= stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         self.look();

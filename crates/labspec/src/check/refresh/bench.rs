@@ -4,13 +4,14 @@ use super::difference::Columns;
 use super::{Advice, Place, Suspect};
 use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include};
 use crate::check::programs::choices;
-use crate::run::{self, Breakdown, Cell, Session, settings};
+use crate::run::{self, Breakdown, Cell, Play, Session, settings};
 use crate::source::Text;
 use crate::spec::{ControlKind, Lab, Run, Verify};
 use labspec_core::reflect::FieldSet;
 use labspec_core::{Demand, Model};
 use labspec_expr::{Compiler, Type, Value};
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::ops::ControlFlow;
 
 /// Most steps of one of these runs.
 const STEPS: usize = 2_000;
@@ -169,14 +170,24 @@ impl<'a> Bench<'a> {
         let width = 1 + programs.probes.len() + if whole { self.model.nq } else { 0 };
         let every = (steps + 1).saturating_mul(width).div_ceil(CELLS).max(1);
         let mut rows = Vec::new();
-        for step in 0..=steps {
+        let mut too_long = false;
+        run::play(&mut session, &Play::steps(steps), |session, step| {
+            if step > 0 {
+                let (nv, rows) = (self.model.nv, session.world.data.fields().nefc);
+                let work = 1 + nv + self.model.ngeom + rows.saturating_mul(nv) / 8;
+                let Some(left) = self.work_left.checked_sub(work) else {
+                    too_long = true;
+                    return ControlFlow::Break(());
+                };
+                self.work_left = left;
+            }
             let due = trial.moves.iter().filter(|(at, _)| *at == step).map(|(_, m)| m);
             let (set, press): (Vec<&Move>, Vec<&Move>) = due.partition(|m| sets(m));
-            set.into_iter().for_each(|m| act(&mut session, m));
+            set.into_iter().for_each(|m| act(session, m));
             if let Some(bound) = setup.filter(|_| step == 0) {
                 session.run_statements(&bound.program, &bound.text);
             }
-            press.into_iter().for_each(|m| act(&mut session, m));
+            press.into_iter().for_each(|m| act(session, m));
             if step % every == 0 || step == steps {
                 let mut row: Vec<Cell> = session.sample().into_iter().map(short).collect();
                 if whole {
@@ -184,20 +195,19 @@ impl<'a> Bench<'a> {
                 }
                 rows.push(row);
             }
-            if step < steps {
-                session.step();
-                let (nv, rows) = (self.model.nv, session.world.data.fields().nefc);
-                let work = 1 + nv + self.model.ngeom + rows.saturating_mul(nv) / 8;
-                self.work_left = self.work_left.checked_sub(work).ok_or("it would take too long")?;
-            }
+            ControlFlow::Continue(())
+        });
+        if too_long {
+            return Err("it would take too long".to_string());
         }
         let probe = |t: &Text| programs.probes.iter().any(|p| p.bound.as_ref().is_some_and(|b| b.text == *t));
         if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {
             return Err(format!("its statements fail: {}", trouble.message));
         }
-        match Breakdown::of(&session) {
-            Some(broken) => Err(format!("the simulation breaks: {}", broken.what)),
-            None => Ok(rows),
+        match (Breakdown::of(&session), session.ended()) {
+            (Some(broken), _) => Err(format!("the simulation breaks: {}", broken.what)),
+            (None, Some(_)) => Err("it ends before its time".to_string()),
+            (None, None) => Ok(rows),
         }
     }
 
