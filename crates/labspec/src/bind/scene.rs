@@ -229,8 +229,8 @@ fn compile_source(file: &SourceFile, files: &dyn Files, name: Option<&str>) -> C
 }
 
 /// Compiles a model file, for itself: the model, what is to be said of it, and the files that this is about. A file that
-/// cannot be read is a finding, too. `root` is what it may read; by default what [`root_of`] finds.
-pub(crate) fn check_model_file(
+/// cannot be read is a finding, too. `root` is what it may read; by default the nearest folder around it that is marked as one.
+pub fn check_model_file(
     path: &Path,
     root: Option<&Path>,
 ) -> (Option<Arc<Model>>, Vec<Finding>, Vec<SourceFile>) {
