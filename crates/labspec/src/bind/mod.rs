@@ -10,7 +10,7 @@ mod enums;
 pub mod functions;
 mod handle;
 mod names;
-pub(crate) mod parts;
+pub mod parts;
 pub mod scene;
 mod world;
 

@@ -8,13 +8,13 @@ use std::path::Path;
 
 /// A file that a model was made of.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Part {
+pub struct Part {
     /// Its path from the folder of the model; empty for the model itself.
-    pub(crate) path: String,
+    pub path: String,
     /// Most bytes that it may have.
-    pub(crate) limit: usize,
+    pub limit: usize,
     /// The digest of its bytes, or of why there are none.
-    pub(crate) mark: String,
+    pub mark: String,
 }
 
 /// The digest of a model file's text.

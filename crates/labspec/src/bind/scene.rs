@@ -100,12 +100,12 @@ impl Models {
     }
 
     /// What a model that is in the folder was made of, and whether something is said of it.
-    pub(crate) fn parts(&self, name: &str) -> Option<(Vec<Part>, bool)> {
+    pub fn parts(&self, name: &str) -> Option<(Vec<Part>, bool)> {
         self.loaded(name, |loaded| (loaded.parts.clone(), loaded.talks))
     }
 
     /// Every file that was looked at, and the folder.
-    pub(crate) fn read(&self) -> Vec<PathBuf> {
+    pub fn read(&self) -> Vec<PathBuf> {
         let Some(folder) = self.folder.path_of_folder() else { return Vec::new() };
         let mut paths = vec![folder.to_path_buf()];
         let compiled = open(&self.compiled);
@@ -169,7 +169,7 @@ impl Models {
     }
 
     /// Whether a model's files still are what they were.
-    pub(crate) fn is_made_of(&self, name: &str, parts: &[Part]) -> bool {
+    pub fn is_made_of(&self, name: &str, parts: &[Part]) -> bool {
         let Some(path) = self.folder.path(name) else { return false };
         let place = path.parent().unwrap_or(Path::new(""));
         let folder = Folder::at(self.folder.root(), place).ok();

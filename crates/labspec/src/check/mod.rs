@@ -5,7 +5,7 @@ mod entries;
 mod expect;
 mod programs;
 mod refresh;
-pub(crate) mod stored;
+pub mod stored;
 mod trial;
 
 pub use claims::Claim;
@@ -72,7 +72,7 @@ struct Ready<'l> {
 
 /// What a check found beyond the structure of a lesson, not yet tied to its file.
 #[derive(Debug, Default)]
-pub(crate) struct Found {
+pub struct Found {
     pub(crate) findings: Vec<Finding>,
     pub(crate) labs: Vec<RanLab>,
     pub(crate) claims: Vec<Claim>,
@@ -85,7 +85,7 @@ pub fn check(lesson: Lesson, models: &Models, depth: Depth) -> Checked {
 }
 
 /// Binds, runs and verifies.
-pub(crate) fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
+pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
     let mut findings = Vec::new();
     let ready: Vec<Ready<'_>> =
         lesson.all_labs().into_iter().filter_map(|lab| prepare(lab, models, &mut findings)).collect();
@@ -95,7 +95,7 @@ pub(crate) fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
 }
 
 /// A lesson together with what was found.
-pub(crate) fn join(lesson: Lesson, found: Found) -> Checked {
+pub fn join(lesson: Lesson, found: Found) -> Checked {
     let Found { mut findings, labs, claims } = found;
     let mut all = lesson.findings.clone();
     lesson.withhold_fixes(&mut findings);

@@ -36,7 +36,7 @@ const VERDICTS: [Verdict; 7] = [
 ];
 
 /// Everything that was found, as JSON; `None` for what could not be read back as it is.
-pub(crate) fn write(found: &Found) -> Option<Value> {
+pub fn write(found: &Found) -> Option<Value> {
     let value = written(found);
     let again = read(&value)?;
     (written(&again) == value).then_some(value)
@@ -51,7 +51,7 @@ fn written(found: &Found) -> Value {
 }
 
 /// What was written.
-pub(crate) fn read(value: &Value) -> Option<Found> {
+pub fn read(value: &Value) -> Option<Found> {
     let [findings, labs, claims] = parts(value)?;
     Some(Found {
         findings: list(findings, read_finding)?,

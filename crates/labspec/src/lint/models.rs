@@ -100,7 +100,7 @@ impl ModelFolder {
     }
 
     /// The folder itself; `None` when models are only known by name, or not at all.
-    pub(crate) fn path_of_folder(&self) -> Option<&Path> {
+    pub fn path_of_folder(&self) -> Option<&Path> {
         self.folder.as_deref()
     }
 
