@@ -247,7 +247,7 @@ mod tests {
         let mut found = Finding::new(&RULE, 1..2, "there is no key `mdoel`").help("did you mean `model`?");
         let rest = "error[unknown-key]: there is no key `mdoel`\n  why: what it says has no effect\n  help: did you mean `model`?";
         assert_eq!(found.to_string(), rest);
-        found.position = Some(Position { line: 3, column: 7, utf16: 6 });
+        found.position = Some(Position { line: 3, column: 7 });
         assert_eq!(found.to_string(), format!("3:7: {rest}"));
         found.path = Arc::from("a.md");
         assert_eq!(found.to_string(), format!("a.md:3:7: {rest}"));

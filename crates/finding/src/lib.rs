@@ -11,5 +11,5 @@ mod rule;
 
 pub use finding::{Applicability, Finding, Fix, Severity, sort};
 pub use nearest::{distance, nearest, ranked};
-pub use place::{Lines, Place, Position, Span};
+pub use place::{EditorPosition, Lines, Place, Position, Span, floor};
 pub use rule::{Example, Layer, Rule};

@@ -70,46 +70,84 @@ pub struct Position {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// UTF-16 units before it on its line, from 0, as editors count.
-    pub utf16: usize,
 }
 
-/// Where the lines of a text begin.
+/// A place as an editor names it: lines from 0, and on a line the units of UTF-16.
+///
+/// After the Language Server Protocol 3.17, "Position": a line ends with `\n`, `\r\n` or a single `\r`. A byte-order mark
+/// is how a file is written, not part of what an editor shows, so it counts nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct EditorPosition {
+    /// Line, from 0.
+    pub line: usize,
+    /// Units of UTF-16 before it on its line: two for `𝄞`, one for `ä`.
+    pub character: usize,
+}
+
+/// What a file may begin with, so that its encoding is known.
+const MARK: char = '\u{feff}';
+
+/// Where the lines of a text begin. Its calls want the text that it was made of.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Lines {
     starts: Vec<usize>,
+    /// The bytes behind every `\r` that ends a line on its own: for editors.
+    returns: Vec<usize>,
 }
 
 impl Lines {
-    /// The lines of a text. Only `\n` ends one.
+    /// The lines of a text. For people only `\n` ends one.
     pub fn of(text: &str) -> Lines {
         let after = text.match_indices('\n').map(|(i, _)| i.saturating_add(1));
-        Lines { starts: std::iter::once(0).chain(after).collect() }
+        let behind = text.match_indices('\r').map(|(at, _)| at.saturating_add(1));
+        let returns = behind.filter(|&at| text.as_bytes().get(at) != Some(&b'\n')).collect();
+        Lines { starts: std::iter::once(0).chain(after).collect(), returns }
     }
 
-    /// How many there are; a text that ends with a line break has an empty one more.
-    pub fn count(&self) -> usize {
-        self.starts.len()
-    }
-
-    /// First byte of a line, from 1.
+    /// First byte of a line, from 1; `None` behind the last one. A text that ends with a line break has an empty one more.
     pub fn start(&self, line: usize) -> Option<usize> {
         self.starts.get(line.checked_sub(1)?).copied()
     }
 
-    /// Line and column of a byte of the text that the lines were made of. A byte inside of a character is where the character
-    /// begins, one behind the end is the end.
-    pub fn position(&self, text: &str, byte: usize) -> Position {
-        let byte = (0..=byte.min(text.len())).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0);
-        let line = self.starts.partition_point(|&start| start <= byte).max(1);
-        let before = text.get(self.start(line).unwrap_or(0)..byte).unwrap_or("");
-        Position { line, column: before.chars().count() + 1, utf16: before.encode_utf16().count() }
+    /// The line of a byte, from 1.
+    pub fn line(&self, byte: usize) -> usize {
+        self.starts.partition_point(|&start| start <= byte).max(1)
     }
+
+    /// Line and column of a byte. A byte inside of a character is where the character begins, one behind the end is the end.
+    pub fn position(&self, text: &str, byte: usize) -> Position {
+        let byte = floor(text, byte);
+        let line = self.line(byte);
+        let before = text.get(self.start(line).unwrap_or(0)..byte).unwrap_or("");
+        Position { line, column: before.chars().count() + 1 }
+    }
+
+    /// The place of a byte as an editor names it. One inside of a line break is the end of its line.
+    pub fn editor(&self, text: &str, byte: usize) -> EditorPosition {
+        let byte = floor(text, byte);
+        let line = self.line(byte);
+        let returns = self.returns.partition_point(|&start| start <= byte);
+        let behind = returns.checked_sub(1).and_then(|i| self.returns.get(i)).copied().unwrap_or(0);
+        let start = self.start(line).unwrap_or(0).max(behind);
+        let mut before = text.get(start..byte).unwrap_or("");
+        if start == 0 {
+            before = before.strip_prefix(MARK).unwrap_or(before);
+        }
+        // What ends with a return here stands between the two halves of `\r\n`.
+        before = before.strip_suffix('\r').unwrap_or(before);
+        EditorPosition { line: line - 1 + returns, character: before.chars().map(char::len_utf16).sum() }
+    }
+}
+
+/// The nearest character boundary at or before a byte.
+pub fn floor(text: &str, byte: usize) -> usize {
+    (0..=byte.min(text.len())).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     /// Against a walk over the whole text.
     #[test]
@@ -117,16 +155,85 @@ mod tests {
         for text in ["", "a", "äö\nx𝄞y\r\n\n\u{feff}z\t!", "\n\n", "𝄞𝄞\n𝄞"] {
             let lines = Lines::of(text);
             for byte in 0..text.len() + 3 {
-                let (mut line, mut column, mut utf16) = (1, 1, 0);
+                let (mut line, mut column) = (1, 1);
                 for (i, c) in text.char_indices() {
                     if i + c.len_utf8() > byte {
                         break;
                     }
-                    (line, column, utf16) =
-                        if c == '\n' { (line + 1, 1, 0) } else { (line, column + 1, utf16 + c.len_utf16()) };
+                    (line, column) = if c == '\n' { (line + 1, 1) } else { (line, column + 1) };
                 }
-                assert_eq!(lines.position(text, byte), Position { line, column, utf16 }, "{text:?} {byte}");
+                assert_eq!(lines.position(text, byte), Position { line, column }, "{text:?} {byte}");
             }
+        }
+    }
+
+    /// The same, by walking over the text byte by byte, as an editor would that was handed UTF-16.
+    fn walked(text: &str, offset: usize) -> EditorPosition {
+        let shown: Vec<(usize, char)> = text.char_indices().collect();
+        let (mut line, mut units): (usize, Vec<u16>) = (0, Vec::new());
+        let mut place = EditorPosition { line: 0, character: 0 };
+        for (i, &(at, c)) in shown.iter().enumerate() {
+            if offset < at + c.len_utf8() {
+                return place;
+            }
+            let next = shown.get(i + 1).map(|&(_, c)| c);
+            if at == 0 && c == '\u{feff}' {
+                continue;
+            }
+            if c == '\r' && next == Some('\n') {
+                // Between the two: still the end of the line.
+                continue;
+            }
+            if c == '\n' || c == '\r' {
+                (line, units) = (line + 1, Vec::new());
+            } else {
+                units.extend(c.encode_utf16(&mut [0; 2]).iter());
+            }
+            place = EditorPosition { line, character: units.len() };
+        }
+        place
+    }
+
+    fn agrees(text: &str) {
+        let lines = Lines::of(text);
+        for offset in 0..text.len() + 3 {
+            assert_eq!(lines.editor(text, offset), walked(text, offset), "byte {offset} of {text:?}");
+        }
+    }
+
+    #[test]
+    fn an_editor_finds_the_place() {
+        let text = "\u{feff}ä\tx\r\n𝄞b👩‍🔬c\rd\n";
+        let lines = Lines::of(text);
+        let at = |what: char| {
+            let place = lines.editor(text, text.find(what).unwrap());
+            (place.line, place.character)
+        };
+        assert_eq!([at('ä'), at('\t'), at('x')], [(0, 0), (0, 1), (0, 2)]);
+        // A clef is two units, a scientist five.
+        assert_eq!([at('b'), at('c'), at('d')], [(1, 2), (1, 8), (2, 0)]);
+        assert_eq!(lines.editor(text, 1000), EditorPosition { line: 3, character: 0 });
+    }
+
+    #[test]
+    fn every_byte_of_odd_texts_has_the_place_of_the_reference() {
+        for text in [
+            "",
+            "\u{feff}",
+            "\u{feff}\u{feff}a",
+            "a\u{feff}b",
+            "\r\n\r\r\n\n\r",
+            "ä𝄞\t👩‍🔬\r\n\ta\u{301}\r\n",
+            "\u{feff}\r\nß\u{2028}x",
+        ] {
+            agrees(text);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn every_byte_has_the_place_of_the_reference(text in "[\u{feff}ä𝄞👩\u{200d}\ta \r\n]{0,24}") {
+            agrees(&text);
         }
     }
 }

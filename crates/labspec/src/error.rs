@@ -3,7 +3,6 @@
 use crate::finding::{Finding, InFile};
 use crate::run::RunError;
 use crate::source::SourceFile;
-use labspec_finding::Position;
 use std::fmt;
 
 /// Why something could not be done.
@@ -52,9 +51,7 @@ impl From<RunError> for Error {
 pub(crate) fn located(finding: Finding, file: &SourceFile) -> Finding {
     let mut finding = if finding.path.is_empty() { finding.at(file) } else { finding };
     if finding.path == *file.path() {
-        let at = file.position(finding.span.start);
-        let utf16 = file.editor_position(finding.span.start).character;
-        finding.position = Some(Position { line: at.line, column: at.column, utf16 });
+        finding.position = Some(file.position(finding.span.start));
     }
     finding
 }

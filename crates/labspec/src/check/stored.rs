@@ -68,7 +68,7 @@ fn finding(f: &Finding) -> Value {
         place_in(&SEVERITIES, &f.severity),
         &*f.path,
         span(&f.span),
-        f.position.map(|p| [p.line, p.column, p.utf16]),
+        f.position.map(|p| [p.line, p.column]),
         f.message,
         f.why,
         f.help,
@@ -92,8 +92,8 @@ fn read_finding(value: &Value) -> Option<Finding> {
         Some(Place { path: Arc::from(path.as_str()?), span: read_span(at)?, label: text(label)? })
     };
     let read_position = |value: &Value| {
-        let [line, column, utf16] = parts(value)?;
-        Some(Position { line: count(line)?, column: count(column)?, utf16: count(utf16)? })
+        let [line, column] = parts(value)?;
+        Some(Position { line: count(line)?, column: count(column)? })
     };
     Some(Finding {
         code: rules::find(code.as_str()?)?.code,

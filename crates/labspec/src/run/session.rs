@@ -14,7 +14,7 @@ use labspec_expr::{Context, Program, RuntimeError, Value};
 /// Something that went wrong in a program while the lab ran; JavaScript would have thrown, or said nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trouble {
-    /// Stable code.
+    /// What was broken.
     pub rule: &'static Rule,
     /// The text and the bytes of it that failed.
     pub text: Text,

@@ -4,11 +4,11 @@
 //! quote), a JSON string without its escapes, an expression in it. Every layer keeps a [`SourceMap`] back to
 //! the layer below; composed, they turn a byte of an expression into a line and column of the lesson.
 
-mod editor;
 mod map;
 
 use crate::report::printable_path;
-pub use editor::EditorPosition;
+use labspec_finding::Lines;
+pub use labspec_finding::{EditorPosition, Position};
 pub use map::{Piece, SourceMap};
 use std::ops::Range;
 use std::path::Path;
@@ -22,19 +22,7 @@ pub const MAX_FILE: u64 = 16 << 20;
 pub struct SourceFile {
     path: Arc<str>,
     text: Arc<str>,
-    /// Byte offset of the first byte of every line.
-    line_starts: Vec<usize>,
-    /// Byte offset behind every `\r` that stands alone, which ends a line for editors.
-    returns: Vec<usize>,
-}
-
-/// A line and a column, both counted from 1; columns count characters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Position {
-    /// Line, from 1.
-    pub line: usize,
-    /// Column in characters, from 1.
-    pub column: usize,
+    lines: Lines,
 }
 
 /// Why the text of a file is not what its author wrote.
@@ -55,10 +43,8 @@ impl SourceFile {
     /// A file with this display path and text. No file system is touched.
     pub fn new(path: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> SourceFile {
         let text = text.into();
-        let line_starts =
-            std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i.saturating_add(1))).collect();
-        let returns = editor::single_returns(&text);
-        SourceFile { path: path.into(), text, line_starts, returns }
+        let lines = Lines::of(&text);
+        SourceFile { path: path.into(), text, lines }
     }
 
     /// Reads a file of at most [`MAX_FILE`] bytes of UTF-8.
@@ -131,16 +117,18 @@ impl SourceFile {
 
     /// Line and column of a byte offset; an offset behind the end is the end.
     pub fn position(&self, offset: usize) -> Position {
-        let offset = self.floor(offset);
-        let line = self.line_starts.partition_point(|&start| start <= offset).max(1);
-        let start = self.line_starts.get(line - 1).copied().unwrap_or(0);
-        Position { line, column: self.slice(start..offset).chars().count() + 1 }
+        self.lines.position(&self.text, offset)
+    }
+
+    /// The place of a byte offset as an editor names it.
+    pub fn editor_position(&self, offset: usize) -> EditorPosition {
+        self.lines.editor(&self.text, offset)
     }
 
     /// The bytes of a line (from 1), without its line break; `None` behind the last line.
     pub fn line_span(&self, line: usize) -> Option<Range<usize>> {
-        let start = *self.line_starts.get(line.checked_sub(1)?)?;
-        let end = self.line_starts.get(line).map_or(self.text.len(), |next| next.saturating_sub(1));
+        let start = self.lines.start(line)?;
+        let end = self.lines.start(line + 1).map_or(self.text.len(), |next| next.saturating_sub(1));
         let text = self.slice(start..end);
         Some(start..start + text.strip_suffix('\r').unwrap_or(text).len())
     }
@@ -157,11 +145,7 @@ impl SourceFile {
 
     /// The nearest character boundary at or before an offset.
     pub fn floor(&self, offset: usize) -> usize {
-        let mut offset = offset.min(self.text.len());
-        while !self.text.is_char_boundary(offset) {
-            offset -= 1;
-        }
-        offset
+        labspec_finding::floor(&self.text, offset)
     }
 }
 

@@ -5,7 +5,7 @@
 //! span is a range of bytes there, and only [`Report::finish`] tells which file it belongs to.
 
 use crate::mjcf::rules::{self, Rule};
-use labspec_finding::{Finding, Lines};
+use labspec_finding::{Finding, Lines, Position, floor};
 use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -206,6 +206,8 @@ impl Report {
         self.list.sort_by_key(|d| (d.span.start, d.span.end));
         self.list.dedup_by(|a, b| (a.code, &a.span, &a.message) == (b.code, &b.span, &b.message));
         let mut lines: Vec<Option<Lines>> = vec![None; self.sources.len()];
+        // The last place: a long line is counted once, however many findings it has.
+        let mut last = (usize::MAX, 0, Position { line: 0, column: 1 });
         for d in &mut self.list {
             let i = self.sources.partition_point(|s| s.base <= d.span.start).saturating_sub(1);
             let (Some(Source { file, text, base }), Some(lines)) = (self.sources.get(i), lines.get_mut(i))
@@ -214,9 +216,17 @@ impl Report {
             };
             d.path = file.as_deref().unwrap_or("").into();
             // A span that was computed on decoded text may end inside a character.
-            let start = boundary(text, d.span.start - base);
-            d.span = start..boundary(text, d.span.end.saturating_sub(*base)).max(start);
-            d.position = Some(lines.get_or_insert_with(|| Lines::of(text)).position(text, start));
+            let start = floor(text, d.span.start - base);
+            d.span = start..floor(text, d.span.end.saturating_sub(*base)).max(start);
+            let lines = lines.get_or_insert_with(|| Lines::of(text));
+            let line = lines.line(start);
+            let (from, column) = match last {
+                (source, at, place) if source == i && place.line == line => (at, place.column),
+                _ => (lines.start(line).unwrap_or(0), 1),
+            };
+            let column = column + text.get(from..start).unwrap_or("").chars().count();
+            last = (i, start, Position { line, column });
+            d.position = Some(last.2);
         }
         self.list
     }
@@ -230,11 +240,6 @@ fn add(list: &mut Vec<Finding>, finding: Finding) -> Said<'_> {
     let at = list.len();
     list.push(finding);
     Said(&mut list[at]) // just pushed
-}
-
-/// The start of the character that holds a byte; the end of the text for a byte beyond it.
-fn boundary(text: &str, byte: usize) -> usize {
-    (0..=byte.min(text.len())).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0)
 }
 
 /// A name as it is shown in a message: quoted, and cut when an author wrote a very long one.
