@@ -5,9 +5,13 @@
 use crate::program::run_in;
 use labspec::rules::{self, Rule, example};
 use labspec_finding::{Example, Layer};
+use std::ops::Range;
 
-/// What checking an example finds: codes, and all that the program says.
-fn found(example: &Example) -> (Vec<String>, String) {
+/// A finding: its code, the file, its bytes there.
+type Found = (String, String, Range<usize>);
+
+/// What checking an example finds, and all that the program says.
+fn found(example: &Example) -> (Vec<Found>, String) {
     let folder = tempfile::tempdir().unwrap();
     let files = example::files(example);
     for (name, bytes) in &files {
@@ -30,25 +34,41 @@ fn found(example: &Example) -> (Vec<String>, String) {
     let out = run_in(folder.path(), &["check", "--format", "json", &files[0].0, "other.md"]);
     let said = format!("{}{}", out.stdout, out.stderr);
     let report: serde_json::Value = serde_json::from_str(&out.stdout).unwrap_or_default();
-    let codes = report["findings"].as_array().into_iter().flatten();
-    (codes.filter_map(|f| f["code"].as_str().map(String::from)).collect(), said)
+    let found = |f: &serde_json::Value| {
+        let text = |value: &serde_json::Value| value.as_str().unwrap_or("").to_string();
+        let byte = |key: &str| f[key].as_u64().unwrap_or(0) as usize;
+        (text(&f["code"]), text(&f["file"]), byte("start")..byte("end"))
+    };
+    (report["findings"].as_array().into_iter().flatten().map(found).collect(), said)
 }
 
 fn start(text: &str, most: usize) -> String {
     text.chars().take(most).collect()
 }
 
+/// What is no place in the text of the file that is checked.
+const WITHOUT_A_PLACE: [&str; 1] = ["model-unreadable"];
+
 /// The examples of one layer do what they say.
 fn hold(layer: Layer) {
     let mut wrong = Vec::new();
     for Rule { code, bad, good, .. } in rules::all().filter(|rule| rule.layer == layer) {
-        let (codes, said) = found(bad);
-        if !codes.iter().any(|c| c == code) {
-            wrong.push(format!("{code}: the wrong example gives {codes:?}\n{}", start(&said, 200)));
+        let (all, said) = found(bad);
+        let file = example::files(bad).swap_remove(0).0;
+        let place = example::marked(bad);
+        let there =
+            |(c, f, at): &Found| c == code && place.as_ref().is_none_or(|place| *f == file && at == place);
+        if !all.iter().any(there) {
+            wrong
+                .push(format!("{code} at {place:?}: the wrong example gives {all:?}\n{}", start(&said, 200)));
         }
-        let (codes, said) = found(good);
-        if !codes.is_empty() {
-            wrong.push(format!("{code}: the right example gives {codes:?}\n{}", start(&said, 900)));
+        let long = matches!(bad, Example::Repeated(..) | Example::Long(..) | Example::LongModel(..));
+        if place.is_none() && !long && !WITHOUT_A_PLACE.contains(code) {
+            wrong.push(format!("{code}: the wrong example does not mark its place: {all:?}"));
+        }
+        let (all, said) = found(good);
+        if !all.is_empty() || good.marked().is_some() {
+            wrong.push(format!("{code}: the right example gives {all:?}\n{}", start(&said, 900)));
         }
     }
     assert!(wrong.is_empty(), "{}\n{} wrong", wrong.join("\n"), wrong.len());
@@ -91,6 +111,7 @@ fn an_inertia_that_a_lab_takes_away_is_told() {
             .into_boxed_str(),
         ))
     };
-    assert_eq!(found(&lab("model.dof_armature[0] = -5")).0, ["engine-warning"]);
-    assert_eq!(found(&lab("model.dof_armature[0] = 5")).0, Vec::<String>::new());
+    let codes = |setup: &str| found(&lab(setup)).0.into_iter().map(|(code, ..)| code).collect::<Vec<_>>();
+    assert_eq!(codes("model.dof_armature[0] = -5"), ["engine-warning"]);
+    assert_eq!(codes("model.dof_armature[0] = 5"), Vec::<String>::new());
 }

@@ -1,6 +1,7 @@
 //! Rules: declared once, with their reasons and examples.
 
 use crate::Severity;
+use std::ops::Range;
 
 /// What a rule needs in order to look: a layer knows what the layers before it know, and more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -68,11 +69,20 @@ pub struct Rule {
     pub good: Example,
 }
 
-/// An example of a rule.
+/// The lab of questions in examples.
+const FALLING: &str = r#"{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>",
+ "title": "Falling", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}"#;
+
+/// What encloses the place that the rule points at, in its wrong example. It is not part of the example.
+const MARKS: [&str; 2] = ["⟦", "⟧"];
+
+/// An example of a rule. In the wrong one, `⟦` and `⟧` stand around the place that is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Example {
     /// A whole lesson, Markdown.
     Lesson(&'static str),
+    /// The JSON of a question about a ball that falls, in a quiz below its lab.
+    Question(&'static str),
     /// The JSON of a lab.
     Lab(&'static str),
     /// The JSON of a quiz.
@@ -85,8 +95,6 @@ pub enum Example {
     Expression(&'static str),
     /// Statements: what a controller does.
     Statements(&'static str),
-    /// What a control sets.
-    Target(&'static str),
     /// An expression so long or deep that it has to be made: before, repeated, how often, after.
     Long(&'static str, &'static str, usize, &'static str),
     /// A model, MJCF.
@@ -101,12 +109,14 @@ impl Example {
     /// The language of the listing that shows it.
     pub fn language(&self) -> &'static str {
         match self {
-            Example::Lesson(_) | Example::Repeated(..) | Example::Lab(_) | Example::Quiz(_) => "markdown",
+            Example::Lesson(_)
+            | Example::Question(_)
+            | Example::Repeated(..)
+            | Example::Lab(_)
+            | Example::Quiz(_) => "markdown",
             Example::Json(_) => "json",
             Example::Model(_) | Example::LongModel(..) => "xml",
-            Example::Expression(_) | Example::Statements(_) | Example::Target(_) | Example::Long(..) => {
-                "javascript"
-            }
+            Example::Expression(_) | Example::Statements(_) | Example::Long(..) => "javascript",
             Example::Files(_) => "text",
         }
     }
@@ -123,12 +133,36 @@ impl Example {
 
     /// The whole text, as it would stand in a file.
     pub fn text(&self) -> String {
-        match self {
+        String::from_utf8_lossy(&self.bytes()).into_owned()
+    }
+
+    /// The file's bytes, which need not be text.
+    pub fn bytes(&self) -> Vec<u8> {
+        let mut bytes = self.written();
+        for mark in MARKS {
+            while let Some(at) = find(&bytes, mark) {
+                bytes.drain(at..at + mark.len());
+            }
+        }
+        bytes
+    }
+
+    /// Bytes of [`Example::text`] that the rule points at; `None` where the example does not mark them.
+    pub fn marked(&self) -> Option<Range<usize>> {
+        let bytes = self.written();
+        let text = String::from_utf8_lossy(&bytes);
+        let [open, close] = MARKS.map(|mark| text.find(mark));
+        let (open, close) = (open?, close?.checked_sub(MARKS[0].len())?);
+        (open <= close).then_some(open..close)
+    }
+
+    /// The whole text with the marks.
+    fn written(&self) -> Vec<u8> {
+        let text = match self {
             Example::Lesson(text)
             | Example::Json(text)
             | Example::Expression(text)
             | Example::Statements(text)
-            | Example::Target(text)
             | Example::Model(text) => (*text).to_string(),
             Example::Repeated(text, times) => text.repeat(*times),
             Example::Long(before, text, times, after) | Example::LongModel(before, text, times, after) => {
@@ -136,15 +170,17 @@ impl Example {
             }
             Example::Lab(json) => format!("```lab simlab\n{json}\n```\n"),
             Example::Quiz(json) => format!("```quiz\n{json}\n```\n"),
-            Example::Files(files) => {
-                files.first().map_or(String::new(), |(_, bytes)| String::from_utf8_lossy(bytes).into_owned())
-            }
-        }
+            Example::Question(json) => format!(
+                "```lab simlab\n{FALLING}\n```\n\n```quiz\n{{\"id\": \"fall\", \"questions\": [{json}]}}\n```\n"
+            ),
+            Example::Files(files) => return files.first().map_or(Vec::new(), |(_, bytes)| bytes.to_vec()),
+        };
+        text.into_bytes()
     }
 
     /// The text as it is shown: what is repeated is said, not repeated.
     pub fn shown(&self) -> String {
-        match self {
+        let text = match self {
             Example::Repeated(text, times) => {
                 format!("{}\n… and so on, {times} times", text.trim_end())
             }
@@ -161,8 +197,14 @@ impl Example {
                 files.iter().map(one).collect::<Vec<_>>().join("\n\n")
             }
             _ => self.text().trim_end().to_string(),
-        }
+        };
+        MARKS.iter().fold(text, |text, mark| text.replace(mark, ""))
     }
+}
+
+/// Where a text stands in bytes.
+fn find(bytes: &[u8], text: &str) -> Option<usize> {
+    bytes.windows(text.len()).position(|window| window == text.as_bytes())
 }
 
 /// A finding's code names its rule.

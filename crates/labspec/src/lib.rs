@@ -20,7 +20,6 @@ pub mod check;
 pub mod checker;
 #[cfg(feature = "cli")]
 pub mod cli;
-mod digest;
 pub mod engine;
 pub mod error;
 pub mod finding;

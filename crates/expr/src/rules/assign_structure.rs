@@ -7,6 +7,6 @@ pub const ASSIGN_STRUCTURE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a size, a type or an address is assigned",
     why: "it is fixed when the model is compiled: the engine would read what is not there",
-    bad: Example::Statements("model.nq = 9"),
+    bad: Example::Statements("⟦model.nq⟧ = 9"),
     good: Example::Statements("model.body_mass[1] = 9; mj.mj_setConst(model, data)"),
 };

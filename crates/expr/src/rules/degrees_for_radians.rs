@@ -7,6 +7,6 @@ pub const DEGREES: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a number of degrees where radians are meant",
     why: "the functions of `Math` and the joints of a model measure angles in radians",
-    bad: Example::Expression("Math.sin(90)"),
+    bad: Example::Expression("Math.sin(⟦90⟧)"),
     good: Example::Expression("Math.sin(Math.PI / 2)"),
 };

@@ -7,6 +7,6 @@ pub const EMPTY: &Rule = &Rule {
     layer: Layer::Program,
     summary: "there is nothing to evaluate",
     why: "the page shows nan",
-    bad: Example::Expression(" "),
+    bad: Example::Expression("⟦⟧ "),
     good: Example::Expression("data.time"),
 };

@@ -7,6 +7,6 @@ pub const EXPRESSION_ONLY: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a statement stands where only an expression is read",
     why: "JavaScript refuses the whole text, and the page shows nan",
-    bad: Example::Expression("let a = 1; a"),
+    bad: Example::Expression("⟦let⟧ a = 1; a"),
     good: Example::Expression("1"),
 };

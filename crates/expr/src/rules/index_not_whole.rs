@@ -7,6 +7,6 @@ pub const INDEX_FRACTION: &Rule = &Rule {
     layer: Layer::Program,
     summary: "an index that is not a whole number",
     why: "JavaScript gives undefined there, and the page shows nan",
-    bad: Example::Expression("data.qpos[1.5]"),
+    bad: Example::Expression("data.qpos[⟦1.5⟧]"),
     good: Example::Expression("data.qpos[1]"),
 };

@@ -7,6 +7,6 @@ pub const MISSING_NAME: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a name or a key is missing",
     why: "JavaScript refuses the whole text, and the page shows nan",
-    bad: Example::Expression("data."),
+    bad: Example::Expression("data.⟦⟧"),
     good: Example::Expression("data.time"),
 };

@@ -7,6 +7,6 @@ pub const MISSING_VALUE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a value is missing",
     why: "JavaScript refuses the whole text, and the page shows nan",
-    bad: Example::Expression("data.qpos[7] * "),
+    bad: Example::Expression("data.qpos[7] *⟦⟧ "),
     good: Example::Expression("data.qpos[7] * 2"),
 };

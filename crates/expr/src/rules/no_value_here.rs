@@ -7,6 +7,6 @@ pub const NO_VALUE_HERE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "`value` is used where no control gives one",
     why: "there is no such name: JavaScript throws there, and the page shows nan",
-    bad: Example::Expression("value * 2"),
+    bad: Example::Expression("⟦value⟧ * 2"),
     good: Example::Expression("data.time * 2"),
 };

@@ -7,6 +7,6 @@ pub const NOT_A_VALUE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "an object or a function stands where a value must stand",
     why: "JavaScript makes a text of it, and the page shows nan",
-    bad: Example::Expression("data + 1"),
+    bad: Example::Expression("⟦data⟧ + 1"),
     good: Example::Expression("data.time + 1"),
 };

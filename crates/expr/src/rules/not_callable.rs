@@ -7,6 +7,6 @@ pub const NOT_CALLABLE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "something is called that is not a function",
     why: "JavaScript throws there, and the page shows nan",
-    bad: Example::Expression("data.time()"),
+    bad: Example::Expression("⟦data.time⟧()"),
     good: Example::Expression("data.time"),
 };

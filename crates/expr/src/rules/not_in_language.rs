@@ -7,6 +7,6 @@ pub const NOT_IN_LANGUAGE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a construct of JavaScript that lessons do not have, on purpose",
     why: "what a lesson computes must come to an end, touch nothing but its lab, and give the same numbers everywhere",
-    bad: Example::Statements("eval('data.time')"),
+    bad: Example::Statements("⟦eval⟧('data.time')"),
     good: Example::Statements("ctx.t = data.time"),
 };

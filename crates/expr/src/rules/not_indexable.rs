@@ -7,6 +7,6 @@ pub const NOT_INDEXABLE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "an index behind something that has no elements",
     why: "JavaScript gives undefined there, and the page shows nan",
-    bad: Example::Expression("data.time[0]"),
+    bad: Example::Expression("⟦data.time[0]⟧"),
     good: Example::Expression("data.time"),
 };

@@ -7,6 +7,6 @@ pub const QUATERNION_AS_ANGLE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a component of a quaternion is used as if it were an angle",
     why: "the four numbers of a free or ball joint are no angles: a turn of 90 degrees has 0.707 in two of them",
-    bad: Example::Expression("data.qpos[4] * 180 / Math.PI"),
+    bad: Example::Expression("⟦data.qpos[4]⟧ * 180 / Math.PI"),
     good: Example::Expression("data.qpos[7] * 180 / Math.PI"),
 };

@@ -7,6 +7,6 @@ pub const TEXT_TOO_LONG: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a string grew beyond the limit",
     why: "the page of a student would stand still",
-    bad: Example::Statements("ctx.a = 'x'.repeat(1e9)"),
+    bad: Example::Statements("ctx.a = ⟦'x'.repeat(1e9)⟧"),
     good: Example::Statements("ctx.a = 'x'.repeat(3)"),
 };

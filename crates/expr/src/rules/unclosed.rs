@@ -7,6 +7,6 @@ pub const UNCLOSED: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a bracket that is not closed",
     why: "JavaScript refuses the whole text, and the page shows nan",
-    bad: Example::Expression("Math.sin(data.qpos[7]"),
+    bad: Example::Expression("Math.sin⟦(⟧data.qpos[7]"),
     good: Example::Expression("Math.sin(data.qpos[7])"),
 };

@@ -7,6 +7,6 @@ pub const UNKNOWN_FIELD: &Rule = &Rule {
     layer: Layer::Program,
     summary: "an object has no member of this name",
     why: "JavaScript gives undefined there, and the page shows nan",
-    bad: Example::Expression("data.qpso[7]"),
+    bad: Example::Expression("data.⟦qpso⟧[7]"),
     good: Example::Expression("data.qpos[7]"),
 };

@@ -7,6 +7,6 @@ pub const UNKNOWN_FUNCTION: &Rule = &Rule {
     layer: Layer::Program,
     summary: "there is no function of this name",
     why: "JavaScript throws there, and the page shows nan",
-    bad: Example::Expression("Math.sine(data.time)"),
+    bad: Example::Expression("Math.⟦sine⟧(data.time)"),
     good: Example::Expression("Math.sin(data.time)"),
 };

@@ -7,6 +7,6 @@ pub const UNKNOWN_OBJECT: &Rule = &Rule {
     layer: Layer::Program,
     summary: "the model has no object of this name",
     why: "the page throws there, and shows nan",
-    bad: Example::Expression("data.body('bal').xpos[2]"),
+    bad: Example::Expression("data.body(⟦'bal'⟧).xpos[2]"),
     good: Example::Expression("data.body('ball').xpos[2]"),
 };

@@ -7,6 +7,6 @@ pub const UNOPENED: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a bracket closes nothing",
     why: "JavaScript refuses the whole text, and the page shows nan",
-    bad: Example::Expression("data.time)"),
+    bad: Example::Expression("data.time⟦)⟧"),
     good: Example::Expression("(data.time)"),
 };

@@ -7,6 +7,6 @@ pub const UNSET_GLOBAL: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a `ctx` variable is read that nothing stores",
     why: "it is undefined, and the page shows nan",
-    bad: Example::Expression("ctx.gain * data.time"),
+    bad: Example::Expression("⟦ctx.gain⟧ * data.time"),
     good: Example::Expression("data.time"),
 };

@@ -7,6 +7,6 @@ pub const WHOLE_ARRAY: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a whole array stands where one number must stand",
     why: "JavaScript makes a text of it, and the page shows nan",
-    bad: Example::Expression("data.qpos * 2"),
+    bad: Example::Expression("⟦data.qpos⟧ * 2"),
     good: Example::Expression("data.qpos[7] * 2"),
 };

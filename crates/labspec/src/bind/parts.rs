@@ -1,10 +1,12 @@
 //! Which files a model is made of, and what was in them: by this a result is known to be about the same model.
 
-use crate::digest;
 use crate::source::SourceFile;
 use labspec_core::xml::{FileProblem, Files};
 use std::cell::RefCell;
 use std::path::Path;
+
+/// Makes a mark of some bytes, which other bytes do not share: a digest. Whoever keeps results brings it.
+pub type Mark = fn(&[&[u8]]) -> String;
 
 /// A file that a model was made of.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -13,43 +15,44 @@ pub struct Part {
     pub path: String,
     /// Most bytes that it may have.
     pub limit: usize,
-    /// The digest of its bytes, or of why there are none.
+    /// The mark of its bytes, or of why there are none.
     pub mark: String,
 }
 
-/// The digest of a model file's text.
-pub(super) fn mark_of_text(text: Result<&str, &str>) -> String {
+/// The mark of a model file's text.
+pub(super) fn mark_of_text(mark: Mark, text: Result<&str, &str>) -> String {
     match text {
-        Ok(text) => digest::hex_of(&[b"text", text.as_bytes()]),
-        Err(why) => digest::hex_of(&[b"none", why.as_bytes()]),
+        Ok(text) => mark(&[b"text", text.as_bytes()]),
+        Err(why) => mark(&[b"none", why.as_bytes()]),
     }
 }
 
-fn mark_of_bytes(bytes: &Result<Vec<u8>, FileProblem>) -> String {
+fn mark_of_bytes(mark: Mark, bytes: &Result<Vec<u8>, FileProblem>) -> String {
     match bytes {
-        Ok(bytes) => digest::hex_of(&[b"bytes", bytes]),
-        Err(why) => digest::hex_of(&[b"none", format!("{why:?}").as_bytes()]),
+        Ok(bytes) => mark(&[b"bytes", bytes]),
+        Err(why) => mark(&[b"none", format!("{why:?}").as_bytes()]),
     }
 }
 
-/// The digest of a part as it is now.
-pub(super) fn mark_now(model: &Path, files: &dyn Files, path: &str, limit: usize) -> String {
+/// The mark of a part as it is now.
+pub(super) fn mark_now(mark: Mark, model: &Path, files: &dyn Files, path: &str, limit: usize) -> String {
     if path.is_empty() {
         let file = SourceFile::read(model);
-        return mark_of_text(file.as_ref().map(SourceFile::text).map_err(String::as_str));
+        return mark_of_text(mark, file.as_ref().map(SourceFile::text).map_err(String::as_str));
     }
-    mark_of_bytes(&files.read(path, limit))
+    mark_of_bytes(mark, &files.read(path, limit))
 }
 
-/// Files that remember what was read of them.
+/// Files that remember what was read of them, when it is to be marked.
 pub(super) struct Remembering<'f> {
     files: &'f dyn Files,
+    mark: Option<Mark>,
     parts: RefCell<Vec<Part>>,
 }
 
 impl<'f> Remembering<'f> {
-    pub(super) fn new(files: &'f dyn Files) -> Remembering<'f> {
-        Remembering { files, parts: RefCell::default() }
+    pub(super) fn new(files: &'f dyn Files, mark: Option<Mark>) -> Remembering<'f> {
+        Remembering { files, mark, parts: RefCell::default() }
     }
 
     /// Every file that was asked for, once each.
@@ -64,7 +67,10 @@ impl<'f> Remembering<'f> {
 impl Files for Remembering<'_> {
     fn read(&self, path: &str, limit: usize) -> Result<Vec<u8>, FileProblem> {
         let bytes = self.files.read(path, limit);
-        self.parts.borrow_mut().push(Part { path: path.to_string(), limit, mark: mark_of_bytes(&bytes) });
+        if let Some(mark) = self.mark {
+            let mark = mark_of_bytes(mark, &bytes);
+            self.parts.borrow_mut().push(Part { path: path.to_string(), limit, mark });
+        }
         bytes
     }
 }

@@ -1,6 +1,6 @@
 //! The model of a lab: from the model folder or from the lab itself, with every mistake at its place.
 
-use super::parts::{self, Part, Remembering};
+use super::parts::{self, Mark, Part, Remembering};
 use crate::finding::{Finding, InFile};
 use crate::lint::{ModelFolder, lesson_folder, root_of};
 use crate::models::{self, FilesOf};
@@ -21,7 +21,9 @@ pub struct Models {
     compiled: Mutex<BTreeMap<String, Arc<OnceLock<Loaded>>>>,
     /// What is to be said of each model, until somebody takes it.
     said: Mutex<BTreeMap<String, Said>>,
-    /// Digests of parts, looked at once.
+    /// How the files are marked; `None` when nobody keeps results.
+    mark: Option<Mark>,
+    /// Marks of parts, looked at once.
     marks: Mutex<BTreeMap<(String, bool, usize), String>>,
     /// The files of the models whose findings were taken.
     files: Vec<SourceFile>,
@@ -48,6 +50,11 @@ impl Models {
     /// The models of a folder. Nothing is read yet.
     pub fn new(folder: ModelFolder) -> Models {
         Models { folder, ..Models::default() }
+    }
+
+    /// The models of a folder for somebody who keeps results: every file that is read is marked, see [`Models::parts`].
+    pub fn marked(folder: ModelFolder, mark: Mark) -> Models {
+        Models { folder, mark: Some(mark), ..Models::default() }
     }
 
     /// The folder.
@@ -99,7 +106,8 @@ impl Models {
         self.loaded(name, |loaded| loaded.model.clone())?
     }
 
-    /// What a model that is in the folder was made of, and whether something is said of it.
+    /// What a model that is in the folder was made of, and whether something is said of it. Nothing is known of models
+    /// that are not [`Models::marked`].
     pub fn parts(&self, name: &str) -> Option<(Vec<Part>, bool)> {
         self.loaded(name, |loaded| (loaded.parts.clone(), loaded.talks))
     }
@@ -138,7 +146,7 @@ impl Models {
         let text = models.text(name).unwrap_or_default();
         let file = SourceFile::new(format!("models/{name}.xml"), text);
         let Compiled { model, findings, files, parts } =
-            compile_source(&file, &FilesOf(models), Some(&format!("{name}.xml")));
+            compile_source(&file, &FilesOf(models), Some(&format!("{name}.xml")), None);
         let talks = !findings.is_empty();
         open(&self.said).insert(name.to_string(), (findings, files));
         Loaded { model: model.map(Arc::new), talks, parts }
@@ -149,12 +157,13 @@ impl Models {
         let folder = path.parent().and_then(|p| p.file_name()).and_then(|f| f.to_str()).unwrap_or("models");
         let shown = format!("{folder}/{name}.xml");
         let read = SourceFile::read(path);
-        let mark = parts::mark_of_text(read.as_ref().map(SourceFile::text).map_err(String::as_str));
-        let mut made_of = vec![Part { path: String::new(), limit: 0, mark }];
+        let text = read.as_ref().map(SourceFile::text).map_err(String::as_str);
+        let own = |mark| Part { path: String::new(), limit: 0, mark: parts::mark_of_text(mark, text) };
+        let mut made_of: Vec<Part> = self.mark.map(own).into_iter().collect();
         let (model, findings, files) = match read {
             Ok(file) => {
                 let file = SourceFile::new(shown, file.text());
-                let compiled = compile_file(&file, path, self.folder.root());
+                let compiled = compile_file(&file, path, self.folder.root(), self.mark);
                 made_of.extend(compiled.parts);
                 (compiled.model.map(Arc::new), compiled.findings, compiled.files)
             }
@@ -170,22 +179,22 @@ impl Models {
 
     /// Whether a model's files still are what they were.
     pub fn is_made_of(&self, name: &str, parts: &[Part]) -> bool {
-        let Some(path) = self.folder.path(name) else { return false };
+        let (Some(path), Some(mark)) = (self.folder.path(name), self.mark) else { return false };
         let place = path.parent().unwrap_or(Path::new(""));
         let folder = Folder::at(self.folder.root(), place).ok();
         let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
         parts.iter().any(|part| part.path.is_empty())
             && parts.iter().all(|part| {
                 let named = if part.path.is_empty() { format!("{name}.xml") } else { part.path.clone() };
-                // The text of a model and the bytes of the same file, attached, have digests of their own.
+                // The text of a model and the bytes of the same file, attached, have marks of their own.
                 let at = (named, part.path.is_empty(), part.limit);
                 let known = open(&self.marks).get(&at).cloned();
-                let mark = known.unwrap_or_else(|| {
-                    let mark = parts::mark_now(&path, files, &part.path, part.limit);
-                    open(&self.marks).insert(at, mark.clone());
-                    mark
+                let now = known.unwrap_or_else(|| {
+                    let now = parts::mark_now(mark, &path, files, &part.path, part.limit);
+                    open(&self.marks).insert(at, now.clone());
+                    now
                 });
-                mark == part.mark
+                now == part.mark
             })
     }
 }
@@ -204,16 +213,16 @@ pub(crate) struct Compiled {
 
 /// Compiles the model of a file. What it names (included text, models to attach, meshes) is looked for from the folder of
 /// `path`, and opened when it lies below `root`.
-pub(crate) fn compile_file(file: &SourceFile, path: &Path, root: &Path) -> Compiled {
+pub(crate) fn compile_file(file: &SourceFile, path: &Path, root: &Path, mark: Option<Mark>) -> Compiled {
     let place = path.parent().unwrap_or(Path::new(""));
     let folder = Folder::at(root, place).ok();
     let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
-    compile_source(file, files, path.file_name().and_then(|n| n.to_str()))
+    compile_source(file, files, path.file_name().and_then(|n| n.to_str()), mark)
 }
 
 /// Compiles the text of a model, which `files` has as `name`.
-fn compile_source(file: &SourceFile, files: &dyn Files, name: Option<&str>) -> Compiled {
-    let remembering = Remembering::new(files);
+fn compile_source(file: &SourceFile, files: &dyn Files, name: Option<&str>, mark: Option<Mark>) -> Compiled {
+    let remembering = Remembering::new(files, mark);
     let examined = xml::examine(file.text(), &remembering, name);
     let mut sources = Vec::new();
     if !examined.findings.is_empty() {
@@ -246,7 +255,7 @@ pub fn check_model_file(
         }
     };
     let root = root.map_or_else(|| root_of(&lesson_folder(path), &[]), Path::to_path_buf);
-    let Compiled { model, findings, mut files, .. } = compile_file(&file, path, &root);
+    let Compiled { model, findings, mut files, .. } = compile_file(&file, path, &root, None);
     if files.is_empty() {
         files.push(file);
     }

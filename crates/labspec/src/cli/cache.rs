@@ -4,10 +4,10 @@
 //! bytes, to the same depth; otherwise the lesson is checked as if nothing had been kept. Where nothing can be written
 //! nothing is kept.
 
+use super::digest;
 use crate::bind::parts::Part;
 use crate::bind::scene::Models;
 use crate::check::{self, Depth, Found, stored};
-use crate::digest;
 use crate::source::Text;
 use crate::spec::{Lab, Lesson, Scene};
 use serde_json::{Value, json};
@@ -265,7 +265,7 @@ mod tests {
     }
 
     fn models(top: &Path) -> Models {
-        Models::new(ModelFolder::open(&top.join("models")).unwrap())
+        Models::marked(ModelFolder::open(&top.join("models")).unwrap(), digest::hex_of)
     }
 
     fn lesson(models: &Models, text: &str) -> Lesson {

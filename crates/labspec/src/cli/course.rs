@@ -3,6 +3,7 @@
 //! What came of a file does not depend on the thread that checked it, and is put together in the order of the files.
 
 use super::cache::Cache;
+use super::digest;
 use super::stdio::complain;
 use super::target::{model_folder_within, root};
 use super::{Failure, ModelOptions, interrupted};
@@ -186,7 +187,7 @@ fn tasks(plan: &Plan<'_>, files: &[(PathBuf, bool)]) -> Result<(Vec<Task>, Vec<M
             *task = Task::Lesson(*number);
         }
     }
-    Ok((tasks, folders.into_values().map(Models::new).collect()))
+    Ok((tasks, folders.into_values().map(|folder| Models::marked(folder, digest::hex_of)).collect()))
 }
 
 /// Checks one file.
@@ -249,9 +250,13 @@ pub(super) fn is_other_json(lesson: &Lesson) -> bool {
     lesson.findings.iter().any(|f| f.code == "unknown-spec")
 }
 
-/// The files to check, in a fixed order, and whether each was named itself; and what could not be read.
-#[allow(clippy::type_complexity)]
-pub(super) fn collect(paths: &[PathBuf]) -> (Vec<(PathBuf, bool)>, Vec<(PathBuf, String)>) {
+/// A file to check, and whether it was named itself.
+type ToCheck = (PathBuf, bool);
+/// What could not be read, and why.
+type Unread = (PathBuf, String);
+
+/// The files to check, in a fixed order; and what could not be read.
+pub(super) fn collect(paths: &[PathBuf]) -> (Vec<ToCheck>, Vec<Unread>) {
     let (mut files, mut problems) = (Vec::new(), Vec::new());
     for path in paths {
         match std::fs::metadata(path) {
@@ -266,12 +271,7 @@ pub(super) fn collect(paths: &[PathBuf]) -> (Vec<(PathBuf, bool)>, Vec<(PathBuf,
 /// Deepest nesting of folders.
 const MAX_DEPTH: usize = 32;
 
-fn walk(
-    folder: &Path,
-    files: &mut Vec<(PathBuf, bool)>,
-    problems: &mut Vec<(PathBuf, String)>,
-    depth: usize,
-) {
+fn walk(folder: &Path, files: &mut Vec<ToCheck>, problems: &mut Vec<Unread>, depth: usize) {
     let mut problem = |why: String| problems.push((folder.to_path_buf(), why));
     if depth > MAX_DEPTH {
         return problem(format!("{} is nested more than {MAX_DEPTH} folders deep", printable_path(folder)));

@@ -4,6 +4,7 @@ mod bench;
 mod cache;
 mod check;
 mod course;
+mod digest;
 mod explain;
 mod fmt;
 mod machine;

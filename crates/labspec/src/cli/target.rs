@@ -148,7 +148,7 @@ fn bare_model(path: &Path, options: &ModelOptions) -> Result<Target, Failure> {
 pub(super) fn load_model(path: &Path, options: &ModelOptions) -> Result<Model, Failure> {
     let file = SourceFile::read(path)?;
     let root = root(options, &lesson_folder(path), &[])?;
-    let Compiled { model, mut findings, files, .. } = compile_file(&file, path, &root);
+    let Compiled { model, mut findings, files, .. } = compile_file(&file, path, &root, None);
     findings.retain(|f| f.severity == Severity::Error);
     model.ok_or_else(|| {
         let files: Vec<&SourceFile> = files.iter().collect();

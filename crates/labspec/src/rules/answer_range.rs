@@ -11,7 +11,7 @@ pub const ANSWER_RANGE: &Rule = &Rule {
     summary: "the answer is not the index of an option",
     why: "no choice is right, and every student is told to be wrong",
     bad: Example::Quiz(
-        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 2}]}"#,
+        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": ⟦2⟧}]}"#,
     ),
     good: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]}"#,

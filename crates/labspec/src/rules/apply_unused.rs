@@ -12,7 +12,7 @@ pub const APPLY_UNUSED: &Rule = &Rule {
     summary: "a control has both `set` and `apply`",
     why: "the page does what `set` says and never looks at `apply`: those statements do nothing",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "apply": "mj.mj_setConst(model, data)", "min": 1, "max": 5, "value": 1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "apply": "⟦mj.mj_setConst(model, data)⟧", "min": 1, "max": 5, "value": 1}]}"#,
     ),
     good: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "mass", "apply": "model.body_mass[1] = value; mj.mj_setConst(model, data)", "min": 1, "max": 5, "value": 1, "reset": true}]}"#,

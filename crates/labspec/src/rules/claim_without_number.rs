@@ -7,20 +7,8 @@ pub const CLAIM_WITHOUT_NUMBER: &Rule = &Rule {
     layer: Layer::Claim,
     summary: "an expression that should give a number gives none",
     why: "Nothing can be compared with it",
-    bad: Example::Lesson(r##"```lab simlab
-{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "title": "Falling", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}
-```
-
-```quiz
-{"id": "fall", "questions": [{"kind": "numeric", "q": "When does it land?", "answer": 0.44, "tol": 0.01, "explain": "Half a second.", "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "value": "first(contact('ball', 'floor'))"}}]}
-```
-"##),
-    good: Example::Lesson(r##"```lab simlab
-{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "title": "Falling", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}
-```
-
-```quiz
-{"id": "fall", "questions": [{"kind": "numeric", "q": "When does it land?", "answer": 0.44, "tol": 0.01, "explain": "Half a second.", "verify": {"lab": "#1", "runs": {"run": {"until": 1}}, "value": "first(contact('ball', 'floor'))"}}]}
-```
-"##),
+    bad: Example::Question(r##"{"kind": "numeric", "q": "When does it land?", "answer": 0.44, "tol": 0.01, "explain": "Half a second.",
+ "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "value": "⟦first(contact('ball', 'floor'))⟧"}}"##),
+    good: Example::Question(r##"{"kind": "numeric", "q": "When does it land?", "answer": 0.44, "tol": 0.01, "explain": "Half a second.",
+ "verify": {"lab": "#1", "runs": {"run": {"until": 1}}, "value": "first(contact('ball', 'floor'))"}}"##),
 };

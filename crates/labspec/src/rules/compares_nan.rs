@@ -7,20 +7,8 @@ pub const COMPARES_NAN: &Rule = &Rule {
     layer: Layer::Claim,
     summary: "a condition is decided by what is no number",
     why: "A comparison with NaN never holds: it says nothing about the answer. A measure is NaN when its event never happens",
-    bad: Example::Lesson(r##"```lab simlab
-{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "title": "Falling", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}
-```
-
-```quiz
-{"id": "fall", "questions": [{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.", "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"t": "first(contact('ball', 'floor'))"}, "options": ["run.t > 2", "!(run.t > 2)"]}}]}
-```
-"##),
-    good: Example::Lesson(r##"```lab simlab
-{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "title": "Falling", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}
-```
-
-```quiz
-{"id": "fall", "questions": [{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.", "verify": {"lab": "#1", "runs": {"run": {"until": 1}}, "measure": {"t": "first(contact('ball', 'floor'))"}, "options": ["run.t < 2", "!(run.t < 2)"]}}]}
-```
-"##),
+    bad: Example::Question(r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",
+ "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"t": "first(contact('ball', 'floor'))"}, "options": ["⟦run.t > 2⟧", "!(run.t > 2)"]}}"##),
+    good: Example::Question(r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",
+ "verify": {"lab": "#1", "runs": {"run": {"until": 1}}, "measure": {"t": "first(contact('ball', 'floor'))"}, "options": ["run.t < 2", "!(run.t < 2)"]}}"##),
 };

@@ -12,7 +12,7 @@ pub const DIGITS_RANGE: &Rule = &Rule {
     summary: "`digits` is not between 0 and 17",
     why: "a number has 17 significant digits at most; a negative count makes the page throw",
     bad: Example::Lab(
-        r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time", "digits": -1}]}"#,
+        r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time", "digits": ⟦-1⟧}]}"#,
     ),
     good: Example::Lab(
         r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time", "digits": 1}]}"#,

@@ -12,7 +12,7 @@ pub const DUPLICATE_CONTROL: &Rule = &Rule {
     summary: "two controls of a lab have the same label",
     why: "a student cannot tell them apart, and neither can a run that sets controls by their labels",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "push", "type": "button", "run": "data.qvel[0] = 1"}, {"label": "push", "type": "button", "run": "data.qvel[1] = 1"}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "push", "type": "button", "run": "data.qvel[0] = 1"}, {"label": "⟦push⟧", "type": "button", "run": "data.qvel[1] = 1"}]}"#,
     ),
     good: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "push along x", "type": "button", "run": "data.qvel[0] = 1"}, {"label": "push along y", "type": "button", "run": "data.qvel[1] = 1"}]}"#,

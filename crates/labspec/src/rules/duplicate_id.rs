@@ -14,7 +14,7 @@ pub const DUPLICATE_ID: &Rule = &Rule {
     summary: "two quizzes have the same id",
     why: "the page stores answers under the id, so an answer to one quiz shows up as an answer to the other",
     bad: Example::Lesson(
-        "```quiz\n{\"id\": \"fall\", \"questions\": [{\"q\": \"Does mass matter?\", \"options\": [\"yes\", \"no\"], \"answer\": 1}]}\n```\n\n```quiz\n{\"id\": \"fall\", \"questions\": [{\"q\": \"Does size matter?\", \"options\": [\"yes\", \"no\"], \"answer\": 1}]}\n```\n",
+        "```quiz\n{\"id\": \"fall\", \"questions\": [{\"q\": \"Does mass matter?\", \"options\": [\"yes\", \"no\"], \"answer\": 1}]}\n```\n\n```quiz\n{\"id\": \"⟦fall⟧\", \"questions\": [{\"q\": \"Does size matter?\", \"options\": [\"yes\", \"no\"], \"answer\": 1}]}\n```\n",
     ),
     good: Example::Lesson(
         "```quiz\n{\"id\": \"fall-mass\", \"questions\": [{\"q\": \"Does mass matter?\", \"options\": [\"yes\", \"no\"], \"answer\": 1}]}\n```\n\n```quiz\n{\"id\": \"fall-size\", \"questions\": [{\"q\": \"Does size matter?\", \"options\": [\"yes\", \"no\"], \"answer\": 1}]}\n```\n",

@@ -12,7 +12,7 @@ pub const DUPLICATE_OPTION: &Rule = &Rule {
     summary: "two options of a question have the same text",
     why: "one of them is graded as wrong although it says what the right one says, or it is a copy left over",
     bad: Example::Quiz(
-        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no", "no"], "answer": 1}]}"#,
+        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no", "⟦no⟧"], "answer": 1}]}"#,
     ),
     good: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]}"#,

@@ -12,7 +12,7 @@ pub const DUPLICATE_READOUT: &Rule = &Rule {
     summary: "two readouts of a lab have the same label",
     why: "a student cannot tell them apart",
     bad: Example::Lab(
-        r#"{"model": "ball", "readouts": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "z", "expr": "data.qpos[7]"}]}"#,
+        r#"{"model": "ball", "readouts": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "⟦z⟧", "expr": "data.qpos[7]"}]}"#,
     ),
     good: Example::Lab(
         r#"{"model": "ball", "readouts": [{"label": "height", "expr": "data.qpos[2]"}, {"label": "angle", "expr": "data.qpos[7]"}]}"#,

@@ -12,7 +12,7 @@ pub const DUPLICATE_TRACE: &Rule = &Rule {
     summary: "two traces of a plot have the same label",
     why: "the legend cannot tell them apart",
     bad: Example::Lab(
-        r#"{"model": "ball", "plots": [{"traces": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "z", "expr": "data.qpos[7]"}]}]}"#,
+        r#"{"model": "ball", "plots": [{"traces": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "⟦z⟧", "expr": "data.qpos[7]"}]}]}"#,
     ),
     good: Example::Lab(
         r#"{"model": "ball", "plots": [{"traces": [{"label": "height", "expr": "data.qpos[2]"}, {"label": "angle", "expr": "data.qpos[7]"}]}]}"#,

@@ -8,7 +8,7 @@ pub const EMPTY_PLOT: &Rule = &Rule {
     layer: Layer::Structure,
     summary: "a plot has no traces",
     why: "it shows an empty frame",
-    bad: Example::Lab(r#"{"model": "ball", "plots": [{"ylabel": "height (m)", "traces": []}]}"#),
+    bad: Example::Lab(r#"{"model": "ball", "plots": [⟦{⟧"ylabel": "height (m)", "traces": []}]}"#),
     good: Example::Lab(
         r#"{"model": "ball", "plots": [{"ylabel": "height (m)", "traces": [{"label": "ball", "expr": "data.qpos[2]"}]}]}"#,
     ),

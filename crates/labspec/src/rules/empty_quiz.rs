@@ -10,7 +10,7 @@ pub const EMPTY_QUIZ: &Rule = &Rule {
     layer: Layer::Structure,
     summary: "a quiz has no questions",
     why: "it shows a title and nothing to do",
-    bad: Example::Quiz(r#"{"id": "fall", "questions": []}"#),
+    bad: Example::Quiz(r#"⟦{⟧"id": "fall", "questions": []}"#),
     good: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]}"#,
     ),

@@ -12,7 +12,7 @@ pub const EMPTY_RANGE: &Rule = &Rule {
     summary: "the lower end of a range is not below its upper end",
     why: "the slider cannot move, or the plot has no height",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 5, "max": 1, "value": 1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 5, "max": ⟦1⟧, "value": 1}]}"#,
     ),
     good: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": 1}]}"#,

@@ -1,7 +1,8 @@
 //! The examples of rules as files that can be checked.
 
 use labspec_finding::Example;
-use serde_json::json;
+use serde_json::{Value, json};
+use std::ops::Range;
 
 /// The model that the expressions and statements of examples are about: a free ball, an arm on a hinge with a motor.
 pub const MODEL: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='2 2 .1'/>\
@@ -17,14 +18,30 @@ pub fn files(example: &Example) -> Vec<(String, Vec<u8>)> {
         Example::Expression(_) | Example::Long(..) => {
             json!({"xml": MODEL, "readouts": [{"label": "shown", "expr": example.text()}]})
         }
-        Example::Statements(text) => json!({"xml": MODEL, "stopAt": 0.1, "controller": text}),
-        Example::Target(text) => {
-            json!({"xml": MODEL, "controls": [{"label": "set", "min": 0, "max": 1, "value": 0, "set": text, "init": true}]})
-        }
+        Example::Statements(_) => json!({"xml": MODEL, "stopAt": 0.1, "controller": example.text()}),
         Example::Files(files) => {
-            return files.iter().map(|(name, bytes)| ((*name).to_string(), bytes.to_vec())).collect();
+            let others = files.iter().skip(1).map(|(name, bytes)| ((*name).to_string(), bytes.to_vec()));
+            return std::iter::once((example.name().to_string(), example.bytes())).chain(others).collect();
         }
-        _ => return vec![(example.name().to_string(), example.text().into_bytes())],
+        _ => return vec![(example.name().to_string(), example.bytes())],
     };
     vec![(example.name().to_string(), format!("```lab simlab\n{lab}\n```\n").into_bytes())]
+}
+
+/// Bytes of the first of an example's files that its rule points at; `None` where the example does not mark them.
+pub fn marked(example: &Example) -> Option<Range<usize>> {
+    let mark = example.marked()?;
+    match example {
+        Example::Expression(_) | Example::Statements(_) | Example::Long(..) => {
+            // The code stands in a JSON text, where some characters are written as two.
+            let code = example.text();
+            let (_, file) = files(example).into_iter().next()?;
+            let file = String::from_utf8(file).ok()?;
+            let json = |text: &str| Value::from(text).to_string();
+            let start = file.find(&json(&code))?;
+            let place = |at: usize| Some(start + json(code.get(..at)?).len() - 1);
+            Some(place(mark.start)?..place(mark.end)?)
+        }
+        _ => Some(mark),
+    }
 }

@@ -7,6 +7,6 @@ pub const FENCE_LINE: &Rule = &Rule {
     layer: Layer::Source,
     summary: "JSON or code stands on the opening line of a fence",
     why: "what stands on that line is the name of the fence's kind, not its content, so it is lost",
-    bad: Example::Lesson("```lab simlab {\"model\": \"ball\"}\n```\n"),
+    bad: Example::Lesson("```lab simlab ⟦{⟧\"model\": \"ball\"}\n```\n"),
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\"}\n```\n"),
 };

@@ -7,6 +7,6 @@ pub const FENCE_UNCLOSED: &Rule = &Rule {
     layer: Layer::Source,
     summary: "the closing line of a fence is missing",
     why: "everything below it counts as part of the fence: text, labs and quizzes disappear from the page",
-    bad: Example::Lesson("```lab simlab\n{\"model\": \"ball\"}\n\nNow press play.\n"),
+    bad: Example::Lesson("⟦```lab simlab⟧\n{\"model\": \"ball\"}\n\nNow press play.\n"),
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\"}\n```\n\nNow press play.\n"),
 };

@@ -7,6 +7,6 @@ pub const FENCE_UNSEEN: &Rule = &Rule {
     layer: Layer::Source,
     summary: "Markdown does not take an opening line for a fence",
     why: "a fence line must hold no further backtick and must not stand inside of HTML; the block is shown as text",
-    bad: Example::Lesson("<div>\n```lab simlab\n{\"model\": \"ball\"}\n```\n</div>\n"),
+    bad: Example::Lesson("<div>\n⟦```lab simlab⟧\n{\"model\": \"ball\"}\n```\n</div>\n"),
     good: Example::Lesson("<div>\n\n```lab simlab\n{\"model\": \"ball\"}\n```\n\n</div>\n"),
 };

@@ -11,7 +11,7 @@ pub const IMPOSSIBLE_TOLERANCE: &Rule = &Rule {
     summary: "the tolerance of a numeric question is negative, or 0 for an answer that is no whole number",
     why: "an answer is right when it is off by no more than `tol`; a count may be asked exactly, a measured number may not",
     bad: Example::Quiz(
-        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": 0}]}"#,
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": ⟦0⟧}]}"#,
     ),
     good: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How many steps?", "answer": 250, "tol": 0}]}"#,

@@ -8,7 +8,7 @@ pub const JSON_LIMIT: &Rule = &Rule {
     summary: "the JSON is nested too deeply or holds too many values",
     why: "limits keep a checker and a page responsive whatever they are given",
     bad: Example::Lab(
-        r#"{"model": [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["ball"]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]}"#,
+        r#"{"model": [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[⟦[⟧"ball"]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]}"#,
     ),
     good: Example::Lab(r#"{"model": "ball"}"#),
 };

@@ -7,6 +7,6 @@ pub const JSON_SYNTAX: &Rule = &Rule {
     layer: Layer::Json,
     summary: "the JSON of a block is broken",
     why: "the page reads the block as a whole, so one wrong character removes the whole lab or quiz",
-    bad: Example::Lab(r#"{"model": "ball", "stopAt": 2 "dock": true}"#),
+    bad: Example::Lab(r#"{"model": "ball", "stopAt": 2⟦⟧ "dock": true}"#),
     good: Example::Lab(r#"{"model": "ball", "stopAt": 2, "dock": true}"#),
 };

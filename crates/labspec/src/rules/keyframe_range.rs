@@ -11,7 +11,7 @@ pub const KEYFRAME_RANGE: &Rule = &Rule {
     layer: Layer::Structure,
     summary: "`key` is negative",
     why: "keyframes are counted from 0; a negative one is silently ignored",
-    bad: Example::Lab(r#"{"model": "ball", "key": -1}"#),
+    bad: Example::Lab(r#"{"model": "ball", "key": ⟦-1⟧}"#),
     good: Example::Lab(r#"{"model": "ball", "key": 0}"#),
 };
 

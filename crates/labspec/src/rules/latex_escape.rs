@@ -11,7 +11,7 @@ pub const LATEX_ESCAPE: &Rule = &Rule {
     layer: Layer::Structure,
     summary: "a LaTeX command in JSON is written with one backslash",
     why: "JSON reads `\\t`, `\\f`, `\\b`, `\\n` and `\\r` as invisible characters, so the formula loses its command",
-    bad: Example::Lab(r#"{"model": "ball", "note": "the time constant $\tau$"}"#),
+    bad: Example::Lab(r#"{"model": "ball", "note": "the time constant $⟦\tau⟧$"}"#),
     good: Example::Lab(r#"{"model": "ball", "note": "the time constant $\\tau$"}"#),
 };
 

@@ -7,6 +7,6 @@ pub const LISTING_LINE_BREAKS: &Rule = &Rule {
     layer: Layer::Source,
     summary: "a Python listing lost its line breaks",
     why: "several statements stand on one line, which Python does not accept",
-    bad: Example::Lesson("```python\ndef fall(h): z = 1.0 v = 0.0 return z - v * h\n```\n"),
+    bad: Example::Lesson("```python\ndef fall(h): z = 1.0 ⟦v = 0.0 return z - v * h⟧\n```\n"),
     good: Example::Lesson("```python\ndef fall(h):\n    z = 1.0\n    v = 0.0\n    return z - v * h\n```\n"),
 };

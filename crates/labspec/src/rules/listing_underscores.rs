@@ -7,6 +7,6 @@ pub const LISTING_UNDERSCORES: &Rule = &Rule {
     layer: Layer::Source,
     summary: "a Python listing lost the underscores of `__name__`",
     why: "Markdown takes double underscores for emphasis outside of a fence; the listing does not run",
-    bad: Example::Lesson("```python\nif name == \"main\":\n    main()\n```\n"),
+    bad: Example::Lesson("```python\n⟦if name⟧ == \"main\":\n    main()\n```\n"),
     good: Example::Lesson("```python\nif __name__ == \"__main__\":\n    main()\n```\n"),
 };

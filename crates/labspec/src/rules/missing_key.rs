@@ -7,6 +7,6 @@ pub const MISSING_KEY: &Rule = &Rule {
     layer: Layer::Structure,
     summary: "an object lacks a key that it needs",
     why: "the page shows an empty place, or stops there",
-    bad: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "time (s)"}]}"#),
+    bad: Example::Lab(r#"{"model": "ball", "readouts": [⟦{⟧"label": "time (s)"}]}"#),
     good: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "time (s)", "expr": "data.time"}]}"#),
 };

@@ -13,7 +13,7 @@ pub const NOT_POSITIVE: &Rule = &Rule {
     layer: Layer::Structure,
     summary: "a time, size or speed is zero or negative",
     why: "with nothing left to run or to draw, the lab shows nothing",
-    bad: Example::Lab(r#"{"model": "ball", "stopAt": 0}"#),
+    bad: Example::Lab(r#"{"model": "ball", "stopAt": ⟦0⟧}"#),
     good: Example::Lab(r#"{"model": "ball", "stopAt": 1.5}"#),
 };
 

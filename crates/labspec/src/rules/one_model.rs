@@ -10,7 +10,7 @@ pub const ONE_MODEL: &Rule = &Rule {
     layer: Layer::Structure,
     summary: "a lab names no model, or has both `model` and `xml`",
     why: "a lab simulates exactly one model",
-    bad: Example::Lab(r#"{"title": "Falling", "readouts": [{"label": "t", "expr": "data.time"}]}"#),
+    bad: Example::Lab(r#"⟦{⟧"title": "Falling", "readouts": [{"label": "t", "expr": "data.time"}]}"#),
     good: Example::Lab(
         r#"{"title": "Falling", "model": "ball", "readouts": [{"label": "t", "expr": "data.time"}]}"#,
     ),

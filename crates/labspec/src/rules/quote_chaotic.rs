@@ -12,7 +12,7 @@ pub const QUOTE_CHAOTIC: &Rule = &Rule {
 ```
 
 ```quiz
-{"id": "fall", "questions": [{"kind": "mcq", "q": "Where does it go?", "options": ["Down", "Up"], "answer": 0, "explain": "After a minute its angle is 12.345 rad.", "verify": {"lab": "#1", "runs": {"run": {"setup": "data.qpos[0] = 3; data.qpos[1] = 0.1", "until": 60}}, "measure": {"a": "final(data.qpos[0])"}, "options": ["run.a < 1e9", "run.a > 1e9"], "says": [["12.345 rad", "run.a"]]}}]}
+{"id": "fall", "questions": [{"kind": "mcq", "q": "Where does it go?", "options": ["Down", "Up"], "answer": 0, "explain": "After a minute its angle is ⟦12.345 rad⟧.", "verify": {"lab": "#1", "runs": {"run": {"setup": "data.qpos[0] = 3; data.qpos[1] = 0.1", "until": 60}}, "measure": {"a": "final(data.qpos[0])"}, "options": ["run.a < 1e9", "run.a > 1e9"], "says": [["12.345 rad", "run.a"]]}}]}
 ```
 "##),
     good: Example::Lesson(r##"```lab simlab

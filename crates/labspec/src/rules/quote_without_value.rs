@@ -7,20 +7,8 @@ pub const QUOTE_WITHOUT_VALUE: &Rule = &Rule {
     layer: Layer::Claim,
     summary: "the expression of a quoted number has no value",
     why: "What it waits for never happens in the run, so nothing was compared",
-    bad: Example::Lesson(r##"```lab simlab
-{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "title": "Falling", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}
-```
-
-```quiz
-{"id": "fall", "questions": [{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It lands after 0.45 s.", "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])", "t": "first(contact('ball', 'floor'))"}, "options": ["run.z < 1e9", "run.z > 1e9"], "says": [["0.45 s", "run.t"]]}}]}
-```
-"##),
-    good: Example::Lesson(r##"```lab simlab
-{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "title": "Falling", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}
-```
-
-```quiz
-{"id": "fall", "questions": [{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It lands after 0.44 s.", "verify": {"lab": "#1", "runs": {"run": {"until": 1}}, "measure": {"z": "final(data.qpos[2])", "t": "first(contact('ball', 'floor'))"}, "options": ["run.z < 1e9", "run.z > 1e9"], "says": [["0.44 s", "run.t"]]}}]}
-```
-"##),
+    bad: Example::Question(r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It lands after 0.45 s.",
+ "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])", "t": "first(contact('ball', 'floor'))"}, "options": ["run.z < 1e9", "run.z > 1e9"], "says": [["0.45 s", "⟦run.t⟧"]]}}"##),
+    good: Example::Question(r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It lands after 0.44 s.",
+ "verify": {"lab": "#1", "runs": {"run": {"until": 1}}, "measure": {"z": "final(data.qpos[2])", "t": "first(contact('ball', 'floor'))"}, "options": ["run.z < 1e9", "run.z > 1e9"], "says": [["0.44 s", "run.t"]]}}"##),
 };

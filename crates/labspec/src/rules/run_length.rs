@@ -12,7 +12,7 @@ pub const RUN_LENGTH: &Rule = &Rule {
     summary: "a run has both `until` and `steps`",
     why: "they may contradict each other",
     bad: Example::Lab(
-        r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2, "steps": 500}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2, "steps": ⟦500⟧}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),
     good: Example::Lab(
         r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,

@@ -9,7 +9,7 @@ pub const SELECT_OPTIONS: &Rule = &Rule {
     summary: "the options of a select are not a list of [text, value] pairs",
     why: "the page shows the first element and assigns the second",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": ["Euler", ["RK4", 1]], "value": 1}]}"#,
+        r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [⟦"Euler"⟧, ["RK4", 1]], "value": 1}]}"#,
     ),
     good: Example::Lab(
         r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", 1]], "value": 1}]}"#,

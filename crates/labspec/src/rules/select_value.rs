@@ -11,7 +11,7 @@ pub const SELECT_VALUE: &Rule = &Rule {
     summary: "the start value of a select is none of its options",
     why: "the page shows the first option, but the lab starts with the value that is written here",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", 1]], "value": 3}]}"#,
+        r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", 1]], "value": ⟦3⟧}]}"#,
     ),
     good: Example::Lab(
         r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", 1]], "value": 1}]}"#,

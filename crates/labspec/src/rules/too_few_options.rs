@@ -11,7 +11,7 @@ pub const TOO_FEW_OPTIONS: &Rule = &Rule {
     summary: "a question has fewer than two options",
     why: "there is nothing to choose",
     bad: Example::Quiz(
-        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["no"], "answer": 0}]}"#,
+        r#"{"id": "fall", "questions": [{"q": "⟦Does mass matter?⟧", "options": ["no"], "answer": 0}]}"#,
     ),
     good: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]}"#,

@@ -12,7 +12,7 @@ pub const TYPOGRAPHIC_QUOTE: &Rule = &Rule {
     layer: Layer::Structure,
     summary: "a typographic quote stands where a program needs a straight one",
     why: "word processors replace straight quotes; programs read “ ” ‘ ’ as letters",
-    bad: Example::Lesson("```lab simlab\n{“model”: “ball”}\n```\n"),
+    bad: Example::Lesson("```lab simlab\n{⟦“⟧model”: “ball”}\n```\n"),
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\", \"note\": \"a “ball”\"}\n```\n"),
 };
 

@@ -8,7 +8,7 @@ pub const UNKNOWN_KEY: &Rule = &Rule {
     summary: "an object has a key that the format does not know",
     why: "the page ignores it, so what it should do does not happen",
     bad: Example::Lab(
-        r#"{"model": "ball", "readouts": [{"label": "t", "exp": "data.time", "expr": "data.time"}]}"#,
+        r#"{"model": "ball", "readouts": [{"label": "t", "⟦exp⟧": "data.time", "expr": "data.time"}]}"#,
     ),
     good: Example::Lab(r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time"}]}"#),
 };

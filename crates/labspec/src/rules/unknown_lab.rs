@@ -13,7 +13,7 @@ pub const UNKNOWN_LAB: &Rule = &Rule {
     summary: "a `verify` object refers to a lab that the lesson does not have",
     why: "nothing can be run, so nothing is checked",
     bad: Example::Quiz(
-        r##"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": {"lab": "#1", "runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"##,
+        r##"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": {"lab": "⟦#1⟧", "runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"##,
     ),
     good: Example::Lesson(
         "```lab simlab\n{\"model\": \"ball\"}\n```\n\n```quiz\n{\"id\": \"fall\", \"questions\": [{\"kind\": \"numeric\", \"q\": \"How fast?\", \"answer\": 3.924, \"verify\": {\"lab\": \"#1\", \"runs\": {\"run\": {\"until\": 0.4}}, \"value\": \"final(-data.qvel[2])\"}}]}\n```\n",

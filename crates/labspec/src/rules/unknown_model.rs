@@ -7,6 +7,6 @@ pub const UNKNOWN_MODEL: &Rule = &Rule {
     layer: Layer::Structure,
     summary: "the model is not in the folder of models",
     why: "the page cannot load it, and shows an empty lab",
-    bad: Example::Lab(r#"{"model": "bal"}"#),
+    bad: Example::Lab(r#"{"model": "⟦bal⟧"}"#),
     good: Example::Lab(r#"{"model": "ball"}"#),
 };

@@ -12,7 +12,7 @@ pub const UNKNOWN_OVERLAY: &Rule = &Rule {
     layer: Layer::Structure,
     summary: "`overlays` or `toggles` name something that cannot be drawn",
     why: "nothing is drawn, or the checkbox does nothing",
-    bad: Example::Lab(r#"{"model": "ball", "toggles": ["contact"]}"#),
+    bad: Example::Lab(r#"{"model": "ball", "toggles": ["⟦contact⟧"]}"#),
     good: Example::Lab(r#"{"model": "ball", "toggles": ["contacts"]}"#),
 };
 

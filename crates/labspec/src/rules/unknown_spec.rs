@@ -7,6 +7,6 @@ pub const UNKNOWN_SPEC: &Rule = &Rule {
     layer: Layer::Source,
     summary: "a JSON file holds neither a lab nor a quiz",
     why: "nothing in it can be shown",
-    bad: Example::Json(r#"{"title": "Falling"}"#),
+    bad: Example::Json(r#"⟦{⟧"title": "Falling"}"#),
     good: Example::Json(r#"{"title": "Falling", "model": "ball"}"#),
 };

@@ -9,7 +9,7 @@ pub const VERIFY_NOTHING: &Rule = &Rule {
     summary: "a `verify` object claims nothing",
     why: "its runs are made, but nothing is compared with them",
     bad: Example::Lab(
-        r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2}}}}"#,
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": ⟦{⟧"runs": {"drop": {"until": 2}}}}"#,
     ),
     good: Example::Lab(
         r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,

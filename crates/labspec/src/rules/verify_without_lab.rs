@@ -12,7 +12,7 @@ pub const VERIFY_WITHOUT_LAB: &Rule = &Rule {
     summary: "a `verify` object has no lab to run",
     why: "the question has no `sim`, so `verify` must say which lab it is about",
     bad: Example::Quiz(
-        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": {"runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"#,
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": ⟦{⟧"runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"#,
     ),
     good: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": {"lab": {"model": "ball"}, "runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"#,

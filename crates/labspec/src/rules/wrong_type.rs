@@ -7,6 +7,6 @@ pub const WRONG_TYPE: &Rule = &Rule {
     layer: Layer::Structure,
     summary: "a value has another type than its key takes",
     why: "the page takes the value as it is, and computes or shows nonsense with it",
-    bad: Example::Lab(r#"{"model": "ball", "stopAt": "2"}"#),
+    bad: Example::Lab(r#"{"model": "ball", "stopAt": ⟦"2"⟧}"#),
     good: Example::Lab(r#"{"model": "ball", "stopAt": 2}"#),
 };

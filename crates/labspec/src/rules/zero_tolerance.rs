@@ -11,7 +11,7 @@ pub const ZERO_TOLERANCE: &Rule = &Rule {
     summary: "a numeric question with the answer 0 states no tolerance",
     why: "the default is 2 % of the answer, and 2 % of 0 is 0: only an exact 0 counts as right",
     bad: Example::Quiz(
-        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "Drift in mm?", "answer": 0}]}"#,
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "Drift in mm?", "answer": ⟦0⟧}]}"#,
     ),
     good: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "Drift in mm?", "answer": 0, "tol": 0.01}]}"#,

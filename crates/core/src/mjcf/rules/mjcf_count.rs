@@ -7,6 +7,6 @@ pub const COUNT: &Rule = &Rule {
     layer: Layer::Model,
     summary: "there are too many or too few numbers",
     why: "the model does not load: the scene stays empty",
-    bad: Example::Model("<mujoco><worldbody><geom size='.1' pos='0 0'/></worldbody></mujoco>"),
+    bad: Example::Model("<mujoco><worldbody><geom size='.1' pos='⟦0 0⟧'/></worldbody></mujoco>"),
     good: Example::Model("<mujoco><worldbody><geom size='.1' pos='0 0 0'/></worldbody></mujoco>"),
 };

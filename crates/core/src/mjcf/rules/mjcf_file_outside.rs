@@ -7,6 +7,6 @@ pub const OUTSIDE: &Rule = &Rule {
     layer: Layer::Model,
     summary: "a file that the model names lies outside of what may be opened",
     why: "a lesson that came from elsewhere must not read the files of whoever checks it",
-    bad: Example::Files(&[("models/model.xml", b"<mujoco><asset><mesh name='m' file='../other/mesh.obj'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>"), ("other/mesh.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")]),
+    bad: Example::Files(&[("models/model.xml", "<mujoco><asset><mesh name='m' file='⟦../other/mesh.obj⟧'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>".as_bytes()), ("other/mesh.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")]),
     good: Example::Files(&[("models/model.xml", b"<mujoco><asset><mesh name='m' file='mesh.obj'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>"), ("models/mesh.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")]),
 };

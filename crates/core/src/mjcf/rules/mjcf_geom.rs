@@ -7,6 +7,6 @@ pub const GEOM: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the geom lacks a size, or may not be here",
     why: "without a size it has neither a mass nor a surface",
-    bad: Example::Model("<mujoco><worldbody><geom type='box' size='.1'/></worldbody></mujoco>"),
+    bad: Example::Model("<mujoco><worldbody><geom type='box' size='⟦.1⟧'/></worldbody></mujoco>"),
     good: Example::Model("<mujoco><worldbody><geom type='box' size='.1 .1 .1'/></worldbody></mujoco>"),
 };

@@ -7,6 +7,6 @@ pub const KEYWORD: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the value is none of the keywords",
     why: "the model does not load: the scene stays empty",
-    bad: Example::Model("<mujoco><worldbody><geom type='ball' size='.1'/></worldbody></mujoco>"),
+    bad: Example::Model("<mujoco><worldbody><geom type='⟦ball⟧' size='.1'/></worldbody></mujoco>"),
     good: Example::Model("<mujoco><worldbody><geom type='sphere' size='.1'/></worldbody></mujoco>"),
 };

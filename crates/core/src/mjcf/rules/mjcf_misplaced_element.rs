@@ -7,6 +7,6 @@ pub const MISPLACED_ELEMENT: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the element does not belong here",
     why: "the model does not load: the scene stays empty",
-    bad: Example::Model("<mujoco><geom size='.1'/></mujoco>"),
+    bad: Example::Model("<mujoco><⟦geom⟧ size='.1'/></mujoco>"),
     good: Example::Model("<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>"),
 };

@@ -7,6 +7,6 @@ pub const NO_EFFECT: &Rule = &Rule {
     layer: Layer::Model,
     summary: "what is written there has no effect",
     why: "its author probably wants something that does not happen",
-    bad: Example::Model("<mujoco><worldbody><geom size='.1' friction=''/></worldbody></mujoco>"),
+    bad: Example::Model("<mujoco><worldbody><geom size='.1' friction='⟦⟧'/></worldbody></mujoco>"),
     good: Example::Model("<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>"),
 };

@@ -7,6 +7,6 @@ pub const NUMBER: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the value is not a number, or not a finite one",
     why: "the model does not load: the scene stays empty",
-    bad: Example::Model("<mujoco><worldbody><geom size='0,1'/></worldbody></mujoco>"),
+    bad: Example::Model("<mujoco><worldbody><geom size='⟦0,1⟧'/></worldbody></mujoco>"),
     good: Example::Model("<mujoco><worldbody><geom size='0.1'/></worldbody></mujoco>"),
 };

@@ -7,6 +7,6 @@ pub const ORIENTATION: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the orientation describes no rotation",
     why: "which of the two is meant cannot be known",
-    bad: Example::Model("<mujoco><worldbody><geom size='.1' axisangle='0 0 0 90'/></worldbody></mujoco>"),
+    bad: Example::Model("<mujoco><worldbody><geom size='.1' axisangle='⟦0 0 0 90⟧'/></worldbody></mujoco>"),
     good: Example::Model("<mujoco><worldbody><geom size='.1' axisangle='0 0 1 90'/></worldbody></mujoco>"),
 };

@@ -7,6 +7,6 @@ pub const TEXT: &Rule = &Rule {
     layer: Layer::Model,
     summary: "there is text where only elements belong",
     why: "nobody reads it: it may be what is left of a tag",
-    bad: Example::Model("<mujoco><worldbody>> <geom size='.1'/></worldbody></mujoco>"),
+    bad: Example::Model("<mujoco><worldbody>⟦>⟧ <geom size='.1'/></worldbody></mujoco>"),
     good: Example::Model("<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>"),
 };

@@ -7,6 +7,6 @@ pub const VALUE: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the value is out of its range",
     why: "the model does not load, or computes what no physics means",
-    bad: Example::Model("<mujoco><option timestep='0'/></mujoco>"),
+    bad: Example::Model("<mujoco><option timestep='⟦0⟧'/></mujoco>"),
     good: Example::Model("<mujoco><option timestep='0.002'/></mujoco>"),
 };

@@ -7,6 +7,6 @@ pub const XML: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the text is not well-formed XML",
     why: "nothing of the model can be read",
-    bad: Example::Model("<mujoco><worldbody><geom size='.1'></worldbody></mujoco>"),
+    bad: Example::Model("<mujoco><worldbody><geom size='.1'>⟦<⟧/worldbody></mujoco>"),
     good: Example::Model("<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>"),
 };
