@@ -6,10 +6,12 @@
 
 mod finding;
 mod nearest;
+mod pages;
 mod place;
 mod rule;
 
 pub use finding::{Applicability, Finding, Fix, Severity, sort};
 pub use nearest::{distance, nearest, ranked};
+pub use pages::list_rules;
 pub use place::{EditorPosition, Lines, Place, Position, Span, floor};
 pub use rule::{Example, Layer, Rule};

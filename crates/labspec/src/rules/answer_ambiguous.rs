@@ -7,8 +7,12 @@ pub const ANSWER_AMBIGUOUS: &Rule = &Rule {
     layer: Layer::Claim,
     summary: "more than one option holds",
     why: "A student who chooses the other one is right and is told otherwise",
-    bad: Example::Question(r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": ⟦0⟧, "explain": "It has a weight.",
- "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z < 2"]}}"##),
-    good: Example::Question(r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",
- "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z > 1"]}}"##),
+    bad: Example::Question(
+        r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": ⟦0⟧, "explain": "It has a weight.",
+ "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z < 2"]}}"##,
+    ),
+    good: Example::Question(
+        r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",
+ "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z > 1"]}}"##,
+    ),
 };

@@ -7,8 +7,12 @@ pub const ANSWER_FRAGILE: &Rule = &Rule {
     layer: Layer::Claim,
     summary: "the answer holds only for one choice of numerics",
     why: "It depends on the timestep or on the solver's tolerance, which the question does not mention",
-    bad: Example::Question(r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": ⟦0⟧, "explain": "It has a weight.",
- "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 0.556", "run.z >= 0.556"]}}"##),
-    good: Example::Question(r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",
- "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z > 1"]}}"##),
+    bad: Example::Question(
+        r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": ⟦0⟧, "explain": "It has a weight.",
+ "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 0.556", "run.z >= 0.556"]}}"##,
+    ),
+    good: Example::Question(
+        r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",
+ "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z > 1"]}}"##,
+    ),
 };

@@ -7,8 +7,12 @@ pub const CLAIM_WITHOUT_NUMBER: &Rule = &Rule {
     layer: Layer::Claim,
     summary: "an expression that should give a number gives none",
     why: "Nothing can be compared with it",
-    bad: Example::Question(r##"{"kind": "numeric", "q": "When does it land?", "answer": 0.44, "tol": 0.01, "explain": "Half a second.",
- "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "value": "⟦first(contact('ball', 'floor'))⟧"}}"##),
-    good: Example::Question(r##"{"kind": "numeric", "q": "When does it land?", "answer": 0.44, "tol": 0.01, "explain": "Half a second.",
- "verify": {"lab": "#1", "runs": {"run": {"until": 1}}, "value": "first(contact('ball', 'floor'))"}}"##),
+    bad: Example::Question(
+        r##"{"kind": "numeric", "q": "When does it land?", "answer": 0.44, "tol": 0.01, "explain": "Half a second.",
+ "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "value": "⟦first(contact('ball', 'floor'))⟧"}}"##,
+    ),
+    good: Example::Question(
+        r##"{"kind": "numeric", "q": "When does it land?", "answer": 0.44, "tol": 0.01, "explain": "Half a second.",
+ "verify": {"lab": "#1", "runs": {"run": {"until": 1}}, "value": "first(contact('ball', 'floor'))"}}"##,
+    ),
 };

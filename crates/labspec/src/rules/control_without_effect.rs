@@ -1,7 +1,7 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::json::read::named;
 use crate::spec::Control;
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A control that changes nothing.

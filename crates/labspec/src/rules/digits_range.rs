@@ -1,7 +1,7 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::spec::format::{MAX_DIGITS, READOUT, SLIDER};
 use crate::spec::{ControlKind, Lab};
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// `digits` outside of what a number has.

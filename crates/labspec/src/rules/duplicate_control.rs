@@ -1,7 +1,7 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::lint::repeated::{DISTINCT, repeated};
 use crate::spec::Lab;
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// Two controls with one label.
@@ -22,5 +22,11 @@ pub const DUPLICATE_CONTROL: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Lab(check);
 
 fn check(lab: &Lab, findings: &mut Vec<Finding>) {
-    repeated(DUPLICATE_CONTROL, "controls have the label", DISTINCT, lab.controls.iter().map(|c| &c.label), findings);
+    repeated(
+        DUPLICATE_CONTROL,
+        "controls have the label",
+        DISTINCT,
+        lab.controls.iter().map(|c| &c.label),
+        findings,
+    );
 }

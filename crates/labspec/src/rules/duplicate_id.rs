@@ -1,10 +1,10 @@
+use super::Check;
 use crate::finding::{Finding, InFile, Place};
 use crate::json::read::named;
 use crate::source::Text;
 use crate::spec::Lesson;
-use std::collections::HashMap;
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
+use std::collections::HashMap;
 
 /// An id that two quizzes share.
 pub const DUPLICATE_ID: &Rule = &Rule {
@@ -64,12 +64,8 @@ pub(crate) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
 }
 
 fn duplicate(id: &Text) -> Finding {
-    Finding::new(
-        DUPLICATE_ID,
-        id.span(),
-        format!("another quiz has the id {} too", named(id.as_str())),
-    )
-    .help("give every quiz its own id, such as the number of the lesson and a word")
+    Finding::new(DUPLICATE_ID, id.span(), format!("another quiz has the id {} too", named(id.as_str())))
+        .help("give every quiz its own id, such as the number of the lesson and a word")
 }
 
 #[cfg(test)]

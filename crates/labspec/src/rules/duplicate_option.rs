@@ -1,7 +1,7 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::lint::repeated::repeated;
 use crate::spec::{Question, QuestionKind};
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// Two options with one text.

@@ -1,7 +1,7 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::lint::repeated::{DISTINCT, repeated};
 use crate::spec::Lab;
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// Two readouts with one name.
@@ -22,5 +22,11 @@ pub const DUPLICATE_READOUT: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Lab(check);
 
 fn check(lab: &Lab, findings: &mut Vec<Finding>) {
-    repeated(DUPLICATE_READOUT, "readouts have the label", DISTINCT, lab.readouts.iter().map(|r| &r.label), findings);
+    repeated(
+        DUPLICATE_READOUT,
+        "readouts have the label",
+        DISTINCT,
+        lab.readouts.iter().map(|r| &r.label),
+        findings,
+    );
 }

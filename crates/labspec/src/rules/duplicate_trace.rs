@@ -1,7 +1,7 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::lint::repeated::{DISTINCT, repeated};
 use crate::spec::Lab;
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// Two curves of a plot with one name.

@@ -1,7 +1,7 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::json::Number;
 use crate::spec::{ControlKind, Lab};
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// `min` is not below `max`.

@@ -7,6 +7,10 @@ pub const ENGINE_WARNING: &Rule = &Rule {
     layer: Layer::Run,
     summary: "the engine warns while a lab runs",
     why: "A body that moves has no inertia, or more things touch than are kept: what follows is not physics, and the page says nothing",
-    bad: Example::Lab(r#"{"xml": "⟦<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>⟧", "setup": "model.dof_armature[0] = -5; mj.mj_setConst(model, data)", "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#),
-    good: Example::Lab(r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "setup": "model.dof_armature[0] = 5; mj.mj_setConst(model, data)", "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#),
+    bad: Example::Lab(
+        r#"{"xml": "⟦<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>⟧", "setup": "model.dof_armature[0] = -5; mj.mj_setConst(model, data)", "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "setup": "model.dof_armature[0] = 5; mj.mj_setConst(model, data)", "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
+    ),
 };

@@ -1,7 +1,7 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::spec::Lab;
 use crate::spec::format::LAB;
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A negative keyframe.

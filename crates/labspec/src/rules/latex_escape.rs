@@ -1,7 +1,7 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::source::Text;
 use crate::spec::Lesson;
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A command of LaTeX that begins with an escape of JSON.
@@ -58,7 +58,11 @@ fn check_text(text: &Text, findings: &mut Vec<Finding>) {
 }
 
 fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
-    lesson.all_labs().into_iter().filter_map(|lab| lab.note.as_ref()).for_each(|note| check_text(note, findings));
+    lesson
+        .all_labs()
+        .into_iter()
+        .filter_map(|lab| lab.note.as_ref())
+        .for_each(|note| check_text(note, findings));
     for (_, question) in lesson.quizzes.iter().flat_map(|quiz| quiz.numbered()) {
         question.html().into_iter().for_each(|html| check_text(html, findings));
     }

@@ -7,6 +7,10 @@ pub const LOST_AT_RESET: &Rule = &Rule {
     layer: Layer::Program,
     summary: "what a control sets in the data is lost at the next reset",
     why: "The control still shows its value, but the simulation no longer has it. `\"init\": true` applies it again",
-    bad: Example::Lab(r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "controls": [{"label": "angle", "set": "⟦data.qpos[0]⟧", "min": 0, "max": 1, "value": 0.5}], "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#),
-    good: Example::Lab(r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "controls": [{"label": "angle", "set": "data.qpos[0]", "min": 0, "max": 1, "value": 0.5, "init": true}], "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#),
+    bad: Example::Lab(
+        r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "controls": [{"label": "angle", "set": "⟦data.qpos[0]⟧", "min": 0, "max": 1, "value": 0.5}], "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "controls": [{"label": "angle", "set": "data.qpos[0]", "min": 0, "max": 1, "value": 0.5, "init": true}], "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
+    ),
 };

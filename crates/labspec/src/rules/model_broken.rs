@@ -7,6 +7,12 @@ pub const MODEL_BROKEN: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the model of a lab has mistakes",
     why: "The lab cannot run, and its expressions cannot be checked, until the model loads",
-    bad: Example::Files(&[("lesson.md", "```lab simlab\n{\"model\": \"⟦ball⟧\"}\n```\n".as_bytes()), ("models/ball.xml", b"<mujoco><worldbody><gemo size='.1'/></worldbody></mujoco>")]),
-    good: Example::Files(&[("lesson.md", b"```lab simlab\n{\"model\": \"ball\"}\n```\n"), ("models/ball.xml", b"<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>")]),
+    bad: Example::Files(&[
+        ("lesson.md", "```lab simlab\n{\"model\": \"⟦ball⟧\"}\n```\n".as_bytes()),
+        ("models/ball.xml", b"<mujoco><worldbody><gemo size='.1'/></worldbody></mujoco>"),
+    ]),
+    good: Example::Files(&[
+        ("lesson.md", b"```lab simlab\n{\"model\": \"ball\"}\n```\n"),
+        ("models/ball.xml", b"<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>"),
+    ]),
 };

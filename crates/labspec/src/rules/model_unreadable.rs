@@ -7,6 +7,12 @@ pub const MODEL_UNREADABLE: &Rule = &Rule {
     layer: Layer::Model,
     summary: "a model file cannot be read",
     why: "The page would show an empty scene",
-    bad: Example::Files(&[("lesson.md", b"```lab simlab\n{\"model\": \"ball\"}\n```\n"), ("models/ball.xml", b"<mujoco><!-- \xb5 --></mujoco>")]),
-    good: Example::Files(&[("lesson.md", b"```lab simlab\n{\"model\": \"ball\"}\n```\n"), ("models/ball.xml", b"<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>")]),
+    bad: Example::Files(&[
+        ("lesson.md", b"```lab simlab\n{\"model\": \"ball\"}\n```\n"),
+        ("models/ball.xml", b"<mujoco><!-- \xb5 --></mujoco>"),
+    ]),
+    good: Example::Files(&[
+        ("lesson.md", b"```lab simlab\n{\"model\": \"ball\"}\n```\n"),
+        ("models/ball.xml", b"<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>"),
+    ]),
 };

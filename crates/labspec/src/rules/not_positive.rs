@@ -1,9 +1,9 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::json::Number;
+use crate::lint::claims;
 use crate::spec::Lesson;
 use crate::spec::format::{LAB, Object, PLOT, RUN};
-use super::Check;
-use crate::lint::claims;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A number that must be greater than zero.

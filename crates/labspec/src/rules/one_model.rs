@@ -1,6 +1,6 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::spec::Lab;
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// Both `model` and `xml`, or neither.

@@ -1,7 +1,7 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::lint::claims;
 use crate::spec::Lesson;
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A run with two lengths.

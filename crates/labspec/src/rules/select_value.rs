@@ -1,6 +1,6 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A select that starts with none of its options.

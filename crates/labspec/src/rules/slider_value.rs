@@ -1,6 +1,6 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A start value that the slider cannot show.
@@ -25,7 +25,8 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     // An empty range is another rule's.
     if min.value < max.value && !(min.value..=max.value).contains(&value.value) {
         let end = if value.value < min.value { min } else { max };
-        let message = format!("the start value {} is not between {} and {}", value.value, min.value, max.value);
+        let message =
+            format!("the start value {} is not between {} and {}", value.value, min.value, max.value);
         findings.push(
             Finding::new(SLIDER_VALUE, value.span.clone(), message)
                 .related(end.span.clone(), "the nearest end")

@@ -1,6 +1,6 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// Fewer than two options.

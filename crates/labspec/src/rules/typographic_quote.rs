@@ -1,8 +1,8 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::json::fix_in;
 use crate::markdown::is_typographic;
 use crate::spec::Lab;
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A typographic quote in code.

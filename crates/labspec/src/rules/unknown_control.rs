@@ -1,9 +1,9 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::json::{encode, nearest, read::named};
 use crate::lint::claims;
 use crate::source::Text;
 use crate::spec::{ControlKind, Lab, Lesson};
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A run that sets or presses a control that the lab does not have.

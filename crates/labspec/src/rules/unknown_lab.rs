@@ -1,8 +1,8 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::json::read::named;
 use crate::lint::claims;
 use crate::spec::{LabAddress, Lesson, VerifyLab};
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A lab that the lesson does not have.

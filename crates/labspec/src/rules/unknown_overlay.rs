@@ -1,8 +1,8 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::json::{nearest, read::named};
 use crate::spec::Lab;
 use crate::spec::format::{OVERLAYS, texts};
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// An overlay that does not exist.
@@ -25,8 +25,9 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
             Finding::new(UNKNOWN_OVERLAY, name.span(), format!("{} cannot be drawn", named(name.as_str())));
         findings.push(match nearest(name.as_str(), texts(&OVERLAYS)) {
             Some(right) => found.help(format!("did you mean `{right}`?")).guess(name.span(), right),
-            None => found
-                .help(format!("what can be drawn: {}", texts(&OVERLAYS).collect::<Vec<_>>().join(", "))),
+            None => {
+                found.help(format!("what can be drawn: {}", texts(&OVERLAYS).collect::<Vec<_>>().join(", ")))
+            }
         });
     }
 }

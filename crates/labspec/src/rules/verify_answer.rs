@@ -1,8 +1,8 @@
+use super::Check;
 use crate::finding::Finding;
 use crate::lint::claims;
 use crate::source::Text;
 use crate::spec::{Lesson, QuestionKind};
-use super::Check;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// Conditions that do not match the options, or a value where there is no number.

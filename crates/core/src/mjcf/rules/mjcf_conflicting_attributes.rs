@@ -7,6 +7,10 @@ pub const CONFLICT: &Rule = &Rule {
     layer: Layer::Model,
     summary: "two attributes say different things",
     why: "which of the two is meant cannot be known",
-    bad: Example::Model("<mujoco><worldbody><geom name='a' size='.1'/><body name='b' pos='1 0 0'><geom size='.1'/></body></worldbody><sensor><distance geom1='a' body1='⟦b⟧' body2='b'/></sensor></mujoco>"),
-    good: Example::Model("<mujoco><worldbody><geom name='a' size='.1'/><body name='b' pos='1 0 0'><geom size='.1'/></body></worldbody><sensor><distance geom1='a' body2='b'/></sensor></mujoco>"),
+    bad: Example::Model(
+        "<mujoco><worldbody><geom name='a' size='.1'/><body name='b' pos='1 0 0'><geom size='.1'/></body></worldbody><sensor><distance geom1='a' body1='⟦b⟧' body2='b'/></sensor></mujoco>",
+    ),
+    good: Example::Model(
+        "<mujoco><worldbody><geom name='a' size='.1'/><body name='b' pos='1 0 0'><geom size='.1'/></body></worldbody><sensor><distance geom1='a' body2='b'/></sensor></mujoco>",
+    ),
 };

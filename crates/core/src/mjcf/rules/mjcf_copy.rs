@@ -7,6 +7,10 @@ pub const COPY: &Rule = &Rule {
     layer: Layer::Model,
     summary: "a `replicate` or `attach` cannot copy what it should",
     why: "the model does not load: the scene stays empty",
-    bad: Example::Model("<mujoco><worldbody><body><joint name='a'/><geom size='.1'/></body><replicate count='2' offset='1 0 0'><body><joint name='b'/><geom size='.1'/></body></replicate></worldbody><equality><⟦joint⟧ joint1='a' joint2='b'/></equality></mujoco>"),
-    good: Example::Model("<mujoco><worldbody><replicate count='2' offset='1 0 0'><body><joint name='a'/><joint name='b' axis='1 0 0'/><geom size='.1'/></body></replicate></worldbody><equality><joint joint1='a' joint2='b'/></equality></mujoco>"),
+    bad: Example::Model(
+        "<mujoco><worldbody><body><joint name='a'/><geom size='.1'/></body><replicate count='2' offset='1 0 0'><body><joint name='b'/><geom size='.1'/></body></replicate></worldbody><equality><⟦joint⟧ joint1='a' joint2='b'/></equality></mujoco>",
+    ),
+    good: Example::Model(
+        "<mujoco><worldbody><replicate count='2' offset='1 0 0'><body><joint name='a'/><joint name='b' axis='1 0 0'/><geom size='.1'/></body></replicate></worldbody><equality><joint joint1='a' joint2='b'/></equality></mujoco>",
+    ),
 };

@@ -7,6 +7,10 @@ pub const FILE: &Rule = &Rule {
     layer: Layer::Model,
     summary: "a file that the model names cannot be read, or may not be",
     why: "the page loads the model alone, so that the scene stays empty",
-    bad: Example::Model("<mujoco><asset><mesh name='m' file='⟦missing.obj⟧'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>"),
-    good: Example::Model("<mujoco><asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>"),
+    bad: Example::Model(
+        "<mujoco><asset><mesh name='m' file='⟦missing.obj⟧'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>",
+    ),
+    good: Example::Model(
+        "<mujoco><asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>",
+    ),
 };

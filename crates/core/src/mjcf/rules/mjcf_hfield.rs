@@ -7,6 +7,10 @@ pub const HFIELD: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the data of a height field do not make a ground",
     why: "the model does not load: the scene stays empty",
-    bad: Example::Model("<mujoco><asset><hfield name='h' nrow='2' ncol='2' size='⟦1 1 0 1⟧'/></asset><worldbody><geom type='hfield' hfield='h'/></worldbody></mujoco>"),
-    good: Example::Model("<mujoco><asset><hfield name='h' nrow='2' ncol='2' size='1 1 1 1'/></asset><worldbody><geom type='hfield' hfield='h'/></worldbody></mujoco>"),
+    bad: Example::Model(
+        "<mujoco><asset><hfield name='h' nrow='2' ncol='2' size='⟦1 1 0 1⟧'/></asset><worldbody><geom type='hfield' hfield='h'/></worldbody></mujoco>",
+    ),
+    good: Example::Model(
+        "<mujoco><asset><hfield name='h' nrow='2' ncol='2' size='1 1 1 1'/></asset><worldbody><geom type='hfield' hfield='h'/></worldbody></mujoco>",
+    ),
 };

@@ -8,5 +8,7 @@ pub const INERTIA: &Rule = &Rule {
     summary: "a moving body has no mass or an impossible inertia",
     why: "the smallest force would move it infinitely fast",
     bad: Example::Model("<mujoco><worldbody><⟦body⟧><freejoint/></body></worldbody></mujoco>"),
-    good: Example::Model("<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>"),
+    good: Example::Model(
+        "<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>",
+    ),
 };

@@ -7,6 +7,10 @@ pub const JOINT: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the joints of a body do not fit together",
     why: "the model does not load: the scene stays empty",
-    bad: Example::Model("<mujoco><worldbody><body><freejoint/><⟦joint⟧/><geom size='.1'/></body></worldbody></mujoco>"),
-    good: Example::Model("<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>"),
+    bad: Example::Model(
+        "<mujoco><worldbody><body><freejoint/><⟦joint⟧/><geom size='.1'/></body></worldbody></mujoco>",
+    ),
+    good: Example::Model(
+        "<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>",
+    ),
 };

@@ -7,6 +7,10 @@ pub const KEYFRAME: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the keyframe does not fit the model",
     why: "the state that it should hold is not one of this model",
-    bad: Example::Model("<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><keyframe><key qpos='⟦0 0⟧'/></keyframe></mujoco>"),
-    good: Example::Model("<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><keyframe><key qpos='0'/></keyframe></mujoco>"),
+    bad: Example::Model(
+        "<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><keyframe><key qpos='⟦0 0⟧'/></keyframe></mujoco>",
+    ),
+    good: Example::Model(
+        "<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><keyframe><key qpos='0'/></keyframe></mujoco>",
+    ),
 };

@@ -7,6 +7,10 @@ pub const MESH: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the data of a mesh do not make a body",
     why: "a body needs a volume to have a mass and to be touched",
-    bad: Example::Model("<mujoco><asset><mesh name='m' vertex='⟦0 0 0 1 0 0 0 1 0⟧'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>"),
-    good: Example::Model("<mujoco><asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>"),
+    bad: Example::Model(
+        "<mujoco><asset><mesh name='m' vertex='⟦0 0 0 1 0 0 0 1 0⟧'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>",
+    ),
+    good: Example::Model(
+        "<mujoco><asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>",
+    ),
 };

@@ -7,6 +7,10 @@ pub const MISSING_ATTRIBUTE: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the element needs an attribute that is missing",
     why: "the model does not load: the scene stays empty",
-    bad: Example::Model("<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><sensor><⟦jointpos⟧/></sensor></mujoco>"),
-    good: Example::Model("<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><sensor><jointpos joint='hinge'/></sensor></mujoco>"),
+    bad: Example::Model(
+        "<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><sensor><⟦jointpos⟧/></sensor></mujoco>",
+    ),
+    good: Example::Model(
+        "<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><sensor><jointpos joint='hinge'/></sensor></mujoco>",
+    ),
 };

@@ -7,6 +7,10 @@ pub const MOCAP: &Rule = &Rule {
     layer: Layer::Model,
     summary: "a mocap body must be a child of the world without joints",
     why: "it is moved by hand, and joints would move it, too",
-    bad: Example::Model("<mujoco><worldbody><⟦body⟧ mocap='true'><freejoint/><geom size='.1'/></body></worldbody></mujoco>"),
-    good: Example::Model("<mujoco><worldbody><body mocap='true'><geom size='.1'/></body></worldbody></mujoco>"),
+    bad: Example::Model(
+        "<mujoco><worldbody><⟦body⟧ mocap='true'><freejoint/><geom size='.1'/></body></worldbody></mujoco>",
+    ),
+    good: Example::Model(
+        "<mujoco><worldbody><body mocap='true'><geom size='.1'/></body></worldbody></mujoco>",
+    ),
 };

@@ -7,6 +7,10 @@ pub const SENSOR: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the sensor cannot measure that object",
     why: "the model does not load: the scene stays empty",
-    bad: Example::Model("<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><sensor><ballquat joint='⟦hinge⟧'/></sensor></mujoco>"),
-    good: Example::Model("<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><sensor><jointpos joint='hinge'/></sensor></mujoco>"),
+    bad: Example::Model(
+        "<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><sensor><ballquat joint='⟦hinge⟧'/></sensor></mujoco>",
+    ),
+    good: Example::Model(
+        "<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><sensor><jointpos joint='hinge'/></sensor></mujoco>",
+    ),
 };

@@ -8,5 +8,7 @@ pub const UNKNOWN_CLASS: &Rule = &Rule {
     summary: "there is no such default class",
     why: "what it should say is missing",
     bad: Example::Model("<mujoco><worldbody><geom size='.1' class='⟦red⟧'/></worldbody></mujoco>"),
-    good: Example::Model("<mujoco><default><default class='red'><geom rgba='1 0 0 1'/></default></default><worldbody><geom size='.1' class='red'/></worldbody></mujoco>"),
+    good: Example::Model(
+        "<mujoco><default><default class='red'><geom rgba='1 0 0 1'/></default></default><worldbody><geom size='.1' class='red'/></worldbody></mujoco>",
+    ),
 };

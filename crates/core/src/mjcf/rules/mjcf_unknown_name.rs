@@ -7,6 +7,10 @@ pub const UNKNOWN_NAME: &Rule = &Rule {
     layer: Layer::Model,
     summary: "the name belongs to no object",
     why: "the model does not load: the scene stays empty",
-    bad: Example::Model("<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><actuator><motor joint='⟦hinhe⟧'/></actuator></mujoco>"),
-    good: Example::Model("<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><actuator><motor joint='hinge'/></actuator></mujoco>"),
+    bad: Example::Model(
+        "<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><actuator><motor joint='⟦hinhe⟧'/></actuator></mujoco>",
+    ),
+    good: Example::Model(
+        "<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><actuator><motor joint='hinge'/></actuator></mujoco>",
+    ),
 };
