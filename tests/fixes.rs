@@ -9,9 +9,9 @@ use labspec::bind::scene::Models;
 use labspec::check::{self, Depth};
 use labspec::finding::{Finding, Fix, Severity};
 use labspec::lint::ModelFolder;
+use labspec::lint::load_lesson;
 use labspec::rules;
 use labspec::source::SourceFile;
-use labspec::spec::load_lesson;
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 

@@ -7,8 +7,9 @@
 use crate::needs::needs;
 use labspec::finding::Finding;
 use labspec::lint::ModelFolder;
+use labspec::lint::load_lesson;
 use labspec::source::SourceFile;
-use labspec::spec::{Lesson, load_lesson};
+use labspec::spec::Lesson;
 use labspec::{lint, report};
 use std::path::{Path, PathBuf};
 

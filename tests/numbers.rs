@@ -10,9 +10,9 @@ use crate::support::{check_text, codes, compile, model_text, numbers, workspace}
 use labspec::bind::Programs;
 use labspec::check::Checked;
 use labspec::lint::ModelFolder;
+use labspec::lint::load_lesson;
 use labspec::run::Session;
 use labspec::source::SourceFile;
-use labspec::spec::load_lesson;
 use labspec::verify::QuoteState;
 use labspec_core::{self as core, Data, Demand, Model};
 use labspec_expr::Value;

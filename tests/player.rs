@@ -4,9 +4,9 @@
 
 use crate::support::{model_text, workspace};
 use labspec::lint::ModelFolder;
+use labspec::lint::load_lesson;
 use labspec::player::{ControlKind, Place};
 use labspec::run::{self, RunOptions};
-use labspec::spec::load_lesson;
 use labspec::{Checker, Engine, Error, Models, NoModels, Player, Value};
 use labspec_core::xml::FileProblem;
 use std::collections::BTreeMap;

@@ -8,8 +8,8 @@ use labspec::bind::scene::Models;
 use labspec::check::{self, Depth};
 use labspec::finding::Finding;
 use labspec::lint::ModelFolder;
+use labspec::lint::load_lesson;
 use labspec::source::SourceFile;
-use labspec::spec::load_lesson;
 use labspec_core::{Data, forward, set_const, state};
 use serde_json::{Value as Json, json};
 

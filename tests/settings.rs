@@ -7,9 +7,10 @@ use crate::support::{check_text, codes, compile};
 use labspec::bind::Programs;
 use labspec::check::Checked;
 use labspec::lint::ModelFolder;
+use labspec::lint::load_lesson;
 use labspec::run::{self, RunOptions};
 use labspec::source::SourceFile;
-use labspec::spec::{Lab, load_lesson};
+use labspec::spec::Lab;
 use labspec_expr::Value;
 use serde_json::{Value as Json, json};
 

@@ -7,9 +7,9 @@ use labspec::bind::scene::Models;
 use labspec::check::{self, Depth};
 use labspec::format::format;
 use labspec::lint::ModelFolder;
+use labspec::lint::load_lesson;
 use labspec::report;
 use labspec::source::SourceFile;
-use labspec::spec::load_lesson;
 use std::ops::Range;
 use std::path::Path;
 

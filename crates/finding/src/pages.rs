@@ -30,8 +30,14 @@ pub fn list_rules(pages: &str, list: &str) -> io::Result<()> {
 fn listed(list: &str, pages: &[(PathBuf, String)]) -> String {
     let (mut text, mut rules, mut checks) = (String::new(), Vec::new(), Vec::new());
     for (path, page) in pages {
-        let Some((name, module)) = declared(page).zip(path.file_stem().and_then(|s| s.to_str())) else { continue };
-        let _ = writeln!(text, "#[path = {:?}]\nmod {module};\npub use {module}::{name};", path.display().to_string());
+        let Some((name, module)) = declared(page).zip(path.file_stem().and_then(|s| s.to_str())) else {
+            continue;
+        };
+        let _ = writeln!(
+            text,
+            "#[path = {:?}]\nmod {module};\npub use {module}::{name};",
+            path.display().to_string()
+        );
         rules.push(name);
         if page.contains("const CHECK: Check ") {
             checks.push(format!("{module}::CHECK"));
@@ -40,7 +46,10 @@ fn listed(list: &str, pages: &[(PathBuf, String)]) -> String {
     let _ = writeln!(text, "/// Every rule that is declared here, in the order of their pages.");
     let _ = writeln!(text, "pub const {list}: &[&Rule] = &[{}];", rules.join(", "));
     if !checks.is_empty() {
-        let _ = writeln!(text, "/// The checks of a lesson's structure. Other rules are told by whoever reads, binds or runs.");
+        let _ = writeln!(
+            text,
+            "/// The checks of a lesson's structure. Other rules are told by whoever reads, binds or runs."
+        );
         let _ = writeln!(text, "pub(crate) const CHECKS: &[Check] = &[{}];", checks.join(", "));
     }
     text
@@ -63,7 +72,10 @@ mod tests {
         let pages = [
             page("mod.rs", "mod a;"),
             page("one.rs", "/// A.\npub const ONE: &Rule = &Rule {};"),
-            page("two.rs", "pub const TWO: &Rule = &Rule {};\npub(super) const CHECK: Check = Check::Lab(check);"),
+            page(
+                "two.rs",
+                "pub const TWO: &Rule = &Rule {};\npub(super) const CHECK: Check = Check::Lab(check);",
+            ),
         ];
         let text = listed("ALL", &pages);
         assert!(text.contains("mod one;\npub use one::ONE;") && !text.contains("mod mod"), "{text}");

@@ -5,9 +5,9 @@ use crate::check::{self, Checked, Depth};
 use crate::error::located;
 use crate::finding::{self, Finding};
 use crate::ledger::{Entry, Ledger, Outcome};
+use crate::lint::load_lesson;
 use crate::lint::{self, ModelFolder};
 use crate::source::SourceFile;
-use crate::spec::load_lesson;
 
 /// Checks lessons, one after the other. Models are compiled once.
 #[derive(Debug)]

@@ -186,8 +186,8 @@ mod tests {
     use crate::bind::{ModelNames, Scope, World};
     use crate::check::{self, Depth};
     use crate::lint::ModelFolder;
+    use crate::lint::load_lesson;
     use crate::source::SourceFile;
-    use crate::spec::load_lesson;
     use labspec_core::{self as core, Data, Demand, Model, Plan, Planned, xml};
     use labspec_expr::{Compiler, Context, Globals};
 

@@ -98,7 +98,7 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
 pub fn join(lesson: Lesson, found: Found) -> Checked {
     let Found { mut findings, labs, claims } = found;
     let mut all = lesson.findings.clone();
-    lesson.withhold_fixes(&mut findings);
+    crate::lint::withhold_fixes(&lesson, &mut findings);
     all.extend(findings.into_iter().map(|f| f.at(&lesson.file)));
     finding::sort(&mut all);
     Checked { lesson, findings: all, labs, claims }

@@ -237,8 +237,8 @@ fn write(folder: &Path, slot: &str, text: &str) {
 mod tests {
     use super::*;
     use crate::lint::ModelFolder;
+    use crate::lint::load_lesson;
     use crate::source::SourceFile;
-    use crate::spec::load_lesson;
     use std::cell::Cell;
 
     const DEEP: Depth = Depth { labs: true, claims: true };

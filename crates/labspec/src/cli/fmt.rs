@@ -5,9 +5,9 @@ use super::target::model_folder;
 use super::{Failure, ModelOptions, Outcome, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::format;
+use crate::lint::load_lesson;
 use crate::report::printable_path;
 use crate::source::SourceFile;
-use crate::spec::load_lesson;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `fmt`.

@@ -1,7 +1,7 @@
 //! What stands between values: spaces, and what authors take for spaces or for comments.
 
 use super::parse::{Kind, Parser};
-use super::say;
+use super::problem::{Mistake, Problem};
 
 impl Parser<'_> {
     /// Walks to the next character that means something. Comments and invisible characters are reported.
@@ -37,7 +37,7 @@ impl Parser<'_> {
     fn comment(&mut self, end: usize) {
         let range = self.at..end;
         self.at = end;
-        self.say(say::comment(range));
+        self.say(Problem::replaced(Mistake::Comment, range, ""));
     }
 
     /// The end of a comment between `/*` and `*/`; that of the line when it is never closed.

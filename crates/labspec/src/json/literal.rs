@@ -2,7 +2,7 @@
 
 use super::node::{Json, Node};
 use super::parse::Parser;
-use super::say;
+use super::problem::{self, Mistake, Problem};
 use crate::source::Text;
 use std::ops::Range;
 
@@ -26,26 +26,27 @@ impl Parser<'_> {
         let range = start..self.at;
         match word {
             Some(Word::Means(json, right)) => {
-                self.say(say::misspelt_word(range, token, right));
+                let mistake = Mistake::Word { word: token.to_string(), right };
+                self.say(Problem::replaced(mistake, range, right));
                 self.node(json, start)
             }
             Some(Word::NotFinite) => {
-                self.say(say::not_finite(range, token));
+                self.say(Problem::new(Mistake::NotFinite(token.to_string()), range));
                 self.node(Json::Broken, start)
             }
             None if is_number(token) => {
-                self.say(say::too_large(range));
+                self.say(Problem::new(Mistake::TooLarge, range));
                 self.node(Json::Broken, start)
             }
             None => {
                 if let Some(right) = repaired(token)
                     && let Ok(value) = right.parse::<f64>()
                 {
-                    self.say(say::number_form(range, token, Some(&right)));
+                    self.say(problem::number_form(range, token, Some(right)));
                     return self.node(Json::Number(value), start);
                 }
                 if token.starts_with(|c: char| c.is_ascii_digit()) {
-                    self.say(say::number_form(range, token, None));
+                    self.say(problem::number_form(range, token, None));
                     return self.node(Json::Broken, start);
                 }
                 self.at = start;
@@ -61,11 +62,11 @@ impl Parser<'_> {
         self.at = range.end;
         let text = self.text.get(range.clone()).unwrap_or("");
         if text.chars().any(char::is_alphabetic) && !text.starts_with(|c: char| c.is_ascii_digit()) {
-            self.say(say::bare_text(range.clone(), text));
+            self.say(problem::bare(Mistake::BareText, range.clone(), text));
             let text = self.verbatim(range);
             return self.node(Json::Text(text), start);
         }
-        self.say(say::not_json(range, text));
+        self.say(Problem::new(Mistake::NotJson(text.to_string()), range));
         self.node(Json::Broken, start)
     }
 

@@ -9,9 +9,9 @@ mod gaps;
 pub(crate) mod literal;
 mod node;
 mod parse;
+mod problem;
 mod quoted;
 pub(crate) mod read;
-mod say;
 mod strings;
 #[cfg(test)]
 mod tests;
@@ -19,6 +19,7 @@ mod tests;
 pub use labspec_finding::nearest;
 pub use node::{Json, Member, Node};
 pub use parse::{Parsed, parse};
+pub use problem::{Mistake, Problem};
 pub use read::{Number, Scalar};
 pub(crate) use strings::{encode, fix_in, fix_in_code};
 

@@ -6,11 +6,10 @@
 //! line end, and both are remembered).
 
 use super::node::{Json, Member, Node};
-use super::{MAX_DEPTH, MAX_MISTAKES, MAX_VALUES, say};
-use crate::finding::Finding;
-use crate::rules;
+use super::problem::{self, Mistake, Problem};
+use super::{MAX_DEPTH, MAX_MISTAKES, MAX_VALUES};
 use crate::source::{SourceMap, Text};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// What was read.
@@ -18,8 +17,8 @@ use std::ops::Range;
 pub struct Parsed {
     /// The tree; `None` when there is nothing to read, or too much.
     pub node: Option<Node>,
-    /// What there is to say: mistakes, duplicate keys.
-    pub findings: Vec<Finding>,
+    /// What is wrong: mistakes, duplicate keys.
+    pub problems: Vec<Problem>,
     /// Whether a page cannot read it: it is not JSON.
     pub broken: bool,
 }
@@ -29,15 +28,15 @@ pub fn parse(text: &str, below: &SourceMap) -> Parsed {
     let mut parser = Parser::new(text, below);
     let node = parser.root().unwrap_or(None);
     let broken = parser.broken;
-    let mut findings = std::mem::take(&mut parser.placed);
+    let mut problems = std::mem::take(&mut parser.placed);
     let mut said = parser.finish();
     if broken {
         try_repairs(text, &mut said);
     }
-    findings.extend(said.into_iter().map(|f| say::place(f, below)));
-    findings.sort_by_key(|f| f.span.start);
-    findings.truncate(MAX_MISTAKES);
-    Parsed { node, findings, broken }
+    problems.extend(said.into_iter().map(|p| p.below(below)));
+    problems.sort_by_key(|p| p.span.start);
+    problems.truncate(MAX_MISTAKES);
+    Parsed { node, problems, broken }
 }
 
 /// Most repairs that are tried, and the longest text.
@@ -46,32 +45,36 @@ const MAX_TRIED: usize = 128 << 10;
 
 /// Keeps the repairs that repair: each is made by itself and the text is read again; there must be fewer mistakes
 /// then, and none that was not there before.
-fn try_repairs(text: &str, said: &mut [Finding]) {
+fn try_repairs(text: &str, said: &mut [Problem]) {
     // What is told once counts once: two brackets may be missing at one place.
-    let told = |list: &[Finding]| {
-        let all: BTreeSet<_> = list.iter().map(|f| (f.span.start, f.span.end, f.message.clone())).collect();
-        all.into_iter().map(|(.., message)| message).collect::<Vec<String>>()
-    };
+    fn told(list: &[Problem]) -> Vec<Mistake> {
+        let mut all: Vec<&Problem> = Vec::new();
+        for problem in list {
+            if !all.iter().any(|p| p.span == problem.span && p.mistake.is(&problem.mistake)) {
+                all.push(problem);
+            }
+        }
+        all.into_iter().map(|p| p.mistake.clone()).collect()
+    }
+    let count = |list: &[Mistake], mistake: &Mistake| list.iter().filter(|m| m.is(mistake)).count();
     let before = told(said);
-    for (i, finding) in said.iter_mut().enumerate() {
-        let Some(fix) = &finding.fix else { continue };
+    for (i, problem) in said.iter_mut().enumerate() {
+        let Some((span, right)) = &problem.repair else { continue };
         let mut repaired = text.to_string();
-        let fits = i < MAX_TRIES && text.len() <= MAX_TRIED && text.get(fix.span.clone()).is_some();
+        let fits = i < MAX_TRIES && text.len() <= MAX_TRIED && text.get(span.clone()).is_some();
         if fits {
-            repaired.replace_range(fix.span.clone(), &fix.text);
+            repaired.replace_range(span.clone(), right);
             let below = SourceMap::verbatim(0..repaired.len());
             let mut parser = Parser::new(&repaired, &below);
             let _ = parser.root();
             let left = told(&parser.finish());
             // The mistake itself is gone, and not only another one that it hid.
-            let same = |m: &str| m == finding.message;
-            let now = left.iter().filter(|m| same(m)).count();
-            let gone = now < before.iter().filter(|m| same(m)).count();
-            if gone && left.len() < before.len() && left.iter().all(|m| before.contains(m)) {
+            let gone = count(&left, &problem.mistake) < count(&before, &problem.mistake);
+            if gone && left.len() < before.len() && left.iter().all(|m| count(&before, m) > 0) {
                 continue;
             }
         }
-        finding.fix = None;
+        problem.repair = None;
     }
 }
 
@@ -100,10 +103,10 @@ pub(super) struct Parser<'a> {
     brackets: [i64; 4],
     pub(super) broken: bool,
     /// Spans are bytes of `text`.
-    said: Vec<Finding>,
+    said: Vec<Problem>,
     pub(super) changes: [Vec<Vec<Change>>; 3],
-    /// Findings whose spans are bytes of the file.
-    placed: Vec<Finding>,
+    /// Problems whose spans are bytes of the file.
+    placed: Vec<Problem>,
     /// The end of the text was met inside of brackets, and said.
     ended: bool,
     pub(super) comment_open: bool,
@@ -179,11 +182,17 @@ impl<'a> Parser<'a> {
     // Saying.
 
     /// A mistake. Its spans are bytes of the text.
-    pub(super) fn say(&mut self, finding: Finding) {
+    pub(super) fn say(&mut self, problem: Problem) {
         self.broken = true;
         if self.said.len() < MAX_MISTAKES {
-            self.said.push(finding);
+            self.said.push(problem);
         }
+    }
+
+    /// Something that belongs nowhere.
+    fn say_stray(&mut self, range: Range<usize>) {
+        let text = self.text.get(range.clone()).unwrap_or("").to_string();
+        self.say(Problem::new(Mistake::Stray(text), range));
     }
 
     /// A mistake that is told together with others of its kind: the changes that repair it.
@@ -195,13 +204,13 @@ impl<'a> Parser<'a> {
     }
 
     /// What was said, in order; spans are bytes of the text.
-    fn finish(mut self) -> Vec<Finding> {
+    fn finish(mut self) -> Vec<Problem> {
         let mut all = std::mem::take(&mut self.said);
         for kind in [Kind::Typographic, Kind::Single, Kind::Invisible] {
             let list = self.changes.get(kind as usize).map_or(&[][..], Vec::as_slice);
-            all.extend(say::together(kind, list, self.text, self.below));
+            all.extend(problem::together(kind, list, self.text, self.below));
         }
-        all.sort_by_key(|f| f.span.start);
+        all.sort_by_key(|p| p.span.start);
         all.truncate(MAX_MISTAKES);
         all
     }
@@ -212,13 +221,13 @@ impl<'a> Parser<'a> {
         self.gap();
         if self.rest().is_empty() {
             if !self.broken {
-                self.say(say::nothing());
+                self.say(Problem::new(Mistake::Nothing, 0..0));
             }
             return Ok(None);
         }
         let node = if self.key_ahead() {
             let start = self.at;
-            self.say(say::opening_missing(start));
+            self.say(Problem::replaced(Mistake::OpeningMissing, start..start, "{"));
             self.mend('{', 1);
             Some(self.members(start)?)
         } else {
@@ -227,7 +236,7 @@ impl<'a> Parser<'a> {
         self.gap();
         if !self.rest().trim().is_empty() {
             let rest = self.at..self.at + self.rest().trim_end().len();
-            self.say(say::behind(rest, self.text));
+            self.say(problem::behind(rest, self.text));
         }
         Ok(node)
     }
@@ -253,7 +262,7 @@ impl<'a> Parser<'a> {
         let Some(c) = self.peek() else { return Ok(None) };
         self.values += 1;
         if self.values > MAX_VALUES {
-            self.say(say::too_many(self.at));
+            self.say(Problem::new(Mistake::TooMany, self.at..self.at + 1));
             return Err(Stop);
         }
         Ok(match c {
@@ -281,7 +290,7 @@ impl<'a> Parser<'a> {
     fn enter(&mut self, bracket: char, start: usize) -> Result<(), Stop> {
         self.open.push((bracket, start));
         if self.open.len() > MAX_DEPTH {
-            self.say(say::too_deep(start));
+            self.say(Problem::new(Mistake::TooDeep, start..start + 1));
             return Err(Stop);
         }
         Ok(())
@@ -318,7 +327,7 @@ impl<'a> Parser<'a> {
                     continue;
                 }
                 Some('"') if self.is_lone_quote() => {
-                    self.say(say::stray_quote(self.at));
+                    self.say(Problem::replaced(Mistake::StrayQuote, self.at..self.at + 1, ""));
                     self.bump();
                     continue;
                 }
@@ -338,20 +347,9 @@ impl<'a> Parser<'a> {
     }
 
     fn twice(&mut self, key: &Text, earlier: Range<usize>) {
-        let shown = match key.value.as_str() {
-            "" => "a key without a name".to_string(),
-            name => format!("`{}`", super::read::shorten(name)),
-        };
         if self.placed.len() < MAX_MISTAKES {
-            self.placed.push(
-                Finding::new(
-                    rules::DUPLICATE_KEY,
-                    key.span(),
-                    format!("{shown} is written twice in one object"),
-                )
-                .related(earlier, "the first one, which is ignored")
-                .help("keep one of the two"),
-            );
+            let mistake = Mistake::Twice(key.value.clone());
+            self.placed.push(Problem::new(mistake, key.span()).related(earlier));
         }
     }
 
@@ -360,11 +358,11 @@ impl<'a> Parser<'a> {
         let start = self.at;
         let Some(key) = self.key() else {
             if matches!(self.peek(), Some('{' | '[')) {
-                self.say(say::key_missing(start));
+                self.say(Problem::new(Mistake::KeyMissing, start..start + 1));
                 self.value()?;
             } else {
                 let range = self.stray();
-                self.say(say::stray(range, self.text));
+                self.say_stray(range);
             }
             return Ok(None);
         };
@@ -374,7 +372,7 @@ impl<'a> Parser<'a> {
         let value = match self.value()? {
             Some(value) => value,
             None => {
-                self.say(say::value_missing(start..end, colon));
+                self.say(Problem::new(Mistake::ValueMissing { colon }, start..end));
                 Node { json: Json::Broken, span: self.below.span(start..end) }
             }
         };
@@ -394,7 +392,8 @@ impl<'a> Parser<'a> {
         }
         let range = self.at..self.at + length;
         self.at = range.end;
-        self.say(say::bare_key(range.clone(), self.text));
+        let word = self.text.get(range.clone()).unwrap_or("");
+        self.say(problem::bare(Mistake::BareKey, range.clone(), word));
         Some(self.verbatim(range))
     }
 
@@ -406,10 +405,10 @@ impl<'a> Parser<'a> {
         } else if self.starts("=") {
             let length = if self.starts("=>") || self.starts("==") { 2 } else { 1 };
             self.at += length;
-            self.say(say::not_a_colon(start..self.at));
+            self.say(Problem::replaced(Mistake::Equals, start..self.at, ":"));
         } else {
             if !matches!(self.peek(), None | Some(',' | ';' | '}' | ']')) {
-                self.say(say::colon_missing(end));
+                self.say(Problem::replaced(Mistake::ColonMissing, end..end, ":"));
             }
             return false;
         }
@@ -420,7 +419,7 @@ impl<'a> Parser<'a> {
                 return true;
             }
             self.bump();
-            self.say(say::second_colon(again..self.at));
+            self.say(Problem::replaced(Mistake::SecondColon, again..self.at, ""));
         }
     }
 
@@ -456,7 +455,7 @@ impl<'a> Parser<'a> {
                     let key = self.at;
                     self.at = end;
                     self.mend(']', 1);
-                    self.say(say::list_goes_on(end, key));
+                    self.say(Problem::replaced(Mistake::ListGoesOn, end..end, "]").related(key..key + 1));
                     break;
                 }
                 Some(_) => {}
@@ -468,7 +467,7 @@ impl<'a> Parser<'a> {
                 Some(item) => items.push(item),
                 None => {
                     let range = self.stray();
-                    self.say(say::stray(range, self.text));
+                    self.say_stray(range);
                 }
             }
             self.separator(false);
@@ -494,29 +493,29 @@ impl<'a> Parser<'a> {
                         while self.peek().is_some_and(|c| c.is_ascii_digit()) {
                             self.bump();
                         }
-                        self.say(say::decimal_comma(start));
+                        self.say(Problem::replaced(Mistake::DecimalComma, start..start + 1, "."));
                         end = self.before();
                         self.gap();
                         continue;
                     }
                     self.gap();
                     if matches!(self.peek(), None | Some('}' | ']')) {
-                        self.say(say::trailing_comma(start));
+                        self.say(Problem::replaced(Mistake::TrailingComma, start..start + 1, ""));
                     }
                     return;
                 }
                 Some(';') => {
                     self.bump();
-                    self.say(say::semicolon(start));
+                    self.say(Problem::replaced(Mistake::Semicolon, start..start + 1, ","));
                     return;
                 }
                 Some(c) if self.begins(c, object) => {
-                    self.say(say::missing_comma(end));
+                    self.say(Problem::replaced(Mistake::CommaMissing, end..end, ","));
                     return;
                 }
                 Some(_) => {
                     let range = self.stray();
-                    self.say(say::stray(range, self.text));
+                    self.say_stray(range);
                     end = self.before();
                     self.gap();
                 }
@@ -560,7 +559,7 @@ impl<'a> Parser<'a> {
     fn extra_comma(&mut self, first: bool) {
         let start = self.at;
         self.bump();
-        self.say(say::extra_comma(start, first));
+        self.say(Problem::replaced(Mistake::ExtraComma { first }, start..start + 1, ""));
     }
 
     /// The text ends inside of brackets: said once, with all that is missing.
@@ -569,7 +568,7 @@ impl<'a> Parser<'a> {
             return;
         }
         let end = self.text.trim_end().len();
-        self.say(say::unclosed(&self.open, end));
+        self.say(problem::unclosed(&self.open, end));
     }
 
     /// A `}` that ends the whole value although its members go on behind it.
@@ -585,7 +584,7 @@ impl<'a> Parser<'a> {
         let c = self.peek().unwrap_or('}');
         self.bump();
         self.mend(c, -1);
-        self.say(say::stray_bracket(c, start));
+        self.say(Problem::replaced(Mistake::StrayBracket(c), start..start + 1, ""));
     }
 
     /// A bracket that closes the other kind. Whether what is being read ends here.
@@ -603,13 +602,14 @@ impl<'a> Parser<'a> {
                 self.bump();
                 self.mend(found, -1);
                 self.mend(mine, 1);
-                self.say(say::other_bracket(mine, found, start));
+                self.say(Problem::replaced(Mistake::OtherBracket { mine, found }, start..start + 1, mine));
                 true
             }
             (true, true, false) | (true, false, false) => {
                 let end = self.before();
                 self.mend(mine, 1);
-                self.say(say::missing_bracket(mine, found, end, start));
+                let mistake = Mistake::BracketMissing { mine, found };
+                self.say(Problem::replaced(mistake, end..end, mine).related(start..start + 1));
                 true
             }
             (true, false, true) | (false, false, _) => {

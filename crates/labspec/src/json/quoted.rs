@@ -4,7 +4,7 @@
 //! should have ended it is missing; which of the two is decided by what surrounds it.
 
 use super::parse::{Change, Kind, Parser};
-use super::say;
+use super::problem::{self, Mistake};
 use super::strings::{Trouble, decode, encode};
 use crate::markdown::is_typographic;
 use crate::source::{SourceMap, Text};
@@ -38,7 +38,7 @@ impl Parser<'_> {
         let inside = end.inside.clone();
         if end.open {
             let last = inside.end == self.text.trim_end().len();
-            self.say(say::string_open(start, inside.end, last, quote == '"'));
+            self.say(problem::string_open(start, inside.end, last, quote == '"'));
         }
         let decoded = decode(self.text.get(inside.clone()).unwrap_or(""));
         let mut lines: Vec<Change> = Vec::new();
@@ -54,18 +54,15 @@ impl Parser<'_> {
                 Trouble::Quote if quote == '"' => inner.push((range, "\\\"".into())),
                 Trouble::Quote => changes.push((range, "\\\"".into())),
                 Trouble::Needless(c) if quote != '"' => changes.push((range, c.to_string())),
-                _ => self.say(say::in_string(range, *trouble)),
+                _ => self.say(problem::in_string(range, *trouble)),
             }
         }
         if quote != '"' && self.text.get(inside.end..end.next) != Some("\"") {
             changes.push((inside.end..end.next, "\"".into()));
         }
-        if !lines.is_empty() {
-            self.say(say::line_breaks(&lines, self.text));
-        }
-        if !inner.is_empty() {
-            self.say(say::inner_quotes(&inner, self.text));
-        }
+        let breaks = problem::inside(Mistake::LineBreaks, &lines, self.text);
+        let quotes = problem::inside(Mistake::InnerQuotes, &inner, self.text);
+        breaks.into_iter().chain(quotes).for_each(|problem| self.say(problem));
         if !changes.is_empty() {
             self.change(if is_typographic(quote) { Kind::Typographic } else { Kind::Single }, changes);
         }

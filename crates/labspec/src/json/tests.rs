@@ -2,7 +2,7 @@
 //! `jsonc-parser`, and nothing is a panic, a hang, or silence.
 
 use super::*;
-use crate::finding::Finding;
+use crate::lint::json::told;
 use crate::source::SourceMap;
 use proptest::prelude::*;
 use std::ops::Range;
@@ -15,17 +15,17 @@ fn run(text: &str) -> Parsed {
 fn complaints(text: &str) -> Vec<(String, String)> {
     let parsed = run(text);
     assert!(parsed.broken, "{text} was accepted");
-    let told = |f: &Finding| (f.message.clone(), text[f.span.clone()].to_string());
-    parsed.findings.iter().map(told).collect()
+    let told = |p: &Problem| (told(p).message, text[p.span.clone()].to_string());
+    parsed.problems.iter().map(told).collect()
 }
 
 /// The text with all fixes applied, from the back.
 fn fixed(text: &str) -> String {
-    let mut fixes: Vec<_> = run(text).findings.into_iter().filter_map(|f| f.fix).collect();
-    fixes.sort_by_key(|f| (f.span.start, f.span.end));
+    let mut fixes: Vec<_> = run(text).problems.into_iter().filter_map(|p| p.repair).collect();
+    fixes.sort_by_key(|(span, _)| (span.start, span.end));
     let mut text = text.to_string();
-    for fix in fixes.into_iter().rev() {
-        text.replace_range(fix.span, &fix.text);
+    for (span, right) in fixes.into_iter().rev() {
+        text.replace_range(span, &right);
     }
     text
 }
@@ -274,8 +274,8 @@ fn too_many_values_are_refused() {
 fn duplicate_keys_are_found_and_strings_know_their_place() {
     let text = r#"{"a": "x\ny", "a": ""}"#;
     let parsed = run(text);
-    assert_eq!((parsed.findings[0].code, parsed.broken), ("duplicate-key", false));
-    assert_eq!(parsed.findings[0].span, 15..16);
+    assert_eq!((told(&parsed.problems[0]).code, parsed.broken), ("duplicate-key", false));
+    assert_eq!(parsed.problems[0].span, 15..16);
     let node = parsed.node.unwrap();
     let Json::Text(first) = &node.members()[0].value.json else { panic!() };
     assert_eq!(&text[first.span_of(1..3)], "\\ny");
@@ -328,7 +328,7 @@ fn hostile_texts_are_read_in_one_pass() {
             let text = format!("{before}{}{behind}", piece.repeat(400_000 / piece.len()));
             let start = std::time::Instant::now();
             let parsed = run(&text);
-            assert!(parsed.findings.len() <= MAX_MISTAKES, "{piece}");
+            assert!(parsed.problems.len() <= MAX_MISTAKES, "{piece}");
             assert!(start.elapsed().as_secs() < 5, "{before}{piece}: {:?}", start.elapsed());
         }
     }
@@ -487,7 +487,7 @@ proptest! {
         let ours = run(&text);
         let theirs: Option<serde_json::Value> = serde_json::from_str(&text).ok();
         prop_assert_eq!(!ours.broken, theirs.is_some(), "{:?}", text);
-        prop_assert_eq!(ours.broken, ours.findings.iter().any(|f| f.code != "duplicate-key"));
+        prop_assert_eq!(ours.broken, ours.problems.iter().any(|p| !matches!(p.mistake, Mistake::Twice(_))));
         if let Some(theirs) = theirs {
             prop_assert_eq!(to_serde(&ours.node.unwrap()), floats(theirs));
         }
@@ -497,7 +497,7 @@ proptest! {
     #[test]
     fn strict_json_is_read_exactly(text in strict_json()) {
         let ours = run(&text);
-        prop_assert!(!ours.broken, "{:?}: {:?}", text, ours.findings);
+        prop_assert!(!ours.broken, "{:?}: {:?}", text, ours.problems);
         let node = ours.node.unwrap();
         prop_assert_eq!(to_serde(&node), floats(serde_json::from_str(&text).unwrap()));
         let theirs = jsonc_parser::parse_to_ast(&text, &Default::default(), &Default::default()).unwrap().value.unwrap();
@@ -511,6 +511,6 @@ proptest! {
     fn any_text_is_survived(text in any::<String>()) {
         let ours = run(&text);
         prop_assert_eq!(ours.broken, serde_json::from_str::<serde_json::Value>(&text).is_err());
-        prop_assert_eq!(ours.broken, !ours.findings.is_empty());
+        prop_assert_eq!(ours.broken, !ours.problems.is_empty());
     }
 }

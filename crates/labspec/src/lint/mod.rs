@@ -5,53 +5,71 @@
 
 pub(crate) mod claims;
 pub(crate) mod fence;
+mod format;
 pub(crate) mod html;
+pub(crate) mod json;
 pub(crate) mod listing;
+mod load;
 pub(crate) mod model;
 mod models;
 pub(crate) mod repeated;
 
+pub use load::{MAX_FINDINGS, load_lesson, load_lesson_file, not_utf8, withhold_fixes};
 pub use models::ModelFolder;
 pub(crate) use models::{lesson_folder, root_of};
 
 use crate::finding::Finding;
-use crate::markdown::{BlockKind, Scan};
+use crate::markdown::BlockKind;
 use crate::rules::{self, CHECKS, Check};
-use crate::spec::Lesson;
+use crate::spec::{Lesson, Problem};
 
 /// Most names of model elements that are reported one by one.
 const MAX_TAGS: usize = 500;
 
-/// What is said about the text of a lesson: its fences, its HTML, its listings.
-pub(crate) fn check_text(text: &str, scan: &Scan, findings: &mut Vec<Finding>) {
-    findings.extend(scan.problems.iter().map(|problem| fence::told(text, problem)));
+/// Everything that the rules of structure say of a lesson, in no order.
+fn check(lesson: &Lesson, models: &ModelFolder) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = lesson.problems.iter().map(|problem| told(lesson, problem)).collect();
+    check_text(lesson, &mut findings);
+    check_objects(lesson, &mut findings);
+    check_models(lesson, models, &mut findings);
+    findings
+}
+
+/// What is said about something that was wrong where it was read.
+fn told(lesson: &Lesson, problem: &Problem) -> Finding {
+    match problem {
+        Problem::Fence(problem) => fence::told(lesson.file.text(), problem),
+        Problem::Json(problem) => json::told(problem),
+        Problem::Format(misfit) => format::told(misfit),
+    }
+}
+
+/// The HTML and the listings of its text.
+fn check_text(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let mut tags = 0;
-    for range in &scan.html {
-        let found = html::in_markdown(text, range.clone(), MAX_TAGS - tags);
+    for range in &lesson.scan.html {
+        let found = html::in_markdown(lesson.file.text(), range.clone(), MAX_TAGS - tags);
         tags += found.len();
         findings.extend(found);
         if tags >= MAX_TAGS {
             break;
         }
     }
-    for block in &scan.blocks {
+    for block in &lesson.scan.blocks {
         if let BlockKind::Code { language, .. } = &block.kind {
             listing::check(language, &block.body, block.whole, findings);
         }
     }
 }
 
-/// Walks a lesson with all checks.
-pub(crate) fn check(lesson: &Lesson, models: &ModelFolder, findings: &mut Vec<Finding>) {
+/// Its labs, quizzes and claims: a walk with all checks.
+fn check_objects(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    let labs = lesson.all_labs();
     for check in CHECKS {
         match check {
-            Check::Lab(check) => lesson.all_labs().into_iter().for_each(|lab| check(lab, findings)),
+            Check::Lab(check) => labs.iter().for_each(|lab| check(lab, findings)),
             Check::Control(check) => {
-                lesson
-                    .all_labs()
-                    .into_iter()
-                    .flat_map(|lab| &lab.controls)
-                    .for_each(|control| check(control, findings));
+                labs.iter().flat_map(|lab| &lab.controls).for_each(|control| check(control, findings));
             }
             Check::Quiz(check) => lesson.quizzes.iter().for_each(|quiz| check(quiz, findings)),
             Check::Question(check) => {
@@ -61,11 +79,15 @@ pub(crate) fn check(lesson: &Lesson, models: &ModelFolder, findings: &mut Vec<Fi
             Check::Lesson(check) => check(lesson, findings),
         }
     }
-    for lab in lesson.all_labs() {
-        model::check(lab, models, findings);
-        html::check_lab(lab, findings);
-    }
+    labs.iter().for_each(|lab| html::check_lab(lab, findings));
     lesson.quizzes.iter().for_each(|quiz| html::check_quiz(quiz, findings));
+}
+
+/// The models that it names.
+fn check_models(lesson: &Lesson, models: &ModelFolder, findings: &mut Vec<Finding>) {
+    lesson.all_labs().into_iter().for_each(|lab| model::check(lab, models, findings));
+    let named = lesson.widgets.iter().filter_map(|widget| widget.model.as_ref());
+    findings.extend(named.filter_map(|name| model::missing(name, models)));
 }
 
 /// Checks what only several lessons together can get wrong: ids that are used twice in a course.

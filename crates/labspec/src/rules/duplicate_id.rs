@@ -72,7 +72,7 @@ fn duplicate(id: &Text) -> Finding {
 mod tests {
     use crate::lint::{ModelFolder, check_course};
     use crate::source::SourceFile;
-    use crate::spec::load_lesson;
+    use crate::lint::load_lesson;
 
     #[test]
     fn ids_are_unique_in_a_course() {

@@ -1,4 +1,3 @@
-use crate::finding::Finding;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A plot without curves.
@@ -13,9 +12,3 @@ pub const EMPTY_PLOT: &Rule = &Rule {
         r#"{"model": "ball", "plots": [{"ylabel": "height (m)", "traces": [{"label": "ball", "expr": "data.qpos[2]"}]}]}"#,
     ),
 };
-
-/// A plot without traces, found while it is read.
-pub(crate) fn empty(plot: std::ops::Range<usize>) -> Finding {
-    Finding::new(EMPTY_PLOT, plot.start..plot.start + 1, "this plot has no traces")
-        .help("add \"traces\": [{\"label\": \"height (m)\", \"expr\": \"data.qpos[2]\"}]")
-}

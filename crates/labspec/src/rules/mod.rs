@@ -6,10 +6,7 @@
 pub mod example;
 
 pub(crate) use duplicate_id::across;
-pub(crate) use empty_plot::empty;
 pub use labspec_finding::Rule;
-pub(crate) use select_options::nothing_offered;
-pub(crate) use verify_nothing::claims_nothing;
 
 use crate::finding::Finding;
 use crate::spec::{Control, Lab, Lesson, Question, Quiz};

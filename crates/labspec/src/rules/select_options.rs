@@ -1,4 +1,3 @@
-use crate::finding::Finding;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// Options that are not pairs, or none at all.
@@ -15,9 +14,3 @@ pub const SELECT_OPTIONS: &Rule = &Rule {
         r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", 1]], "value": 1}]}"#,
     ),
 };
-
-/// A select without options, found while it is read.
-pub(crate) fn nothing_offered(span: std::ops::Range<usize>) -> Finding {
-    Finding::new(SELECT_OPTIONS, span.start..span.start + 1, "this select offers nothing")
-        .help("write \"options\": [[\"Euler\", 0], [\"RK4\", 1]]")
-}

@@ -1,4 +1,3 @@
-use crate::finding::Finding;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A `verify` object that claims nothing.
@@ -15,9 +14,3 @@ pub const VERIFY_NOTHING: &Rule = &Rule {
         r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),
 };
-
-/// An object without claims, found while it is read.
-pub(crate) fn claims_nothing(verify: std::ops::Range<usize>) -> Finding {
-    Finding::new(VERIFY_NOTHING, verify.start..verify.start + 1, "nothing is compared with these runs")
-        .help("add `options`, `value`, `says` or `exact`")
-}

@@ -235,8 +235,8 @@ pub(crate) fn unknown(label: &str, programs: &Programs) -> RunError {
 mod tests {
     use super::*;
     use crate::lint::ModelFolder;
+    use crate::lint::load_lesson;
     use crate::source::SourceFile;
-    use crate::spec::load_lesson;
 
     /// The controls of a lab, as JSON.
     fn lab(controls: &str) -> Lab {

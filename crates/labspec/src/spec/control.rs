@@ -1,10 +1,10 @@
 //! Sliders, selects and buttons.
 
 use super::fields::Fields;
-use super::format::{BUTTON, CONTROL, MAX_DIGITS, SELECT, SLIDER, texts};
-use crate::finding::Finding;
-use crate::json::{Json, Node, Number, Scalar, read};
-use crate::rules;
+use super::format::{BUTTON, CONTROL, MAX_DIGITS, SELECT, SLIDER};
+use super::problem::{Mistake, Problem};
+use super::read;
+use crate::json::{Json, Node, Number, Scalar};
 use crate::source::Text;
 use std::ops::Range;
 
@@ -113,8 +113,8 @@ pub(super) fn decimals(digits: Option<&Number>) -> u32 {
 }
 
 /// Reads a control.
-pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Control> {
-    let mut fields = Fields::open_one(node, &CONTROL, findings)?;
+pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Control> {
+    let mut fields = Fields::open_one(node, &CONTROL, problems)?;
     let kind = fields.text("type");
     let control = match kind.as_ref().map_or("slider", Text::as_str) {
         "slider" => slider(&mut fields),
@@ -122,16 +122,7 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Control> 
         "button" => button(&mut fields),
         other => {
             let span = kind.as_ref().map_or(node.span.clone(), Text::span);
-            let finding = Finding::new(
-                rules::WRONG_TYPE,
-                span.clone(),
-                format!("there is no control of type {}", read::named(other)),
-            )
-            .why("the page knows sliders, selects and buttons; it shows nothing for anything else");
-            fields.findings.push(match crate::json::nearest(other, texts(CONTROL.words)) {
-                Some(right) => finding.help(format!("did you mean `{right}`?")).guess(span, right),
-                None => finding.help("write \"select\" or \"button\"; without `type` it is a slider"),
-            });
+            fields.problems.push(Mistake::ControlType(other.to_string()).at(span));
             // Its other keys cannot be judged.
             return None;
         }
@@ -159,35 +150,29 @@ fn select(fields: &mut Fields<'_, '_>) -> Option<(Text, ControlKind)> {
     let label = fields.text("label");
     let options = fields.items("options");
     if options.is_some_and(<[Node]>::is_empty) {
-        fields.findings.push(rules::nothing_offered(fields.span()));
+        let mistake = Mistake::NothingOffered.at(fields.span());
+        fields.problems.push(mistake);
     }
     // A broken option has been reported; without it, the start value cannot be judged.
-    let options = options.map(|nodes| nodes.iter().map(|n| choice(n, fields.findings)).collect::<Vec<_>>());
+    let options = options.map(|nodes| nodes.iter().map(|n| choice(n, fields.problems)).collect::<Vec<_>>());
     let options: Option<Vec<Choice>> = options.and_then(|all| all.into_iter().collect());
     let value = fields.scalar("value");
     let action = action(fields);
     Some((label?, ControlKind::Select { options: options?, value: value?, action }))
 }
 
-fn choice(node: &Node, findings: &mut Vec<Finding>) -> Option<Choice> {
+fn choice(node: &Node, problems: &mut Vec<Problem>) -> Option<Choice> {
     if node.is_broken() {
         return None;
     }
     if let Json::Array(pair) = &node.json
         && let [text, value] = pair.as_slice()
     {
-        let text = read::text(text, "the text of an option", findings);
-        let value = read::scalar(value, "the value of an option", findings);
+        let text = read::text(text, "the text of an option", problems);
+        let value = read::scalar(value, "the value of an option", problems);
         return Some(Choice { text: text?, value: value? });
     }
-    findings.push(
-        Finding::new(
-            rules::SELECT_OPTIONS,
-            node.span.clone(),
-            "an option of a select is a pair [text, value]",
-        )
-        .help("write [\"RK4\", 1]"),
-    );
+    problems.push(Mistake::NoChoice.at(node.span.clone()));
     None
 }
 

@@ -1,10 +1,9 @@
 //! Reads the declared keys of one object, and collects what is wrong instead of stopping at the first mistake.
 
 use super::format::{Family, Key, Need, Object, Type};
-use crate::finding::{Finding, Severity};
-use crate::json::read::{number, scalar, shorten, text, whole, wrong, wrong_key};
+use super::problem::{Expected, Meant, Mistake, Problem};
+use super::read::{number, scalar, text, whole, wrong, wrong_key};
 use crate::json::{Json, Member, Node, Number, Scalar, nearest};
-use crate::rules;
 use crate::source::Text;
 use std::ops::Range;
 
@@ -19,42 +18,42 @@ pub(super) struct Fields<'n, 'f> {
     span: Range<usize>,
     /// Misspelt keys: what was meant, and the index of the member.
     meant: Vec<(&'static str, usize)>,
-    missing: Vec<(&'static str, Finding)>,
-    /// Where findings go.
-    pub(super) findings: &'f mut Vec<Finding>,
+    missing: Vec<(&'static str, Problem)>,
+    /// Where problems go.
+    pub(super) problems: &'f mut Vec<Problem>,
 }
 
 impl<'n, 'f> Fields<'n, 'f> {
-    /// Opens an object; anything else is a finding and `None`.
+    /// Opens an object; anything else is a problem and `None`.
     pub(super) fn open(
         node: &'n Node,
         object: &'static Object,
-        findings: &'f mut Vec<Finding>,
+        problems: &'f mut Vec<Problem>,
     ) -> Option<Fields<'n, 'f>> {
-        Fields::with(node, object.what, object.keys.iter().collect(), findings)
+        Fields::with(node, object.what, object.keys.iter().collect(), problems)
     }
 
     /// Opens an object of a family; [`Fields::narrow`] says which one, once it is known.
     pub(super) fn open_one(
         node: &'n Node,
         family: &'static Family,
-        findings: &'f mut Vec<Finding>,
+        problems: &'f mut Vec<Problem>,
     ) -> Option<Fields<'n, 'f>> {
-        Fields::with(node, family.what, family.keys(), findings)
+        Fields::with(node, family.what, family.keys(), problems)
     }
 
     fn with(
         node: &'n Node,
         what: &'static str,
         keys: Vec<&'static Key>,
-        findings: &'f mut Vec<Finding>,
+        problems: &'f mut Vec<Problem>,
     ) -> Option<Fields<'n, 'f>> {
         let Json::Object(members) = &node.json else {
-            wrong(findings, node, what, "an object { … }");
+            wrong(problems, node, what.to_string(), Expected::Object);
             return None;
         };
         let (span, meant, missing) = (node.span.clone(), Vec::new(), Vec::new());
-        let mut fields = Fields { what, keys, members, span, meant, missing, findings };
+        let mut fields = Fields { what, keys, members, span, meant, missing, problems };
         fields.guess();
         Some(fields)
     }
@@ -101,8 +100,8 @@ impl<'n, 'f> Fields<'n, 'f> {
         let found = exact.or_else(meant).map(|m| &m.value);
         if found.is_none() {
             match self.key(key).map(|k| k.need) {
-                Some(Need::Must(why)) => self.missing(key, why, Severity::Error),
-                Some(Need::Advised(why)) => self.missing(key, why, Severity::Warning),
+                Some(Need::Must(why)) => self.missing(key, why, false),
+                Some(Need::Advised(why)) => self.missing(key, why, true),
                 Some(Need::Optional) | None => {}
             }
         }
@@ -115,31 +114,31 @@ impl<'n, 'f> Fields<'n, 'f> {
     }
 
     /// Remembers that a key is missing, at the opening bracket of the object.
-    fn missing(&mut self, key: &'static str, why: &str, severity: Severity) {
+    fn missing(&mut self, key: &'static str, why: &'static str, advised: bool) {
         if self.missing.iter().any(|(k, _)| *k == key) {
             return;
         }
         let open = self.span.start..self.span.end.min(self.span.start + 1);
-        let finding = Finding::new(rules::MISSING_KEY, open, format!("{} needs `{key}`", self.what));
-        self.missing.push((key, finding.severity(severity).why(why).help(format!("add \"{key}\": …"))));
+        let mistake = Mistake::MissingKey { of: self.what, key, why, advised };
+        self.missing.push((key, mistake.at(open)));
     }
 
     /// A text.
     pub(super) fn text(&mut self, key: &'static str) -> Option<Text> {
         let node = self.node(key)?;
-        text(node, key, self.findings)
+        text(node, key, self.problems)
     }
 
     /// A number.
     pub(super) fn number(&mut self, key: &'static str) -> Option<Number> {
         let node = self.node(key)?;
-        number(node, key, self.findings)
+        number(node, key, self.problems)
     }
 
     /// A whole number; its sign and range are for the rules.
     pub(super) fn whole(&mut self, key: &'static str) -> Option<Number> {
         let node = self.node(key)?;
-        whole(node, key, self.findings)
+        whole(node, key, self.problems)
     }
 
     /// A truth value; absent or wrong means `false`.
@@ -148,7 +147,7 @@ impl<'n, 'f> Fields<'n, 'f> {
         match node.json {
             Json::Bool(b) => b,
             _ => {
-                wrong_key(self.findings, node, key, "true or false, without quotes");
+                wrong_key(self.problems, node, key, Expected::Flag);
                 false
             }
         }
@@ -157,7 +156,7 @@ impl<'n, 'f> Fields<'n, 'f> {
     /// A number, text or truth value.
     pub(super) fn scalar(&mut self, key: &'static str) -> Option<Scalar> {
         let node = self.node(key)?;
-        scalar(node, key, self.findings)
+        scalar(node, key, self.problems)
     }
 
     /// The items of a list; wrong means none. `None` where the key is missing.
@@ -166,7 +165,7 @@ impl<'n, 'f> Fields<'n, 'f> {
         Some(match &node.json {
             Json::Array(items) => items,
             _ => {
-                wrong_key(self.findings, node, key, "a list [ … ]");
+                wrong_key(self.problems, node, key, Expected::List);
                 &[]
             }
         })
@@ -183,7 +182,7 @@ impl<'n, 'f> Fields<'n, 'f> {
         match &node.json {
             Json::Object(members) => members,
             _ => {
-                wrong_key(self.findings, node, key, "an object { … }");
+                wrong_key(self.problems, node, key, Expected::Object);
                 &[]
             }
         }
@@ -197,14 +196,6 @@ impl<'n, 'f> Fields<'n, 'f> {
             if self.key(key).is_some() {
                 continue;
             }
-            let finding = Finding::new(
-                rules::UNKNOWN_KEY,
-                member.key.span(),
-                match key.trim().is_empty() {
-                    true => format!("a key of {} has no name", self.what),
-                    false => format!("{} has no key `{}`", self.what, shorten(key)),
-                },
-            );
             // Suggestions for the first ones only: a hostile object can have thousands.
             let known = || self.keys.iter().take(if reported < 20 { usize::MAX } else { 0 });
             let meant = self.meant.iter().find(|(right, at)| *at == i && self.key(right).is_some());
@@ -213,28 +204,26 @@ impl<'n, 'f> Fields<'n, 'f> {
             let fitting =
                 || nearest(key, known().filter(|k| fits(&k.of, &member.value.json)).map(|k| k.name));
             let near = meant.map(|(right, _)| *right).or_else(fitting);
-            self.findings.push(match near.or_else(|| nearest(key, known().map(|k| k.name))) {
-                Some(right) if there(right) => finding.help(format!(
-                    "did you mean `{right}`? the object has it already: delete one of the two"
-                )),
-                Some(right) if near.is_some() => {
-                    misspelt.push(right);
-                    finding.help(format!("did you mean `{right}`?")).guess(member.key.span(), right)
-                }
+            let meant = match near.or_else(|| nearest(key, known().map(|k| k.name))) {
+                Some(right) if there(right) => Meant::There(right),
                 Some(right) => {
                     misspelt.push(right);
-                    let takes = self.key(right).map_or("a single value", |k| takes(&k.of));
-                    finding.help(format!("did you mean `{right}`? it takes {takes}"))
+                    match near {
+                        Some(_) => Meant::Likely(right),
+                        None => {
+                            let takes = self.key(right).map_or(A_SINGLE_VALUE, |k| takes(&k.of));
+                            Meant::Other { key: right, takes }
+                        }
+                    }
                 }
-                None => {
-                    let names: Vec<&str> = self.keys.iter().map(|k| k.name).collect();
-                    finding.help(format!("its keys are {}", names.join(", ")))
-                }
-            });
+                None => Meant::Unclear(self.keys.iter().map(|k| k.name).collect()),
+            };
+            let mistake = Mistake::UnknownKey { of: self.what, key: key.to_string(), meant };
+            self.problems.push(mistake.at(member.key.span()));
             reported += 1;
         }
         let missing = self.missing.into_iter().filter(|(key, _)| !misspelt.contains(key));
-        self.findings.extend(missing.map(|(_, finding)| finding));
+        self.problems.extend(missing.map(|(_, problem)| problem));
     }
 }
 

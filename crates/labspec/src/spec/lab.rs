@@ -2,10 +2,10 @@
 
 use super::fields::Fields;
 use super::format::{CAMERA, LAB};
+use super::problem::{Mistake, Problem};
+use super::read;
 use super::{Control, Plot, Readout, Verify, control, plot, verify};
-use crate::finding::Finding;
-use crate::json::{Json, Node, Number, read};
-use crate::rules;
+use crate::json::{Json, Node, Number};
 use crate::source::Text;
 use std::ops::Range;
 
@@ -226,8 +226,8 @@ pub enum Form {
 }
 
 /// Reads a lab.
-pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Lab> {
-    let mut fields = Fields::open(node, &LAB, findings)?;
+pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Lab> {
+    let mut fields = Fields::open(node, &LAB, problems)?;
     let f = &mut fields;
     let lab = Lab {
         span: f.span(),
@@ -240,21 +240,21 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Lab> {
         height: f.number("height"),
         dock: f.flag("dock"),
         autoplay: f.flag("autoplay"),
-        camera: f.node("camera").and_then(|n| camera(n, f.findings)).unwrap_or_default(),
+        camera: f.node("camera").and_then(|n| camera(n, f.problems)).unwrap_or_default(),
         overlays: overlays(f),
-        toggles: f.list("toggles").iter().filter_map(|n| read::text(n, "a toggle", f.findings)).collect(),
+        toggles: f.list("toggles").iter().filter_map(|n| read::text(n, "a toggle", f.problems)).collect(),
         force_scale: f.number("forceScale"),
         trail: f.text("trail"),
-        speeds: f.list("speeds").iter().filter_map(|n| read::number(n, "a speed", f.findings)).collect(),
+        speeds: f.list("speeds").iter().filter_map(|n| read::number(n, "a speed", f.problems)).collect(),
         stop_at: f.number("stopAt"),
         setup: f.text("setup"),
         controller: f.text("controller"),
         unread_controls: false,
-        controls: f.list("controls").iter().filter_map(|n| control::read(n, f.findings)).collect(),
-        plots: f.list("plots").iter().filter_map(|n| plot::read(n, f.findings)).collect(),
-        readouts: f.list("readouts").iter().filter_map(|n| plot::readout(n, f.findings)).collect(),
-        verify: f.node("verify").and_then(|n| verify::read(n, f.findings)),
-        expect: f.text("expect").and_then(|t| expected(&t, f.findings)),
+        controls: f.list("controls").iter().filter_map(|n| control::read(n, f.problems)).collect(),
+        plots: f.list("plots").iter().filter_map(|n| plot::read(n, f.problems)).collect(),
+        readouts: f.list("readouts").iter().filter_map(|n| plot::readout(n, f.problems)).collect(),
+        verify: f.node("verify").and_then(|n| verify::read(n, f.problems)),
+        expect: f.text("expect").and_then(|t| expected(&t, f.problems)),
     };
     let listed = f.list("controls").len();
     fields.finish();
@@ -266,37 +266,29 @@ fn no_list_of_controls(node: &Node) -> bool {
     node.get("controls").is_some_and(|n| !matches!(n.json, Json::Array(_)))
 }
 
-fn expected(text: &Text, findings: &mut Vec<Finding>) -> Option<Expect> {
+fn expected(text: &Text, problems: &mut Vec<Problem>) -> Option<Expect> {
     if text.as_str() == "breaks" {
         return Some(Expect::Breaks(text.span()));
     }
-    let what = format!("`expect` cannot be {}", read::named(text.as_str()));
-    let finding = Finding::new(rules::WRONG_TYPE, text.span(), what)
-        .why("it says what is meant to happen when the lab runs; there is one thing that it can say");
-    findings.push(match crate::json::nearest(text.as_str(), ["breaks"]) {
-        Some(right) => finding.help(format!("did you mean `{right}`?")).guess(text.span(), right),
-        None => {
-            finding.help("write \"breaks\" when the lab is about a simulation that breaks, else leave it out")
-        }
-    });
+    problems.push(Mistake::LabExpects(text.value.clone()).at(text.span()));
     None
 }
 
-fn camera(node: &Node, findings: &mut Vec<Finding>) -> Option<Camera> {
-    let mut fields = Fields::open(node, &CAMERA, findings)?;
+fn camera(node: &Node, problems: &mut Vec<Problem>) -> Option<Camera> {
+    let mut fields = Fields::open(node, &CAMERA, problems)?;
     let standard = Camera::default();
     let camera = Camera {
         azimuth: fields.number("azimuth").map_or(standard.azimuth, |n| n.value),
         elevation: fields.number("elevation").map_or(standard.elevation, |n| n.value),
         distance: fields.number("distance").map(|n| n.value),
-        target: fields.node("target").and_then(|n| point(n, fields.findings)),
+        target: fields.node("target").and_then(|n| point(n, fields.problems)),
     };
     fields.finish();
     Some(camera)
 }
 
 /// Three numbers.
-fn point(node: &Node, findings: &mut Vec<Finding>) -> Option<[f64; 3]> {
+fn point(node: &Node, problems: &mut Vec<Problem>) -> Option<[f64; 3]> {
     if let Json::Array(items) = &node.json
         && let [Json::Number(x), Json::Number(y), Json::Number(z)] =
             items.iter().map(|n| &n.json).collect::<Vec<_>>()[..]
@@ -306,10 +298,7 @@ fn point(node: &Node, findings: &mut Vec<Finding>) -> Option<[f64; 3]> {
     if node.is_broken() || matches!(&node.json, Json::Array(items) if items.iter().any(Node::is_broken)) {
         return None;
     }
-    findings.push(
-        Finding::new(rules::WRONG_TYPE, node.span.clone(), "`target` must be three numbers, in metres")
-            .help("write \"target\": [0, 0, 0.5]"),
-    );
+    problems.push(Mistake::NoPoint.at(node.span.clone()));
     None
 }
 
@@ -319,14 +308,7 @@ fn overlays(fields: &mut Fields<'_, '_>) -> Vec<(Text, bool)> {
         match member.value.json {
             Json::Bool(on) => all.push((member.key.clone(), on)),
             Json::Broken => {}
-            _ => fields.findings.push(
-                Finding::new(
-                    rules::WRONG_TYPE,
-                    member.value.span.clone(),
-                    "an overlay is switched by true or false",
-                )
-                .help("write true or false, without quotes"),
-            ),
+            _ => fields.problems.push(Mistake::NoSwitch.at(member.value.span.clone())),
         }
     }
     all

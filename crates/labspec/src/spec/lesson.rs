@@ -1,18 +1,17 @@
 //! A lesson: what its fences hold, in order, and how labs are addressed.
 
 use super::kind::{FileKind, Nature, kind_of, nature};
+use super::problem::{Mistake, Problem};
 use super::{Lab, Quiz, VerifyLab, lab, quiz};
-use crate::finding::{self, Finding, InFile};
+use crate::finding::{Finding, Severity};
 use crate::json::{self, Json, Node};
-use crate::lint::{self, ModelFolder};
-use crate::markdown::{self, Block, BlockKind};
-use crate::rules;
+use crate::markdown::{self, Block, BlockKind, Scan};
 use crate::source::{MAX_FILE, SourceFile, SourceMap, Text};
 use std::ops::Range;
 use std::path::Path;
 
-/// Most findings that are kept per file. Whoever has more fixes the first ones first.
-pub const MAX_FINDINGS: usize = 1000;
+/// Most problems that are looked for in a file: more than anybody reads.
+const MAX_PROBLEMS: usize = 10_000;
 
 /// A lesson, or a stand-alone JSON file, with everything that was found wrong in its structure.
 #[derive(Clone, Debug)]
@@ -27,7 +26,11 @@ pub struct Lesson {
     pub widgets: Vec<Widget>,
     /// Bytes of the blocks whose JSON a page cannot read. What they were meant to be is read and checked all the same.
     pub broken: Vec<Range<usize>>,
-    /// What is wrong, in order.
+    /// The fences, the HTML and the listings of its Markdown.
+    pub scan: Scan,
+    /// What was wrong where it was read.
+    pub problems: Vec<Problem>,
+    /// What the rules of structure say of it, in order; nothing until [`lint`](crate::lint) has looked.
     pub findings: Vec<Finding>,
 }
 
@@ -138,21 +141,9 @@ impl Lesson {
         self.broken.iter().any(|b| b.start <= span.start && span.end <= b.end)
     }
 
-    /// Takes the fixes of findings away that lie in a block whose JSON is broken. They were made for JSON: between
-    /// quotes that are none they would break more. The fixes of the JSON itself stay.
-    pub fn withhold_fixes(&self, findings: &mut [Finding]) {
-        for finding in
-            findings.iter_mut().filter(|f| f.fix.as_ref().is_some_and(|fix| self.is_broken(&fix.span)))
-        {
-            if ![rules::JSON_SYNTAX.code, rules::TYPOGRAPHIC_QUOTE.code].contains(&finding.code) {
-                finding.fix = None;
-            }
-        }
-    }
-
     /// Whether anything is an error.
     pub fn has_errors(&self) -> bool {
-        self.findings.iter().any(|f| f.severity == finding::Severity::Error)
+        self.findings.iter().any(|f| f.severity == Severity::Error)
     }
 }
 
@@ -163,54 +154,35 @@ fn inline(lab: Option<&VerifyLab>) -> Option<&Lab> {
     }
 }
 
-/// Reads a lesson (Markdown) or, when the path ends in `.json`, a lab, a quiz or a list of them, and checks its
-/// structure. Nothing is run; this never fails, findings say what is wrong.
-pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
+/// Reads a lesson (Markdown) or, when the path ends in `.json`, a lab, a quiz or a list of them. This never fails: what is wrong
+/// is among the problems, and what is right is there.
+pub fn read_lesson(file: SourceFile) -> Lesson {
     let mut lesson = Lesson {
         file,
         labs: Vec::new(),
         quizzes: Vec::new(),
         widgets: Vec::new(),
         broken: Vec::new(),
+        scan: Scan::default(),
+        problems: Vec::new(),
         findings: Vec::new(),
     };
     if lesson.file.text().len() as u64 > MAX_FILE {
-        let limit = MAX_FILE >> 20;
-        lesson.findings.push(Finding::new(
-            rules::LESSON_LIMIT,
-            0..0,
-            format!("this file is larger than {limit} MB"),
-        ));
+        lesson.problems.push(Mistake::TooLarge.at(0..0));
     } else if kind_of(Path::new(&**lesson.file.path())) == FileKind::Json {
         json_file(&mut lesson);
     } else {
-        markdown_file(&mut lesson, models);
-    }
-    let mut findings = std::mem::take(&mut lesson.findings);
-    lint::check(&lesson, models, &mut findings);
-    lesson.withhold_fixes(&mut findings);
-    lesson.findings = findings.into_iter().map(|f| f.at(&lesson.file)).collect();
-    finding::sort(&mut lesson.findings);
-    if lesson.findings.len() > MAX_FINDINGS {
-        let more = lesson.findings.len() - MAX_FINDINGS;
-        lesson.findings.truncate(MAX_FINDINGS);
-        let end = lesson.file.text().len();
-        lesson.findings.push(
-            Finding::new(rules::LESSON_LIMIT, end..end, format!("{more} more findings are not shown"))
-                .help("fix the first ones, then check again")
-                .at(&lesson.file),
-        );
+        markdown_file(&mut lesson);
     }
     lesson
 }
 
-fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
+fn markdown_file(lesson: &mut Lesson) {
     let file = lesson.file.clone();
-    let (scan, text) = (markdown::scan(&file), file.text());
-    lint::check_text(text, &scan, &mut lesson.findings);
+    let (mut scan, text) = (markdown::scan(&file), file.text());
+    lesson.problems.extend(scan.problems.drain(..).map(Problem::Fence));
     for block in &scan.blocks {
-        // More than anybody reads: what follows would be cut off anyway.
-        if lesson.findings.len() > 10 * MAX_FINDINGS {
+        if lesson.problems.len() > MAX_PROBLEMS {
             break;
         }
         match &block.kind {
@@ -219,19 +191,12 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
                 if let Some(node) = &node
                     && nature(node) == Nature::Quiz
                 {
-                    lesson.findings.push(
-                        Finding::new(
-                            rules::FENCE_KIND,
-                            block.info.clone(),
-                            "this fence says `lab`, but it holds a quiz",
-                        )
-                        .help("write ```quiz")
-                        .fix(block.info.clone(), head(text, block, "quiz")),
-                    );
-                    lesson.quizzes.extend(quiz::read(node, &mut lesson.findings));
+                    let mistake = Mistake::HoldsQuiz(head(text, block, "quiz"));
+                    lesson.problems.push(mistake.at(block.info.clone()));
+                    lesson.quizzes.extend(quiz::read(node, &mut lesson.problems));
                     continue;
                 }
-                let lab = node.and_then(|node| lab::read(&node, &mut lesson.findings));
+                let lab = node.and_then(|node| lab::read(&node, &mut lesson.problems));
                 push_lab(lesson, block.span.clone(), lab);
             }
             BlockKind::Lab(widget) => {
@@ -240,32 +205,23 @@ fn markdown_file(lesson: &mut Lesson, models: &ModelFolder) {
                     Json::Text(text) => Some(text.clone()),
                     _ => None,
                 });
-                if let Some(model) = &model {
-                    lesson.findings.extend(lint::model::missing(model, models));
-                }
                 lesson.widgets.push(Widget { name: widget.clone(), span: block.span.clone(), model });
             }
             BlockKind::Quiz => {
                 let Some(node) = body(block, lesson) else { continue };
                 if nature(&node) == Nature::Lab {
-                    lesson.findings.push(
-                        Finding::new(
-                            rules::FENCE_KIND,
-                            block.info.clone(),
-                            "this fence says `quiz`, but it holds a lab",
-                        )
-                        .help("write ```lab simlab")
-                        .fix(block.info.clone(), head(text, block, "lab simlab")),
-                    );
-                    let lab = lab::read(&node, &mut lesson.findings);
+                    let mistake = Mistake::HoldsLab(head(text, block, "lab simlab"));
+                    lesson.problems.push(mistake.at(block.info.clone()));
+                    let lab = lab::read(&node, &mut lesson.problems);
                     push_lab(lesson, block.span.clone(), lab);
                     continue;
                 }
-                lesson.quizzes.extend(quiz::read(&node, &mut lesson.findings));
+                lesson.quizzes.extend(quiz::read(&node, &mut lesson.problems));
             }
             BlockKind::Code { .. } => {}
         }
     }
+    lesson.scan = scan;
 }
 
 /// The opening line of a block, for another kind.
@@ -279,10 +235,7 @@ fn head(text: &str, block: &Block, kind: &str) -> String {
 fn body(block: &Block, lesson: &mut Lesson) -> Option<Node> {
     if block.body.value.trim().is_empty() {
         lesson.broken.push(block.span.clone());
-        lesson.findings.push(
-            Finding::new(rules::JSON_SYNTAX, block.info.clone(), "this fence is empty")
-                .help("write one JSON object between the two ``` lines: { … }"),
-        );
+        lesson.problems.push(Mistake::EmptyFence.at(block.info.clone()));
         return None;
     }
     read_json(&block.body.value, &block.body.map, block.span.clone(), lesson)
@@ -294,7 +247,7 @@ fn read_json(text: &str, map: &SourceMap, span: Range<usize>, lesson: &mut Lesso
     if parsed.broken {
         lesson.broken.push(span);
     }
-    lesson.findings.extend(parsed.findings);
+    lesson.problems.extend(parsed.problems.into_iter().map(Problem::Json));
     parsed.node
 }
 
@@ -320,18 +273,14 @@ fn json_file(lesson: &mut Lesson) {
 
 fn json_item(lesson: &mut Lesson, node: &Node) {
     match nature(node) {
-        Nature::Quiz => lesson.quizzes.extend(quiz::read(node, &mut lesson.findings)),
+        Nature::Quiz => lesson.quizzes.extend(quiz::read(node, &mut lesson.problems)),
         Nature::Lab => {
-            let lab = lab::read(node, &mut lesson.findings);
+            let lab = lab::read(node, &mut lesson.problems);
             push_lab(lesson, node.span.clone(), lab);
         }
         Nature::Neither if node.is_broken() => {}
         Nature::Neither => {
-            let open = node.span.start..node.span.end.min(node.span.start + 1);
-            lesson.findings.push(
-                Finding::new(rules::UNKNOWN_SPEC, open, "neither a lab nor a quiz")
-                    .help("a lab has a `model` or an `xml`; a quiz has `questions`"),
-            );
+            lesson.problems.push(Mistake::UnknownObject.at(node.span.clone()));
         }
     }
 }
@@ -339,6 +288,7 @@ fn json_item(lesson: &mut Lesson, node: &Node) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lint::{MAX_FINDINGS, ModelFolder, load_lesson};
     use proptest::prelude::*;
 
     /// Lessons put together from what breaks them.

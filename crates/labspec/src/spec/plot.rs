@@ -2,9 +2,8 @@
 
 use super::fields::Fields;
 use super::format::{PLOT, READOUT, REF_LINE, TRACE};
-use crate::finding::Finding;
+use super::problem::{Mistake, Problem};
 use crate::json::{Node, Number};
-use crate::rules::empty;
 use crate::source::Text;
 use std::ops::Range;
 
@@ -91,11 +90,12 @@ impl Readout {
 }
 
 /// Reads a plot.
-pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Plot> {
-    let mut fields = Fields::open(node, &PLOT, findings)?;
+pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Plot> {
+    let mut fields = Fields::open(node, &PLOT, problems)?;
     let nodes = fields.list("traces");
     if nodes.is_empty() {
-        fields.findings.push(empty(fields.span()));
+        let mistake = Mistake::NoTraces.at(fields.span());
+        fields.problems.push(mistake);
     }
     let plot = Plot {
         span: fields.span(),
@@ -105,23 +105,23 @@ pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Plot> {
         ymin: fields.number("ymin"),
         ymax: fields.number("ymax"),
         height: fields.number("height"),
-        ref_lines: fields.list("refLines").iter().filter_map(|n| ref_line(n, fields.findings)).collect(),
-        traces: nodes.iter().filter_map(|n| trace(n, fields.findings)).collect(),
+        ref_lines: fields.list("refLines").iter().filter_map(|n| ref_line(n, fields.problems)).collect(),
+        traces: nodes.iter().filter_map(|n| trace(n, fields.problems)).collect(),
     };
     fields.finish();
     Some(plot)
 }
 
-fn ref_line(node: &Node, findings: &mut Vec<Finding>) -> Option<RefLine> {
-    let mut fields = Fields::open(node, &REF_LINE, findings)?;
+fn ref_line(node: &Node, problems: &mut Vec<Problem>) -> Option<RefLine> {
+    let mut fields = Fields::open(node, &REF_LINE, problems)?;
     let y = fields.number("y");
     let label = fields.text("label");
     fields.finish();
     Some(RefLine { y: y?, label })
 }
 
-fn trace(node: &Node, findings: &mut Vec<Finding>) -> Option<Trace> {
-    let mut fields = Fields::open(node, &TRACE, findings)?;
+fn trace(node: &Node, problems: &mut Vec<Problem>) -> Option<Trace> {
+    let mut fields = Fields::open(node, &TRACE, problems)?;
     let label = fields.text("label");
     let expr = fields.text("expr");
     let dash = fields.flag("dash");
@@ -131,8 +131,8 @@ fn trace(node: &Node, findings: &mut Vec<Finding>) -> Option<Trace> {
 }
 
 /// Reads a readout.
-pub(super) fn readout(node: &Node, findings: &mut Vec<Finding>) -> Option<Readout> {
-    let mut fields = Fields::open(node, &READOUT, findings)?;
+pub(super) fn readout(node: &Node, problems: &mut Vec<Problem>) -> Option<Readout> {
+    let mut fields = Fields::open(node, &READOUT, problems)?;
     let label = fields.text("label");
     let expr = fields.text("expr");
     let digits = fields.whole("digits");

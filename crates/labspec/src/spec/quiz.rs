@@ -1,11 +1,11 @@
 //! The quiz object and its kinds of questions.
 
 use super::fields::Fields;
-use super::format::{CODE, DEBUG, MCQ, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TOLERANCE, texts};
+use super::format::{CODE, DEBUG, MCQ, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TOLERANCE};
+use super::problem::{Mistake, Problem};
+use super::read;
 use super::{Lab, Verify, lab, verify};
-use crate::finding::Finding;
-use crate::json::{Node, Number, read};
-use crate::rules;
+use crate::json::{Node, Number};
 use crate::source::Text;
 use std::ops::Range;
 
@@ -137,19 +137,19 @@ impl Quiz {
 }
 
 /// Reads a quiz.
-pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Quiz> {
-    let mut fields = Fields::open(node, &QUIZ, findings)?;
+pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Quiz> {
+    let mut fields = Fields::open(node, &QUIZ, problems)?;
     let id = fields.text("id");
     let title = fields.text("title");
     let questions = fields.items("questions");
-    let questions = questions.unwrap_or_default().iter().map(|n| question(n, fields.findings)).collect();
+    let questions = questions.unwrap_or_default().iter().map(|n| question(n, fields.problems)).collect();
     let span = fields.span();
     fields.finish();
     Some(Quiz { span, id, title, questions })
 }
 
-fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
-    let mut fields = Fields::open_one(node, &QUESTION, findings)?;
+fn question(node: &Node, problems: &mut Vec<Problem>) -> Option<Question> {
+    let mut fields = Fields::open_one(node, &QUESTION, problems)?;
     let kind = fields.text("kind");
     let q = fields.text("q");
     let explain = fields.text("explain");
@@ -165,21 +165,11 @@ fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
         }
         other => {
             let span = kind.as_ref().map_or(node.span.clone(), Text::span);
-            let finding = Finding::new(
-                rules::WRONG_TYPE,
-                span.clone(),
-                format!("there is no question of kind {}", read::named(other)),
-            )
-            .why("the page does not know how to ask it, nor how to grade it");
-            fields.findings.push(match crate::json::nearest(other, texts(QUESTION.words)) {
-                Some(right) => finding.help(format!("did you mean `{right}`?")).guess(span, right),
-                None => finding
-                    .help(format!("the kinds are {}", texts(QUESTION.words).collect::<Vec<_>>().join(", "))),
-            });
+            fields.problems.push(Mistake::QuestionKind(other.to_string()).at(span));
             return None;
         }
     };
-    let verify = fields.node("verify").and_then(|n| verify::read(n, fields.findings));
+    let verify = fields.node("verify").and_then(|n| verify::read(n, fields.problems));
     let span = fields.span();
     fields.finish();
     Some(Question { span, q: q?, explain, label, kind: asked?, verify })
@@ -189,7 +179,7 @@ fn question(node: &Node, findings: &mut Vec<Finding>) -> Option<Question> {
 fn choice(fields: &mut Fields<'_, '_>, style: ChoiceStyle) -> Option<QuestionKind> {
     let options = fields.items("options");
     let options: Option<Vec<Option<Text>>> =
-        options.map(|nodes| nodes.iter().map(|n| read::text(n, "an option", fields.findings)).collect());
+        options.map(|nodes| nodes.iter().map(|n| read::text(n, "an option", fields.problems)).collect());
     let options: Option<Vec<Text>> = options.and_then(|all| all.into_iter().collect());
     let answer = fields.whole("answer");
     let mut sim = None;
@@ -198,7 +188,7 @@ fn choice(fields: &mut Fields<'_, '_>, style: ChoiceStyle) -> Option<QuestionKin
         ChoiceStyle::Debug => fields.narrow(&DEBUG),
         ChoiceStyle::Predict => {
             fields.narrow(&PREDICT);
-            sim = fields.node("sim").and_then(|n| lab::read(n, fields.findings)).map(Box::new);
+            sim = fields.node("sim").and_then(|n| lab::read(n, fields.problems)).map(Box::new);
         }
     }
     Some(QuestionKind::Choice { style, options: options?, answer, sim })

@@ -4,11 +4,11 @@
 
 use super::fields::Fields;
 use super::format::{CLOSED_FORM, RUN, VERIFY};
+use super::problem::{Mistake, Problem};
+use super::read;
 use super::{Form, Lab, LabAddress, lab};
-use crate::finding::Finding;
-use crate::json::{Json, Member, Node, Number, Scalar, read};
-use crate::rules;
-use crate::rules::claims_nothing;
+use crate::json::read::shorten;
+use crate::json::{Json, Member, Node, Number, Scalar};
 use crate::source::Text;
 use std::ops::Range;
 
@@ -95,71 +95,53 @@ impl Verify {
 }
 
 /// Reads a `verify` object.
-pub(super) fn read(node: &Node, findings: &mut Vec<Finding>) -> Option<Verify> {
-    let before = findings.len();
-    let mut fields = Fields::open(node, &VERIFY, findings)?;
+pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Verify> {
+    let before = problems.len();
+    let mut fields = Fields::open(node, &VERIFY, problems)?;
     let f = &mut fields;
     if !["options", "value", "says", "exact"].iter().any(|key| f.has(key)) {
-        f.findings.push(claims_nothing(f.span()));
+        let mistake = Mistake::ClaimsNothing.at(f.span());
+        f.problems.push(mistake);
     }
     let verify = Verify {
         span: f.span(),
-        lab: f.node("lab").map(|n| which(n, f.findings).unwrap_or(VerifyLab::Broken)),
-        runs: f.map("runs").iter().filter_map(|m| run(m, f.findings)).collect(),
+        lab: f.node("lab").map(|n| which(n, f.problems).unwrap_or(VerifyLab::Broken)),
+        runs: f.map("runs").iter().filter_map(|m| run(m, f.problems)).collect(),
         measure: expressions(f, "measure"),
-        options: f.list("options").iter().filter_map(|n| read::text(n, "a condition", f.findings)).collect(),
+        options: f.list("options").iter().filter_map(|n| read::text(n, "a condition", f.problems)).collect(),
         value: f.text("value"),
-        says: f.list("says").iter().filter_map(|n| said(n, f.findings)).collect(),
-        exact: f.map("exact").iter().filter_map(|m| exact(m, f.findings)).collect(),
+        says: f.list("says").iter().filter_map(|n| said(n, f.problems)).collect(),
+        exact: f.map("exact").iter().filter_map(|m| exact(m, f.problems)).collect(),
     };
     fields.finish();
-    // The page does not read this object: it is nothing to the student, and everything to the check.
-    for finding in findings
-        .iter_mut()
-        .skip(before)
-        .filter(|f| [rules::UNKNOWN_KEY.code, rules::WRONG_TYPE.code].contains(&f.code))
-    {
-        if finding.why.as_deref() == Some(rules::UNKNOWN_KEY.why)
-            || finding.why.as_deref() == Some(rules::WRONG_TYPE.why)
-        {
-            finding.why = Some(
-                "`verify` is read by this checker only: what it does not understand is not checked".into(),
-            );
+    for problem in problems.iter_mut().skip(before) {
+        if let Problem::Format(misfit) = problem {
+            misfit.in_verify = true;
         }
     }
     Some(verify)
 }
 
-fn which(node: &Node, findings: &mut Vec<Finding>) -> Option<VerifyLab> {
+fn which(node: &Node, problems: &mut Vec<Problem>) -> Option<VerifyLab> {
     match &node.json {
         Json::Text(text) => match LabAddress::parse(&text.value) {
             Some(address) => Some(VerifyLab::Reference(text.clone(), address)),
             None => {
-                findings.push(
-                    Finding::new(rules::WRONG_TYPE, text.span(), format!("{} is not a place of a lab", read::named(&text.value)))
-                        .help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object"),
-                );
+                problems.push(Mistake::NoPlace(text.value.clone()).at(text.span()));
                 None
             }
         },
-        Json::Object(_) => lab::read(node, findings).map(|l| VerifyLab::Inline(Box::new(l))),
+        Json::Object(_) => lab::read(node, problems).map(|l| VerifyLab::Inline(Box::new(l))),
         Json::Broken => None,
         _ => {
-            findings.push(
-                Finding::new(
-                    rules::WRONG_TYPE,
-                    node.span.clone(),
-                    format!("`lab` must be a text or a lab object; this is {}", node.describe()),
-                )
-                .help("write \"#2\" for the second lab of the lesson, or a lab object"),
-            );
+            problems.push(Mistake::NoLab(node.describe()).at(node.span.clone()));
             None
         }
     }
 }
 
-fn run(member: &Member, findings: &mut Vec<Finding>) -> Option<Run> {
-    let mut fields = Fields::open(&member.value, &RUN, findings)?;
+fn run(member: &Member, problems: &mut Vec<Problem>) -> Option<Run> {
+    let mut fields = Fields::open(&member.value, &RUN, problems)?;
     let f = &mut fields;
     let run = Run {
         name: member.key.clone(),
@@ -167,92 +149,75 @@ fn run(member: &Member, findings: &mut Vec<Finding>) -> Option<Run> {
             .map("set")
             .iter()
             .filter_map(|m| {
-                Some((m.key.clone(), read::scalar(&m.value, "the value of a control", f.findings)?))
+                Some((m.key.clone(), read::scalar(&m.value, "the value of a control", f.problems)?))
             })
             .collect(),
-        press: f.list("press").iter().filter_map(|n| press(n, f.findings)).collect(),
+        press: f.list("press").iter().filter_map(|n| press(n, f.problems)).collect(),
         setup: f.text("setup"),
         until: f.number("until"),
         steps: f.whole("steps"),
-        breaks: f.text("expect").is_some_and(|t| breaks(&t, f.findings)),
+        breaks: f.text("expect").is_some_and(|t| breaks(&t, f.problems)),
     };
     fields.finish();
     Some(run)
 }
 
 /// What a run is expected to do.
-fn breaks(text: &Text, findings: &mut Vec<Finding>) -> bool {
+fn breaks(text: &Text, problems: &mut Vec<Problem>) -> bool {
     if text.value != "breaks" {
-        findings.push(
-            Finding::new(
-                rules::WRONG_TYPE,
-                text.span(),
-                format!("a run cannot be expected to be {}", read::named(&text.value)),
-            )
-            .help("write \"expect\": \"breaks\" for a run that the lesson shows breaking, or leave it out"),
-        );
+        problems.push(Mistake::RunExpects(text.value.clone()).at(text.span()));
     }
     text.value == "breaks"
 }
 
 /// The closed form of a trace: an expression, or an object with a tolerance.
-fn exact(member: &Member, findings: &mut Vec<Finding>) -> Option<Exact> {
+fn exact(member: &Member, problems: &mut Vec<Problem>) -> Option<Exact> {
     let trace = member.key.clone();
     if !matches!(member.value.json, Json::Object(_)) {
-        let form = read::text(&member.value, &read::shorten(&trace.value), findings)?;
+        let form = read::text(&member.value, &shorten(&trace.value), problems)?;
         return Some(Exact { trace, form, tol: None });
     }
-    let mut fields = Fields::open(&member.value, &CLOSED_FORM, findings)?;
+    let mut fields = Fields::open(&member.value, &CLOSED_FORM, problems)?;
     let form = fields.text("is");
     let tol = fields.number("tol");
     fields.finish();
     Some(Exact { trace, form: form?, tol })
 }
 
-fn press(node: &Node, findings: &mut Vec<Finding>) -> Option<(Text, Number)> {
+fn press(node: &Node, problems: &mut Vec<Problem>) -> Option<(Text, Number)> {
     if node.is_broken() {
         return None;
     }
     if let Json::Array(pair) = &node.json
         && let [label, time] = pair.as_slice()
     {
-        let label = read::text(label, "the label of a button", findings);
-        let time = read::number(time, "the time of a press", findings);
+        let label = read::text(label, "the label of a button", problems);
+        let time = read::number(time, "the time of a press", problems);
         return Some((label?, time?));
     }
-    findings.push(
-        Finding::new(rules::WRONG_TYPE, node.span.clone(), "a press is a pair [label, time]")
-            .help("write [\"Drop\", 0.5]: the button's label and the time in seconds"),
-    );
+    problems.push(Mistake::NoPress.at(node.span.clone()));
     None
 }
 
-fn said(node: &Node, findings: &mut Vec<Finding>) -> Option<Said> {
+fn said(node: &Node, problems: &mut Vec<Problem>) -> Option<Said> {
     if node.is_broken() {
         return None;
     }
     if let Json::Array(pair) = &node.json
         && let [quote, expr] = pair.as_slice()
     {
-        let quote = read::text(quote, "a quoted number", findings);
-        let expr = read::text(expr, "the expression of a quoted number", findings);
+        let quote = read::text(quote, "a quoted number", problems);
+        let expr = read::text(expr, "the expression of a quoted number", problems);
         return Some(Said { quote: quote?, expr: expr? });
     }
-    findings.push(
-        Finding::new(
-            rules::WRONG_TYPE,
-            node.span.clone(),
-            "what the text says is a pair [quote, expression]",
-        )
-        .help("write [\"0.442 s\", \"fine.touch\"]"),
-    );
+    problems.push(Mistake::NoQuote.at(node.span.clone()));
     None
 }
 
 fn expressions(fields: &mut Fields<'_, '_>, key: &'static str) -> Vec<(Text, Text)> {
     let mut all = Vec::new();
     for member in fields.map(key) {
-        if let Some(text) = read::text(&member.value, &read::shorten(&member.key.value), fields.findings) {
+        if let Some(text) = read::text(&member.value, &shorten(&member.key.value), fields.problems) {
             all.push((member.key.clone(), text));
         }
     }

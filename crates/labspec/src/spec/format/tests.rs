@@ -5,8 +5,9 @@ use crate::bind::scene::Models;
 use crate::check::{self, Depth};
 use crate::finding::Finding;
 use crate::lint::ModelFolder;
+use crate::lint::load_lesson;
 use crate::source::SourceFile;
-use crate::spec::{Camera, ControlKind, Lab, Lesson, load_lesson};
+use crate::spec::{Camera, ControlKind, Lab, Lesson};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 

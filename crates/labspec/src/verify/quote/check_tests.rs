@@ -3,8 +3,8 @@
 use super::*;
 use crate::finding::Severity;
 use crate::lint::ModelFolder;
+use crate::lint::load_lesson;
 use crate::source::SourceFile;
-use crate::spec::load_lesson;
 
 /// Checks a quote in a lesson that says it in its prose.
 fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOutcome, Vec<Finding>) {

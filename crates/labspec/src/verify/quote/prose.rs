@@ -3,7 +3,7 @@
 
 use super::html;
 use super::shown::Piece;
-use crate::markdown::{self, Block, BlockKind};
+use crate::markdown::{Block, BlockKind};
 use crate::source::{SourceMap, Text};
 use crate::spec::Lesson;
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
@@ -27,10 +27,9 @@ pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {
         return Vec::new();
     }
     let text = lesson.file.text();
-    let blocks = markdown::scan(&lesson.file).blocks;
     let mut reader = Reader {
         text,
-        blocks: &blocks,
+        blocks: &lesson.scan.blocks,
         pieces: Vec::new(),
         open: empty(),
         html: false,

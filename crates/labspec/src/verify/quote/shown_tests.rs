@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::lint::ModelFolder;
+use crate::lint::load_lesson;
 use crate::source::SourceFile;
-use crate::spec::load_lesson;
 
 /// A lesson whose first lab quotes "0.442 s" and whatever else, around some Markdown.
 fn lesson(markdown: &str, quotes: &[&str]) -> Lesson {

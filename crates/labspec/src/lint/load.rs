@@ -1,11 +1,46 @@
-//! A lesson whose text is not UTF-8: told, and checked all the same.
+//! The way in: a lesson is read, and the rules of structure look at it.
 
-use super::{Lesson, load_lesson};
-use crate::finding::{Finding, InFile};
-use crate::lint::ModelFolder;
+use super::ModelFolder;
+use crate::finding::{self, Finding, InFile};
 use crate::rules;
 use crate::source::{BadText, SourceFile};
+use crate::spec::{Lesson, read_lesson};
 use std::path::Path;
+
+/// Most findings that are kept per file. Whoever has more fixes the first ones first.
+pub const MAX_FINDINGS: usize = 1000;
+
+/// Reads a lesson (Markdown) or, when the path ends in `.json`, a lab, a quiz or a list of them, and checks its
+/// structure. Nothing is run; this never fails, findings say what is wrong.
+pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
+    let mut lesson = read_lesson(file);
+    let mut findings = super::check(&lesson, models);
+    withhold_fixes(&lesson, &mut findings);
+    lesson.findings = findings.into_iter().map(|f| f.at(&lesson.file)).collect();
+    finding::sort(&mut lesson.findings);
+    if lesson.findings.len() > MAX_FINDINGS {
+        let more = lesson.findings.len() - MAX_FINDINGS;
+        lesson.findings.truncate(MAX_FINDINGS);
+        let end = lesson.file.text().len();
+        lesson.findings.push(
+            Finding::new(rules::LESSON_LIMIT, end..end, format!("{more} more findings are not shown"))
+                .help("fix the first ones, then check again")
+                .at(&lesson.file),
+        );
+    }
+    lesson
+}
+
+/// Takes the fixes of findings away that lie in a block whose JSON is broken. They were made for JSON: between
+/// quotes that are none they would break more. The fixes of the JSON itself stay.
+pub fn withhold_fixes(lesson: &Lesson, findings: &mut [Finding]) {
+    let in_broken = |f: &&mut Finding| f.fix.as_ref().is_some_and(|fix| lesson.is_broken(&fix.span));
+    for finding in findings.iter_mut().filter(in_broken) {
+        if ![rules::JSON_SYNTAX.code, rules::TYPOGRAPHIC_QUOTE.code].contains(&finding.code) {
+            finding.fix = None;
+        }
+    }
+}
 
 /// Reads a lesson or a JSON file whatever its encoding: a file that is not UTF-8 has a finding that says where, and is
 /// checked with what cannot be read replaced.
@@ -24,7 +59,7 @@ fn load_bytes(file: SourceFile, bad: Option<BadText>, models: &ModelFolder) -> L
         lesson.findings.push(finding);
         // Its places are not those of the bytes, or would be gone once it is saved in another encoding.
         lesson.findings.iter_mut().for_each(|f| f.fix = None);
-        crate::finding::sort(&mut lesson.findings);
+        finding::sort(&mut lesson.findings);
     }
     lesson
 }

@@ -1,0 +1,155 @@
+//! What is said about objects that are not as the format says. What is wrong is found in `spec/`, where they are read.
+
+use crate::finding::{Finding, Severity};
+use crate::json::nearest;
+use crate::json::read::{named, shorten};
+use crate::rules;
+use crate::source::MAX_FILE;
+use crate::spec::format::{CONTROL, QUESTION, texts};
+use crate::spec::{Expected, Meant, Misfit, Mistake};
+use std::ops::Range;
+
+/// What is said about a misfit.
+pub(super) fn told(misfit: &Misfit) -> Finding {
+    let mut finding = said(misfit.span.clone(), &misfit.mistake);
+    // The page does not read a `verify` object: it is nothing to the student, and everything to the check.
+    let reason = |rule: &rules::Rule| *finding.code == *rule && finding.why.as_deref() == Some(rule.why);
+    if misfit.in_verify && [rules::UNKNOWN_KEY, rules::WRONG_TYPE].into_iter().any(reason) {
+        finding.why =
+            Some("`verify` is read by this checker only: what it does not understand is not checked".into());
+    }
+    finding
+}
+
+fn said(span: Range<usize>, mistake: &Mistake) -> Finding {
+    let open = || span.start..span.end.min(span.start + 1);
+    let wrong = |message: String| Finding::new(rules::WRONG_TYPE, span.clone(), message);
+    match mistake {
+        Mistake::Type { what, expected, found, text } => of_type(&span, what, *expected, found, text.as_deref()),
+        Mistake::NotWhole { key, value } => {
+            wrong(format!("`{key}` is a whole number, not {value}")).help("write a number without a point")
+        }
+        Mistake::UnknownKey { of, key, meant } => unknown_key(span, of, key, meant),
+        Mistake::MissingKey { of, key, why, advised } => {
+            Finding::new(rules::MISSING_KEY, span, format!("{of} needs `{key}`"))
+                .severity(if *advised { Severity::Warning } else { Severity::Error })
+                .why(*why)
+                .help(format!("add \"{key}\": …"))
+        }
+        Mistake::ControlType(word) => {
+            let finding = wrong(format!("there is no control of type {}", named(word)))
+                .why("the page knows sliders, selects and buttons; it shows nothing for anything else");
+            let help = "write \"select\" or \"button\"; without `type` it is a slider";
+            one_of(finding, word, texts(CONTROL.words), help.to_string())
+        }
+        Mistake::QuestionKind(word) => {
+            let finding = wrong(format!("there is no question of kind {}", named(word)))
+                .why("the page does not know how to ask it, nor how to grade it");
+            let kinds: Vec<&str> = texts(QUESTION.words).collect();
+            one_of(finding, word, texts(QUESTION.words), format!("the kinds are {}", kinds.join(", ")))
+        }
+        Mistake::LabExpects(word) => {
+            let finding = wrong(format!("`expect` cannot be {}", named(word)))
+                .why("it says what is meant to happen when the lab runs; there is one thing that it can say");
+            let help = "write \"breaks\" when the lab is about a simulation that breaks, else leave it out";
+            one_of(finding, word, ["breaks"].into_iter(), help.to_string())
+        }
+        Mistake::RunExpects(word) => wrong(format!("a run cannot be expected to be {}", named(word)))
+            .help("write \"expect\": \"breaks\" for a run that the lesson shows breaking, or leave it out"),
+        Mistake::NoChoice => {
+            Finding::new(rules::SELECT_OPTIONS, span, "an option of a select is a pair [text, value]")
+                .help("write [\"RK4\", 1]")
+        }
+        Mistake::NothingOffered => {
+            Finding::new(rules::SELECT_OPTIONS, open(), "this select offers nothing")
+                .help("write \"options\": [[\"Euler\", 0], [\"RK4\", 1]]")
+        }
+        Mistake::NoTraces => Finding::new(rules::EMPTY_PLOT, open(), "this plot has no traces")
+            .help("add \"traces\": [{\"label\": \"height (m)\", \"expr\": \"data.qpos[2]\"}]"),
+        Mistake::NoPoint => {
+            wrong("`target` must be three numbers, in metres".into()).help("write \"target\": [0, 0, 0.5]")
+        }
+        Mistake::NoSwitch => wrong("an overlay is switched by true or false".into())
+            .help("write true or false, without quotes"),
+        Mistake::NoPlace(text) => wrong(format!("{} is not a place of a lab", named(text)))
+            .help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object"),
+        Mistake::NoLab(found) => wrong(format!("`lab` must be a text or a lab object; this is {found}"))
+            .help("write \"#2\" for the second lab of the lesson, or a lab object"),
+        Mistake::NoPress => wrong("a press is a pair [label, time]".into())
+            .help("write [\"Drop\", 0.5]: the button's label and the time in seconds"),
+        Mistake::NoQuote => wrong("what the text says is a pair [quote, expression]".into())
+            .help("write [\"0.442 s\", \"fine.touch\"]"),
+        Mistake::ClaimsNothing => {
+            Finding::new(rules::VERIFY_NOTHING, open(), "nothing is compared with these runs")
+                .help("add `options`, `value`, `says` or `exact`")
+        }
+        Mistake::HoldsQuiz(right) => holds(span, "this fence says `lab`, but it holds a quiz", "quiz", right),
+        Mistake::HoldsLab(right) => {
+            holds(span, "this fence says `quiz`, but it holds a lab", "lab simlab", right)
+        }
+        Mistake::EmptyFence => Finding::new(rules::JSON_SYNTAX, span, "this fence is empty")
+            .help("write one JSON object between the two ``` lines: { … }"),
+        Mistake::UnknownObject => Finding::new(rules::UNKNOWN_SPEC, open(), "neither a lab nor a quiz")
+            .help("a lab has a `model` or an `xml`; a quiz has `questions`"),
+        Mistake::TooLarge => {
+            let limit = MAX_FILE >> 20;
+            Finding::new(rules::LESSON_LIMIT, span, format!("this file is larger than {limit} MB"))
+        }
+    }
+}
+
+/// A value of another type. "5" for 5 is the common case, and it has one repair.
+fn of_type(span: &Range<usize>, what: &str, expected: Expected, found: &str, text: Option<&str>) -> Finding {
+    let right = match expected {
+        Expected::Text => "a text in double quotes",
+        Expected::Number => "a number, without quotes",
+        Expected::Flag => "true or false, without quotes",
+        Expected::Scalar => "a number, a text or true/false",
+        Expected::List => "a list [ … ]",
+        Expected::Object => "an object { … }",
+    };
+    let message = format!("{what} must be {right}; this is {found}");
+    let finding = Finding::new(rules::WRONG_TYPE, span.clone(), message);
+    let bare = match (expected, text.map(str::trim)) {
+        (Expected::Number, Some(text)) => crate::json::literal::repaired(text),
+        (Expected::Flag, Some(text @ ("true" | "false"))) => Some(text.to_string()),
+        _ => None,
+    };
+    match bare {
+        Some(bare) => finding.help(format!("write {bare} without the quotes")).fix(span.clone(), bare),
+        None if expected == Expected::Text && found == "a number" => finding.help("put quotes around it"),
+        None => finding.help(format!("write {right}")),
+    }
+}
+
+fn unknown_key(span: Range<usize>, of: &str, key: &str, meant: &Meant) -> Finding {
+    let message = match key.trim().is_empty() {
+        true => format!("a key of {of} has no name"),
+        false => format!("{of} has no key `{}`", shorten(key)),
+    };
+    let finding = Finding::new(rules::UNKNOWN_KEY, span.clone(), message);
+    match meant {
+        Meant::There(right) => {
+            finding.help(format!("did you mean `{right}`? the object has it already: delete one of the two"))
+        }
+        Meant::Likely(right) => finding.help(format!("did you mean `{right}`?")).guess(span, *right),
+        Meant::Other { key, takes } => finding.help(format!("did you mean `{key}`? it takes {takes}")),
+        Meant::Unclear(keys) => finding.help(format!("its keys are {}", keys.join(", "))),
+    }
+}
+
+/// One of several words: the nearest, or else `help`.
+fn one_of(finding: Finding, word: &str, words: impl Iterator<Item = &'static str>, help: String) -> Finding {
+    match nearest(word, words) {
+        Some(right) => {
+            let span = finding.span.clone();
+            finding.help(format!("did you mean `{right}`?")).guess(span, right)
+        }
+        None => finding.help(help),
+    }
+}
+
+/// A fence of the wrong kind.
+fn holds(span: Range<usize>, message: &str, kind: &str, right: &str) -> Finding {
+    Finding::new(rules::FENCE_KIND, span.clone(), message).help(format!("write ```{kind}")).fix(span, right)
+}
