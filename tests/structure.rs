@@ -58,9 +58,9 @@ fn imports(code: &str) -> Vec<String> {
 }
 
 impl Room {
-    /// A folder, its subfolders included; their modules are named by their paths.
-    fn read(folder: &str) -> Room {
-        let root = workspace().join("crates/core/src").join(folder);
+    /// A folder of a crate, its subfolders included; their modules are named by their paths.
+    fn read(krate: &str, folder: &str) -> Room {
+        let root = workspace().join("crates").join(krate).join("src").join(folder);
         let inside = if folder.is_empty() { 1 } else { 2 };
         let mut text = BTreeMap::new();
         let mut folders = vec![(root.clone(), String::new())];
@@ -166,7 +166,7 @@ impl Room {
 /// Shapes, rays, distances and contacts know numbers and kinds of shapes, and nothing of models, data or dynamics.
 #[test]
 fn geometry_takes_shapes() {
-    let room = Room::read("geometry");
+    let room = Room::read("core", "geometry");
     assert!(room.text.len() > 20 && room.uses.values().map(BTreeSet::len).sum::<usize>() > 40);
     for (module, text) in &room.text {
         for path in imports(text).iter().filter(|p| p.starts_with("crate::")) {
@@ -198,7 +198,7 @@ const ROOMS: [&str; 14] = [
 
 #[test]
 fn rooms_of_the_engine_look_down() {
-    let room = Room::read("");
+    let room = Room::read("core", "");
     assert!(room.text.len() > 150 && room.uses.values().map(BTreeSet::len).sum::<usize>() > 600);
     let place = |module: &str| {
         let top = module.split("::").next().unwrap_or_default();
@@ -212,9 +212,57 @@ fn rooms_of_the_engine_look_down() {
     }
 }
 
+/// The road of a lesson, in order: what a text is, what stands in it, what the rules say of that, what it means to the engine, what
+/// happens when it runs, what is true of that, and how it is shown. Facades and the program come last.
+const ROAD: [&str; 27] = [
+    "printable",
+    "interrupt",
+    "source",
+    "finding",
+    "markdown",
+    "json",
+    "spec",
+    "rules",
+    "models",
+    "lint",
+    "ledger",
+    "bind",
+    "format",
+    "reference",
+    "advice",
+    "svg",
+    "run",
+    "verify",
+    "precision",
+    "check",
+    "report",
+    "error",
+    "player",
+    "checker",
+    "engine",
+    "cli",
+    "main",
+];
+
+/// A module looks at those before it, never at one that comes after.
+#[test]
+fn the_road_of_a_lesson_is_the_order_of_its_modules() {
+    let room = Room::read("labspec", "");
+    assert!(room.text.len() > 150 && room.uses.values().map(BTreeSet::len).sum::<usize>() > 600);
+    let place = |module: &str| {
+        let top = module.split("::").next().unwrap_or_default();
+        ROAD.iter().position(|r| *r == top).unwrap_or_else(|| panic!("{module} is not on the road"))
+    };
+    for (module, uses) in room.uses.iter().filter(|(module, _)| !module.is_empty()) {
+        for used in uses.iter().filter(|used| !used.is_empty()) {
+            assert!(place(used) <= place(module), "{module} looks ahead at {used}");
+        }
+    }
+}
+
 #[test]
 fn files_of_the_engine_do_not_use_each_other_in_a_circle() {
-    assert_eq!(Room::read("").circle(), None);
+    assert_eq!(Room::read("core", "").circle(), None);
 }
 
 /// A name says which file is meant: `contact.rs` is one file. (`mod.rs` and `tests.rs` go by their folder.)

@@ -32,6 +32,7 @@ pub mod markdown;
 pub mod models;
 pub mod player;
 pub mod precision;
+mod printable;
 pub mod reference;
 pub mod report;
 pub mod rules;

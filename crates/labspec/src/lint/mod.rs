@@ -3,7 +3,6 @@
 //! Each rule is declared beside its check in [`crate::rules`]; here a lesson is walked once for all of them. What several rules share,
 //! and what readers ask (fences, listings, HTML), stands in the files beside this one.
 
-pub(crate) mod claims;
 pub(crate) mod fence;
 mod format;
 pub(crate) mod html;
@@ -12,7 +11,6 @@ pub(crate) mod listing;
 mod load;
 pub(crate) mod model;
 mod models;
-pub(crate) mod repeated;
 
 pub use load::{MAX_FINDINGS, load_lesson, load_lesson_file, not_utf8, withhold_fixes};
 pub use models::ModelFolder;

@@ -1,7 +1,7 @@
 //! One fence: its opening line, whether it is closed, and where a damaged one really ends.
 
 use super::{BlockKind, extent};
-use crate::json::nearest;
+use labspec_finding::nearest;
 use std::ops::Range;
 
 /// The opening line of a fence.

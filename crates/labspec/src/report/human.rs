@@ -4,8 +4,8 @@
 //! one. Drawn by annotate-snippets, in the manner of rustc.
 
 use super::file_of;
-use super::printable::{printable, printable_line};
 use crate::finding::{Finding, Severity};
+use crate::printable::{printable, printable_line};
 use crate::source::SourceFile;
 use annotate_snippets::{AnnotationKind, Element, Level, Origin, Renderer, Snippet};
 use std::ops::Range;

@@ -3,12 +3,12 @@
 #[cfg(feature = "cli")]
 mod human;
 mod machine;
-mod printable;
+mod table;
 
+pub use crate::printable::{printable, printable_json, printable_lines, printable_path};
 #[cfg(feature = "cli")]
 pub use human::human;
 pub use machine::{SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers, set_place};
-pub use printable::{printable, printable_json, printable_lines, printable_path};
 
 use crate::finding::{Finding, Severity};
 use crate::source::SourceFile;

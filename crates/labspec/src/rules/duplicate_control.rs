@@ -1,6 +1,6 @@
 use super::Check;
 use crate::finding::Finding;
-use crate::lint::repeated::{DISTINCT, repeated};
+use super::repeated::{DISTINCT, repeated};
 use crate::spec::Lab;
 use labspec_finding::{Example, Layer, Rule, Severity};
 

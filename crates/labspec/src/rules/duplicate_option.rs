@@ -1,6 +1,6 @@
 use super::Check;
 use crate::finding::Finding;
-use crate::lint::repeated::repeated;
+use super::repeated::repeated;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 

@@ -3,7 +3,9 @@
 //!
 //! A new rule is a file here; the build script lists them.
 
+mod claims;
 pub mod example;
+mod repeated;
 
 pub(crate) use duplicate_id::across;
 pub use labspec_finding::Rule;

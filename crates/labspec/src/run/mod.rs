@@ -9,7 +9,6 @@ mod session;
 pub mod settings;
 mod table;
 mod told;
-mod written;
 
 pub use breakdown::{Breakdown, how_stiff, owner, remedy, time, two_digits};
 pub use budget::{Budget, End};

@@ -3,7 +3,7 @@
 
 use super::{RunError, Session};
 use crate::bind::{ControlProgram, Programs, scalar};
-use crate::report::printable;
+use crate::printable::printable;
 use crate::spec::{Choice, Control, ControlKind, Lab};
 use labspec_expr::Value;
 

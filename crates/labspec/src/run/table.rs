@@ -85,7 +85,7 @@ pub struct Table {
 }
 
 impl Table {
-    pub(super) fn new(timestep: f64, probes: impl Iterator<Item = String>) -> Table {
+    pub(crate) fn new(timestep: f64, probes: impl Iterator<Item = String>) -> Table {
         let columns = std::iter::once("time".to_string()).chain(probes).collect();
         Table {
             timestep,

@@ -6,7 +6,7 @@
 
 mod map;
 
-use crate::report::printable_path;
+use crate::printable::printable_path;
 use labspec_finding::Lines;
 pub use labspec_finding::{EditorPosition, Position};
 pub use map::{Piece, SourceMap};

@@ -4,8 +4,9 @@
 //! Every number is written so that reading it gives the same bits. A column of JSON holds values of one type; where a number
 //! is none, it holds `null`, and the list `nonfinite` says what was there.
 
-use super::{Breakdown, Cell, Table};
-use crate::report::{SCHEMA_VERSION, nonfinite, printable_json};
+use super::{SCHEMA_VERSION, nonfinite};
+use crate::printable::printable_json;
+use crate::run::{Breakdown, Cell, Table};
 use labspec_expr::Value;
 use serde_json::json;
 use std::io::{self, Write};
