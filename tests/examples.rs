@@ -6,10 +6,14 @@ use crate::support::workspace;
 
 #[path = "../crates/labspec/examples/accessor.rs"]
 mod accessor;
+#[path = "../crates/labspec/examples/function.rs"]
+mod function;
 #[path = "../crates/labspec/examples/lab.rs"]
 mod lab;
 #[path = "../crates/labspec/examples/lesson.rs"]
 mod lesson;
+#[path = "../crates/labspec/examples/rule.rs"]
+mod rule;
 
 fn file(path: &str) -> String {
     std::fs::read_to_string(workspace().join(path)).unwrap()
@@ -18,12 +22,16 @@ fn file(path: &str) -> String {
 #[test]
 fn examples_print_what_the_guide_shows() {
     accessor::main().unwrap();
+    function::main().unwrap();
     lab::main().unwrap();
     lesson::main().unwrap();
+    rule::main();
     let all = [
         ("accessor", accessor::accessor().unwrap()),
+        ("function", function::function().unwrap()),
         ("lab", lab::lab().unwrap()),
         ("lesson", lesson::lesson()),
+        ("rule", rule::rule()),
     ];
     let guide = file("docs/embedding.md");
     for (name, printed) in all {

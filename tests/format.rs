@@ -96,6 +96,7 @@ fn random_world(model: &Model, seed: u64) -> World {
         data: Data::planned(model, labspec_core::Plan::new(model, &labspec_core::Demand::ANY)),
         model: model.clone(),
         key: None,
+        own: labspec::Functions::new(),
     };
     for f in reflect::fields() {
         let info = f.info();
@@ -112,7 +113,7 @@ fn random_world(model: &Model, seed: u64) -> World {
 }
 
 fn compile(text: &str, form: Form, model: &Model, globals: &mut Globals) -> Program {
-    let names = ModelNames { model, scope: Scope::Lab };
+    let names = ModelNames::new(model, Scope::Lab);
     let mut compiler = Compiler::new(&names, globals);
     compiler.value = Some(Type::Number);
     let compiled = match form {

@@ -166,7 +166,7 @@ impl Work {
     /// One text on one state; the session itself stays as it is.
     fn add(&mut self, session: &Session<'_>, globals: &Globals, at: &Job<'_>, given: Option<Value>) {
         let (mut world, mut context) = (session.world.clone(), session.context.clone());
-        let names = ModelNames { model: &session.world.model, scope: Scope::Lab };
+        let names = ModelNames::new(&session.world.model, Scope::Lab);
         let start = snapshot(&world);
         let ctx = variables(globals, &context);
         let mut host = Recorder { world: &mut world, names: &names, start: start.clone(), calls: Vec::new() };
@@ -297,7 +297,7 @@ fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) {
             }
         }
     }
-    let names = ModelNames { model, scope: Scope::Lab };
+    let names = ModelNames::new(model, Scope::Lab);
     let found = work.ask(objects(&names));
     assert!(found.len() >= work.jobs.len(), "{name}: {found:#?}");
     let wrong: Vec<String> = found

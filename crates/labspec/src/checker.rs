@@ -1,19 +1,34 @@
 //! A lesson checked from memory: text in, findings and the ledger out.
 
-use crate::bind::scene;
+use crate::bind::{Functions, scene};
 use crate::check::{self, Checked, Depth};
 use crate::error::located;
-use crate::finding::{self, Finding};
+use crate::finding::{self, Finding, InFile};
 use crate::ledger::{Entry, Ledger, Outcome};
 use crate::lint::load_lesson;
 use crate::lint::{self, ModelFolder};
 use crate::source::SourceFile;
+use crate::spec::Lesson;
+use std::fmt;
 
 /// Checks lessons, one after the other. Models are compiled once.
 #[derive(Debug)]
 pub struct Checker {
     models: scene::Models,
     depth: Depth,
+    rules: Rules,
+}
+
+/// A rule of the embedding program.
+type OwnRule = Box<dyn Fn(&Lesson) -> Vec<Finding> + Send + Sync>;
+
+#[derive(Default)]
+struct Rules(Vec<OwnRule>);
+
+impl fmt::Debug for Rules {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} rules", self.0.len())
+    }
 }
 
 /// What a check came to.
@@ -43,7 +58,8 @@ impl Checker {
     /// A checker of lessons whose labs name these models: a map, a closure ([`Models`](crate::Models)), or a folder
     /// ([`ModelFolder`]). Only a folder is ever looked for among files.
     pub fn new(models: impl Into<ModelFolder>) -> Checker {
-        Checker { models: scene::Models::new(models.into()), depth: Depth { labs: true, claims: true } }
+        let depth = Depth { labs: true, claims: true };
+        Checker { models: scene::Models::new(models.into()), depth, rules: Rules::default() }
     }
 
     /// The same without runs of labs or without verdicts on claims: quicker, and it says less.
@@ -52,9 +68,26 @@ impl Checker {
         self
     }
 
+    /// The same with functions of one's own, which the texts of labs may call.
+    pub fn functions(mut self, functions: Functions) -> Checker {
+        self.models = self.models.with_functions(functions);
+        self
+    }
+
+    /// The same with a rule of one's own, which looks at every lesson. Its findings count like all others: places are bytes of
+    /// the lesson, and a fix must leave JSON that is JSON ([`crate::json`] has what it takes).
+    pub fn rule(mut self, rule: impl Fn(&Lesson) -> Vec<Finding> + Send + Sync + 'static) -> Checker {
+        self.rules.0.push(Box::new(rule));
+        self
+    }
+
     /// Checks a lesson. `path` is its name in findings, and says by its ending what it is: Markdown, or JSON.
     pub fn check(&mut self, path: &str, text: &str) -> Report {
-        let lesson = load_lesson(SourceFile::new(path, text), self.models.folder());
+        let mut lesson = load_lesson(SourceFile::new(path, text), self.models.folder());
+        let mut own: Vec<Finding> = self.rules.0.iter().flat_map(|rule| rule(&lesson)).collect();
+        lint::withhold_fixes(&lesson, &mut own);
+        lesson.findings.extend(own.into_iter().map(|f| f.at(&lesson.file)));
+        finding::sort(&mut lesson.findings);
         let checked = check::check(lesson, &self.models, self.depth);
         let mut findings = lint::check_course(&[&checked.lesson]);
         findings.extend(checked.findings.iter().cloned());

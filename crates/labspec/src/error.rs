@@ -1,45 +1,9 @@
-//! The one error of the library as frontends hold it.
+//! The one error of the library: that of models and programs, and of runs.
 
 use crate::finding::{Finding, InFile};
 use crate::run::RunError;
 use crate::source::SourceFile;
-use std::fmt;
-
-/// Why something could not be done.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Error {
-    /// What was given has mistakes, or it broke: each is a finding with its place.
-    Findings(Vec<Finding>),
-    /// The call asks for what there is not. A sentence says what there is.
-    Call(String),
-}
-
-impl Error {
-    /// The findings; none when the call itself was wrong.
-    pub fn findings(&self) -> &[Finding] {
-        match self {
-            Error::Findings(list) => list,
-            Error::Call(_) => &[],
-        }
-    }
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Error::Findings(list) => {
-                for (i, finding) in list.iter().enumerate() {
-                    let end = if i + 1 < list.len() { "\n" } else { "" };
-                    write!(f, "{finding}{end}")?;
-                }
-                Ok(())
-            }
-            Error::Call(sentence) => f.write_str(sentence),
-        }
-    }
-}
-
-impl std::error::Error for Error {}
+pub use labspec_bind::Error;
 
 impl From<RunError> for Error {
     fn from(e: RunError) -> Error {

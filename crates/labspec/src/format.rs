@@ -98,7 +98,7 @@ fn edit(lesson: &Lesson, text: &Text, code: &str) -> Option<(Range<usize>, Strin
 /// A text with names for its bare indexes; `None` when it has none, or mistakes. Both versions read, write and call
 /// the same, element by element.
 pub fn modernized(code: &str, form: Form, model: &Model, globals: &mut Globals) -> Option<String> {
-    let names = ModelNames { model, scope: Scope::Lab };
+    let names = ModelNames::new(model, Scope::Lab);
     let mut compile = |code: &str| compile(code, form, &names, globals);
     let before = compile(code);
     let named = before.modernized(code);

@@ -12,7 +12,8 @@
 //! * [`finding`], [`report`]: what is wrong, and how it is shown to people and programs
 //!
 //! Frontends hold three objects, and the rest through them: a [`Player`] is a lab that is open on a page, a [`Checker`]
-//! checks lessons from memory, an [`Engine`] is a model with the language. [`Models`] is where models come from.
+//! checks lessons from memory, an [`Engine`] is a model with the language (it comes from the crate `labspec-bind`, which needs no
+//! lessons). [`Models`] is where models come from.
 
 pub mod advice;
 pub mod bind;
@@ -20,7 +21,6 @@ pub mod check;
 pub mod checker;
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod engine;
 pub mod error;
 pub mod finding;
 pub mod format;
@@ -43,9 +43,8 @@ pub mod svg;
 pub mod verify;
 
 pub use checker::{Checker, Report};
-pub use engine::{Engine, Expression, Statements};
 pub use error::Error;
 pub use finding::Finding;
-pub use labspec_expr::Value;
+pub use labspec_bind::{Engine, Expression, Functions, Statements, Value};
 pub use models::{Models, NoModels};
 pub use player::Player;

@@ -177,7 +177,7 @@ fn targets<'a>(
     programs: &'a Programs,
     findings: &mut Vec<Finding>,
 ) -> Vec<Target<'a>> {
-    let names = ModelNames { model, scope: Scope::Lab };
+    let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
     let exact = lab.verify.as_ref().map_or(&[][..], |v| &v.exact);
     let mut all = Vec::new();
     for (trace, probe) in lab.traces().zip(&programs.probes) {

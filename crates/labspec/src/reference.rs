@@ -201,11 +201,16 @@ mod tests {
     /// Statements and a last expression; gives its value.
     fn run(model: &Model, code: &str) -> String {
         let (statements, last) = code.rsplit_once("; ").unwrap_or(("", code));
-        let names = ModelNames { model, scope: Scope::Lab };
+        let names = ModelNames::new(model, Scope::Lab);
         let mut globals = Globals::new();
         let mut compiler = Compiler::new(&names, &mut globals);
         let programs = [compiler.statements(statements), compiler.expression(last)];
-        let mut world = World { model: model.clone(), data: everything(model), key: None };
+        let mut world = World {
+            model: model.clone(),
+            data: everything(model),
+            key: None,
+            own: crate::bind::Functions::new(),
+        };
         core::forward(&world.model, &mut world.data).unwrap();
         let mut context = Context::of(&globals);
         let values = programs.map(|p| match p.program {

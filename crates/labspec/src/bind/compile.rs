@@ -1,6 +1,6 @@
 //! Everything a lab computes, bound to its model: statements and expressions as programs, and what they need.
 
-use super::names::{ModelNames, Scope};
+use super::{Functions, ModelNames, Scope};
 use crate::finding::{Finding, Fix};
 use crate::json::{Scalar, fix_in_code};
 use crate::markdown::is_typographic;
@@ -66,12 +66,24 @@ pub struct Programs {
     pub globals: Globals,
     /// What all of them read and write.
     pub demand: Demand,
+    /// Functions of the embedding program, which they may call.
+    pub functions: Functions,
 }
 
 impl Programs {
     /// Compiles a lab's texts against its model. What is wrong goes to `findings`, with places in the lesson.
     pub fn compile(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) -> Programs {
-        let names = ModelNames { model, scope: Scope::Lab };
+        Programs::compile_with(lab, model, &Functions::new(), findings)
+    }
+
+    /// The same with functions of the embedding program.
+    pub fn compile_with(
+        lab: &Lab,
+        model: &Model,
+        functions: &Functions,
+        findings: &mut Vec<Finding>,
+    ) -> Programs {
+        let names = ModelNames::new(model, Scope::Lab).with(functions);
         let mut globals = Globals::new();
         let mut texts: Vec<(ProgramId, Text)> = Vec::new();
         let mut work = Work { names: &names, globals: &mut globals, texts: &mut texts, findings };
@@ -100,7 +112,8 @@ impl Programs {
             }
         }
         let demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
-        let mut programs = Programs { setup, controller, controls, probes, globals, demand };
+        let functions = functions.clone();
+        let mut programs = Programs { setup, controller, controls, probes, globals, demand, functions };
         let mut demand = programs.demand;
         for bound in programs.bound() {
             include(bound.program.effects(), &mut demand);

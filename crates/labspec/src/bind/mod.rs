@@ -1,21 +1,11 @@
-//! Where the language meets the engine: names to fields of the table, programs to a running world.
-//!
-//! [`ModelNames`] answers the language's questions at compile time from the engine's field table, [`World`] answers
-//! them at run time, [`functions`] is the one table of functions, and [`Programs`] holds everything that a lab
-//! computes, bound to its model.
+//! Everything that a lab computes, bound to its model: [`Programs`]. What names mean, and the world that programs run in, is the
+//! business of the crate `labspec-bind`, which knows no labs.
 
 mod compile;
-mod elements;
-mod enums;
-pub mod functions;
-mod handle;
-mod names;
 pub mod parts;
 pub mod scene;
-mod world;
 
 pub use compile::{ActionProgram, Bound, ControlProgram, Probe, Programs, to_finding};
 pub(crate) use compile::{include, scalar, writes_kind};
-pub(crate) use names::named_field;
-pub use names::{ModelNames, Scope};
-pub use world::World;
+pub(crate) use labspec_bind::named_field;
+pub use labspec_bind::{Functions, ModelNames, Scope, World, functions};

@@ -1,5 +1,6 @@
 //! The model of a lab: from the model folder or from the lab itself, with every mistake at its place.
 
+use super::Functions;
 use super::parts::{self, Mark, Part, Remembering};
 use crate::finding::{Finding, InFile};
 use crate::lint::{ModelFolder, lesson_folder, root_of};
@@ -21,6 +22,8 @@ pub struct Models {
     compiled: Mutex<BTreeMap<String, Arc<OnceLock<Loaded>>>>,
     /// What is to be said of each model, until somebody takes it.
     said: Mutex<BTreeMap<String, Said>>,
+    /// Functions of the embedding program, which labs may call.
+    functions: Functions,
     /// How the files are marked; `None` when nobody keeps results.
     mark: Option<Mark>,
     /// Marks of parts, looked at once.
@@ -55,6 +58,16 @@ impl Models {
     /// The models of a folder for somebody who keeps results: every file that is read is marked, see [`Models::parts`].
     pub fn marked(folder: ModelFolder, mark: Mark) -> Models {
         Models { folder, mark: Some(mark), ..Models::default() }
+    }
+
+    /// The same, for labs that may call functions of the embedding program.
+    pub fn with_functions(self, functions: Functions) -> Models {
+        Models { functions, ..self }
+    }
+
+    /// Functions of the embedding program.
+    pub fn functions(&self) -> &Functions {
+        &self.functions
     }
 
     /// The folder.

@@ -153,7 +153,7 @@ pub(crate) fn bind(
         );
     }
     let before = findings.len();
-    let programs = Programs::compile(lab, &model, findings);
+    let programs = Programs::compile_with(lab, &model, models.functions(), findings);
     let mistakes = findings.iter().skip(before).filter(|f| f.severity == Severity::Error).count();
     Some((model, programs, mistakes))
 }

@@ -1,6 +1,7 @@
 //! From a text to a lab that is ready to play.
 
 use super::{Player, Saved, control, shown};
+use crate::bind::Functions;
 use crate::bind::scene::Models;
 use crate::check;
 use crate::error::{Error, located};
@@ -36,7 +37,21 @@ impl Player {
         address: &str,
         models: impl Into<ModelFolder>,
     ) -> Result<Player, Error> {
-        let mut models = Models::new(models.into());
+        Player::of_lesson_with(path, text, address, models, Functions::new())
+    }
+
+    /// The same with functions of one's own, which the texts of the lab may call.
+    ///
+    /// # Errors
+    /// As for [`Player::of_lesson`].
+    pub fn of_lesson_with(
+        path: &str,
+        text: &str,
+        address: &str,
+        models: impl Into<ModelFolder>,
+        functions: Functions,
+    ) -> Result<Player, Error> {
+        let mut models = Models::new(models.into()).with_functions(functions);
         let lesson = load_lesson(SourceFile::new(path, text), models.folder());
         let Some(lab) = LabAddress::parse(address).and_then(|address| lesson.lab(&address)) else {
             let errors = lesson.findings.iter().filter(|f| f.is_error()).cloned();

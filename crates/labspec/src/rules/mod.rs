@@ -8,7 +8,7 @@ pub mod example;
 mod repeated;
 
 pub(crate) use duplicate_id::across;
-pub use labspec_finding::Rule;
+pub use labspec_finding::{Example, Layer, Rule};
 
 use crate::finding::Finding;
 use crate::spec::{Control, Lab, Lesson, Question, Quiz};

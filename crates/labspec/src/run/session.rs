@@ -128,7 +128,7 @@ impl<'p> Session<'p> {
             ControlProgram::Press(_) => Value::Undefined,
         });
         let mut session = Session {
-            world: World { model: model.clone(), data, key },
+            world: World { model: model.clone(), data, key, own: programs.functions.clone() },
             context: Context::of(&programs.globals),
             troubles: Vec::new(),
             warnings: [WarningStat::default(); Warning::COUNT],

@@ -89,7 +89,7 @@ impl<'a> BoundVerify<'a> {
             good &= compiled.program.is_some();
             compiled.program.map(|program| Named { text, program })
         };
-        let in_lab = ModelNames { model, scope: Scope::Lab };
+        let in_lab = ModelNames::new(model, Scope::Lab).with(&programs.functions);
         let mut runs: Vec<BoundRun<'a>> = Vec::new();
         for run in &verify.runs {
             let setup = run
@@ -101,7 +101,7 @@ impl<'a> BoundVerify<'a> {
         if runs.is_empty() {
             runs.push(BoundRun { name: "run", spec: None, setup: None });
         }
-        let in_measure = ModelNames { model, scope: Scope::Measure };
+        let in_measure = ModelNames::new(model, Scope::Measure).with(&programs.functions);
         let mut measures = Vec::new();
         for (name, text) in &verify.measure {
             if let Some(m) = keep(text, Compiler::new(&in_measure, &mut globals).expression(&text.value)) {
@@ -157,7 +157,10 @@ impl<'a> BoundVerify<'a> {
 
     /// The value of an expression over the outcome. What is wrong with it goes to `findings`.
     pub(super) fn find(&self, outcome: &Outcome, text: &Text, findings: &mut Vec<Finding>) -> Option<Found> {
-        let names = OutcomeNames::new(outcome, ModelNames { model: self.model, scope: Scope::Measure });
+        let names = OutcomeNames::new(
+            outcome,
+            ModelNames::new(self.model, Scope::Measure).with(&self.programs.functions),
+        );
         let mut globals = self.globals.clone();
         let compiled = Compiler::new(&names, &mut globals).expression(&text.value);
         findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));

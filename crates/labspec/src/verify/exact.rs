@@ -74,7 +74,7 @@ pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<F
         findings.push(no_such_trace(claim, lab));
         return unchecked("the lab has no such trace");
     };
-    let names = ModelNames { model, scope: Scope::Lab };
+    let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
     let mut globals = programs.globals.clone();
     let compiled = Compiler::new(&names, &mut globals).expression(&claim.form.value);
     findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, &claim.form)));

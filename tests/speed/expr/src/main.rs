@@ -57,7 +57,7 @@ impl Host for Small {
 }
 
 fn program(model: &Model, text: &str) -> Program {
-    let names = ModelNames { model, scope: Scope::Lab };
+    let names = ModelNames::new(model, Scope::Lab);
     let mut globals = Globals::new();
     Compiler::new(&names, &mut globals).expression(text).program.expect("the expression is right")
 }

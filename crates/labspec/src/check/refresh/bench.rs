@@ -253,7 +253,7 @@ impl<'a> Bench<'a> {
 
     /// Statements of the lab, with the place of the text that they stand for.
     pub(super) fn compile(&self, place: &Text, source: &str, given: Option<Type>) -> Option<Bound> {
-        let names = ModelNames { model: self.model, scope: Scope::Lab };
+        let names = ModelNames::new(self.model, Scope::Lab).with(&self.programs.functions);
         let mut globals = self.programs.globals.clone();
         let mut compiler = Compiler::new(&names, &mut globals);
         compiler.value = given;

@@ -1,7 +1,7 @@
 //! The functions of `lib`: what lessons ask for most, in one word.
 
 use super::{Arg, Function, ROW, Touches, index, number};
-use crate::bind::World;
+use crate::World;
 use labspec_core::{self as core, Obj, enable};
 use labspec_expr::{Heap, Type, Value};
 

@@ -197,6 +197,6 @@ pub(super) const ROWS: &[Function] = &[
 
 /// The kind of object of a number of `mjtObj`.
 fn kind(number: f64) -> Option<Obj> {
-    let kinds = crate::bind::handle::KINDS.iter().map(|(kind, _)| *kind).chain([Obj::XBody]);
+    let kinds = crate::handle::KINDS.iter().map(|(kind, _)| *kind).chain([Obj::XBody]);
     kinds.into_iter().find(|kind| f64::from(*kind as i32) == number)
 }

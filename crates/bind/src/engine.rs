@@ -1,11 +1,11 @@
 //! A model with the accessor language: what it takes to ask a simulation for a number in one line.
 
-use crate::bind::{ModelNames, Scope, World};
-use crate::error::{Error, located};
-use crate::finding::Finding;
-use crate::source::SourceFile;
+use crate::error::located;
+use crate::{Error, Functions, ModelNames, Scope, World};
 use labspec_core::{self as core, Data, Demand, Model, Plan};
 use labspec_expr::{Compiled, Compiler, Context, Globals, Program, Value};
+use labspec_finding::Finding;
+use std::sync::Arc;
 
 /// What the texts of an engine may do in one run, in units of about a nanosecond.
 const WORK: u64 = 1_000_000_000;
@@ -23,6 +23,7 @@ impl Engine {
     ///
     /// # Errors
     /// All mistakes of the model.
+    #[cfg(feature = "mjcf")]
     pub fn compile(xml: &str) -> Result<Engine, Error> {
         let model = core::xml::compile(xml).map_err(|list| findings(list, "model.xml", xml))?;
         Engine::of(model)
@@ -35,8 +36,14 @@ impl Engine {
     pub fn of(model: Model) -> Result<Engine, Error> {
         let mut data = Data::planned(&model, Plan::new(&model, &Demand::ANY));
         core::forward(&model, &mut data).map_err(refused)?;
-        let world = World { model, data, key: None };
+        let world = World { model, data, key: None, own: Functions::new() };
         Ok(Engine { world, context: Context::new(), globals: Globals::new() })
+    }
+
+    /// The same with functions of the embedding program, which texts compiled from now on may call.
+    pub fn with_functions(mut self, functions: Functions) -> Engine {
+        self.world.own = functions;
+        self
     }
 
     /// Compiles an expression: names, indexes and types are checked against the model. All texts of an engine share
@@ -88,7 +95,7 @@ impl Engine {
         what: &'static str,
         compile: impl FnOnce(&mut Compiler<'_>) -> Compiled,
     ) -> Result<Accessor, Error> {
-        let names = ModelNames { model: &self.world.model, scope: Scope::Lab };
+        let names = ModelNames::new(&self.world.model, Scope::Lab).with(&self.world.own);
         // A text with mistakes leaves no variables behind.
         let mut globals = self.globals.clone();
         let compiled = compile(&mut Compiler::new(&names, &mut globals));
@@ -170,8 +177,8 @@ impl Statements {
 }
 
 fn findings(list: Vec<Finding>, path: &str, text: &str) -> Error {
-    let file = SourceFile::new(path, text);
-    Error::Findings(list.into_iter().filter(Finding::is_error).map(|f| located(f, &file)).collect())
+    let path = Arc::from(path);
+    Error::Findings(list.into_iter().filter(Finding::is_error).map(|f| located(f, &path, text)).collect())
 }
 
 fn refused(e: core::Error) -> Error {

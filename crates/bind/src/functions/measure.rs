@@ -1,11 +1,11 @@
 //! Functions of the measures of `verify`: over the samples of a run, and on the contacts of one sample.
 
 use super::{Arg, Function, Place, ROW, Touches, index, number};
-use crate::bind::handle;
+use crate::handle;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Type, Value};
 
-/// A function over all samples of a run; what it makes of them is in [`crate::verify`].
+/// A function over all samples of a run; what it makes of them is for whoever has the run.
 const OVER_RUN: Function = Function { args: &[Arg::Lazy], place: Place::Measures, aggregate: true, ..ROW };
 
 pub(super) const ROWS: &[Function] = &[

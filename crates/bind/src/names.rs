@@ -1,8 +1,9 @@
 //! What names mean: the language's [`Schema`] over the engine's field table and one model.
 
+use super::Functions;
 use super::elements;
 use super::enums::ENUMS;
-use super::functions::{self, OBJECTS, Place};
+use super::functions::{self, OBJECTS, Place, TABLE};
 use super::handle::{self, KINDS, Side, Thing};
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_core::{Model, Obj};
@@ -27,16 +28,33 @@ pub struct ModelNames<'m> {
     pub model: &'m Model,
     /// Where the program stands.
     pub scope: Scope,
+    /// Functions of the embedding program, if it has any.
+    own: Option<&'m Functions>,
+}
+
+/// Whether a name at the start of an expression has a meaning, whatever the model.
+pub(crate) fn is_taken(name: &str) -> bool {
+    ["model", "data", "mj_setConst"].contains(&name)
+        || OBJECTS.contains(&name)
+        || TABLE.iter().any(|f| f.object.is_empty() && f.name == name)
+}
+
+impl<'m> ModelNames<'m> {
+    /// The names of a model.
+    pub fn new(model: &'m Model, scope: Scope) -> ModelNames<'m> {
+        ModelNames { model, scope, own: None }
+    }
+
+    /// The same with functions of the embedding program.
+    pub fn with(self, own: &'m Functions) -> ModelNames<'m> {
+        ModelNames { own: Some(own), ..self }
+    }
 }
 
 impl ModelNames<'_> {
     fn functions(&self) -> impl Iterator<Item = (usize, &'static functions::Function)> {
         let measure = self.scope == Scope::Measure;
-        functions::TABLE
-            .iter()
-            .copied()
-            .enumerate()
-            .filter(move |(_, f)| measure || f.place == Place::Everywhere)
+        TABLE.iter().copied().enumerate().filter(move |(_, f)| measure || f.place == Place::Everywhere)
     }
 
     /// A function by its holder and name.
@@ -131,7 +149,7 @@ fn short_name(name: &str) -> &str {
 
 /// How a field of the table is written for one object that has a name: `data.joint('…').qpos`; `None` when it has no
 /// rows of one kind of object.
-pub(crate) fn named_field(object: Object, name: &'static str, dim: &str) -> Option<String> {
+pub fn named_field(object: Object, name: &'static str, dim: &str) -> Option<String> {
     let holder = match object {
         Object::Model => "model",
         Object::Data => "data",
@@ -258,7 +276,10 @@ impl Schema for ModelNames<'_> {
             "mj_setConst" => self.function_of("mj", name),
             _ => match OBJECTS.iter().position(|o| *o == name) {
                 Some(i) => Some(Entry::Object(handle::encode(Thing::Functions(i)))),
-                None => self.function_of("", name),
+                None => self.function_of("", name).or_else(|| {
+                    let own = self.own?.find(name)?;
+                    Some(Entry::Function(FunctionId((TABLE.len() + own) as u32)))
+                }),
             },
         }
     }
@@ -270,6 +291,7 @@ impl Schema for ModelNames<'_> {
             .chain(OBJECTS)
             .chain(["mj_setConst"])
             .chain(own)
+            .chain(self.own.into_iter().flat_map(Functions::names))
             .map(String::from)
             .collect()
     }
@@ -423,7 +445,7 @@ impl Schema for ModelNames<'_> {
     }
 
     fn result_field(&self, FunctionId(i): FunctionId, object: ObjectId) -> Option<Field> {
-        let (name, kind) = functions::TABLE.get(i as usize)?.gives?;
+        let (name, kind) = TABLE.get(i as usize)?.gives?;
         let Some(Thing::Named(_, of, index)) = handle::decode(object) else { return None };
         let f = reflect::field(Object::Data, name)?;
         let (first, count) = elements::row(self.model, f, kind, index).filter(|_| of == kind)?;
@@ -432,7 +454,9 @@ impl Schema for ModelNames<'_> {
     }
 
     fn function(&self, FunctionId(i): FunctionId) -> FunctionInfo {
-        functions::INFO.get(i as usize).cloned().unwrap_or_else(functions::none)
+        let at = i as usize;
+        let own = || self.own?.info(at.checked_sub(TABLE.len())?);
+        functions::INFO.get(at).cloned().or_else(own).unwrap_or_else(functions::none)
     }
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {

@@ -1,6 +1,7 @@
 //! The engine as the language's host: fields are read and written by id and flat index.
 
 use super::functions;
+use super::own::{self, Functions};
 use labspec_core::reflect::FieldId;
 use labspec_core::{self as core, Data, Error, Model, Planned};
 use labspec_expr::{FieldKey, FunctionId, Heap, Host, Value};
@@ -14,6 +15,8 @@ pub struct World {
     pub data: Data<Planned>,
     /// The keyframe to return to.
     pub key: Option<usize>,
+    /// Functions of the embedding program.
+    pub own: Functions,
 }
 
 impl Host for World {
@@ -44,7 +47,12 @@ impl Host for World {
                 core::charge(&mut self.data, price);
                 result
             }
-            None => Err("there is no such function".into()),
+            None => {
+                core::charge(&mut self.data, own::PRICE);
+                let called =
+                    (f as usize).checked_sub(functions::TABLE.len()).and_then(|at| self.own.call(at, args));
+                called.unwrap_or_else(|| Err("there is no such function".into()))
+            }
         }
     }
 
@@ -64,7 +72,10 @@ impl World {
     }
 
     /// Back to a keyframe, or to the default configuration.
-    pub(crate) fn reset_to(&mut self, key: Option<usize>) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// What the engine says.
+    pub fn reset_to(&mut self, key: Option<usize>) -> Result<(), Error> {
         match key.and_then(|k| self.model.keys().nth(k)) {
             Some(key) => core::reset_data_keyframe(&self.model, &mut self.data, key),
             None => core::reset_data(&self.model, &mut self.data),

@@ -178,8 +178,8 @@ pub(super) fn role(m: &Model, f: FieldId, index: usize) -> Role {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bind::handle::KINDS;
-    use crate::bind::{ModelNames, Scope};
+    use crate::handle::KINDS;
+    use crate::{ModelNames, Scope};
     use labspec_core::reflect::Object;
     use labspec_core::{Data, xml};
     use labspec_expr::{Compiler, Globals};
@@ -195,7 +195,7 @@ mod tests {
             let path = entry.unwrap().path();
             let Some(Ok(m)) = path.is_file().then(|| xml::compile_file(&path)) else { continue };
             let d = Data::new(&m);
-            let names = ModelNames { model: &m, scope: Scope::Lab };
+            let names = ModelNames::new(&m, Scope::Lab);
             for f in reflect::fields() {
                 let info = f.info();
                 let Some(dim) = info.shape.first() else { continue };
@@ -211,7 +211,7 @@ mod tests {
                     if name.is_empty() || count == 0 || objects.iter().filter(|n| *n == name).count() > 1 {
                         continue;
                     }
-                    let short = crate::bind::named_field(info.object, info.name, dim).unwrap();
+                    let short = crate::named_field(info.object, info.name, dim).unwrap();
                     let member = short.rsplit('.').next().unwrap();
                     let text = format!("{holder}.{noun}('{name}').{member}[{}]", count - 1);
                     let mut globals = Globals::new();
@@ -240,7 +240,7 @@ mod tests {
             Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/golden/models/ball_drop.xml"),
         );
         let m = xml::compile(&xml.unwrap()).unwrap();
-        let names = ModelNames { model: &m, scope: Scope::Lab };
+        let names = ModelNames::new(&m, Scope::Lab);
         let help = |source: &str| {
             let mut globals = Globals::new();
             let mut compiler = Compiler::new(&names, &mut globals);

@@ -136,7 +136,7 @@ fn index(args: &[Value]) -> Result<usize, String> {
 }
 
 /// Whether a function looks at the simulation: `abs` does not.
-pub(crate) fn reads(FunctionId(f): FunctionId) -> bool {
+pub fn reads(FunctionId(f): FunctionId) -> bool {
     TABLE.get(f as usize).is_some_and(|function| function.reads != Touches::Nothing)
 }
 
@@ -209,7 +209,7 @@ fn touch(touches: &[Touches]) -> Touch {
 }
 
 /// The name of a function, without what holds it.
-pub(crate) fn name(FunctionId(f): FunctionId) -> Option<&'static str> {
+pub fn name(FunctionId(f): FunctionId) -> Option<&'static str> {
     TABLE.get(f as usize).map(|f| f.name)
 }
 

@@ -1,0 +1,23 @@
+//! The accessor language over the engine: names are those of the field table, programs run over a model and its data. It knows
+//! nothing of labs and lessons.
+//!
+//! An [`Engine`] is a model with the language: what it takes to ask a simulation for a number in one line. Below it,
+//! [`ModelNames`] answers the language's questions at compile time, [`World`] at run time, and [`functions`] is the one table of
+//! what programs may call; [`Functions`] are those that an embedding program brings.
+
+mod elements;
+mod engine;
+mod enums;
+mod error;
+pub mod functions;
+mod handle;
+mod names;
+mod own;
+mod world;
+
+pub use engine::{Engine, Expression, Statements};
+pub use error::Error;
+pub use labspec_expr::Value;
+pub use names::{ModelNames, Scope, named_field};
+pub use own::Functions;
+pub use world::World;

@@ -1,0 +1,206 @@
+//! Functions that an embedding program brings: numbers in, a number out.
+
+use crate::Error;
+use crate::functions;
+use crate::names::is_taken;
+use labspec_expr::{
+    CollectionId, Compiler, Entry, FunctionId, FunctionInfo, Globals, ObjectId, Param, Schema, Touch, Type,
+    Value,
+};
+use std::fmt;
+use std::sync::Arc;
+
+/// What a call costs, in units of about a nanosecond. It is not known what such a function does.
+pub(crate) const PRICE: u64 = 200;
+
+/// Functions by name, called as `name(x, y)`. They see their arguments and nothing else of the simulation, so that no plan
+/// depends on them; for the same arguments they should give the same number.
+#[derive(Clone, Default)]
+pub struct Functions(Arc<Vec<Own>>);
+
+#[derive(Clone)]
+struct Own {
+    name: String,
+    params: usize,
+    doc: String,
+    call: Call,
+}
+
+type Call = Arc<dyn Fn(&[f64]) -> Result<f64, String> + Send + Sync>;
+
+impl Functions {
+    /// None.
+    pub fn new() -> Functions {
+        Functions::default()
+    }
+
+    /// With one more: its name, how many numbers it takes, a line of documentation, and what it does. An error is a sentence for
+    /// the author of the text.
+    ///
+    /// # Errors
+    /// The name is none that a text could call, or it has a meaning already.
+    pub fn with(
+        mut self,
+        name: &str,
+        params: usize,
+        doc: &str,
+        call: impl Fn(&[f64]) -> Result<f64, String> + Send + Sync + 'static,
+    ) -> Result<Functions, Error> {
+        if self.find(name).is_some() || is_taken(name) {
+            return Err(Error::Call(format!("`{name}` has a meaning already")));
+        }
+        let at = self.0.len() as u32;
+        let own = Own { name: name.to_string(), params, doc: doc.to_string(), call: Arc::new(call) };
+        Arc::make_mut(&mut self.0).push(own);
+        // Whether a text can call it is for the language to say.
+        let text = format!("{name}({})", vec!["0"; params].join(", "));
+        let (names, mut globals) = (Only(&self), Globals::new());
+        let mut compiler = Compiler::new(&names, &mut globals);
+        // Where there is one, `value` is the value of a control.
+        compiler.value = Some(Type::Number);
+        let program = compiler.expression(&text).program;
+        match program.is_some_and(|p| p.effects().calls.contains(&FunctionId(at))) {
+            true => Ok(self),
+            false => Err(Error::Call(format!("no text can call a function `{name}`"))),
+        }
+    }
+
+    /// The number of the function with this name.
+    pub(crate) fn find(&self, name: &str) -> Option<usize> {
+        self.0.iter().position(|f| f.name == name)
+    }
+
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|f| f.name.as_str())
+    }
+
+    /// Signature and effects of one of them.
+    pub(crate) fn info(&self, at: usize) -> Option<FunctionInfo> {
+        let own = self.0.get(at)?;
+        Some(FunctionInfo {
+            name: own.name.clone(),
+            params: vec![Param::Number; own.params],
+            optional: 0,
+            implied: false,
+            returns: Type::Number,
+            members: Vec::new(),
+            length: None,
+            aggregate: false,
+            reads: Touch::Nothing,
+            writes: Touch::Nothing,
+            doc: own.doc.clone(),
+        })
+    }
+
+    /// Calls one of them.
+    pub(crate) fn call(&self, at: usize, args: &[Value]) -> Option<Result<Value, String>> {
+        let own = self.0.get(at)?;
+        let numbers: Vec<f64> = args.iter().map(Value::to_number).collect();
+        Some((own.call)(&numbers).map(Value::Number))
+    }
+}
+
+/// The functions and no other names.
+struct Only<'f>(&'f Functions);
+
+impl Schema for Only<'_> {
+    fn root(&self, name: &str) -> Option<Entry> {
+        Some(Entry::Function(FunctionId(self.0.find(name)? as u32)))
+    }
+
+    fn root_names(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn member(&self, _: ObjectId, _: &str) -> Option<Entry> {
+        None
+    }
+
+    fn member_names(&self, _: ObjectId) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn describe(&self, _: ObjectId) -> String {
+        String::new()
+    }
+
+    fn lookup(&self, _: CollectionId, _: &str) -> Option<ObjectId> {
+        None
+    }
+
+    fn names(&self, _: CollectionId) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn noun(&self, _: CollectionId) -> &str {
+        ""
+    }
+
+    fn function(&self, FunctionId(f): FunctionId) -> FunctionInfo {
+        self.0.info(f as usize).unwrap_or_else(functions::none)
+    }
+}
+
+impl fmt::Debug for Functions {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.names()).finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn half() -> Functions {
+        Functions::new().with("half", 1, "the half", |x| Ok(0.5 * x.iter().sum::<f64>())).unwrap()
+    }
+
+    #[test]
+    fn names_that_mean_something_or_nothing_are_refused() {
+        for name in [
+            "half",
+            "model",
+            "data",
+            "mj",
+            "contact",
+            "mj_setConst",
+            "Math",
+            "NaN",
+            "value",
+            "ctx",
+            "isNaN",
+            "if",
+            "function",
+            "new",
+            "",
+            "a b",
+            "a.b",
+            "1a",
+            "f(1) + f",
+            "x => x; f",
+            "é ",
+            "eval",
+        ] {
+            let error = half().with(name, 1, "", |_| Ok(0.0)).unwrap_err();
+            assert!(error.to_string().contains(&format!("`{name}`")), "{name}: {error}");
+        }
+    }
+
+    #[test]
+    fn texts_call_them_with_as_many_numbers_as_they_take() {
+        let functions = half().with("sum", 3, "", |x| Ok(x.iter().sum())).unwrap();
+        let functions = functions.with("fails", 0, "", |_| Err("the sensor is unplugged".into())).unwrap();
+        let mut engine = crate::Engine::compile("<mujoco/>").unwrap().with_functions(functions);
+        let sum = engine.expression("sum(half(3), data.time, '2')");
+        assert!(sum.is_err(), "a text is no number");
+        let sum = engine.expression("sum(half(3), data.time, true)").unwrap();
+        assert_eq!(sum.number(&mut engine), Ok(2.5));
+        for (text, what) in [("half()", "half"), ("half(1, 2)", "half"), ("hlaf(1)", "did you mean `half`?")]
+        {
+            let error = engine.expression(text).unwrap_err().to_string();
+            assert!(error.contains(what), "{text}: {error}");
+        }
+        let fails = engine.statements("fails()").unwrap();
+        assert!(fails.run(&mut engine).unwrap_err().to_string().contains("unplugged"));
+    }
+}
