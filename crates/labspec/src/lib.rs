@@ -39,7 +39,6 @@ pub mod rules;
 pub mod run;
 pub mod source;
 pub mod spec;
-pub mod svg;
 pub mod verify;
 
 pub use checker::{Checker, Report};

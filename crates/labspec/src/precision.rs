@@ -10,14 +10,13 @@ use crate::interrupt;
 use crate::run::{self, Play, RunError, Session};
 use crate::spec::Lab;
 use crate::spec::format::RUN_LENGTH;
-use crate::svg::{Method, MethodPoint, WorkPrecision, work_precision};
 use labspec_core::{Model, Warning, integrator};
 use labspec_expr::Compiler;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// The integrators that are compared.
-const INTEGRATORS: [(i32, &str); 2] = [(integrator::EULER, "Euler"), (integrator::RK4, "RK4")];
+pub(crate) const INTEGRATORS: [(i32, &str); 2] = [(integrator::EULER, "Euler"), (integrator::RK4, "RK4")];
 /// Timesteps, as multiples of the lab's own; each divides the first.
 const STEPS: [f64; 6] = [4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
 /// The reference takes so many steps where the finest run takes one.
@@ -249,33 +248,4 @@ fn samples(case: &Case<'_>, kind: i32, h: f64) -> Samples {
 
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, |m, d| if d.is_nan() { f64::NAN } else { d.max(m) })
-}
-
-impl Report {
-    /// Log-log chart of one trace: error across, cost upwards, one curve per integrator.
-    pub fn chart(&self, trace: usize, title: &str) -> String {
-        let methods = INTEGRATORS.iter().map(|(_, name)| Method {
-            label: name.to_string(),
-            points: self
-                .rows
-                .iter()
-                .filter(|r| r.integrator == *name)
-                .map(|r| MethodPoint {
-                    cost: r.cost,
-                    error: r.errors.get(trace).copied().unwrap_or(f64::NAN),
-                    note: format!("{} ms", crate::verify::significant(1e3 * r.timestep)),
-                    failed: r.diverged,
-                })
-                .collect(),
-        });
-        let label = self.traces.get(trace).map_or("", String::as_str);
-        work_precision(&WorkPrecision {
-            title: title.to_string(),
-            xlabel: format!("largest error of {label}"),
-            ylabel: "µs per simulated second".into(),
-            methods: methods.collect(),
-            width: 640.0,
-            height: 420.0,
-        })
-    }
 }

@@ -3,10 +3,11 @@
 use super::output::{Wanted, look_ahead};
 use super::stdio::print_json;
 use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
-use crate::precision::{Report, Truth, compare};
+use crate::precision::{INTEGRATORS, Report, Row, Truth, compare};
 use crate::report::{key, printable, set_number, set_numbers};
 use crate::verify::significant;
 use clap::ValueEnum;
+use labspec_plot::{Method, MethodPoint, WorkPrecision, work_precision};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -50,7 +51,7 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
         ));
     }
     if let Some(file) = &a.svg {
-        write_file(file, &report.chart(0, target.lab.title()))?;
+        write_file(file, &chart(&report, target.lab.title()))?;
     }
     match a.format {
         Format::Human => print(&table(&report))?,
@@ -58,6 +59,28 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     }
     let diverged = report.rows.iter().any(|r| r.diverged);
     Ok(if diverged { Outcome::Findings } else { Outcome::Clean })
+}
+
+/// Log-log chart of the first trace: error across, cost upwards, one curve per integrator.
+fn chart(report: &Report, title: &str) -> String {
+    let point = |row: &Row| MethodPoint {
+        cost: row.cost,
+        error: row.errors.first().copied().unwrap_or(f64::NAN),
+        note: format!("{} ms", significant(1e3 * row.timestep)),
+        failed: row.diverged,
+    };
+    let methods = INTEGRATORS.iter().map(|(_, name)| Method {
+        label: name.to_string(),
+        points: report.rows.iter().filter(|row| row.integrator == *name).map(point).collect(),
+    });
+    work_precision(&WorkPrecision {
+        title: title.to_string(),
+        xlabel: format!("largest error of {}", report.traces.first().map_or("", String::as_str)),
+        ylabel: "µs per simulated second".into(),
+        methods: methods.collect(),
+        width: 640.0,
+        height: 420.0,
+    })
 }
 
 fn table(report: &Report) -> String {

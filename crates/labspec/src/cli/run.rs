@@ -6,9 +6,9 @@ use super::{Failure, ModelOptions, Outcome, print, target, write_file};
 use crate::report::{printable, printable_path};
 use crate::run::{self, Cell, RunOptions, Table, settings, shown};
 use crate::spec::{Lab, Plot};
-use crate::svg::{Chart, Series, line_chart};
 use clap::ValueEnum;
 use labspec_expr::Value;
+use labspec_plot::{Chart, Series, line_chart};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
