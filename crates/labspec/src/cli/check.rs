@@ -66,6 +66,7 @@ fn work(a: &Arguments, depth: Depth, evidence: bool) -> Result<Outcome, Failure>
         depth,
         jobs: a.jobs.map_or_else(known, NonZeroUsize::get),
         progress: a.format == Format::Human && std::io::stderr().is_terminal(),
+        told: (a.format == Format::Human).then(|| a.color.on()),
     };
     if !a.watch {
         return report(a, &look(&plan, &cache)?, evidence);
@@ -94,7 +95,7 @@ fn report(a: &Arguments, course: &Course, evidence: bool) -> Result<Outcome, Fai
     sources.extend(&course.sources);
     match a.format {
         Format::Human => {
-            let mut text = drawn::human(&course.findings, &sources, a.color.on());
+            let mut text = drawn::human(&course.last, &sources, a.color.on());
             text.push_str(&overview(course, evidence));
             if outcome == found {
                 let _ = writeln!(text, "{}", last_line(course));

@@ -4,7 +4,7 @@
 
 use super::cache::Cache;
 use super::digest;
-use super::stdio::complain;
+use super::stdio::{complain, print};
 use super::target::{model_folder_within, root};
 use super::{Failure, ModelOptions, interrupted};
 use crate::bind::scene::{Models, check_model_file};
@@ -13,14 +13,14 @@ use crate::finding::{self, Finding};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
 use crate::lint::load_lesson_file;
 use crate::lint::{self, ModelFolder};
-use crate::report::printable_path;
+use crate::report::{human, printable_path};
 use crate::rules;
 use crate::source::SourceFile;
 use crate::spec::{FileKind, Lesson, kind_of};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What is checked, and how.
 pub(super) struct Plan<'a> {
@@ -31,6 +31,8 @@ pub(super) struct Plan<'a> {
     pub(super) jobs: usize,
     /// Names of files are shown while they are checked.
     pub(super) progress: bool,
+    /// Findings of a lesson are printed as soon as it and those before it are checked; in colour, if so.
+    pub(super) told: Option<bool>,
 }
 
 /// Everything that was checked, and what it came to.
@@ -38,6 +40,8 @@ pub(super) struct Plan<'a> {
 pub(super) struct Course {
     pub(super) checked: Vec<Checked>,
     pub(super) findings: Vec<Finding>,
+    /// Those of the findings that are known only when all lessons are checked: of models, and of lessons together.
+    pub(super) last: Vec<Finding>,
     pub(super) ledger: Ledger,
     /// Files that are shown with findings, besides the lessons.
     pub(super) sources: Vec<SourceFile>,
@@ -78,12 +82,21 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
     }
     let (tasks, mut by_folder) = tasks(plan, &files)?;
     let next = AtomicUsize::new(0);
+    let told = Mutex::new(Told::default());
     let work = || {
         let mut done = Vec::new();
         loop {
             let i = next.fetch_add(1, Ordering::Relaxed);
             let (Some(task), Some((path, named))) = (tasks.get(i), files.get(i)) else { return done };
-            done.push((i, one(plan, cache, task, path, *named, &by_folder)));
+            let found = one(plan, cache, task, path, *named, &by_folder);
+            if let Some(colour) = plan.told {
+                let text = match &found {
+                    Done::Lesson(c) => human(&c.findings, &[&c.lesson.file], colour),
+                    _ => String::new(),
+                };
+                tell(&told, i, text, plan.progress);
+            }
+            done.push((i, found));
         }
     };
     let mut done = std::thread::scope(|scope| {
@@ -103,6 +116,9 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
     if plan.progress {
         complain("\r\x1b[K");
     }
+    if let Some(failure) = told.into_inner().unwrap_or_else(PoisonError::into_inner).failure {
+        return Err(failure);
+    }
     done.sort_by_key(|(i, _)| *i);
     let mut course = Course::default();
     let mut refused: Vec<(PathBuf, String)> = problems;
@@ -115,7 +131,7 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
             Done::Other => {}
             Done::Model(loads, findings, files) => {
                 course.ledger.add(model_entry(path, loads));
-                course.findings.extend(findings);
+                course.last.extend(findings);
                 course.sources.extend(files);
             }
             Done::Refused(why) => refused.push((path.clone(), why)),
@@ -131,21 +147,53 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
             .why("nothing in it was checked")
             .help("mend the file, or leave it out");
         f.path = Arc::from(path.display().to_string());
-        course.findings.push(f);
+        course.last.push(f);
     }
     let lessons: Vec<_> = course.checked.iter().map(|c| &c.lesson).collect();
-    course.findings.extend(lint::check_course(&lessons));
-    course.findings.extend(course.checked.iter().flat_map(|c| c.findings.iter().cloned()));
+    course.last.extend(lint::check_course(&lessons));
     for models in &mut by_folder {
-        course.findings.extend(models.take_findings());
+        course.last.extend(models.take_findings());
         course.sources.extend(models.files().iter().cloned());
         course.read.extend(models.read());
     }
+    finding::sort(&mut course.last);
+    let own = course.checked.iter().flat_map(|c| &c.findings);
+    course.findings = own.chain(&course.last).cloned().collect();
     finding::sort(&mut course.findings);
     let models = std::mem::take(&mut course.ledger);
     course.ledger = check::ledger(&course.checked, &course.findings);
     course.ledger.append(models);
     Ok(course)
+}
+
+/// What was printed of the lessons, in their order.
+#[derive(Default)]
+struct Told {
+    /// How many files there is nothing more to be said of.
+    count: usize,
+    /// What is to be said of later ones.
+    waiting: BTreeMap<usize, String>,
+    /// Nothing can be printed any more.
+    failure: Option<Failure>,
+}
+
+/// Prints what is said of a file once all files before it have been told.
+fn tell(told: &Mutex<Told>, file: usize, text: String, progress: bool) {
+    let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
+    told.waiting.insert(file, text);
+    let mut ready = String::new();
+    loop {
+        let count = told.count;
+        let Some(text) = told.waiting.remove(&count) else { break };
+        ready.push_str(&text);
+        told.count += 1;
+    }
+    if !ready.is_empty() && told.failure.is_none() {
+        if progress {
+            complain("\r\x1b[K");
+        }
+        told.failure = print(&ready).err();
+    }
 }
 
 /// What is to be done with each file, and the models that lessons share, compiled once for each folder.
