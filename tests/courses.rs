@@ -54,6 +54,31 @@ fn threads_and_the_cache_change_no_byte() {
     assert!(files > 50, "{files}");
 }
 
+/// What is wrong with the first lesson is read while the second is still running.
+#[test]
+fn findings_are_printed_as_lessons_are_done() {
+    use std::io::{BufRead, BufReader, Read};
+    let folder = tempfile::tempdir().unwrap();
+    let model = "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='.1'/></body></worldbody></mujoco>";
+    let lab = |until: u32| {
+        format!(
+            r#"{{"xml": "{model}", "readouts": [{{"label": "z (m)", "exp": "data.qpos[2]"}}], "verify": {{"runs": {{"r": {{"until": {until}}}}}, "value": "data.time"}}}}"#
+        )
+    };
+    std::fs::write(folder.path().join("a.json"), lab(1)).unwrap();
+    std::fs::write(folder.path().join("b.json"), lab(2000)).unwrap();
+    let mut command = program(folder.path(), &["check", ".", "--jobs", "1", "--no-cache"]);
+    let mut child = command.stdout(std::process::Stdio::piped()).spawn().unwrap();
+    let mut out = BufReader::new(child.stdout.take().unwrap());
+    let mut first = String::new();
+    out.read_line(&mut first).unwrap();
+    let running = child.try_wait().unwrap().is_none();
+    let mut rest = String::new();
+    out.read_to_string(&mut rest).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(1));
+    assert!(first.contains("error") && running, "{first}{rest}");
+}
+
 #[test]
 fn without_a_cache_nothing_is_kept() {
     let (folder, kept) = (folder(), tempfile::tempdir().unwrap());
