@@ -59,7 +59,8 @@ fn threads_and_the_cache_change_no_byte() {
 fn findings_are_printed_as_lessons_are_done() {
     use std::io::{BufRead, BufReader, Read};
     let folder = tempfile::tempdir().unwrap();
-    let model = "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='.1'/></body></worldbody></mujoco>";
+    let model =
+        "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='.1'/></body></worldbody></mujoco>";
     let lab = |until: u32| {
         format!(
             r#"{{"xml": "{model}", "readouts": [{{"label": "z (m)", "exp": "data.qpos[2]"}}], "verify": {{"runs": {{"r": {{"until": {until}}}}}, "value": "data.time"}}}}"#

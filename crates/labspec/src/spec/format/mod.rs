@@ -9,6 +9,7 @@ mod complete;
 mod complete_tests;
 mod control;
 mod describe;
+mod in_lesson;
 mod lab;
 mod page;
 mod plot;
@@ -21,6 +22,7 @@ mod verify;
 
 pub use complete::{Completion, completions};
 pub use control::{BUTTON, CONTROL, SELECT, SLIDER};
+pub use in_lesson::completions_in;
 pub use lab::{CAMERA, EVENTS, LAB, OVERLAYS};
 pub use page::page;
 pub use plot::{MAX_DIGITS, PLOT, READOUT, REF_LINE, TRACE};

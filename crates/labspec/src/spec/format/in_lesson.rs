@@ -1,0 +1,83 @@
+//! What can be written at a place of a lesson: that of the JSON which stands there.
+
+use super::{Completion, completions};
+use crate::markdown::{self, Block, BlockKind};
+use crate::source::SourceFile;
+use crate::spec::{FileKind, kind_of};
+use std::path::Path;
+
+/// What can be written at a byte offset of a lesson (Markdown) or of a JSON file; nothing outside of labs and quizzes. Places
+/// are bytes of the file.
+pub fn completions_in(file: &SourceFile, offset: usize) -> Vec<Completion> {
+    if kind_of(Path::new(&**file.path())) == FileKind::Json {
+        return completions(file.text(), offset);
+    }
+    let holds = |block: &&Block| {
+        let span = block.body.span();
+        matches!(block.kind, BlockKind::Lab(_) | BlockKind::Quiz) && (span.start..=span.end).contains(&offset)
+    };
+    let scan = markdown::scan(file);
+    let Some(Block { body, .. }) = scan.blocks.iter().find(holds) else { return Vec::new() };
+    // The text of a block is the file's, without what stands before its lines: bytes keep their order.
+    let mut here = 0..body.value.len();
+    while here.start < here.end {
+        let middle = here.start + (here.end - here.start) / 2;
+        if body.map.span(middle..middle).start < offset {
+            here.start = middle + 1;
+        } else {
+            here.end = middle;
+        }
+    }
+    let found = completions(&body.value, here.start).into_iter();
+    let whole = found.filter(|c| body.map.is_unbroken(c.replace.clone()));
+    whole.map(|c| Completion { replace: body.map.span(c.replace), ..c }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is offered where `|` stands, and what the first of it makes of the lesson.
+    fn offered(lesson: &str) -> (Vec<&'static str>, String) {
+        let at = lesson.find('|').unwrap();
+        let mut text = lesson.replace('|', "");
+        let all = completions_in(&SourceFile::new("a.md", text.as_str()), at);
+        if let Some(first) = all.first() {
+            text.replace_range(first.replace.clone(), &first.insert);
+        }
+        (all.iter().map(|c| c.text).collect(), text)
+    }
+
+    #[test]
+    fn a_key_is_offered_in_the_fence_where_it_stands() {
+        let lesson = "é\n```lab simlab\n{\"model\": \"ball\",\n \"ti|\"}\n```\nSee \"ti\".\n";
+        let (all, text) = offered(lesson);
+        assert_eq!(all, ["title"]);
+        assert!(text.contains("\n \"title\"") && text.ends_with("See \"ti\".\n"), "{text}");
+        // In a quote, every line begins with a mark that is no JSON.
+        let quoted =
+            "> ```lab simlab\n> {\"model\": \"ball\",\n>  \"controls\": [{\"type\": \"sel|\"}]}\n> ```\n";
+        let (all, text) = offered(quoted);
+        assert_eq!(all, ["select"]);
+        assert!(text.contains(">  \"controls\": [{\"type\": \"select\"}]}\n> ```"), "{text}");
+    }
+
+    #[test]
+    fn elsewhere_there_is_nothing() {
+        for lesson in ["See \"ti|\".\n", "```python\nx = \"ti|\"\n```\n", "```lab simlab\n{}\n```\n\"ti|\"\n"]
+        {
+            assert_eq!(offered(lesson).0, Vec::<&str>::new(), "{lesson}");
+        }
+    }
+
+    #[test]
+    fn no_offset_of_a_broken_lesson_is_a_panic() {
+        let text = "> ```lab simlab\n> {“model”: \"ball\", 'é': [\n\n```quiz {\"q\n```lab simlab\n{\"a\": \"\\u00e9\"\n";
+        let file = SourceFile::new("a.md", text);
+        for at in 0..=text.len() + 2 {
+            for c in completions_in(&file, at) {
+                assert!(text.get(c.replace.clone()).is_some(), "{at}: {:?}", c.replace);
+            }
+        }
+    }
+}
