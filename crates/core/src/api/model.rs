@@ -62,7 +62,7 @@ impl PartialEq for Model {
 impl Deref for Model {
     type Target = inner::Model;
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn deref(&self) -> &inner::Model {
         &self.inner
     }

@@ -25,7 +25,7 @@ struct Shadow {
 }
 
 impl Shadow {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn near(&self, other: &Shadow) -> bool {
         let between = sub(self.centre, other.centre);
         let reach = self.radius + other.radius;
@@ -259,7 +259,7 @@ fn widest(shadows: &[Shadow], centres: &[Vec3]) -> usize {
 }
 
 /// Whether the bounding spheres of two geoms, or a sphere and a plane, are farther apart than `reach`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn far_apart(m: &Model, d: &Fields, a: usize, b: usize, reach: f64) -> bool {
     let (pos, mat) = (rows::<3>(&d.geom_xpos), rows::<9>(&d.geom_xmat));
     let (ra, rb) = (m.geom_rbound[a], m.geom_rbound[b]);

@@ -166,7 +166,7 @@ impl Hessian {
     }
 
     /// Adds numbers to the entries of a degree of freedom of the model with others before it in its tree.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn add(&mut self, i: usize, with: impl Iterator<Item = (usize, f64)>) {
         let (local, values) = (self.local.as_slice(), self.values.as_flattened_mut());
         // It comes before them here.
@@ -177,7 +177,7 @@ impl Hessian {
     }
 
     /// H ← H + Jᵀ W J, four columns at a time, given the column that is the `i`-th in the island.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn add_gram_by<const R: usize>(
         &mut self,
         columns: &[u32],
@@ -330,7 +330,7 @@ impl Hessian {
 }
 
 impl Gram for Hessian {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn add_gram<const R: usize>(
         &mut self,
         columns: &[u32],
@@ -353,18 +353,18 @@ impl Gram for Hessian {
 }
 
 /// Four rows or columns of blocks, each of `n` blocks: `len` of these from `from` on.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn parts(of: &[Four], n: usize, from: usize, len: usize) -> [&[Four]; 4] {
     from_fn(|r| &of[r * n + from..][..len])
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn transposed(rows: [Four; 4]) -> [f64x4; 4] {
     from_fn(|c| f64x4::new(rows.map(|row| row[c])))
 }
 
 /// Row `i`: its first column, and its numbers up to the end of the block of the diagonal.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn row_of<'a>(blocks: &[BlockRow], values: &'a mut [f64], i: usize) -> (usize, &'a mut [f64]) {
     let BlockRow { first, start } = blocks[i / 4];
     let n = i / 4 + 1 - first;

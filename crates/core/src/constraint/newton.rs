@@ -64,7 +64,7 @@ impl Problem<'_> {
     }
 
     /// step ← H⁻¹ g; search ← -step.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn newton_direction(&mut self, six: &Option<Range<usize>>) {
         match six {
             Some(dofs) => self.newton_direction_of_six(dofs.start),
@@ -110,7 +110,7 @@ impl Problem<'_> {
 }
 
 /// H ← H + Jᵀ C J over blocks, where C is the second derivative of their costs at x = `jar`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn add_curvatures(
     d: &Fields,
     jac: &Jacobian,
@@ -129,7 +129,7 @@ fn add_curvatures(
 }
 
 /// One block whose rows push.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn add_push<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Block, h: &mut impl Gram) {
     let (Some(x), Some(stiff)) = (jar[b.rows()].first_chunk::<R>(), d.efc_D[b.rows()].first_chunk::<R>())
     else {

@@ -44,13 +44,13 @@ impl<'a> Problem<'a> {
     }
 
     /// The degrees of freedom.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn dofs(&self) -> impl Iterator<Item = Range<usize>> + Clone + use<'a> {
         self.islands.dofs(self.island)
     }
 
     /// The constraints, by their place in the Jacobian's blocks.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn blocks(&self) -> impl Iterator<Item = usize> + Clone + use<'a> {
         self.islands.blocks.of(self.island)
     }
@@ -96,7 +96,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Forces of one constraint; returns its cost.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn push_block<const R: usize>(&mut self, b: &Block) -> f64 {
         let (d, s) = (&mut *self.d, &*self.s);
         let rows = b.rows();
@@ -212,7 +212,7 @@ impl<'a> Problem<'a> {
 }
 
 /// What the cost of a constraint of R rows depends on.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shape<'a, R>> {
     let row = b.row as usize;
     let contact = if b.cost == Cost::Cone { d.contact.get(d.efc_id[row] as usize) } else { None };
@@ -221,7 +221,7 @@ pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shap
 }
 
 /// Adds the rows of a block that push to a point of the line.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn add_push(p: &mut Point, d: &Fields, s: &Iterate, b: &Block) {
     for r in b.rows() {
         let (start, v, w) = (s.jar[r], s.jv[r], d.efc_D[r]);

@@ -16,7 +16,7 @@ use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// `qacc`, `efc_force`, `qfrc_constraint`, `solver_niter`, from `qacc_smooth` and the rows.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch) {
     d.solver_niter = 0;
     d.nisland = 0;
@@ -69,7 +69,7 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch) {
 }
 
 /// Newton's method or conjugate gradients, from the better start.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn primal(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac: &Jacobian) {
     if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, islands, jac) {
         return;
@@ -194,7 +194,7 @@ fn block_state<const R: usize>(d: &mut Fields, b: &Block, jar: &[f64]) {
 
 impl Problem<'_> {
     /// Goes on from a start with the method of the model.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn run(&mut self, from: Reached) {
         match self.m.opt.solver {
             solver::CG => self.conjugate_gradient(from),

@@ -179,7 +179,7 @@ impl Chains {
     }
 
     /// Whether there is none.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn is_empty(&self) -> bool {
         self.lengths.is_empty()
     }

@@ -101,14 +101,14 @@ fn least(v: Vec3) -> Vec3 {
 }
 
 /// v turned by a quarter.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn quarter(v: Vec2) -> Vec2 {
     [-v[1], v[0]]
 }
 
 impl Swing {
     /// v turned as the link is.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn turned(&self, v: Vec2) -> Vec2 {
         [self.cos * v[0] - self.sin * v[1], self.sin * v[0] + self.cos * v[1]]
     }
@@ -160,7 +160,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
 }
 
 /// Velocity of a point of a link below, for a unit velocity of the joint.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn shift(sense: f64, joint: &Swing, point: Vec2) -> Vec2 {
     if sense == 0.0 {
         return joint.axis;

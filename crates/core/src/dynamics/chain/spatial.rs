@@ -44,7 +44,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
 
 impl Link {
     /// The pose for a coordinate of the joint.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn place(&mut self, parent: Option<&Pose>, q: f64) {
         let (f, pose) = (&self.fixed, &mut self.pose);
         match parent {
@@ -105,7 +105,7 @@ pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: 
 
 impl Motion {
     /// The acceleration of a point at `arm` from the anchor.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn at(&self, arm: Vec3) -> Vec3 {
         let w = self.velocity;
         add(self.acceleration, add(cross(self.turning, arm), cross(w, cross(w, arm))))
@@ -113,7 +113,7 @@ impl Motion {
 }
 
 /// I v
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn inertia_turn(i: &[f64; 6], v: Vec3) -> Vec3 {
     [
         i[0] * v[0] + i[3] * v[1] + i[4] * v[2],

@@ -13,7 +13,7 @@ pub(crate) use points::{
 };
 
 /// Last degree of freedom that moves body `b`, -1 when it cannot move.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn last_dof(m: &Model, b: usize) -> i32 {
     let w = m.body_weldid[b] as usize;
     m.body_dofadr[w] + m.body_dofnum[w] - i32::from(m.body_dofnum[w] > 0)
@@ -67,30 +67,30 @@ impl Columns {
     }
 
     /// The degrees of freedom.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn dofs(&self) -> &[u32] {
         &self.dofs[..self.len]
     }
 
     /// Velocity of the point along each row of the frame, for a unit velocity of each degree of freedom.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn values(&self) -> &[Vec3] {
         &self.values[..self.len]
     }
 
     /// Angular velocity along each row of the frame, likewise; where it was asked for.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn turns(&self) -> &[Vec3] {
         &self.turns[..self.len]
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn turns_mut(&mut self) -> &mut [Vec3] {
         &mut self.turns[..self.len]
     }
 
     /// Appends N columns, of which the first belongs to degree of freedom `last`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn push<const N: usize>(&mut self, last: usize, values: [Lane3; N]) {
         let range = self.len..self.len + N;
         self.len += N;
@@ -105,7 +105,7 @@ impl Columns {
 
 /// The Jacobian difference of one point fixed to two bodies, J(b2) - J(b1), along the rows of `frame`: the
 /// degrees of freedom that move only one of the bodies (those that move both cancel).
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn point_difference(
     m: &Model,
     d: &Fields,
@@ -131,7 +131,7 @@ pub(crate) fn point_difference(
 
 /// Columns of one joint, the last degree of freedom first. A rotation about `a` moves the point by v = a × arm, and
 /// v · f = a · (arm × f).
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn joint_columns(m: &Model, d: &Fields, j: usize, last: usize, point: Vec3, f: Axes, out: &mut Columns) {
     let kind = m.jnt_type[j];
     if kind == joint::SLIDE {

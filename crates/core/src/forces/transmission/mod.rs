@@ -26,7 +26,7 @@ struct Rows {
 
 impl Rows {
     /// Appends an entry of the row that is being written; zeros are left out.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn push(&mut self, dof: usize, value: f64) {
         if value != 0.0
             && let (Some(k), Some(x)) = (self.colind.get_mut(self.at), self.values.get_mut(self.at))
