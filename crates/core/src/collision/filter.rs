@@ -2,6 +2,7 @@
 
 use crate::geometry::pair;
 use crate::kinds::disable;
+use crate::math::sort::sort_by;
 use crate::model::Model;
 
 /// Two geoms, ordered so that the first has the smaller type.
@@ -117,7 +118,7 @@ pub(crate) fn candidate_pairs(m: &Model, may_change: bool) -> Vec<Pair> {
             }
         }
     }
-    out.sort_by_key(|p| p.order(m));
+    sort_by(&mut out, |p, q| p.order(m).cmp(&q.order(m)));
     out
 }
 

@@ -9,6 +9,7 @@
 use super::island::Islands;
 use super::jacobian::{Gram, Jacobian};
 use crate::math::MINVAL;
+use crate::math::sort::{sort, sort_by};
 use crate::model::Model;
 use std::array::from_fn;
 use wide::f64x4;
@@ -182,8 +183,8 @@ impl Hessian {
         &mut self,
         columns: &[u32],
         v: &[[f64; R]],
-        weigh: impl Fn(&[f64; R]) -> [f64; R],
-        ith: impl Fn(usize) -> usize,
+        weigh: &dyn Fn(&[f64; R]) -> [f64; R],
+        ith: &dyn Fn(usize) -> usize,
     ) {
         let n = columns.len();
         let fours = n.div_ceil(4);
@@ -335,19 +336,19 @@ impl Gram for Hessian {
         &mut self,
         columns: &[u32],
         v: &[[f64; R]],
-        weigh: impl Fn(&[f64; R]) -> [f64; R],
+        weigh: &dyn Fn(&[f64; R]) -> [f64; R],
     ) {
         let n = columns.len();
         let local = |p: usize| self.local[columns[p] as usize];
         if self.len <= SMALL || (1..n).all(|p| local(p) < local(p - 1)) {
-            return self.add_gram_by(columns, v, weigh, |i| n - 1 - i);
+            return self.add_gram_by(columns, v, weigh, &|i| n - 1 - i);
         }
         // Trees of a large island in another order than in the file.
         let mut order = std::mem::take(&mut self.by_place);
         order.clear();
         order.extend(0..n);
-        order.sort_unstable_by_key(|&p| local(p));
-        self.add_gram_by(columns, v, weigh, |i| order[i]);
+        sort_by(&mut order, |&p, &q| local(p).cmp(&local(q)));
+        self.add_gram_by(columns, v, weigh, &|i| order[i]);
         self.by_place = order;
     }
 }
@@ -402,7 +403,7 @@ impl Order {
                 self.pairs.extend(trees.clone().filter(|&b| b != a).map(|b| [a as u32, b as u32]));
             }
         }
-        self.pairs.sort_unstable();
+        sort(&mut self.pairs);
         self.pairs.dedup();
         self.begin.clear();
         self.begin.resize(m.ntree + 1, 0);

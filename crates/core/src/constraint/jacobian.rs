@@ -45,7 +45,7 @@ pub(super) trait Gram {
         &mut self,
         columns: &[u32],
         v: &[[f64; R]],
-        weigh: impl Fn(&[f64; R]) -> [f64; R],
+        weigh: &dyn Fn(&[f64; R]) -> [f64; R],
     );
 }
 

@@ -137,7 +137,7 @@ fn add_push<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Block, 
     };
     if x.iter().any(|&x| x < 0.0) {
         let w: [f64; R] = from_fn(|r| if x[r] < 0.0 { stiff[r] } else { 0.0 });
-        h.add_gram::<R>(jac.columns(b), jac.values(b).as_chunks().0, |v| from_fn(|r| w[r] * v[r]));
+        h.add_gram::<R>(jac.columns(b), jac.values(b).as_chunks().0, &|v| from_fn(|r| w[r] * v[r]));
     }
 }
 
@@ -148,7 +148,7 @@ fn add_curvature<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Bl
     let (columns, v) = (jac.columns(b), jac.values(b).as_chunks().0);
     match shape.curvature(x) {
         Curvature::Flat => {}
-        Curvature::Diagonal(w) => h.add_gram::<R>(columns, v, |v| from_fn(|r| w[r] * v[r])),
-        Curvature::Full(w) => h.add_gram::<R>(columns, v, |v| w.map(|w| dot(w, *v))),
+        Curvature::Diagonal(w) => h.add_gram::<R>(columns, v, &|v| from_fn(|r| w[r] * v[r])),
+        Curvature::Full(w) => h.add_gram::<R>(columns, v, &|v| w.map(|w| dot(w, *v))),
     }
 }

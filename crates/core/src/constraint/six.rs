@@ -65,7 +65,7 @@ impl Gram for Six {
         &mut self,
         columns: &[u32],
         v: &[[f64; R]],
-        weigh: impl Fn(&[f64; R]) -> [f64; R],
+        weigh: &dyn Fn(&[f64; R]) -> [f64; R],
     ) {
         if let (N, Some(v)) = (columns.len(), v.first_chunk::<N>()) {
             for i in 0..N {

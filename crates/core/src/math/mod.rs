@@ -4,6 +4,7 @@
 //! (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2). `rows` looks at a flat array as rows.
 
 pub(crate) mod lanes;
+pub(crate) mod sort;
 
 use std::ops::{Add, Mul, Sub};
 

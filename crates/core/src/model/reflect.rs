@@ -3,6 +3,7 @@
 //! The language, the lints, the reports and the reference pages know the engine only through this module.
 
 pub use super::stage::Stage;
+use crate::math::sort::sort_by;
 use crate::model::bytes::Plain;
 use crate::model::fields::{data_fields, model_fields, option_fields, statistic_fields};
 use crate::model::{Fields, Model};
@@ -352,7 +353,7 @@ pub fn field(object: Object, name: &str) -> Option<FieldId> {
 /// All fields in the order of their names: a lab's texts ask for them a hundred times.
 static BY_NAME: LazyLock<Vec<FieldId>> = LazyLock::new(|| {
     let mut all: Vec<FieldId> = fields().collect();
-    all.sort_by_key(|f| f.info().name);
+    sort_by(&mut all, |f, g| (f.info().name, f).cmp(&(g.info().name, g)));
     all
 });
 

@@ -3,6 +3,7 @@
 use super::is_fixed;
 use crate::dynamics::jacobian;
 use crate::kinds::wraptype;
+use crate::math::sort::sort;
 use crate::model::Model;
 
 /// `ten_J_rownnz`, `ten_J_rowadr`, `ten_J_colind`, `nJten`, `tendon_treenum` and `tendon_treeid`.
@@ -65,7 +66,7 @@ fn moving(m: &Model, t: usize) -> Vec<i32> {
         dofs.extend(joints.iter().map(|&j| m.jnt_dofadr[j as usize]));
     } else {
         let mut bodies: Vec<usize> = bodies(m, t).collect();
-        bodies.sort_unstable();
+        sort(&mut bodies);
         bodies.dedup();
         for b in bodies {
             let mut k = jacobian::last_dof(m, b);
@@ -75,7 +76,7 @@ fn moving(m: &Model, t: usize) -> Vec<i32> {
             }
         }
     }
-    dofs.sort_unstable();
+    sort(&mut dofs);
     dofs.dedup();
     dofs
 }
