@@ -7,7 +7,7 @@ mod sweep;
 
 use filter::Pair;
 pub(crate) use filter::can_collide;
-pub(crate) use filter::{MOST_LISTED, candidate_pairs};
+pub(crate) use filter::{MOST_LISTED, candidate_pairs, searched_pair};
 use params::Params;
 use sweep::Sweep;
 

@@ -29,3 +29,10 @@ fn put<T>(list: &mut Vec<T>, item: T) {
 pub(super) fn padded<'l>(lists: impl Iterator<Item = &'l List>, width: usize) -> Vec<f64> {
     lists.flat_map(|l| l.numbers.iter().copied().chain(std::iter::repeat(0.0)).take(width)).collect()
 }
+
+/// A map or set of items, put in one by one: `collect` sorts first, and a sort is a lot of code for each type.
+pub(super) fn filled<C: Default + Extend<T>, T>(items: impl IntoIterator<Item = T>) -> C {
+    let mut all = C::default();
+    all.extend(items);
+    all
+}

@@ -4,7 +4,7 @@
 
 pub use super::stage::Stage;
 use crate::math::sort::sort_by;
-use crate::model::bytes::Plain;
+use crate::model::bytes::{Plain, fingerprint};
 use crate::model::fields::{data_fields, model_fields, option_fields, statistic_fields};
 use crate::model::{Fields, Model};
 use std::sync::LazyLock;
@@ -437,6 +437,23 @@ pub fn size(m: &Model, name: &str) -> Option<usize> {
 pub(crate) fn length(m: &Model, field: FieldId) -> usize {
     let dims = field.info().shape.iter().map(|dim| dim.parse().ok().or_else(|| size(m, dim)).unwrap_or(0));
     dims.fold(1, usize::saturating_mul)
+}
+
+/// A number for the names, types and shapes of the fields of the data, or of all others: two programs with the same number
+/// have the same table.
+pub(crate) fn table(data: bool) -> u64 {
+    let mut text = String::new();
+    for f in fields().map(FieldId::info).filter(|f| (f.object == Object::Data) == data) {
+        let elem = match f.elem {
+            Elem::F64 => "F64",
+            Elem::I32 => "I32",
+            Elem::Bool => "Bool",
+            Elem::Size => "Size",
+        };
+        let shape: Vec<String> = f.shape.iter().map(|dim| format!("\"{dim}\"")).collect();
+        text += &format!("{} {elem} [{}]\n", f.name, shape.join(", "));
+    }
+    fingerprint(text.as_bytes())
 }
 
 /// Appends all numbers of the data that are fields, in the order of the table.

@@ -17,6 +17,7 @@ mod tests;
 mod timing;
 
 pub(crate) use data_layout::{CONTACT_DATA, RAY_DATA, size as data_size};
+pub(crate) use pair::searched_pair;
 pub(crate) use timing::{record, reset};
 
 use contact_sensor::Match;
