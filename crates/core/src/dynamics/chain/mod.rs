@@ -239,25 +239,28 @@ impl Chains {
     }
 }
 
-/// Calls a function of a chain with its length as a constant, so that its loops are unrolled.
+/// Calls a function of a chain with its length as a constant, so that its loops are unrolled; in a small module with its length
+/// alone.
 macro_rules! by_length {
     ($chains:expr, $function:ident($($argument:expr),*)) => {{
         let mut rest = $chains.links.as_mut_slice();
         for &n in &$chains.lengths {
             let (chain, after) = rest.split_at_mut(n);
             match (n, chain[0].planar) {
-                (1, true) => planar::$function::<1>(chain, $($argument),*),
-                (2, true) => planar::$function::<2>(chain, $($argument),*),
-                (3, true) => planar::$function::<3>(chain, $($argument),*),
-                (4, true) => planar::$function::<4>(chain, $($argument),*),
-                (5, true) => planar::$function::<5>(chain, $($argument),*),
-                (_, true) => planar::$function::<MAX_DOFS>(chain, $($argument),*),
-                (1, _) => spatial::$function::<1>(chain, $($argument),*),
-                (2, _) => spatial::$function::<2>(chain, $($argument),*),
-                (3, _) => spatial::$function::<3>(chain, $($argument),*),
-                (4, _) => spatial::$function::<4>(chain, $($argument),*),
-                (5, _) => spatial::$function::<5>(chain, $($argument),*),
-                _ => spatial::$function::<MAX_DOFS>(chain, $($argument),*),
+                (_, true) if cfg!(feature = "small") => planar::$function(chain, $($argument),*),
+                (_, false) if cfg!(feature = "small") => spatial::$function(chain, $($argument),*),
+                (1, true) => planar::$function(&mut chain[..1], $($argument),*),
+                (2, true) => planar::$function(&mut chain[..2], $($argument),*),
+                (3, true) => planar::$function(&mut chain[..3], $($argument),*),
+                (4, true) => planar::$function(&mut chain[..4], $($argument),*),
+                (5, true) => planar::$function(&mut chain[..5], $($argument),*),
+                (_, true) => planar::$function(&mut chain[..MAX_DOFS], $($argument),*),
+                (1, _) => spatial::$function(&mut chain[..1], $($argument),*),
+                (2, _) => spatial::$function(&mut chain[..2], $($argument),*),
+                (3, _) => spatial::$function(&mut chain[..3], $($argument),*),
+                (4, _) => spatial::$function(&mut chain[..4], $($argument),*),
+                (5, _) => spatial::$function(&mut chain[..5], $($argument),*),
+                _ => spatial::$function(&mut chain[..MAX_DOFS], $($argument),*),
             }
             rest = after;
         }

@@ -1,21 +1,22 @@
 //! Short chains in space.
 
-use super::{Link, Motion, Pose};
+use super::{Link, MAX_DOFS, Motion, Pose};
 use crate::math::lanes::matrix_turned;
 use crate::math::*;
 
 /// The rows of M of a chain.
-pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
-    let Some(chain) = chain.first_chunk_mut::<N>() else { return };
-    for i in 0..N {
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn mass_matrix(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
+    let n = chain.len().min(MAX_DOFS);
+    for i in 0..n {
         let parent = i.checked_sub(1).map(|p| chain[p].pose);
         chain[i].place(parent.as_ref(), qpos[chain[i].coordinate]);
     }
-    let mut rows = [[0.0; N]; N];
-    for i in 0..N {
+    let mut rows = [[0.0; MAX_DOFS]; MAX_DOFS];
+    for i in 0..n {
         rows[i][i] = chain[i].fixed.armature;
     }
-    for i in 0..N {
+    for i in 0..n {
         let pose = chain[i].pose;
         for k in 0..=i {
             let up = &chain[k];
@@ -35,7 +36,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
             }
         }
     }
-    for i in 0..N {
+    for i in 0..n {
         if let Some(to) = mass.get_mut(chain[i].row..chain[i].row + i + 1) {
             to.copy_from_slice(&rows[i][..i + 1]);
         }
@@ -67,17 +68,15 @@ impl Link {
 }
 
 /// The bias force of a chain.
-pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
-    let Some(chain) = chain.first_chunk_mut::<N>() else { return };
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn bias(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
+    let n = chain.len().min(MAX_DOFS);
     let first = chain[0].dof;
-    let (Some(v), Some(out)) = (qvel[first..].first_chunk::<N>(), qfrc_bias[first..].first_chunk_mut::<N>())
-    else {
-        return;
-    };
-    let mut forces = [0.0; N];
+    let (v, out) = (&qvel[first..][..n], &mut qfrc_bias[first..][..n]);
+    let mut forces = [0.0; MAX_DOFS];
     // Gravity enters as an upward acceleration of the world.
     let mut motion = Motion { acceleration: scale(gravity, -1.0), ..Motion::default() };
-    for i in 0..N {
+    for i in 0..n {
         let Link { fixed, pose, columns, slides, .. } = &chain[i];
         let rate = scale(pose.axis, v[i]);
         if i > 0 {
@@ -100,7 +99,7 @@ pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: 
             forces[k] += dot(columns[k].0, torque) + dot(columns[k].1, force);
         }
     }
-    *out = forces;
+    out.copy_from_slice(&forces[..n]);
 }
 
 impl Motion {
