@@ -40,6 +40,19 @@ pub fn rows_mut<const N: usize>(a: &mut [f64]) -> &mut [[f64; N]] {
     a.as_chunks_mut().0
 }
 
+/// x, no less than `low` and no more than `high`; whatever these are it does not panic, as the standard library's would with
+/// a message that prints numbers.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn clamp(x: f64, low: f64, high: f64) -> f64 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
+    }
+}
+
 /// Calls `f` with 0, 1, … n - 1: without a loop for the one or two numbers that the state of many labs has.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn each(n: usize, mut f: impl FnMut(usize)) {
