@@ -140,7 +140,8 @@ impl<const R: usize> Shape<'_, R> {
     /// The zone of a cone; a block without a contact is as good as open.
     #[inline]
     fn zone(&self, x: &[f64; R]) -> Zone<R> {
-        let Some(c) = self.contact else { return Zone::Open };
+        // A cone has a normal and two, three or five directions of friction: for other numbers of rows there is no code.
+        let Some(c) = self.contact.filter(|_| (3..=6).contains(&R)) else { return Zone::Open };
         let mu = c.mu;
         let scale: [f64; R] = std::array::from_fn(|j| if j == 0 { mu } else { c.friction[(j - 1).min(4)] });
         let u: [f64; R] = std::array::from_fn(|j| scale[j] * x[j]);

@@ -38,6 +38,27 @@ macro_rules! by_rows {
 }
 pub(super) use by_rows;
 
+/// The same for an elliptic cone: a normal, and two, three or five directions of friction.
+macro_rules! by_cone_rows {
+    ($n:expr, $rows:ident => $run:expr) => {
+        match $n {
+            3 => {
+                const $rows: usize = 3;
+                $run
+            }
+            4 => {
+                const $rows: usize = 4;
+                $run
+            }
+            _ => {
+                const $rows: usize = 6;
+                $run
+            }
+        }
+    };
+}
+pub(super) use by_cone_rows;
+
 /// A matrix over the degrees of freedom of an island, to which second derivatives of costs are added.
 pub(super) trait Gram {
     /// H ← H + Jᵀ W J for the R rows of a block, given by its columns, ascending, where `weigh` gives W v.

@@ -81,7 +81,8 @@ pub(crate) fn restore(m: &Model, d: &mut Data, bytes: &[u8]) -> Result<(), Resto
     if fingerprint(body) != u64::from_le_bytes(*end) {
         return Err(RestoreError::Damaged);
     }
-    let mut new = d.clone();
+    let mut new = Data::planned(m, d.plan().clone());
+    new.meter = d.meter;
     read(m, &mut new, &mut rest).filter(|()| rest.is_empty()).ok_or(RestoreError::Damaged)?;
     if let Some(field) = wrong(m, &new) {
         return Err(RestoreError::Wrong(field));

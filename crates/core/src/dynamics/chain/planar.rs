@@ -3,7 +3,7 @@
 //! Turning is one number, and nothing turns faster or slower without a torque: with zero joint accelerations
 //! the angular accelerations vanish, and of the gyroscopic torque nothing points out of the plane.
 
-use super::{Link, MAX_DOFS};
+use super::{Link, MAX_DOFS, length};
 use crate::math::{EYE, Mat3, Vec3, column, cross, dot, mat_mul, mat_mul_vec, normalize, scale};
 
 type Vec2 = [f64; 2];
@@ -115,9 +115,9 @@ impl Swing {
 }
 
 /// The rows of M of a chain.
-#[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn mass_matrix(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
-    let n = chain.len().min(MAX_DOFS);
+pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
+    let n = length::<N>(chain);
+    let Some(chain) = chain.get_mut(..n) else { return };
     let mut rows = [[0.0; MAX_DOFS]; MAX_DOFS];
     let mut up = Swing { cos: 1.0, ..Swing::default() };
     let mut angle = 0.0;
@@ -171,11 +171,13 @@ fn shift(sense: f64, joint: &Swing, point: Vec2) -> Vec2 {
 }
 
 /// The bias force of a chain.
-#[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn bias(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
-    let n = chain.len().min(MAX_DOFS);
+pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
+    let n = length::<N>(chain);
+    let Some(chain) = chain.get_mut(..n) else { return };
     let (first, plane) = (chain[0].dof, chain[0].flat.plane);
-    let (v, out) = (&qvel[first..][..n], &mut qfrc_bias[first..][..n]);
+    let (Some(v), Some(out)) = (qvel.get(first..first + n), qfrc_bias.get_mut(first..first + n)) else {
+        return;
+    };
     // Gravity enters as an upward acceleration of the world.
     let up = scale(gravity, -1.0);
     let mut acceleration = [dot(plane[0], up), dot(plane[1], up)];

@@ -1,13 +1,13 @@
 //! Short chains in space.
 
-use super::{Link, MAX_DOFS, Motion, Pose};
+use super::{Link, MAX_DOFS, Motion, Pose, length};
 use crate::math::lanes::matrix_turned;
 use crate::math::*;
 
 /// The rows of M of a chain.
-#[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn mass_matrix(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
-    let n = chain.len().min(MAX_DOFS);
+pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
+    let n = length::<N>(chain);
+    let Some(chain) = chain.get_mut(..n) else { return };
     for i in 0..n {
         let parent = i.checked_sub(1).map(|p| chain[p].pose);
         chain[i].place(parent.as_ref(), qpos[chain[i].coordinate]);
@@ -68,11 +68,13 @@ impl Link {
 }
 
 /// The bias force of a chain.
-#[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn bias(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
-    let n = chain.len().min(MAX_DOFS);
+pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
+    let n = length::<N>(chain);
+    let Some(chain) = chain.get_mut(..n) else { return };
     let first = chain[0].dof;
-    let (v, out) = (&qvel[first..][..n], &mut qfrc_bias[first..][..n]);
+    let (Some(v), Some(out)) = (qvel.get(first..first + n), qfrc_bias.get_mut(first..first + n)) else {
+        return;
+    };
     let mut forces = [0.0; MAX_DOFS];
     // Gravity enters as an upward acceleration of the world.
     let mut motion = Motion { acceleration: scale(gravity, -1.0), ..Motion::default() };

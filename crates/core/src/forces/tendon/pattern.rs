@@ -1,7 +1,7 @@
 //! What follows from the structure of tendons: where their Jacobians can be non-zero, and which trees they tie.
 
 use super::is_fixed;
-use crate::dynamics::jacobian;
+use crate::dynamics::walk;
 use crate::kinds::wraptype;
 use crate::math::sort::sort;
 use crate::model::Model;
@@ -68,13 +68,7 @@ fn moving(m: &Model, t: usize) -> Vec<i32> {
         let mut bodies: Vec<usize> = bodies(m, t).collect();
         sort(&mut bodies);
         bodies.dedup();
-        for b in bodies {
-            let mut k = jacobian::last_dof(m, b);
-            while k >= 0 {
-                dofs.push(k);
-                k = m.dof_parentid[k as usize];
-            }
-        }
+        dofs.extend(bodies.into_iter().flat_map(|b| walk::moving(m, b)).map(|k| k as i32));
     }
     sort(&mut dofs);
     dofs.dedup();
