@@ -3,7 +3,7 @@
 //! The cost is convex and, but for elliptic cones, piecewise quadratic, so the method ends after finitely many steps
 //! (Nocedal and Wright 2006, ch. 3).
 
-use super::cost::{Cost, Curvature};
+use super::cost::{Cost, Curvature, push_curvature};
 use super::iterate::Reached;
 use super::jacobian::{Block, Gram, Jacobian, by_rows};
 use super::primal::{Problem, shape};
@@ -136,7 +136,7 @@ fn add_push<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Block, 
         return;
     };
     if x.iter().any(|&x| x < 0.0) {
-        let w: [f64; R] = from_fn(|r| if x[r] < 0.0 { stiff[r] } else { 0.0 });
+        let w: [f64; R] = from_fn(|r| push_curvature(x[r], stiff[r]));
         h.add_gram::<R>(jac.columns(b), jac.values(b).as_chunks().0, &|v| from_fn(|r| w[r] * v[r]));
     }
 }

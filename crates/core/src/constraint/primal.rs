@@ -1,7 +1,7 @@
 //! The primal problem of one island, and what all methods share that solve it: cost, forces and gradient at the current
 //! acceleration, and the exact search along a direction.
 
-use super::cost::{Cost, Shape};
+use super::cost::{Cost, Shape, push_along, pushed};
 use super::island::Islands;
 use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian, by_rows};
@@ -105,7 +105,7 @@ impl<'a> Problem<'a> {
         else {
             return 0.0;
         };
-        let pushed: [f64; R] = std::array::from_fn(|r| if x[r] < 0.0 { x[r] } else { 0.0 });
+        let pushed: [f64; R] = x.map(pushed);
         let force: [f64; R] = std::array::from_fn(|r| -w[r] * pushed[r]);
         d.efc_force[rows].copy_from_slice(&force);
         self.jac.add_transposed(b, &force, &mut d.qfrc_constraint);
@@ -224,16 +224,10 @@ pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shap
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn add_push(p: &mut Point, d: &Fields, s: &Iterate, b: &Block) {
     for r in b.rows() {
-        let (start, v, w) = (s.jar[r], s.jv[r], d.efc_D[r]);
-        let now = start + p.alpha * v;
-        if now < 0.0 {
-            p.slope += w * now * v;
-            p.curvature += w * v * v;
-        }
-        // The difference of squares, without squaring first: near the minimum it is all rounding.
-        let (before, after) = (start.min(0.0), now.min(0.0));
-        let change = if before < 0.0 && after < 0.0 { p.alpha * v } else { after - before };
-        p.cost += 0.5 * w * change * (after + before);
+        let [cost, slope, curvature] = push_along(s.jar[r], s.jv[r], p.alpha, d.efc_D[r]);
+        p.slope += slope;
+        p.curvature += curvature;
+        p.cost += cost;
     }
 }
 

@@ -4,7 +4,7 @@
 //! costs to miss the reference (Todorov 2014).
 
 use super::Scratch;
-use super::cost::Cost;
+use super::cost::{Cost, pushed};
 use super::island::Islands;
 use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian, by_rows};
@@ -156,7 +156,7 @@ fn warm_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac
 
 /// Cost of all constraints at x = J a - aref.
 fn total_cost(d: &Fields, jac: &Jacobian, x: &[f64]) -> f64 {
-    let push = |x: f64, w: f64| if x < 0.0 { 0.5 * w * x * x } else { 0.0 };
+    let push = |x: f64, w: f64| 0.5 * w * pushed(x) * pushed(x);
     let cost = |b: &Block| match b.cost {
         Cost::Push => b.rows().map(|r| push(x[r], d.efc_D[r])).sum(),
         _ => by_rows!(b.nrow, R => block_cost::<R>(d, b, x)),
