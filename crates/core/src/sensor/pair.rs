@@ -2,15 +2,13 @@
 //!
 //! What is farther apart than the cutoff is not looked at: the distance is the cutoff, the rest zero.
 
-use super::table::kind;
 use super::{Scratch, put};
-use crate::geometry::pair::is_searched;
 use crate::math::*;
 use crate::model::{Fields, Model, Obj};
 use crate::query::geom_distance;
 
 /// The geoms of a body, or one geom.
-fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> {
+pub(super) fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> {
     let id = id.max(0) as usize;
     if objtype != Obj::Body as i32 {
         return id..id + 1;
@@ -36,19 +34,6 @@ fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3;
         }
     }
     best
-}
-
-/// Two geoms whose distance a sensor would have to search for.
-pub(crate) fn searched_pair(m: &Model) -> Option<[usize; 2]> {
-    let of_pairs =
-        |&s: &usize| matches!(m.sensor_type[s], kind::GEOMDIST | kind::GEOMNORMAL | kind::GEOMFROMTO);
-    let searched = |a: usize, b: usize| is_searched(m.geom_type[a], m.geom_type[b], true);
-    (0..m.nsensor).filter(of_pairs).find_map(|s| {
-        geoms(m, m.sensor_objtype[s], m.sensor_objid[s]).find_map(|a| {
-            let mut others = geoms(m, m.sensor_reftype[s], m.sensor_refid[s]);
-            others.find(|&b| searched(a, b)).map(|b| [a, b])
-        })
-    })
 }
 
 pub(super) fn distance(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
