@@ -11,6 +11,7 @@ use crate::dynamics::simple;
 use crate::dynamics::{jacobian, mass, object, subtree};
 use crate::forces::{actuation, energy};
 use crate::geometry::Distance;
+use crate::geometry::pair::{CONVEX, is_searched};
 use crate::math::{Spatial, Vec3};
 use crate::model::reflect::{self, FieldId, Object, View, ViewMut};
 use crate::model::{Contact, Obj};
@@ -382,6 +383,9 @@ pub fn geom_distance<S: Scope>(
     d.has(&["geom_xpos", "geom_xmat"])?;
     exists("geom", geom1, m.ngeom)?;
     exists("geom", geom2, m.ngeom)?;
+    if !CONVEX && is_searched(m.geom_type[geom1], m.geom_type[geom2], true) {
+        return Err(Error::NoConvex { geom1, geom2 });
+    }
     Ok(functions::geom_distance(m, d.engine(m)?, geom1, geom2, most))
 }
 

@@ -95,7 +95,7 @@ impl<S: Scope> PartialEq for Data<S> {
 impl Deref for Data<Full> {
     type Target = Fields;
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn deref(&self) -> &Fields {
         &self.inner.fields
     }
@@ -143,7 +143,7 @@ impl<S: Scope> Data<S> {
 
     /// All fields, computed or not: for hosts that know what they demanded.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub fn fields(&self) -> &Fields {
         &self.inner.fields
     }
@@ -199,7 +199,7 @@ impl<S: Scope> Data<S> {
     }
 
     /// That the data belong to a model, whose parameters are known.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn engine(&mut self, m: &Model) -> Result<&mut Inner, Error> {
         if self.version != m.version {
             self.catch_up(m)?;
@@ -249,7 +249,7 @@ impl<S: Scope> Data<S> {
         reset::set_plan(m, &mut self.inner, plan.inner);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn belongs_to(&self, m: &Model) -> Result<(), Error> {
         if self.model == m.id { Ok(()) } else { Err(Error::ForeignData) }
     }
@@ -268,7 +268,7 @@ impl<S: Scope> Data<S> {
     }
 
     /// That fields of the data are computed.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn has(&self, fields: &[&'static str]) -> Result<(), Error> {
         if S::FULL { Ok(()) } else { self.lacks(fields) }
     }

@@ -73,6 +73,13 @@ pub enum Error {
     State(StateError),
     /// Saved data cannot be restored.
     Restore(RestoreError),
+    /// The build has no general algorithm for convex shapes (feature `convex`), and these need it.
+    NoConvex {
+        /// A geom.
+        geom1: usize,
+        /// And another that it may touch, or whose distance is asked for.
+        geom2: usize,
+    },
     /// The bytes are no compiled model of this version, or they were changed.
     NotAModel,
 }
@@ -135,6 +142,12 @@ impl fmt::Display for Error {
             Error::Inverse(e) => e.fmt(f),
             Error::State(e) => e.fmt(f),
             Error::Restore(e) => e.fmt(f),
+            Error::NoConvex { geom1, geom2 } => write!(
+                f,
+                "the contacts or the distance of geoms {geom1} and {geom2} take the general algorithm for convex shapes, \
+                 which was left out of this build: build the engine with its feature `convex`, or use spheres, capsules, \
+                 boxes and planes"
+            ),
             Error::NotAModel => f.write_str(
                 "the bytes are no compiled model of this version of the engine: compile it again and store that",
             ),

@@ -2,10 +2,12 @@
 
 use super::addresses::Addresses;
 use super::error::Error;
+use crate::geometry::pair::CONVEX;
 use crate::kinds::{disable, enable};
 use crate::model::fields::{model_fields, option_fields, statistic_fields};
 use crate::model::reflect::{self, FieldId, FieldSet, Object};
 use crate::model::{self as inner, Names, Obj};
+use crate::setup;
 use labspec_finding::nearest as closest;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -62,7 +64,7 @@ impl PartialEq for Model {
 impl Deref for Model {
     type Target = inner::Model;
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn deref(&self) -> &inner::Model {
         &self.inner
     }
@@ -115,9 +117,14 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// They were written by another version of the engine, cut off or changed: [`Error::NotAModel`].
+    /// They were written by another version of the engine, cut off or changed: [`Error::NotAModel`]. The build has no general
+    /// algorithm for convex shapes, and the model needs it: [`Error::NoConvex`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Model, Error> {
-        crate::step::store::read(bytes).map(Model::new).ok_or(Error::NotAModel)
+        let inner = crate::step::store::read(bytes).ok_or(Error::NotAModel)?;
+        if !CONVEX && let Some([geom1, geom2]) = setup::search(&inner) {
+            return Err(Error::NoConvex { geom1, geom2 });
+        }
+        Ok(Model::new(inner))
     }
 
     /// Which model this is: its clones answer the same, whatever is edited in them, and no other model of this program does.

@@ -2,6 +2,7 @@
 
 use crate::geometry::pair;
 use crate::kinds::disable;
+use crate::math::sort::sort_by;
 use crate::model::Model;
 
 /// Two geoms, ordered so that the first has the smaller type.
@@ -92,6 +93,20 @@ pub(super) fn dynamic_pair(m: &Model, a: usize, b: usize, may_change: bool) -> O
     (!(0..m.npair).any(named)).then_some(pair)
 }
 
+/// Two geoms whose contacts the general algorithm would have to find, whatever their contact bits, which may change.
+pub(crate) fn searched_pair(m: &Model) -> Option<[usize; 2]> {
+    let searched = |a: usize, b: usize| pair::is_searched(m.geom_type[a], m.geom_type[b], false);
+    if let Some(p) = explicit_pairs(m).find(|p| searched(p.geom1 as usize, p.geom2 as usize)) {
+        return Some([p.geom1 as usize, p.geom2 as usize]);
+    }
+    let bodies = |a: usize, b: usize| [m.geom_bodyid[a] as usize, m.geom_bodyid[b] as usize];
+    let may = |a: usize, b: usize| {
+        let [ba, bb] = bodies(a, b);
+        ba != bb && searched(a, b) && bodies_may_touch(m, ba, bb)
+    };
+    (0..m.ngeom).find_map(|a| (a + 1..m.ngeom).find(|&b| may(a, b)).map(|b| [a, b]))
+}
+
 /// Most pairs in the list of a scene; scenes with more search for the near ones at every step.
 pub(crate) const MOST_LISTED: usize = 4096;
 
@@ -117,7 +132,7 @@ pub(crate) fn candidate_pairs(m: &Model, may_change: bool) -> Vec<Pair> {
             }
         }
     }
-    out.sort_by_key(|p| p.order(m));
+    sort_by(&mut out, |p, q| p.order(m).cmp(&q.order(m)));
     out
 }
 

@@ -7,7 +7,7 @@ mod sweep;
 
 use filter::Pair;
 pub(crate) use filter::can_collide;
-pub(crate) use filter::{MOST_LISTED, candidate_pairs};
+pub(crate) use filter::{MOST_LISTED, candidate_pairs, searched_pair};
 use params::Params;
 use sweep::Sweep;
 
@@ -112,7 +112,7 @@ pub(crate) fn none(d: &mut Fields) {
 
 impl Pairs {
     /// Whether filters or sleep keep a pair of the list from touching.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn leaves_out(&self, m: &Model, d: &Fields, pair: &Pair) -> bool {
         let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
         self.filter && pair.explicit == Pair::DYNAMIC && !filter::admitted(m, g1, g2)
@@ -121,7 +121,7 @@ impl Pairs {
 }
 
 /// The squared distance of the centres of two geoms.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn apart(d: &Fields, pair: &Pair) -> f64 {
     let centres = rows::<3>(&d.geom_xpos);
     let between = sub(centres[pair.geom2 as usize], centres[pair.geom1 as usize]);

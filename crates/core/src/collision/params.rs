@@ -123,7 +123,7 @@ fn mixed(m: &Model, g1: usize, g2: usize) -> Params {
 }
 
 /// A contact of the pair at `touch`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &Touch, frame: Mat3) -> Contact {
     let apart = touch.dist >= p.margin;
     // What sticks pulls across the gap, too: it holds the normal alone.

@@ -5,7 +5,7 @@ use crate::math::*;
 use crate::model::{Fields, Model};
 
 /// Signed distance of the sphere's centre from the plane, minus the radius.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn plane_sphere(m: &Model, d: &Fields, plane: usize, sphere: usize, reach: f64) -> Option<Touch> {
     let (pos, mat) = (rows::<3>(&d.geom_xpos), rows::<9>(&d.geom_xmat));
     let normal = column(&mat[plane], 2);
@@ -22,7 +22,7 @@ pub(super) fn plane_sphere(m: &Model, d: &Fields, plane: usize, sphere: usize, r
 
 /// Distance of the centres minus both radii. Coincident centres have no direction: the normal is taken
 /// across the two z axes, or along x when these are parallel.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn sphere_sphere(m: &Model, d: &Fields, g1: usize, g2: usize, reach: f64) -> Option<Touch> {
     let (pos, size) = (rows::<3>(&d.geom_xpos), rows::<3>(&m.geom_size));
     let (r1, r2) = (size[g1][0], size[g2][0]);

@@ -7,6 +7,7 @@
 
 use super::filter::{self, Pair};
 use super::params;
+use crate::math::sort::{sort, sort_by};
 use crate::math::*;
 use crate::model::{Fields, Model};
 
@@ -25,7 +26,7 @@ struct Shadow {
 }
 
 impl Shadow {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn near(&self, other: &Shadow) -> bool {
         let between = sub(self.centre, other.centre);
         let reach = self.radius + other.radius;
@@ -112,7 +113,7 @@ impl Sweep {
             let below = below.filter(|&plane| !far_apart(m, d, plane, s.geom as usize, reach(plane)));
             self.near.extend(below.filter_map(|plane| may_touch(m, plane, s.geom as usize)));
         }
-        self.near.sort_unstable_by_key(|p| p.order(m));
+        sort_by(&mut self.near, |p, q| p.order(m).cmp(&q.order(m)));
         let listed = m.npair + m.nexclude;
         let rest = self.shadows.len() * (100 + 10 * self.planes.len()) + 5 * self.examined;
         (rest + self.asked * (20 + listed) + 100 * self.near.len()) as u64
@@ -140,7 +141,7 @@ impl Sweep {
             // Also where a bound is no number.
             s.wide = 2.0 * s.radius > width || s.radius.is_nan() || width.is_nan();
         }
-        self.shadows.sort_unstable_by(|a, b| a.low.total_cmp(&b.low).then(a.geom.cmp(&b.geom)));
+        sort_by(&mut self.shadows, |a, b| a.low.total_cmp(&b.low).then(a.geom.cmp(&b.geom)));
         width
     }
 
@@ -158,7 +159,7 @@ impl Sweep {
                 self.entries.extend((across[0]..=across[1]).map(|j| ([i, j], k as u32)));
             }
         }
-        self.entries.sort_unstable();
+        sort(&mut self.entries);
         for column in self.entries.chunk_by(|a, b| a.0 == b.0) {
             self.active.clear();
             for &(place, k) in column {
@@ -259,7 +260,7 @@ fn widest(shadows: &[Shadow], centres: &[Vec3]) -> usize {
 }
 
 /// Whether the bounding spheres of two geoms, or a sphere and a plane, are farther apart than `reach`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn far_apart(m: &Model, d: &Fields, a: usize, b: usize, reach: f64) -> bool {
     let (pos, mat) = (rows::<3>(&d.geom_xpos), rows::<9>(&d.geom_xmat));
     let (ra, rb) = (m.geom_rbound[a], m.geom_rbound[b]);

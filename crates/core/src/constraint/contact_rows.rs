@@ -14,7 +14,7 @@ use crate::model::{Contact, Fields, Model};
 const PYRAMIDAL: i32 = 0;
 
 /// Number of rows that the contacts may need.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn count(m: &Model, d: &Fields) -> usize {
     let rows = |c: &Contact| match c.dim {
         1 => 1,
@@ -49,19 +49,19 @@ pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
 }
 
 /// Sum over both bodies of the inverse inertia, for translation (0) or rotation (1).
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn inverse_weight(m: &Model, [b1, b2]: [usize; 2], part: usize) -> f64 {
     m.body_invweight0[2 * b1 + part] + m.body_invweight0[2 * b2 + part]
 }
 
 /// What all rows of a contact share.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn shared<const R: usize>(c: &Contact, id: usize, kind: i32, kbi: Kbi, others: Kbi, r: [f64; R]) -> Rows<R> {
     Rows { kind, id, pos: [c.dist; R], margin: [c.includemargin; R], loss: 0.0, kbi, others, r }
 }
 
 /// Without friction, or with the pyramid of sliding friction: the edges n ± μ t.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn common(
     m: &Model,
     d: &mut Fields,
@@ -112,7 +112,7 @@ fn other(
 }
 
 /// Velocities of a column in the contact's space: normal, two tangents, spin, two rolls.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn space(columns: &Columns) -> impl Iterator<Item = [f64; 6]> {
     let both = columns.values().iter().zip(columns.turns());
     both.map(|(v, w)| [v[0], v[1], v[2], w[0], w[1], w[2]])
@@ -167,7 +167,7 @@ fn cone<const R: usize>(
 ///
 /// Every edge of a pyramid is as soft as the cone is: 2 μ² R. In a cone each direction of friction is as soft as makes
 /// all of it isotropic: R μ1² / (impratio μj²).
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn friction<const R: usize>(m: &Model, c: &mut Contact, elliptic: bool, normal: f64) -> [f64; R] {
     let impratio = m.opt.impratio.max(MINVAL);
     let mu1 = c.friction[0];

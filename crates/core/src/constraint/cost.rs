@@ -44,6 +44,29 @@ impl Cost {
     }
 }
 
+/// What there is of x where a row pushes: nothing else costs.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn pushed(x: f64) -> f64 {
+    if x < 0.0 { x } else { 0.0 }
+}
+
+/// The second derivative of the cost of a row that pushes.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn push_curvature(x: f64, stiff: f64) -> f64 {
+    if x < 0.0 { stiff } else { 0.0 }
+}
+
+/// What such a row costs at x + α v more than at x, and the first and second derivative of that along v.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn push_along(x: f64, v: f64, alpha: f64, stiff: f64) -> [f64; 3] {
+    let now = x + alpha * v;
+    let (before, after) = (x.min(0.0), now.min(0.0));
+    // The difference of squares, without squaring first: near the minimum it is all rounding.
+    let change = if before < 0.0 && after < 0.0 { alpha * v } else { after - before };
+    let cost = 0.5 * stiff * change * (after + before);
+    if now < 0.0 { [cost, stiff * now * v, stiff * v * v] } else { [cost, 0.0, 0.0] }
+}
+
 /// What the cost of one constraint depends on besides x.
 #[derive(Clone, Copy)]
 pub(super) struct Shape<'a, const R: usize> {
@@ -96,10 +119,7 @@ impl<const R: usize> Shape<'_, R> {
     pub(super) fn value(&self, x: &[f64; R]) -> (f64, [f64; R]) {
         match self.cost {
             Cost::Quadratic => self.quadratic(x),
-            Cost::Push => {
-                let pushed = x.map(|x| if x < 0.0 { x } else { 0.0 });
-                self.quadratic(&pushed)
-            }
+            Cost::Push => self.quadratic(&x.map(pushed)),
             Cost::DryFriction => match self.slips(x[0]) {
                 Some(side) => {
                     let mut force = [0.0; R];
@@ -140,7 +160,8 @@ impl<const R: usize> Shape<'_, R> {
     /// The zone of a cone; a block without a contact is as good as open.
     #[inline]
     fn zone(&self, x: &[f64; R]) -> Zone<R> {
-        let Some(c) = self.contact else { return Zone::Open };
+        // A cone has a normal and two, three or five directions of friction: for other numbers of rows there is no code.
+        let Some(c) = self.contact.filter(|_| (3..=6).contains(&R)) else { return Zone::Open };
         let mu = c.mu;
         let scale: [f64; R] = std::array::from_fn(|j| if j == 0 { mu } else { c.friction[(j - 1).min(4)] });
         let u: [f64; R] = std::array::from_fn(|j| scale[j] * x[j]);
@@ -168,7 +189,7 @@ impl<const R: usize> Shape<'_, R> {
                 if x.iter().all(|&x| x >= 0.0) {
                     Curvature::Flat
                 } else {
-                    Curvature::Diagonal(std::array::from_fn(|r| if x[r] < 0.0 { self.stiff[r] } else { 0.0 }))
+                    Curvature::Diagonal(std::array::from_fn(|r| push_curvature(x[r], self.stiff[r])))
                 }
             }
             Cost::DryFriction => match self.slips(x[0]) {
@@ -196,14 +217,7 @@ impl<const R: usize> Shape<'_, R> {
         let step = |r: usize| 0.5 * self.stiff[r] * alpha * v[r] * (x[r] + now[r]);
         let change = match self.cost {
             Cost::Quadratic => (0..R).map(step).sum(),
-            Cost::Push => (0..R)
-                .map(|r| match (x[r] < 0.0, now[r] < 0.0) {
-                    (true, true) => step(r),
-                    (true, false) => -0.5 * self.stiff[r] * x[r] * x[r],
-                    (false, true) => 0.5 * self.stiff[r] * now[r] * now[r],
-                    (false, false) => 0.0,
-                })
-                .sum(),
+            Cost::Push => (0..R).map(|r| push_along(x[r], v[r], alpha, self.stiff[r])[0]).sum(),
             Cost::DryFriction => match (self.slips(x[0]), self.slips(now[0])) {
                 (None, None) => step(0),
                 (Some(a), Some(b)) if a == b => a * self.loss * alpha * v[0],

@@ -9,6 +9,7 @@
 use super::island::Islands;
 use super::jacobian::{Gram, Jacobian};
 use crate::math::MINVAL;
+use crate::math::sort::{sort, sort_by};
 use crate::model::Model;
 use std::array::from_fn;
 use wide::f64x4;
@@ -166,7 +167,7 @@ impl Hessian {
     }
 
     /// Adds numbers to the entries of a degree of freedom of the model with others before it in its tree.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn add(&mut self, i: usize, with: impl Iterator<Item = (usize, f64)>) {
         let (local, values) = (self.local.as_slice(), self.values.as_flattened_mut());
         // It comes before them here.
@@ -177,13 +178,13 @@ impl Hessian {
     }
 
     /// H ← H + Jᵀ W J, four columns at a time, given the column that is the `i`-th in the island.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn add_gram_by<const R: usize>(
         &mut self,
         columns: &[u32],
         v: &[[f64; R]],
-        weigh: impl Fn(&[f64; R]) -> [f64; R],
-        ith: impl Fn(usize) -> usize,
+        weigh: &dyn Fn(&[f64; R]) -> [f64; R],
+        ith: &dyn Fn(usize) -> usize,
     ) {
         let n = columns.len();
         let fours = n.div_ceil(4);
@@ -330,41 +331,41 @@ impl Hessian {
 }
 
 impl Gram for Hessian {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn add_gram<const R: usize>(
         &mut self,
         columns: &[u32],
         v: &[[f64; R]],
-        weigh: impl Fn(&[f64; R]) -> [f64; R],
+        weigh: &dyn Fn(&[f64; R]) -> [f64; R],
     ) {
         let n = columns.len();
         let local = |p: usize| self.local[columns[p] as usize];
         if self.len <= SMALL || (1..n).all(|p| local(p) < local(p - 1)) {
-            return self.add_gram_by(columns, v, weigh, |i| n - 1 - i);
+            return self.add_gram_by(columns, v, weigh, &|i| n - 1 - i);
         }
         // Trees of a large island in another order than in the file.
         let mut order = std::mem::take(&mut self.by_place);
         order.clear();
         order.extend(0..n);
-        order.sort_unstable_by_key(|&p| local(p));
-        self.add_gram_by(columns, v, weigh, |i| order[i]);
+        sort_by(&mut order, |&p, &q| local(p).cmp(&local(q)));
+        self.add_gram_by(columns, v, weigh, &|i| order[i]);
         self.by_place = order;
     }
 }
 
 /// Four rows or columns of blocks, each of `n` blocks: `len` of these from `from` on.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn parts(of: &[Four], n: usize, from: usize, len: usize) -> [&[Four]; 4] {
     from_fn(|r| &of[r * n + from..][..len])
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn transposed(rows: [Four; 4]) -> [f64x4; 4] {
     from_fn(|c| f64x4::new(rows.map(|row| row[c])))
 }
 
 /// Row `i`: its first column, and its numbers up to the end of the block of the diagonal.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn row_of<'a>(blocks: &[BlockRow], values: &'a mut [f64], i: usize) -> (usize, &'a mut [f64]) {
     let BlockRow { first, start } = blocks[i / 4];
     let n = i / 4 + 1 - first;
@@ -402,7 +403,7 @@ impl Order {
                 self.pairs.extend(trees.clone().filter(|&b| b != a).map(|b| [a as u32, b as u32]));
             }
         }
-        self.pairs.sort_unstable();
+        sort(&mut self.pairs);
         self.pairs.dedup();
         self.begin.clear();
         self.begin.resize(m.ntree + 1, 0);

@@ -65,7 +65,7 @@ impl Lists {
     }
 
     /// The items of a list.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn of(&self, list: usize) -> impl Iterator<Item = usize> + Clone + use<'_> {
         self.items[self.begin[list]..self.begin[list + 1]].iter().map(|&item| item as usize)
     }
@@ -137,14 +137,14 @@ impl Islands {
     }
 
     /// The degrees of freedom of an island, ascending.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn dofs(&self, island: usize) -> impl Iterator<Item = Range<usize>> + Clone + use<'_> {
         let first = if island == 0 { 0 } else { self.run_ends[island - 1] };
         self.runs[first..self.run_ends[island]].iter().cloned()
     }
 
     /// The degrees of freedom of an island whose trees follow each other without a gap.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn one_run(&self, island: usize) -> Option<Range<usize>> {
         let mut runs = self.dofs(island);
         runs.next().filter(|_| runs.next().is_none())

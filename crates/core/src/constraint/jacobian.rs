@@ -38,6 +38,27 @@ macro_rules! by_rows {
 }
 pub(super) use by_rows;
 
+/// The same for an elliptic cone: a normal, and two, three or five directions of friction.
+macro_rules! by_cone_rows {
+    ($n:expr, $rows:ident => $run:expr) => {
+        match $n {
+            3 => {
+                const $rows: usize = 3;
+                $run
+            }
+            4 => {
+                const $rows: usize = 4;
+                $run
+            }
+            _ => {
+                const $rows: usize = 6;
+                $run
+            }
+        }
+    };
+}
+pub(super) use by_cone_rows;
+
 /// A matrix over the degrees of freedom of an island, to which second derivatives of costs are added.
 pub(super) trait Gram {
     /// H ← H + Jᵀ W J for the R rows of a block, given by its columns, ascending, where `weigh` gives W v.
@@ -45,7 +66,7 @@ pub(super) trait Gram {
         &mut self,
         columns: &[u32],
         v: &[[f64; R]],
-        weigh: impl Fn(&[f64; R]) -> [f64; R],
+        weigh: &dyn Fn(&[f64; R]) -> [f64; R],
     );
 }
 
@@ -69,14 +90,14 @@ pub(super) struct Block {
 
 impl Block {
     /// Its rows, as indices of the `efc_*` arrays.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn rows(&self) -> Range<usize> {
         self.row as usize..(self.row + self.nrow) as usize
     }
 }
 
 /// The range of the columns when there is no gap between them: one body's, as a rule.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn contiguous(columns: &[u32]) -> Option<Range<usize>> {
     let (&first, &last) = (columns.first()?, columns.last()?);
     let range = first as usize..last as usize + 1;
@@ -84,7 +105,7 @@ fn contiguous(columns: &[u32]) -> Option<Range<usize>> {
 }
 
 /// Columns and what belongs to them, the last first.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn reversed<T>(columns: &[u32], values: impl Iterator<Item = T>, to: &mut [u32], values_to: &mut [T]) {
     for (to, &k) in to.iter_mut().rev().zip(columns) {
         *to = k;
@@ -117,7 +138,7 @@ impl Jacobian {
     }
 
     /// Appends a block of R rows: its columns in descending order, and one value per row for each.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn push<const R: usize>(
         &mut self,
         cost: Cost,
@@ -156,13 +177,13 @@ impl Jacobian {
     }
 
     /// The values of a block whose columns are six that follow each other.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn values_of_six<const R: usize>(&self, b: &Block) -> Option<&[[f64; R]; FREE_DOFS]> {
         self.values[b.adr as usize..].as_chunks::<R>().0.first_chunk::<FREE_DOFS>()
     }
 
     /// The degrees of freedom of a block, ascending.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn columns(&self, b: &Block) -> &[u32] {
         &self.columns[b.col as usize..(b.col + b.ncol) as usize]
     }
@@ -302,7 +323,7 @@ impl Jacobian {
     }
 
     /// The values of a block, column by column.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn values(&self, b: &Block) -> &[f64] {
         &self.values[b.adr as usize..(b.adr + b.nrow * b.ncol) as usize]
     }
@@ -330,12 +351,12 @@ impl Jacobian {
     }
 
     /// out ← J x for the rows of a block.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn mul_block(&self, b: &Block, x: &[f64], out: &mut [f64]) {
         by_rows!(b.nrow, R => self.mul_rows::<R>(b, x, out))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn mul_rows<const R: usize>(&self, b: &Block, x: &[f64], out: &mut [f64]) {
         let mut sum = [0.0; R];
         let mut accumulate = |v: &[f64; R], x: f64| {
@@ -363,7 +384,7 @@ impl Jacobian {
     }
 
     /// out ← out + Jᵀ f for the R rows of a block.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn add_transposed<const R: usize>(&self, b: &Block, f: &[f64; R], out: &mut [f64]) {
         if let Some(first) = b.six {
             let out = out[first as usize..].first_chunk_mut::<FREE_DOFS>();

@@ -13,7 +13,7 @@ use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// `efc_*` up to R and D, `nefc`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     w.jac.clear();
     let on = |bit: i32| !m.opt.disabled(disable::CONSTRAINT) && !m.opt.disabled(bit);

@@ -3,7 +3,7 @@
 //! The cost is convex and, but for elliptic cones, piecewise quadratic, so the method ends after finitely many steps
 //! (Nocedal and Wright 2006, ch. 3).
 
-use super::cost::{Cost, Curvature};
+use super::cost::{Cost, Curvature, push_curvature};
 use super::iterate::Reached;
 use super::jacobian::{Block, Gram, Jacobian, by_rows};
 use super::primal::{Problem, shape};
@@ -64,7 +64,7 @@ impl Problem<'_> {
     }
 
     /// step ← H⁻¹ g; search ← -step.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn newton_direction(&mut self, six: &Option<Range<usize>>) {
         match six {
             Some(dofs) => self.newton_direction_of_six(dofs.start),
@@ -110,7 +110,7 @@ impl Problem<'_> {
 }
 
 /// H ← H + Jᵀ C J over blocks, where C is the second derivative of their costs at x = `jar`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn add_curvatures(
     d: &Fields,
     jac: &Jacobian,
@@ -129,15 +129,15 @@ fn add_curvatures(
 }
 
 /// One block whose rows push.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn add_push<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Block, h: &mut impl Gram) {
     let (Some(x), Some(stiff)) = (jar[b.rows()].first_chunk::<R>(), d.efc_D[b.rows()].first_chunk::<R>())
     else {
         return;
     };
     if x.iter().any(|&x| x < 0.0) {
-        let w: [f64; R] = from_fn(|r| if x[r] < 0.0 { stiff[r] } else { 0.0 });
-        h.add_gram::<R>(jac.columns(b), jac.values(b).as_chunks().0, |v| from_fn(|r| w[r] * v[r]));
+        let w: [f64; R] = from_fn(|r| push_curvature(x[r], stiff[r]));
+        h.add_gram::<R>(jac.columns(b), jac.values(b).as_chunks().0, &|v| from_fn(|r| w[r] * v[r]));
     }
 }
 
@@ -148,7 +148,7 @@ fn add_curvature<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Bl
     let (columns, v) = (jac.columns(b), jac.values(b).as_chunks().0);
     match shape.curvature(x) {
         Curvature::Flat => {}
-        Curvature::Diagonal(w) => h.add_gram::<R>(columns, v, |v| from_fn(|r| w[r] * v[r])),
-        Curvature::Full(w) => h.add_gram::<R>(columns, v, |v| w.map(|w| dot(w, *v))),
+        Curvature::Diagonal(w) => h.add_gram::<R>(columns, v, &|v| from_fn(|r| w[r] * v[r])),
+        Curvature::Full(w) => h.add_gram::<R>(columns, v, &|v| w.map(|w| dot(w, *v))),
     }
 }

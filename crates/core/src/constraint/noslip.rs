@@ -4,7 +4,7 @@
 use super::cone::friction;
 use super::cost::Cost;
 use super::gram::Item;
-use super::jacobian::{Block, by_rows};
+use super::jacobian::{Block, by_cone_rows};
 use super::kind;
 use super::pgs::WORSE;
 use super::primal::Problem;
@@ -61,7 +61,7 @@ impl Problem<'_> {
                 let item = Item { block: i as u32, first: 0 };
                 improvement -= match (b.cost, self.d.efc_type[b.row as usize]) {
                     (Cost::DryFriction, _) => self.rigid_friction(&b, item),
-                    (Cost::Cone, _) => by_rows!(b.nrow, R => self.rigid_cone::<R>(&b, item)),
+                    (Cost::Cone, _) => by_cone_rows!(b.nrow, R => self.rigid_cone::<R>(&b, item)),
                     (_, kind::CONTACT_PYRAMIDAL) => self.rigid_pyramid(&b, item),
                     _ => 0.0,
                 };

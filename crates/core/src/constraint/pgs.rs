@@ -7,7 +7,7 @@
 use super::cone::friction;
 use super::cost::Cost;
 use super::gram::Item;
-use super::jacobian::{Block, by_rows};
+use super::jacobian::{Block, by_cone_rows};
 use super::primal::Problem;
 use crate::math::{MINVAL, dot};
 
@@ -62,7 +62,7 @@ impl Problem<'_> {
                 let item = self.s.dual.order[i];
                 let b = self.jac.blocks[item.block as usize];
                 improvement -= match b.cost {
-                    Cost::Cone => by_rows!(b.nrow, R => self.cone::<R>(&b, item)),
+                    Cost::Cone => by_cone_rows!(b.nrow, R => self.cone::<R>(&b, item)),
                     _ => self.single(&b, item),
                 };
             }

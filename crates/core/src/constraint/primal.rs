@@ -1,7 +1,7 @@
 //! The primal problem of one island, and what all methods share that solve it: cost, forces and gradient at the current
 //! acceleration, and the exact search along a direction.
 
-use super::cost::{Cost, Shape};
+use super::cost::{Cost, Shape, push_along, pushed};
 use super::island::Islands;
 use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian, by_rows};
@@ -44,13 +44,13 @@ impl<'a> Problem<'a> {
     }
 
     /// The degrees of freedom.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn dofs(&self) -> impl Iterator<Item = Range<usize>> + Clone + use<'a> {
         self.islands.dofs(self.island)
     }
 
     /// The constraints, by their place in the Jacobian's blocks.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn blocks(&self) -> impl Iterator<Item = usize> + Clone + use<'a> {
         self.islands.blocks.of(self.island)
     }
@@ -96,7 +96,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Forces of one constraint; returns its cost.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn push_block<const R: usize>(&mut self, b: &Block) -> f64 {
         let (d, s) = (&mut *self.d, &*self.s);
         let rows = b.rows();
@@ -105,7 +105,7 @@ impl<'a> Problem<'a> {
         else {
             return 0.0;
         };
-        let pushed: [f64; R] = std::array::from_fn(|r| if x[r] < 0.0 { x[r] } else { 0.0 });
+        let pushed: [f64; R] = x.map(pushed);
         let force: [f64; R] = std::array::from_fn(|r| -w[r] * pushed[r]);
         d.efc_force[rows].copy_from_slice(&force);
         self.jac.add_transposed(b, &force, &mut d.qfrc_constraint);
@@ -212,7 +212,7 @@ impl<'a> Problem<'a> {
 }
 
 /// What the cost of a constraint of R rows depends on.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shape<'a, R>> {
     let row = b.row as usize;
     let contact = if b.cost == Cost::Cone { d.contact.get(d.efc_id[row] as usize) } else { None };
@@ -221,19 +221,13 @@ pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shap
 }
 
 /// Adds the rows of a block that push to a point of the line.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn add_push(p: &mut Point, d: &Fields, s: &Iterate, b: &Block) {
     for r in b.rows() {
-        let (start, v, w) = (s.jar[r], s.jv[r], d.efc_D[r]);
-        let now = start + p.alpha * v;
-        if now < 0.0 {
-            p.slope += w * now * v;
-            p.curvature += w * v * v;
-        }
-        // The difference of squares, without squaring first: near the minimum it is all rounding.
-        let (before, after) = (start.min(0.0), now.min(0.0));
-        let change = if before < 0.0 && after < 0.0 { p.alpha * v } else { after - before };
-        p.cost += 0.5 * w * change * (after + before);
+        let [cost, slope, curvature] = push_along(s.jar[r], s.jv[r], p.alpha, d.efc_D[r]);
+        p.slope += slope;
+        p.curvature += curvature;
+        p.cost += cost;
     }
 }
 

@@ -9,7 +9,7 @@ use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// `efc_vel` = J v and `efc_aref` = -B J v - K d r, less the acceleration J̇ v that is there already.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn reference(m: &Model, d: &mut Fields, w: &Scratch) {
     if d.nefc > 0 {
         ask(m, d, w);

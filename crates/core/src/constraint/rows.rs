@@ -38,7 +38,7 @@ pub(super) struct Rows<const R: usize> {
 }
 
 /// Appends the scalars of a constraint; its Jacobian is there already.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn push<const R: usize>(d: &mut Fields, s: &Rows<R>) {
     let rows = d.nefc..d.nefc + R;
     d.nefc = rows.end;
@@ -54,7 +54,7 @@ pub(super) fn push<const R: usize>(d: &mut Fields, s: &Rows<R>) {
 }
 
 /// `efc_R`, `efc_D`, and the diagonal of J M⁻¹ Jᵀ that they would follow from.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn soften<const R: usize>(d: &mut Fields, row: usize, imp: f64, r: &[f64; R]) {
     let rows = row..row + R;
     put(&mut d.efc_diagA[rows.clone()], r.map(|r| r * imp / (1.0 - imp)));
@@ -62,7 +62,7 @@ pub(super) fn soften<const R: usize>(d: &mut Fields, row: usize, imp: f64, r: &[
     put(&mut d.efc_D[rows], r.map(|r| 1.0 / r));
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn put<T, const R: usize>(to: &mut [T], values: [T; R]) {
     if let Some(to) = to.first_chunk_mut::<R>() {
         *to = values;

@@ -40,7 +40,7 @@ pub(super) fn count_limits(m: &Model, d: &Fields) -> usize {
 }
 
 /// How many sides of a range are nearer than the margin: see [`sides`].
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn near([lower, upper]: [f64; 2], value: f64, margin: f64) -> usize {
     usize::from(value - lower < margin) + usize::from(upper - value < margin)
 }

@@ -15,7 +15,7 @@ pub(super) struct Six {
 
 impl Six {
     /// M of the degrees of freedom from `start` on.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn new(m: &Model, inertia: &[f64], start: usize) -> Six {
         let mut values = [[0.0; N]; N];
         for (i, to) in values.iter_mut().enumerate() {
@@ -28,7 +28,7 @@ impl Six {
     }
 
     /// H⁻¹ g by H = L Lᵀ.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn solve(&mut self, g: [f64; N]) -> [f64; N] {
         let l = &mut self.values;
         let mut inverse = [0.0; N];
@@ -60,12 +60,12 @@ impl Six {
 }
 
 impl Gram for Six {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn add_gram<const R: usize>(
         &mut self,
         columns: &[u32],
         v: &[[f64; R]],
-        weigh: impl Fn(&[f64; R]) -> [f64; R],
+        weigh: &dyn Fn(&[f64; R]) -> [f64; R],
     ) {
         if let (N, Some(v)) = (columns.len(), v.first_chunk::<N>()) {
             for i in 0..N {

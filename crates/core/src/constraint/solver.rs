@@ -4,7 +4,7 @@
 //! costs to miss the reference (Todorov 2014).
 
 use super::Scratch;
-use super::cost::Cost;
+use super::cost::{Cost, pushed};
 use super::island::Islands;
 use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian, by_rows};
@@ -16,7 +16,7 @@ use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// `qacc`, `efc_force`, `qfrc_constraint`, `solver_niter`, from `qacc_smooth` and the rows.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch) {
     d.solver_niter = 0;
     d.nisland = 0;
@@ -69,7 +69,7 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch) {
 }
 
 /// Newton's method or conjugate gradients, from the better start.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn primal(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac: &Jacobian) {
     if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, islands, jac) {
         return;
@@ -156,7 +156,7 @@ fn warm_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac
 
 /// Cost of all constraints at x = J a - aref.
 fn total_cost(d: &Fields, jac: &Jacobian, x: &[f64]) -> f64 {
-    let push = |x: f64, w: f64| if x < 0.0 { 0.5 * w * x * x } else { 0.0 };
+    let push = |x: f64, w: f64| 0.5 * w * pushed(x) * pushed(x);
     let cost = |b: &Block| match b.cost {
         Cost::Push => b.rows().map(|r| push(x[r], d.efc_D[r])).sum(),
         _ => by_rows!(b.nrow, R => block_cost::<R>(d, b, x)),
@@ -194,7 +194,7 @@ fn block_state<const R: usize>(d: &mut Fields, b: &Block, jar: &[f64]) {
 
 impl Problem<'_> {
     /// Goes on from a start with the method of the model.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn run(&mut self, from: Reached) {
         match self.m.opt.solver {
             solver::CG => self.conjugate_gradient(from),

@@ -52,7 +52,7 @@ struct Span {
 
 impl Span {
     /// Whether it is solved by its bodies. Those that a tendon's inertia ties together are solved by their rows.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn by_bodies(&self, untied: bool) -> bool {
         untied && !self.bodies.is_empty()
     }
@@ -196,7 +196,7 @@ impl Tree<'_> {
     }
 
     /// x ← M⁻¹ x.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn solve<const A: usize, const B: usize>(&self, bodies: &mut [[Body; 2]], joints: &mut [[Joint; 2]]) {
         for body in &mut bodies[self.span.bodies.clone()] {
             for body in &mut body[A..B] {
@@ -233,7 +233,7 @@ impl Tree<'_> {
 }
 
 /// One degree of freedom on the way up: what its joint takes of the force on its body, and what it passes on.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn rise<const A: usize, const B: usize>(
     bodies: &mut [[Body; 2]],
     link: &Link,
@@ -256,7 +256,7 @@ fn rise<const A: usize, const B: usize>(
 }
 
 /// A body, and the one that carries it and comes before it.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn with_carrier(
     bodies: &mut [[Body; 2]],
     body: usize,
@@ -377,7 +377,7 @@ fn prepare_both_spans(
 }
 
 /// A vector into the joints of matrix `I`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn put<const I: usize>(joints: &mut [[Joint; 2]], dofs: Range<usize>, x: &[f64]) {
     for (joint, x) in joints[dofs.clone()].iter_mut().zip(&x[dofs]) {
         joint[I].x = *x;
@@ -385,7 +385,7 @@ fn put<const I: usize>(joints: &mut [[Joint; 2]], dofs: Range<usize>, x: &[f64])
 }
 
 /// A vector from the joints of matrix `I`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn get<const I: usize>(joints: &[[Joint; 2]], dofs: Range<usize>, x: &mut [f64]) {
     for (x, joint) in x[dofs.clone()].iter_mut().zip(&joints[dofs]) {
         *x = joint[I].x;
@@ -500,18 +500,18 @@ fn solve_spans_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn wide(s: &Spatial) -> Wide {
     [s[0], s[1], s[2], s[3], s[4], s[5], 0.0, 0.0]
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn narrow(w: &Wide) -> Spatial {
     [w[0], w[1], w[2], w[3], w[4], w[5]]
 }
 
 /// a · b, lane by lane.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn dot(a: Wide, b: Wide) -> f64 {
     let s: [f64; 4] = std::array::from_fn(|i| a[i] * b[i] + a[i + 4] * b[i + 4]);
     (s[0] + s[2]) + (s[1] + s[3])

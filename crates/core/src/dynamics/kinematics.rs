@@ -209,14 +209,14 @@ pub(crate) fn bodies(m: &Model, d: &mut Fields, w: &mut Scratch) {
 }
 
 /// The columns of the rotation matrix of a quaternion.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn columns(quat: Quat) -> [Vec3; 3] {
     let m = quat_to_mat(quat);
     [column(&m, 0), column(&m, 1), column(&m, 2)]
 }
 
 /// The unit quaternion that four coordinates stand for.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn quaternion(q: &[f64]) -> Quat {
     quat_normalize([q[0], q[1], q[2], q[3]])
 }
@@ -261,7 +261,7 @@ struct Poses<'a> {
 
 impl Poses<'_> {
     /// The pose of something attached to body `b`, by its `sameframe`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn attached(&self, b: usize, same: i32, pos: Vec3, quat: Quat, out_pos: &mut Vec3, out_mat: &mut Mat3) {
         *out_pos = match same {
             sameframe::BODY => self.xpos[b],

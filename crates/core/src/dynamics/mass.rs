@@ -50,20 +50,20 @@ pub(crate) fn quadratic(m: &Model, mass: &[f64], v: &[f64]) -> f64 {
 }
 
 /// Where the row of degree of freedom `i` is.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn row(m: &Model, i: usize) -> Range<usize> {
     let start = m.M_rowadr[i] as usize;
     start..start + m.M_rownnz[i] as usize
 }
 
 /// Where the rows of the degrees of freedom `dofs` are.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn rows_of(m: &Model, dofs: Range<usize>) -> Range<usize> {
     if dofs.is_empty() { 0..0 } else { row(m, dofs.start).start..row(m, dofs.end - 1).end }
 }
 
 /// Inertia that is added to degree of freedom `i`: its own and that of actuators.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn armature(m: &Model, i: usize) -> f64 {
     let (own, joint) = (m.dof_armature[i], m.dof_jntid[i] as usize);
     // Few joints have an actuator with inertia of its own.
@@ -142,13 +142,13 @@ pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Rang
 }
 
 /// Size of the small serial tree that is all the model has.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn whole_chain(m: &Model) -> Option<usize> {
     if m.nv > 3 || m.nv == 0 { None } else { serial::size_before(m, m.nv).filter(|&n| n == m.nv) }
 }
 
 /// Eliminates row `k` from those of its ancestors; whether its D is not positive.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn eliminate(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], k: usize) -> bool {
     let start = m.M_rowadr[k] as usize;
     let n = m.M_rownnz[k] as usize - 1;
@@ -174,7 +174,7 @@ fn eliminate(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], k: usize) -> bool 
 }
 
 /// Number of rows that end before `end` and are taken together: four of a serial chain, or one.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn chain(m: &Model, end: usize) -> usize {
     // Shorter rows are not worth the trouble.
     if end < 4 || m.M_rownnz[end - 1] < 8 {
@@ -185,13 +185,13 @@ fn chain(m: &Model, end: usize) -> usize {
 }
 
 /// Four rows that follow each other, the first of `len` numbers and each longer by one; their first `len`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn four_rows(block: &[f64], len: usize) -> [&[f64]; 4] {
     [0, len, 2 * len + 1, 3 * len + 3].map(|at| &block[at..at + len])
 }
 
 /// target -= factor row
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn subtract(target: &mut [f64], row: &[f64], factor: f64) {
     for (t, x) in target.iter_mut().zip(row) {
         *t -= factor * x;
@@ -287,7 +287,7 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
 }
 
 /// Where the diagonal element of degree of freedom `i` is.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn diagonal(m: &Model, i: usize) -> usize {
     (m.M_rowadr[i] + m.M_rownnz[i]) as usize - 1
 }

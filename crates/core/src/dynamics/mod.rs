@@ -19,6 +19,7 @@ pub(crate) mod rne;
 pub(crate) mod serial;
 pub(crate) mod simple;
 pub(crate) mod subtree;
+pub(crate) mod walk;
 pub(crate) mod ways;
 
 use crate::model::Model;

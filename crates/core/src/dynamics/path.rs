@@ -24,7 +24,7 @@ impl Path {
     }
 
     /// Puts the motion of a degree of freedom behind those of its ancestors, of which there are `depth`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn extend(&mut self, depth: usize, motion: &Spatial) {
         if let Some(block) = self.blocks.get_mut(depth / SIDE) {
             for (to, x) in block.iter_mut().zip(motion) {
@@ -34,7 +34,7 @@ impl Path {
     }
 
     /// out ← the product of each motion with v, from the root on.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn product(&self, v: &Spatial, out: &mut [f64]) {
         let (whole, rest) = out.as_chunks_mut::<SIDE>();
         for (to, block) in whole.iter_mut().zip(&self.blocks) {

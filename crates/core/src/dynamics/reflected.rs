@@ -18,7 +18,7 @@ pub(crate) enum On {
 }
 
 /// The actuators with inertia or damping of their own on a joint or tendon.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn actuators(m: &Model, on: On) -> std::ops::Range<usize> {
     let id = match on {
         On::Joint(j) => m.jnt_actuatorid[j],

@@ -8,7 +8,7 @@ use crate::model::{Fields, Model};
 
 /// `qfrc_bias`. Trees take recursive Newton–Euler, short chains a projection; a simple body, alone in its tree
 /// with its inertia along its own axes, takes the closed form.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
     if d.plan.has(Fact::Recursion) {

@@ -43,7 +43,7 @@ impl Tree {
 
     /// The tree's part of `qLD` and `qLDiagInv`; and with `x`, x ← M⁻¹ x. Returns the first degree of freedom whose D is
     /// not positive.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn factor(
         self,
         mass: &[f64],
@@ -55,7 +55,7 @@ impl Tree {
     }
 
     /// x ← M⁻¹ x by what [`Tree::factor`] has left.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn solve(self, d: &Fields, x: &mut [f64]) {
         let (Some(ld), Some(diag_inv)) = (d.qLD.get(self.row..), d.qLDiagInv.get(self.first..)) else {
             return;
@@ -64,14 +64,14 @@ impl Tree {
     }
 
     /// x ← (M + B)⁻¹ x for a diagonal matrix B (nv).
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn solve_with(self, mass: &[f64], b: &[f64], x: &mut [f64]) {
         by_size!(self.size, solve_direct(self, mass, b, x));
     }
 }
 
 /// Size of the serial tree whose last degree of freedom is the one before `end`, when it is small.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn size_before(m: &Model, end: usize) -> Option<usize> {
     let n = m.M_rownnz[end - 1] as usize;
     // Columns ascend: they are consecutive when the first is where consecutive ones would begin.
@@ -79,30 +79,30 @@ pub(crate) fn size_before(m: &Model, end: usize) -> Option<usize> {
 }
 
 /// The factorization of a packed triangle of `n` rows, in place.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn factor_rows(n: usize, ld: &mut [f64], diag_inv: &mut [f64]) -> Option<usize> {
     by_size!(n, factor_part(ld, diag_inv))
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn factor_part<const N: usize, const T: usize>(ld: &mut [f64], diag_inv: &mut [f64]) -> Option<usize> {
     factor::<N, T>(ld.first_chunk_mut()?, diag_inv.first_chunk_mut()?)
 }
 
 /// x ← M⁻¹ x for a packed triangle of `n` rows.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn solve_rows(n: usize, ld: &[f64], diag_inv: &[f64], x: &mut [f64]) {
     by_size!(n, solve_at(ld, diag_inv, x, 0));
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn solve_at<const N: usize, const T: usize>(ld: &[f64], diag_inv: &[f64], x: &mut [f64], at: usize) {
     if let (Some(ld), Some(diag_inv), Some(x)) = (ld.first_chunk(), diag_inv.first_chunk(), part_mut(x, at)) {
         solve::<N, T>(ld, diag_inv, x);
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn factor_copy<const N: usize, const T: usize>(
     tree: Tree,
     mass: &[f64],
@@ -120,7 +120,7 @@ fn factor_copy<const N: usize, const T: usize>(
     bad.map(|k| first + k)
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn solve_direct<const N: usize, const T: usize>(tree: Tree, mass: &[f64], b: &[f64], x: &mut [f64]) {
     let Tree { first, row, .. } = tree;
     let (Some(&ld), Some(b), Some(x)) = (part(mass, row), part::<N>(b, first), part_mut(x, first)) else {
@@ -135,18 +135,18 @@ fn solve_direct<const N: usize, const T: usize>(tree: Tree, mass: &[f64], b: &[f
 }
 
 /// N numbers from a place on.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn part<const N: usize>(of: &[f64], at: usize) -> Option<&[f64; N]> {
     of.get(at..)?.first_chunk()
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn part_mut<const N: usize>(of: &mut [f64], at: usize) -> Option<&mut [f64; N]> {
     of.get_mut(at..)?.first_chunk_mut()
 }
 
 /// The factorization of a packed triangle of N rows, T numbers.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn factor<const N: usize, const T: usize>(ld: &mut [f64; T], diag_inv: &mut [f64; N]) -> Option<usize> {
     let mut bad = None;
     for k in (0..N).rev() {
@@ -171,7 +171,7 @@ fn factor<const N: usize, const T: usize>(ld: &mut [f64; T], diag_inv: &mut [f64
 }
 
 /// x ← M⁻¹ x for a packed triangle.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn solve<const N: usize, const T: usize>(ld: &[f64; T], diag_inv: &[f64; N], x: &mut [f64; N]) {
     for i in (0..N).rev() {
         for j in 0..i {

@@ -54,7 +54,7 @@ pub(crate) fn joints(m: &Model) -> Vec<Joint> {
 
 /// One joint of a simple body: weight along translations, ω × I ω for rotations in the body's frame. A
 /// hinge turns about a principal axis and feels nothing.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn bias(m: &Model, d: &mut Fields, s: &Joint, gravity: Vec3) {
     let (Some(mass), Some(&[a, b, c])) = (m.body_mass.get(s.body), rows::<3>(&m.body_inertia).get(s.body))
     else {

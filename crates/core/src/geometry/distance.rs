@@ -2,8 +2,7 @@
 
 use super::Shape;
 use super::convex::{Convex, nearest};
-use super::pair::{self, Method, Settings};
-use crate::kinds::geom;
+use super::pair::{self, CONVEX, Method, Settings};
 use crate::math::*;
 
 /// Distance and nearest points of two geoms.
@@ -27,14 +26,18 @@ pub(crate) fn shape_distance(
     let flip = a.kind > b.kind;
     let (first, second) = if flip { (b, a) } else { (a, b) };
     let Some(method) = pair::method(first.kind, second.kind) else { return best };
-    if matches!(method, Method::Field) {
+    let searched = pair::is_searched(first.kind, second.kind, true);
+    if searched && !CONVEX {
+        return best;
+    }
+    if CONVEX && matches!(method, Method::Field) {
         let found = pair::field_distance(first, second, most, settings, &mut work.room);
         return found.map_or(best, |n| {
             let [p, q] = n.witness;
             Distance { dist: n.dist, fromto: if flip { [q, p] } else { [p, q] } }
         });
     }
-    if matches!(method, Method::Convex) || first.kind == geom::BOX {
+    if CONVEX && searched {
         let (mut u, mut v) = (Convex::new(a), Convex::new(b));
         let found = nearest(&mut u, &mut v, most, settings.effort, &mut work.room);
         return found.map_or(best, |n| Distance { dist: n.dist, fromto: n.witness });

@@ -16,7 +16,7 @@ pub(crate) fn inside_shape(shape: &Shape, point: Vec3) -> bool {
             dot(from_centre, from_centre) < a * a
         }
         geom::CAPSULE => {
-            let above = z - z.clamp(-b.max(0.0), b.max(0.0));
+            let above = z - clamp(z, -b.max(0.0), b.max(0.0));
             x * x + y * y + above * above < a * a
         }
         geom::ELLIPSOID => x * x / (a * a) + y * y / (b * b) + z * z / (c * c) < 1.0,

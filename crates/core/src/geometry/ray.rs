@@ -22,14 +22,14 @@ pub(super) struct Ray {
 }
 
 impl Ray {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn at(&self, x: f64) -> Vec3 {
         add_scaled(self.from, self.along, x)
     }
 }
 
 /// Keeps the nearer of two hits, the first one when they are equal.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn nearer(best: &mut Option<Hit>, distance: f64, normal: impl FnOnce() -> Vec3) {
     if distance >= 0.0 && best.is_none_or(|b| distance < b.distance) {
         *best = Some(Hit { distance, normal: normal() });

@@ -72,19 +72,19 @@ impl<'a> Shape<'a> {
     }
 
     /// The axis `i` of its frame, world.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn axis(&self, i: usize) -> Vec3 {
         column(&self.mat, i)
     }
 
     /// A point of the world in its frame.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn local(&self, point: Vec3) -> Vec3 {
         mat_t_mul_vec(&self.mat, sub(point, self.pos))
     }
 
     /// A point of its frame in the world.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn world(&self, point: Vec3) -> Vec3 {
         add(mat_mul_vec(&self.mat, point), self.pos)
     }

@@ -1,6 +1,7 @@
 //! The flat sides of a convex hull: its triangles, merged where they lie in one plane.
 
 use super::Hull;
+use crate::math::sort::sort;
 use crate::math::*;
 
 /// Cosine of the angle between triangles above which they are one side.
@@ -106,7 +107,7 @@ impl Sides {
         for side in 0..self.len() {
             pairs.extend(self.vertices(side).iter().map(|&v| (v, side as u32)));
         }
-        pairs.sort_unstable();
+        sort(&mut pairs);
         self.first = (0..=n).map(|v| pairs.partition_point(|p| (p.0 as usize) < v) as u32).collect();
         self.around = pairs.into_iter().map(|p| p.1).collect();
     }
@@ -124,7 +125,7 @@ fn merge(vert: &[Vec3], hull: &Hull) -> Sides {
     for (t, f) in hull.face.iter().enumerate() {
         edges.extend((0..3).map(|k| (f[k], f[(k + 1) % 3], t)));
     }
-    edges.sort_unstable();
+    sort(&mut edges);
     let across = |a: i32, b: i32| {
         let at = edges.partition_point(|&(x, y, _)| (x, y) < (b, a));
         edges.get(at).filter(|&&(x, y, _)| (x, y) == (b, a)).map(|e| e.2)
@@ -163,7 +164,7 @@ fn merge(vert: &[Vec3], hull: &Hull) -> Sides {
                 }
             }
         }
-        border.sort_unstable();
+        sort(&mut border);
         let first = out.vertices.len() as u32;
         let Some(&(mut at, _)) = border.first() else { continue };
         for _ in 0..border.len() {

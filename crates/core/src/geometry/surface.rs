@@ -134,7 +134,7 @@ fn below_rim(field: &Field, on: Vec3, i: usize, side: usize) -> bool {
     let along = 1 - i;
     let samples = if along == 1 { field.nrow } else { field.ncol };
     let y = (on[along] + field.size[along]) / field.step()[along];
-    let cell = y.floor().clamp(0.0, (samples as f64 - 2.0).max(0.0));
+    let cell = clamp(y.floor(), 0.0, (samples as f64 - 2.0).max(0.0));
     let height = |k: usize| {
         let (row, col) = match (i, side) {
             (0, 0) => (k, 0),

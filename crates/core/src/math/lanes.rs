@@ -6,20 +6,20 @@ use std::array::from_fn;
 use wide::f64x4;
 
 /// The rows of four bodies, component by component.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn gather<const N: usize>(rows: &[[f64; N]], of: [usize; 4]) -> [f64x4; N] {
     let [a, b, c, d] = of.map(|i| &rows[i]);
     from_fn(|k| f64x4::new([a[k], b[k], c[k], d[k]]))
 }
 
 /// The same for one number of each.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn gather_one(numbers: &[f64], of: [usize; 4]) -> f64x4 {
     f64x4::new(of.map(|i| numbers[i]))
 }
 
 /// The other way round.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn scatter<const N: usize>(lanes: [f64x4; N], rows: &mut [[f64; N]], of: [usize; 4]) {
     let columns = lanes.map(|v| v.to_array());
     for (lane, i) in of.into_iter().enumerate() {
@@ -28,7 +28,7 @@ pub(crate) fn scatter<const N: usize>(lanes: [f64x4; N], rows: &mut [[f64; N]], 
 }
 
 /// The bodies 1 to n-1 by fours; the last ones repeat themselves to fill a vector, which changes nothing.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn by_fours(n: usize) -> impl Iterator<Item = [usize; 4]> {
     let last = n.saturating_sub(1);
     (1..n).step_by(4).map(move |first| from_fn(|lane| (first + lane).min(last)))
@@ -40,38 +40,38 @@ pub(crate) type Lane3 = f64x4;
 /// A rotation matrix by columns.
 pub(crate) type Axes = [Lane3; 3];
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn lane3(v: Vec3) -> Lane3 {
     f64x4::new([v[0], v[1], v[2], v[2]])
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn vec3(v: Lane3) -> Vec3 {
     let [x, y, z, _] = v.to_array();
     [x, y, z]
 }
 
 /// The columns of a matrix.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn axes(m: &Mat3) -> Axes {
     from_fn(|c| lane3([m[c], m[3 + c], m[6 + c]]))
 }
 
 /// The matrix of these columns.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn matrix(axes: &Axes) -> Mat3 {
     let [a, b, c] = axes.map(|v| v.to_array());
     [a[0], b[0], c[0], a[1], b[1], c[1], a[2], b[2], c[2]]
 }
 
 /// The vector with components v along the axes.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn along(axes: &Axes, v: Vec3) -> Lane3 {
     axes[0] * v[0] + axes[1] * v[1] + axes[2] * v[2]
 }
 
 /// The axes whose components along others are the columns of a matrix.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn product(axes: &Axes, columns: &[Vec3; 3]) -> Axes {
     columns.map(|c| along(axes, c))
 }
@@ -83,7 +83,7 @@ pub(crate) fn matrix_turned(m: &Mat3, axis: Vec3, s: f64, c: f64) -> Mat3 {
 }
 
 /// Axes turned by an angle, with sine s and cosine c, about a unit vector given along them.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn turned(axes: &Axes, axis: Vec3, s: f64, c: f64) -> Axes {
     let [x, y, z] = *axes;
     // About one of the axes themselves, the other two turn in their plane.

@@ -4,6 +4,7 @@
 //! (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2). `rows` looks at a flat array as rows.
 
 pub(crate) mod lanes;
+pub(crate) mod sort;
 
 use std::ops::{Add, Mul, Sub};
 
@@ -28,19 +29,32 @@ pub trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Se
 impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Real for T {}
 
 /// A flat array as rows of `N`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn rows<const N: usize>(a: &[f64]) -> &[[f64; N]] {
     a.as_chunks().0
 }
 
 /// A flat array as mutable rows of `N`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn rows_mut<const N: usize>(a: &mut [f64]) -> &mut [[f64; N]] {
     a.as_chunks_mut().0
 }
 
+/// x, no less than `low` and no more than `high`; whatever these are it does not panic, as the standard library's would with
+/// a message that prints numbers.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn clamp(x: f64, low: f64, high: f64) -> f64 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
+    }
+}
+
 /// Calls `f` with 0, 1, … n - 1: without a loop for the one or two numbers that the state of many labs has.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn each(n: usize, mut f: impl FnMut(usize)) {
     match n {
         1 => f(0),
@@ -57,7 +71,7 @@ pub(crate) const FREE_DOFS: usize = 6;
 
 /// out ← f(out, inputs), number by number; the inputs are at least as long. Four at a time where there are many: the lanes
 /// of a vector.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn combine<const N: usize>(
     out: &mut [f64],
     inputs: [&[f64]; N],
@@ -73,7 +87,7 @@ pub(crate) fn combine<const N: usize>(
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn combine_fours<const N: usize>(out: &mut [f64], inputs: [&[f64]; N], f: impl Fn(f64, [f64; N]) -> f64) {
     let n = out.len();
     let (fours, rest) = out.as_chunks_mut::<4>();
@@ -89,7 +103,7 @@ fn combine_fours<const N: usize>(out: &mut [f64], inputs: [&[f64]; N], f: impl F
 }
 
 /// Σ f(inputs), number by number; all are as long as the first.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn sum<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f64) -> f64 {
     match inputs[0].len() {
         FREE_DOFS => sum_fours(inputs.map(|x| &x[..FREE_DOFS]), f),
@@ -97,7 +111,7 @@ pub(crate) fn sum<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn sum_fours<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f64) -> f64 {
     let parts = inputs.map(|x| x.as_chunks::<4>());
     let mut sums = [0.0; 4];
@@ -114,7 +128,7 @@ fn sum_fours<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f64) -
 }
 
 /// Copies numbers; as many as the shorter array has.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn copy(from: &[f64], to: &mut [f64]) {
     let n = from.len().min(to.len());
     let (from, to) = (&from[..n], &mut to[..n]);
@@ -126,7 +140,7 @@ pub(crate) fn copy(from: &[f64], to: &mut [f64]) {
 }
 
 /// Sets all numbers to zero.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn zero(x: &mut [f64]) {
     match x.len() {
         n @ 0..=2 => each(n, |k| x[k] = 0.0),
@@ -141,7 +155,7 @@ pub const IDENTITY: Quat = [1.0, 0.0, 0.0, 0.0];
 pub const EYE: Mat3 = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
 /// a + b
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn add<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> [T; N] {
     let mut r = a;
     for i in 0..N {
@@ -151,7 +165,7 @@ pub fn add<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> [T; N] {
 }
 
 /// a - b
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn sub<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> [T; N] {
     let mut r = a;
     for i in 0..N {
@@ -161,7 +175,7 @@ pub fn sub<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> [T; N] {
 }
 
 /// s a
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn scale<const N: usize>(a: [f64; N], s: f64) -> [f64; N] {
     let mut r = a;
     for x in &mut r {
@@ -171,7 +185,7 @@ pub fn scale<const N: usize>(a: [f64; N], s: f64) -> [f64; N] {
 }
 
 /// a + s b
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn add_scaled<const N: usize>(a: [f64; N], b: [f64; N], s: f64) -> [f64; N] {
     let mut r = a;
     for i in 0..N {
@@ -181,7 +195,7 @@ pub fn add_scaled<const N: usize>(a: [f64; N], b: [f64; N], s: f64) -> [f64; N] 
 }
 
 /// a · b
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn dot<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> T {
     let mut s = a[0] * b[0];
     for i in 1..N {
@@ -191,13 +205,13 @@ pub fn dot<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> T {
 }
 
 /// a · b of two spatial vectors, without copies.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn dot_ref(a: &Spatial, b: &Spatial) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]
 }
 
 /// a · b of two slices of the same length, in two interleaved sums.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn dot_slice(a: &[f64], b: &[f64]) -> f64 {
     let mut s = [0.0; 2];
     let ((a2, a1), (b2, b1)) = (a.as_chunks::<2>(), b.as_chunks::<2>());
@@ -212,13 +226,13 @@ pub fn dot_slice(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// a × b
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// |a|
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn norm(a: Vec3) -> f64 {
     dot(a, a).sqrt()
 }
@@ -336,7 +350,7 @@ pub fn mat_mul(a: &Mat3, b: &Mat3) -> Mat3 {
 }
 
 /// m v
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn mat_mul_vec(m: &Mat3, v: Vec3) -> Vec3 {
     [
         m[0] * v[0] + m[1] * v[1] + m[2] * v[2],
@@ -346,7 +360,7 @@ pub fn mat_mul_vec(m: &Mat3, v: Vec3) -> Vec3 {
 }
 
 /// mᵀ v
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn mat_t_mul_vec(m: &Mat3, v: Vec3) -> Vec3 {
     [
         m[0] * v[0] + m[3] * v[1] + m[6] * v[2],
@@ -375,26 +389,26 @@ pub(crate) fn frame_along(normal: Vec3, tangent: Vec3) -> Mat3 {
 }
 
 /// A number that no simulation means: NaN, or larger than 1e10.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 #[allow(clippy::neg_cmp_op_on_partial_ord)] // one comparison that NaN fails, too: it runs for every number of the state
 pub(crate) fn bad(x: f64) -> bool {
     !(x.abs() <= 1e10)
 }
 
 /// Column `i` of a matrix.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn column(m: &Mat3, i: usize) -> Vec3 {
     [m[i], m[3 + i], m[6 + i]]
 }
 
 /// The angular part.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn angular<T: Real>(s: &[T; 6]) -> [T; 3] {
     [s[0], s[1], s[2]]
 }
 
 /// The linear part.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn linear<T: Real>(s: &[T; 6]) -> [T; 3] {
     [s[3], s[4], s[5]]
 }
@@ -408,7 +422,7 @@ pub fn cross_motion(v: &Spatial, m: &Spatial) -> Spatial {
 }
 
 /// v ×* f for forces: the derivative of the momentum f carried by the motion v.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn cross_force<T: Real>(v: &[T; 6], f: &[T; 6]) -> [T; 6] {
     let t = add(cross(angular(v), angular(f)), cross(linear(v), linear(f)));
     let l = cross(angular(v), linear(f));
@@ -417,7 +431,7 @@ pub fn cross_force<T: Real>(v: &[T; 6], f: &[T; 6]) -> [T; 6] {
 
 /// Inertia about a point, in world axes, of a body with principal moments `moments` along the columns of
 /// `axes`, mass `mass` and centre of mass at `d` from the point: R diag(I) Rᵀ + m (|d|² 1 - d dᵀ).
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn inertia_about<T: Real>(moments: [T; 3], axes: &[T; 9], d: [T; 3], mass: T) -> [T; 10] {
     // t = diag(I) Rᵀ, one row per world axis.
     let t = |i: usize| [axes[3 * i] * moments[0], axes[3 * i + 1] * moments[1], axes[3 * i + 2] * moments[2]];
@@ -438,7 +452,7 @@ pub fn inertia_about<T: Real>(moments: [T; 3], axes: &[T; 9], d: [T; 3], mass: T
 }
 
 /// Momentum of the motion v of a body with inertia i, both about the same point.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn inertia_mul<T: Real>(i: &[T; 10], v: &[T; 6]) -> [T; 6] {
     [
         i[0] * v[0] + i[3] * v[1] + i[4] * v[2] - i[8] * v[4] + i[7] * v[5],
@@ -451,7 +465,7 @@ pub fn inertia_mul<T: Real>(i: &[T; 10], v: &[T; 6]) -> [T; 6] {
 }
 
 /// x in a range; the lower end where the range is none, NaN for NaN.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn clip(x: f64, [lower, upper]: [f64; 2]) -> f64 {
     if x < lower {
         lower

@@ -22,13 +22,13 @@ pub(crate) mod awake {
 }
 
 /// Whether trees may sleep now.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn on(m: &Model, d: &Fields) -> bool {
     d.plan.keeps(Stage::Sleep) && m.opt.enabled(enable::SLEEP)
 }
 
 /// Whether some tree sleeps.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn some(m: &Model, d: &Fields) -> bool {
     d.ntree_awake < m.ntree
 }
@@ -54,7 +54,7 @@ pub(crate) fn tendon(m: &Model, d: &Fields, t: usize) -> bool {
 }
 
 /// Whether neither of two geoms is on a body that is awake: nothing new can come of them.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn pair(m: &Model, d: &Fields, geom1: usize, geom2: usize) -> bool {
     let is_awake = |geom: usize| d.body_awake[m.geom_bodyid[geom] as usize] == awake::YES;
     some(m, d) && !is_awake(geom1) && !is_awake(geom2)

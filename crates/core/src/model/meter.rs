@@ -32,13 +32,13 @@ impl Meter {
         Meter { half: ((200 + linear + more) as u64 + rows) / 2, ..Meter::default() }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn add(&mut self, units: u64) {
         self.cost = self.cost.saturating_add(units);
     }
 
     /// Whether there is nothing left.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn over(&self) -> bool {
         self.cost > self.limit
     }

@@ -130,7 +130,7 @@ impl Options {
 
 impl Model {
     /// The degrees of freedom of a tree.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn tree_dofs(&self, tree: usize) -> Range<usize> {
         let first = self.tree_dofadr[tree] as usize;
         first..first + self.tree_dofnum[tree] as usize

@@ -98,13 +98,13 @@ impl Default for Plan {
 
 impl Plan {
     /// Whether a stage runs.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn keeps(&self, stage: Stage) -> bool {
         self.kept & (1 << stage as u32) != 0
     }
 
     /// Whether something is known to hold of the scene.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn has(&self, fact: Fact) -> bool {
         self.facts & (1 << fact as u32) != 0
     }

@@ -3,7 +3,8 @@
 //! The language, the lints, the reports and the reference pages know the engine only through this module.
 
 pub use super::stage::Stage;
-use crate::model::bytes::Plain;
+use crate::math::sort::sort_by;
+use crate::model::bytes::{Plain, fingerprint};
 use crate::model::fields::{data_fields, model_fields, option_fields, statistic_fields};
 use crate::model::{Fields, Model};
 use std::sync::LazyLock;
@@ -167,9 +168,13 @@ fn to_int32(x: f64) -> i32 {
     x.trunc().rem_euclid(4_294_967_296.0) as u32 as i32
 }
 
-/// A Rust type that can stand in the field table.
-pub(crate) trait Cell {
+/// The element type of a Rust type that can stand in the field table.
+trait Typed {
     const ELEM: Elem;
+}
+
+/// A value of such a type: what is done to every field is done through this, once for each type and not for each field.
+pub(crate) trait Cell {
     fn view(&self) -> View<'_>;
     fn view_mut(&mut self) -> ViewMut<'_>;
     /// Gives an array `n` zero elements, and numbers of fixed shape the value zero. Sizes stay as they are.
@@ -182,8 +187,16 @@ pub(crate) trait Cell {
 
 macro_rules! cells {
     ($($t:ty => $variant:ident),*) => { $(
-        impl Cell for $t {
+        impl Typed for $t {
             const ELEM: Elem = Elem::$variant;
+        }
+        impl Typed for Vec<$t> {
+            const ELEM: Elem = Elem::$variant;
+        }
+        impl<const N: usize> Typed for [$t; N] {
+            const ELEM: Elem = Elem::$variant;
+        }
+        impl Cell for $t {
             fn view(&self) -> View<'_> { View::$variant(std::slice::from_ref(self)) }
             fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(std::slice::from_mut(self)) }
             fn allocate(&mut self, _: usize) { *self = <$t>::default(); }
@@ -193,7 +206,6 @@ macro_rules! cells {
             }
         }
         impl Cell for Vec<$t> {
-            const ELEM: Elem = Elem::$variant;
             fn view(&self) -> View<'_> { View::$variant(self) }
             fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(self) }
             fn allocate(&mut self, n: usize) {
@@ -211,7 +223,6 @@ macro_rules! cells {
             }
         }
         impl<const N: usize> Cell for [$t; N] {
-            const ELEM: Elem = Elem::$variant;
             fn view(&self) -> View<'_> { View::$variant(self) }
             fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(self) }
             fn allocate(&mut self, _: usize) { *self = [<$t>::default(); N]; }
@@ -224,8 +235,11 @@ macro_rules! cells {
 }
 cells!(f64 => F64, i32 => I32, bool => Bool);
 
-impl Cell for usize {
+impl Typed for usize {
     const ELEM: Elem = Elem::Size;
+}
+
+impl Cell for usize {
     fn view(&self) -> View<'_> {
         View::Size(*self)
     }
@@ -262,7 +276,7 @@ macro_rules! reflect {
         const $infos: &[&FieldInfo] = &[$(&FieldInfo {
             object: Object::$object,
             name: stringify!($name),
-            elem: <$ty as Cell>::ELEM,
+            elem: <$ty as Typed>::ELEM,
             shape: &[$(stringify!($dim)),*],
             kind: Kind::$kind,
             stage: Stage::$stage,
@@ -279,8 +293,8 @@ macro_rules! reflect {
             const ALL: [$ids; $count] = [$($ids::$name),*];
         }
         impl $struct {
-            fn cell(&self, id: $ids) -> View<'_> { match id { $($ids::$name => self.$name.view()),* } }
-            fn cell_mut(&mut self, id: $ids) -> ViewMut<'_> { match id { $($ids::$name => self.$name.view_mut()),* } }
+            fn cell(&self, id: $ids) -> &dyn Cell { match id { $($ids::$name => &self.$name),* } }
+            fn cell_mut(&mut self, id: $ids) -> &mut dyn Cell { match id { $($ids::$name => &mut self.$name),* } }
         }
     };
 }
@@ -288,31 +302,6 @@ macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_READERS, M
 macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_READERS, OPTION_COUNT, OptionId, Option, crate::model::Options, options; $($t)* } } }
 macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_READERS, STAT_COUNT, StatId, Statistic, crate::model::Statistic, statistic; $($t)* } } }
 macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_READERS, DATA_COUNT, DataId, Data, Fields, data; $($t)* } } }
-/// Lengths, and bytes, by field.
-macro_rules! storage {
-    ($ids:ident, $struct:ty; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
-        #[allow(dead_code)] // options and statistics have no lengths
-        impl $struct {
-            fn allocate(&mut self, id: $ids, n: usize) {
-                match id { $($ids::$name => Cell::allocate(&mut self.$name, n)),* }
-            }
-            fn write(&self, id: $ids, out: &mut Vec<u8>) {
-                match id { $($ids::$name => Cell::write(&self.$name, out)),* }
-            }
-            fn read(&mut self, id: $ids, n: usize, bytes: &mut &[u8]) -> bool {
-                match id { $($ids::$name => Cell::read(&mut self.$name, n, bytes)),* }
-            }
-        }
-    };
-}
-macro_rules! storage_model { ($($t:tt)*) => { storage! { ModelId, Model; $($t)* } } }
-macro_rules! storage_option { ($($t:tt)*) => { storage! { OptionId, crate::model::Options; $($t)* } } }
-macro_rules! storage_stat { ($($t:tt)*) => { storage! { StatId, crate::model::Statistic; $($t)* } } }
-macro_rules! storage_data { ($($t:tt)*) => { storage! { DataId, Fields; $($t)* } } }
-model_fields!(storage_model);
-option_fields!(storage_option);
-statistic_fields!(storage_stat);
-data_fields!(storage_data);
 model_fields!(reflect_model);
 option_fields!(reflect_option);
 statistic_fields!(reflect_stat);
@@ -364,7 +353,7 @@ pub fn field(object: Object, name: &str) -> Option<FieldId> {
 /// All fields in the order of their names: a lab's texts ask for them a hundred times.
 static BY_NAME: LazyLock<Vec<FieldId>> = LazyLock::new(|| {
     let mut all: Vec<FieldId> = fields().collect();
-    all.sort_by_key(|f| f.info().name);
+    sort_by(&mut all, |f, g| (f.info().name, f).cmp(&(g.info().name, g)));
     all
 });
 
@@ -372,11 +361,11 @@ static BY_NAME: LazyLock<Vec<FieldId>> = LazyLock::new(|| {
 pub(crate) fn view_model(m: &Model, field: FieldId) -> View<'_> {
     let i = field.0 as usize;
     if i < OPTION_AT {
-        m.cell(ModelId::ALL[i])
+        m.cell(ModelId::ALL[i]).view()
     } else if i < STAT_AT {
-        m.opt.cell(OptionId::ALL[i - OPTION_AT])
+        m.opt.cell(OptionId::ALL[i - OPTION_AT]).view()
     } else if i < DATA_AT {
-        m.stat.cell(StatId::ALL[i - STAT_AT])
+        m.stat.cell(StatId::ALL[i - STAT_AT]).view()
     } else {
         View::F64(&[])
     }
@@ -385,7 +374,7 @@ pub(crate) fn view_model(m: &Model, field: FieldId) -> View<'_> {
 /// Reads a field of the data; nothing for one of the model.
 pub(crate) fn view_data(d: &Fields, field: FieldId) -> View<'_> {
     match (field.0 as usize).checked_sub(DATA_AT) {
-        Some(i) => d.cell(DataId::ALL[i]),
+        Some(i) => d.cell(DataId::ALL[i]).view(),
         None => View::F64(&[]),
     }
 }
@@ -394,11 +383,11 @@ pub(crate) fn view_data(d: &Fields, field: FieldId) -> View<'_> {
 pub(crate) fn view_model_mut(m: &mut Model, field: FieldId) -> ViewMut<'_> {
     let i = field.0 as usize;
     if i < OPTION_AT {
-        m.cell_mut(ModelId::ALL[i])
+        m.cell_mut(ModelId::ALL[i]).view_mut()
     } else if i < STAT_AT {
-        m.opt.cell_mut(OptionId::ALL[i - OPTION_AT])
+        m.opt.cell_mut(OptionId::ALL[i - OPTION_AT]).view_mut()
     } else if i < DATA_AT {
-        m.stat.cell_mut(StatId::ALL[i - STAT_AT])
+        m.stat.cell_mut(StatId::ALL[i - STAT_AT]).view_mut()
     } else {
         ViewMut::Fixed
     }
@@ -407,7 +396,7 @@ pub(crate) fn view_model_mut(m: &mut Model, field: FieldId) -> ViewMut<'_> {
 /// The same to write.
 pub(crate) fn view_data_mut(d: &mut Fields, field: FieldId) -> ViewMut<'_> {
     match (field.0 as usize).checked_sub(DATA_AT) {
-        Some(i) => d.cell_mut(DataId::ALL[i]),
+        Some(i) => d.cell_mut(DataId::ALL[i]).view_mut(),
         None => ViewMut::Fixed,
     }
 }
@@ -437,7 +426,7 @@ pub fn shape(m: &Model, field: FieldId) -> Vec<Option<usize>> {
 /// The size of this name (`nq`, `nbody`, …), `None` when the model has no such size.
 pub fn size(m: &Model, name: &str) -> Option<usize> {
     let f = field(Object::Model, name)?;
-    match m.cell(*ModelId::ALL.get(f.0 as usize)?) {
+    match m.cell(*ModelId::ALL.get(f.0 as usize)?).view() {
         View::Size(n) => Some(n),
         _ => None,
     }
@@ -450,10 +439,27 @@ pub(crate) fn length(m: &Model, field: FieldId) -> usize {
     dims.fold(1, usize::saturating_mul)
 }
 
+/// A number for the names, types and shapes of the fields of the data, or of all others: two programs with the same number
+/// have the same table.
+pub(crate) fn table(data: bool) -> u64 {
+    let mut text = String::new();
+    for f in fields().map(FieldId::info).filter(|f| (f.object == Object::Data) == data) {
+        let elem = match f.elem {
+            Elem::F64 => "F64",
+            Elem::I32 => "I32",
+            Elem::Bool => "Bool",
+            Elem::Size => "Size",
+        };
+        let shape: Vec<String> = f.shape.iter().map(|dim| format!("\"{dim}\"")).collect();
+        text += &format!("{} {elem} [{}]\n", f.name, shape.join(", "));
+    }
+    fingerprint(text.as_bytes())
+}
+
 /// Appends all numbers of the data that are fields, in the order of the table.
 pub(crate) fn write_data(d: &Fields, out: &mut Vec<u8>) {
     for id in DataId::ALL {
-        d.write(id, out);
+        d.cell(id).write(out);
     }
 }
 
@@ -464,14 +470,14 @@ pub(crate) fn read_data(m: &Model, d: &mut Fields, bytes: &mut &[u8]) -> bool {
         let n = dims.fold(1, |n: usize, dim| {
             n.saturating_mul(dim.parse().ok().or_else(|| size(m, dim)).or_else(|| count(d, dim)).unwrap_or(0))
         });
-        d.read(DataId::ALL[i], n, bytes)
+        d.cell_mut(DataId::ALL[i]).read(n, bytes)
     })
 }
 
 /// The count of this name in the data (`nefc`).
 pub(crate) fn count(d: &Fields, name: &str) -> Option<usize> {
     let i = DATA.iter().position(|f| f.name == name && f.elem == Elem::Size)?;
-    match d.cell(DataId::ALL[i]) {
+    match d.cell(DataId::ALL[i]).view() {
         View::Size(n) => Some(n),
         _ => None,
     }
@@ -481,11 +487,11 @@ pub(crate) fn count(d: &Fields, name: &str) -> Option<usize> {
 pub(crate) fn write_model(m: &Model, field: FieldId, out: &mut Vec<u8>) {
     let i = field.0 as usize;
     if i < OPTION_AT {
-        m.write(ModelId::ALL[i], out);
+        m.cell(ModelId::ALL[i]).write(out);
     } else if i < STAT_AT {
-        m.opt.write(OptionId::ALL[i - OPTION_AT], out);
+        m.opt.cell(OptionId::ALL[i - OPTION_AT]).write(out);
     } else if i < DATA_AT {
-        m.stat.write(StatId::ALL[i - STAT_AT], out);
+        m.stat.cell(StatId::ALL[i - STAT_AT]).write(out);
     }
 }
 
@@ -493,18 +499,18 @@ pub(crate) fn write_model(m: &Model, field: FieldId, out: &mut Vec<u8>) {
 pub(crate) fn read_model(m: &mut Model, field: FieldId, bytes: &mut &[u8]) -> bool {
     let (i, n) = (field.0 as usize, length(m, field));
     if i < OPTION_AT {
-        m.read(ModelId::ALL[i], n, bytes)
+        m.cell_mut(ModelId::ALL[i]).read(n, bytes)
     } else if i < STAT_AT {
-        m.opt.read(OptionId::ALL[i - OPTION_AT], n, bytes)
+        m.opt.cell_mut(OptionId::ALL[i - OPTION_AT]).read(n, bytes)
     } else {
-        i < DATA_AT && m.stat.read(StatId::ALL[i - STAT_AT], n, bytes)
+        i < DATA_AT && m.stat.cell_mut(StatId::ALL[i - STAT_AT]).read(n, bytes)
     }
 }
 
 /// Appends sizes, types and addresses of the model.
 pub(crate) fn write_structure(m: &Model, out: &mut Vec<u8>) {
     for i in (0..MODEL_COUNT).filter(|&i| MODEL[i].kind == Kind::Structure) {
-        m.write(ModelId::ALL[i], out);
+        m.cell(ModelId::ALL[i]).write(out);
     }
 }
 
@@ -512,7 +518,7 @@ pub(crate) fn write_structure(m: &Model, out: &mut Vec<u8>) {
 pub(crate) fn allocate_model(m: &mut Model) {
     for i in 0..MODEL_COUNT {
         let n = length(m, FieldId(i as u16));
-        m.allocate(ModelId::ALL[i], n);
+        m.cell_mut(ModelId::ALL[i]).allocate(n);
     }
 }
 
@@ -521,7 +527,7 @@ pub(crate) fn allocate_model(m: &mut Model) {
 pub(crate) fn allocate_data(m: &Model, d: &mut Fields) {
     for i in 0..DATA_COUNT {
         let n = length(m, FieldId((DATA_AT + i) as u16));
-        d.allocate(DataId::ALL[i], n);
+        d.cell_mut(DataId::ALL[i]).allocate(n);
     }
 }
 

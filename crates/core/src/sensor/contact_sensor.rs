@@ -6,6 +6,7 @@ use super::data_layout::CONTACT_DATA;
 use super::put;
 use crate::constraint::contact_force;
 use crate::geometry::{Shape, ray_shape};
+use crate::math::sort::sort_by;
 use crate::math::*;
 use crate::model::{Contact, Fields, Model, Obj};
 use crate::query::inside_site;
@@ -78,7 +79,7 @@ pub(super) fn contacts(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out
     if reduction == reduce::NETFORCE {
         net(m, d, list, mask, out);
     } else {
-        list.sort_unstable_by(|a, b| a.key.total_cmp(&b.key).then(a.contact.cmp(&b.contact)));
+        sort_by(list, |a, b| a.key.total_cmp(&b.key).then(a.contact.cmp(&b.contact)));
         let size = data_layout::size(&CONTACT_DATA, mask).max(1);
         for (found, out) in list.iter().zip(out.chunks_exact_mut(size)) {
             single(m, d, found, list.len(), mask, out);

@@ -10,6 +10,7 @@ mod frame_sensor;
 mod measure;
 mod pair;
 mod rays;
+mod searched;
 mod table;
 mod tension;
 #[cfg(test)]
@@ -17,6 +18,7 @@ mod tests;
 mod timing;
 
 pub(crate) use data_layout::{CONTACT_DATA, RAY_DATA, size as data_size};
+pub(crate) use searched::searched_pair;
 pub(crate) use timing::{record, reset};
 
 use contact_sensor::Match;

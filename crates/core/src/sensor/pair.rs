@@ -8,7 +8,7 @@ use crate::model::{Fields, Model, Obj};
 use crate::query::geom_distance;
 
 /// The geoms of a body, or one geom.
-fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> {
+pub(super) fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> {
     let id = id.max(0) as usize;
     if objtype != Obj::Body as i32 {
         return id..id + 1;

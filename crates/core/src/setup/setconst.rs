@@ -2,7 +2,7 @@
 
 use crate::constraint::ends;
 use crate::dynamics::kinematics::{self, sameframe};
-use crate::dynamics::{com, jacobian, mass};
+use crate::dynamics::{com, mass, walk};
 use crate::forces::{tendon, transmission};
 use crate::kinds::{geom, joint};
 use crate::math::*;
@@ -145,7 +145,7 @@ fn inverse_weights(m: &mut Model, d: &Data) {
         first..first + m.tree_dofnum[t] as usize
     };
     for b in 0..m.nbody {
-        let last = jacobian::last_dof(m, b);
+        let last = walk::last_dof(m, b);
         if last < 0 || b == 0 {
             rows_mut::<2>(&mut m.body_invweight0)[b] = [0.0; 2];
             continue;
@@ -159,12 +159,10 @@ fn inverse_weights(m: &mut Model, d: &Data) {
         let mut diag = [0.0; 6];
         for (axis, out) in diag.iter_mut().enumerate() {
             row[dofs.clone()].fill(0.0);
-            let mut k = last;
-            while k >= 0 {
-                let c = &cdof[k as usize];
+            for k in walk::upward(m, last) {
+                let c = &cdof[k];
                 let v = add(linear(c), cross(angular(c), arm));
-                row[k as usize] = if axis < 3 { v[axis] } else { c[axis - 3] };
-                k = m.dof_parentid[k as usize];
+                row[k] = if axis < 3 { v[axis] } else { c[axis - 3] };
             }
             x[dofs.clone()].copy_from_slice(&row[dofs.clone()]);
             mass::solve(m, &d.qLD, &d.qLDiagInv, &mut x, dofs.clone());

@@ -25,7 +25,7 @@ impl Scratch {
 }
 
 /// The acceleration a'.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn damp(m: &Model, d: &Fields, w: &mut dynamics::Scratch, s: &mut Scratch) {
     let Scratch { qacc: a, b, .. } = s;
     combine(a, [&*d.qfrc_smooth, &*d.qfrc_constraint], |_, [smooth, constraint]| smooth + constraint);
@@ -51,7 +51,7 @@ pub(super) fn accelerate(
 }
 
 /// h B.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn damping(m: &Model, d: &Fields, out: &mut [f64]) {
     let h = m.opt.timestep;
     spring::of_dampers(m, d.plan.has(Fact::ActuatorDampers), &d.qvel, out, |law, v| h * law.slope(v.abs()));

@@ -116,7 +116,7 @@ pub(super) fn mass_matrix(m: &Model, d: &mut Data) {
 }
 
 /// `M`, with or without what follows from composite inertias.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn fill_mass_matrix(m: &Model, d: &mut Data, composite: bool) {
     if composite {
         let constant = d.plan.ways.has(Way::Simple);
@@ -227,7 +227,7 @@ pub(super) fn acceleration(m: &Model, data: &mut Data) {
 }
 
 /// The same where nothing makes forces but gravity and motion, M is diagonal, and nothing can touch: what flies.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn fall(d: &mut Fields) {
     let n = d.qfrc_bias.len();
     let forces = d.qfrc_bias.iter().zip(&d.qLDiagInv[..n]).zip(&mut d.qfrc_smooth[..n]);
@@ -262,7 +262,7 @@ pub(super) fn solve(m: &Model, data: &mut Data) {
 }
 
 /// What the discrete integrator adds to `qacc` of free bodies.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn turn_free_bodies(m: &Model, data: &mut Data) {
     if m.opt.integrator == integrator::DISCRETE {
         let Data { fields: d, work } = data;

@@ -52,7 +52,7 @@ pub(crate) fn step2(m: &Model, d: &mut Data) {
     integrate::integrate_once(m, d);
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn first_bad(v: &[f64]) -> Option<usize> {
     // Nearly always there is none, and even their sum is good.
     let some = match v {

@@ -458,7 +458,7 @@ impl<const N: usize> Sequence<N> {
     }
 
     /// Runs what the bits say.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn run(&self, m: &Model, d: &mut Data, mut bits: u32) {
         while let Some(run) = self.run.get(bits.trailing_zeros() as usize) {
             bits &= bits - 1;

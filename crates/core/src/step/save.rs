@@ -81,7 +81,8 @@ pub(crate) fn restore(m: &Model, d: &mut Data, bytes: &[u8]) -> Result<(), Resto
     if fingerprint(body) != u64::from_le_bytes(*end) {
         return Err(RestoreError::Damaged);
     }
-    let mut new = d.clone();
+    let mut new = Data::planned(m, d.plan().clone());
+    new.meter = d.meter;
     read(m, &mut new, &mut rest).filter(|()| rest.is_empty()).ok_or(RestoreError::Damaged)?;
     if let Some(field) = wrong(m, &new) {
         return Err(RestoreError::Wrong(field));
@@ -95,7 +96,7 @@ pub(crate) fn restore(m: &Model, d: &mut Data, bytes: &[u8]) -> Result<(), Resto
 fn header(m: &Model) -> Vec<u8> {
     let mut out = MAGIC.to_vec();
     VERSION.put(&mut out);
-    table().put(&mut out);
+    reflect::table(true).put(&mut out);
     model(m).put(&mut out);
     out
 }
@@ -107,22 +108,13 @@ fn check_header<'a>(m: &Model, body: &'a [u8]) -> Result<&'a [u8], RestoreError>
         return Err(RestoreError::NotData);
     }
     let version = u32::take(&mut rest).ok_or(RestoreError::Damaged)?;
-    if version != VERSION || u64::take(&mut rest).ok_or(RestoreError::Damaged)? != table() {
+    if version != VERSION || u64::take(&mut rest).ok_or(RestoreError::Damaged)? != reflect::table(true) {
         return Err(RestoreError::Version(version));
     }
     if u64::take(&mut rest).ok_or(RestoreError::Damaged)? != model(m) {
         return Err(RestoreError::OtherModel);
     }
     Ok(rest)
-}
-
-/// A number for the fields of the data: their names, types and shapes.
-fn table() -> u64 {
-    let mut text = String::new();
-    for f in reflect::fields().map(|f| f.info()).filter(|f| f.object == Object::Data) {
-        text += &format!("{} {:?} {:?}\n", f.name, f.elem, f.shape);
-    }
-    fingerprint(text.as_bytes())
 }
 
 /// A number for the structure and the names of a model.

@@ -3,6 +3,7 @@
 //! Ids lie among the objects they name, lists within the arrays they are part of, parents before their children, and objects of
 //! each type have what that type needs. What parameters say is no question: any number is survived.
 
+use crate::dynamics::walk;
 use crate::geometry::Hull;
 use crate::kinds::{dyntype, eqtype, gaintype, geom, joint, trntype, wraptype};
 use crate::model::reflect::{self, Object, View};
@@ -180,7 +181,7 @@ fn trees(m: &Model) -> bool {
             && whole.is_sorted_by(|a, b| a < b)
             && usize::try_from(m.D_diag[k]).ok().and_then(|at| whole.get(at)) == Some(&(k as i32))
             // The path to the root is the row, but where M is diagonal.
-            && (m.dof_simplenum[k] > 0 || chain(m, k).eq(columns.iter().rev().map(|&c| c as usize)))
+            && (m.dof_simplenum[k] > 0 || walk::upward(m, k as i32).eq(columns.iter().rev().map(|&c| c as usize)))
     });
     let bodies = (0..m.nbody).all(|b| {
         let joints = span(m.body_jntadr[b], m.body_jntnum[b]);
@@ -212,11 +213,6 @@ fn trees(m: &Model) -> bool {
         && simple
         // What is called simple has nothing but its diagonal.
         && (0..m.nv).all(|k| m.dof_simplenum[k] == 0 || m.M_rownnz[k] == 1)
-}
-
-/// A degree of freedom and those that move it, up to the root.
-fn chain(m: &Model, dof: usize) -> impl Iterator<Item = usize> + '_ {
-    std::iter::successors(Some(dof), |&k| usize::try_from(m.dof_parentid[k]).ok())
 }
 
 /// Meshes and height fields have their corners.

@@ -41,20 +41,11 @@ fn take_list<T>(bytes: &mut &[u8], mut take: impl FnMut(&mut &[u8]) -> Option<T>
     (0..n).map(|_| take(bytes)).collect()
 }
 
-/// A number for the fields of the model: their names, types and shapes.
-fn table() -> u64 {
-    let mut text = String::new();
-    for f in reflect::fields().map(|f| f.info()).filter(|f| f.object != Object::Data) {
-        text += &format!("{} {:?} {:?}\n", f.name, f.elem, f.shape);
-    }
-    fingerprint(text.as_bytes())
-}
-
 /// A model as bytes.
 pub(crate) fn write(m: &Model) -> Vec<u8> {
     let mut out = MAGIC.to_vec();
     VERSION.put(&mut out);
-    table().put(&mut out);
+    reflect::table(false).put(&mut out);
     // Sizes first: they say how long the rest is.
     for field in reflect::fields().filter(|f| f.info().object != Object::Data) {
         if field.info().elem == Elem::Size {
@@ -89,8 +80,9 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Model> {
     }
     let mut rest = body;
     let bytes = &mut rest;
-    let header =
-        <[u8; 8]>::take(bytes)? == MAGIC && u32::take(bytes)? == VERSION && u64::take(bytes)? == table();
+    let header = <[u8; 8]>::take(bytes)? == MAGIC
+        && u32::take(bytes)? == VERSION
+        && u64::take(bytes)? == reflect::table(false);
     if !header {
         return None;
     }

@@ -55,14 +55,14 @@ impl Work {
 impl Deref for Data {
     type Target = Fields;
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn deref(&self) -> &Fields {
         &self.fields
     }
 }
 
 impl DerefMut for Data {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn deref_mut(&mut self) -> &mut Fields {
         &mut self.fields
     }

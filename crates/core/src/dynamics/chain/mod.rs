@@ -17,7 +17,7 @@ mod spatial;
 #[cfg(test)]
 mod tests;
 
-use crate::dynamics::{Scratch, jacobian, mass};
+use crate::dynamics::{Scratch, mass, walk};
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::plan::Fact;
@@ -147,7 +147,7 @@ impl Chains {
             return chains;
         }
         for b in 1..m.nbody {
-            let last = jacobian::last_dof(m, b);
+            let last = walk::last_dof(m, b);
             let moves = last >= 0;
             if (moves && !covers(m, last as usize)) || (!moves && m.body_weldid[b] != 0) {
                 continue;
@@ -179,7 +179,7 @@ impl Chains {
     }
 
     /// Whether there is none.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn is_empty(&self) -> bool {
         self.lengths.is_empty()
     }
@@ -239,19 +239,29 @@ impl Chains {
     }
 }
 
-/// Calls a function of a chain with its length as a constant, so that its loops are unrolled.
+/// The number of links of a chain: a constant, but for 0, which is any number.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn length<const N: usize>(chain: &[Link]) -> usize {
+    if N == 0 { chain.len().min(MAX_DOFS) } else { N }
+}
+
+/// Calls a function of a chain with its length as a constant, so that its loops are unrolled; in a small module there is one
+/// body for all lengths.
 macro_rules! by_length {
     ($chains:expr, $function:ident($($argument:expr),*)) => {{
         let mut rest = $chains.links.as_mut_slice();
         for &n in &$chains.lengths {
             let (chain, after) = rest.split_at_mut(n);
-            match (n, chain[0].planar) {
+            let known = if cfg!(feature = "small") { 0 } else { n };
+            match (known, chain[0].planar) {
+                (0, true) => planar::$function::<0>(chain, $($argument),*),
                 (1, true) => planar::$function::<1>(chain, $($argument),*),
                 (2, true) => planar::$function::<2>(chain, $($argument),*),
                 (3, true) => planar::$function::<3>(chain, $($argument),*),
                 (4, true) => planar::$function::<4>(chain, $($argument),*),
                 (5, true) => planar::$function::<5>(chain, $($argument),*),
                 (_, true) => planar::$function::<MAX_DOFS>(chain, $($argument),*),
+                (0, _) => spatial::$function::<0>(chain, $($argument),*),
                 (1, _) => spatial::$function::<1>(chain, $($argument),*),
                 (2, _) => spatial::$function::<2>(chain, $($argument),*),
                 (3, _) => spatial::$function::<3>(chain, $($argument),*),

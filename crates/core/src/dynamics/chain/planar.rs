@@ -3,7 +3,7 @@
 //! Turning is one number, and nothing turns faster or slower without a torque: with zero joint accelerations
 //! the angular accelerations vanish, and of the gyroscopic torque nothing points out of the plane.
 
-use super::{Link, MAX_DOFS};
+use super::{Link, MAX_DOFS, length};
 use crate::math::{EYE, Mat3, Vec3, column, cross, dot, mat_mul, mat_mul_vec, normalize, scale};
 
 type Vec2 = [f64; 2];
@@ -101,14 +101,14 @@ fn least(v: Vec3) -> Vec3 {
 }
 
 /// v turned by a quarter.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn quarter(v: Vec2) -> Vec2 {
     [-v[1], v[0]]
 }
 
 impl Swing {
     /// v turned as the link is.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn turned(&self, v: Vec2) -> Vec2 {
         [self.cos * v[0] - self.sin * v[1], self.sin * v[0] + self.cos * v[1]]
     }
@@ -116,12 +116,13 @@ impl Swing {
 
 /// The rows of M of a chain.
 pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
-    let Some(chain) = chain.first_chunk_mut::<N>() else { return };
-    let mut rows = [[0.0; N]; N];
+    let n = length::<N>(chain);
+    let Some(chain) = chain.get_mut(..n) else { return };
+    let mut rows = [[0.0; MAX_DOFS]; MAX_DOFS];
     let mut up = Swing { cos: 1.0, ..Swing::default() };
     let mut angle = 0.0;
-    let mut swings = [up; N];
-    for i in 0..N {
+    let mut swings = [up; MAX_DOFS];
+    for i in 0..n {
         let Link { flat, fixed, swing, coordinate, .. } = &mut chain[i];
         let displacement = qpos[*coordinate] - fixed.reference;
         let at = if i == 0 { flat.at } else { up.turned(flat.at) };
@@ -139,9 +140,9 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
         (*swing, swings[i], up) = (here, here, here);
         rows[i][i] = fixed.armature;
     }
-    for i in 0..N {
+    for i in 0..n {
         let (mass, inertia, com) = (chain[i].fixed.mass, chain[i].flat.inertia, swings[i].com);
-        let columns: [Vec2; N] =
+        let columns: [Vec2; MAX_DOFS] =
             std::array::from_fn(
                 |k| if k <= i { shift(chain[k].flat.sense, &swings[k], com) } else { [0.0; 2] },
             );
@@ -152,7 +153,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
             }
         }
     }
-    for i in 0..N {
+    for i in 0..n {
         if let Some(to) = mass.get_mut(chain[i].row..chain[i].row + i + 1) {
             to.copy_from_slice(&rows[i][..i + 1]);
         }
@@ -160,7 +161,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
 }
 
 /// Velocity of a point of a link below, for a unit velocity of the joint.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn shift(sense: f64, joint: &Swing, point: Vec2) -> Vec2 {
     if sense == 0.0 {
         return joint.axis;
@@ -171,18 +172,18 @@ fn shift(sense: f64, joint: &Swing, point: Vec2) -> Vec2 {
 
 /// The bias force of a chain.
 pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
-    let Some(chain) = chain.first_chunk_mut::<N>() else { return };
+    let n = length::<N>(chain);
+    let Some(chain) = chain.get_mut(..n) else { return };
     let (first, plane) = (chain[0].dof, chain[0].flat.plane);
-    let (Some(v), Some(out)) = (qvel[first..].first_chunk::<N>(), qfrc_bias[first..].first_chunk_mut::<N>())
-    else {
+    let (Some(v), Some(out)) = (qvel.get(first..first + n), qfrc_bias.get_mut(first..first + n)) else {
         return;
     };
     // Gravity enters as an upward acceleration of the world.
     let up = scale(gravity, -1.0);
     let mut acceleration = [dot(plane[0], up), dot(plane[1], up)];
     let mut turning = 0.0;
-    let mut forces = [0.0; N];
-    for i in 0..N {
+    let mut forces = [0.0; MAX_DOFS];
+    for i in 0..n {
         let Link { flat, fixed, swing, .. } = &chain[i];
         if i > 0 {
             let above = chain[i - 1].swing.anchor;
@@ -206,5 +207,5 @@ pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: 
             forces[k] += column[0] * force[0] + column[1] * force[1];
         }
     }
-    *out = forces;
+    out.copy_from_slice(&forces[..n]);
 }

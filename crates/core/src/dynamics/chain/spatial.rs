@@ -1,21 +1,22 @@
 //! Short chains in space.
 
-use super::{Link, Motion, Pose};
+use super::{Link, MAX_DOFS, Motion, Pose, length};
 use crate::math::lanes::matrix_turned;
 use crate::math::*;
 
 /// The rows of M of a chain.
 pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
-    let Some(chain) = chain.first_chunk_mut::<N>() else { return };
-    for i in 0..N {
+    let n = length::<N>(chain);
+    let Some(chain) = chain.get_mut(..n) else { return };
+    for i in 0..n {
         let parent = i.checked_sub(1).map(|p| chain[p].pose);
         chain[i].place(parent.as_ref(), qpos[chain[i].coordinate]);
     }
-    let mut rows = [[0.0; N]; N];
-    for i in 0..N {
+    let mut rows = [[0.0; MAX_DOFS]; MAX_DOFS];
+    for i in 0..n {
         rows[i][i] = chain[i].fixed.armature;
     }
-    for i in 0..N {
+    for i in 0..n {
         let pose = chain[i].pose;
         for k in 0..=i {
             let up = &chain[k];
@@ -35,7 +36,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
             }
         }
     }
-    for i in 0..N {
+    for i in 0..n {
         if let Some(to) = mass.get_mut(chain[i].row..chain[i].row + i + 1) {
             to.copy_from_slice(&rows[i][..i + 1]);
         }
@@ -44,7 +45,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
 
 impl Link {
     /// The pose for a coordinate of the joint.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn place(&mut self, parent: Option<&Pose>, q: f64) {
         let (f, pose) = (&self.fixed, &mut self.pose);
         match parent {
@@ -68,16 +69,16 @@ impl Link {
 
 /// The bias force of a chain.
 pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
-    let Some(chain) = chain.first_chunk_mut::<N>() else { return };
+    let n = length::<N>(chain);
+    let Some(chain) = chain.get_mut(..n) else { return };
     let first = chain[0].dof;
-    let (Some(v), Some(out)) = (qvel[first..].first_chunk::<N>(), qfrc_bias[first..].first_chunk_mut::<N>())
-    else {
+    let (Some(v), Some(out)) = (qvel.get(first..first + n), qfrc_bias.get_mut(first..first + n)) else {
         return;
     };
-    let mut forces = [0.0; N];
+    let mut forces = [0.0; MAX_DOFS];
     // Gravity enters as an upward acceleration of the world.
     let mut motion = Motion { acceleration: scale(gravity, -1.0), ..Motion::default() };
-    for i in 0..N {
+    for i in 0..n {
         let Link { fixed, pose, columns, slides, .. } = &chain[i];
         let rate = scale(pose.axis, v[i]);
         if i > 0 {
@@ -100,12 +101,12 @@ pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: 
             forces[k] += dot(columns[k].0, torque) + dot(columns[k].1, force);
         }
     }
-    *out = forces;
+    out.copy_from_slice(&forces[..n]);
 }
 
 impl Motion {
     /// The acceleration of a point at `arm` from the anchor.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn at(&self, arm: Vec3) -> Vec3 {
         let w = self.velocity;
         add(self.acceleration, add(cross(self.turning, arm), cross(w, cross(w, arm))))
@@ -113,7 +114,7 @@ impl Motion {
 }
 
 /// I v
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn inertia_turn(i: &[f64; 6], v: Vec3) -> Vec3 {
     [
         i[0] * v[0] + i[3] * v[1] + i[4] * v[2],

@@ -2,6 +2,7 @@
 
 mod points;
 
+use super::walk::{self, Side, last_dof};
 use crate::kinds::joint;
 use crate::math::lanes::{Axes, Lane3, along, axes, vec3};
 use crate::math::*;
@@ -11,13 +12,6 @@ pub use points::Jacobian;
 pub(crate) use points::{
     apply_ft, jac, jac_body, jac_body_com, jac_dot, jac_geom, jac_site, jac_subtree_com,
 };
-
-/// Last degree of freedom that moves body `b`, -1 when it cannot move.
-#[inline(always)]
-pub(crate) fn last_dof(m: &Model, b: usize) -> i32 {
-    let w = m.body_weldid[b] as usize;
-    m.body_dofadr[w] + m.body_dofnum[w] - i32::from(m.body_dofnum[w] > 0)
-}
 
 /// Angular velocity, and the velocity of `point`, for a unit velocity of degree of freedom `k`.
 pub(crate) fn dof_motion(m: &Model, d: &Fields, k: usize, point: Vec3) -> (Vec3, Vec3) {
@@ -43,11 +37,9 @@ pub(crate) fn apply(
     torque: Vec3,
     out: &mut [f64],
 ) {
-    let mut k = last_dof(m, b);
-    while k >= 0 {
-        let (turn, move_) = dof_motion(m, d, k as usize, point);
-        out[k as usize] += dot(move_, force) + dot(turn, torque);
-        k = m.dof_parentid[k as usize];
+    for k in walk::moving(m, b) {
+        let (turn, move_) = dof_motion(m, d, k, point);
+        out[k] += dot(move_, force) + dot(turn, torque);
     }
 }
 
@@ -67,30 +59,30 @@ impl Columns {
     }
 
     /// The degrees of freedom.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn dofs(&self) -> &[u32] {
         &self.dofs[..self.len]
     }
 
     /// Velocity of the point along each row of the frame, for a unit velocity of each degree of freedom.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn values(&self) -> &[Vec3] {
         &self.values[..self.len]
     }
 
     /// Angular velocity along each row of the frame, likewise; where it was asked for.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn turns(&self) -> &[Vec3] {
         &self.turns[..self.len]
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn turns_mut(&mut self) -> &mut [Vec3] {
         &mut self.turns[..self.len]
     }
 
     /// Appends N columns, of which the first belongs to degree of freedom `last`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn push<const N: usize>(&mut self, last: usize, values: [Lane3; N]) {
         let range = self.len..self.len + N;
         self.len += N;
@@ -105,7 +97,7 @@ impl Columns {
 
 /// The Jacobian difference of one point fixed to two bodies, J(b2) - J(b1), along the rows of `frame`: the
 /// degrees of freedom that move only one of the bodies (those that move both cancel).
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn point_difference(
     m: &Model,
     d: &Fields,
@@ -131,7 +123,7 @@ pub(crate) fn point_difference(
 
 /// Columns of one joint, the last degree of freedom first. A rotation about `a` moves the point by v = a × arm, and
 /// v · f = a · (arm × f).
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn joint_columns(m: &Model, d: &Fields, j: usize, last: usize, point: Vec3, f: Axes, out: &mut Columns) {
     let kind = m.jnt_type[j];
     if kind == joint::SLIDE {
@@ -157,13 +149,9 @@ fn joint_columns(m: &Model, d: &Fields, j: usize, last: usize, point: Vec3, f: A
 /// The rotational part that goes with [`point_difference`]: the difference of angular velocities along the rows of
 /// `frame`, for the columns that are there.
 pub(crate) fn turn_difference(m: &Model, d: &Fields, bodies: [usize; 2], frame: &Mat3, out: &mut Columns) {
-    let mut last = bodies.map(|b| last_dof(m, b));
-    for turn in out.turns_mut() {
-        let side = usize::from(last[1] > last[0]);
-        let k = last[side].max(0) as usize;
+    for (turn, (k, side)) in out.turns_mut().iter_mut().zip(walk::moving_one(m, bodies)) {
         let (w, _) = dof_motion(m, d, k, [0.0; 3]);
         *turn = mat_mul_vec(frame, scale(w, if side == 1 { 1.0 } else { -1.0 }));
-        last[side] = m.dof_parentid[k];
     }
 }
 
@@ -177,16 +165,12 @@ pub(crate) fn pair_difference(
     out: &mut Columns,
 ) {
     out.len = 0;
-    let mut last = bodies.map(|b| last_dof(m, b));
-    loop {
-        let k = last[0].max(last[1]);
-        let Ok(dof) = usize::try_from(k) else { return };
+    for (dof, moved) in walk::moving_either(m, bodies) {
         let (mut shift, mut turn) = ([0.0; 3], [0.0; 3]);
-        for (side, sign) in [(0, 1.0), (1, -1.0)] {
-            if last[side] == k {
-                let (w, v) = dof_motion(m, d, dof, points[side]);
+        for (point, sign, other) in [(points[0], 1.0, Side::Second), (points[1], -1.0, Side::First)] {
+            if moved != other {
+                let (w, v) = dof_motion(m, d, dof, point);
                 (shift, turn) = (add_scaled(shift, v, sign), add_scaled(turn, w, sign));
-                last[side] = m.dof_parentid[dof];
             }
         }
         let at = out.len;
@@ -208,10 +192,8 @@ pub(crate) struct Unforced {
 /// J v and J̇ v of a point of body `b`, for translation and rotation; needs `cvel` and `cdof_dot`.
 pub(crate) fn unforced(m: &Model, d: &Fields, b: usize, point: Vec3) -> Unforced {
     let mut rate = [0.0; 6];
-    let mut k = last_dof(m, b);
-    while let Ok(dof) = usize::try_from(k) {
+    for dof in walk::moving(m, b) {
         rate = add_scaled(rate, rows::<6>(&d.cdof_dot)[dof], d.qvel[dof]);
-        k = m.dof_parentid[dof];
     }
     let motion = &rows::<6>(&d.cvel)[b];
     let arm = sub(point, rows::<3>(&d.subtree_com)[m.body_rootid[b] as usize]);

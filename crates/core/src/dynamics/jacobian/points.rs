@@ -3,7 +3,8 @@
 //! They belong to the configuration of the last position stage, their derivatives to the velocities of the last
 //! velocity stage. Rows are world axes, columns degrees of freedom.
 
-use super::{dof_motion, last_dof};
+use super::dof_motion;
+use crate::dynamics::walk::moving;
 use crate::kinds::joint;
 use crate::math::*;
 use crate::model::{Fields, Model};
@@ -30,19 +31,13 @@ impl Jacobian {
     }
 }
 
-/// The degrees of freedom that move a body, from the last to the first.
-fn chain(m: &Model, body: usize) -> impl Iterator<Item = usize> + '_ {
-    let up = |k: i32| usize::try_from(k).ok();
-    std::iter::successors(up(last_dof(m, body)), move |&k| up(m.dof_parentid[k]))
-}
-
 /// The Jacobian of a point of a body, given in world coordinates, m (`mj_jac`). `None` when there is no such body.
 pub(crate) fn jac(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option<Jacobian> {
     let mut out = Jacobian::zero(m);
     if body >= m.nbody {
         return None;
     }
-    for k in chain(m, body) {
+    for k in moving(m, body) {
         let (turn, shift) = dof_motion(m, d, k, point);
         out.add(m, k, turn, shift);
     }
@@ -80,7 +75,7 @@ pub(crate) fn jac_subtree_com(m: &Model, d: &Fields, body: usize) -> Option<Vec<
     for b in body..m.nbody {
         within[b] = b == body || b > 0 && within[m.body_parentid[b] as usize];
         if within[b] && m.body_mass[b] != 0.0 {
-            for k in chain(m, b) {
+            for k in moving(m, b) {
                 let (_, shift) = dof_motion(m, d, k, rows::<3>(&d.xipos)[b]);
                 out.add(m, k, [0.0; 3], scale(shift, m.body_mass[b]));
             }
@@ -102,7 +97,7 @@ pub(crate) fn jac_dot(m: &Model, d: &Fields, point: Vec3, body: usize) -> Option
     let (cdof, cdof_dot, cvel) = (rows::<6>(&d.cdof), rows::<6>(&d.cdof_dot), rows::<6>(&d.cvel));
     let arm = sub(point, com);
     let velocity = add(linear(&cvel[body]), cross(angular(&cvel[body]), arm));
-    for k in chain(m, body) {
+    for k in moving(m, body) {
         let j = m.dof_jntid[k] as usize;
         let turns = matches!(m.jnt_type[j], joint::BALL | joint::FREE);
         let world = m.jnt_type[j] == joint::FREE && k < m.jnt_dofadr[j] as usize + 3;

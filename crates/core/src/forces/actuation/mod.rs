@@ -56,7 +56,7 @@ fn exact(act: f64, rate: f64, tau: f64, h: f64) -> f64 {
 }
 
 /// `actuator_force`, `act_dot`, `qfrc_actuator`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if !(d.plan.has(Fact::Motors) && motors(m, d)) {
         any(m, d, w);
@@ -105,7 +105,7 @@ fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// The same for motors of slides and hinges alone, each with one control and one degree of freedom: what most labs have.
 /// False, and nothing is done, where there is more to it: limits of forces, a control that is no number.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn motors(m: &Model, d: &mut Fields) -> bool {
     let off = disable::ACTUATION | disable::CLAMPCTRL;
     if d.plan.has(Fact::ForceLimits) || m.opt.disabled(off) || d.ctrl.iter().any(|&u| bad(u)) {
@@ -140,7 +140,7 @@ fn of_its_own(m: &Model, d: &mut Fields, i: usize, ctrl: &[f64]) {
 }
 
 /// What the gain of actuator `i` multiplies: its control, or its last activation.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn input(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     match states(m, i).last() {
         Some(last) => activation::acting(m, d, i, last),
@@ -154,7 +154,7 @@ fn affine(p: &[f64; 10], d: &Fields, o: usize) -> f64 {
     p[0] + p[1] * d.actuator_length[o] + p[2] * d.actuator_velocity[o]
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn gain(m: &Model, d: &Fields, i: usize) -> f64 {
     match m.actuator_gaintype[i] {
         gaintype::FIXED => m.actuator_gainprm[10 * i],
@@ -172,7 +172,7 @@ fn changing_gain(m: &Model, d: &Fields, i: usize) -> f64 {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn bias(m: &Model, d: &Fields, i: usize) -> f64 {
     match m.actuator_biastype[i] {
         biastype::NONE => 0.0,
@@ -253,7 +253,7 @@ pub(crate) fn servo_gains(m: &Model, i: usize) -> Option<[f64; 2]> {
 }
 
 /// Gravity compensation that acts as a force of actuators.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn gravity_compensation(m: &Model, d: &mut Fields) {
     if m.ngravcomp > 0 && !m.opt.disabled(disable::GRAVITY) {
         add_gravity_compensation(m, d);

@@ -100,7 +100,7 @@ impl<'a> Motor<'a> {
         let (error, slip) = (inputs.pos.unwrap_or(0.0) - self.length, inputs.vel - self.velocity);
         let torque = kp * error + ki * sum + kd * slip + inputs.ff;
         let voltage = resistance / k * torque + k * self.velocity;
-        inputs.voltage + if limit > 0.0 { voltage.clamp(-limit, limit) } else { voltage }
+        inputs.voltage + if limit > 0.0 { clamp(voltage, -limit, limit) } else { voltage }
     }
 
     /// g(ω): dry friction, larger at low speed.
@@ -148,7 +148,7 @@ pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
         let limit = motor.dyn_[1];
         let rate =
             (voltage / resistance - k / resistance * motor.velocity - d.act[first + s]) / motor.dyn_[0];
-        d.act_dot[first + s] = if limit > 0.0 { rate.clamp(-limit, limit) } else { rate };
+        d.act_dot[first + s] = if limit > 0.0 { clamp(rate, -limit, limit) } else { rate };
     }
 }
 
@@ -165,7 +165,7 @@ pub(super) fn next(m: &Model, d: &Fields, i: usize, at: usize, rate: f64) -> f64
         let gain = if a.abs() > MINVAL { (decay - 1.0) / a } else { h };
         decay * act + gain * motor.velocity
     } else if slot == motor.slots.integral && motor.dyn_[8] > 0.0 {
-        (act + rate * h).clamp(-motor.dyn_[8], motor.dyn_[8])
+        clamp(act + rate * h, -motor.dyn_[8], motor.dyn_[8])
     } else {
         act + rate * h
     }

@@ -29,7 +29,7 @@ fn nearest(u: f64, to: f64, turn: f64) -> f64 {
 }
 
 /// A setpoint of a position servo, next to the length where that is an angle; what is no such setpoint is unchanged.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn wrapped(m: &Model, d: &Fields, i: usize, setpoint: f64) -> f64 {
     // What rules most actuators out comes first.
     let servo = m.actuator_biastype[i] == biastype::AFFINE

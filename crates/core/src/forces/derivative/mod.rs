@@ -9,7 +9,7 @@ pub(crate) mod sparse;
 
 use std::ops::Range;
 
-use crate::dynamics::{jacobian, mass};
+use crate::dynamics::{jacobian, mass, walk};
 use crate::forces::passive::fluid::{self, Frame, Shape};
 use crate::forces::passive::spring;
 use crate::forces::tendon;
@@ -131,7 +131,7 @@ fn dampers(m: &Model, d: &Fields, out: &mut [f64]) {
 fn add_fluid(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
     let Work { whole, columns, .. } = w;
     fluid::shapes(m, d, |frame, shape| {
-        let last = jacobian::last_dof(m, frame.body);
+        let last = walk::last_dof(m, frame.body);
         if last < 0 {
             return;
         }

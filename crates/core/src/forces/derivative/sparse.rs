@@ -10,27 +10,27 @@ use crate::math::MINVAL;
 use crate::model::Model;
 
 /// Where row `i` begins, and the place of its diagonal.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn place(m: &Model, i: usize) -> (usize, usize) {
     let start = m.D_rowadr[i] as usize;
     (start, start + m.D_diag[i] as usize)
 }
 
 /// The ancestors of degree of freedom `i`, ascending.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn ancestors(m: &Model, i: usize) -> &[i32] {
     let (start, diag) = place(m, i);
     &m.D_colind[start..diag]
 }
 
 /// The place of element (i, j), where j is the a-th ancestor of i, and that of (j, i).
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn pair(m: &Model, i: usize, j: usize, a: usize) -> (usize, usize) {
     (m.D_rowadr[i] as usize + a, place(m, j).1 + (i - j))
 }
 
 /// The place of element (i, i).
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn diagonal(m: &Model, i: usize) -> usize {
     place(m, i).1
 }

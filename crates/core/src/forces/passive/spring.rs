@@ -20,31 +20,31 @@ pub(crate) struct Law {
 
 impl Law {
     /// The law of one joint, degree of freedom or tendon.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn new(linear: &[f64], growth: &[f64], i: usize) -> Law {
         Law { linear: linear[i], growth: rows::<2>(growth)[i] }
     }
 
     /// With more coefficients of the same kind.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn plus(self, [linear, first, second]: [f64; 3]) -> Law {
         Law { linear: self.linear + linear, growth: [self.growth[0] + first, self.growth[1] + second] }
     }
 
     /// The derivative of the force of a damper, with its sign turned, at speed x: b + 2 p₁ x + 3 p₂ x².
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn slope(self, x: f64) -> f64 {
         self.linear + x * (2.0 * self.growth[0] + x * 3.0 * self.growth[1])
     }
 
     /// Nothing there.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn is_zero(self) -> bool {
         self.linear == 0.0 && self.growth == [0.0; 2]
     }
 
     /// Force for a unit displacement or velocity, at x.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn at(self, x: f64) -> f64 {
         self.linear + x * (self.growth[0] + x * self.growth[1])
     }
@@ -100,12 +100,12 @@ fn ball_displacement(q: &[f64], reference: &[f64]) -> Vec3 {
 }
 
 /// How fast the force of the damper of degree of freedom `i`, that of actuators included, falls with its velocity.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn joint_damping(m: &Model, d: &Fields, i: usize) -> f64 {
     with_actuators(m, i, Law::new(&m.dof_damping, &m.dof_dampingpoly, i)).slope(d.qvel[i].abs())
 }
 
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn with_actuators(m: &Model, i: usize, own: Law) -> Law {
     let joint = m.dof_jntid[i] as usize;
     // Few joints have a damper of an actuator.
@@ -117,7 +117,7 @@ fn with_actuators(m: &Model, i: usize, own: Law) -> Law {
 
 /// Fills `out` (nv) with a number for the damper and the velocity of each degree of freedom. Dampers of actuators count
 /// unless there are none: `actuators`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn of_dampers(
     m: &Model,
     actuators: bool,
@@ -141,7 +141,7 @@ pub(crate) fn tendon_damper(m: &Model, t: usize) -> Law {
 }
 
 /// What the dampers of joints do: `qfrc_damper`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn damp_joints(m: &Model, d: &mut Fields) {
     of_dampers(m, d.plan.has(Fact::ActuatorDampers), &d.qvel, &mut d.qfrc_damper, |law, v| {
         // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.

@@ -1,8 +1,9 @@
 //! What follows from the structure of tendons: where their Jacobians can be non-zero, and which trees they tie.
 
 use super::is_fixed;
-use crate::dynamics::jacobian;
+use crate::dynamics::walk;
 use crate::kinds::wraptype;
+use crate::math::sort::sort;
 use crate::model::Model;
 
 /// `ten_J_rownnz`, `ten_J_rowadr`, `ten_J_colind`, `nJten`, `tendon_treenum` and `tendon_treeid`.
@@ -65,17 +66,11 @@ fn moving(m: &Model, t: usize) -> Vec<i32> {
         dofs.extend(joints.iter().map(|&j| m.jnt_dofadr[j as usize]));
     } else {
         let mut bodies: Vec<usize> = bodies(m, t).collect();
-        bodies.sort_unstable();
+        sort(&mut bodies);
         bodies.dedup();
-        for b in bodies {
-            let mut k = jacobian::last_dof(m, b);
-            while k >= 0 {
-                dofs.push(k);
-                k = m.dof_parentid[k as usize];
-            }
-        }
+        dofs.extend(bodies.into_iter().flat_map(|b| walk::moving(m, b)).map(|k| k as i32));
     }
-    dofs.sort_unstable();
+    sort(&mut dofs);
     dofs.dedup();
     dofs
 }

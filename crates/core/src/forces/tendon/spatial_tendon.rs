@@ -1,7 +1,7 @@
 //! Spatial paths: their legs, their length, the derivative of it and the points they pass.
 
 use super::wrap::{self, Round};
-use crate::dynamics::jacobian;
+use crate::dynamics::{jacobian, walk};
 use crate::kinds::wraptype;
 use crate::math::*;
 use crate::model::{Fields, Model};
@@ -161,19 +161,15 @@ fn straight(
     // Degrees of freedom in descending order, as `point_difference` visits them; those that move both ends do
     // not change the distance.
     let mut at = columns.len();
-    let mut last = bodies.map(|b| jacobian::last_dof(m, b));
-    while last[0] != last[1] {
-        let side = usize::from(last[1] > last[0]);
+    for (k, side) in walk::moving_one(m, bodies) {
         let sign = if side == 1 { 1.0 } else { -1.0 };
-        let k = last[side];
-        while at > 0 && columns[at - 1] >= k {
+        while at > 0 && columns[at - 1] as usize >= k {
             at -= 1;
         }
-        if columns.get(at) == Some(&k) {
-            let (_, move_) = jacobian::dof_motion(m, d, k as usize, points[side]);
+        if columns.get(at).is_some_and(|&c| c as usize == k) {
+            let (_, move_) = jacobian::dof_motion(m, d, k, points[side]);
             values[at] += sign * dot(move_, u) / divisor;
         }
-        last[side] = m.dof_parentid[k as usize];
     }
     length
 }

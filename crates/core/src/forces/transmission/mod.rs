@@ -7,8 +7,8 @@ mod actuator_constants;
 mod body_contacts;
 mod space;
 
-use crate::dynamics::jacobian;
 use crate::dynamics::reflected::target;
+use crate::dynamics::walk;
 use crate::forces::{Scratch, tendon};
 use crate::kinds::{disable, joint, trntype};
 use crate::math::*;
@@ -26,7 +26,7 @@ struct Rows {
 
 impl Rows {
     /// Appends an entry of the row that is being written; zeros are left out.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn push(&mut self, dof: usize, value: f64) {
         if value != 0.0
             && let (Some(k), Some(x)) = (self.colind.get_mut(self.at), self.values.get_mut(self.at))
@@ -55,54 +55,16 @@ pub(crate) fn entries(m: &Model) -> usize {
     let of = |i: usize| match (m.actuator_trntype[i], target(m, i)) {
         (trntype::JOINT | trntype::JOINTINPARENT, (j, _)) => joint::nv(m.jnt_type[j]),
         (trntype::TENDON, (t, _)) => m.ten_J_rownnz[t] as usize,
-        (trntype::SITE, (s, None)) => ancestors(m, site_body(s)).count(),
-        (trntype::SITE, (s, Some(reference))) => {
-            union(m, [s, reference].map(site_body)).filter(|&(_, side)| side != Side::Both).count()
+        (trntype::SITE, (s, None)) => walk::moving(m, site_body(s)).count(),
+        (trntype::SITE, (s, Some(reference))) => walk::moving_one(m, [s, reference].map(site_body)).count(),
+        (trntype::SLIDERCRANK, (s, Some(slider))) => {
+            walk::moving_either(m, [s, slider].map(site_body)).count()
         }
-        (trntype::SLIDERCRANK, (s, Some(slider))) => union(m, [s, slider].map(site_body)).count(),
         (trntype::SO3, (_, None)) => 3,
         (trntype::SO3, _) => 3 * m.nv,
         _ => m.nv,
     };
     (0..m.nactuator).map(of).sum()
-}
-
-/// The degrees of freedom that move a body, the last first.
-fn ancestors(m: &Model, b: usize) -> impl Iterator<Item = usize> + '_ {
-    let mut k = jacobian::last_dof(m, b);
-    std::iter::from_fn(move || {
-        let dof = usize::try_from(k).ok()?;
-        k = m.dof_parentid[dof];
-        Some(dof)
-    })
-}
-
-/// Which of two bodies a degree of freedom moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Side {
-    First,
-    Second,
-    Both,
-}
-
-/// The degrees of freedom that move either of two bodies, the last first.
-fn union(m: &Model, bodies: [usize; 2]) -> impl Iterator<Item = (usize, Side)> + '_ {
-    let mut last = bodies.map(|b| jacobian::last_dof(m, b));
-    std::iter::from_fn(move || {
-        let k = last[0].max(last[1]);
-        let dof = usize::try_from(k).ok()?;
-        let side = match (last[0] == k, last[1] == k) {
-            (true, true) => Side::Both,
-            (true, false) => Side::First,
-            _ => Side::Second,
-        };
-        for l in &mut last {
-            if *l == k {
-                *l = m.dof_parentid[dof];
-            }
-        }
-        Some((dof, side))
-    })
 }
 
 /// `actuator_length`, `actuator_moment` and its pattern. An actuator that sleeps keeps its lengths and has no moments.

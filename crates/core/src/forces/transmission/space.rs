@@ -1,7 +1,8 @@
 //! Transmissions between frames: a wrench at a site, the pose of one site relative to another, a slider-crank.
 
-use super::{Rows, Side, ancestors, union};
+use super::Rows;
 use crate::dynamics::jacobian::dof_motion;
+use crate::dynamics::walk::{Side, moving, moving_either};
 use crate::math::*;
 use crate::model::{Fields, Model};
 
@@ -31,7 +32,7 @@ pub(super) fn site(m: &Model, d: &Fields, s: usize, gear: [f64; 6], out: &mut Ro
     let (force, torque) = (mat_mul_vec(mat, force), mat_mul_vec(mat, torque));
     let point = rows::<3>(&d.site_xpos)[s];
     let start = out.at;
-    for k in ancestors(m, site_body(m, s)) {
+    for k in moving(m, site_body(m, s)) {
         let (turn, shift) = dof_motion(m, d, k, point);
         out.push(k, dot(shift, force) + dot(turn, torque));
     }
@@ -61,7 +62,7 @@ pub(super) fn between(
     let (force, torque) = (mat_mul_vec(mat, along), mat_mul_vec(mat, about));
     let bodies = [s, reference].map(|s| site_body(m, s));
     let start = out.at;
-    for (k, side) in union(m, bodies) {
+    for (k, side) in moving_either(m, bodies) {
         let (point, sign) = match side {
             Side::First => (points[0], 1.0),
             Side::Second => (points[1], -1.0),
@@ -85,7 +86,7 @@ pub(super) fn orientation(
 ) -> f64 {
     let direction = column(&rows::<9>(&d.site_xmat)[s], axis);
     let start = out.at;
-    for (k, side) in union(m, [s, reference].map(|s| site_body(m, s))) {
+    for (k, side) in moving_either(m, [s, reference].map(|s| site_body(m, s))) {
         let sign = match side {
             Side::First => 1.0,
             Side::Second => -1.0,
@@ -125,7 +126,7 @@ pub(super) fn crank(
         (along - root, add_scaled(scale(axis, slope), v, 1.0 / root), scale(v, slope))
     };
     let start = out.at;
-    for (k, side) in union(m, [crank, slider].map(|s| site_body(m, s))) {
+    for (k, side) in moving_either(m, [crank, slider].map(|s| site_body(m, s))) {
         let change = match side {
             Side::First => dot(by_v, dof_motion(m, d, k, points[0]).1),
             Side::Second => {

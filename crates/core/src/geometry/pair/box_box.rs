@@ -101,7 +101,7 @@ fn relative(first: &Shape, second: &Shape) -> Relative {
 }
 
 /// The two axes that follow `i` in the cycle 0, 1, 2.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn others(i: usize) -> [usize; 2] {
     [(i + 1) % 3, (i + 2) % 3]
 }
@@ -273,7 +273,7 @@ impl Polygon {
     const EMPTY: Polygon = Polygon { corners: [[0.0; 3]; 8], count: 0 };
 
     /// Four sides cut a quadrangle to eight corners at most; what rounding might add is dropped.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn push(&mut self, corner: Vec3) {
         if let Some(place) = self.corners.get_mut(self.count) {
             *place = corner;

@@ -11,6 +11,7 @@
 
 use super::Touch;
 use crate::geometry::Shape;
+use crate::math::sort::sort_by;
 use crate::math::*;
 
 /// Contact of a sphere and a box.
@@ -141,7 +142,7 @@ impl Axis {
                 }
             }
         }
-        knots.sort_unstable_by(f64::total_cmp);
+        sort_by(&mut knots, f64::total_cmp);
         knots
     }
 

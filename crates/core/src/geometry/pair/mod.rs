@@ -61,6 +61,10 @@ pub(crate) enum Method {
     Field,
 }
 
+/// Whether this build has the general algorithm. Without it a model that needs it is refused when it is loaded
+/// ([`crate::setup::search`]).
+pub(crate) const CONVEX: bool = cfg!(feature = "convex");
+
 /// The method of two types, the smaller first; `None` when such geoms pass through each other.
 pub(crate) fn method(kind1: i32, kind2: i32) -> Option<Method> {
     use geom::*;
@@ -84,6 +88,16 @@ pub(crate) fn method(kind1: i32, kind2: i32) -> Option<Method> {
     })
 }
 
+/// Whether the contacts of two types, or their distance, are searched for by the general algorithm, in either order.
+pub(crate) fn is_searched(kind1: i32, kind2: i32, distance: bool) -> bool {
+    let first = kind1.min(kind2);
+    match method(first, kind1.max(kind2)) {
+        Some(Method::Convex | Method::Field) => true,
+        Some(Method::Direct(_)) => distance && first == geom::BOX,
+        None => false,
+    }
+}
+
 /// Appends the contacts of two shapes within `margin`.
 pub(crate) fn contacts(
     method: Method,
@@ -96,7 +110,8 @@ pub(crate) fn contacts(
 ) {
     match method {
         Method::Direct(test) => test(a, b, margin, out),
-        Method::Convex => searched::convex(a, b, margin, settings, room, out),
-        Method::Field => field::field(a, b, margin, settings, room, out),
+        Method::Convex if CONVEX => searched::convex(a, b, margin, settings, room, out),
+        Method::Field if CONVEX => field::field(a, b, margin, settings, room, out),
+        Method::Convex | Method::Field => {}
     }
 }

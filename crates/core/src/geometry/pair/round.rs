@@ -29,7 +29,7 @@ pub(super) fn sphere_sphere(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<Tou
 pub(super) fn sphere_capsule(sphere: &Shape, capsule: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let axis = capsule.axis(2);
     let half = capsule.size[1].max(0.0);
-    let along = dot(axis, sub(sphere.pos, capsule.pos)).clamp(-half, half);
+    let along = clamp(dot(axis, sub(sphere.pos, capsule.pos)), -half, half);
     let nearest = add(scale(axis, along), capsule.pos);
     out.extend(balls(sphere, sphere.pos, sphere.size[0], capsule, nearest, capsule.size[0], margin));
 }

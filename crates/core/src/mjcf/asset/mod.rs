@@ -2,6 +2,8 @@
 
 pub(crate) mod fill_asset;
 pub(crate) mod hfield;
+mod inflate;
 pub(crate) mod mesh;
+mod png;
 pub(crate) mod read_asset;
 pub(crate) mod skin;

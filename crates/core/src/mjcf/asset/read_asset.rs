@@ -1,5 +1,6 @@
 //! `asset`: meshes, height fields and skins, from text, files and rules, numbered in the order of the text.
 
+use crate::mjcf::arrays::filled;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -132,7 +133,7 @@ impl Assets {
     /// Checks that the bodies that files name as bones are there, once `fusestatic` has had its way: what stands in the
     /// text itself keeps its body.
     pub(crate) fn check_bones(&self, bodies: &[BodySpec], names: &NameTable, report: &mut Report) {
-        let kept: BTreeSet<&str> = bodies.iter().map(|b| b.name.as_str()).collect();
+        let kept: BTreeSet<&str> = filled(bodies.iter().map(|b| b.name.as_str()));
         for bone in self.skins.iter().filter_map(|a| a.value.as_ref()).flat_map(|s| &s.bones) {
             let Some(span) = bone.file.clone().filter(|_| !report.is_full()) else { continue };
             if names.find("body", &bone.body).is_none() {

@@ -1,5 +1,6 @@
 //! Explicit contact pairs, and bodies that do not touch.
 
+use crate::math::sort::sort_by_key;
 use crate::mjcf::context::Context;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules;
@@ -32,8 +33,8 @@ pub(crate) fn contacts(
             }
         }
     }
-    pairs.sort_by_key(|p| p.bodies);
-    excludes.sort_by_key(|e| e.bodies);
+    sort_by_key(&mut pairs, |p| p.bodies);
+    sort_by_key(&mut excludes, |e| e.bodies);
     (pairs, excludes)
 }
 

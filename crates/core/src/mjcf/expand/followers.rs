@@ -1,5 +1,6 @@
 //! What goes with copies of a part: sensors, tendons and all else that refers to it.
 
+use crate::mjcf::arrays::filled;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::copy::own_name;
@@ -87,7 +88,7 @@ impl Uses {
             }
         }
         let free = self.free.iter().filter(|(_, at)| !self.gone.contains(at));
-        let all: BTreeSet<(usize, usize)> = bound.iter().chain(free).copied().collect();
+        let all: BTreeSet<(usize, usize)> = filled(bound.iter().chain(free).copied());
 
         let mut copied = subtree.clone();
         let mut list: Vec<Followers> = SECTIONS.iter().map(|&section| Followers::none(section)).collect();

@@ -10,6 +10,7 @@ mod copy;
 mod followers;
 pub(crate) mod references;
 
+use crate::mjcf::arrays::filled;
 use std::collections::BTreeMap;
 
 use super::MAX_ELEMENTS;
@@ -51,7 +52,7 @@ pub(crate) struct Expanded {
 pub(crate) fn model(written: Written, report: &mut Report) -> Expanded {
     let compiler = Compiler::read(&written.tree, report);
     let child = |(name, written)| (name, Child::new(model(written, report)));
-    let models = written.models.into_iter().map(child).collect();
+    let models = filled(written.models.into_iter().map(child));
     let nodes = written.tree.nodes;
     let mut e = Expander {
         uses: Uses::survey(&nodes),
@@ -102,7 +103,7 @@ impl Child {
     fn new(model: Expanded) -> Child {
         let nodes = &model.tree.nodes;
         let uses = Uses::survey(nodes);
-        let names = nodes.iter().enumerate().filter_map(|(at, node)| Some((target(node)?, at))).collect();
+        let names = filled(nodes.iter().enumerate().filter_map(|(at, node)| Some((target(node)?, at))));
         Child { model, uses, names, offset: None }
     }
 }
@@ -407,7 +408,7 @@ impl Expander {
                 vec![root]
             }
         };
-        let mut subtree: Names = roots.iter().flat_map(|&root| copy::names(nodes, root)).collect();
+        let mut subtree: Names = filled(roots.iter().flat_map(|&root| copy::names(nodes, root)));
 
         let class = match roots.as_slice() {
             [root] if part.is_some() => class_around(nodes, *root).map(|class| rename.class(class)),

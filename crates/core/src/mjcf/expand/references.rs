@@ -1,5 +1,6 @@
 //! Which objects an element refers to, and whether it is copied with them.
 
+use crate::mjcf::arrays::filled;
 use std::collections::BTreeSet;
 
 use crate::mjcf::names::WORLD;
@@ -66,7 +67,7 @@ pub(super) fn of(nodes: &[Node], at: usize) -> Vec<(&'static str, String)> {
         });
         refs.collect::<Vec<_>>()
     };
-    std::iter::once(node).chain(children).flat_map(named).collect()
+    filled(std::iter::once(node).chain(children).flat_map(named))
 }
 
 /// Whether an element that refers to these objects is copied when `copied` are: MuJoCo asks of some elements that

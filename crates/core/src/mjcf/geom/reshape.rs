@@ -4,6 +4,7 @@
 //!
 //! What is kept and in which order follows MuJoCo 3.14.0 (XML reference, `compiler`; measured on the library).
 
+use crate::mjcf::arrays::filled;
 use std::collections::BTreeSet;
 
 use crate::kinds::joint;
@@ -37,7 +38,7 @@ pub(crate) fn apply(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tre
 /// The frame of a free body without children moves into its centre of mass, along its principal axes: then its mass
 /// matrix is diagonal.
 fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[Part]) {
-    let parents: BTreeSet<usize> = bodies.iter().skip(1).map(|b| b.parent).collect();
+    let parents: BTreeSet<usize> = filled(bodies.iter().skip(1).map(|b| b.parent));
     for (i, (body, inertia)) in bodies.iter_mut().zip(inertias).enumerate() {
         let by_rule = parts.get(body.part).is_some_and(|p| p.compiler.alignfree);
         let asked = |align: i32| if align == 2 { by_rule } else { align == 1 };
@@ -135,14 +136,14 @@ fn references(tree: &Tree) -> Names {
         });
         names.collect::<Vec<_>>()
     };
-    tree.nodes.iter().flat_map(of).collect()
+    filled(tree.nodes.iter().flat_map(of))
 }
 
 /// The sites at which forces between bodies are measured: without the body there would be nothing between.
 fn sites_of_force_sensors(tree: &Tree) -> BTreeSet<&str> {
     let sensors = tree.sections("sensor").flat_map(|(section, _)| tree.children(section));
     let of_force = sensors.filter(|(_, n)| matches!(n.element.name, "force" | "torque"));
-    of_force.filter_map(|(_, n)| n.text("site")).collect()
+    filled(of_force.filter_map(|(_, n)| n.text("site")))
 }
 
 /// Scales masses and inertias so that the masses sum to what `settotalmass` says, if it says something.

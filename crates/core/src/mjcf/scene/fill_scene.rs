@@ -1,6 +1,6 @@
 //! Geoms, sites, cameras, lights, materials and custom data to the arrays of the model.
 
-use crate::mjcf::arrays::{flat, ints};
+use crate::mjcf::arrays::{filled, flat, ints};
 use crate::mjcf::spec::{
     CameraSpec, GeomSpec, LightSpec, List, MaterialSpec, NumericSpec, SiteSpec, TupleSpec,
 };
@@ -28,7 +28,7 @@ pub(crate) struct Places<'n>(BTreeMap<&'n str, usize>);
 impl<'n> Places<'n> {
     /// Of two objects with one name, the first counts.
     pub(crate) fn of(names: impl DoubleEndedIterator<Item = &'n String> + ExactSizeIterator) -> Places<'n> {
-        Places(names.enumerate().rev().map(|(i, name)| (name.as_str(), i)).collect())
+        Places(filled(names.enumerate().rev().map(|(i, name)| (name.as_str(), i))))
     }
 
     /// The place of a name, -1 when it is not there.

@@ -4,6 +4,7 @@
 //! A model may be written in several files. The passes know one text, in which the files follow each other: a
 //! span is a range of bytes there, and only [`Report::finish`] tells which file it belongs to.
 
+use crate::math::sort::sort_by_key;
 use crate::mjcf::rules::{self, Rule};
 use labspec_finding::{Finding, Lines, Position, floor};
 use std::fmt;
@@ -203,7 +204,7 @@ impl Report {
         self.list.truncate(MAX_DIAGNOSTICS);
         self.warnings.truncate(MAX_DIAGNOSTICS);
         self.list.append(&mut self.warnings);
-        self.list.sort_by_key(|d| (d.span.start, d.span.end));
+        sort_by_key(&mut self.list, |d| (d.span.start, d.span.end));
         self.list.dedup_by(|a, b| (a.code, &a.span, &a.message) == (b.code, &b.span, &b.message));
         let mut lines: Vec<Option<Lines>> = vec![None; self.sources.len()];
         // The last place: a long line is counted once, however many findings it has.

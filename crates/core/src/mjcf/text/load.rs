@@ -4,6 +4,7 @@
 //! As in MuJoCo, paths are seen from the folder of the model, the root element of an included file is dropped
 //! with its attributes, and no file is included twice.
 
+use crate::mjcf::arrays::filled;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
@@ -80,7 +81,7 @@ impl<'f> Loader<'f> {
 
     /// Puts what files hold below the elements that include them. Those files may include others.
     fn include(&mut self, list: &mut Vec<Element>, own: Option<&str>, folder: &str, report: &mut Report) {
-        let mut included: BTreeSet<String> = own.map(str::to_string).into_iter().collect();
+        let mut included: BTreeSet<String> = filled(own.map(str::to_string));
         let mut at = 0;
         while let Some(element) = list.get(at) {
             if element.name == "include" && !report.is_full() {

@@ -25,7 +25,7 @@ pub(crate) fn integrate(m: &Model, d: &mut Data) {
 }
 
 /// The same from one evaluation of forces: Runge–Kutta, which needs four, becomes Euler.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn integrate_once(m: &Model, d: &mut Data) {
     match m.opt.integrator {
         integrator::IMPLICIT => implicit::implicit(m, d),
@@ -46,7 +46,7 @@ struct Slopes<'a> {
 
 /// What every integrator ends with, in MuJoCo's order: histories, activations, sleep, velocities, positions along the
 /// new velocities, time, and the acceleration from which the next solver starts.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn advance(m: &Model, d: &mut Data, slopes: Slopes) {
     let h = m.opt.timestep;
     let Slopes { activation, acceleration, velocity } = slopes;
@@ -75,7 +75,7 @@ fn advance(m: &Model, d: &mut Data, slopes: Slopes) {
 }
 
 /// The same along the acceleration that an implicit method has left in the scratch.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn advance_along(m: &Model, d: &mut Data) {
     let acceleration = std::mem::take(&mut d.work.damping.qacc);
     advance(m, d, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });

@@ -5,6 +5,7 @@
 //! coplanar, and no cloud, however degenerate, can lead the algorithm astray. (A hull does not change when an axis is
 //! stretched, so each axis has a grid of its own.)
 
+use crate::math::sort::sort;
 use std::collections::{BTreeMap, BinaryHeap};
 
 use crate::math::Vec3;
@@ -52,7 +53,7 @@ impl Hull {
         let place = |v: i32| self.vertex.partition_point(|&x| (x as i32) < v) as i32;
         let mut edges: Vec<(i32, i32)> =
             self.face.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
-        edges.sort_unstable();
+        sort(&mut edges);
         let mut graph = vec![self.vertex.len() as i32, self.face.len() as i32];
         let (mut starts, mut lists) = (Vec::new(), Vec::with_capacity(self.vertex.len() + edges.len()));
         let mut rest = edges.as_slice();
@@ -350,7 +351,7 @@ impl Growing {
                 }
             }
         }
-        face.sort_unstable();
+        sort(&mut face);
         let vertex = meet.into_iter().filter(|&(_, n)| n > 2).map(|(v, _)| v).collect();
         Hull { vertex, face }
     }

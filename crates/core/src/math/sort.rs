@@ -1,0 +1,79 @@
+//! Sorting. The standard library's sorts are fast and large, and there is a copy for each type; where a module shall be small
+//! (feature `small`), a heap does it in a few lines (Williams 1964). No two items are equal in the orders that are asked
+//! for, so both give the same.
+
+use std::cmp::Ordering;
+
+/// Sorts by an order in which no two items are equal.
+pub(crate) fn sort_by<T>(items: &mut [T], mut order: impl FnMut(&T, &T) -> Ordering) {
+    if cfg!(feature = "small") {
+        heap_sort(items, &mut |a, b| order(a, b).is_lt());
+    } else {
+        items.sort_unstable_by(order);
+    }
+}
+
+/// Sorts numbers, or tuples of them: of equal ones it does not matter which comes first.
+pub(crate) fn sort<T: Ord>(items: &mut [T]) {
+    sort_by(items, T::cmp);
+}
+
+/// Sorts by a key; items with the same key stay in their order.
+#[cfg(any(test, feature = "mjcf"))]
+pub(crate) fn sort_by_key<T, K: Ord>(items: &mut Vec<T>, key: impl Fn(&T) -> K) {
+    if cfg!(feature = "small") {
+        let mut numbered: Vec<(usize, T)> = items.drain(..).enumerate().collect();
+        sort_by(&mut numbered, |(i, a), (j, b)| key(a).cmp(&key(b)).then(i.cmp(j)));
+        items.extend(numbered.into_iter().map(|(_, item)| item));
+    } else {
+        items.sort_by_key(key);
+    }
+}
+
+/// No item of a heap is less than the two below it, which are at twice its place and one or two more. The first is the
+/// largest: it goes to the end, and the rest is made a heap again.
+fn heap_sort<T>(items: &mut [T], less: &mut dyn FnMut(&T, &T) -> bool) {
+    for top in (0..items.len() / 2).rev() {
+        sink(items, top, less);
+    }
+    for end in (1..items.len()).rev() {
+        items.swap(0, end);
+        sink(&mut items[..end], 0, less);
+    }
+}
+
+/// Lets an item sink to its place.
+fn sink<T>(heap: &mut [T], mut at: usize, less: &mut dyn FnMut(&T, &T) -> bool) {
+    loop {
+        let mut below = 2 * at + 1;
+        if below + 1 < heap.len() && less(&heap[below], &heap[below + 1]) {
+            below += 1;
+        }
+        if below >= heap.len() || !less(&heap[at], &heap[below]) {
+            return;
+        }
+        heap.swap(at, below);
+        at = below;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn as_the_standard_library_sorts(mut items in prop::collection::vec(-20i32..20, 0..60)) {
+            let mut numbered: Vec<(i32, usize)> = items.iter().copied().zip(0..).collect();
+            let mut stable = numbered.clone();
+            heap_sort(&mut numbered, &mut |a, b| a < b);
+            sort_by_key(&mut stable, |&(x, _)| x);
+            prop_assert_eq!(&numbered, &stable);
+            let mut expected = items.clone();
+            expected.sort_unstable();
+            heap_sort(&mut items, &mut |a, b| a < b);
+            prop_assert_eq!(items, expected);
+        }
+    }
+}
