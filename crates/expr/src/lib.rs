@@ -38,7 +38,6 @@ mod number;
 mod operators;
 mod order;
 mod parse;
-mod prelude;
 mod print;
 mod program;
 mod reference;

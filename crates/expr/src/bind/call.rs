@@ -8,7 +8,6 @@ use crate::closest;
 use crate::ir::{Ir, Item, Kind, Step, Tree, Unit};
 use crate::math;
 use crate::natives;
-use crate::prelude;
 use crate::program::{Aggregate, Program};
 use crate::rules;
 use crate::schema::{FunctionId, FunctionInfo, Help, Param, Type};
@@ -35,7 +34,7 @@ impl<'a> Binder<'a> {
             Thing::Collection(id) => self.named(id, callee.span, args, span),
             Thing::Function(id) => self.host_call(id, args, callee.span, span).map(Thing::Value),
             Thing::MathFunction(function) => self.math_call(function, args, span).map(Thing::Value),
-            Thing::Method(receiver, text) => self.method(*receiver, &text, args, span).map(Thing::Value),
+            Thing::Method(receiver, name) => self.method(*receiver, name, args, span).map(Thing::Value),
             Thing::Native(function) => self.native_call(function, args, span).map(Thing::Value),
             Thing::Namespace(name) => match natives::free(name) {
                 Some(function) => self.native_call(function, args, span).map(Thing::Value),
@@ -69,15 +68,12 @@ impl<'a> Binder<'a> {
     /// A function of the language: `Number(x)`, `Array.from(v, f)`.
     fn native_call(&mut self, function: natives::Free, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let row = function.row();
-        let args = self.taken(args, row.most);
-        if row.name == "Array.from"
-            && args.len() == 2
-            && let (Some(method), [first, rest @ ..]) = (prelude::method(row.name, 1), args)
-        {
+        let args = self.taken(args, row.arity().1);
+        if let (Some(method), [first, rest @ ..]) = (function.written(args.len()), args) {
             let first = self.value(first).map(Thing::Value)?;
-            return self.call_prelude(method, first, rest, span);
+            return self.call_written(method, row, first, rest, span);
         }
-        self.check_arity(row.name, Some(row), args, span)?;
+        self.check_arity(&[row], args, span)?;
         let items = self.items(args)?;
         if let [Item { value, spread: false }] = items.as_slice() {
             match row.name {
@@ -88,7 +84,7 @@ impl<'a> Binder<'a> {
             }
         }
         self.effects.can_throw = true;
-        Ok(Ir::new(Kind::Native(function, items), row.returns, span))
+        Ok(Ir::new(Kind::Native(function, items), row.returns(Type::Any), span))
     }
 
     /// The arguments that a function takes of those that a method of the prelude hands over: element, index and list.

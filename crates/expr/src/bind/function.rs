@@ -5,12 +5,13 @@ use super::scope::{Known, Meaning};
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Body, Element, Expr, ExprKind, Function, Name, Pattern};
 use crate::ir::{Ir, Item, Kind, LocalId, Step, Unit, UnitId};
+use crate::natives::Row;
 use crate::operators::BinaryOp;
 use crate::rules;
 use crate::schema::Type;
 use crate::{Finding, Span};
 
-/// Functions of one text, those of the prelude not included.
+/// Functions of one text.
 const MAX_FUNCTIONS: usize = 200;
 
 impl<'a> Binder<'a> {
@@ -251,16 +252,29 @@ impl<'a> Binder<'a> {
         Ir::new(Kind::InvokeValue(Box::new(callee), args), Type::Any, span)
     }
 
-    /// A method of the prelude, as if its text stood here.
-    pub(super) fn call_prelude(
+    /// A method that is written in the language, as if its text stood here.
+    pub(super) fn call_written(
         &mut self,
         function: &'a Function,
+        row: &'static Row,
         first: Thing,
         args: &'a [Expr],
         span: Span,
     ) -> Attempt<Ir> {
         let mut things = vec![Ok(first)];
-        things.extend(args.iter().map(|arg| self.argument_thing(arg)));
+        // The function stands first among the arguments.
+        things.extend(args.iter().enumerate().map(|(i, arg)| {
+            let thing = self.argument_thing(arg)?;
+            let calls = match &thing {
+                Thing::Value(ir) => matches!(ir.ty, Type::Function | Type::Any | Type::Never),
+                _ => true,
+            };
+            if i == 0 && !calls {
+                let report = self.needs_function(row, arg.span);
+                return self.refuse(report);
+            }
+            Ok(thing)
+        }));
         let things = things.into_iter().collect::<Attempt<Vec<Thing>>>()?;
         let reach = self.variables.len();
         let known = self.known.len();
@@ -291,7 +305,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(Kind::Block(steps, Box::new(value)), ty, span))
     }
 
-    /// An argument of a prelude method: a function stays known.
+    /// An argument of such a method: a function stays known.
     fn argument_thing(&mut self, arg: &'a Expr) -> Attempt<Thing> {
         match self.thing(arg)? {
             closure @ Thing::Closure(_) => Ok(closure),
@@ -305,7 +319,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// A parameter of a prelude method: what needs no place of its own is only another word.
+    /// A parameter of a written method: what needs no place of its own is only another word.
     fn give_thing(&mut self, name: &Name, thing: Thing, steps: &mut Vec<Step>) {
         match thing {
             Thing::Value(ir) => self.give_value(name, ir, steps),

@@ -225,7 +225,7 @@ enum Thing {
     /// A function of the language, not yet called.
     Native(natives::Free),
     /// A method, not yet called, with what it is called on.
-    Method(Box<Receiver>, String),
+    Method(Box<Receiver>, natives::Name),
     /// A function of the text: its place among the known ones.
     Closure(usize),
 }

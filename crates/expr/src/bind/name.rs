@@ -327,7 +327,7 @@ impl<'a> Binder<'a> {
             Thing::Math => self.math_member(name, span),
             Thing::Globals => self.global(&name.text, span).map(Thing::Value),
             Thing::Namespace(holder) => self.namespace_member(holder, name, span),
-            Thing::Field(field) if field.is_scalar() && natives::name(&name.text).is_some() => {
+            Thing::Field(field) if field.is_scalar() && self.is_method(&name.text, Type::Number) => {
                 let ir = self.load(&field, crate::ir::Index::At(0), object);
                 self.value_member(ir, name, optional, span)
             }
@@ -420,7 +420,11 @@ impl<'a> Binder<'a> {
     /// `.length` and the methods of an array.
     fn field_member(&mut self, field: Field, object: Span, name: &Name, span: Span) -> Attempt<Thing> {
         let array = !field.is_scalar();
-        match name.text.as_str() {
+        let text = name.text.as_str();
+        if let Some(method) = natives::name(text).filter(|_| array && self.is_method(text, Type::View)) {
+            return Ok(Thing::Method(Box::new(Receiver::Field(field)), method));
+        }
+        match text {
             "length" if array => Ok(Thing::Value(match field.len() {
                 Some(n) => Ir::number(n as f64, span),
                 None => {
@@ -429,9 +433,6 @@ impl<'a> Binder<'a> {
                     Ir::new(Kind::Length(view), Type::Number, span)
                 }
             })),
-            text if array && self.is_method(text, Type::View) => {
-                Ok(Thing::Method(Box::new(Receiver::Field(field)), text.to_owned()))
-            }
             text @ ("push" | "pop" | "shift" | "unshift" | "splice") if array => self.refuse(
                 Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has a fixed number of elements", field.path))
                     .why(format!("`{text}` changes the number of elements of a list; this array is the memory of the simulation"))
@@ -463,7 +464,7 @@ impl<'a> Binder<'a> {
                 )
                 .why("it is one number");
                 let methods = self.method_names(Type::Number);
-                self.refuse(match closest(text, methods.iter().map(String::as_str)) {
+                self.refuse(match closest(text, methods.into_iter()) {
                     Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
                     None => report
                         .help(format!("remove `.{text}`"))
