@@ -31,6 +31,16 @@ const FIELDS: &[(&str, &[Option<usize>], &str, &str)] = &[
     ("run.touch", &[], "structure", ""),
 ];
 
+/// A rule of the host.
+const NO_ANGLE: &rules::Rule = &rules::Rule { code: "quaternion-as-angle", ..*rules::DEGREES };
+
+const QUATERNION: Advice = Advice {
+    rule: NO_ANGLE,
+    what: "a component of a quaternion",
+    why: "four numbers that give the orientation together",
+    help: "the whole angle of the turn is `2 * Math.acos(w)`, with w the first of the four numbers",
+};
+
 /// The schema.
 pub(crate) struct Mock;
 
@@ -258,7 +268,7 @@ impl Schema for Mock {
 
     fn role(&self, field: FieldKey, index: usize) -> Role {
         match (field.0, index) {
-            (1, 3..=6 | 10..=13) => Role::Quaternion,
+            (1, 3..=6 | 10..=13) => Role::NoAngle(&QUATERNION),
             (2, 11) => Role::Angle,
             _ => Role::Other,
         }

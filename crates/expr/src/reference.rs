@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use crate::ast::{BinaryOp, LogicalOp};
-use crate::natives::{self, On};
 use crate::math;
+use crate::natives::{self, On};
 
 /// The grammar, in the notation of ISO 14977: `,` is left out, `{ }` repeats, `[ ]` may be missing.
 const GRAMMAR: &str = r#"
@@ -57,7 +57,8 @@ fn rows(of: &[On]) -> Vec<Row> {
 fn functions_of_math() -> Vec<Row> {
     let name = |name: &str| if name.starts_with("is") { name.to_owned() } else { format!("Math.{name}") };
     let rows = math::DOCS.iter();
-    rows.map(|&(n, doc, (source, value))| Row { name: name(n), doc, example: (source.into(), value) }).collect()
+    rows.map(|&(n, doc, (source, value))| Row { name: name(n), doc, example: (source.into(), value) })
+        .collect()
 }
 
 /// A section with a table.

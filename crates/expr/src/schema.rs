@@ -2,6 +2,7 @@
 //! functions with signature and effects. The numbers in the ids are the host's own; this crate only hands
 //! them back.
 
+use crate::rules::Rule;
 use crate::value::Value;
 
 /// An object with members: `model`, `model.opt`, the joint `"hinge"`.
@@ -167,6 +168,8 @@ pub struct FunctionInfo {
 pub enum Param {
     /// A number; passed as [`Value::Number`].
     Number,
+    /// A number that is an angle in radians; passed as [`Value::Number`].
+    Angle,
     /// Text; passed as [`Value::String`].
     Text,
     /// Anything, converted to true or false.
@@ -266,8 +269,21 @@ pub enum Role {
     Other,
     /// An angle in rad.
     Angle,
-    /// A component of a unit quaternion, from -1 to 1.
-    Quaternion,
+    /// A number that is easily taken for an angle and is none.
+    NoAngle(&'static Advice),
+}
+
+/// What a host says of a mistake that the language finds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Advice {
+    /// The rule of the host that is broken.
+    pub rule: &'static Rule,
+    /// What it is that was written.
+    pub what: &'static str,
+    /// Why it is a mistake.
+    pub why: &'static str,
+    /// What to do.
+    pub help: &'static str,
 }
 
 /// What a place in a text is, for a person who points at it.

@@ -196,7 +196,12 @@ pub(super) fn arg(args: &[Value], i: usize) -> &Value {
 }
 
 /// A range of indexes from two optional arguments.
-pub(super) fn range(env: &mut Env<'_>, args: &[Value], first: usize, n: usize) -> Result<(usize, usize), Trouble> {
+pub(super) fn range(
+    env: &mut Env<'_>,
+    args: &[Value],
+    first: usize,
+    n: usize,
+) -> Result<(usize, usize), Trouble> {
     let start = relative(env.number(arg(args, first))?, n);
     let end = match arg(args, first + 1) {
         Value::Undefined => n,

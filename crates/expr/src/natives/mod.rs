@@ -214,6 +214,12 @@ impl Row {
         }
     }
 
+    /// How it is called, in short: `.map`, `Array.from`.
+    pub(crate) fn title(&self) -> String {
+        let point = if self.on == On::Nothing { "" } else { "." };
+        format!("{point}{}", self.name)
+    }
+
     /// The least and the largest number of arguments.
     pub(crate) fn arity(&self) -> (usize, usize) {
         match self.body {
@@ -250,6 +256,11 @@ impl Row {
     fn texts(&self) -> &'static [(usize, &'static str)] {
         if let Body::Written(texts) = self.body { texts } else { &[] }
     }
+}
+
+/// All functions of the language that compute methods.
+pub(crate) fn written() -> impl Iterator<Item = &'static Function> {
+    all().iter().flat_map(|row| row.texts().iter().filter_map(|(n, _)| row.written(*n)))
 }
 
 /// A function, read.

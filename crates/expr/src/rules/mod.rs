@@ -64,7 +64,6 @@ rules! {
     xor_as_power::XOR_AS_POWER,
     chained_comparison::CHAINED_COMPARISON,
     compare_nan::COMPARE_NAN,
-    quaternion_as_angle::QUATERNION_AS_ANGLE,
     degrees_for_radians::DEGREES,
     not_random::NOT_RANDOM,
     // Calls.

@@ -1,8 +1,9 @@
 //! Elements: indexes of fields, `ctx['name']`, named objects, and what is said of arrays used whole.
 
-use super::name::{list, quoted, view_of};
+use super::member::{quoted, view_of};
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Expr, ExprKind};
+use crate::bind::names::list;
 use crate::closest;
 use crate::effects::Access;
 use crate::ir::{Index, Ir, Kind};
@@ -20,6 +21,7 @@ pub(super) enum GlobalName {
 
 impl<'a> Binder<'a> {
     /// `object[index]`, read.
+    #[inline(never)]
     pub(super) fn element(
         &mut self,
         object: &'a Expr,
@@ -31,7 +33,7 @@ impl<'a> Binder<'a> {
             let index = self.index(&field, index, span)?;
             return Ok(Thing::Value(self.load(&field, index, span)));
         }
-        let thing = self.holder(object);
+        let thing = self.thing(object);
         if let Ok(Thing::Globals) = thing {
             return self.read_named_global(index, span).map(Thing::Value);
         }
@@ -79,7 +81,7 @@ impl<'a> Binder<'a> {
     fn explain_element(&mut self, field: &Field, index: usize, span: Span) {
         let (schema, key, first) = (self.schema, field.key, field.first);
         self.explain(span, || {
-            let mut help = super::name::field_help(field);
+            let mut help = super::member::field_help(field);
             help.title = format!("{}[{index}]", field.path);
             help.lines.splice(0..0, schema.element_help(key, first + index));
             help
@@ -288,6 +290,7 @@ impl<'a> Binder<'a> {
     }
 
     /// The finding for a whole array where one number must stand.
+    #[inline(never)]
     pub(super) fn whole_array(&self, field: &Field, span: Span) -> Finding {
         let text = self.text(span);
         let report =
@@ -315,16 +318,16 @@ impl<'a> Binder<'a> {
     ) -> Finding {
         let (text, noun) = (self.text(object), self.schema.noun(id));
         let report =
-            Finding::error(rules::NOT_A_VALUE, object, format!("`{text}` needs the name of a {noun}"));
+            |span| Finding::error(rules::NOT_A_VALUE, span, format!("`{text}` needs the name of a {noun}"));
         let names = self.schema.names(id);
         match name {
             Some((name, span)) if names.iter().any(|n| n == name) => {
                 let meant = format!("{text}(\"{name}\")");
-                Finding { span: span.into(), ..report }.help(format!("write `{meant}`")).fix(span, meant)
+                report(span).help(format!("write `{meant}`")).fix(span, meant)
             }
             _ => match names.first() {
-                Some(first) => report.help(format!("write `{text}(\"{first}\")`")),
-                None => report
+                Some(first) => report(object).help(format!("write `{text}(\"{first}\")`")),
+                None => report(object)
                     .why(format!("no {noun} has a name here"))
                     .help(format!("name the {noun} in the model")),
             },
@@ -358,21 +361,6 @@ impl<'a> Binder<'a> {
     pub(super) fn object_name(&mut self, id: CollectionId, arg: &'a Expr) -> Attempt<Chosen> {
         let noun = self.schema.noun(id).to_owned();
         let names = self.schema.names(id);
-        if let ExprKind::Name(word) = &arg.kind
-            && names.contains(word)
-            && self.variable(word).is_none()
-        {
-            return self.refuse(
-                Finding::error(
-                    rules::COMPUTED_NAME,
-                    arg.span,
-                    format!("the name of a {noun} stands in quotes"),
-                )
-                .why("without quotes it is the name of a variable")
-                .help(format!("write `\"{word}\"`"))
-                .fix(arg.span, format!("\"{word}\"")),
-            );
-        }
         let ir = self.value(arg)?;
         let name = match (ir.known(), ir.ty) {
             (Some(Value::String(name)), _) => name.clone(),
@@ -458,12 +446,16 @@ fn owner(field: &Field, n: usize) -> String {
 
 /// The finding for an index past the end.
 pub(super) fn out_of_range(field: &Field, shown: &str, span: Span) -> Finding {
-    let n = field.len().unwrap_or(0);
-    let what = if field.is_empty() {
-        format!("`{}` has no elements", field.path)
-    } else {
-        format!("index {shown} is past the end of `{}`", field.path)
+    let what = match field.is_empty() {
+        true => format!("`{}` has no elements", field.path),
+        false => format!("index {shown} is past the end of `{}`", field.path),
     };
+    past_the_end(field, span, what)
+}
+
+/// The finding for elements that a field does not have.
+pub(super) fn past_the_end(field: &Field, span: Span, what: String) -> Finding {
+    let n = field.len().unwrap_or(0);
     let report = Finding::error(rules::INDEX_RANGE, span, what);
     let shape = if field.shape.len() > 1 && n > 0 {
         format!("{n} numbers, {} in each row", row(field))

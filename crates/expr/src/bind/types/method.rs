@@ -1,7 +1,7 @@
 //! Calls of methods: of arrays of the simulation, lists, texts and numbers.
 
-use super::name::view_of;
-use super::{Attempt, Binder, Receiver, Thing};
+use super::member::view_of;
+use super::{Attempt, Binder, Receiver, Thing, Want};
 use crate::ast::{Expr, ExprKind};
 use crate::ir::{Ir, Kind};
 use crate::natives::{self, On, Row};
@@ -160,7 +160,7 @@ impl<'a> Binder<'a> {
                 let assignable = self.check_assignable(field, span);
                 let value = self.operand(value)?;
                 assignable?;
-                self.check_stored(&value);
+                self.want(&value, value.span, Want::Element(None));
                 self.write(view, None);
                 Kind::Fill(view, Box::new(value))
             }
@@ -192,7 +192,7 @@ impl<'a> Binder<'a> {
                 let bound: Vec<Attempt<Ir>> = items.iter().map(|item| self.operand(item)).collect();
                 let values = bound.into_iter().collect::<Attempt<Vec<Ir>>>()?;
                 for value in &values {
-                    self.check_stored(value);
+                    self.want(value, value.span, Want::Element(None));
                 }
                 self.check_fits(field, values.len(), offset, span)?;
                 assignable?;

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use super::name::{MACHINERY, list, machinery, view_of};
+use super::member::{machinery, view_of};
 use super::{Attempt, Binder, Receiver, Thing};
 use crate::ast::{Expr, ExprKind, Name};
+use crate::bind::names::{MACHINERY, Named, list};
 use crate::closest;
-use crate::natives;
 use crate::ir::{Index, Ir, Kind, Picks};
+use crate::natives;
 use crate::rules;
 use crate::schema::{CollectionId, Entry, Field, Param, Type};
 use crate::value::{Value, View};
@@ -127,7 +128,7 @@ impl<'a> Binder<'a> {
         let ExprKind::Member { object: holder, name, .. } = &callee.kind else { return None };
         let ExprKind::Name(root) = &holder.kind else { return None };
         let [Expr { kind: ExprKind::String(chosen), .. }] = args.as_slice() else { return None };
-        if self.variable(root).is_some() {
+        if self.names.at(holder.span.start) != Named::Outside {
             return None;
         }
         let Some(Entry::Object(holder)) = self.schema.root(root) else { return None };
