@@ -97,6 +97,7 @@ rules! {
     value_unused::VALUE_UNUSED,
     missing_setconst::MISSING_SETCONST,
     lost_at_reset::LOST_AT_RESET,
+    quaternion_as_angle::QUATERNION_AS_ANGLE,
     simulation_diverges::SIMULATION_DIVERGES,
     engine_warning::ENGINE_WARNING,
     shows_nan::SHOWS_NAN,

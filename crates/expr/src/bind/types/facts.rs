@@ -103,9 +103,9 @@ impl Facts {
         true
     }
 
-    /// Rounds before the last.
+    /// Rounds until now.
     #[cfg(test)]
     pub(super) fn rounds(&self) -> usize {
-        self.rounds
+        self.rounds + 1
     }
 }

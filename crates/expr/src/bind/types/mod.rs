@@ -18,6 +18,8 @@ mod method;
 mod object;
 mod scope;
 mod statement;
+#[cfg(test)]
+mod tests;
 mod typed;
 mod value;
 mod written;
@@ -50,6 +52,9 @@ pub(super) struct Bound {
     pub(super) typed: Typed,
     pub(super) help: Vec<(Span, Help)>,
     pub(super) named: Vec<Fix>,
+    /// Rounds that it took.
+    #[cfg(test)]
+    rounds: usize,
 }
 
 /// What a program is made of.
@@ -89,6 +94,8 @@ pub(super) fn bind(
             typed: binder.typed,
             help: binder.help,
             named: binder.named,
+            #[cfg(test)]
+            rounds: facts.rounds(),
         };
     }
 }
