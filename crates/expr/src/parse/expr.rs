@@ -256,7 +256,12 @@ impl Parser<'_> {
     fn prefix(&mut self) -> Attempt<Node> {
         let span = self.span();
         let kind = match self.peek() {
-            Tok::Number(x) => ExprKind::Number(*x),
+            Tok::Number(x) => {
+                let x = *x;
+                let doubt = self.tokens.get(self.at).and_then(|token| token.doubt.clone());
+                self.diagnostics.extend(doubt.map(|finding| *finding));
+                ExprKind::Number(x)
+            }
             Tok::Text(text) => ExprKind::String(text.clone()),
             Tok::Template(texts, values) => {
                 let (texts, values) = (texts.clone(), values.clone());

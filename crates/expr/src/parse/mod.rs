@@ -92,7 +92,7 @@ impl<'s> Parser<'s> {
                 Finding::error(rules::TOO_LONG, Span::default(), message)
                     .help("split it: into several controls, or a `setup` and a `controller`"),
             );
-            vec![Token { kind: Tok::Bad, span: Span::default(), newline: false }]
+            vec![Token { kind: Tok::Bad, span: Span::default(), newline: false, doubt: None }]
         } else {
             lex::tokens(source, &mut diagnostics)
         };

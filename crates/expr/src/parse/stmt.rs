@@ -279,35 +279,34 @@ impl Parser<'_> {
 
     /// `const name of`, when that is what stands behind `for (`.
     fn for_of_head(&mut self) -> Attempt<Option<(bool, Pattern)>> {
-        let (start, found) = (self.at, self.diagnostics.len());
         let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
         let constant = self.is_word("const");
+        let behind = self.behind_group(usize::from(declares));
+        let of = |word: &str| matches!(self.peek_at(behind), Tok::Word(w) if w == word);
+        if !of("of") && !of("in") {
+            return Ok(None);
+        }
         if declares {
             self.bump();
         }
-        if let Ok(target) = self.pattern("a name") {
-            if self.is_word("in") {
-                let report = refuse::for_in(self.span());
-                return self.refuse(report);
-            }
-            if self.is_word("of") {
-                if !declares {
-                    let report = Finding::error(
-                        rules::LOOP_WITHOUT_CONST,
-                        target.span(),
-                        "the name of a `for … of` loop needs `const`",
-                    )
-                    .help(format!("write `for (const {} of …)`", target.span().text(self.source)))
-                    .fix(Span::new(target.span().start, target.span().start), "const ");
-                    self.diagnostics.push(report);
-                }
-                self.bump();
-                return Ok(Some((constant || !declares, target)));
-            }
+        let target = self.pattern("a name")?;
+        if self.is_word("in") {
+            let report = refuse::for_in(self.span());
+            return self.refuse(report);
         }
-        self.at = start;
-        self.diagnostics.truncate(found);
-        Ok(None)
+        if !declares {
+            let span = target.span();
+            let report = Finding::error(
+                rules::LOOP_WITHOUT_CONST,
+                span,
+                "the name of a `for … of` loop needs `const`",
+            )
+            .help(format!("write `for (const {} of …)`", span.text(self.source)))
+            .fix(Span::new(span.start, span.start), "const ");
+            self.diagnostics.push(report);
+        }
+        self.bump();
+        Ok(Some((constant || !declares, target)))
     }
 
     /// A `;` in the head of a `for`.
@@ -475,10 +474,6 @@ impl Parser<'_> {
             Tok::Bad => None,
             Tok::Symbol(",") => {
                 let decimal = self.decimal_comma();
-                if let Some((number, _)) = &decimal {
-                    // `02` behind the comma is not a number of its own.
-                    self.diagnostics.retain(|d| d.span.start < number.start || d.span.end > number.end);
-                }
                 Some(refuse::comma(span, decimal))
             }
             Tok::Symbol(closer @ (")" | "]" | "}")) => Some(
