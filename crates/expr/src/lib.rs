@@ -45,6 +45,7 @@ mod row;
 mod schema;
 mod value;
 mod vm;
+mod words;
 
 #[cfg(test)]
 mod mock;
@@ -76,3 +77,4 @@ pub use schema::{
     Param, Role, Schema, Touch, Type,
 };
 pub use value::{Value, View};
+pub use words::Words;

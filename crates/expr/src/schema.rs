@@ -4,6 +4,7 @@
 
 use crate::rules::Rule;
 use crate::value::Value;
+use crate::words::Words;
 
 /// An object with members: `model`, `model.opt`, the joint `"hinge"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -354,6 +355,11 @@ pub trait Schema {
     fn named_element(&self, field: FieldKey, index: usize) -> Option<String> {
         let _ = (field, index);
         None
+    }
+
+    /// What the host calls its things.
+    fn words(&self) -> &'static Words {
+        &Words::PLAIN
     }
 
     /// What an author writes to have derived fields computed again, as `mj_forward`.

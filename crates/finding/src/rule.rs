@@ -71,6 +71,8 @@ pub struct Rule {
 /// An example of a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Example {
+    /// The host shows it: the rule is about things that only a host has.
+    OfHost,
     /// A whole lesson, Markdown.
     Lesson(&'static str),
     /// The JSON of a lab.
@@ -104,9 +106,11 @@ impl Example {
             Example::Lesson(_) | Example::Repeated(..) | Example::Lab(_) | Example::Quiz(_) => "markdown",
             Example::Json(_) => "json",
             Example::Model(_) | Example::LongModel(..) => "xml",
-            Example::Expression(_) | Example::Statements(_) | Example::Target(_) | Example::Long(..) => {
-                "javascript"
-            }
+            Example::Expression(_)
+            | Example::Statements(_)
+            | Example::Target(_)
+            | Example::Long(..)
+            | Example::OfHost => "javascript",
             Example::Files(_) => "text",
         }
     }
@@ -124,6 +128,7 @@ impl Example {
     /// The whole text, as it would stand in a file.
     pub fn text(&self) -> String {
         match self {
+            Example::OfHost => String::new(),
             Example::Lesson(text)
             | Example::Json(text)
             | Example::Expression(text)

@@ -8,11 +8,11 @@ mod types;
 
 use crate::ast::{Expr, Stmt};
 use crate::globals::{Globals, ProgramId};
-use crate::parse::{Parsed, in_order};
+use crate::parse::{self, Parsed, in_order};
 use crate::program::Program;
+use crate::rules;
 use crate::schema::{Help, Schema, Type};
 use crate::{Finding, Fix, Span};
-use crate::{parse_expression, parse_statements, rules};
 
 use names::Surroundings;
 
@@ -91,20 +91,20 @@ impl<'s> Compiler<'s> {
 
     /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.
     pub fn expression(&mut self, source: &str) -> Compiled {
-        let Parsed { tree, diagnostics } = parse_expression(source);
+        let Parsed { tree, diagnostics } = parse::expression(source, self.schema.words());
         self.compile(source, diagnostics, Tree::Expression(&tree))
     }
 
     /// Statements: `setup`, `controller`, `apply`, `run`.
     pub fn statements(&mut self, source: &str) -> Compiled {
-        let Parsed { tree, diagnostics } = parse_statements(source);
+        let Parsed { tree, diagnostics } = parse::statements(source, self.schema.words());
         self.compile(source, diagnostics, Tree::Statements(&tree))
     }
 
     /// The target of a control (`set`): the program stores `value` there. Without a known type of `value` it
     /// may be anything.
     pub fn assignment(&mut self, target: &str) -> Compiled {
-        let Parsed { tree, diagnostics } = parse_expression(target);
+        let Parsed { tree, diagnostics } = parse::expression(target, self.schema.words());
         self.compile(target, diagnostics, Tree::Target(&tree))
     }
 

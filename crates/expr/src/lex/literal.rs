@@ -78,7 +78,7 @@ fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<F
     if tail == "n" {
         return Some(
             bad("big integers are not part of the language".into())
-                .why("every number here is a double, as every number of the simulation")
+                .why("every number here is a double")
                 .help(format!("write `{text}`"))
                 .fix(span, text),
         );

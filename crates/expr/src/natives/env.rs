@@ -22,7 +22,7 @@ impl Trouble {
 
 impl From<Full> for Trouble {
     fn from(Full: Full) -> Trouble {
-        Trouble::new(rules::MEMORY, "the lists of this lab take more than 64 MB")
+        Trouble::new(rules::MEMORY, "the lists take more than 64 MB")
     }
 }
 
@@ -171,10 +171,7 @@ pub(crate) fn too_long() -> Trouble {
 }
 
 pub(crate) fn out_of_steps() -> Trouble {
-    Trouble::new(
-        rules::BUDGET,
-        "this text does not come to an end: it was stopped, so that the page does not hang",
-    )
+    Trouble::new(rules::BUDGET, "this text does not come to an end: it was stopped")
 }
 
 /// JavaScript's ToIntegerOrInfinity.

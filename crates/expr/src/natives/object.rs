@@ -8,7 +8,7 @@ use crate::value::Value;
 
 pub(super) static ROWS: &[Row] = table! {
     "Array.isArray" Nothing (1, 1) Boolean is_array: "Array.isArray([1])" => "true",
-        "whether a value is a list; an array of the simulation is none, as in JavaScript";
+        "whether a value is a list; an array of the host is none, as in JavaScript";
     "Array.of" Nothing (0, MANY) List of: "Array.of(1, 2)" => "1,2",
         "a list of the arguments";
     "Array.from" Nothing (1, 1) List from: "Array.from('ab')" => "a,b",

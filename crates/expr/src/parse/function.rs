@@ -210,7 +210,7 @@ impl Parser<'_> {
                     span,
                     format!("expected a key, found {}", self.shown()),
                 )
-                .help("write the keys to take, as `const {kinetic, potential} = lib.energy()`");
+                .help(format!("write the keys to take, as `const {}`", self.words.parts));
                 return self.refuse(report);
             };
             let key = Name { text: text.clone(), span };

@@ -186,7 +186,7 @@ impl Parser<'_> {
                 self.span(),
                 format!("expected `(` behind `{word}`, found {}", self.shown()),
             )
-            .help(format!("write the condition in parentheses, as `{word} (data.time > 1)`"));
+            .help(format!("write the condition in parentheses, as `{word} ({} > 1)`", self.words.number));
             return self.refuse(report);
         };
         Ok(self.enclosed(opener, ")", 1)?.0.expr)
@@ -326,17 +326,33 @@ impl Parser<'_> {
         let Tok::Word(word) = self.peek() else { return None };
         match word.as_str() {
             "const" | "let" | "var" => Some(
-                Finding::error(rules::EXPRESSION_ONLY, self.span(), format!("`{word}` declares a name, but only one value is read here"))
-                    .why("this text is an expression: it gives a value and changes nothing")
-                    .help("write the expression in one piece, or compute the part in `controller` and keep it in `ctx`"),
+                Finding::error(
+                    rules::EXPRESSION_ONLY,
+                    self.span(),
+                    format!("`{word}` declares a name, but only one value is read here"),
+                )
+                .why("this text is an expression: it gives a value and changes nothing")
+                .help(format!(
+                    "write the expression in one piece, or compute the part in {} and keep it in `ctx`",
+                    self.words.keeper
+                )),
             ),
             "if" | "for" | "while" | "do" | "return" | "break" | "continue" => Some(
-                Finding::error(rules::EXPRESSION_ONLY, self.span(), format!("`{word}` starts a statement, but only one value is read here"))
-                    .why("this text is an expression: it gives a value and changes nothing")
-                    .help("choose a value with `test ? a : b`, or compute it in `controller` and keep it in `ctx`"),
+                Finding::error(
+                    rules::EXPRESSION_ONLY,
+                    self.span(),
+                    format!("`{word}` starts a statement, but only one value is read here"),
+                )
+                .why("this text is an expression: it gives a value and changes nothing")
+                .help(format!(
+                    "choose a value with `test ? a : b`, or compute it in {} and keep it in `ctx`",
+                    self.words.keeper
+                )),
             ),
-            "switch" | "try" | "class" | "with" | "throw" | "import" | "export" | "debugger" | "else" | "case"
-            | "default" | "catch" | "finally" | "async" => refuse::word(word, self.span()),
+            "switch" | "try" | "class" | "with" | "throw" | "import" | "export" | "debugger" | "else"
+            | "case" | "default" | "catch" | "finally" | "async" => {
+                refuse::word(word, self.span(), self.words)
+            }
             _ => None,
         }
     }
@@ -430,7 +446,7 @@ impl Parser<'_> {
             let report =
                 Finding::error(rules::MISSING_NAME, span, format!("expected a name, found {}", self.shown()))
                     .why(format!("`{}` declares a name", opener.text(self.source)))
-                    .help("write `const angle = data.qpos[0]`");
+                    .help(format!("write `const angle = {}[0]`", self.words.array));
             return self.refuse(report);
         }
         let target = self.pattern("a name")?;
@@ -486,14 +502,16 @@ impl Parser<'_> {
                 Finding::error(rules::HALF_CHOICE, span, "`:` without a `?` before it")
                     .help("a choice is written `test ? a : b`"),
             ),
-            Tok::Symbol(text) if refuse::symbol(text, span).is_some() && *text != "/" => {
-                refuse::symbol(text, span)
+            Tok::Symbol(text) if refuse::symbol(text, span, self.words).is_some() && *text != "/" => {
+                refuse::symbol(text, span, self.words)
             }
             Tok::Symbol(text) => Some(
                 Finding::error(rules::MISPLACED, span, format!("`{text}` has no place here"))
                     .help("remove it"),
             ),
-            Tok::Word(word) if matches!(word.as_str(), "in" | "instanceof") => refuse::word(word, span),
+            Tok::Word(word) if matches!(word.as_str(), "in" | "instanceof") => {
+                refuse::word(word, span, self.words)
+            }
             _ => {
                 let left = shorten(before.text(self.source));
                 Some(

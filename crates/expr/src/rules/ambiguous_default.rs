@@ -7,6 +7,6 @@ pub const AMBIGUOUS_DEFAULT: &Rule = &Rule {
     layer: Layer::Program,
     summary: "`??` beside `||` or `&&` without brackets",
     why: "JavaScript refuses it, because it could mean either of two things",
-    bad: Example::Expression("data.time ?? 0 || 1"),
-    good: Example::Expression("data.time || 1"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -7,6 +7,6 @@ pub const AMBIGUOUS_POWER: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a sign before `**`",
     why: "JavaScript refuses it, because it could mean either of two numbers",
-    bad: Example::Expression("-data.qpos[7] ** 2"),
-    good: Example::Expression("-(data.qpos[7] ** 2)"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -7,6 +7,6 @@ pub const ARGUMENT_COUNT: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a function gets too few or too many arguments",
     why: "what is missing is undefined, what is too much is not looked at",
-    bad: Example::Expression("Math.sin()"),
-    good: Example::Expression("Math.sin(data.time)"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

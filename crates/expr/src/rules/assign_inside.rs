@@ -7,6 +7,6 @@ pub const ASSIGN_INSIDE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "`=` inside an expression",
     why: "it stores; a comparison was probably meant",
-    bad: Example::Statements("if (data.time = 1) { ctx.a = 1 }"),
-    good: Example::Statements("if (data.time === 1) { ctx.a = 1 }"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -7,6 +7,6 @@ pub const BAD_STRING: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a string that does not end, or holds a broken escape",
     why: "all that follows is read as part of the string",
-    bad: Example::Expression("data.body('ball).xpos[2]"),
-    good: Example::Expression("data.body('ball').xpos[2]"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

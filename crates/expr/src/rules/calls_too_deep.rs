@@ -7,6 +7,6 @@ pub const CALL_DEPTH: &Rule = &Rule {
     layer: Layer::Program,
     summary: "functions that call each other too deeply",
     why: "JavaScript throws there when its stack is full",
-    bad: Example::Statements("const f = n => f(n + 1) + 1; ctx.a = f(0)"),
-    good: Example::Statements("const f = n => n + 1; ctx.a = f(0)"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

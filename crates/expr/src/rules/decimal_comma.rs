@@ -7,6 +7,6 @@ pub const DECIMAL_COMMA: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a decimal comma",
     why: "a comma separates things; the decimal sign is a point",
-    bad: Example::Expression("data.qpos[7] * 0,5"),
-    good: Example::Expression("data.qpos[7] * 0.5"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -7,6 +7,6 @@ pub const DECLARED_WITHOUT_VALUE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a `const` or a pattern gets no value",
     why: "a name that never changes needs its value at once",
-    bad: Example::Statements("const a; ctx.a = a"),
-    good: Example::Statements("const a = 1; ctx.a = a"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

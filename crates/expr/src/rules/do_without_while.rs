@@ -7,6 +7,6 @@ pub const DO_WITHOUT_WHILE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a `do` loop without its `while`",
     why: "nothing says when it ends",
-    bad: Example::Statements("do { ctx.a = 1 }"),
-    good: Example::Statements("do { ctx.a = 1 } while (data.time < 0)"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

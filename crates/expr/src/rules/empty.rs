@@ -6,7 +6,7 @@ pub const EMPTY: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "there is nothing to evaluate",
-    why: "the page shows nan",
-    bad: Example::Expression(" "),
-    good: Example::Expression("data.time"),
+    why: "a computation with it gives NaN",
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -7,6 +7,6 @@ pub const EMPTY_BODY: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a `;` directly behind the head of a condition or a loop",
     why: "the condition decides nothing: what follows always happens",
-    bad: Example::Statements("if (data.time > 1); ctx.a = 1"),
-    good: Example::Statements("if (data.time > 1) ctx.a = 1"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -7,6 +7,6 @@ pub const HALF_CHOICE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a choice lacks one of its two values",
     why: "JavaScript refuses the whole text: a choice is written `test ? a : b`",
-    bad: Example::Expression("data.time > 1 ? 2"),
-    good: Example::Expression("data.time > 1 ? 2 : 3"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

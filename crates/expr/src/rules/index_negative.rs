@@ -7,6 +7,6 @@ pub const INDEX_NEGATIVE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "an index below zero",
     why: "JavaScript gives undefined there: indexes count from 0, and never from the end",
-    bad: Example::Expression("data.qpos[-1]"),
-    good: Example::Expression("data.qpos[7]"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

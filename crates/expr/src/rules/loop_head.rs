@@ -7,6 +7,6 @@ pub const LOOP_HEAD: &Rule = &Rule {
     layer: Layer::Program,
     summary: "the head of a `for` lacks one of its three parts",
     why: "JavaScript refuses the whole text: a start, a condition and a step stand there",
-    bad: Example::Statements("for (let i = 0, i < 3, i++) { ctx.a = i }"),
-    good: Example::Statements("for (let i = 0; i < 3; i++) { ctx.a = i }"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -7,6 +7,6 @@ pub const MISSING_OPERATOR: &Rule = &Rule {
     layer: Layer::Program,
     summary: "two values stand beside each other",
     why: "nothing between them says how they belong together: a product needs its `*`",
-    bad: Example::Expression("2 data.qpos[7]"),
-    good: Example::Expression("2 * data.qpos[7]"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

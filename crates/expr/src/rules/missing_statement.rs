@@ -7,6 +7,6 @@ pub const MISSING_STATEMENT: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a condition or a loop has nothing to do",
     why: "JavaScript refuses the whole text",
-    bad: Example::Statements("if (data.time > 1)"),
-    good: Example::Statements("if (data.time > 1) { ctx.a = 1 }"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -1,5 +1,5 @@
-//! Every rule of the language, each on a page of its own: what is wrong, why it matters, a wrong and a right example. The
-//! parser, the binder and the machine say where one is broken.
+//! Every rule of the language, each on a page of its own: what is wrong, and why it matters. The parser, the binder and the machine
+//! say where one is broken; a wrong and a right example are shown by the host, whose names they need.
 
 pub use labspec_finding::Rule;
 

@@ -7,6 +7,6 @@ pub const NAME_TAKEN: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a declaration of a name that already means something",
     why: "JavaScript refuses it, or the new name hides what a reader expects",
-    bad: Example::Statements("let x = 1; let x = 2; ctx.x = x"),
-    good: Example::Statements("let x = 1; x = 2; ctx.x = x"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

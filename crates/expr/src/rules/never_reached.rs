@@ -7,6 +7,6 @@ pub const UNREACHABLE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a statement behind a `return`, a `break` or a `continue`",
     why: "it never happens",
-    bad: Example::Statements("return; ctx.a = 1"),
-    good: Example::Statements("ctx.a = 1; return"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

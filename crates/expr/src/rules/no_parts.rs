@@ -7,6 +7,6 @@ pub const NO_PARTS: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a member or an element of something that has none",
     why: "JavaScript throws there, and stops the whole text",
-    bad: Example::Statements("ctx.a = ctx.nothing.x"),
-    good: Example::Statements("ctx.nothing = {x: 1}; ctx.a = ctx.nothing.x"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -7,6 +7,6 @@ pub const NOT_ASSIGNABLE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "something stands left of `=` that cannot hold a value",
     why: "JavaScript refuses the whole text, or nothing is stored",
-    bad: Example::Statements("data.time + 1 = 2"),
-    good: Example::Statements("data.time = 2"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

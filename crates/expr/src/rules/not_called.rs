@@ -7,6 +7,6 @@ pub const NOT_CALLED: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a function is named but not called",
     why: "nothing happens, or the text of the function is shown",
-    bad: Example::Statements("mj.mj_forward"),
-    good: Example::Statements("mj.mj_forward(model, data)"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

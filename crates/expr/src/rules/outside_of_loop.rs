@@ -7,6 +7,6 @@ pub const OUTSIDE_LOOP: &Rule = &Rule {
     layer: Layer::Program,
     summary: "`break` or `continue` outside of a loop",
     why: "there is no loop that it could leave or go on with",
-    bad: Example::Statements("if (data.time > 1) { break }"),
-    good: Example::Statements("if (data.time > 1) { return }"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

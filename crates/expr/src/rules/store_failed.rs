@@ -7,6 +7,6 @@ pub const HOST_STORE: &Rule = &Rule {
     layer: Layer::Program,
     summary: "the host refused to store a value",
     why: "nothing is stored, and nobody is told",
-    bad: Example::Statements("model.opt.timestep = 0"),
-    good: Example::Statements("model.opt.timestep = 0.001"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -7,6 +7,6 @@ pub const STORE_PAST_END: &Rule = &Rule {
     layer: Layer::Program,
     summary: "an element past the end was assigned",
     why: "nothing is stored, and nobody is told",
-    bad: Example::Statements("let i = 7; i += Math.round(data.time) + 1; data.qpos[i] = 1"),
-    good: Example::Statements("let i = 7; data.qpos[i] = 1"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -7,6 +7,6 @@ pub const STRING_AS_NUMBER: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a string stands where a number is needed",
     why: "JavaScript converts it silently: `\"2\" + 1` is \"21\"",
-    bad: Example::Expression("data.time - '1'"),
-    good: Example::Expression("data.time - 1"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -6,7 +6,7 @@ pub const TOO_DEEP: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "the expression is nested deeper than the language accepts",
-    why: "a limit keeps a page responsive whatever it is given",
-    bad: Example::Long("", "(", 300, "data.time"),
-    good: Example::Expression("(data.time)"),
+    why: "a limit keeps a program responsive whatever it is given",
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

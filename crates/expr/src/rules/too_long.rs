@@ -6,7 +6,7 @@ pub const TOO_LONG: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "the source is longer than the language accepts",
-    why: "a limit keeps a page responsive whatever it is given",
-    bad: Example::Long("data.time", " + data.time", 6000, ""),
-    good: Example::Expression("data.time"),
+    why: "a limit keeps a program responsive whatever it is given",
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

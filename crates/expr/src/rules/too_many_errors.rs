@@ -7,6 +7,6 @@ pub const TOO_MANY_ERRORS: &Rule = &Rule {
     layer: Layer::Program,
     summary: "so many mistakes that the rest was not read",
     why: "the first mistakes explain most of the others",
-    bad: Example::Long("", "§ + ", 100, "1"),
-    good: Example::Expression("data.time"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -7,6 +7,6 @@ pub const UNCLOSED_COMMENT: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a comment that does not end",
     why: "all that follows is read as part of the comment",
-    bad: Example::Expression("data.time /* in s"),
-    good: Example::Expression("data.time /* in s */"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

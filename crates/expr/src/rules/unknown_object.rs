@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The model has no object of this name.
+/// There is no object of this name.
 pub const UNKNOWN_OBJECT: &Rule = &Rule {
     code: "unknown-object",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "the model has no object of this name",
-    why: "the page throws there, and shows nan",
-    bad: Example::Expression("data.body('bal').xpos[2]"),
-    good: Example::Expression("data.body('ball').xpos[2]"),
+    summary: "there is no object of this name",
+    why: "JavaScript throws there",
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

@@ -7,6 +7,6 @@ pub const UNUSED_RESULT: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a statement that changes nothing",
     why: "a value is computed and thrown away",
-    bad: Example::Statements("data.qpos[7] + 1"),
-    good: Example::Statements("data.qpos[7] += 1"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

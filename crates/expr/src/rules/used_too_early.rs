@@ -7,6 +7,6 @@ pub const USED_TOO_EARLY: &Rule = &Rule {
     layer: Layer::Program,
     summary: "a local name is used before its declaration",
     why: "JavaScript throws there",
-    bad: Example::Statements("ctx.x = x; const x = 1"),
-    good: Example::Statements("const x = 1; ctx.x = x"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

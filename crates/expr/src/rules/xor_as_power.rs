@@ -7,6 +7,6 @@ pub const XOR_AS_POWER: &Rule = &Rule {
     layer: Layer::Program,
     summary: "`^` between numbers",
     why: "it is the bitwise exclusive or, and not a power: `3 ^ 2` is 1",
-    bad: Example::Expression("data.qpos[7] ^ 2"),
-    good: Example::Expression("data.qpos[7] ** 2"),
+    bad: Example::OfHost,
+    good: Example::OfHost,
 };

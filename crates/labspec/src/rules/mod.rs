@@ -4,6 +4,7 @@
 //! A new rule of lessons is a file here and a line in the list below.
 
 pub mod example;
+mod language;
 
 pub(crate) use duplicate_id::across;
 pub(crate) use empty_plot::empty;
@@ -132,9 +133,8 @@ rules! {
 
 /// All rules: of lessons with their runs and claims, of the language, of models.
 pub fn all() -> impl Iterator<Item = &'static Rule> {
-    let language = labspec_expr::rules::ALL.iter().copied();
     let models = labspec_core::xml::rules::ALL.iter().copied();
-    LESSONS.iter().copied().chain(language).chain(models)
+    LESSONS.iter().copied().chain(language::PAGES).chain(models)
 }
 
 /// The rule with this code.

@@ -5,6 +5,7 @@ use crate::ast::Name;
 use crate::closest;
 use crate::parse::MAX_DIAGNOSTICS;
 use crate::rules;
+use crate::words::Words;
 use crate::{Finding, Span};
 
 /// Names of the language itself.
@@ -28,44 +29,47 @@ pub(super) const LANGUAGE: [&str; 14] = [
 /// Names that hold functions of the language.
 pub(in super::super) const NAMESPACES: [&str; 4] = ["Array", "Number", "String", "Object"];
 
-/// Objects of a browser or of Node that a lesson does not have, and why.
-const GLOBALS: &[(&[&str], &str, &str)] = &[
-    (
-        &[
-            "window",
-            "document",
-            "globalThis",
-            "self",
-            "global",
-            "localStorage",
-            "sessionStorage",
-            "navigator",
-        ],
-        "a lesson runs without a page: in a browser, on a command line, in a notebook",
-        "use the names of the lab: `model`, `data`, `ctx`",
-    ),
-    (&["console", "alert", "prompt"], "there is nowhere to print", "show the value in a readout or a trace"),
-    (
-        &["fetch", "XMLHttpRequest", "WebSocket", "require", "process", "Worker"],
-        "a lesson reaches nothing outside itself",
-        "put the data into the lab",
-    ),
-    (
-        &["eval", "Function"],
-        "text that becomes code while running could not be checked before the run",
-        "write the expression itself",
-    ),
-    (
-        &["Date", "performance", "setTimeout", "setInterval", "requestAnimationFrame"],
-        "the clock of the wall would make every run different",
-        "use the time of the simulation, `data.time`",
-    ),
-    (
-        &["Promise", "Symbol", "Reflect", "Proxy", "RegExp", "Map", "Set", "JSON", "Intl", "arguments"],
-        "a lesson works on numbers of the simulation; lists and records are all it needs",
-        "keep values in variables of the lab, as `ctx.peak`, in lists `[0, 1]` or in records `{a: 1}`",
-    ),
-];
+/// Names of a browser or of Node.
+const PAGE: [&str; 8] =
+    ["window", "document", "globalThis", "self", "global", "localStorage", "sessionStorage", "navigator"];
+const PRINT: [&str; 3] = ["console", "alert", "prompt"];
+const OUTSIDE: [&str; 6] = ["fetch", "XMLHttpRequest", "WebSocket", "require", "process", "Worker"];
+const CODE: [&str; 2] = ["eval", "Function"];
+const CLOCK: [&str; 5] = ["Date", "performance", "setTimeout", "setInterval", "requestAnimationFrame"];
+const MORE: [&str; 10] =
+    ["Promise", "Symbol", "Reflect", "Proxy", "RegExp", "Map", "Set", "JSON", "Intl", "arguments"];
+
+/// Why the language does not have such a name, and what to do instead.
+fn absent(name: &str, words: &Words) -> Option<(String, String)> {
+    let Words { lab, lesson, .. } = words;
+    let (why, help) = match name {
+        _ if PAGE.contains(&name) => (
+            format!("a {lesson} runs without a page: in a browser, on a command line, in a notebook"),
+            format!("use the names of the {lab}: {}", words.names),
+        ),
+        _ if PRINT.contains(&name) => {
+            ("there is nowhere to print".into(), format!("show the value in {}", words.shown))
+        }
+        _ if OUTSIDE.contains(&name) => {
+            (format!("a {lesson} reaches nothing outside itself"), format!("put the data into the {lab}"))
+        }
+        _ if CODE.contains(&name) => (
+            "text that becomes code while running could not be checked before the run".into(),
+            "write the expression itself".into(),
+        ),
+        _ if CLOCK.contains(&name) => {
+            ("the clock of the wall would make every run different".into(), words.clock.into())
+        }
+        _ if MORE.contains(&name) => (
+            format!("a {lesson} works on numbers; lists and records are all it needs"),
+            format!(
+                "keep values in variables of the {lab}, as `ctx.peak`, in lists `[0, 1]` or in records `{{a: 1}}`"
+            ),
+        ),
+        _ => return None,
+    };
+    Some((why, help))
+}
 
 /// Members through which JavaScript reaches the machinery behind a value.
 pub(in super::super) const MACHINERY: [&str; 5] =
@@ -73,15 +77,16 @@ pub(in super::super) const MACHINERY: [&str; 5] =
 
 impl Walk<'_, '_> {
     pub(super) fn unknown(&self, name: &str, span: Span, used: Use) -> Finding {
+        let words = self.words();
         if name == "value" {
             return Finding::error(rules::NO_VALUE_HERE, span, "there is no `value` here")
-                .why("`value` is what a slider or select gives to its own `set` or `apply`")
-                .help("give the control a `param` and read it as `ctx.<param>`");
+                .why(words.input.0)
+                .help(words.input.1);
         }
-        if let Some((_, why, help)) = GLOBALS.iter().find(|(names, _, _)| names.contains(&name)) {
+        if let Some((why, help)) = absent(name, words) {
             return Finding::error(rules::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
-                .why(*why)
-                .help(*help);
+                .why(why)
+                .help(help);
         }
         let report = match used {
             Use::Callee => {
@@ -110,17 +115,23 @@ impl Walk<'_, '_> {
         }
     }
 
+    /// What the host calls its things.
+    fn words(&self) -> &'static Words {
+        self.around.schema.map_or(&Words::PLAIN, |schema| schema.words())
+    }
+
     fn root_names(&self) -> Vec<String> {
         self.around.schema.map_or(Vec::new(), |schema| schema.root_names())
     }
 
     pub(super) fn undeclared(&self, name: &str, span: Span) -> Finding {
         let report = Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` is not declared"))
-            .why("an assignment without a declaration would make a variable of the whole page");
+            .why("an assignment without a declaration would make a variable of all texts");
         match self.nearest(name) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => report.help(format!(
-                "write `const {name} = …` for this text only, or `ctx.{name} = …` to keep it in the lab"
+                "write `const {name} = …` for this text only, or `ctx.{name} = …` to keep it in the {}",
+                self.words().lab
             )),
         }
     }
@@ -139,7 +150,7 @@ impl Walk<'_, '_> {
 
 /// The finding for a second declaration, or one of a name that means something already.
 pub(super) fn taken(name: &Name, here: bool) -> Finding {
-    let why = if here { "it is declared above" } else { "it already means something in every text of a lab" };
+    let why = if here { "it is declared above" } else { "it already means something in every text" };
     Finding::error(rules::NAME_TAKEN, name.span, format!("`{}` cannot be declared here", name.text))
         .why(format!("{why}; JavaScript refuses a second declaration"))
         .help(if here {
@@ -167,10 +178,10 @@ pub(super) fn constant(name: &str, span: Span) -> Finding {
 pub(super) fn not_assignable(name: &str, span: Span) -> Finding {
     let report = Finding::error(rules::NOT_ASSIGNABLE, span, format!("`{name}` cannot be assigned"));
     match name {
-        "ctx" => report.why("it holds the variables of the lab").help("assign a variable, as `ctx.peak = 0`"),
-        "value" => {
-            report.why("it is what the control gives").help("use another name, as `const x = value / 2`")
+        "ctx" => {
+            report.why("it holds the variables of all texts").help("assign a variable, as `ctx.peak = 0`")
         }
+        "value" => report.why("it is given from outside").help("use another name, as `const x = value / 2`"),
         _ => report.why("it means the same everywhere").help("use another name"),
     }
 }

@@ -119,9 +119,9 @@ impl<'a> Binder<'a> {
             Finding::error(
                 rules::WHOLE_ARRAY,
                 value.span,
-                format!("`{text}` is an array of the simulation; `ctx` keeps values"),
+                format!("`{text}` is an array of the {}; `ctx` keeps values", self.words().world),
             )
-            .why("what is kept would change with every step, which is hardly ever meant")
+            .why("what is kept would go on changing, which is hardly ever meant")
             .help(format!("keep a copy, as `{text}.slice()`, or one element, as `{text}[0]`"))
             .fix(value.span.after(), ".slice()"),
         )
@@ -194,7 +194,7 @@ impl<'a> Binder<'a> {
             format!("`{}` is {}; it has no members to assign", self.text(ir.span), ir.ty.describe());
         self.refuse(
             Finding::error(rules::NOT_ASSIGNABLE, span, message)
-                .help("assign a member of a record, or a variable of the lab, as `ctx.peak`"),
+                .help("assign a member of a record, or a variable, as `ctx.peak`"),
         )
     }
 
@@ -250,7 +250,7 @@ impl<'a> Binder<'a> {
                 let text = self.text(target.span).to_owned();
                 self.refuse(
                     Finding::error(rules::ASSIGN_ARRAY, target.span, format!("`{}` is an array and cannot be replaced as a whole", field.path))
-                        .why("its elements are the memory of the simulation; an assignment to the name would change none of them")
+                        .why(format!("its elements are the memory of the {}; an assignment to the name would change none of them", self.words().world))
                         .help(format!("assign an element, as `{text}[0] = …`, or all of them with `{text}.fill(…)` or `{text}.set([…], 0)`")),
                 )
             }
@@ -278,7 +278,12 @@ impl<'a> Binder<'a> {
             ExprKind::Binary { .. } | ExprKind::Unary { .. } => report
                 .why("it is a computation")
                 .help("write the field on the left of `=` and the computation on the right"),
-            _ => report.help("assign a field, as `data.qpos[0]`, or a variable of the lab, as `ctx.peak`"),
+            _ => {
+                let (array, lab) = (self.words().array, self.words().lab);
+                report.help(format!(
+                    "assign a field, as `{array}[0]`, or a variable of the {lab}, as `ctx.peak`"
+                ))
+            }
         }
     }
 
@@ -290,10 +295,10 @@ impl<'a> Binder<'a> {
                 Finding::error(
                     rules::ASSIGN_STRUCTURE,
                     span,
-                    format!("`{}` is fixed when the model is compiled", field.path),
+                    format!("`{}` is fixed with the {}", field.path, self.words().model),
                 )
-                .why(format!("it is {}; the engine finds its way in memory by it", doc(field)))
-                .help("change the model itself"),
+                .why(format!("it is {}; the other fields are found by it", doc(field)))
+                .help(format!("change the {} itself", self.words().model)),
             ),
             FieldKind::Derived { by } => {
                 let computed =

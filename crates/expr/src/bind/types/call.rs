@@ -195,9 +195,8 @@ impl<'a> Binder<'a> {
             let report = Finding::warning(rules::ARGUMENT_COUNT, first.to(last), message)
                 .why("JavaScript computes without it");
             self.report(if path == "Math.round" {
-                report.help(
-                    "to round to decimals, write `Math.round(100 * x) / 100`, or set `digits` of the readout",
-                )
+                let rounding = self.words().rounding;
+                report.help(format!("to round to decimals, write `Math.round(100 * x) / 100`{rounding}"))
             } else {
                 report.help("remove it")
             });
@@ -343,7 +342,7 @@ impl<'a> Binder<'a> {
                 let message = format!("argument {} of `{}` must be {}", i + 1, info.name, quoted(&object));
                 self.refuse(
                     Finding::error(rules::ARGUMENT_TYPE, span, message)
-                        .why("there is only one model and one data in a lab, and they stand in this order")
+                        .why("there is only one of it, and it stands in this place")
                         .help(format!("write `{}`", self.signature(info))),
                 )
             }

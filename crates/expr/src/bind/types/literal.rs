@@ -58,7 +58,9 @@ impl<'a> Binder<'a> {
         self.refuse(match value.ty {
             Type::Number => report.help("to count, write `for (let i = 0; i < n; i++)`"),
             Type::Record => report.help(format!("write `Object.values({text})` for its values")),
-            _ => report.help("write a list, as `[1, 2, 3]`, or an array, as `data.qpos`"),
+            _ => {
+                report.help(format!("write a list, as `[1, 2, 3]`, or an array, as `{}`", self.words().array))
+            }
         })
     }
 

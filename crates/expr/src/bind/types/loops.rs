@@ -75,7 +75,7 @@ impl<'a> Binder<'a> {
             if ir.known().is_some_and(Value::truthy) && !leaves(&inside) {
                 self.report(
                     Finding::error(rules::BUDGET, test.span, "this loop never ends")
-                        .why("its condition always holds, and nothing in it leaves the loop: the page would hang")
+                        .why("its condition always holds, and nothing in it leaves the loop: it would run forever")
                         .help("write a condition that becomes false, or leave the loop with `break`"),
                 );
             }
@@ -274,7 +274,7 @@ impl<'a> Binder<'a> {
             let text = self.text(index.span);
             let message =
                 format!("in the last turn of the loop `{text}` is {shown}: past the end of `{}`", field.path);
-            return self.refuse(past_the_end(field, index.span, message));
+            return self.refuse(past_the_end(field, index.span, message, self.words()));
         }
         if least < 0.0 {
             let shown = number::to_text(least);

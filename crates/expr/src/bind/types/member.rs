@@ -10,6 +10,7 @@ use crate::parse::MAX_DIAGNOSTICS;
 use crate::rules;
 use crate::schema::{Entry, Field, FieldKind, Help, ObjectId, Type};
 use crate::value::{Value, View};
+use crate::words::Words;
 use crate::{Finding, Span};
 use labspec_finding::{nearest as closest, ranked};
 
@@ -57,7 +58,7 @@ impl<'a> Binder<'a> {
     pub(super) fn explain_thing(&mut self, thing: &Thing, text: &str, span: Span) {
         let schema = self.schema;
         match thing {
-            Thing::Field(field) => self.explain(span, || field_help(field)),
+            Thing::Field(field) => self.explain(span, || field_help(field, schema.words())),
             Thing::Object(id) => {
                 self.explain(span, || Help { title: schema.describe(*id), lines: Vec::new() });
             }
@@ -181,8 +182,11 @@ impl<'a> Binder<'a> {
         if name.text == "random" {
             return self.refuse(
                 Finding::error(rules::NOT_RANDOM, span, "random numbers are not in this language")
-                    .why("the same lesson must give the same numbers every time, or its answers cannot be checked")
-                    .help("use a fixed sequence, as `Math.sin(1000 * data.time)`, or a control"),
+                    .why(format!(
+                        "the same {} must give the same numbers every time, or its answers cannot be checked",
+                        self.words().lesson
+                    ))
+                    .help(format!("use a fixed sequence, as `Math.sin(1000 * {})`", self.words().number)),
             );
         }
         let report =
@@ -215,7 +219,7 @@ impl<'a> Binder<'a> {
             })),
             text @ ("push" | "pop" | "shift" | "unshift" | "splice") if array => self.refuse(
                 Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has a fixed number of elements", field.path))
-                    .why(format!("`{text}` changes the number of elements of a list; this array is the memory of the simulation"))
+                    .why(format!("`{text}` changes the number of elements of a list; this array is the memory of the {}", self.words().world))
                     .help(format!("store elements, as `{}[0] = 1`, or copy it into a list of your own: `const list = [...{}]`", field.path, field.path)),
             ),
             text if MACHINERY.contains(&text) => self.refuse(machinery(text, name.span)),
@@ -312,7 +316,7 @@ fn language(name: &str, span: Span) -> Option<Thing> {
 }
 
 /// What a field is, in the words of its table.
-pub(super) fn field_help(field: &Field) -> Help {
+pub(super) fn field_help(field: &Field, words: &Words) -> Help {
     let mut lines = Vec::new();
     if !field.doc.is_empty() {
         let unit = if field.unit.is_empty() { String::new() } else { format!(", {}", field.unit) };
@@ -325,18 +329,18 @@ pub(super) fn field_help(field: &Field) -> Help {
     if !shape.is_empty() {
         lines.push(format!("{} numbers", shape.join(" × ")));
     }
-    lines.push(kind_in_words(&field.kind));
+    lines.push(kind_in_words(&field.kind, words));
     Help { title: field.path.clone(), lines }
 }
 
 /// What assigning means.
-fn kind_in_words(kind: &FieldKind) -> String {
+fn kind_in_words(kind: &FieldKind, words: &Words) -> String {
     match kind {
         FieldKind::State => "state: evolves in time, may be set".into(),
         FieldKind::Input => "input: set from outside".into(),
-        FieldKind::Constant => "constant: a change takes effect at the next step".into(),
-        FieldKind::Inertial => "constant: a change needs `mj_setConst`".into(),
-        FieldKind::Structure => "fixed with the model".into(),
+        FieldKind::Constant => "constant: may be changed".into(),
+        FieldKind::Inertial => format!("constant: a change needs {}", words.recompute),
+        FieldKind::Structure => format!("fixed with the {}", words.model),
         FieldKind::Derived { by } if by.is_empty() => "computed".into(),
         FieldKind::Derived { by } => format!("computed by {by}"),
     }
@@ -354,9 +358,7 @@ fn from_entry(entry: Entry, span: Span) -> Thing {
 
 pub(super) fn machinery(name: &str, span: Span) -> Finding {
     Finding::error(rules::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
-        .why(
-            "it leads behind the values, into JavaScript itself; that this is closed keeps a lesson harmless",
-        )
+        .why("it leads behind the values, into JavaScript itself; that this is closed keeps a text harmless")
         .help("use another name")
 }
 

@@ -134,7 +134,7 @@ impl<'a> Binder<'a> {
             _ => format!("{least} to {}", super::call::count(most, "argument")),
         };
         let point = if row.on == On::Nothing { "" } else { "." };
-        let (example, value) = row.example("data.qpos");
+        let (example, value) = row.example(self.words().array);
         self.refuse(
             Finding::error(
                 rules::ARGUMENT_COUNT,

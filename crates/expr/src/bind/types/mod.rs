@@ -37,6 +37,7 @@ use crate::natives;
 use crate::program::Aggregate;
 use crate::rules;
 use crate::schema::{CollectionId, Field, FunctionId, Help, ObjectId, Schema, Type};
+use crate::words::Words;
 use crate::{Finding, Fix, Span};
 
 use facts::{Facts, Key, What};
@@ -275,6 +276,11 @@ impl<'a> Binder<'a> {
         }
     }
 
+    /// What the host calls its things.
+    fn words(&self) -> &'static Words {
+        self.schema.words()
+    }
+
     fn report(&mut self, diagnostic: Finding) {
         // In a method that is written in the language, the call is the place.
         self.diagnostics.push(match self.site {
@@ -330,6 +336,6 @@ impl<'a> Binder<'a> {
         let name = self.text(span).split('(').next().unwrap_or("");
         Finding::error(rules::NO_RESULT, span, format!("`{name}` gives nothing back"))
             .why("it is called for what it does; there is no value to go on with")
-            .help("call it as a statement of its own, in `setup`, `controller`, `apply` or `run`")
+            .help(format!("call it as a statement of its own, in {}", self.words().statements))
     }
 }

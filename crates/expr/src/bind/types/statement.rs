@@ -214,7 +214,7 @@ impl<'a> Binder<'a> {
                         name.text
                     ),
                 )
-                .why("a name for a part of the simulation means that part for good")
+                .why(format!("a name for a part of the {} means that part for good", self.words().world))
                 .help(format!("declare it with `const {}`, and use another name for the number", name.text)),
             );
         }

@@ -105,8 +105,10 @@ impl<'a> Binder<'a> {
             Thing::Namespace(name) => error(format!("`{name}` is not a value"))
                 .why("it holds functions")
                 .help(format!("call it, as `{name}(x)`, or one of its functions")),
-            Thing::Picked(..) => error(format!("`{text}` is an object of the simulation, not a value"))
-                .help(format!("write one of its fields, as `{text}.id`")),
+            Thing::Picked(..) => {
+                error(format!("`{text}` is an object of the {}, not a value", self.words().world))
+                    .help(format!("write one of its fields, as `{text}.id`"))
+            }
             Thing::Math => {
                 error("`Math` is not a value".into()).help("write one of its functions, as `Math.sqrt(x)`")
             }
@@ -202,7 +204,7 @@ impl<'a> Binder<'a> {
                 let symbol = if *increment { "++" } else { "--" };
                 Finding::error(rules::ASSIGN_INSIDE, span, format!("`{symbol}` inside an expression"))
                     .why("this text only reads a value")
-                    .help("change the variable in `controller`")
+                    .help(format!("change the variable in {}", self.words().keeper))
             }
             _ => Finding::error(rules::MISPLACED, span, "this has no place inside an expression")
                 .help("write one value"),
@@ -225,7 +227,7 @@ impl<'a> Binder<'a> {
                 "an assignment where only a value is read",
             )
             .why("this text is an expression: it gives a value and changes nothing")
-            .help("assign in `controller`, `apply` or `run`, and show the variable here");
+            .help(format!("assign in {}, and show the variable here", self.words().statements));
         }
         let symbol = self.text(op_span);
         let report =
