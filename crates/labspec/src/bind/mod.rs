@@ -12,7 +12,7 @@ mod handle;
 mod names;
 pub mod parts;
 pub mod scene;
-mod words;
+pub(crate) mod words;
 mod world;
 
 pub use compile::{ActionProgram, Bound, ControlProgram, Probe, Programs, to_finding};
