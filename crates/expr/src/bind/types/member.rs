@@ -248,7 +248,7 @@ impl<'a> Binder<'a> {
                 )
                 .why("it is one number");
                 let methods = self.method_names(Type::Number);
-                self.refuse(match closest(text, methods.into_iter()) {
+                self.refuse(match closest(text, methods) {
                     Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
                     None => report
                         .help(format!("remove `.{text}`"))

@@ -94,7 +94,7 @@ impl<'a> Binder<'a> {
                 let meant = format!("{what}[{i}]");
                 report.why("elements are chosen by index").help(format!("write `{meant}`")).fix(span, meant)
             }
-            _ => match closest(text, self.method_names(ty).into_iter()) {
+            _ => match closest(text, self.method_names(ty)) {
                 Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
                 None if matches!(ty, Type::Undefined | Type::Null) => {
                     report.why("JavaScript stops the text here").help("test for it first, or write `?.`")
