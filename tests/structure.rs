@@ -282,3 +282,45 @@ fn no_two_files_of_the_engine_have_one_name() {
     }
     assert!(seen.len() > 150);
 }
+
+/// The language knows nothing of what it computes with: what a message calls the things of a lab comes from the host.
+#[test]
+fn the_language_has_no_words_of_labs() {
+    const WORDS: [&str; 16] = [
+        "mj_",
+        "mj.",
+        "mujoco",
+        "qpos",
+        "qvel",
+        "xpos",
+        "ctrl",
+        "slider",
+        "readout",
+        "joint",
+        "simulation",
+        "physics",
+        "quaternion",
+        "timestep",
+        "`controller`",
+        "`setup`",
+    ];
+    let (mut texts, mut folders) = (0, vec![workspace().join("crates/expr/src")]);
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            if path.is_dir() && !matches!(name.as_str(), "tests" | "snapshots") {
+                folders.push(path);
+            } else if name.ends_with(".rs") && !matches!(name.as_str(), "mock.rs" | "tests.rs") {
+                // Every second piece between quotes is a text.
+                for text in code(&path).split('"').skip(1).step_by(2) {
+                    texts += 1;
+                    let text = text.to_lowercase();
+                    let found = WORDS.iter().find(|word| text.contains(*word));
+                    assert_eq!(found, None, "{}: {text}", path.display());
+                }
+            }
+        }
+    }
+    assert!(texts > 1000, "{texts}");
+}

@@ -1,9 +1,10 @@
 //! Which part of a field belongs to which object of the model, and what its elements are: the one place where
 //! named access, the help on an element and the rewriting of bare indexes come from.
 
+use crate::rules::QUATERNION_AS_ANGLE;
 use labspec_core::reflect::{self, FieldId, Object};
 use labspec_core::{Model, Obj, joint};
-use labspec_expr::Role;
+use labspec_expr::{Advice, Role};
 
 /// First element and number of elements of a field that belong to one object; `None` when the field has no rows
 /// of this kind.
@@ -159,6 +160,14 @@ fn rate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
     })
 }
 
+/// A number of a quaternion is no angle.
+const QUATERNION: Advice = Advice {
+    rule: QUATERNION_AS_ANGLE,
+    what: "a component of a quaternion",
+    why: "four numbers that give the orientation together",
+    help: "the whole angle of the turn is `2 * Math.acos(w)`, with w the first of the four numbers",
+};
+
 /// What an element measures: coordinates of joints are angles, parts of quaternions, or neither.
 pub(super) fn role(m: &Model, f: FieldId, index: usize) -> Role {
     let info = f.info();
@@ -169,8 +178,8 @@ pub(super) fn role(m: &Model, f: FieldId, index: usize) -> Role {
     let Some((first, _)) = row(m, f, Obj::Joint, object) else { return Role::Other };
     match m.jnt_type.get(object) {
         Some(&joint::HINGE) => Role::Angle,
-        Some(&joint::FREE) if index - first >= 3 => Role::Quaternion,
-        Some(&joint::BALL) => Role::Quaternion,
+        Some(&joint::FREE) if index - first >= 3 => Role::NoAngle(&QUATERNION),
+        Some(&joint::BALL) => Role::NoAngle(&QUATERNION),
         _ => Role::Other,
     }
 }

@@ -31,6 +31,8 @@ pub(super) enum Arg {
     Model,
     Data,
     Number,
+    /// An angle in radians.
+    Angle,
     Text,
     /// A list of numbers.
     Numbers,
@@ -159,6 +161,7 @@ fn info(f: &Function) -> FunctionInfo {
         Arg::Model => Param::Object(handle::encode(handle::Thing::Struct(Object::Model))),
         Arg::Data => Param::Object(handle::encode(handle::Thing::Struct(Object::Data))),
         Arg::Number => Param::Number,
+        Arg::Angle => Param::Angle,
         Arg::Text => Param::Text,
         Arg::Numbers => Param::Numbers,
         Arg::Any => Param::Any,
@@ -231,7 +234,7 @@ pub fn reference() -> Vec<FunctionDoc> {
     let word = |arg: &Arg| match arg {
         Arg::Model => "model",
         Arg::Data => "data",
-        Arg::Number => "x",
+        Arg::Number | Arg::Angle => "x",
         Arg::Text => "text",
         Arg::Numbers => "list",
         Arg::Any => "options",

@@ -13,6 +13,8 @@ pub mod functions;
 mod handle;
 mod names;
 mod own;
+pub mod rules;
+mod words;
 mod world;
 
 pub use engine::{Engine, Expression, Statements};
@@ -20,4 +22,5 @@ pub use error::Error;
 pub use labspec_expr::Value;
 pub use names::{ModelNames, Scope, named_field};
 pub use own::Functions;
+pub use words::WORDS;
 pub use world::World;

@@ -5,11 +5,12 @@ use super::elements;
 use super::enums::ENUMS;
 use super::functions::{self, OBJECTS, Place, TABLE};
 use super::handle::{self, KINDS, Side, Thing};
+use super::words::WORDS;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_core::{Model, Obj};
 use labspec_expr::{
     CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Role, Schema,
-    Value,
+    Value, Words,
 };
 
 /// Where a program stands: decides which functions exist.
@@ -472,6 +473,10 @@ impl Schema for ModelNames<'_> {
             .find(|&of| of != here && reflect::field(of, name).is_some())?;
         let holder = self.describe(handle::encode(Thing::Struct(elsewhere)));
         Some(format!("`{name}` belongs to {holder}: write `{holder}.{name}`"))
+    }
+
+    fn words(&self) -> &'static Words {
+        &WORDS
     }
 
     fn refresh(&self) -> Option<String> {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::closest;
 use crate::rules;
+use crate::words::Words;
 use crate::{Finding, Span};
 
 /// A compiled text, counted from 0 in the order of compilation with one [`Globals`].
@@ -86,7 +87,7 @@ impl Globals {
 
     /// Variables that a program reads and nothing ever stores: a warning for each first reading in a program.
     /// To be asked when all texts of the lab are compiled.
-    pub fn unset(&self) -> Vec<(ProgramId, Finding)> {
+    pub fn unset(&self, words: &Words) -> Vec<(ProgramId, Finding)> {
         let mut stored = self.given.clone();
         for usage in self.uses.iter().filter(|u| u.stores) {
             if let Some(known) = stored.get_mut(usage.slot as usize) {
@@ -106,7 +107,7 @@ impl Globals {
                 continue;
             }
             found.push((usage.slot, usage.program));
-            reports.push((usage.program, unset_report(self.name(usage.slot), usage.span, &known)));
+            reports.push((usage.program, unset_report(self.name(usage.slot), usage.span, &known, words)));
         }
         reports
     }
@@ -155,16 +156,14 @@ impl Globals {
     }
 }
 
-fn unset_report(name: &str, span: Span, known: &[&str]) -> Finding {
+fn unset_report(name: &str, span: Span, known: &[&str], words: &Words) -> Finding {
     let report = Finding::warning(rules::UNSET_GLOBAL, span, format!("nothing ever stores `ctx.{name}`"))
         .why("it is `undefined` in every run, and a computation with it gives NaN");
     match closest(name, known.iter().copied()) {
         Some(meant) => {
             report.help(format!("did you mean `ctx.{meant}`?")).guess(span, format!("ctx.{meant}"))
         }
-        None => report.help(format!(
-            "store it first, as `ctx.{name} = 0` in `setup`, or give a control `\"param\": \"{name}\"`"
-        )),
+        None => report.help(words.store.replace("{name}", name)),
     }
 }
 
@@ -181,7 +180,7 @@ mod tests {
         globals.mention("peek", second, Span::new(4, 12), false);
         globals.mention("peek", second, Span::new(14, 22), false);
         globals.mention("angle", second, Span::new(24, 33), false);
-        let found = globals.unset();
+        let found = globals.unset(&Words::PLAIN);
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].0, second);
         assert_eq!(found[0].1.help.as_deref(), Some("did you mean `ctx.peak`?"));

@@ -38,7 +38,6 @@ mod number;
 mod operators;
 mod order;
 mod parse;
-mod prelude;
 mod print;
 mod program;
 mod reference;
@@ -46,6 +45,7 @@ mod row;
 mod schema;
 mod value;
 mod vm;
+mod words;
 
 #[cfg(test)]
 mod mock;
@@ -73,7 +73,8 @@ pub use print::{format_expression, format_statements, print, print_statements};
 pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
 pub use reference::language_page;
 pub use schema::{
-    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Help, ObjectId, Param,
-    Role, Schema, Touch, Type,
+    Advice, CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Help, ObjectId,
+    Param, Role, Schema, Touch, Type,
 };
 pub use value::{Value, View};
+pub use words::Words;

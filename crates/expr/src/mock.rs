@@ -31,6 +31,43 @@ const FIELDS: &[(&str, &[Option<usize>], &str, &str)] = &[
     ("run.touch", &[], "structure", ""),
 ];
 
+/// What the host calls its things.
+static WORDS: Words = Words {
+    lab: "lab",
+    lesson: "lesson",
+    world: "simulation",
+    model: "model",
+    number: "data.time",
+    array: "data.qpos",
+    matrix: "data.xpos",
+    choice: "data.joint(\"name\")",
+    parts: "{kinetic, potential} = lib.energy()",
+    names: "`model`, `data`, `ctx`",
+    statements: "`setup`, `controller`, `apply` or `run`",
+    keeper: "`controller`",
+    shown: "a readout or a trace",
+    clock: "the time of the simulation is `data.time`, in seconds",
+    wait: "test `data.time` in the controller instead",
+    split: "split it: into several controls, or a `setup` and a `controller`",
+    input: (
+        "`value` is what a slider or select gives to its own `set` or `apply`",
+        "give the control a `param` and read it as `ctx.<param>`",
+    ),
+    store: "store it first, as `ctx.{name} = 0` in `setup`, or give a control `\"param\": \"{name}\"`",
+    rounding: ", or set `digits` of the readout",
+    recompute: "`mj_setConst`",
+};
+
+/// A rule of the host.
+const NO_ANGLE: &rules::Rule = &rules::Rule { code: "quaternion-as-angle", ..*rules::DEGREES };
+
+const QUATERNION: Advice = Advice {
+    rule: NO_ANGLE,
+    what: "a component of a quaternion",
+    why: "four numbers that give the orientation together",
+    help: "the whole angle of the turn is `2 * Math.acos(w)`, with w the first of the four numbers",
+};
+
 /// The schema.
 pub(crate) struct Mock;
 
@@ -258,7 +295,7 @@ impl Schema for Mock {
 
     fn role(&self, field: FieldKey, index: usize) -> Role {
         match (field.0, index) {
-            (1, 3..=6 | 10..=13) => Role::Quaternion,
+            (1, 3..=6 | 10..=13) => Role::NoAngle(&QUATERNION),
             (2, 11) => Role::Angle,
             _ => Role::Other,
         }
@@ -272,6 +309,10 @@ impl Schema for Mock {
         };
         let joint = JOINTS.get(index / n)?;
         Some(format!("data.joint(\"{joint}\").{name}[{}]", index % n))
+    }
+
+    fn words(&self) -> &'static Words {
+        &WORDS
     }
 
     fn refresh(&self) -> Option<String> {

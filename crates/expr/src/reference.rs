@@ -3,13 +3,14 @@
 use std::fmt::Write;
 
 use crate::ast::{BinaryOp, LogicalOp};
+use crate::math;
 use crate::natives::{self, On};
-use crate::{math, prelude};
+use crate::words::Words;
 
 /// The grammar, in the notation of ISO 14977: `,` is left out, `{ }` repeats, `[ ]` may be missing.
 const GRAMMAR: &str = r#"
-text         = { statement } ;                                   (* setup, controller, apply, run *)
-value        = expression ;                                      (* traces, readouts, measures *)
+text         = { statement } ;                                   (* where statements are written *)
+value        = expression ;                                      (* where a value is written *)
 statement    = block | declaration | function | "if" "(" expression ")" statement [ "else" statement ]
              | "for" "(" [ declaration | effects ] ";" [ expression ] ";" [ effects ] ")" statement
              | "for" "(" ( "const" | "let" ) pattern "of" expression ")" statement
@@ -41,24 +42,24 @@ place        = name | postfix "." name | postfix "[" expression "]" ;
 struct Row {
     name: String,
     doc: &'static str,
-    example: (&'static str, &'static str),
+    example: (String, &'static str),
 }
 
-fn rows(of: &[On]) -> Vec<Row> {
+fn rows(of: &[On], array: &str) -> Vec<Row> {
     let natives = natives::rows().filter(|r| of.contains(&r.on));
-    let mut rows: Vec<Row> =
-        natives.map(|r| Row { name: r.name.to_owned(), doc: r.doc, example: r.example }).collect();
-    if of.contains(&On::List) {
-        let calling = prelude::DOCS.iter();
-        rows.extend(calling.map(|(n, doc, example)| Row { name: format!("{n}(f)"), doc, example: *example }));
-    }
-    rows.sort_by(|a, b| a.name.cmp(&b.name));
-    rows
+    let name = |row: &natives::Row| match row.calls() {
+        true if row.on == On::Nothing => format!("{}(v, f)", row.name),
+        true => format!("{}(f)", row.name),
+        false => row.name.to_owned(),
+    };
+    natives.map(|r| Row { name: name(r), doc: r.doc, example: r.example(array) }).collect()
 }
 
 fn functions_of_math() -> Vec<Row> {
     let name = |name: &str| if name.starts_with("is") { name.to_owned() } else { format!("Math.{name}") };
-    math::DOCS.iter().map(|&(n, doc, example)| Row { name: name(n), doc, example }).collect()
+    let rows = math::DOCS.iter();
+    rows.map(|&(n, doc, (source, value))| Row { name: name(n), doc, example: (source.into(), value) })
+        .collect()
 }
 
 /// A section with a table.
@@ -66,14 +67,15 @@ fn table(out: &mut String, title: &str, rows: Vec<Row>) {
     let _ = write!(out, "\n## {title}\n\n| name | gives | example | value |\n|---|---|---|---|\n");
     for Row { name, doc, example: (source, value) } in rows {
         let cell = |s: &str| s.replace('|', "\\|");
-        let _ = writeln!(out, "| `{name}` | {} | `{}` | `{}` |", cell(doc), cell(source), cell(value));
+        let _ = writeln!(out, "| `{name}` | {} | `{}` | `{}` |", cell(doc), cell(&source), cell(value));
     }
 }
 
-/// The page, in Markdown.
-pub fn language_page() -> String {
-    let mut out = String::from(
-        "# The language of lessons\n\nThe core of JavaScript that lessons write. Values are JavaScript's, bit for bit: double arithmetic, `%`, `||` that gives an operand, numbers to text. Of `Math`, what the standard leaves to the engine (`sin`, `exp`, `pow`, `**` …) is the same on every machine, and as near to node's as [measured](../measured/math.md).\n\n## Grammar\n\n```ebnf",
+/// The page, in Markdown, with the words of a host.
+pub fn language_page(words: &Words) -> String {
+    let mut out = format!(
+        "# The language of {0}s\n\nThe core of JavaScript that {0}s write. Values are JavaScript's, bit for bit: double arithmetic, `%`, `||` that gives an operand, numbers to text. Of `Math`, what the standard leaves to the engine (`sin`, `exp`, `pow`, `**` …) is the same on every machine, and as near to node's as [measured](../measured/math.md).\n\n## Grammar\n\n```ebnf",
+        words.lesson
     );
     out.push_str(GRAMMAR);
     out.push_str("```\n\nA statement ends with `;`, with a line end where JavaScript ends it, or with `}`. Comments are `// …` and `/* … */`.\n\n## Operators\n\nFrom the loosest to the tightest:\n\n| level | operators |\n|---|---|\n");
@@ -99,7 +101,7 @@ pub fn language_page() -> String {
         ("Functions", &[On::Nothing]),
     ];
     for (title, of) in sections {
-        table(&mut out, title, rows(of));
+        table(&mut out, title, rows(of, words.array));
     }
     table(&mut out, "`Math`", functions_of_math());
     out.push_str("\nConstants: ");
@@ -109,10 +111,11 @@ pub fn language_page() -> String {
     out.push_str(".\n\nFunctions whose last digit the standard leaves open (`sin`, `log`, `**` with other exponents than 2, …) may differ from an engine's by one unit in the last place; they are the same on every platform here. A list has no holes: what lies between its end and an assignment beyond it is `undefined`.\n\n## Limits\n\n");
     let _ = writeln!(
         out,
-        "A text has at most {} bytes and nests {} levels; a run does at most {} operations (an element that a method goes through counts as five, a step of the simulation as what it takes), functions call each other 200 deep, lists take 64 MB, a string 1 MB. Each limit has its own error.",
+        "A text has at most {} bytes and nests {} levels; a run does at most {} operations (an element that a method goes through counts as five, a step of the {} as what it takes), functions call each other 200 deep, lists take 64 MB, a string 1 MB. Each limit has its own error.",
         crate::MAX_SOURCE,
         crate::MAX_DEPTH,
-        crate::vm::MAX_WORK / crate::vm::OPERATION
+        crate::vm::MAX_WORK / crate::vm::OPERATION,
+        words.world
     );
     out
 }
@@ -124,7 +127,7 @@ mod tests {
 
     #[test]
     fn the_examples_give_what_they_say() {
-        let all = rows(&[On::List, On::Growing, On::Text, On::Number, On::Nothing]);
+        let all = rows(&[On::List, On::Growing, On::Text, On::Number, On::Nothing], "data.qpos");
         for Row { name, example: (source, value), .. } in all.into_iter().chain(functions_of_math()) {
             let (_, got) = execute(&format!("ctx.out = String({source})"));
             assert_eq!(got.to_string(), value, "{name}: {source}");
@@ -134,9 +137,6 @@ mod tests {
             let example = math::DOCS.iter().find(|(n, ..)| *n == name).map(|(.., (source, _))| *source);
             assert!(example.is_some_and(|e| e.contains(&format!("Math.{name}("))), "{name}: {example:?}");
         }
-        for (source, value) in prelude::DOCS.iter().map(|(_, _, example)| example) {
-            assert_eq!(execute(&format!("ctx.out = String({source})")).1.to_string(), *value, "{source}");
-        }
-        assert!(language_page().contains("| `map(f)` |"));
+        assert!(language_page(&Words::PLAIN).contains("| `map(f)` |"));
     }
 }

@@ -2,7 +2,9 @@
 //! functions with signature and effects. The numbers in the ids are the host's own; this crate only hands
 //! them back.
 
+use crate::rules::Rule;
 use crate::value::Value;
+use crate::words::Words;
 
 /// An object with members: `model`, `model.opt`, the joint `"hinge"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -167,6 +169,8 @@ pub struct FunctionInfo {
 pub enum Param {
     /// A number; passed as [`Value::Number`].
     Number,
+    /// A number that is an angle in radians; passed as [`Value::Number`].
+    Angle,
     /// Text; passed as [`Value::String`].
     Text,
     /// Anything, converted to true or false.
@@ -266,8 +270,21 @@ pub enum Role {
     Other,
     /// An angle in rad.
     Angle,
-    /// A component of a unit quaternion, from -1 to 1.
-    Quaternion,
+    /// A number that is easily taken for an angle and is none.
+    NoAngle(&'static Advice),
+}
+
+/// What a host says of a mistake that the language finds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Advice {
+    /// The rule of the host that is broken.
+    pub rule: &'static Rule,
+    /// What it is that was written.
+    pub what: &'static str,
+    /// Why it is a mistake.
+    pub why: &'static str,
+    /// What to do.
+    pub help: &'static str,
 }
 
 /// What a place in a text is, for a person who points at it.
@@ -338,6 +355,11 @@ pub trait Schema {
     fn named_element(&self, field: FieldKey, index: usize) -> Option<String> {
         let _ = (field, index);
         None
+    }
+
+    /// What the host calls its things.
+    fn words(&self) -> &'static Words {
+        &Words::PLAIN
     }
 
     /// What an author writes to have derived fields computed again, as `mj_forward`.

@@ -66,7 +66,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         object: "lib",
         name: "deg",
-        args: &[Arg::Number],
+        args: &[Arg::Angle],
         doc: "radians to degrees",
         example: ("lib.deg(Math.PI)", "180"),
         run: |_, _, args| number(args).map(|x| Value::Number(x * 180.0 / std::f64::consts::PI)),

@@ -1,38 +1,20 @@
-//! Tree to meaning: resolves every name against the host's schema and checks everything that can be checked
-//! before a run.
-//!
-//! Types are found by repetition: a pass binds the whole text with what the last pass saw stored in each variable
-//! and returned by each function, until nothing new is seen (a fixed point over a lattice of small height; Kildall,
-//! "A unified approach to global program optimization", 1973). Findings are those of the last pass.
+//! Tree to meaning, in three passes. `names` finds what every name means. `types` finds which type everything has, and makes the
+//! typed tree. `lints` looks at what they found for what is allowed, but hardly ever meant. Each pass takes what the ones before it
+//! found as given; mistakes are told where they are found, and never looked at again.
 
-mod access;
-mod assign;
-mod call;
-mod facts;
-mod function;
-mod literal;
-mod loops;
-mod method;
-mod name;
-mod object;
-mod scope;
-mod statement;
-mod units;
-mod value;
+mod lints;
+mod names;
+mod types;
 
-use crate::effects::Effects;
+use crate::ast::{Expr, Stmt};
 use crate::globals::{Globals, ProgramId};
-use crate::ir::{Ir, Shown, Step, Tree, Unit, UnitId};
-use crate::natives;
-use crate::parse::in_order;
-use crate::program::{Aggregate, Program};
+use crate::parse::{self, Parsed, in_order};
+use crate::program::Program;
 use crate::rules;
-use crate::schema::{CollectionId, Field, FunctionId, Help, ObjectId, Schema, Type};
+use crate::schema::{Help, Schema, Type};
 use crate::{Finding, Fix, Span};
-use crate::{math, parse_expression, parse_statements};
 
-pub(crate) use facts::Facts;
-use scope::{Known, Variable};
+use names::Surroundings;
 
 /// Compiles the texts of one lab.
 pub struct Compiler<'s> {
@@ -79,8 +61,27 @@ impl Compiled {
     }
 }
 
-/// Passes over a text before every type that still changes is taken to be unknown.
-const PASSES: usize = 8;
+/// How deep expressions, statements and functions that name each other may stand inside one another: every pass walks them by
+/// recursion. Small functions keep its frames small: whatever builds a message is a function of its own, and not inlined.
+const MAX_LEVELS: usize = 200;
+
+/// The finding for a text beyond [`MAX_LEVELS`].
+fn too_deep(span: Span) -> Finding {
+    let message = format!("functions that name each other reach more than {MAX_LEVELS} levels deep");
+    Finding::error(rules::TOO_DEEP, span, message)
+        .why("brackets, signs and functions inside one another count as levels")
+        .help("split the text, or the functions")
+}
+
+/// A text, read.
+#[derive(Clone, Copy)]
+enum Tree<'t> {
+    /// A value.
+    Expression(&'t Expr),
+    Statements(&'t [Stmt]),
+    /// What a control sets.
+    Target(&'t Expr),
+}
 
 impl<'s> Compiler<'s> {
     /// A compiler for texts that name things of `schema` and share the variables `globals`.
@@ -90,98 +91,55 @@ impl<'s> Compiler<'s> {
 
     /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.
     pub fn expression(&mut self, source: &str) -> Compiled {
-        let parsed = parse_expression(source);
-        self.compile(source, &parsed.diagnostics, Mode::Expression, &mut |binder| {
-            let ir = binder.operand(&parsed.tree)?;
-            let ty = ir.ty;
-            binder.finish(vec![Step::Return(ir)], Some(ty));
-            Ok(ty)
-        })
+        let Parsed { tree, diagnostics } = parse::expression(source, self.schema.words());
+        self.compile(source, diagnostics, Tree::Expression(&tree))
     }
 
     /// Statements: `setup`, `controller`, `apply`, `run`.
     pub fn statements(&mut self, source: &str) -> Compiled {
-        let parsed = parse_statements(source);
-        self.compile(source, &parsed.diagnostics, Mode::Statements, &mut |binder| {
-            let steps = binder.block(&parsed.tree);
-            binder.finish(steps, None);
-            Ok(Type::Void)
-        })
+        let Parsed { tree, diagnostics } = parse::statements(source, self.schema.words());
+        self.compile(source, diagnostics, Tree::Statements(&tree))
     }
 
     /// The target of a control (`set`): the program stores `value` there. Without a known type of `value` it
     /// may be anything.
     pub fn assignment(&mut self, target: &str) -> Compiled {
-        let parsed = parse_expression(target);
-        let given = self.value.unwrap_or(Type::Any);
-        self.compile(target, &parsed.diagnostics, Mode::Target, &mut |binder| {
-            let step = Step::Effect(binder.set(&parsed.tree, given)?);
-            binder.finish(vec![step], None);
-            Ok(Type::Void)
-        })
+        let Parsed { tree, diagnostics } = parse::expression(target, self.schema.words());
+        self.compile(target, diagnostics, Tree::Target(&tree))
     }
 
-    fn compile<'t>(
-        &mut self,
-        source: &'t str,
-        read: &[Finding],
-        mode: Mode,
-        work: &mut dyn FnMut(&mut Binder<'t>) -> Attempt<Type>,
-    ) -> Compiled
-    where
-        's: 't,
-    {
+    fn compile(&mut self, source: &str, mut found: Vec<Finding>, tree: Tree<'_>) -> Compiled {
         let id = self.globals.next_program();
-        let mark = self.globals.mark();
-        let mut facts = Facts::default();
-        let mut passes = 0;
-        loop {
-            passes += 1;
-            let before = facts.clone();
-            self.globals.back_to(mark);
-            let mut binder = Binder::new(self, source, mode, id, facts);
-            let done = work(&mut binder);
-            let Binder {
-                mut diagnostics,
-                mut effects,
-                aggregates,
-                tree,
-                facts: seen,
-                help,
-                named,
-                globals,
-                ..
-            } = binder;
-            *self.globals = globals;
-            facts = seen;
-            if facts != before {
-                if passes >= PASSES {
-                    facts.give_up();
-                }
-                continue;
-            }
-            diagnostics.extend(read.iter().cloned());
-            let failed = diagnostics.iter().any(Finding::is_error);
-            note_views(&tree.views, &mut effects);
-            let program = done.ok().filter(|_| !failed);
-            let program = program.map(|result| Program::new(&tree, effects, result, aggregates));
-            return Compiled { id, program, diagnostics: in_order(diagnostics), help, named };
-        }
-    }
-}
-
-/// Arrays that became values may be read, and stored to when anything is stored through a value.
-fn note_views(views: &[Shown], effects: &mut Effects) {
-    for shown in views {
-        let access = crate::Access {
-            field: shown.view.field,
-            first: shown.view.first as usize,
-            count: shown.view.count(),
+        let around = Surroundings {
+            schema: Some(self.schema),
+            globals: self.globals,
+            mode: tree.mode(),
+            has_value: self.value.is_some(),
         };
-        effects.read(access);
-        if effects.stores_items && shown.assignable {
-            effects.write(access);
+        let (names, wrong) = names::resolve(around, |walk| match tree {
+            Tree::Expression(expr) => walk.value(expr),
+            Tree::Statements(statements) => walk.block(statements),
+            Tree::Target(target) => walk.place(target),
+        });
+        found.extend(wrong);
+        if names.stopped {
+            return Compiled {
+                id,
+                program: None,
+                diagnostics: in_order(found),
+                help: Vec::new(),
+                named: Vec::new(),
+            };
         }
+        let bound = types::bind(self, source, tree, &names, id);
+        found.extend(lints::look(self.schema, source, tree, &bound.typed));
+        found.extend(bound.found);
+        let failed = found.iter().any(Finding::is_error);
+        let program = bound
+            .program
+            .filter(|_| !failed)
+            .map(|parts| Program::new(&parts.tree, parts.effects, parts.result, parts.aggregates));
+        Compiled { id, program, diagnostics: in_order(found), help: bound.help, named: bound.named }
     }
 }
 
@@ -193,157 +151,12 @@ enum Mode {
     Target,
 }
 
-/// The marker of a mistake that has been reported.
-#[derive(Debug)]
-struct Reported;
-
-type Attempt<T> = Result<T, Reported>;
-
-/// What a part of the source stands for.
-#[derive(Clone, Debug)]
-enum Thing {
-    /// A value.
-    Value(Ir),
-    /// An object of the host.
-    Object(ObjectId),
-    /// Numbers of the host.
-    Field(Field),
-    /// A choice by name, not yet called.
-    Collection(CollectionId),
-    /// An object of a collection whose name is computed while running.
-    Picked(CollectionId, Ir),
-    /// A function of the host, not yet called.
-    Function(FunctionId),
-    /// `Math`
-    Math,
-    /// A function of `Math`, not yet called.
-    MathFunction(math::Function),
-    /// `ctx`
-    Globals,
-    /// `Array`, `Number`, `String`, `Object`: a holder of functions.
-    Namespace(&'static str),
-    /// A function of the language, not yet called.
-    Native(natives::Free),
-    /// A method, not yet called, with what it is called on.
-    Method(Box<Receiver>, String),
-    /// A function of the text: its place among the known ones.
-    Closure(usize),
-}
-
-/// What a method is called on.
-#[derive(Clone, Debug)]
-enum Receiver {
-    Field(Field),
-    Value(Ir),
-}
-
-/// The work on one text, in one pass.
-struct Binder<'a> {
-    schema: &'a dyn Schema,
-    globals: Globals,
-    value: Option<Type>,
-    source: &'a str,
-    mode: Mode,
-    program: ProgramId,
-    diagnostics: Vec<Finding>,
-    effects: Effects,
-    aggregates: Vec<Aggregate>,
-    next_aggregate: usize,
-    /// Whether the next two are wanted.
-    explains: bool,
-    help: Vec<(Span, Help)>,
-    named: Vec<Fix>,
-    facts: Facts,
-    tree: Tree,
-    /// Names in reach, inner ones last.
-    variables: Vec<Variable>,
-    /// Functions of the text.
-    known: Vec<Known<'a>>,
-    /// The function that is bound.
-    unit: UnitId,
-    /// The call whose method of the prelude is bound.
-    site: Option<Span>,
-    /// Where the results of the functions around go.
-    returns: Vec<(facts::Key, UnitId)>,
-    /// Loops around the statement, in this function.
-    loops: usize,
-    /// Conditions and jumps since the innermost counted loop began: what stands behind one may never run.
-    guards: usize,
-}
-
-impl<'a> Binder<'a> {
-    fn new<'s: 'a>(
-        compiler: &mut Compiler<'s>,
-        source: &'a str,
-        mode: Mode,
-        program: ProgramId,
-        facts: Facts,
-    ) -> Binder<'a> {
-        Binder {
-            schema: compiler.schema,
-            globals: std::mem::take(compiler.globals),
-            value: compiler.value,
-            source,
-            mode,
-            program,
-            diagnostics: Vec::new(),
-            effects: Effects::default(),
-            aggregates: Vec::new(),
-            next_aggregate: 0,
-            explains: compiler.explains,
-            help: Vec::new(),
-            named: Vec::new(),
-            facts,
-            tree: Tree { units: vec![Unit::default()], ..Tree::default() },
-            variables: Vec::new(),
-            known: Vec::new(),
-            unit: 0,
-            site: None,
-            returns: Vec::new(),
-            loops: 0,
-            guards: 0,
+impl Tree<'_> {
+    fn mode(self) -> Mode {
+        match self {
+            Tree::Expression(_) => Mode::Expression,
+            Tree::Statements(_) => Mode::Statements,
+            Tree::Target(_) => Mode::Target,
         }
     }
-
-    /// The text itself is bound: it is the first function.
-    fn finish(&mut self, body: Vec<Step>, result: Option<Type>) {
-        if let Some(unit) = self.tree.units.first_mut() {
-            unit.body = body;
-            unit.result = result;
-        }
-    }
-
-    fn report(&mut self, diagnostic: Finding) {
-        // In a method of the prelude the call is the place.
-        self.diagnostics.push(match self.site {
-            Some(span) => Finding { span: span.into(), fix: None, ..diagnostic },
-            None => diagnostic,
-        });
-    }
-
-    fn refuse<T>(&mut self, diagnostic: Finding) -> Attempt<T> {
-        self.report(diagnostic);
-        Err(Reported)
-    }
-
-    /// The source of a part; in a method of the prelude, whose text nobody wrote here, that of the call.
-    fn text(&self, span: Span) -> &'a str {
-        self.site.unwrap_or(span).text(self.source)
-    }
-
-    /// Notes what a part of the text is.
-    fn explain(&mut self, span: Span, help: impl FnOnce() -> Help) {
-        const MOST: usize = 1000;
-        if self.explains && self.site.is_none() && self.help.len() < MOST {
-            self.help.push((span, help()));
-        }
-    }
-}
-
-/// The finding for a function without a result where a value must stand.
-fn no_result(span: Span, source: &str) -> Finding {
-    let name = span.text(source).split('(').next().unwrap_or("");
-    Finding::error(rules::NO_RESULT, span, format!("`{name}` gives nothing back"))
-        .why("it is called for what it does; there is no value to go on with")
-        .help("call it as a statement of its own, in `setup`, `controller`, `apply` or `run`")
 }

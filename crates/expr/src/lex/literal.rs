@@ -1,28 +1,43 @@
 //! Literals: numbers, strings, template literals (their texts, and the places of the expressions in them).
 
 use nom::branch::alt;
-use nom::bytes::complete::{tag_no_case, take_while, take_while1};
-use nom::character::complete::{char, one_of};
-use nom::combinator::{opt, recognize};
-use nom::{IResult, Parser};
+use nom::bytes::complete::{tag, tag_no_case, take_while, take_while_m_n, take_while1};
+use nom::character::complete::{anychar, char, one_of, satisfy};
+use nom::combinator::{cut, map, map_opt, not, opt, recognize, value};
+use nom::multi::many0;
+use nom::sequence::{delimited, preceded, terminated};
+use nom::{IResult, Offset, Parser};
 
-use super::{Tok, is_line_end, is_word_part};
+use super::{Raw, Tok, blank, is_line_end};
 use crate::number::from_digits;
 use crate::rules;
 use crate::{Finding, Span};
 
-/// A number at the beginning of `input`.
-pub(super) fn number<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Finding>) -> (&'a str, Tok) {
-    let Ok((behind, text)) = alt((prefixed, decimal)).parse(input) else {
-        return ("", Tok::Bad); // not reached: the caller saw a digit
-    };
-    let tail_length = behind.find(|c| !is_word_part(c)).unwrap_or(behind.len());
-    let (tail, after) = behind.split_at(tail_length);
-    let span = Span::new(at, at + text.len() + tail.len());
+/// A part of a string or a template.
+#[derive(Clone)]
+pub(super) enum Part<'a> {
+    Plain(&'a str),
+    /// What an escape stands for.
+    Char(char),
+    /// A line that goes on.
+    Nothing,
+    /// An escape without a meaning.
+    Broken(&'a str),
+    /// The expression between `${` and `}`.
+    Code(&'a str),
+}
+
+/// What a number means that is followed directly by the letters `tail`. Also a bad number stands for a number, so that what
+/// follows is understood.
+pub(super) fn number_of(text: &str, tail: &str, span: Span, diagnostics: &mut Vec<Finding>) -> Tok {
     let value = plain(&text.replace('_', ""));
     diagnostics.extend(complaint(text, tail, value, span));
-    // Also a bad number stands for a number, so that what follows is understood.
-    (after, Tok::Number(value.unwrap_or(0.0)))
+    Tok::Number(value.unwrap_or(0.0))
+}
+
+/// A number, its separators included.
+pub(super) fn number(input: &str) -> IResult<&str, &str> {
+    alt((prefixed, decimal)).parse(input)
 }
 
 /// `0x1f`, `0b101`, `0o17`; the digits are checked later.
@@ -63,7 +78,7 @@ fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<F
     if tail == "n" {
         return Some(
             bad("big integers are not part of the language".into())
-                .why("every number here is a double, as every number of the simulation")
+                .why("every number here is a double")
                 .help(format!("write `{text}`"))
                 .fix(span, text),
         );
@@ -103,209 +118,198 @@ fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<F
     })
 }
 
-/// A string at the beginning of `input`, which starts with its quote.
-pub(super) fn string<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Finding>) -> (&'a str, Tok) {
-    let quote = if input.starts_with('"') { '"' } else { '\'' };
-    let mut text = String::new();
-    let mut rest = input.get(1..).unwrap_or("");
-    loop {
-        let Some(c) = rest.chars().next().filter(|c| !matches!(c, '\n' | '\r')) else {
-            let span = Span::new(at, at + input.len() - rest.len());
-            diagnostics.push(
-                Finding::error(rules::BAD_STRING, span, "this string is never closed")
-                    .why("a string ends on the line where it starts, with the quote that it starts with")
-                    .help(format!("write `{quote}` where the string ends")),
-            );
-            return (rest, Tok::Text(text));
-        };
-        let behind = rest.get(c.len_utf8()..).unwrap_or("");
-        if c == quote {
-            return (behind, Tok::Text(text));
-        }
-        if c != '\\' {
-            text.push(c);
-            rest = behind;
-            continue;
-        }
-        match escape(behind, &mut text) {
-            Some(next) => rest = next,
-            None => {
-                let start = at + input.len() - rest.len();
-                let length = 1 + behind.chars().next().map_or(0, char::len_utf8);
-                diagnostics.push(
-                    Finding::error(rules::BAD_STRING, Span::new(start, start + length), "this escape is broken")
-                        .why("`\\x` takes two hexadecimal digits, `\\u` four or a code point in braces; other digits have no meaning")
-                        .help("write the character itself, or `\\\\` for a backslash"),
-                );
-                rest = rest.get(length..).unwrap_or("");
-            }
-        }
-    }
+/// A string with this quote, up to its end or the end of its line.
+pub(super) fn string<'a>(
+    quote: char,
+) -> impl Parser<&'a str, Output = Raw<'a>, Error = nom::error::Error<&'a str>> {
+    let plain = take_while1(move |c| c != quote && !matches!(c, '\\' | '\n' | '\r'));
+    let parts = many0(alt((map(plain, Part::Plain), escape, broken)));
+    map((char(quote), parts, opt(char(quote))), move |(_, parts, end)| Raw::Text(quote, parts, end.is_some()))
 }
 
-/// Reads what follows a backslash; `None` when it has no meaning.
-fn escape<'a>(input: &'a str, text: &mut String) -> Option<&'a str> {
-    let c = input.chars().next()?;
-    let rest = input.get(c.len_utf8()..)?;
-    match c {
-        'n' => text.push('\n'),
-        't' => text.push('\t'),
-        'r' => text.push('\r'),
-        'b' => text.push('\u{8}'),
-        'f' => text.push('\u{c}'),
-        'v' => text.push('\u{b}'),
-        '0' if !rest.starts_with(|d: char| d.is_ascii_digit()) => text.push('\0'),
-        '0'..='9' => return None,
-        'x' => {
-            let code = hex(rest.get(..2)?)?;
-            text.push(char::from_u32(code)?);
-            return rest.get(2..);
-        }
-        'u' => return unicode(rest, text),
-        '\r' => return Some(rest.strip_prefix('\n').unwrap_or(rest)), // a continued line
-        c if is_line_end(c) => {}
-        c => text.push(c),
-    }
-    Some(rest)
+/// A template literal. One that is never closed, and an expression in it that is not, are failures.
+pub(super) fn template(input: &str) -> IResult<&str, Raw<'_>> {
+    let plain = take_while1(|c| !matches!(c, '`' | '$' | '\\' | '\r'));
+    // JavaScript reads every line end as a line feed.
+    let line_end = value(Part::Char('\n'), alt((tag("\r\n"), tag("\r"))));
+    let code = preceded(tag("${"), cut(terminated(code, char('}'))));
+    let part = alt((map(plain, Part::Plain), map(code, Part::Code), dollar, line_end, escape, broken));
+    map(delimited(char('`'), many0(part), cut(char('`'))), Raw::Template).parse(input)
 }
 
-/// Reads `{1F600}`, `00e9` or a pair of surrogates behind `\u`.
-fn unicode<'a>(input: &'a str, text: &mut String) -> Option<&'a str> {
-    if let Some(braced) = input.strip_prefix('{') {
-        let (digits, rest) = braced.split_once('}')?;
-        text.push(char::from_u32(hex(digits)?)?);
-        return Some(rest);
-    }
-    let unit = hex(input.get(..4)?)?;
-    let rest = input.get(4..)?;
-    if let Some(c) = char::from_u32(unit) {
-        text.push(c);
-        return Some(rest);
-    }
-    // A code point beyond the basic plane: two halves, the second in DC00..E000.
-    let low = hex(rest.strip_prefix("\\u")?.get(..4)?)?;
-    let pair = [u16::try_from(unit).ok()?, u16::try_from(low).ok()?];
-    text.push(char::decode_utf16(pair).next()?.ok()?);
-    rest.get(6..)
+fn dollar(input: &str) -> IResult<&str, Part<'_>> {
+    map(tag("$"), Part::Plain).parse(input)
+}
+
+/// A backslash with what follows it.
+fn escape(input: &str) -> IResult<&str, Part<'_>> {
+    let letter = map_opt(anychar, |c| {
+        Some(match c {
+            'n' => '\n',
+            't' => '\t',
+            'r' => '\r',
+            'b' => '\u{8}',
+            'f' => '\u{c}',
+            'v' => '\u{b}',
+            _ => return None,
+        })
+    });
+    let zero = value('\0', terminated(char('0'), not(satisfy(|c| c.is_ascii_digit()))));
+    let unit = |n| map_opt(take_while_m_n(n, n, |c: char| c.is_ascii_hexdigit()), hex);
+    let point = map_opt(take_while1(|c: char| c.is_ascii_hexdigit()), hex);
+    // A code point beyond the basic plane: two halves.
+    let pair = map_opt((unit(4), tag("\\u"), unit(4)), |(high, _, low)| {
+        let pair = [u16::try_from(high).ok()?, u16::try_from(low).ok()?];
+        char::decode_utf16(pair).next()?.ok().filter(|c| c.len_utf16() == 2)
+    });
+    let unicode = alt((
+        map_opt(delimited(char('{'), point, char('}')), char::from_u32),
+        pair,
+        map_opt(unit(4), char::from_u32),
+    ));
+    let hexadecimal = map_opt(unit(2), char::from_u32);
+    let itself = satisfy(|c| !c.is_ascii_digit() && !matches!(c, 'x' | 'u') && !is_line_end(c));
+    let line_end = alt((tag("\r\n"), recognize(satisfy(is_line_end))));
+    let meant = alt((letter, zero, preceded(char('x'), hexadecimal), preceded(char('u'), unicode), itself));
+    preceded(char('\\'), alt((map(meant, Part::Char), value(Part::Nothing, line_end)))).parse(input)
+}
+
+fn broken(input: &str) -> IResult<&str, Part<'_>> {
+    map(recognize((char('\\'), opt(satisfy(|c| !is_line_end(c))))), Part::Broken).parse(input)
 }
 
 fn hex(digits: &str) -> Option<u32> {
-    let fine = !digits.is_empty() && digits.chars().all(|c| c.is_ascii_hexdigit());
-    fine.then(|| u32::from_str_radix(digits, 16).ok())?
+    u32::from_str_radix(digits, 16).ok()
 }
 
-/// A template literal: texts and the places of the expressions between them. A line end in it is part of the text.
-pub(super) fn template<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Finding>) -> (&'a str, Tok) {
-    let (mut texts, mut values) = (Vec::new(), Vec::new());
-    let mut text = String::new();
-    let mut rest = input.get(1..).unwrap_or("");
-    while let Some(c) = rest.chars().next() {
-        let behind = rest.get(c.len_utf8()..).unwrap_or("");
-        let here = at + input.len() - rest.len();
-        match c {
-            '`' => {
-                texts.push(text);
-                return (behind, Tok::Template(texts, values));
-            }
-            '$' if behind.starts_with('{') => {
-                let code = behind.get(1..).unwrap_or("");
-                let Some(length) = length_of_code(code) else { break };
-                texts.push(std::mem::take(&mut text));
-                values.push(Span::new(here + 2, here + 2 + length));
-                rest = code.get(length + 1..).unwrap_or("");
-            }
-            '\\' => match escape(behind, &mut text) {
-                Some(next) => rest = next,
-                None => {
-                    diagnostics.push(
-                        Finding::error(rules::BAD_STRING, Span::new(here, here + 1), "this escape is broken")
-                            .help("write the character itself, or `\\\\` for a backslash"),
-                    );
-                    rest = behind;
-                }
-            },
-            // JavaScript reads every line end as a line feed.
-            '\r' => {
-                text.push('\n');
-                rest = behind.strip_prefix('\n').unwrap_or(behind);
-            }
-            c => {
-                text.push(c);
-                rest = behind;
-            }
-        }
+/// The code of an expression in a template, up to the `}` that closes it; strings, comments and templates in it are skipped.
+fn code(input: &str) -> IResult<&str, &str> {
+    /// A piece of code.
+    #[derive(Clone, Copy, PartialEq)]
+    enum Piece {
+        Opens(Inside),
+        Closes,
+        Other,
     }
-    diagnostics.push(
-        Finding::error(rules::BAD_STRING, Span::new(at, at + 1), "this backquote is never closed")
-            .why("a template literal ends with a backquote, and every `${` in it with `}`")
-            .help("write a backquote where the text ends"),
-    );
-    ("", Tok::Bad)
-}
-
-/// Bytes up to the `}` that closes an expression in a template; strings, comments and templates in it are skipped.
-fn length_of_code(code: &str) -> Option<usize> {
     /// What the reader stands in.
-    #[derive(PartialEq)]
+    #[derive(Clone, Copy, PartialEq)]
     enum Inside {
         Braces,
         Template,
     }
     let mut inside = vec![Inside::Braces];
-    let mut chars = code.char_indices().peekable();
-    while let Some((i, c)) = chars.next() {
-        let next = chars.peek().map_or(' ', |(_, c)| *c);
-        let template = inside.last() == Some(&Inside::Template);
-        match c {
-            '\\' if template => {
-                chars.next();
-            }
-            '`' if template => {
-                inside.pop();
-            }
-            '$' if template && next == '{' => {
-                chars.next();
-                inside.push(Inside::Braces);
-            }
-            _ if template => {}
-            '`' => inside.push(Inside::Template),
-            '{' => inside.push(Inside::Braces),
-            '}' => {
-                inside.pop();
-                if inside.is_empty() {
-                    return Some(i);
-                }
-            }
-            '"' | '\'' => {
-                let mut escaped = false;
-                for (_, d) in chars.by_ref() {
-                    if !escaped && (d == c || is_line_end(d)) {
-                        break;
-                    }
-                    escaped = !escaped && d == '\\';
-                }
-            }
-            '/' if next == '/' => {
-                for (_, d) in chars.by_ref() {
-                    if is_line_end(d) {
-                        break;
-                    }
-                }
-            }
-            '/' if next == '*' => {
-                chars.next();
-                let mut star = false;
-                for (_, d) in chars.by_ref() {
-                    if star && d == '/' {
-                        break;
-                    }
-                    star = d == '*';
-                }
-            }
-            _ => {}
+    let mut behind = input;
+    while let Some(around) = inside.last() {
+        let opens = |text, what| value(Piece::Opens(what), tag(text));
+        let other = || value(Piece::Other, anychar);
+        let (next, piece) = match around {
+            Inside::Template => alt((
+                value(Piece::Other, (char('\\'), anychar)),
+                value(Piece::Closes, char('`')),
+                opens("${", Inside::Braces),
+                other(),
+            ))
+            .parse(behind)?,
+            Inside::Braces => alt((
+                value(Piece::Other, alt((string('"'), string('\'')))),
+                value(Piece::Other, comment),
+                opens("`", Inside::Template),
+                opens("{", Inside::Braces),
+                value(Piece::Closes, char('}')),
+                other(),
+            ))
+            .parse(behind)?,
+        };
+        match piece {
+            Piece::Opens(what) => inside.push(what),
+            Piece::Closes => drop(inside.pop()),
+            Piece::Other => {}
+        }
+        if !inside.is_empty() {
+            behind = next;
         }
     }
-    None
+    let (code, _) = input.split_at(input.offset(behind));
+    Ok((behind, code))
+}
+
+/// Comments, and white space around them.
+fn comment(input: &str) -> IResult<&str, ()> {
+    let (at, _) = alt((tag("//"), tag("/*"))).parse(input)?;
+    let (behind, ..) = blank(input);
+    Ok((if behind.len() < at.len() { behind } else { at }, ()))
+}
+
+/// What the parts of a string or a template stand for, added to a text.
+fn say<'a>(
+    parts: &[Part<'a>],
+    source: &str,
+    diagnostics: &mut Vec<Finding>,
+    mut code: impl FnMut(&mut String, &'a str),
+) -> String {
+    let mut text = String::new();
+    for part in parts {
+        match part {
+            Part::Plain(plain) => text.push_str(plain),
+            Part::Char(c) => text.push(*c),
+            Part::Nothing => {}
+            Part::Code(inner) => code(&mut text, inner),
+            Part::Broken(escape) => {
+                let start = source.offset(escape);
+                diagnostics.push(
+                    Finding::error(
+                        rules::BAD_STRING,
+                        Span::new(start, start + escape.len()),
+                        "this escape is broken",
+                    )
+                    .why("`\\x` takes two hexadecimal digits, `\\u` four or a code point in braces; other digits have no meaning")
+                    .help("write the character itself, or `\\\\` for a backslash"),
+                );
+            }
+        }
+    }
+    text
+}
+
+/// What a string means.
+pub(super) fn text_of(
+    quote: char,
+    parts: &[Part<'_>],
+    closed: bool,
+    (source, span): (&str, Span),
+    diagnostics: &mut Vec<Finding>,
+) -> Tok {
+    let text = say(parts, source, diagnostics, |_, _| {});
+    if !closed {
+        diagnostics.push(
+            Finding::error(rules::BAD_STRING, span, "this string is never closed")
+                .why("a string ends on the line where it starts, with the quote that it starts with")
+                .help(format!("write `{quote}` where the string ends")),
+        );
+    }
+    Tok::Text(text)
+}
+
+/// What a template literal means: its texts, and the places of the expressions between them.
+pub(super) fn template_of(parts: Vec<Part<'_>>, source: &str, diagnostics: &mut Vec<Finding>) -> Tok {
+    let (mut texts, mut places) = (Vec::new(), Vec::new());
+    let last = say(&parts, source, diagnostics, |text, code| {
+        let start = source.offset(code);
+        texts.push(std::mem::take(text));
+        places.push(Span::new(start, start + code.len()));
+    });
+    texts.push(last);
+    Tok::Template(texts, places)
+}
+
+/// A template literal that does not end, which takes the whole rest of the text.
+pub(super) fn unclosed_template(start: usize, diagnostics: &mut Vec<Finding>) -> Tok {
+    diagnostics.push(
+        Finding::error(rules::BAD_STRING, Span::new(start, start + 1), "this backquote is never closed")
+            .why("a template literal ends with a backquote, and every `${` in it with `}`")
+            .help("write a backquote where the text ends"),
+    );
+    Tok::Bad
 }
 
 #[cfg(test)]

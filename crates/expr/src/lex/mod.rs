@@ -1,15 +1,19 @@
-//! Text to tokens, with nom. Every token keeps its bytes and whether a line ends before it, which is all that
-//! automatic semicolons need. A character that starts no token is reported once and skipped.
+//! Text to tokens, with nom: every token, and every blank between tokens, is read by a parser of its kind; what is wrong with one is
+//! said when it is read. Every token keeps its bytes and whether a line ends before it, which is all that automatic semicolons need.
+//! A character that starts no token is reported once and skipped.
 
 mod literal;
 
 use nom::branch::alt;
 use nom::bytes::complete::{tag, take_until, take_while, take_while1};
-use nom::combinator::{recognize, rest};
+use nom::character::complete::{anychar, satisfy};
+use nom::combinator::{map, recognize, rest, value};
+use nom::sequence::delimited;
 use nom::{IResult, Parser};
 
 use crate::{Finding, Span};
 use crate::{number, rules};
+use literal::Part;
 
 /// A piece of the source text.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +22,8 @@ pub(crate) struct Token {
     pub(crate) span: Span,
     /// A line ends between the token before and this one.
     pub(crate) newline: bool,
+    /// What is wrong with it, unless it is not read by itself: `02` in `0,02`.
+    pub(crate) doubt: Option<Box<Finding>>,
 }
 
 /// What a token is.
@@ -48,115 +54,138 @@ pub(crate) fn tokens(source: &str, diagnostics: &mut Vec<Finding>) -> Vec<Token>
     tokens_of(source, Span::new(0, source.len()), diagnostics)
 }
 
+/// A token, as it is written.
+enum Raw<'a> {
+    Word(&'a str),
+    /// A number, and the letters that stand directly behind it.
+    Number(&'a str, &'a str),
+    Symbol(&'static str),
+    /// A string: its quote, its parts, and whether it is closed.
+    Text(char, Vec<Part<'a>>, bool),
+    Template(Vec<Part<'a>>),
+    /// What stands between two typographic quotes.
+    Typographic(&'a str),
+    /// Any other character.
+    Odd(char),
+}
+
 /// All tokens of a part of a text, the last one [`Tok::End`].
 pub(crate) fn tokens_of(source: &str, part: Span, diagnostics: &mut Vec<Finding>) -> Vec<Token> {
-    let mut tokens = Vec::new();
+    let mut tokens: Vec<Token> = Vec::new();
     let mut input = part.text(source);
     let end = part.start + input.len();
     loop {
-        let (at, gap) = blank(input).unwrap_or((input, ""));
-        let gap_start = end - input.len();
+        let (at, newline, open) = blank(input);
+        if let Some(comment) = open {
+            diagnostics.push(unclosed_comment(end - comment.len()));
+        }
         let start = end - at.len();
-        check_comment(gap, gap_start, diagnostics);
-        let newline = gap.contains(is_line_end);
         if at.is_empty() {
-            tokens.push(Token { kind: Tok::End, span: Span::new(start, start), newline });
+            tokens.push(Token { kind: Tok::End, span: Span::new(start, start), newline, doubt: None });
             return tokens;
         }
-        let (behind, kind) = token(at, start, diagnostics);
-        // Every branch of `token` takes at least one character; if one did not, this still ends.
-        let behind = if behind.len() < at.len() { behind } else { "" };
-        tokens.push(Token { kind, span: Span::new(start, end - behind.len()), newline });
+        // Only a template can fail: then it is never closed.
+        let (behind, raw) = raw(at).map_or(("", None), |(behind, raw)| (behind, Some(raw)));
+        let span = Span::new(start, end - behind.len());
+        let before = diagnostics.len();
+        let kind = match raw {
+            Some(raw) => token(raw, source, span, diagnostics),
+            None => literal::unclosed_template(start, diagnostics),
+        };
+        let fraction = matches!(kind, Tok::Number(_)) && is_fraction(&tokens, source, span);
+        let doubt =
+            if fraction && diagnostics.len() > before { diagnostics.pop().map(Box::new) } else { None };
+        tokens.push(Token { kind, span, newline, doubt });
         input = behind;
     }
+}
+
+/// Whether a number stands directly behind digits and a comma, as in `0,02`.
+fn is_fraction(tokens: &[Token], source: &str, span: Span) -> bool {
+    let [.., whole, comma] = tokens else { return false };
+    let digits = |span: Span| span.text(source).bytes().all(|b| b.is_ascii_digit());
+    comma.kind == Tok::Symbol(",")
+        && matches!(whole.kind, Tok::Number(_))
+        && whole.span.end == comma.span.start
+        && comma.span.end == span.start
+        && digits(whole.span)
+        && digits(span)
 }
 
 fn is_line_end(c: char) -> bool {
     matches!(c, '\n' | '\r' | '\u{2028}' | '\u{2029}')
 }
 
-/// White space and comments; an unclosed comment reaches to the end.
-fn blank(input: &str) -> IResult<&str, &str> {
+/// Skips white space and comments: what is behind them, whether a line ends in them, and a comment that is never closed.
+fn blank(input: &str) -> (&str, bool, Option<&str>) {
     let mut behind = input;
-    loop {
-        let line = recognize((tag("//"), take_while(|c| !is_line_end(c))));
-        let block = recognize((tag("/*"), alt((recognize((take_until("*/"), tag("*/"))), rest))));
-        let space = take_while1(number::is_space);
-        match alt((space, line, block)).parse(behind) {
-            Ok((next, _)) => behind = next,
-            Err(nom::Err::Error(nom::error::Error { .. })) => break,
-            Err(other) => return Err(other),
+    let line = || recognize((tag("//"), take_while(|c| !is_line_end(c))));
+    let block = || recognize(delimited(tag("/*"), take_until("*/"), tag("*/")));
+    let mut closed = alt((take_while1(number::is_space), line(), block()));
+    while let Ok((next, _)) = nom_str(&mut closed, behind) {
+        behind = next;
+    }
+    let open = nom_str(&mut recognize((tag("/*"), rest)), behind).ok().map(|(_, comment)| comment);
+    let behind = if open.is_some() { "" } else { behind };
+    let gap = input.get(..input.len() - behind.len()).unwrap_or("");
+    (behind, gap.contains(is_line_end), open)
+}
+
+/// One step of a parser.
+fn nom_str<'a, P: Parser<&'a str, Error = nom::error::Error<&'a str>>>(
+    parser: &mut P,
+    input: &'a str,
+) -> IResult<&'a str, P::Output> {
+    parser.parse(input)
+}
+
+fn unclosed_comment(start: usize) -> Finding {
+    Finding::error(rules::UNCLOSED_COMMENT, Span::new(start, start + 2), "this comment is never closed")
+        .why("everything behind it is part of the comment and is not read")
+        .help("write `*/` where the comment ends")
+}
+
+/// One token at the beginning of `input`.
+fn raw(input: &str) -> IResult<&str, Raw<'_>> {
+    alt((
+        map(word, Raw::Word),
+        map((literal::number, take_while(is_word_part)), |(text, tail)| Raw::Number(text, tail)),
+        map(symbol, Raw::Symbol),
+        literal::string('\''),
+        literal::string('"'),
+        literal::template,
+        map(typographic, Raw::Typographic),
+        map(anychar, Raw::Odd),
+    ))
+    .parse(input)
+}
+
+/// What a token means, and what is wrong with it.
+fn token(raw: Raw<'_>, source: &str, span: Span, diagnostics: &mut Vec<Finding>) -> Tok {
+    match raw {
+        Raw::Word(text) => Tok::Word(text.to_owned()),
+        Raw::Symbol(text) => Tok::Symbol(text),
+        Raw::Number(text, tail) => literal::number_of(text, tail, span, diagnostics),
+        Raw::Text(quote, parts, closed) => {
+            literal::text_of(quote, &parts, closed, (source, span), diagnostics)
+        }
+        Raw::Template(parts) => literal::template_of(parts, source, diagnostics),
+        Raw::Typographic(text) => {
+            diagnostics.push(
+                Finding::error(rules::BAD_CHARACTER, span, "typographic quotes do not make a string")
+                    .why("word processors put them in place of the plain ones")
+                    .help("write `\"` or `'`")
+                    .fix(span, format!("\"{text}\"")),
+            );
+            Tok::Text(text.to_owned())
+        }
+        Raw::Odd(c) => {
+            diagnostics.push(bad_character(c, span));
+            // A look-alike of an operator is read as that operator, so that what follows is still understood.
+            let meant = look_alike(c).and_then(|text| SYMBOLS.iter().find(|s| **s == text));
+            meant.map_or(Tok::Bad, |s| Tok::Symbol(s))
         }
     }
-    let (gap, behind) = input.split_at(input.len() - behind.len());
-    Ok((behind, gap))
-}
-
-/// Reports a block comment at the end of a gap that is not closed.
-fn check_comment(gap: &str, start: usize, diagnostics: &mut Vec<Finding>) {
-    let mut from = 0;
-    while let Some((at, opener)) = next_comment(gap, from) {
-        let close = if opener == "/*" { "*/" } else { "\n" };
-        match gap.get(at + 2..).and_then(|rest| rest.find(close)) {
-            Some(n) => from = at + 2 + n + close.len(),
-            None if opener == "/*" => {
-                let span = Span::new(start + at, start + at + 2);
-                diagnostics.push(
-                    Finding::error(rules::UNCLOSED_COMMENT, span, "this comment is never closed")
-                        .why("everything behind it is part of the comment and is not read")
-                        .help("write `*/` where the comment ends"),
-                );
-                return;
-            }
-            None => return,
-        }
-    }
-}
-
-/// The first comment opener of a gap at or behind a byte.
-fn next_comment(gap: &str, from: usize) -> Option<(usize, &'static str)> {
-    let tail = gap.get(from..)?;
-    let at = tail.find('/')?;
-    let opener = if tail.get(at..)?.starts_with("/*") { "/*" } else { "//" };
-    Some((from + at, opener))
-}
-
-/// One token at the beginning of `input`, which starts at byte `at` of the source.
-fn token<'a>(input: &'a str, at: usize, diagnostics: &mut Vec<Finding>) -> (&'a str, Tok) {
-    let mut chars = input.chars();
-    let first = chars.next().unwrap_or(' ');
-    let second = chars.next().unwrap_or(' ');
-    if first.is_ascii_digit() || (first == '.' && second.is_ascii_digit()) {
-        return literal::number(input, at, diagnostics);
-    }
-    if first == '"' || first == '\'' {
-        return literal::string(input, at, diagnostics);
-    }
-    if first == '`' {
-        return literal::template(input, at, diagnostics);
-    }
-    if let Ok((behind, text)) = word(input) {
-        return (behind, Tok::Word(text.to_owned()));
-    }
-    if let Ok((behind, text)) = symbol(input) {
-        return (behind, Tok::Symbol(text));
-    }
-    if let Some((behind, text)) = typographic(input) {
-        let span = Span::new(at, at + input.len() - behind.len());
-        diagnostics.push(
-            Finding::error(rules::BAD_CHARACTER, span, "typographic quotes do not make a string")
-                .why("word processors put them in place of the plain ones")
-                .help("write `\"` or `'`")
-                .fix(span, format!("\"{text}\"")),
-        );
-        return (behind, Tok::Text(text.to_owned()));
-    }
-    let behind = input.get(first.len_utf8()..).unwrap_or("");
-    let span = Span::new(at, at + first.len_utf8());
-    diagnostics.push(bad_character(first, span));
-    // A look-alike of an operator is read as that operator, so that what follows is still understood.
-    let meant = look_alike(first).and_then(|text| SYMBOLS.iter().find(|s| **s == text));
-    (behind, meant.map_or(Tok::Bad, |s| Tok::Symbol(s)))
 }
 
 fn is_word_start(c: char) -> bool {
@@ -168,31 +197,27 @@ fn is_word_part(c: char) -> bool {
 }
 
 fn word(input: &str) -> IResult<&str, &str> {
-    recognize((nom::character::complete::satisfy(is_word_start), take_while(is_word_part))).parse(input)
+    recognize((satisfy(is_word_start), take_while(is_word_part))).parse(input)
 }
 
 fn symbol(input: &str) -> IResult<&str, &'static str> {
-    for text in SYMBOLS {
-        let Ok((behind, _)) = tag::<_, _, nom::error::Error<&str>>(*text).parse(input) else { continue };
+    let error = || nom::Err::Error(nom::error::Error::new(input, nom::error::ErrorKind::Tag));
+    let read = |text: &&'static str| {
+        let (behind, text) = nom_str(&mut value(*text, tag(*text)), input).ok()?;
         // `a?.5:1` is a choice between .5 and 1, not an optional member.
-        if *text == "?." && behind.starts_with(|c: char| c.is_ascii_digit()) {
-            continue;
-        }
-        return Ok((behind, text));
-    }
-    Err(nom::Err::Error(nom::error::Error::new(input, nom::error::ErrorKind::Tag)))
+        (text != "?." || !behind.starts_with(|c: char| c.is_ascii_digit())).then_some((behind, text))
+    };
+    SYMBOLS.iter().find_map(read).ok_or_else(error)
 }
 
 fn is_typographic(c: char) -> bool {
     matches!(c, '“' | '”' | '„' | '‘' | '’' | '‚' | '«' | '»')
 }
 
-/// The text between two typographic quotes, and what is behind them.
-fn typographic(input: &str) -> Option<(&str, &str)> {
-    let inner = input.strip_prefix(is_typographic)?;
-    let end = inner.find(|c| is_typographic(c) || is_line_end(c) || matches!(c, '"' | '\\'))?;
-    let (text, closing) = inner.split_at(end);
-    Some((closing.strip_prefix(is_typographic)?, text))
+/// The text between two typographic quotes.
+fn typographic(input: &str) -> IResult<&str, &str> {
+    let inside = |c: char| !(is_typographic(c) || is_line_end(c) || matches!(c, '"' | '\\'));
+    delimited(satisfy(is_typographic), take_while(inside), satisfy(is_typographic)).parse(input)
 }
 
 /// What people mean by signs that word processors and formula editors write.

@@ -1,14 +1,62 @@
-//! Methods of lists, typed arrays and arrays of the simulation (ECMAScript, "Array Objects", "TypedArray Objects").
+//! Methods of lists, typed arrays and arrays of the host (ECMAScript, "Array Objects", "TypedArray Objects").
 
-use super::{Env, Trouble, arg, integer, range, relative};
+use super::env::{arg, integer, range, relative};
+use super::{Env, MANY, Outcome, Row, Trouble, table};
 use crate::heap::Object;
 use crate::rules;
 use crate::schema::Elem;
 use crate::value::{Value, View};
 
-type Outcome = Result<Value, Trouble>;
+pub(super) static ROWS: &[Row] = table! {
+    "at" List (1, 1) Item at: "[1, 2, 3].at(-1)" => "3",
+        "element at an index, which counts from the end when negative";
+    "concat" List (0, MANY) List concat: "[1].concat([2, 3], 4)" => "1,2,3,4",
+        "a list of all elements";
+    "fill" List changes (1, 3) Receiver fill: "[1, 2, 3].fill(0, 1)" => "1,0,0",
+        "stores one value in all elements, or in those from one index up to another";
+    "flat" List (0, 1) List flat: "[1, [2, 3]].flat()" => "1,2,3",
+        "the elements, and the elements of the lists among them";
+    "includes" List (1, 2) Boolean includes: "[1, 2].includes(2)" => "true",
+        "whether a value is among the elements";
+    "indexOf" List (1, 2) Number index_of: "[5, 6].indexOf(6)" => "1",
+        "index of the first element with a value, or -1";
+    "join" List (0, 1) String join: "[1, 2].join(' / ')" => "1 / 2",
+        "the elements as one text, with a text between them (a comma)";
+    "lastIndexOf" List (1, 2) Number last_index_of: "[5, 6, 5].lastIndexOf(5)" => "2",
+        "index of the last element with a value, or -1";
+    "pop" Growing changes (0, 0) Any pop: "[1, 2].pop()" => "2",
+        "takes the last element away, and gives it";
+    "push" Growing changes (0, MANY) Number push: "[1, 2].push(3)" => "3",
+        "appends elements, and gives the new length";
+    "reverse" List changes (0, 0) Receiver reverse: "[1, 2, 3].reverse()" => "3,2,1",
+        "turns the order of the elements around";
+    "set" List changes (1, 2) Undefined set: "{array}.slice(0, 2).set([0, 1])" => "undefined",
+        "stores values one after the other, from an index on";
+    "shift" Growing changes (0, 0) Any shift: "[1, 2].shift()" => "1",
+        "takes the first element away, and gives it";
+    "slice" List (0, 2) List slice: "[1, 2, 3].slice(1)" => "2,3",
+        "a copy of the elements from one index up to another; indexes count from the end when negative";
+    "sort" List changes (0, 0) Receiver sort: "[3, 10, 2].sort()" => "10,2,3",
+        "sorts the elements: of a list as texts, of an array as numbers; `sort((a, b) => a - b)` sorts by a function";
+    "splice" Growing changes (1, MANY) List splice: "[1, 2, 3].splice(1, 1)" => "2",
+        "takes elements away from an index on, puts others there, and gives those that were taken";
+    "subarray" List (0, 2) Receiver subarray: "{array}.subarray(0, 2).length" => "2",
+        "a part of an array of the host, not a copy";
+    "toReversed" List (0, 0) List to_reversed: "[1, 2].toReversed()" => "2,1",
+        "a copy in reverse order";
+    "toSorted" List (0, 0) List to_sorted: "[3, 1, 2].toSorted()" => "1,2,3",
+        "a sorted copy, see `sort`";
+    "unshift" Growing changes (0, MANY) Number unshift: "[2].unshift(1)" => "2",
+        "puts elements in front, and gives the new length";
+    "with" List (2, 2) List with: "[1, 2].with(0, 5)" => "5,2",
+        "a copy with one element replaced";
+    "_like" Nothing (2, 2) List like: "" => "", "";
+    "_kind" Nothing (2, 2) List kind: "" => "", "";
+    "_empty" Nothing (0, 0) Element empty: "" => "", "";
+    "_copy" Nothing (1, 1) List copy: "" => "", "";
+};
 
-/// What the elements are when a value holds numbers only: a typed array, or an array of the simulation.
+/// What the elements are when a value holds numbers only: a typed array, or an array of the host.
 fn typed(env: &Env<'_>, value: &Value) -> Option<Elem> {
     match value {
         Value::View(view) => Some(env.elem(*view)),
@@ -64,7 +112,7 @@ fn store(env: &mut Env<'_>, list: &Value, index: usize, item: &Value) -> Result<
     Ok(())
 }
 
-pub(super) fn at(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn at(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let n = env.len(list);
     let x = integer(env.number(arg(args, 0))?);
     let at = if x < 0.0 { n as f64 + x } else { x };
@@ -77,7 +125,7 @@ pub(super) fn at(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     })
 }
 
-pub(super) fn concat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn concat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let mut items = env.items(list)?;
     for arg in args {
         // JavaScript takes lists apart, typed arrays not.
@@ -90,7 +138,7 @@ pub(super) fn concat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome
     Ok(env.heap.list(items)?)
 }
 
-pub(super) fn fill(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn fill(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let n = env.len(list);
     let (start, end) = range(env, args, 1, n)?;
     env.spend(end - start)?;
@@ -100,7 +148,7 @@ pub(super) fn fill(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     Ok(list.clone())
 }
 
-pub(super) fn flat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn flat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let depth = match arg(args, 0) {
         Value::Undefined => 1.0,
         depth => integer(env.number(depth)?),
@@ -126,7 +174,7 @@ pub(super) fn flat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     Ok(env.heap.list(items)?)
 }
 
-pub(super) fn includes(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn includes(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let items = env.items(list)?;
     let (from, _) = range(env, args.get(..2).unwrap_or(args), 1, items.len())?;
     let wanted = arg(args, 0);
@@ -139,14 +187,14 @@ fn is_nan(value: &Value) -> bool {
     matches!(value, Value::Number(x) if x.is_nan())
 }
 
-pub(super) fn index_of(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn index_of(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let items = env.items(list)?;
     let (from, _) = range(env, args.get(..2).unwrap_or(args), 1, items.len())?;
     let found = items.iter().enumerate().skip(from).find(|(_, v)| v.strictly_equals(arg(args, 0)));
     Ok(Value::Number(found.map_or(-1.0, |(i, _)| i as f64)))
 }
 
-pub(super) fn last_index_of(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn last_index_of(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let items = env.items(list)?;
     let n = items.len() as f64;
     let last = match args.get(1) {
@@ -161,7 +209,7 @@ pub(super) fn last_index_of(env: &mut Env<'_>, list: &Value, args: &[Value]) -> 
     Ok(Value::Number(found.map_or(-1.0, |(i, _)| i as f64)))
 }
 
-pub(super) fn join(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn join(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let between = match arg(args, 0) {
         Value::Undefined => ",".to_owned(),
         other => env.text(other)?,
@@ -175,20 +223,20 @@ pub(super) fn join(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
             text.push_str(&env.text(item)?);
         }
         if text.len() > crate::heap::MAX_TEXT {
-            return Err(super::too_long());
+            return Err(super::env::too_long());
         }
     }
     env.string(text)
 }
 
-pub(super) fn pop(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
+fn pop(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
     Ok(match env.heap.object_mut(list) {
         Some(Object::List(items)) => items.pop().unwrap_or_default(),
         _ => Value::Undefined,
     })
 }
 
-pub(super) fn push(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn push(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     for arg in args {
         env.heap.grow(arg)?;
     }
@@ -198,14 +246,14 @@ pub(super) fn push(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     Ok(Value::Number(env.len(list) as f64))
 }
 
-pub(super) fn reverse(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
+fn reverse(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
     let mut items = env.items(list)?;
     items.reverse();
     replace(env, list, items)?;
     Ok(list.clone())
 }
 
-pub(super) fn set(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn set(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let items = env.spread(arg(args, 0))?;
     let offset = integer(env.number(arg(args, 1))?);
     let n = env.len(list);
@@ -219,7 +267,7 @@ pub(super) fn set(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     Ok(Value::Undefined)
 }
 
-pub(super) fn shift(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
+fn shift(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
     let n = env.len(list);
     env.spend(n / 8)?;
     Ok(match env.heap.object_mut(list) {
@@ -228,7 +276,7 @@ pub(super) fn shift(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
     })
 }
 
-pub(super) fn slice(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn slice(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let items = env.items(list)?;
     let (start, end) = range(env, args, 0, items.len())?;
     let part = items.get(start..end).unwrap_or(&[]).to_vec();
@@ -259,24 +307,24 @@ fn sorted(env: &mut Env<'_>, list: &Value) -> Result<Vec<Value>, Trouble> {
     Ok(keyed.into_iter().map(|(_, _, item)| item).collect())
 }
 
-pub(super) fn sort(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
+fn sort(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
     let items = sorted(env, list)?;
     replace(env, list, items)?;
     Ok(list.clone())
 }
 
-pub(super) fn to_sorted(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
+fn to_sorted(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
     let items = sorted(env, list)?;
     same_kind(env, list, items)
 }
 
-pub(super) fn to_reversed(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
+fn to_reversed(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
     let mut items = env.items(list)?;
     items.reverse();
     same_kind(env, list, items)
 }
 
-pub(super) fn splice(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn splice(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let n = env.len(list);
     env.spend(n / 8)?;
     let start = relative(env.number(arg(args, 0))?, n);
@@ -295,7 +343,7 @@ pub(super) fn splice(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome
     Ok(env.heap.list(removed)?)
 }
 
-pub(super) fn subarray(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn subarray(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let n = env.len(list);
     let (start, end) = range(env, args, 0, n)?;
     match list {
@@ -307,7 +355,7 @@ pub(super) fn subarray(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outco
     }
 }
 
-pub(super) fn unshift(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn unshift(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let n = env.len(list);
     env.spend(n / 8)?;
     for arg in args {
@@ -319,7 +367,7 @@ pub(super) fn unshift(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcom
     Ok(Value::Number((n + args.len()) as f64))
 }
 
-pub(super) fn with(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn with(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     let mut items = env.items(list)?;
     let x = integer(env.number(arg(args, 0))?);
     let at = if x < 0.0 { items.len() as f64 + x } else { x };
@@ -335,71 +383,8 @@ pub(super) fn with(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     same_kind(env, list, items)
 }
 
-pub(super) fn is_array(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
-    Ok(Value::Boolean(matches!(env.heap.object(arg(args, 0)), Object::List(_))))
-}
-
-pub(super) fn of(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
-    Ok(env.heap.list(args.to_vec())?)
-}
-
-pub(super) fn from(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
-    let source = arg(args, 0);
-    let items = match source {
-        Value::Record(_) => {
-            let n = env.heap.get(source, "length").map_or(0.0, |v| integer(v.to_number())).max(0.0);
-            if n > 1e6 {
-                return Err(Trouble::new(rules::MEMORY, format!("a list of {n} elements is too long")));
-            }
-            env.spend(n as usize)?;
-            vec![Value::Undefined; n as usize]
-        }
-        other => env.spread(other)?,
-    };
-    Ok(env.heap.list(items)?)
-}
-
-/// The entries of a record in JavaScript's order: keys that are indexes first.
-fn ordered(env: &mut Env<'_>, value: &Value) -> Result<Vec<(Value, Value)>, Trouble> {
-    let entries = match env.heap.object(value) {
-        Object::Record(entries) => {
-            let mut entries = entries.clone();
-            // Indexes in order of size, then the others as they came: the sort is stable.
-            entries.sort_by_key(|(k, _)| {
-                k.parse::<u32>().ok().filter(|i| i.to_string() == **k).map_or(u64::MAX, u64::from)
-            });
-            entries.into_iter().map(|(k, v)| (Value::String(k), v)).collect()
-        }
-        _ => {
-            let items = env.spread(value)?;
-            let keyed = items.into_iter().enumerate();
-            keyed.map(|(i, v)| (Value::String(i.to_string().into()), v)).collect::<Vec<_>>()
-        }
-    };
-    env.spend(entries.len())?;
-    Ok(entries)
-}
-
-pub(super) fn keys(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
-    let keys = ordered(env, arg(args, 0))?.into_iter().map(|(k, _)| k).collect();
-    Ok(env.heap.list(keys)?)
-}
-
-pub(super) fn values(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
-    let values = ordered(env, arg(args, 0))?.into_iter().map(|(_, v)| v).collect();
-    Ok(env.heap.list(values)?)
-}
-
-pub(super) fn entries(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
-    let mut lists = Vec::new();
-    for (key, value) in ordered(env, arg(args, 0))? {
-        lists.push(env.heap.list(vec![key, value])?);
-    }
-    Ok(env.heap.list(lists)?)
-}
-
 /// A list of the same kind as another, with so many elements.
-pub(super) fn like(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn like(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     let n = arg(args, 1).to_number() as usize;
     env.spend(n)?;
     let empty = if typed(env, arg(args, 0)).is_some() { Value::Number(0.0) } else { Value::Undefined };
@@ -407,7 +392,7 @@ pub(super) fn like(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
 }
 
 /// The elements of a list in a list of the same kind as another.
-pub(super) fn kind(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn kind(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     if typed(env, arg(args, 0)).is_none() {
         return Ok(arg(args, 1).clone());
     }
@@ -416,11 +401,11 @@ pub(super) fn kind(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
 }
 
 /// What `reduce` of nothing does.
-pub(super) fn empty(_: &mut Env<'_>, _: &Value, _: &[Value]) -> Outcome {
+fn empty(_: &mut Env<'_>, _: &Value, _: &[Value]) -> Outcome {
     Err(Trouble::new(rules::NO_PARTS, "`reduce` of a list without elements needs a first value"))
 }
 
-pub(super) fn copy(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn copy(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     let items = env.items(arg(args, 0))?;
     same_kind(env, arg(args, 0), items)
 }

@@ -1,25 +1,31 @@
-//! The methods of lists, texts and numbers, and the functions of `Array`, `Number`, `String` and `Object`: one table
-//! with what each takes, gives and means. Methods that call a function for every element are in `prelude`.
+//! The methods of lists, texts and numbers, and the functions of `Array`, `Number`, `String` and `Object`. Each is one row:
+//! what it is called, takes, gives and means, an example, and how it is computed. The binder, the machine, what was probably
+//! meant by a misspelt name, and the reference page all read the row.
 
+mod each;
+mod env;
 mod list;
 mod number;
-mod table;
+mod object;
 mod text;
 
+pub(crate) use env::{Env, Trouble, charge, out_of_steps, too_long};
+pub(crate) use number::NUMBER_CONSTANTS;
 pub use number::to_fixed;
-use table::TABLE;
 
-use crate::heap::{Full, Heap, MAX_TEXT, Object};
-use crate::ir::Shown;
-use crate::program::Host;
-use crate::rules::{self, Rule};
-use crate::schema::{Elem, Type};
-use crate::value::{Value, View};
+use std::sync::OnceLock;
+
+use crate::ast::{ExprKind, Function};
+use crate::heap::Object;
+use crate::parse::parse_expression;
+use crate::rules;
+use crate::schema::Type;
+use crate::value::Value;
 
 /// What a method belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum On {
-    /// Lists, typed arrays and arrays of the simulation.
+    /// Lists, typed arrays and arrays of the host.
     List,
     /// Lists alone: what changes the number of elements.
     Growing,
@@ -29,41 +35,81 @@ pub(crate) enum On {
     Nothing,
 }
 
-/// A row of the table.
+/// What a method gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Gives {
+    Any,
+    Boolean,
+    Number,
+    String,
+    List,
+    Undefined,
+    Element,
+    /// What it was called on.
+    Receiver,
+    /// An element of what it was called on.
+    Item,
+}
+
+/// How a method is computed.
+pub(crate) enum Body {
+    /// By the machine, with at least and at most so many arguments.
+    Run(Run, usize, usize),
+    /// By functions of the language itself, with how many arguments each of them is called: what stands before the point
+    /// is the first parameter. Where the method is called, the function is bound as if its text stood there, so that the
+    /// types of that place decide how it is computed: a sum over an array of numbers never leaves the number registers.
+    Written(&'static [(usize, &'static str)]),
+}
+
+/// A method, or a function.
 pub(crate) struct Row {
     pub(crate) name: &'static str,
     pub(crate) on: On,
-    pub(crate) least: usize,
-    pub(crate) most: usize,
-    pub(crate) returns: Type,
+    pub(crate) gives: Gives,
     /// It changes the elements of what it is called on.
     pub(crate) changes: bool,
     pub(crate) doc: &'static str,
-    /// An expression and its value, as text.
-    pub(crate) example: (&'static str, &'static str),
-    run: Run,
+    /// An expression and its value, as text. `{array}` stands for an array of the host.
+    example: (&'static str, &'static str),
+    pub(crate) body: Body,
 }
 
-type Run = fn(&mut Env<'_>, &Value, &[Value]) -> Result<Value, Trouble>;
+type Run = fn(&mut Env<'_>, &Value, &[Value]) -> Outcome;
+type Outcome = Result<Value, Trouble>;
 
-/// Why a method fails.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Trouble {
-    pub(crate) rule: &'static Rule,
-    pub(crate) message: String,
-}
+/// Any number of arguments.
+const MANY: usize = usize::MAX;
 
-impl Trouble {
-    pub(crate) fn new(rule: &'static Rule, message: impl Into<String>) -> Trouble {
-        Trouble { rule, message: message.into() }
-    }
+/// Rows, as they are written in the files beside this one: name, what it belongs to, the number of arguments, what it gives,
+/// the function, an example with its value, the meaning. Of those that are written in the language the texts stand last,
+/// each with its number of arguments.
+macro_rules! table {
+    ($($name:literal $on:ident $($changes:ident)? ($least:expr, $most:expr) $gives:ident $run:ident:
+        $example:literal => $value:literal, $doc:literal;)*) => {
+        &[$(Row {
+            name: $name,
+            on: super::On::$on,
+            gives: super::Gives::$gives,
+            changes: !stringify!($($changes)?).is_empty(),
+            doc: $doc,
+            example: ($example, $value),
+            body: super::Body::Run($run, $least, $most),
+        },)*]
+    };
+    ($($name:literal $on:ident $($changes:ident)?: $example:literal => $value:literal, $doc:literal,
+        $first:literal => $text:expr $(, $next:literal => $more:expr)?;)*) => {
+        &[$(Row {
+            name: $name,
+            on: super::On::$on,
+            gives: super::Gives::Any,
+            changes: !stringify!($($changes)?).is_empty(),
+            doc: $doc,
+            example: ($example, $value),
+            body: super::Body::Written(&[($first, $text) $(, ($next, $more))?]),
+        },)*]
+    };
 }
-
-impl From<Full> for Trouble {
-    fn from(Full: Full) -> Trouble {
-        Trouble::new(rules::MEMORY, "the lists of this lab take more than 64 MB")
-    }
-}
+use table;
 
 /// A name that is a method of something: the first row that has it. Rows of one name follow each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,92 +119,171 @@ pub(crate) struct Name(u8);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Free(u8);
 
-/// What a method works with.
-pub(crate) struct Env<'a> {
-    pub(crate) heap: &'a mut Heap,
-    pub(crate) host: &'a mut dyn Host,
-    pub(crate) views: &'a [Shown],
-    /// Work that the run may still do.
-    pub(crate) budget: &'a mut u64,
+/// All rows, by their names.
+fn all() -> &'static [&'static Row] {
+    static ALL: OnceLock<Vec<&'static Row>> = OnceLock::new();
+    ALL.get_or_init(|| {
+        let files = [list::ROWS, each::ROWS, text::ROWS, number::ROWS, object::ROWS, object::WRITTEN];
+        let mut all: Vec<&Row> = files.into_iter().flatten().collect();
+        all.sort_by_key(|row| row.name);
+        all
+    })
 }
 
-use On::{Growing, List, Nothing, Number, Text};
-use Type::Element;
-
-/// The constants of `Number`.
-pub(crate) const NUMBER_CONSTANTS: &[(&str, f64)] = &[
-    ("EPSILON", f64::EPSILON),
-    ("MAX_SAFE_INTEGER", 9007199254740991.0),
-    ("MAX_VALUE", f64::MAX),
-    ("MIN_SAFE_INTEGER", -9007199254740991.0),
-    ("MIN_VALUE", 5e-324),
-    ("NEGATIVE_INFINITY", f64::NEG_INFINITY),
-    ("NaN", f64::NAN),
-    ("POSITIVE_INFINITY", f64::INFINITY),
-];
+/// Where the rows of a name begin.
+fn first(text: &str) -> Option<(u8, &'static Row)> {
+    let at = all().partition_point(|row| row.name < text);
+    let row = all().get(at).filter(|row| row.name == text)?;
+    Some((at as u8, row))
+}
 
 /// The rows that a person may use.
 pub(crate) fn rows() -> impl Iterator<Item = &'static Row> {
-    TABLE.iter().filter(|row| !row.doc.is_empty())
+    all().iter().copied().filter(|row| !row.name.starts_with('_'))
 }
 
 /// The method of this name, whatever it belongs to.
 pub(crate) fn name(text: &str) -> Option<Name> {
-    TABLE.iter().position(|row| row.name == text && row.on != Nothing).map(|i| Name(i as u8))
+    first(text).filter(|(_, row)| row.on != On::Nothing).map(|(at, _)| Name(at))
 }
 
 /// The function of this name.
 pub(crate) fn free(text: &str) -> Option<Free> {
-    TABLE.iter().position(|row| row.name == text && row.on == Nothing).map(|i| Free(i as u8))
+    first(text).filter(|(_, row)| row.on == On::Nothing).map(|(at, _)| Free(at))
+}
+
+/// The rows that begin at a place and have one name.
+fn of_one_name(at: u8) -> impl Iterator<Item = &'static Row> {
+    let rows = all().get(usize::from(at)..).unwrap_or(&[]);
+    rows.iter().copied().take_while(|row| row.name == rows[0].name)
 }
 
 impl Free {
     pub(crate) fn row(self) -> &'static Row {
-        &TABLE[usize::from(self.0)]
+        all()[usize::from(self.0)]
+    }
+
+    /// The function of the language that computes it with so many arguments.
+    pub(crate) fn written(self, arguments: usize) -> Option<&'static Function> {
+        of_one_name(self.0).find_map(|row| row.written(arguments))
     }
 }
 
 impl Name {
     pub(crate) fn text(self) -> &'static str {
-        TABLE[usize::from(self.0)].name
+        all()[usize::from(self.0)].name
     }
 
     /// The rows of this name.
     pub(crate) fn rows(self) -> impl Iterator<Item = &'static Row> {
-        let first = usize::from(self.0);
-        TABLE.iter().skip(first).take_while(move |row| row.name == TABLE[first].name)
+        of_one_name(self.0)
     }
 
-    /// The row for a receiver of this type; `None` when it has no such method, or is not known.
-    pub(crate) fn row_for(self, ty: Type) -> Option<&'static Row> {
-        self.rows().find(|row| match row.on {
-            List => matches!(ty, Type::List | Type::View),
-            Growing => ty == Type::List,
-            Text => ty == Type::String,
-            Number => matches!(ty, Type::Number | Element),
-            Nothing => false,
-        })
+    /// The rows for a receiver of this type; all of them when the type is not known.
+    pub(crate) fn rows_for(self, ty: Type) -> impl Iterator<Item = &'static Row> {
+        self.rows().filter(move |row| row.is_of(ty))
+    }
+}
+
+impl Row {
+    /// Whether a value of this type has it, as far as that is known.
+    fn is_of(&self, ty: Type) -> bool {
+        matches!(ty, Type::Any | Type::Never)
+            || match self.on {
+                On::List => matches!(ty, Type::List | Type::View),
+                On::Growing => ty == Type::List,
+                On::Text => ty == Type::String,
+                On::Number => matches!(ty, Type::Number | Type::Element),
+                On::Nothing => false,
+            }
+    }
+
+    /// The type of its result, called on something of a type.
+    pub(crate) fn returns(&self, receiver: Type) -> Type {
+        match self.gives {
+            Gives::Any => Type::Any,
+            Gives::Boolean => Type::Boolean,
+            Gives::Number => Type::Number,
+            Gives::String => Type::String,
+            Gives::List => Type::List,
+            Gives::Undefined => Type::Undefined,
+            Gives::Element => Type::Element,
+            Gives::Receiver => receiver,
+            Gives::Item if receiver == Type::View => Type::Element,
+            Gives::Item => Type::Any,
+        }
+    }
+
+    /// How it is called, in short: `.map`, `Array.from`.
+    pub(crate) fn title(&self) -> String {
+        let point = if self.on == On::Nothing { "" } else { "." };
+        format!("{point}{}", self.name)
+    }
+
+    /// The least and the largest number of arguments.
+    pub(crate) fn arity(&self) -> (usize, usize) {
+        match self.body {
+            Body::Run(_, least, most) => (least, most),
+            Body::Written(texts) => {
+                (texts.first().map_or(0, |(n, _)| *n), texts.last().map_or(0, |(n, _)| *n))
+            }
+        }
+    }
+
+    /// Whether it calls a function for every element.
+    pub(crate) fn calls(&self) -> bool {
+        matches!(self.body, Body::Written(_))
+    }
+
+    /// The example and its value, with an array of the host.
+    pub(crate) fn example(&self, array: &str) -> (String, &'static str) {
+        (self.example.0.replace("{array}", array), self.example.1)
+    }
+
+    /// The function of the language that computes it with so many arguments.
+    pub(crate) fn written(&self, arguments: usize) -> Option<&'static Function> {
+        static READ: OnceLock<Vec<(&str, Function)>> = OnceLock::new();
+        let Body::Written(texts) = self.body else { return None };
+        let (_, text) = texts.iter().find(|(n, _)| *n == arguments)?;
+        let read = READ.get_or_init(|| {
+            let texts = all().iter().flat_map(|row| row.texts());
+            texts.filter_map(|(_, text)| Some((*text, function(text)?))).collect()
+        });
+        read.iter().find(|(t, _)| std::ptr::eq(*t, *text)).map(|(_, function)| function)
+    }
+
+    /// The texts of the functions that compute it.
+    fn texts(&self) -> &'static [(usize, &'static str)] {
+        if let Body::Written(texts) = self.body { texts } else { &[] }
+    }
+}
+
+/// All functions of the language that compute methods.
+pub(crate) fn written() -> impl Iterator<Item = &'static Function> {
+    all().iter().flat_map(|row| row.texts().iter().filter_map(|(n, _)| row.written(*n)))
+}
+
+/// A function, read.
+fn function(text: &str) -> Option<Function> {
+    match parse_expression(text).tree.kind {
+        ExprKind::Function(function) => Some(*function),
+        _ => None,
     }
 }
 
 /// Calls a method.
-pub(crate) fn call(
-    env: &mut Env<'_>,
-    name: Name,
-    receiver: &Value,
-    args: &[Value],
-) -> Result<Value, Trouble> {
+pub(crate) fn call(env: &mut Env<'_>, name: Name, receiver: &Value, args: &[Value]) -> Outcome {
     let list = matches!(env.heap.object(receiver), Object::List(_));
-    let found = name.rows().find(|row| match (row.on, receiver) {
-        (List, Value::List(_) | Value::View(_)) | (Text, Value::String(_)) | (Number, Value::Number(_)) => {
-            true
-        }
-        (Growing, Value::List(_)) => list,
-        _ => false,
+    let run = name.rows().find_map(|row| match (&row.body, row.on, receiver) {
+        (Body::Run(run, ..), On::List, Value::List(_) | Value::View(_))
+        | (Body::Run(run, ..), On::Text, Value::String(_))
+        | (Body::Run(run, ..), On::Number, Value::Number(_)) => Some(run),
+        (Body::Run(run, ..), On::Growing, Value::List(_)) if list => Some(run),
+        _ => None,
     });
-    match found {
+    match run {
         // A typed array alone has `set` and `subarray`.
-        Some(row) if !(list && matches!(row.name, "set" | "subarray")) => (row.run)(env, receiver, args),
+        Some(run) if !(list && matches!(name.text(), "set" | "subarray")) => run(env, receiver, args),
         _ => {
             let what = receiver.type_of().describe();
             let what = if receiver.is_nothing() { receiver.to_string() } else { what.to_owned() };
@@ -168,176 +293,31 @@ pub(crate) fn call(
 }
 
 /// Calls a function.
-pub(crate) fn call_free(env: &mut Env<'_>, function: Free, args: &[Value]) -> Result<Value, Trouble> {
-    (function.row().run)(env, &Value::Undefined, args)
+pub(crate) fn call_free(env: &mut Env<'_>, function: Free, args: &[Value]) -> Outcome {
+    match function.row().body {
+        Body::Run(run, ..) => run(env, &Value::Undefined, args),
+        Body::Written(_) => Ok(Value::Undefined), // not reached: the binder writes these out
+    }
 }
 
-/// What an element counts.
-const ELEMENT: u64 = 10;
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Counts work. Where it is too much, nothing is left.
-pub(crate) fn charge(budget: &mut u64, units: u64) -> Result<(), Trouble> {
-    let rest = budget.checked_sub(units);
-    *budget = rest.unwrap_or(0);
-    rest.map(|_| ()).ok_or_else(out_of_steps)
-}
-
-impl Env<'_> {
-    /// Counts elements that are gone through.
-    pub(crate) fn spend(&mut self, elements: usize) -> Result<(), Trouble> {
-        charge(self.budget, ELEMENT * elements as u64)
-    }
-
-    /// Number of elements of a view, now.
-    pub(crate) fn view_len(&self, view: View) -> usize {
-        view.count().unwrap_or_else(|| self.host.len(view.field).saturating_sub(view.first as usize))
-    }
-
-    /// Element of a view.
-    pub(crate) fn view_item(&self, view: View, index: usize) -> Value {
-        if index >= self.view_len(view) {
-            return Value::Undefined;
-        }
-        self.host.get(view.field, view.first as usize + index).map_or(Value::Undefined, Value::Number)
-    }
-
-    /// Stores an element of a view that became a value.
-    pub(crate) fn view_store(&mut self, view: View, index: usize, x: f64) -> Result<(), Trouble> {
-        let shown = self.views.iter().find(|s| s.view.field == view.field);
-        match shown {
-            Some(shown) if shown.assignable => {}
-            Some(_) => {
-                return Err(Trouble::new(
-                    rules::ASSIGN_DERIVED,
-                    "a computed array is assigned: what is stored there would be overwritten",
-                ));
-            }
-            None => {
-                return Err(Trouble::new(
-                    rules::HOST_STORE,
-                    "an array that another text kept is assigned; name it here instead",
-                ));
-            }
-        }
-        if index < self.view_len(view) {
-            let stored = self.host.set(view.field, view.first as usize + index, x);
-            stored.map_err(|message| Trouble::new(rules::HOST_STORE, message))?;
-        }
-        Ok(())
-    }
-
-    /// What the elements of an array are.
-    pub(crate) fn elem(&self, view: View) -> Elem {
-        self.views.iter().find(|s| s.view.field == view.field).map_or(Elem::Double, |s| s.elem)
-    }
-
-    /// Number of elements of a list or array.
-    pub(crate) fn len(&self, value: &Value) -> usize {
-        match value {
-            Value::View(view) => self.view_len(*view),
-            _ => self.heap.len(value).unwrap_or(0),
+    #[test]
+    fn every_method_that_is_written_is_read_without_a_mistake() {
+        for (row, (n, text)) in all().iter().flat_map(|row| row.texts().iter().map(move |t| (row, t))) {
+            assert!(parse_expression(text).diagnostics.is_empty(), "{}", row.name);
+            assert!(row.written(*n).is_some(), "{}", row.name);
         }
     }
 
-    /// All elements of a list or array, counted.
-    pub(crate) fn items(&mut self, value: &Value) -> Result<Vec<Value>, Trouble> {
-        let n = self.len(value);
-        self.spend(n)?;
-        Ok(match value {
-            Value::View(view) => (0..n).map(|i| self.view_item(*view, i)).collect(),
-            _ => match self.heap.object(value) {
-                Object::List(items) => items.clone(),
-                Object::Numbers(items, _) => items.iter().map(|&x| Value::Number(x)).collect(),
-                _ => Vec::new(),
-            },
-        })
-    }
-
-    /// JavaScript's `String(v)`.
-    pub(crate) fn text(&mut self, value: &Value) -> Result<String, Trouble> {
-        let text = match value {
-            Value::View(_) => {
-                let items = self.items(value)?;
-                let parts: Vec<String> = items.iter().map(Value::to_string).collect();
-                parts.join(",")
-            }
-            Value::String(text) => return Ok(text.to_string()),
-            _ => self.heap.text(value),
-        };
-        self.spend(text.len() / 16)?;
-        if text.len() > MAX_TEXT { Err(too_long()) } else { Ok(text) }
-    }
-
-    /// JavaScript's `Number(v)`.
-    pub(crate) fn number(&mut self, value: &Value) -> Result<f64, Trouble> {
-        match value {
-            Value::List(_) | Value::View(_) => Ok(crate::number::from_text(&self.text(value)?)),
-            other => Ok(other.to_number()),
+    #[test]
+    fn the_machine_has_the_first_row_of_a_name() {
+        // A function that the machine calls must not be one that is written out.
+        for row in all().iter().filter(|row| row.on == On::Nothing) {
+            assert!(!free(row.name).unwrap().row().calls(), "{}", row.name);
         }
+        assert!(all().len() < 256);
     }
-
-    /// A text as a value, when it is not too long.
-    pub(crate) fn string(&mut self, text: String) -> Result<Value, Trouble> {
-        if text.len() > MAX_TEXT {
-            return Err(too_long());
-        }
-        self.spend(text.len() / 16)?;
-        Ok(Value::String(text.into()))
-    }
-
-    /// What is spread: the elements of a list, the characters of a text.
-    pub(crate) fn spread(&mut self, value: &Value) -> Result<Vec<Value>, Trouble> {
-        match value {
-            Value::List(_) | Value::View(_) => self.items(value),
-            Value::String(text) => {
-                let text = text.clone();
-                self.spend(text.len())?;
-                Ok(text.chars().map(|c| Value::String(c.to_string().into())).collect())
-            }
-            other => {
-                let what =
-                    if other.is_nothing() { other.to_string() } else { other.type_of().describe().into() };
-                Err(Trouble::new(rules::NO_PARTS, format!("{what} has no elements to go through")))
-            }
-        }
-    }
-}
-
-pub(crate) fn too_long() -> Trouble {
-    Trouble::new(rules::TEXT_TOO_LONG, format!("a string grew beyond {MAX_TEXT} bytes"))
-}
-
-pub(crate) fn out_of_steps() -> Trouble {
-    Trouble::new(
-        rules::BUDGET,
-        "this text does not come to an end: it was stopped, so that the page does not hang",
-    )
-}
-
-/// JavaScript's ToIntegerOrInfinity.
-fn integer(x: f64) -> f64 {
-    if x.is_nan() { 0.0 } else { x.trunc() }
-}
-
-/// An index that counts from the end when negative, cut to `0..=n`.
-fn relative(x: f64, n: usize) -> usize {
-    let x = integer(x);
-    let at = if x < 0.0 { n as f64 + x } else { x };
-    at.clamp(0.0, n as f64) as usize
-}
-
-/// An argument; `undefined` when it is left out.
-fn arg(args: &[Value], i: usize) -> &Value {
-    const UNDEFINED: &Value = &Value::Undefined;
-    args.get(i).unwrap_or(UNDEFINED)
-}
-
-/// A range of indexes from two optional arguments.
-fn range(env: &mut Env<'_>, args: &[Value], first: usize, n: usize) -> Result<(usize, usize), Trouble> {
-    let start = relative(env.number(arg(args, first))?, n);
-    let end = match arg(args, first + 1) {
-        Value::Undefined => n,
-        end => relative(env.number(end)?, n),
-    };
-    Ok((start, end.max(start)))
 }

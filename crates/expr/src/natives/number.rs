@@ -1,11 +1,53 @@
-//! Methods of numbers and functions that make numbers (ECMAScript, "Number Objects", "parseFloat", "parseInt").
+//! Methods of numbers, and functions that make numbers, texts and truth values (ECMAScript, "Number Objects", "parseFloat", "parseInt").
 
-use super::{Env, Trouble, arg, integer};
+use super::env::{arg, integer};
+use super::{Env, Outcome, Row, Trouble, table};
 use crate::number as convert;
 use crate::rules;
 use crate::value::Value;
 
-type Outcome = Result<Value, Trouble>;
+pub(super) static ROWS: &[Row] = table! {
+    "toExponential" Number (0, 1) String to_exponential_method: "(1234).toExponential(1)" => "1.2e+3",
+        "in exponential form with so many decimals";
+    "toFixed" Number (0, 1) String to_fixed_method: "(2.345).toFixed(1)" => "2.3",
+        "with so many decimals";
+    "toPrecision" Number (0, 1) String to_precision_method: "(1234.5).toPrecision(2)" => "1.2e+3",
+        "with so many significant digits";
+    "toString" Number (0, 1) String to_string_method: "(255).toString(16)" => "ff",
+        "as text, in base 10 or another base";
+    "Number" Nothing (0, 1) Number number: "Number('12') + 1" => "13",
+        "a value as number";
+    "Number.isFinite" Nothing (1, 1) Boolean is_finite: "Number.isFinite('1')" => "false",
+        "whether a value is a number and finite";
+    "Number.isInteger" Nothing (1, 1) Boolean is_integer: "Number.isInteger(2)" => "true",
+        "whether a value is a whole number";
+    "Number.isNaN" Nothing (1, 1) Boolean is_nan: "Number.isNaN('a')" => "false",
+        "whether a value is NaN";
+    "Number.parseFloat" Nothing (1, 1) Number parse_float: "Number.parseFloat('1.5 m')" => "1.5",
+        "the number at the start of a text";
+    "Number.parseInt" Nothing (1, 2) Number parse_int: "Number.parseInt('12px')" => "12",
+        "the whole number at the start of a text";
+    "parseFloat" Nothing (1, 1) Number parse_float: "parseFloat('1.5 m')" => "1.5",
+        "the number at the start of a text";
+    "parseInt" Nothing (1, 2) Number parse_int: "parseInt('ff', 16)" => "255",
+        "the whole number at the start of a text, in base 10 or another base";
+    "String" Nothing (0, 1) String string: "String([1, 2])" => "1,2",
+        "a value as text";
+    "Boolean" Nothing (0, 1) Boolean boolean: "Boolean('')" => "false",
+        "whether a value counts as true";
+};
+
+/// The constants of `Number`.
+pub(crate) const NUMBER_CONSTANTS: &[(&str, f64)] = &[
+    ("EPSILON", f64::EPSILON),
+    ("MAX_SAFE_INTEGER", 9007199254740991.0),
+    ("MAX_VALUE", f64::MAX),
+    ("MIN_SAFE_INTEGER", -9007199254740991.0),
+    ("MIN_VALUE", 5e-324),
+    ("NEGATIVE_INFINITY", f64::NEG_INFINITY),
+    ("NaN", f64::NAN),
+    ("POSITIVE_INFINITY", f64::INFINITY),
+];
 
 /// The number a method is called on.
 fn own(value: &Value) -> f64 {
@@ -70,12 +112,12 @@ fn exponential(sign: &str, mantissa: &str, exponent: i32) -> String {
     format!("{sign}{mantissa}e{e}{}", exponent.abs())
 }
 
-pub(super) fn to_fixed_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+fn to_fixed_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
     let digits = digits(env, args, 0.0)?.unwrap_or(0);
     env.string(to_fixed(own(x), digits))
 }
 
-pub(super) fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
     let digits = digits(env, args, 0.0)?;
     let x = own(x);
     if !x.is_finite() {
@@ -93,7 +135,7 @@ pub(super) fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]
     env.string(exponential(sign, &mantissa, exponent))
 }
 
-pub(super) fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
     let precision = digits(env, args, 1.0)?;
     let x = own(x);
     let Some(precision) = precision.filter(|_| x.is_finite()) else { return env.string(convert::to_text(x)) };
@@ -112,7 +154,7 @@ pub(super) fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) 
     env.string(format!("{sign}{text}"))
 }
 
-pub(super) fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
     let radix = match arg(args, 0) {
         Value::Undefined => 10.0,
         radix => integer(env.number(radix)?),
@@ -135,30 +177,40 @@ pub(super) fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> 
     env.string(format!("{sign}{}", digits.iter().rev().collect::<String>()))
 }
 
-pub(super) fn number(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn number(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     Ok(Value::Number(match args.first() {
         Some(value) => env.number(value)?,
         None => 0.0,
     }))
 }
 
-pub(super) fn boolean(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn string(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    match args.first() {
+        Some(value) => {
+            let text = env.text(value)?;
+            env.string(text)
+        }
+        None => Ok(Value::from("")),
+    }
+}
+
+fn boolean(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     Ok(Value::Boolean(arg(args, 0).truthy()))
 }
 
-pub(super) fn is_finite(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn is_finite(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     Ok(Value::Boolean(matches!(arg(args, 0), Value::Number(x) if x.is_finite())))
 }
 
-pub(super) fn is_integer(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn is_integer(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     Ok(Value::Boolean(matches!(arg(args, 0), Value::Number(x) if x.is_finite() && x.fract() == 0.0)))
 }
 
-pub(super) fn is_nan(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn is_nan(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     Ok(Value::Boolean(matches!(arg(args, 0), Value::Number(x) if x.is_nan())))
 }
 
-pub(super) fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     let text = env.text(arg(args, 0))?;
     let text = text.trim_start_matches(convert::is_space);
     let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
@@ -185,7 +237,7 @@ pub(super) fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outco
     Ok(Value::Number(text.get(..end).and_then(|t| t.parse().ok()).unwrap_or(f64::NAN)))
 }
 
-pub(super) fn parse_int(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn parse_int(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     let text = env.text(arg(args, 0))?;
     let text = text.trim_start_matches(convert::is_space);
     let (sign, text) = match text.strip_prefix('-') {

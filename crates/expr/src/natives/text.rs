@@ -1,13 +1,59 @@
 //! Methods of texts (ECMAScript, "String Objects"). Indexes count UTF-16 code units, as JavaScript's do; half of a
 //! pair, cut off by an index, becomes the replacement character.
 
-use super::{Env, Trouble, arg, integer, range};
+use super::env::{arg, integer, range};
+use super::{Env, MANY, Outcome, Row, Trouble, table};
 use crate::heap::MAX_TEXT;
 use crate::number::is_space;
 use crate::rules;
 use crate::value::Value;
 
-type Outcome = Result<Value, Trouble>;
+pub(super) static ROWS: &[Row] = table! {
+    "at" Text (1, 1) Any at: "'abc'.at(-1)" => "c",
+        "character at an index, which counts from the end when negative";
+    "concat" Text (0, MANY) String concat: "'a'.concat('b', 1)" => "ab1",
+        "the texts joined";
+    "includes" Text (1, 2) Boolean includes: "'abc'.includes('bc')" => "true",
+        "whether a text stands in it";
+    "indexOf" Text (1, 2) Number index_of: "'abc'.indexOf('c')" => "2",
+        "index at which a text stands in it, or -1";
+    "lastIndexOf" Text (1, 1) Number last_index_of: "'abca'.lastIndexOf('a')" => "3",
+        "index at which a text stands last, or -1";
+    "slice" Text (0, 2) String slice: "'abc'.slice(0, -1)" => "ab",
+        "the part from one index up to another; indexes count from the end when negative";
+    "charAt" Text (0, 1) String char_at: "'abc'.charAt(1)" => "b",
+        "character at an index";
+    "charCodeAt" Text (0, 1) Number char_code_at: "'A'.charCodeAt(0)" => "65",
+        "number of the character at an index";
+    "endsWith" Text (1, 1) Boolean ends_with: "'abc'.endsWith('c')" => "true",
+        "whether it ends with a text";
+    "padEnd" Text (1, 2) String pad_end: "'7'.padEnd(3, '0')" => "700",
+        "filled up to a length behind";
+    "padStart" Text (1, 2) String pad_start: "'7'.padStart(3)" => "  7",
+        "filled up to a length in front";
+    "repeat" Text (1, 1) String repeat: "'ab'.repeat(2)" => "abab",
+        "the text several times";
+    "replace" Text (2, 2) String replace: "'aa'.replace('a', 'b')" => "ba",
+        "with the first of a text replaced by another";
+    "replaceAll" Text (2, 2) String replace_all: "'aa'.replaceAll('a', 'b')" => "bb",
+        "with every one of a text replaced by another";
+    "split" Text (0, 2) List split: "'a,b'.split(',').length" => "2",
+        "the parts between a text";
+    "startsWith" Text (1, 2) Boolean starts_with: "'abc'.startsWith('a')" => "true",
+        "whether it starts with a text";
+    "substring" Text (1, 2) String substring: "'abc'.substring(2, 0)" => "ab",
+        "the part between two indexes";
+    "toLowerCase" Text (0, 0) String to_lower_case: "'ABC'.toLowerCase()" => "abc",
+        "in small letters";
+    "toUpperCase" Text (0, 0) String to_upper_case: "'abc'.toUpperCase()" => "ABC",
+        "in capital letters";
+    "trim" Text (0, 0) String trim: "' a '.trim()" => "a",
+        "without white space at both ends";
+    "trimEnd" Text (0, 0) String trim_end: "'a '.trimEnd()" => "a",
+        "without white space at the end";
+    "trimStart" Text (0, 0) String trim_start: "' a'.trimStart()" => "a",
+        "without white space at the start";
+};
 
 fn str_of(value: &Value) -> &str {
     if let Value::String(text) = value { text } else { "" }
@@ -26,7 +72,7 @@ fn units_before(text: &str, byte: usize) -> f64 {
     text.get(..byte).map_or(0, |before| before.encode_utf16().count()) as f64
 }
 
-pub(super) fn at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let units = units(text);
     let x = integer(env.number(arg(args, 0))?);
     let at = if x < 0.0 { units.len() as f64 + x } else { x };
@@ -37,7 +83,7 @@ pub(super) fn at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     from_units(env, units.get(at..at + 1).unwrap_or(&[]))
 }
 
-pub(super) fn concat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn concat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let mut all = str_of(text).to_owned();
     for arg in args {
         all.push_str(&env.text(arg)?);
@@ -58,13 +104,13 @@ fn from_index<'t>(env: &mut Env<'_>, text: &'t str, start: &Value) -> Result<&'t
     Ok("")
 }
 
-pub(super) fn includes(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn includes(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let wanted = env.text(arg(args, 0))?;
     let rest = from_index(env, str_of(text), arg(args, 1))?;
     Ok(Value::Boolean(rest.contains(&wanted)))
 }
 
-pub(super) fn index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let wanted = env.text(arg(args, 0))?;
     let text = str_of(text);
     let rest = from_index(env, text, arg(args, 1))?;
@@ -73,19 +119,19 @@ pub(super) fn index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outco
     Ok(Value::Number(found.unwrap_or(-1.0)))
 }
 
-pub(super) fn last_index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn last_index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let wanted = env.text(arg(args, 0))?;
     let text = str_of(text);
     Ok(Value::Number(text.rfind(&wanted).map_or(-1.0, |byte| units_before(text, byte))))
 }
 
-pub(super) fn slice(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn slice(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let units = units(text);
     let (start, end) = range(env, args, 0, units.len())?;
     from_units(env, units.get(start..end).unwrap_or(&[]))
 }
 
-pub(super) fn substring(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn substring(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let units = units(text);
     let n = units.len() as f64;
     let a = integer(env.number(arg(args, 0))?).clamp(0.0, n);
@@ -96,7 +142,7 @@ pub(super) fn substring(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outc
     from_units(env, units.get(a.min(b) as usize..a.max(b) as usize).unwrap_or(&[]))
 }
 
-pub(super) fn char_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn char_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let units = units(text);
     let at = integer(env.number(arg(args, 0))?);
     if at < 0.0 || at >= units.len() as f64 {
@@ -106,19 +152,19 @@ pub(super) fn char_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcom
     from_units(env, units.get(at..at + 1).unwrap_or(&[]))
 }
 
-pub(super) fn char_code_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn char_code_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let at = integer(env.number(arg(args, 0))?);
     let unit = if at < 0.0 { None } else { str_of(text).encode_utf16().nth(at as usize) };
     Ok(Value::Number(unit.map_or(f64::NAN, f64::from)))
 }
 
-pub(super) fn starts_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn starts_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let wanted = env.text(arg(args, 0))?;
     let rest = from_index(env, str_of(text), arg(args, 1))?;
     Ok(Value::Boolean(rest.starts_with(&wanted)))
 }
 
-pub(super) fn ends_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn ends_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let wanted = env.text(arg(args, 0))?;
     Ok(Value::Boolean(str_of(text).ends_with(&wanted)))
 }
@@ -141,17 +187,17 @@ fn padding(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Result<String, Tr
     Ok(String::from_utf16_lossy(&units))
 }
 
-pub(super) fn pad_start(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn pad_start(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let padding = padding(env, text, args)?;
     env.string(padding + str_of(text))
 }
 
-pub(super) fn pad_end(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn pad_end(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let padding = padding(env, text, args)?;
     env.string(str_of(text).to_owned() + &padding)
 }
 
-pub(super) fn repeat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn repeat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let count = integer(env.number(arg(args, 0))?);
     if count < 0.0 || count.is_infinite() {
         return Err(Trouble::new(rules::ARGUMENT_TYPE, format!("a text cannot be repeated {count} times")));
@@ -182,7 +228,7 @@ fn replacement(pattern: &str, found: &str, before: &str, after: &str) -> String 
     out + rest
 }
 
-pub(super) fn replace(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn replace(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let (from, to) = (env.text(arg(args, 0))?, env.text(arg(args, 1))?);
     let text = str_of(text);
     let Some(at) = text.find(&from) else { return env.string(text.to_owned()) };
@@ -190,7 +236,7 @@ pub(super) fn replace(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcom
     env.string(format!("{before}{}{after}", replacement(&to, &from, before, after)))
 }
 
-pub(super) fn replace_all(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn replace_all(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let (from, to) = (env.text(arg(args, 0))?, env.text(arg(args, 1))?);
     let text = str_of(text);
     let mut out = String::new();
@@ -208,7 +254,7 @@ pub(super) fn replace_all(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Ou
     env.string(out)
 }
 
-pub(super) fn split(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn split(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     let limit = match arg(args, 1) {
         Value::Undefined => usize::MAX,
         limit => crate::number::to_int32(env.number(limit)?) as u32 as usize,
@@ -230,32 +276,22 @@ pub(super) fn split(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome 
     Ok(env.heap.list(parts)?)
 }
 
-pub(super) fn to_lower_case(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+fn to_lower_case(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
     env.string(str_of(text).to_lowercase())
 }
 
-pub(super) fn to_upper_case(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+fn to_upper_case(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
     env.string(str_of(text).to_uppercase())
 }
 
-pub(super) fn trim(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+fn trim(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
     env.string(str_of(text).trim_matches(is_space).to_owned())
 }
 
-pub(super) fn trim_start(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+fn trim_start(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
     env.string(str_of(text).trim_start_matches(is_space).to_owned())
 }
 
-pub(super) fn trim_end(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+fn trim_end(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
     env.string(str_of(text).trim_end_matches(is_space).to_owned())
-}
-
-pub(super) fn string(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
-    match args.first() {
-        Some(value) => {
-            let text = env.text(value)?;
-            env.string(text)
-        }
-        None => Ok(Value::from("")),
-    }
 }

@@ -165,8 +165,10 @@ impl Parser<'_> {
             Tok::Bad => Err(Reported),
             _ => {
                 let message = format!("expected a name behind `.`, found {}", self.shown());
-                let report = Finding::error(rules::MISSING_NAME, span, message)
-                    .help("write the field behind the point, as `data.qpos`, and indexes in brackets, as `data.qpos[2]`");
+                let report = Finding::error(rules::MISSING_NAME, span, message).help(format!(
+                    "write the field behind the point, as `{0}`, and indexes in brackets, as `{0}[2]`",
+                    self.words.array
+                ));
                 self.refuse(report)
             }
         }
@@ -256,7 +258,12 @@ impl Parser<'_> {
     fn prefix(&mut self) -> Attempt<Node> {
         let span = self.span();
         let kind = match self.peek() {
-            Tok::Number(x) => ExprKind::Number(*x),
+            Tok::Number(x) => {
+                let x = *x;
+                let doubt = self.tokens.get(self.at).and_then(|token| token.doubt.clone());
+                self.diagnostics.extend(doubt.map(|finding| *finding));
+                ExprKind::Number(x)
+            }
             Tok::Text(text) => ExprKind::String(text.clone()),
             Tok::Template(texts, values) => {
                 let (texts, values) = (texts.clone(), values.clone());
@@ -275,9 +282,9 @@ impl Parser<'_> {
                 // A declaration in the middle of an expression.
                 "const" | "let" | "var" => return self.expected_value(),
                 "new" if *self.peek_at(1) == Tok::Word("Date".into()) => {
-                    return self.refuse(refuse::new_date(span));
+                    return self.refuse(refuse::new_date(span, self.words));
                 }
-                word => match refuse::word(word, span) {
+                word => match refuse::word(word, span, self.words) {
                     Some(report) => return self.refuse(report),
                     None => ExprKind::Name(word.to_owned()),
                 },
@@ -311,7 +318,7 @@ impl Parser<'_> {
                 self.node(ExprKind::Array(items), opener.to(closer), height)
             }
             "{" => self.object(),
-            _ => match refuse::symbol(symbol, span) {
+            _ => match refuse::symbol(symbol, span, self.words) {
                 Some(report) => self.refuse(report),
                 None => self.expected_value(),
             },
@@ -359,7 +366,7 @@ impl Parser<'_> {
     fn template_value(&mut self, place: Span) -> Attempt<Node> {
         if self.ended() {
             let report = Finding::error(rules::EMPTY, place, "there is nothing between the braces")
-                .help("write the value that belongs into the text, as `${data.time}`");
+                .help(format!("write the value that belongs into the text, as `${{{}}}`", self.words.number));
             return self.refuse(report);
         }
         let value = self.expression(ASSIGNMENT)?;
@@ -550,7 +557,10 @@ impl Parser<'_> {
             Tok::Symbol(symbol) if infix(symbol).is_some() => report.help(format!(
                 "remove one of the operators, or write the value between `{before}` and `{symbol}`"
             )),
-            _ => report.help("write a number, a name such as `data.time`, or an expression in parentheses"),
+            _ => report.help(format!(
+                "write a number, a name such as `{}`, or an expression in parentheses",
+                self.words.number
+            )),
         };
         self.refuse(report)
     }

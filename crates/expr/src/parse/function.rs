@@ -16,24 +16,25 @@ const MAX_PARAMS: usize = 16;
 impl Parser<'_> {
     /// Whether the parenthesis ahead holds the parameters of an arrow function: `=>` stands behind it.
     pub(super) fn arrow_ahead(&self) -> bool {
+        *self.peek_at(self.behind_group(0)) == Tok::Symbol("=>")
+    }
+
+    /// How far ahead the token stands that follows the one at `n`, or the whole bracket that it opens.
+    pub(super) fn behind_group(&self, n: usize) -> usize {
         let mut open = 0usize;
-        let mut n = 0;
-        loop {
+        // A search from every bracket of a hostile text would take forever; no list of parameters is this long.
+        for n in n..n + 200 {
             match self.peek_at(n) {
                 Tok::Symbol("(" | "[" | "{") => open += 1,
                 Tok::Symbol(")" | "]" | "}") => open = open.saturating_sub(1),
-                Tok::End => return false,
+                Tok::End => break,
                 _ => {}
             }
-            n += 1;
             if open == 0 {
-                return *self.peek_at(n) == Tok::Symbol("=>");
-            }
-            // A search from every bracket of a hostile text would take forever; no list of parameters is this long.
-            if n > 200 {
-                return false;
+                return n + 1;
             }
         }
+        usize::MAX / 2
     }
 
     /// `x => …` or `(x, y) => …`
@@ -209,7 +210,7 @@ impl Parser<'_> {
                     span,
                     format!("expected a key, found {}", self.shown()),
                 )
-                .help("write the keys to take, as `const {kinetic, potential} = lib.energy()`");
+                .help(format!("write the keys to take, as `const {}`", self.words.parts));
                 return self.refuse(report);
             };
             let key = Name { text: text.clone(), span };

@@ -12,6 +12,7 @@ mod stmt;
 use crate::ast::{Expr, ExprKind, Stmt};
 use crate::lex::{self, Tok, Token};
 use crate::rules;
+use crate::words::Words;
 use crate::{Finding, Span};
 
 /// What a parser understood, and what it could not read.
@@ -34,14 +35,24 @@ pub(crate) const MAX_DIAGNOSTICS: usize = 40;
 
 /// Reads one expression. Never fails: what cannot be read becomes [`ExprKind::Error`] and a finding.
 pub fn parse_expression(source: &str) -> Parsed<Expr> {
-    let mut parser = Parser::new(source);
+    expression(source, &Words::PLAIN)
+}
+
+/// Reads one expression of a host with these words.
+pub(crate) fn expression(source: &str, words: &'static Words) -> Parsed<Expr> {
+    let mut parser = Parser::new(source, words);
     let tree = parser.whole_expression();
     Parsed { tree, diagnostics: in_order(parser.diagnostics) }
 }
 
 /// Reads statements separated by semicolons or line ends. Never fails, see [`parse_expression`].
 pub fn parse_statements(source: &str) -> Parsed<Vec<Stmt>> {
-    let mut parser = Parser::new(source);
+    statements(source, &Words::PLAIN)
+}
+
+/// Reads statements of a host with these words.
+pub(crate) fn statements(source: &str, words: &'static Words) -> Parsed<Vec<Stmt>> {
+    let mut parser = Parser::new(source, words);
     let tree = parser.statements();
     Parsed { tree, diagnostics: in_order(parser.diagnostics) }
 }
@@ -73,6 +84,7 @@ type Attempt<T> = Result<T, Reported>;
 /// The reader: a place in the tokens, and what was found.
 struct Parser<'s> {
     source: &'s str,
+    words: &'static Words,
     tokens: Vec<Token>,
     at: usize,
     /// Expressions and statements that are being read, one inside the other.
@@ -83,20 +95,17 @@ struct Parser<'s> {
 }
 
 impl<'s> Parser<'s> {
-    fn new(source: &'s str) -> Parser<'s> {
+    fn new(source: &'s str, words: &'static Words) -> Parser<'s> {
         let mut diagnostics = Vec::new();
         let tokens = if source.len() > MAX_SOURCE {
             let message =
                 format!("the text has {} bytes, the language reads at most {MAX_SOURCE}", source.len());
-            diagnostics.push(
-                Finding::error(rules::TOO_LONG, Span::default(), message)
-                    .help("split it: into several controls, or a `setup` and a `controller`"),
-            );
-            vec![Token { kind: Tok::Bad, span: Span::default(), newline: false }]
+            diagnostics.push(Finding::error(rules::TOO_LONG, Span::default(), message).help(words.split));
+            vec![Token { kind: Tok::Bad, span: Span::default(), newline: false, doubt: None }]
         } else {
             lex::tokens(source, &mut diagnostics)
         };
-        Parser { source, tokens, at: 0, depth: 0, tallest: 0, diagnostics }
+        Parser { source, words, tokens, at: 0, depth: 0, tallest: 0, diagnostics }
     }
 
     fn peek(&self) -> &Tok {
@@ -205,7 +214,7 @@ impl<'s> Parser<'s> {
         let nothing = Expr { kind: ExprKind::Error, span: self.span() };
         if self.ended() {
             let report = Finding::error(rules::EMPTY, self.span(), "there is nothing to evaluate")
-                .help("write an expression, as `data.time`");
+                .help(format!("write an expression, as `{}`", self.words.number));
             self.diagnostics.push(report);
             return nothing;
         }
@@ -241,9 +250,10 @@ impl<'s> Parser<'s> {
                 .help("remove the `;`")
                 .fix(span, "")
         } else {
-            report
-                .why("only one value is read here; a second statement has no place")
-                .help("keep the expression that gives the value; statements belong into `setup`, `controller`, `apply` or `run`")
+            report.why("only one value is read here; a second statement has no place").help(format!(
+                "keep the expression that gives the value; statements belong into {}",
+                self.words.statements
+            ))
         })
     }
 }

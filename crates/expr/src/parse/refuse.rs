@@ -1,6 +1,7 @@
 //! Constructs of JavaScript that lessons do not have, on purpose: each with its reason and what to write instead.
 
 use crate::rules;
+use crate::words::Words;
 use crate::{Finding, Span};
 
 /// The finding for a construct, in the plural.
@@ -10,39 +11,34 @@ fn never(span: Span, name: &str, why: &str, help: &str) -> Finding {
         .help(help)
 }
 
-const NO_OBJECTS: &str = "a lesson works on numbers of the simulation; it has no classes of its own";
-const NO_TIME: &str =
-    "every text runs to its end between two steps of the simulation; nothing is ever waited for";
+const NO_OBJECTS: &str =
+    "the language works on numbers, texts, lists and records; it has no classes of its own";
+const NO_TIME: &str = "every text runs to its end at once; nothing is ever waited for";
 const NO_EXCEPTIONS: &str = "mistakes are found before the run, so there is nothing to catch";
-const STORE_HELP: &str = "keep values in variables of the lab, as `ctx.peak`";
+const STORE_HELP: &str = "keep values in variables, as `ctx.peak`";
 
 /// The finding for a reserved word of JavaScript where it cannot stand; `None` for a word that is a name.
-pub(super) fn word(word: &str, span: Span) -> Option<Finding> {
+pub(super) fn word(word: &str, span: Span, words: &Words) -> Option<Finding> {
     let name = format!("`{word}`");
     let misplaced =
         |help: &str| Finding::error(rules::MISPLACED, span, format!("`{word}` has no place here")).help(help);
     Some(match word {
-        "this" | "super" => never(
-            span,
-            &format!("{name} references"),
-            NO_OBJECTS,
-            "name the thing itself, as `data` or `ctx`",
-        ),
+        "this" | "super" => {
+            never(span, &format!("{name} references"), NO_OBJECTS, "name the thing itself, as `ctx`")
+        }
         "class" | "extends" | "enum" | "interface" => never(span, "classes", NO_OBJECTS, STORE_HELP),
         "new" => {
             never(span, "objects made with `new`", NO_OBJECTS, "write a list `[0, 0]` or a record `{a: 1}`")
         }
-        "async" | "await" | "yield" => {
-            never(span, &format!("{name} and waiting"), NO_TIME, "test `data.time` in the controller instead")
-        }
+        "async" | "await" | "yield" => never(span, &format!("{name} and waiting"), NO_TIME, words.wait),
         "try" | "catch" | "finally" | "throw" => {
             never(span, "exceptions", NO_EXCEPTIONS, "test for the case itself, with `if` or `? :`")
         }
         "import" | "export" => never(
             span,
             "modules",
-            "a lesson reaches nothing outside itself",
-            "use `Math` and the functions that the lab offers",
+            "a text reaches nothing outside itself",
+            "use `Math` and the functions that there are",
         ),
         "delete" => never(
             span,
@@ -63,8 +59,8 @@ pub(super) fn word(word: &str, span: Span) -> Option<Finding> {
         "debugger" => never(
             span,
             "`debugger` statements",
-            "a lesson is not run in a debugger",
-            "show the value in a readout",
+            "a text is not run in a debugger",
+            &format!("show the value in {}", words.shown),
         ),
         "switch" | "case" | "default" => never(
             span,
@@ -81,28 +77,31 @@ pub(super) fn word(word: &str, span: Span) -> Option<Finding> {
 }
 
 /// `new Date()`
-pub(super) fn new_date(span: Span) -> Finding {
+pub(super) fn new_date(span: Span, words: &Words) -> Finding {
     never(
         span,
         "dates",
-        "a lesson must give the same numbers whenever it is run, and the clock on the wall is no part of it",
-        "the time of the simulation is `data.time`, in seconds",
+        &format!(
+            "a {} must give the same numbers whenever it is run, and the clock on the wall is no part of it",
+            words.lesson
+        ),
+        words.clock,
     )
 }
 
 /// Whether a word means something of its own, so that it cannot be the name of a variable.
 pub(super) fn is_reserved(text: &str) -> bool {
     let own = ["true", "false", "null", "const", "let", "var", "function", "typeof"];
-    own.contains(&text) || word(text, Span::default()).is_some()
+    own.contains(&text) || word(text, Span::default(), &Words::PLAIN).is_some()
 }
 
 /// The finding for a symbol that starts or continues a construct that is not read.
-pub(super) fn symbol(text: &str, span: Span) -> Option<Finding> {
+pub(super) fn symbol(text: &str, span: Span, words: &Words) -> Option<Finding> {
     Some(match text {
         "/" | "/=" => never(
             span,
             "regular expressions",
-            "a lesson computes with numbers; text is only shown",
+            &format!("a {} computes with numbers; text is only shown", words.lesson),
             "compare strings with `===`, or use `includes` and `startsWith`",
         ),
         "@" | "#" => never(span, "decorators and private names", NO_OBJECTS, STORE_HELP),

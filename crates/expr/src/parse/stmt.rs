@@ -186,7 +186,7 @@ impl Parser<'_> {
                 self.span(),
                 format!("expected `(` behind `{word}`, found {}", self.shown()),
             )
-            .help(format!("write the condition in parentheses, as `{word} (data.time > 1)`"));
+            .help(format!("write the condition in parentheses, as `{word} ({} > 1)`", self.words.number));
             return self.refuse(report);
         };
         Ok(self.enclosed(opener, ")", 1)?.0.expr)
@@ -279,35 +279,34 @@ impl Parser<'_> {
 
     /// `const name of`, when that is what stands behind `for (`.
     fn for_of_head(&mut self) -> Attempt<Option<(bool, Pattern)>> {
-        let (start, found) = (self.at, self.diagnostics.len());
         let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
         let constant = self.is_word("const");
+        let behind = self.behind_group(usize::from(declares));
+        let of = |word: &str| matches!(self.peek_at(behind), Tok::Word(w) if w == word);
+        if !of("of") && !of("in") {
+            return Ok(None);
+        }
         if declares {
             self.bump();
         }
-        if let Ok(target) = self.pattern("a name") {
-            if self.is_word("in") {
-                let report = refuse::for_in(self.span());
-                return self.refuse(report);
-            }
-            if self.is_word("of") {
-                if !declares {
-                    let report = Finding::error(
-                        rules::LOOP_WITHOUT_CONST,
-                        target.span(),
-                        "the name of a `for … of` loop needs `const`",
-                    )
-                    .help(format!("write `for (const {} of …)`", target.span().text(self.source)))
-                    .fix(Span::new(target.span().start, target.span().start), "const ");
-                    self.diagnostics.push(report);
-                }
-                self.bump();
-                return Ok(Some((constant || !declares, target)));
-            }
+        let target = self.pattern("a name")?;
+        if self.is_word("in") {
+            let report = refuse::for_in(self.span());
+            return self.refuse(report);
         }
-        self.at = start;
-        self.diagnostics.truncate(found);
-        Ok(None)
+        if !declares {
+            let span = target.span();
+            let report = Finding::error(
+                rules::LOOP_WITHOUT_CONST,
+                span,
+                "the name of a `for … of` loop needs `const`",
+            )
+            .help(format!("write `for (const {} of …)`", span.text(self.source)))
+            .fix(Span::new(span.start, span.start), "const ");
+            self.diagnostics.push(report);
+        }
+        self.bump();
+        Ok(Some((constant || !declares, target)))
     }
 
     /// A `;` in the head of a `for`.
@@ -327,17 +326,33 @@ impl Parser<'_> {
         let Tok::Word(word) = self.peek() else { return None };
         match word.as_str() {
             "const" | "let" | "var" => Some(
-                Finding::error(rules::EXPRESSION_ONLY, self.span(), format!("`{word}` declares a name, but only one value is read here"))
-                    .why("this text is an expression: it gives a value and changes nothing")
-                    .help("write the expression in one piece, or compute the part in `controller` and keep it in `ctx`"),
+                Finding::error(
+                    rules::EXPRESSION_ONLY,
+                    self.span(),
+                    format!("`{word}` declares a name, but only one value is read here"),
+                )
+                .why("this text is an expression: it gives a value and changes nothing")
+                .help(format!(
+                    "write the expression in one piece, or compute the part in {} and keep it in `ctx`",
+                    self.words.keeper
+                )),
             ),
             "if" | "for" | "while" | "do" | "return" | "break" | "continue" => Some(
-                Finding::error(rules::EXPRESSION_ONLY, self.span(), format!("`{word}` starts a statement, but only one value is read here"))
-                    .why("this text is an expression: it gives a value and changes nothing")
-                    .help("choose a value with `test ? a : b`, or compute it in `controller` and keep it in `ctx`"),
+                Finding::error(
+                    rules::EXPRESSION_ONLY,
+                    self.span(),
+                    format!("`{word}` starts a statement, but only one value is read here"),
+                )
+                .why("this text is an expression: it gives a value and changes nothing")
+                .help(format!(
+                    "choose a value with `test ? a : b`, or compute it in {} and keep it in `ctx`",
+                    self.words.keeper
+                )),
             ),
-            "switch" | "try" | "class" | "with" | "throw" | "import" | "export" | "debugger" | "else" | "case"
-            | "default" | "catch" | "finally" | "async" => refuse::word(word, self.span()),
+            "switch" | "try" | "class" | "with" | "throw" | "import" | "export" | "debugger" | "else"
+            | "case" | "default" | "catch" | "finally" | "async" => {
+                refuse::word(word, self.span(), self.words)
+            }
             _ => None,
         }
     }
@@ -431,7 +446,7 @@ impl Parser<'_> {
             let report =
                 Finding::error(rules::MISSING_NAME, span, format!("expected a name, found {}", self.shown()))
                     .why(format!("`{}` declares a name", opener.text(self.source)))
-                    .help("write `const angle = data.qpos[0]`");
+                    .help(format!("write `const angle = {}[0]`", self.words.array));
             return self.refuse(report);
         }
         let target = self.pattern("a name")?;
@@ -475,10 +490,6 @@ impl Parser<'_> {
             Tok::Bad => None,
             Tok::Symbol(",") => {
                 let decimal = self.decimal_comma();
-                if let Some((number, _)) = &decimal {
-                    // `02` behind the comma is not a number of its own.
-                    self.diagnostics.retain(|d| d.span.start < number.start || d.span.end > number.end);
-                }
                 Some(refuse::comma(span, decimal))
             }
             Tok::Symbol(closer @ (")" | "]" | "}")) => Some(
@@ -491,14 +502,16 @@ impl Parser<'_> {
                 Finding::error(rules::HALF_CHOICE, span, "`:` without a `?` before it")
                     .help("a choice is written `test ? a : b`"),
             ),
-            Tok::Symbol(text) if refuse::symbol(text, span).is_some() && *text != "/" => {
-                refuse::symbol(text, span)
+            Tok::Symbol(text) if refuse::symbol(text, span, self.words).is_some() && *text != "/" => {
+                refuse::symbol(text, span, self.words)
             }
             Tok::Symbol(text) => Some(
                 Finding::error(rules::MISPLACED, span, format!("`{text}` has no place here"))
                     .help("remove it"),
             ),
-            Tok::Word(word) if matches!(word.as_str(), "in" | "instanceof") => refuse::word(word, span),
+            Tok::Word(word) if matches!(word.as_str(), "in" | "instanceof") => {
+                refuse::word(word, span, self.words)
+            }
             _ => {
                 let left = shorten(before.text(self.source));
                 Some(

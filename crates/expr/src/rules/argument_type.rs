@@ -6,7 +6,7 @@ pub const ARGUMENT_TYPE: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a function gets an argument of the wrong kind",
-    why: "the page throws there, or computes with what it makes of the argument",
+    why: "JavaScript throws there, or computes with what it makes of the argument",
     bad: Example::Statements("mj.mj_forward(⟦data⟧, model)"),
     good: Example::Statements("mj.mj_forward(model, data)"),
 };

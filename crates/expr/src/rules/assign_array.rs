@@ -6,7 +6,7 @@ pub const ASSIGN_ARRAY: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a whole array is assigned instead of one element",
-    why: "the page throws there, or the field is replaced and the engine never sees it",
+    why: "JavaScript throws there, or the field is replaced and the host never sees it",
     bad: Example::Statements("⟦data.qpos⟧ = 1"),
     good: Example::Statements("data.qpos[7] = 1"),
 };

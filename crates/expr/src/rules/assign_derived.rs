@@ -6,7 +6,7 @@ pub const ASSIGN_DERIVED: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a computed field is assigned",
-    why: "the next step computes it anew, and what was stored is gone",
+    why: "it is computed anew, and what was stored is gone",
     bad: Example::Statements("⟦data.xpos[5]⟧ = 1"),
     good: Example::Statements("data.qpos[2] = 1"),
 };

@@ -6,7 +6,7 @@ pub const BAD_CHARACTER: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a character that has no meaning in the language",
-    why: "JavaScript refuses the whole text, and the page shows nan",
+    why: "JavaScript refuses the whole text",
     bad: Example::Expression("data.qpos[7] ⟦×⟧ 2"),
     good: Example::Expression("data.qpos[7] * 2"),
 };

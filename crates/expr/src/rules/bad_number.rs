@@ -6,7 +6,7 @@ pub const BAD_NUMBER: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a number that is not written as the language writes numbers",
-    why: "JavaScript refuses the whole text, and the page shows nan",
+    why: "JavaScript refuses the whole text",
     bad: Example::Expression("⟦2data⟧.qpos[7]"),
     good: Example::Expression("2 * data.qpos[7]"),
 };

@@ -6,7 +6,7 @@ pub const HOST_CALL: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a function of the host failed",
-    why: "the page throws there, and stops the whole text",
+    why: "JavaScript throws there, and stops the whole text",
     bad: Example::Statements("⟦mj.mj_resetDataKeyframe(model, data, 5)⟧"),
     good: Example::Statements("mj.mj_resetData(model, data)"),
 };

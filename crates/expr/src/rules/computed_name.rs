@@ -6,7 +6,7 @@ pub const COMPUTED_NAME: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a name that is computed where a literal string must stand",
-    why: "which object is meant could change while the lab runs, and nobody could check it",
+    why: "which object is meant could change in the run, and nobody could check it",
     bad: Example::Expression("data.body(⟦ball⟧).xpos[2]"),
     good: Example::Expression("data.body('ball').xpos[2]"),
 };

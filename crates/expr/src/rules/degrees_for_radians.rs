@@ -6,7 +6,7 @@ pub const DEGREES: &Rule = &Rule {
     severity: Severity::Warning,
     layer: Layer::Program,
     summary: "a number of degrees where radians are meant",
-    why: "the functions of `Math` and the joints of a model measure angles in radians",
+    why: "the functions of `Math`, and fields that hold angles, measure in radians",
     bad: Example::Expression("Math.sin(⟦90⟧)"),
     good: Example::Expression("Math.sin(Math.PI / 2)"),
 };

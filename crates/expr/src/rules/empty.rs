@@ -6,7 +6,7 @@ pub const EMPTY: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "there is nothing to evaluate",
-    why: "the page shows nan",
+    why: "a computation with it gives NaN",
     bad: Example::Expression("⟦⟧ "),
     good: Example::Expression("data.time"),
 };

@@ -6,7 +6,7 @@ pub const EXPRESSION_ONLY: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a statement stands where only an expression is read",
-    why: "JavaScript refuses the whole text, and the page shows nan",
+    why: "JavaScript refuses the whole text",
     bad: Example::Expression("⟦let⟧ a = 1; a"),
     good: Example::Expression("1"),
 };

@@ -6,7 +6,7 @@ pub const INDEX_KIND: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "an index that is not a number",
-    why: "JavaScript gives undefined there, and the page shows nan",
+    why: "JavaScript gives undefined there, and a computation with it NaN",
     bad: Example::Expression("data.qpos[⟦true⟧]"),
     good: Example::Expression("data.qpos[1]"),
 };

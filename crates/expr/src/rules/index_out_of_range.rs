@@ -6,7 +6,7 @@ pub const INDEX_RANGE: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "an index past the last element",
-    why: "JavaScript gives undefined there, and the page shows nan",
+    why: "JavaScript gives undefined there, and a computation with it NaN",
     bad: Example::Expression("data.qpos[⟦8⟧]"),
     good: Example::Expression("data.qpos[7]"),
 };

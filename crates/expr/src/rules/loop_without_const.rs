@@ -6,7 +6,7 @@ pub const LOOP_WITHOUT_CONST: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "the name of a `for … of` loop is not declared",
-    why: "it would be a variable of the whole page",
+    why: "it would be a variable of all texts",
     bad: Example::Statements("for (⟦x⟧ of [1, 2]) { ctx.a = x }"),
     good: Example::Statements("for (const x of [1, 2]) { ctx.a = x }"),
 };

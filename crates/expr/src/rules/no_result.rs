@@ -6,7 +6,7 @@ pub const NO_RESULT: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "the result of a function that gives nothing back is used",
-    why: "it is undefined, and the page shows nan",
+    why: "it is undefined, and a computation with it gives NaN",
     bad: Example::Statements("ctx.x = ⟦mj.mj_step(model, data)⟧ + 1"),
     good: Example::Statements("mj.mj_forward(model, data); ctx.x = data.time + 1"),
 };

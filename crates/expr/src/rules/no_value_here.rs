@@ -6,7 +6,7 @@ pub const NO_VALUE_HERE: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "`value` is used where no control gives one",
-    why: "there is no such name: JavaScript throws there, and the page shows nan",
+    why: "there is no such name: JavaScript throws there",
     bad: Example::Expression("⟦value⟧ * 2"),
     good: Example::Expression("data.time * 2"),
 };

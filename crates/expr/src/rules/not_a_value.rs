@@ -6,7 +6,7 @@ pub const NOT_A_VALUE: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "an object or a function stands where a value must stand",
-    why: "JavaScript makes a text of it, and the page shows nan",
+    why: "JavaScript makes a text of it, and a computation with it gives NaN",
     bad: Example::Expression("⟦data⟧ + 1"),
     good: Example::Expression("data.time + 1"),
 };

@@ -6,7 +6,7 @@ pub const NOT_CALLABLE: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "something is called that is not a function",
-    why: "JavaScript throws there, and the page shows nan",
+    why: "JavaScript throws there",
     bad: Example::Expression("⟦data.time⟧()"),
     good: Example::Expression("data.time"),
 };

@@ -6,7 +6,7 @@ pub const NOT_INDEXABLE: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "an index behind something that has no elements",
-    why: "JavaScript gives undefined there, and the page shows nan",
+    why: "JavaScript gives undefined there, and a computation with it NaN",
     bad: Example::Expression("⟦data.time[0]⟧"),
     good: Example::Expression("data.time"),
 };

@@ -6,7 +6,7 @@ pub const NOT_RANDOM: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a random number",
-    why: "the same lesson must give the same numbers, for every student and every check",
+    why: "the same text must give the same numbers, for every reader and every check",
     bad: Example::Expression("⟦Math.random⟧()"),
     good: Example::Expression("Math.sin(1e3 * data.time)"),
 };

@@ -6,7 +6,7 @@ pub const TEXT_TOO_LONG: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a string grew beyond the limit",
-    why: "the page of a student would stand still",
+    why: "whoever waits for it would wait forever",
     bad: Example::Statements("ctx.a = ⟦'x'.repeat(1e9)⟧"),
     good: Example::Statements("ctx.a = 'x'.repeat(3)"),
 };

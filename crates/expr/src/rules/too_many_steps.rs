@@ -6,7 +6,7 @@ pub const BUDGET: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a loop or a recursion that does not come to an end",
-    why: "the page of a student would stand still",
+    why: "whoever waits for it would wait forever",
     bad: Example::Statements("while (⟦true⟧) { ctx.a = 1 }"),
     good: Example::Statements("for (let i = 0; i < 3; i++) { ctx.a = i }"),
 };

@@ -6,7 +6,7 @@ pub const MEMORY: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "lists and records that take too much memory",
-    why: "the page of a student would stand still",
+    why: "whoever waits for it would wait forever",
     bad: Example::Statements("ctx.all = []; for (let i = 0; i < 1e7; i++) ⟦ctx.all.push([i, i, i])⟧"),
     good: Example::Statements("ctx.all = [data.time]"),
 };

@@ -6,7 +6,7 @@ pub const UNCLOSED: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a bracket that is not closed",
-    why: "JavaScript refuses the whole text, and the page shows nan",
+    why: "JavaScript refuses the whole text",
     bad: Example::Expression("Math.sin⟦(⟧data.qpos[7]"),
     good: Example::Expression("Math.sin(data.qpos[7])"),
 };

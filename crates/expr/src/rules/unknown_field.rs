@@ -6,7 +6,7 @@ pub const UNKNOWN_FIELD: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "an object has no member of this name",
-    why: "JavaScript gives undefined there, and the page shows nan",
+    why: "JavaScript gives undefined there, and a computation with it NaN",
     bad: Example::Expression("data.⟦qpso⟧[7]"),
     good: Example::Expression("data.qpos[7]"),
 };

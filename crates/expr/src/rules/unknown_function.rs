@@ -6,7 +6,7 @@ pub const UNKNOWN_FUNCTION: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "there is no function of this name",
-    why: "JavaScript throws there, and the page shows nan",
+    why: "JavaScript throws there",
     bad: Example::Expression("Math.⟦sine⟧(data.time)"),
     good: Example::Expression("Math.sin(data.time)"),
 };

@@ -6,7 +6,7 @@ pub const UNKNOWN_NAME: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a name that nothing defines",
-    why: "JavaScript throws there, and the page shows nan",
+    why: "JavaScript throws there",
     bad: Example::Expression("⟦dta⟧.qpos[7]"),
     good: Example::Expression("data.qpos[7]"),
 };

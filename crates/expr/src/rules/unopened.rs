@@ -6,7 +6,7 @@ pub const UNOPENED: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a bracket closes nothing",
-    why: "JavaScript refuses the whole text, and the page shows nan",
+    why: "JavaScript refuses the whole text",
     bad: Example::Expression("data.time⟦)⟧"),
     good: Example::Expression("(data.time)"),
 };

@@ -6,7 +6,7 @@ pub const UNSET_GLOBAL: &Rule = &Rule {
     severity: Severity::Warning,
     layer: Layer::Program,
     summary: "a `ctx` variable is read that nothing stores",
-    why: "it is undefined, and the page shows nan",
+    why: "it is undefined, and a computation with it gives NaN",
     bad: Example::Expression("⟦ctx.gain⟧ * data.time"),
     good: Example::Expression("data.time"),
 };

@@ -6,7 +6,7 @@ pub const WHOLE_ARRAY: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a whole array stands where one number must stand",
-    why: "JavaScript makes a text of it, and the page shows nan",
+    why: "JavaScript makes a text of it, and a computation with it gives NaN",
     bad: Example::Expression("⟦data.qpos⟧ * 2"),
     good: Example::Expression("data.qpos[7] * 2"),
 };

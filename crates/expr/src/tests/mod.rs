@@ -9,3 +9,4 @@ mod node;
 mod programs;
 mod roundtrip;
 mod semantics;
+mod written;

@@ -211,3 +211,25 @@ fn long_and_deep_programs_run_on_a_small_stack() {
     };
     std::thread::Builder::new().stack_size(512 * 1024).spawn(run).unwrap().join().unwrap();
 }
+
+#[test]
+fn functions_that_call_each_other_deeply_are_refused_on_a_small_stack() {
+    let chain = |levels: usize, signs: &str| {
+        let call = |i: usize| format!("const f{i} = () => {signs}f{}();", i + 1);
+        let calls: String = (0..levels).map(call).collect();
+        format!("{calls} const f{levels} = () => 1; ctx.a = f0()")
+    };
+    let run = move || {
+        for (levels, signs) in [(190, "- ".repeat(60)), (190, "!(1, f)(".repeat(5)), (60, "- ".repeat(100))] {
+            let text = chain(levels, &signs);
+            assert!(text.len() < MAX_SOURCE);
+            let mut globals = Globals::new();
+            let compiled = Compiler::new(&Mock, &mut globals).statements(&text);
+            assert!(compiled.diagnostics.iter().any(Finding::is_error) && compiled.program.is_none());
+        }
+        let mut globals = Globals::new();
+        let compiled = Compiler::new(&Mock, &mut globals).statements(&chain(30, "2 * "));
+        assert!(compiled.program.is_some(), "{:?}", compiled.diagnostics);
+    };
+    std::thread::Builder::new().stack_size(1024 * 1024).spawn(run).unwrap().join().unwrap();
+}

@@ -378,7 +378,7 @@ impl Machine<'_> {
         if matches!(value, Value::View(_)) {
             return Err(Trouble::new(
                 rules::WHOLE_ARRAY,
-                "an array of the simulation cannot be kept in `ctx`; keep a copy, as `data.qpos.slice()`",
+                "an array of the host cannot be kept in `ctx`; keep a copy, as `list.slice()`",
             ));
         }
         Ok(())

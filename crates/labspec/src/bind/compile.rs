@@ -1,6 +1,7 @@
 //! Everything a lab computes, bound to its model: statements and expressions as programs, and what they need.
 
 use super::{Functions, ModelNames, Scope};
+use labspec_bind::WORDS;
 use crate::finding::{Finding, Fix};
 use crate::json::{Scalar, fix_in_code};
 use crate::markdown::is_typographic;
@@ -106,7 +107,7 @@ impl Programs {
                 bound: work.expression(&readout.expr),
             });
         }
-        for (id, d) in globals.unset() {
+        for (id, d) in globals.unset(&WORDS) {
             if let Some((_, text)) = texts.iter().find(|(t, _)| *t == id) {
                 findings.push(to_finding(&d, text));
             }

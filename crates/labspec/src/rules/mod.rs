@@ -34,7 +34,8 @@ include!(concat!(env!("OUT_DIR"), "/rules.rs"));
 pub fn all() -> impl Iterator<Item = &'static Rule> {
     let language = labspec_expr::rules::ALL.iter().copied();
     let models = labspec_core::xml::rules::ALL.iter().copied();
-    LESSONS.iter().copied().chain(language).chain(models)
+    let both = labspec_bind::rules::ALL.iter().copied();
+    LESSONS.iter().copied().chain(language).chain(both).chain(models)
 }
 
 /// The rule with this code.

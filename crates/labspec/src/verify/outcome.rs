@@ -6,7 +6,7 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 use labspec_expr::{
-    CollectionId, Entry, Field, FieldKey, FunctionId, FunctionInfo, ObjectId, Role, Schema, Value,
+    CollectionId, Entry, Field, FieldKey, FunctionId, FunctionInfo, ObjectId, Role, Schema, Value, Words,
 };
 
 /// The measures of one run.
@@ -178,6 +178,10 @@ impl Schema for OutcomeNames<'_> {
 
     fn result_field(&self, function: FunctionId, object: ObjectId) -> Option<Field> {
         self.model.result_field(function, object)
+    }
+
+    fn words(&self) -> &'static Words {
+        self.model.words()
     }
 
     fn refresh(&self) -> Option<String> {

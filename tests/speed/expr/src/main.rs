@@ -9,7 +9,7 @@ use labspec::run::Session;
 use labspec::source::SourceFile;
 use labspec::lint::load_lesson;
 use labspec::spec::Lab;
-use labspec_core::{Data, Demand, Model, xml};
+use labspec_core::{Data, Demand, Model, Plan, xml};
 use labspec_expr::{Compiler, Context, FieldKey, FunctionId, Globals, Heap, Host, Program, Recording, Value};
 use std::fmt::Write;
 use std::hint::black_box;
@@ -80,9 +80,10 @@ fn error_expression() -> Vec<(&'static str, f64)> {
 
     let mut recording = Recording::new();
     let columnar = recording.columns(&program).expect("it computes with numbers");
-    let mut world = World { data: Data::new(&model), model: model.clone(), key: None };
+    let mut world = World { data: Data::planned(&model, Plan::new(&model, &Demand::ANY)), model: model.clone(), key: None };
     for i in 0..SAMPLES {
-        (world.data.fields().qpos[2], world.data.fields().time) = at(i);
+        let edit = world.data.edit();
+        (edit.qpos[2], *edit.time) = at(i);
         recording.sample(&world);
     }
     let (mut scratch, mut out) = (Vec::new(), vec![0.0; SAMPLES]);
@@ -95,7 +96,7 @@ fn error_expression() -> Vec<(&'static str, f64)> {
     let reads = &program.effects().reads;
     let key = |name: &str| {
         let field = labspec_core::reflect::field(labspec_core::reflect::Object::Data, name).expect("a field");
-        FieldKey(u32::from(field.0))
+        FieldKey(field.index() as u32)
     };
     let keys = [key("time"), key("qpos")];
     assert_eq!(reads.len(), 2);
@@ -111,7 +112,8 @@ fn error_expression() -> Vec<(&'static str, f64)> {
     rows.push((
         "by row, in the engine",
         time(n, |i| {
-            (world.data.fields().qpos[2], world.data.fields().time) = at(i);
+            let edit = world.data.edit();
+        (edit.qpos[2], *edit.time) = at(i);
             let _ = black_box(program.run(&mut world, &mut context, None));
         }),
     ));
@@ -176,7 +178,7 @@ fn corpus() -> Vec<(String, Lab, Arc<Model>)> {
         for file in files {
             let Ok(source) = SourceFile::read(&file) else { continue };
             let lesson = load_lesson(source, &folder);
-            let mut models = Models::new(folder.clone());
+            let models = Models::new(folder.clone());
             for lab in lesson.all_labs() {
                 if let Some(model) = models.of(lab, &mut Vec::new()) {
                     let title = if lab.title().is_empty() { "(without a title)" } else { lab.title() };

@@ -1,7 +1,8 @@
-//! Names at the start of an expression and behind a point, and what was probably meant by unknown ones.
+//! What names stand for: those at the start of an expression, and those behind a point.
 
-use super::{Attempt, Binder, Receiver, Thing};
+use super::{Attempt, Binder, Receiver, Reported, Thing};
 use crate::ast::{Expr, ExprKind, Name};
+use crate::bind::names::{MACHINERY, NAMESPACES, list, meant_elsewhere};
 use crate::ir::{Ir, Kind};
 use crate::math;
 use crate::natives;
@@ -9,112 +10,14 @@ use crate::parse::MAX_DIAGNOSTICS;
 use crate::rules;
 use crate::schema::{Entry, Field, FieldKind, Help, ObjectId, Type};
 use crate::value::{Value, View};
+use crate::words::Words;
 use crate::{Finding, Span};
 use labspec_finding::{nearest as closest, ranked};
 
-/// Names of the language itself.
-const LANGUAGE: [&str; 14] = [
-    "Math",
-    "NaN",
-    "Infinity",
-    "undefined",
-    "isNaN",
-    "isFinite",
-    "ctx",
-    "Array",
-    "Number",
-    "String",
-    "Boolean",
-    "Object",
-    "parseFloat",
-    "parseInt",
-];
-
-/// Names that hold functions of the language.
-const NAMESPACES: [&str; 4] = ["Array", "Number", "String", "Object"];
-
-/// Objects of a browser or of Node that a lesson does not have, and why.
-const GLOBALS: &[(&[&str], &str, &str)] = &[
-    (
-        &[
-            "window",
-            "document",
-            "globalThis",
-            "self",
-            "global",
-            "localStorage",
-            "sessionStorage",
-            "navigator",
-        ],
-        "a lesson runs without a page: in a browser, on a command line, in a notebook",
-        "use the names of the lab: `model`, `data`, `ctx`",
-    ),
-    (&["console", "alert", "prompt"], "there is nowhere to print", "show the value in a readout or a trace"),
-    (
-        &["fetch", "XMLHttpRequest", "WebSocket", "require", "process", "Worker"],
-        "a lesson reaches nothing outside itself",
-        "put the data into the lab",
-    ),
-    (
-        &["eval", "Function"],
-        "text that becomes code while running could not be checked before the run",
-        "write the expression itself",
-    ),
-    (
-        &["Date", "performance", "setTimeout", "setInterval", "requestAnimationFrame"],
-        "the clock of the wall would make every run different",
-        "use the time of the simulation, `data.time`",
-    ),
-    (
-        &["Promise", "Symbol", "Reflect", "Proxy", "RegExp", "Map", "Set", "JSON", "Intl", "arguments"],
-        "a lesson works on numbers of the simulation; lists and records are all it needs",
-        "keep values in variables of the lab, as `ctx.peak`, in lists `[0, 1]` or in records `{a: 1}`",
-    ),
-];
-
-/// Members through which JavaScript reaches the machinery behind a value.
-pub(super) const MACHINERY: [&str; 5] =
-    ["constructor", "prototype", "__proto__", "hasOwnProperty", "valueOf"];
-
-/// What is done with a name: what may have been meant by an unknown one depends on it.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Use {
-    /// Its value is taken, or it is handed to a function.
-    Value,
-    /// A member or an element of it is.
-    Holder,
-    /// It is called.
-    Callee,
-}
-
-impl Use {
-    /// Whether something of the host can be used like this.
-    fn fits(self, entry: &Entry) -> bool {
-        match (self, entry) {
-            (Use::Callee, Entry::Function(_) | Entry::Collection(_)) => true,
-            (Use::Callee, _) | (Use::Value | Use::Holder, Entry::Function(_)) => false,
-            (Use::Value, Entry::Collection(_)) => false,
-            (Use::Value | Use::Holder, _) => true,
-        }
-    }
-
-    /// Whether a word of the language can.
-    fn fits_word(self, word: &str) -> bool {
-        match word {
-            "Math" | "ctx" => self == Use::Holder,
-            "NaN" | "Infinity" | "undefined" => self == Use::Value,
-            "Object" | "Array" => self == Use::Holder,
-            "Number" | "String" => true,
-            _ => self != Use::Holder,
-        }
-    }
-}
-
 impl<'a> Binder<'a> {
-    /// What a part of the source stands for.
-    pub(super) fn thing(&mut self, expr: &'a Expr) -> Attempt<Thing> {
+    pub(super) fn thing_inside(&mut self, expr: &'a Expr) -> Attempt<Thing> {
         match &expr.kind {
-            ExprKind::Name(name) => self.root(name, expr.span, Use::Value),
+            ExprKind::Name(name) => self.root(name, expr.span),
             ExprKind::Member { object, name, optional } => self.member(object, name, *optional, expr.span),
             ExprKind::Index { object, index, optional } => self.element(object, index, *optional, expr.span),
             ExprKind::Call { callee, args, optional } => self.call(callee, args, *optional, expr.span),
@@ -123,17 +26,10 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// What stands before a point or an index.
-    pub(super) fn holder(&mut self, object: &'a Expr) -> Attempt<Thing> {
-        match &object.kind {
-            ExprKind::Name(name) => self.root(name, object.span, Use::Holder),
-            _ => self.thing(object),
-        }
-    }
-
     /// A name at the start of an expression.
-    pub(super) fn root(&mut self, name: &str, span: Span, used: Use) -> Attempt<Thing> {
-        if let Some(variable) = self.variable(name) {
+    #[inline(never)]
+    pub(super) fn root(&mut self, name: &str, span: Span) -> Attempt<Thing> {
+        if let Some(variable) = self.variable(name, span)? {
             let thing = self.read_variable(&variable, span)?;
             self.explain_thing(&thing, name, span);
             return Ok(thing);
@@ -150,24 +46,19 @@ impl<'a> Binder<'a> {
             self.effects.uses_value = true;
             return Ok(Thing::Value(Ir::new(Kind::Input, ty, span)));
         }
-        match self.schema.root(name) {
-            Some(entry) => {
-                let thing = from_entry(entry, span);
-                self.explain_thing(&thing, name, span);
-                Ok(thing)
-            }
-            None => {
-                let report = self.unknown_root(name, span, used);
-                self.refuse(report)
-            }
-        }
+        // The first pass has told of what means nothing.
+        let entry = self.schema.root(name).ok_or(Reported)?;
+        let thing = from_entry(entry, span);
+        self.explain_thing(&thing, name, span);
+        Ok(thing)
     }
 
     /// Notes what a name or a member is.
+    #[inline(never)]
     pub(super) fn explain_thing(&mut self, thing: &Thing, text: &str, span: Span) {
         let schema = self.schema;
         match thing {
-            Thing::Field(field) => self.explain(span, || field_help(field)),
+            Thing::Field(field) => self.explain(span, || field_help(field, schema.words())),
             Thing::Object(id) => {
                 self.explain(span, || Help { title: schema.describe(*id), lines: Vec::new() });
             }
@@ -184,130 +75,17 @@ impl<'a> Binder<'a> {
         }
     }
 
-    fn unknown_root(&self, name: &str, span: Span, used: Use) -> Finding {
-        if name == "value" {
-            return Finding::error(rules::NO_VALUE_HERE, span, "there is no `value` here")
-                .why("`value` is what a slider or select gives to its own `set` or `apply`")
-                .help("give the control a `param` and read it as `ctx.<param>`");
-        }
-        if let Some((_, why, help)) = GLOBALS.iter().find(|(names, _, _)| names.contains(&name)) {
-            return Finding::error(rules::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
-                .why(*why)
-                .help(*help);
-        }
-        let report = match used {
-            Use::Callee => {
-                Finding::error(rules::UNKNOWN_FUNCTION, span, format!("unknown function `{name}`"))
-            }
-            _ => Finding::error(rules::UNKNOWN_NAME, span, format!("unknown name `{name}`")),
-        };
-        if self.diagnostics.len() > MAX_DIAGNOSTICS {
-            return report; // nobody will read it: not worth a search for what was meant
-        }
-        match self.meant_by_root(name, used) {
-            Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
-            None => {
-                let own = match used {
-                    Use::Callee => {
-                        "to make a function of your own, write `const f = (x) => …` before".to_owned()
-                    }
-                    _ => {
-                        format!("to keep a number of your own, write `ctx.{name} = …` or `const {name} = …`")
-                    }
-                };
-                let mut known = self.schema.root_names();
-                known.extend(["ctx".to_owned(), "Math".to_owned()]);
-                report.why(format!("the names here are {}", list(&known))).help(own)
-            }
-        }
-    }
-
-    /// What a misspelt name, or one whose object was left out, probably means.
-    fn meant_by_root(&self, name: &str, used: Use) -> Option<String> {
-        let fits = |entry: Option<Entry>| entry.is_some_and(|e| used.fits(&e));
-        for (path, object) in self.objects() {
-            // A choice by name has no members: behind a point something else was probably meant.
-            let entry = self.schema.member(object, name);
-            let entry = entry.filter(|e| used == Use::Callee || !matches!(e, Entry::Collection(_)));
-            if fits(entry) {
-                return Some(format!("{path}.{name}"));
-            }
-        }
-        let of_math = match used {
-            Use::Callee => math::function(name).is_some(),
-            _ => math::constant(name).is_some(),
-        };
-        if of_math {
-            return Some(format!("Math.{name}"));
-        }
-        let mut roots = self.schema.root_names();
-        roots.retain(|root| fits(self.schema.root(root)));
-        let locals = self.variables.iter().filter(|_| self.site.is_none()).map(|v| v.name.as_str());
-        let words = LANGUAGE.into_iter().filter(|word| used.fits_word(word));
-        let known = locals.chain(roots.iter().map(String::as_str)).chain(words);
-        if let Some(meant) = closest(name, known) {
-            return Some(meant.to_owned());
-        }
-        if self.globals.slot(name).is_some() {
-            return Some(format!("ctx.{name}"));
-        }
-        // On an object that was not even written, only a name that is nearly the same was meant.
-        let near = if name.len() < 8 { 10 } else { 20 };
-        let elsewhere = self.meant_elsewhere(name, None, &|entry| used.fits(entry));
-        elsewhere.filter(|(cost, _)| *cost <= near).map(|(_, path)| path)
-    }
-
-    /// The objects that a name leads to, and their objects, each with its path.
-    fn objects(&self) -> Vec<(String, ObjectId)> {
-        let mut found = Vec::new();
-        for root in self.schema.root_names() {
-            let Some(Entry::Object(id)) = self.schema.root(&root) else { continue };
-            found.push((root, id));
-        }
-        for i in 0..found.len() {
-            let Some((path, id)) = found.get(i).cloned() else { continue };
-            for name in self.schema.member_names(id) {
-                if let Some(Entry::Object(inner)) = self.schema.member(id, &name) {
-                    found.push((format!("{path}.{name}"), inner));
-                }
-            }
-        }
-        found
-    }
-
-    /// The member of any object, except `but`, whose name is nearest to what was written, with its distance.
-    fn meant_elsewhere(
-        &self,
-        name: &str,
-        but: Option<ObjectId>,
-        fits: &dyn Fn(&Entry) -> bool,
-    ) -> Option<(usize, String)> {
-        let mut best: Option<(usize, String)> = None;
-        for (path, id) in self.objects().into_iter().filter(|(_, id)| Some(*id) != but) {
-            let fits = |name: &str| self.schema.member(id, name).is_some_and(|entry| fits(&entry));
-            let mut names = self.schema.member_names(id);
-            let exact = fits(name).then(|| (0, name.to_owned()));
-            let near = || {
-                names.retain(|n| fits(n));
-                ranked(name, names.iter().map(String::as_str)).map(|(cost, n)| (cost, n.to_owned()))
-            };
-            let Some((cost, near)) = exact.or_else(near) else { continue };
-            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, format!("{path}.{near}")));
-            }
-        }
-        best
-    }
-
     /// `object.name`, or `object?.name`
+    #[inline(never)]
     fn member(&mut self, object: &'a Expr, name: &Name, optional: bool, span: Span) -> Attempt<Thing> {
-        let thing = self.holder(object)?;
+        let thing = self.thing(object)?;
         let found = self.member_of(thing, object.span, name, optional, span)?;
         self.explain_thing(&found, &name.text, name.span);
         Ok(found)
     }
 
     /// A member of what stands before the point.
+    #[inline(never)]
     pub(super) fn member_of(
         &mut self,
         thing: Thing,
@@ -327,7 +105,7 @@ impl<'a> Binder<'a> {
             Thing::Math => self.math_member(name, span),
             Thing::Globals => self.global(&name.text, span).map(Thing::Value),
             Thing::Namespace(holder) => self.namespace_member(holder, name, span),
-            Thing::Field(field) if field.is_scalar() && natives::name(&name.text).is_some() => {
+            Thing::Field(field) if field.is_scalar() && self.is_method(&name.text, Type::Number) => {
                 let ir = self.load(&field, crate::ir::Index::At(0), object);
                 self.value_member(ir, name, optional, span)
             }
@@ -350,6 +128,7 @@ impl<'a> Binder<'a> {
     }
 
     /// `Array.from` and its like.
+    #[inline(never)]
     fn namespace_member(&mut self, holder: &'static str, name: &Name, span: Span) -> Attempt<Thing> {
         let path = format!("{holder}.{}", name.text);
         if let Some(function) = natives::free(&path) {
@@ -392,6 +171,7 @@ impl<'a> Binder<'a> {
         self.refuse(machinery(name, span))
     }
 
+    #[inline(never)]
     fn math_member(&mut self, name: &Name, span: Span) -> Attempt<Thing> {
         if let Some(x) = math::constant(&name.text) {
             return Ok(Thing::Value(Ir::constant(Value::Number(x), span)));
@@ -402,8 +182,11 @@ impl<'a> Binder<'a> {
         if name.text == "random" {
             return self.refuse(
                 Finding::error(rules::NOT_RANDOM, span, "random numbers are not in this language")
-                    .why("the same lesson must give the same numbers every time, or its answers cannot be checked")
-                    .help("use a fixed sequence, as `Math.sin(1000 * data.time)`, or a control"),
+                    .why(format!(
+                        "the same {} must give the same numbers every time, or its answers cannot be checked",
+                        self.words().lesson
+                    ))
+                    .help(format!("use a fixed sequence, as `Math.sin(1000 * {})`", self.words().number)),
             );
         }
         let report =
@@ -418,9 +201,14 @@ impl<'a> Binder<'a> {
     }
 
     /// `.length` and the methods of an array.
+    #[inline(never)]
     fn field_member(&mut self, field: Field, object: Span, name: &Name, span: Span) -> Attempt<Thing> {
         let array = !field.is_scalar();
-        match name.text.as_str() {
+        let text = name.text.as_str();
+        if let Some(method) = natives::name(text).filter(|_| array && self.is_method(text, Type::View)) {
+            return Ok(Thing::Method(Box::new(Receiver::Field(field)), method));
+        }
+        match text {
             "length" if array => Ok(Thing::Value(match field.len() {
                 Some(n) => Ir::number(n as f64, span),
                 None => {
@@ -429,12 +217,9 @@ impl<'a> Binder<'a> {
                     Ir::new(Kind::Length(view), Type::Number, span)
                 }
             })),
-            text if array && self.is_method(text, Type::View) => {
-                Ok(Thing::Method(Box::new(Receiver::Field(field)), text.to_owned()))
-            }
             text @ ("push" | "pop" | "shift" | "unshift" | "splice") if array => self.refuse(
                 Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has a fixed number of elements", field.path))
-                    .why(format!("`{text}` changes the number of elements of a list; this array is the memory of the simulation"))
+                    .why(format!("`{text}` changes the number of elements of a list; this array is the memory of the {}", self.words().world))
                     .help(format!("store elements, as `{}[0] = 1`, or copy it into a list of your own: `const list = [...{}]`", field.path, field.path)),
             ),
             text if MACHINERY.contains(&text) => self.refuse(machinery(text, name.span)),
@@ -463,7 +248,7 @@ impl<'a> Binder<'a> {
                 )
                 .why("it is one number");
                 let methods = self.method_names(Type::Number);
-                self.refuse(match closest(text, methods.iter().map(String::as_str)) {
+                self.refuse(match closest(text, methods) {
                     Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
                     None => report
                         .help(format!("remove `.{text}`"))
@@ -491,7 +276,7 @@ impl<'a> Binder<'a> {
         }
         let names = self.schema.member_names(id);
         let here = ranked(&name.text, names.iter().map(String::as_str));
-        let elsewhere = self.meant_elsewhere(&name.text, Some(id), &|_| true);
+        let elsewhere = meant_elsewhere(self.schema, &name.text, Some(id), &|_| true);
         match (here, elsewhere) {
             // The right name on the wrong object is nearer than another name on this one.
             (here, Some((cost, path))) if here.is_none_or(|(c, _)| cost < c) => {
@@ -531,7 +316,7 @@ fn language(name: &str, span: Span) -> Option<Thing> {
 }
 
 /// What a field is, in the words of its table.
-pub(super) fn field_help(field: &Field) -> Help {
+pub(super) fn field_help(field: &Field, words: &Words) -> Help {
     let mut lines = Vec::new();
     if !field.doc.is_empty() {
         let unit = if field.unit.is_empty() { String::new() } else { format!(", {}", field.unit) };
@@ -544,26 +329,21 @@ pub(super) fn field_help(field: &Field) -> Help {
     if !shape.is_empty() {
         lines.push(format!("{} numbers", shape.join(" × ")));
     }
-    lines.push(kind_in_words(&field.kind));
+    lines.push(kind_in_words(&field.kind, words));
     Help { title: field.path.clone(), lines }
 }
 
 /// What assigning means.
-fn kind_in_words(kind: &FieldKind) -> String {
+fn kind_in_words(kind: &FieldKind, words: &Words) -> String {
     match kind {
         FieldKind::State => "state: evolves in time, may be set".into(),
         FieldKind::Input => "input: set from outside".into(),
-        FieldKind::Constant => "constant: a change takes effect at the next step".into(),
-        FieldKind::Inertial => "constant: a change needs `mj_setConst`".into(),
-        FieldKind::Structure => "fixed with the model".into(),
+        FieldKind::Constant => "constant: may be changed".into(),
+        FieldKind::Inertial => format!("constant: a change needs {}", words.recompute),
+        FieldKind::Structure => format!("fixed with the {}", words.model),
         FieldKind::Derived { by } if by.is_empty() => "computed".into(),
         FieldKind::Derived { by } => format!("computed by {by}"),
     }
-}
-
-/// Whether the language itself gives a meaning to a name.
-pub(super) fn is_language(name: &str) -> bool {
-    LANGUAGE.contains(&name) || name == "value"
 }
 
 fn from_entry(entry: Entry, span: Span) -> Thing {
@@ -578,9 +358,7 @@ fn from_entry(entry: Entry, span: Span) -> Thing {
 
 pub(super) fn machinery(name: &str, span: Span) -> Finding {
     Finding::error(rules::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
-        .why(
-            "it leads behind the values, into JavaScript itself; that this is closed keeps a lesson harmless",
-        )
+        .why("it leads behind the values, into JavaScript itself; that this is closed keeps a text harmless")
         .help("use another name")
 }
 
@@ -592,12 +370,4 @@ pub(super) fn view_of(field: &Field) -> View {
 /// `model.opt` in backquotes; `the joint "a"` as it is.
 pub(super) fn quoted(description: &str) -> String {
     if description.contains(' ') { description.to_owned() } else { format!("`{description}`") }
-}
-
-/// A list of names for a message, cut when it is long.
-pub(super) fn list(names: &[String]) -> String {
-    const SHOWN: usize = 8;
-    let shown: Vec<String> = names.iter().take(SHOWN).map(|n| format!("`{n}`")).collect();
-    let more = names.len().saturating_sub(SHOWN);
-    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
 }

@@ -2,24 +2,20 @@
 
 use super::facts::Key;
 use super::scope::{Known, Meaning};
-use super::{Attempt, Binder, Reported, Thing};
-use crate::ast::{Body, Element, Expr, ExprKind, Function, Name, Pattern};
+use super::{Attempt, Binder, Reported, Thing, What};
+use crate::ast::{Body, Element, Expr, ExprKind, Function, Pattern};
 use crate::ir::{Ir, Item, Kind, LocalId, Step, Unit, UnitId};
 use crate::operators::BinaryOp;
 use crate::rules;
 use crate::schema::Type;
 use crate::{Finding, Span};
 
-/// Functions of one text, those of the prelude not included.
-const MAX_FUNCTIONS: usize = 200;
-
 impl<'a> Binder<'a> {
     /// A function that the text gives at this place.
     pub(super) fn new_function(&mut self, function: &'a Function) -> Thing {
         self.known.push(Known {
             function,
-            key: self.key(function.span.start),
-            reach: self.variables.len(),
+            key: self.key(function.span.start, What::Result),
             around: self.unit,
             unit: None,
             site: self.site,
@@ -29,91 +25,76 @@ impl<'a> Binder<'a> {
 
     /// The place of a parameter, by which its type is kept.
     fn param_key(&self, param: &Element) -> Key {
-        self.key(param.target.span().start)
+        let what = if matches!(param.target, Pattern::Name(_)) { What::Name } else { What::Parameter };
+        self.key(param.target.span().start, what)
     }
 
     /// The function as code, called with these types.
     fn unit_of(&mut self, at: usize, types: &[Type]) -> Attempt<UnitId> {
         let Some(known) = self.known.get(at).cloned() else { return Err(Reported) };
+        let site = std::mem::replace(&mut self.site, known.site);
         for (i, param) in known.function.params.iter().enumerate() {
-            let key = (known.key.0, param.target.span().start);
+            let key = self.param_key(param);
+            self.facts.join(key);
             self.facts.see(key, types.get(i).copied().unwrap_or(Type::Undefined));
         }
-        match known.unit {
-            Some(unit) => Ok(unit),
-            None => self.bind_function(at, &known),
-        }
+        let unit = known.unit.unwrap_or_else(|| self.bind_function(at, &known));
+        self.site = site;
+        Ok(unit)
     }
 
-    fn bind_function(&mut self, at: usize, known: &Known<'a>) -> Attempt<UnitId> {
-        let span = known.function.span;
-        if self.tree.units.len() > MAX_FUNCTIONS {
-            return self.refuse(
-                Finding::error(
-                    rules::TOO_LONG,
-                    span,
-                    format!("more than {MAX_FUNCTIONS} functions in one text"),
-                )
-                .help("split the text"),
-            );
-        }
+    fn bind_function(&mut self, at: usize, known: &Known<'a>) -> UnitId {
         let unit = self.tree.units.len() as UnitId;
         self.tree.units.push(Unit::default());
         if let Some(known) = self.known.get_mut(at) {
             known.unit = Some(unit);
         }
-        // The body sees the names around its definition, not those around the call.
-        let hidden = self.variables.split_off(known.reach.min(self.variables.len()));
+        self.facts.join(known.key);
         let first = self.known.len();
-        let outer = (self.unit, self.loops, self.guards, self.site);
-        (self.unit, self.loops, self.guards, self.site) = (unit, 0, 1, known.site);
+        let outer = (self.unit, self.loops, self.guards);
+        (self.unit, self.loops, self.guards) = (unit, 0, 1);
         let (params, body) = self.body(known.function);
-        self.leave(known.reach, first);
-        (self.unit, self.loops, self.guards, self.site) = outer;
-        self.variables.extend(hidden);
+        self.leave(first);
+        (self.unit, self.loops, self.guards) = outer;
         let result = self.facts.ty(known.key);
         if let Some(unit) = self.tree.units.get_mut(unit as usize) {
             unit.params = params;
             unit.body = body;
             unit.result = Some(result);
         }
-        Ok(unit)
+        unit
     }
 
     fn body(&mut self, function: &'a Function) -> (Vec<LocalId>, Vec<Step>) {
         let mut steps = Vec::new();
         let mut places = Vec::new();
         for param in &function.params {
-            let place = match &param.target {
-                Pattern::Name(name) => self.declare_variable(name, false),
-                other => {
-                    let key = self.key(other.span().start);
-                    self.new_local(key)
+            places.push(match &param.target {
+                Pattern::Name(name) => self.declare_variable(name),
+                _ => {
+                    let key = self.param_key(param);
+                    self.new_local(key, false)
                 }
-            };
-            places.push(place);
+            });
         }
-        let first = self.variables.len()
-            - function.params.iter().filter(|p| matches!(p.target, Pattern::Name(_))).count();
         for param in &function.params {
             if !matches!(param.target, Pattern::Name(_)) {
-                self.hoist_pattern(&param.target, false, first, &mut steps);
+                self.hoist_pattern(&param.target, &mut steps);
             }
         }
         for (param, place) in function.params.iter().zip(&places) {
             self.param(param, *place, &mut steps);
         }
-        let key = self.key(function.span.start);
+        let key = self.key(function.span.start, What::Result);
         match &function.body {
             Body::Value(expr) => {
-                let ir = self.body_value(expr);
-                if let Ok(ir) = ir {
+                if let Ok(ir) = self.body_value(expr) {
                     self.facts.see(key, ir.ty);
                     steps.push(Step::Return(ir));
                 }
             }
             Body::Block(statements) => {
-                self.returns.push((key, self.unit));
+                self.returns.push(key);
                 steps.extend(self.block(statements));
                 self.returns.pop();
                 if !ends(&steps) {
@@ -180,10 +161,10 @@ impl<'a> Binder<'a> {
     /// What a called function uses, its caller must hand in.
     fn capture_for(&mut self, at: usize) {
         let Some(known) = self.known.get(at) else { return };
-        let key = known.key;
-        for variable in self.facts.uses(key) {
-            let found = self.variables.iter().rev().find(|v| v.key == variable).cloned();
-            if let Some(found) = found {
+        let (Key { site, at, .. }, names) = (known.key, known.site.map_or(self.names, |site| site.names));
+        for byte in names.taken(at) {
+            let found = self.variables.get(&Key { site, at: byte, what: What::Name }).cloned();
+            if let Some(found) = found.filter(|v| !matches!(v.meaning, Meaning::Alias(_))) {
                 self.capture(&found);
             }
         }
@@ -235,7 +216,7 @@ impl<'a> Binder<'a> {
         let unit = self.unit_of(at, &types)?;
         self.capture_for(at);
         self.effects.can_throw = true;
-        let key = self.known.get(at).map_or((0, 0), |k| k.key);
+        let Some(key) = self.known.get(at).map(|k| k.key) else { return Err(Reported) };
         let call = Ir::new(Kind::Invoke(unit, values), self.facts.ty(key), span);
         if extra.is_empty() {
             return Ok(call);
@@ -249,68 +230,6 @@ impl<'a> Binder<'a> {
         self.effects.can_throw = true;
         self.effects.calls_values = true;
         Ir::new(Kind::InvokeValue(Box::new(callee), args), Type::Any, span)
-    }
-
-    /// A method of the prelude, as if its text stood here.
-    pub(super) fn call_prelude(
-        &mut self,
-        function: &'a Function,
-        first: Thing,
-        args: &'a [Expr],
-        span: Span,
-    ) -> Attempt<Ir> {
-        let mut things = vec![Ok(first)];
-        things.extend(args.iter().map(|arg| self.argument_thing(arg)));
-        let things = things.into_iter().collect::<Attempt<Vec<Thing>>>()?;
-        let reach = self.variables.len();
-        let known = self.known.len();
-        let outer = (self.site.replace(span), self.guards);
-        self.guards += 1;
-        let mut steps = Vec::new();
-        for (param, thing) in function.params.iter().zip(things) {
-            let Pattern::Name(name) = &param.target else { continue };
-            self.declare_variable(name, false);
-            self.give_thing(name, thing, &mut steps);
-        }
-        let key = self.key(function.span.start);
-        let Body::Block(statements) = &function.body else { return Err(Reported) };
-        self.returns.push((key, self.unit));
-        let loops = std::mem::take(&mut self.loops);
-        let body = self.block(statements);
-        self.loops = loops;
-        self.returns.pop();
-        if !ends(&body) {
-            self.facts.see(key, Type::Undefined);
-        }
-        let result = self.new_local(key);
-        let ty = self.facts.ty(key);
-        self.leave(reach, known);
-        (self.site, self.guards) = outer;
-        steps.push(Step::Inline(result, body, span));
-        let value = Ir::new(Kind::Local(result), ty, span);
-        Ok(Ir::new(Kind::Block(steps, Box::new(value)), ty, span))
-    }
-
-    /// An argument of a prelude method: a function stays known.
-    fn argument_thing(&mut self, arg: &'a Expr) -> Attempt<Thing> {
-        match self.thing(arg)? {
-            closure @ Thing::Closure(_) => Ok(closure),
-            function @ (Thing::MathFunction(_) | Thing::Native(_)) => Ok(function),
-            // `Number`, which is a function and holds some.
-            Thing::Namespace(name) => match crate::natives::free(name) {
-                Some(function) => Ok(Thing::Native(function)),
-                None => self.value_of(Thing::Namespace(name), arg.span).map(Thing::Value),
-            },
-            other => self.value_of(other, arg.span).map(Thing::Value),
-        }
-    }
-
-    /// A parameter of a prelude method: what needs no place of its own is only another word.
-    fn give_thing(&mut self, name: &Name, thing: Thing, steps: &mut Vec<Step>) {
-        match thing {
-            Thing::Value(ir) => self.give_value(name, ir, steps),
-            other => self.give(name, Meaning::Alias(other)),
-        }
     }
 }
 

@@ -1,8 +1,9 @@
 //! Loops, and what is known of the numbers that count them.
 
-use super::access::out_of_range;
-use super::{Attempt, Binder, Reported, Thing};
-use crate::ast::{BinaryOp, Expr, ExprKind, Pattern, Stmt, StmtKind};
+use super::access::past_the_end;
+use super::{Attempt, Binder, Reported, Thing, What};
+use crate::ast::{BinaryOp, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
+use crate::bind::names::{Declared, names_of};
 use crate::ir::{Ir, Item, Kind, Loop, Place, Step};
 use crate::number;
 use crate::rules;
@@ -21,17 +22,19 @@ impl<'a> Binder<'a> {
         span: Span,
         steps: &mut Vec<Step>,
     ) {
-        let (reach, known) = (self.variables.len(), self.known.len());
+        let known = self.known.len();
+        let mut names: Vec<&Name> = Vec::new();
         if let Some(init) = init {
-            if let StmtKind::Declare { constant, declarators } = &init.kind {
+            if let StmtKind::Declare { declarators, .. } = &init.kind {
                 for d in declarators {
-                    self.hoist_pattern(&d.target, *constant, reach, steps);
+                    self.hoist_pattern(&d.target, steps);
+                    names_of(&d.target, &mut |name| names.push(name));
                 }
             }
             self.statement(init, steps);
         }
-        let counted = self.counted(init, test, update, reach);
         let test = test.and_then(|t| self.test(t).ok());
+        let counted = self.counted(&names, steps.last(), test.as_ref(), update);
         let guards = self.guards;
         if counted {
             self.guards = 0;
@@ -41,16 +44,19 @@ impl<'a> Binder<'a> {
         let inside = self.body_of_loop(body);
         self.guards = guards;
         let mut after = Vec::new();
-        for v in self.variables.get(reach..).unwrap_or(&[]) {
-            if self.facts.is_shared(v.key) {
-                after.push(Step::Renew(v.id));
+        for name in names {
+            let key = self.key_of(name);
+            if let Some(variable) = self.variables.get(&key)
+                && self.declaration(key).is_some_and(Declared::is_shared)
+            {
+                after.push(Step::Renew(variable.id));
             }
         }
         if let Some(update) = update {
             self.effect_into(update, &mut after);
         }
         steps.push(Step::Loop(Box::new(Loop { test, late: false, body: inside, update: after, span })));
-        self.leave(reach, known);
+        self.leave(known);
     }
 
     pub(super) fn while_loop(
@@ -69,7 +75,7 @@ impl<'a> Binder<'a> {
             if ir.known().is_some_and(Value::truthy) && !leaves(&inside) {
                 self.report(
                     Finding::error(rules::BUDGET, test.span, "this loop never ends")
-                        .why("its condition always holds, and nothing in it leaves the loop: the page would hang")
+                        .why("its condition always holds, and nothing in it leaves the loop: it would run forever")
                         .help("write a condition that becomes false, or leave the loop with `break`"),
                 );
             }
@@ -86,7 +92,6 @@ impl<'a> Binder<'a> {
     /// `for (const target of items) body`
     pub(super) fn for_of(
         &mut self,
-        constant: bool,
         target: &'a Pattern,
         items: &'a Expr,
         body: &'a Stmt,
@@ -94,14 +99,14 @@ impl<'a> Binder<'a> {
         steps: &mut Vec<Step>,
     ) {
         let list = self.thing(items);
-        let (reach, known) = (self.variables.len(), self.known.len());
+        let known = self.known.len();
         // The list, how long it is and where the loop stands are kept in places without names.
-        let at = |me: &mut Self, n: usize, ty: Type| {
-            let key = me.key(usize::MAX / 4 * 3 + 4 * span.start + n);
+        let at = |me: &mut Self, what: What, ty: Type| {
+            let key = me.key(span.start, what);
             me.facts.see(key, ty);
-            me.new_local(key)
+            me.new_local(key, false)
         };
-        let counter = at(self, 0, Type::Number);
+        let counter = at(self, What::Counter, Type::Number);
         let read_counter = Ir::new(Kind::Local(counter), Type::Number, items.span);
         let one_more = |span| {
             Step::Effect(Ir::new(
@@ -115,7 +120,7 @@ impl<'a> Binder<'a> {
             Ok(Thing::Field(field)) if !field.is_scalar() => {
                 let length = match field.len() {
                     Some(n) => Ir::number(n as f64, items.span),
-                    None => Ir::new(Kind::Length(super::name::view_of(&field)), Type::Number, items.span),
+                    None => Ir::new(Kind::Length(super::member::view_of(&field)), Type::Number, items.span),
                 };
                 let index = crate::ir::Index::Computed(Box::new(read_counter.clone()));
                 let known = field.len().is_some();
@@ -126,10 +131,10 @@ impl<'a> Binder<'a> {
             }
             Ok(thing) => {
                 let Ok(value) = self.value_of(thing, items.span) else {
-                    return self.dead_loop(target, body, constant, reach, known);
+                    return self.dead_loop(target, body, known);
                 };
                 if self.expect_elements(&value).is_err() {
-                    return self.dead_loop(target, body, constant, reach, known);
+                    return self.dead_loop(target, body, known);
                 }
                 self.effects.can_throw = true;
                 // A text is taken apart into its characters, of which some take two units.
@@ -142,7 +147,7 @@ impl<'a> Binder<'a> {
                     }
                 };
                 let ty = value.ty;
-                let list = at(self, 1, ty);
+                let list = at(self, What::List, ty);
                 steps.push(Step::Declare(list, value));
                 let list = Ir::new(Kind::Local(list), ty, items.span);
                 let length =
@@ -151,11 +156,11 @@ impl<'a> Binder<'a> {
                 let item = Kind::Element(Box::new(list), Box::new(read_counter.clone()));
                 (length, Ir::new(item, element, items.span))
             }
-            Err(Reported) => return self.dead_loop(target, body, constant, reach, known),
+            Err(Reported) => return self.dead_loop(target, body, known),
         };
         steps.push(Step::Declare(counter, Ir::number(0.0, items.span)));
         let test = Ir::binary(BinaryOp::Less, read_counter, length, items.span);
-        self.hoist_pattern(target, constant, reach, &mut turn);
+        self.hoist_pattern(target, &mut turn);
         match target {
             Pattern::Name(name) => self.give_value(name, item, &mut turn),
             pattern => {
@@ -168,15 +173,15 @@ impl<'a> Binder<'a> {
         self.guards -= 1;
         let update = vec![one_more(items.span)];
         steps.push(Step::Loop(Box::new(Loop { test: Some(test), late: false, body: turn, update, span })));
-        self.leave(reach, known);
+        self.leave(known);
     }
 
     /// A loop over something that is a mistake: its body may hold more of them.
-    fn dead_loop(&mut self, target: &'a Pattern, body: &'a Stmt, constant: bool, reach: usize, known: usize) {
-        self.hoist_pattern(target, constant, reach, &mut Vec::new());
+    fn dead_loop(&mut self, target: &'a Pattern, body: &'a Stmt, known: usize) {
+        self.hoist_pattern(target, &mut Vec::new());
         self.forget(target);
         self.body_of_loop(body);
-        self.leave(reach, known);
+        self.leave(known);
     }
 
     fn body_of_loop(&mut self, body: &'a Stmt) -> Vec<Step> {
@@ -197,43 +202,38 @@ impl<'a> Binder<'a> {
     /// Whether the loop counts a variable of its own up to a bound that is known: then its range is noted.
     fn counted(
         &mut self,
-        init: Option<&'a Stmt>,
-        test: Option<&'a Expr>,
-        update: Option<&'a Expr>,
-        reach: usize,
+        names: &[&Name],
+        init: Option<&Step>,
+        test: Option<&Ir>,
+        update: Option<&Expr>,
     ) -> bool {
-        let Some(StmtKind::Declare { declarators, .. }) = init.map(|s| &s.kind) else { return false };
-        let [only] = declarators.as_slice() else { return false };
-        let (Pattern::Name(name), Some(start)) = (&only.target, &only.value) else { return false };
+        let ([name], Some(Step::Declare(id, start))) = (names, init) else { return false };
         let counts = |e: &Expr| matches!(&e.kind, ExprKind::Name(n) if *n == name.text);
-        let up = match update.map(|u| &u.kind) {
-            Some(ExprKind::Update { target, increment, .. }) => counts(target) && *increment,
-            Some(ExprKind::Assign { target, op: Some(BinaryOp::Add), value, .. }) => {
-                counts(target) && matches!(value.kind, ExprKind::Number(x) if x >= 1.0)
+        let single = match update.map(|u| &u.kind) {
+            Some(ExprKind::Update { target, increment: true, .. }) if counts(target) => true,
+            Some(ExprKind::Assign { target, op: Some(BinaryOp::Add), value, .. })
+                if counts(target) && matches!(value.kind, ExprKind::Number(x) if x >= 1.0) =>
+            {
+                false
             }
-            _ => false,
+            _ => return false,
         };
-        let Some(ExprKind::Binary { op, left, right }) = test.map(|t| &t.kind) else { return false };
-        if !(up && counts(left) && matches!(op, BinaryOp::Less | BinaryOp::LessEqual)) {
-            return false;
-        }
-        let Some(variable) = self.variables.get(reach).cloned() else { return false };
-        // Assigned by the update alone: an assignment in the body is seen as one more.
-        if self.facts.assignments(variable.key) > 1 {
-            return false;
-        }
-        let quiet = self.diagnostics.len();
-        let bounds = (self.operand(start), self.operand(right));
-        self.diagnostics.truncate(quiet);
-        let (Ok(start), Ok(bound)) = bounds else { return false };
-        let (Some(least), Some((_, bound))) = (self.range_of(&start).map(|r| r.0), self.range_of(&bound))
+        let Some(Kind::Binary(op @ (BinaryOp::Less | BinaryOp::LessEqual), left, right)) =
+            test.map(|t| &t.kind)
         else {
+            return false;
+        };
+        // Assigned by the update alone: an assignment in the body is one more.
+        let key = self.key_of(name);
+        if !matches!(left.kind, Kind::Local(counter) if counter == *id) || self.assignments(key) > 1 {
+            return false;
+        }
+        let (Some((least, _)), Some((_, bound))) = (self.range_of(start), self.range_of(right)) else {
             return false;
         };
         let most = if *op == BinaryOp::Less { (bound - 1.0).ceil() } else { bound.floor() };
         let whole = least.fract() == 0.0 && least.is_finite() && most.is_finite();
-        let single = matches!(update.map(|u| &u.kind), Some(ExprKind::Update { .. }));
-        if whole && let Some(variable) = self.variables.get_mut(reach) {
+        if whole && let Some(variable) = self.variables.get_mut(&key) {
             variable.range = Some((least, most.max(least)));
         }
         // A larger step may pass over the last one; an empty loop runs nothing.
@@ -244,7 +244,7 @@ impl<'a> Binder<'a> {
     pub(super) fn range_of(&self, ir: &Ir) -> Option<(f64, f64)> {
         match &ir.kind {
             Kind::Constant(Value::Number(x)) => Some((*x, *x)),
-            Kind::Local(id) => self.variables.iter().rev().find(|v| v.id == *id)?.range,
+            Kind::Local(id) => self.variables.get(self.keys.get(*id as usize)?)?.range,
             Kind::Binary(op, a, b) => {
                 let ((a0, a1), (b0, b1)) = (self.range_of(a)?, self.range_of(b)?);
                 let range = match op {
@@ -271,11 +271,10 @@ impl<'a> Binder<'a> {
         }
         if most >= n as f64 {
             let shown = number::to_text(most);
-            let report = out_of_range(field, &shown, index.span);
             let text = self.text(index.span);
             let message =
                 format!("in the last turn of the loop `{text}` is {shown}: past the end of `{}`", field.path);
-            return self.refuse(Finding { message, ..report });
+            return self.refuse(past_the_end(field, index.span, message, self.words()));
         }
         if least < 0.0 {
             let shown = number::to_text(least);

@@ -1,8 +1,9 @@
 //! Lists, records, templates, and declarations that take lists and records apart.
 
 use super::scope::Meaning;
-use super::{Attempt, Binder, Reported, Thing};
+use super::{Attempt, Binder, Reported, Thing, What};
 use crate::ast::{Element, Expr, ExprKind, Pattern, Property};
+use crate::bind::names::names_of;
 use crate::ir::{Entry, Ir, Item, Kind, Step};
 use crate::operators::BinaryOp;
 use crate::rules;
@@ -57,17 +58,21 @@ impl<'a> Binder<'a> {
         self.refuse(match value.ty {
             Type::Number => report.help("to count, write `for (let i = 0; i < n; i++)`"),
             Type::Record => report.help(format!("write `Object.values({text})` for its values")),
-            _ => report.help("write a list, as `[1, 2, 3]`, or an array, as `data.qpos`"),
+            _ => {
+                report.help(format!("write a list, as `[1, 2, 3]`, or an array, as `{}`", self.words().array))
+            }
         })
     }
 
     /// `[a, b]`
+    #[inline(never)]
     pub(super) fn list(&mut self, items: &'a [Expr], span: Span) -> Attempt<Ir> {
         let items = self.items(items)?;
         Ok(Ir::new(Kind::List(items), Type::List, span))
     }
 
     /// `{a: 1}`
+    #[inline(never)]
     pub(super) fn record(&mut self, properties: &'a [Property], span: Span) -> Attempt<Ir> {
         let mut entries = Vec::new();
         let mut failed = false;
@@ -92,6 +97,7 @@ impl<'a> Binder<'a> {
     }
 
     /// `` `text ${value}` ``
+    #[inline(never)]
     pub(super) fn template(&mut self, texts: &'a [String], values: &'a [Expr], span: Span) -> Attempt<Ir> {
         let text = |i: usize| texts.get(i).map_or("", String::as_str);
         let mut whole = Ir::constant(text(0).into(), span);
@@ -164,21 +170,16 @@ impl<'a> Binder<'a> {
 
     /// Puts a value into a place without a name.
     pub(super) fn keep(&mut self, value: Ir, span: Span, steps: &mut Vec<Step>) -> Ir {
-        // Beyond every byte of a text, where no name has its place.
-        let key = self.key(usize::MAX / 2 + span.start);
+        let key = self.key(span.start, What::Part);
         self.facts.see(key, value.ty);
-        let (place, ty) = (self.new_local(key), self.facts.ty(key));
+        let (place, ty) = (self.new_local(key, false), self.facts.ty(key));
         steps.push(Step::Declare(place, value));
         Ir::new(Kind::Local(place), ty, span)
     }
 
     /// The names of a pattern that could not be bound: their uses are no mistakes of their own.
     pub(super) fn forget(&mut self, pattern: &'a Pattern) {
-        match pattern {
-            Pattern::Name(name) => self.give(name, Meaning::Unknown),
-            Pattern::List { items, .. } => items.iter().flatten().for_each(|e| self.forget(&e.target)),
-            Pattern::Record { entries, .. } => entries.iter().for_each(|(_, e)| self.forget(&e.target)),
-        }
+        names_of(pattern, &mut |name| self.give(name, Meaning::Unknown));
     }
 
     /// `const {kinetic, total} = lib.energy()` checks the names against what the function gives.

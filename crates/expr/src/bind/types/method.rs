@@ -1,11 +1,10 @@
 //! Calls of methods: of arrays of the simulation, lists, texts and numbers.
 
-use super::name::view_of;
-use super::{Attempt, Binder, Receiver, Thing};
+use super::member::view_of;
+use super::{Attempt, Binder, Receiver, Thing, Want};
 use crate::ast::{Expr, ExprKind};
 use crate::ir::{Ir, Kind};
 use crate::natives::{self, On, Row};
-use crate::prelude;
 use crate::rules;
 use crate::schema::{Field, Type};
 use crate::value::Value;
@@ -14,172 +13,136 @@ use crate::{Finding, Span};
 impl<'a> Binder<'a> {
     /// Whether values of a type have a method.
     pub(super) fn is_method(&self, text: &str, ty: Type) -> bool {
-        let calls = matches!(ty, Type::List | Type::View | Type::Any | Type::Never)
-            && !prelude::arities(text).is_empty();
-        let listed = match ty {
-            Type::Any | Type::Never => natives::name(text).is_some(),
-            _ => natives::name(text).is_some_and(|n| n.row_for(ty).is_some()),
-        };
-        // `toString` is a method of numbers only.
-        calls || listed
+        natives::name(text).is_some_and(|n| n.rows_for(ty).next().is_some())
     }
 
     /// The methods of values of a type.
-    pub(super) fn method_names(&self, ty: Type) -> Vec<String> {
-        let natives = natives::rows().filter(|row| row.on != On::Nothing).map(|row| row.name);
-        let all = natives.chain(prelude::names()).chain(["length"]);
-        all.filter(|name| *name == "length" || self.is_method(name, ty)).map(str::to_owned).collect()
+    pub(super) fn method_names(&self, ty: Type) -> Vec<&'static str> {
+        let names = natives::rows().map(|row| row.name).filter(|name| self.is_method(name, ty));
+        names.chain(["length"]).collect()
     }
 
-    /// `receiver.text(args)`
+    /// `receiver.name(args)`
     pub(super) fn method(
         &mut self,
         receiver: Receiver,
-        text: &str,
+        name: natives::Name,
         args: &'a [Expr],
         span: Span,
     ) -> Attempt<Ir> {
         if let Receiver::Field(field) = &receiver
-            && let Some(ir) = self.field_method(field, text, args, span)?
+            && let Some(ir) = self.field_method(field, name.text(), args, span)?
         {
             return Ok(ir);
         }
-        let changes =
-            prelude::changes(text) || natives::name(text).is_some_and(|n| n.rows().any(|r| r.changes));
+        let changes = name.rows().any(|row| row.changes);
         if let (Receiver::Field(field), true) = (&receiver, changes) {
             self.check_assignable(field, span)?;
             self.write(view_of(field), None);
         }
         self.effects.stores_items |= changes;
-        if let Some(function) = self.with_function(text, args, span)? {
+        let ty = match &receiver {
+            Receiver::Field(_) => Type::View,
+            Receiver::Value(ir) => ir.ty,
+        };
+        let rows: Vec<&'static Row> = name.rows_for(ty).collect();
+        let run = rows.iter().copied().filter(|row| !row.calls());
+        let runs = run.clone().next().is_some();
+        if let Some(row) = rows.iter().copied().find(|row| row.calls() && !(runs && args.is_empty())) {
+            let function = self.written(row, args, span)?;
             let first = match receiver {
                 Receiver::Field(field) => Thing::Field(field),
                 Receiver::Value(ir) => Thing::Value(ir),
             };
-            return self.call_prelude(function, first, args, span);
+            return self.call_written(function, row, first, args, span);
         }
         let receiver = match receiver {
             Receiver::Field(field) => self.field_value(&field, span),
             Receiver::Value(ir) => ir,
         };
-        let Some(name) = natives::name(text) else {
-            let report = self.needs_function(text, span);
-            return self.refuse(report);
-        };
-        let row = name.row_for(receiver.ty);
-        self.check_arity(text, row.into_iter().chain(name.rows()).next(), args, span)?;
+        self.check_arity(&rows, args, span)?;
         let items = self.items(args)?;
         self.effects.can_throw = true;
-        let same = name.rows().map(|r| r.returns).reduce(Type::or).unwrap_or(Type::Any);
-        let ty = row.map_or(same, |row| row.returns);
-        // A method that gives back what it was called on.
-        let ty = match (text, ty) {
-            ("fill" | "reverse" | "sort", Type::Any) => receiver.ty,
-            ("subarray", _) => receiver.ty,
-            ("at", _) if receiver.ty == Type::View => Type::Element,
-            _ => ty,
-        };
+        let ty = run.map(|row| row.returns(ty)).reduce(Type::or).unwrap_or(Type::Any);
         Ok(Ir::new(Kind::Method(name, Box::new(receiver), items), ty, span))
     }
 
-    /// The method of the prelude that is meant; none when it is called without a function.
-    fn with_function(
+    /// The function of the language that computes a method with these arguments.
+    fn written(
         &mut self,
-        text: &str,
+        row: &'static Row,
         args: &'a [Expr],
         span: Span,
-    ) -> Attempt<Option<&'a crate::ast::Function>> {
-        let arities = prelude::arities(text);
-        if arities.is_empty() || natives::name(text).is_some() && args.is_empty() {
-            return Ok(None);
-        }
+    ) -> Attempt<&'a crate::ast::Function> {
+        let (name, example) = (row.name, self.call_of(row));
         if args.iter().any(|a| matches!(a.kind, ExprKind::Spread(_))) {
             return self.refuse(
                 Finding::error(
                     rules::ARGUMENT_TYPE,
                     span,
-                    format!("the arguments of `{text}` cannot be spread"),
+                    format!("the arguments of `{name}` cannot be spread"),
                 )
-                .help(format!("write them out, as `.{text}(x => 2 * x)`")),
+                .help(format!("write them out, as `{example}`")),
             );
         }
-        match prelude::method(text, args.len()) {
-            Some(function) => {
-                let plain = matches!(
-                    args.first().map(|a| &a.kind),
-                    Some(
-                        ExprKind::Number(_) | ExprKind::String(_) | ExprKind::Array(_) | ExprKind::Boolean(_)
-                    )
-                );
-                if !plain {
-                    return Ok(Some(function));
-                }
-                let report = self.needs_function(text, args.first().map_or(span, |a| a.span));
-                self.refuse(report)
-            }
-            None => {
-                let wanted = arities.iter().min().copied().unwrap_or(1);
-                let report = Finding::error(
+        match row.written(args.len()) {
+            Some(function) => Ok(function),
+            None => self.refuse(
+                Finding::error(
                     rules::ARGUMENT_COUNT,
                     span,
                     match args.len() {
-                        0 => format!("`.{text}` needs a function"),
-                        n => format!("`.{text}` does not take {n} arguments"),
+                        0 => format!("`.{name}` needs a function"),
+                        n => format!("`.{name}` does not take {n} arguments"),
                     },
                 )
-                .why("it is called for every element");
-                self.refuse(match wanted {
-                    1 if text.starts_with("reduce") => {
-                        report.help(format!("write `.{text}((sum, x) => sum + x, 0)`"))
-                    }
-                    _ => report.help(format!("write `.{text}(x => 2 * x)`")),
-                })
-            }
+                .why("it is called for every element")
+                .help(format!("write `{example}`")),
+            ),
         }
     }
 
-    fn needs_function(&self, text: &str, span: Span) -> Finding {
-        let example = match text {
-            "reduce" | "reduceRight" => "(sum, x) => sum + x, 0",
-            "sort" | "toSorted" => "(a, b) => a - b",
-            "map" | "flatMap" | "forEach" | "Array.from" => "x => 2 * x",
-            _ => "x => x > 0",
-        };
-        Finding::error(rules::ARGUMENT_TYPE, span, format!("`.{text}` needs a function"))
+    /// The example of a method, from its name on: `.map(x => 2 * x)`.
+    fn call_of(&self, row: &Row) -> String {
+        let (example, _) = row.example("");
+        let at = example.find(row.name).unwrap_or(0);
+        let from = example.split_at(at).1;
+        if row.on == On::Nothing { from.to_owned() } else { format!(".{from}") }
+    }
+
+    /// The finding for something else where a method takes a function.
+    pub(super) fn needs_function(&self, row: &Row, span: Span) -> Finding {
+        let point = if row.on == On::Nothing { "" } else { "." };
+        Finding::error(rules::ARGUMENT_TYPE, span, format!("`{point}{}` needs a function", row.name))
             .why("it is called for every element")
-            .help(format!("write `.{text}({example})`"))
+            .help(format!("write `{}`", self.call_of(row)))
     }
 
-    /// Checks how many arguments a function of the language gets.
-    pub(super) fn check_arity(
-        &mut self,
-        text: &str,
-        row: Option<&'static Row>,
-        args: &'a [Expr],
-        span: Span,
-    ) -> Attempt<()> {
-        let Some(row) = row else { return Ok(()) };
-        if args.iter().any(|a| matches!(a.kind, ExprKind::Spread(_))) {
-            return Ok(());
-        }
-        if (row.least..=row.most).contains(&args.len()) {
+    /// Checks how many arguments a function of the language gets, which one of these rows computes.
+    pub(super) fn check_arity(&mut self, rows: &[&'static Row], args: &'a [Expr], span: Span) -> Attempt<()> {
+        let Some(row) = rows.first() else { return Ok(()) };
+        let least = rows.iter().map(|row| row.arity().0).min().unwrap_or(0);
+        let most = rows.iter().map(|row| row.arity().1).max().unwrap_or(0);
+        let spread = args.iter().any(|a| matches!(a.kind, ExprKind::Spread(_)));
+        if spread || (least..=most).contains(&args.len()) {
             return Ok(());
         }
         self.only_check(args);
-        let wanted = match (row.least, row.most) {
-            (least, most) if least == most => super::call::count(least, "argument"),
-            (least, usize::MAX) => format!("at least {}", super::call::count(least, "argument")),
-            (least, most) => format!("{least} to {}", super::call::count(most, "argument")),
+        let wanted = match (least, most) {
+            _ if least == most => super::call::count(least, "argument"),
+            (_, usize::MAX) => format!("at least {}", super::call::count(least, "argument")),
+            _ => format!("{least} to {}", super::call::count(most, "argument")),
         };
         let point = if row.on == On::Nothing { "" } else { "." };
+        let (example, value) = row.example(self.words().array);
         self.refuse(
             Finding::error(
                 rules::ARGUMENT_COUNT,
                 span,
-                format!("`{point}{text}` takes {wanted}, not {}", args.len()),
+                format!("`{point}{}` takes {wanted}, not {}", row.name, args.len()),
             )
             .why(format!("what it gives: {}", row.doc))
-            .help(format!("an example: `{}` is `{}`", row.example.0, row.example.1)),
+            .help(format!("an example: `{example}` is `{value}`")),
         )
     }
 
@@ -197,7 +160,7 @@ impl<'a> Binder<'a> {
                 let assignable = self.check_assignable(field, span);
                 let value = self.operand(value)?;
                 assignable?;
-                self.check_stored(&value);
+                self.want(&value, value.span, Want::Element(None));
                 self.write(view, None);
                 Kind::Fill(view, Box::new(value))
             }
@@ -229,7 +192,7 @@ impl<'a> Binder<'a> {
                 let bound: Vec<Attempt<Ir>> = items.iter().map(|item| self.operand(item)).collect();
                 let values = bound.into_iter().collect::<Attempt<Vec<Ir>>>()?;
                 for value in &values {
-                    self.check_stored(value);
+                    self.want(value, value.span, Want::Element(None));
                 }
                 self.check_fits(field, values.len(), offset, span)?;
                 assignable?;

@@ -1,8 +1,9 @@
 //! Elements: indexes of fields, `ctx['name']`, named objects, and what is said of arrays used whole.
 
-use super::name::{list, quoted, view_of};
+use super::member::{quoted, view_of};
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Expr, ExprKind};
+use crate::bind::names::list;
 use crate::closest;
 use crate::effects::Access;
 use crate::ir::{Index, Ir, Kind};
@@ -10,6 +11,7 @@ use crate::number;
 use crate::rules;
 use crate::schema::{CollectionId, Field, Help, ObjectId, Type};
 use crate::value::{Value, View};
+use crate::words::Words;
 use crate::{Finding, Fix, Span};
 
 /// What chooses a `ctx` variable.
@@ -20,6 +22,7 @@ pub(super) enum GlobalName {
 
 impl<'a> Binder<'a> {
     /// `object[index]`, read.
+    #[inline(never)]
     pub(super) fn element(
         &mut self,
         object: &'a Expr,
@@ -31,7 +34,7 @@ impl<'a> Binder<'a> {
             let index = self.index(&field, index, span)?;
             return Ok(Thing::Value(self.load(&field, index, span)));
         }
-        let thing = self.holder(object);
+        let thing = self.thing(object);
         if let Ok(Thing::Globals) = thing {
             return self.read_named_global(index, span).map(Thing::Value);
         }
@@ -79,7 +82,7 @@ impl<'a> Binder<'a> {
     fn explain_element(&mut self, field: &Field, index: usize, span: Span) {
         let (schema, key, first) = (self.schema, field.key, field.first);
         self.explain(span, || {
-            let mut help = super::name::field_help(field);
+            let mut help = super::member::field_help(field, schema.words());
             help.title = format!("{}[{index}]", field.path);
             help.lines.splice(0..0, schema.element_help(key, first + index));
             help
@@ -202,9 +205,10 @@ impl<'a> Binder<'a> {
                     range(field)
                 ));
                 report = match ir.known() {
-                    Some(Value::String(_)) => {
-                        report.help("for an object by its name, write `data.joint(\"name\")` or its like")
-                    }
+                    Some(Value::String(_)) => report.help(format!(
+                        "for an object by its name, write `{}` or its like",
+                        self.words().choice
+                    )),
                     _ => report.help("write a whole number"),
                 };
                 self.refuse(report)
@@ -238,7 +242,7 @@ impl<'a> Binder<'a> {
         // Whole numbers beyond usize become usize::MAX, which is out of every range.
         let at = x as usize;
         if field.len().is_some_and(|n| at >= n) {
-            let report = out_of_range(field, &shown, span);
+            let report = out_of_range(field, &shown, span, self.words());
             return self.refuse(report);
         }
         Ok(at)
@@ -268,7 +272,10 @@ impl<'a> Binder<'a> {
             (Thing::Value(ir), _) if matches!(ir.kind, Kind::Load(..)) => {
                 error(format!("`{text}` is already one number"))
                     .why("arrays are flat: one index chooses one number, and rows follow each other")
-                    .help("write one index, as `data.xpos[3 * i + k]` for row i, column k")
+                    .help(format!(
+                        "write one index, as `{}[3 * i + k]` for row i, column k",
+                        self.words().matrix
+                    ))
             }
             (Thing::Value(_), _) => {
                 error(format!("`{text}` is a single value, not an array")).help("remove the index")
@@ -281,13 +288,13 @@ impl<'a> Binder<'a> {
                 | Thing::Closure(_),
                 _,
             ) => self.not_called(thing, object.span),
-            _ => {
-                error(format!("`{text}` is not an array")).help("choose a field with a point, as `data.qpos`")
-            }
+            _ => error(format!("`{text}` is not an array"))
+                .help(format!("choose a field with a point, as `{}`", self.words().array)),
         }
     }
 
     /// The finding for a whole array where one number must stand.
+    #[inline(never)]
     pub(super) fn whole_array(&self, field: &Field, span: Span) -> Finding {
         let text = self.text(span);
         let report =
@@ -315,18 +322,18 @@ impl<'a> Binder<'a> {
     ) -> Finding {
         let (text, noun) = (self.text(object), self.schema.noun(id));
         let report =
-            Finding::error(rules::NOT_A_VALUE, object, format!("`{text}` needs the name of a {noun}"));
+            |span| Finding::error(rules::NOT_A_VALUE, span, format!("`{text}` needs the name of a {noun}"));
         let names = self.schema.names(id);
         match name {
             Some((name, span)) if names.iter().any(|n| n == name) => {
                 let meant = format!("{text}(\"{name}\")");
-                Finding { span: span.into(), ..report }.help(format!("write `{meant}`")).fix(span, meant)
+                report(span).help(format!("write `{meant}`")).fix(span, meant)
             }
             _ => match names.first() {
-                Some(first) => report.help(format!("write `{text}(\"{first}\")`")),
-                None => report
+                Some(first) => report(object).help(format!("write `{text}(\"{first}\")`")),
+                None => report(object)
                     .why(format!("no {noun} has a name here"))
-                    .help(format!("name the {noun} in the model")),
+                    .help(format!("name the {noun} in the {}", self.words().model)),
             },
         }
     }
@@ -358,21 +365,6 @@ impl<'a> Binder<'a> {
     pub(super) fn object_name(&mut self, id: CollectionId, arg: &'a Expr) -> Attempt<Chosen> {
         let noun = self.schema.noun(id).to_owned();
         let names = self.schema.names(id);
-        if let ExprKind::Name(word) = &arg.kind
-            && names.contains(word)
-            && self.variable(word).is_none()
-        {
-            return self.refuse(
-                Finding::error(
-                    rules::COMPUTED_NAME,
-                    arg.span,
-                    format!("the name of a {noun} stands in quotes"),
-                )
-                .why("without quotes it is the name of a variable")
-                .help(format!("write `\"{word}\"`"))
-                .fix(arg.span, format!("\"{word}\"")),
-            );
-        }
         let ir = self.value(arg)?;
         let name = match (ir.known(), ir.ty) {
             (Some(Value::String(name)), _) => name.clone(),
@@ -380,7 +372,7 @@ impl<'a> Binder<'a> {
                 if names.is_empty() {
                     return self.refuse(
                         Finding::error(rules::UNKNOWN_OBJECT, arg.span, format!("no {noun} has a name here"))
-                            .help(format!("give the {noun} a name in the model")),
+                            .help(format!("give the {noun} a name in the {}", self.words().model)),
                     );
                 }
                 self.effects.can_throw = true;
@@ -398,7 +390,7 @@ impl<'a> Binder<'a> {
                         arg.span,
                         format!("a {noun} is chosen by its name, not by {}", ir.ty.describe()),
                     )
-                    .why("numbers of objects change when the model changes")
+                    .why(format!("numbers of objects change when the {} changes", self.words().model))
                     .help(format!("write the name in quotes{shown}")),
                 );
             }
@@ -417,7 +409,7 @@ impl<'a> Binder<'a> {
             }
             None if names.is_empty() => report
                 .why(format!("no {noun} has a name here"))
-                .help(format!("give the {noun} a name in the model")),
+                .help(format!("give the {noun} a name in the {}", self.words().model)),
             None => report.why(format!("the names are {}", list(&names))).help("use one of them"),
         };
         self.refuse(report)
@@ -457,13 +449,17 @@ fn owner(field: &Field, n: usize) -> String {
 }
 
 /// The finding for an index past the end.
-pub(super) fn out_of_range(field: &Field, shown: &str, span: Span) -> Finding {
-    let n = field.len().unwrap_or(0);
-    let what = if field.is_empty() {
-        format!("`{}` has no elements", field.path)
-    } else {
-        format!("index {shown} is past the end of `{}`", field.path)
+pub(super) fn out_of_range(field: &Field, shown: &str, span: Span, words: &Words) -> Finding {
+    let what = match field.is_empty() {
+        true => format!("`{}` has no elements", field.path),
+        false => format!("index {shown} is past the end of `{}`", field.path),
     };
+    past_the_end(field, span, what, words)
+}
+
+/// The finding for elements that a field does not have.
+pub(super) fn past_the_end(field: &Field, span: Span, what: String, words: &Words) -> Finding {
+    let n = field.len().unwrap_or(0);
     let report = Finding::error(rules::INDEX_RANGE, span, what);
     let shape = if field.shape.len() > 1 && n > 0 {
         format!("{n} numbers, {} in each row", row(field))
@@ -476,7 +472,9 @@ pub(super) fn out_of_range(field: &Field, shown: &str, span: Span) -> Finding {
         (false, _) => field.owner.clone(),
     };
     match n {
-        0 => report.why(why).help("add to the model what you want to use, or use another field"),
+        0 => report
+            .why(why)
+            .help(format!("add to the {} what you want to use, or use another field", words.model)),
         _ => report
             .why(format!("{why}, and reading past them gives `undefined`"))
             .help(format!("indexes are{}", range(field))),

@@ -1,14 +1,14 @@
 //! Assignments: what may stand on the left, and why not what may not.
 
 use super::access::GlobalName;
-use super::name::{Use, is_language, machinery, view_of};
+use super::member::{machinery, view_of};
 use super::scope::Meaning;
-use super::{Attempt, Binder, Reported, Thing};
+use super::{Attempt, Binder, Reported, Thing, Want};
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp};
+use crate::bind::names::MACHINERY;
 use crate::ir::{Gives, Index, Ir, Kind, Place};
 use crate::rules;
 use crate::schema::{Field, FieldKind, Type};
-use crate::value::Value;
 use crate::{Finding, Span};
 
 impl<'a> Binder<'a> {
@@ -21,6 +21,7 @@ impl<'a> Binder<'a> {
     }
 
     /// An expression that changes something: an assignment, `++`, or one of their like.
+    #[inline(never)]
     pub(super) fn changing(&mut self, expr: &'a Expr) -> Attempt<Ir> {
         let span = expr.span;
         match &expr.kind {
@@ -52,10 +53,7 @@ impl<'a> Binder<'a> {
         };
         let (place, value) = (place?, value?);
         self.check_kept(&place, &value)?;
-        self.check_stored_in(&place, op, &value);
-        if let (Place::Element(view, index), None) = (&place, op) {
-            self.check_stored_angle(*view, index, &value);
-        }
+        self.want_stored(&place, op, &value);
         let old = self.type_of_place(&place);
         let ty = match op {
             None => value.ty,
@@ -75,7 +73,7 @@ impl<'a> Binder<'a> {
             if matches!(place, Ok(Place::Element(..))) { self.operand(value) } else { self.value(value) };
         let (place, value) = (place?, value?);
         self.check_kept(&place, &value)?;
-        self.check_stored_in(&place, None, &value);
+        self.want_stored(&place, None, &value);
         let ty = self.type_of_place(&place).or(value.ty);
         self.stored(target, &place, ty);
         Ok(Ir::new(Kind::StoreIf(op, Box::new(place), Box::new(value)), ty, span))
@@ -91,10 +89,13 @@ impl<'a> Binder<'a> {
     }
 
     /// The type of what a place holds.
-    fn type_of_place(&self, place: &Place) -> Type {
+    fn type_of_place(&mut self, place: &Place) -> Type {
         match place {
             Place::Element(..) => Type::Element,
-            Place::Local(id) => self.tree.locals.get(*id as usize).map_or(Type::Any, |l| l.ty),
+            Place::Local(id) => match self.keys.get(*id as usize) {
+                Some(key) => self.facts.ty(*key),
+                None => Type::Any,
+            },
             _ => Type::Any,
         }
     }
@@ -102,8 +103,8 @@ impl<'a> Binder<'a> {
     /// Notes what is stored in a variable of the text.
     fn stored(&mut self, target: &Expr, place: &Place, ty: Type) {
         let (Place::Local(id), ExprKind::Name(_)) = (place, &target.kind) else { return };
-        if let Some(key) = self.variables.iter().rev().find(|v| v.id == *id).map(|v| v.key) {
-            self.facts.see(key, ty);
+        if let Some(key) = self.keys.get(*id as usize) {
+            self.facts.see(*key, ty);
         }
     }
 
@@ -118,9 +119,9 @@ impl<'a> Binder<'a> {
             Finding::error(
                 rules::WHOLE_ARRAY,
                 value.span,
-                format!("`{text}` is an array of the simulation; `ctx` keeps values"),
+                format!("`{text}` is an array of the {}; `ctx` keeps values", self.words().world),
             )
-            .why("what is kept would change with every step, which is hardly ever meant")
+            .why("what is kept would go on changing, which is hardly ever meant")
             .help(format!("keep a copy, as `{text}.slice()`, or one element, as `{text}[0]`"))
             .fix(value.span.after(), ".slice()"),
         )
@@ -130,7 +131,7 @@ impl<'a> Binder<'a> {
     fn place(&mut self, target: &'a Expr, reads: bool) -> Attempt<Place> {
         match &target.kind {
             ExprKind::Name(name) => self.named_place(name, target.span, reads),
-            ExprKind::Member { object, name, optional: false } => match self.holder(object)? {
+            ExprKind::Member { object, name, optional: false } => match self.thing(object)? {
                 Thing::Globals => self.global_place(&name.text, target.span, reads),
                 Thing::Value(ir) => self.member_place(ir, name, target.span),
                 thing => {
@@ -138,7 +139,7 @@ impl<'a> Binder<'a> {
                     self.place_of(thing, target, reads)
                 }
             },
-            ExprKind::Index { object, index, optional: false } => match self.holder(object) {
+            ExprKind::Index { object, index, optional: false } => match self.thing(object) {
                 Ok(Thing::Globals) => match self.global_name(index)? {
                     GlobalName::Known(name) => self.global_place(&name, target.span, reads),
                     GlobalName::Computed(name) => {
@@ -182,7 +183,7 @@ impl<'a> Binder<'a> {
 
     /// `value.name` on the left.
     fn member_place(&mut self, ir: Ir, name: &crate::ast::Name, span: Span) -> Attempt<Place> {
-        if super::name::MACHINERY.contains(&name.text.as_str()) {
+        if MACHINERY.contains(&name.text.as_str()) {
             return self.refuse(machinery(&name.text, name.span));
         }
         if matches!(ir.ty, Type::Record | Type::Any | Type::Never | Type::List) {
@@ -193,7 +194,7 @@ impl<'a> Binder<'a> {
             format!("`{}` is {}; it has no members to assign", self.text(ir.span), ir.ty.describe());
         self.refuse(
             Finding::error(rules::NOT_ASSIGNABLE, span, message)
-                .help("assign a member of a record, or a variable of the lab, as `ctx.peak`"),
+                .help("assign a member of a record, or a variable, as `ctx.peak`"),
         )
     }
 
@@ -224,16 +225,7 @@ impl<'a> Binder<'a> {
 
     /// A plain name on the left.
     fn named_place(&mut self, name: &str, span: Span, reads: bool) -> Attempt<Place> {
-        if let Some(variable) = self.variable(name) {
-            self.check_ready(&variable, span)?;
-            if variable.constant {
-                return self.refuse(
-                    Finding::error(rules::ASSIGN_CONST, span, format!("`{name}` is declared with `const`"))
-                        .why("a `const` name keeps its first value; JavaScript stops the program here")
-                        .help(format!("declare it with `let {name}`, or use another name")),
-                );
-            }
-            self.facts.reassign(variable.key, span.start + self.site.map_or(0, |s| s.end << 20));
+        if let Some(variable) = self.variable(name, span)? {
             return match variable.meaning {
                 Meaning::Unknown if variable.ready => Err(Reported),
                 _ => {
@@ -242,36 +234,9 @@ impl<'a> Binder<'a> {
                 }
             };
         }
-        if self.schema.root(name).is_none() && !is_language(name) {
-            let report = self.undeclared(name, span);
-            return self.refuse(report);
-        }
-        if is_language(name) {
-            let report = Finding::error(rules::NOT_ASSIGNABLE, span, format!("`{name}` cannot be assigned"));
-            return self.refuse(match name {
-                "ctx" => report
-                    .why("it holds the variables of the lab")
-                    .help("assign a variable, as `ctx.peak = 0`"),
-                "value" => report
-                    .why("it is what the control gives")
-                    .help("use another name, as `const x = value / 2`"),
-                _ => report.why("it means the same everywhere").help("use another name"),
-            });
-        }
-        let thing = self.root(name, span, Use::Value)?;
+        let thing = self.root(name, span)?;
         let expr = Expr { kind: ExprKind::Name(name.to_owned()), span };
         self.place_of(thing, &expr, reads)
-    }
-
-    fn undeclared(&self, name: &str, span: Span) -> Finding {
-        let report = Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` is not declared"))
-            .why("an assignment without a declaration would make a variable of the whole page");
-        match self.closest_name(name) {
-            Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
-            None => report.help(format!(
-                "write `const {name} = …` for this text only, or `ctx.{name} = …` to keep it in the lab"
-            )),
-        }
     }
 
     /// A thing behind a name or a point on the left.
@@ -285,7 +250,7 @@ impl<'a> Binder<'a> {
                 let text = self.text(target.span).to_owned();
                 self.refuse(
                     Finding::error(rules::ASSIGN_ARRAY, target.span, format!("`{}` is an array and cannot be replaced as a whole", field.path))
-                        .why("its elements are the memory of the simulation; an assignment to the name would change none of them")
+                        .why(format!("its elements are the memory of the {}; an assignment to the name would change none of them", self.words().world))
                         .help(format!("assign an element, as `{text}[0] = …`, or all of them with `{text}.fill(…)` or `{text}.set([…], 0)`")),
                 )
             }
@@ -313,7 +278,12 @@ impl<'a> Binder<'a> {
             ExprKind::Binary { .. } | ExprKind::Unary { .. } => report
                 .why("it is a computation")
                 .help("write the field on the left of `=` and the computation on the right"),
-            _ => report.help("assign a field, as `data.qpos[0]`, or a variable of the lab, as `ctx.peak`"),
+            _ => {
+                let (array, lab) = (self.words().array, self.words().lab);
+                report.help(format!(
+                    "assign a field, as `{array}[0]`, or a variable of the {lab}, as `ctx.peak`"
+                ))
+            }
         }
     }
 
@@ -325,10 +295,10 @@ impl<'a> Binder<'a> {
                 Finding::error(
                     rules::ASSIGN_STRUCTURE,
                     span,
-                    format!("`{}` is fixed when the model is compiled", field.path),
+                    format!("`{}` is fixed with the {}", field.path, self.words().model),
                 )
-                .why(format!("it is {}; the engine finds its way in memory by it", doc(field)))
-                .help("change the model itself"),
+                .why(format!("it is {}; the other fields are found by it", doc(field)))
+                .help(format!("change the {} itself", self.words().model)),
             ),
             FieldKind::Derived { by } => {
                 let computed =
@@ -349,38 +319,15 @@ impl<'a> Binder<'a> {
         }
     }
 
-    fn check_stored_in(&mut self, place: &Place, op: Option<BinaryOp>, value: &Ir) {
-        if matches!(place, Place::Element(..)) || op.is_some_and(|op| op != BinaryOp::Add) {
-            self.check_stored(value);
-        }
-    }
-
-    /// Warns of text that is stored where numbers live.
-    pub(super) fn check_stored(&mut self, value: &Ir) {
-        if value.ty != Type::String {
-            return;
-        }
-        let report = Finding::warning(
-            rules::STRING_AS_NUMBER,
-            value.span,
-            "a string is stored where a number belongs",
-        );
-        let report = match value.known().map(Value::to_number) {
-            Some(x) if x.is_nan() => {
-                report.why("JavaScript stores NaN, and the simulation breaks").help("write the number")
-            }
-            Some(x) => {
-                let meant = crate::number::to_text(x);
-                report
-                    .why("JavaScript stores the number in it")
-                    .help(format!("write `{meant}`"))
-                    .fix(value.span, meant)
-            }
-            None => report
-                .why("JavaScript stores the number in it, or NaN when there is none")
-                .help("write `+text` if that is meant"),
+    /// Notes where a number belongs.
+    fn want_stored(&mut self, place: &Place, op: Option<BinaryOp>, value: &Ir) {
+        let at = match (place, op) {
+            (Place::Element(view, Index::At(i)), None) => Some((view.field, view.first as usize + i)),
+            (Place::Element(..), _) => None,
+            (_, Some(op)) if op != BinaryOp::Add => None,
+            _ => return,
         };
-        self.report(report);
+        self.want(value, value.span, Want::Element(at));
     }
 }
 

@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
-use super::name::{MACHINERY, list, machinery, view_of};
+use super::member::{machinery, view_of};
 use super::{Attempt, Binder, Receiver, Thing};
 use crate::ast::{Expr, ExprKind, Name};
+use crate::bind::names::{MACHINERY, Named, list};
 use crate::closest;
 use crate::ir::{Index, Ir, Kind, Picks};
+use crate::natives;
 use crate::rules;
 use crate::schema::{CollectionId, Entry, Field, Param, Type};
 use crate::value::{Value, View};
@@ -23,8 +25,8 @@ impl<'a> Binder<'a> {
             return self.refuse(machinery(text, name.span));
         }
         let ir = if optional { self.present(ir) } else { ir };
-        if self.is_method(text, ir.ty) {
-            return Ok(Thing::Method(Box::new(Receiver::Value(ir)), text.to_owned()));
+        if let Some(method) = natives::name(text).filter(|_| self.is_method(text, ir.ty)) {
+            return Ok(Thing::Method(Box::new(Receiver::Value(ir)), method));
         }
         match ir.ty {
             Type::List | Type::View | Type::String if text == "length" => {
@@ -92,7 +94,7 @@ impl<'a> Binder<'a> {
                 let meant = format!("{what}[{i}]");
                 report.why("elements are chosen by index").help(format!("write `{meant}`")).fix(span, meant)
             }
-            _ => match closest(text, self.method_names(ty).iter().map(String::as_str)) {
+            _ => match closest(text, self.method_names(ty)) {
                 Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
                 None if matches!(ty, Type::Undefined | Type::Null) => {
                     report.why("JavaScript stops the text here").help("test for it first, or write `?.`")
@@ -126,7 +128,7 @@ impl<'a> Binder<'a> {
         let ExprKind::Member { object: holder, name, .. } = &callee.kind else { return None };
         let ExprKind::Name(root) = &holder.kind else { return None };
         let [Expr { kind: ExprKind::String(chosen), .. }] = args.as_slice() else { return None };
-        if self.variable(root).is_some() {
+        if self.names.at(holder.span.start) != Named::Outside {
             return None;
         }
         let Some(Entry::Object(holder)) = self.schema.root(root) else { return None };

@@ -1,9 +1,8 @@
 //! Statements: declarations, effects, choices, and expressions that change nothing.
 
-use super::function::ends;
 use super::scope::Meaning;
 use super::{Attempt, Binder, Mode, Thing};
-use crate::ast::{BinaryOp, Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
+use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::ir::{Entry, Ir, Item, Kind, Step};
 use crate::rules;
 use crate::schema::Type;
@@ -13,7 +12,6 @@ use crate::{Finding, Span};
 impl<'a> Binder<'a> {
     pub(super) fn statement(&mut self, statement: &'a Stmt, steps: &mut Vec<Step>) {
         let span = statement.span;
-        self.check_reached(span, steps);
         match &statement.kind {
             StmtKind::Error | StmtKind::Empty | StmtKind::Function { .. } => {}
             StmtKind::Expr(expr) => self.effect_into(expr, steps),
@@ -42,8 +40,8 @@ impl<'a> Binder<'a> {
             StmtKind::For { init, test, update, body } => {
                 self.for_loop(init.as_deref(), test.as_ref(), update.as_ref(), body, span, steps);
             }
-            StmtKind::ForOf { constant, target, items, body } => {
-                self.for_of(*constant, target, items, body, span, steps);
+            StmtKind::ForOf { target, items, body, .. } => {
+                self.for_of(target, items, body, span, steps);
             }
             StmtKind::While { test, body } => self.while_loop(test, body, false, span, steps),
             StmtKind::DoWhile { test, body } => self.while_loop(test, body, true, span, steps),
@@ -75,27 +73,10 @@ impl<'a> Binder<'a> {
         };
         self.guards += 1;
         let Ok(ir) = ir else { return };
-        if let Some((key, _)) = self.returns.last().copied() {
+        if let Some(key) = self.returns.last().copied() {
             self.facts.see(key, ir.ty);
         }
         steps.push(Step::Return(ir));
-    }
-
-    /// Warns once of what stands behind a `return` or a jump.
-    fn check_reached(&mut self, span: Span, steps: &[Step]) {
-        let last = steps.last().is_some_and(|s| matches!(s, Step::Break | Step::Continue));
-        if self.site.is_some() || !(last || ends(steps)) {
-            return;
-        }
-        let known =
-            self.diagnostics.iter().any(|d| d.code == rules::UNREACHABLE && d.span.start < span.start);
-        if !known {
-            self.report(
-                Finding::warning(rules::UNREACHABLE, span, "this is never reached")
-                    .why("the statement before it leaves for good")
-                    .help("remove it, or put what comes before under a condition"),
-            );
-        }
     }
 
     /// A condition.
@@ -144,7 +125,7 @@ impl<'a> Binder<'a> {
                         return self.refuse(report);
                     }
                     _ => {
-                        self.unused(expr);
+                        self.idle(expr.span);
                         return Ok(None);
                     }
                 };
@@ -172,28 +153,12 @@ impl<'a> Binder<'a> {
                 if acts(&ir) {
                     return Ok(Some(ir));
                 }
-                self.unused(expr);
+                self.idle(expr.span);
                 Ok(None)
             }
         }
     }
 
-    /// Warns of a statement that changes nothing.
-    fn unused(&mut self, expr: &Expr) {
-        let report = Finding::warning(rules::UNUSED_RESULT, expr.span, "this statement changes nothing")
-            .why("its value is computed and dropped");
-        let equality = |op: &BinaryOp| matches!(op, BinaryOp::Equal | BinaryOp::StrictEqual);
-        let report = match &expr.kind {
-            ExprKind::Binary { op, left, right } if equality(op) => {
-                let meant = format!("{} = {}", self.text(left.span), self.text(right.span));
-                report.help(format!("to assign, write `{meant}`")).fix(expr.span, meant)
-            }
-            _ => report.help(format!("assign it, as `ctx.x = {}`, or remove it", self.text(expr.span))),
-        };
-        self.report(report);
-    }
-
-    /// One name of a declaration.
     /// `name = value`, or a pattern, of a declaration.
     fn declare(&mut self, constant: bool, declarator: &'a Declarator, steps: &mut Vec<Step>) {
         match (&declarator.target, &declarator.value) {
@@ -224,7 +189,7 @@ impl<'a> Binder<'a> {
             self.give_value(name, ir, steps);
             return Ok(None);
         }
-        let changes = !constant && self.facts.assignments(self.key(name.span.start)) > 0;
+        let changes = !constant && self.assignments(self.key_of(name)) > 0;
         let thing = match self.thing(value)? {
             alias @ (Thing::Field(_) | Thing::Closure(_) | Thing::Native(_) | Thing::MathFunction(_))
                 if !changes && !matches!(&alias, Thing::Field(f) if f.is_scalar()) =>
@@ -249,7 +214,7 @@ impl<'a> Binder<'a> {
                         name.text
                     ),
                 )
-                .why("a name for a part of the simulation means that part for good")
+                .why(format!("a name for a part of the {} means that part for good", self.words().world))
                 .help(format!("declare it with `const {}`, and use another name for the number", name.text)),
             );
         }

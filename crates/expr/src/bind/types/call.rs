@@ -1,19 +1,20 @@
 //! Calls: signatures of the host's functions, `Math`, named objects, functions of the text, and aggregates.
 
 use super::access::Chosen;
-use super::name::{Use, quoted};
-use super::{Attempt, Binder, Reported, Thing};
+use super::member::quoted;
+use super::{Attempt, Binder, Reported, Thing, Want};
 use crate::ast::{Expr, ExprKind};
-use crate::closest;
 use crate::ir::{Ir, Item, Kind, Step, Tree, Unit};
 use crate::math;
 use crate::natives;
-use crate::prelude;
 use crate::program::{Aggregate, Program};
 use crate::rules;
 use crate::schema::{FunctionId, FunctionInfo, Help, Param, Type};
 use crate::value::Value;
 use crate::{Finding, Span};
+
+/// Functions of an angle.
+const OF_ANGLES: [&str; 3] = ["Math.sin", "Math.cos", "Math.tan"];
 
 impl<'a> Binder<'a> {
     /// `callee(args)`, or `callee?.(args)`
@@ -24,7 +25,7 @@ impl<'a> Binder<'a> {
         optional: bool,
         span: Span,
     ) -> Attempt<Thing> {
-        let thing = match self.callee(callee) {
+        let thing = match self.thing(callee) {
             Ok(thing) => thing,
             Err(Reported) => {
                 self.only_check(args);
@@ -35,7 +36,7 @@ impl<'a> Binder<'a> {
             Thing::Collection(id) => self.named(id, callee.span, args, span),
             Thing::Function(id) => self.host_call(id, args, callee.span, span).map(Thing::Value),
             Thing::MathFunction(function) => self.math_call(function, args, span).map(Thing::Value),
-            Thing::Method(receiver, text) => self.method(*receiver, &text, args, span).map(Thing::Value),
+            Thing::Method(receiver, name) => self.method(*receiver, name, args, span).map(Thing::Value),
             Thing::Native(function) => self.native_call(function, args, span).map(Thing::Value),
             Thing::Namespace(name) => match natives::free(name) {
                 Some(function) => self.native_call(function, args, span).map(Thing::Value),
@@ -67,17 +68,15 @@ impl<'a> Binder<'a> {
     }
 
     /// A function of the language: `Number(x)`, `Array.from(v, f)`.
+    #[inline(never)]
     fn native_call(&mut self, function: natives::Free, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let row = function.row();
-        let args = self.taken(args, row.most);
-        if row.name == "Array.from"
-            && args.len() == 2
-            && let (Some(method), [first, rest @ ..]) = (prelude::method(row.name, 1), args)
-        {
+        let args = self.taken(args, row.arity().1);
+        if let (Some(method), [first, rest @ ..]) = (function.written(args.len()), args) {
             let first = self.value(first).map(Thing::Value)?;
-            return self.call_prelude(method, first, rest, span);
+            return self.call_written(method, row, first, rest, span);
         }
-        self.check_arity(row.name, Some(row), args, span)?;
+        self.check_arity(&[row], args, span)?;
         let items = self.items(args)?;
         if let [Item { value, spread: false }] = items.as_slice() {
             match row.name {
@@ -88,20 +87,12 @@ impl<'a> Binder<'a> {
             }
         }
         self.effects.can_throw = true;
-        Ok(Ir::new(Kind::Native(function, items), row.returns, span))
+        Ok(Ir::new(Kind::Native(function, items), row.returns(Type::Any), span))
     }
 
     /// The arguments that a function takes of those that a method of the prelude hands over: element, index and list.
     fn taken(&self, args: &'a [Expr], most: usize) -> &'a [Expr] {
         if self.site.is_some() { args.get(..most).unwrap_or(args) } else { args }
-    }
-
-    /// What is called.
-    fn callee(&mut self, callee: &'a Expr) -> Attempt<Thing> {
-        match &callee.kind {
-            ExprKind::Name(name) => self.root(name, callee.span, Use::Callee),
-            _ => self.thing(callee),
-        }
     }
 
     /// Looks for mistakes in arguments that will not be used.
@@ -114,6 +105,7 @@ impl<'a> Binder<'a> {
         }
     }
 
+    #[inline(never)]
     fn not_callable(&self, thing: &Thing, span: Span) -> Finding {
         let text = self.text(span);
         let what = match thing {
@@ -150,19 +142,20 @@ impl<'a> Binder<'a> {
             .help(format!("write `{call}`"))
     }
 
+    #[inline(never)]
     fn math_call(&mut self, function: math::Function, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let path = function.path();
         let title = path.clone();
         let args = self.taken(args, function.arity().1.unwrap_or(usize::MAX));
-        // `f(v[i], i, v)` in the prelude, which calls functions of its own, too.
-        let handed = matches!(args.last().map(|a| &a.kind), Some(ExprKind::Name(list)) if list == "v");
-        if self.site.is_some() && handed && function.arity().1.is_none() {
+        // A method that calls a function for every element hands over the index and the list as well.
+        if let Some(site) = self.site.filter(|_| args.len() > 2 && function.arity().1.is_none()) {
+            let called = site.called();
             let report = Finding::error(
                 rules::ARGUMENT_TYPE,
                 span,
                 format!("`{path}` would get the index and the whole list as well"),
             )
-            .why("a function that is called for every element gets these behind the element, and of a list JavaScript makes NaN")
+            .why(format!("`{called}` hands these over behind the element, and of a list JavaScript makes NaN"))
             .help(format!("write `(a, b) => {path}(a, b)` in place of `{path}`; of all elements of a list it is `{path}(...list)`"));
             return self.refuse(report);
         }
@@ -177,8 +170,10 @@ impl<'a> Binder<'a> {
         for arg in args {
             match self.math_argument(&path, function, arg) {
                 Ok(ir) => {
-                    self.expect_argument(&ir, &path);
-                    self.check_angle(function, &ir);
+                    self.want(&ir, arg.span, Want::Number(path.clone()));
+                    if OF_ANGLES.contains(&path.as_str()) {
+                        self.want(&ir, arg.span, Want::Angle(path.clone()));
+                    }
                     numbers.push(Ir::to_number(ir, arg.span));
                 }
                 Err(Reported) => failed = true,
@@ -200,9 +195,8 @@ impl<'a> Binder<'a> {
             let report = Finding::warning(rules::ARGUMENT_COUNT, first.to(last), message)
                 .why("JavaScript computes without it");
             self.report(if path == "Math.round" {
-                report.help(
-                    "to round to decimals, write `Math.round(100 * x) / 100`, or set `digits` of the readout",
-                )
+                let rounding = self.words().rounding;
+                report.help(format!("to round to decimals, write `Math.round(100 * x) / 100`{rounding}"))
             } else {
                 report.help("remove it")
             });
@@ -211,25 +205,26 @@ impl<'a> Binder<'a> {
         if failed { Err(Reported) } else { Ok(Ir::math(function, numbers, span)) }
     }
 
-    /// `Math.max([1, 2])` wants to be `Math.max(...[1, 2])`.
+    /// An argument of a function of `Math`: `Math.max([1, 2])` wants to be `Math.max(...[1, 2])`.
     fn math_argument(&mut self, path: &str, function: math::Function, arg: &'a Expr) -> Attempt<Ir> {
-        let before = self.diagnostics.len();
-        let bound = self.operand(arg);
-        if bound.is_err() && function.arity().1.is_none() {
-            let text = self.text(arg.span);
-            for report in self.diagnostics.iter_mut().skip(before) {
-                if report.code == rules::WHOLE_ARRAY && report.span == arg.span {
-                    report.help = Some(format!(
-                        "write `{path}(...{text})` for all its elements, or `{text}[0]` for one"
-                    ));
-                    report.fix = Some(crate::Fix::safe(arg.span.start..arg.span.start, "..."));
-                }
+        let thing = self.thing(arg)?;
+        let report = match &thing {
+            Thing::Field(field) if !field.is_scalar() => Some(self.whole_array(field, arg.span)),
+            Thing::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Some(self.not_single(ir)),
+            _ => None,
+        };
+        match report.filter(|_| function.arity().1.is_none()) {
+            Some(report) => {
+                let text = self.text(arg.span);
+                let help = format!("write `{path}(...{text})` for all its elements, or `{text}[0]` for one");
+                self.refuse(report.help(help).fix(Span::new(arg.span.start, arg.span.start), "..."))
             }
+            None => self.operand_of(thing, arg.span),
         }
-        bound
     }
 
     /// A function of `Math` over lists: written out where their length is known.
+    #[inline(never)]
     fn math_over(&mut self, function: math::Function, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let items = self.items(args)?;
         if items.iter().all(|i| !i.spread) {
@@ -245,21 +240,8 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(Kind::MathOver(function, Box::new(list)), ty, span))
     }
 
-    fn expect_argument(&mut self, ir: &Ir, path: &str) {
-        if ir.ty == Type::String {
-            self.report(
-                Finding::warning(
-                    rules::STRING_AS_NUMBER,
-                    ir.span,
-                    format!("`{path}` needs a number, this is a string"),
-                )
-                .why("JavaScript reads the number in it, or gives NaN when there is none")
-                .help("write the number"),
-            );
-        }
-    }
-
     /// A call of a function of the host.
+    #[inline(never)]
     pub(super) fn host_call(
         &mut self,
         id: FunctionId,
@@ -285,7 +267,7 @@ impl<'a> Binder<'a> {
         let required = info.params.len().saturating_sub(info.optional);
         if !implied && (args.len() < required || args.len() > info.params.len()) {
             self.only_check(args);
-            let report = self.wrong_count(&info, args, callee, span);
+            let report = self.wrong_count(&info, args, Some(callee), span);
             return self.refuse(report);
         }
         let mut passed = Vec::new();
@@ -307,7 +289,7 @@ impl<'a> Binder<'a> {
         Ok(Ir::new(Kind::Call(id, passed), info.returns, span))
     }
 
-    fn wrong_count(&self, info: &FunctionInfo, args: &[Expr], callee: Span, span: Span) -> Finding {
+    fn wrong_count(&self, info: &FunctionInfo, args: &[Expr], callee: Option<Span>, span: Span) -> Finding {
         let signature = self.signature(info);
         let n = info.params.len();
         let wanted = if info.optional > 0 {
@@ -320,7 +302,7 @@ impl<'a> Binder<'a> {
             Finding::error(rules::ARGUMENT_COUNT, span, message).why(format!("what it does: {}", info.doc));
         let only_objects =
             !info.params.is_empty() && info.params.iter().all(|p| matches!(p, Param::Object(_)));
-        if only_objects {
+        if let Some(callee) = callee.filter(|_| only_objects) {
             let arguments = signature.split_once('(').map_or("", |(_, rest)| rest);
             let meant = format!("{}({arguments}", self.text(callee));
             return report.help(format!("write `{meant}`")).fix(span, meant);
@@ -331,7 +313,7 @@ impl<'a> Binder<'a> {
     /// `mj.mj_setConst(model, data)`
     pub(super) fn signature(&self, info: &FunctionInfo) -> String {
         let params = info.params.iter().map(|param| match param {
-            Param::Number | Param::Lazy => "x".to_owned(),
+            Param::Number | Param::Angle | Param::Lazy => "x".to_owned(),
             Param::Text => "\"text\"".to_owned(),
             Param::Boolean => "true".to_owned(),
             Param::Any => "value".to_owned(),
@@ -360,7 +342,7 @@ impl<'a> Binder<'a> {
                 let message = format!("argument {} of `{}` must be {}", i + 1, info.name, quoted(&object));
                 self.refuse(
                     Finding::error(rules::ARGUMENT_TYPE, span, message)
-                        .why("there is only one model and one data in a lab, and they stand in this order")
+                        .why("there is only one of it, and it stands in this place")
                         .help(format!("write `{}`", self.signature(info))),
                 )
             }
@@ -384,13 +366,13 @@ impl<'a> Binder<'a> {
                     }
                 }
             }
-            Param::Number => {
+            Param::Number | Param::Angle => {
                 let ir = self.operand(arg)?;
                 if ir.ty == Type::String {
                     return self.wrong_type(info, i, &ir, "a number");
                 }
-                if info.name.ends_with(".deg") {
-                    self.check_quaternion(&ir, &format!("`{}` needs one", info.name));
+                if param == Param::Angle {
+                    self.want(&ir, span, Want::Angle(info.name.clone()));
                 }
                 Ok(Some(Ir::to_number(ir, span)))
             }
@@ -440,6 +422,7 @@ impl<'a> Binder<'a> {
     }
 
     /// A call whose arguments are programs of their own.
+    #[inline(never)]
     fn aggregate(
         &mut self,
         id: FunctionId,
@@ -449,8 +432,8 @@ impl<'a> Binder<'a> {
     ) -> Attempt<Ir> {
         let required = info.params.len().saturating_sub(info.optional);
         if args.len() < required || args.len() > info.params.len() {
-            let report = self.wrong_count(info, args, Span::new(span.start, span.start), span);
-            return self.refuse(Finding { fix: None, ..report });
+            let report = self.wrong_count(info, args, None, span);
+            return self.refuse(report);
         }
         let mut programs = Vec::new();
         let mut failed = false;
@@ -462,6 +445,7 @@ impl<'a> Binder<'a> {
             let known = std::mem::take(&mut self.known);
             let alone = Tree { units: vec![Unit::default()], ..Tree::default() };
             let tree = std::mem::replace(&mut self.tree, alone);
+            let keys = std::mem::take(&mut self.keys);
             let unit = std::mem::take(&mut self.unit);
             let bound = match param {
                 Param::Lazy => self.operand(arg).map(Some),
@@ -473,7 +457,9 @@ impl<'a> Binder<'a> {
             }
             let mut effects = std::mem::replace(&mut self.effects, effects);
             let aggregates = std::mem::replace(&mut self.aggregates, aggregates);
+            self.settle();
             let tree = std::mem::replace(&mut self.tree, tree);
+            self.keys = keys;
             self.variables = variables;
             self.known = known;
             self.unit = unit;
@@ -494,13 +480,6 @@ impl<'a> Binder<'a> {
         self.effects.aggregates = true;
         self.aggregates.push(Aggregate { function: id, args: programs, slot, span });
         Ok(Ir::new(Kind::Aggregate(slot as u32), Type::Number, span))
-    }
-
-    /// The name that is probably meant by a misspelt one.
-    pub(super) fn closest_name(&self, name: &str) -> Option<String> {
-        let roots = self.schema.root_names();
-        let own = self.variables.iter().map(|v| v.name.as_str());
-        closest(name, own.chain(roots.iter().map(String::as_str))).map(str::to_owned)
     }
 }
 

@@ -1,0 +1,30 @@
+//! The words of labs, for the messages of the language.
+
+use labspec_expr::Words;
+
+/// What the language calls the things of a lab.
+pub static WORDS: Words = Words {
+    lab: "lab",
+    lesson: "lesson",
+    world: "simulation",
+    model: "model",
+    number: "data.time",
+    array: "data.qpos",
+    matrix: "data.xpos",
+    choice: "data.joint(\"name\")",
+    parts: "{kinetic, potential} = lib.energy()",
+    names: "`model`, `data`, `ctx`",
+    statements: "`setup`, `controller`, `apply` or `run`",
+    keeper: "`controller`",
+    shown: "a readout or a trace",
+    clock: "the time of the simulation is `data.time`, in seconds",
+    wait: "test `data.time` in the controller instead",
+    split: "split it: into several controls, or a `setup` and a `controller`",
+    input: (
+        "`value` is what a slider or select gives to its own `set` or `apply`",
+        "give the control a `param` and read it as `ctx.<param>`",
+    ),
+    store: "store it first, as `ctx.{name} = 0` in `setup`, or give a control `\"param\": \"{name}\"`",
+    rounding: ", or set `digits` of the readout",
+    recompute: "`mj_setConst`",
+};

@@ -1,0 +1,80 @@
+//! Angles: degrees written for radians, and numbers taken for angles that are none.
+
+use super::Look;
+use crate::ast::{BinaryOp, Expr};
+use crate::bind::types::Shape;
+use crate::number;
+use crate::rules;
+use crate::schema::{FieldKey, Role};
+use crate::{Finding, Span};
+
+impl Look<'_> {
+    /// What a function of angles gets.
+    pub(super) fn angle(&mut self, span: Span, by: &str, shape: &Shape) {
+        if let Some(x) = shape.number()
+            && in_degrees(x)
+            && number::to_text(x) == self.text(span)
+        {
+            self.degrees(span, &format!("`{by}` takes radians"));
+        }
+        self.no_angle(span, shape, &format!("`{by}` needs an angle"));
+    }
+
+    /// `x * 180` and its like, which make degrees of radians.
+    #[inline(never)]
+    pub(super) fn converted(&mut self, op: BinaryOp, left: &Expr, right: &Expr) {
+        if op != BinaryOp::Multiply {
+            return;
+        }
+        let typed = self.typed;
+        let (Some(a), Some(b)) = (typed.shape(left.span), typed.shape(right.span)) else { return };
+        let converts = |shape: &Shape| {
+            shape.number().is_some_and(|x| x == 180.0 || (x - 1f64.to_degrees()).abs() < 0.01)
+        };
+        if converts(a) {
+            self.no_angle(right.span, b, "only an angle has degrees");
+        }
+        if converts(b) {
+            self.no_angle(left.span, a, "only an angle has degrees");
+        }
+    }
+
+    /// Warns where an angle is needed, of a number that the host knows to be none.
+    fn no_angle(&mut self, span: Span, shape: &Shape, needs: &str) {
+        let Some((field, at)) = shape.element else { return };
+        let Role::NoAngle(advice) = self.schema.role(field, at) else { return };
+        let what = match self.schema.element_help(field, at) {
+            Some(what) => format!("{what}, {}", advice.what),
+            None => advice.what.to_owned(),
+        };
+        let message = format!("`{}` is no angle, and {needs}", self.text(span));
+        self.found.push(
+            Finding::warning(advice.rule, span, message)
+                .why(format!("it is {what}: {}", advice.why))
+                .help(advice.help),
+        );
+    }
+
+    /// Degrees that are stored in an angle.
+    pub(super) fn degrees_stored(&mut self, span: Span, to: Option<(FieldKey, usize)>, shape: &Shape) {
+        let (Some((field, at)), Some(x)) = (to, shape.number()) else { return };
+        if in_degrees(x) && self.schema.role(field, at) == Role::Angle {
+            self.degrees(span, "this angle is in radians");
+        }
+    }
+
+    fn degrees(&mut self, span: Span, what: &str) {
+        let meant = format!("{} * Math.PI / 180", self.text(span));
+        self.found.push(
+            Finding::warning(rules::DEGREES, span, format!("{what}, and this looks like degrees"))
+                .why("a full turn is 2π, about 6.28 radians")
+                .help(format!("write `{meant}`"))
+                .fix(span, meant),
+        );
+    }
+}
+
+/// Whether a number looks like degrees: whole, a multiple of 5, and more than a full turn in radians.
+fn in_degrees(x: f64) -> bool {
+    x.abs() >= 10.0 && x % 5.0 == 0.0 && x.abs() <= 720.0
+}

@@ -1,0 +1,81 @@
+//! What is computed or written for nothing.
+
+use super::Look;
+use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, Stmt, StmtKind};
+use crate::rules;
+use crate::schema::Type;
+use crate::value::Value;
+use crate::{Finding, Span};
+
+impl Look<'_> {
+    /// A statement that changes nothing.
+    #[inline(never)]
+    pub(super) fn unused(&mut self, expr: &Expr) {
+        match &expr.kind {
+            ExprKind::Sequence(parts) => return parts.iter().for_each(|part| self.unused(part)),
+            ExprKind::Logical { right, .. } => return self.unused(right),
+            ExprKind::Conditional { then, otherwise, .. } => {
+                self.unused(then);
+                return self.unused(otherwise);
+            }
+            _ if !self.typed.is_idle(expr.span) => return,
+            _ => {}
+        }
+        let report = Finding::warning(rules::UNUSED_RESULT, expr.span, "this statement changes nothing")
+            .why("its value is computed and dropped");
+        let equality = |op: &BinaryOp| matches!(op, BinaryOp::Equal | BinaryOp::StrictEqual);
+        self.found.push(match &expr.kind {
+            ExprKind::Binary { op, left, right } if equality(op) => {
+                let meant = format!("{} = {}", self.text(left.span), self.text(right.span));
+                report.help(format!("to assign, write `{meant}`")).fix(expr.span, meant)
+            }
+            _ => report.help(format!("assign it, as `ctx.x = {}`, or remove it", self.text(expr.span))),
+        });
+    }
+
+    /// A fallback that can never be taken.
+    #[inline(never)]
+    pub(super) fn fallback(&mut self, op: LogicalOp, left: &Expr, span: Span) {
+        let Some(shape) = self.typed.shape(left.span).filter(|shape| shape.known.is_none()) else { return };
+        if op != LogicalOp::Nullish || !matches!(shape.ty, Type::Number | Type::Boolean | Type::String) {
+            return;
+        }
+        let text = self.text(left.span);
+        self.found.push(
+            Finding::warning(rules::UNUSED_RESULT, span, "the value behind `??` is never used")
+                .why(format!("`{text}` is {}, never `undefined` or `null`", shape.ty.describe()))
+                .help(format!("write `{text}` alone")),
+        );
+    }
+
+    /// The first statement behind a `return` or a jump.
+    pub(super) fn never_reached(&mut self, statements: &[Stmt]) {
+        let own = |s: &&Stmt| !matches!(s.kind, StmtKind::Function { .. } | StmtKind::Empty);
+        let Some(at) = statements.iter().position(|statement| self.leaves(statement)) else { return };
+        if let Some(dead) = statements.iter().skip(at + 1).find(own) {
+            self.found.push(
+                Finding::warning(rules::UNREACHABLE, dead.span, "this is never reached")
+                    .why("the statement before it leaves for good")
+                    .help("remove it, or put what comes before under a condition"),
+            );
+        }
+    }
+
+    /// Whether nothing that stands behind a statement is run.
+    fn leaves(&self, statement: &Stmt) -> bool {
+        match &statement.kind {
+            StmtKind::Return(_) | StmtKind::Break | StmtKind::Continue => true,
+            StmtKind::Block(statements) => statements.iter().any(|inner| self.leaves(inner)),
+            StmtKind::If { test, then, otherwise } => {
+                let known = self.typed.shape(test.span).and_then(|shape| shape.known.as_ref());
+                let otherwise = otherwise.as_ref().is_some_and(|otherwise| self.leaves(otherwise));
+                match known.map(Value::truthy) {
+                    Some(true) => self.leaves(then),
+                    Some(false) => otherwise,
+                    None => otherwise && self.leaves(then),
+                }
+            }
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Texts where numbers belong.
+
+use super::Look;
+use crate::ast::{BinaryOp, Expr, ExprKind, UnaryOp};
+use crate::bind::types::Shape;
+use crate::rules;
+use crate::schema::Type;
+use crate::value::Value;
+use crate::{Finding, Span};
+
+impl Look<'_> {
+    /// `-text`
+    #[inline(never)]
+    pub(super) fn text_operand(&mut self, op: UnaryOp, expr: &Expr) {
+        let ExprKind::Unary { operand, .. } = &expr.kind else { return };
+        if matches!(op, UnaryOp::Minus | UnaryOp::BitNot) {
+            self.needs_number(operand, op.symbol());
+        }
+    }
+
+    /// `text * 2`
+    #[inline(never)]
+    pub(super) fn text_operands(&mut self, op: BinaryOp, left: &Expr, right: &Expr) {
+        if !op.is_comparison() && op != BinaryOp::Add {
+            self.needs_number(left, op.symbol());
+            self.needs_number(right, op.symbol());
+        }
+    }
+
+    fn needs_number(&mut self, operand: &Expr, symbol: &str) {
+        let Some(shape) = self.typed.shape(operand.span).filter(|shape| shape.ty == Type::String) else {
+            return;
+        };
+        let message = format!("`{symbol}` needs a number, this is a string");
+        self.found.push(instead(
+            Finding::warning(rules::STRING_AS_NUMBER, operand.span, message),
+            shape,
+            [
+                "JavaScript turns it into NaN",
+                "JavaScript reads the number in it",
+                "JavaScript reads the number in it, or gives NaN when there is none",
+            ],
+        ));
+    }
+
+    /// A text that is stored where numbers live.
+    pub(super) fn text_stored(&mut self, span: Span, shape: &Shape) {
+        if shape.ty != Type::String {
+            return;
+        }
+        let message = "a string is stored where a number belongs";
+        self.found.push(instead(
+            Finding::warning(rules::STRING_AS_NUMBER, span, message),
+            shape,
+            [
+                "JavaScript stores NaN, and every computation with it gives NaN",
+                "JavaScript stores the number in it",
+                "JavaScript stores the number in it, or NaN when there is none",
+            ],
+        ));
+    }
+
+    /// A text that a function of numbers gets.
+    pub(super) fn text_for_number(&mut self, span: Span, by: &str, shape: &Shape) {
+        if shape.ty == Type::String {
+            let message = format!("`{by}` needs a number, this is a string");
+            self.found.push(
+                Finding::warning(rules::STRING_AS_NUMBER, span, message)
+                    .why("JavaScript reads the number in it, or gives NaN when there is none")
+                    .help("write the number"),
+            );
+        }
+    }
+}
+
+/// What to write in place of a text, with the reasons for one without a number, one with a number, and an unknown one.
+fn instead(report: Finding, shape: &Shape, [none, number, unknown]: [&str; 3]) -> Finding {
+    let span = Span::from(report.span.clone());
+    match shape.known.as_ref().map(Value::to_number) {
+        Some(x) if x.is_nan() => report.why(none).help("write the number"),
+        Some(x) => {
+            let meant = crate::number::to_text(x);
+            report.why(number).help(format!("write `{meant}`")).fix(span, meant)
+        }
+        None => report.why(unknown).help("write `+text` if that is meant"),
+    }
+}

@@ -1,0 +1,109 @@
+//! What was probably meant by a name that means nothing.
+
+use super::unknown::LANGUAGE;
+use super::{Use, Walk};
+use crate::math;
+use crate::schema::{Entry, ObjectId, Schema};
+use labspec_finding::{nearest as closest, ranked};
+
+impl Use {
+    /// Whether something of the host can be used like this.
+    fn fits(self, entry: &Entry) -> bool {
+        match (self, entry) {
+            (Use::Callee, Entry::Function(_) | Entry::Collection(_)) => true,
+            (Use::Callee, _) | (Use::Value | Use::Holder, Entry::Function(_)) => false,
+            (Use::Value, Entry::Collection(_)) => false,
+            (Use::Value | Use::Holder, _) => true,
+        }
+    }
+
+    /// Whether a word of the language can.
+    fn fits_word(self, word: &str) -> bool {
+        match word {
+            "Math" | "ctx" => self == Use::Holder,
+            "NaN" | "Infinity" | "undefined" => self == Use::Value,
+            "Object" | "Array" => self == Use::Holder,
+            "Number" | "String" => true,
+            _ => self != Use::Holder,
+        }
+    }
+}
+
+impl Walk<'_, '_> {
+    /// What a misspelt name, or one whose object was left out, probably means.
+    pub(super) fn meant(&self, name: &str, used: Use) -> Option<String> {
+        let schema = self.around.schema?;
+        let fits = |entry: Option<Entry>| entry.is_some_and(|e| used.fits(&e));
+        for (path, object) in objects(schema) {
+            // A choice by name has no members: behind a point something else was probably meant.
+            let entry = schema.member(object, name);
+            let entry = entry.filter(|e| used == Use::Callee || !matches!(e, Entry::Collection(_)));
+            if fits(entry) {
+                return Some(format!("{path}.{name}"));
+            }
+        }
+        let of_math = match used {
+            Use::Callee => math::function(name).is_some(),
+            _ => math::constant(name).is_some(),
+        };
+        if of_math {
+            return Some(format!("Math.{name}"));
+        }
+        let mut roots = schema.root_names();
+        roots.retain(|root| fits(schema.root(root)));
+        let words = LANGUAGE.into_iter().filter(|word| used.fits_word(word));
+        let known = self.own_names().chain(roots.iter().map(String::as_str)).chain(words);
+        if let Some(meant) = closest(name, known) {
+            return Some(meant.to_owned());
+        }
+        if self.kept.contains(name) || self.around.globals.slot(name).is_some() {
+            return Some(format!("ctx.{name}"));
+        }
+        // On an object that was not even written, only a name that is nearly the same was meant.
+        let near = if name.len() < 8 { 10 } else { 20 };
+        let elsewhere = meant_elsewhere(schema, name, None, &|entry| used.fits(entry));
+        elsewhere.filter(|(cost, _)| *cost <= near).map(|(_, path)| path)
+    }
+}
+
+/// The objects that a name leads to, and their objects, each with its path.
+fn objects(schema: &dyn Schema) -> Vec<(String, ObjectId)> {
+    let mut found = Vec::new();
+    for root in schema.root_names() {
+        let Some(Entry::Object(id)) = schema.root(&root) else { continue };
+        found.push((root, id));
+    }
+    for i in 0..found.len() {
+        let Some((path, id)) = found.get(i).cloned() else { continue };
+        for name in schema.member_names(id) {
+            if let Some(Entry::Object(inner)) = schema.member(id, &name) {
+                found.push((format!("{path}.{name}"), inner));
+            }
+        }
+    }
+    found
+}
+
+/// The member of any object, except `but`, whose name is nearest to what was written, with its distance.
+pub(in super::super) fn meant_elsewhere(
+    schema: &dyn Schema,
+    name: &str,
+    but: Option<ObjectId>,
+    fits: &dyn Fn(&Entry) -> bool,
+) -> Option<(usize, String)> {
+    let mut best: Option<(usize, String)> = None;
+    for (path, id) in objects(schema).into_iter().filter(|(_, id)| Some(*id) != but) {
+        let fits = |name: &str| schema.member(id, name).is_some_and(|entry| fits(&entry));
+        let mut names = schema.member_names(id);
+        let exact = fits(name).then(|| (0, name.to_owned()));
+        let near = || {
+            names.retain(|n| fits(n));
+            ranked(name, names.iter().map(String::as_str)).map(|(cost, n)| (cost, n.to_owned()))
+        };
+        let Some((cost, near)) = exact.or_else(near) else { continue };
+        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+            best = Some((cost, format!("{path}.{near}")));
+        }
+    }
+    best
+}

@@ -1,0 +1,521 @@
+//! The first pass: what every name of a text means. A name is either declared in the text, or it belongs to the language or
+//! the host; anything else is a mistake, and is told here.
+//!
+//! The walk goes through a text as it runs: a function is looked into where it is first named, so that a variable it uses is
+//! known to have a value by then, or not. What the walk finds of a variable (is it assigned again? do functions share it?) the
+//! next pass takes as given.
+
+mod meant;
+mod statement;
+mod unknown;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{MAX_LEVELS, Mode};
+use crate::ast::{Body, Expr, ExprKind, Function, Name, Property};
+use crate::globals::Globals;
+use crate::rules;
+use crate::schema::{CollectionId, Entry, FunctionInfo, Param, Schema};
+use crate::{Finding, Span};
+pub(super) use meant::meant_elsewhere;
+pub(super) use statement::names_of;
+pub(super) use unknown::{MACHINERY, NAMESPACES, is_language, list};
+
+/// What the names of a text mean. Places are bytes: that of a name, of its declaration, of a function.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Names {
+    /// Names that the text declares, and those that are mistakes; all others belong to the language or the host.
+    uses: BTreeMap<usize, Named>,
+    declared: BTreeMap<usize, Declared>,
+    /// Variables of other functions that a function uses, itself or through functions that it names.
+    taken: BTreeMap<usize, BTreeSet<usize>>,
+    /// There are so many functions, or they name each other so deeply, that the text is not looked at any further.
+    pub(super) stopped: bool,
+}
+
+/// What a name means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Named {
+    /// The declaration at this byte.
+    Declared(usize),
+    /// It is a mistake, which has been reported.
+    Wrong,
+    /// Nothing of this text.
+    Outside,
+}
+
+/// A declaration.
+#[derive(Clone, Debug)]
+pub(super) struct Declared {
+    name: String,
+    constant: bool,
+    /// The function that it stands in.
+    function: usize,
+    /// In how many places it is assigned after its declaration.
+    pub(super) assigned: usize,
+    /// A function uses it that it does not stand in.
+    captured: bool,
+    /// A function uses it before its declaration has run.
+    early: bool,
+    pub(super) parameter: bool,
+    /// The declaration has run.
+    ready: bool,
+    /// The function that it names, while nothing has named that.
+    holds: Option<usize>,
+}
+
+impl Declared {
+    /// Whether functions share one place of the variable.
+    pub(super) fn is_shared(&self) -> bool {
+        self.early || self.captured && self.assigned > 0
+    }
+
+    /// Whether its type may come from a place that is bound later: every circle of types goes through such a variable.
+    pub(super) fn joins(&self) -> bool {
+        self.parameter || self.early || self.assigned > 0
+    }
+}
+
+impl Names {
+    /// What the name at a byte means.
+    pub(super) fn at(&self, byte: usize) -> Named {
+        self.uses.get(&byte).copied().unwrap_or(Named::Outside)
+    }
+
+    /// The declaration at a byte; none when the name could not be declared.
+    pub(super) fn declared(&self, byte: usize) -> Option<&Declared> {
+        self.declared.get(&byte)
+    }
+
+    /// The variables of other functions that the function at a byte uses.
+    pub(super) fn taken(&self, function: usize) -> impl Iterator<Item = usize> + '_ {
+        self.taken.get(&function).into_iter().flatten().copied()
+    }
+}
+
+/// What is done with a name: what may have been meant by an unknown one depends on it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Use {
+    /// Its value is taken, or it is handed to a function.
+    Value,
+    /// A member or an element of it is.
+    Holder,
+    /// It is called.
+    Callee,
+}
+
+/// What a text is resolved against.
+#[derive(Clone, Copy)]
+pub(super) struct Surroundings<'s> {
+    /// None for the texts of the language itself.
+    pub(super) schema: Option<&'s dyn Schema>,
+    pub(super) globals: &'s Globals,
+    pub(super) mode: Mode,
+    /// Whether a control gives `value`.
+    pub(super) has_value: bool,
+}
+
+/// Functions of one text.
+const MAX_FUNCTIONS: usize = 200;
+
+/// The text itself, as the function that is not inside of another.
+const WHOLE: usize = usize::MAX;
+
+/// A function that is known, and how far its names reach.
+struct Known<'a> {
+    function: &'a Function,
+    around: usize,
+    reach: usize,
+    visited: bool,
+}
+
+pub(super) struct Walk<'a, 's> {
+    around: Surroundings<'s>,
+    names: Names,
+    found: Vec<Finding>,
+    /// Declarations in reach, inner ones last.
+    reach: Vec<usize>,
+    functions: BTreeMap<usize, Known<'a>>,
+    /// The function that is looked through.
+    function: usize,
+    /// Which functions are named by which others.
+    calls: BTreeSet<(usize, usize)>,
+    /// Variables of the lab that the text named so far.
+    kept: BTreeSet<&'a str>,
+    levels: usize,
+}
+
+/// Resolves the names of a text.
+pub(super) fn resolve<'a>(
+    around: Surroundings<'_>,
+    work: impl FnOnce(&mut Walk<'a, '_>),
+) -> (Names, Vec<Finding>) {
+    let mut walk = Walk {
+        around,
+        names: Names::default(),
+        found: Vec::new(),
+        reach: Vec::new(),
+        functions: BTreeMap::new(),
+        function: WHOLE,
+        calls: BTreeSet::new(),
+        kept: BTreeSet::new(),
+        levels: 0,
+    };
+    work(&mut walk);
+    walk.hand_on();
+    (walk.names, walk.found)
+}
+
+impl<'a> Walk<'a, '_> {
+    /// A function by itself.
+    pub(super) fn inside(&mut self, function: &'a Function) {
+        self.define(function);
+        self.visit(function.span.start);
+    }
+
+    /// An expression whose value is taken.
+    pub(super) fn value(&mut self, expr: &'a Expr) {
+        self.expr(expr, Use::Value);
+    }
+
+    fn values(&mut self, items: &'a [Expr]) {
+        items.iter().for_each(|item| self.value(item));
+    }
+
+    fn expr(&mut self, expr: &'a Expr, used: Use) {
+        if self.levels >= MAX_LEVELS {
+            return self.too_deep(expr.span);
+        }
+        self.levels += 1;
+        match &expr.kind {
+            ExprKind::Name(name) => self.name(name, expr.span, used),
+            ExprKind::Member { object, name, .. } => {
+                if matches!(&object.kind, ExprKind::Name(n) if n == "ctx") {
+                    self.kept.insert(&name.text);
+                }
+                self.expr(object, Use::Holder);
+            }
+            ExprKind::Index { object, index, .. } => {
+                self.expr(object, Use::Holder);
+                self.value(index);
+            }
+            ExprKind::Call { callee, args, .. } => self.call(callee, args),
+            ExprKind::Function(function) => self.inside(function),
+            ExprKind::Unary { operand, .. } => self.test(operand),
+            ExprKind::Binary { left, right, .. } => {
+                self.value(left);
+                self.value(right);
+            }
+            ExprKind::Logical { left, right, .. } => {
+                self.test(left);
+                self.value(right);
+            }
+            ExprKind::Conditional { test, then, otherwise } => {
+                self.test(test);
+                self.value(then);
+                self.value(otherwise);
+            }
+            ExprKind::Array(items) => self.values(items),
+            ExprKind::Template { values, .. } => self.values(values),
+            ExprKind::Object(properties) => {
+                for property in properties {
+                    match property {
+                        Property::Named { value, .. } | Property::Spread(value) => self.value(value),
+                        Property::Computed { key, value } => {
+                            self.value(key);
+                            self.value(value);
+                        }
+                    }
+                }
+            }
+            ExprKind::Chain(inner) => self.expr(inner, used),
+            ExprKind::Spread(inner) => self.value(inner),
+            // A text that only reads is refused an assignment as a whole.
+            ExprKind::Assign { .. } | ExprKind::AssignLogical { .. } | ExprKind::Update { .. } => {
+                if self.around.mode == Mode::Statements {
+                    self.change(expr);
+                }
+            }
+            ExprKind::Sequence(_)
+            | ExprKind::Number(_)
+            | ExprKind::String(_)
+            | ExprKind::Boolean(_)
+            | ExprKind::Null
+            | ExprKind::Error => {}
+        }
+        self.levels -= 1;
+    }
+
+    /// A condition; an assignment in its place is refused as a whole.
+    fn test(&mut self, test: &'a Expr) {
+        if !matches!(test.kind, ExprKind::Assign { .. }) {
+            self.value(test);
+        }
+    }
+
+    /// An assignment, `++`, or one of their like.
+    fn change(&mut self, expr: &'a Expr) {
+        match &expr.kind {
+            ExprKind::Assign { target, value, .. } | ExprKind::AssignLogical { target, value, .. } => {
+                self.place(target);
+                self.change(value);
+            }
+            ExprKind::Update { target, .. } => self.place(target),
+            _ => self.value(expr),
+        }
+    }
+
+    /// What is assigned.
+    pub(super) fn place(&mut self, target: &'a Expr) {
+        match &target.kind {
+            ExprKind::Name(name) => self.assigned(name, target.span),
+            ExprKind::Member { .. } | ExprKind::Index { .. } => self.value(target),
+            _ => {} // no place: refused as a whole
+        }
+    }
+
+    #[inline(never)]
+    fn call(&mut self, callee: &'a Expr, args: &'a [Expr]) {
+        self.expr(callee, Use::Callee);
+        let entry = self.entry(callee);
+        let info = match (&entry, self.around.schema) {
+            (Some(Entry::Function(id)), Some(schema)) => Some(schema.function(*id)),
+            _ => None,
+        };
+        // What is computed over a whole run knows nothing of the names around it.
+        let hidden = match &info {
+            Some(FunctionInfo { aggregate: true, .. }) => std::mem::take(&mut self.reach),
+            _ => Vec::new(),
+        };
+        for (i, arg) in args.iter().enumerate() {
+            let collection = match (&entry, info.as_ref().and_then(|info| info.params.get(i))) {
+                (Some(Entry::Collection(id)), _) | (_, Some(Param::Name(id))) => Some(*id),
+                _ => None,
+            };
+            if !self.lacks_quotes(collection, arg) {
+                self.value(arg);
+            }
+        }
+        if !hidden.is_empty() {
+            self.reach = hidden;
+        }
+    }
+
+    /// What of the host a path of plain names leads to.
+    fn entry(&self, path: &Expr) -> Option<Entry> {
+        let schema = self.around.schema?;
+        match &path.kind {
+            ExprKind::Name(name) if self.names.at(path.span.start) == Named::Outside => schema.root(name),
+            ExprKind::Member { object, name, optional: false } => match self.entry(object)? {
+                Entry::Object(id) => schema.member(id, &name.text),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// Refuses the name of an object without its quotes.
+    #[inline(never)]
+    fn lacks_quotes(&mut self, collection: Option<CollectionId>, arg: &Expr) -> bool {
+        let (Some(id), Some(schema), ExprKind::Name(word)) = (collection, self.around.schema, &arg.kind)
+        else {
+            return false;
+        };
+        if self.lookup(word).is_some() || !schema.names(id).contains(word) {
+            return false;
+        }
+        self.names.uses.insert(arg.span.start, Named::Wrong);
+        self.found.push(
+            Finding::error(
+                rules::COMPUTED_NAME,
+                arg.span,
+                format!("the name of a {} stands in quotes", schema.noun(id)),
+            )
+            .why("without quotes it is the name of a variable")
+            .help(format!("write `\"{word}\"`"))
+            .fix(arg.span, format!("\"{word}\"")),
+        );
+        true
+    }
+
+    /// The declaration that a name means here.
+    fn lookup(&self, name: &str) -> Option<usize> {
+        let is = |byte: &usize| self.names.declared.get(byte).is_some_and(|d| d.name == name);
+        self.reach.iter().rev().copied().find(is)
+    }
+
+    /// A name that is read.
+    #[inline(never)]
+    fn name(&mut self, name: &'a str, span: Span, used: Use) {
+        let meaning = match self.lookup(name) {
+            Some(byte) => self.use_of(byte, span),
+            None if self.is_outside(name) => return,
+            None => {
+                let report = self.unknown(name, span, used);
+                self.found.push(report);
+                Named::Wrong
+            }
+        };
+        self.names.uses.insert(span.start, meaning);
+    }
+
+    /// Whether the language or the host gives a meaning to a name.
+    fn is_outside(&self, name: &str) -> bool {
+        let Some(schema) = self.around.schema else { return true };
+        match name {
+            "value" => self.around.has_value || schema.root(name).is_some(),
+            _ => is_language(name) || schema.root(name).is_some(),
+        }
+    }
+
+    /// A name that is assigned.
+    #[inline(never)]
+    fn assigned(&mut self, name: &'a str, span: Span) {
+        let refusal = match self.lookup(name) {
+            Some(byte) => {
+                let meaning = self.use_of(byte, span);
+                self.names.uses.insert(span.start, meaning);
+                let Some(declared) = self.names.declared.get_mut(&byte) else { return };
+                if meaning == Named::Wrong {
+                    return;
+                }
+                if !declared.constant {
+                    declared.assigned += 1;
+                    return;
+                }
+                unknown::constant(name, span)
+            }
+            None if is_language(name) => unknown::not_assignable(name, span),
+            None if self.is_outside(name) => return,
+            None => self.undeclared(name, span),
+        };
+        self.found.push(refusal);
+        self.names.uses.insert(span.start, Named::Wrong);
+    }
+
+    /// A use of a declaration: the functions between them take the variable along.
+    fn use_of(&mut self, byte: usize, span: Span) -> Named {
+        let function = self.function;
+        let Some(declared) = self.names.declared.get_mut(&byte) else { return Named::Wrong };
+        let home = declared.function;
+        if !declared.ready {
+            if home == function {
+                self.found.push(unknown::too_early(&declared.name, span));
+                return Named::Wrong;
+            }
+            // The function may run later, when there is a value.
+            declared.early = true;
+        }
+        declared.captured |= home != function;
+        let holds = declared.holds;
+        self.take(byte, home);
+        if let Some(inner) = holds {
+            self.calls.insert((inner, function));
+            self.visit(inner);
+        }
+        Named::Declared(byte)
+    }
+
+    /// Notes a variable for the functions up to the one that it stands in.
+    fn take(&mut self, byte: usize, home: usize) {
+        let mut function = self.function;
+        while function != home {
+            self.names.taken.entry(function).or_default().insert(byte);
+            let Some(known) = self.functions.get(&function) else { return };
+            function = known.around;
+        }
+    }
+
+    /// What a function takes, those take that name it and do not hold it.
+    fn hand_on(&mut self) {
+        let mut changed: BTreeSet<usize> = self.names.taken.keys().copied().collect();
+        while let Some(callee) = changed.pop_last() {
+            let taken: Vec<usize> = self.names.taken(callee).collect();
+            let callers = self.calls.range((callee, 0)..=(callee, usize::MAX));
+            for &(_, caller) in callers {
+                for &byte in &taken {
+                    let home = self.names.declared.get(&byte).map_or(WHOLE, |d| d.function);
+                    let mut function = caller;
+                    while function != home && function != WHOLE {
+                        if self.names.taken.entry(function).or_default().insert(byte) {
+                            changed.insert(function);
+                        }
+                        function = self.functions.get(&function).map_or(WHOLE, |known| known.around);
+                    }
+                }
+            }
+        }
+    }
+
+    /// A function that the text gives at this place.
+    fn define(&mut self, function: &'a Function) {
+        if self.functions.len() >= MAX_FUNCTIONS && !std::mem::replace(&mut self.names.stopped, true) {
+            self.found.push(
+                Finding::error(
+                    rules::TOO_LONG,
+                    function.span,
+                    format!("more than {MAX_FUNCTIONS} functions in one text"),
+                )
+                .help("split the text"),
+            );
+        }
+        let known = Known { function, around: self.function, reach: self.reach.len(), visited: false };
+        self.functions.insert(function.span.start, known);
+    }
+
+    /// Looks through a function, once.
+    #[inline(never)]
+    fn visit(&mut self, byte: usize) {
+        if self.names.stopped {
+            return;
+        }
+        let Some(known) = self.functions.get_mut(&byte).filter(|known| !known.visited) else { return };
+        known.visited = true;
+        let (function, reach) = (known.function, known.reach.min(self.reach.len()));
+        if self.levels >= MAX_LEVELS {
+            return self.too_deep(function.span);
+        }
+        // The body sees the names around its definition, not those around its use.
+        let hidden = self.reach.split_off(reach);
+        let outer = std::mem::replace(&mut self.function, byte);
+        self.levels += 1;
+        for param in &function.params {
+            self.parameter(&param.target, reach);
+        }
+        for param in &function.params {
+            self.element(param);
+        }
+        match &function.body {
+            Body::Value(expr) => self.change(expr),
+            Body::Block(statements) => self.block(statements),
+        }
+        self.levels -= 1;
+        self.function = outer;
+        self.leave(reach);
+        self.reach.extend(hidden);
+    }
+
+    fn too_deep(&mut self, span: Span) {
+        if !std::mem::replace(&mut self.names.stopped, true) {
+            self.found.push(super::too_deep(span));
+        }
+    }
+
+    /// A name that is declared here; its declaration has not run yet.
+    fn declare(&mut self, name: &Name, constant: bool, parameter: bool) {
+        let byte = name.span.start;
+        let declared = Declared {
+            name: name.text.clone(),
+            constant,
+            function: self.function,
+            assigned: 0,
+            captured: false,
+            early: false,
+            parameter,
+            ready: false,
+            holds: None,
+        };
+        self.names.declared.insert(byte, declared);
+        self.reach.push(byte);
+    }
+}

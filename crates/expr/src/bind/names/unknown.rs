@@ -1,0 +1,200 @@
+//! What is said of a name that means nothing, or that cannot be used like this.
+
+use super::{Use, Walk};
+use crate::ast::Name;
+use crate::closest;
+use crate::parse::MAX_DIAGNOSTICS;
+use crate::rules;
+use crate::words::Words;
+use crate::{Finding, Span};
+
+/// Names of the language itself.
+pub(super) const LANGUAGE: [&str; 14] = [
+    "Math",
+    "NaN",
+    "Infinity",
+    "undefined",
+    "isNaN",
+    "isFinite",
+    "ctx",
+    "Array",
+    "Number",
+    "String",
+    "Boolean",
+    "Object",
+    "parseFloat",
+    "parseInt",
+];
+
+/// Names that hold functions of the language.
+pub(in super::super) const NAMESPACES: [&str; 4] = ["Array", "Number", "String", "Object"];
+
+/// Names of a browser or of Node.
+const PAGE: [&str; 8] =
+    ["window", "document", "globalThis", "self", "global", "localStorage", "sessionStorage", "navigator"];
+const PRINT: [&str; 3] = ["console", "alert", "prompt"];
+const OUTSIDE: [&str; 6] = ["fetch", "XMLHttpRequest", "WebSocket", "require", "process", "Worker"];
+const CODE: [&str; 2] = ["eval", "Function"];
+const CLOCK: [&str; 5] = ["Date", "performance", "setTimeout", "setInterval", "requestAnimationFrame"];
+const MORE: [&str; 10] =
+    ["Promise", "Symbol", "Reflect", "Proxy", "RegExp", "Map", "Set", "JSON", "Intl", "arguments"];
+
+/// Why the language does not have such a name, and what to do instead.
+fn absent(name: &str, words: &Words) -> Option<(String, String)> {
+    let Words { lab, lesson, .. } = words;
+    let (why, help) = match name {
+        _ if PAGE.contains(&name) => (
+            format!("a {lesson} runs without a page: in a browser, on a command line, in a notebook"),
+            format!("use the names of the {lab}: {}", words.names),
+        ),
+        _ if PRINT.contains(&name) => {
+            ("there is nowhere to print".into(), format!("show the value in {}", words.shown))
+        }
+        _ if OUTSIDE.contains(&name) => {
+            (format!("a {lesson} reaches nothing outside itself"), format!("put the data into the {lab}"))
+        }
+        _ if CODE.contains(&name) => (
+            "text that becomes code while running could not be checked before the run".into(),
+            "write the expression itself".into(),
+        ),
+        _ if CLOCK.contains(&name) => {
+            ("the clock of the wall would make every run different".into(), words.clock.into())
+        }
+        _ if MORE.contains(&name) => (
+            format!("a {lesson} works on numbers; lists and records are all it needs"),
+            format!(
+                "keep values in variables of the {lab}, as `ctx.peak`, in lists `[0, 1]` or in records `{{a: 1}}`"
+            ),
+        ),
+        _ => return None,
+    };
+    Some((why, help))
+}
+
+/// Members through which JavaScript reaches the machinery behind a value.
+pub(in super::super) const MACHINERY: [&str; 5] =
+    ["constructor", "prototype", "__proto__", "hasOwnProperty", "valueOf"];
+
+impl Walk<'_, '_> {
+    pub(super) fn unknown(&self, name: &str, span: Span, used: Use) -> Finding {
+        let words = self.words();
+        if name == "value" {
+            return Finding::error(rules::NO_VALUE_HERE, span, "there is no `value` here")
+                .why(words.input.0)
+                .help(words.input.1);
+        }
+        if let Some((why, help)) = absent(name, words) {
+            return Finding::error(rules::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
+                .why(why)
+                .help(help);
+        }
+        let report = match used {
+            Use::Callee => {
+                Finding::error(rules::UNKNOWN_FUNCTION, span, format!("unknown function `{name}`"))
+            }
+            _ => Finding::error(rules::UNKNOWN_NAME, span, format!("unknown name `{name}`")),
+        };
+        if self.found.len() > MAX_DIAGNOSTICS {
+            return report; // nobody will read it: not worth a search for what was meant
+        }
+        match self.meant(name, used) {
+            Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
+            None => {
+                let own = match used {
+                    Use::Callee => {
+                        "to make a function of your own, write `const f = (x) => …` before".to_owned()
+                    }
+                    _ => {
+                        format!("to keep a number of your own, write `ctx.{name} = …` or `const {name} = …`")
+                    }
+                };
+                let mut known = self.root_names();
+                known.extend(["ctx".to_owned(), "Math".to_owned()]);
+                report.why(format!("the names here are {}", list(&known))).help(own)
+            }
+        }
+    }
+
+    /// What the host calls its things.
+    fn words(&self) -> &'static Words {
+        self.around.schema.map_or(&Words::PLAIN, |schema| schema.words())
+    }
+
+    fn root_names(&self) -> Vec<String> {
+        self.around.schema.map_or(Vec::new(), |schema| schema.root_names())
+    }
+
+    pub(super) fn undeclared(&self, name: &str, span: Span) -> Finding {
+        let report = Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` is not declared"))
+            .why("an assignment without a declaration would make a variable of all texts");
+        match self.nearest(name) {
+            Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
+            None => report.help(format!(
+                "write `const {name} = …` for this text only, or `ctx.{name} = …` to keep it in the {}",
+                self.words().lab
+            )),
+        }
+    }
+
+    /// The name that is probably meant by a misspelt one on the left of `=`.
+    fn nearest(&self, name: &str) -> Option<String> {
+        let roots = self.root_names();
+        closest(name, self.own_names().chain(roots.iter().map(String::as_str))).map(str::to_owned)
+    }
+
+    /// The names in reach that the text declares.
+    pub(super) fn own_names(&self) -> impl Iterator<Item = &str> {
+        self.reach.iter().filter_map(|byte| Some(self.names.declared.get(byte)?.name.as_str()))
+    }
+}
+
+/// The finding for a second declaration, or one of a name that means something already.
+pub(super) fn taken(name: &Name, here: bool) -> Finding {
+    let why = if here { "it is declared above" } else { "it already means something in every text" };
+    Finding::error(rules::NAME_TAKEN, name.span, format!("`{}` cannot be declared here", name.text))
+        .why(format!("{why}; JavaScript refuses a second declaration"))
+        .help(if here {
+            "assign it without `const` or `let`, or choose another name"
+        } else {
+            "choose another name"
+        })
+}
+
+/// The finding for a use before the declaration.
+pub(super) fn too_early(name: &str, span: Span) -> Finding {
+    Finding::error(rules::USED_TOO_EARLY, span, format!("`{name}` is used before its declaration"))
+        .why("statements run from top to bottom: here the name has no value yet")
+        .help(format!("move the declaration of `{name}` up"))
+}
+
+/// The finding for a `const` that is assigned.
+pub(super) fn constant(name: &str, span: Span) -> Finding {
+    Finding::error(rules::ASSIGN_CONST, span, format!("`{name}` is declared with `const`"))
+        .why("a `const` name keeps its first value; JavaScript stops the program here")
+        .help(format!("declare it with `let {name}`, or use another name"))
+}
+
+/// The finding for a name of the language that is assigned.
+pub(super) fn not_assignable(name: &str, span: Span) -> Finding {
+    let report = Finding::error(rules::NOT_ASSIGNABLE, span, format!("`{name}` cannot be assigned"));
+    match name {
+        "ctx" => {
+            report.why("it holds the variables of all texts").help("assign a variable, as `ctx.peak = 0`")
+        }
+        "value" => report.why("it is given from outside").help("use another name, as `const x = value / 2`"),
+        _ => report.why("it means the same everywhere").help("use another name"),
+    }
+}
+
+/// Whether the language itself gives a meaning to a name.
+pub(in super::super) fn is_language(name: &str) -> bool {
+    LANGUAGE.contains(&name) || name == "value"
+}
+
+/// A list of names for a message, cut when it is long.
+pub(in super::super) fn list(names: &[String]) -> String {
+    const SHOWN: usize = 8;
+    let shown: Vec<String> = names.iter().take(SHOWN).map(|n| format!("`{n}`")).collect();
+    let more = names.len().saturating_sub(SHOWN);
+    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
+}

@@ -1,0 +1,96 @@
+//! What the types pass knows of the parts of a text when it is done: what the lints look at. Parts of written methods, which
+//! nobody wrote here, are left out.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::Span;
+use crate::ir::{Index, Ir, Kind};
+use crate::schema::{FieldKey, Type};
+use crate::value::Value;
+
+/// What is known of a text, part by part.
+#[derive(Default)]
+pub(in super::super) struct Typed {
+    shapes: BTreeMap<Span, Shape>,
+    idle: BTreeSet<Span>,
+    /// Values that are needed for something.
+    pub(in super::super) wants: Vec<(Span, Want, Shape)>,
+}
+
+/// What is known of a value.
+#[derive(Clone)]
+pub(in super::super) struct Shape {
+    pub(in super::super) ty: Type,
+    /// The value, where it is known.
+    pub(in super::super) known: Option<Value>,
+    /// The element of a field of the host that it is.
+    pub(in super::super) element: Option<(FieldKey, usize)>,
+}
+
+/// What a value is needed for.
+pub(in super::super) enum Want {
+    /// A number, by a function.
+    Number(String),
+    /// An angle, by a function.
+    Angle(String),
+    /// To be stored in an element of a field.
+    Element(Option<(FieldKey, usize)>),
+}
+
+impl Shape {
+    fn of(ir: &Ir) -> Shape {
+        Shape { ty: ir.ty, known: ir.known().cloned(), element: element(ir) }
+    }
+
+    /// The value, where it is a known number.
+    pub(in super::super) fn number(&self) -> Option<f64> {
+        match self.known {
+            Some(Value::Number(x)) => Some(x),
+            _ => None,
+        }
+    }
+}
+
+/// The element that a number is.
+fn element(ir: &Ir) -> Option<(FieldKey, usize)> {
+    match &ir.kind {
+        Kind::Load(view, Index::At(i)) => Some((view.field, view.first as usize + i)),
+        Kind::ToNumber(inner) | Kind::Negate(inner) => element(inner),
+        _ => None,
+    }
+}
+
+impl Typed {
+    /// What is known of the expression at a place.
+    pub(in super::super) fn shape(&self, span: Span) -> Option<&Shape> {
+        self.shapes.get(&span)
+    }
+
+    /// Whether the statement at a place does nothing.
+    pub(in super::super) fn is_idle(&self, span: Span) -> bool {
+        self.idle.contains(&span)
+    }
+}
+
+impl super::Binder<'_> {
+    /// Notes what an expression is.
+    pub(super) fn note(&mut self, span: Span, ir: &Ir) {
+        if self.site.is_none() {
+            self.typed.shapes.insert(span, Shape::of(ir));
+        }
+    }
+
+    /// Notes that a statement does nothing.
+    pub(super) fn idle(&mut self, span: Span) {
+        if self.site.is_none() {
+            self.typed.idle.insert(span);
+        }
+    }
+
+    /// Notes what a value is needed for.
+    pub(super) fn want(&mut self, ir: &Ir, span: Span, want: Want) {
+        if self.site.is_none() {
+            self.typed.wants.push((span, want, Shape::of(ir)));
+        }
+    }
+}

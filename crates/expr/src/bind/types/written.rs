@@ -1,0 +1,131 @@
+//! Calls of methods that are written in the language: bound as if their text stood where they are called. Their texts have names
+//! and places of their own; what is wrong there is told in words, at the call.
+
+use std::sync::OnceLock;
+
+use super::function::ends;
+use super::scope::Meaning;
+use super::{Attempt, Binder, Reported, Thing, What};
+use crate::Span;
+use crate::ast::{Body, Expr, Function, Name, Pattern};
+use crate::bind::Mode;
+use crate::bind::names::{Names, Surroundings, resolve};
+use crate::globals::Globals;
+use crate::ir::{Ir, Kind, Step};
+use crate::natives::{self, Row};
+use crate::schema::Type;
+
+/// The call of a written method.
+#[derive(Clone, Copy)]
+pub(super) struct Site {
+    /// Tells its variables from those of other calls.
+    pub(super) id: usize,
+    /// Where the text calls it.
+    pub(super) call: Span,
+    row: &'static Row,
+    pub(super) names: &'static Names,
+}
+
+impl Site {
+    /// The method as it is called: `.map`.
+    pub(super) fn called(&self) -> String {
+        self.row.title()
+    }
+}
+
+/// What the names of a written function mean.
+fn names_of(function: &Function) -> &'static Names {
+    static NAMES: OnceLock<Vec<(&'static Function, Names)>> = OnceLock::new();
+    static NONE: OnceLock<Names> = OnceLock::new();
+    let all = NAMES.get_or_init(|| natives::written().map(|f| (f, resolved(f))).collect());
+    let found = all.iter().find(|(f, _)| std::ptr::eq(*f, function));
+    found.map_or_else(|| NONE.get_or_init(Names::default), |(_, names)| names)
+}
+
+fn resolved(function: &'static Function) -> Names {
+    let globals = Globals::new();
+    let around = Surroundings { schema: None, globals: &globals, mode: Mode::Statements, has_value: false };
+    resolve(around, |walk| walk.inside(function)).0
+}
+
+impl<'a> Binder<'a> {
+    /// A method that is written in the language, as if its text stood here.
+    pub(super) fn call_written(
+        &mut self,
+        function: &'a Function,
+        row: &'static Row,
+        first: Thing,
+        args: &'a [Expr],
+        span: Span,
+    ) -> Attempt<Ir> {
+        let mut things = vec![Ok(first)];
+        for (i, arg) in args.iter().enumerate() {
+            let thing = self.argument_thing(arg);
+            // The function stands first among the arguments.
+            let calls = match &thing {
+                Ok(Thing::Value(ir)) => matches!(ir.ty, Type::Function | Type::Any | Type::Never),
+                _ => true,
+            };
+            if i == 0 && !calls {
+                let report = self.needs_function(row, arg.span);
+                return self.refuse(report);
+            }
+            things.push(thing);
+        }
+        let things = things.into_iter().collect::<Attempt<Vec<Thing>>>()?;
+        let Body::Block(statements) = &function.body else { return Err(Reported) };
+        let known = self.known.len();
+        // A text has fewer than 65,536 bytes: a call inside a written method keeps the call around it apart.
+        let (id, call) = match self.site {
+            Some(outer) => (outer.id << 16 | span.end, outer.call),
+            None => (span.end, span),
+        };
+        let site = Site { id, call, row, names: names_of(function) };
+        let outer = (self.site.replace(site), self.guards);
+        self.guards += 1;
+        let mut steps = Vec::new();
+        for (param, thing) in function.params.iter().zip(things) {
+            let Pattern::Name(name) = &param.target else { continue };
+            self.declare_variable(name);
+            self.give_thing(name, thing, &mut steps);
+        }
+        let key = self.key(function.span.start, What::Result);
+        self.returns.push(key);
+        let loops = std::mem::take(&mut self.loops);
+        let body = self.block(statements);
+        self.loops = loops;
+        self.returns.pop();
+        if !ends(&body) {
+            self.facts.see(key, Type::Undefined);
+        }
+        let result = self.new_local(key, false);
+        let ty = self.facts.ty(key);
+        self.leave(known);
+        (self.site, self.guards) = outer;
+        steps.push(Step::Inline(result, body, span));
+        let value = Ir::new(Kind::Local(result), ty, span);
+        Ok(Ir::new(Kind::Block(steps, Box::new(value)), ty, span))
+    }
+
+    /// An argument of such a method: a function stays known.
+    fn argument_thing(&mut self, arg: &'a Expr) -> Attempt<Thing> {
+        match self.thing(arg)? {
+            closure @ Thing::Closure(_) => Ok(closure),
+            function @ (Thing::MathFunction(_) | Thing::Native(_)) => Ok(function),
+            // `Number`, which is a function and holds some.
+            Thing::Namespace(name) => match natives::free(name) {
+                Some(function) => Ok(Thing::Native(function)),
+                None => self.value_of(Thing::Namespace(name), arg.span).map(Thing::Value),
+            },
+            other => self.value_of(other, arg.span).map(Thing::Value),
+        }
+    }
+
+    /// A parameter of a written method: what needs no place of its own is only another word.
+    fn give_thing(&mut self, name: &Name, thing: Thing, steps: &mut Vec<Step>) {
+        match thing {
+            Thing::Value(ir) => self.give_value(name, ir, steps),
+            other => self.give(name, Meaning::Alias(other)),
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! What methods work with: the lists of a run, its host, its budget, and JavaScript's conversions.
+
+use crate::heap::{Full, Heap, MAX_TEXT, Object};
+use crate::ir::Shown;
+use crate::program::Host;
+use crate::rules::{self, Rule};
+use crate::schema::Elem;
+use crate::value::{Value, View};
+
+/// Why a method fails.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Trouble {
+    pub(crate) rule: &'static Rule,
+    pub(crate) message: String,
+}
+
+impl Trouble {
+    pub(crate) fn new(rule: &'static Rule, message: impl Into<String>) -> Trouble {
+        Trouble { rule, message: message.into() }
+    }
+}
+
+impl From<Full> for Trouble {
+    fn from(Full: Full) -> Trouble {
+        Trouble::new(rules::MEMORY, "the lists take more than 64 MB")
+    }
+}
+
+/// What a method works with.
+pub(crate) struct Env<'a> {
+    pub(crate) heap: &'a mut Heap,
+    pub(crate) host: &'a mut dyn Host,
+    pub(crate) views: &'a [Shown],
+    /// Work that the run may still do.
+    pub(crate) budget: &'a mut u64,
+}
+
+/// What an element counts.
+const ELEMENT: u64 = 10;
+
+/// Counts work. Where it is too much, nothing is left.
+pub(crate) fn charge(budget: &mut u64, units: u64) -> Result<(), Trouble> {
+    let rest = budget.checked_sub(units);
+    *budget = rest.unwrap_or(0);
+    rest.map(|_| ()).ok_or_else(out_of_steps)
+}
+
+impl Env<'_> {
+    /// Counts elements that are gone through.
+    pub(crate) fn spend(&mut self, elements: usize) -> Result<(), Trouble> {
+        charge(self.budget, ELEMENT * elements as u64)
+    }
+
+    /// Number of elements of a view, now.
+    pub(crate) fn view_len(&self, view: View) -> usize {
+        view.count().unwrap_or_else(|| self.host.len(view.field).saturating_sub(view.first as usize))
+    }
+
+    /// Element of a view.
+    pub(crate) fn view_item(&self, view: View, index: usize) -> Value {
+        if index >= self.view_len(view) {
+            return Value::Undefined;
+        }
+        self.host.get(view.field, view.first as usize + index).map_or(Value::Undefined, Value::Number)
+    }
+
+    /// Stores an element of a view that became a value.
+    pub(crate) fn view_store(&mut self, view: View, index: usize, x: f64) -> Result<(), Trouble> {
+        let shown = self.views.iter().find(|s| s.view.field == view.field);
+        match shown {
+            Some(shown) if shown.assignable => {}
+            Some(_) => {
+                return Err(Trouble::new(
+                    rules::ASSIGN_DERIVED,
+                    "a computed array is assigned: what is stored there would be overwritten",
+                ));
+            }
+            None => {
+                return Err(Trouble::new(
+                    rules::HOST_STORE,
+                    "an array that another text kept is assigned; name it here instead",
+                ));
+            }
+        }
+        if index < self.view_len(view) {
+            let stored = self.host.set(view.field, view.first as usize + index, x);
+            stored.map_err(|message| Trouble::new(rules::HOST_STORE, message))?;
+        }
+        Ok(())
+    }
+
+    /// What the elements of an array are.
+    pub(crate) fn elem(&self, view: View) -> Elem {
+        self.views.iter().find(|s| s.view.field == view.field).map_or(Elem::Double, |s| s.elem)
+    }
+
+    /// Number of elements of a list or array.
+    pub(crate) fn len(&self, value: &Value) -> usize {
+        match value {
+            Value::View(view) => self.view_len(*view),
+            _ => self.heap.len(value).unwrap_or(0),
+        }
+    }
+
+    /// All elements of a list or array, counted.
+    pub(crate) fn items(&mut self, value: &Value) -> Result<Vec<Value>, Trouble> {
+        let n = self.len(value);
+        self.spend(n)?;
+        Ok(match value {
+            Value::View(view) => (0..n).map(|i| self.view_item(*view, i)).collect(),
+            _ => match self.heap.object(value) {
+                Object::List(items) => items.clone(),
+                Object::Numbers(items, _) => items.iter().map(|&x| Value::Number(x)).collect(),
+                _ => Vec::new(),
+            },
+        })
+    }
+
+    /// JavaScript's `String(v)`.
+    pub(crate) fn text(&mut self, value: &Value) -> Result<String, Trouble> {
+        let text = match value {
+            Value::View(_) => {
+                let items = self.items(value)?;
+                let parts: Vec<String> = items.iter().map(Value::to_string).collect();
+                parts.join(",")
+            }
+            Value::String(text) => return Ok(text.to_string()),
+            _ => self.heap.text(value),
+        };
+        self.spend(text.len() / 16)?;
+        if text.len() > MAX_TEXT { Err(too_long()) } else { Ok(text) }
+    }
+
+    /// JavaScript's `Number(v)`.
+    pub(crate) fn number(&mut self, value: &Value) -> Result<f64, Trouble> {
+        match value {
+            Value::List(_) | Value::View(_) => Ok(crate::number::from_text(&self.text(value)?)),
+            other => Ok(other.to_number()),
+        }
+    }
+
+    /// A text as a value, when it is not too long.
+    pub(crate) fn string(&mut self, text: String) -> Result<Value, Trouble> {
+        if text.len() > MAX_TEXT {
+            return Err(too_long());
+        }
+        self.spend(text.len() / 16)?;
+        Ok(Value::String(text.into()))
+    }
+
+    /// What is spread: the elements of a list, the characters of a text.
+    pub(crate) fn spread(&mut self, value: &Value) -> Result<Vec<Value>, Trouble> {
+        match value {
+            Value::List(_) | Value::View(_) => self.items(value),
+            Value::String(text) => {
+                let text = text.clone();
+                self.spend(text.len())?;
+                Ok(text.chars().map(|c| Value::String(c.to_string().into())).collect())
+            }
+            other => {
+                let what =
+                    if other.is_nothing() { other.to_string() } else { other.type_of().describe().into() };
+                Err(Trouble::new(rules::NO_PARTS, format!("{what} has no elements to go through")))
+            }
+        }
+    }
+}
+
+pub(crate) fn too_long() -> Trouble {
+    Trouble::new(rules::TEXT_TOO_LONG, format!("a string grew beyond {MAX_TEXT} bytes"))
+}
+
+pub(crate) fn out_of_steps() -> Trouble {
+    Trouble::new(rules::BUDGET, "this text does not come to an end: it was stopped")
+}
+
+/// JavaScript's ToIntegerOrInfinity.
+pub(super) fn integer(x: f64) -> f64 {
+    if x.is_nan() { 0.0 } else { x.trunc() }
+}
+
+/// An index that counts from the end when negative, cut to `0..=n`.
+pub(super) fn relative(x: f64, n: usize) -> usize {
+    let x = integer(x);
+    let at = if x < 0.0 { n as f64 + x } else { x };
+    at.clamp(0.0, n as f64) as usize
+}
+
+/// An argument; `undefined` when it is left out.
+pub(super) fn arg(args: &[Value], i: usize) -> &Value {
+    const UNDEFINED: &Value = &Value::Undefined;
+    args.get(i).unwrap_or(UNDEFINED)
+}
+
+/// A range of indexes from two optional arguments.
+pub(super) fn range(
+    env: &mut Env<'_>,
+    args: &[Value],
+    first: usize,
+    n: usize,
+) -> Result<(usize, usize), Trouble> {
+    let start = relative(env.number(arg(args, first))?, n);
+    let end = match arg(args, first + 1) {
+        Value::Undefined => n,
+        end => relative(env.number(end)?, n),
+    };
+    Ok((start, end.max(start)))
+}
