@@ -5,6 +5,7 @@ use crate::ast::BinaryOp;
 use crate::ir::{Index, Ir, Kind};
 use crate::math;
 use crate::number;
+use crate::operators::UnaryOp;
 use crate::rules;
 use crate::schema::Role;
 use crate::value::{Value, View};
@@ -97,7 +98,7 @@ fn degrees(span: Span, what: &str, meant: String) -> Finding {
 fn element(ir: &Ir) -> Option<(View, usize)> {
     match &ir.kind {
         Kind::Load(view, Index::At(i)) => Some((*view, *i)),
-        Kind::ToNumber(inner) | Kind::Negate(inner) => element(inner),
+        Kind::ToNumber(inner) | Kind::Unary(UnaryOp::Minus, inner) => element(inner),
         _ => None,
     }
 }

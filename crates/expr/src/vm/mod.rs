@@ -1,26 +1,28 @@
 //! The machine: flat operations on two files of registers, one of doubles and one of values of any type.
 //!
-//! A boolean lives in a number register as 1 or 0; `lower` knows which it is. Constants stand in registers
+//! A boolean lives in a number register as 1 or 0; `emit` knows which it is. Constants stand in registers
 //! before the first operation of a function. Every jump back counts the operations that it repeats, every call those of the
 //! function, so every run ends, and what it cost is known.
 
 mod code;
+mod emit;
 mod parts;
 
-pub(crate) use code::{Code, CodeUnit, Num, Op, Slot, Val};
+pub(crate) use code::{Code, CodeUnit};
 
 use std::sync::Arc;
 
 use crate::Span;
+use crate::form::{Num, Op, Slot, Val};
 use crate::heap::{MAX_TEXT, Object};
-use crate::ir;
 use crate::natives::{self, Env, Trouble};
 use crate::number;
+use crate::operation::{known_operator, select, truth, truthy};
 use crate::operators::BinaryOp;
 use crate::program::{Context, EventKind, Host, RuntimeError, RuntimeEvent};
 use crate::rules;
 use crate::schema::FieldKey;
-use crate::value::{Value, View, truthy};
+use crate::value::{Value, View};
 
 /// Work that a run may do. A unit is about a nanosecond of a fast machine.
 pub(crate) const MAX_WORK: u64 = 200_000_000;
@@ -65,7 +67,7 @@ struct Frame {
     v: usize,
 }
 
-/// The state of a run. Registers and jump targets come from `lower`, which gives out only existing ones.
+/// The state of a run. Registers and jump targets come from `emit`, which gives out only existing ones.
 struct Machine<'a> {
     host: &'a mut dyn Host,
     context: &'a mut Context,
@@ -178,20 +180,20 @@ impl Machine<'_> {
                     let x = self.element(view, self.num(f, index), unit, at - 1).unwrap_or(f64::NAN);
                     self.put(f, dst, x);
                 }
-                Op::Add(dst, a, b) => self.put(f, dst, self.num(f, a) + self.num(f, b)),
-                Op::Subtract(dst, a, b) => self.put(f, dst, self.num(f, a) - self.num(f, b)),
-                Op::Multiply(dst, a, b) => self.put(f, dst, self.num(f, a) * self.num(f, b)),
-                Op::Divide(dst, a, b) => self.put(f, dst, self.num(f, a) / self.num(f, b)),
-                Op::Less(dst, a, b) => self.put(f, dst, truth(self.num(f, a) < self.num(f, b))),
-                Op::Binary(dst, op, a, b) => self.put(f, dst, op.on_numbers(self.num(f, a), self.num(f, b))),
-                Op::Negate(dst, a) => self.put(f, dst, -self.num(f, a)),
-                Op::Not(dst, a) => self.put(f, dst, truth(!truthy(self.num(f, a)))),
-                Op::BitNot(dst, a) => self.put(f, dst, f64::from(!number::to_int32(self.num(f, a)))),
-                Op::Move(dst, src) => self.put(f, dst, self.num(f, src)),
-                Op::Math(dst, function, first, count) => {
-                    let first = f.n + first.0 as usize;
-                    let x = function.apply(&self.numbers[first..first + count as usize]);
+                Op::Binary(dst, op, a, b) => {
+                    let (a, b) = (self.num(f, a), self.num(f, b));
+                    let x = known_operator!(op, |op: BinaryOp| op.on_numbers(a, b));
                     self.put(f, dst, x);
+                }
+                Op::Unary(dst, op, a) => self.put(f, dst, op.on_number(self.num(f, a))),
+                Op::Select(dst, test, a, b) => {
+                    self.put(f, dst, self.num(f, select(self.num(f, test), a, b)));
+                }
+                Op::Move(dst, src) => self.put(f, dst, self.num(f, src)),
+                Op::Math(dst, function, args) => {
+                    let args = args.of(&unit.args);
+                    let numbers = self.numbers.get(f.n..).unwrap_or(&[]);
+                    self.put(f, dst, function.apply_to(args.len(), |i| numbers[args[i] as usize]));
                 }
                 Op::PassNumber(k, src) => {
                     let x = self.num(f, src);
@@ -317,7 +319,7 @@ impl Machine<'_> {
                 self.put_value(f, dst, text);
             }
             Op::TypeOf(dst, src) => {
-                let name = ir::type_name(self.val(f, src));
+                let name = self.val(f, src).type_name();
                 self.put_value(f, dst, Value::from(name));
             }
             Op::Plus(dst, a, b) => {
@@ -329,12 +331,14 @@ impl Machine<'_> {
                 self.put(f, dst, truth(holds));
             }
 
-            Op::CallHost(dst, function, first, count) => {
+            Op::CallHost(dst, function, args) => {
                 self.env(code).spend(HOST_CALL)?;
-                let first = f.v + first.0 as usize;
-                let args = &self.values[first..first + count as usize];
+                let mut handed = std::mem::take(&mut self.context.handed);
+                handed.extend(args.of(&unit.args).iter().map(|a| self.val(f, Val(*a)).clone()));
                 let before = self.host.work();
-                let result = self.host.call(&mut self.context.heap, function, args);
+                let result = self.host.call(&mut self.context.heap, function, &handed);
+                handed.clear();
+                self.context.handed = handed;
                 let done = self.host.work().saturating_sub(before).min(self.budget);
                 self.of_host += done;
                 self.charge(done)?;
@@ -368,7 +372,7 @@ impl Machine<'_> {
                     self.store(view.field, view.first as usize + index, self.num(f, src))?;
                 }
             }
-            _ => self.part(op, code, unit, f, at)?,
+            _ => self.part(op, code, unit, f)?,
         }
         Ok(())
     }
@@ -471,10 +475,6 @@ impl From<crate::heap::Full> for Stop {
     fn from(full: crate::heap::Full) -> Stop {
         Stop::Here(full.into())
     }
-}
-
-fn truth(holds: bool) -> f64 {
-    f64::from(u8::from(holds))
 }
 
 /// A number as an index: whole and not negative.

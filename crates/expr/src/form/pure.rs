@@ -1,0 +1,151 @@
+//! Formulas from forms: of a whole text without effects, where every question becomes a choice between numbers that
+//! are both computed, and of a few numeric operations of a longer one.
+
+use std::collections::BTreeMap;
+
+use super::{At as Name, Block, BlockId, Edge, End, Num, Op, Slot, Unit};
+use crate::formula::{At, Formula, Step};
+
+/// The formula of a text that gives a number or a truth value; `None` when its value depends on more than elements of
+/// fields at known indexes.
+pub(crate) fn whole(unit: &Unit) -> Option<Formula> {
+    let loads_and_numbers = |op: &Op| op.is_numeric() || matches!(op, Op::Load(..));
+    if unit.result == Slot::Value || !unit.ops.iter().all(loads_and_numbers) {
+        return None;
+    }
+    let mut steps = Steps::of(unit);
+    for at in 0..unit.blocks.len() as BlockId {
+        steps.params(at)?;
+        unit.range(at).try_for_each(|i| steps.op(unit.ops.get(i)?))?;
+    }
+    // What returns are the ways to the end.
+    let mut output = steps.chosen(0, unit.blocks.len() as BlockId, 0)?;
+    let mut formula = steps.formula;
+    formula.finish(std::slice::from_mut(&mut output));
+    (formula.output, formula.truth) = (output, unit.result == Slot::Boolean);
+    Some(formula)
+}
+
+/// The formula of numeric operations that follow each other, with the step of every number that they give.
+pub(crate) fn stretch(unit: &Unit, ops: &[Op], mut input: impl FnMut(Num) -> u32) -> Option<(Formula, Vec<(Num, At)>)> {
+    let mut steps = Steps::of(unit);
+    let mut given = Vec::with_capacity(ops.len());
+    for op in ops {
+        let mut reads = Vec::new();
+        let mut gives = None;
+        let mut copy = *op;
+        copy.each(&mut |u| match u {
+            super::Use::Gives(n) => gives = Some(*n),
+            super::Use::Reads(n) => reads.push(unit.same.number(*n)),
+            super::Use::ReadsAll(args) => reads.extend(args.of(&unit.args).iter().map(|n| unit.same.number(Num(*n)))),
+            _ => {}
+        });
+        for n in reads {
+            if steps.find(n).is_none() {
+                let at = steps.formula.step(Step::Input(input(n)));
+                steps.at.insert(n, at);
+            }
+        }
+        steps.op(op)?;
+        let gives = gives?;
+        given.push((gives, steps.find(gives)?));
+    }
+    Some((steps.formula, given))
+}
+
+/// The work on one formula.
+struct Steps<'u> {
+    unit: &'u Unit,
+    formula: Formula,
+    /// The step of each name.
+    at: BTreeMap<Num, At>,
+}
+
+impl Steps<'_> {
+    fn of(unit: &Unit) -> Steps<'_> {
+        Steps { unit, formula: Formula::default(), at: BTreeMap::new() }
+    }
+
+    fn find(&mut self, name: Num) -> Option<At> {
+        let name = self.unit.same.number(name);
+        if let Some(at) = self.at.get(&name) {
+            return Some(*at);
+        }
+        let at = self.formula.constant(self.unit.known(name)?);
+        self.at.insert(name, at);
+        Some(at)
+    }
+
+    fn op(&mut self, op: &Op) -> Option<()> {
+        let (name, at) = match *op {
+            Op::Load(name, field, index) => (name, self.formula.step(Step::Load(field, index))),
+            Op::Unary(name, op, a) => {
+                let a = self.find(a)?;
+                (name, self.formula.unary(op, a))
+            }
+            Op::Binary(name, op, a, b) => {
+                let (a, b) = (self.find(a)?, self.find(b)?);
+                (name, self.formula.binary(op, a, b))
+            }
+            Op::Select(name, test, a, b) => {
+                let (test, a, b) = (self.find(test)?, self.find(a)?, self.find(b)?);
+                (name, self.formula.select(test, a, b))
+            }
+            Op::Math(name, function, args) => {
+                let args = args.of(&self.unit.args).iter().map(|n| self.find(Num(*n))).collect::<Option<_>>()?;
+                (name, self.formula.math(function, args))
+            }
+            _ => return None,
+        };
+        self.at.insert(name, at);
+        Some(())
+    }
+
+    /// The parameters of a block.
+    fn params(&mut self, to: BlockId) -> Option<()> {
+        let unit = self.unit;
+        let Block { params, after, .. } = unit.blocks.get(to as usize)?;
+        for (i, param) in params.iter().enumerate() {
+            let Name::Number(name) = param else { return None };
+            let at = self.chosen(*after, to, i)?;
+            self.at.insert(*name, at);
+        }
+        Some(())
+    }
+
+    /// What a parameter of a block is, by the questions since the block that all ways to it passed last. Ways lead
+    /// forward, so from the last block on it is known what follows.
+    fn chosen(&mut self, after: BlockId, to: BlockId, param: usize) -> Option<At> {
+        let unit = self.unit;
+        let mut from: Vec<Option<At>> = vec![None; (to - after) as usize];
+        for at in (after..to).rev() {
+            let known = |from: &[Option<At>], block: BlockId| from.get((block - after) as usize).copied().flatten();
+            let follow = |steps: &mut Self, from: &[Option<At>], edge: &Edge| match edge.args.get(param) {
+                Some(Name::Number(name)) if edge.to == to => steps.find(*name),
+                _ if edge.to < to => known(from, edge.to),
+                _ => None,
+            };
+            let found = match &unit.blocks.get(at as usize)?.end {
+                End::Jump(edge) => follow(self, &from, edge),
+                End::If(when, test, edge) => {
+                    let (there, next) = (follow(self, &from, edge), known(&from, at + 1));
+                    match (there, next) {
+                        (Some(there), Some(next)) => {
+                            let (yes, no) = if *when { (there, next) } else { (next, there) };
+                            let test = self.find(*test)?;
+                            Some(self.formula.select(test, yes, no))
+                        }
+                        (one, other) => one.or(other),
+                    }
+                }
+                End::Return(Some(Name::Number(name))) if to as usize == unit.blocks.len() => self.find(*name),
+                End::Return(_) => None,
+                End::IfNothing(..) | End::Again(_) => return None,
+            };
+            if let Some(place) = from.get_mut((at - after) as usize) {
+                *place = found;
+            }
+        }
+        from.first().copied().flatten()
+    }
+}
