@@ -8,7 +8,7 @@ use labspec::lint::ModelFolder;
 use labspec::run::Session;
 use labspec::source::SourceFile;
 use labspec::spec::{Lab, load_lesson};
-use labspec_core::{Data, Demand, Model, xml};
+use labspec_core::{Data, Demand, Model, Plan, xml};
 use labspec_expr::{Compiler, Context, FieldKey, FunctionId, Globals, Heap, Host, Program, Recording, Value};
 use std::fmt::Write;
 use std::hint::black_box;
@@ -77,11 +77,21 @@ fn error_expression() -> Vec<(&'static str, f64)> {
         }),
     ));
 
+    let reads = &program.effects().reads;
+    let key = |name: &str| {
+        let field = labspec_core::reflect::field(labspec_core::reflect::Object::Data, name).expect("a field");
+        FieldKey(field.index() as u32)
+    };
+    let keys = [key("time"), key("qpos")];
+    assert_eq!(reads.len(), 2);
+
     let mut recording = Recording::new();
     let columnar = recording.columns(&program).expect("it computes with numbers");
-    let mut world = World { data: Data::new(&model), model: model.clone(), key: None };
+    let data = Data::planned(&model, Plan::full());
+    let mut world = World { data, model: model.clone(), key: None };
     for i in 0..SAMPLES {
-        (world.data.fields().qpos[2], world.data.fields().time) = at(i);
+        let (q, t) = at(i);
+        world.set(keys[1], 2, q).and_then(|()| world.set(keys[0], 0, t)).expect("both may be set");
         recording.sample(&world);
     }
     let (mut scratch, mut out) = (Vec::new(), vec![0.0; SAMPLES]);
@@ -91,13 +101,6 @@ fn error_expression() -> Vec<(&'static str, f64)> {
     });
     rows.push(("columnar, per sample", whole / SAMPLES as f64));
 
-    let reads = &program.effects().reads;
-    let key = |name: &str| {
-        let field = labspec_core::reflect::field(labspec_core::reflect::Object::Data, name).expect("a field");
-        FieldKey(u32::from(field.0))
-    };
-    let keys = [key("time"), key("qpos")];
-    assert_eq!(reads.len(), 2);
     let mut small = Small { time: 0.0, qpos: [0.0; 7], keys };
     let mut context = Context::new();
     rows.push((
@@ -109,9 +112,19 @@ fn error_expression() -> Vec<(&'static str, f64)> {
     ));
     rows.push((
         "by row, in the engine",
+        time(n, |_| {
+            let _ = black_box(program.run(black_box(&mut world), &mut context, None));
+        }),
+    ));
+
+    // An array whose length changes while running is not for formulas.
+    let load = self::program(&model, "data.efc_force[0]");
+    let mut context = Context::new();
+    rows.push((
+        "one load, through the machine",
         time(n, |i| {
-            (world.data.fields().qpos[2], world.data.fields().time) = at(i);
-            let _ = black_box(program.run(&mut world, &mut context, None));
+            small.qpos[0] = at(i).0;
+            let _ = black_box(load.run(&mut small, &mut context, None));
         }),
     ));
 
@@ -175,7 +188,7 @@ fn corpus() -> Vec<(String, Lab, Arc<Model>)> {
         for file in files {
             let Ok(source) = SourceFile::read(&file) else { continue };
             let lesson = load_lesson(source, &folder);
-            let mut models = Models::new(folder.clone());
+            let models = Models::new(folder.clone());
             for lab in lesson.all_labs() {
                 if let Some(model) = models.of(lab, &mut Vec::new()) {
                     let title = if lab.title().is_empty() { "(without a title)" } else { lab.title() };
