@@ -46,6 +46,20 @@ impl BinaryOp {
             BinaryOp::Subtract => a - b,
             BinaryOp::Multiply => a * b,
             BinaryOp::Divide => a / b,
+            BinaryOp::Less => truth(a < b),
+            BinaryOp::LessEqual => truth(a <= b),
+            BinaryOp::Greater => truth(a > b),
+            BinaryOp::GreaterEqual => truth(a >= b),
+            BinaryOp::Equal | BinaryOp::StrictEqual => truth(a == b),
+            BinaryOp::NotEqual | BinaryOp::StrictNotEqual => truth(a != b),
+            _ => self.on_numbers_seldom(a, b),
+        }
+    }
+
+    /// The rest, in a place of its own: what runs often stays short.
+    #[inline(never)]
+    fn on_numbers_seldom(self, a: f64, b: f64) -> f64 {
+        match self {
             // Rust's remainder has the sign of the dividend, as JavaScript's.
             BinaryOp::Remainder => a % b,
             BinaryOp::Power => crate::math::pow(a, b),
@@ -56,12 +70,7 @@ impl BinaryOp {
             BinaryOp::ShiftLeft => f64::from(to_int32(a).wrapping_shl(to_int32(b) as u32)),
             BinaryOp::ShiftRight => f64::from(to_int32(a).wrapping_shr(to_int32(b) as u32)),
             BinaryOp::ShiftRightUnsigned => f64::from((to_int32(a) as u32).wrapping_shr(to_int32(b) as u32)),
-            BinaryOp::Less => truth(a < b),
-            BinaryOp::LessEqual => truth(a <= b),
-            BinaryOp::Greater => truth(a > b),
-            BinaryOp::GreaterEqual => truth(a >= b),
-            BinaryOp::Equal | BinaryOp::StrictEqual => truth(a == b),
-            BinaryOp::NotEqual | BinaryOp::StrictNotEqual => truth(a != b),
+            _ => self.on_numbers(a, b),
         }
     }
 }

@@ -206,10 +206,10 @@ impl Context {
         true
     }
 
-    /// Collects what neither a variable nor one of these values refers to.
-    pub(crate) fn collect(&mut self, values: &[Value]) {
-        let Context { heap, globals, unnamed, .. } = self;
-        heap.collect(globals.iter().chain(unnamed.values()).chain(values));
+    /// Collects what neither a variable nor a register nor the input refers to.
+    pub(crate) fn collect(&mut self, input: Option<&Value>) {
+        let Context { heap, globals, unnamed, values, .. } = self;
+        heap.collect(globals.iter().chain(unnamed.values()).chain(&*values).chain(input));
     }
 
     /// A `ctx` variable.

@@ -65,7 +65,9 @@ impl Op {
     /// The registers that it reads, of those that it names itself.
     fn reads(self) -> [Option<u8>; 2] {
         match self {
-            Op::Take(r) | Op::Add(r) | Op::Subtract(r) | Op::SubtractFrom(r) | Op::Multiply(r) => [Some(r), None],
+            Op::Take(r) | Op::Add(r) | Op::Subtract(r) | Op::SubtractFrom(r) | Op::Multiply(r) => {
+                [Some(r), None]
+            }
             Op::Divide(r) | Op::DivideInto(r) | Op::Binary(_, r) => [Some(r), None],
             Op::Round(_, r) | Op::Two(_, r) => [Some(r), None],
             Op::Select(yes, no) => [Some(yes), Some(no)],
@@ -126,7 +128,9 @@ impl Row {
         let mut homes = Vec::with_capacity(formula.steps.len());
         for (at, step) in (0..).zip(&formula.steps) {
             let home = match step {
-                Step::Load(field, index) => u8::try_from(elements.binary_search(&(*field, *index)).ok()?).ok(),
+                Step::Load(field, index) => {
+                    u8::try_from(elements.binary_search(&(*field, *index)).ok()?).ok()
+                }
                 Step::Input(register) => u8::try_from(*register).ok(),
                 _ => match wanted.iter().find(|w| w.step == at && w.at_once) {
                     Some(wanted) => Some(wanted.register),
@@ -160,12 +164,20 @@ impl Row {
     fn begin(&mut self) -> u8 {
         let first = self.ops.iter().position(|op| !matches!(op, Op::Put(..)));
         match first.and_then(|at| Some((at, *self.ops.get(at)?))) {
-            Some((at, Op::Take(r))) if !self.ops.iter().any(|op| matches!(op, Op::Put(put, _) if *put == r)) => {
+            Some((at, Op::Take(r)))
+                if !self.ops.iter().any(|op| matches!(op, Op::Put(put, _) if *put == r)) =>
+            {
                 self.ops.remove(at);
                 r
             }
             _ => 0,
         }
+    }
+
+    /// Registers up to the last that it changes.
+    pub(crate) fn registers(&self) -> u32 {
+        let kept = |op: &Op| if let Op::Keep(r) | Op::Put(r, _) = *op { u32::from(r) + 1 } else { 0 };
+        self.ops.iter().map(kept).max().unwrap_or(0)
     }
 
     /// The value now; `None` when an element does not exist.

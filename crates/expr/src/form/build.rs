@@ -68,6 +68,11 @@ impl<'t> Build<'t> {
             chains: Vec::new(),
             site: None,
         };
+        // Room for a text of usual length.
+        build.unit.ops.reserve(32);
+        build.unit.spans.reserve(32);
+        build.unit.same.numbers.reserve(64);
+        build.unit.same.values.reserve(32);
         // The first names are for what the function gives.
         build.new_number();
         build.new_value();
@@ -79,7 +84,8 @@ impl<'t> Build<'t> {
         self.unit.result = unit.result.map_or(Slot::Value, Slot::of);
         self.unit.params = unit.params.iter().map(|p| self.slot(*p)).collect();
         self.unit.captures = unit.captures.iter().map(|c| self.slot(*c)).collect();
-        let given: Vec<(LocalId, At)> = unit.params.iter().chain(&unit.captures).map(|&l| (l, self.given(l))).collect();
+        let given: Vec<(LocalId, At)> =
+            unit.params.iter().chain(&unit.captures).map(|&l| (l, self.given(l))).collect();
         for (i, (local, at)) in given.into_iter().enumerate() {
             let at = match at {
                 // What is captured is the shared place already.
@@ -328,6 +334,10 @@ impl<'t> Build<'t> {
             (_, Type::Boolean) => {
                 let src = self.number(ir);
                 self.boxed(src, Slot::Boolean, span)
+            }
+            (Kind::Load(view, Index::At(i)), _) if view.count().is_none_or(|n| *i < n) => {
+                let index = u32::try_from(*i).unwrap_or(u32::MAX);
+                self.value_of(span, |dst| Op::LoadValue(dst, *view, index))
             }
             (Kind::Load(view, index), _) => {
                 let index = self.index(index);

@@ -178,7 +178,9 @@ impl Build<'_> {
 
     fn edge(&mut self, from: BlockId) -> Option<&mut Edge> {
         match &mut self.unit.blocks.get_mut(from as usize)?.end {
-            End::Jump(edge) | End::If(_, _, edge) | End::IfNothing(_, _, edge) | End::Again(edge) => Some(edge),
+            End::Jump(edge) | End::If(_, _, edge) | End::IfNothing(_, _, edge) | End::Again(edge) => {
+                Some(edge)
+            }
             End::Return(_) => None,
         }
     }
@@ -202,7 +204,8 @@ impl Build<'_> {
         locals.sort_unstable();
         locals.dedup();
         for local in locals {
-            let held = |way: &Way| way.stored.binary_search_by_key(&local, |s| s.0).ok().map(|i| way.stored[i].1);
+            let held =
+                |way: &Way| way.stored.binary_search_by_key(&local, |s| s.0).ok().map(|i| way.stored[i].1);
             let held: Vec<Option<At>> = ways.iter().map(held).collect();
             let before = if held.contains(&None) { self.find(local) } else { None };
             let held: Option<Vec<At>> = held.into_iter().map(|at| at.or(before)).collect();
@@ -359,8 +362,10 @@ impl Build<'_> {
         for (local, param, ..) in &kept {
             self.write(*local, *param);
             // Ways that lead further out pass its start too.
-            let returns = self.inlines.last_mut().into_iter().flat_map(|e| e.exits.iter_mut().skip(level.returns.0));
-            let chains = self.chains.last_mut().into_iter().flat_map(|e| e.exits.iter_mut().skip(level.returns.1));
+            let returns =
+                self.inlines.last_mut().into_iter().flat_map(|e| e.exits.iter_mut().skip(level.returns.0));
+            let chains =
+                self.chains.last_mut().into_iter().flat_map(|e| e.exits.iter_mut().skip(level.returns.1));
             for way in returns.chain(chains) {
                 if let Err(at) = way.stored.binary_search_by_key(local, |s| s.0) {
                     way.stored.insert(at, (*local, *param));

@@ -34,6 +34,7 @@ impl Args {
 pub(crate) enum Op {
     Load(Num, FieldKey, u32),
     LoadAt(Num, View, Num),
+    LoadValue(Val, View, u32),
     LoadValueAt(Val, View, Num),
     Length(Num, View),
     Input(Val),
@@ -112,8 +113,8 @@ pub(crate) enum Op {
     JumpIf(bool, Num, u32),
     /// When the value is `undefined` or `null`, or is not.
     JumpIfNothing(bool, Val, u32),
-    /// Back to the start of a loop; counts as a step.
-    Again(u32),
+    /// Back to the start of a loop, with what a turn costs.
+    Again(u32, u32),
     Return,
 }
 
@@ -134,7 +135,7 @@ impl Op {
         match self {
             Op::Load(d, ..) | Op::Length(d, _) | Op::Aggregate(d, _) => f(Gives(d)),
             Op::GlobalNumber(d, _) | Op::TakeNumber(d) => f(Gives(d)),
-            Op::Input(d) | Op::Global(d, _) | Op::TakeValue(d) => f(GivesValue(d)),
+            Op::Input(d) | Op::Global(d, _) | Op::LoadValue(d, ..) | Op::TakeValue(d) => f(GivesValue(d)),
             Op::EmptyCell(d) | Op::NewRecord(d) => f(GivesValue(d)),
             Op::LoadAt(d, _, a) | Op::Unary(d, _, a) | Op::Move(d, a) => {
                 f(Gives(d));
@@ -231,7 +232,7 @@ impl Op {
                 f(ReadsValue(b));
                 f(ReadsValue(c));
             }
-            Op::Call(_) | Op::Formula(_) | Op::Jump(_) | Op::Again(_) | Op::Return => {}
+            Op::Call(_) | Op::Formula(_) | Op::Jump(_) | Op::Again(..) | Op::Return => {}
         }
     }
 

@@ -27,7 +27,11 @@ pub(crate) fn whole(unit: &Unit) -> Option<Formula> {
 }
 
 /// The formula of numeric operations that follow each other, with the step of every number that they give.
-pub(crate) fn stretch(unit: &Unit, ops: &[Op], mut input: impl FnMut(Num) -> u32) -> Option<(Formula, Vec<(Num, At)>)> {
+pub(crate) fn stretch(
+    unit: &Unit,
+    ops: &[Op],
+    mut input: impl FnMut(Num) -> u32,
+) -> Option<(Formula, Vec<(Num, At)>)> {
     let mut steps = Steps::of(unit);
     let mut given = Vec::with_capacity(ops.len());
     for op in ops {
@@ -37,7 +41,9 @@ pub(crate) fn stretch(unit: &Unit, ops: &[Op], mut input: impl FnMut(Num) -> u32
         copy.each(&mut |u| match u {
             super::Use::Gives(n) => gives = Some(*n),
             super::Use::Reads(n) => reads.push(unit.same.number(*n)),
-            super::Use::ReadsAll(args) => reads.extend(args.of(&unit.args).iter().map(|n| unit.same.number(Num(*n)))),
+            super::Use::ReadsAll(args) => {
+                reads.extend(args.of(&unit.args).iter().map(|n| unit.same.number(Num(*n))))
+            }
             _ => {}
         });
         for n in reads {
@@ -92,7 +98,8 @@ impl Steps<'_> {
                 (name, self.formula.select(test, a, b))
             }
             Op::Math(name, function, args) => {
-                let args = args.of(&self.unit.args).iter().map(|n| self.find(Num(*n))).collect::<Option<_>>()?;
+                let args =
+                    args.of(&self.unit.args).iter().map(|n| self.find(Num(*n))).collect::<Option<_>>()?;
                 (name, self.formula.math(function, args))
             }
             _ => return None,
@@ -119,7 +126,8 @@ impl Steps<'_> {
         let unit = self.unit;
         let mut from: Vec<Option<At>> = vec![None; (to - after) as usize];
         for at in (after..to).rev() {
-            let known = |from: &[Option<At>], block: BlockId| from.get((block - after) as usize).copied().flatten();
+            let known =
+                |from: &[Option<At>], block: BlockId| from.get((block - after) as usize).copied().flatten();
             let follow = |steps: &mut Self, from: &[Option<At>], edge: &Edge| match edge.args.get(param) {
                 Some(Name::Number(name)) if edge.to == to => steps.find(*name),
                 _ if edge.to < to => known(from, edge.to),

@@ -29,11 +29,13 @@ pub(crate) struct CodeUnit {
     pub(crate) spans: Vec<Span>,
     /// Lists of registers.
     pub(crate) args: Vec<u32>,
-    /// Numbers that are computed together.
-    pub(crate) formulas: Vec<Row>,
+    /// Numbers that are computed together, with how many operations each formula is.
+    pub(crate) formulas: Vec<(Row, u32)>,
     /// Constants and the registers that hold them.
     pub(crate) numbers: Vec<(Num, f64)>,
     pub(crate) values: Vec<(Val, Value)>,
+    /// What running it once costs, without the turns of its loops.
+    pub(crate) cost: u64,
     /// Registers used.
     pub(crate) number_count: u32,
     pub(crate) value_count: u32,
@@ -47,12 +49,5 @@ impl Code {
     pub(crate) fn of(form: Form) -> Code {
         let units = form.units.into_iter().map(super::emit::unit).collect();
         Code { units, texts: form.texts, picks: form.picks, views: form.views }
-    }
-}
-
-impl CodeUnit {
-    /// What running it once costs, without the turns of its loops.
-    pub(crate) fn cost(&self) -> u64 {
-        super::OPERATION * (self.ops.len() + self.numbers.len() + self.values.len()) as u64
     }
 }

@@ -3,16 +3,25 @@
 
 use std::collections::BTreeMap;
 
+use super::OPERATION;
 use super::code::CodeUnit;
 use crate::Span;
-use crate::form::{Args, At, BlockId, Edge, End, Num, Op, Slot, Unit, Use, Val};
+use crate::form::{Args, At, BlockId, Edge, End, Num, Op, Slot, Unit, Use, Val, pure};
+use crate::row::{Row, Wanted};
 use crate::value::Value;
+
+/// Numeric operations in a row from which on a formula is faster, as measured.
+const WORTH: usize = 3;
+/// Most operations of one formula, so that a byte can name its registers.
+const MOST: usize = 64;
 
 /// The code of a function.
 pub(super) fn unit(form: Unit) -> CodeUnit {
     let (numbers, values) = (File::of(form.same.numbers.len()), File::of(form.same.values.len()));
     let (kept, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
-    let mut emit = Emit { form, code: CodeUnit::default(), numbers, values, kept, starts, jumps: Vec::new() };
+    let (ops, spans) = (Vec::with_capacity(form.ops.len() + 8), Vec::with_capacity(form.ops.len() + 8));
+    let code = CodeUnit { ops, spans, ..CodeUnit::default() };
+    let mut emit = Emit { form, code, numbers, values, kept, starts, jumps: Vec::new() };
     emit.count_uses();
     emit.first_registers();
     for block in 0..emit.form.blocks.len() as u32 {
@@ -106,7 +115,9 @@ impl Emit {
                 }
             }
             for i in form.range(at).rev() {
-                let (Some(mut op), Some(keep)) = (form.ops.get(i).copied(), kept.get_mut(i)) else { continue };
+                let (Some(mut op), Some(keep)) = (form.ops.get(i).copied(), kept.get_mut(i)) else {
+                    continue;
+                };
                 let mut needed = !op.is_pure();
                 op.each(&mut |u| match u {
                     Use::Gives(n) => needed |= numbers.uses(n.0) > 0,
@@ -132,23 +143,13 @@ impl Emit {
         }
     }
 
-    /// The result, what is handed over, and constants.
+    /// What is handed over.
     fn first_registers(&mut self) {
         for slot in self.form.params.iter().chain(&self.form.captures) {
             match slot {
                 Slot::Value => self.values.register(self.values.count),
                 _ => self.numbers.register(self.numbers.count),
             };
-        }
-        for (name, x) in std::mem::take(&mut self.form.numbers) {
-            if self.numbers.uses(name.0) > 0 {
-                self.code.numbers.push((Num(self.numbers.register(name.0)), x));
-            }
-        }
-        for (name, value) in std::mem::take(&mut self.form.values) {
-            if self.values.uses(name.0) > 0 {
-                self.code.values.push((Val(self.values.register(name.0)), value));
-            }
         }
     }
 
@@ -177,12 +178,71 @@ impl Emit {
             *start = Some(self.code.ops.len() as u32);
         }
         self.settle(at, &end);
-        for i in self.form.range(at) {
-            if self.kept.get(i) == Some(&true) {
-                self.op(i);
+        let range = self.form.range(at);
+        let (mut i, end_of_block) = (range.start, range.end);
+        while i < end_of_block {
+            let numeric = |i: &usize| self.form.ops.get(*i).is_some_and(Op::is_numeric);
+            let stop =
+                (i..end_of_block.min(i + MOST)).find(|i| !numeric(i)).unwrap_or(end_of_block.min(i + MOST));
+            if !self.formula(i, stop) {
+                (i..stop.max(i + 1)).for_each(|i| self.op(i));
             }
+            i = stop.max(i + 1);
         }
         self.end(at, &end, span);
+    }
+
+    /// Numeric operations that follow each other, as one formula, where that is worth it; whether it was.
+    fn formula(&mut self, first: usize, stop: usize) -> bool {
+        let kept = (first..stop).filter(|i| self.kept.get(*i) == Some(&true));
+        let ops: Vec<Op> = kept.filter_map(|i| self.form.ops.get(i).copied()).collect();
+        if ops.len() < WORTH {
+            return false;
+        }
+        let count = ops.len() as u32;
+        let Emit { form, numbers, code, .. } = self;
+        let mut inputs = Vec::new();
+        let input = |n: Num| {
+            let register = numbers.register(n.0);
+            inputs.push(register);
+            register
+        };
+        let Some((mut formula, given)) = pure::stretch(form, &ops, input) else { return false };
+        // What is used by more than the operations themselves.
+        let mut left: BTreeMap<u32, u32> = given.iter().map(|(n, _)| (n.0, numbers.uses(n.0))).collect();
+        for mut op in ops {
+            let mut use_up = |n: Num| {
+                if let Some(left) = left.get_mut(&form.same.number(n).0) {
+                    *left -= 1;
+                }
+            };
+            op.each(&mut |u| match u {
+                Use::Reads(n) => use_up(*n),
+                Use::ReadsAll(args) => args.of(&form.args).iter().for_each(|n| use_up(Num(*n))),
+                _ => {}
+            });
+        }
+        let outer: Vec<(Num, u32)> =
+            given.into_iter().filter(|(n, _)| left.get(&n.0).is_some_and(|left| *left > 0)).collect();
+        let mut steps: Vec<u32> = outer.iter().map(|(_, step)| *step).collect();
+        formula.finish(&mut steps);
+        let mut wanted = Vec::with_capacity(outer.len());
+        for ((name, _), step) in outer.iter().zip(&steps) {
+            let register = numbers.register(name.0);
+            let Ok(register) = u8::try_from(register) else { return false };
+            let at_once = !inputs.contains(&u32::from(register));
+            wanted.push(Wanted { step: *step, register, at_once });
+        }
+        // What is kept only within the formula stands behind the registers that are known so far.
+        let free =
+            (numbers.count..numbers.count + formula.steps.len() as u32).map_while(|r| u8::try_from(r).ok());
+        let Some(row) = Row::part(&formula, &wanted, free) else { return false };
+        numbers.count = numbers.count.max(row.registers());
+        let at = code.formulas.len() as u32;
+        code.formulas.push((row, count));
+        let span = self.form.spans.get(first).copied().unwrap_or_default();
+        self.push(Op::Formula(at), span);
+        true
     }
 
     /// Lets operations of a block put their results where its end wants them.
@@ -199,7 +259,8 @@ impl Emit {
         }
         let again = matches!(end, End::Again(_));
         // From the last operation on: what was read behind an operation must still stand where it stood.
-        let mut read: Vec<At> = if again { wanted.iter().map(|(_, from)| *from).collect() } else { Vec::new() };
+        let mut read: Vec<At> =
+            if again { wanted.iter().map(|(_, from)| *from).collect() } else { Vec::new() };
         for i in self.form.range(at).rev() {
             if self.kept.get(i) != Some(&true) {
                 continue;
@@ -256,7 +317,12 @@ impl Emit {
     }
 
     fn op(&mut self, i: usize) {
-        let (Some(mut op), Some(&span)) = (self.form.ops.get(i).copied(), self.form.spans.get(i)) else { return };
+        if self.kept.get(i) != Some(&true) {
+            return;
+        }
+        let (Some(mut op), Some(&span)) = (self.form.ops.get(i).copied(), self.form.spans.get(i)) else {
+            return;
+        };
         let Emit { form, numbers, values, code, .. } = self;
         // Operands first: the result may take the place of one.
         let mut list = |args: Args, name: &mut dyn FnMut(u32) -> u32| {
@@ -285,7 +351,7 @@ impl Emit {
             let jump = match end {
                 End::If(when, test, _) => Op::JumpIf(*when, self.number(*test), 0),
                 End::IfNothing(when, value, _) => Op::JumpIfNothing(*when, self.value(*value), 0),
-                End::Again(_) => Op::Again(0),
+                End::Again(_) => Op::Again(0, 0),
                 _ => Op::Jump(0),
             };
             let reach = |starts: &mut Vec<Option<u32>>, block: BlockId| {
@@ -350,13 +416,34 @@ impl Emit {
     fn finish(mut self) -> CodeUnit {
         for (jump, to) in &self.jumps {
             let here = self.starts.get(*to as usize).copied().flatten().unwrap_or_default();
-            if let Some(Op::Jump(to) | Op::JumpIf(_, _, to) | Op::JumpIfNothing(_, _, to) | Op::Again(to)) =
-                self.code.ops.get_mut(*jump)
+            if let Some(
+                Op::Jump(to) | Op::JumpIf(_, _, to) | Op::JumpIfNothing(_, _, to) | Op::Again(to, _),
+            ) = self.code.ops.get_mut(*jump)
             {
                 *to = here;
             }
         }
         let Emit { form, mut code, numbers, values, .. } = self;
+        // Constants stand in registers where something else than a formula reads them.
+        let register = |file: &File, name: u32| file.registers.get(name as usize).copied().flatten();
+        let constants = form.numbers.iter().filter_map(|(n, x)| Some((Num(register(&numbers, n.0)?), *x)));
+        code.numbers.extend(constants);
+        let constants = form.values.into_iter().filter_map(|(v, x)| Some((Val(register(&values, v.0)?), x)));
+        code.values.extend(constants);
+        // The cost of everything before each operation; a formula costs what is in it.
+        let mut costs = vec![0];
+        for op in &code.ops {
+            let formula = |f: u32| code.formulas.get(f as usize).map_or(1, |(_, count)| u64::from(*count));
+            let cost = if let Op::Formula(f) = op { formula(*f) } else { 1 };
+            costs.push(costs.last().copied().unwrap_or(0) + OPERATION * cost);
+        }
+        let before = |at: usize| costs.get(at).copied().unwrap_or(0);
+        for (at, op) in code.ops.iter_mut().enumerate() {
+            if let Op::Again(to, cost) = op {
+                *cost = u32::try_from(before(at + 1) - before(*to as usize)).unwrap_or(u32::MAX);
+            }
+        }
+        code.cost = before(code.ops.len()) + OPERATION * (code.numbers.len() + code.values.len()) as u64;
         (code.number_count, code.value_count) = (numbers.count, values.count);
         (code.params, code.captures, code.result) = (form.params, form.captures, form.result);
         code
@@ -374,6 +461,9 @@ fn edge(end: &End) -> Option<&Edge> {
 /// register (Boissinot et al., "Revisiting out-of-SSA translation for correctness, code quality and efficiency", 2009).
 fn in_order(mut moves: Vec<(u32, u32)>, count: &mut u32) -> Vec<(u32, u32)> {
     moves.retain(|(to, from)| to != from);
+    if moves.len() < 2 {
+        return moves;
+    }
     let mut left: BTreeMap<u32, u32> = moves.iter().copied().collect();
     let mut readers = BTreeMap::new();
     moves.iter().for_each(|(_, from)| *readers.entry(*from).or_insert(0u32) += 1);

@@ -17,9 +17,10 @@ use crate::form::{Num, Op, Slot, Val};
 use crate::heap::{MAX_TEXT, Object};
 use crate::natives::{self, Env, Trouble};
 use crate::number;
-use crate::operation::{known_operator, select, truth, truthy};
+use crate::operation::{select, truth, truthy};
 use crate::operators::BinaryOp;
 use crate::program::{Context, EventKind, Host, RuntimeError, RuntimeEvent};
+use crate::row::REGISTERS;
 use crate::rules;
 use crate::schema::FieldKey;
 use crate::value::{Value, View};
@@ -45,19 +46,31 @@ pub(crate) fn run(
 ) -> Result<Value, RuntimeError> {
     context.events.clear();
     if context.heap.wants_collection() {
-        context.collect(&[]);
+        // What the last run left in registers is of no use any more.
+        context.values.clear();
+        context.collect(input);
     }
-    // Registers are taken out while running, so that the rest of the context stays usable.
-    let numbers = std::mem::take(&mut context.numbers);
-    let values = std::mem::take(&mut context.values);
     let budget = context.allowed.map_or(MAX_WORK, |left| left.min(MAX_WORK));
-    let mut machine = Machine { host, context, input, numbers, values, budget, depth: 0, of_host: 0 };
-    let result = machine.whole(code);
-    let Machine { numbers, values, budget: left, of_host, .. } = machine;
+    let mut machine = Machine { host, context, input, budget, depth: 0, of_host: 0 };
+    let done = machine.whole(code);
+    let Machine { context, budget: left, of_host, .. } = machine;
     context.work += budget.saturating_sub(left).saturating_sub(of_host);
-    context.numbers = numbers;
-    context.values = values;
-    result
+    match done {
+        Ok(slot) => Ok(taken(slot, context.numbers.first(), context.values.first())),
+        Err(error) => Err(*error),
+    }
+}
+
+/// What a function left in its first registers as its result. Made where it is wanted: to hand a value on is slow.
+#[inline(always)]
+fn taken(slot: Slot, number: Option<&f64>, value: Option<&Value>) -> Value {
+    let x = number.copied().unwrap_or(f64::NAN);
+    match (slot, value) {
+        (Slot::Number, _) => Value::Number(x),
+        (Slot::Boolean, _) => Value::Boolean(x != 0.0),
+        (Slot::Value, Some(Value::Number(x))) => Value::Number(*x),
+        (Slot::Value, value) => value.cloned().unwrap_or_default(),
+    }
 }
 
 /// Where the registers of a function start.
@@ -72,8 +85,6 @@ struct Machine<'a> {
     host: &'a mut dyn Host,
     context: &'a mut Context,
     input: Option<&'a Value>,
-    numbers: Vec<f64>,
-    values: Vec<Value>,
     /// Work that may still be done.
     budget: u64,
     depth: usize,
@@ -85,53 +96,46 @@ struct Machine<'a> {
 type Failed = Result<(), Box<RuntimeError>>;
 
 impl Machine<'_> {
-    fn whole(&mut self, code: &Arc<Code>) -> Result<Value, RuntimeError> {
-        let Some(unit) = code.units.first() else { return Ok(Value::Undefined) };
+    /// Runs the text itself; gives how it left its result.
+    #[inline]
+    fn whole(&mut self, code: &Arc<Code>) -> Result<Slot, Box<RuntimeError>> {
+        let Some(unit) = code.units.first() else { return Ok(Slot::Value) };
         let frame = Frame { n: 0, v: 0 };
         self.make_room(unit, frame);
-        self.budget = self.budget.saturating_sub(unit.cost());
-        self.execute(code, unit, frame).map_err(|e| *e)?;
-        Ok(self.taken(unit.result, frame))
-    }
-
-    /// What a function left as its result.
-    fn taken(&self, slot: Slot, frame: Frame) -> Value {
-        match slot {
-            Slot::Number => Value::Number(self.num(frame, Num(0))),
-            Slot::Boolean => Value::Boolean(self.num(frame, Num(0)) != 0.0),
-            Slot::Value => self.val(frame, Val(0)).clone(),
-        }
+        self.budget = self.budget.saturating_sub(unit.cost);
+        self.execute(code, unit, frame)?;
+        Ok(unit.result)
     }
 
     fn make_room(&mut self, unit: &CodeUnit, frame: Frame) {
-        let numbers = frame.n + unit.number_count as usize + HANDED;
-        if self.numbers.len() < numbers {
-            self.numbers.resize(numbers, 0.0);
+        let numbers = frame.n + (unit.number_count as usize + HANDED).max(REGISTERS);
+        if self.context.numbers.len() < numbers {
+            self.context.numbers.resize(numbers, 0.0);
         }
         let values = frame.v + unit.value_count as usize + HANDED;
-        if self.values.len() < values {
-            self.values.resize(values, Value::Undefined);
+        if self.context.values.len() < values {
+            self.context.values.resize(values, Value::Undefined);
         }
     }
 
     #[inline]
     fn num(&self, f: Frame, register: Num) -> f64 {
-        self.numbers[f.n + register.0 as usize]
+        self.context.numbers[f.n + register.0 as usize]
     }
 
     #[inline]
     fn val(&self, f: Frame, register: Val) -> &Value {
-        &self.values[f.v + register.0 as usize]
+        &self.context.values[f.v + register.0 as usize]
     }
 
     #[inline]
     fn put(&mut self, f: Frame, register: Num, x: f64) {
-        self.numbers[f.n + register.0 as usize] = x;
+        self.context.numbers[f.n + register.0 as usize] = x;
     }
 
     #[inline]
     fn put_value(&mut self, f: Frame, register: Val, value: Value) {
-        self.values[f.v + register.0 as usize] = value;
+        self.context.values[f.v + register.0 as usize] = value;
     }
 
     /// Runs a function whose parameters stand in their registers.
@@ -157,8 +161,8 @@ impl Machine<'_> {
                         at = to as usize;
                     }
                 }
-                Op::Again(to) => {
-                    let turn = OPERATION * (at as u64).saturating_sub(u64::from(to));
+                Op::Again(to, turn) => {
+                    let turn = u64::from(turn);
                     if self.budget < turn {
                         self.budget = 0;
                         return Err(failure(natives::out_of_steps(), unit, at - 1));
@@ -180,10 +184,26 @@ impl Machine<'_> {
                     let x = self.element(view, self.num(f, index), unit, at - 1).unwrap_or(f64::NAN);
                     self.put(f, dst, x);
                 }
+                Op::LoadValue(dst, view, index) => {
+                    let place = (view.first as usize).saturating_add(index as usize);
+                    match self.host.get(view.field, place) {
+                        Some(x) => self.put_value(f, dst, Value::Number(x)),
+                        None => {
+                            self.note(EventKind::ReadPastEnd, unit, at - 1, view, f64::from(index));
+                            self.put_value(f, dst, Value::Undefined);
+                        }
+                    }
+                }
+                Op::LoadValueAt(dst, view, index) => {
+                    match self.element(view, self.num(f, index), unit, at - 1) {
+                        Some(x) => self.put_value(f, dst, Value::Number(x)),
+                        None => self.put_value(f, dst, Value::Undefined),
+                    }
+                }
+                Op::BoxNumber(dst, src) => self.put_value(f, dst, Value::Number(self.num(f, src))),
                 Op::Binary(dst, op, a, b) => {
                     let (a, b) = (self.num(f, a), self.num(f, b));
-                    let x = known_operator!(op, |op: BinaryOp| op.on_numbers(a, b));
-                    self.put(f, dst, x);
+                    self.put(f, dst, op.on_numbers(a, b));
                 }
                 Op::Unary(dst, op, a) => self.put(f, dst, op.on_number(self.num(f, a))),
                 Op::Select(dst, test, a, b) => {
@@ -192,24 +212,33 @@ impl Machine<'_> {
                 Op::Move(dst, src) => self.put(f, dst, self.num(f, src)),
                 Op::Math(dst, function, args) => {
                     let args = args.of(&unit.args);
-                    let numbers = self.numbers.get(f.n..).unwrap_or(&[]);
+                    let numbers = self.context.numbers.get(f.n..).unwrap_or(&[]);
                     self.put(f, dst, function.apply_to(args.len(), |i| numbers[args[i] as usize]));
+                }
+                Op::Formula(formula) => {
+                    // `emit` makes a formula only of registers that a byte can name, and there is room for them.
+                    let registers = self.context.numbers.get_mut(f.n..).and_then(<[f64]>::first_chunk_mut);
+                    if let (Some((formula, _)), Some(registers)) =
+                        (unit.formulas.get(formula as usize), registers)
+                    {
+                        formula.run(registers);
+                    }
                 }
                 Op::PassNumber(k, src) => {
                     let x = self.num(f, src);
-                    self.numbers[f.n + (unit.number_count + k) as usize] = x;
+                    self.context.numbers[f.n + (unit.number_count + k) as usize] = x;
                 }
                 Op::PassValue(k, src) => {
                     let value = self.val(f, src).clone();
-                    self.values[f.v + (unit.value_count + k) as usize] = value;
+                    self.context.values[f.v + (unit.value_count + k) as usize] = value;
                 }
                 Op::Call(callee) => self.call(code, callee, unit, f, at - 1)?,
                 Op::TakeNumber(dst) => {
-                    let x = self.numbers[f.n + unit.number_count as usize];
+                    let x = self.context.numbers[f.n + unit.number_count as usize];
                     self.put(f, dst, x);
                 }
                 Op::TakeValue(dst) => {
-                    let value = std::mem::take(&mut self.values[f.v + unit.value_count as usize]);
+                    let value = std::mem::take(&mut self.context.values[f.v + unit.value_count as usize]);
                     self.put_value(f, dst, value);
                 }
                 _ => {
@@ -245,7 +274,7 @@ impl Machine<'_> {
                 format!("functions call each other more than {MAX_CALLS} times, one inside the other");
             return Err(Trouble::new(rules::CALL_DEPTH, message));
         }
-        self.charge(callee.cost())?;
+        self.charge(callee.cost)?;
         self.depth += 1;
         Ok(())
     }
@@ -263,22 +292,14 @@ impl Machine<'_> {
     /// Collects what no register and no variable refers to any more.
     fn tidy(&mut self) {
         if self.context.heap.wants_collection() {
-            let input = self.input.cloned();
-            self.values.extend(input);
-            self.context.collect(&self.values);
-            if self.input.is_some() {
-                self.values.pop();
-            }
+            self.context.collect(self.input);
         }
     }
 
     /// Everything but jumps, calls and plain arithmetic.
+    #[inline(never)]
     fn step(&mut self, op: Op, code: &Arc<Code>, unit: &CodeUnit, f: Frame, at: usize) -> Result<(), Stop> {
         match op {
-            Op::LoadValueAt(dst, view, index) => {
-                let x = self.element(view, self.num(f, index), unit, at);
-                self.put_value(f, dst, x.map_or(Value::Undefined, Value::Number));
-            }
             Op::Length(dst, view) => self.put(f, dst, self.length(view) as f64),
             Op::Input(dst) => self.put_value(f, dst, self.input.cloned().unwrap_or_default()),
             Op::Global(dst, slot) => self.put_value(f, dst, self.context.get(slot).clone()),
@@ -297,7 +318,6 @@ impl Machine<'_> {
             }
 
             Op::MoveValue(dst, src) => self.put_value(f, dst, self.val(f, src).clone()),
-            Op::BoxNumber(dst, src) => self.put_value(f, dst, Value::Number(self.num(f, src))),
             Op::BoxBoolean(dst, src) => self.put_value(f, dst, Value::Boolean(self.num(f, src) != 0.0)),
             Op::ToNumber(dst, src) => {
                 let x = match self.val(f, src) {
@@ -440,7 +460,14 @@ impl Machine<'_> {
 
     #[inline]
     fn element(&mut self, view: View, written: f64, unit: &CodeUnit, at: usize) -> Option<f64> {
-        let found = self.position(view, written).and_then(|index| self.host.get(view.field, index));
+        // No field has more elements than that. The comparison is false for NaN, and for what is not whole.
+        let index = written as u32;
+        let found = if f64::from(index) == written && view.count().is_none_or(|n| (index as usize) < n) {
+            // Of a field without a known length the host knows where it ends.
+            self.host.get(view.field, (view.first as usize).saturating_add(index as usize))
+        } else {
+            None
+        };
         if found.is_none() {
             self.note(EventKind::ReadPastEnd, unit, at, view, written);
         }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Code, CodeUnit, Frame, Machine, Stop, index_of, what, whole_index};
+use super::{Code, CodeUnit, Frame, Machine, Stop, index_of, taken, what, whole_index};
 use crate::form::{Args, Op, Slot, Val};
 use crate::heap::Object;
 use crate::ir::Picks;
@@ -11,13 +11,7 @@ use crate::rules;
 use crate::value::{Value, View};
 
 impl Machine<'_> {
-    pub(super) fn part(
-        &mut self,
-        op: Op,
-        code: &Arc<Code>,
-        unit: &CodeUnit,
-        f: Frame,
-    ) -> Result<(), Stop> {
+    pub(super) fn part(&mut self, op: Op, code: &Arc<Code>, unit: &CodeUnit, f: Frame) -> Result<(), Stop> {
         self.tidy();
         match op {
             Op::MathOver(dst, function, list) => {
@@ -420,11 +414,11 @@ impl Machine<'_> {
         for (slot, value) in params.chain(captured) {
             match slot {
                 Slot::Value => {
-                    self.values[v] = value;
+                    self.context.values[v] = value;
                     v += 1;
                 }
                 Slot::Number | Slot::Boolean => {
-                    self.numbers[n] = value.to_number();
+                    self.context.numbers[n] = value.to_number();
                     n += 1;
                 }
             }
@@ -432,7 +426,7 @@ impl Machine<'_> {
         let result = self.execute(&code, function, frame);
         self.depth -= 1;
         result.map_err(Stop::Inside)?;
-        Ok(self.taken(function.result, frame))
+        Ok(taken(function.result, self.context.numbers.get(frame.n), self.context.values.get(frame.v)))
     }
 }
 
