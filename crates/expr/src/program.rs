@@ -282,7 +282,15 @@ impl Program {
         let formula = form.units.first().and_then(pure::whole).map(Arc::new);
         let row = formula.as_deref().and_then(Row::of).map(Arc::new);
         let order = Order::of(tree, &effects);
-        Program { code: Code::of(form).into(), effects, result, aggregates, order, formula, row }
+        Program {
+            code: Code::of(form, row.is_none()).into(),
+            effects,
+            result,
+            aggregates,
+            order,
+            formula,
+            row,
+        }
     }
 
     /// What it touches.

@@ -16,7 +16,7 @@ pub(crate) fn whole(unit: &Unit) -> Option<Formula> {
     let mut steps = Steps::of(unit);
     for at in 0..unit.blocks.len() as BlockId {
         steps.params(at)?;
-        unit.range(at).try_for_each(|i| steps.op(unit.ops.get(i)?))?;
+        unit.range(at).try_for_each(|i| steps.op(unit.ops.get(i)?).map(|_| ()))?;
     }
     // What returns are the ways to the end.
     let mut output = steps.chosen(0, unit.blocks.len() as BlockId, 0)?;
@@ -26,35 +26,17 @@ pub(crate) fn whole(unit: &Unit) -> Option<Formula> {
     Some(formula)
 }
 
-/// The formula of numeric operations that follow each other, with the step of every number that they give.
+/// The formula of numeric operations that follow each other, with the step of every number that they give. `input`: the
+/// register of a number that stands there before.
 pub(crate) fn stretch(
     unit: &Unit,
     ops: &[Op],
-    mut input: impl FnMut(Num) -> u32,
+    input: &mut dyn FnMut(Num) -> u32,
 ) -> Option<(Formula, Vec<(Num, At)>)> {
-    let mut steps = Steps::of(unit);
+    let mut steps = Steps { input: Some(input), ..Steps::of(unit) };
     let mut given = Vec::with_capacity(ops.len());
     for op in ops {
-        let mut reads = Vec::new();
-        let mut gives = None;
-        let mut copy = *op;
-        copy.each(&mut |u| match u {
-            super::Use::Gives(n) => gives = Some(*n),
-            super::Use::Reads(n) => reads.push(unit.same.number(*n)),
-            super::Use::ReadsAll(args) => {
-                reads.extend(args.of(&unit.args).iter().map(|n| unit.same.number(Num(*n))))
-            }
-            _ => {}
-        });
-        for n in reads {
-            if steps.find(n).is_none() {
-                let at = steps.formula.step(Step::Input(input(n)));
-                steps.at.insert(n, at);
-            }
-        }
-        steps.op(op)?;
-        let gives = gives?;
-        given.push((gives, steps.find(gives)?));
+        given.push(steps.op(op)?);
     }
     Some((steps.formula, given))
 }
@@ -62,14 +44,15 @@ pub(crate) fn stretch(
 /// The work on one formula.
 struct Steps<'u> {
     unit: &'u Unit,
+    input: Option<&'u mut dyn FnMut(Num) -> u32>,
     formula: Formula,
     /// The step of each name.
     at: BTreeMap<Num, At>,
 }
 
-impl Steps<'_> {
-    fn of(unit: &Unit) -> Steps<'_> {
-        Steps { unit, formula: Formula::default(), at: BTreeMap::new() }
+impl<'u> Steps<'u> {
+    fn of(unit: &'u Unit) -> Steps<'u> {
+        Steps { unit, input: None, formula: Formula::default(), at: BTreeMap::new() }
     }
 
     fn find(&mut self, name: Num) -> Option<At> {
@@ -77,12 +60,17 @@ impl Steps<'_> {
         if let Some(at) = self.at.get(&name) {
             return Some(*at);
         }
-        let at = self.formula.constant(self.unit.known(name)?);
+        let at = match (self.unit.known(name), &mut self.input) {
+            (Some(x), _) => self.formula.constant(x),
+            (None, Some(input)) => self.formula.step(Step::Input(input(name))),
+            (None, None) => return None,
+        };
         self.at.insert(name, at);
         Some(at)
     }
 
-    fn op(&mut self, op: &Op) -> Option<()> {
+    /// The step of an operation, with its name.
+    fn op(&mut self, op: &Op) -> Option<(Num, At)> {
         let (name, at) = match *op {
             Op::Load(name, field, index) => (name, self.formula.step(Step::Load(field, index))),
             Op::Unary(name, op, a) => {
@@ -105,7 +93,7 @@ impl Steps<'_> {
             _ => return None,
         };
         self.at.insert(name, at);
-        Some(())
+        Some((name, at))
     }
 
     /// The parameters of a block.

@@ -45,9 +45,9 @@ pub(crate) struct CodeUnit {
 }
 
 impl Code {
-    /// The code of a form.
-    pub(crate) fn of(form: Form) -> Code {
-        let units = form.units.into_iter().map(super::emit::unit).collect();
+    /// The code of a form. `often`: it will run often enough for formulas within it.
+    pub(crate) fn of(form: Form, often: bool) -> Code {
+        let units = form.units.into_iter().map(|unit| super::emit::unit(unit, often)).collect();
         Code { units, texts: form.texts, picks: form.picks, views: form.views }
     }
 }

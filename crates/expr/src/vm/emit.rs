@@ -16,12 +16,13 @@ const WORTH: usize = 3;
 const MOST: usize = 64;
 
 /// The code of a function.
-pub(super) fn unit(form: Unit) -> CodeUnit {
+pub(super) fn unit(form: Unit, often: bool) -> CodeUnit {
     let (numbers, values) = (File::of(form.same.numbers.len()), File::of(form.same.values.len()));
     let (kept, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
     let (ops, spans) = (Vec::with_capacity(form.ops.len() + 8), Vec::with_capacity(form.ops.len() + 8));
     let code = CodeUnit { ops, spans, ..CodeUnit::default() };
-    let mut emit = Emit { form, code, numbers, values, kept, starts, jumps: Vec::new() };
+    let worth = if often { WORTH } else { usize::MAX };
+    let mut emit = Emit { worth, form, code, numbers, values, kept, starts, jumps: Vec::new() };
     emit.count_uses();
     emit.first_registers();
     for block in 0..emit.form.blocks.len() as u32 {
@@ -71,6 +72,8 @@ impl File {
 
 /// The work on one function.
 struct Emit {
+    /// Operations that make a formula.
+    worth: usize,
     form: Unit,
     code: CodeUnit,
     numbers: File,
@@ -194,20 +197,23 @@ impl Emit {
 
     /// Numeric operations that follow each other, as one formula, where that is worth it; whether it was.
     fn formula(&mut self, first: usize, stop: usize) -> bool {
+        if stop - first.min(stop) < self.worth {
+            return false;
+        }
         let kept = (first..stop).filter(|i| self.kept.get(*i) == Some(&true));
         let ops: Vec<Op> = kept.filter_map(|i| self.form.ops.get(i).copied()).collect();
-        if ops.len() < WORTH {
+        if ops.len() < self.worth {
             return false;
         }
         let count = ops.len() as u32;
         let Emit { form, numbers, code, .. } = self;
         let mut inputs = Vec::new();
-        let input = |n: Num| {
+        let mut input = |n: Num| {
             let register = numbers.register(n.0);
             inputs.push(register);
             register
         };
-        let Some((mut formula, given)) = pure::stretch(form, &ops, input) else { return false };
+        let Some((mut formula, given)) = pure::stretch(form, &ops, &mut input) else { return false };
         // What is used by more than the operations themselves.
         let mut left: BTreeMap<u32, u32> = given.iter().map(|(n, _)| (n.0, numbers.uses(n.0))).collect();
         for mut op in ops {
