@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::build::{Build, Exits};
-use super::{At, Block, BlockId, Edge, End, Num, Slot, Val};
+use super::{At, Block, BlockId, Edge, End, Num, Op, Slot, Val};
 use crate::Span;
 use crate::ir::LocalId;
 use crate::operation::truthy;
@@ -25,6 +25,31 @@ pub(super) struct Variables {
 pub(super) struct Way {
     from: BlockId,
     stored: Vec<(LocalId, At)>,
+}
+
+impl Way {
+    /// What was stored in a variable on the way.
+    fn held(&self, local: LocalId) -> Option<At> {
+        let at = self.stored.binary_search_by_key(&local, |s| s.0).ok()?;
+        self.stored.get(at).map(|(_, at)| *at)
+    }
+}
+
+/// The variables that ways store.
+fn stored_on<'w>(ways: impl IntoIterator<Item = &'w Way>) -> Vec<LocalId> {
+    let mut locals: Vec<LocalId> =
+        ways.into_iter().flat_map(|w| &w.stored).map(|(local, _)| *local).collect();
+    locals.sort_unstable();
+    locals.dedup();
+    locals
+}
+
+/// Operations that cost no more than a question.
+const LITTLE: usize = 4;
+
+/// A question about a number: the answer that leads further off.
+fn question(end: &End) -> Option<(bool, Num)> {
+    if let End::If(when, test, _) = end { Some((*when, *test)) } else { None }
 }
 
 /// A loop around the place of the work.
@@ -200,13 +225,8 @@ impl Build<'_> {
                 edge.to = to;
             }
         }
-        let mut locals: Vec<LocalId> = ways.iter().flat_map(|w| &w.stored).map(|(local, _)| *local).collect();
-        locals.sort_unstable();
-        locals.dedup();
-        for local in locals {
-            let held =
-                |way: &Way| way.stored.binary_search_by_key(&local, |s| s.0).ok().map(|i| way.stored[i].1);
-            let held: Vec<Option<At>> = ways.iter().map(held).collect();
+        for local in stored_on(&ways) {
+            let held: Vec<Option<At>> = ways.iter().map(|way| way.held(local)).collect();
             let before = if held.contains(&None) { self.find(local) } else { None };
             let held: Option<Vec<At>> = held.into_iter().map(|at| at.or(before)).collect();
             // What one of the ways does not know is not used any more.
@@ -238,7 +258,7 @@ impl Build<'_> {
         next: impl FnOnce(&mut Self),
         there: impl FnOnce(&mut Self),
     ) {
-        let (mark, from) = (self.mark(), self.here());
+        let (mark, from, question) = (self.mark(), self.here(), question(&test));
         let way = self.jump_if(test, mark, span);
         next(self);
         let end = self.jump(mark, span);
@@ -247,17 +267,63 @@ impl Build<'_> {
         there(self);
         let other = self.jump(mark, span);
         self.back_to(mark);
-        self.land(from, [end, other]);
+        self.meet(from, question, other, end);
     }
 
     /// The same where the second way has nothing on it.
     pub(super) fn skip(&mut self, test: End, span: Span, next: impl FnOnce(&mut Self)) {
-        let (mark, from) = (self.mark(), self.here());
+        let (mark, from, question) = (self.mark(), self.here(), question(&test));
         let way = self.jump_if(test, mark, span);
         next(self);
         let end = self.jump(mark, span);
         self.back_to(mark);
-        self.land(from, [way, end]);
+        self.meet(from, question, way, end);
+    }
+
+    /// Two ways of a question come together. Where little was computed on them, and nothing else done, there is no
+    /// question any more: both are computed, and one is chosen.
+    fn meet(&mut self, from: BlockId, question: Option<(bool, Num)>, there: Option<Way>, next: Option<Way>) {
+        if let (Some((when, test)), Some(there), Some(next)) = (question, &there, &next)
+            && self.is_little(from)
+            && let Some(held) = self.numbers_of(there, next)
+        {
+            self.unit.blocks.truncate(from as usize + 1);
+            self.dead = false;
+            let span = self.unit.blocks.last().map(|b| b.span).unwrap_or_default();
+            for (local, there, next) in held {
+                let (yes, no) = if when { (there, next) } else { (next, there) };
+                let same = self.unit.same.number(yes) == self.unit.same.number(no);
+                let one = if same { yes } else { self.number_by(span, |dst| Op::Select(dst, test, yes, no)) };
+                self.write(local, At::Number(one));
+            }
+            return;
+        }
+        self.land(from, [there, next]);
+    }
+
+    /// Whether the blocks since a question are its two ways alone, with few numeric operations on them.
+    fn is_little(&self, from: BlockId) -> bool {
+        let ways = self.unit.blocks.get(from as usize + 1..).unwrap_or(&[]);
+        let first = ways.first().map_or(self.unit.ops.len(), |b| b.first as usize);
+        let ops = self.unit.ops.get(first..).unwrap_or(&[]);
+        let plain = ways.iter().all(|b| matches!(b.end, End::Jump(_)) && b.params.is_empty());
+        ways.len() <= 2 && plain && ops.len() <= LITTLE && ops.iter().all(Op::is_numeric)
+    }
+
+    /// What variables that differ hold at the end of two ways; `None` when one holds something else than a number.
+    fn numbers_of(&mut self, there: &Way, next: &Way) -> Option<Vec<(LocalId, Num, Num)>> {
+        let mut all = Vec::new();
+        for local in stored_on([there, next]) {
+            let (there, next) = (there.held(local), next.held(local));
+            let before = if there.is_none() || next.is_none() { self.find(local) } else { None };
+            match (there.or(before), next.or(before)) {
+                (Some(At::Number(there)), Some(At::Number(next))) => all.push((local, there, next)),
+                // What one of the ways does not know is not used any more.
+                (None, _) | (_, None) => {}
+                _ => return None,
+            }
+        }
+        Some(all)
     }
 
     /// Statements that other ways than their end may leave. The work adds these to the list that `exits` finds.
@@ -340,8 +406,8 @@ impl Build<'_> {
         }
         let mut kept = Vec::new();
         for (local, (param, before)) in &level.params {
-            let stored = |way: &Way| way.stored.iter().find(|(l, _)| l == local).map(|(_, at)| *at);
-            let next = back.as_ref().and_then(stored).map_or(*param, |at| self.unit.same.at(at));
+            let stored = back.as_ref().and_then(|way| way.held(*local));
+            let next = stored.map_or(*param, |at| self.unit.same.at(at));
             if next == *param || next == self.unit.same.at(*before) {
                 self.unit.same.join(*param, *before);
             } else {

@@ -29,15 +29,18 @@ const HARD: [(&str, f64); 20] = [
     ("(-1e308)", -1e308),
 ];
 
+type Write = Box<dyn Fn(&str, &str) -> String>;
+type Means = Box<dyn Fn(f64, f64) -> f64>;
+
 /// An operation on two numbers: how it is written, and what the table says.
 struct Case {
-    write: Box<dyn Fn(&str, &str) -> String>,
-    means: Box<dyn Fn(f64, f64) -> f64>,
+    write: Write,
+    means: Means,
 }
 
 fn cases() -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
-    let mut add = |write: Box<dyn Fn(&str, &str) -> String>, means: Box<dyn Fn(f64, f64) -> f64>| {
+    let mut add = |write: Write, means: Means| {
         cases.push(Case { write, means });
     };
     for op in BinaryOp::ALL {

@@ -11,7 +11,7 @@ use crate::row::{Row, Wanted};
 use crate::value::Value;
 
 /// Numeric operations in a row from which on a formula is faster, as measured.
-const WORTH: usize = 3;
+const WORTH: usize = 5;
 /// Most operations of one formula, so that a byte can name its registers.
 const MOST: usize = 64;
 
