@@ -1,4 +1,4 @@
-//! The typed tree: what a program means, with every name resolved. Made by `bind`, turned into code by `lower`.
+//! The typed tree: what a program means, with every name resolved. Made by `bind`, read by `form`.
 
 use std::sync::Arc;
 
