@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use crate::formula::{Formula, Step};
+use crate::math::FEW;
 use crate::operation::{known_operator, select};
 use crate::operators::BinaryOp;
 use crate::program::{Host, Program};
@@ -154,8 +155,12 @@ impl Columnar {
             }
             Step::Math(function, first, count) => {
                 let args = self.formula.args(first, count);
+                let mut row = [0.0; FEW];
                 for (sample, d) in dst.iter_mut().enumerate() {
-                    *d = function.apply_to(args.len(), |i| of(args[i])[sample]);
+                    for (x, &a) in row.iter_mut().zip(args) {
+                        *x = of(a)[sample];
+                    }
+                    *d = function.apply(row.get(..args.len()).unwrap_or(&row));
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! The `Math` object and the global number functions, as ECMAScript defines them ("Function Properties of the
 //! Math Object"). Transcendental functions come from `libm`, so that every platform gives the same bits.
 
-/// Arguments that need no list of their own.
+/// Most arguments of a function within a formula.
 pub(crate) const FEW: usize = 16;
 
 /// A function of `Math`, or one of the global functions on numbers.
@@ -195,22 +195,11 @@ impl Function {
     /// The value; a missing argument is `undefined`, so NaN.
     #[inline]
     pub(crate) fn apply(self, args: &[f64]) -> f64 {
-        self.apply_to(args.len(), |i| args[i])
-    }
-
-    /// The value of so many arguments, wherever each of them stands.
-    #[inline]
-    pub(crate) fn apply_to(self, count: usize, arg: impl Fn(usize) -> f64) -> f64 {
-        let known = |i: usize| if i < count { arg(i) } else { f64::NAN };
+        let arg = |i: usize| args.get(i).copied().unwrap_or(f64::NAN);
         match self.row().apply {
-            Apply::One(f) => f(known(0)),
-            Apply::Two(f) => f(known(0), known(1)),
-            Apply::Many(f) if count <= FEW => {
-                let mut few = [0.0; FEW];
-                few.iter_mut().enumerate().take(count).for_each(|(i, x)| *x = arg(i));
-                f(few.get(..count).unwrap_or(&few))
-            }
-            Apply::Many(f) => f(&(0..count).map(arg).collect::<Vec<f64>>()),
+            Apply::One(f) => f(arg(0)),
+            Apply::Two(f) => f(arg(0), arg(1)),
+            Apply::Many(f) => f(args),
         }
     }
 }

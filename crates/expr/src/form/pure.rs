@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use super::{At as Name, Block, BlockId, Edge, End, Num, Op, Slot, Unit};
 use crate::formula::{At, Formula, Step};
+use crate::math::FEW;
 
 /// The formula of a text that gives a number or a truth value; `None` when its value depends on more than elements of
 /// fields at known indexes.
@@ -85,6 +86,8 @@ impl<'u> Steps<'u> {
                 let (test, a, b) = (self.find(test)?, self.find(a)?, self.find(b)?);
                 (name, self.formula.select(test, a, b))
             }
+            // More arguments than a row takes are for the machine.
+            Op::Math(_, _, args) if args.count as usize > FEW => return None,
             Op::Math(name, function, args) => {
                 let args =
                     args.of(&self.unit.args).iter().map(|n| self.find(Num(*n))).collect::<Option<_>>()?;

@@ -211,9 +211,15 @@ impl Machine<'_> {
                 }
                 Op::Move(dst, src) => self.put(f, dst, self.num(f, src)),
                 Op::Math(dst, function, args) => {
-                    let args = args.of(&unit.args);
-                    let numbers = self.context.numbers.get(f.n..).unwrap_or(&[]);
-                    self.put(f, dst, function.apply_to(args.len(), |i| numbers[args[i] as usize]));
+                    // The arguments behind all registers, where there is room for them.
+                    let numbers = &mut self.context.numbers;
+                    let (registers, args) = (numbers.len(), args.of(&unit.args));
+                    for a in args {
+                        numbers.push(numbers[f.n + *a as usize]);
+                    }
+                    let x = function.apply(numbers.get(registers..).unwrap_or(&[]));
+                    numbers.truncate(registers);
+                    self.put(f, dst, x);
                 }
                 Op::Formula(formula) => {
                     // `emit` makes a formula only of registers that a byte can name, and there is room for them.
