@@ -49,6 +49,17 @@ fn cases() -> Vec<Case> {
             Box::new(move |a, b| op.on_numbers(a, b)),
         );
     }
+    // Operands that were computed just before: they stand elsewhere than those that were read.
+    for op in BinaryOp::ALL {
+        add(
+            Box::new(move |a, b| format!("+((+{a}) {} ({b} * 1))", op.symbol())),
+            Box::new(move |a, b| op.on_numbers(a, b)),
+        );
+        add(
+            Box::new(move |a, b| format!("+(({a} * 1) {} (+{b}))", op.symbol())),
+            Box::new(move |a, b| op.on_numbers(a, b)),
+        );
+    }
     for op in [UnaryOp::Minus, UnaryOp::Plus, UnaryOp::Not, UnaryOp::BitNot] {
         let both = BinaryOp::Subtract;
         add(
