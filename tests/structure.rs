@@ -312,8 +312,10 @@ fn the_language_has_no_words_of_labs() {
             if path.is_dir() && !matches!(name.as_str(), "tests" | "snapshots") {
                 folders.push(path);
             } else if name.ends_with(".rs") && !matches!(name.as_str(), "mock.rs" | "tests.rs") {
-                // Every second piece between quotes is a text.
-                for text in code(&path).split('"').skip(1).step_by(2) {
+                // The examples of a rule are texts of labs. Every second piece between quotes is a text.
+                let code = code(&path);
+                let own = code.split("bad: Example::").next().unwrap_or("");
+                for text in own.split('"').skip(1).step_by(2) {
                     texts += 1;
                     let text = text.to_lowercase();
                     let found = WORDS.iter().find(|word| text.contains(*word));

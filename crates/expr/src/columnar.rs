@@ -3,10 +3,12 @@
 
 use std::sync::Arc;
 
-use crate::formula::{ARGS, Formula, Step};
+use crate::formula::{Formula, Step};
+use crate::math::FEW;
+use crate::operation::{known_operator, select};
+use crate::operators::BinaryOp;
 use crate::program::{Host, Program};
 use crate::schema::FieldKey;
-use crate::value::truthy;
 
 /// Samples that an operation takes at once: few enough that all registers stay in the nearest cache.
 const BLOCK: usize = 32;
@@ -105,7 +107,7 @@ impl Columnar {
         scratch.resize(self.formula.steps.len(), [0.0; BLOCK]);
         for (i, step) in self.formula.steps.iter().enumerate() {
             if let (Step::Constant(x), Some(register)) = (step, scratch.get_mut(i)) {
-                *register = [*x; BLOCK];
+                *register = [x.number(); BLOCK];
             }
         }
         for (block, out) in out.chunks_mut(BLOCK).enumerate() {
@@ -125,74 +127,59 @@ impl Columnar {
     #[inline]
     fn block(&self, i: usize, before: &[Block], dst: &mut Block, recording: &Recording, start: usize) {
         let of = |at: u32| &before[at as usize];
-        let each = |dst: &mut Block, a: u32, b: u32, f: &dyn Fn(f64, f64) -> f64| {
-            for ((d, a), b) in dst.iter_mut().zip(of(a)).zip(of(b)) {
-                *d = f(*a, *b);
-            }
-        };
         match self.formula.steps[i] {
-            Step::Constant(_) => {}
+            Step::Constant(_) | Step::Input(_) => {}
             Step::Load(..) => {
                 let column = self.columns.get(i).and_then(|&c| recording.columns.get(c));
                 let samples = column.and_then(|c| c.get(start..)).unwrap_or(&[]);
                 let n = samples.len().min(BLOCK);
                 dst[..n].copy_from_slice(&samples[..n]);
             }
-            Step::Add(a, b) => add(dst, of(a), of(b)),
-            Step::Subtract(a, b) => subtract(dst, of(a), of(b)),
-            Step::Multiply(a, b) => multiply(dst, of(a), of(b)),
-            Step::Divide(a, b) => divide(dst, of(a), of(b)),
-            Step::AddConstant(a, k) => one(dst, of(a), |x| x + k),
-            Step::MultiplyConstant(a, k) => one(dst, of(a), |x| x * k),
-            Step::SubtractFrom(k, a) => one(dst, of(a), |x| k - x),
-            Step::Binary(op, a, b) => each(dst, a, b, &|a, b| op.on_numbers(a, b)),
-            Step::Negate(a) => one(dst, of(a), |x| -x),
-            Step::Not(a) => one(dst, of(a), |x| f64::from(u8::from(!truthy(x)))),
-            Step::BitNot(a) => one(dst, of(a), |x| f64::from(!crate::number::to_int32(x))),
-            Step::Choose(test, yes, no) => {
+            Step::Unary(op, a) => one(dst, of(a), |x| op.on_number(x)),
+            Step::Binary(op, a, b) => {
+                known_operator!(op, |op: BinaryOp| two(dst, of(a), of(b), |a, b| op.on_numbers(a, b)));
+            }
+            Step::Right(op, a, k) => {
+                let k = k.number();
+                known_operator!(op, |op: BinaryOp| one(dst, of(a), |x| op.on_numbers(x, k)));
+            }
+            Step::Left(op, k, a) => {
+                let k = k.number();
+                known_operator!(op, |op: BinaryOp| one(dst, of(a), |x| op.on_numbers(k, x)));
+            }
+            Step::Select(test, yes, no) => {
                 let ways = of(yes).iter().zip(of(no));
                 for ((d, test), (yes, no)) in dst.iter_mut().zip(of(test)).zip(ways) {
-                    *d = if truthy(*test) { *yes } else { *no };
+                    *d = select(*test, *yes, *no);
                 }
             }
             Step::Math(function, first, count) => {
                 let args = self.formula.args(first, count);
-                let mut row = [0.0; ARGS];
+                let mut row = [0.0; FEW];
                 for (sample, d) in dst.iter_mut().enumerate() {
                     for (x, &a) in row.iter_mut().zip(args) {
                         *x = of(a)[sample];
                     }
-                    *d = function.apply(&row[..args.len()]);
+                    *d = function.apply(row.get(..args.len()).unwrap_or(&row));
                 }
             }
         }
     }
 }
 
-/// A loop over a whole block.
-#[inline]
+/// A loop over a whole block, which the compiler turns into vector instructions.
+#[inline(always)]
 fn one(dst: &mut Block, a: &Block, f: impl Fn(f64) -> f64) {
-    for (d, a) in dst.iter_mut().zip(a) {
-        *d = f(*a);
+    for i in 0..BLOCK {
+        dst[i] = f(a[i]);
     }
 }
 
-/// Loops over whole blocks, which the compiler turns into vector instructions.
-macro_rules! blocks {
-    ($($name:ident = $op:tt;)*) => { $(
-        #[inline]
-        fn $name(dst: &mut Block, a: &Block, b: &Block) {
-            for i in 0..BLOCK {
-                dst[i] = a[i] $op b[i];
-            }
-        }
-    )* };
-}
-blocks! {
-    add = +;
-    subtract = -;
-    multiply = *;
-    divide = /;
+#[inline(always)]
+fn two(dst: &mut Block, a: &Block, b: &Block, f: impl Fn(f64, f64) -> f64) {
+    for i in 0..BLOCK {
+        dst[i] = f(a[i], b[i]);
+    }
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The typed tree: what a program means, with every name resolved. Made by `bind`, turned into code by `lower`.
+//! The typed tree: what a program means, with every name resolved. Made by `bind`, read by `form`.
 
 use std::sync::Arc;
 
@@ -36,9 +36,8 @@ pub(crate) enum Kind {
     Input,
     /// The number that the host computed for an aggregate.
     Aggregate(u32),
-    Not(Box<Ir>),
-    BitNot(Box<Ir>),
-    Negate(Box<Ir>),
+    /// `!`, `-` or `~`.
+    Unary(UnaryOp, Box<Ir>),
     ToNumber(Box<Ir>),
     ToText(Box<Ir>),
     TypeOf(Box<Ir>),
@@ -244,30 +243,23 @@ impl Ir {
         }
     }
 
-    /// `op operands`, computed at once when all operands are known.
     pub(crate) fn not(operand: Ir, span: Span) -> Ir {
-        match operand.known() {
-            Some(value) => Ir::constant(Value::Boolean(!value.truthy()), span),
-            None => Ir::new(Kind::Not(Box::new(operand)), Type::Boolean, span),
-        }
+        Ir::sign(UnaryOp::Not, operand, span)
     }
 
+    /// `op operands`, computed at once when all operands are known.
     pub(crate) fn sign(op: UnaryOp, operand: Ir, span: Span) -> Ir {
+        if op == UnaryOp::Plus {
+            return Ir::to_number(operand, span);
+        }
+        if let Some(value) = operand.known() {
+            return Ir::constant(op.on_value(value), span);
+        }
+        let operand = Box::new(operand);
         match op {
-            UnaryOp::Not => Ir::not(operand, span),
-            UnaryOp::Plus => Ir::to_number(operand, span),
-            UnaryOp::Minus => match operand.known() {
-                Some(value) => Ir::number(-value.to_number(), span),
-                None => Ir::new(Kind::Negate(Box::new(operand)), Type::Number, span),
-            },
-            UnaryOp::BitNot => match operand.known() {
-                Some(value) => Ir::number(f64::from(!crate::number::to_int32(value.to_number())), span),
-                None => Ir::new(Kind::BitNot(Box::new(operand)), Type::Number, span),
-            },
-            UnaryOp::TypeOf => match operand.known() {
-                Some(value) => Ir::constant(Value::from(type_name(value)), span),
-                None => Ir::new(Kind::TypeOf(Box::new(operand)), Type::String, span),
-            },
+            UnaryOp::TypeOf => Ir::new(Kind::TypeOf(operand), Type::String, span),
+            UnaryOp::Not => Ir::new(Kind::Unary(op, operand), Type::Boolean, span),
+            _ => Ir::new(Kind::Unary(op, operand), Type::Number, span),
         }
     }
 
@@ -332,17 +324,5 @@ impl Ir {
             Some(x) => Ir::number(x, span),
             None => Ir::new(Kind::Math(function, args), ty, span),
         }
-    }
-}
-
-/// What `typeof` says.
-pub(crate) fn type_name(value: &Value) -> &'static str {
-    match value {
-        Value::Undefined => "undefined",
-        Value::Number(_) => "number",
-        Value::Boolean(_) => "boolean",
-        Value::String(_) => "string",
-        Value::Function(_) => "function",
-        Value::Null | Value::List(_) | Value::Record(_) | Value::View(_) => "object",
     }
 }

@@ -11,7 +11,8 @@
 //! | text to tokens | `lex` (nom) | tokens with byte spans |
 //! | tokens to tree | `parse` | [`ast`], always, with the mistakes beside it |
 //! | tree to meaning | `bind` | typed tree of `ir`, every name resolved |
-//! | meaning to code | `lower` | [`Program`]: flat operations on registers |
+//! | meaning to form | `form` | blocks of operations, every value defined once |
+//! | form to code | `vm::emit`, `formula` | [`Program`]: operations on registers, formulas |
 //! | running | `vm`, `row` | a [`Value`], or a [`RuntimeError`] |
 //! | running over samples | `columnar` | a column of numbers |
 //!
@@ -26,15 +27,16 @@ pub mod rules;
 mod bind;
 mod columnar;
 mod effects;
+mod form;
 mod formula;
 mod globals;
 mod heap;
 mod ir;
 mod lex;
-mod lower;
 mod math;
 mod natives;
 mod number;
+mod operation;
 mod operators;
 mod order;
 mod parse;

@@ -1,8 +1,11 @@
 //! The `Math` object and the global number functions, as ECMAScript defines them ("Function Properties of the
 //! Math Object"). Transcendental functions come from `libm`, so that every platform gives the same bits.
 
+/// Most arguments of a function within a formula.
+pub(crate) const FEW: usize = 16;
+
 /// A function of `Math`, or one of the global functions on numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Function(u8);
 
 /// Name, smallest and largest number of arguments that make sense, and the function of all arguments.

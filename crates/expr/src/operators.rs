@@ -1,11 +1,10 @@
 //! The operators: how they are written, how tightly they bind, and what they do to values (ECMAScript, chapter
 //! "Expressions"). Parser, printer, constant folding and the machine all use these definitions.
 
-use crate::number::to_int32;
 use crate::value::Value;
 
 /// Operators before one operand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum UnaryOp {
     /// `-x`
     Minus,
@@ -32,8 +31,19 @@ impl UnaryOp {
     }
 }
 
+impl UnaryOp {
+    /// The operator on a value.
+    pub(crate) fn on_value(self, value: &Value) -> Value {
+        match self {
+            UnaryOp::Not => Value::Boolean(!value.truthy()),
+            UnaryOp::TypeOf => value.type_name().into(),
+            _ => Value::Number(self.on_number(value.to_number())),
+        }
+    }
+}
+
 /// Operators that choose one of their operands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum LogicalOp {
     /// `&&`
     And,
@@ -72,7 +82,7 @@ impl LogicalOp {
 }
 
 /// Operators between two operands that evaluate both.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[allow(missing_docs)] // `symbol` says what each is
 pub enum BinaryOp {
     Add,
@@ -166,34 +176,6 @@ impl BinaryOp {
     /// Whether the result is `true` or `false`.
     pub fn is_comparison(self) -> bool {
         matches!(self.power(), 8 | 9)
-    }
-
-    /// The operator on two numbers; comparisons give 1 or 0.
-    #[inline]
-    pub(crate) fn on_numbers(self, a: f64, b: f64) -> f64 {
-        let truth = |t: bool| f64::from(u8::from(t));
-        match self {
-            BinaryOp::Add => a + b,
-            BinaryOp::Subtract => a - b,
-            BinaryOp::Multiply => a * b,
-            BinaryOp::Divide => a / b,
-            // Rust's remainder has the sign of the dividend, as JavaScript's.
-            BinaryOp::Remainder => a % b,
-            BinaryOp::Power => crate::math::pow(a, b),
-            BinaryOp::BitAnd => f64::from(to_int32(a) & to_int32(b)),
-            BinaryOp::BitOr => f64::from(to_int32(a) | to_int32(b)),
-            BinaryOp::BitXor => f64::from(to_int32(a) ^ to_int32(b)),
-            // Only the low five bits of a shift count.
-            BinaryOp::ShiftLeft => f64::from(to_int32(a).wrapping_shl(to_int32(b) as u32)),
-            BinaryOp::ShiftRight => f64::from(to_int32(a).wrapping_shr(to_int32(b) as u32)),
-            BinaryOp::ShiftRightUnsigned => f64::from((to_int32(a) as u32).wrapping_shr(to_int32(b) as u32)),
-            BinaryOp::Less => truth(a < b),
-            BinaryOp::LessEqual => truth(a <= b),
-            BinaryOp::Greater => truth(a > b),
-            BinaryOp::GreaterEqual => truth(a >= b),
-            BinaryOp::Equal | BinaryOp::StrictEqual => truth(a == b),
-            BinaryOp::NotEqual | BinaryOp::StrictNotEqual => truth(a != b),
-        }
     }
 
     /// The operator on two values.

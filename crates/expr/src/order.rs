@@ -120,7 +120,7 @@ impl Walk<'_> {
             Kind::Constant(_) | Kind::Length(_) | Kind::Global(_) | Kind::Local(_) => {}
             Kind::Input | Kind::Aggregate(_) | Kind::Load(_, Index::At(_)) => {}
             Kind::Load(_, Index::Computed(x)) => self.ir(x, certain),
-            Kind::GlobalNamed(x) | Kind::Not(x) | Kind::BitNot(x) | Kind::Negate(x) => self.ir(x, certain),
+            Kind::GlobalNamed(x) | Kind::Unary(_, x) => self.ir(x, certain),
             Kind::ToNumber(x) | Kind::ToText(x) | Kind::TypeOf(x) => self.ir(x, certain),
             Kind::MathOver(_, x) | Kind::Member(x, _) | Kind::Pick(_, x) => self.ir(x, certain),
             // What follows `?.` may not happen.

@@ -6,11 +6,11 @@ use std::sync::Arc;
 
 use crate::Span;
 use crate::effects::{Access, Effects};
+use crate::form::{Form, pure};
 use crate::formula::Formula;
 use crate::globals::Globals;
 use crate::heap::Heap;
 use crate::ir::Tree;
-use crate::lower;
 use crate::order::Order;
 use crate::row::Row;
 use crate::rules::{self, Rule};
@@ -140,6 +140,8 @@ pub struct Context {
     pub(crate) aggregates: Vec<f64>,
     pub(crate) numbers: Vec<f64>,
     pub(crate) values: Vec<Value>,
+    /// What is handed to a function of the host.
+    pub(crate) handed: Vec<Value>,
     pub(crate) events: Vec<RuntimeEvent>,
     /// Work of all runs but that of the host, and what the next run may do.
     pub(crate) work: u64,
@@ -204,10 +206,10 @@ impl Context {
         true
     }
 
-    /// Collects what neither a variable nor one of these values refers to.
-    pub(crate) fn collect(&mut self, values: &[Value]) {
-        let Context { heap, globals, unnamed, .. } = self;
-        heap.collect(globals.iter().chain(unnamed.values()).chain(values));
+    /// Collects what neither a variable nor a register nor the input refers to.
+    pub(crate) fn collect(&mut self, input: Option<&Value>) {
+        let Context { heap, globals, unnamed, values, .. } = self;
+        heap.collect(globals.iter().chain(unnamed.values()).chain(&*values).chain(input));
     }
 
     /// A `ctx` variable.
@@ -276,11 +278,19 @@ pub struct Program {
 impl Program {
     /// The code of a tree.
     pub(crate) fn new(tree: &Tree, effects: Effects, result: Type, aggregates: Vec<Aggregate>) -> Program {
-        let code = lower::program(tree);
-        let formula = code.units.first().and_then(Formula::of).map(Arc::new);
+        let form = Form::of(tree);
+        let formula = form.units.first().and_then(pure::whole).map(Arc::new);
         let row = formula.as_deref().and_then(Row::of).map(Arc::new);
         let order = Order::of(tree, &effects);
-        Program { code: code.into(), effects, result, aggregates, order, formula, row }
+        Program {
+            code: Code::of(form, row.is_none()).into(),
+            effects,
+            result,
+            aggregates,
+            order,
+            formula,
+            row,
+        }
     }
 
     /// What it touches.

@@ -2,20 +2,22 @@
 //! number at hand, each with a register or a constant as its other operand. The number so stays in a register of the
 //! processor from operation to operation; only what is needed again later goes to memory.
 
-use crate::formula::{ARGS, At, Formula, Step};
-use crate::math::{Apply, Function};
-use crate::operators::BinaryOp;
+use crate::formula::{At, Formula, Step};
+use crate::math::{Apply, FEW, Function};
+use crate::operation::select;
+use crate::operators::{BinaryOp, UnaryOp};
 use crate::program::Host;
 use crate::schema::FieldKey;
-use crate::value::{Value, truthy};
+use crate::value::Value;
 
 /// Number of registers: a byte names each of them, so none can be out of range.
-const REGISTERS: usize = 256;
+pub(crate) const REGISTERS: usize = 256;
 
 /// The registers of a run.
-type Registers = [f64; REGISTERS];
+pub(crate) type Registers = [f64; REGISTERS];
 
-/// One operation on the number at hand, `x`; `r` is a register and `k` a constant.
+/// One operation on the number at hand, `x`; `r` is a register and `k` a constant. The most frequent have a place of their
+/// own, and so does each order of their operands.
 #[derive(Clone, Copy, Debug)]
 enum Op {
     /// x = r
@@ -38,21 +40,19 @@ enum Op {
     DivideInto(u8),
     /// x + k
     AddConstant(f64),
-    /// k - x
-    SubtractFromConstant(f64),
     /// x k
     MultiplyConstant(f64),
-    /// x / k
-    DivideConstant(f64),
     /// x of r
     Binary(BinaryOp, u8),
+    /// r of x
+    Round(BinaryOp, u8),
     /// x of k
-    BinaryConstant(BinaryOp, f64),
-    Negate,
-    Not,
-    BitNot,
+    Right(BinaryOp, f64),
+    /// k of x
+    Left(BinaryOp, f64),
+    Unary(UnaryOp),
     /// By the truth of x: the first or the second.
-    Choose(u8, u8),
+    Select(u8, u8),
     /// f(x)
     One(fn(f64) -> f64),
     /// f(x, r)
@@ -62,15 +62,16 @@ enum Op {
 }
 
 impl Op {
-    /// Whether it reads the register, of those that it names itself.
-    fn reads(self, register: u8) -> bool {
+    /// The registers that it reads, of those that it names itself.
+    fn reads(self) -> [Option<u8>; 2] {
         match self {
             Op::Take(r) | Op::Add(r) | Op::Subtract(r) | Op::SubtractFrom(r) | Op::Multiply(r) => {
-                r == register
+                [Some(r), None]
             }
-            Op::Divide(r) | Op::DivideInto(r) | Op::Binary(_, r) | Op::Two(_, r) => r == register,
-            Op::Choose(yes, no) => yes == register || no == register,
-            _ => false,
+            Op::Divide(r) | Op::DivideInto(r) | Op::Binary(_, r) => [Some(r), None],
+            Op::Round(_, r) | Op::Two(_, r) => [Some(r), None],
+            Op::Select(yes, no) => [Some(yes), Some(no)],
+            _ => [None, None],
         }
     }
 }
@@ -88,6 +89,14 @@ pub(crate) struct Row {
     truth: bool,
 }
 
+/// A step whose result is wanted in a register.
+pub(crate) struct Wanted {
+    pub(crate) step: At,
+    pub(crate) register: u8,
+    /// Nothing reads behind the step what stood in the register before.
+    pub(crate) at_once: bool,
+}
+
 impl Row {
     /// `None` when it needs too many registers.
     pub(crate) fn of(formula: &Formula) -> Option<Row> {
@@ -95,24 +104,80 @@ impl Row {
             |step: &Step| if let Step::Load(field, index) = step { Some((*field, *index)) } else { None };
         let mut elements: Vec<_> = formula.steps.iter().filter_map(load).collect();
         elements.sort_unstable();
-        let mut other = elements.len()..REGISTERS;
-        let place = |step: &Step| {
-            let at = match load(step) {
-                Some(element) => elements.binary_search(&element).ok(),
-                None => other.next(),
-            };
-            u8::try_from(at?).ok()
-        };
-        let homes = formula.steps.iter().map(place).collect::<Option<Vec<u8>>>()?;
         let loads = u8::try_from(elements.len()).ok()?;
-        let mut build = Build { formula, homes, loads, ops: Vec::new(), args: Vec::new(), at_hand: None };
+        let free = usize::from(loads)..REGISTERS;
+        let mut row = Row::with(formula, &elements, &[], free.filter_map(|r| u8::try_from(r).ok()))?;
+        (row.elements, row.start) = (elements, row.begin());
+        Some(row)
+    }
+
+    /// A part of a program, with the registers of its inputs. Results that are wanted go to registers of the program; what
+    /// else it keeps goes to free ones.
+    pub(crate) fn part(formula: &Formula, wanted: &[Wanted], free: impl Iterator<Item = u8>) -> Option<Row> {
+        let mut row = Row::with(formula, &[], wanted, free)?;
+        row.start = row.begin();
+        Some(row)
+    }
+
+    fn with(
+        formula: &Formula,
+        elements: &[(FieldKey, u32)],
+        wanted: &[Wanted],
+        mut free: impl Iterator<Item = u8>,
+    ) -> Option<Row> {
+        let mut homes = Vec::with_capacity(formula.steps.len());
+        for (at, step) in (0..).zip(&formula.steps) {
+            let home = match step {
+                Step::Load(field, index) => {
+                    u8::try_from(elements.binary_search(&(*field, *index)).ok()?).ok()
+                }
+                Step::Input(register) => u8::try_from(*register).ok(),
+                _ => match wanted.iter().find(|w| w.step == at && w.at_once) {
+                    Some(wanted) => Some(wanted.register),
+                    None => free.next(),
+                },
+            };
+            homes.push(home?);
+        }
+        let mut build = Build { formula, homes, ops: Vec::new(), args: Vec::new(), at_hand: None };
         for (at, step) in (0..).zip(&formula.steps) {
             build.step(at, *step)?;
         }
-        build.take(formula.output)?;
-        build.drop_unread();
-        let start = build.start();
-        Some(Row { elements, start, ops: build.ops, args: build.args, truth: formula.truth })
+        for wanted in wanted {
+            if build.home(wanted.step) == Some(wanted.register) {
+                continue;
+            }
+            build.take(wanted.step)?;
+            build.at_hand = Some(wanted.step);
+            build.ops.push(Op::Keep(wanted.register));
+        }
+        if wanted.is_empty() {
+            build.take(formula.output)?;
+        }
+        build.drop_unread(wanted);
+        let (ops, args) = (build.ops, build.args);
+        Some(Row { elements: Vec::new(), start: 0, ops, args, truth: formula.truth })
+    }
+
+    /// The register that the first operation on a number takes, if it does nothing else and the register holds something
+    /// already: that needs no operation.
+    fn begin(&mut self) -> u8 {
+        let first = self.ops.iter().position(|op| !matches!(op, Op::Put(..)));
+        match first.and_then(|at| Some((at, *self.ops.get(at)?))) {
+            Some((at, Op::Take(r)))
+                if !self.ops.iter().any(|op| matches!(op, Op::Put(put, _) if *put == r)) =>
+            {
+                self.ops.remove(at);
+                r
+            }
+            _ => 0,
+        }
+    }
+
+    /// Registers up to the last that it changes.
+    pub(crate) fn registers(&self) -> u32 {
+        let kept = |op: &Op| if let Op::Keep(r) | Op::Put(r, _) = *op { u32::from(r) + 1 } else { 0 };
+        self.ops.iter().map(kept).max().unwrap_or(0)
     }
 
     /// The value now; `None` when an element does not exist.
@@ -125,6 +190,14 @@ impl Row {
         if !host.read(&self.elements, r.get_mut(..self.elements.len())?) {
             return None;
         }
+        let x = self.run(r);
+        Some(if self.truth { Value::Boolean(x != 0.0) } else { Value::Number(x) })
+    }
+
+    /// The number that is at hand last.
+    #[inline]
+    pub(crate) fn run(&self, r: &mut Registers) -> f64 {
+        use BinaryOp::{Add, Divide, Multiply, Subtract};
         let mut x = r[usize::from(self.start)];
         for op in &self.ops {
             x = match *op {
@@ -137,34 +210,32 @@ impl Row {
                     r[usize::from(a)] = k;
                     x
                 }
-                Op::Add(a) => x + r[usize::from(a)],
-                Op::Subtract(a) => x - r[usize::from(a)],
-                Op::SubtractFrom(a) => r[usize::from(a)] - x,
-                Op::Multiply(a) => x * r[usize::from(a)],
-                Op::Divide(a) => x / r[usize::from(a)],
-                Op::DivideInto(a) => r[usize::from(a)] / x,
-                Op::AddConstant(k) => x + k,
-                Op::SubtractFromConstant(k) => k - x,
-                Op::MultiplyConstant(k) => x * k,
-                Op::DivideConstant(k) => x / k,
+                Op::Add(a) => Add.on_numbers(x, r[usize::from(a)]),
+                Op::Subtract(a) => Subtract.on_numbers(x, r[usize::from(a)]),
+                Op::SubtractFrom(a) => Subtract.on_numbers(r[usize::from(a)], x),
+                Op::Multiply(a) => Multiply.on_numbers(x, r[usize::from(a)]),
+                Op::Divide(a) => Divide.on_numbers(x, r[usize::from(a)]),
+                Op::DivideInto(a) => Divide.on_numbers(r[usize::from(a)], x),
+                Op::AddConstant(k) => Add.on_numbers(x, k),
+                Op::MultiplyConstant(k) => Multiply.on_numbers(x, k),
                 Op::Binary(op, a) => op.on_numbers(x, r[usize::from(a)]),
-                Op::BinaryConstant(op, k) => op.on_numbers(x, k),
-                Op::Negate => -x,
-                Op::Not => f64::from(u8::from(!truthy(x))),
-                Op::BitNot => f64::from(!crate::number::to_int32(x)),
-                Op::Choose(yes, no) => r[usize::from(if truthy(x) { yes } else { no })],
+                Op::Round(op, a) => op.on_numbers(r[usize::from(a)], x),
+                Op::Right(op, k) => op.on_numbers(x, k),
+                Op::Left(op, k) => op.on_numbers(k, x),
+                Op::Unary(op) => op.on_number(x),
+                Op::Select(yes, no) => r[usize::from(select(x, yes, no))],
                 Op::One(f) => f(x),
                 Op::Two(f, a) => f(x, r[usize::from(a)]),
                 Op::Many(f, count, first) => self.many(f, first, count, r),
             };
         }
-        Some(if self.truth { Value::Boolean(x != 0.0) } else { Value::Number(x) })
+        x
     }
 
     #[inline(never)]
     fn many(&self, f: fn(&[f64]) -> f64, first: u16, count: u8, r: &Registers) -> f64 {
         let args = self.args.get(usize::from(first)..).unwrap_or(&[]);
-        let mut row = [0.0; ARGS];
+        let mut row = [0.0; FEW];
         for (x, a) in row.iter_mut().zip(args) {
             *x = r[usize::from(*a)];
         }
@@ -184,8 +255,6 @@ struct Build<'f> {
     formula: &'f Formula,
     /// The register of each step.
     homes: Vec<u8>,
-    /// Registers below this one hold what was read.
-    loads: u8,
     ops: Vec<Op>,
     args: Vec<u8>,
     /// The step whose result is the number at hand.
@@ -197,13 +266,6 @@ impl Build<'_> {
         self.homes.get(at as usize).copied()
     }
 
-    fn constant(&self, at: At) -> Option<f64> {
-        match self.formula.steps.get(at as usize) {
-            Some(Step::Constant(k)) => Some(*k),
-            _ => None,
-        }
-    }
-
     /// Makes a result the number at hand.
     fn take(&mut self, at: At) -> Option<()> {
         if self.at_hand != Some(at) {
@@ -213,42 +275,33 @@ impl Build<'_> {
     }
 
     /// An operation of two operands: the second may be the number at hand when there is a way round for it.
-    fn two(&mut self, a: At, b: At, op: impl Fn(u8) -> Op, round: Option<fn(u8) -> Op>) -> Option<Op> {
-        match round {
-            Some(round) if self.at_hand == Some(b) && a != b => Some(round(self.home(a)?)),
-            _ => {
-                self.take(a)?;
-                Some(op(self.home(b)?))
-            }
+    fn two(&mut self, a: At, b: At, op: impl Fn(u8) -> Op, round: impl Fn(u8) -> Op) -> Option<Op> {
+        if self.at_hand == Some(b) && a != b {
+            return Some(round(self.home(a)?));
         }
+        self.take(a)?;
+        Some(op(self.home(b)?))
     }
 
     /// An operation, kept for later in its register.
     fn step(&mut self, at: At, step: Step) -> Option<()> {
         let op = match step {
-            Step::Load(..) => return Some(()),
+            Step::Load(..) | Step::Input(_) => return Some(()),
             Step::Constant(k) => {
-                self.ops.push(Op::Put(self.home(at)?, k));
+                self.ops.push(Op::Put(self.home(at)?, k.number()));
                 return Some(());
             }
-            Step::Add(a, b) => self.two(a, b, Op::Add, Some(Op::Add))?,
-            Step::Subtract(a, b) => self.two(a, b, Op::Subtract, Some(Op::SubtractFrom))?,
-            Step::Multiply(a, b) => self.two(a, b, Op::Multiply, Some(Op::Multiply))?,
-            Step::Divide(a, b) => match self.constant(b) {
-                Some(k) => self.one(a, Op::DivideConstant(k))?,
-                None => self.two(a, b, Op::Divide, Some(Op::DivideInto))?,
-            },
-            Step::Binary(op, a, b) => match self.constant(b) {
-                Some(k) => self.one(a, Op::BinaryConstant(op, k))?,
-                None => self.two(a, b, |r| Op::Binary(op, r), None)?,
-            },
-            Step::AddConstant(a, k) => self.one(a, Op::AddConstant(k))?,
-            Step::MultiplyConstant(a, k) => self.one(a, Op::MultiplyConstant(k))?,
-            Step::SubtractFrom(k, a) => self.one(a, Op::SubtractFromConstant(k))?,
-            Step::Negate(a) => self.one(a, Op::Negate)?,
-            Step::Not(a) => self.one(a, Op::Not)?,
-            Step::BitNot(a) => self.one(a, Op::BitNot)?,
-            Step::Choose(test, yes, no) => self.one(test, Op::Choose(self.home(yes)?, self.home(no)?))?,
+            Step::Binary(BinaryOp::Add, a, b) => self.two(a, b, Op::Add, Op::Add)?,
+            Step::Binary(BinaryOp::Subtract, a, b) => self.two(a, b, Op::Subtract, Op::SubtractFrom)?,
+            Step::Binary(BinaryOp::Multiply, a, b) => self.two(a, b, Op::Multiply, Op::Multiply)?,
+            Step::Binary(BinaryOp::Divide, a, b) => self.two(a, b, Op::Divide, Op::DivideInto)?,
+            Step::Binary(op, a, b) => self.two(a, b, |r| Op::Binary(op, r), |r| Op::Round(op, r))?,
+            Step::Right(BinaryOp::Add, a, k) => self.one(a, Op::AddConstant(k.number()))?,
+            Step::Right(BinaryOp::Multiply, a, k) => self.one(a, Op::MultiplyConstant(k.number()))?,
+            Step::Right(op, a, k) => self.one(a, Op::Right(op, k.number()))?,
+            Step::Left(op, k, a) => self.one(a, Op::Left(op, k.number()))?,
+            Step::Unary(op, a) => self.one(a, Op::Unary(op))?,
+            Step::Select(test, yes, no) => self.one(test, Op::Select(self.home(yes)?, self.home(no)?))?,
             Step::Math(function, first, count) => self.math(function, first, count)?,
         };
         self.ops.extend([op, Op::Keep(self.home(at)?)]);
@@ -265,36 +318,34 @@ impl Build<'_> {
         let args = self.formula.args(first, count);
         match (function.apply_by(), args) {
             (Apply::One(f), [a, ..]) => self.one(*a, Op::One(f)),
-            (Apply::Two(f), [a, b, ..]) => self.two(*a, *b, |r| Op::Two(f, r), None),
-            (Apply::Many(f), args) => {
+            (Apply::Two(f), [a, b, ..]) => {
+                self.take(*a)?;
+                Some(Op::Two(f, self.home(*b)?))
+            }
+            (Apply::Many(f), args) if args.len() <= FEW => {
                 let first = u16::try_from(self.args.len()).ok()?;
                 for &a in args {
                     self.args.push(self.homes.get(a as usize).copied()?);
                 }
                 Some(Op::Many(f, u8::try_from(args.len()).ok()?, first))
             }
-            // An argument is missing: rare enough for the machine.
+            // Too many arguments, or one is missing: rare enough for the machine.
             _ => None,
         }
     }
 
-    /// The register that the first operation on a number takes, if it does nothing else: that needs no operation.
-    fn start(&mut self) -> u8 {
-        let first = self.ops.iter().position(|op| !matches!(op, Op::Put(..)));
-        match first.and_then(|at| Some((at, *self.ops.get(at)?))) {
-            Some((at, Op::Take(r))) if r < self.loads => {
-                self.ops.remove(at);
-                r
-            }
-            _ => 0,
-        }
-    }
-
     /// Leaves out what goes to registers that nothing reads.
-    fn drop_unread(&mut self) {
-        let read = |r: u8| self.args.contains(&r) || self.ops.iter().any(|op| op.reads(r));
-        let unread = |op: &Op| matches!(*op, Op::Keep(r) | Op::Put(r, _) if !read(r));
-        self.ops = self.ops.iter().filter(|op| !unread(op)).copied().collect();
+    fn drop_unread(&mut self, wanted: &[Wanted]) {
+        let mut read = [false; REGISTERS];
+        for r in wanted.iter().map(|w| w.register).chain(self.args.iter().copied()) {
+            read[usize::from(r)] = true;
+        }
+        for op in &self.ops {
+            for r in op.reads().into_iter().flatten() {
+                read[usize::from(r)] = true;
+            }
+        }
+        self.ops.retain(|op| !matches!(*op, Op::Keep(r) | Op::Put(r, _) if !read[usize::from(r)]));
     }
 }
 

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use crate::heap::Ref;
 use crate::number;
+use crate::operation::truthy;
 use crate::schema::{FieldKey, Type};
 
 /// A value of JavaScript.
@@ -72,6 +73,18 @@ impl Value {
         }
     }
 
+    /// What `typeof` says.
+    pub(crate) fn type_name(&self) -> &'static str {
+        match self {
+            Value::Undefined => "undefined",
+            Value::Number(_) => "number",
+            Value::Boolean(_) => "boolean",
+            Value::String(_) => "string",
+            Value::Function(_) => "function",
+            Value::Null | Value::List(_) | Value::Record(_) | Value::View(_) => "object",
+        }
+    }
+
     /// Whether it is `undefined` or `null`.
     pub fn is_nothing(&self) -> bool {
         matches!(self, Value::Undefined | Value::Null)
@@ -134,12 +147,6 @@ impl Value {
             _ => self.to_number() == other.to_number(),
         }
     }
-}
-
-/// Whether a number counts as true.
-#[inline]
-pub(crate) fn truthy(x: f64) -> bool {
-    x != 0.0 && !x.is_nan()
 }
 
 /// JavaScript's `String(v)` of a primitive value; of others only what it is, see [`crate::Heap::text`].

@@ -6,6 +6,7 @@ mod language;
 mod math;
 mod mistakes;
 mod node;
+mod operations;
 mod programs;
 mod roundtrip;
 mod semantics;

@@ -1,26 +1,29 @@
 //! The machine: flat operations on two files of registers, one of doubles and one of values of any type.
 //!
-//! A boolean lives in a number register as 1 or 0; `lower` knows which it is. Constants stand in registers
+//! A boolean lives in a number register as 1 or 0; `emit` knows which it is. Constants stand in registers
 //! before the first operation of a function. Every jump back counts the operations that it repeats, every call those of the
 //! function, so every run ends, and what it cost is known.
 
 mod code;
+mod emit;
 mod parts;
 
-pub(crate) use code::{Code, CodeUnit, Num, Op, Slot, Val};
+pub(crate) use code::{Code, CodeUnit};
 
 use std::sync::Arc;
 
 use crate::Span;
+use crate::form::{Num, Op, Slot, Val};
 use crate::heap::{MAX_TEXT, Object};
-use crate::ir;
 use crate::natives::{self, Env, Trouble};
 use crate::number;
+use crate::operation::{select, truth, truthy};
 use crate::operators::BinaryOp;
 use crate::program::{Context, EventKind, Host, RuntimeError, RuntimeEvent};
+use crate::row::REGISTERS;
 use crate::rules;
 use crate::schema::FieldKey;
-use crate::value::{Value, View, truthy};
+use crate::value::{Value, View};
 
 /// Work that a run may do. A unit is about a nanosecond of a fast machine.
 pub(crate) const MAX_WORK: u64 = 200_000_000;
@@ -43,19 +46,31 @@ pub(crate) fn run(
 ) -> Result<Value, RuntimeError> {
     context.events.clear();
     if context.heap.wants_collection() {
-        context.collect(&[]);
+        // What the last run left in registers is of no use any more.
+        context.values.clear();
+        context.collect(input);
     }
-    // Registers are taken out while running, so that the rest of the context stays usable.
-    let numbers = std::mem::take(&mut context.numbers);
-    let values = std::mem::take(&mut context.values);
     let budget = context.allowed.map_or(MAX_WORK, |left| left.min(MAX_WORK));
-    let mut machine = Machine { host, context, input, numbers, values, budget, depth: 0, of_host: 0 };
-    let result = machine.whole(code);
-    let Machine { numbers, values, budget: left, of_host, .. } = machine;
+    let mut machine = Machine { host, context, input, budget, depth: 0, of_host: 0 };
+    let done = machine.whole(code);
+    let Machine { context, budget: left, of_host, .. } = machine;
     context.work += budget.saturating_sub(left).saturating_sub(of_host);
-    context.numbers = numbers;
-    context.values = values;
-    result
+    match done {
+        Ok(slot) => Ok(taken(slot, context.numbers.first(), context.values.first())),
+        Err(error) => Err(*error),
+    }
+}
+
+/// What a function left in its first registers as its result. Made where it is wanted: to hand a value on is slow.
+#[inline(always)]
+fn taken(slot: Slot, number: Option<&f64>, value: Option<&Value>) -> Value {
+    let x = number.copied().unwrap_or(f64::NAN);
+    match (slot, value) {
+        (Slot::Number, _) => Value::Number(x),
+        (Slot::Boolean, _) => Value::Boolean(x != 0.0),
+        (Slot::Value, Some(Value::Number(x))) => Value::Number(*x),
+        (Slot::Value, value) => value.cloned().unwrap_or_default(),
+    }
 }
 
 /// Where the registers of a function start.
@@ -65,13 +80,11 @@ struct Frame {
     v: usize,
 }
 
-/// The state of a run. Registers and jump targets come from `lower`, which gives out only existing ones.
+/// The state of a run. Registers and jump targets come from `emit`, which gives out only existing ones.
 struct Machine<'a> {
     host: &'a mut dyn Host,
     context: &'a mut Context,
     input: Option<&'a Value>,
-    numbers: Vec<f64>,
-    values: Vec<Value>,
     /// Work that may still be done.
     budget: u64,
     depth: usize,
@@ -83,53 +96,46 @@ struct Machine<'a> {
 type Failed = Result<(), Box<RuntimeError>>;
 
 impl Machine<'_> {
-    fn whole(&mut self, code: &Arc<Code>) -> Result<Value, RuntimeError> {
-        let Some(unit) = code.units.first() else { return Ok(Value::Undefined) };
+    /// Runs the text itself; gives how it left its result.
+    #[inline]
+    fn whole(&mut self, code: &Arc<Code>) -> Result<Slot, Box<RuntimeError>> {
+        let Some(unit) = code.units.first() else { return Ok(Slot::Value) };
         let frame = Frame { n: 0, v: 0 };
         self.make_room(unit, frame);
-        self.budget = self.budget.saturating_sub(unit.cost());
-        self.execute(code, unit, frame).map_err(|e| *e)?;
-        Ok(self.taken(unit.result, frame))
-    }
-
-    /// What a function left as its result.
-    fn taken(&self, slot: Slot, frame: Frame) -> Value {
-        match slot {
-            Slot::Number => Value::Number(self.num(frame, Num(0))),
-            Slot::Boolean => Value::Boolean(self.num(frame, Num(0)) != 0.0),
-            Slot::Value => self.val(frame, Val(0)).clone(),
-        }
+        self.budget = self.budget.saturating_sub(unit.cost);
+        self.execute(code, unit, frame)?;
+        Ok(unit.result)
     }
 
     fn make_room(&mut self, unit: &CodeUnit, frame: Frame) {
-        let numbers = frame.n + unit.number_count as usize + HANDED;
-        if self.numbers.len() < numbers {
-            self.numbers.resize(numbers, 0.0);
+        let numbers = frame.n + (unit.number_count as usize + HANDED).max(REGISTERS);
+        if self.context.numbers.len() < numbers {
+            self.context.numbers.resize(numbers, 0.0);
         }
         let values = frame.v + unit.value_count as usize + HANDED;
-        if self.values.len() < values {
-            self.values.resize(values, Value::Undefined);
+        if self.context.values.len() < values {
+            self.context.values.resize(values, Value::Undefined);
         }
     }
 
     #[inline]
     fn num(&self, f: Frame, register: Num) -> f64 {
-        self.numbers[f.n + register.0 as usize]
+        self.context.numbers[f.n + register.0 as usize]
     }
 
     #[inline]
     fn val(&self, f: Frame, register: Val) -> &Value {
-        &self.values[f.v + register.0 as usize]
+        &self.context.values[f.v + register.0 as usize]
     }
 
     #[inline]
     fn put(&mut self, f: Frame, register: Num, x: f64) {
-        self.numbers[f.n + register.0 as usize] = x;
+        self.context.numbers[f.n + register.0 as usize] = x;
     }
 
     #[inline]
     fn put_value(&mut self, f: Frame, register: Val, value: Value) {
-        self.values[f.v + register.0 as usize] = value;
+        self.context.values[f.v + register.0 as usize] = value;
     }
 
     /// Runs a function whose parameters stand in their registers.
@@ -155,8 +161,8 @@ impl Machine<'_> {
                         at = to as usize;
                     }
                 }
-                Op::Again(to) => {
-                    let turn = OPERATION * (at as u64).saturating_sub(u64::from(to));
+                Op::Again(to, turn) => {
+                    let turn = u64::from(turn);
                     if self.budget < turn {
                         self.budget = 0;
                         return Err(failure(natives::out_of_steps(), unit, at - 1));
@@ -178,36 +184,67 @@ impl Machine<'_> {
                     let x = self.element(view, self.num(f, index), unit, at - 1).unwrap_or(f64::NAN);
                     self.put(f, dst, x);
                 }
-                Op::Add(dst, a, b) => self.put(f, dst, self.num(f, a) + self.num(f, b)),
-                Op::Subtract(dst, a, b) => self.put(f, dst, self.num(f, a) - self.num(f, b)),
-                Op::Multiply(dst, a, b) => self.put(f, dst, self.num(f, a) * self.num(f, b)),
-                Op::Divide(dst, a, b) => self.put(f, dst, self.num(f, a) / self.num(f, b)),
-                Op::Less(dst, a, b) => self.put(f, dst, truth(self.num(f, a) < self.num(f, b))),
-                Op::Binary(dst, op, a, b) => self.put(f, dst, op.on_numbers(self.num(f, a), self.num(f, b))),
-                Op::Negate(dst, a) => self.put(f, dst, -self.num(f, a)),
-                Op::Not(dst, a) => self.put(f, dst, truth(!truthy(self.num(f, a)))),
-                Op::BitNot(dst, a) => self.put(f, dst, f64::from(!number::to_int32(self.num(f, a)))),
+                Op::LoadValue(dst, view, index) => {
+                    let place = (view.first as usize).saturating_add(index as usize);
+                    match self.host.get(view.field, place) {
+                        Some(x) => self.put_value(f, dst, Value::Number(x)),
+                        None => {
+                            self.note(EventKind::ReadPastEnd, unit, at - 1, view, f64::from(index));
+                            self.put_value(f, dst, Value::Undefined);
+                        }
+                    }
+                }
+                Op::LoadValueAt(dst, view, index) => {
+                    match self.element(view, self.num(f, index), unit, at - 1) {
+                        Some(x) => self.put_value(f, dst, Value::Number(x)),
+                        None => self.put_value(f, dst, Value::Undefined),
+                    }
+                }
+                Op::BoxNumber(dst, src) => self.put_value(f, dst, Value::Number(self.num(f, src))),
+                Op::Binary(dst, op, a, b) => {
+                    let (a, b) = (self.num(f, a), self.num(f, b));
+                    self.put(f, dst, op.on_numbers(a, b));
+                }
+                Op::Unary(dst, op, a) => self.put(f, dst, op.on_number(self.num(f, a))),
+                Op::Select(dst, test, a, b) => {
+                    self.put(f, dst, self.num(f, select(self.num(f, test), a, b)));
+                }
                 Op::Move(dst, src) => self.put(f, dst, self.num(f, src)),
-                Op::Math(dst, function, first, count) => {
-                    let first = f.n + first.0 as usize;
-                    let x = function.apply(&self.numbers[first..first + count as usize]);
+                Op::Math(dst, function, args) => {
+                    // The arguments behind all registers, where there is room for them.
+                    let numbers = &mut self.context.numbers;
+                    let (registers, args) = (numbers.len(), args.of(&unit.args));
+                    for a in args {
+                        numbers.push(numbers[f.n + *a as usize]);
+                    }
+                    let x = function.apply(numbers.get(registers..).unwrap_or(&[]));
+                    numbers.truncate(registers);
                     self.put(f, dst, x);
+                }
+                Op::Formula(formula) => {
+                    // `emit` makes a formula only of registers that a byte can name, and there is room for them.
+                    let registers = self.context.numbers.get_mut(f.n..).and_then(<[f64]>::first_chunk_mut);
+                    if let (Some((formula, _)), Some(registers)) =
+                        (unit.formulas.get(formula as usize), registers)
+                    {
+                        formula.run(registers);
+                    }
                 }
                 Op::PassNumber(k, src) => {
                     let x = self.num(f, src);
-                    self.numbers[f.n + (unit.number_count + k) as usize] = x;
+                    self.context.numbers[f.n + (unit.number_count + k) as usize] = x;
                 }
                 Op::PassValue(k, src) => {
                     let value = self.val(f, src).clone();
-                    self.values[f.v + (unit.value_count + k) as usize] = value;
+                    self.context.values[f.v + (unit.value_count + k) as usize] = value;
                 }
                 Op::Call(callee) => self.call(code, callee, unit, f, at - 1)?,
                 Op::TakeNumber(dst) => {
-                    let x = self.numbers[f.n + unit.number_count as usize];
+                    let x = self.context.numbers[f.n + unit.number_count as usize];
                     self.put(f, dst, x);
                 }
                 Op::TakeValue(dst) => {
-                    let value = std::mem::take(&mut self.values[f.v + unit.value_count as usize]);
+                    let value = std::mem::take(&mut self.context.values[f.v + unit.value_count as usize]);
                     self.put_value(f, dst, value);
                 }
                 _ => {
@@ -243,7 +280,7 @@ impl Machine<'_> {
                 format!("functions call each other more than {MAX_CALLS} times, one inside the other");
             return Err(Trouble::new(rules::CALL_DEPTH, message));
         }
-        self.charge(callee.cost())?;
+        self.charge(callee.cost)?;
         self.depth += 1;
         Ok(())
     }
@@ -261,22 +298,14 @@ impl Machine<'_> {
     /// Collects what no register and no variable refers to any more.
     fn tidy(&mut self) {
         if self.context.heap.wants_collection() {
-            let input = self.input.cloned();
-            self.values.extend(input);
-            self.context.collect(&self.values);
-            if self.input.is_some() {
-                self.values.pop();
-            }
+            self.context.collect(self.input);
         }
     }
 
     /// Everything but jumps, calls and plain arithmetic.
+    #[inline(never)]
     fn step(&mut self, op: Op, code: &Arc<Code>, unit: &CodeUnit, f: Frame, at: usize) -> Result<(), Stop> {
         match op {
-            Op::LoadValueAt(dst, view, index) => {
-                let x = self.element(view, self.num(f, index), unit, at);
-                self.put_value(f, dst, x.map_or(Value::Undefined, Value::Number));
-            }
             Op::Length(dst, view) => self.put(f, dst, self.length(view) as f64),
             Op::Input(dst) => self.put_value(f, dst, self.input.cloned().unwrap_or_default()),
             Op::Global(dst, slot) => self.put_value(f, dst, self.context.get(slot).clone()),
@@ -295,7 +324,6 @@ impl Machine<'_> {
             }
 
             Op::MoveValue(dst, src) => self.put_value(f, dst, self.val(f, src).clone()),
-            Op::BoxNumber(dst, src) => self.put_value(f, dst, Value::Number(self.num(f, src))),
             Op::BoxBoolean(dst, src) => self.put_value(f, dst, Value::Boolean(self.num(f, src) != 0.0)),
             Op::ToNumber(dst, src) => {
                 let x = match self.val(f, src) {
@@ -317,7 +345,7 @@ impl Machine<'_> {
                 self.put_value(f, dst, text);
             }
             Op::TypeOf(dst, src) => {
-                let name = ir::type_name(self.val(f, src));
+                let name = self.val(f, src).type_name();
                 self.put_value(f, dst, Value::from(name));
             }
             Op::Plus(dst, a, b) => {
@@ -329,12 +357,14 @@ impl Machine<'_> {
                 self.put(f, dst, truth(holds));
             }
 
-            Op::CallHost(dst, function, first, count) => {
+            Op::CallHost(dst, function, args) => {
                 self.env(code).spend(HOST_CALL)?;
-                let first = f.v + first.0 as usize;
-                let args = &self.values[first..first + count as usize];
+                let mut handed = std::mem::take(&mut self.context.handed);
+                handed.extend(args.of(&unit.args).iter().map(|a| self.val(f, Val(*a)).clone()));
                 let before = self.host.work();
-                let result = self.host.call(&mut self.context.heap, function, args);
+                let result = self.host.call(&mut self.context.heap, function, &handed);
+                handed.clear();
+                self.context.handed = handed;
                 let done = self.host.work().saturating_sub(before).min(self.budget);
                 self.of_host += done;
                 self.charge(done)?;
@@ -368,7 +398,7 @@ impl Machine<'_> {
                     self.store(view.field, view.first as usize + index, self.num(f, src))?;
                 }
             }
-            _ => self.part(op, code, unit, f, at)?,
+            _ => self.part(op, code, unit, f)?,
         }
         Ok(())
     }
@@ -436,7 +466,14 @@ impl Machine<'_> {
 
     #[inline]
     fn element(&mut self, view: View, written: f64, unit: &CodeUnit, at: usize) -> Option<f64> {
-        let found = self.position(view, written).and_then(|index| self.host.get(view.field, index));
+        // No field has more elements than that. The comparison is false for NaN, and for what is not whole.
+        let index = written as u32;
+        let found = if f64::from(index) == written && view.count().is_none_or(|n| (index as usize) < n) {
+            // Of a field without a known length the host knows where it ends.
+            self.host.get(view.field, (view.first as usize).saturating_add(index as usize))
+        } else {
+            None
+        };
         if found.is_none() {
             self.note(EventKind::ReadPastEnd, unit, at, view, written);
         }
@@ -471,10 +508,6 @@ impl From<crate::heap::Full> for Stop {
     fn from(full: crate::heap::Full) -> Stop {
         Stop::Here(full.into())
     }
-}
-
-fn truth(holds: bool) -> f64 {
-    f64::from(u8::from(holds))
 }
 
 /// A number as an index: whole and not negative.

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{Code, CodeUnit, Frame, Machine, Op, Slot, Stop, Val, index_of, what, whole_index};
+use super::{Code, CodeUnit, Frame, Machine, Stop, index_of, taken, what, whole_index};
+use crate::form::{Args, Op, Slot, Val};
 use crate::heap::Object;
 use crate::ir::Picks;
 use crate::natives::{self, Trouble};
@@ -10,14 +11,7 @@ use crate::rules;
 use crate::value::{Value, View};
 
 impl Machine<'_> {
-    pub(super) fn part(
-        &mut self,
-        op: Op,
-        code: &Arc<Code>,
-        unit: &CodeUnit,
-        f: Frame,
-        _at: usize,
-    ) -> Result<(), Stop> {
+    pub(super) fn part(&mut self, op: Op, code: &Arc<Code>, unit: &CodeUnit, f: Frame) -> Result<(), Stop> {
         self.tidy();
         match op {
             Op::MathOver(dst, function, list) => {
@@ -30,9 +24,8 @@ impl Machine<'_> {
                 }
                 self.put(f, dst, function.apply(&numbers));
             }
-            Op::List(dst, first, count) => {
-                let first = f.v + first.0 as usize;
-                let items = self.values[first..first + count as usize].to_vec();
+            Op::List(dst, items) => {
+                let items = self.all(items, unit, f);
                 let list = self.context.heap.list(items)?;
                 self.put_value(f, dst, list);
             }
@@ -111,9 +104,8 @@ impl Machine<'_> {
                 let (object, value) = (self.val(f, object).clone(), self.val(f, value).clone());
                 self.store_member(code, &object, name, value)?;
             }
-            Op::Method(dst, name, first, count) => {
-                let first = f.v + first.0 as usize;
-                let args = self.values[first..first + count as usize].to_vec();
+            Op::Method(dst, name, args) => {
+                let args = self.all(args, unit, f);
                 let Some((receiver, args)) = args.split_first() else { return Ok(()) };
                 let value = self.method(code, unit, f, name, receiver, args)?;
                 self.put_value(f, dst, value);
@@ -124,9 +116,8 @@ impl Machine<'_> {
                 let value = self.method(code, unit, f, name, &receiver, &args)?;
                 self.put_value(f, dst, value);
             }
-            Op::Native(dst, function, first, count) => {
-                let first = f.v + first.0 as usize;
-                let args = self.values[first..first + count as usize].to_vec();
+            Op::Native(dst, function, args) => {
+                let args = self.all(args, unit, f);
                 let value = natives::call_free(&mut self.env(code), function, &args)?;
                 self.put_value(f, dst, value);
             }
@@ -137,16 +128,14 @@ impl Machine<'_> {
                 let value = natives::call_free(&mut env, function, &args)?;
                 self.put_value(f, dst, value);
             }
-            Op::Closure(dst, callee, first, count) => {
-                let first = f.v + first.0 as usize;
-                let captures = self.values[first..first + count as usize].to_vec();
+            Op::Closure(dst, callee, captures) => {
+                let captures = self.all(captures, unit, f);
                 let value = self.context.heap.closure(code.clone(), callee, captures)?;
                 self.put_value(f, dst, value);
             }
-            Op::Invoke(dst, callee, first, count) => {
-                let first = f.v + first.0 as usize;
-                let callee = self.val(f, callee).clone();
-                let value = self.invoke(unit, f, &callee, first, count as usize)?;
+            Op::Invoke(dst, callee, args) => {
+                let (callee, args) = (self.val(f, callee).clone(), self.all(args, unit, f));
+                let value = self.invoke_with(unit, f, &callee, &args)?;
                 self.put_value(f, dst, value);
             }
             Op::InvokeList(dst, callee, list) => {
@@ -192,6 +181,11 @@ impl Machine<'_> {
             _ => {} // see `execute` and `step`
         }
         Ok(())
+    }
+
+    /// The values of a list of operands.
+    fn all(&self, args: Args, unit: &CodeUnit, f: Frame) -> Vec<Value> {
+        args.of(&unit.args).iter().map(|a| self.val(f, Val(*a)).clone()).collect()
     }
 
     /// What belongs to the object of a computed name.
@@ -394,19 +388,7 @@ impl Machine<'_> {
         Ok(natives::call(&mut self.env(code), name, receiver, args)?)
     }
 
-    /// Calls whatever function a value is, with arguments that stand in registers.
-    fn invoke(
-        &mut self,
-        unit: &CodeUnit,
-        f: Frame,
-        callee: &Value,
-        first: usize,
-        count: usize,
-    ) -> Result<Value, Stop> {
-        let args = self.values[first..first + count].to_vec();
-        self.invoke_with(unit, f, callee, &args)
-    }
-
+    /// Calls whatever function a value is.
     fn invoke_with(
         &mut self,
         unit: &CodeUnit,
@@ -432,11 +414,11 @@ impl Machine<'_> {
         for (slot, value) in params.chain(captured) {
             match slot {
                 Slot::Value => {
-                    self.values[v] = value;
+                    self.context.values[v] = value;
                     v += 1;
                 }
                 Slot::Number | Slot::Boolean => {
-                    self.numbers[n] = value.to_number();
+                    self.context.numbers[n] = value.to_number();
                     n += 1;
                 }
             }
@@ -444,7 +426,7 @@ impl Machine<'_> {
         let result = self.execute(&code, function, frame);
         self.depth -= 1;
         result.map_err(Stop::Inside)?;
-        Ok(self.taken(function.result, frame))
+        Ok(taken(function.result, self.context.numbers.get(frame.n), self.context.values.get(frame.v)))
     }
 }
 

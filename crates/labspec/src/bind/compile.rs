@@ -1,13 +1,13 @@
 //! Everything a lab computes, bound to its model: statements and expressions as programs, and what they need.
 
 use super::{Functions, ModelNames, Scope};
-use labspec_bind::WORDS;
 use crate::finding::{Finding, Fix};
 use crate::json::{Scalar, fix_in_code};
 use crate::markdown::is_typographic;
 use crate::rules;
 use crate::source::Text;
 use crate::spec::{Action, Control, ControlKind, Lab};
+use labspec_bind::WORDS;
 use labspec_core::reflect::{FieldId, FieldSet, Kind, Object};
 use labspec_core::{Demand, Model};
 use labspec_expr::{self as expr, Compiled, Compiler, Effects, Globals, Program, ProgramId, Type, Value};

@@ -256,12 +256,7 @@ fn acts(ir: &Ir) -> bool {
         | Kind::Block(..) => true,
         Kind::Method(name, object, args) => name.rows().any(|r| r.changes) || acts(object) || any(args),
         Kind::Native(function, args) => function.row().name == "_empty" || any(args),
-        Kind::Not(a)
-        | Kind::BitNot(a)
-        | Kind::Negate(a)
-        | Kind::ToNumber(a)
-        | Kind::ToText(a)
-        | Kind::TypeOf(a) => acts(a),
+        Kind::Unary(_, a) | Kind::ToNumber(a) | Kind::ToText(a) | Kind::TypeOf(a) => acts(a),
         Kind::Chain(a) | Kind::Present(a) | Kind::Pick(_, a) | Kind::GlobalNamed(a) | Kind::Member(a, _) => {
             acts(a)
         }

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::Span;
 use crate::ir::{Index, Ir, Kind};
+use crate::operators::UnaryOp;
 use crate::schema::{FieldKey, Type};
 use crate::value::Value;
 
@@ -55,7 +56,7 @@ impl Shape {
 fn element(ir: &Ir) -> Option<(FieldKey, usize)> {
     match &ir.kind {
         Kind::Load(view, Index::At(i)) => Some((view.field, view.first as usize + i)),
-        Kind::ToNumber(inner) | Kind::Negate(inner) => element(inner),
+        Kind::ToNumber(inner) | Kind::Unary(UnaryOp::Minus, inner) => element(inner),
         _ => None,
     }
 }

@@ -1,0 +1,550 @@
+//! Typed tree to form, in one walk. Each node is computed in the way that its surroundings ask for: as a number, as a
+//! value of any type, or only for whether it is true. A numeric expression so never becomes a value.
+
+use std::collections::BTreeMap;
+
+use super::flow::{Level, Variables, Way};
+use super::{Args, At, Edge, End, Form, Num, Op, Slot, Unit, Val};
+use crate::Span;
+use crate::ir::{self, Entry, Index, Ir, Item, Kind, LocalId, Tree};
+use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
+use crate::schema::Type;
+use crate::value::{Value, View};
+
+/// The form of a text.
+pub(super) fn form(tree: &Tree) -> Form {
+    let mut form = Form { views: tree.views.clone(), ..Form::default() };
+    let mut variables = Variables::default();
+    for unit in &tree.units {
+        let mut build = Build::new(tree, &mut form, variables);
+        build.whole(unit);
+        build.back_to(0);
+        let mut done = build.unit;
+        variables = build.variables;
+        done.same.shorten();
+        form.units.push(done);
+    }
+    form
+}
+
+/// A part of the text that is left by more ways than its end, with a value: statements in the place of a call, or a
+/// chain with `?.`.
+pub(super) struct Exits {
+    pub(super) mark: usize,
+    pub(super) result: LocalId,
+    pub(super) exits: Vec<Way>,
+}
+
+/// The work on one function.
+pub(super) struct Build<'t> {
+    pub(super) tree: &'t Tree,
+    pub(super) form: &'t mut Form,
+    pub(super) unit: Unit,
+    /// Nothing leads here.
+    pub(super) dead: bool,
+    /// Constants by their bits.
+    constants: BTreeMap<u64, Num>,
+    pub(super) variables: Variables,
+    pub(super) temporaries: u32,
+    pub(super) loops: Vec<Level>,
+    pub(super) inlines: Vec<Exits>,
+    pub(super) chains: Vec<Exits>,
+    /// Where all of it seems to stand.
+    pub(super) site: Option<Span>,
+}
+
+impl<'t> Build<'t> {
+    fn new(tree: &'t Tree, form: &'t mut Form, variables: Variables) -> Build<'t> {
+        let mut build = Build {
+            tree,
+            form,
+            unit: Unit::default(),
+            dead: false,
+            constants: BTreeMap::new(),
+            variables,
+            temporaries: 0,
+            loops: Vec::new(),
+            inlines: Vec::new(),
+            chains: Vec::new(),
+            site: None,
+        };
+        // Room for a text of usual length.
+        build.unit.ops.reserve(32);
+        build.unit.spans.reserve(32);
+        build.unit.same.numbers.reserve(64);
+        build.unit.same.values.reserve(32);
+        // The first names are for what the function gives.
+        build.new_number();
+        build.new_value();
+        build.begin(0);
+        build
+    }
+
+    fn whole(&mut self, unit: &ir::Unit) {
+        self.unit.result = unit.result.map_or(Slot::Value, Slot::of);
+        self.unit.params = unit.params.iter().map(|p| self.slot(*p)).collect();
+        self.unit.captures = unit.captures.iter().map(|c| self.slot(*c)).collect();
+        let given: Vec<(LocalId, At)> =
+            unit.params.iter().chain(&unit.captures).map(|&l| (l, self.given(l))).collect();
+        for (i, (local, at)) in given.into_iter().enumerate() {
+            let at = match at {
+                // What is captured is the shared place already.
+                At::Value(value) if self.is_shared(local) && i < unit.params.len() => {
+                    At::Value(self.value_of(Span::default(), |dst| Op::NewCell(dst, value)))
+                }
+                at => at,
+            };
+            self.write(local, at);
+        }
+        self.steps(&unit.body);
+        self.end(End::Return(None), Span::default());
+    }
+
+    /// The name of a parameter.
+    fn given(&mut self, local: LocalId) -> At {
+        match self.slot(local) {
+            Slot::Value => At::Value(self.new_value()),
+            Slot::Number | Slot::Boolean => At::Number(self.new_number()),
+        }
+    }
+
+    pub(super) fn is_shared(&self, local: LocalId) -> bool {
+        self.tree.locals.get(local as usize).is_some_and(|l| l.shared)
+    }
+
+    pub(super) fn emit(&mut self, op: Op, span: Span) {
+        if !self.dead {
+            self.unit.ops.push(op);
+            self.unit.spans.push(self.site.unwrap_or(span));
+        }
+    }
+
+    pub(super) fn new_number(&mut self) -> Num {
+        let name = self.unit.same.numbers.len() as u32;
+        self.unit.same.numbers.push(name);
+        Num(name)
+    }
+
+    pub(super) fn new_value(&mut self) -> Val {
+        let name = self.unit.same.values.len() as u32;
+        self.unit.same.values.push(name);
+        Val(name)
+    }
+
+    pub(super) fn constant(&mut self, x: f64) -> Num {
+        if let Some(&name) = self.constants.get(&x.to_bits()) {
+            return name;
+        }
+        let name = self.new_number();
+        self.constants.insert(x.to_bits(), name);
+        self.unit.numbers.push((name, x));
+        name
+    }
+
+    pub(super) fn constant_value(&mut self, value: &Value) -> Val {
+        let known = self.unit.values.iter().find(|(_, v)| match (v, value) {
+            (Value::Number(a), Value::Number(b)) => a.to_bits() == b.to_bits(),
+            (a, b) => a == b,
+        });
+        if let Some((name, _)) = known {
+            return *name;
+        }
+        let name = self.new_value();
+        self.unit.values.push((name, value.clone()));
+        name
+    }
+
+    pub(super) fn list_of(&mut self, names: &[u32]) -> Args {
+        let first = self.unit.args.len() as u32;
+        self.unit.args.extend_from_slice(names);
+        Args { first, count: names.len() as u32 }
+    }
+
+    pub(super) fn text(&mut self, text: &std::sync::Arc<str>) -> u32 {
+        match self.form.texts.iter().position(|t| t == text) {
+            Some(at) => at as u32,
+            None => {
+                self.form.texts.push(text.clone());
+                (self.form.texts.len() - 1) as u32
+            }
+        }
+    }
+
+    /// The node as a number (JavaScript's `Number(x)`).
+    pub(super) fn number(&mut self, ir: &Ir) -> Num {
+        let span = ir.span;
+        match &ir.kind {
+            Kind::Constant(value) if value.is_primitive() => self.constant(value.to_number()),
+            Kind::Load(view, index) => self.load(*view, index, span),
+            Kind::Length(view) => self.number_by(span, |dst| Op::Length(dst, *view)),
+            Kind::Aggregate(slot) => self.number_by(span, |dst| Op::Aggregate(dst, *slot)),
+            Kind::Global(slot) => self.number_by(span, |dst| Op::GlobalNumber(dst, *slot)),
+            Kind::Local(local) => match self.slot(*local) {
+                Slot::Value => self.number_of_value(ir),
+                _ => self.read_number(*local),
+            },
+            Kind::Unary(op, a) => {
+                let (op, a) = (*op, if *op == UnaryOp::Not { self.truth(a) } else { self.number(a) });
+                self.number_by(span, |dst| Op::Unary(dst, op, a))
+            }
+            Kind::ToNumber(a) => self.number(a),
+            Kind::Binary(op, a, b) => self.binary(*op, a, b, ir),
+            Kind::Logical(LogicalOp::Nullish, a, _) if matches!(a.ty, Type::Number | Type::Boolean) => {
+                self.number(a)
+            }
+            Kind::Logical(LogicalOp::Nullish, ..) => self.number_of_value(ir),
+            Kind::Logical(op, a, b) => self.logical(*op, a, b, span),
+            Kind::Choice(test, a, b) => {
+                let result = self.temporary();
+                self.choice(test, span, |s| s.number_to(a, result), |s| s.number_to(b, result));
+                self.read_number(result)
+            }
+            Kind::Math(function, args) => {
+                let names: Vec<u32> = args.iter().map(|arg| self.number(arg).0).collect();
+                let (function, args) = (*function, self.list_of(&names));
+                self.number_by(span, |dst| Op::Math(dst, function, args))
+            }
+            Kind::MathOver(function, list) => {
+                let (function, list) = (*function, self.value(list));
+                self.number_by(span, |dst| Op::MathOver(dst, function, list))
+            }
+            Kind::Invoke(unit, args) if self.result_slot(*unit) != Slot::Value => {
+                self.invoke(*unit, args, span);
+                self.number_by(span, Op::TakeNumber)
+            }
+            Kind::Store(place, op, value) if self.is_plain_store(place, *op, value) => {
+                self.store(place, *op, value, span)
+            }
+            Kind::Update(place, step, gives) if self.is_plain_place(place) => {
+                self.update(place, *step, *gives, span)
+            }
+            Kind::Block(steps, value) => {
+                self.steps(steps);
+                self.number(value)
+            }
+            Kind::Pick(picks, name) if picks.scalar => {
+                let name = self.value(name);
+                let table = self.table(picks);
+                self.number_by(span, |dst| Op::PickNumber(dst, table, name))
+            }
+            _ => self.number_of_value(ir),
+        }
+    }
+
+    fn number_of_value(&mut self, ir: &Ir) -> Num {
+        let value = self.value(ir);
+        self.number_by(ir.span, |dst| Op::ToNumber(dst, value))
+    }
+
+    fn number_to(&mut self, ir: &Ir, place: LocalId) {
+        let src = self.number(ir);
+        self.write(place, At::Number(src));
+    }
+
+    /// The node as a value of its own type.
+    pub(super) fn value(&mut self, ir: &Ir) -> Val {
+        let span = ir.span;
+        match (&ir.kind, ir.ty) {
+            (Kind::Constant(value), _) => self.constant_value(value),
+            (Kind::Fill(..) | Kind::StoreAll(..), _) => {
+                self.effect(ir);
+                self.constant_value(&Value::Undefined)
+            }
+            (Kind::Call(function, args), _) => {
+                let (function, args) = (*function, self.values(args));
+                self.value_of(span, |dst| Op::CallHost(dst, function, args))
+            }
+            (Kind::Input, _) => self.value_of(span, Op::Input),
+            (Kind::Local(local), _) => self.local_value(*local, span),
+            (Kind::Store(place, op, value), _) if !self.is_plain_store(place, *op, value) => {
+                self.store_value(place, *op, value, span)
+            }
+            (Kind::StoreIf(op, place, value), _) => self.store_if(*op, place, value, span),
+            (Kind::Update(place, step, gives), _) if !self.is_plain_place(place) => {
+                self.update_value(place, *step, *gives, span)
+            }
+            (Kind::Block(steps, value), _) => {
+                self.steps(steps);
+                self.value(value)
+            }
+            (Kind::Invoke(unit, args), _) => {
+                self.invoke(*unit, args, span);
+                match self.result_slot(*unit) {
+                    Slot::Value => self.value_of(span, Op::TakeValue),
+                    slot => {
+                        let number = self.number_by(span, Op::TakeNumber);
+                        self.boxed(number, slot, span)
+                    }
+                }
+            }
+            (Kind::Pick(picks, name), _) if !picks.scalar => {
+                let name = self.value(name);
+                let table = self.table(picks);
+                self.value_of(span, |dst| Op::Pick(dst, table, name))
+            }
+            (Kind::InvokeValue(callee, args), _) => self.invoke_value(callee, args, span),
+            (Kind::Method(name, receiver, args), _) => self.method(*name, receiver, args, span),
+            (Kind::Native(function, args), _) => self.native(*function, args, span),
+            (Kind::Closure(unit), _) => self.closure(*unit, span),
+            (Kind::List(items), _) => self.list(items, span),
+            (Kind::Record(entries), _) => self.record(entries, span),
+            (Kind::Element(object, index), _) => {
+                let object = self.value(object);
+                if index.ty == Type::Number {
+                    let index = self.number(index);
+                    return self.value_of(span, |dst| Op::ElementAt(dst, object, index));
+                }
+                let index = self.value(index);
+                self.value_of(span, |dst| Op::Element(dst, object, index))
+            }
+            (Kind::Member(object, name), _) => {
+                let object = self.value(object);
+                let name = self.text(name);
+                self.value_of(span, |dst| Op::Member(dst, object, name))
+            }
+            (Kind::ToText(a), _) => {
+                let a = self.value(a);
+                self.value_of(span, |dst| Op::ToText(dst, a))
+            }
+            (Kind::TypeOf(a), _) => {
+                let a = self.value(a);
+                self.value_of(span, |dst| Op::TypeOf(dst, a))
+            }
+            (Kind::GlobalNamed(name), _) => {
+                let name = self.value(name);
+                self.value_of(span, |dst| Op::GlobalNamed(dst, name))
+            }
+            (Kind::Chain(inner), _) => self.chain(inner, span),
+            // A number register cannot tell `undefined` from NaN.
+            (Kind::Logical(op @ LogicalOp::Nullish, a, b), _) => self.logical_value(*op, a, b, span),
+            (Kind::Present(object), _) => {
+                let value = self.value(object);
+                let mark = self.chains.last().map_or(0, |chain| chain.mark);
+                let way = self.jump_if(End::IfNothing(true, value, Edge::default()), mark, span);
+                // A chain is around it.
+                if let Some(chain) = self.chains.last_mut() {
+                    chain.exits.extend(way);
+                }
+                value
+            }
+            (_, Type::Number) => {
+                let src = self.number(ir);
+                self.boxed(src, Slot::Number, span)
+            }
+            (_, Type::Boolean) => {
+                let src = self.number(ir);
+                self.boxed(src, Slot::Boolean, span)
+            }
+            (Kind::Load(view, Index::At(i)), _) if view.count().is_none_or(|n| *i < n) => {
+                let index = u32::try_from(*i).unwrap_or(u32::MAX);
+                self.value_of(span, |dst| Op::LoadValue(dst, *view, index))
+            }
+            (Kind::Load(view, index), _) => {
+                let index = self.index(index);
+                self.value_of(span, |dst| Op::LoadValueAt(dst, *view, index))
+            }
+            (Kind::Global(slot), _) => self.value_of(span, |dst| Op::Global(dst, *slot)),
+            (Kind::Binary(_, a, b), _) => {
+                let (a, b) = (self.value(a), self.value(b));
+                self.value_of(span, |dst| Op::Plus(dst, a, b))
+            }
+            (Kind::Logical(op, a, b), _) => self.logical_value(*op, a, b, span),
+            (Kind::Choice(test, a, b), _) => {
+                let result = self.temporary();
+                self.choice(test, span, |s| s.value_to(a, result), |s| s.value_to(b, result));
+                self.read_value(result)
+            }
+            // All other kinds give numbers or booleans.
+            _ => {
+                let src = self.number(ir);
+                self.boxed(src, Slot::Number, span)
+            }
+        }
+    }
+
+    fn logical_value(&mut self, op: LogicalOp, a: &Ir, b: &Ir, span: Span) -> Val {
+        let (result, left) = (self.temporary(), self.value(a));
+        self.write(result, At::Value(left));
+        let test = self.keeps(op, left, span);
+        self.skip(test, span, |s| s.value_to(b, result));
+        self.read_value(result)
+    }
+
+    /// The end of a block where `value op …` is the value.
+    pub(super) fn keeps(&mut self, op: LogicalOp, value: Val, span: Span) -> End {
+        if op == LogicalOp::Nullish {
+            return End::IfNothing(false, value, Edge::default());
+        }
+        let test = self.number_by(span, |dst| Op::Truthy(dst, value));
+        End::If(op == LogicalOp::Or, test, Edge::default())
+    }
+
+    pub(super) fn boxed(&mut self, src: Num, slot: Slot, span: Span) -> Val {
+        match slot {
+            Slot::Boolean => self.value_of(span, |dst| Op::BoxBoolean(dst, src)),
+            _ => self.value_of(span, |dst| Op::BoxNumber(dst, src)),
+        }
+    }
+
+    pub(super) fn value_to(&mut self, ir: &Ir, place: LocalId) {
+        let src = self.value(ir);
+        self.write(place, At::Value(src));
+    }
+
+    /// A number that is true when the node is.
+    pub(super) fn truth(&mut self, ir: &Ir) -> Num {
+        match ir.known() {
+            Some(value) => self.constant(f64::from(u8::from(value.truthy()))),
+            None if ir.is_plain() && !matches!(ir.kind, Kind::Logical(LogicalOp::Nullish, ..)) => {
+                self.number(ir)
+            }
+            None => {
+                let value = self.value(ir);
+                self.number_by(ir.span, |dst| Op::Truthy(dst, value))
+            }
+        }
+    }
+
+    pub(super) fn number_by(&mut self, span: Span, op: impl FnOnce(Num) -> Op) -> Num {
+        let dst = self.new_number();
+        self.emit(op(dst), span);
+        dst
+    }
+
+    pub(super) fn value_of(&mut self, span: Span, op: impl FnOnce(Val) -> Op) -> Val {
+        let dst = self.new_value();
+        self.emit(op(dst), span);
+        dst
+    }
+
+    pub(super) fn values<'i>(&mut self, items: impl IntoIterator<Item = &'i Ir>) -> Args {
+        let names: Vec<u32> = items.into_iter().map(|item| self.value(item).0).collect();
+        self.list_of(&names)
+    }
+
+    fn load(&mut self, view: View, index: &Index, span: Span) -> Num {
+        match (index, view.count()) {
+            (Index::At(i), Some(_)) => {
+                let at = view.first.saturating_add(u32::try_from(*i).unwrap_or(u32::MAX));
+                self.number_by(span, |dst| Op::Load(dst, view.field, at))
+            }
+            _ => {
+                let index = self.index(index);
+                self.number_by(span, |dst| Op::LoadAt(dst, view, index))
+            }
+        }
+    }
+
+    pub(super) fn index(&mut self, index: &Index) -> Num {
+        match index {
+            Index::At(i) => self.constant(*i as f64),
+            Index::Computed(ir) if ir.ty == Type::Number => self.number(ir),
+            Index::Computed(ir) => {
+                let value = self.value(ir);
+                self.number_by(ir.span, |dst| Op::ToIndex(dst, value))
+            }
+        }
+    }
+
+    fn binary(&mut self, op: BinaryOp, a: &Ir, b: &Ir, ir: &Ir) -> Num {
+        let span = ir.span;
+        let plain = match op {
+            BinaryOp::Add => ir.ty == Type::Number,
+            // Equality of one type needs no conversion; order does, unless both may be strings.
+            _ if op.power() == 8 => a.ty == b.ty && matches!(a.ty, Type::Number | Type::Boolean),
+            _ if op.is_comparison() => a.is_plain() || b.is_plain(),
+            _ => true,
+        };
+        if plain {
+            let (a, b) = (self.number(a), self.number(b));
+            return self.number_by(span, |dst| Op::Binary(dst, op, a, b));
+        }
+        let (a, b) = (self.value(a), self.value(b));
+        if op == BinaryOp::Add {
+            let sum = self.value_of(span, |dst| Op::Plus(dst, a, b));
+            return self.number_by(span, |dst| Op::ToNumber(dst, sum));
+        }
+        self.number_by(span, |dst| Op::Compare(dst, op, a, b))
+    }
+
+    /// `a && b` or `a || b` as a number.
+    fn logical(&mut self, op: LogicalOp, a: &Ir, b: &Ir, span: Span) -> Num {
+        let result = self.temporary();
+        let (left, test) = if a.is_plain() {
+            let left = self.number(a);
+            (left, left)
+        } else {
+            // The text "0" is true, although it is 0 as a number.
+            let value = self.value(a);
+            let left = self.number_by(a.span, |dst| Op::ToNumber(dst, value));
+            (left, self.number_by(a.span, |dst| Op::Truthy(dst, value)))
+        };
+        self.write(result, At::Number(left));
+        let test = End::If(op == LogicalOp::Or, test, Edge::default());
+        self.skip(test, span, |s| s.number_to(b, result));
+        self.read_number(result)
+    }
+
+    pub(super) fn choice(
+        &mut self,
+        test: &Ir,
+        span: Span,
+        then: impl FnOnce(&mut Self),
+        otherwise: impl FnOnce(&mut Self),
+    ) {
+        let test = End::If(false, self.truth(test), Edge::default());
+        self.fork(test, span, then, otherwise);
+    }
+
+    fn chain(&mut self, inner: &Ir, span: Span) -> Val {
+        let (result, nothing) = (self.temporary(), self.constant_value(&Value::Undefined));
+        self.write(result, At::Value(nothing));
+        let outer = self.chains.len();
+        let work = |s: &mut Self, mark| {
+            s.chains.push(Exits { mark, result, exits: Vec::new() });
+            s.value_to(inner, result);
+        };
+        self.region(span, work, |s| s.chains.drain(outer..).flat_map(|chain| chain.exits).collect());
+        self.read_value(result)
+    }
+
+    pub(super) fn list(&mut self, items: &[Item], span: Span) -> Val {
+        if items.iter().all(|i| !i.spread) {
+            let args = self.values(items.iter().map(|i| &i.value));
+            return self.value_of(span, |dst| Op::List(dst, args));
+        }
+        let list = self.value_of(span, |dst| Op::List(dst, Args { first: 0, count: 0 }));
+        for item in items {
+            let value = self.value(&item.value);
+            self.emit(Op::Append(list, value, item.spread), item.value.span);
+        }
+        list
+    }
+
+    fn record(&mut self, entries: &[Entry], span: Span) -> Val {
+        let record = self.value_of(span, Op::NewRecord);
+        for entry in entries {
+            match entry {
+                Entry::Named(key, value) => {
+                    let key = self.constant_value(&Value::String(key.clone()));
+                    let src = self.value(value);
+                    self.emit(Op::Put(record, key, src), value.span);
+                }
+                Entry::Computed(key, value) => {
+                    let (key, src) = (self.value(key), self.value(value));
+                    self.emit(Op::Put(record, key, src), value.span);
+                }
+                Entry::Spread(value) => {
+                    let src = self.value(value);
+                    self.emit(Op::PutAll(record, src), value.span);
+                }
+            }
+        }
+        record
+    }
+
+    fn table(&mut self, picks: &std::sync::Arc<ir::Picks>) -> u32 {
+        self.form.picks.push(picks.clone());
+        (self.form.picks.len() - 1) as u32
+    }
+}

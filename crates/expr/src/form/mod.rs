@@ -1,0 +1,186 @@
+//! The one form between binder and machines: every value has one name and one definition (static single assignment;
+//! Cytron et al., "Efficiently computing static single assignment form and the control dependence graph", 1991).
+//!
+//! A function is a list of blocks; what differs between the ways that lead to a block are its parameters, as in a call.
+//! Blocks stand in the order of the text, so all ways but those back to the start of a loop lead forward. The machine's
+//! code ([`code`]), formulas ([`pure`]) and what plans and lints ask ([`order`]) are made from here.
+
+mod build;
+mod call;
+mod flow;
+pub(crate) mod op;
+mod place;
+pub(crate) mod pure;
+mod step;
+
+use std::sync::Arc;
+
+use crate::Span;
+use crate::ir::{Picks, Shown, Tree};
+use crate::schema::Type;
+use crate::value::Value;
+
+pub(crate) use op::{Args, Num, Op, Use, Val};
+
+/// A text.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Form {
+    /// The functions; the first is the text itself.
+    pub(crate) units: Vec<Unit>,
+    /// Names of members.
+    pub(crate) texts: Vec<Arc<str>>,
+    pub(crate) picks: Vec<Arc<Picks>>,
+    /// Arrays that become values.
+    pub(crate) views: Vec<Shown>,
+}
+
+/// A function. Its first names, from 1 on, are its parameters and what it uses of the functions around it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Unit {
+    pub(crate) blocks: Vec<Block>,
+    /// The operations of all blocks, one block after the other.
+    pub(crate) ops: Vec<Op>,
+    /// Where each comes from.
+    pub(crate) spans: Vec<Span>,
+    /// Lists of operands.
+    pub(crate) args: Vec<u32>,
+    /// Constants and their names, in the order of the names.
+    pub(crate) numbers: Vec<(Num, f64)>,
+    pub(crate) values: Vec<(Val, Value)>,
+    /// What each name stands for: itself, or the name before it that turned out to be the same.
+    pub(crate) same: Names,
+    pub(crate) params: Vec<Slot>,
+    pub(crate) captures: Vec<Slot>,
+    pub(crate) result: Slot,
+}
+
+/// Names of numbers and of values, each with the name that it stands for.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Names {
+    pub(crate) numbers: Vec<u32>,
+    pub(crate) values: Vec<u32>,
+}
+
+/// A number or a value of any type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum At {
+    Number(Num),
+    Value(Val),
+}
+
+pub(crate) type BlockId = u32;
+
+/// Operations that run one after the other.
+#[derive(Clone, Debug)]
+pub(crate) struct Block {
+    /// Its first operation.
+    pub(crate) first: u32,
+    pub(crate) params: Vec<At>,
+    /// The last block that all ways to this one pass.
+    pub(crate) after: BlockId,
+    pub(crate) end: End,
+    /// Where its end stands.
+    pub(crate) span: Span,
+}
+
+/// A way to a block, with what its parameters are.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Edge {
+    pub(crate) to: BlockId,
+    pub(crate) args: Vec<At>,
+}
+
+/// Where a block leads.
+#[derive(Clone, Debug)]
+pub(crate) enum End {
+    Jump(Edge),
+    /// When the truth is this one; else on to the next block.
+    If(bool, Num, Edge),
+    /// When the value is `undefined` or `null`, or is not; else on to the next block.
+    IfNothing(bool, Val, Edge),
+    /// Back to the start of a loop.
+    Again(Edge),
+    Return(Option<At>),
+}
+
+/// How a value is handed over.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Slot {
+    Number,
+    /// As a number, 1 or 0.
+    Boolean,
+    #[default]
+    Value,
+}
+
+impl Slot {
+    pub(crate) fn of(ty: Type) -> Slot {
+        match ty {
+            Type::Number => Slot::Number,
+            Type::Boolean => Slot::Boolean,
+            _ => Slot::Value,
+        }
+    }
+}
+
+impl Form {
+    /// The form of a text.
+    pub(crate) fn of(tree: &Tree) -> Form {
+        build::form(tree)
+    }
+}
+
+impl Unit {
+    /// The places of the operations of a block.
+    pub(crate) fn range(&self, block: BlockId) -> std::ops::Range<usize> {
+        let first = |b: BlockId| self.blocks.get(b as usize).map_or(self.ops.len(), |b| b.first as usize);
+        first(block)..first(block + 1)
+    }
+
+    /// The number, if it is known.
+    pub(crate) fn known(&self, number: Num) -> Option<f64> {
+        let at = self.numbers.binary_search_by_key(&number, |(n, _)| *n).ok()?;
+        self.numbers.get(at).map(|(_, x)| *x)
+    }
+}
+
+impl Names {
+    pub(crate) fn number(&self, n: Num) -> Num {
+        Num(last(&self.numbers, n.0))
+    }
+
+    pub(crate) fn value(&self, v: Val) -> Val {
+        Val(last(&self.values, v.0))
+    }
+
+    pub(crate) fn at(&self, at: At) -> At {
+        match at {
+            At::Number(n) => At::Number(self.number(n)),
+            At::Value(v) => At::Value(self.value(v)),
+        }
+    }
+
+    /// Every name leads to where it stands for in one step.
+    fn shorten(&mut self) {
+        for list in [&mut self.numbers, &mut self.values] {
+            for i in 0..list.len() {
+                // A name stands for one before it, which is short already, or for one of an outer loop.
+                let end = last(list, i as u32);
+                if let Some(place) = list.get_mut(i) {
+                    *place = end;
+                }
+            }
+        }
+    }
+}
+
+/// Follows names to the one that stands for itself.
+fn last(names: &[u32], mut at: u32) -> u32 {
+    while let Some(&next) = names.get(at as usize) {
+        if next == at {
+            break;
+        }
+        at = next;
+    }
+    at
+}

@@ -1,0 +1,175 @@
+//! Every operation on numbers means one thing, whoever computes it: the compiler at once, a row, a column, the machine, or
+//! a formula within the machine. Hard numbers, and every bit counts.
+
+use crate::mock::{Mock, World};
+use crate::operation::{select, truth, truthy};
+use crate::operators::{BinaryOp, UnaryOp};
+use crate::{Compiler, Context, Globals, Program, Recording, Value, math};
+
+const HARD: [(&str, f64); 20] = [
+    ("NaN", f64::NAN),
+    ("0", 0.0),
+    ("(-0)", -0.0),
+    ("1", 1.0),
+    ("(-1)", -1.0),
+    ("2", 2.0),
+    ("0.5", 0.5),
+    ("(-2.5)", -2.5),
+    ("33", 33.0),
+    ("Infinity", f64::INFINITY),
+    ("(-Infinity)", f64::NEG_INFINITY),
+    ("5e-324", 5e-324),
+    ("(-1e-310)", -1e-310),
+    ("2147483647.5", 2147483647.5),
+    ("2147483648", 2147483648.0),
+    ("(-2147483649)", -2147483649.0),
+    ("9007199254740992", 9007199254740992.0),
+    ("9007199254740994", 9007199254740994.0),
+    ("1e308", 1e308),
+    ("(-1e308)", -1e308),
+];
+
+type Write = Box<dyn Fn(&str, &str) -> String>;
+type Means = Box<dyn Fn(f64, f64) -> f64>;
+
+/// An operation on two numbers: how it is written, and what the table says.
+struct Case {
+    write: Write,
+    means: Means,
+}
+
+fn cases() -> Vec<Case> {
+    let mut cases: Vec<Case> = Vec::new();
+    let mut add = |write: Write, means: Means| {
+        cases.push(Case { write, means });
+    };
+    for op in BinaryOp::ALL {
+        add(
+            Box::new(move |a, b| format!("+((+{a}) {} (+{b}))", op.symbol())),
+            Box::new(move |a, b| op.on_numbers(a, b)),
+        );
+    }
+    // Operands that were computed just before: they stand elsewhere than those that were read.
+    for op in BinaryOp::ALL {
+        add(
+            Box::new(move |a, b| format!("+((+{a}) {} ({b} * 1))", op.symbol())),
+            Box::new(move |a, b| op.on_numbers(a, b)),
+        );
+        add(
+            Box::new(move |a, b| format!("+(({a} * 1) {} (+{b}))", op.symbol())),
+            Box::new(move |a, b| op.on_numbers(a, b)),
+        );
+    }
+    for op in [UnaryOp::Minus, UnaryOp::Plus, UnaryOp::Not, UnaryOp::BitNot] {
+        let both = BinaryOp::Subtract;
+        add(
+            Box::new(move |a, b| format!("({}{a}) - ({}{b})", op.symbol(), op.symbol())),
+            Box::new(move |a, b| both.on_numbers(op.on_number(a), op.on_number(b))),
+        );
+    }
+    add(Box::new(|a, b| format!("({a} ? {b} : {a})")), Box::new(|a, b| select(a, b, a)));
+    add(Box::new(|a, b| format!("+({a} && {b})")), Box::new(|a, b| if truthy(a) { b } else { a }));
+    add(Box::new(|a, b| format!("+({a} || {b})")), Box::new(|a, b| if truthy(a) { a } else { b }));
+    for name in math::names().chain(["isNaN", "isFinite"]) {
+        let Some(f) = math::function(name).or_else(|| math::global(name)) else { continue };
+        let path = f.path();
+        match f.arity() {
+            (_, Some(1)) => add(
+                Box::new(move |a, b| format!("(+{path}({a})) - (+{path}({b}))")),
+                Box::new(move |a, b| f.apply(&[a]) - f.apply(&[b])),
+            ),
+            (_, Some(_)) => {
+                add(Box::new(move |a, b| format!("{path}({a}, {b})")), Box::new(move |a, b| f.apply(&[a, b])))
+            }
+            (_, None) => add(
+                Box::new(move |a, b| format!("{path}({a}, {b}, {a})")),
+                Box::new(move |a, b| f.apply(&[a, b, a])),
+            ),
+        }
+    }
+    cases
+}
+
+fn same(ours: f64, table: f64, what: &str) {
+    let same = ours.to_bits() == table.to_bits() || ours.is_nan() && table.is_nan();
+    assert!(same, "{what} gives {ours:?}, the table {table:?}");
+}
+
+fn world(a: f64, b: f64) -> World {
+    let mut world = World::new();
+    world.fields[1][..2].copy_from_slice(&[a, b]);
+    world
+}
+
+fn expression(text: &str) -> Program {
+    Compiler::new(&Mock, &mut Globals::new()).expression(text).program.unwrap_or_else(|| panic!("{text}"))
+}
+
+const A: &str = "data.qpos[0]";
+const B: &str = "data.qpos[1]";
+
+/// By row, by column and in the machine, over all pairs; `sides` says which of them are in the text already.
+fn agree(case: &Case, text: &str, pairs: &[(f64, f64)]) {
+    let program = expression(text);
+    assert!(program.row.is_some(), "{text} is no row");
+    let mut recording = Recording::new();
+    let columnar = recording.columns(&program).unwrap_or_else(|| panic!("{text} has no columns"));
+    let mut context = Context::new();
+    for &(a, b) in pairs {
+        let (mut world, table) = (world(a, b), (case.means)(a, b));
+        recording.sample(&world);
+        same(
+            program.run(&mut world, &mut context, None).unwrap().to_number(),
+            table,
+            &format!("row: {text}"),
+        );
+        let machine = crate::vm::run(&program.code, &mut world, &mut context, None).unwrap();
+        same(machine.to_number(), table, &format!("machine: {text} of {a} and {b}"));
+    }
+    for (x, (a, b)) in columnar.evaluate(&recording).iter().zip(pairs) {
+        same(*x, (case.means)(*a, *b), &format!("column: {text} of {a} and {b}"));
+    }
+}
+
+#[test]
+fn every_back_end_means_what_the_table_says() {
+    let mut formulas = 0;
+    for case in cases() {
+        let all: Vec<(f64, f64)> =
+            HARD.iter().flat_map(|(_, a)| HARD.iter().map(|(_, b)| (*a, *b))).collect();
+        agree(&case, &(case.write)(A, B), &all);
+        for (text, x) in HARD {
+            let left: Vec<(f64, f64)> = HARD.iter().map(|(_, b)| (x, *b)).collect();
+            let right: Vec<(f64, f64)> = HARD.iter().map(|(_, a)| (*a, x)).collect();
+            agree(&case, &(case.write)(text, B), &left);
+            agree(&case, &(case.write)(A, text), &right);
+            for (other, y) in HARD {
+                // Nothing is left to compute.
+                let folded = expression(&(case.write)(text, other));
+                assert!(folded.effects().constant());
+                let value = folded.run(&mut World::new(), &mut Context::new(), None).unwrap();
+                same(value.to_number(), (case.means)(x, y), &(case.write)(text, other));
+            }
+        }
+        // Within a longer program; `Math.max` of the same three times changes nothing and makes a formula.
+        let part = (case.write)("a", "b");
+        let text =
+            format!("const a = {A}; const b = {B}; data.qpos[2] = Math.max({part}, {part}, {part}) * 1");
+        let program = Compiler::new(&Mock, &mut Globals::new()).statements(&text).program.unwrap();
+        formulas += program.code.units.iter().map(|u| u.formulas.len()).sum::<usize>();
+        let mut context = Context::new();
+        for (a, b) in all {
+            let mut world = world(a, b);
+            program.run(&mut world, &mut context, None).unwrap();
+            same(world.fields[1][2], (case.means)(a, b), &format!("{text} of {a} and {b}"));
+        }
+    }
+    assert!(formulas > 50, "only {formulas} formulas within programs");
+}
+
+#[test]
+fn truth_is_one_or_nothing() {
+    for (text, x) in HARD {
+        assert_eq!(truth(truthy(x)), f64::from(u8::from(Value::Number(x).truthy())), "{text}");
+    }
+}

@@ -1,0 +1,497 @@
+//! Form to code: names become registers, parameters of blocks become moves, and what nothing uses is left out. An
+//! operation whose result goes to a parameter puts it there itself where it can.
+
+use std::collections::BTreeMap;
+
+use super::OPERATION;
+use super::code::CodeUnit;
+use crate::Span;
+use crate::form::{Args, At, BlockId, Edge, End, Num, Op, Slot, Unit, Use, Val, pure};
+use crate::row::{Row, Wanted};
+use crate::value::Value;
+
+/// Numeric operations in a row from which on a formula is faster, as measured.
+const WORTH: usize = 5;
+/// Most operations of one formula, so that a byte can name its registers.
+const MOST: usize = 64;
+
+/// The code of a function.
+pub(super) fn unit(form: Unit, often: bool) -> CodeUnit {
+    let (numbers, values) = (File::of(form.same.numbers.len()), File::of(form.same.values.len()));
+    let (kept, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
+    let (ops, spans) = (Vec::with_capacity(form.ops.len() + 8), Vec::with_capacity(form.ops.len() + 8));
+    let code = CodeUnit { ops, spans, ..CodeUnit::default() };
+    let worth = if often { WORTH } else { usize::MAX };
+    let mut emit = Emit { worth, form, code, numbers, values, kept, starts, jumps: Vec::new() };
+    emit.count_uses();
+    emit.first_registers();
+    for block in 0..emit.form.blocks.len() as u32 {
+        emit.block(block);
+    }
+    emit.finish()
+}
+
+/// Registers of one kind.
+struct File {
+    /// By name: how often it is used, and its register.
+    uses: Vec<u32>,
+    registers: Vec<Option<u32>>,
+    count: u32,
+}
+
+impl File {
+    fn of(names: usize) -> File {
+        File { uses: vec![0; names], registers: vec![None; names], count: 1 }
+    }
+
+    fn used(&mut self, name: u32) {
+        if let Some(uses) = self.uses.get_mut(name as usize) {
+            *uses += 1;
+        }
+    }
+
+    fn uses(&self, name: u32) -> u32 {
+        self.uses.get(name as usize).copied().unwrap_or(0)
+    }
+
+    /// The register of a name.
+    fn register(&mut self, name: u32) -> u32 {
+        let Some(place) = self.registers.get_mut(name as usize) else { return 0 };
+        *place.get_or_insert_with(|| {
+            self.count += 1;
+            self.count - 1
+        })
+    }
+
+    fn set(&mut self, name: u32, register: u32) {
+        if let Some(place) = self.registers.get_mut(name as usize) {
+            *place = Some(register);
+        }
+    }
+}
+
+/// The work on one function.
+struct Emit {
+    /// Operations that make a formula.
+    worth: usize,
+    form: Unit,
+    code: CodeUnit,
+    numbers: File,
+    values: File,
+    /// Operations that something needs.
+    kept: Vec<bool>,
+    /// Where each block begins in the code, if anything leads to it.
+    starts: Vec<Option<u32>>,
+    /// Jumps, and the blocks that they lead to.
+    jumps: Vec<(usize, BlockId)>,
+}
+
+impl Emit {
+    /// Counts how often each name is used, from the end on, so that what is needed by nothing needs nothing.
+    fn count_uses(&mut self) {
+        let Emit { form, numbers, values, kept, .. } = self;
+        for (at, block) in form.blocks.iter().enumerate().rev() {
+            let at = at as BlockId;
+            let mut used = |at: At| match at {
+                At::Number(n) => numbers.used(n.0),
+                At::Value(v) => values.used(v.0),
+            };
+            match &block.end {
+                End::If(_, test, _) => used(At::Number(form.same.number(*test))),
+                End::IfNothing(_, value, _) => used(At::Value(form.same.value(*value))),
+                End::Return(Some(at)) => used(form.same.at(*at)),
+                End::Return(None) | End::Jump(_) | End::Again(_) => {}
+            }
+            if let Some(edge) = edge(&block.end) {
+                let back = matches!(block.end, End::Again(_));
+                let params = form.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
+                for (param, arg) in params.iter().zip(&edge.args) {
+                    let needed = match param {
+                        At::Number(n) => numbers.uses(n.0) > 0,
+                        At::Value(v) => values.uses(v.0) > 0,
+                    };
+                    match form.same.at(*arg) {
+                        _ if !(needed || back) => {}
+                        At::Number(n) => numbers.used(n.0),
+                        At::Value(v) => values.used(v.0),
+                    }
+                }
+            }
+            for i in form.range(at).rev() {
+                let (Some(mut op), Some(keep)) = (form.ops.get(i).copied(), kept.get_mut(i)) else {
+                    continue;
+                };
+                let mut needed = !op.is_pure();
+                op.each(&mut |u| match u {
+                    Use::Gives(n) => needed |= numbers.uses(n.0) > 0,
+                    Use::GivesValue(v) => needed |= values.uses(v.0) > 0,
+                    _ => {}
+                });
+                *keep = needed;
+                if !needed {
+                    continue;
+                }
+                op.each(&mut |u| match u {
+                    Use::Reads(n) => numbers.used(form.same.number(*n).0),
+                    Use::ReadsValue(v) => values.used(form.same.value(*v).0),
+                    Use::ReadsAll(args) => {
+                        args.of(&form.args).iter().for_each(|n| numbers.used(form.same.number(Num(*n)).0));
+                    }
+                    Use::ReadsValues(args) => {
+                        args.of(&form.args).iter().for_each(|v| values.used(form.same.value(Val(*v)).0));
+                    }
+                    Use::Gives(_) | Use::GivesValue(_) => {}
+                });
+            }
+        }
+    }
+
+    /// What is handed over.
+    fn first_registers(&mut self) {
+        for slot in self.form.params.iter().chain(&self.form.captures) {
+            match slot {
+                Slot::Value => self.values.register(self.values.count),
+                _ => self.numbers.register(self.numbers.count),
+            };
+        }
+    }
+
+    fn number(&mut self, n: Num) -> Num {
+        Num(self.numbers.register(self.form.same.number(n).0))
+    }
+
+    fn value(&mut self, v: Val) -> Val {
+        Val(self.values.register(self.form.same.value(v).0))
+    }
+
+    fn push(&mut self, op: Op, span: Span) {
+        self.code.ops.push(op);
+        self.code.spans.push(span);
+    }
+
+    fn block(&mut self, at: BlockId) {
+        let Some(block) = self.form.blocks.get_mut(at as usize) else { return };
+        let (end, span) = (std::mem::replace(&mut block.end, End::Return(None)), block.span);
+        // A block that nothing leads to is left out. Ways lead forward, so they were seen before.
+        let reached = self.starts.get(at as usize).is_some_and(|s| at == 0 || s.is_some());
+        if !reached {
+            return;
+        }
+        if let Some(start) = self.starts.get_mut(at as usize) {
+            *start = Some(self.code.ops.len() as u32);
+        }
+        self.settle(at, &end);
+        let range = self.form.range(at);
+        let (mut i, end_of_block) = (range.start, range.end);
+        while i < end_of_block {
+            let numeric = |i: &usize| self.form.ops.get(*i).is_some_and(Op::is_numeric);
+            let stop =
+                (i..end_of_block.min(i + MOST)).find(|i| !numeric(i)).unwrap_or(end_of_block.min(i + MOST));
+            if !self.formula(i, stop) {
+                (i..stop.max(i + 1)).for_each(|i| self.op(i));
+            }
+            i = stop.max(i + 1);
+        }
+        self.end(at, &end, span);
+    }
+
+    /// Numeric operations that follow each other, as one formula, where that is worth it; whether it was.
+    fn formula(&mut self, first: usize, stop: usize) -> bool {
+        if stop - first.min(stop) < self.worth {
+            return false;
+        }
+        let kept = (first..stop).filter(|i| self.kept.get(*i) == Some(&true));
+        let ops: Vec<Op> = kept.filter_map(|i| self.form.ops.get(i).copied()).collect();
+        if ops.len() < self.worth {
+            return false;
+        }
+        let count = ops.len() as u32;
+        let Emit { form, numbers, code, .. } = self;
+        let mut inputs = Vec::new();
+        let mut input = |n: Num| {
+            let register = numbers.register(n.0);
+            inputs.push(register);
+            register
+        };
+        let Some((mut formula, given)) = pure::stretch(form, &ops, &mut input) else { return false };
+        // What is used by more than the operations themselves.
+        let mut left: BTreeMap<u32, u32> = given.iter().map(|(n, _)| (n.0, numbers.uses(n.0))).collect();
+        for mut op in ops {
+            let mut use_up = |n: Num| {
+                if let Some(left) = left.get_mut(&form.same.number(n).0) {
+                    *left -= 1;
+                }
+            };
+            op.each(&mut |u| match u {
+                Use::Reads(n) => use_up(*n),
+                Use::ReadsAll(args) => args.of(&form.args).iter().for_each(|n| use_up(Num(*n))),
+                _ => {}
+            });
+        }
+        let outer: Vec<(Num, u32)> =
+            given.into_iter().filter(|(n, _)| left.get(&n.0).is_some_and(|left| *left > 0)).collect();
+        let mut steps: Vec<u32> = outer.iter().map(|(_, step)| *step).collect();
+        formula.finish(&mut steps);
+        let mut wanted = Vec::with_capacity(outer.len());
+        for ((name, _), step) in outer.iter().zip(&steps) {
+            let register = numbers.register(name.0);
+            let Ok(register) = u8::try_from(register) else { return false };
+            let at_once = !inputs.contains(&u32::from(register));
+            wanted.push(Wanted { step: *step, register, at_once });
+        }
+        // What is kept only within the formula stands behind the registers that are known so far.
+        let free =
+            (numbers.count..numbers.count + formula.steps.len() as u32).map_while(|r| u8::try_from(r).ok());
+        let Some(row) = Row::part(&formula, &wanted, free) else { return false };
+        numbers.count = numbers.count.max(row.registers());
+        let at = code.formulas.len() as u32;
+        code.formulas.push((row, count));
+        let span = self.form.spans.get(first).copied().unwrap_or_default();
+        self.push(Op::Formula(at), span);
+        true
+    }
+
+    /// Lets operations of a block put their results where its end wants them.
+    fn settle(&mut self, at: BlockId, end: &End) {
+        let mut wanted: Vec<(At, At)> = Vec::new();
+        match end {
+            End::Jump(edge) | End::Again(edge) => wanted = self.moves(edge),
+            End::Return(Some(from @ At::Number(_))) => wanted.push((At::Number(Num(0)), *from)),
+            End::Return(Some(from @ At::Value(_))) => wanted.push((At::Value(Val(0)), *from)),
+            _ => {}
+        }
+        if wanted.is_empty() {
+            return;
+        }
+        let again = matches!(end, End::Again(_));
+        // From the last operation on: what was read behind an operation must still stand where it stood.
+        let mut read: Vec<At> =
+            if again { wanted.iter().map(|(_, from)| *from).collect() } else { Vec::new() };
+        for i in self.form.range(at).rev() {
+            if self.kept.get(i) != Some(&true) {
+                continue;
+            }
+            let Some(mut op) = self.form.ops.get(i).copied() else { continue };
+            let mut gives = None;
+            op.each(&mut |u| match u {
+                Use::Gives(n) => gives = Some(At::Number(*n)),
+                Use::GivesValue(v) => gives = Some(At::Value(*v)),
+                _ => {}
+            });
+            if let Some(gives) = gives
+                && let Some((to, _)) = wanted.iter().find(|(to, from)| *from == gives && !read.contains(to))
+            {
+                match (gives, *to) {
+                    (At::Number(n), At::Number(to)) if self.numbers.uses(n.0) == 1 => {
+                        let register = if to.0 == 0 { 0 } else { self.numbers.register(to.0) };
+                        self.numbers.set(n.0, register);
+                    }
+                    (At::Value(v), At::Value(to)) if self.values.uses(v.0) == 1 => {
+                        let register = if to.0 == 0 { 0 } else { self.values.register(to.0) };
+                        self.values.set(v.0, register);
+                    }
+                    _ => {}
+                }
+            }
+            if again {
+                self.reads(op, &mut read);
+            }
+        }
+    }
+
+    /// Parameters of the block that an edge leads to, with what they get; both as names.
+    fn moves(&self, edge: &Edge) -> Vec<(At, At)> {
+        let params = self.form.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
+        let needed = |param: &At| match param {
+            At::Number(n) => self.numbers.uses(n.0) > 0,
+            At::Value(v) => self.values.uses(v.0) > 0,
+        };
+        let pairs = params.iter().zip(&edge.args).filter(|(param, _)| needed(param));
+        pairs.map(|(param, from)| (*param, self.form.same.at(*from))).collect()
+    }
+
+    /// Adds what an operation reads.
+    fn reads(&self, mut op: Op, read: &mut Vec<At>) {
+        let (same, list) = (&self.form.same, &self.form.args);
+        op.each(&mut |u| match u {
+            Use::Reads(n) => read.push(At::Number(same.number(*n))),
+            Use::ReadsValue(v) => read.push(At::Value(same.value(*v))),
+            Use::ReadsAll(a) => read.extend(a.of(list).iter().map(|n| At::Number(same.number(Num(*n))))),
+            Use::ReadsValues(a) => read.extend(a.of(list).iter().map(|v| At::Value(same.value(Val(*v))))),
+            Use::Gives(_) | Use::GivesValue(_) => {}
+        });
+    }
+
+    fn op(&mut self, i: usize) {
+        if self.kept.get(i) != Some(&true) {
+            return;
+        }
+        let (Some(mut op), Some(&span)) = (self.form.ops.get(i).copied(), self.form.spans.get(i)) else {
+            return;
+        };
+        let Emit { form, numbers, values, code, .. } = self;
+        // Operands first: the result may take the place of one.
+        let mut list = |args: Args, name: &mut dyn FnMut(u32) -> u32| {
+            let first = code.args.len() as u32;
+            code.args.extend(args.of(&form.args).iter().map(|a| name(*a)));
+            first
+        };
+        let mut args = None;
+        op.each(&mut |u| match u {
+            Use::Gives(n) => n.0 = numbers.register(n.0),
+            Use::GivesValue(v) => v.0 = values.register(v.0),
+            Use::Reads(n) => n.0 = numbers.register(form.same.number(*n).0),
+            Use::ReadsValue(v) => v.0 = values.register(form.same.value(*v).0),
+            Use::ReadsAll(a) => args = Some(list(a, &mut |n| numbers.register(form.same.number(Num(n)).0))),
+            Use::ReadsValues(a) => args = Some(list(a, &mut |v| values.register(form.same.value(Val(v)).0))),
+        });
+        if let (Some(first), Some(place)) = (args, op.args_mut()) {
+            place.first = first;
+        }
+        self.push(op, span);
+    }
+
+    fn end(&mut self, at: BlockId, end: &End, span: Span) {
+        if let Some(edge) = edge(end) {
+            self.move_all(edge, span);
+            let jump = match end {
+                End::If(when, test, _) => Op::JumpIf(*when, self.number(*test), 0),
+                End::IfNothing(when, value, _) => Op::JumpIfNothing(*when, self.value(*value), 0),
+                End::Again(_) => Op::Again(0, 0),
+                _ => Op::Jump(0),
+            };
+            let reach = |starts: &mut Vec<Option<u32>>, block: BlockId| {
+                if let Some(start) = starts.get_mut(block as usize) {
+                    start.get_or_insert(0);
+                }
+            };
+            if matches!(end, End::If(..) | End::IfNothing(..)) {
+                reach(&mut self.starts, at + 1);
+            }
+            if !matches!(end, End::Again(_)) {
+                reach(&mut self.starts, edge.to);
+            }
+            if !(matches!(jump, Op::Jump(_)) && edge.to == at + 1) {
+                self.jumps.push((self.code.ops.len(), edge.to));
+                self.push(jump, span);
+            }
+            return;
+        }
+        match end {
+            End::Return(Some(At::Number(n))) => {
+                let from = self.number(*n);
+                if from.0 != 0 {
+                    self.push(Op::Move(Num(0), from), span);
+                }
+            }
+            End::Return(Some(At::Value(v))) => {
+                let from = self.value(*v);
+                if from.0 != 0 {
+                    self.push(Op::MoveValue(Val(0), from), span);
+                }
+            }
+            _ => {
+                let nothing = Val(self.values.count);
+                self.values.count += 1;
+                self.code.values.push((nothing, Value::Undefined));
+                self.push(Op::MoveValue(Val(0), nothing), span);
+            }
+        }
+        self.push(Op::Return, span);
+    }
+
+    /// All parameters of a block get their values at once, whatever order the moves have.
+    fn move_all(&mut self, edge: &Edge, span: Span) {
+        let (mut numbers, mut values) = (Vec::new(), Vec::new());
+        for (to, from) in self.moves(edge) {
+            match (to, from) {
+                (At::Number(to), At::Number(from)) => numbers.push((self.number(to).0, self.number(from).0)),
+                (At::Value(to), At::Value(from)) => values.push((self.value(to).0, self.value(from).0)),
+                // A parameter and what it gets are of one kind.
+                _ => {}
+            }
+        }
+        for (to, from) in in_order(numbers, &mut self.numbers.count) {
+            self.push(Op::Move(Num(to), Num(from)), span);
+        }
+        for (to, from) in in_order(values, &mut self.values.count) {
+            self.push(Op::MoveValue(Val(to), Val(from)), span);
+        }
+    }
+
+    fn finish(mut self) -> CodeUnit {
+        for (jump, to) in &self.jumps {
+            let here = self.starts.get(*to as usize).copied().flatten().unwrap_or_default();
+            if let Some(
+                Op::Jump(to) | Op::JumpIf(_, _, to) | Op::JumpIfNothing(_, _, to) | Op::Again(to, _),
+            ) = self.code.ops.get_mut(*jump)
+            {
+                *to = here;
+            }
+        }
+        let Emit { form, mut code, numbers, values, .. } = self;
+        // Constants stand in registers where something else than a formula reads them.
+        let register = |file: &File, name: u32| file.registers.get(name as usize).copied().flatten();
+        let constants = form.numbers.iter().filter_map(|(n, x)| Some((Num(register(&numbers, n.0)?), *x)));
+        code.numbers.extend(constants);
+        let constants = form.values.into_iter().filter_map(|(v, x)| Some((Val(register(&values, v.0)?), x)));
+        code.values.extend(constants);
+        // The cost of everything before each operation; a formula costs what is in it.
+        let mut costs = vec![0];
+        for op in &code.ops {
+            let formula = |f: u32| code.formulas.get(f as usize).map_or(1, |(_, count)| u64::from(*count));
+            let cost = if let Op::Formula(f) = op { formula(*f) } else { 1 };
+            costs.push(costs.last().copied().unwrap_or(0) + OPERATION * cost);
+        }
+        let before = |at: usize| costs.get(at).copied().unwrap_or(0);
+        for (at, op) in code.ops.iter_mut().enumerate() {
+            if let Op::Again(to, cost) = op {
+                *cost = u32::try_from(before(at + 1) - before(*to as usize)).unwrap_or(u32::MAX);
+            }
+        }
+        code.cost = before(code.ops.len()) + OPERATION * (code.numbers.len() + code.values.len()) as u64;
+        (code.number_count, code.value_count) = (numbers.count, values.count);
+        (code.params, code.captures, code.result) = (form.params, form.captures, form.result);
+        code
+    }
+}
+
+fn edge(end: &End) -> Option<&Edge> {
+    match end {
+        End::Jump(edge) | End::Again(edge) | End::If(_, _, edge) | End::IfNothing(_, _, edge) => Some(edge),
+        End::Return(_) => None,
+    }
+}
+
+/// Moves, to and from, in an order in which none overwrites what another still reads. A circle is broken by one more
+/// register (Boissinot et al., "Revisiting out-of-SSA translation for correctness, code quality and efficiency", 2009).
+fn in_order(mut moves: Vec<(u32, u32)>, count: &mut u32) -> Vec<(u32, u32)> {
+    moves.retain(|(to, from)| to != from);
+    if moves.len() < 2 {
+        return moves;
+    }
+    let mut left: BTreeMap<u32, u32> = moves.iter().copied().collect();
+    let mut readers = BTreeMap::new();
+    moves.iter().for_each(|(_, from)| *readers.entry(*from).or_insert(0u32) += 1);
+    let mut free: Vec<u32> = moves.iter().map(|(to, _)| *to).filter(|to| !readers.contains_key(to)).collect();
+    let mut done = Vec::with_capacity(moves.len());
+    loop {
+        while let Some(to) = free.pop() {
+            let Some(from) = left.remove(&to) else { continue };
+            done.push((to, from));
+            if let Some(n) = readers.get_mut(&from) {
+                *n -= 1;
+                if *n == 0 {
+                    free.push(from);
+                }
+            }
+        }
+        // Only circles are left, in which each is read once.
+        let Some((&to, _)) = left.first_key_value() else { return done };
+        let aside = *count;
+        *count += 1;
+        done.push((aside, to));
+        left.values_mut().filter(|from| **from == to).for_each(|from| *from = aside);
+        free.push(to);
+    }
+}
