@@ -8,9 +8,9 @@ mod contact_sensor;
 mod data_layout;
 mod frame_sensor;
 mod measure;
+mod needs_search;
 mod pair;
 mod rays;
-mod searched;
 mod table;
 mod tension;
 #[cfg(test)]
@@ -18,7 +18,7 @@ mod tests;
 mod timing;
 
 pub(crate) use data_layout::{CONTACT_DATA, RAY_DATA, size as data_size};
-pub(crate) use searched::searched_pair;
+pub(crate) use needs_search::searched_pair;
 pub(crate) use timing::{record, reset};
 
 use contact_sensor::Match;
