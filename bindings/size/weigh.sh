@@ -1,14 +1,14 @@
 #!/bin/sh
-# What the engine weighs as WebAssembly, in bytes, as it is and compressed: whole, without reading MJCF, and without convex
-# shapes as well. With `cargo install wasm-opt` also after that has had its turn.
+# What the engine weighs as WebAssembly, in bytes, as it is and compressed: whole, without reading pictures, without reading MJCF, and
+# without convex shapes as well. With `cargo install wasm-opt` also after that has had its turn.
 set -eu
 cd "$(dirname "$0")"
 file=../../target/size/wasm32-unknown-unknown/release/labspec_size.wasm
 weigh() {
     printf '%s: %s bytes, %s compressed\n' "$1" "$(wc -c <"$2")" "$(gzip -9 -c "$2" | wc -c)"
 }
-for features in mjcf convex ""; do
-    name=$(case $features in mjcf) echo whole ;; convex) echo "without MJCF" ;; *) echo "without MJCF and convex shapes" ;; esac)
+for features in pictures mjcf convex ""; do
+    name=$(case $features in pictures) echo whole ;; mjcf) echo "without pictures" ;; convex) echo "without MJCF" ;; *) echo "without MJCF and convex shapes" ;; esac)
     cargo build -q --release --target wasm32-unknown-unknown --target-dir ../../target/size --no-default-features \
         --features "$features"
     weigh "$name" "$file"

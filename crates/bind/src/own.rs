@@ -179,7 +179,6 @@ mod tests {
             "f(1) + f",
             "x => x; f",
             "é ",
-            "eval",
         ] {
             let error = half().with(name, 1, "", |_| Ok(0.0)).unwrap_err();
             assert!(error.to_string().contains(&format!("`{name}`")), "{name}: {error}");

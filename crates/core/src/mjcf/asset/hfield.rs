@@ -1,7 +1,6 @@
 //! Height fields: samples of a ground on a grid, from text or a file, brought to 0 to 1.
 
 use super::mesh::{Bytes, Problem};
-use super::png;
 use crate::mjcf::text::diagnostic::shown;
 
 /// Most samples of a field.
@@ -140,19 +139,48 @@ pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Sam
 }
 
 /// A PNG picture: the elevation is what is red, in 8 bits, and the last row of the picture has the smallest y.
+#[cfg(feature = "pictures")]
 fn picture(bytes: &[u8]) -> Result<Samples, Problem> {
-    let bad = |what: &str| {
+    let bad = |what: String| {
         Problem::file(
             format!("has a file that cannot be read as a PNG picture: {what}"),
             "export the picture again",
         )
     };
-    let picture = png::open(bytes).map_err(bad)?;
+    let mut decoder = png::Decoder::new_with_limits(
+        std::io::Cursor::new(bytes),
+        // Colours of 16 bits and four channels at most.
+        png::Limits { bytes: 16 * MAX_SAMPLES },
+    );
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    decoder.ignore_checksums(false);
+    let mut reader = decoder.read_info().map_err(|e| bad(e.to_string()))?;
+    let (width, height) = (reader.info().width, reader.info().height);
     let to_int = |n: u32| i32::try_from(n).unwrap_or(i32::MAX);
-    let (nrow, ncol) = grid(to_int(picture.height), to_int(picture.width), "file")?;
-    let red = picture.red().map_err(bad)?;
-    let data = red.chunks_exact(ncol.max(1)).rev().flatten().map(|&x| f64::from(x)).collect();
+    let (nrow, ncol) = grid(to_int(height), to_int(width), "file")?;
+    let size = reader.output_buffer_size().unwrap_or(usize::MAX);
+    if size > 8 * MAX_SAMPLES {
+        return Err(bad("it is too large".into()));
+    }
+    let mut pixels = vec![0; size];
+    let frame = reader.next_frame(&mut pixels).map_err(|e| bad(e.to_string()))?;
+    let step = frame.color_type.samples();
+    let rows = pixels.chunks_exact(frame.line_size.max(1)).take(nrow).rev();
+    let red = rows.flat_map(|row| row.chunks_exact(step.max(1)).take(ncol).filter_map(|p| p.first()));
+    let data: Vec<f64> = red.map(|&x| f64::from(x)).collect();
+    if data.len() != nrow * ncol {
+        return Err(bad("it is cut off".into()));
+    }
     Ok(Samples { nrow, ncol, data })
+}
+
+/// A build that reads no pictures says so.
+#[cfg(not(feature = "pictures"))]
+fn picture(_: &[u8]) -> Result<Samples, Problem> {
+    Err(Problem::file(
+        "has a picture, and this program was built without reading pictures".to_string(),
+        "write the heights into the model, as `elevation`, or ship the compiled model",
+    ))
 }
 
 /// MuJoCo's own file: numbers of rows and columns, then the elevations in single precision, from the smallest y.

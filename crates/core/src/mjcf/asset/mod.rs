@@ -2,8 +2,6 @@
 
 pub(crate) mod fill_asset;
 pub(crate) mod hfield;
-mod inflate;
 pub(crate) mod mesh;
-mod png;
 pub(crate) mod read_asset;
 pub(crate) mod skin;
