@@ -114,8 +114,7 @@ fn random_world(model: &Model, seed: u64) -> World {
 
 fn compile(text: &str, form: Form, model: &Model, globals: &mut Globals) -> Program {
     let names = ModelNames::new(model, Scope::Lab);
-    let mut compiler = Compiler::new(&names, globals);
-    compiler.value = Some(Type::Number);
+    let mut compiler = Compiler::new(&names, globals).with_value(Some(Type::Number));
     let compiled = match form {
         Form::Expression => compiler.expression(text),
         Form::Statements => compiler.statements(text),

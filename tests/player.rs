@@ -62,6 +62,22 @@ fn a_page_draws_what_the_lab_says() {
     assert_eq!(player.findings(), []);
 }
 
+/// Names and indexes of one model mean nothing in another: no sample is taken, and the table says why.
+#[test]
+fn programs_of_another_model_are_not_run() {
+    let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
+    let lab = lesson.all_labs()[0];
+    let [own, twin] = [(); 2].map(|()| crate::support::model("ball_drop"));
+    let programs = labspec::bind::Programs::compile(lab, &own, &mut Vec::new());
+    let options = RunOptions { steps: Some(10), ..RunOptions::default() };
+    let table = run::run(lab, &own.clone(), &programs, &options).unwrap();
+    assert_eq!((table.rows.len(), table.errors.len()), (11, 0));
+    // Even a model of the same text is another one.
+    let table = run::run(lab, &twin, &programs, &options).unwrap();
+    assert!(table.rows.is_empty(), "{:?}", table.rows);
+    assert!(table.errors[0].contains("another model"), "{:?}", table.errors);
+}
+
 /// A player that is stepped shows what `run` writes, bit for bit, whatever a frontend asks for in between.
 #[test]
 fn a_player_goes_the_way_of_a_run() {

@@ -252,8 +252,7 @@ mod tests {
         let names = ModelNames::new(&m, Scope::Lab);
         let help = |source: &str| {
             let mut globals = Globals::new();
-            let mut compiler = Compiler::new(&names, &mut globals);
-            compiler.explains = true;
+            let mut compiler = Compiler::new(&names, &mut globals).explaining();
             let help = compiler.expression(source).help;
             let whole = help.into_iter().find(|(span, _)| span.end - span.start == source.len());
             whole.and_then(|(_, h)| h.lines.first().cloned()).unwrap_or_default()

@@ -55,9 +55,8 @@ impl Functions {
         // Whether a text can call it is for the language to say.
         let text = format!("{name}({})", vec!["0"; params].join(", "));
         let (names, mut globals) = (Only(&self), Globals::new());
-        let mut compiler = Compiler::new(&names, &mut globals);
         // Where there is one, `value` is the value of a control.
-        compiler.value = Some(Type::Number);
+        let mut compiler = Compiler::new(&names, &mut globals).with_value(Some(Type::Number));
         let program = compiler.expression(&text).program;
         match program.is_some_and(|p| p.effects().calls.contains(&FunctionId(at))) {
             true => Ok(self),

@@ -70,7 +70,18 @@ impl BinaryOp {
             BinaryOp::ShiftLeft => f64::from(to_int32(a).wrapping_shl(to_int32(b) as u32)),
             BinaryOp::ShiftRight => f64::from(to_int32(a).wrapping_shr(to_int32(b) as u32)),
             BinaryOp::ShiftRightUnsigned => f64::from((to_int32(a) as u32).wrapping_shr(to_int32(b) as u32)),
-            _ => self.on_numbers(a, b),
+            BinaryOp::Add
+            | BinaryOp::Subtract
+            | BinaryOp::Multiply
+            | BinaryOp::Divide
+            | BinaryOp::Less
+            | BinaryOp::LessEqual
+            | BinaryOp::Greater
+            | BinaryOp::GreaterEqual
+            | BinaryOp::Equal
+            | BinaryOp::StrictEqual
+            | BinaryOp::NotEqual
+            | BinaryOp::StrictNotEqual => self.on_numbers(a, b),
         }
     }
 }

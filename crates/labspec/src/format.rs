@@ -114,8 +114,7 @@ pub fn modernized(code: &str, form: Form, model: &Model, globals: &mut Globals) 
 }
 
 fn compile(code: &str, form: Form, names: &ModelNames<'_>, globals: &mut Globals) -> Compiled {
-    let mut compiler = Compiler::new(names, globals);
-    (compiler.value, compiler.explains) = (Some(Type::Any), true);
+    let mut compiler = Compiler::new(names, globals).with_value(Some(Type::Any)).explaining();
     match form {
         Form::Expression => compiler.expression(code),
         Form::Statements => compiler.statements(code),

@@ -20,10 +20,8 @@ use names::Surroundings;
 pub struct Compiler<'s> {
     schema: &'s dyn Schema,
     globals: &'s mut Globals,
-    /// The type of `value` in the next texts; `None` where no control gives one.
-    pub value: Option<Type>,
-    /// Whether [`Compiled::help`] and [`Compiled::named`] are wanted, which take longer than the program itself.
-    pub explains: bool,
+    value: Option<Type>,
+    explains: bool,
 }
 
 /// The result of compiling one text.
@@ -87,6 +85,16 @@ impl<'s> Compiler<'s> {
     /// A compiler for texts that name things of `schema` and share the variables `globals`.
     pub fn new(schema: &'s dyn Schema, globals: &'s mut Globals) -> Compiler<'s> {
         Compiler { schema, globals, value: None, explains: false }
+    }
+
+    /// A compiler for texts of a control, which gives a `value` of this type; `None` where no control gives one.
+    pub fn with_value(self, value: Option<Type>) -> Compiler<'s> {
+        Compiler { value, ..self }
+    }
+
+    /// A compiler that also makes [`Compiled::help`] and [`Compiled::named`], which take longer than the program itself.
+    pub fn explaining(self) -> Compiler<'s> {
+        Compiler { explains: true, ..self }
     }
 
     /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.

@@ -3,7 +3,7 @@
 //!
 //! A function is a list of blocks; what differs between the ways that lead to a block are its parameters, as in a call.
 //! Blocks stand in the order of the text, so all ways but those back to the start of a loop lead forward. The machine's
-//! code ([`code`]), formulas ([`pure`]) and what plans and lints ask ([`order`]) are made from here.
+//! code (`vm/emit`) and formulas ([`pure`]) are made from here.
 
 mod build;
 mod call;

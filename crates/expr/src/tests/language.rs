@@ -149,8 +149,7 @@ fn limits_have_their_own_errors() {
 #[test]
 fn bare_indexes_get_names_that_mean_the_same() {
     let mut globals = Globals::new();
-    let mut compiler = Compiler::new(&Mock, &mut globals);
-    compiler.explains = true;
+    let mut compiler = Compiler::new(&Mock, &mut globals).explaining();
     let source = "data.qvel[8] = 2 * data.qpos[9] + data.time; data.qpos[0] += model.body_mass[1]";
     let compiled = compiler.statements(source);
     let named = compiled.modernized(source);
@@ -167,8 +166,7 @@ fn bare_indexes_get_names_that_mean_the_same() {
 fn help_says_what_stands_there() {
     let mut globals = Globals::new();
     let source = "2 * data.joint('light_free').qpos[2] + Math.sin(data.time)";
-    let mut compiler = Compiler::new(&Mock, &mut globals);
-    compiler.explains = true;
+    let mut compiler = Compiler::new(&Mock, &mut globals).explaining();
     let help = compiler.expression(source).help;
     let at = |text: &str| {
         let start = source.find(text).unwrap();
@@ -273,8 +271,7 @@ fn fuzzing_finds_no_panic_and_no_hang() {
         };
         let begun = std::time::Instant::now();
         let mut globals = Globals::new();
-        let mut compiler = Compiler::new(&Mock, &mut globals);
-        compiler.value = Some(Type::Any);
+        let mut compiler = Compiler::new(&Mock, &mut globals).with_value(Some(Type::Any));
         for compiled in
             [compiler.expression(&source), compiler.statements(&source), compiler.assignment(&source)]
         {

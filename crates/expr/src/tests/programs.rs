@@ -67,8 +67,7 @@ fn calls() {
 #[test]
 fn controls_give_values() {
     let mut globals = Globals::new();
-    let mut compiler = Compiler::new(&Mock, &mut globals);
-    compiler.value = Some(Type::Number);
+    let mut compiler = Compiler::new(&Mock, &mut globals).with_value(Some(Type::Number));
     let set = compiler.assignment("model.opt.gravity[2]").program.unwrap();
     let apply = compiler.statements("model.body_mass[2] = value * 2; mj_setConst").program.unwrap();
     assert!(set.effects().uses_value && apply.effects().uses_value);

@@ -297,8 +297,7 @@ fn shards() -> impl Strategy<Value = String> {
 
 fn compile_all(source: &str) {
     let mut globals = Globals::new();
-    let mut compiler = Compiler::new(&Mock, &mut globals);
-    compiler.value = Some(Type::Any);
+    let mut compiler = Compiler::new(&Mock, &mut globals).with_value(Some(Type::Any));
     for compiled in [compiler.expression(source), compiler.statements(source), compiler.assignment(source)] {
         for d in &compiled.diagnostics {
             assert!(source.get(d.span.start..d.span.end).is_some(), "{source:?}: {d:?}");

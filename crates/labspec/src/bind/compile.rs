@@ -69,6 +69,8 @@ pub struct Programs {
     pub demand: Demand,
     /// Functions of the embedding program, which they may call.
     pub functions: Functions,
+    /// The model that they were compiled for ([`Model::identity`]).
+    pub model: u64,
 }
 
 impl Programs {
@@ -114,7 +116,16 @@ impl Programs {
         }
         let demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         let functions = functions.clone();
-        let mut programs = Programs { setup, controller, controls, probes, globals, demand, functions };
+        let mut programs = Programs {
+            setup,
+            controller,
+            controls,
+            probes,
+            globals,
+            demand,
+            functions,
+            model: model.identity(),
+        };
         let mut demand = programs.demand;
         for bound in programs.bound() {
             include(bound.program.effects(), &mut demand);
@@ -189,9 +200,7 @@ impl Work<'_> {
     }
 
     fn compiler(&mut self, value: Option<Type>) -> Compiler<'_> {
-        let mut compiler = Compiler::new(self.names, self.globals);
-        compiler.value = value;
-        compiler
+        Compiler::new(self.names, self.globals).with_value(value)
     }
 
     fn keep(&mut self, text: &Text, compiled: Compiled) -> Option<Bound> {

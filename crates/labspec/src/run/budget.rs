@@ -31,4 +31,6 @@ pub enum End {
     },
     /// Somebody pressed Ctrl-C. What a check says of such a run is not used.
     Interrupted,
+    /// The programs were compiled for another model: nothing was run.
+    Foreign,
 }

@@ -1,7 +1,7 @@
 //! The samples of a run while they are taken: traces that compute with numbers are recorded as columns of what they
 //! read, each element once, and computed when the run is over; all others are computed at every sample.
 
-use super::{Cell, Session};
+use super::{Cell, End, Session};
 use crate::bind::{Bound, Programs};
 use labspec_expr::{Access, Columnar, Effects, Recording, Type};
 
@@ -59,6 +59,10 @@ impl<'p> Samples<'p> {
 
     /// Takes a sample. What throws is nothing, as on the page.
     pub fn take(&mut self, session: &mut Session<'_>) {
+        // What another model has at these places means nothing here.
+        if session.ended() == Some(&End::Foreign) {
+            return;
+        }
         self.times.push(session.world.data.time());
         self.recording.sample(&session.world);
         for probe in &mut self.probes {

@@ -141,6 +141,10 @@ impl<'p> Session<'p> {
             programs,
             key,
         };
+        if session.programs.model != model.identity() {
+            session.end = Some(End::Foreign);
+            return session;
+        }
         session.forward();
         if session.key.is_some() {
             session.reset_data();
@@ -170,8 +174,10 @@ impl<'p> Session<'p> {
 
     /// Starts over, also after an end: the same reset as [`Session::reset`], and the lab is no longer frozen.
     pub fn start_over(&mut self) {
-        self.end = None;
-        self.reset();
+        if self.end != Some(End::Foreign) {
+            self.end = None;
+            self.reset();
+        }
     }
 
     /// The work that was done, in units of about a nanosecond.
@@ -325,7 +331,7 @@ impl<'p> Session<'p> {
     /// not tried again.
     pub fn evaluate(&mut self, program: &Program, text: &Text) -> Option<Value> {
         let endless = |t: &Trouble| t.rule == rules::BUDGET && t.text == *text;
-        if matches!(self.end, Some(End::Budget { .. })) || self.troubles.iter().any(endless) {
+        if matches!(self.end, Some(End::Budget { .. } | End::Foreign)) || self.troubles.iter().any(endless) {
             return None;
         }
         self.sampled += SAMPLE;

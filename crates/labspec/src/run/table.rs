@@ -84,6 +84,10 @@ pub struct Table {
     pub errors: Vec<String>,
 }
 
+/// What is said of programs and a model that do not belong together.
+const FOREIGN: &str =
+    "the programs were compiled for another model: nothing was run; compile the lab for this one";
+
 impl Table {
     pub(crate) fn new(timestep: f64, probes: impl Iterator<Item = String>) -> Table {
         let columns = std::iter::once("time".to_string()).chain(probes).collect();
@@ -111,6 +115,7 @@ impl Table {
                 let time = super::time(session.world.data.time());
                 self.errors.push(format!("stopped by Ctrl-C at t = {time} s, before its end"));
             }
+            Some(End::Foreign) => self.errors.push(FOREIGN.to_string()),
             Some(End::Threw) | None => {}
         }
     }

@@ -315,6 +315,7 @@ impl<'a> BoundVerify<'a> {
             (None, None) => session.ended().map(|end| match end {
                 End::Threw => "an error froze it".to_string(),
                 End::Interrupted => "it was interrupted".to_string(),
+                End::Foreign => "its programs belong to another model".to_string(),
                 End::Budget { time } => {
                     format!("the runs of this lesson take more work than a check may do, and this one ends at t = {} s", run::time(*time))
                 }

@@ -255,8 +255,7 @@ impl<'a> Bench<'a> {
     pub(super) fn compile(&self, place: &Text, source: &str, given: Option<Type>) -> Option<Bound> {
         let names = ModelNames::new(self.model, Scope::Lab).with(&self.programs.functions);
         let mut globals = self.programs.globals.clone();
-        let mut compiler = Compiler::new(&names, &mut globals);
-        compiler.value = given;
+        let mut compiler = Compiler::new(&names, &mut globals).with_value(given);
         let program = compiler.statements(source).program?;
         Some(Bound { text: place.clone(), program })
     }

@@ -61,7 +61,7 @@ pub(super) fn make(
     });
     let ended = match session.ended() {
         None => None,
-        Some(End::Threw) => Some(Ended::Threw),
+        Some(End::Threw | End::Foreign) => Some(Ended::Threw),
         Some(End::Budget { .. } | End::Interrupted) => Some(Ended::Spent),
     };
     let covered = if made == steps { wanted } else { made as f64 * timestep };
