@@ -1,6 +1,6 @@
 use super::Check;
-use crate::finding::Finding;
 use super::repeated::{DISTINCT, repeated};
+use crate::finding::Finding;
 use crate::spec::Lab;
 use labspec_finding::{Example, Layer, Rule, Severity};
 

@@ -70,9 +70,9 @@ fn duplicate(id: &Text) -> Finding {
 
 #[cfg(test)]
 mod tests {
+    use crate::lint::load_lesson;
     use crate::lint::{ModelFolder, check_course};
     use crate::source::SourceFile;
-    use crate::lint::load_lesson;
 
     #[test]
     fn ids_are_unique_in_a_course() {

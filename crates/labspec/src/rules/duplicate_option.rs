@@ -1,6 +1,6 @@
 use super::Check;
-use crate::finding::Finding;
 use super::repeated::repeated;
+use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 

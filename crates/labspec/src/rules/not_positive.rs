@@ -1,7 +1,7 @@
 use super::Check;
+use super::claims;
 use crate::finding::Finding;
 use crate::json::Number;
-use super::claims;
 use crate::spec::Lesson;
 use crate::spec::format::{LAB, Object, PLOT, RUN};
 use labspec_finding::{Example, Layer, Rule, Severity};

@@ -1,6 +1,6 @@
 use super::Check;
-use crate::finding::Finding;
 use super::claims;
+use crate::finding::Finding;
 use crate::spec::Lesson;
 use labspec_finding::{Example, Layer, Rule, Severity};
 

@@ -1,7 +1,7 @@
 use super::Check;
+use super::claims;
 use crate::finding::Finding;
 use crate::json::{encode, nearest, read::named};
-use super::claims;
 use crate::source::Text;
 use crate::spec::{ControlKind, Lab, Lesson};
 use labspec_finding::{Example, Layer, Rule, Severity};

@@ -1,7 +1,7 @@
 use super::Check;
+use super::claims;
 use crate::finding::Finding;
 use crate::json::read::named;
-use super::claims;
 use crate::spec::{LabAddress, Lesson, VerifyLab};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
