@@ -12,6 +12,22 @@ pub mod integrator {
     pub const IMPLICITFAST: i32 = 3;
     /// One constraint problem in the metric of the next step.
     pub const DISCRETE: i32 = 4;
+
+    // Those that follow are not MuJoCo's: its page and its files know none of them.
+
+    /// Runge-Kutta of fourth order, of fourth order also where bodies turn in space.
+    pub const RKMK4: i32 = 104;
+    /// The same of eighth order.
+    pub const RKMK8: i32 = 108;
+    /// Collocation at the points of Gauss, of sixth order: symmetric in time, for motion that keeps its energy.
+    pub const GAUSS: i32 = 106;
+    /// Extrapolation with as many steps within a step as rounding asks for: for references.
+    pub const ADAPTIVE: i32 = 100;
+
+    /// Whether a step computes the forces more than once.
+    pub fn many_stages(kind: i32) -> bool {
+        matches!(kind, RK4 | RKMK4 | RKMK8 | GAUSS | ADAPTIVE)
+    }
 }
 
 /// Values of `opt.solver`.

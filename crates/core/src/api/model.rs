@@ -298,6 +298,14 @@ words! {
         ImplicitFast = 3,
         /// All forces at the end of the step.
         Discrete = 4,
+        /// Runge and Kutta's, of fourth order for rotations too (not MuJoCo's).
+        Rkmk4 = 104,
+        /// The same of eighth order (not MuJoCo's).
+        Rkmk8 = 108,
+        /// Collocation of sixth order, symmetric in time (not MuJoCo's).
+        Gauss = 106,
+        /// As exact as rounding allows, whatever it costs (not MuJoCo's).
+        Adaptive = 100,
     }
 }
 words! {

@@ -45,7 +45,7 @@ pub(super) fn past(m: &Model, d: &Fields, s: usize, out: &mut [f64]) -> bool {
 /// MuJoCo keeps: the state at the start of the step, seen with the poses and forces of the last stage.
 pub(crate) fn record(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let delayed = |s: &usize| m.sensor_delay[*s] > 0.0 && m.sensor_history[2 * s] > 0;
-    if m.opt.integrator == integrator::RK4 {
+    if integrator::many_stages(m.opt.integrator) {
         let needs = |stage| (0..m.nsensor).filter(delayed).any(|s| of(m, s).needs.contains(&stage));
         if needs(Stage::SubtreeVel) {
             subtree::subtree_vel(m, d);

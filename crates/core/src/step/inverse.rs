@@ -16,15 +16,15 @@ use crate::step::{damping, discrete};
 /// What inverse dynamics cannot answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InverseError {
-    /// The acceleration is that of a whole step (`invdiscrete`), of Runge and Kutta's method: it cannot be undone.
+    /// The acceleration is that of a whole step (`invdiscrete`) of a method with several stages: it cannot be undone.
     RungeKutta,
 }
 
 impl std::fmt::Display for InverseError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(
-            "inverse dynamics of a whole step (flag `invdiscrete`) is not known for the integrator RK4: choose \
-             another integrator, or clear the flag",
+            "inverse dynamics of a whole step (flag `invdiscrete`) is not known for an integrator with several \
+             stages, like RK4: choose another integrator, or clear the flag",
         )
     }
 }
@@ -37,7 +37,7 @@ impl std::error::Error for InverseError {}
 /// All fields of position and velocity, the forces of constraints and sensors are computed, whatever the plan
 /// says.
 pub(crate) fn inverse(m: &Model, d: &mut Data) -> Result<(), InverseError> {
-    if m.opt.enabled(enable::INVDISCRETE) && m.opt.integrator == integrator::RK4 {
+    if m.opt.enabled(enable::INVDISCRETE) && integrator::many_stages(m.opt.integrator) {
         return Err(InverseError::RungeKutta);
     }
     let plan = std::mem::replace(&mut d.plan, Plan::everything());

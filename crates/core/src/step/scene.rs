@@ -261,7 +261,7 @@ impl<'a> Scene<'a> {
     pub(super) fn mass_for_rows(&self, plan: &Plan) -> bool {
         let m = self.m;
         let fields = ["M", "qLD", "qLDiagInv", "crb"];
-        let integrates = matches!(m.opt.integrator, integrator::EULER | integrator::RK4);
+        let integrates = m.opt.integrator == integrator::EULER || integrator::many_stages(m.opt.integrator);
         let changes = ["integrator", "enableflags"];
         self.general
             && integrates

@@ -1,4 +1,4 @@
-//! What a step of Runge and Kutta's keeps between its stages.
+//! What integrators that compute forces several times in a step keep between their stages.
 
 use crate::model::Model;
 
@@ -27,6 +27,32 @@ impl RungeKutta {
             dvel: v.clone(),
             dact: a,
             slope: v,
+        }
+    }
+}
+
+/// What the methods in coordinates around the start of a step keep: made by the first step that needs it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Flow {
+    /// The configuration and the time that the coordinates start from.
+    pub(super) qpos: Vec<f64>,
+    pub(super) time: f64,
+    /// Where the step, or the part of it at hand, starts and ends: coordinates, velocities, activations.
+    pub(super) start: Vec<f64>,
+    pub(super) end: Vec<f64>,
+    /// Slopes of the stages, or a table of extrapolation: lists like `start`, one after the other.
+    pub(super) rows: Vec<f64>,
+}
+
+impl Flow {
+    /// Room for the state, and for so many slopes.
+    pub(super) fn make_room(&mut self, m: &Model, slopes: usize) {
+        let n = 2 * m.nv + m.na;
+        self.qpos.resize(m.nq, 0.0);
+        self.start.resize(n, 0.0);
+        self.end.resize(n, 0.0);
+        if self.rows.len() < slopes * n {
+            self.rows.resize(slopes * n, 0.0);
         }
     }
 }

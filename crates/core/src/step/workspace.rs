@@ -1,7 +1,7 @@
 //! `Data`: the fields of a simulation, and the scratch of the stages.
 
 use super::discrete::Metric;
-use super::stages::RungeKutta;
+use super::stages::{Flow, RungeKutta};
 use super::{damping, sleep};
 use crate::forces::{self, derivative};
 use crate::model::plan::Plan;
@@ -34,6 +34,7 @@ pub(crate) struct Work {
     /// The metric of the discrete integrator.
     pub(crate) metric: Metric,
     pub(crate) rk: RungeKutta,
+    pub(crate) flow: Flow,
     /// Whether the state at hand is one that nobody sees, between two steps.
     pub(crate) unseen: bool,
 }

@@ -21,5 +21,14 @@ pub(super) fn next(m: &Model, d: &Fields, i: usize, at: usize, rate: f64) -> f64
         dyntype::FILTEREXACT => exact(act, rate, m.actuator_dynprm[10 * i], h),
         _ => act + rate * h,
     };
-    if m.actuator_actlimited[i] { clip(value, rows::<2>(&m.actuator_actrange)[i]) } else { value }
+    within(m, d, i, at, value)
+}
+
+/// A value of activation `at` of actuator `i`, within its limits.
+pub(super) fn within(m: &Model, d: &Fields, i: usize, at: usize, value: f64) -> f64 {
+    match m.actuator_dyntype[i] {
+        dyntype::DCMOTOR => motor::within(m, d, i, at, value),
+        _ if m.actuator_actlimited[i] => clip(value, rows::<2>(&m.actuator_actrange)[i]),
+        _ => value,
+    }
 }

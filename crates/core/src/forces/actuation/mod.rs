@@ -24,7 +24,7 @@ use crate::model::{Fields, Model, asleep};
 
 pub(crate) use control::{record, reset};
 pub(crate) use motor::slots;
-pub(crate) use rates::advance;
+pub(crate) use rates::{advance, arrive};
 
 /// Whether the forces of actuator `i` are switched off by its group.
 pub(crate) fn switched_off(m: &Model, i: usize) -> bool {

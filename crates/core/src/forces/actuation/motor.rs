@@ -56,6 +56,12 @@ struct Motor<'a> {
 }
 
 impl<'a> Motor<'a> {
+    /// A value of a state, within its limits.
+    fn within(&self, slot: Option<usize>, value: f64) -> f64 {
+        let limit = self.dyn_[8];
+        if slot == self.slots.integral && limit > 0.0 { clamp(value, -limit, limit) } else { value }
+    }
+
     fn new(m: &'a Model, d: &Fields, i: usize) -> Motor<'a> {
         let (dyn_, gain) = (prm(&m.actuator_dynprm, i), prm(&m.actuator_gainprm, i));
         let (states, o) = (states(m, i), m.actuator_outadr[i] as usize);
@@ -164,11 +170,15 @@ pub(super) fn next(m: &Model, d: &Fields, i: usize, at: usize, rate: f64) -> f64
         let decay = libm::exp(a * h);
         let gain = if a.abs() > MINVAL { (decay - 1.0) / a } else { h };
         decay * act + gain * motor.velocity
-    } else if slot == motor.slots.integral && motor.dyn_[8] > 0.0 {
-        clamp(act + rate * h, -motor.dyn_[8], motor.dyn_[8])
     } else {
-        act + rate * h
+        motor.within(slot, act + rate * h)
     }
+}
+
+/// A value of activation `at` of a motor, within its limits: the integral of the error has one.
+pub(super) fn within(m: &Model, d: &Fields, i: usize, at: usize, value: f64) -> f64 {
+    let motor = Motor::new(m, d, i);
+    motor.within(Some(at - motor.first), value)
 }
 
 /// The torque of the winding but for the voltage that motion induces where there is no state of the current.

@@ -1,6 +1,6 @@
 //! How fast activations change: first-order dynamics of MuJoCo's documentation, "Computation: Activation dynamics".
 
-use super::activation::next;
+use super::activation::{next, within};
 use super::{integrates, motor, muscle, prm, servo, states, switched_off};
 use crate::kinds::{disable, dyntype, gaintype};
 use crate::math::*;
@@ -37,6 +37,21 @@ pub(crate) fn advance(m: &Model, d: &mut Fields) {
         let off = switched_off(m, i);
         for at in states(m, i) {
             d.act[at] = next(m, d, i, at, if off { 0.0 } else { d.act_dot[at] });
+        }
+        if integrates(m, i) {
+            anchor(m, d, i);
+        }
+    }
+}
+
+/// Sets `act` to what it is at the end of a step, within its limits.
+pub(crate) fn arrive(m: &Model, d: &mut Fields, values: &[f64]) {
+    if m.opt.disabled(disable::ACTUATION) {
+        return;
+    }
+    for i in (0..m.nactuator).filter(|&i| !switched_off(m, i)) {
+        for at in states(m, i) {
+            d.act[at] = within(m, d, i, at, values[at]);
         }
         if integrates(m, i) {
             anchor(m, d, i);

@@ -1,6 +1,10 @@
 //! Integrators: from accelerations to the next state.
 
+mod adaptive;
 mod euler;
+mod explicit;
+mod flow;
+mod gauss;
 mod implicit;
 mod position;
 mod runge_kutta;
@@ -20,11 +24,15 @@ pub(crate) use position::{differentiate_pos, integrate_pos};
 pub(crate) fn integrate(m: &Model, d: &mut Data) {
     match m.opt.integrator {
         integrator::RK4 => runge_kutta::rk4(m, d),
+        integrator::RKMK4 => explicit::explicit(m, d, &explicit::FOURTH),
+        integrator::RKMK8 => explicit::explicit(m, d, &explicit::EIGHTH),
+        integrator::GAUSS => gauss::gauss(m, d),
+        integrator::ADAPTIVE => adaptive::adaptive(m, d),
         _ => integrate_once(m, d),
     }
 }
 
-/// The same from one evaluation of forces: Runge–Kutta, which needs four, becomes Euler.
+/// The same from one evaluation of forces: methods that need more, as Runge–Kutta, become Euler.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn integrate_once(m: &Model, d: &mut Data) {
     match m.opt.integrator {
@@ -40,6 +48,8 @@ pub(crate) fn integrate_once(m: &Model, d: &mut Data) {
 #[derive(Default)]
 struct Slopes<'a> {
     activation: Option<&'a mut Vec<f64>>,
+    /// Activations at the end of the step, where they are known.
+    reached: Option<&'a [f64]>,
     acceleration: Option<&'a [f64]>,
     velocity: Option<&'a [f64]>,
 }
@@ -49,18 +59,19 @@ struct Slopes<'a> {
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn advance(m: &Model, d: &mut Data, slopes: Slopes) {
     let h = m.opt.timestep;
-    let Slopes { activation, acceleration, velocity } = slopes;
+    let Slopes { activation, reached, acceleration, velocity } = slopes;
     if m.nhistory > 0 {
         record(m, d);
     }
-    match activation {
+    match (activation, reached) {
         _ if m.na == 0 => {}
-        Some(rates) => {
+        (Some(rates), _) => {
             std::mem::swap(&mut d.act_dot, rates);
             actuation::advance(m, d);
             std::mem::swap(&mut d.act_dot, rates);
         }
-        None => actuation::advance(m, d),
+        (_, Some(values)) => actuation::arrive(m, d, values),
+        _ => actuation::advance(m, d),
     }
     if d.plan.keeps(Stage::Sleep) && asleep::on(m, d) {
         advance_awake(m, d, acceleration, velocity);

@@ -41,7 +41,12 @@ pub(super) fn rk4(m: &Model, d: &mut Data) {
     advance(
         m,
         d,
-        Slopes { activation: Some(&mut w.dact), acceleration: Some(&w.dvel), velocity: Some(&w.dpos) },
+        Slopes {
+            activation: Some(&mut w.dact),
+            acceleration: Some(&w.dvel),
+            velocity: Some(&w.dpos),
+            ..Slopes::default()
+        },
     );
     d.work.rk = w;
 }

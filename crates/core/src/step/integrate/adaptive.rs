@@ -1,0 +1,144 @@
+//! Steps within a step, as many and of as high an order as rounding asks for: slow, and right. For references.
+//!
+//! The midpoint rule with 2, 4, 6, … steps over the same time has an error in even powers of their length, which the table of
+//! Aitken and Neville takes away one after the other; the last two entries say how far the result may be off (Bulirsch and Stoer
+//! 1966; Hairer, Nørsett and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.9). Where 16 steps do not agree
+//! with 14, as at the moment of a contact, half the time is tried.
+
+use super::flow;
+use crate::math::combine;
+use crate::model::Model;
+use crate::step::stages::Flow;
+use crate::step::workspace::Data;
+
+/// Lines of the table: 2, 4, … steps.
+const LINES: usize = 8;
+/// The error that is allowed in a part, beside 1 plus the size of each number.
+const TOLERANCE: f64 = 1e-13;
+/// The smallest part of a step, 1/2^this: what is not smooth there is taken as it is.
+const HALVINGS: u32 = 14;
+/// Parts of a step at most: then the rest is taken in one.
+const PARTS: usize = 4096;
+
+/// A step.
+pub(super) fn adaptive(m: &Model, d: &mut Data) {
+    let (h, began) = (m.opt.timestep, d.time);
+    let mut w = std::mem::take(&mut d.work.flow);
+    // The table, the slope at the start, and three states of the midpoint rule.
+    w.make_room(m, LINES + 4);
+    flow::begin(m, d, &mut w);
+    keep_slope(m, d, &mut w);
+    // Times are counted in units of the smallest part: no rounding.
+    let whole = 1u32 << HALVINGS;
+    let (mut done, mut part, mut parts) = (0, whole, 0);
+    loop {
+        let length = h * f64::from(part) / f64::from(whole);
+        let good = extrapolate(m, d, &mut w, length);
+        if !good && part > 1 && parts < PARTS && !d.meter.over() {
+            part /= 2;
+            parts += 1;
+            continue;
+        }
+        done += part;
+        parts += 1;
+        if done >= whole {
+            break;
+        }
+        flow::go_on(m, d, &mut w, length);
+        keep_slope(m, d, &mut w);
+        // Twice as long, where that ends at a multiple of itself.
+        if good && done % (2 * part) == 0 {
+            part *= 2;
+        }
+        if parts >= PARTS {
+            part = whole - done;
+        }
+    }
+    flow::finish(m, d, &mut w, began);
+    d.work.flow = w;
+}
+
+/// Keeps the slope at the start of a part, behind the table.
+fn keep_slope(m: &Model, d: &Data, w: &mut Flow) {
+    let n = w.start.len();
+    let mut rows = std::mem::take(&mut w.rows);
+    flow::known_slope(m, d, &w.start, &mut rows[LINES * n..][..n]);
+    w.rows = rows;
+}
+
+/// A part of the step, to `w.end`; whether it is as exact as asked.
+fn extrapolate(m: &Model, d: &mut Data, w: &mut Flow, h: f64) -> bool {
+    let n = w.start.len();
+    if n == 0 {
+        return true;
+    }
+    let (mut rows, mut end) = (std::mem::take(&mut w.rows), std::mem::take(&mut w.end));
+    let (table, rest) = rows.split_at_mut(LINES * n);
+    let (first, scratch) = rest.split_at_mut(n);
+    let (mut good, mut before) = (false, f64::INFINITY);
+    for line in 0..LINES {
+        midpoint(m, d, w, h, 2 * (line + 1), first, scratch, &mut end);
+        // The line of the table: entry k takes the place of entry k of the line above.
+        let mut error = 0.0f64;
+        for (i, new) in end.iter_mut().enumerate() {
+            let mut x = *new;
+            for k in 0..line {
+                let above = table[k * n + i];
+                table[k * n + i] = x;
+                let ratio = (line + 1) as f64 / (line - k) as f64;
+                let step = (x - above) / (ratio * ratio - 1.0);
+                x += step;
+                if k + 1 == line {
+                    error = larger(error, step / (1.0 + x.abs()));
+                }
+            }
+            table[line * n + i] = x;
+            *new = x;
+        }
+        good = line > 0 && error <= TOLERANCE;
+        // At rounding it comes no closer.
+        let stuck = line > 2 && error >= before;
+        if good || stuck || !(error < f64::INFINITY) || d.meter.over() {
+            good |= stuck && error < 30.0 * TOLERANCE;
+            break;
+        }
+        before = if line > 0 { error } else { before };
+    }
+    (w.rows, w.end) = (rows, end);
+    good
+}
+
+/// The larger of an error and a number's size; infinite where that is no number.
+fn larger(error: f64, x: f64) -> f64 {
+    if x.is_finite() { error.max(x.abs()) } else { f64::INFINITY }
+}
+
+/// Gragg's method: a step of Euler's, then steps of twice the length from the state before the last, smoothed at the end.
+#[allow(clippy::too_many_arguments)]
+fn midpoint(
+    m: &Model,
+    d: &mut Data,
+    w: &Flow,
+    h: f64,
+    steps: usize,
+    first: &[f64],
+    scratch: &mut [f64],
+    out: &mut [f64],
+) {
+    let n = first.len();
+    let (older, rest) = scratch.split_at_mut(n);
+    let (old, rest) = rest.split_at_mut(n);
+    let slope = &mut rest[..n];
+    let length = h / steps as f64;
+    older.copy_from_slice(&w.start);
+    old.copy_from_slice(&w.start);
+    combine(old, [first], |y, [k]| y + length * k);
+    for step in 1..steps {
+        flow::slope(m, d, w, length * step as f64, old, slope);
+        combine(older, [&*slope], |y, [k]| y + 2.0 * length * k);
+        older.swap_with_slice(old);
+    }
+    flow::slope(m, d, w, h, old, slope);
+    out.copy_from_slice(old);
+    combine(out, [&*older, &*slope], |y, [older, k]| 0.5 * (y + older + length * k));
+}

@@ -1,0 +1,135 @@
+//! A step as an initial value problem in numbers that may be added.
+//!
+//! Turns in space may not be added. So a configuration is written as the one at the start of the step, moved along u:
+//! q = q₀ exp(u), with u a shift of each slide and hinge, and a rotation vector of each ball, in its own frame. Then
+//! u̇ = dexp⁻¹(u) v, v̇ = a(q, v, t), and a method of order p for such equations is of order p for bodies that turn
+//! (Munthe-Kaas 1999, *High order Runge-Kutta methods on manifolds*; Iserles, Munthe-Kaas, Nørsett and Zanna 2000,
+//! *Lie-group methods*).
+//!
+//! The state is one list: u and v, each of length nv, and the activations.
+
+use super::{Slopes, advance, integrate_pos};
+use crate::forces::actuation;
+use crate::kinds::joint;
+use crate::math::*;
+use crate::model::Model;
+use crate::step::forward;
+use crate::step::stages::Flow;
+use crate::step::workspace::Data;
+
+/// Starts coordinates at the state of the data.
+pub(super) fn begin(m: &Model, d: &Data, w: &mut Flow) {
+    w.qpos.copy_from_slice(&d.qpos);
+    w.time = d.time;
+    let (u, rest) = w.start.split_at_mut(m.nv);
+    let (v, act) = rest.split_at_mut(m.nv);
+    u.fill(0.0);
+    v.copy_from_slice(&d.qvel);
+    act.copy_from_slice(&d.act);
+}
+
+/// Puts the data into the state that the list says, at a time after the start.
+pub(super) fn place(m: &Model, d: &mut Data, w: &Flow, after: f64, state: &[f64]) {
+    let (u, rest) = state.split_at(m.nv);
+    let (v, act) = rest.split_at(m.nv);
+    d.qpos.copy_from_slice(&w.qpos);
+    integrate_pos(m, &mut d.qpos, u, 1.0);
+    d.qvel.copy_from_slice(v);
+    d.act.copy_from_slice(act);
+    d.time = w.time + after;
+}
+
+/// The slope of the state that the data hold, whose forces are known.
+pub(super) fn known_slope(m: &Model, d: &Data, state: &[f64], out: &mut [f64]) {
+    let (du, rest) = out.split_at_mut(m.nv);
+    let (dv, da) = rest.split_at_mut(m.nv);
+    du.copy_from_slice(&d.qvel);
+    for (&kind, &k) in m.jnt_type.iter().zip(&m.jnt_dofadr) {
+        let k = k as usize + if kind == joint::FREE { 3 } else { 0 };
+        if matches!(kind, joint::FREE | joint::BALL)
+            && let Some(u) = state.get(k..).and_then(|u| u.first_chunk())
+            && let Some(du) = du.get_mut(k..).and_then(|du| du.first_chunk_mut())
+        {
+            *du = turn_rate(*u, *du);
+        }
+    }
+    dv.copy_from_slice(&d.qacc);
+    da.copy_from_slice(&d.act_dot);
+}
+
+/// The slope of a state.
+pub(super) fn slope(m: &Model, d: &mut Data, w: &Flow, after: f64, state: &[f64], out: &mut [f64]) {
+    place(m, d, w, after, state);
+    forward::forward_unseen(m, d);
+    known_slope(m, d, state, out);
+}
+
+/// How fast the rotation vector u changes where a body that has turned by it turns with w, in its own frame:
+/// dexp⁻¹(u) w = w + u×w/2 + (1 - (θ/2) cot(θ/2))/θ² u×(u×w) with θ = |u|.
+fn turn_rate(u: Vec3, w: Vec3) -> Vec3 {
+    let square = dot(u, u);
+    if square == 0.0 {
+        return w;
+    }
+    let factor = if square < 1e-4 {
+        // The next term is 1e-14 of the first.
+        1.0 / 12.0 + square * (1.0 / 720.0 + square / 30240.0)
+    } else {
+        let half = 0.5 * square.sqrt();
+        (1.0 - half * libm::cos(half) / libm::sin(half)) / square
+    };
+    let (once, twice) = (cross(u, w), cross(u, cross(u, w)));
+    std::array::from_fn(|i| w[i] + 0.5 * once[i] + factor * twice[i])
+}
+
+/// Goes on from the end of a part of the step: it becomes the start of the next, with its forces.
+pub(super) fn go_on(m: &Model, d: &mut Data, w: &mut Flow, part: f64) {
+    let end = std::mem::take(&mut w.end);
+    place(m, d, w, part, &end);
+    actuation::arrive(m, d, &end[2 * m.nv..]);
+    w.end = end;
+    forward::forward_unseen(m, d);
+    begin(m, d, w);
+}
+
+/// Ends the step that began at a time: `w.end` is the state at its end.
+pub(super) fn finish(m: &Model, d: &mut Data, w: &mut Flow, began: f64) {
+    let h = m.opt.timestep;
+    let (u, rest) = w.end.split_at_mut(m.nv);
+    let (v, act) = rest.split_at_mut(m.nv);
+    d.qpos.copy_from_slice(&w.qpos);
+    d.qvel.copy_from_slice(&w.start[m.nv..2 * m.nv]);
+    d.act.copy_from_slice(&w.start[2 * m.nv..]);
+    d.time = began;
+    for (v, start) in v.iter_mut().zip(&d.qvel) {
+        *v = (*v - start) / h;
+    }
+    u.iter_mut().for_each(|u| *u /= h);
+    advance(
+        m,
+        d,
+        Slopes { reached: Some(act), acceleration: Some(v), velocity: Some(u), ..Slopes::default() },
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The rotation vector of q₀⁻¹ q for q = exp(u) turned on for a short time with w changes as the formula says.
+    #[test]
+    fn the_rate_of_a_rotation_vector() {
+        for size in [0.0, 1e-9, 1e-3, 0.00999, 0.0101, 0.5, 2.0, 3.0] {
+            let u = [0.36 * size, -0.48 * size, 0.8 * size];
+            let (w, h) = ([0.3, 1.1, -0.7], 1e-5);
+            let turned =
+                |h: f64| quat_to_vel(quat_integrate(quat_integrate([1.0, 0.0, 0.0, 0.0], u, 1.0), w, h));
+            let (before, after) = (turned(-h), turned(h));
+            let rate = turn_rate(u, w);
+            for i in 0..3 {
+                let measured = (after[i] - before[i]) / (2.0 * h);
+                assert!((rate[i] - measured).abs() < 1e-8, "{size}: {} for {measured}", rate[i]);
+            }
+        }
+    }
+}
