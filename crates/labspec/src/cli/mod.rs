@@ -7,6 +7,7 @@ mod course;
 mod digest;
 mod explain;
 mod fmt;
+mod handle;
 mod machine;
 mod output;
 mod plan;

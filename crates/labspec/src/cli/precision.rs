@@ -1,15 +1,19 @@
 //! `labspec precision`.
 
-use super::output::{Wanted, look_ahead};
-use super::stdio::print_json;
+use super::handle::{assignment, press};
+use super::output::{Wanted, look_ahead, write_with};
+use super::stdio::{print_json, stream};
 use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
-use crate::precision::{INTEGRATORS, Report, Row, Truth, compare};
+use crate::precision::{
+    Axis, Compared, Fate, INTEGRATORS, Integrator, Options, Report, Row, compare, milliseconds,
+};
 use crate::report::{key, printable, set_number, set_numbers};
 use crate::verify::significant;
 use clap::ValueEnum;
 use labspec_plot::{Method, MethodPoint, WorkPrecision, work_precision};
 use serde_json::{Value, json};
 use std::fmt::Write;
+use std::io;
 use std::path::PathBuf;
 
 /// Arguments of `precision`.
@@ -22,28 +26,58 @@ pub(super) struct Arguments {
     /// Length in seconds [default: the lab's stopAt, or 2]
     #[arg(long, value_name = "S")]
     until: Option<f64>,
+    /// Set a control before every run
+    #[arg(long, value_name = "LABEL=VALUE")]
+    set: Vec<String>,
+    /// Press a button at a time in seconds
+    #[arg(long, value_name = "LABEL@TIME")]
+    press: Vec<String>,
+    /// Only this integrator, or `all`, with those that MuJoCo does not have [default: MuJoCo's five]
+    #[arg(long, value_name = "NAME")]
+    integrator: Vec<String>,
+    /// Vary a setting of the constraint solver as well
+    #[arg(long, value_enum, value_name = "SETTING")]
+    vary: Vec<Vary>,
     /// How to print
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
+    /// Write all errors as comma-separated values
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
     /// Write the chart of the first trace
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
+enum Vary {
+    Iterations,
+    Tolerance,
+    Cone,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
 enum Format {
     Human,
     Json,
+    Csv,
 }
 
 pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
-    let wanted: Vec<Wanted> =
-        a.svg.iter().map(|path| Wanted { option: "--svg", path: path.clone() }).collect();
-    look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &wanted)?;
+    let wanted = |option: &'static str, path: &PathBuf| Wanted { option, path: path.clone() };
+    let files = a.csv.iter().map(|p| wanted("--csv", p)).chain(a.svg.iter().map(|p| wanted("--svg", p)));
+    look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &files.collect::<Vec<_>>())?;
+    let options = Options {
+        until: a.until,
+        set: a.set.iter().map(|s| assignment(&target.lab, s)).collect::<Result<_, _>>()?,
+        press: a.press.iter().map(|s| press(&target.lab, s)).collect::<Result<_, _>>()?,
+        integrators: integrators(&a.integrator)?,
+        axes: a.vary.iter().map(|v| v.axis()).collect(),
+    };
     let mut findings = Vec::new();
     let report =
-        compare(&target.lab, &target.model, &target.programs, a.until, &mut findings).map_err(|e| e.0)?;
+        compare(&target.lab, &target.model, &target.programs, &options, &mut findings).map_err(|e| e.0)?;
     if let Some(f) = findings.first() {
         return Err(format!(
             "a closed form has a mistake: {}; `labspec check` shows where",
@@ -53,29 +87,67 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     if let Some(file) = &a.svg {
         write_file(file, &chart(&report, target.lab.title()))?;
     }
-    match a.format {
-        Format::Human => print(&table(&report))?,
-        Format::Json => print_json(&value(&report), true)?,
+    if let Some(file) = &a.csv {
+        write_with(file, |out| csv(&report, out))?;
     }
-    let diverged = report.rows.iter().any(|r| r.diverged);
-    Ok(if diverged { Outcome::Findings } else { Outcome::Clean })
+    match a.format {
+        Format::Human => print(&human(&report))?,
+        Format::Json => print_json(&value(&report), true)?,
+        Format::Csv => stream(|out| csv(&report, out))?,
+    }
+    Ok(if report.reference.is_none() || lost(&report) { Outcome::Findings } else { Outcome::Clean })
+}
+
+/// Whether the lab as it stands is no good, or the truth is not known to its end.
+fn lost(report: &Report) -> bool {
+    report.rows.iter().any(|r| r.own && r.fate != Fate::Good)
+        || report.targets.iter().any(|t| t.until.is_some())
+}
+
+impl Vary {
+    fn axis(self) -> Axis {
+        match self {
+            Vary::Iterations => Axis::Iterations,
+            Vary::Tolerance => Axis::Tolerance,
+            Vary::Cone => Axis::Cone,
+        }
+    }
+}
+
+fn integrators(names: &[String]) -> Result<Vec<Integrator>, Failure> {
+    if names.iter().any(|n| n == "all") {
+        return Ok(INTEGRATORS.to_vec());
+    }
+    let known = || INTEGRATORS.map(|i| i.name).join(", ");
+    let one = |name: &String| {
+        Integrator::named(name).ok_or_else(|| {
+            format!("--integrator {name}: there is none of this name; there are {}, and all", known())
+        })
+    };
+    names.iter().map(one).collect()
 }
 
 /// Log-log chart of the first trace: error across, cost upwards, one curve per integrator.
 fn chart(report: &Report, title: &str) -> String {
     let point = |row: &Row| MethodPoint {
-        cost: row.cost,
-        error: row.errors.first().copied().unwrap_or(f64::NAN),
-        note: format!("{} ms", significant(1e3 * row.timestep)),
-        failed: row.diverged,
+        cost: row.cost.median,
+        error: row.errors.first().map_or(f64::NAN, |e| e.largest),
+        note: format!("{} ms", milliseconds(row.setting.timestep)),
+        failed: row.fate != Fate::Good,
     };
-    let methods = INTEGRATORS.iter().map(|(_, name)| Method {
-        label: name.to_string(),
-        points: report.rows.iter().filter(|row| row.integrator == *name).map(point).collect(),
+    let used = INTEGRATORS.iter().filter(|i| report.rows.iter().any(|r| r.setting.integrator == **i));
+    let methods = used.map(|integrator| Method {
+        label: integrator.name.to_string(),
+        points: report
+            .rows
+            .iter()
+            .filter(|row| row.setting.integrator == *integrator && row.setting.solver.is_none())
+            .map(point)
+            .collect(),
     });
     work_precision(&WorkPrecision {
         title: title.to_string(),
-        xlabel: format!("largest error of {}", report.traces.first().map_or("", String::as_str)),
+        xlabel: format!("largest error of {}", report.targets.first().map_or("", |t| t.label.as_str())),
         ylabel: "µs per simulated second".into(),
         methods: methods.collect(),
         width: 640.0,
@@ -83,27 +155,43 @@ fn chart(report: &Report, title: &str) -> String {
     })
 }
 
-fn table(report: &Report) -> String {
+fn human(report: &Report) -> String {
     let mut text = String::new();
-    for (i, trace) in report.traces.iter().enumerate() {
-        let against = match report.truth.get(i) {
-            Some(Truth::ClosedForm) => "the closed form".to_string(),
-            _ => format!("RK4 with tiny steps (itself off by about {})", significant(report.uncertainty[i])),
-        };
-        let _ = writeln!(
-            text,
-            "{}: largest error over {} s against {against}",
-            printable(trace),
-            significant(report.length)
-        );
-        let _ = writeln!(text, "  integrator   timestep        error   order   µs per s");
-        for r in &report.rows {
-            let order = r.orders[i].map_or("–".to_string(), |o| format!("{o:.2}"));
-            let error = if r.diverged { "diverged".to_string() } else { format!("{:.3e}", r.errors[i]) };
-            let h = format!("{} ms", significant(1e3 * r.timestep));
-            let _ = writeln!(text, "  {:<10} {h:>10} {error:>12} {order:>7} {:>10.0}", r.integrator, r.cost);
+    match &report.reference {
+        None => {
+            let _ = writeln!(text, "Nothing can be compared: no method comes through this lab.");
+            fates(report, &mut text);
         }
-        text.push('\n');
+        Some(how) => {
+            let _ = writeln!(
+                text,
+                "Over {} s. Where there is no closed form the reference is {how}.",
+                significant(report.length)
+            );
+            table(report, &mut text);
+        }
+    }
+    for out in &report.left_out {
+        let _ = writeln!(text, "Not compared: {}, as {}.", printable(&out.label), out.reason);
+    }
+    if let Some(nearby) = &report.nearby {
+        let _ = match nearby.until {
+            Some(t) => writeln!(
+                text,
+                "Two starts that are {:e} apart show the same until {} s: what comes later cannot be predicted, by any method.",
+                nearby.apart,
+                significant(t)
+            ),
+            None => writeln!(
+                text,
+                "Two starts that are {:e} apart show the same to the end, yet the methods do not come closer with the step: \
+                 this is not chaos; forces that jump, as at an impact, are likely.",
+                nearby.apart
+            ),
+        };
+    }
+    for advice in &report.advice {
+        let _ = writeln!(text, "{}", printable(&advice.text));
     }
     if interrupted() {
         text.push_str("stopped by Ctrl-C: the runs above are those that were finished\n");
@@ -111,29 +199,209 @@ fn table(report: &Report) -> String {
     text
 }
 
+fn setting(row: &Row) -> String {
+    let solver = row.setting.solver.map_or(String::new(), |s| format!(" {}", s.name()));
+    let own = if row.own { " *" } else { "" };
+    format!("{}{solver}{own}", row.setting.integrator.name)
+}
+
+/// A column of the table: what it is, and a cell for each row.
+struct Column {
+    legend: String,
+    cells: Vec<String>,
+}
+
+/// Columns that stand beside each other.
+const ABREAST: usize = 5;
+
+/// The largest errors of all that is compared, a column each; what is best in both is marked.
+fn table(report: &Report, text: &mut String) {
+    let columns = columns(report);
+    for (k, column) in columns.iter().enumerate() {
+        let _ = writeln!(text, "({}) {}", k + 1, column.legend);
+    }
+    let names: Vec<String> = report.rows.iter().map(setting).collect();
+    let width = names.iter().map(|n| n.chars().count()).max().unwrap_or(0).max(10);
+    for (first, some) in columns.chunks(ABREAST).enumerate() {
+        let heads: String =
+            (0..some.len()).map(|k| format!(" {:>10}", format!("({})", first * ABREAST + k + 1))).collect();
+        let _ = writeln!(text, "\n  {:<width$}   timestep   µs per s      {heads}", "");
+        for (i, row) in report.rows.iter().enumerate() {
+            let h = format!("{} ms", milliseconds(row.setting.timestep));
+            let spread = 50.0 * (row.cost.high - row.cost.low) / row.cost.median;
+            let cost = match spread.is_finite() {
+                true => format!("{:.0} ±{spread:>2.0}%", row.cost.median),
+                false => String::new(),
+            };
+            let cells: String = match row.fate {
+                Fate::Good | Fate::Warned => some.iter().map(|c| format!(" {:>10}", c.cells[i])).collect(),
+                other => format!("  {}", other.word()),
+            };
+            let best = if report.front.contains(&i) { " ‹" } else { "" };
+            let _ = writeln!(text, "  {:<width$} {h:>10} {cost:>16}{cells}{best}", names[i]);
+        }
+    }
+    text.push_str(
+        "\n* as the lab has it; ‹ no other is both closer and cheaper; ≤ as exact as the reference\n",
+    );
+}
+
+fn columns(report: &Report) -> Vec<Column> {
+    let mut list: Vec<Column> = Vec::new();
+    let cell = |x: f64| if x.is_finite() { format!("{x:.1e}") } else { "–".into() };
+    for (i, target) in report.targets.iter().enumerate() {
+        let of = |row: &Row| match row.errors.get(i) {
+            Some(e) if e.below => format!("≤{:.0e}", target.uncertain.max(e.largest)),
+            Some(e) => cell(e.largest),
+            None => "–".into(),
+        };
+        list.push(Column { legend: about(target), cells: report.rows.iter().map(of).collect() });
+    }
+    for (k, event) in report.events.iter().enumerate().filter(|(_, e)| e.time.is_finite()) {
+        let legend = format!(
+            "{}, at {} s (± {} s): error, s",
+            printable(&event.name),
+            significant(event.time),
+            cell(event.uncertain)
+        );
+        let of = |row: &Row| cell(row.events.get(k).copied().unwrap_or(f64::NAN));
+        list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
+    }
+    let mut keeps = |size: Option<f64>, what: &str, unit: &str, of: fn(&Row) -> Option<f64>| {
+        if let Some(size) = size {
+            let legend = format!(
+                "the scene keeps its {what} ({} {unit} move): largest change, {unit}",
+                significant(size)
+            );
+            let cells = report.rows.iter().map(|r| cell(of(r).unwrap_or(f64::NAN))).collect();
+            list.push(Column { legend, cells });
+        }
+    };
+    keeps(report.energy, "energy", "J", |r| r.energy);
+    keeps(report.momentum[0], "momentum", "kg m/s", |r| r.momentum[0]);
+    keeps(report.momentum[1], "angular momentum", "kg m²/s", |r| r.momentum[1]);
+    if report.penetration > 0.0 {
+        let legend = format!("bodies are {} m in each other: error, m", significant(report.penetration));
+        let of = |r: &Row| cell((r.penetration - report.penetration).abs());
+        list.push(Column { legend, cells: report.rows.iter().map(of).collect() });
+    }
+    list
+}
+
+/// What a column of errors is held against, and what it takes to be seen.
+fn about(target: &Compared) -> String {
+    let against = match target.closed {
+        true => "the closed form".to_string(),
+        false => format!("the reference (± {:.0e})", target.uncertain),
+    };
+    let until = target.until.map_or(String::new(), |t| {
+        format!("; compared until {} s, as the reference is not known beyond", significant(t))
+    });
+    format!(
+        "{}: largest error against {against}; {} {}{until}",
+        printable(&target.label),
+        if target.readout { "its digits hide" } else { "its plot hides" },
+        crate::run::two_digits(target.unseen)
+    )
+}
+
+/// What became of each run.
+fn fates(report: &Report, text: &mut String) {
+    for row in &report.rows {
+        let told = row.told.first().map_or(String::new(), |t| format!(": {}", printable(t)));
+        let _ = writeln!(
+            text,
+            "  {} at {} ms {}{told}",
+            setting(row),
+            milliseconds(row.setting.timestep),
+            row.fate.word()
+        );
+    }
+}
+
+/// A line for each setting and number.
+fn csv(report: &Report, out: &mut dyn io::Write) -> io::Result<()> {
+    writeln!(
+        out,
+        "integrator,solver,timestep,own,label,largest,at,rms,end,below,order,fate,microsecondsPerSecond,work"
+    )?;
+    for row in &report.rows {
+        let solver = row.setting.solver.map_or(String::new(), |s| s.name());
+        let start = format!("{},{solver},{},{}", row.setting.integrator.name, row.setting.timestep, row.own);
+        let end = format!("{},{},{}", key(row.fate.word()), row.cost.median, row.cost.work);
+        if row.errors.is_empty() {
+            writeln!(out, "{start},,,,,,,,{end}")?;
+        }
+        for (target, e) in report.targets.iter().zip(&row.errors) {
+            let label = target.label.replace('"', "\"\"");
+            let order = e.order.map_or(String::new(), |o| o.to_string());
+            writeln!(
+                out,
+                "{start},\"{label}\",{},{},{},{},{},{order},{end}",
+                e.largest, e.at, e.rms, e.end, e.below
+            )?;
+        }
+    }
+    Ok(())
+}
+
 fn value(report: &Report) -> Value {
-    let rows: Vec<Value> = report
-        .rows
-        .iter()
-        .map(|r| {
-            let mut row = json!({"integrator": r.integrator, "timestep": r.timestep, "diverged": r.diverged});
-            set_numbers(&mut row, "errors", &all(&r.errors));
-            set_numbers(&mut row, "orders", &r.orders);
-            set_number(&mut row, "microsecondsPerSecond", r.cost);
-            row
-        })
-        .collect();
-    let words = |truth: &Truth| if *truth == Truth::ClosedForm { "closed form" } else { "tiny steps" };
-    let truth: Vec<String> = report.truth.iter().map(|t| key(words(t))).collect();
-    let mut value = json!({"traces": report.traces, "truth": truth, "length": report.length, "rows": rows});
+    let labels: Vec<&str> = report.targets.iter().map(|t| t.label.as_str()).collect();
+    let words = |t: &Compared| key(if t.closed { "closed form" } else { "two families" });
+    let truth: Vec<String> = report.targets.iter().map(words).collect();
+    let rows: Vec<Value> = report.rows.iter().map(row_value).collect();
+    let left_out: Vec<Value> =
+        report.left_out.iter().map(|o| json!({"label": o.label, "reason": o.reason})).collect();
+    let advice: Vec<Value> = report.advice.iter().map(|a| json!({"row": a.row, "text": a.text})).collect();
+    let mut value = json!({
+        "traces": labels, "truth": truth, "reference": report.reference, "length": report.length, "rows": rows,
+        "events": report.events.iter().map(event_value).collect::<Vec<_>>(),
+        "leftOut": left_out, "front": report.front, "advice": advice,
+    });
+    let of = |f: fn(&Compared) -> Option<f64>| report.targets.iter().map(f).collect::<Vec<_>>();
     // A closed form is not off: there is no number for it, not one that was lost.
-    let reference = report.truth.iter().zip(&report.uncertainty);
-    let uncertainty: Vec<Option<f64>> =
-        reference.map(|(t, &x)| (*t == Truth::TinySteps).then_some(x)).collect();
-    set_numbers(&mut value, "uncertainty", &uncertainty);
+    set_numbers(&mut value, "uncertainty", &of(|t| (!t.closed).then_some(t.uncertain)));
+    set_numbers(&mut value, "unseen", &of(|t| Some(t.unseen)));
+    set_numbers(&mut value, "until", &of(|t| t.until));
+    set_numbers(&mut value, "kept", &[report.energy, report.momentum[0], report.momentum[1]]);
+    set_number(&mut value, "penetration", report.penetration);
+    value["nearby"] = match &report.nearby {
+        Some(n) => json!({"apart": n.apart, "until": n.until}),
+        None => Value::Null,
+    };
     crate::report::report("precision", value)
 }
 
-fn all(numbers: &[f64]) -> Vec<Option<f64>> {
-    numbers.iter().copied().map(Some).collect()
+fn event_value(event: &crate::precision::Event) -> Value {
+    let mut value = json!({"name": event.name});
+    set_number(&mut value, "time", event.time);
+    set_number(&mut value, "uncertainty", event.uncertain);
+    value
+}
+
+fn row_value(row: &Row) -> Value {
+    let mut value = json!({
+        "integrator": row.setting.integrator.name,
+        "timestep": row.setting.timestep,
+        "solver": row.setting.solver.map(|s| s.name()),
+        "own": row.own,
+        "fate": key(row.fate.word()),
+        "diverged": row.fate == Fate::Diverged,
+        "told": row.told,
+        "below": row.errors.iter().map(|e| e.below).collect::<Vec<_>>(),
+    });
+    let of = |f: fn(&crate::precision::Errors) -> Option<f64>| row.errors.iter().map(f).collect::<Vec<_>>();
+    set_numbers(&mut value, "errors", &of(|e| Some(e.largest)));
+    set_numbers(&mut value, "at", &of(|e| Some(e.at)));
+    set_numbers(&mut value, "rms", &of(|e| Some(e.rms)));
+    set_numbers(&mut value, "end", &of(|e| Some(e.end)));
+    set_numbers(&mut value, "orders", &of(|e| e.order));
+    set_numbers(&mut value, "events", &row.events.iter().copied().map(Some).collect::<Vec<_>>());
+    set_numbers(&mut value, "kept", &[row.energy, row.momentum[0], row.momentum[1]]);
+    set_number(&mut value, "penetration", row.penetration);
+    set_number(&mut value, "score", row.score);
+    set_number(&mut value, "microsecondsPerSecond", row.cost.median);
+    set_numbers(&mut value, "repeats", &[Some(row.cost.low), Some(row.cost.high)]);
+    set_number(&mut value, "work", row.cost.work);
+    value
 }

@@ -1,13 +1,13 @@
 //! `labspec run`.
 
+use super::handle::{assignment, press};
 use super::output::{Wanted, look_ahead, write_with};
 use super::stdio::stream;
 use super::{Failure, ModelOptions, Outcome, print, target, write_file};
 use crate::report::{printable, printable_path};
-use crate::run::{self, Cell, RunOptions, Table, settings, shown};
+use crate::run::{self, Cell, RunOptions, Table, shown};
 use crate::spec::{Lab, Plot};
 use clap::ValueEnum;
-use labspec_expr::Value;
 use labspec_plot::{Chart, Series, line_chart};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -89,30 +89,6 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
     }
     let clean = table.errors.is_empty() && table.warnings.is_empty() && table.breakdown.is_none();
     Ok(if clean { Outcome::Clean } else { Outcome::Findings })
-}
-
-/// `LABEL=VALUE`. Both may hold equals signs: it is split where the label of a control ends, else at the last sign.
-fn assignment(lab: &Lab, text: &str) -> Result<(String, Value), Failure> {
-    let (label, value) = split(lab, text, '=').ok_or_else(|| format!("--set {text}: write LABEL=VALUE"))?;
-    Ok((label.to_string(), settings::written(lab, label, value.trim())))
-}
-
-/// `LABEL@TIME`, or a label alone for the start.
-fn press(lab: &Lab, text: &str) -> Result<(String, f64), Failure> {
-    match split(lab, text, '@').filter(|_| lab.control(text).is_none()) {
-        None => Ok((text.to_string(), 0.0)),
-        Some((label, time)) => match time.trim().parse::<f64>() {
-            Ok(t) if t >= 0.0 && t.is_finite() => Ok((label.to_string(), t)),
-            _ => Err(format!("--press {text}: `{time}` is not a time in seconds; write LABEL@TIME")),
-        },
-    }
-}
-
-/// The label of a control and what stands behind the mark after it.
-fn split<'t>(lab: &Lab, text: &'t str, mark: char) -> Option<(&'t str, &'t str)> {
-    let places = text.match_indices(mark).map(|(i, m)| (&text[..i], &text[i + m.len()..]));
-    let known = places.into_iter().find(|(label, _)| lab.control(label).is_some());
-    known.or_else(|| text.rsplit_once(mark))
 }
 
 /// The end of the run as the page shows it: readouts, traces of labs without readouts, warnings.

@@ -15,6 +15,8 @@ impl Budget {
     pub const TRIAL: Budget = Budget { left: 1_000_000_000 };
     /// For all such runs of a file.
     pub const FILE: Budget = Budget { left: 3_000_000_000 };
+    /// For one of the many runs of a comparison.
+    pub const COMPARED: Budget = Budget { left: 5_000_000_000 };
     /// What a trace, a readout or a measure may do at a sample: a page computes it for every frame.
     pub(super) const SAMPLE: Budget = Budget { left: 20_000_000 };
 }

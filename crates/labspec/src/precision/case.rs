@@ -1,0 +1,436 @@
+//! A lab that is compared with itself: what it shows, and one run of it under a setting.
+
+use super::setting::Setting;
+use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include, to_finding};
+use crate::finding::Finding;
+use crate::run::{self, Breakdown, Budget, End, Play, RunError, Session};
+use crate::spec::{Lab, Plot};
+use labspec_core::reflect::{FieldId, Object, field};
+use labspec_core::{self as core, Data, Demand, Full, Model, Warning};
+use labspec_expr::{Compiler, Type, Value};
+use std::ops::ControlFlow;
+
+/// A number that the lab shows.
+pub(super) struct Target<'a> {
+    pub(super) label: String,
+    pub(super) bound: &'a Bound,
+    /// Its closed form.
+    pub(super) exact: Option<Bound>,
+    pub(super) shown: Shown,
+}
+
+/// How exactly a number is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Shown {
+    /// With so many decimals.
+    Decimals(u32),
+    /// As a curve: the ends of its axis, where they are fixed, and its height in pixels.
+    Curve { ends: [Option<f64>; 2], height: f64 },
+}
+
+impl Shown {
+    /// The largest error that nobody sees, for values of some range: half a unit of the last digit, half a pixel.
+    pub(super) fn unseen(self, range: f64) -> f64 {
+        match self {
+            Shown::Decimals(digits) => 0.5 * 0.1f64.powi(digits as i32),
+            Shown::Curve { ends, height } => {
+                let tall = match ends {
+                    [Some(low), Some(high)] if high > low => high - low,
+                    _ => range,
+                };
+                0.5 * tall / height.max(1.0)
+            }
+        }
+    }
+}
+
+/// Something that is not compared, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Its label.
+    pub label: String,
+    /// The reason.
+    pub reason: &'static str,
+}
+
+/// What all runs of a comparison share.
+pub(super) struct Case<'a> {
+    pub(super) lab: &'a Lab,
+    pub(super) model: &'a Model,
+    pub(super) programs: &'a Programs,
+    pub(super) targets: Vec<Target<'a>>,
+    pub(super) left_out: Vec<LeftOut>,
+    pub(super) set: &'a [(String, Value)],
+    /// Buttons and the times of their presses, s.
+    pub(super) presses: Vec<(usize, f64)>,
+    pub(super) demand: Demand,
+    /// Time between samples, s: every timestep meets them. And their number, the start not counted.
+    pub(super) interval: f64,
+    pub(super) count: usize,
+}
+
+/// Samples in which energy and momentum are looked at.
+const LOOKS: usize = 100;
+
+/// What a run showed.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Run {
+    /// Values of each target at the samples, and of its closed form (NaN without one).
+    pub(super) values: Vec<Vec<f64>>,
+    pub(super) exact: Vec<Vec<f64>>,
+    /// When bodies first touch, then when each target first passes through zero, s; NaN where they do not.
+    pub(super) events: Vec<f64>,
+    /// Energy, J, and momentum (three of motion, three of turning), where they were looked at.
+    pub(super) energy: Vec<f64>,
+    pub(super) momentum: Vec<[f64; 6]>,
+    /// The largest kinetic energy among them, J.
+    pub(super) kinetic: f64,
+    /// How deep bodies were in each other at most, m.
+    pub(super) penetration: f64,
+    /// What became of it.
+    pub(super) fate: Fate,
+    /// Everything that was told about it.
+    pub(super) told: Vec<String>,
+    /// Work, in the engine's own units, per simulated second.
+    pub(super) work: f64,
+}
+
+/// What became of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fate {
+    /// It came to its end.
+    #[default]
+    Good,
+    /// A number was not finite, or too large, and the engine reset the scene.
+    Diverged,
+    /// It gained energy that nothing gave.
+    Grows,
+    /// The engine warned of something else: full buffers, bodies without inertia, a control that is no number.
+    Warned,
+    /// It threw, or took more work than a run may.
+    Stopped,
+}
+
+impl Fate {
+    /// In one word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Fate::Good => "good",
+            Fate::Diverged => "diverged",
+            Fate::Grows => "gains energy",
+            Fate::Warned => "warned",
+            Fate::Stopped => "stopped",
+        }
+    }
+}
+
+impl<'a> Case<'a> {
+    /// The numbers that a lab shows, with their closed forms. Mistakes in these go to `findings`. Times are still missing.
+    pub(super) fn new(
+        lab: &'a Lab,
+        model: &'a Model,
+        programs: &'a Programs,
+        set: &'a [(String, Value)],
+        findings: &mut Vec<Finding>,
+    ) -> Case<'a> {
+        let mut case = Case {
+            lab,
+            model,
+            programs,
+            targets: Vec::new(),
+            left_out: Vec::new(),
+            set,
+            presses: Vec::new(),
+            demand: programs.demand,
+            interval: 0.0,
+            count: 0,
+        };
+        let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
+        let exact = lab.verify.as_ref().map_or(&[][..], |v| &v.exact);
+        let curve = |plot: &Plot| Shown::Curve {
+            ends: [&plot.ymin, &plot.ymax].map(|end| end.as_ref().map(|x| x.value)),
+            height: plot.height(),
+        };
+        let curves = |plot: &'a Plot| plot.traces.iter().map(move |t| (&t.label.value, curve(plot)));
+        let traces = lab.plots.iter().flat_map(curves);
+        let readouts = lab.readouts.iter().map(|r| (&r.label.value, Shown::Decimals(r.digits())));
+        for ((label, shown), probe) in traces.chain(readouts).zip(&programs.probes) {
+            let Some(bound) = &probe.bound else { continue };
+            let closed =
+                exact.iter().find(|e| e.trace.value == *label && matches!(shown, Shown::Curve { .. }));
+            let closed = closed.and_then(|e| {
+                let mut globals = programs.globals.clone();
+                let compiled = Compiler::new(&names, &mut globals).expression(&e.form.value);
+                findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, &e.form)));
+                compiled.program.map(|program| Bound { text: e.form.clone(), program })
+            });
+            case.take(label, shown, bound, closed);
+        }
+        case
+    }
+
+    fn take(&mut self, label: &str, shown: Shown, bound: &'a Bound, exact: Option<Bound>) {
+        let effects = bound.program.effects();
+        let reads = |name| {
+            let id = field(Object::Option, name);
+            effects.reads.iter().any(|a| FieldId::new(a.field.0 as usize) == id)
+        };
+        let reason = if !matches!(bound.program.result_type(), Type::Number | Type::Any | Type::Boolean) {
+            "it is no number"
+        } else if exact.is_none() && (reads("timestep") || reads("integrator")) {
+            "it is a function of the timestep or the integrator, and has no closed form"
+        } else if self.targets.iter().any(|t| t.bound.text.value == bound.text.value && t.shown == shown) {
+            "it is another one again"
+        } else {
+            if let Some(e) = &exact {
+                include(e.program.effects(), &mut self.demand);
+            }
+            self.targets.push(Target { label: label.to_string(), bound, exact, shown });
+            return;
+        };
+        self.left_out.push(LeftOut { label: label.to_string(), reason });
+    }
+
+    /// Whether a program runs at every step: its controls are held for a step, so that the step is part of what the lab does.
+    pub(super) fn controlled(&self) -> bool {
+        self.programs.controller.is_some()
+    }
+
+    /// What sets the timestep while the lab runs, so that no other can be tried.
+    pub(super) fn steps_itself(&self) -> Option<String> {
+        let timestep = field(Object::Option, "timestep");
+        let writes = |bound: &Bound| {
+            let effects = bound.program.effects();
+            effects.writes.iter().any(|w| FieldId::new(w.field.0 as usize) == timestep)
+        };
+        if self.programs.controller.as_ref().is_some_and(writes) {
+            return Some("the controller".to_string());
+        }
+        self.presses.iter().find_map(|(i, _)| match self.programs.controls.get(*i) {
+            Some((label, ControlProgram::Press(Some(bound)))) if writes(bound) => {
+                Some(format!("the button \"{label}\""))
+            }
+            _ => None,
+        })
+    }
+
+    /// The lab as it starts, with its controls set; under a setting, or as it stands.
+    ///
+    /// # Errors
+    /// A control that cannot be set so.
+    pub(super) fn start(&self, setting: Option<&Setting>) -> Result<Session<'a>, RunError> {
+        let mut model = self.model.clone();
+        if let Some(s) = setting {
+            s.apply(&mut model);
+        }
+        let key = self.lab.keyframe();
+        let mut session = Session::start_within(self.programs, &model, key, &self.demand, Budget::COMPARED);
+        run::set_controls(&mut session, self.lab, self.programs, self.set)?;
+        if let Some(s) = setting {
+            // The lab's own code may have set others.
+            s.apply(&mut session.world.model);
+        }
+        Ok(session)
+    }
+
+    /// A run under a setting; every coordinate of its start moved by `nudge`.
+    pub(super) fn run(&self, setting: &Setting, nudge: f64) -> Result<Run, RunError> {
+        let mut session = self.start(Some(setting))?;
+        if nudge != 0.0 {
+            session.perturb(run::Numerics { nudge, ..run::Numerics::NOMINAL }, true);
+        }
+        let per_sample = (self.interval / setting.timestep).round().max(1.0) as usize;
+        let steps = self.count * per_sample;
+        let n = self.targets.len();
+        let mut seen = Run {
+            values: vec![Vec::with_capacity(self.count + 1); n],
+            exact: vec![Vec::with_capacity(self.count + 1); n],
+            ..Run::default()
+        };
+        let mut look = Look::new(&session.world.model);
+        let mut passing = vec![Passing::default(); n + 1];
+        let every = self.count.div_ceil(LOOKS).max(1);
+        let before = session.spent();
+        let mut sampling = 0;
+        let played = Play { steps, every: 1, presses: &self.presses, watched: true };
+        let made = run::play(&mut session, &played, |session, made| {
+            let began = session.spent();
+            let sampled = made % per_sample == 0;
+            let time = session.world.data.time();
+            for (i, target) in self.targets.iter().enumerate() {
+                let mut value =
+                    |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
+                let now = value(target.bound);
+                passing[i + 1].see(time, now);
+                if sampled {
+                    seen.values[i].push(now);
+                    seen.exact[i].push(target.exact.as_ref().map_or(f64::NAN, &mut value));
+                }
+            }
+            let deepest = deepest(session);
+            if deepest > 0.0 {
+                seen.penetration = seen.penetration.max(deepest);
+            }
+            passing[0].touch(time, deepest);
+            if sampled && (made / per_sample) % every == 0 {
+                look.take(session, &mut seen);
+            }
+            sampling += session.spent() - began;
+            ControlFlow::Continue(())
+        });
+        let simulated = made as f64 * setting.timestep;
+        seen.work = (session.spent() - before - sampling) as f64 / simulated.max(setting.timestep);
+        seen.events = passing.iter().map(|p| p.at).collect();
+        // Where a run ended before its time, nothing is known.
+        seen.values.iter_mut().chain(&mut seen.exact).for_each(|list| list.resize(self.count + 1, f64::NAN));
+        let bad = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc, Warning::BadCtrl];
+        seen.told = Breakdown::all(&session).into_iter().map(|b| b.what).collect();
+        seen.fate = match session.ended() {
+            _ if bad.iter().any(|&w| session.warnings[w as usize].number > 0) => Fate::Diverged,
+            _ if session.growth().is_some() => Fate::Grows,
+            Some(End::Budget { time }) => {
+                seen.told.push(format!("the run takes more work than it may and ends at {time} s"));
+                Fate::Stopped
+            }
+            Some(_) => Fate::Stopped,
+            None if !seen.told.is_empty() => Fate::Warned,
+            None => Fate::Good,
+        };
+        if let Some(trouble) = session.troubles.first() {
+            seen.told.push(trouble.message.clone());
+        }
+        Ok(seen)
+    }
+}
+
+/// How deep bodies are in each other; negative where the nearest contact is apart, NaN without one.
+fn deepest(session: &Session<'_>) -> f64 {
+    session.world.data.fields().contact.iter().map(|c| -c.dist).fold(f64::NAN, f64::max)
+}
+
+/// Finds when something first passes through zero, between the samples of every step.
+#[derive(Clone, Copy, Debug)]
+struct Passing {
+    at: f64,
+    /// The last four times and values, the newest last.
+    seen: [(f64, f64); 4],
+    count: usize,
+    /// It passed one step ago: one more is waited for.
+    passed: bool,
+}
+
+impl Default for Passing {
+    fn default() -> Passing {
+        Passing { at: f64::NAN, seen: [(0.0, 0.0); 4], count: 0, passed: false }
+    }
+}
+
+impl Passing {
+    fn push(&mut self, time: f64, value: f64) {
+        self.seen.rotate_left(1);
+        self.seen[3] = (time, value);
+        self.count += 1;
+    }
+
+    /// A target's value after a step.
+    fn see(&mut self, time: f64, value: f64) {
+        if !self.at.is_nan() {
+            return;
+        }
+        self.push(time, value);
+        if self.passed {
+            self.at = root(&self.seen, self.count);
+        }
+        let [.., (_, before), (_, now)] = self.seen;
+        self.passed = self.count > 2 && before * now < 0.0;
+    }
+
+    /// The depth of the deepest contact after a step: the first is found by going back from two.
+    fn touch(&mut self, time: f64, depth: f64) {
+        if self.at.is_nan() && depth > 0.0 {
+            self.push(time, depth);
+            if self.count == 2 {
+                let [.., (t0, d0), (t1, d1)] = self.seen;
+                let back = d0 * (t1 - t0) / (d1 - d0);
+                self.at = if d1 > d0 && back <= t1 - t0 { t0 - back } else { t0 };
+            }
+        }
+    }
+}
+
+/// The zero of the cubic through four points, between the two in the middle (with three, of the line between them).
+fn root(seen: &[(f64, f64); 4], count: usize) -> f64 {
+    let [_, (mut low, at_low), (mut high, at_high), _] = *seen;
+    if count < 4 || seen.iter().any(|(_, y)| !y.is_finite()) {
+        return low + (high - low) * at_low / (at_low - at_high);
+    }
+    let cubic = |t: f64| -> f64 {
+        (0..4)
+            .map(|i| {
+                let others = (0..4).filter(|&k| k != i);
+                seen[i].1 * others.map(|k| (t - seen[k].0) / (seen[i].0 - seen[k].0)).product::<f64>()
+            })
+            .sum()
+    };
+    let rising = at_low < 0.0;
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if (cubic(middle) < 0.0) == rising { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// Energy and momentum, seen with data of its own so that looking leaves the run alone.
+struct Look {
+    own: Data<Full>,
+}
+
+impl Look {
+    fn new(m: &Model) -> Look {
+        Look { own: Data::new(m) }
+    }
+
+    fn take(&mut self, session: &Session<'_>, seen: &mut Run) {
+        let (m, from) = (&session.world.model, session.world.data.fields());
+        let to = self.own.edit();
+        to.qpos.copy_from_slice(&from.qpos);
+        to.qvel.copy_from_slice(&from.qvel);
+        to.act.copy_from_slice(&from.act);
+        to.ctrl.copy_from_slice(&from.ctrl);
+        to.mocap_pos.copy_from_slice(&from.mocap_pos);
+        to.mocap_quat.copy_from_slice(&from.mocap_quat);
+        let energy = core::mechanical_energy(m, &mut self.own).ok().flatten();
+        seen.energy.push(energy.map_or(f64::NAN, |e| e.kinetic + e.potential()));
+        seen.kinetic = seen.kinetic.max(energy.map_or(0.0, |e| e.kinetic));
+        let d = &mut self.own;
+        let moving = core::forward(m, d).and_then(|()| core::subtree_vel(m, d));
+        let mut momentum = [f64::NAN; 6];
+        let of = |list: &[f64], k: usize| list.get(k).copied().unwrap_or(f64::NAN);
+        if moving.is_ok() {
+            let mass = of(&m.body_subtreemass, 0);
+            for k in 0..3 {
+                momentum[k] = mass * of(&d.subtree_linvel, k);
+                momentum[3 + k] = of(&d.subtree_angmom, k);
+            }
+        }
+        seen.momentum.push(momentum);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_moment_of_passing_through_zero_is_between_the_steps() {
+        let mut sine = Passing::default();
+        let mut falls = Passing::default();
+        for k in 0..200 {
+            let t = 0.01 * f64::from(k);
+            sine.see(t, (t - 1.2345).sin());
+            falls.touch(t, 3.0 * (t - 0.7777));
+        }
+        assert!((sine.at - 1.2345).abs() < 1e-9, "{}", sine.at);
+        assert!((falls.at - 0.7777).abs() < 1e-12, "{}", falls.at);
+    }
+}

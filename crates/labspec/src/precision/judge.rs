@@ -1,0 +1,107 @@
+//! Errors of a run against the reference, and the orders that they show.
+
+use super::case::{Case, Run};
+use super::reference::{Reference, range};
+
+/// How far a run is from the truth, in the unit of the trace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// The largest error, and when, s.
+    pub largest: f64,
+    /// When that was.
+    pub at: f64,
+    /// Root of the mean square.
+    pub rms: f64,
+    /// At the last sample that is compared.
+    pub end: f64,
+    /// It is not above what the reference itself may be off: nothing more is known of it.
+    pub below: bool,
+    /// Observed order: how many times the error halves when the timestep halves.
+    pub order: Option<f64>,
+}
+
+impl Errors {
+    /// Nothing is known.
+    const NONE: Errors =
+        Errors { largest: f64::NAN, at: f64::NAN, rms: f64::NAN, end: f64::NAN, below: false, order: None };
+}
+
+/// What one of the lab's numbers is held against.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// Its label.
+    pub label: String,
+    /// It has a closed form.
+    pub closed: bool,
+    /// How far the reference may be off, where it is used.
+    pub uncertain: f64,
+    /// Largest value less smallest.
+    pub range: f64,
+    /// The largest error that nobody sees: half a unit of the last digit, half a pixel of the plot.
+    pub unseen: f64,
+    /// Whether it is a readout.
+    pub readout: bool,
+    /// Until when the two families of the reference agree to a hundredth of the range, s, where that is not the end.
+    pub until: Option<f64>,
+    /// The samples that are compared.
+    pub(super) samples: usize,
+}
+
+/// The two families of a reference have to agree to this part of the range.
+const KNOWN: f64 = 0.01;
+/// What rounding leaves of a number in a run of many steps.
+const ROUNDING: f64 = 1e-13;
+
+/// What the targets of a case are held against.
+pub(super) fn compared(case: &Case<'_>, reference: &Reference, exact: &[Vec<f64>]) -> Vec<Compared> {
+    let one = |(i, target): (usize, &super::case::Target<'_>)| {
+        let closed = target.exact.is_some();
+        let values = if closed { &exact[i] } else { &reference.values[i] };
+        let uncertain = &reference.uncertain[i];
+        let known = uncertain.partition_point(|u| *u <= KNOWN * range(values) || *u <= ROUNDING);
+        let samples = if closed { values.len() } else { known };
+        let cut = samples < values.len();
+        let size = values.iter().take(samples).fold(0.0f64, |a, x| a.max(x.abs()));
+        let doubt = if closed || samples == 0 { 0.0 } else { uncertain[samples - 1] };
+        Compared {
+            label: target.label.clone(),
+            closed,
+            uncertain: doubt.max(ROUNDING * size),
+            range: range(values),
+            unseen: target.shown.unseen(range(values)),
+            readout: matches!(target.shown, super::case::Shown::Decimals(_)),
+            until: cut.then(|| samples.saturating_sub(1) as f64 * case.interval),
+            samples,
+        }
+    };
+    case.targets.iter().enumerate().map(one).collect()
+}
+
+/// The errors of a run, target by target.
+pub(super) fn errors(case: &Case<'_>, reference: &Reference, targets: &[Compared], run: &Run) -> Vec<Errors> {
+    let one = |(i, target): (usize, &Compared)| {
+        let truth = if target.closed { &run.exact[i] } else { &reference.values[i] };
+        let differences = run.values[i].iter().zip(truth).map(|(a, b)| (a - b).abs()).take(target.samples);
+        let mut e = Errors { largest: 0.0, at: 0.0, rms: 0.0, end: f64::NAN, below: false, order: None };
+        for (k, d) in differences.enumerate() {
+            if d.is_nan() {
+                return Errors::NONE;
+            }
+            if d > e.largest {
+                (e.largest, e.at) = (d, k as f64 * case.interval);
+            }
+            e.rms += d * d;
+            e.end = d;
+        }
+        e.rms = (e.rms / target.samples.max(1) as f64).sqrt();
+        e.below = e.largest <= 2.0 * target.uncertain;
+        if target.samples < 2 { Errors::NONE } else { e }
+    };
+    targets.iter().enumerate().map(one).collect()
+}
+
+/// The observed order of a run that has half the timestep, or a quarter, of another.
+pub(super) fn order(coarse: &Errors, fine: &Errors, ratio: f64) -> Option<f64> {
+    let order = (coarse.largest / fine.largest).log2() / ratio.log2();
+    (!coarse.below && !fine.below && order.is_finite()).then_some(order)
+}
