@@ -249,7 +249,7 @@ fn table(report: &Report, text: &mut String) {
 fn columns(report: &Report) -> Vec<Column> {
     let mut list: Vec<Column> = Vec::new();
     let cell = |x: f64| if x.is_finite() { format!("{x:.1e}") } else { "–".into() };
-    for (i, target) in report.targets.iter().enumerate() {
+    for (i, target) in report.targets.iter().enumerate().filter(|(_, t)| !t.blank) {
         let of = |row: &Row| match row.errors.get(i) {
             Some(e) if e.below => format!("≤{:.0e}", target.uncertain.max(e.largest)),
             Some(e) => cell(e.largest),

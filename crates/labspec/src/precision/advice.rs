@@ -134,22 +134,21 @@ fn about_own(report: &Report, own: usize) -> String {
         return format!("As the lab has it, {name}, the run is no good ({}{why}).", row.fate.word());
     }
     let known = report.targets.iter().zip(&row.errors).filter(|(_, e)| e.largest.is_finite());
-    let worst = known.max_by(|(s, a), (t, b)| (a.largest / s.unseen).total_cmp(&(b.largest / t.unseen)));
+    let worst = known.max_by(|(s, a), (t, b)| (s.counts(a) / s.unseen).total_cmp(&(t.counts(b) / t.unseen)));
     let Some((target, e)) = worst else {
         return format!("As the lab has it, {name}: nothing could be compared.");
     };
     if e.below {
         return format!("As the lab has it, {name}, every number is as exact as the reference.");
     }
-    let seen = match (e.largest > target.unseen, target.readout) {
+    let seen = match (target.counts(e) > target.unseen, target.readout) {
         (false, _) => "which nobody sees".to_string(),
         (true, true) => format!("which its digits show ({} would not)", two_digits(target.unseen)),
         (true, false) => format!("which its plot shows ({} would not)", two_digits(target.unseen)),
     };
-    format!(
-        "As the lab has it, {name}, \"{}\" is off by up to {} at {} s, {seen}.",
-        target.label,
-        two_digits(e.largest),
-        crate::run::time(e.at)
-    )
+    let how = match target.readout {
+        true => format!("{} at the end", two_digits(e.end)),
+        false => format!("up to {} at {} s", two_digits(e.largest), crate::run::time(e.at)),
+    };
+    format!("As the lab has it, {name}, \"{}\" is off by {how}, {seen}.", target.label)
 }

@@ -233,8 +233,9 @@ impl<'a> Case<'a> {
         Ok(session)
     }
 
-    /// A run under a setting; every coordinate of its start moved by `nudge`.
-    pub(super) fn run(&self, setting: &Setting, nudge: f64) -> Result<Run, RunError> {
+    /// A run under a setting; every coordinate of its start moved by `nudge`. What a page shows after a step is partly of the
+    /// state before it: forces, energies, contacts. In a `fresh` run all is of the state at hand, as in the truth.
+    pub(super) fn run(&self, setting: &Setting, nudge: f64, fresh: bool) -> Result<Run, RunError> {
         let mut session = self.start(Some(setting))?;
         if nudge != 0.0 {
             session.perturb(run::Numerics { nudge, ..run::Numerics::NOMINAL }, true);
@@ -257,6 +258,11 @@ impl<'a> Case<'a> {
             let began = session.spent();
             let sampled = made % per_sample == 0;
             let time = session.world.data.time();
+            let mut late = if made > 0 { setting.timestep } else { 0.0 };
+            if fresh && made > 0 {
+                session.refresh();
+                late = 0.0;
+            }
             for (i, target) in self.targets.iter().enumerate() {
                 let mut value =
                     |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
@@ -271,7 +277,7 @@ impl<'a> Case<'a> {
             if deepest > 0.0 {
                 seen.penetration = seen.penetration.max(deepest);
             }
-            passing[0].touch(time, deepest);
+            passing[0].touch(time - late, deepest);
             if sampled && (made / per_sample) % every == 0 {
                 look.take(session, &mut seen);
             }

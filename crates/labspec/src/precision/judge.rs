@@ -35,7 +35,7 @@ pub struct Compared {
     pub closed: bool,
     /// How far the reference may be off, where it is used.
     pub uncertain: f64,
-    /// Largest value less smallest.
+    /// Largest value less smallest, in the reference or as the lab has it, whichever is more.
     pub range: f64,
     /// The largest error that nobody sees: half a unit of the last digit, half a pixel of the plot.
     pub unseen: f64,
@@ -43,33 +43,54 @@ pub struct Compared {
     pub readout: bool,
     /// Until when the two families of the reference agree to a hundredth of the range, s, where that is not the end.
     pub until: Option<f64>,
+    /// It is no number at the start, nor anywhere: nothing is compared.
+    pub blank: bool,
     /// The samples that are compared.
     pub(super) samples: usize,
 }
 
-/// The two families of a reference have to agree to this part of the range.
+impl Compared {
+    /// The error that counts: of a curve the largest, of digits that of the end, when they stand still to be read.
+    pub fn counts(&self, errors: &Errors) -> f64 {
+        if self.readout { errors.end } else { errors.largest }
+    }
+}
+
+/// The two families of a reference have to agree to this part of the range, or of what nobody sees.
 const KNOWN: f64 = 0.01;
+const UNSEEN: f64 = 0.1;
 /// What rounding leaves of a number in a run of many steps.
 const ROUNDING: f64 = 1e-13;
 
-/// What the targets of a case are held against.
-pub(super) fn compared(case: &Case<'_>, reference: &Reference, exact: &[Vec<f64>]) -> Vec<Compared> {
+/// What the targets of a case are held against; `own` is the run as the lab has it.
+pub(super) fn compared(case: &Case<'_>, reference: &Reference, own: &Run) -> Vec<Compared> {
     let one = |(i, target): (usize, &super::case::Target<'_>)| {
         let closed = target.exact.is_some();
-        let values = if closed { &exact[i] } else { &reference.values[i] };
+        let values = if closed { &reference.run.exact[i] } else { &reference.values[i] };
         let uncertain = &reference.uncertain[i];
-        let known = uncertain.partition_point(|u| *u <= KNOWN * range(values) || *u <= ROUNDING);
-        let samples = if closed { values.len() } else { known };
-        let cut = samples < values.len();
+        let range = range(values).max(range(&own.values[i]));
+        let unseen = target.shown.unseen(range);
+        let enough = (KNOWN * range).max(UNSEEN * unseen).max(ROUNDING);
+        let known = uncertain.partition_point(|u| *u <= enough);
+        let blank = values.first().is_none_or(|x| !x.is_finite());
+        let samples = if blank {
+            0
+        } else if closed {
+            values.len()
+        } else {
+            known
+        };
+        let cut = samples < values.len() && !blank;
         let size = values.iter().take(samples).fold(0.0f64, |a, x| a.max(x.abs()));
         let doubt = if closed || samples == 0 { 0.0 } else { uncertain[samples - 1] };
         Compared {
             label: target.label.clone(),
             closed,
             uncertain: doubt.max(ROUNDING * size),
-            range: range(values),
-            unseen: target.shown.unseen(range(values)),
+            range,
+            unseen,
             readout: matches!(target.shown, super::case::Shown::Decimals(_)),
+            blank,
             until: cut.then(|| samples.saturating_sub(1) as f64 * case.interval),
             samples,
         }

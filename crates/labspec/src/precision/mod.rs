@@ -188,15 +188,19 @@ pub fn compare(
     let reference = reference::reference(&case, own, finest)?;
     let settings = settings(options, own_integrator, own, &ladder);
     let Some(truth) = reference else { return without_reference(case, &settings, own, own_integrator) };
-    // The closed form, as the reference's own states give it.
-    let targets = judge::compared(&case, &truth, &truth.run.exact);
+    // What a student sees decides how large a plot is.
+    let mine = case.run(&Setting { integrator: own_integrator, timestep: own, solver: None }, 0.0, false)?;
+    let targets = judge::compared(&case, &truth, &mine);
+    let blank = targets.iter().filter(|t| t.blank);
+    case.left_out
+        .extend(blank.map(|t| LeftOut { label: t.label.clone(), reason: "it is no number at the start" }));
     let kept = Kept::of(&truth.run);
     let mut rows = Vec::new();
     for setting in &settings {
         if interrupt::requested() {
             break;
         }
-        let run = case.run(setting, 0.0)?;
+        let run = case.run(setting, 0.0, false)?;
         let errors = judge::errors(&case, &truth, &targets, &run);
         let score = match run.fate {
             Fate::Good | Fate::Warned => score(&targets, &errors),
@@ -224,7 +228,7 @@ pub fn compare(
         (row.cost.median, row.cost.low, row.cost.high) = (median, low, high);
     }
     let nearby = match targets.iter().any(|t| t.until.is_some()) {
-        true => Some(nearby(&case, own)?),
+        true => Some(nearby(&case, &targets, own)?),
         false => None,
     };
     let mut report = Report {
@@ -278,7 +282,7 @@ fn without_reference(
 ) -> Result<Report, RunError> {
     let mut rows = Vec::new();
     for setting in settings {
-        let run = case.run(setting, 0.0)?;
+        let run = case.run(setting, 0.0, false)?;
         rows.push(Row {
             setting: *setting,
             own: is_own(setting, own, integrator),
@@ -355,9 +359,9 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 fn score(targets: &[Compared], errors: &[Errors]) -> f64 {
     let known = targets.iter().zip(errors).filter(|(_, e)| e.largest.is_finite());
     // A number that does not change is shown rightly by all.
-    let one = |(t, e): (&Compared, &Errors)| match e.largest {
+    let one = |(t, e): (&Compared, &Errors)| match t.counts(e) {
         0.0 => 0.0,
-        largest => largest / t.unseen.max(f64::MIN_POSITIVE),
+        error => error / t.unseen.max(f64::MIN_POSITIVE),
     };
     if known.clone().count() == 0 { f64::NAN } else { known.map(one).fold(0.0, f64::max) }
 }
@@ -385,15 +389,15 @@ fn events(case: &Case<'_>, truth: &reference::Reference) -> Vec<Event> {
 }
 
 /// How long two starts that nobody could tell apart show the same.
-fn nearby(case: &Case<'_>, own: f64) -> Result<Nearby, RunError> {
+fn nearby(case: &Case<'_>, targets: &[Compared], own: f64) -> Result<Nearby, RunError> {
     let method = INTEGRATORS.into_iter().find(|i| i.id == integrator::RKMK8).unwrap_or(INTEGRATORS[0]);
     let setting = Setting { integrator: method, timestep: own / 2.0, solver: None };
-    let (one, other) = (case.run(&setting, 0.0)?, case.run(&setting, NUDGE)?);
-    let leaves = |(a, b): (&Vec<f64>, &Vec<f64>)| {
-        let far = LEFT * reference::range(a);
+    let (one, other) = (case.run(&setting, 0.0, true)?, case.run(&setting, NUDGE, true)?);
+    let leaves = |((a, b), target): ((&Vec<f64>, &Vec<f64>), &Compared)| {
+        let far = LEFT * target.range;
         // Not to be told apart is less than the part, and no number is far from every other.
         a.iter().zip(b).position(|(a, b)| (a - b).abs() > far || (a - b).is_nan())
     };
-    let first = one.values.iter().zip(&other.values).filter_map(leaves).min();
+    let first = one.values.iter().zip(&other.values).zip(targets).filter_map(leaves).min();
     Ok(Nearby { apart: NUDGE, until: first.map(|i| i as f64 * case.interval) })
 }

@@ -40,7 +40,7 @@ pub(super) fn reference(case: &Case<'_>, own: f64, finest: f64) -> Result<Option
 }
 
 fn run(case: &Case<'_>, id: i32, timestep: f64) -> Result<Option<Run>, RunError> {
-    let seen = case.run(&Setting { integrator: method(id), timestep, solver: None }, 0.0)?;
+    let seen = case.run(&Setting { integrator: method(id), timestep, solver: None }, 0.0, true)?;
     Ok(matches!(seen.fate, Fate::Good | Fate::Warned).then_some(seen))
 }
 

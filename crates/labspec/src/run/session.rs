@@ -387,6 +387,12 @@ impl<'p> Session<'p> {
         }
     }
 
+    /// Computes everything from the state at hand: after a step, forces and what follows from them are still those of the state
+    /// before it.
+    pub fn refresh(&mut self) {
+        self.forward();
+    }
+
     fn forward(&mut self) {
         if !self.go() {
             return;
