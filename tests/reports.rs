@@ -244,6 +244,8 @@ fn unmeasured(value: &mut Value) {
         match key.as_str() {
             "minNs" | "medianNs" | "microsecondsPerSecond" => *value = json!(0),
             "version" => *value = json!(""),
+            // What follows from run times.
+            "repeats" | "front" | "advice" => *value = json!([]),
             _ => unmeasured(value),
         }
     }

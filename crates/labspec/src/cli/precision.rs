@@ -347,7 +347,7 @@ fn csv(report: &Report, out: &mut dyn io::Write) -> io::Result<()> {
 
 fn value(report: &Report) -> Value {
     let labels: Vec<&str> = report.targets.iter().map(|t| t.label.as_str()).collect();
-    let words = |t: &Compared| key(if t.closed { "closed form" } else { "two families" });
+    let words = |t: &Compared| key(if t.closed { "closed form" } else { "tiny steps" });
     let truth: Vec<String> = report.targets.iter().map(words).collect();
     let rows: Vec<Value> = report.rows.iter().map(row_value).collect();
     let left_out: Vec<Value> =

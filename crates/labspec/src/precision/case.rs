@@ -175,7 +175,7 @@ impl<'a> Case<'a> {
             let id = field(Object::Option, name);
             effects.reads.iter().any(|a| FieldId::new(a.field.0 as usize) == id)
         };
-        let reason = if !matches!(bound.program.result_type(), Type::Number | Type::Any | Type::Boolean) {
+        let reason = if !matches!(bound.program.result_type(), Type::Number | Type::Any) {
             "it is no number"
         } else if exact.is_none() && (reads("timestep") || reads("integrator")) {
             "it is a function of the timestep or the integrator, and has no closed form"

@@ -169,7 +169,7 @@ pub fn compare(
     let length = options.until.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
     // Samples at multiples of the coarsest step, which every run meets exactly; a short run begins with shorter ones.
     run::count_steps(lab, Some(length), None, own)?;
-    let longest = STEPS.into_iter().find(|s| length >= 8.0 * own * s).unwrap_or(STEPS[5]);
+    let longest = STEPS.into_iter().find(|s| length >= 8.0 * own * s || *s == 1.0).unwrap_or(1.0);
     let ladder: Vec<f64> = STEPS.into_iter().filter(|s| *s <= longest).map(|s| s * own).collect();
     let coarse = own * longest;
     let count = run::count_steps(lab, Some(length), None, coarse)?.max(1);
