@@ -135,23 +135,7 @@ pub(crate) fn bind(
         }
         return None;
     };
-    if let Some(key) = lab.key.as_ref().filter(|k| k.value >= model.nkey as f64) {
-        findings.push(
-            Finding::error(
-                rules::KEYFRAME_MISSING,
-                key.span.clone(),
-                format!("the model has no keyframe {}", key.value),
-            )
-            .why("the page then silently starts from the default configuration")
-            .help(match model.nkey {
-                0 => {
-                    "the model has no keyframes: leave `key` out, or add <keyframe><key …/></keyframe> to it"
-                        .to_string()
-                }
-                n => format!("its keyframes are 0 to {}", n - 1),
-            }),
-        );
-    }
+    rules::check_model(lab, &model, findings);
     let before = findings.len();
     let programs = Programs::compile_with(lab, &model, models.functions(), findings);
     let mistakes = findings.iter().skip(before).filter(|f| f.severity == Severity::Error).count();
