@@ -67,7 +67,7 @@ mod tests {
         let lab = serde_json::json!({"xml": model, "trail": trail});
         let folder = ModelFolder::unknown();
         let lesson = load_lesson(SourceFile::new("t.md", format!("```lab simlab\n{lab}\n```\n")), &folder);
-        check::check(lesson, &Models::new(folder), Depth { labs: false, claims: false }).findings
+        check::check(lesson, &Models::new(folder), Depth::STATIC).findings
     }
 
     #[test]
