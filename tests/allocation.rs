@@ -236,7 +236,7 @@ fn programs_of_numbers() {
         (2, 4),
         "the height and whether they touch, of time, ncon and two coordinates"
     );
-    let count = measure(|| (0..20).for_each(|_| samples.take(&mut session)));
+    let count = measure(|| (0..20).for_each(|_| samples.take(&mut session).unwrap()));
     assert_eq!(count.count_total, 0, "samples");
     let rows = samples.rows();
     for (i, probe) in programs.probes.iter().enumerate() {

@@ -36,7 +36,7 @@ impl Case {
         let lesson = load_lesson(SourceFile::new(self.name.as_str(), text), &self.models);
         let broken = lesson.broken.len();
         let models = Models::new(self.models.clone());
-        let checked = check::check(lesson, &models, Depth { labs: false, claims: false });
+        let checked = check::check(lesson, &models, Depth { programs: true, ..Depth::STATIC });
         (checked.findings, broken)
     }
 }

@@ -127,7 +127,7 @@ fn compile(text: &str, form: Form, model: &Model, globals: &mut Globals) -> Prog
 fn outcome(program: &Program, globals: &Globals, world: &World) -> (String, Vec<Vec<u64>>) {
     let (mut world, mut context) = (world.clone(), Context::of(globals));
     for slot in 0..globals.len() as u32 {
-        context.set(slot, Value::Number(0.1 * f64::from(slot)));
+        context.store(globals, slot, Value::Number(0.1 * f64::from(slot)));
     }
     let result = program.run(&mut world, &mut context, Some(&Value::Number(0.3)));
     let kept: Vec<_> = (0..globals.len() as u32).map(|s| context.get(s).clone()).collect();

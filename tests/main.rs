@@ -20,6 +20,7 @@ mod lessons;
 mod links;
 mod loads;
 mod needs;
+mod no_run;
 mod numbers;
 mod parity;
 mod plan;

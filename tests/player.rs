@@ -78,6 +78,22 @@ fn programs_of_another_model_are_not_run() {
     assert!(table.errors[0].contains("another model"), "{:?}", table.errors);
 }
 
+/// Nor are they sampled: the columns of one model are not filled from another, whatever session is handed over.
+#[test]
+fn a_recording_takes_no_samples_of_another_model() {
+    let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
+    let lab = lesson.all_labs()[0];
+    let [own, twin] = [(); 2].map(|()| crate::support::model("ball_drop"));
+    let [of_own, of_twin] = [&own, &twin].map(|m| labspec::bind::Programs::compile(lab, m, &mut Vec::new()));
+    let mut samples = run::Samples::new(&of_own, 4);
+    let mut theirs = run::Session::start(&of_twin, &twin, None, &of_twin.demand);
+    assert_eq!(theirs.ended(), None);
+    assert!(samples.take(&mut theirs).is_err());
+    let mut ours = run::Session::start(&of_own, &own, None, &of_own.demand);
+    samples.take(&mut ours).unwrap();
+    assert_eq!(samples.rows().len(), 1);
+}
+
 /// A player that is stepped shows what `run` writes, bit for bit, whatever a frontend asks for in between.
 #[test]
 fn a_player_goes_the_way_of_a_run() {

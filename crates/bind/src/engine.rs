@@ -100,7 +100,6 @@ impl Engine {
         let mut globals = self.globals.clone();
         let compiled = compile(&mut Compiler::new(&names, &mut globals));
         let Some(program) = compiled.program else { return Err(findings(compiled.diagnostics, what, text)) };
-        self.context.learn(&globals);
         self.globals = globals;
         Ok(Accessor { program, text: text.into(), what, model: self.world.model.identity() })
     }

@@ -269,6 +269,10 @@ fn owner(f: FieldId, shape: &[Option<usize>]) -> String {
 }
 
 impl Schema for ModelNames<'_> {
+    fn identity(&self) -> u64 {
+        self.model.identity()
+    }
+
     fn root(&self, name: &str) -> Option<Entry> {
         match name {
             "model" => Some(Entry::Object(handle::encode(Thing::Struct(Object::Model)))),

@@ -56,6 +56,10 @@ impl Host for World {
         }
     }
 
+    fn identity(&self) -> u64 {
+        self.model.identity()
+    }
+
     fn work(&self) -> u64 {
         core::cost(&self.data)
     }

@@ -1,6 +1,7 @@
 //! Numeric expressions over recorded samples: every operation runs over a block of samples at once, and what several
 //! expressions read is recorded once (Boncz, Zukowski and Nes, "MonetDB/X100: hyper-pipelining query execution", 2005).
 
+use std::fmt;
 use std::sync::Arc;
 
 use crate::formula::{Formula, Step};
@@ -22,11 +23,35 @@ pub struct Columnar {
     formula: Arc<Formula>,
     /// The column that each operation loads, if it loads one.
     columns: Vec<usize>,
+    /// What it was compiled for.
+    identity: u64,
 }
+
+/// Why samples and expressions do not belong together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Foreign {
+    /// The host, or another expression, is of something else: elements of the same numbers have another meaning there.
+    Identity,
+    /// The recording was made for other expressions, and does not hold what this one reads.
+    Recording,
+}
+
+impl fmt::Display for Foreign {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Foreign::Identity => "what is recorded and the expressions were not compiled for the same thing",
+            Foreign::Recording => "what the expression reads was not recorded",
+        })
+    }
+}
+
+impl std::error::Error for Foreign {}
 
 /// The elements that several expressions read, recorded sample after sample.
 #[derive(Clone, Debug, Default)]
 pub struct Recording {
+    /// What its expressions were compiled for; `None` while there are none.
+    identity: Option<u64>,
     elements: Vec<(FieldKey, u32)>,
     columns: Vec<Vec<f64>>,
 }
@@ -41,17 +66,23 @@ impl Recording {
     /// on more than elements of fields at known indexes.
     ///
     /// To be asked before the first sample.
-    pub fn columns(&mut self, program: &Program) -> Option<Columnar> {
-        let formula = program.formula.clone()?;
-        if !self.columns.iter().all(Vec::is_empty) {
-            return None;
+    ///
+    /// # Errors
+    /// The expression was compiled for something else than those before it.
+    pub fn columns(&mut self, program: &Program) -> Result<Option<Columnar>, Foreign> {
+        let Some(formula) = program.formula.clone().filter(|_| self.columns.iter().all(Vec::is_empty)) else {
+            return Ok(None);
+        };
+        let identity = program.identity();
+        if *self.identity.get_or_insert(identity) != identity {
+            return Err(Foreign::Identity);
         }
         let mut column = |step: &Step| match *step {
             Step::Load(field, index) => self.column(field, index),
             _ => 0,
         };
         let columns = formula.steps.iter().map(&mut column).collect();
-        Some(Columnar { formula, columns })
+        Ok(Some(Columnar { formula, columns, identity }))
     }
 
     /// The column of an element.
@@ -71,10 +102,17 @@ impl Recording {
     }
 
     /// Records the elements as they are now.
-    pub fn sample(&mut self, host: &dyn Host) {
+    ///
+    /// # Errors
+    /// The expressions were compiled for something else than the host is: nothing is recorded.
+    pub fn sample(&mut self, host: &dyn Host) -> Result<(), Foreign> {
+        if self.identity.is_some_and(|identity| identity != host.identity()) {
+            return Err(Foreign::Identity);
+        }
         for (&(field, index), column) in self.elements.iter().zip(&mut self.columns) {
             column.push(host.get(field, index as usize).unwrap_or(f64::NAN));
         }
+        Ok(())
     }
 
     /// Number of samples.
@@ -94,16 +132,28 @@ impl Recording {
 }
 
 impl Columnar {
-    /// The values at all samples of the recording that it was made for.
-    pub fn evaluate(&self, recording: &Recording) -> Vec<f64> {
+    /// The values at all samples of a recording that holds what it reads.
+    ///
+    /// # Errors
+    /// The recording is one of something else, or of other expressions.
+    pub fn evaluate(&self, recording: &Recording) -> Result<Vec<f64>, Foreign> {
         let mut out = vec![0.0; recording.len()];
-        self.evaluate_into(recording, &mut Vec::new(), &mut out);
-        out
+        self.evaluate_into(recording, &mut Vec::new(), &mut out)?;
+        Ok(out)
     }
 
     /// The same into a slice as long as the recording; `scratch` is kept from call to call, so that nothing is
     /// allocated.
-    pub fn evaluate_into(&self, recording: &Recording, scratch: &mut Vec<Block>, out: &mut [f64]) {
+    ///
+    /// # Errors
+    /// As for [`Columnar::evaluate`].
+    pub fn evaluate_into(
+        &self,
+        recording: &Recording,
+        scratch: &mut Vec<Block>,
+        out: &mut [f64],
+    ) -> Result<(), Foreign> {
+        self.fits(recording)?;
         scratch.resize(self.formula.steps.len(), [0.0; BLOCK]);
         for (i, step) in self.formula.steps.iter().enumerate() {
             if let (Step::Constant(x), Some(register)) = (step, scratch.get_mut(i)) {
@@ -121,6 +171,20 @@ impl Columnar {
                 out.copy_from_slice(result);
             }
         }
+        Ok(())
+    }
+
+    /// Whether a recording is of the same thing, and holds at their places all elements that are loaded.
+    fn fits(&self, recording: &Recording) -> Result<(), Foreign> {
+        if recording.identity.is_some_and(|identity| identity != self.identity) {
+            return Err(Foreign::Identity);
+        }
+        let held = |(step, &column): (&Step, &usize)| match *step {
+            Step::Load(field, index) => recording.elements.get(column) == Some(&(field, index)),
+            _ => true,
+        };
+        let all = self.formula.steps.iter().zip(&self.columns).all(held);
+        if all { Ok(()) } else { Err(Foreign::Recording) }
     }
 
     /// One operation over a block that begins at a sample. Operands are results of operations before it.
@@ -186,7 +250,7 @@ fn two(dst: &mut Block, a: &Block, b: &Block, f: impl Fn(f64, f64) -> f64) {
 mod tests {
     use super::*;
     use crate::mock::{Mock, World};
-    use crate::{Compiler, Context, Globals};
+    use crate::{Compiler, Context, FunctionId, Globals, Heap, Value};
 
     #[test]
     fn columns_give_what_rows_give() {
@@ -207,22 +271,77 @@ mod tests {
         let programs: Vec<Program> =
             sources.iter().map(|s| compiler.expression(s).program.unwrap()).collect();
         let mut recording = Recording::new();
-        let columnar: Vec<Columnar> = programs.iter().map(|p| recording.columns(p).unwrap()).collect();
+        let columnar: Vec<Columnar> =
+            programs.iter().map(|p| recording.columns(p).unwrap().unwrap()).collect();
         assert_eq!(recording.width(), 6); // time, three of qpos, a mass, a velocity
         let (mut world, mut context) = (World::new(), Context::new());
         let mut rows: Vec<Vec<f64>> = vec![Vec::new(); sources.len()];
         for i in 0..100 {
             world.fields[0][0] = f64::from(i) * 0.37;
             world.fields[1][2] = 3.0 - f64::from(i);
-            recording.sample(&world);
+            recording.sample(&world).unwrap();
             for (row, program) in rows.iter_mut().zip(&programs) {
                 row.push(program.run(&mut world, &mut context, None).unwrap().to_number());
             }
         }
         for ((row, columnar), source) in rows.iter().zip(&columnar).zip(sources) {
             let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-            assert_eq!(bits(row), bits(&columnar.evaluate(&recording)), "{source}");
+            assert_eq!(bits(row), bits(&columnar.evaluate(&recording).unwrap()), "{source}");
         }
+    }
+
+    /// A world like another, and not the same.
+    struct Elsewhere(World);
+
+    impl Host for Elsewhere {
+        fn get(&self, field: FieldKey, index: usize) -> Option<f64> {
+            self.0.get(field, index)
+        }
+
+        fn set(&mut self, field: FieldKey, index: usize, value: f64) -> Result<(), String> {
+            self.0.set(field, index, value)
+        }
+
+        fn len(&self, field: FieldKey) -> usize {
+            self.0.len(field)
+        }
+
+        fn call(&mut self, heap: &mut Heap, function: FunctionId, args: &[Value]) -> Result<Value, String> {
+            self.0.call(heap, function, args)
+        }
+
+        fn identity(&self) -> u64 {
+            7
+        }
+    }
+
+    #[test]
+    fn what_does_not_belong_together_is_an_error() {
+        let mut globals = Globals::new();
+        let mut compiler = Compiler::new(&Mock, &mut globals);
+        let mut program = |text: &str| compiler.expression(text).program.unwrap();
+        let (height, time) = (program("data.qpos[2]"), program("data.time"));
+        let [mut one, mut other] = [Recording::new(), Recording::new()];
+        let of_height = one.columns(&height).unwrap().unwrap();
+        let of_time = other.columns(&time).unwrap().unwrap();
+        // The samples of another world are not taken.
+        assert_eq!(one.sample(&Elsewhere(World::new())), Err(Foreign::Identity));
+        assert!(one.is_empty());
+        one.sample(&World::new()).unwrap();
+        other.sample(&World::new()).unwrap();
+        // The first column of each recording is another element.
+        assert_eq!(of_height.evaluate(&one), Ok(vec![102.0]));
+        assert_eq!(of_height.evaluate(&other), Err(Foreign::Recording));
+        assert_eq!(of_time.evaluate(&one), Err(Foreign::Recording));
+        // Programs that were compiled for different things have no recording in common.
+        let foreign = Program { identity: 7, ..height.clone() };
+        let mut both = Recording::new();
+        both.columns(&time).unwrap().unwrap();
+        assert_eq!(both.columns(&foreign).unwrap_err(), Foreign::Identity);
+        let mut theirs = Recording::new();
+        theirs.columns(&foreign).unwrap().unwrap();
+        theirs.sample(&Elsewhere(World::new())).unwrap();
+        assert_eq!(of_height.evaluate(&theirs), Err(Foreign::Identity));
     }
 
     #[test]
@@ -237,7 +356,7 @@ mod tests {
             "say('a', 1, 2)",
         ] {
             let program = compiler.expression(source).program.unwrap();
-            assert!(recording.columns(&program).is_none(), "{source}");
+            assert!(recording.columns(&program).unwrap().is_none(), "{source}");
             assert_eq!(recording.width(), 0, "{source}");
         }
     }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::closest;
+use crate::known::Known;
 use crate::rules;
 use crate::words::Words;
 use crate::{Finding, Span};
@@ -16,6 +17,8 @@ pub struct ProgramId(pub u32);
 pub struct Globals {
     slots: BTreeMap<String, u32>,
     names: Vec<String>,
+    /// The same names, for whoever runs programs.
+    known: Known,
     /// The host itself stores the variable.
     given: Vec<bool>,
     uses: Vec<Use>,
@@ -123,9 +126,9 @@ impl Globals {
         self.computed.push(beginning.to_owned());
     }
 
-    /// All names with their slots.
-    pub(crate) fn named(&self) -> &BTreeMap<String, u32> {
-        &self.slots
+    /// All names, for whoever runs programs.
+    pub(crate) fn known(&self) -> &Known {
+        &self.known
     }
 
     pub(crate) fn mark(&self) -> Mark {
@@ -151,6 +154,7 @@ impl Globals {
         let slot = self.names.len() as u32;
         self.slots.insert(name.to_owned(), slot);
         self.names.push(name.to_owned());
+        self.known.push(name);
         self.given.push(false);
         slot
     }

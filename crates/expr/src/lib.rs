@@ -32,6 +32,7 @@ mod formula;
 mod globals;
 mod heap;
 mod ir;
+mod known;
 mod lex;
 mod math;
 mod natives;
@@ -61,7 +62,7 @@ mod tests;
 mod zz;
 
 pub use bind::{Compiled, Compiler};
-pub use columnar::{Columnar, Recording};
+pub use columnar::{Columnar, Foreign, Recording};
 pub use effects::{Access, Effects};
 pub use globals::{Globals, ProgramId};
 pub use heap::{Full, Heap, Ref};

@@ -11,6 +11,7 @@ use crate::formula::Formula;
 use crate::globals::Globals;
 use crate::heap::Heap;
 use crate::ir::Tree;
+use crate::known::Known;
 use crate::order::Order;
 use crate::row::Row;
 use crate::rules::{self, Rule};
@@ -50,6 +51,12 @@ pub trait Host {
     /// # Errors
     /// The call fails: the text becomes the message of a [`RuntimeError`].
     fn call(&mut self, heap: &mut Heap, function: FunctionId, args: &[Value]) -> Result<Value, String>;
+
+    /// What the numbers of fields and elements are of here, as [`crate::Schema::identity`] says of programs. Hosts of one kind need not
+    /// tell.
+    fn identity(&self) -> u64 {
+        0
+    }
 
     /// The work that calls did so far, in units of about a nanosecond: it counts as work of the program that calls.
     fn work(&self) -> u64 {
@@ -133,8 +140,8 @@ pub struct Context {
     /// The lists, records and functions that values refer to.
     pub heap: Heap,
     pub(crate) globals: Vec<Value>,
-    /// Slots of variables whose names may be computed.
-    named: BTreeMap<String, u32>,
+    /// Slots of variables, by their names: a program may compute a name.
+    named: BTreeMap<Arc<str>, u32>,
     /// Variables with computed names that no text names.
     unnamed: BTreeMap<String, Value>,
     pub(crate) aggregates: Vec<f64>,
@@ -160,19 +167,31 @@ impl Context {
         Context::default()
     }
 
-    /// All variables `undefined`. Programs that compute the names of variables need this one, made when all texts
-    /// of the lab are compiled.
+    /// All variables `undefined`, and their names known: no later run has to learn them.
     pub fn of(globals: &Globals) -> Context {
-        Context { named: globals.named().clone(), ..Context::default() }
+        let mut context = Context::new();
+        context.learn(globals.known());
+        context
     }
 
-    /// Takes in the variables of texts that were compiled since. What was stored under a computed name before any text named
-    /// it is found under that name from now on.
-    pub fn learn(&mut self, globals: &Globals) {
-        self.named.clone_from(globals.named());
-        let now_named: Vec<(u32, Value)> =
-            self.named.iter().filter_map(|(name, slot)| Some((*slot, self.unnamed.remove(name)?))).collect();
-        now_named.into_iter().for_each(|(slot, value)| self.set(slot, value));
+    /// Takes in the names of variables before a program runs that was compiled with them, whenever this context was made. What was
+    /// stored under a computed name before any text named it is found under that name from now on.
+    fn learn(&mut self, known: &Known) {
+        if known.len() <= self.named.len() {
+            return;
+        }
+        for (slot, name) in known.since(self.named.len()) {
+            if let Some(value) = self.unnamed.remove(&*name) {
+                self.set(slot, value);
+            }
+            self.named.insert(name, slot);
+        }
+    }
+
+    /// Stores a variable for the host, such as what a control gives. Programs find it by its name, too.
+    pub fn store(&mut self, globals: &Globals, slot: u32, value: Value) {
+        self.learn(globals.known());
+        self.set(slot, value);
     }
 
     /// Lets the next run do so much work and no more, in units of about a nanosecond; work of the host counts too. A run
@@ -217,8 +236,8 @@ impl Context {
         self.globals.get(slot as usize).unwrap_or(&Value::Undefined)
     }
 
-    /// Stores a `ctx` variable.
-    pub fn set(&mut self, slot: u32, value: Value) {
+    /// Stores a `ctx` variable of a program whose names are known.
+    pub(crate) fn set(&mut self, slot: u32, value: Value) {
         let i = slot as usize;
         if self.globals.len() <= i {
             self.globals.resize(i + 1, Value::Undefined);
@@ -269,6 +288,10 @@ pub struct Program {
     pub(crate) result: Type,
     pub(crate) aggregates: Vec<Aggregate>,
     pub(crate) order: Order,
+    /// The variables that were named when it was compiled.
+    pub(crate) known: Known,
+    /// What the numbers of its fields and elements are of ([`crate::Schema::identity`]).
+    pub(crate) identity: u64,
     /// What it computes, if it is a numeric expression without effects.
     pub(crate) formula: Option<Arc<Formula>>,
     /// The shorter way to run that.
@@ -276,8 +299,15 @@ pub struct Program {
 }
 
 impl Program {
-    /// The code of a tree.
-    pub(crate) fn new(tree: &Tree, effects: Effects, result: Type, aggregates: Vec<Aggregate>) -> Program {
+    /// The code of a tree that was bound to a schema, with the variables that are named by then.
+    pub(crate) fn new(
+        tree: &Tree,
+        effects: Effects,
+        result: Type,
+        aggregates: Vec<Aggregate>,
+        identity: u64,
+        globals: &Globals,
+    ) -> Program {
         let form = Form::of(tree);
         let formula = form.units.first().and_then(pure::whole).map(Arc::new);
         let row = formula.as_deref().and_then(Row::of).map(Arc::new);
@@ -288,9 +318,16 @@ impl Program {
             result,
             aggregates,
             order,
+            known: globals.known().clone(),
+            identity,
             formula,
             row,
         }
+    }
+
+    /// What it was compiled for: the [`crate::Schema::identity`] of then.
+    pub fn identity(&self) -> u64 {
+        self.identity
     }
 
     /// What it touches.
@@ -336,6 +373,7 @@ impl Program {
             context.events.clear();
             return Ok(value);
         }
+        context.learn(&self.known);
         vm::run(&self.code, host, context, value)
     }
 }

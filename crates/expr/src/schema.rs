@@ -323,6 +323,11 @@ pub trait Schema {
     /// What one of its objects is called: `joint`.
     fn noun(&self, collection: CollectionId) -> &str;
 
+    /// What the numbers of its fields and elements are of. They mean nothing to a host that says something else.
+    fn identity(&self) -> u64 {
+        0
+    }
+
     /// The field whose elements a function of one object gives, so that a single one can be read without the call.
     fn result_field(&self, function: FunctionId, object: ObjectId) -> Option<Field> {
         let _ = (function, object);

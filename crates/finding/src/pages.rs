@@ -7,10 +7,11 @@ use std::path::PathBuf;
 /// Writes `rules.rs` into the folder of what is built: every file in the folder `pages` of the crate as a module, the rule that it declares
 /// (`pub const NAME: &Rule`), and all of them as `list`. Pages that declare `const CHECK: Check` are listed in `CHECKS`, too.
 ///
-/// To be called from a build script; a `mod.rs` and pages without a rule are left out.
+/// To be called from a build script. What the `mod.rs` of the folder names as a module itself is no page.
 ///
 /// # Errors
-/// What the system says: the folder cannot be read, the list not be written.
+/// A page does not declare one rule: it would be left out without a word. Or what the system says: the folder cannot be read, the list
+/// not be written.
 pub fn list_rules(pages: &str, list: &str) -> io::Result<()> {
     let folder = |name: &str| std::env::var_os(name).map(PathBuf::from).ok_or(io::ErrorKind::NotFound);
     let rules = folder("CARGO_MANIFEST_DIR")?.join(pages);
@@ -23,15 +24,38 @@ pub fn list_rules(pages: &str, list: &str) -> io::Result<()> {
         }
     }
     pages.sort();
-    std::fs::write(folder("OUT_DIR")?.join("rules.rs"), listed(list, &pages))
+    let text = listed(list, &pages).map_err(|why| {
+        println!("cargo::error={why}");
+        io::Error::other(why)
+    })?;
+    std::fs::write(folder("OUT_DIR")?.join("rules.rs"), text)
 }
 
-/// The text of the list.
-fn listed(list: &str, pages: &[(PathBuf, String)]) -> String {
+/// The text of the list; or what is wrong with a page, and what to do.
+fn listed(list: &str, pages: &[(PathBuf, String)]) -> Result<String, String> {
     let (mut text, mut rules, mut checks) = (String::new(), Vec::new(), Vec::new());
+    let module = |path: &PathBuf| path.file_stem().and_then(|s| s.to_str()).unwrap_or_default().to_string();
+    let head = pages.iter().find(|(path, _)| module(path) == "mod").map_or("", |(_, text)| text.as_str());
     for (path, page) in pages {
-        let Some((name, module)) = declared(page).zip(path.file_stem().and_then(|s| s.to_str())) else {
+        let module = module(path);
+        if module == "mod" || names(head, &module) {
             continue;
+        }
+        let name = match declared(page).as_slice() {
+            [name] => *name,
+            [] => {
+                return Err(format!(
+                    "{} declares no rule, so it would never be compiled: write `pub const NAME: &Rule = &Rule {{ … }};` there, or, if it \
+                     is no rule, `mod {module};` in the mod.rs beside it",
+                    path.display()
+                ));
+            }
+            [first, second, ..] => {
+                return Err(format!(
+                    "{} declares {first} and {second}, and a page is one rule: move one of them to a page of its own",
+                    path.display()
+                ));
+            }
         };
         let _ = writeln!(
             text,
@@ -52,13 +76,20 @@ fn listed(list: &str, pages: &[(PathBuf, String)]) -> String {
         );
         let _ = writeln!(text, "pub(crate) const CHECKS: &[Check] = &[{}];", checks.join(", "));
     }
-    text
+    Ok(text)
 }
 
-/// The name of the rule that a page declares.
-fn declared(page: &str) -> Option<&str> {
-    let (before, _) = page.split_once(": &Rule = ")?;
-    before.rsplit_once("pub const ").map(|(_, name)| name)
+/// The names of the rules that a page declares.
+fn declared(page: &str) -> Vec<&str> {
+    let constants = page.lines().filter_map(|line| line.strip_prefix("pub const "));
+    constants.filter_map(|rest| Some(rest.split_once(": &Rule =")?.0)).collect()
+}
+
+/// Whether a `mod.rs` names this module itself.
+fn names(head: &str, module: &str) -> bool {
+    let named =
+        |line: &str| line.trim().strip_suffix(';')?.rsplit_once("mod ").map(|(_, name)| name == module);
+    head.lines().filter(|line| !line.trim_start().starts_with("//")).any(|line| named(line) == Some(true))
 }
 
 #[cfg(test)]
@@ -66,9 +97,33 @@ mod tests {
     use super::*;
     use std::path::Path;
 
+    fn page(name: &str, text: &str) -> (PathBuf, String) {
+        (Path::new("/r").join(name), text.to_string())
+    }
+
+    /// A page that declares no rule, or two, would be left out in silence: the build says so instead.
+    #[test]
+    fn a_page_that_is_no_rule_is_refused() {
+        let rule = "pub const ONE: &Rule = &Rule {};";
+        for no_rule in ["fn help() {}", "const ONE: &Rule = &Rule {};", "pub const ONE: Rule = Rule {};", ""]
+        {
+            let with = |head: &str| listed("ALL", &[page("help.rs", no_rule), page("mod.rs", head)]);
+            for unnamed in ["", "mod helper;", "// mod help;", "use help;"] {
+                let why = with(unnamed).unwrap_err();
+                assert!(why.contains("/r/help.rs declares no rule") && why.contains("`mod help;`"), "{why}");
+            }
+            for named in ["mod help;", "mod a;\npub(crate) mod help;\n"] {
+                let text = with(named).unwrap();
+                assert!(!text.contains("help") && text.contains("ALL: &[&Rule] = &[];"), "{text}");
+            }
+        }
+        let two = format!("{rule}\npub const TWO: &Rule =\n    &Rule {{}};");
+        let why = listed("ALL", &[page("a.rs", &two)]).unwrap_err();
+        assert!(why.contains("/r/a.rs declares ONE and TWO"), "{why}");
+    }
+
     #[test]
     fn a_page_with_a_rule_is_listed() {
-        let page = |name: &str, text: &str| (Path::new("/r").join(name), text.to_string());
         let pages = [
             page("mod.rs", "mod a;"),
             page("one.rs", "/// A.\npub const ONE: &Rule = &Rule {};"),
@@ -77,7 +132,7 @@ mod tests {
                 "pub const TWO: &Rule = &Rule {};\npub(super) const CHECK: Check = Check::Lab(check);",
             ),
         ];
-        let text = listed("ALL", &pages);
+        let text = listed("ALL", &pages).unwrap();
         assert!(text.contains("mod one;\npub use one::ONE;") && !text.contains("mod mod"), "{text}");
         assert!(text.contains("pub const ALL: &[&Rule] = &[ONE, TWO];"), "{text}");
         assert!(text.contains("CHECKS: &[Check] = &[two::CHECK];"), "{text}");

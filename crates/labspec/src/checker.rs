@@ -58,7 +58,7 @@ impl Checker {
     /// A checker of lessons whose labs name these models: a map, a closure ([`Models`](crate::Models)), or a folder
     /// ([`ModelFolder`]). Only a folder is ever looked for among files.
     pub fn new(models: impl Into<ModelFolder>) -> Checker {
-        let depth = Depth { labs: true, claims: true };
+        let depth = Depth::FULL;
         Checker { models: scene::Models::new(models.into()), depth, rules: Rules::default() }
     }
 

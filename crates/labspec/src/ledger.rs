@@ -74,17 +74,20 @@ pub enum State {
     False,
     /// Could not be checked.
     Unchecked,
+    /// It could be checked, and whoever asked for the check left it out.
+    LeftOut,
     /// Nobody claims it, so nothing was checked.
     NotClaimed,
 }
 
 impl State {
-    /// In words, for programs: `true`, `false`, `unchecked`, `not claimed`.
+    /// In words, for programs: `true`, `false`, `unchecked`, `left out`, `not claimed`.
     pub fn as_str(self) -> &'static str {
         match self {
             State::True(_) => "true",
             State::False => "false",
             State::Unchecked => "unchecked",
+            State::LeftOut => "left out",
             State::NotClaimed => "not claimed",
         }
     }
@@ -128,6 +131,8 @@ pub struct Count {
     pub wrong: usize,
     /// Could not be checked.
     pub unchecked: usize,
+    /// Left out of this check.
+    pub left_out: usize,
     /// Not claimed.
     pub not_claimed: usize,
 }
@@ -139,16 +144,19 @@ pub enum Outcome {
     Clean,
     /// A claim is false, or could not be checked.
     Findings,
+    /// What was checked is true, and some claims were left out.
+    Partial,
     /// There was nothing to check.
     Nothing,
 }
 
 impl Outcome {
-    /// `clean`, `findings` or `nothing`.
+    /// `clean`, `findings`, `partial` or `nothing`.
     pub fn as_str(self) -> &'static str {
         match self {
             Outcome::Clean => "clean",
             Outcome::Findings => "findings",
+            Outcome::Partial => "partial",
             Outcome::Nothing => "nothing",
         }
     }
@@ -179,6 +187,7 @@ impl Ledger {
                 State::True(Evidence::Computed) => &mut count.computed,
                 State::False => &mut count.wrong,
                 State::Unchecked => &mut count.unchecked,
+                State::LeftOut => &mut count.left_out,
                 State::NotClaimed => &mut count.not_claimed,
             } += 1;
         }
@@ -191,6 +200,8 @@ impl Ledger {
         let good = |e: &Entry| e.subject != Subject::File && e.subject != Subject::Widget;
         if self.entries.iter().any(bad) {
             Outcome::Findings
+        } else if self.entries.iter().any(|e| e.state == State::LeftOut) {
+            Outcome::Partial
         } else if self.entries.iter().any(good) {
             Outcome::Clean
         } else {
@@ -207,19 +218,22 @@ impl Ledger {
             match subject {
                 Subject::File => tell(&mut parts, subject, [(total, ""), (0, "")]),
                 // Runs are the means of the claims that read them: they are told where one breaks.
-                Subject::Run => tell(&mut parts, subject, [(c.wrong, "broken"), (c.unchecked, "impossible")]),
+                Subject::Run => {
+                    tell(&mut parts, subject, [(c.wrong, "broken"), (c.unchecked, "impossible")]);
+                    tell(&mut parts, subject, [(c.left_out, "left out"), (0, "")]);
+                }
                 Subject::Widget => tell(&mut parts, subject, [(c.not_claimed, "not run"), (0, "")]),
                 Subject::Model => {
                     tell(&mut parts, subject, [(c.computed, "loaded"), (c.wrong + c.unchecked, "refused")])
                 }
                 Subject::Lab => {
                     tell(&mut parts, subject, [(c.simulated, "run"), (c.wrong, "broken")]);
-                    tell(&mut parts, subject, [(c.unchecked, "not run in full"), (0, "")]);
+                    tell(&mut parts, subject, [(c.unchecked, "not run in full"), (c.left_out, "left out")]);
                 }
                 Subject::Answer | Subject::Quote | Subject::ClosedForm => {
                     tell(&mut parts, subject, [(c.simulated, "verified"), (c.computed, "computed")]);
                     tell(&mut parts, subject, [(c.wrong, "wrong"), (c.unchecked, "could not be checked")]);
-                    tell(&mut parts, subject, [(c.not_claimed, "without a check"), (0, "")]);
+                    tell(&mut parts, subject, [(c.not_claimed, "without a check"), (c.left_out, "left out")]);
                 }
             }
         }
@@ -273,6 +287,9 @@ mod tests {
         assert_eq!(of(&[file, answer(State::True(Evidence::Simulated))]), Outcome::Clean);
         assert_eq!(of(&[file, answer(State::Unchecked)]), Outcome::Findings);
         assert_eq!(of(&[(Subject::File, State::Unchecked)]), Outcome::Findings);
+        let left = answer(State::LeftOut);
+        assert_eq!(of(&[file, left, answer(State::True(Evidence::Simulated))]), Outcome::Partial);
+        assert_eq!(of(&[left, answer(State::Unchecked)]), Outcome::Findings);
         assert_eq!(of(&[answer(State::True(Evidence::Simulated)), answer(State::False)]), Outcome::Findings);
     }
 
@@ -285,13 +302,15 @@ mod tests {
             State::True(Evidence::Computed),
             State::False,
             State::Unchecked,
+            State::LeftOut,
             State::NotClaimed,
         ] {
             ledger.add(entry(Subject::Answer, state));
         }
         assert_eq!(
             ledger.summary(),
-            "2 answers verified, 1 answer computed, 1 answer wrong, 1 answer could not be checked, 1 answer without a check"
+            "2 answers verified, 1 answer computed, 1 answer wrong, 1 answer could not be checked, 1 answer without a check, \
+             1 answer left out"
         );
     }
 }

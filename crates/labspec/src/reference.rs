@@ -227,7 +227,7 @@ mod tests {
         }});
         let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
         let models = Models::new(ModelFolder::unknown());
-        let checked = check::check(lesson, &models, Depth { labs: false, claims: true });
+        let checked = check::check(lesson, &models, Depth::CLAIMS);
         let value = checked.claims.first().and_then(|c| c.judgement.measures.first()).map(|m| m.value);
         crate::verify::significant(value.unwrap_or_else(|| panic!("{code}: {:#?}", checked.findings)))
     }

@@ -420,23 +420,60 @@ pub(crate) fn is_writable(field: FieldId) -> bool {
 
 /// The dimensions of a field for this model; `None` for a dimension that changes with the state (`nefc`).
 pub fn shape(m: &Model, field: FieldId) -> Vec<Option<usize>> {
-    field.info().shape.iter().map(|dim| dim.parse().ok().or_else(|| size(m, dim))).collect()
+    dimensions(field).iter().map(|dim| dim.of(m)).collect()
+}
+
+/// A dimension of a field.
+#[derive(Clone, Copy)]
+enum Dimension {
+    /// The same for every model.
+    Fixed(usize),
+    /// A size of the model.
+    Size(ModelId),
+    /// It changes with the state.
+    Open,
+}
+
+impl Dimension {
+    /// Its length for this model, unless it changes with the state.
+    fn of(self, m: &Model) -> Option<usize> {
+        match self {
+            Dimension::Fixed(n) => Some(n),
+            Dimension::Size(id) => match m.cell(id).view() {
+                View::Size(n) => Some(n),
+                _ => None,
+            },
+            Dimension::Open => None,
+        }
+    }
+}
+
+/// The dimensions of a field, whose names are looked up once for all: a reset asks for every array.
+fn dimensions(field: FieldId) -> &'static [Dimension] {
+    static ALL: LazyLock<Vec<Vec<Dimension>>> = LazyLock::new(|| {
+        let named = |dim: &str| match dim.parse() {
+            Ok(n) => Dimension::Fixed(n),
+            Err(_) => size_id(dim).map_or(Dimension::Open, Dimension::Size),
+        };
+        fields().map(|f| f.info().shape.iter().map(|dim| named(dim)).collect()).collect()
+    });
+    ALL.get(field.index()).map_or(&[], Vec::as_slice)
+}
+
+/// The field of the model that may hold the size of this name.
+fn size_id(name: &str) -> Option<ModelId> {
+    ModelId::ALL.get(field(Object::Model, name)?.index()).copied()
 }
 
 /// The size of this name (`nq`, `nbody`, …), `None` when the model has no such size.
 pub fn size(m: &Model, name: &str) -> Option<usize> {
-    let f = field(Object::Model, name)?;
-    match m.cell(*ModelId::ALL.get(f.0 as usize)?).view() {
-        View::Size(n) => Some(n),
-        _ => None,
-    }
+    Dimension::Size(size_id(name)?).of(m)
 }
 
 /// Number of elements of a field that the sizes of the model decide; 0 while a size is not known. Allocates
 /// nothing: a reset in the step loop asks for every array.
 pub(crate) fn length(m: &Model, field: FieldId) -> usize {
-    let dims = field.info().shape.iter().map(|dim| dim.parse().ok().or_else(|| size(m, dim)).unwrap_or(0));
-    dims.fold(1, usize::saturating_mul)
+    dimensions(field).iter().map(|dim| dim.of(m).unwrap_or(0)).fold(1, usize::saturating_mul)
 }
 
 /// A number for the names, types and shapes of the fields of the data, or of all others: two programs with the same number

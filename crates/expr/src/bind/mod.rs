@@ -143,10 +143,10 @@ impl<'s> Compiler<'s> {
         found.extend(lints::look(self.schema, source, tree, &bound.typed));
         found.extend(bound.found);
         let failed = found.iter().any(Finding::is_error);
-        let program = bound
-            .program
-            .filter(|_| !failed)
-            .map(|parts| Program::new(&parts.tree, parts.effects, parts.result, parts.aggregates));
+        let program = bound.program.filter(|_| !failed).map(|parts| {
+            let identity = self.schema.identity();
+            Program::new(&parts.tree, parts.effects, parts.result, parts.aggregates, identity, self.globals)
+        });
         Compiled { id, program, diagnostics: in_order(found), help: bound.help, named: bound.named }
     }
 }

@@ -116,6 +116,31 @@ fn lists_and_records() {
     ]);
 }
 
+/// A context may be made at any time: a text that is compiled later finds what earlier texts stored under names that they
+/// computed, and the other way round.
+#[test]
+fn a_context_is_never_made_too_early() {
+    let mut globals = Globals::new();
+    let mut compile = |text: &str| Compiler::new(&Mock, &mut globals).statements(text).program.unwrap();
+    let store = compile("const i = 1; ctx['q' + i] = 5");
+    let load = compile("const i = 2; ctx.out = ctx['q' + i]");
+    let mut context = Context::new();
+    let run =
+        |program: &Program, context: &mut Context| program.run(&mut World::new(), context, None).unwrap();
+    run(&store, &mut context);
+    // Compiled behind the context, and behind the first run in it.
+    let late = Compiler::new(&Mock, &mut globals).statements("ctx.q2 = ctx.q1 + 1").program.unwrap();
+    run(&late, &mut context);
+    run(&load, &mut context);
+    let out = globals.slot("out").unwrap();
+    assert_eq!(context.get(out), &Value::Number(6.0));
+    // What the host stores has its name, too, although no program with that name has run.
+    let (mut context, q2) = (Context::new(), globals.slot("q2").unwrap());
+    context.store(&globals, q2, Value::Number(9.0));
+    run(&load, &mut context);
+    assert_eq!(context.get(out), &Value::Number(9.0));
+}
+
 #[test]
 fn limits_have_their_own_errors() {
     let code = |source: &str| {

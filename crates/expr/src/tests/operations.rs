@@ -113,11 +113,11 @@ fn agree(case: &Case, text: &str, pairs: &[(f64, f64)]) {
     let program = expression(text);
     assert!(program.row.is_some(), "{text} is no row");
     let mut recording = Recording::new();
-    let columnar = recording.columns(&program).unwrap_or_else(|| panic!("{text} has no columns"));
+    let columnar = recording.columns(&program).unwrap().unwrap_or_else(|| panic!("{text} has no columns"));
     let mut context = Context::new();
     for &(a, b) in pairs {
         let (mut world, table) = (world(a, b), (case.means)(a, b));
-        recording.sample(&world);
+        recording.sample(&world).unwrap();
         same(
             program.run(&mut world, &mut context, None).unwrap().to_number(),
             table,
@@ -126,7 +126,7 @@ fn agree(case: &Case, text: &str, pairs: &[(f64, f64)]) {
         let machine = crate::vm::run(&program.code, &mut world, &mut context, None).unwrap();
         same(machine.to_number(), table, &format!("machine: {text} of {a} and {b}"));
     }
-    for (x, (a, b)) in columnar.evaluate(&recording).iter().zip(pairs) {
+    for (x, (a, b)) in columnar.evaluate(&recording).unwrap().iter().zip(pairs) {
         same(*x, (case.means)(*a, *b), &format!("column: {text} of {a} and {b}"));
     }
 }

@@ -7,9 +7,10 @@ use crate::lint::{ModelFolder, lesson_folder, root_of};
 use crate::models::{self, FilesOf};
 use crate::rules;
 use crate::source::{SourceFile, Text};
+use crate::spec::format::Asked;
 use crate::spec::{Lab, Scene};
-use labspec_core::Model;
 use labspec_core::xml::{self, Files, Folder, NoFiles};
+use labspec_core::{Model, Obj};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -117,6 +118,21 @@ impl Models {
     /// The model with this name; `None` when there is none or it has mistakes, which are then findings of the models.
     pub(crate) fn load(&self, name: &str) -> Option<Arc<Model>> {
         self.loaded(name, |loaded| loaded.model.clone())?
+    }
+
+    /// The names that somebody who writes a lesson asks for ([`crate::spec::format::completions`]).
+    pub fn names(&self, asked: Asked<'_>) -> Vec<String> {
+        let sites = |model: &Model| {
+            let named = model.names.of(Obj::Site).iter().filter(|name| !name.is_empty());
+            named.cloned().collect()
+        };
+        match asked {
+            Asked::Models => self.folder.names().unwrap_or_default().to_vec(),
+            Asked::SitesOf(name) => self.load(name).map_or_else(Vec::new, |model| sites(&model)),
+            Asked::SitesIn(xml) => {
+                xml::examine(xml, &NoFiles, None).model.map_or_else(Vec::new, |model| sites(&model))
+            }
+        }
     }
 
     /// What a model that is in the folder was made of, and whether something is said of it. Nothing is known of models
@@ -324,6 +340,7 @@ pub fn from_mjcf(d: &Finding, span: std::ops::Range<usize>) -> Finding {
 mod tests {
     use super::*;
     use crate::finding::Severity;
+    use crate::spec::format::completions_in;
 
     const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
@@ -377,6 +394,28 @@ mod tests {
         assert_eq!((findings[0].code, &*findings[0].path), ("mjcf-text", "models/odd.xml"));
         assert!(models.take_findings().is_empty());
         assert_eq!(models.files().len(), 1);
+    }
+
+    /// Who writes `trail` is offered the sites of the lab's model, from the folder or from the lab itself.
+    #[test]
+    fn completions_know_the_sites_of_a_model() {
+        let top = tempfile::tempdir().unwrap();
+        let model = "<mujoco><worldbody><site name='tip'/><site/><body name='b'><geom size='1'/><site name='top'/></body></worldbody></mujoco>";
+        std::fs::write(top.path().join("rod.xml"), model).unwrap();
+        let models = Models::new(ModelFolder::open(top.path()).unwrap());
+        let offered = |lab: &str| {
+            let at = lab.find('|').unwrap();
+            let text = format!("```lab simlab\n{}\n```\n", lab.replace('|', ""));
+            let file = SourceFile::new("t.md", text);
+            let all = completions_in(&file, at + "```lab simlab\n".len(), &|asked| models.names(asked));
+            all.into_iter().map(|c| c.text.into_owned()).collect::<Vec<_>>()
+        };
+        assert_eq!(offered(r#"{"model": "|"}"#), ["rod"]);
+        assert_eq!(offered(r#"{"model": "rod", "trail": "|"}"#), ["tip", "top"]);
+        assert_eq!(offered(&format!(r#"{{"xml": "{model}", "trail": "to|"}}"#)), ["top"]);
+        for none in [r#"{"model": "rid", "trail": "|"}"#, r#"{"xml": "<mujoco", "trail": "|"}"#] {
+            assert_eq!(offered(none), Vec::<String>::new());
+        }
     }
 
     #[test]

@@ -29,25 +29,95 @@ impl Claim {
     }
 }
 
-/// Judges every `verify` object of a lesson; questions without one are listed with an unverified answer.
-pub(super) fn check(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> Vec<Claim> {
-    let shown = ShownText::of(lesson);
-    let mut court = Court { lesson, ready, shown, allowance: Allowance::default(), list: Vec::new() };
+/// Who claims something.
+pub(super) enum Owner<'a> {
+    /// A lab with a `verify` object.
+    Lab(&'a Lab),
+    /// A question, with or without one.
+    Question(&'a Question),
+}
+
+impl<'a> Owner<'a> {
+    /// Its `verify` object, the lab that this is about unless it names another, and its question.
+    pub(super) fn claim(&self) -> Option<(&'a Verify, Option<&'a Lab>, Option<&'a Question>)> {
+        match self {
+            Owner::Lab(lab) => Some((lab.verify.as_ref()?, Some(lab), None)),
+            Owner::Question(q) => Some((q.verify.as_ref()?, q.sim(), Some(q))),
+        }
+    }
+}
+
+/// Everybody who claims something, by name: labs, then questions.
+pub(super) fn owners(lesson: &Lesson) -> Vec<(String, Owner<'_>)> {
+    let mut all = Vec::new();
     let addressed = lesson.addressed();
     for (address, lab) in &addressed {
-        court.judge_lab(format!("lab {address}"), lab, findings);
+        all.push((format!("lab {address}"), Owner::Lab(lab)));
     }
     for lab in lesson.all_labs() {
         // Labs that stand inside `verify` objects have no address.
         if !addressed.iter().any(|(_, known)| std::ptr::eq(*known, lab)) {
             let line = lesson.file.position(lab.span.start).line;
-            court.judge_lab(format!("lab in line {line}"), lab, findings);
+            all.push((format!("lab in line {line}"), Owner::Lab(lab)));
         }
     }
     for quiz in &lesson.quizzes {
         let id = quiz.id.as_ref().map_or("", |t| t.as_str());
-        for (number, question) in quiz.numbered() {
-            court.judge_question(format!("quiz {id}, question {number}"), question, findings);
+        let questions = quiz.numbered();
+        all.extend(questions.map(|(n, q)| (format!("quiz {id}, question {n}"), Owner::Question(q))));
+    }
+    all.retain(|(_, owner)| matches!(owner, Owner::Question(_)) || owner.claim().is_some());
+    all
+}
+
+/// The answer of a question that nobody says how to check. An open question has no keyed answer that could be right or wrong.
+pub(super) fn unclaimed(question: &Question) -> Option<Answer> {
+    let reason = match &question.verify {
+        _ if matches!(question.kind, QuestionKind::Open { .. }) => return None,
+        Some(verify) if verify.claims_answer() => return None,
+        Some(_) => "its `verify` has neither `options` nor `value`",
+        None => "it has no `verify`",
+    };
+    Some(Answer::unverified(reason))
+}
+
+/// Looks at the texts of every `verify` object, and runs nothing.
+pub(super) fn bind(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) {
+    let allowance = Allowance::default();
+    for (_, owner) in owners(lesson) {
+        if let Some((verify, own, _)) = owner.claim()
+            && let Some(Ready { lab, model, programs, .. }) = target(lesson, ready, verify, own)
+            && let Some(bound) = BoundVerify::new(verify, lab, model, programs, &allowance, findings)
+        {
+            verify::look(&bound, verify, findings);
+        }
+    }
+}
+
+/// The lab that a `verify` object is about, if it can run.
+fn target<'r, 'l>(
+    lesson: &Lesson,
+    ready: &'r [Ready<'l>],
+    verify: &Verify,
+    own: Option<&Lab>,
+) -> Option<&'r Ready<'l>> {
+    let lab = match &verify.lab {
+        None => own,
+        Some(VerifyLab::Inline(lab)) => Some(&**lab),
+        Some(VerifyLab::Reference(_, address)) => lesson.lab(address),
+        Some(VerifyLab::Broken) => None,
+    };
+    lab.and_then(|lab| ready.iter().find(|r| std::ptr::eq(r.lab, lab)))
+}
+
+/// Judges every `verify` object of a lesson; questions without one are listed with an unverified answer.
+pub(super) fn check(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> Vec<Claim> {
+    let shown = ShownText::of(lesson);
+    let mut court = Court { lesson, ready, shown, allowance: Allowance::default(), list: Vec::new() };
+    for (name, owner) in owners(lesson) {
+        match owner {
+            Owner::Lab(lab) => court.judge_lab(name, lab, findings),
+            Owner::Question(question) => court.judge_question(name, question, findings),
         }
     }
     court.list
@@ -74,13 +144,8 @@ impl Court<'_> {
             Some(verify) => self.judge(verify, question.sim(), Some(question), findings),
             None => Judgement::default(),
         };
-        // An open question has no keyed answer that could be right or wrong.
-        if judgement.answer.is_none() && !matches!(question.kind, QuestionKind::Open { .. }) {
-            let reason = match question.verify {
-                Some(_) => "its `verify` has neither `options` nor `value`",
-                None => "it has no `verify`",
-            };
-            judgement.answer = Some(Answer::unverified(reason));
+        if judgement.answer.is_none() {
+            judgement.answer = unclaimed(question);
         }
         let span = question.verify.as_ref().map_or(&question.span, |v| &v.span).clone();
         if judgement != Judgement::default() {
@@ -95,13 +160,7 @@ impl Court<'_> {
         question: Option<&Question>,
         findings: &mut Vec<Finding>,
     ) -> Judgement {
-        let lab = match &verify.lab {
-            None => own,
-            Some(VerifyLab::Inline(lab)) => Some(&**lab),
-            Some(VerifyLab::Reference(_, address)) => self.lesson.lab(address),
-            Some(VerifyLab::Broken) => None,
-        };
-        let Some(target) = lab.and_then(|lab| self.ready.iter().find(|r| std::ptr::eq(r.lab, lab))) else {
+        let Some(target) = target(self.lesson, self.ready, verify, own) else {
             return verify::unmade(verify, question, "its lab cannot run");
         };
         let Ready { lab, model, programs, .. } = target;

@@ -1,8 +1,10 @@
 //! From what was checked to the ledger: one entry per claim.
 
+use super::claims::{self, Owner};
 use super::{Checked, Claim, RanLab};
 use crate::finding::{Finding, Severity};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
+use crate::source::Text;
 use crate::verify::{Measured, Quote, QuoteState, RunReport, Weight, significant};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -50,6 +52,7 @@ fn file(path: &Arc<str>, faults: usize) -> Entry {
 fn lesson(c: &Checked, ledger: &mut Ledger) {
     let mut all = Vec::new();
     claimed(c, &mut all);
+    left_out(c, &mut all);
     for mut entry in all {
         // A page cannot read a block whose JSON is broken, whatever was found by reading on behind the mistakes.
         if matches!(entry.state, State::True(_)) && c.lesson.is_broken(&entry.span) {
@@ -129,6 +132,45 @@ fn claimed(c: &Checked, ledger: &mut Vec<Entry>) {
             let what = r.name.clone();
             ledger.push(Entry { what, remark, ..entry(Subject::Run, &claim.name, &r.span, state, word) });
         }
+    }
+}
+
+/// What could be run and judged, and was not, because nobody asked for it. Where the claims alone are verified, nothing is said
+/// of the labs.
+fn left_out(c: &Checked, ledger: &mut Vec<Entry>) {
+    let entry = |subject, owner: &str, span: Range<usize>, what: &str| Entry {
+        subject,
+        owner: owner.to_string(),
+        path: c.lesson.file.path().clone(),
+        span,
+        state: State::LeftOut,
+        word: "left out",
+        what: what.to_string(),
+        remark: String::new(),
+    };
+    if !c.depth.labs && !c.depth.claims {
+        for (address, lab) in c.lesson.addressed() {
+            ledger.push(entry(Subject::Lab, &format!("lab {address}"), lab.span.clone(), lab.title()));
+        }
+    }
+    let owners = if c.depth.claims { Vec::new() } else { claims::owners(&c.lesson) };
+    for (name, owner) in owners {
+        if let Owner::Question(question) = owner
+            && let Some(answer) = claims::unclaimed(question)
+        {
+            let span = question.verify.as_ref().map_or(&question.span, |v| &v.span).clone();
+            let (state, word) = (answer.verdict.state(), answer.verdict.as_str());
+            let about = entry(Subject::Answer, &name, span, "");
+            ledger.push(Entry { state, word, remark: answer.reason, ..about });
+        }
+        let Some((verify, _, question)) = owner.claim() else { continue };
+        if question.is_some() && verify.claims_answer() {
+            ledger.push(entry(Subject::Answer, &name, verify.span.clone(), ""));
+        }
+        let mut add = |subject, text: &Text| ledger.push(entry(subject, &name, text.span(), text.as_str()));
+        verify.says.iter().for_each(|said| add(Subject::Quote, &said.quote));
+        verify.exact.iter().for_each(|exact| add(Subject::ClosedForm, &exact.trace));
+        verify.runs.iter().for_each(|run| add(Subject::Run, &run.name));
     }
 }
 

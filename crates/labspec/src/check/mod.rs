@@ -50,15 +50,28 @@ pub struct Checked {
     pub labs: Vec<RanLab>,
     /// The questions and the labs with claims.
     pub claims: Vec<Claim>,
+    /// What was asked for.
+    pub depth: Depth,
 }
 
-/// What a check does beyond structure and names.
+/// What a check does beyond structure, models and the names in every text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Depth {
+    /// Try what programs do that a page lets pass in silence.
+    pub programs: bool,
     /// Run every lab.
     pub labs: bool,
     /// Verify every claim.
     pub claims: bool,
+}
+
+impl Depth {
+    /// Everything.
+    pub const FULL: Depth = Depth { programs: true, labs: true, claims: true };
+    /// The claims alone.
+    pub const CLAIMS: Depth = Depth { labs: false, ..Depth::FULL };
+    /// Nothing is run: labs and claims stand in the ledger as left out.
+    pub const STATIC: Depth = Depth { programs: false, labs: false, claims: false };
 }
 
 /// A lab with its model and programs.
@@ -81,33 +94,45 @@ pub struct Found {
 /// Checks a lesson that has been read. Findings of model files are left in `models`.
 pub fn check(lesson: Lesson, models: &Models, depth: Depth) -> Checked {
     let found = examine(&lesson, models, depth);
-    join(lesson, found)
+    join(lesson, found, depth)
 }
 
 /// Binds, runs and verifies.
 pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
     let mut findings = Vec::new();
     let ready: Vec<Ready<'_>> =
-        lesson.all_labs().into_iter().filter_map(|lab| prepare(lab, models, &mut findings)).collect();
+        lesson.all_labs().into_iter().filter_map(|lab| prepare(lab, models, depth, &mut findings)).collect();
     let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
-    let claims = if depth.claims { claims::check(lesson, &ready, &mut findings) } else { Vec::new() };
+    let claims = if depth.claims {
+        claims::check(lesson, &ready, &mut findings)
+    } else {
+        claims::bind(lesson, &ready, &mut findings);
+        Vec::new()
+    };
     Found { findings, labs, claims }
 }
 
 /// A lesson together with what was found.
-pub fn join(lesson: Lesson, found: Found) -> Checked {
+pub fn join(lesson: Lesson, found: Found, depth: Depth) -> Checked {
     let Found { mut findings, labs, claims } = found;
     let mut all = lesson.findings.clone();
     crate::lint::withhold_fixes(&lesson, &mut findings);
     all.extend(findings.into_iter().map(|f| f.at(&lesson.file)));
     finding::sort(&mut all);
-    Checked { lesson, findings: all, labs, claims }
+    Checked { lesson, findings: all, labs, claims, depth }
 }
 
 /// Loads the model of a lab and binds its programs, and looks at what they do.
-fn prepare<'l>(lab: &'l Lab, models: &Models, findings: &mut Vec<Finding>) -> Option<Ready<'l>> {
+fn prepare<'l>(
+    lab: &'l Lab,
+    models: &Models,
+    depth: Depth,
+    findings: &mut Vec<Finding>,
+) -> Option<Ready<'l>> {
     let (model, programs, mistakes) = bind(lab, models, findings)?;
-    programs::check(lab, &model, &programs, findings);
+    if depth.programs {
+        programs::check(lab, &model, &programs, findings);
+    }
     Some(Ready { lab, model, programs, mistakes })
 }
 
@@ -135,23 +160,7 @@ pub(crate) fn bind(
         }
         return None;
     };
-    if let Some(key) = lab.key.as_ref().filter(|k| k.value >= model.nkey as f64) {
-        findings.push(
-            Finding::error(
-                rules::KEYFRAME_MISSING,
-                key.span.clone(),
-                format!("the model has no keyframe {}", key.value),
-            )
-            .why("the page then silently starts from the default configuration")
-            .help(match model.nkey {
-                0 => {
-                    "the model has no keyframes: leave `key` out, or add <keyframe><key …/></keyframe> to it"
-                        .to_string()
-                }
-                n => format!("its keyframes are 0 to {}", n - 1),
-            }),
-        );
-    }
+    rules::check_model(lab, &model, findings);
     let before = findings.len();
     let programs = Programs::compile_with(lab, &model, models.functions(), findings);
     let mistakes = findings.iter().skip(before).filter(|f| f.severity == Severity::Error).count();

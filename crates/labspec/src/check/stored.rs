@@ -17,11 +17,12 @@ const SEVERITIES: [Severity; 3] = [Severity::Error, Severity::Warning, Severity:
 const APPLICABILITIES: [Applicability; 3] =
     [Applicability::Safe, Applicability::Unsafe, Applicability::Display];
 const EVIDENCE: [Evidence; 2] = [Evidence::Computed, Evidence::Simulated];
-const STATES: [State; 5] = [
+const STATES: [State; 6] = [
     State::True(Evidence::Computed),
     State::True(Evidence::Simulated),
     State::False,
     State::Unchecked,
+    State::LeftOut,
     State::NotClaimed,
 ];
 const QUOTES: [QuoteState; 3] = [QuoteState::Right, QuoteState::Wrong, QuoteState::Unclear];

@@ -72,7 +72,8 @@ impl Cache {
 
     /// Everything that a result depends on, but for the models.
     fn key(&self, lesson: &Lesson, models: &Models, depth: Depth) -> String {
-        let flags = [depth.labs, depth.claims, models.folder().names().is_some()].map(u8::from);
+        let flags =
+            [depth.programs, depth.labs, depth.claims, models.folder().names().is_some()].map(u8::from);
         let file = &lesson.file;
         digest::hex_of(&[self.program.as_bytes(), &flags, file.path().as_bytes(), file.text().as_bytes()])
     }
@@ -114,7 +115,7 @@ fn folder() -> Option<PathBuf> {
 /// The name of a lesson's file in the cache.
 fn slot(path: &Path, depth: Depth) -> String {
     let real = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    let flags = [depth.labs, depth.claims].map(u8::from);
+    let flags = [depth.programs, depth.labs, depth.claims].map(u8::from);
     digest::hex_of(&[real.as_os_str().as_encoded_bytes(), &flags])
 }
 
@@ -241,7 +242,7 @@ mod tests {
     use crate::source::SourceFile;
     use std::cell::Cell;
 
-    const DEEP: Depth = Depth { labs: true, claims: true };
+    const DEEP: Depth = Depth::FULL;
     const LESSON: &str = r#"{"model": "drop", "title": "Drop", "stopAt": 0.1,
         "controls": [{"label": "v", "set": "data.qvel[2]", "min": 0, "max": 1, "value": 0}],
         "readouts": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "n", "expr": "data.qops"}],
@@ -335,7 +336,7 @@ mod tests {
         assert!(!fresh(&cache, LESSON, DEEP));
         assert!(fresh(&cache, &newer, DEEP), "the lesson");
         assert!(!fresh(&cache, &newer, DEEP));
-        assert!(fresh(&cache, &newer, Depth { labs: false, claims: true }), "the depth");
+        assert!(fresh(&cache, &newer, Depth::CLAIMS), "the depth");
         write_ball(top.path(), "<geom size='0.06'/>");
         assert!(fresh(&cache, &newer, DEEP), "a file that the model includes");
         assert!(!fresh(&cache, &newer, DEEP));

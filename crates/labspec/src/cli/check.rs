@@ -40,6 +40,17 @@ pub(super) struct Arguments {
     watch: bool,
 }
 
+/// Arguments of `check`.
+#[derive(clap::Args, Debug)]
+pub(super) struct CheckArguments {
+    #[command(flatten)]
+    common: Arguments,
+    /// Check structure, models and the names in every text, and run nothing: labs and claims are counted as left out,
+    /// and the exit code is 3 where nothing is wrong
+    #[arg(long)]
+    no_run: bool,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
     /// For people
@@ -48,12 +59,12 @@ enum Format {
     Json,
 }
 
-pub(super) fn check(a: &Arguments) -> Result<Outcome, Failure> {
-    work(a, Depth { labs: true, claims: true }, false)
+pub(super) fn check(a: &CheckArguments) -> Result<Outcome, Failure> {
+    work(&a.common, if a.no_run { Depth::STATIC } else { Depth::FULL }, false)
 }
 
 pub(super) fn verify(a: &Arguments) -> Result<Outcome, Failure> {
-    work(a, Depth { labs: false, claims: true }, true)
+    work(a, Depth::CLAIMS, true)
 }
 
 /// Checks once, or again and again as files change.
@@ -118,6 +129,7 @@ fn report(a: &Arguments, course: &Course, evidence: bool) -> Result<Outcome, Fai
         ledger::Outcome::Nothing => {
             Err(format!("there is nothing to check in {}: no lab, no question and no model", named()))
         }
+        ledger::Outcome::Partial => Ok(Outcome::Partial),
         ledger::Outcome::Clean => Ok(Outcome::Clean),
     }
 }
@@ -140,8 +152,8 @@ fn overview(course: &Course, with_evidence: bool) -> String {
             let same =
                 |e: &&&Entry| e.subject == entry.subject && e.owner == entry.owner && e.word == entry.word;
             let together = all.iter().skip(told).take_while(same).count().max(1);
-            let good = matches!(entry.state, State::True(_));
-            let n = if good && entry.subject != Subject::Lab { together } else { 1 };
+            let plain = matches!(entry.state, State::True(_) | State::LeftOut);
+            let n = if plain && entry.subject != Subject::Lab { together } else { 1 };
             told += n;
             if let Some(line) = line(entry, n) {
                 let _ = writeln!(text, "  {}", printable(&line));
@@ -162,13 +174,17 @@ fn overview(course: &Course, with_evidence: bool) -> String {
 fn line(entry: &Entry, n: usize) -> Option<String> {
     let remark = if entry.remark.is_empty() { String::new() } else { format!(": {}", entry.remark) };
     let good = matches!(entry.state, State::True(_));
+    let left_out = entry.state == State::LeftOut;
+    let titled = |what: &str| if what.is_empty() { String::new() } else { format!(" \"{what}\"") };
     let Entry { owner, what, word, .. } = entry;
     let many = |one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
     Some(match entry.subject {
         Subject::File => return None,
         Subject::Run if good && *word == "made" => return None,
+        Subject::Answer | Subject::Lab if left_out => format!("{word:<10} {owner}{}", titled(what)),
+        _ if left_out => format!("{word:<10} {owner}, {}", many(entry.subject.as_str())),
         Subject::Lab => {
-            let title = if what.is_empty() { String::new() } else { format!(" \"{what}\"") };
+            let title = titled(what);
             if good {
                 format!("{:<10} {owner}{title}", entry.remark)
             } else {
@@ -194,6 +210,7 @@ fn last_line(course: &Course) -> String {
         (0, ledger::Outcome::Clean) if found.notes > 0 => format!("nothing to complain about, {found}"),
         (0, ledger::Outcome::Clean) => "nothing to complain about".into(),
         (0, ledger::Outcome::Nothing) => "nothing to check".into(),
+        (0, ledger::Outcome::Partial) => "nothing wrong in what was checked, but nothing was run".into(),
         (0, ledger::Outcome::Findings) => "not everything could be checked".into(),
         _ => found.to_string(),
     };

@@ -265,7 +265,11 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
     }
     let found = cache.examine(path, &lesson, models, plan.depth, interrupted);
     // Runs may have been cut short: half of a check is none.
-    if interrupted() { Done::Interrupted } else { Done::Lesson(Box::new(check::join(lesson, found))) }
+    if interrupted() {
+        Done::Interrupted
+    } else {
+        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)))
+    }
 }
 
 /// The claim of a model that was named itself.

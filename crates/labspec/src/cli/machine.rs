@@ -29,7 +29,7 @@ pub(super) fn value(
 fn count(c: &Count) -> Value {
     json!({
         "simulated": c.simulated, "computed": c.computed, "false": c.wrong, "unchecked": c.unchecked,
-        "notClaimed": c.not_claimed,
+        "leftOut": c.left_out, "notClaimed": c.not_claimed,
     })
 }
 

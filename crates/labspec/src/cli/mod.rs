@@ -40,7 +40,7 @@ struct Cli {
 #[derive(Subcommand, Debug)]
 enum Command {
     /// Lint and run all labs and verify all quizzes of lessons, JSON files, or folders of them
-    Check(check::Arguments),
+    Check(check::CheckArguments),
     /// Verify the claims of quizzes and labs only, with every measure
     Verify(check::Arguments),
     /// Lay out the code in lessons; with --modernize, write bare indexes by name
@@ -104,6 +104,8 @@ impl Color {
 enum Outcome {
     Clean,
     Findings,
+    /// What was checked is in order, and not everything was asked for.
+    Partial,
 }
 
 /// Why a command could not run: a sentence for the user that says what to do next.
@@ -137,6 +139,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(_) if interrupted() => ExitCode::from(130),
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
         Ok(Outcome::Findings) => ExitCode::from(1),
+        Ok(Outcome::Partial) => ExitCode::from(3),
         Err(message) => {
             complain(&format!("labspec: {}\n", printable_lines(&message)));
             ExitCode::from(2)

@@ -1,3 +1,7 @@
+use super::Check;
+use crate::finding::Finding;
+use crate::spec::Lab;
+use labspec_core::Model;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// `key` names a keyframe that the model does not have.
@@ -14,3 +18,21 @@ pub const KEYFRAME_MISSING: &Rule = &Rule {
         r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody><keyframe><key qpos='1'/></keyframe></mujoco>", "key": 0}"#,
     ),
 };
+
+pub(super) const CHECK: Check = Check::Model(check);
+
+fn check(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
+    let Some(key) = lab.key.as_ref().filter(|k| k.value >= model.nkey as f64) else { return };
+    let message = format!("the model has no keyframe {}", key.value);
+    findings.push(
+        Finding::error(KEYFRAME_MISSING, key.span.clone(), message)
+            .why("the page then silently starts from the default configuration")
+            .help(match model.nkey {
+                0 => {
+                    "the model has no keyframes: leave `key` out, or add <keyframe><key …/></keyframe> to it"
+                        .to_string()
+                }
+                n => format!("its keyframes are 0 to {}", n - 1),
+            }),
+    );
+}

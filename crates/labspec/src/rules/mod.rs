@@ -12,6 +12,7 @@ pub use labspec_finding::{Example, Layer, Rule};
 
 use crate::finding::Finding;
 use crate::spec::{Control, Lab, Lesson, Question, Quiz};
+use labspec_core::Model;
 
 /// What a rule looks at. The runner walks the lesson ([`crate::lint`]).
 pub(crate) enum Check {
@@ -25,6 +26,17 @@ pub(crate) enum Check {
     Question(fn(&Question, &mut Vec<Finding>)),
     /// The lesson as a whole.
     Lesson(fn(&Lesson, &mut Vec<Finding>)),
+    /// Every lab with its model, once that is loaded.
+    Model(fn(&Lab, &Model, &mut Vec<Finding>)),
+}
+
+/// What a lab says of its model and the model does not have.
+pub(crate) fn check_model(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
+    for check in CHECKS {
+        if let Check::Model(check) = check {
+            check(lab, model, findings);
+        }
+    }
 }
 
 // Every file of this folder, by the build script.

@@ -3,7 +3,7 @@
 
 use super::{Cell, End, Session};
 use crate::bind::{Bound, Programs};
-use labspec_expr::{Access, Columnar, Effects, Recording, Type};
+use labspec_expr::{Access, Columnar, Effects, Foreign, Recording, Type};
 
 /// How the values of a trace or a readout are found.
 #[derive(Clone, Debug)]
@@ -20,6 +20,8 @@ enum Way<'p> {
 #[derive(Clone, Debug)]
 pub struct Samples<'p> {
     times: Vec<f64>,
+    /// The model that the programs were compiled for.
+    model: u64,
     recording: Recording,
     probes: Vec<Way<'p>>,
     /// Bytes of all texts.
@@ -35,7 +37,7 @@ impl<'p> Samples<'p> {
             // What another probe writes is read in the order of the probes.
             let reads = &bound.program.effects().reads;
             let fixed = !all().any(|other| may_write(other.program.effects(), reads));
-            match recording.columns(&bound.program).filter(|_| fixed) {
+            match recording.columns(&bound.program).ok().flatten().filter(|_| fixed) {
                 Some(columns) => Way::Columns(columns, bound.program.result_type() == Type::Boolean),
                 None => Way::Rows(bound, Vec::with_capacity(room)),
             }
@@ -43,7 +45,7 @@ impl<'p> Samples<'p> {
         let mut way = way;
         let probes = programs.probes.iter().map(|p| p.bound.as_ref().map_or(Way::Never, &mut way)).collect();
         recording.reserve(room);
-        Samples { times: Vec::with_capacity(room), recording, probes, text: 0 }
+        Samples { times: Vec::with_capacity(room), model: programs.model, recording, probes, text: 0 }
     }
 
     /// Number of probes that are recorded as columns, and of the different elements that these read.
@@ -58,13 +60,16 @@ impl<'p> Samples<'p> {
     }
 
     /// Takes a sample. What throws is nothing, as on the page.
-    pub fn take(&mut self, session: &mut Session<'_>) {
-        // What another model has at these places means nothing here.
-        if session.ended() == Some(&End::Foreign) {
-            return;
+    ///
+    /// # Errors
+    /// The probes were compiled for another model than the session runs: what that has at these places means nothing here, and no
+    /// sample is taken.
+    pub fn take(&mut self, session: &mut Session<'_>) -> Result<(), Foreign> {
+        if session.ended() == Some(&End::Foreign) || session.world.model.identity() != self.model {
+            return Err(Foreign::Identity);
         }
+        self.recording.sample(&session.world)?;
         self.times.push(session.world.data.time());
-        self.recording.sample(&session.world);
         for probe in &mut self.probes {
             if let Way::Rows(bound, cells) = probe {
                 let value = session.evaluate(&bound.program, &bound.text);
@@ -75,6 +80,7 @@ impl<'p> Samples<'p> {
                 cells.push(cell);
             }
         }
+        Ok(())
     }
 
     /// The samples as rows: time, then every probe.
@@ -88,7 +94,9 @@ impl<'p> Samples<'p> {
                 Way::Never => vec![Cell::Nothing; self.times.len()],
                 Way::Columns(columnar, truth) => {
                     let mut numbers = vec![0.0; self.times.len()];
-                    columnar.evaluate_into(&self.recording, &mut scratch, &mut numbers);
+                    if columnar.evaluate_into(&self.recording, &mut scratch, &mut numbers).is_err() {
+                        return vec![Cell::Nothing; self.times.len()];
+                    }
                     let cell = |x| if truth { Cell::Bool(x != 0.0) } else { Cell::Number(x) };
                     numbers.into_iter().map(cell).collect()
                 }

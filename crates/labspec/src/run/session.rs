@@ -438,7 +438,7 @@ impl<'p> Session<'p> {
         if let Some((_, ControlProgram::Change(_, action))) = programs.controls.get(index) {
             self.values[index] = value.clone();
             if let Some(slot) = action.param {
-                self.context.set(slot, value.clone());
+                self.context.store(&self.programs.globals, slot, value.clone());
             }
             self.run_action(action, &value);
         }

@@ -84,6 +84,11 @@ pub struct Said {
 }
 
 impl Verify {
+    /// Whether it says how the answer of its question is checked.
+    pub fn claims_answer(&self) -> bool {
+        !self.options.is_empty() || self.value.is_some()
+    }
+
     /// Every text that is code, with what it is.
     pub fn code(&self) -> Vec<(Form, &Text)> {
         let setups = self.runs.iter().filter_map(|r| r.setup.as_ref());

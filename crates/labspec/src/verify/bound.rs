@@ -204,6 +204,25 @@ impl<'a> BoundVerify<'a> {
         Some(Found { value, evidence, broke })
     }
 
+    /// Looks at the names of expressions over the outcome before there is one.
+    pub(super) fn look<'t>(&self, texts: impl Iterator<Item = &'t Text>, findings: &mut Vec<Finding>) {
+        // Some number stands for each measure: what only depends on the number is not said.
+        let run = |run: &BoundRun<'_>| RunOutcome {
+            name: run.name.to_string(),
+            measures: self.measures.iter().map(|(name, _)| (name.to_string(), 0.0)).collect(),
+            warnings: 0,
+            broke: None,
+        };
+        let outcome = Outcome { runs: self.runs.iter().map(run).collect(), numerics: Numerics::NOMINAL };
+        for text in texts {
+            let model = ModelNames::new(self.model, Scope::Measure).with(&self.programs.functions);
+            let names = OutcomeNames::new(&outcome, model);
+            let compiled = Compiler::new(&names, &mut self.globals.clone()).expression(&text.value);
+            let errors = compiled.diagnostics.iter().filter(|d| d.is_error());
+            findings.extend(errors.map(|d| to_finding(d, text)));
+        }
+    }
+
     /// A condition, taken apart.
     pub(super) fn weigh(&self, outcome: &Outcome, text: &Text, holds: bool) -> Weighed {
         let part = |code: &str| {

@@ -69,18 +69,9 @@ impl Differences {
 pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<Finding>) -> ClosedForm {
     let (lab, model, programs) = bound.lab();
     let unchecked = |reason: &str| ClosedForm::unchecked(claim, reason);
-    let mut traces = lab.traces().zip(&programs.probes);
-    let Some((_, probe)) = traces.find(|(trace, _)| trace.label.value == claim.trace.value) else {
-        findings.push(no_such_trace(claim, lab));
-        return unchecked("the lab has no such trace");
-    };
-    let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
-    let mut globals = programs.globals.clone();
-    let compiled = Compiler::new(&names, &mut globals).expression(&claim.form.value);
-    findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, &claim.form)));
-    let form = compiled.program.map(|program| Bound { text: claim.form.clone(), program });
-    let (Some(trace), Some(form)) = (&probe.bound, form) else {
-        return unchecked("the trace or its closed form has mistakes");
+    let (trace, form) = match bind(bound, claim, findings) {
+        Ok((trace, form)) => (trace, form),
+        Err(reason) => return unchecked(reason),
     };
     let case = Case { lab, model, programs, trace, form: &form };
     let mut runs = Vec::new();
@@ -125,6 +116,26 @@ pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<F
         );
     }
     ClosedForm { trace: claim.trace.value.clone(), span: claim.trace.span(), state, remark }
+}
+
+/// The trace and its closed form as programs. What is wrong goes to `findings`.
+pub(super) fn bind<'a>(
+    bound: &BoundVerify<'a>,
+    claim: &Exact,
+    findings: &mut Vec<Finding>,
+) -> Result<(&'a Bound, Bound), &'static str> {
+    let (lab, model, programs) = bound.lab();
+    let mut traces = lab.traces().zip(&programs.probes);
+    let Some((_, probe)) = traces.find(|(trace, _)| trace.label.value == claim.trace.value) else {
+        findings.push(no_such_trace(claim, lab));
+        return Err("the lab has no such trace");
+    };
+    let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
+    let mut globals = programs.globals.clone();
+    let compiled = Compiler::new(&names, &mut globals).expression(&claim.form.value);
+    findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, &claim.form)));
+    let form = compiled.program.map(|program| Bound { text: claim.form.clone(), program });
+    probe.bound.as_ref().zip(form).ok_or("the trace or its closed form has mistakes")
 }
 
 fn no_such_trace(claim: &Exact, lab: &Lab) -> Finding {

@@ -173,9 +173,17 @@ pub fn check(
     judgement
 }
 
+/// Looks at every text of a `verify` object, and runs nothing.
+pub(crate) fn look(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) {
+    let quoted = verify.says.iter().map(|said| &said.expr);
+    bound.look(verify.options.iter().chain(&verify.value).chain(quoted), findings);
+    for claim in &verify.exact {
+        let _ = exact::bind(bound, claim, findings);
+    }
+}
+
 /// What remains of a `verify` object whose runs cannot be made: claims that could not be checked.
 pub fn unmade(verify: &Verify, question: Option<&Question>, reason: &str) -> Judgement {
-    let claims_answer = !verify.options.is_empty() || verify.value.is_some();
     let quote = |said: &crate::spec::Said| Quote {
         text: said.quote.value.clone(),
         span: said.quote.span(),
@@ -191,7 +199,7 @@ pub fn unmade(verify: &Verify, question: Option<&Question>, reason: &str) -> Jud
         expected: run.breaks,
     };
     Judgement {
-        answer: question.filter(|_| claims_answer).map(|_| Answer::failed(reason)),
+        answer: question.filter(|_| verify.claims_answer()).map(|_| Answer::failed(reason)),
         quotes: verify.says.iter().map(quote).collect(),
         exact: verify.exact.iter().map(|e| ClosedForm::unchecked(e, reason)).collect(),
         runs: verify.runs.iter().map(run).collect(),
@@ -203,7 +211,7 @@ pub fn unmade(verify: &Verify, question: Option<&Question>, reason: &str) -> Jud
 /// Every run under every numerics that is needed.
 fn outcomes(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) -> Option<Outcomes> {
     let nominal = bound.outcome(Numerics::NOMINAL, findings)?;
-    let answers = !verify.options.is_empty() || verify.value.is_some();
+    let answers = verify.claims_answer();
     let needed = [answers || !verify.says.is_empty(), answers, answers || !verify.says.is_empty()];
     let mut perturbed = [None, None, None];
     for (i, (numerics, how)) in PERTURBED.into_iter().enumerate().filter(|(i, _)| needed[*i]) {

@@ -104,6 +104,10 @@ fn measures(run: &RunOutcome) -> impl Iterator<Item = String> + '_ {
 }
 
 impl Schema for OutcomeNames<'_> {
+    fn identity(&self) -> u64 {
+        self.model.identity()
+    }
+
     fn root(&self, name: &str) -> Option<Entry> {
         if let Some(i) = self.outcome.runs.iter().position(|r| r.name == name) {
             return Some(Entry::Object(ObjectId(RUNS + i as u32)));

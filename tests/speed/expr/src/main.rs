@@ -87,17 +87,17 @@ fn error_expression() -> Vec<(&'static str, f64)> {
     assert_eq!(reads.len(), 2);
 
     let mut recording = Recording::new();
-    let columnar = recording.columns(&program).expect("it computes with numbers");
+    let columnar = recording.columns(&program).expect("the first").expect("it computes with numbers");
     let data = Data::planned(&model, Plan::full());
     let mut world = World { data, model: model.clone(), key: None, own: labspec::Functions::new() };
     for i in 0..SAMPLES {
         let (q, t) = at(i);
         world.set(keys[1], 2, q).and_then(|()| world.set(keys[0], 0, t)).expect("both may be set");
-        recording.sample(&world);
+        recording.sample(&world).expect("its own model");
     }
     let (mut scratch, mut out) = (Vec::new(), vec![0.0; SAMPLES]);
     let whole = time(200, |_| {
-        columnar.evaluate_into(black_box(&recording), &mut scratch, &mut out);
+        columnar.evaluate_into(black_box(&recording), &mut scratch, &mut out).expect("its own recording");
         black_box(&out);
     });
     rows.push(("columnar, per sample", whole / SAMPLES as f64));

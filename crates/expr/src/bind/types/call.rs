@@ -466,7 +466,8 @@ impl<'a> Binder<'a> {
             match bound {
                 Ok(Some(ir)) => {
                     super::note_views(&tree.views, &mut effects);
-                    programs.push(Program::new(&tree, effects, ir.ty, aggregates));
+                    let identity = self.schema.identity();
+                    programs.push(Program::new(&tree, effects, ir.ty, aggregates, identity, &self.globals));
                 }
                 Ok(None) => {}
                 Err(Reported) => failed = true,

@@ -2,14 +2,16 @@
 
 use super::describe::{default, takes};
 use super::scan::{Scan, Scope, Spot, Step, scan};
-use super::{Family, Key, LAB, Object, QUIZ, Together, Type, Word};
+use super::{Family, Key, LAB, Named, Object, QUIZ, Together, Type, Word};
+use crate::json::encode;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Something that can be written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {
     /// The key or the word, without quotes.
-    pub text: &'static str,
+    pub text: Cow<'static, str>,
     /// A key of an object, rather than a value.
     pub is_key: bool,
     /// The bytes that it replaces: what is written there already, quotes included.
@@ -26,10 +28,24 @@ pub struct Completion {
     pub required: bool,
 }
 
+/// Names that a completion asks for, because only the models know them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked<'a> {
+    /// The models that there are.
+    Models,
+    /// The sites of the model of this name.
+    SitesOf(&'a str),
+    /// The sites of a model that is written in the lab itself.
+    SitesIn(&'a str),
+}
+
 /// What can be written at a byte offset of the JSON of a lab or a quiz, or of a list of them, in the order of the
 /// reference page. The text may be incomplete and broken. What is written there already chooses among the words; where
 /// no word begins so, all are given. Inside of code and of free text there is nothing.
-pub fn completions(text: &str, offset: usize) -> Vec<Completion> {
+///
+/// `names` says which names there are: `&|asked| models.names(asked)` with [`crate::bind::scene::Models`], or
+/// `&|_| Vec::new()` where nobody knows.
+pub fn completions(text: &str, offset: usize, names: &dyn Fn(Asked<'_>) -> Vec<String>) -> Vec<Completion> {
     let mut offset = offset.min(text.len());
     while !text.is_char_boundary(offset) {
         offset -= 1;
@@ -46,7 +62,10 @@ pub fn completions(text: &str, offset: usize) -> Vec<Completion> {
                 (Holder::Keys(keys), Step::Key(name)) => keys.iter().find(|k| k.name == name).copied(),
                 _ => None,
             };
-            values(key, inside(&holder, step), scope, spot)
+            match inside(&holder, step) {
+                Some(Type::Name(named)) => known(key, ask(named, scope, names), spot),
+                of => values(key, of, scope, spot),
+            }
         }
     };
     let written = text.get(spot.written.start..offset).unwrap_or("").trim_start_matches('"').to_lowercase();
@@ -174,7 +193,7 @@ fn keys(holder: &Holder, scope: &Scope, spot: &Spot, colon: bool) -> Vec<Complet
             .iter()
             .filter(|k| !stands(k.name))
             .map(|k| Completion {
-                text: k.name,
+                text: k.name.into(),
                 is_key: true,
                 replace: spot.written.clone(),
                 insert: insert(k.name),
@@ -188,7 +207,7 @@ fn keys(holder: &Holder, scope: &Scope, spot: &Spot, colon: bool) -> Vec<Complet
             .iter()
             .filter(|w| !stands(w.text))
             .map(|w| Completion {
-                text: w.text,
+                text: w.text.into(),
                 is_key: true,
                 replace: spot.written.clone(),
                 insert: insert(w.text),
@@ -205,7 +224,7 @@ fn keys(holder: &Holder, scope: &Scope, spot: &Spot, colon: bool) -> Vec<Complet
 /// The words that a place takes. `key` is what it is the value of.
 fn values(key: Option<&'static Key>, of: Option<Type>, scope: &Scope, spot: &Spot) -> Vec<Completion> {
     let value = |text: &'static str, insert: String, doc: &'static str, takes: String| Completion {
-        text,
+        text: text.into(),
         is_key: false,
         replace: spot.written.clone(),
         insert,
@@ -230,4 +249,35 @@ fn values(key: Option<&'static Key>, of: Option<Type>, scope: &Scope, spot: &Spo
         }
         _ => Vec::new(),
     }
+}
+
+/// The names that a place takes. Where nothing tells of which model, there are none.
+fn ask(named: Named, scope: &Scope, names: &dyn Fn(Asked<'_>) -> Vec<String>) -> Vec<String> {
+    let text = |key: &str| {
+        let (_, raw) = scope.keys.iter().find(|(name, _)| name == key)?;
+        // What is written between the quotes; damaged escapes stay as they are.
+        let raw = raw.as_ref()?;
+        Some(serde_json::from_str::<String>(&format!("\"{raw}\"")).unwrap_or_else(|_| raw.clone()))
+    };
+    match (named, text("model"), text("xml")) {
+        (Named::Model, ..) => names(Asked::Models),
+        (Named::Site, Some(model), _) => names(Asked::SitesOf(&model)),
+        (Named::Site, None, Some(xml)) => names(Asked::SitesIn(&xml)),
+        (Named::Site, None, None) => Vec::new(),
+    }
+}
+
+/// Names, for the place of one.
+fn known(key: Option<&'static Key>, names: Vec<String>, spot: &Spot) -> Vec<Completion> {
+    let name = |name: String| Completion {
+        is_key: false,
+        replace: spot.written.clone(),
+        insert: format!("\"{}\"", encode(&name)),
+        text: name.into(),
+        doc: key.map_or("", |k| k.doc),
+        takes: key.map(takes).unwrap_or_default(),
+        default: key.and_then(default).map(|value| value.to_string()),
+        required: false,
+    };
+    names.into_iter().map(name).collect()
 }

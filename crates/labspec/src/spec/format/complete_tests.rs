@@ -4,16 +4,24 @@ use super::*;
 use crate::markdown::{self, BlockKind};
 use crate::source::SourceFile;
 use proptest::prelude::*;
+use std::borrow::Cow;
 use std::ops::Range;
+
+/// Nothing is known of models.
+const NONE: fn(Asked<'_>) -> Vec<String> = |_| Vec::new();
 
 /// The words at the bar, which is taken out of the text.
 fn at(marked: &str) -> Vec<&'static str> {
-    all(marked).into_iter().map(|c| c.text).collect()
+    let word = |text: Cow<'static, str>| match text {
+        Cow::Borrowed(word) => word,
+        Cow::Owned(name) => panic!("{name}: no models are known"),
+    };
+    all(marked).into_iter().map(|c| word(c.text)).collect()
 }
 
 fn all(marked: &str) -> Vec<Completion> {
     let offset = marked.find('¦').unwrap();
-    completions(&marked.replace('¦', ""), offset)
+    completions(&marked.replace('¦', ""), offset, &NONE)
 }
 
 /// The text with a completion put in.
@@ -95,6 +103,32 @@ fn a_value_takes_its_words() {
     assert_eq!(taken(r#"{"controls": [{"type": se¦}]}"#, "select"), r#"{"controls": [{"type": "select"}]}"#);
 }
 
+/// The models give their own names and those of their sites, of the lab that stands around the place.
+#[test]
+fn names_come_from_the_models() {
+    let names = |asked: Asked<'_>| match asked {
+        Asked::Models => ["fall", "swing", "spin"].map(String::from).to_vec(),
+        Asked::SitesOf("swing") => ["tip", "top", "a\"b"].map(String::from).to_vec(),
+        Asked::SitesIn("<mujoco model=\"m\"/>") => vec!["inside".into()],
+        other => panic!("{other:?}"),
+    };
+    let offered = |marked: &str| {
+        let at = marked.find('¦').unwrap();
+        let all = completions(&marked.replace('¦', ""), at, &names);
+        all.into_iter().map(|c| (c.text.into_owned(), c.insert)).collect::<Vec<_>>()
+    };
+    let texts = |marked: &str| offered(marked).into_iter().map(|(text, _)| text).collect::<Vec<_>>();
+    assert_eq!(texts(r#"{"model": "¦"}"#), ["fall", "swing", "spin"]);
+    assert_eq!(texts(r#"{"model": "s¦"}"#), ["swing", "spin"]);
+    assert_eq!(texts(r#"{"model": "swing", "trail": "t¦"}"#), ["tip", "top"]);
+    assert_eq!(offered(r#"{"trail": "a¦", "model": "swing"}"#), [("a\"b".into(), r#""a\"b""#.into())]);
+    assert_eq!(texts(r#"{"xml": "<mujoco model=\"m\"/>", "trail": ¦}"#), ["inside"]);
+    // The model is that of the lab, not of one around it; without a model there are no sites.
+    let sim = r#"{"id": "q", "questions": [{"kind": "predict", "sim": {"model": "swing", "trail": "¦"}}]}"#;
+    assert_eq!(texts(sim).len(), 3);
+    assert_eq!(texts(r#"{"trail": "¦"}"#), Vec::<String>::new());
+}
+
 #[test]
 fn in_code_and_free_text_and_between_values_there_is_nothing() {
     for marked in [
@@ -128,11 +162,11 @@ fn in_code_and_free_text_and_between_values_there_is_nothing() {
 fn each_says_what_it_means_what_it_takes_and_what_counts_without_it() {
     let height = all(r#"{"model": "fall", "hei¦"#).remove(0);
     assert_eq!(
-        (height.text, height.doc, height.takes.as_str(), height.default.as_deref(), height.required),
+        (&*height.text, height.doc, height.takes.as_str(), height.default.as_deref(), height.required),
         ("height", "the height of the picture", "number above 0, in px", Some("300"), false)
     );
     let select = all(r#"{"controls": [{"type": "sel¦"}]}"#).remove(0);
-    assert_eq!((select.text, select.doc, select.is_key), ("select", "one of several values", false));
+    assert_eq!((&*select.text, select.doc, select.is_key), ("select", "one of several values", false));
     assert_eq!(
         (select.takes.as_str(), select.default.as_deref()),
         (r#""slider", "select", "button""#, Some("\"slider\""))
@@ -160,7 +194,7 @@ fn bodies() -> Vec<String> {
 fn no_offset_of_a_lesson_is_a_panic() {
     for text in bodies() {
         for offset in 0..=text.len() + 1 {
-            for c in completions(&text, offset) {
+            for c in completions(&text, offset, &NONE) {
                 assert!(text.get(c.replace).is_some());
             }
         }
@@ -193,7 +227,7 @@ fn at_every_key_of_a_lesson_it_is_offered_and_its_neighbours_are_not() {
         keys_of(&parsed.node.unwrap(), &mut keys);
         let declared = |name: &str| OBJECTS.iter().any(|o| o.key(name).is_some());
         for (span, name, all) in keys {
-            let whole = completions(&text, span.start);
+            let whole = completions(&text, span.start, &NONE);
             // A name that the author chose: the label of a control, a run, a measure.
             if whole.is_empty() || !declared(&name) {
                 continue;
@@ -206,11 +240,14 @@ fn at_every_key_of_a_lesson_it_is_offered_and_its_neighbours_are_not() {
             for (text, offset) in
                 [(&text, span.start), (&text, span.end), (&before.to_string(), half), (&unclosed, half)]
             {
-                let offered: Vec<&str> = completions(text, offset).into_iter().map(|c| c.text).collect();
-                assert!(offered.contains(&name.as_str()), "{name} at {offset}: {offered:?}\n{text}");
+                let offered: Vec<_> = completions(text, offset, &NONE).into_iter().map(|c| c.text).collect();
+                assert!(
+                    offered.contains(&Cow::Borrowed(name.as_str())),
+                    "{name} at {offset}: {offered:?}\n{text}"
+                );
             }
             for other in all.iter().filter(|k| **k != name) {
-                assert!(!whole.iter().any(|c| c.text == other), "{other} beside {name}");
+                assert!(!whole.iter().any(|c| c.text == other.as_str()), "{other} beside {name}");
             }
         }
     }
@@ -222,7 +259,7 @@ fn at_every_key_of_a_lesson_it_is_offered_and_its_neighbours_are_not() {
 fn a_hostile_line_takes_no_longer_than_its_length() {
     for piece in ["\"a,\\", "\"\\", "{\"", "[\"a, ", "\"a\"b"] {
         let text = format!("{{{}", piece.repeat(200_000));
-        completions(&text, text.len());
+        completions(&text, text.len(), &NONE);
     }
 }
 
@@ -236,7 +273,7 @@ proptest! {
     ]), 0..30)) {
         let text = pieces.concat();
         for offset in 0..=text.len() {
-            for c in completions(&text, offset) {
+            for c in completions(&text, offset, &NONE) {
                 prop_assert!(text.get(c.replace).is_some());
             }
         }

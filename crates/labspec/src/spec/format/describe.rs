@@ -21,7 +21,7 @@ pub(super) fn takes(key: &Key) -> String {
 
 fn kind(of: &Type) -> String {
     match of {
-        Type::Text => "text".into(),
+        Type::Text | Type::Name(_) => "text".into(),
         Type::Html => "text, may hold HTML".into(),
         Type::Code(Form::Expression) => "code: an expression".into(),
         Type::Code(Form::Statements) => "code: statements".into(),
@@ -47,7 +47,7 @@ fn kind(of: &Type) -> String {
 
 fn plural(of: &Type) -> String {
     match of {
-        Type::Text => "texts".into(),
+        Type::Text | Type::Name(_) => "texts".into(),
         Type::Html => "texts, may hold HTML".into(),
         Type::Code(Form::Expression) => "expressions".into(),
         Type::Number => "numbers".into(),

@@ -1,16 +1,20 @@
 //! What can be written at a place of a lesson: that of the JSON which stands there.
 
-use super::{Completion, completions};
+use super::{Asked, Completion, completions};
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::SourceFile;
 use crate::spec::{FileKind, kind_of};
 use std::path::Path;
 
 /// What can be written at a byte offset of a lesson (Markdown) or of a JSON file; nothing outside of labs and quizzes. Places
-/// are bytes of the file.
-pub fn completions_in(file: &SourceFile, offset: usize) -> Vec<Completion> {
+/// are bytes of the file; `names` says which names there are, as for [`completions`].
+pub fn completions_in(
+    file: &SourceFile,
+    offset: usize,
+    names: &dyn Fn(Asked<'_>) -> Vec<String>,
+) -> Vec<Completion> {
     if kind_of(Path::new(&**file.path())) == FileKind::Json {
-        return completions(file.text(), offset);
+        return completions(file.text(), offset, names);
     }
     let holds = |block: &&Block| {
         let span = block.body.span();
@@ -28,7 +32,7 @@ pub fn completions_in(file: &SourceFile, offset: usize) -> Vec<Completion> {
             here.end = middle;
         }
     }
-    let found = completions(&body.value, here.start).into_iter();
+    let found = completions(&body.value, here.start, names).into_iter();
     let whole = found.filter(|c| body.map.is_unbroken(c.replace.clone()));
     whole.map(|c| Completion { replace: body.map.span(c.replace), ..c }).collect()
 }
@@ -38,14 +42,14 @@ mod tests {
     use super::*;
 
     /// What is offered where `|` stands, and what the first of it makes of the lesson.
-    fn offered(lesson: &str) -> (Vec<&'static str>, String) {
+    fn offered(lesson: &str) -> (Vec<String>, String) {
         let at = lesson.find('|').unwrap();
         let mut text = lesson.replace('|', "");
-        let all = completions_in(&SourceFile::new("a.md", text.as_str()), at);
+        let all = completions_in(&SourceFile::new("a.md", text.as_str()), at, &|_| Vec::new());
         if let Some(first) = all.first() {
             text.replace_range(first.replace.clone(), &first.insert);
         }
-        (all.iter().map(|c| c.text).collect(), text)
+        (all.into_iter().map(|c| c.text.into_owned()).collect(), text)
     }
 
     #[test]
@@ -66,7 +70,7 @@ mod tests {
     fn elsewhere_there_is_nothing() {
         for lesson in ["See \"ti|\".\n", "```python\nx = \"ti|\"\n```\n", "```lab simlab\n{}\n```\n\"ti|\"\n"]
         {
-            assert_eq!(offered(lesson).0, Vec::<&str>::new(), "{lesson}");
+            assert_eq!(offered(lesson).0, Vec::<String>::new(), "{lesson}");
         }
     }
 
@@ -75,7 +79,7 @@ mod tests {
         let text = "> ```lab simlab\n> {“model”: \"ball\", 'é': [\n\n```quiz {\"q\n```lab simlab\n{\"a\": \"\\u00e9\"\n";
         let file = SourceFile::new("a.md", text);
         for at in 0..=text.len() + 2 {
-            for c in completions_in(&file, at) {
+            for c in completions_in(&file, at, &|_| vec!["é".into()]) {
                 assert!(text.get(c.replace.clone()).is_some(), "{at}: {:?}", c.replace);
             }
         }

@@ -1,6 +1,6 @@
 //! The lab and its camera, and the order in which things happen.
 
-use super::{Absent, CONTROL, Key, Object, PLOT, READOUT, Together, Type, VERIFY, Word, key};
+use super::{Absent, CONTROL, Key, Named, Object, PLOT, READOUT, Together, Type, VERIFY, Word, key};
 use crate::spec::Form;
 
 /// What can be drawn over the scene.
@@ -47,7 +47,7 @@ pub static LAB: Object = Object {
     keys: &[
         key(
             "model",
-            Type::Text,
+            Type::Name(Named::Model),
             "the name of a model in the folder of models, without path and ending",
             r#""fall""#,
         ),
@@ -106,7 +106,7 @@ pub static LAB: Object = Object {
             .or(Absent::Number(0.02)),
         key(
             "trail",
-            Type::Text,
+            Type::Name(Named::Site),
             "the name of a site of the model; the path that it takes is drawn as a line",
             r#""tip""#,
         ),

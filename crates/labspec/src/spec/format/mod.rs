@@ -20,7 +20,7 @@ mod schema;
 mod tests;
 mod verify;
 
-pub use complete::{Completion, completions};
+pub use complete::{Asked, Completion, completions};
 pub use control::{BUTTON, CONTROL, SELECT, SLIDER};
 pub use in_lesson::completions_in;
 pub use lab::{CAMERA, EVENTS, LAB, OVERLAYS};
@@ -113,6 +113,8 @@ pub struct Key {
 pub enum Type {
     /// Text, shown as it is.
     Text,
+    /// The name of something that the models have.
+    Name(Named),
     /// Text that may hold HTML.
     Html,
     /// Code of the lab's language.
@@ -143,6 +145,15 @@ pub enum Type {
     OneOf(&'static Family),
     /// One or the other.
     Either(&'static Type, &'static Type),
+}
+
+/// What a name is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Named {
+    /// A model of the folder of models.
+    Model,
+    /// A site of the lab's own model.
+    Site,
 }
 
 /// A word that a key takes, and what it means.

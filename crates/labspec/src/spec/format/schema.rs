@@ -136,7 +136,7 @@ fn value(of: &Type, limits: &Limits) -> Map<String, Value> {
     let none = Limits::default();
     let typed = |name: &str| object([("type", json!(name))]);
     match of {
-        Type::Text | Type::Html | Type::Code(_) => typed("string"),
+        Type::Text | Type::Name(_) | Type::Html | Type::Code(_) => typed("string"),
         Type::Number => bounded(typed("number"), limits),
         Type::Whole => bounded(typed("integer"), limits),
         Type::Flag => typed("boolean"),

@@ -87,15 +87,18 @@ fn load(object: &Object, value: &Value) -> Lesson {
     load_lesson(SourceFile::new("t.md", lesson_text(object, value)), &models)
 }
 
-/// What is found when labs run and claims are checked, with the model of the examples, which gets a keyframe.
+/// What is found when labs run and claims are checked, with the model of the examples, which gets a keyframe and a site.
 fn checked(object: &Object, value: &Value) -> Vec<Finding> {
     let folder = tempfile::tempdir().unwrap();
     let model = include_str!("../../../../../specs/models/fall.xml");
-    let model = model.replace("</mujoco>", "<keyframe><key qpos='0 0 1 1 0 0 0'/></keyframe></mujoco>");
+    let model = model.replace(
+        "</mujoco>",
+        "<worldbody><site name='tip'/></worldbody><keyframe><key qpos='0 0 1 1 0 0 0'/></keyframe></mujoco>",
+    );
     std::fs::write(folder.path().join("fall.xml"), model).unwrap();
     let models = Models::new(ModelFolder::open(folder.path()).unwrap());
     let lesson = load_lesson(SourceFile::new("t.md", lesson_text(object, value)), models.folder());
-    check::check(lesson, &models, Depth { labs: true, claims: true }).findings
+    check::check(lesson, &models, Depth::FULL).findings
 }
 
 fn every_key() -> impl Iterator<Item = (&'static Object, &'static Key)> {
@@ -203,7 +206,9 @@ fn wrong(of: &Type) -> Vec<(Value, Value)> {
         wrong(of).into_iter().map(|(v, part)| (hold(v), part)).collect::<Vec<_>>()
     };
     match of {
-        Type::Text | Type::Html | Type::Code(_) => whole(&[json!(707), json!(true), json!(["a"])]),
+        Type::Text | Type::Name(_) | Type::Html | Type::Code(_) => {
+            whole(&[json!(707), json!(true), json!(["a"])])
+        }
         Type::Number => whole(&[json!("seven"), json!(true), json!([707])]),
         Type::Whole => whole(&[json!("seven"), json!(1.5)]),
         Type::Flag => whole(&[json!("yes"), json!(707)]),
