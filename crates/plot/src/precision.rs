@@ -22,6 +22,21 @@ pub struct Method {
     pub label: String,
     /// Its runs, in the order of the timestep.
     pub points: Vec<MethodPoint>,
+    /// It is another program's version of the method at this index: the same colour and shape, hollow and dashed.
+    pub echo: Option<usize>,
+}
+
+/// How a method is drawn.
+#[derive(Clone, Copy)]
+struct Look {
+    index: usize,
+    hollow: bool,
+}
+
+impl Look {
+    fn of(index: usize, method: &Method) -> Look {
+        Look { index: method.echo.unwrap_or(index), hollow: method.echo.is_some() }
+    }
 }
 
 /// One run of a method.
@@ -134,10 +149,11 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
     let placed = place(&methods, (&outer, &inner), &x, &y, diverging);
     plot(&mut canvas, chart, &placed, &outer);
     legend::draw(&mut canvas, &legend, &outer, below, |canvas, index, at| {
-        canvas.open(&stroke(index));
+        let look = chart.methods.get(index).map_or(Look { index, hollow: false }, |m| Look::of(index, m));
+        canvas.open(&stroke(look));
         canvas.line(at, (at.0 + STROKE, at.1));
         canvas.close();
-        mark(canvas, index, (at.0 + STROKE / 2.0, at.1));
+        mark(canvas, look, (at.0 + STROKE / 2.0, at.1));
     });
     canvas.finish()
 }
@@ -206,18 +222,19 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], fra
     for (index, (method, curve)) in chart.methods.iter().zip(&curves).enumerate() {
         let data = path(curve);
         if !data.is_empty() {
-            canvas.named(&stroke(index), &method.label);
+            canvas.named(&stroke(Look::of(index, method)), &method.label);
             canvas.path(&data);
             canvas.close();
         }
     }
     let mut wishes = Vec::new();
-    for (index, method) in methods.iter().enumerate() {
+    for (index, (method, drawn)) in methods.iter().zip(&chart.methods).enumerate() {
+        let look = Look::of(index, drawn);
         for (i, run) in method.iter().enumerate() {
             if run.error == Error::Diverged {
-                cross(canvas, index, run.at);
+                cross(canvas, look.index, run.at);
             } else {
-                mark(canvas, index, run.at);
+                mark(canvas, look, run.at);
             }
             let text = fit(&clean(run.note), SMALL, 0.2 * frame.width());
             wishes.push(Wish { point: run.at, text, first: i == 0 || i + 1 == method.len() });
@@ -241,15 +258,23 @@ fn connected(method: &[Placed]) -> Vec<Vec<Point>> {
     parts.filter(|p| p.len() > 1).map(|p| p.iter().map(|run| run.at).collect()).collect()
 }
 
-fn stroke(index: usize) -> String {
-    let pattern = dash(index, false).map(|d| format!(" stroke-dasharray=\"{d}\"")).unwrap_or_default();
-    format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"{pattern}", colour(index))
+fn stroke(look: Look) -> String {
+    let pattern = if look.hollow { Some("2 3") } else { dash(look.index, false) };
+    let pattern = pattern.map(|d| format!(" stroke-dasharray=\"{d}\"")).unwrap_or_default();
+    format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"{pattern}", colour(look.index))
 }
 
 /// The mark of a run. Its shape goes with the colour, for print without colours.
-fn mark(canvas: &mut Canvas, index: usize, at: Point) {
-    canvas.open(&format!("fill=\"{}\" stroke=\"#ffffff\" stroke-width=\"0.75\"", colour(index)));
-    canvas.path(&shape(index, at));
+fn mark(canvas: &mut Canvas, look: Look, at: Point) {
+    let [fill, edge] = match look.hollow {
+        false => [colour(look.index), "#ffffff"],
+        true => ["#ffffff", colour(look.index)],
+    };
+    canvas.open(&format!(
+        "fill=\"{fill}\" stroke=\"{edge}\" stroke-width=\"{}\"",
+        if look.hollow { 1.25 } else { 0.75 }
+    ));
+    canvas.path(&shape(look.index, at));
     canvas.close();
 }
 

@@ -68,6 +68,7 @@ fn precision() -> WorkPrecision {
                 failed: i < fails,
             })
             .collect(),
+        echo: None,
     };
     WorkPrecision {
         title: "Pendulum: error after 10 s against run time".into(),
@@ -92,9 +93,17 @@ fn strips() -> WorkPrecision {
         xlabel: "error (m)".into(),
         ylabel: "steps per second".into(),
         methods: vec![
-            Method { label: "exact".into(), points: closed },
-            Method { label: "a method with a name that is too long for the right side".into(), points: wild },
-            Method { label: "cost unknown".into(), points: vec![point(f64::NAN, 1e-3, "", false)] },
+            Method { label: "exact".into(), points: closed, echo: None },
+            Method {
+                label: "a method with a name that is too long for the right side".into(),
+                points: wild,
+                echo: Some(0),
+            },
+            Method {
+                label: "cost unknown".into(),
+                points: vec![point(f64::NAN, 1e-3, "", false)],
+                echo: None,
+            },
         ],
         width: 480.0,
         height: 260.0,
@@ -244,8 +253,11 @@ fn series() -> impl Strategy<Value = Series> {
 fn method() -> impl Strategy<Value = Method> {
     let point = (number(), number(), any::<String>(), any::<bool>())
         .prop_map(|(cost, error, note, failed)| MethodPoint { cost, error, note, failed });
-    (any::<String>(), prop::collection::vec(point, 0..12))
-        .prop_map(|(label, points)| Method { label, points })
+    (any::<String>(), prop::collection::vec(point, 0..12)).prop_map(|(label, points)| Method {
+        label,
+        points,
+        echo: None,
+    })
 }
 
 proptest! {

@@ -5,16 +5,16 @@ use super::output::{Wanted, look_ahead, write_with};
 use super::stdio::{print_json, stream};
 use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
 use crate::precision::{
-    Axis, Compared, Fate, INTEGRATORS, Integrator, Options, Report, Row, compare, milliseconds,
+    Axis, Compared, Fate, INTEGRATORS, Integrator, Options, Recording, Report, Row, compare, milliseconds,
 };
-use crate::report::{key, printable, set_number, set_numbers};
+use crate::report::{key, printable, printable_path, set_number, set_numbers};
 use crate::verify::significant;
 use clap::ValueEnum;
 use labspec_plot::{Method, MethodPoint, WorkPrecision, work_precision};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `precision`.
 #[derive(clap::Args, Debug)]
@@ -38,6 +38,9 @@ pub(super) struct Arguments {
     /// Vary a setting of the constraint solver as well
     #[arg(long, value_enum, value_name = "SETTING")]
     vary: Vec<Vary>,
+    /// Another program's runs of the same lab, to stand beside ours
+    #[arg(long, value_name = "FILE")]
+    beside: Option<PathBuf>,
     /// How to print
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
@@ -74,6 +77,7 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
         press: a.press.iter().map(|s| press(&target.lab, s)).collect::<Result<_, _>>()?,
         integrators: integrators(&a.integrator)?,
         axes: a.vary.iter().map(|v| v.axis()).collect(),
+        beside: a.beside.as_ref().map(|path| recording(path)).transpose()?,
     };
     let mut findings = Vec::new();
     let report =
@@ -114,6 +118,19 @@ impl Vary {
     }
 }
 
+/// Bytes of a recording, at most.
+const MOST: u64 = 256 << 20;
+
+fn recording(path: &Path) -> Result<Recording, Failure> {
+    let named = |e: String| format!("cannot use {}: {e}", printable_path(path));
+    let size = std::fs::metadata(path).map_err(|e| named(e.to_string()))?.len();
+    if size > MOST {
+        return Err(named(format!("it has {size} bytes; the limit is {MOST}")));
+    }
+    let text = std::fs::read_to_string(path).map_err(|e| named(e.to_string()))?;
+    Recording::read(&text).map_err(named)
+}
+
 fn integrators(names: &[String]) -> Result<Vec<Integrator>, Failure> {
     if names.iter().any(|n| n == "all") {
         return Ok(INTEGRATORS.to_vec());
@@ -144,12 +161,35 @@ fn chart(report: &Report, title: &str) -> String {
             .filter(|row| row.setting.integrator == *integrator && row.setting.solver.is_none())
             .map(point)
             .collect(),
+        echo: None,
     });
+    let mut methods: Vec<Method> = methods.collect();
+    if let Some(beside) = &report.beside {
+        let engine = beside.engine.split(' ').next().unwrap_or_default();
+        for i in 0..methods.len() {
+            let rows = beside.rows.iter().filter(|row| row.integrator == methods[i].label);
+            let points: Vec<MethodPoint> = rows
+                .map(|row| MethodPoint {
+                    cost: row.cost,
+                    error: row.errors.first().map_or(f64::NAN, |e| e.largest),
+                    note: String::new(),
+                    failed: false,
+                })
+                .collect();
+            if !points.is_empty() {
+                methods.push(Method {
+                    label: format!("{}, {engine}", methods[i].label),
+                    points,
+                    echo: Some(i),
+                });
+            }
+        }
+    }
     work_precision(&WorkPrecision {
         title: title.to_string(),
         xlabel: format!("largest error of {}", report.targets.first().map_or("", |t| t.label.as_str())),
         ylabel: "µs per simulated second".into(),
-        methods: methods.collect(),
+        methods,
         width: 640.0,
         height: 420.0,
     })
@@ -170,6 +210,9 @@ fn human(report: &Report) -> String {
             );
             table(report, &mut text);
         }
+    }
+    if let Some(beside) = &report.beside {
+        others(report, beside, &mut text);
     }
     for out in &report.left_out {
         let _ = writeln!(text, "Not compared: {}, as {}.", printable(&out.label), out.reason);
@@ -305,6 +348,24 @@ fn about(target: &Compared) -> String {
     )
 }
 
+/// Another program's runs: the same columns of errors, its own times.
+fn others(report: &Report, beside: &Beside, text: &mut String) {
+    let _ = writeln!(text, "\nBeside: {}, largest errors against the same truth", printable(&beside.engine));
+    let shown = || report.targets.iter().enumerate().filter(|(_, t)| !t.blank).take(ABREAST);
+    for row in &beside.rows {
+        let cell = |(i, target): (usize, &Compared)| match row.errors.get(i) {
+            Some(e) if e.below => format!(" {:>10}", format!("≤{:.0e}", target.uncertain.max(e.largest))),
+            Some(e) if e.largest.is_finite() => format!(" {:>10}", format!("{:.1e}", e.largest)),
+            _ => format!(" {:>10}", "–"),
+        };
+        let cells: String = shown().map(cell).collect();
+        let h = format!("{} ms", milliseconds(row.timestep));
+        let _ =
+            writeln!(text, "  {:<12} {h:>10} {:>10.0}      {cells}", printable(&row.integrator), row.cost);
+    }
+    text.push('\n');
+}
+
 /// What became of each run.
 fn fates(report: &Report, text: &mut String) {
     for row in &report.rows {
@@ -365,11 +426,23 @@ fn value(report: &Report) -> Value {
     set_numbers(&mut value, "until", &of(|t| t.until));
     set_numbers(&mut value, "kept", &[report.energy, report.momentum[0], report.momentum[1]]);
     set_number(&mut value, "penetration", report.penetration);
+    value["samples"] = json!(report.samples);
+    value["beside"] = report.beside.as_ref().map_or(
+        Value::Null,
+        |b| json!({"engine": b.engine, "rows": b.rows.iter().map(beside_value).collect::<Vec<_>>()}),
+    );
     value["nearby"] = match &report.nearby {
         Some(n) => json!({"apart": n.apart, "until": n.until}),
         None => Value::Null,
     };
     crate::report::report("precision", value)
+}
+
+fn beside_value(row: &BesideRow) -> Value {
+    let mut value = json!({"integrator": row.integrator, "timestep": row.timestep});
+    set_numbers(&mut value, "errors", &row.errors.iter().map(|e| Some(e.largest)).collect::<Vec<_>>());
+    set_number(&mut value, "microsecondsPerSecond", row.cost);
+    value
 }
 
 fn event_value(event: &crate::precision::Event) -> Value {

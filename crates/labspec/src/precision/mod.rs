@@ -5,6 +5,7 @@
 //! and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.10.
 
 mod advice;
+mod beside;
 mod case;
 mod cost;
 mod judge;
@@ -12,6 +13,7 @@ mod reference;
 mod setting;
 
 pub use advice::Advice;
+pub use beside::{Beside, BesideRow, Recording};
 pub use case::{Fate, LeftOut};
 pub use cost::Cost;
 pub use judge::{Compared, Errors};
@@ -50,6 +52,8 @@ pub struct Options {
     pub integrators: Vec<Integrator>,
     /// Settings of the solver that are varied, at the lab's own integrator and timestep.
     pub axes: Vec<Axis>,
+    /// Another program's runs of the same lab.
+    pub beside: Option<Recording>,
 }
 
 /// One setting.
@@ -110,6 +114,8 @@ pub struct Report {
     pub reference: Option<String>,
     /// Length of the runs, s.
     pub length: f64,
+    /// Number of samples, without that of the start.
+    pub samples: usize,
     /// The runs: by integrator, from large to small timesteps; then the solver's.
     pub rows: Vec<Row>,
     /// What happens in the reference, in the order of the rows' `events`.
@@ -126,6 +132,8 @@ pub struct Report {
     pub front: Vec<usize>,
     /// What to take.
     pub advice: Vec<Advice>,
+    /// Another program's runs, where they were given.
+    pub beside: Option<Beside>,
 }
 
 /// A time in milliseconds, for people.
@@ -231,11 +239,14 @@ pub fn compare(
         true => Some(nearby(&case, &targets, own)?),
         false => None,
     };
+    let beside = options.beside.as_ref().map(|r| r.judge(&case, &truth, &targets)).transpose()?;
     let mut report = Report {
         events: events(&case, &truth),
         left_out: case.left_out,
         reference: Some(truth.how),
         length: case.count as f64 * case.interval,
+        samples: case.count,
+        beside,
         energy: kept.energy,
         momentum: kept.momentum,
         penetration: truth.run.penetration,
@@ -302,6 +313,8 @@ fn without_reference(
         left_out: case.left_out,
         reference: None,
         length: case.count as f64 * case.interval,
+        samples: case.count,
+        beside: None,
         rows,
         events: Vec::new(),
         energy: None,
