@@ -38,7 +38,6 @@ mod natives;
 mod number;
 mod operation;
 mod operators;
-mod order;
 mod parse;
 mod print;
 mod program;

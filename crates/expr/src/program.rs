@@ -6,15 +6,15 @@ use std::sync::Arc;
 
 use crate::Span;
 use crate::effects::{Access, Effects};
-use crate::form::{Form, pure};
+use crate::form::order::Order;
+use crate::form::{self, Form, pure};
 use crate::formula::Formula;
 use crate::globals::Globals;
 use crate::heap::Heap;
 use crate::ir::Tree;
-use crate::order::Order;
 use crate::row::Row;
 use crate::rules::{self, Rule};
-use crate::schema::{FieldKey, FunctionId, Type};
+use crate::schema::{FieldKey, FunctionId, Schema, Type};
 use crate::value::Value;
 use crate::vm::{self, Code};
 
@@ -277,11 +277,12 @@ pub struct Program {
 
 impl Program {
     /// The code of a tree.
-    pub(crate) fn new(tree: &Tree, effects: Effects, result: Type, aggregates: Vec<Aggregate>) -> Program {
+    pub(crate) fn new(tree: &Tree, schema: &dyn Schema, result: Type, aggregates: Vec<Aggregate>) -> Program {
         let form = Form::of(tree);
+        let effects = form::effects(&form, schema);
         let formula = form.units.first().and_then(pure::whole).map(Arc::new);
         let row = formula.as_deref().and_then(Row::of).map(Arc::new);
-        let order = Order::of(tree, &effects);
+        let order = Order::of(&form, &effects);
         Program {
             code: Code::of(form, row.is_none()).into(),
             effects,

@@ -146,7 +146,7 @@ impl<'s> Compiler<'s> {
         let program = bound
             .program
             .filter(|_| !failed)
-            .map(|parts| Program::new(&parts.tree, parts.effects, parts.result, parts.aggregates));
+            .map(|parts| Program::new(&parts.tree, self.schema, parts.result, parts.aggregates));
         Compiled { id, program, diagnostics: in_order(found), help: bound.help, named: bound.named }
     }
 }

@@ -43,7 +43,6 @@ impl<'a> Binder<'a> {
             return Ok(Thing::Native(function));
         }
         if let (true, Some(ty)) = (name == "value", self.value) {
-            self.effects.uses_value = true;
             return Ok(Thing::Value(Ir::new(Kind::Input, ty, span)));
         }
         // The first pass has told of what means nothing.
@@ -160,7 +159,6 @@ impl<'a> Binder<'a> {
     pub(super) fn global(&mut self, name: &str, span: Span) -> Attempt<Ir> {
         self.check_machinery(name, span)?;
         let slot = self.globals.mention(name, self.program, span, false);
-        self.effects.read_global(slot);
         Ok(Ir::new(Kind::Global(slot), Type::Any, span))
     }
 
@@ -211,11 +209,7 @@ impl<'a> Binder<'a> {
         match text {
             "length" if array => Ok(Thing::Value(match field.len() {
                 Some(n) => Ir::number(n as f64, span),
-                None => {
-                    let view = view_of(&field);
-                    self.read(view, None);
-                    Ir::new(Kind::Length(view), Type::Number, span)
-                }
+                None => Ir::new(Kind::Length(view_of(&field)), Type::Number, span),
             })),
             text @ ("push" | "pop" | "shift" | "unshift" | "splice") if array => self.refuse(
                 Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has a fixed number of elements", field.path))

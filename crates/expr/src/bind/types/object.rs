@@ -37,7 +37,6 @@ impl<'a> Binder<'a> {
             }
             Type::Record => self.record_member(ir, name, span).map(Thing::Value),
             Type::Any | Type::Never => {
-                self.effects.can_throw = true;
                 Ok(Thing::Value(Ir::new(Kind::Member(Box::new(ir), text.into()), Type::Any, span)))
             }
             _ if optional => {
@@ -178,9 +177,7 @@ impl<'a> Binder<'a> {
             return self.refuse(report);
         }
         for field in &fields {
-            if scalar {
-                self.read(view_of(field), None);
-            } else {
+            if !scalar {
                 self.show(field);
             }
         }
