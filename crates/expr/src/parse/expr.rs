@@ -158,7 +158,7 @@ impl Parser<'_> {
         let span = self.span();
         match self.peek() {
             Tok::Word(word) => {
-                let text = word.clone();
+                let text = (*word).to_owned();
                 self.bump();
                 Ok(Name { text, span })
             }
@@ -273,7 +273,7 @@ impl Parser<'_> {
             Tok::End => return self.expected_value(),
             Tok::Symbol(symbol) => return self.prefix_symbol(symbol),
             Tok::Word(_) if *self.peek_at(1) == Tok::Symbol("=>") => return self.arrow(),
-            Tok::Word(word) => match word.as_str() {
+            Tok::Word(word) => match *word {
                 "typeof" => return self.sign(UnaryOp::TypeOf),
                 "function" => return self.function_expression(),
                 "true" => ExprKind::Boolean(true),
@@ -281,7 +281,7 @@ impl Parser<'_> {
                 "null" => ExprKind::Null,
                 // A declaration in the middle of an expression.
                 "const" | "let" | "var" => return self.expected_value(),
-                "new" if *self.peek_at(1) == Tok::Word("Date".into()) => {
+                "new" if *self.peek_at(1) == Tok::Word("Date") => {
                     return self.refuse(refuse::new_date(span, self.words));
                 }
                 word => match refuse::word(word, span, self.words) {
@@ -423,7 +423,7 @@ impl Parser<'_> {
             return Ok((Property::Computed { key: key.expr, value: value.expr }, height));
         }
         let (text, word) = match self.peek() {
-            Tok::Word(text) => (text.clone(), true),
+            Tok::Word(text) => ((*text).to_owned(), true),
             Tok::Text(text) => (text.clone(), false),
             Tok::Number(x) => (crate::number::to_text(*x), false),
             Tok::Bad => return Err(Reported),

@@ -85,7 +85,7 @@ type Attempt<T> = Result<T, Reported>;
 struct Parser<'s> {
     source: &'s str,
     words: &'static Words,
-    tokens: Vec<Token>,
+    tokens: Vec<Token<'s>>,
     at: usize,
     /// Expressions and statements that are being read, one inside the other.
     depth: usize,
@@ -108,12 +108,12 @@ impl<'s> Parser<'s> {
         Parser { source, words, tokens, at: 0, depth: 0, tallest: 0, diagnostics }
     }
 
-    fn peek(&self) -> &Tok {
+    fn peek(&self) -> &Tok<'s> {
         self.peek_at(0)
     }
 
     /// The token `n` places ahead; [`Tok::End`] behind the last.
-    fn peek_at(&self, n: usize) -> &Tok {
+    fn peek_at(&self, n: usize) -> &Tok<'s> {
         self.tokens.get(self.at + n).map_or(&Tok::End, |t| &t.kind)
     }
 
@@ -148,7 +148,7 @@ impl<'s> Parser<'s> {
     }
 
     fn is_word(&self, word: &str) -> bool {
-        matches!(self.peek(), Tok::Word(w) if w == word)
+        matches!(self.peek(), Tok::Word(w) if *w == word)
     }
 
     /// Takes the symbol if it is next.

@@ -85,6 +85,7 @@ pub(super) fn bind(
         if again {
             continue;
         }
+        binder.typed.sort();
         let (tree, aggregates) = (binder.tree, binder.aggregates);
         return Bound {
             program: done.ok().map(|result| Parts { tree, result, aggregates }),
