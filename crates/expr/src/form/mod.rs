@@ -9,6 +9,7 @@ mod build;
 mod call;
 mod effects;
 mod flow;
+mod fold;
 pub(crate) mod op;
 pub(crate) mod order;
 mod place;

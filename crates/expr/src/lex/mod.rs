@@ -335,6 +335,12 @@ mod tests {
     }
 
     #[test]
+    fn a_point_before_a_letter_chooses_a_member() {
+        let members = [Tok::Word("a"), Tok::Symbol("."), Tok::Word("_b")];
+        assert_eq!(kinds("a._b"), members);
+    }
+
+    #[test]
     fn comments_and_odd_white_space_are_blank() {
         assert_eq!(kinds("\u{feff}1 // 2 /*\n\u{a0}/* 3 \n */"), [Tok::Number(1.0)]);
     }

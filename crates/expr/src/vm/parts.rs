@@ -197,7 +197,7 @@ impl Machine<'_> {
         match of.binary_search_by(|(n, _)| (**n).cmp(&name)) {
             Ok(at) => Ok(of.get(at).map(|(_, v)| v.clone()).unwrap_or_default()),
             Err(_) => {
-                let near = crate::closest(&name, of.iter().map(|(n, _)| &**n));
+                let near = labspec_finding::nearest(&name, of.iter().map(|(n, _)| &**n));
                 let meant = near.map(|n| format!("; did you mean \"{n}\"?")).unwrap_or_default();
                 Err(Trouble::new(
                     rules::UNKNOWN_OBJECT,

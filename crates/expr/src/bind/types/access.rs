@@ -4,7 +4,6 @@ use super::member::{quoted, view_of};
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Expr, ExprKind};
 use crate::bind::names::list;
-use crate::closest;
 use crate::ir::{Index, Ir, Kind};
 use crate::number;
 use crate::rules;
@@ -12,6 +11,7 @@ use crate::schema::{CollectionId, Field, Help, ObjectId, Type};
 use crate::value::Value;
 use crate::words::Words;
 use crate::{Finding, Fix, Span};
+use labspec_finding::nearest;
 
 /// What chooses a `ctx` variable.
 pub(super) enum GlobalName {
@@ -386,7 +386,7 @@ impl<'a> Binder<'a> {
         }
         let report =
             Finding::error(rules::UNKNOWN_OBJECT, arg.span, format!("there is no {noun} named \"{name}\""));
-        let report = match closest(name, names.iter().map(String::as_str)) {
+        let report = match nearest(name, names.iter().map(String::as_str)) {
             Some(meant) => {
                 report.help(format!("did you mean \"{meant}\"?")).guess(arg.span, format!("\"{meant}\""))
             }

@@ -12,7 +12,7 @@ use crate::schema::{Entry, Field, FieldKind, Help, ObjectId, Type};
 use crate::value::{Value, View};
 use crate::words::Words;
 use crate::{Finding, Span};
-use labspec_finding::{nearest as closest, ranked};
+use labspec_finding::{nearest, ranked};
 
 impl<'a> Binder<'a> {
     pub(super) fn thing_inside(&mut self, expr: &'a Expr) -> Attempt<Thing> {
@@ -146,7 +146,7 @@ impl<'a> Binder<'a> {
             .filter_map(|row| row.name.strip_prefix(holder)?.strip_prefix('.'))
             .chain(constants.iter().map(|(n, _)| *n))
             .collect();
-        self.refuse(match closest(&name.text, names.iter().copied()) {
+        self.refuse(match nearest(&name.text, names.iter().copied()) {
             Some(meant) => report.help(format!("did you mean `{holder}.{meant}`?")).guess(name.span, meant),
             None => {
                 let names: Vec<String> = names.iter().map(|n| (*n).to_owned()).collect();
@@ -189,7 +189,7 @@ impl<'a> Binder<'a> {
         }
         let report =
             Finding::error(rules::UNKNOWN_FUNCTION, name.span, format!("`Math` has no `{}`", name.text));
-        let report = match closest(&name.text, math::names()) {
+        let report = match nearest(&name.text, math::names()) {
             Some(meant) => report.help(format!("did you mean `Math.{meant}`?")).guess(name.span, meant),
             None => report
                 .why("`Math` has the functions and constants of JavaScript")
@@ -242,7 +242,7 @@ impl<'a> Binder<'a> {
                 )
                 .why("it is one number");
                 let methods = self.method_names(Type::Number);
-                self.refuse(match closest(text, methods) {
+                self.refuse(match nearest(text, methods) {
                     Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
                     None => report
                         .help(format!("remove `.{text}`"))
