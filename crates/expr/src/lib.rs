@@ -64,7 +64,6 @@ pub use columnar::{Columnar, Recording};
 pub use effects::{Access, Effects};
 pub use globals::{Globals, ProgramId};
 pub use heap::{Full, Heap, Ref};
-pub use labspec_finding::nearest as closest;
 pub use labspec_finding::{Finding, Fix, Severity, Span};
 pub use math::hypot;
 pub use natives::to_fixed;
