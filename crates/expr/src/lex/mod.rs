@@ -4,6 +4,9 @@
 
 mod literal;
 
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
 use nom::branch::alt;
 use nom::bytes::complete::{tag, take_until, take_while, take_while1};
 use nom::character::complete::{anychar, satisfy};
@@ -11,6 +14,7 @@ use nom::combinator::{map, recognize, rest};
 use nom::sequence::delimited;
 use nom::{IResult, Parser};
 
+use crate::operators::{BinaryOp, LogicalOp};
 use crate::{Finding, Span};
 use crate::{number, rules};
 use literal::Part;
@@ -41,38 +45,28 @@ pub(crate) enum Tok<'s> {
     End,
 }
 
-/// The symbols that begin with a character, longer ones before their beginnings.
-fn symbols(first: char) -> &'static [&'static str] {
-    match first {
-        '(' => &["("],
-        ')' => &[")"],
-        ',' => &[","],
-        ';' => &[";"],
-        '[' => &["["],
-        ']' => &["]"],
-        '{' => &["{"],
-        '}' => &["}"],
-        ':' => &[":"],
-        '~' => &["~"],
-        '@' => &["@"],
-        '#' => &["#"],
-        '.' => &["...", "."],
-        '=' => &["===", "==", "=>", "="],
-        '!' => &["!==", "!=", "!"],
-        '+' => &["++", "+=", "+"],
-        '-' => &["--", "-=", "-"],
-        '*' => &["**=", "**", "*=", "*"],
-        '/' => &["/=", "/"],
-        '%' => &["%=", "%"],
-        '&' => &["&&=", "&&", "&=", "&"],
-        '|' => &["||=", "||", "|=", "|"],
-        '^' => &["^=", "^"],
-        '?' => &["??=", "??", "?.", "?"],
-        '<' => &["<<=", "<<", "<=", "<"],
-        '>' => &[">>>=", ">>>", ">>=", ">>", ">=", ">"],
-        _ => &[],
+/// Symbols that are no operators between two values.
+const MARKS: [&str; 21] = [
+    "(", ")", "[", "]", "{", "}", ",", ";", ":", "?", ".", "...", "?.", "=", "=>", "++", "--", "!", "~", "@",
+    "#",
+];
+
+/// All symbols, by the character that they begin with, longer ones before their beginnings.
+static SYMBOLS: LazyLock<BTreeMap<char, Vec<String>>> = LazyLock::new(|| {
+    let binary = BinaryOp::ALL.iter().map(|op| (op.symbol(), !op.is_comparison()));
+    let operators = binary.chain(LogicalOp::ALL.iter().map(|op| (op.symbol(), true)));
+    let mut all: BTreeMap<char, Vec<String>> = BTreeMap::new();
+    let mut add = |text: String| all.entry(text.chars().next().unwrap_or(' ')).or_default().push(text);
+    MARKS.iter().for_each(|mark| add((*mark).to_owned()));
+    for (symbol, assigns) in operators {
+        add(symbol.to_owned());
+        if assigns {
+            add(format!("{symbol}="));
+        }
     }
-}
+    all.values_mut().for_each(|list| list.sort_by_key(|text| std::cmp::Reverse(text.len())));
+    all
+});
 
 /// All tokens of a text, the last one [`Tok::End`].
 pub(crate) fn tokens<'s>(source: &'s str, diagnostics: &mut Vec<Finding>) -> Vec<Token<'s>> {
@@ -240,12 +234,12 @@ fn word(input: &str) -> IResult<&str, &str> {
 /// A symbol that begins with this character.
 fn symbol(first: char, input: &str) -> IResult<&str, &'static str> {
     let error = || nom::Err::Error(nom::error::Error::new(input, nom::error::ErrorKind::Tag));
-    let read = |text: &&'static str| {
-        let behind = input.strip_prefix(*text)?;
+    let read = |text: &'static String| {
+        let behind = input.strip_prefix(text.as_str())?;
         // `a?.5:1` is a choice between .5 and 1, not an optional member.
-        (*text != "?." || !behind.starts_with(|c: char| c.is_ascii_digit())).then_some((behind, *text))
+        (text != "?." || !behind.starts_with(|c: char| c.is_ascii_digit())).then_some((behind, text.as_str()))
     };
-    symbols(first).iter().find_map(read).ok_or_else(error)
+    SYMBOLS.get(&first).into_iter().flatten().find_map(read).ok_or_else(error)
 }
 
 fn is_typographic(c: char) -> bool {

@@ -34,8 +34,7 @@ fn infix(symbol: &str) -> Option<(Infix, u8)> {
     if let Some(op) = BinaryOp::ALL.into_iter().find(|op| op.symbol() == symbol) {
         return Some((Infix::Binary(op), op.power()));
     }
-    let op =
-        [LogicalOp::And, LogicalOp::Or, LogicalOp::Nullish].into_iter().find(|op| op.symbol() == symbol)?;
+    let op = LogicalOp::ALL.into_iter().find(|op| op.symbol() == symbol)?;
     Some((Infix::Logical(op), op.power()))
 }
 
@@ -51,7 +50,7 @@ fn assignment_op(symbol: &str) -> Option<Option<BinaryOp>> {
 /// The operator of `&&=`, `||=` or `??=`.
 fn logical_assignment(symbol: &str) -> Option<LogicalOp> {
     let op = symbol.strip_suffix('=')?;
-    [LogicalOp::And, LogicalOp::Or, LogicalOp::Nullish].into_iter().find(|l| l.symbol() == op)
+    LogicalOp::ALL.into_iter().find(|l| l.symbol() == op)
 }
 
 impl Parser<'_> {
