@@ -300,7 +300,7 @@ impl Program {
     }
 
     /// What every run stores after the last call of a function of the host that it may make; `None` when it never
-    /// calls it. What stands in a condition or a loop, or may be skipped, is not certain and left out.
+    /// calls it. What some way through the text passes by is not certain and left out.
     pub fn writes_after(&self, function: FunctionId) -> Option<Vec<Access>> {
         self.order.writes_after(function)
     }

@@ -26,7 +26,8 @@ pub(crate) struct Token<'s> {
     pub(crate) span: Span,
     /// A line ends between the token before and this one.
     pub(crate) newline: bool,
-    /// What is wrong with it, unless it is not read by itself: `02` in `0,02`.
+    /// What is wrong with it, unless it is not read by itself, as `02` in `0,02`, or the host tells of it, as of
+    /// typographic quotes.
     pub(crate) doubt: Option<Box<Finding>>,
 }
 
@@ -113,8 +114,9 @@ pub(crate) fn tokens_of<'s>(source: &'s str, part: Span, diagnostics: &mut Vec<F
             None => literal::unclosed_template(start, diagnostics),
         };
         let fraction = matches!(kind, Tok::Number(_)) && is_fraction(&tokens, source, span);
+        let doubtful = fraction || at.starts_with(is_typographic);
         let doubt =
-            if fraction && diagnostics.len() > before { diagnostics.pop().map(Box::new) } else { None };
+            if doubtful && diagnostics.len() > before { diagnostics.pop().map(Box::new) } else { None };
         tokens.push(Token { kind, span, newline, doubt });
         input = behind;
     }

@@ -351,6 +351,7 @@ impl Parser<'_> {
         for place in places {
             let tokens = lex::tokens_of(self.source, place, &mut self.diagnostics);
             let outer = std::mem::replace(&mut self.tokens, tokens);
+            self.look_at_quotes();
             let at = std::mem::take(&mut self.at);
             let value = self.template_value(place);
             self.tokens = outer;
