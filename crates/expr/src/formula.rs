@@ -88,10 +88,7 @@ impl Formula {
     }
 
     pub(crate) fn unary(&mut self, op: UnaryOp, a: At) -> At {
-        match self.constant_at(a) {
-            Some(x) => self.constant(op.on_number(x)),
-            None => self.step(Step::Unary(op, a)),
-        }
+        self.step(Step::Unary(op, a))
     }
 
     /// Constants become part of the operation. What can be turned round is, and `x - k` is `x + -k` and `x ** 2` is `x * x`,
@@ -100,7 +97,6 @@ impl Formula {
         let turns = matches!(op, BinaryOp::Add | BinaryOp::Multiply);
         let bits = |k: f64| Bits(k.to_bits());
         let step = match (op, self.constant_at(a), self.constant_at(b)) {
-            (_, Some(x), Some(y)) => return self.constant(op.on_numbers(x, y)),
             (BinaryOp::Power, _, Some(2.0)) => Step::Binary(BinaryOp::Multiply, a, a),
             (BinaryOp::Subtract, _, Some(k)) if !k.is_nan() => Step::Right(BinaryOp::Add, a, bits(-k)),
             (_, _, Some(k)) => Step::Right(op, a, bits(k)),
@@ -120,9 +116,6 @@ impl Formula {
     }
 
     pub(crate) fn math(&mut self, function: math::Function, args: Vec<At>) -> At {
-        if let Some(numbers) = args.iter().map(|a| self.constant_at(*a)).collect::<Option<Vec<f64>>>() {
-            return self.constant(function.apply(&numbers));
-        }
         if let Some(at) = self.known_math.get(&(function, args.clone())) {
             return *at;
         }

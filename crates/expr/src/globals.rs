@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::closest;
 use crate::known::Known;
 use crate::rules;
 use crate::words::Words;
 use crate::{Finding, Span};
+use labspec_finding::nearest;
 
 /// A compiled text, counted from 0 in the order of compilation with one [`Globals`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -163,7 +163,7 @@ impl Globals {
 fn unset_report(name: &str, span: Span, known: &[&str], words: &Words) -> Finding {
     let report = Finding::warning(rules::UNSET_GLOBAL, span, format!("nothing ever stores `ctx.{name}`"))
         .why("it is `undefined` in every run, and a computation with it gives NaN");
-    match closest(name, known.iter().copied()) {
+    match nearest(name, known.iter().copied()) {
         Some(meant) => {
             report.help(format!("did you mean `ctx.{meant}`?")).guess(span, format!("ctx.{meant}"))
         }

@@ -31,30 +31,30 @@ const FIELDS: &[(&str, &[Option<usize>], &str, &str)] = &[
     ("run.touch", &[], "structure", ""),
 ];
 
-/// What the host calls its things.
+/// What the host calls its things: those of a workbook. Names in examples are names that this host has.
 static WORDS: Words = Words {
-    lab: "lab",
-    lesson: "lesson",
-    world: "simulation",
-    model: "model",
+    lab: "sheet",
+    lesson: "workbook",
+    world: "machine",
+    model: "plan",
     number: "data.time",
     array: "data.qpos",
     matrix: "data.xpos",
     choice: "data.joint(\"name\")",
     parts: "{kinetic, potential} = lib.energy()",
     names: "`model`, `data`, `ctx`",
-    statements: "`setup`, `controller`, `apply` or `run`",
-    keeper: "`controller`",
-    shown: "a readout or a trace",
-    clock: "the time of the simulation is `data.time`, in seconds",
-    wait: "test `data.time` in the controller instead",
-    split: "split it: into several controls, or a `setup` and a `controller`",
+    statements: "`begin`, `tick` or `press`",
+    keeper: "`tick`",
+    shown: "a cell or a curve",
+    clock: "the time of the machine is `data.time`",
+    wait: "test `data.time` in the tick instead",
+    split: "split it: into several keys, or a `begin` and a `tick`",
     input: (
-        "`value` is what a slider or select gives to its own `set` or `apply`",
-        "give the control a `param` and read it as `ctx.<param>`",
+        "`value` is what a key gives to its own text",
+        "give the key a `keeps` and read it as `ctx.<keeps>`",
     ),
-    store: "store it first, as `ctx.{name} = 0` in `setup`, or give a control `\"param\": \"{name}\"`",
-    rounding: ", or set `digits` of the readout",
+    store: "store it first, as `ctx.{name} = 0` in `begin`, or give a key `\"keeps\": \"{name}\"`",
+    rounding: ", or set `places` of the cell",
     recompute: "`mj_setConst`",
 };
 

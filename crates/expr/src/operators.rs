@@ -54,6 +54,9 @@ pub enum LogicalOp {
 }
 
 impl LogicalOp {
+    /// All of them.
+    pub const ALL: [LogicalOp; 3] = [LogicalOp::And, LogicalOp::Or, LogicalOp::Nullish];
+
     /// How it is written.
     pub fn symbol(self) -> &'static str {
         match self {

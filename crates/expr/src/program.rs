@@ -6,16 +6,16 @@ use std::sync::Arc;
 
 use crate::Span;
 use crate::effects::{Access, Effects};
-use crate::form::{Form, pure};
+use crate::form::order::Order;
+use crate::form::{self, Form, pure};
 use crate::formula::Formula;
 use crate::globals::Globals;
 use crate::heap::Heap;
 use crate::ir::Tree;
 use crate::known::Known;
-use crate::order::Order;
 use crate::row::Row;
 use crate::rules::{self, Rule};
-use crate::schema::{FieldKey, FunctionId, Type};
+use crate::schema::{FieldKey, FunctionId, Schema, Type};
 use crate::value::Value;
 use crate::vm::{self, Code};
 
@@ -302,16 +302,16 @@ impl Program {
     /// The code of a tree that was bound to a schema, with the variables that are named by then.
     pub(crate) fn new(
         tree: &Tree,
-        effects: Effects,
+        schema: &dyn Schema,
         result: Type,
         aggregates: Vec<Aggregate>,
-        identity: u64,
         globals: &Globals,
     ) -> Program {
         let form = Form::of(tree);
+        let effects = form::effects(&form, schema);
         let formula = form.units.first().and_then(pure::whole).map(Arc::new);
         let row = formula.as_deref().and_then(Row::of).map(Arc::new);
-        let order = Order::of(tree, &effects);
+        let order = Order::of(&form, &effects);
         Program {
             code: Code::of(form, row.is_none()).into(),
             effects,
@@ -319,7 +319,7 @@ impl Program {
             aggregates,
             order,
             known: globals.known().clone(),
-            identity,
+            identity: schema.identity(),
             formula,
             row,
         }
@@ -336,7 +336,7 @@ impl Program {
     }
 
     /// What every run stores after the last call of a function of the host that it may make; `None` when it never
-    /// calls it. What stands in a condition or a loop, or may be skipped, is not certain and left out.
+    /// calls it. What some way through the text passes by is not certain and left out.
     pub fn writes_after(&self, function: FunctionId) -> Option<Vec<Access>> {
         self.order.writes_after(function)
     }

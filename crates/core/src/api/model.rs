@@ -8,7 +8,7 @@ use crate::model::fields::{model_fields, option_fields, statistic_fields};
 use crate::model::reflect::{self, FieldId, FieldSet, Object};
 use crate::model::{self as inner, Names, Obj};
 use crate::setup;
-use labspec_finding::nearest as closest;
+use labspec_finding::nearest;
 use std::ops::Deref;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -420,7 +420,7 @@ ids! {
 /// The id of a named object.
 pub(super) fn find(names: &Names, kind: Obj, name: &str) -> Result<usize, Error> {
     names.id(kind, name).ok_or_else(|| {
-        let nearest = closest(name, names.of(kind).iter().map(String::as_str)).map(String::from);
+        let nearest = nearest(name, names.of(kind).iter().map(String::as_str)).map(String::from);
         Error::NoName { kind, name: name.to_string(), nearest }
     })
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::classes::Classes;
 use super::schema::Kind;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::{Report, closest, shown};
+use crate::mjcf::text::diagnostic::{Report, nearest, shown};
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
 
@@ -66,7 +66,7 @@ impl<'t> NameTable<'t> {
         }
         let error =
             report.error(rules::UNKNOWN_NAME, span, format!("there is no {kind} named {}", shown(name)));
-        match closest(name, self.of(kind)) {
+        match nearest(name, self.of(kind)) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None if self.of(kind).next().is_none() => {
                 error.help(format!("no {kind} of this model has a name"))
@@ -127,7 +127,7 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
                         a.span.clone(),
                         format!("there is no default class named {}", shown(name)),
                     );
-                    match closest(name, classes.names()) {
+                    match nearest(name, classes.names()) {
                         Some(near) => error.help(format!("did you mean `{near}`?")),
                         None => error.help(format!("define it: `<default><default class=\"{name}\"> … `")),
                     };

@@ -22,6 +22,7 @@ pub struct Compiler<'s> {
     globals: &'s mut Globals,
     value: Option<Type>,
     explains: bool,
+    tells: bool,
 }
 
 /// The result of compiling one text.
@@ -84,7 +85,7 @@ enum Tree<'t> {
 impl<'s> Compiler<'s> {
     /// A compiler for texts that name things of `schema` and share the variables `globals`.
     pub fn new(schema: &'s dyn Schema, globals: &'s mut Globals) -> Compiler<'s> {
-        Compiler { schema, globals, value: None, explains: false }
+        Compiler { schema, globals, value: None, explains: false, tells: false }
     }
 
     /// A compiler for texts of a control, which gives a `value` of this type; `None` where no control gives one.
@@ -97,26 +98,31 @@ impl<'s> Compiler<'s> {
         Compiler { explains: true, ..self }
     }
 
+    /// A compiler for a host that tells of typographic quotes itself: there is no program where they stand, and no finding.
+    pub fn without_quotes(self) -> Compiler<'s> {
+        Compiler { tells: true, ..self }
+    }
+
     /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.
     pub fn expression(&mut self, source: &str) -> Compiled {
-        let Parsed { tree, diagnostics } = parse::expression(source, self.schema.words());
-        self.compile(source, diagnostics, Tree::Expression(&tree))
+        let Parsed { tree, diagnostics, told } = parse::expression(source, self.schema.words(), self.tells);
+        self.compile(source, diagnostics, told, Tree::Expression(&tree))
     }
 
     /// Statements: `setup`, `controller`, `apply`, `run`.
     pub fn statements(&mut self, source: &str) -> Compiled {
-        let Parsed { tree, diagnostics } = parse::statements(source, self.schema.words());
-        self.compile(source, diagnostics, Tree::Statements(&tree))
+        let Parsed { tree, diagnostics, told } = parse::statements(source, self.schema.words(), self.tells);
+        self.compile(source, diagnostics, told, Tree::Statements(&tree))
     }
 
     /// The target of a control (`set`): the program stores `value` there. Without a known type of `value` it
     /// may be anything.
     pub fn assignment(&mut self, target: &str) -> Compiled {
-        let Parsed { tree, diagnostics } = parse::expression(target, self.schema.words());
-        self.compile(target, diagnostics, Tree::Target(&tree))
+        let Parsed { tree, diagnostics, told } = parse::expression(target, self.schema.words(), self.tells);
+        self.compile(target, diagnostics, told, Tree::Target(&tree))
     }
 
-    fn compile(&mut self, source: &str, mut found: Vec<Finding>, tree: Tree<'_>) -> Compiled {
+    fn compile(&mut self, source: &str, mut found: Vec<Finding>, told: bool, tree: Tree<'_>) -> Compiled {
         let id = self.globals.next_program();
         let around = Surroundings {
             schema: Some(self.schema),
@@ -142,10 +148,9 @@ impl<'s> Compiler<'s> {
         let bound = types::bind(self, source, tree, &names, id);
         found.extend(lints::look(self.schema, source, tree, &bound.typed));
         found.extend(bound.found);
-        let failed = found.iter().any(Finding::is_error);
+        let failed = told || found.iter().any(Finding::is_error);
         let program = bound.program.filter(|_| !failed).map(|parts| {
-            let identity = self.schema.identity();
-            Program::new(&parts.tree, parts.effects, parts.result, parts.aggregates, identity, self.globals)
+            Program::new(&parts.tree, self.schema, parts.result, parts.aggregates, self.globals)
         });
         Compiled { id, program, diagnostics: in_order(found), help: bound.help, named: bound.named }
     }

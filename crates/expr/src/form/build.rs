@@ -21,6 +21,7 @@ pub(super) fn form(tree: &Tree) -> Form {
         build.back_to(0);
         let mut done = build.unit;
         variables = build.variables;
+        super::fold::fold(&mut done);
         done.same.shorten();
         form.units.push(done);
     }

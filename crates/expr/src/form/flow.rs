@@ -454,7 +454,7 @@ impl Build<'_> {
 
 impl super::Names {
     /// A name turned out to be another one.
-    fn join(&mut self, name: At, other: At) {
+    pub(super) fn join(&mut self, name: At, other: At) {
         match (name, other) {
             (At::Number(n), At::Number(other)) => {
                 let other = self.number(other).0;

@@ -7,8 +7,11 @@
 
 mod build;
 mod call;
+mod effects;
 mod flow;
+mod fold;
 pub(crate) mod op;
+pub(crate) mod order;
 mod place;
 pub(crate) mod pure;
 mod step;
@@ -20,6 +23,7 @@ use crate::ir::{Picks, Shown, Tree};
 use crate::schema::Type;
 use crate::value::Value;
 
+pub(crate) use effects::effects;
 pub(crate) use op::{Args, Num, Op, Use, Val};
 
 /// A text.
@@ -141,6 +145,13 @@ impl Unit {
     pub(crate) fn known(&self, number: Num) -> Option<f64> {
         let at = self.numbers.binary_search_by_key(&number, |(n, _)| *n).ok()?;
         self.numbers.get(at).map(|(_, x)| *x)
+    }
+
+    /// The value, if it is known.
+    pub(crate) fn known_value(&self, value: Val) -> Option<&Value> {
+        let value = self.same.value(value);
+        let at = self.values.binary_search_by_key(&value, |(v, _)| *v).ok()?;
+        self.values.get(at).map(|(_, x)| x)
     }
 }
 

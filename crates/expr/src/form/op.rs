@@ -94,8 +94,9 @@ pub(crate) enum Op {
     Element(Val, Val, Val),
     ElementAt(Val, Val, Num),
     Member(Val, Val, u32),
-    StoreItem(Val, Val, Val),
-    StoreMember(Val, u32, Val),
+    /// `true`: into what is a record for sure.
+    StoreItem(Val, Val, Val, bool),
+    StoreMember(Val, u32, Val, bool),
     /// What it is called on comes first.
     Method(Val, natives::Name, Args),
     MethodList(Val, natives::Name, Val, Val),
@@ -223,11 +224,11 @@ impl Op {
                 f(ReadsValue(a));
                 f(ReadsValue(b));
             }
-            Op::PutAll(a, b) | Op::StoreMember(a, _, b) => {
+            Op::PutAll(a, b) | Op::StoreMember(a, _, b, _) => {
                 f(ReadsValue(a));
                 f(ReadsValue(b));
             }
-            Op::Put(a, b, c) | Op::StoreItem(a, b, c) => {
+            Op::Put(a, b, c) | Op::StoreItem(a, b, c, _) => {
                 f(ReadsValue(a));
                 f(ReadsValue(b));
                 f(ReadsValue(c));
@@ -257,5 +258,12 @@ impl Op {
             || matches!(self, Op::BoxNumber(..) | Op::BoxBoolean(..) | Op::Truthy(..) | Op::ToIndex(..))
             || matches!(self, Op::TypeOf(..) | Op::Length(..) | Op::Input(_) | Op::Global(..))
             || matches!(self, Op::Aggregate(..) | Op::TakeNumber(_) | Op::TakeValue(_))
+    }
+
+    /// Whether a run may end there.
+    pub(crate) fn may_fail(&self) -> bool {
+        let loads = matches!(self, Op::Load(..) | Op::LoadAt(..) | Op::LoadValue(..) | Op::LoadValueAt(..));
+        let passes = matches!(self, Op::PassNumber(..) | Op::PassValue(..) | Op::StoreGlobal(..));
+        !(loads || passes || self.is_pure())
     }
 }

@@ -15,8 +15,9 @@ enum Found {
     Global(u32),
     GlobalNamed(Val),
     Local(LocalId),
-    Item(Val, Val),
-    Member(Val, u32),
+    /// `true`: of a record for sure.
+    Item(Val, Val, bool),
+    Member(Val, u32, bool),
 }
 
 impl Build<'_> {
@@ -51,8 +52,12 @@ impl Build<'_> {
             Place::Global(slot) => Found::Global(*slot),
             Place::GlobalNamed(name) => Found::GlobalNamed(self.value(name)),
             Place::Local(id) => Found::Local(*id),
-            Place::Item(object, index) => Found::Item(self.value(object), self.value(index)),
-            Place::Member(object, name) => Found::Member(self.value(object), self.text(name)),
+            Place::Item(object, index) => {
+                Found::Item(self.value(object), self.value(index), object.ty == Type::Record)
+            }
+            Place::Member(object, name) => {
+                Found::Member(self.value(object), self.text(name), object.ty == Type::Record)
+            }
         }
     }
 
@@ -78,8 +83,8 @@ impl Build<'_> {
             Found::Global(slot) => self.value_of(span, |dst| Op::Global(dst, slot)),
             Found::GlobalNamed(name) => self.value_of(span, |dst| Op::GlobalNamed(dst, name)),
             Found::Local(id) => self.local_value(id, span),
-            Found::Item(object, index) => self.value_of(span, |dst| Op::Element(dst, object, index)),
-            Found::Member(object, name) => self.value_of(span, |dst| Op::Member(dst, object, name)),
+            Found::Item(object, index, _) => self.value_of(span, |dst| Op::Element(dst, object, index)),
+            Found::Member(object, name, _) => self.value_of(span, |dst| Op::Member(dst, object, name)),
         }
     }
 
@@ -109,8 +114,8 @@ impl Build<'_> {
             Found::Local(id) => return self.write(id, At::Value(src)),
             Found::Global(slot) => Op::StoreGlobal(slot, src),
             Found::GlobalNamed(name) => Op::StoreGlobalNamed(name, src),
-            Found::Item(object, index) => Op::StoreItem(object, index, src),
-            Found::Member(object, name) => Op::StoreMember(object, name, src),
+            Found::Item(object, index, record) => Op::StoreItem(object, index, src, record),
+            Found::Member(object, name, record) => Op::StoreMember(object, name, src, record),
         };
         self.emit(op, span);
     }

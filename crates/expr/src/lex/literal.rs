@@ -29,8 +29,8 @@ pub(super) enum Part<'a> {
 
 /// What a number means that is followed directly by the letters `tail`. Also a bad number stands for a number, so that what
 /// follows is understood.
-pub(super) fn number_of(text: &str, tail: &str, span: Span, diagnostics: &mut Vec<Finding>) -> Tok {
-    let value = plain(&text.replace('_', ""));
+pub(super) fn number_of(text: &str, tail: &str, span: Span, diagnostics: &mut Vec<Finding>) -> Tok<'static> {
+    let value = if text.contains('_') { plain(&text.replace('_', "")) } else { plain(text) };
     diagnostics.extend(complaint(text, tail, value, span));
     Tok::Number(value.unwrap_or(0.0))
 }
@@ -278,7 +278,7 @@ pub(super) fn text_of(
     closed: bool,
     (source, span): (&str, Span),
     diagnostics: &mut Vec<Finding>,
-) -> Tok {
+) -> Tok<'static> {
     let text = say(parts, source, diagnostics, |_, _| {});
     if !closed {
         diagnostics.push(
@@ -291,7 +291,11 @@ pub(super) fn text_of(
 }
 
 /// What a template literal means: its texts, and the places of the expressions between them.
-pub(super) fn template_of(parts: Vec<Part<'_>>, source: &str, diagnostics: &mut Vec<Finding>) -> Tok {
+pub(super) fn template_of(
+    parts: Vec<Part<'_>>,
+    source: &str,
+    diagnostics: &mut Vec<Finding>,
+) -> Tok<'static> {
     let (mut texts, mut places) = (Vec::new(), Vec::new());
     let last = say(&parts, source, diagnostics, |text, code| {
         let start = source.offset(code);
@@ -303,7 +307,7 @@ pub(super) fn template_of(parts: Vec<Part<'_>>, source: &str, diagnostics: &mut 
 }
 
 /// A template literal that does not end, which takes the whole rest of the text.
-pub(super) fn unclosed_template(start: usize, diagnostics: &mut Vec<Finding>) -> Tok {
+pub(super) fn unclosed_template(start: usize, diagnostics: &mut Vec<Finding>) -> Tok<'static> {
     diagnostics.push(
         Finding::error(rules::BAD_STRING, Span::new(start, start + 1), "this backquote is never closed")
             .why("a template literal ends with a backquote, and every `${` in it with `}`")
@@ -317,7 +321,7 @@ mod tests {
     use super::super::tokens;
     use super::*;
 
-    fn read(source: &str) -> (Tok, Vec<Finding>) {
+    fn read(source: &str) -> (Tok<'_>, Vec<Finding>) {
         let mut found = Vec::new();
         let tokens = tokens(source, &mut found);
         (tokens[0].kind.clone(), found)

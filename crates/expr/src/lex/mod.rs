@@ -4,34 +4,39 @@
 
 mod literal;
 
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
 use nom::branch::alt;
 use nom::bytes::complete::{tag, take_until, take_while, take_while1};
 use nom::character::complete::{anychar, satisfy};
-use nom::combinator::{map, recognize, rest, value};
+use nom::combinator::{map, recognize, rest};
 use nom::sequence::delimited;
 use nom::{IResult, Parser};
 
+use crate::operators::{BinaryOp, LogicalOp};
 use crate::{Finding, Span};
 use crate::{number, rules};
 use literal::Part;
 
 /// A piece of the source text.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Token {
-    pub(crate) kind: Tok,
+pub(crate) struct Token<'s> {
+    pub(crate) kind: Tok<'s>,
     pub(crate) span: Span,
     /// A line ends between the token before and this one.
     pub(crate) newline: bool,
-    /// What is wrong with it, unless it is not read by itself: `02` in `0,02`.
+    /// What is wrong with it, unless it is not read by itself, as `02` in `0,02`, or the host tells of it, as of
+    /// typographic quotes.
     pub(crate) doubt: Option<Box<Finding>>,
 }
 
 /// What a token is.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Tok {
+pub(crate) enum Tok<'s> {
     Number(f64),
     Text(String),
-    Word(String),
+    Word(&'s str),
     Symbol(&'static str),
     /// A template literal: its texts, and where the expressions between them stand.
     Template(Vec<String>, Vec<Span>),
@@ -41,16 +46,31 @@ pub(crate) enum Tok {
     End,
 }
 
-/// All symbols, longer ones before their beginnings.
-const SYMBOLS: &[&str] = &[
-    ">>>=", "===", "!==", "**=", "<<=", ">>=", ">>>", "...", "&&=", "||=", "??=", "=>", "==", "!=", "<=",
-    ">=", "&&", "||", "??", "?.", "++", "--", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "<<", ">>",
-    "**", "{", "}", "(", ")", "[", "]", ";", ",", "<", ">", "+", "-", "*", "/", "%", "&", "|", "^", "!", "~",
-    "?", ":", "=", ".", "@", "#",
+/// Symbols that are no operators between two values.
+const MARKS: [&str; 21] = [
+    "(", ")", "[", "]", "{", "}", ",", ";", ":", "?", ".", "...", "?.", "=", "=>", "++", "--", "!", "~", "@",
+    "#",
 ];
 
+/// All symbols, by the character that they begin with, longer ones before their beginnings.
+static SYMBOLS: LazyLock<BTreeMap<char, Vec<String>>> = LazyLock::new(|| {
+    let binary = BinaryOp::ALL.iter().map(|op| (op.symbol(), !op.is_comparison()));
+    let operators = binary.chain(LogicalOp::ALL.iter().map(|op| (op.symbol(), true)));
+    let mut all: BTreeMap<char, Vec<String>> = BTreeMap::new();
+    let mut add = |text: String| all.entry(text.chars().next().unwrap_or(' ')).or_default().push(text);
+    MARKS.iter().for_each(|mark| add((*mark).to_owned()));
+    for (symbol, assigns) in operators {
+        add(symbol.to_owned());
+        if assigns {
+            add(format!("{symbol}="));
+        }
+    }
+    all.values_mut().for_each(|list| list.sort_by_key(|text| std::cmp::Reverse(text.len())));
+    all
+});
+
 /// All tokens of a text, the last one [`Tok::End`].
-pub(crate) fn tokens(source: &str, diagnostics: &mut Vec<Finding>) -> Vec<Token> {
+pub(crate) fn tokens<'s>(source: &'s str, diagnostics: &mut Vec<Finding>) -> Vec<Token<'s>> {
     tokens_of(source, Span::new(0, source.len()), diagnostics)
 }
 
@@ -70,9 +90,10 @@ enum Raw<'a> {
 }
 
 /// All tokens of a part of a text, the last one [`Tok::End`].
-pub(crate) fn tokens_of(source: &str, part: Span, diagnostics: &mut Vec<Finding>) -> Vec<Token> {
-    let mut tokens: Vec<Token> = Vec::new();
+pub(crate) fn tokens_of<'s>(source: &'s str, part: Span, diagnostics: &mut Vec<Finding>) -> Vec<Token<'s>> {
     let mut input = part.text(source);
+    // Three bytes a token are usual.
+    let mut tokens: Vec<Token<'s>> = Vec::with_capacity(input.len() / 3 + 1);
     let end = part.start + input.len();
     loop {
         let (at, newline, open) = blank(input);
@@ -93,15 +114,16 @@ pub(crate) fn tokens_of(source: &str, part: Span, diagnostics: &mut Vec<Finding>
             None => literal::unclosed_template(start, diagnostics),
         };
         let fraction = matches!(kind, Tok::Number(_)) && is_fraction(&tokens, source, span);
+        let doubtful = fraction || at.starts_with(is_typographic);
         let doubt =
-            if fraction && diagnostics.len() > before { diagnostics.pop().map(Box::new) } else { None };
+            if doubtful && diagnostics.len() > before { diagnostics.pop().map(Box::new) } else { None };
         tokens.push(Token { kind, span, newline, doubt });
         input = behind;
     }
 }
 
 /// Whether a number stands directly behind digits and a comma, as in `0,02`.
-fn is_fraction(tokens: &[Token], source: &str, span: Span) -> bool {
+fn is_fraction(tokens: &[Token<'_>], source: &str, span: Span) -> bool {
     let [.., whole, comma] = tokens else { return false };
     let digits = |span: Span| span.text(source).bytes().all(|b| b.is_ascii_digit());
     comma.kind == Tok::Symbol(",")
@@ -118,6 +140,10 @@ fn is_line_end(c: char) -> bool {
 
 /// Skips white space and comments: what is behind them, whether a line ends in them, and a comment that is never closed.
 fn blank(input: &str) -> (&str, bool, Option<&str>) {
+    // Most tokens stand directly behind each other.
+    if !input.starts_with(|c| c == '/' || number::is_space(c)) {
+        return (input, false, None);
+    }
     let mut behind = input;
     let line = || recognize((tag("//"), take_while(|c| !is_line_end(c))));
     let block = || recognize(delimited(tag("/*"), take_until("*/"), tag("*/")));
@@ -147,23 +173,31 @@ fn unclosed_comment(start: usize) -> Finding {
 
 /// One token at the beginning of `input`.
 fn raw(input: &str) -> IResult<&str, Raw<'_>> {
-    alt((
-        map(word, Raw::Word),
-        map((literal::number, take_while(is_word_part)), |(text, tail)| Raw::Number(text, tail)),
-        map(symbol, Raw::Symbol),
-        literal::string('\''),
-        literal::string('"'),
-        literal::template,
-        map(typographic, Raw::Typographic),
-        map(anychar, Raw::Odd),
-    ))
-    .parse(input)
+    let mut chars = input.chars();
+    let (first, second) = (chars.next().unwrap_or(' '), chars.next().unwrap_or(' '));
+    match first {
+        c if is_word_start(c) => map(word, Raw::Word).parse(input),
+        '0'..='9' => number(input),
+        '.' if second.is_ascii_digit() => number(input),
+        '\'' | '"' => literal::string(first).parse(input),
+        '`' => literal::template(input),
+        _ => alt((
+            map(|input| symbol(first, input), Raw::Symbol),
+            map(typographic, Raw::Typographic),
+            map(anychar, Raw::Odd),
+        ))
+        .parse(input),
+    }
+}
+
+fn number(input: &str) -> IResult<&str, Raw<'_>> {
+    map((literal::number, take_while(is_word_part)), |(text, tail)| Raw::Number(text, tail)).parse(input)
 }
 
 /// What a token means, and what is wrong with it.
-fn token(raw: Raw<'_>, source: &str, span: Span, diagnostics: &mut Vec<Finding>) -> Tok {
+fn token<'s>(raw: Raw<'s>, source: &str, span: Span, diagnostics: &mut Vec<Finding>) -> Tok<'s> {
     match raw {
-        Raw::Word(text) => Tok::Word(text.to_owned()),
+        Raw::Word(text) => Tok::Word(text),
         Raw::Symbol(text) => Tok::Symbol(text),
         Raw::Number(text, tail) => literal::number_of(text, tail, span, diagnostics),
         Raw::Text(quote, parts, closed) => {
@@ -182,8 +216,7 @@ fn token(raw: Raw<'_>, source: &str, span: Span, diagnostics: &mut Vec<Finding>)
         Raw::Odd(c) => {
             diagnostics.push(bad_character(c, span));
             // A look-alike of an operator is read as that operator, so that what follows is still understood.
-            let meant = look_alike(c).and_then(|text| SYMBOLS.iter().find(|s| **s == text));
-            meant.map_or(Tok::Bad, |s| Tok::Symbol(s))
+            look_alike(c).map_or(Tok::Bad, Tok::Symbol)
         }
     }
 }
@@ -200,14 +233,15 @@ fn word(input: &str) -> IResult<&str, &str> {
     recognize((satisfy(is_word_start), take_while(is_word_part))).parse(input)
 }
 
-fn symbol(input: &str) -> IResult<&str, &'static str> {
+/// A symbol that begins with this character.
+fn symbol(first: char, input: &str) -> IResult<&str, &'static str> {
     let error = || nom::Err::Error(nom::error::Error::new(input, nom::error::ErrorKind::Tag));
-    let read = |text: &&'static str| {
-        let (behind, text) = nom_str(&mut value(*text, tag(*text)), input).ok()?;
+    let read = |text: &'static String| {
+        let behind = input.strip_prefix(text.as_str())?;
         // `a?.5:1` is a choice between .5 and 1, not an optional member.
-        (text != "?." || !behind.starts_with(|c: char| c.is_ascii_digit())).then_some((behind, text))
+        (text != "?." || !behind.starts_with(|c: char| c.is_ascii_digit())).then_some((behind, text.as_str()))
     };
-    SYMBOLS.iter().find_map(read).ok_or_else(error)
+    SYMBOLS.get(&first).into_iter().flatten().find_map(read).ok_or_else(error)
 }
 
 fn is_typographic(c: char) -> bool {
@@ -271,7 +305,7 @@ fn bad_character(c: char, span: Span) -> Finding {
 mod tests {
     use super::*;
 
-    fn kinds(source: &str) -> Vec<Tok> {
+    fn kinds(source: &str) -> Vec<Tok<'_>> {
         let mut found = Vec::new();
         let tokens = tokens(source, &mut found);
         assert!(found.is_empty(), "{found:?}");
@@ -292,8 +326,14 @@ mod tests {
     fn a_question_mark_before_a_decimal_is_a_choice() {
         assert_eq!(
             kinds("a?.5:1"),
-            [Tok::Word("a".into()), Tok::Symbol("?"), Tok::Number(0.5), Tok::Symbol(":"), Tok::Number(1.0)]
+            [Tok::Word("a"), Tok::Symbol("?"), Tok::Number(0.5), Tok::Symbol(":"), Tok::Number(1.0)]
         );
+    }
+
+    #[test]
+    fn a_point_before_a_letter_chooses_a_member() {
+        let members = [Tok::Word("a"), Tok::Symbol("."), Tok::Word("_b")];
+        assert_eq!(kinds("a._b"), members);
     }
 
     #[test]

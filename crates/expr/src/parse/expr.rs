@@ -34,8 +34,7 @@ fn infix(symbol: &str) -> Option<(Infix, u8)> {
     if let Some(op) = BinaryOp::ALL.into_iter().find(|op| op.symbol() == symbol) {
         return Some((Infix::Binary(op), op.power()));
     }
-    let op =
-        [LogicalOp::And, LogicalOp::Or, LogicalOp::Nullish].into_iter().find(|op| op.symbol() == symbol)?;
+    let op = LogicalOp::ALL.into_iter().find(|op| op.symbol() == symbol)?;
     Some((Infix::Logical(op), op.power()))
 }
 
@@ -51,7 +50,7 @@ fn assignment_op(symbol: &str) -> Option<Option<BinaryOp>> {
 /// The operator of `&&=`, `||=` or `??=`.
 fn logical_assignment(symbol: &str) -> Option<LogicalOp> {
     let op = symbol.strip_suffix('=')?;
-    [LogicalOp::And, LogicalOp::Or, LogicalOp::Nullish].into_iter().find(|l| l.symbol() == op)
+    LogicalOp::ALL.into_iter().find(|l| l.symbol() == op)
 }
 
 impl Parser<'_> {
@@ -158,7 +157,7 @@ impl Parser<'_> {
         let span = self.span();
         match self.peek() {
             Tok::Word(word) => {
-                let text = word.clone();
+                let text = (*word).to_owned();
                 self.bump();
                 Ok(Name { text, span })
             }
@@ -273,7 +272,7 @@ impl Parser<'_> {
             Tok::End => return self.expected_value(),
             Tok::Symbol(symbol) => return self.prefix_symbol(symbol),
             Tok::Word(_) if *self.peek_at(1) == Tok::Symbol("=>") => return self.arrow(),
-            Tok::Word(word) => match word.as_str() {
+            Tok::Word(word) => match *word {
                 "typeof" => return self.sign(UnaryOp::TypeOf),
                 "function" => return self.function_expression(),
                 "true" => ExprKind::Boolean(true),
@@ -281,7 +280,7 @@ impl Parser<'_> {
                 "null" => ExprKind::Null,
                 // A declaration in the middle of an expression.
                 "const" | "let" | "var" => return self.expected_value(),
-                "new" if *self.peek_at(1) == Tok::Word("Date".into()) => {
+                "new" if *self.peek_at(1) == Tok::Word("Date") => {
                     return self.refuse(refuse::new_date(span, self.words));
                 }
                 word => match refuse::word(word, span, self.words) {
@@ -352,6 +351,7 @@ impl Parser<'_> {
         for place in places {
             let tokens = lex::tokens_of(self.source, place, &mut self.diagnostics);
             let outer = std::mem::replace(&mut self.tokens, tokens);
+            self.look_at_quotes();
             let at = std::mem::take(&mut self.at);
             let value = self.template_value(place);
             self.tokens = outer;
@@ -423,7 +423,7 @@ impl Parser<'_> {
             return Ok((Property::Computed { key: key.expr, value: value.expr }, height));
         }
         let (text, word) = match self.peek() {
-            Tok::Word(text) => (text.clone(), true),
+            Tok::Word(text) => ((*text).to_owned(), true),
             Tok::Text(text) => (text.clone(), false),
             Tok::Number(x) => (crate::number::to_text(*x), false),
             Tok::Bad => return Err(Reported),

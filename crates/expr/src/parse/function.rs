@@ -213,7 +213,7 @@ impl Parser<'_> {
                 .help(format!("write the keys to take, as `const {}`", self.words.parts));
                 return self.refuse(report);
             };
-            let key = Name { text: text.clone(), span };
+            let key = Name { text: (*text).to_owned(), span };
             let renamed = *self.peek_at(1) == Tok::Symbol(":");
             let element = if renamed {
                 self.bump();
@@ -236,7 +236,7 @@ impl Parser<'_> {
     pub(super) fn new_name(&mut self, what: &str) -> Attempt<Name> {
         let span = self.span();
         let text = match self.peek() {
-            Tok::Word(word) => word.clone(),
+            Tok::Word(word) => (*word).to_owned(),
             Tok::Bad => return Err(Reported),
             _ => {
                 let report = Finding::error(

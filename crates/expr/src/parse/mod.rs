@@ -22,6 +22,8 @@ pub struct Parsed<T> {
     pub tree: T,
     /// Findings in source order.
     pub diagnostics: Vec<Finding>,
+    /// There are typographic quotes, of which the host tells itself.
+    pub told: bool,
 }
 
 /// Longest source text, in bytes. Real lessons stay below 2,000.
@@ -35,26 +37,26 @@ pub(crate) const MAX_DIAGNOSTICS: usize = 40;
 
 /// Reads one expression. Never fails: what cannot be read becomes [`ExprKind::Error`] and a finding.
 pub fn parse_expression(source: &str) -> Parsed<Expr> {
-    expression(source, &Words::PLAIN)
+    expression(source, &Words::PLAIN, false)
 }
 
-/// Reads one expression of a host with these words.
-pub(crate) fn expression(source: &str, words: &'static Words) -> Parsed<Expr> {
-    let mut parser = Parser::new(source, words);
+/// Reads one expression of a host with these words. `tells`: the host tells of typographic quotes itself.
+pub(crate) fn expression(source: &str, words: &'static Words, tells: bool) -> Parsed<Expr> {
+    let mut parser = Parser::new(source, words, tells);
     let tree = parser.whole_expression();
-    Parsed { tree, diagnostics: in_order(parser.diagnostics) }
+    Parsed { tree, diagnostics: in_order(parser.diagnostics), told: parser.told }
 }
 
 /// Reads statements separated by semicolons or line ends. Never fails, see [`parse_expression`].
 pub fn parse_statements(source: &str) -> Parsed<Vec<Stmt>> {
-    statements(source, &Words::PLAIN)
+    statements(source, &Words::PLAIN, false)
 }
 
-/// Reads statements of a host with these words.
-pub(crate) fn statements(source: &str, words: &'static Words) -> Parsed<Vec<Stmt>> {
-    let mut parser = Parser::new(source, words);
+/// Reads statements of a host with these words, see [`expression`].
+pub(crate) fn statements(source: &str, words: &'static Words, tells: bool) -> Parsed<Vec<Stmt>> {
+    let mut parser = Parser::new(source, words, tells);
     let tree = parser.statements();
-    Parsed { tree, diagnostics: in_order(parser.diagnostics) }
+    Parsed { tree, diagnostics: in_order(parser.diagnostics), told: parser.told }
 }
 
 /// Findings in source order, and not more than anyone reads.
@@ -85,7 +87,10 @@ type Attempt<T> = Result<T, Reported>;
 struct Parser<'s> {
     source: &'s str,
     words: &'static Words,
-    tokens: Vec<Token>,
+    /// The host tells of typographic quotes, and whether there are any.
+    tells: bool,
+    told: bool,
+    tokens: Vec<Token<'s>>,
     at: usize,
     /// Expressions and statements that are being read, one inside the other.
     depth: usize,
@@ -95,7 +100,7 @@ struct Parser<'s> {
 }
 
 impl<'s> Parser<'s> {
-    fn new(source: &'s str, words: &'static Words) -> Parser<'s> {
+    fn new(source: &'s str, words: &'static Words, tells: bool) -> Parser<'s> {
         let mut diagnostics = Vec::new();
         let tokens = if source.len() > MAX_SOURCE {
             let message =
@@ -105,15 +110,29 @@ impl<'s> Parser<'s> {
         } else {
             lex::tokens(source, &mut diagnostics)
         };
-        Parser { source, words, tokens, at: 0, depth: 0, tallest: 0, diagnostics }
+        let told = false;
+        let mut parser =
+            Parser { source, words, tells, told, tokens, at: 0, depth: 0, tallest: 0, diagnostics };
+        parser.look_at_quotes();
+        parser
     }
 
-    fn peek(&self) -> &Tok {
+    /// What is wrong with typographic quotes is told, by us or by the host.
+    fn look_at_quotes(&mut self) {
+        for token in self.tokens.iter_mut().filter(|token| !matches!(token.kind, Tok::Number(_))) {
+            match token.doubt.take() {
+                Some(_) if self.tells => self.told = true,
+                doubt => self.diagnostics.extend(doubt.map(|finding| *finding)),
+            }
+        }
+    }
+
+    fn peek(&self) -> &Tok<'s> {
         self.peek_at(0)
     }
 
     /// The token `n` places ahead; [`Tok::End`] behind the last.
-    fn peek_at(&self, n: usize) -> &Tok {
+    fn peek_at(&self, n: usize) -> &Tok<'s> {
         self.tokens.get(self.at + n).map_or(&Tok::End, |t| &t.kind)
     }
 
@@ -148,7 +167,7 @@ impl<'s> Parser<'s> {
     }
 
     fn is_word(&self, word: &str) -> bool {
-        matches!(self.peek(), Tok::Word(w) if w == word)
+        matches!(self.peek(), Tok::Word(w) if *w == word)
     }
 
     /// Takes the symbol if it is next.

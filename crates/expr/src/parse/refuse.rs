@@ -19,18 +19,17 @@ const STORE_HELP: &str = "keep values in variables, as `ctx.peak`";
 
 /// The finding for a reserved word of JavaScript where it cannot stand; `None` for a word that is a name.
 pub(super) fn word(word: &str, span: Span, words: &Words) -> Option<Finding> {
-    let name = format!("`{word}`");
     let misplaced =
         |help: &str| Finding::error(rules::MISPLACED, span, format!("`{word}` has no place here")).help(help);
     Some(match word {
         "this" | "super" => {
-            never(span, &format!("{name} references"), NO_OBJECTS, "name the thing itself, as `ctx`")
+            never(span, &format!("`{word}` references"), NO_OBJECTS, "name the thing itself, as `ctx`")
         }
         "class" | "extends" | "enum" | "interface" => never(span, "classes", NO_OBJECTS, STORE_HELP),
         "new" => {
             never(span, "objects made with `new`", NO_OBJECTS, "write a list `[0, 0]` or a record `{a: 1}`")
         }
-        "async" | "await" | "yield" => never(span, &format!("{name} and waiting"), NO_TIME, words.wait),
+        "async" | "await" | "yield" => never(span, &format!("`{word}` and waiting"), NO_TIME, words.wait),
         "try" | "catch" | "finally" | "throw" => {
             never(span, "exceptions", NO_EXCEPTIONS, "test for the case itself, with `if` or `? :`")
         }
@@ -49,7 +48,7 @@ pub(super) fn word(word: &str, span: Span, words: &Words) -> Option<Finding> {
         "void" => never(span, "`void` expressions", "they only give `undefined`", "write `undefined`"),
         "instanceof" | "in" => never(
             span,
-            &format!("{name} tests"),
+            &format!("`{word}` tests"),
             "a variable that nothing has stored yet is `undefined`, which a comparison tells as well",
             "to ask whether there is a value, write `ctx.start != null`",
         ),

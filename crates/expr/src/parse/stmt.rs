@@ -86,7 +86,7 @@ impl Parser<'_> {
 
     fn statement_inside(&mut self) -> Attempt<StmtKind> {
         let word = match self.peek() {
-            Tok::Word(word) => word.clone(),
+            Tok::Word(word) => *word,
             Tok::Symbol("{") => return self.block().map(StmtKind::Block),
             Tok::Symbol(")" | "]" | "}") => {
                 let report = self.unexpected_behind(Span::default());
@@ -95,7 +95,7 @@ impl Parser<'_> {
             }
             _ => return self.expression_statement(),
         };
-        match word.as_str() {
+        match word {
             "const" | "let" | "var" => self.declaration(),
             "if" => self.condition(),
             "for" => self.for_loop(),
@@ -282,7 +282,7 @@ impl Parser<'_> {
         let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
         let constant = self.is_word("const");
         let behind = self.behind_group(usize::from(declares));
-        let of = |word: &str| matches!(self.peek_at(behind), Tok::Word(w) if w == word);
+        let of = |word: &str| matches!(self.peek_at(behind), Tok::Word(w) if *w == word);
         if !of("of") && !of("in") {
             return Ok(None);
         }
@@ -324,7 +324,7 @@ impl Parser<'_> {
     /// The finding for a word that opens a statement, when an expression is wanted.
     pub(super) fn statement_keyword(&self) -> Option<Finding> {
         let Tok::Word(word) = self.peek() else { return None };
-        match word.as_str() {
+        match *word {
             "const" | "let" | "var" => Some(
                 Finding::error(
                     rules::EXPRESSION_ONLY,
@@ -361,11 +361,11 @@ impl Parser<'_> {
     fn skip_construct(&mut self) {
         loop {
             let opener = match self.peek() {
-                Tok::Word(word) => word.clone(),
+                Tok::Word(word) => *word,
                 _ => return,
             };
             self.bump();
-            match opener.as_str() {
+            match opener {
                 "function" | "class" | "async" => {
                     while !self.ended() && !self.is("{") && !self.is(";") {
                         self.skip_group();
@@ -397,7 +397,7 @@ impl Parser<'_> {
         let (Tok::Word(text), true) = (self.peek_at(1), self.is_word("class")) else { return None };
         let span = self.tokens.get(self.at + 1)?.span;
         let value = Some(Expr { kind: ExprKind::Error, span });
-        let target = Pattern::Name(Name { text: text.clone(), span });
+        let target = Pattern::Name(Name { text: (*text).to_owned(), span });
         Some(StmtKind::Declare { constant: true, declarators: vec![Declarator { target, value }] })
     }
 
@@ -509,9 +509,7 @@ impl Parser<'_> {
                 Finding::error(rules::MISPLACED, span, format!("`{text}` has no place here"))
                     .help("remove it"),
             ),
-            Tok::Word(word) if matches!(word.as_str(), "in" | "instanceof") => {
-                refuse::word(word, span, self.words)
-            }
+            Tok::Word(word) if matches!(*word, "in" | "instanceof") => refuse::word(word, span, self.words),
             _ => {
                 let left = shorten(before.text(self.source));
                 Some(

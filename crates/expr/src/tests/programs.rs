@@ -232,3 +232,20 @@ fn functions_that_call_each_other_deeply_are_refused_on_a_small_stack() {
     };
     std::thread::Builder::new().stack_size(1024 * 1024).spawn(run).unwrap().join().unwrap();
 }
+
+#[test]
+fn a_host_may_tell_of_typographic_quotes_itself() {
+    let mut globals = Globals::new();
+    for source in ["data.joint(“heavy_free”).qpos[2]", "1 + ”", "`${data.joint(‘heavy_free’).qpos[2]}`"]
+    {
+        let told = Compiler::new(&Mock, &mut globals).without_quotes().expression(source);
+        assert!(
+            told.program.is_none() && told.diagnostics.iter().all(|d| d.code != "bad-character"),
+            "{source}"
+        );
+        let untold = Compiler::new(&Mock, &mut globals).expression(source);
+        assert!(untold.diagnostics.iter().any(|d| d.code == "bad-character"), "{source}");
+    }
+    let other = Compiler::new(&Mock, &mut globals).without_quotes().expression("data.time × 2");
+    assert_eq!(other.diagnostics.first().map(|d| d.code), Some("bad-character"));
+}

@@ -94,12 +94,12 @@ impl Machine<'_> {
                 let value = self.member(code, &object, &name)?;
                 self.put_value(f, dst, value);
             }
-            Op::StoreItem(object, index, value) => {
+            Op::StoreItem(object, index, value, _) => {
                 let (object, index) = (self.val(f, object).clone(), self.val(f, index).clone());
                 let value = self.val(f, value).clone();
                 self.store_item(code, &object, &index, value)?;
             }
-            Op::StoreMember(object, name, value) => {
+            Op::StoreMember(object, name, value, _) => {
                 let name = code.texts.get(name as usize).cloned().unwrap_or_else(|| "".into());
                 let (object, value) = (self.val(f, object).clone(), self.val(f, value).clone());
                 self.store_member(code, &object, name, value)?;
@@ -197,7 +197,7 @@ impl Machine<'_> {
         match of.binary_search_by(|(n, _)| (**n).cmp(&name)) {
             Ok(at) => Ok(of.get(at).map(|(_, v)| v.clone()).unwrap_or_default()),
             Err(_) => {
-                let near = crate::closest(&name, of.iter().map(|(n, _)| &**n));
+                let near = labspec_finding::nearest(&name, of.iter().map(|(n, _)| &**n));
                 let meant = near.map(|n| format!("; did you mean \"{n}\"?")).unwrap_or_default();
                 Err(Trouble::new(
                     rules::UNKNOWN_OBJECT,

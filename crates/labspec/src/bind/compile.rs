@@ -3,14 +3,13 @@
 use super::{Functions, ModelNames, Scope};
 use crate::finding::{Finding, Fix};
 use crate::json::{Scalar, fix_in_code};
-use crate::markdown::is_typographic;
 use crate::rules;
 use crate::source::Text;
 use crate::spec::{Action, Control, ControlKind, Lab};
 use labspec_bind::WORDS;
 use labspec_core::reflect::{FieldId, FieldSet, Kind, Object};
 use labspec_core::{Demand, Model};
-use labspec_expr::{self as expr, Compiled, Compiler, Effects, Globals, Program, ProgramId, Type, Value};
+use labspec_expr::{Compiled, Compiler, Effects, Globals, Program, ProgramId, Type, Value};
 
 /// A text and the program it was compiled to.
 #[derive(Clone, Debug)]
@@ -200,17 +199,12 @@ impl Work<'_> {
     }
 
     fn compiler(&mut self, value: Option<Type>) -> Compiler<'_> {
-        Compiler::new(self.names, self.globals).with_value(value)
+        // Typographic quotes are told once for a whole text, by a rule of their own.
+        Compiler::new(self.names, self.globals).with_value(value).without_quotes()
     }
 
     fn keep(&mut self, text: &Text, compiled: Compiled) -> Option<Bound> {
-        // Typographic quotes are told once for a whole text, by their own rule.
-        let quote = |d: &&Finding| {
-            d.code == expr::rules::BAD_CHARACTER.code
-                && text.value.get(d.span.start..).is_some_and(|t| t.starts_with(is_typographic))
-        };
-        let said = compiled.diagnostics.iter().filter(|d| !quote(d));
-        self.findings.extend(said.map(|d| to_finding(d, text)));
+        self.findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
         self.texts.push((compiled.id, text.clone()));
         compiled.program.map(|program| Bound { text: text.clone(), program })
     }

@@ -5,7 +5,8 @@ use super::output::{Wanted, look_ahead, write_with};
 use super::stdio::{print_json, stream};
 use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
 use crate::precision::{
-    Axis, Compared, Fate, INTEGRATORS, Integrator, Options, Recording, Report, Row, compare, milliseconds,
+    Axis, Beside, BesideRow, Compared, Fate, INTEGRATORS, Integrator, Options, Recording, Report, Row,
+    compare, milliseconds,
 };
 use crate::report::{key, printable, printable_path, set_number, set_numbers};
 use crate::verify::significant;

@@ -20,7 +20,7 @@ use super::settings::Compiler;
 use crate::math::{Vec3, add, rotate};
 use crate::mjcf::body::orientation;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::{Report, closest, shown};
+use crate::mjcf::text::diagnostic::{Report, nearest, shown};
 use crate::mjcf::text::load::Written;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
@@ -508,7 +508,7 @@ fn unknown<'n>(
         span,
         format!("there is no {kind} named {} to attach", shown(name)),
     );
-    if let Some(near) = closest(name, known) {
+    if let Some(near) = nearest(name, known) {
         error.help(format!("did you mean `{near}`?"));
     }
 }

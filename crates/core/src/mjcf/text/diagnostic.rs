@@ -12,7 +12,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::rc::Rc;
 
-pub(crate) use labspec_finding::nearest as closest;
+pub(crate) use labspec_finding::nearest;
 
 /// More findings than this are not listed: the first mistakes explain the rest.
 const MAX_DIAGNOSTICS: usize = 100;

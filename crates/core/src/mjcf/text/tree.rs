@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use super::diagnostic::{Report, closest, shown};
+use super::diagnostic::{Report, nearest, shown};
 use super::values::{self, Value};
 use super::xml::Element as Xml;
 use crate::mjcf::MAX_DEPTH;
@@ -224,7 +224,7 @@ fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, re
         span,
         format!("there is no element {} in `{}`", shown(name), element.name),
     );
-    if let Some(near) = closest(name, element.children.iter().map(|c| c.name)) {
+    if let Some(near) = nearest(name, element.children.iter().map(|c| c.name)) {
         error.help(format!("did you mean `{near}`?"));
     }
 }
@@ -346,7 +346,7 @@ fn same_as(attr: &Attr, value: &Value, default: &str) -> bool {
 fn unknown_attribute(name: &str, span: Range<usize>, element: &'static Element, report: &mut Report) {
     let message = format!("{} has no attribute {}", element.name, shown(name));
     let error = report.error(rules::UNKNOWN_ATTRIBUTE, span, message);
-    if let Some(near) = closest(name, element.attributes().map(|a| a.name)) {
+    if let Some(near) = nearest(name, element.attributes().map(|a| a.name)) {
         error.help(format!("did you mean `{near}`?"));
     } else if element.attributes().next().is_none() {
         error.help(format!("`{}` takes no attributes", element.name));

@@ -4,7 +4,7 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::diagnostic::{closest, shown};
+use super::diagnostic::{nearest, shown};
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::schema::{Kind, Word};
 
@@ -75,7 +75,7 @@ fn keyword(words: &[Word], text: &str) -> Result<Value, Problem> {
     }
     let mut problem =
         Problem::new(rules::KEYWORD, format!("is {}, which is not one of its keywords", shown(text)));
-    problem.help = Some(match closest(text.trim(), words.iter().filter(|w| w.supported).map(|w| w.text)) {
+    problem.help = Some(match nearest(text.trim(), words.iter().filter(|w| w.supported).map(|w| w.text)) {
         Some(word) => format!("did you mean `{word}`?"),
         None => format!("write one of: {}", listed(words)),
     });

@@ -4,7 +4,7 @@ use super::unknown::LANGUAGE;
 use super::{Use, Walk};
 use crate::math;
 use crate::schema::{Entry, ObjectId, Schema};
-use labspec_finding::{nearest as closest, ranked};
+use labspec_finding::{nearest, ranked};
 
 impl Use {
     /// Whether something of the host can be used like this.
@@ -53,7 +53,7 @@ impl Walk<'_, '_> {
         roots.retain(|root| fits(schema.root(root)));
         let words = LANGUAGE.into_iter().filter(|word| used.fits_word(word));
         let known = self.own_names().chain(roots.iter().map(String::as_str)).chain(words);
-        if let Some(meant) = closest(name, known) {
+        if let Some(meant) = nearest(name, known) {
             return Some(meant.to_owned());
         }
         if self.kept.contains(name) || self.around.globals.slot(name).is_some() {

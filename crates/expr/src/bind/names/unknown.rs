@@ -2,11 +2,11 @@
 
 use super::{Use, Walk};
 use crate::ast::Name;
-use crate::closest;
 use crate::parse::MAX_DIAGNOSTICS;
 use crate::rules;
 use crate::words::Words;
 use crate::{Finding, Span};
+use labspec_finding::nearest;
 
 /// Names of the language itself.
 pub(super) const LANGUAGE: [&str; 14] = [
@@ -139,7 +139,7 @@ impl Walk<'_, '_> {
     /// The name that is probably meant by a misspelt one on the left of `=`.
     fn nearest(&self, name: &str) -> Option<String> {
         let roots = self.root_names();
-        closest(name, self.own_names().chain(roots.iter().map(String::as_str))).map(str::to_owned)
+        nearest(name, self.own_names().chain(roots.iter().map(String::as_str))).map(str::to_owned)
     }
 
     /// The names in reach that the text declares.

@@ -4,15 +4,14 @@ use super::member::{quoted, view_of};
 use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Expr, ExprKind};
 use crate::bind::names::list;
-use crate::closest;
-use crate::effects::Access;
 use crate::ir::{Index, Ir, Kind};
 use crate::number;
 use crate::rules;
 use crate::schema::{CollectionId, Field, Help, ObjectId, Type};
-use crate::value::{Value, View};
+use crate::value::Value;
 use crate::words::Words;
 use crate::{Finding, Fix, Span};
+use labspec_finding::nearest;
 
 /// What chooses a `ctx` variable.
 pub(super) enum GlobalName {
@@ -92,7 +91,6 @@ impl<'a> Binder<'a> {
     /// An element of a list or a text.
     fn value_element(&mut self, object: Ir, index: &'a Expr, span: Span) -> Attempt<Ir> {
         let index = self.value(index)?;
-        self.effects.can_throw |= !matches!(object.ty, Type::List | Type::View | Type::String);
         if let Some(n) = self.known_length(&object)
             && let Some(Value::Number(x)) = index.known()
             && (*x < 0.0 || *x >= n as f64)
@@ -117,7 +115,6 @@ impl<'a> Binder<'a> {
     /// An element of a field, read.
     pub(super) fn load(&mut self, field: &Field, index: Index, span: Span) -> Ir {
         let view = view_of(field);
-        self.read(view, Some(&index));
         // An index that is known to exist gives a number, any other a number or `undefined`.
         let certain = match (&index, view.count()) {
             (Index::At(_), Some(_)) => true,
@@ -128,16 +125,6 @@ impl<'a> Binder<'a> {
         };
         let ty = if certain { Type::Number } else { Type::Element };
         Ir::new(Kind::Load(view, index), ty, span)
-    }
-
-    /// Notes that elements are read; without an index, all of the view.
-    pub(super) fn read(&mut self, view: View, index: Option<&Index>) {
-        self.effects.read(access(view, index));
-    }
-
-    /// Notes that elements are written.
-    pub(super) fn write(&mut self, view: View, index: Option<&Index>) {
-        self.effects.write(access(view, index));
     }
 
     /// The name in `ctx['name']`.
@@ -160,10 +147,7 @@ impl<'a> Binder<'a> {
     fn read_named_global(&mut self, index: &'a Expr, span: Span) -> Attempt<Ir> {
         match self.global_name(index)? {
             GlobalName::Known(name) => self.global(&name, span),
-            GlobalName::Computed(ir) => {
-                self.effects.any_ctx = true;
-                Ok(Ir::new(Kind::GlobalNamed(Box::new(ir)), Type::Any, span))
-            }
+            GlobalName::Computed(ir) => Ok(Ir::new(Kind::GlobalNamed(Box::new(ir)), Type::Any, span)),
         }
     }
 
@@ -375,7 +359,6 @@ impl<'a> Binder<'a> {
                             .help(format!("give the {noun} a name in the {}", self.words().model)),
                     );
                 }
-                self.effects.can_throw = true;
                 return Ok(Chosen::Computed(ir));
             }
             _ => {
@@ -403,7 +386,7 @@ impl<'a> Binder<'a> {
         }
         let report =
             Finding::error(rules::UNKNOWN_OBJECT, arg.span, format!("there is no {noun} named \"{name}\""));
-        let report = match closest(name, names.iter().map(String::as_str)) {
+        let report = match nearest(name, names.iter().map(String::as_str)) {
             Some(meant) => {
                 report.help(format!("did you mean \"{meant}\"?")).guess(arg.span, format!("\"{meant}\""))
             }
@@ -421,16 +404,6 @@ pub(super) enum Chosen {
     Known(ObjectId),
     /// Known only while running.
     Computed(Ir),
-}
-
-/// What an access touches, in elements of the whole field.
-fn access(view: View, index: Option<&Index>) -> Access {
-    let start = view.first as usize;
-    let (first, count) = match index {
-        Some(Index::At(i)) => (start.saturating_add(*i), Some(1)),
-        _ => (start, view.count()),
-    };
-    Access { field: view.field, first, count }
 }
 
 /// ` 0 to 13`, for the end of a sentence on indexes.

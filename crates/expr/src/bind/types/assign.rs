@@ -14,8 +14,7 @@ use crate::{Finding, Span};
 impl<'a> Binder<'a> {
     /// `target = value` of a control that sets.
     pub(super) fn set(&mut self, target: &'a Expr, given: Type) -> Attempt<Ir> {
-        let place = self.place(target, false)?;
-        self.effects.uses_value = true;
+        let place = self.place(target)?;
         let value = Ir::new(Kind::Input, given, target.span);
         Ok(Ir::new(Kind::Store(Box::new(place), None, Box::new(value)), given, target.span))
     }
@@ -40,7 +39,7 @@ impl<'a> Binder<'a> {
         value: &'a Expr,
         span: Span,
     ) -> Attempt<Ir> {
-        let place = self.place(target, op.is_some());
+        let place = self.place(target);
         let scalar = matches!(place, Ok(Place::Element(..)));
         let value = match &value.kind {
             ExprKind::Assign { .. } | ExprKind::AssignLogical { .. } => self.changing(value),
@@ -68,7 +67,7 @@ impl<'a> Binder<'a> {
 
     /// `target ||= value` and its like.
     fn assign_if(&mut self, target: &'a Expr, op: LogicalOp, value: &'a Expr, span: Span) -> Attempt<Ir> {
-        let place = self.place(target, true);
+        let place = self.place(target);
         let value =
             if matches!(place, Ok(Place::Element(..))) { self.operand(value) } else { self.value(value) };
         let (place, value) = (place?, value?);
@@ -81,7 +80,7 @@ impl<'a> Binder<'a> {
 
     /// `target++` and its like.
     fn update(&mut self, target: &'a Expr, increment: bool, prefix: bool, span: Span) -> Attempt<Ir> {
-        let place = self.place(target, true)?;
+        let place = self.place(target)?;
         self.stored(target, &place, Type::Number);
         let (step, gives) =
             (if increment { 1.0 } else { -1.0 }, if prefix { Gives::New } else { Gives::Old });
@@ -127,36 +126,32 @@ impl<'a> Binder<'a> {
         )
     }
 
-    /// What can be assigned to. `reads`: a compound assignment also reads it.
-    fn place(&mut self, target: &'a Expr, reads: bool) -> Attempt<Place> {
+    /// What can be assigned to.
+    fn place(&mut self, target: &'a Expr) -> Attempt<Place> {
         match &target.kind {
-            ExprKind::Name(name) => self.named_place(name, target.span, reads),
+            ExprKind::Name(name) => self.named_place(name, target.span),
             ExprKind::Member { object, name, optional: false } => match self.thing(object)? {
-                Thing::Globals => self.global_place(&name.text, target.span, reads),
+                Thing::Globals => self.global_place(&name.text, target.span),
                 Thing::Value(ir) => self.member_place(ir, name, target.span),
                 thing => {
                     let thing = self.member_of(thing, object.span, name, false, target.span)?;
-                    self.place_of(thing, target, reads)
+                    self.place_of(thing, target)
                 }
             },
             ExprKind::Index { object, index, optional: false } => match self.thing(object) {
                 Ok(Thing::Globals) => match self.global_name(index)? {
-                    GlobalName::Known(name) => self.global_place(&name, target.span, reads),
-                    GlobalName::Computed(name) => {
-                        self.effects.any_ctx = true;
-                        Ok(Place::GlobalNamed(name))
-                    }
+                    GlobalName::Known(name) => self.global_place(&name, target.span),
+                    GlobalName::Computed(name) => Ok(Place::GlobalNamed(name)),
                 },
                 Ok(Thing::Field(field)) => {
                     let checked = self.check_assignable(&field, target.span);
                     let index = self.index(&field, index, target.span)?;
                     checked?;
                     self.name_element(&field, &index, target.span);
-                    Ok(self.element_place(&field, index, reads))
+                    Ok(Place::Element(view_of(&field), index))
                 }
                 Ok(Thing::Value(ir)) if ir.ty.may_have_parts() => {
                     let index = self.value(index)?;
-                    self.stores_item(&ir);
                     Ok(Place::Item(ir, index))
                 }
                 Ok(thing) => {
@@ -187,7 +182,6 @@ impl<'a> Binder<'a> {
             return self.refuse(machinery(&name.text, name.span));
         }
         if matches!(ir.ty, Type::Record | Type::Any | Type::Never | Type::List) {
-            self.stores_item(&ir);
             return Ok(Place::Member(ir, name.text.as_str().into()));
         }
         let message =
@@ -198,33 +192,14 @@ impl<'a> Binder<'a> {
         )
     }
 
-    /// Notes that something is stored in what is known only while running.
-    fn stores_item(&mut self, object: &Ir) {
-        self.effects.can_throw = true;
-        self.effects.stores_items |= object.ty != Type::Record;
-    }
-
-    fn global_place(&mut self, name: &str, span: Span, reads: bool) -> Attempt<Place> {
+    fn global_place(&mut self, name: &str, span: Span) -> Attempt<Place> {
         self.check_machinery(name, span)?;
         let slot = self.globals.mention(name, self.program, span, true);
-        self.effects.write_global(slot);
-        if reads {
-            self.effects.read_global(slot);
-        }
         Ok(Place::Global(slot))
     }
 
-    fn element_place(&mut self, field: &Field, index: Index, reads: bool) -> Place {
-        let view = view_of(field);
-        self.write(view, Some(&index));
-        if reads {
-            self.read(view, Some(&index));
-        }
-        Place::Element(view, index)
-    }
-
     /// A plain name on the left.
-    fn named_place(&mut self, name: &str, span: Span, reads: bool) -> Attempt<Place> {
+    fn named_place(&mut self, name: &str, span: Span) -> Attempt<Place> {
         if let Some(variable) = self.variable(name, span)? {
             return match variable.meaning {
                 Meaning::Unknown if variable.ready => Err(Reported),
@@ -236,16 +211,16 @@ impl<'a> Binder<'a> {
         }
         let thing = self.root(name, span)?;
         let expr = Expr { kind: ExprKind::Name(name.to_owned()), span };
-        self.place_of(thing, &expr, reads)
+        self.place_of(thing, &expr)
     }
 
     /// A thing behind a name or a point on the left.
-    fn place_of(&mut self, thing: Thing, target: &Expr, reads: bool) -> Attempt<Place> {
+    fn place_of(&mut self, thing: Thing, target: &Expr) -> Attempt<Place> {
         match thing {
             Thing::Field(field) => {
                 self.check_assignable(&field, target.span)?;
                 if field.is_scalar() {
-                    return Ok(self.element_place(&field, Index::At(0), reads));
+                    return Ok(Place::Element(view_of(&field), Index::At(0)));
                 }
                 let text = self.text(target.span).to_owned();
                 self.refuse(

@@ -86,7 +86,6 @@ impl<'a> Binder<'a> {
                 _ => {}
             }
         }
-        self.effects.can_throw = true;
         Ok(Ir::new(Kind::Native(function, items), row.returns(Type::Any), span))
     }
 
@@ -231,7 +230,6 @@ impl<'a> Binder<'a> {
             let numbers = items.into_iter().map(|i| Ir::to_number(i.value, span)).collect();
             return Ok(Ir::math(function, numbers, span));
         }
-        self.effects.can_throw = true;
         let ty = if function.gives_boolean() { Type::Boolean } else { Type::Number };
         let list = match items.as_slice() {
             [only] if only.value.ty != Type::String => only.value.clone(),
@@ -285,7 +283,6 @@ impl<'a> Binder<'a> {
         if failed {
             return Err(Reported);
         }
-        self.effects.call(id, &info.reads, &info.writes);
         Ok(Ir::new(Kind::Call(id, passed), info.returns, span))
     }
 
@@ -439,7 +436,6 @@ impl<'a> Binder<'a> {
         let mut failed = false;
         for (i, (param, arg)) in info.params.iter().zip(args).enumerate() {
             // Each argument reads and writes on its own account.
-            let effects = std::mem::take(&mut self.effects);
             let aggregates = std::mem::take(&mut self.aggregates);
             let variables = std::mem::take(&mut self.variables);
             let known = std::mem::take(&mut self.known);
@@ -455,7 +451,6 @@ impl<'a> Binder<'a> {
             if let Ok(Some(ir)) = &bound {
                 self.finish(vec![Step::Return(ir.clone())], result);
             }
-            let mut effects = std::mem::replace(&mut self.effects, effects);
             let aggregates = std::mem::replace(&mut self.aggregates, aggregates);
             self.settle();
             let tree = std::mem::replace(&mut self.tree, tree);
@@ -465,9 +460,7 @@ impl<'a> Binder<'a> {
             self.unit = unit;
             match bound {
                 Ok(Some(ir)) => {
-                    super::note_views(&tree.views, &mut effects);
-                    let identity = self.schema.identity();
-                    programs.push(Program::new(&tree, effects, ir.ty, aggregates, identity, &self.globals));
+                    programs.push(Program::new(&tree, self.schema, ir.ty, aggregates, &self.globals));
                 }
                 Ok(None) => {}
                 Err(Reported) => failed = true,
@@ -478,7 +471,6 @@ impl<'a> Binder<'a> {
         }
         let slot = self.next_aggregate;
         self.next_aggregate += 1;
-        self.effects.aggregates = true;
         self.aggregates.push(Aggregate { function: id, args: programs, slot, span });
         Ok(Ir::new(Kind::Aggregate(slot as u32), Type::Number, span))
     }

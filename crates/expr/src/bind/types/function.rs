@@ -215,7 +215,6 @@ impl<'a> Binder<'a> {
         let types: Vec<Type> = values.iter().map(|v| v.ty).collect();
         let unit = self.unit_of(at, &types)?;
         self.capture_for(at);
-        self.effects.can_throw = true;
         let Some(key) = self.known.get(at).map(|k| k.key) else { return Err(Reported) };
         let call = Ir::new(Kind::Invoke(unit, values), self.facts.ty(key), span);
         if extra.is_empty() {
@@ -227,8 +226,6 @@ impl<'a> Binder<'a> {
 
     /// A call of a function that is known only while running.
     pub(super) fn call_value(&mut self, callee: Ir, args: Vec<Item>, span: Span) -> Ir {
-        self.effects.can_throw = true;
-        self.effects.calls_values = true;
         Ir::new(Kind::InvokeValue(Box::new(callee), args), Type::Any, span)
     }
 }

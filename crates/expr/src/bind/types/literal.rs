@@ -39,7 +39,6 @@ impl<'a> Binder<'a> {
         }
         let value = self.value_of(thing, inner.span)?;
         self.expect_elements(&value)?;
-        self.effects.can_throw = true;
         Ok(vec![Item { value, spread: true }])
     }
 

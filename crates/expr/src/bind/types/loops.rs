@@ -136,7 +136,6 @@ impl<'a> Binder<'a> {
                 if self.expect_elements(&value).is_err() {
                     return self.dead_loop(target, body, known);
                 }
-                self.effects.can_throw = true;
                 // A text is taken apart into its characters, of which some take two units.
                 let function = crate::natives::free("Array.from");
                 let value = match (value.ty, function) {

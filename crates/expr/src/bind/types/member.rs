@@ -12,7 +12,7 @@ use crate::schema::{Entry, Field, FieldKind, Help, ObjectId, Type};
 use crate::value::{Value, View};
 use crate::words::Words;
 use crate::{Finding, Span};
-use labspec_finding::{nearest as closest, ranked};
+use labspec_finding::{nearest, ranked};
 
 impl<'a> Binder<'a> {
     pub(super) fn thing_inside(&mut self, expr: &'a Expr) -> Attempt<Thing> {
@@ -43,7 +43,6 @@ impl<'a> Binder<'a> {
             return Ok(Thing::Native(function));
         }
         if let (true, Some(ty)) = (name == "value", self.value) {
-            self.effects.uses_value = true;
             return Ok(Thing::Value(Ir::new(Kind::Input, ty, span)));
         }
         // The first pass has told of what means nothing.
@@ -147,7 +146,7 @@ impl<'a> Binder<'a> {
             .filter_map(|row| row.name.strip_prefix(holder)?.strip_prefix('.'))
             .chain(constants.iter().map(|(n, _)| *n))
             .collect();
-        self.refuse(match closest(&name.text, names.iter().copied()) {
+        self.refuse(match nearest(&name.text, names.iter().copied()) {
             Some(meant) => report.help(format!("did you mean `{holder}.{meant}`?")).guess(name.span, meant),
             None => {
                 let names: Vec<String> = names.iter().map(|n| (*n).to_owned()).collect();
@@ -160,7 +159,6 @@ impl<'a> Binder<'a> {
     pub(super) fn global(&mut self, name: &str, span: Span) -> Attempt<Ir> {
         self.check_machinery(name, span)?;
         let slot = self.globals.mention(name, self.program, span, false);
-        self.effects.read_global(slot);
         Ok(Ir::new(Kind::Global(slot), Type::Any, span))
     }
 
@@ -191,7 +189,7 @@ impl<'a> Binder<'a> {
         }
         let report =
             Finding::error(rules::UNKNOWN_FUNCTION, name.span, format!("`Math` has no `{}`", name.text));
-        let report = match closest(&name.text, math::names()) {
+        let report = match nearest(&name.text, math::names()) {
             Some(meant) => report.help(format!("did you mean `Math.{meant}`?")).guess(name.span, meant),
             None => report
                 .why("`Math` has the functions and constants of JavaScript")
@@ -211,11 +209,7 @@ impl<'a> Binder<'a> {
         match text {
             "length" if array => Ok(Thing::Value(match field.len() {
                 Some(n) => Ir::number(n as f64, span),
-                None => {
-                    let view = view_of(&field);
-                    self.read(view, None);
-                    Ir::new(Kind::Length(view), Type::Number, span)
-                }
+                None => Ir::new(Kind::Length(view_of(&field)), Type::Number, span),
             })),
             text @ ("push" | "pop" | "shift" | "unshift" | "splice") if array => self.refuse(
                 Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has a fixed number of elements", field.path))
@@ -248,7 +242,7 @@ impl<'a> Binder<'a> {
                 )
                 .why("it is one number");
                 let methods = self.method_names(Type::Number);
-                self.refuse(match closest(text, methods) {
+                self.refuse(match nearest(text, methods) {
                     Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
                     None => report
                         .help(format!("remove `.{text}`"))

@@ -38,9 +38,7 @@ impl<'a> Binder<'a> {
         let changes = name.rows().any(|row| row.changes);
         if let (Receiver::Field(field), true) = (&receiver, changes) {
             self.check_assignable(field, span)?;
-            self.write(view_of(field), None);
         }
-        self.effects.stores_items |= changes;
         let ty = match &receiver {
             Receiver::Field(_) => Type::View,
             Receiver::Value(ir) => ir.ty,
@@ -62,7 +60,6 @@ impl<'a> Binder<'a> {
         };
         self.check_arity(&rows, args, span)?;
         let items = self.items(args)?;
-        self.effects.can_throw = true;
         let ty = run.map(|row| row.returns(ty)).reduce(Type::or).unwrap_or(Type::Any);
         Ok(Ir::new(Kind::Method(name, Box::new(receiver), items), ty, span))
     }
@@ -161,7 +158,6 @@ impl<'a> Binder<'a> {
                 let value = self.operand(value)?;
                 assignable?;
                 self.want(&value, value.span, Want::Element(None));
-                self.write(view, None);
                 Kind::Fill(view, Box::new(value))
             }
             ("set", [Expr { kind: ExprKind::Array(items), .. }, rest @ ..])
@@ -196,7 +192,6 @@ impl<'a> Binder<'a> {
                 }
                 self.check_fits(field, values.len(), offset, span)?;
                 assignable?;
-                self.write(view, None);
                 Kind::StoreAll(view, offset, values)
             }
             ("set", [first, ..]) if matches!(first.kind, ExprKind::Number(_)) => {

@@ -29,9 +29,8 @@ use std::collections::BTreeMap;
 use super::names::Names;
 use super::{Compiler, MAX_LEVELS, Mode};
 use crate::ast::Expr;
-use crate::effects::Effects;
 use crate::globals::{Globals, ProgramId};
-use crate::ir::{Ir, Shown, Step, Tree, Unit, UnitId};
+use crate::ir::{Ir, Step, Tree, Unit, UnitId};
 use crate::math;
 use crate::natives;
 use crate::program::Aggregate;
@@ -61,7 +60,6 @@ pub(super) struct Bound {
 /// What a program is made of.
 pub(super) struct Parts {
     pub(super) tree: Tree,
-    pub(super) effects: Effects,
     pub(super) result: Type,
     pub(super) aggregates: Vec<Aggregate>,
 }
@@ -87,10 +85,10 @@ pub(super) fn bind(
         if again {
             continue;
         }
-        note_views(&binder.tree.views, &mut binder.effects);
-        let (tree, effects, aggregates) = (binder.tree, binder.effects, binder.aggregates);
+        binder.typed.sort();
+        let (tree, aggregates) = (binder.tree, binder.aggregates);
         return Bound {
-            program: done.ok().map(|result| Parts { tree, effects, result, aggregates }),
+            program: done.ok().map(|result| Parts { tree, result, aggregates }),
             found: binder.diagnostics,
             typed: binder.typed,
             help: binder.help,
@@ -98,21 +96,6 @@ pub(super) fn bind(
             #[cfg(test)]
             rounds: facts.rounds(),
         };
-    }
-}
-
-/// Arrays that became values may be read, and stored to when anything is stored through a value.
-fn note_views(views: &[Shown], effects: &mut Effects) {
-    for shown in views {
-        let access = crate::Access {
-            field: shown.view.field,
-            first: shown.view.first as usize,
-            count: shown.view.count(),
-        };
-        effects.read(access);
-        if effects.stores_items && shown.assignable {
-            effects.write(access);
-        }
     }
 }
 
@@ -170,7 +153,6 @@ struct Binder<'a> {
     names: &'a Names,
     program: ProgramId,
     diagnostics: Vec<Finding>,
-    effects: Effects,
     aggregates: Vec<Aggregate>,
     next_aggregate: usize,
     /// Whether the next two are wanted.
@@ -217,7 +199,6 @@ impl<'a> Binder<'a> {
             names,
             program,
             diagnostics: Vec::new(),
-            effects: Effects::default(),
             aggregates: Vec::new(),
             next_aggregate: 0,
             explains: compiler.explains,

@@ -6,13 +6,13 @@ use super::member::{machinery, view_of};
 use super::{Attempt, Binder, Receiver, Thing};
 use crate::ast::{Expr, ExprKind, Name};
 use crate::bind::names::{MACHINERY, Named, list};
-use crate::closest;
 use crate::ir::{Index, Ir, Kind, Picks};
 use crate::natives;
 use crate::rules;
 use crate::schema::{CollectionId, Entry, Field, Param, Type};
 use crate::value::{Value, View};
 use crate::{Finding, Span};
+use labspec_finding::nearest;
 
 /// The most elements that a literal spread of an array of the simulation writes out.
 const MAX_WRITTEN_OUT: usize = 64;
@@ -37,7 +37,6 @@ impl<'a> Binder<'a> {
             }
             Type::Record => self.record_member(ir, name, span).map(Thing::Value),
             Type::Any | Type::Never => {
-                self.effects.can_throw = true;
                 Ok(Thing::Value(Ir::new(Kind::Member(Box::new(ir), text.into()), Type::Any, span)))
             }
             _ if optional => {
@@ -66,7 +65,7 @@ impl<'a> Binder<'a> {
                         format!("the result of `{}` has no `{}`", info.name, name.text),
                     )
                     .why(format!("it has {}", list(&names)));
-                    return self.refuse(match closest(&name.text, names.iter().map(String::as_str)) {
+                    return self.refuse(match nearest(&name.text, names.iter().map(String::as_str)) {
                         Some(meant) => {
                             report.help(format!("did you mean `{meant}`?")).guess(name.span, meant)
                         }
@@ -94,7 +93,7 @@ impl<'a> Binder<'a> {
                 let meant = format!("{what}[{i}]");
                 report.why("elements are chosen by index").help(format!("write `{meant}`")).fix(span, meant)
             }
-            _ => match closest(text, self.method_names(ty)) {
+            _ => match nearest(text, self.method_names(ty)) {
                 Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
                 None if matches!(ty, Type::Undefined | Type::Null) => {
                     report.why("JavaScript stops the text here").help("test for it first, or write `?.`")
@@ -178,9 +177,7 @@ impl<'a> Binder<'a> {
             return self.refuse(report);
         }
         for field in &fields {
-            if scalar {
-                self.read(view_of(field), None);
-            } else {
+            if !scalar {
                 self.show(field);
             }
         }

@@ -1,7 +1,7 @@
 //! What the types pass knows of the parts of a text when it is done: what the lints look at. Parts of written methods, which
 //! nobody wrote here, are left out.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use crate::Span;
 use crate::ir::{Index, Ir, Kind};
@@ -12,7 +12,8 @@ use crate::value::Value;
 /// What is known of a text, part by part.
 #[derive(Default)]
 pub(in super::super) struct Typed {
-    shapes: BTreeMap<Span, Shape>,
+    /// In the order of their places, once all are known; the last one of a place counts.
+    shapes: Vec<(Span, Shape)>,
     idle: BTreeSet<Span>,
     /// Values that are needed for something.
     pub(in super::super) wants: Vec<(Span, Want, Shape)>,
@@ -62,9 +63,16 @@ fn element(ir: &Ir) -> Option<(FieldKey, usize)> {
 }
 
 impl Typed {
+    /// All is known.
+    pub(super) fn sort(&mut self) {
+        self.shapes.sort_by_key(|(span, _)| *span);
+    }
+
     /// What is known of the expression at a place.
     pub(in super::super) fn shape(&self, span: Span) -> Option<&Shape> {
-        self.shapes.get(&span)
+        let behind = self.shapes.partition_point(|(at, _)| *at <= span);
+        let (at, shape) = self.shapes.get(behind.checked_sub(1)?)?;
+        (*at == span).then_some(shape)
     }
 
     /// Whether the statement at a place does nothing.
@@ -77,7 +85,7 @@ impl super::Binder<'_> {
     /// Notes what an expression is.
     pub(super) fn note(&mut self, span: Span, ir: &Ir) {
         if self.site.is_none() {
-            self.typed.shapes.insert(span, Shape::of(ir));
+            self.typed.shapes.push((span, Shape::of(ir)));
         }
     }
 

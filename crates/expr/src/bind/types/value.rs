@@ -286,7 +286,6 @@ impl<'a> Binder<'a> {
         } else {
             self.both(left, right)?
         };
-        self.effects.can_throw |= op == BinaryOp::Add && !(a.is_plain() && b.is_plain());
         Ok(Ir::binary(op, a, b, span))
     }
 }
