@@ -1,6 +1,6 @@
 //! Stages that may be called by themselves, where they need scratch.
 
-use crate::dynamics::{kinematics as poses, rne as newton_euler};
+use crate::dynamics::{self, rne as newton_euler};
 use crate::geometry::Distance;
 use crate::model::Model;
 use crate::step::workspace::Data;
@@ -8,7 +8,7 @@ use crate::{constraint, query};
 
 /// Poses of bodies, joints, geoms and sites (`mj_kinematics`).
 pub(crate) fn kinematics(m: &Model, d: &mut Data) {
-    poses::kinematics(m, &mut d.fields, &mut d.work.dynamics);
+    dynamics::kinematics(m, &mut d.fields, &mut d.work.dynamics);
 }
 
 /// The generalized force (nv) that causes the acceleration `qacc` (nv), or none when it is not given: gravity, Coriolis and
