@@ -10,7 +10,6 @@ use super::planning::Plan;
 use crate::dynamics::{jacobian, mass, object, subtree, ways};
 use crate::forces::{actuation, energy};
 use crate::geometry::Distance;
-use crate::geometry::pair::{CONVEX, is_searched};
 use crate::math::{Spatial, Vec3};
 use crate::model::plan::Fact;
 use crate::model::reflect::{self, FieldId, Object, View, ViewMut};
@@ -385,10 +384,8 @@ pub fn geom_distance<S: Scope>(
     d.has(&["geom_xpos", "geom_xmat"])?;
     exists("geom", geom1, m.ngeom)?;
     exists("geom", geom2, m.ngeom)?;
-    if !CONVEX && is_searched(m.geom_type[geom1], m.geom_type[geom2], true) {
-        return Err(Error::NoConvex { geom1, geom2 });
-    }
-    Ok(functions::geom_distance(m, d.engine(m)?, geom1, geom2, most))
+    let found = functions::geom_distance(m, d.engine(m)?, geom1, geom2, most);
+    found.ok_or(Error::NoConvex { geom1, geom2 })
 }
 
 /// Whether a point (world, m) is inside the volume of a site (`mj_insideSite`).
