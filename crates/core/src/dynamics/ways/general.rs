@@ -3,7 +3,7 @@
 //! Bodies are placed one after the other (`kinematics`); M comes from composite bodies, a row for each degree of freedom, and is
 //! factorized by elimination (`mass`); the bias force is found by recursion (`rne`).
 
-use super::{Damped, Factors, Forces, NOTHING, Own, Places, Row};
+use super::{Damped, Factors, Forces, Own, Places, Row};
 use crate::dynamics::kinematics::{self, Frames};
 use crate::dynamics::{Scratch, mass as rows, rne};
 use crate::math::Vec3;
@@ -19,7 +19,6 @@ pub(super) const ROW: Row = Row {
     places: Some(Places { place, orient }),
     forces: Some(Forces { mass, bias, looks_at_places: |_, _| true, constant: |_, _| false }),
     factors: Some(Factors { without_mass: false, factor, solve, solve_with, solve_now, solve_both }),
-    ..NOTHING
 };
 
 /// The frames of all bodies, and degrees of freedom that follow each other: those whose M it computes, and those that it

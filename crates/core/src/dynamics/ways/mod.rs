@@ -11,7 +11,7 @@
 //!
 //! * the file has `covers` (which trees are of its kind), `Trees` with `Trees::new` (what it knows of its trees from one step to the
 //!   next), its functions, and the row, `ROW`, which names the way and its functions;
-//! * its name in the table, before those that are longer.
+//! * its `mod` and its name in the table stand below, before those that are longer.
 //!
 //! Nothing else knows the names of ways: plans, steps and `labspec bench --without WAY` ask the table. Any short way can be
 //! forbidden ([`Ways`]): `tests/ways.rs` does so with each row and holds it against the general one, and
