@@ -162,6 +162,9 @@ impl std::fmt::Debug for Way {
 /// The last row.
 const GENERAL: usize = TABLE.len() - 1;
 
+// `Ways` has a bit for each row.
+const _: () = assert!(TABLE.len() <= u8::BITS as usize);
+
 /// The row that a tree takes for one of the three.
 fn row_of(m: &Model, ways: Ways, tree: usize, computes: impl Fn(&Row) -> bool) -> usize {
     let takes = |i: &usize| {
