@@ -94,7 +94,6 @@ def measure(bench, name, model, warm=100, steps=20000):
 
 
 # Scenes that show what the short ways of computing trees are worth, with warm-up steps.
-WAYS = ["simple", "chain", "serial", "articulated"]
 WAY_SCENES = [
     ("free fall", "../shared/corpus/models/free_fall.xml", 100),
     ("two balls at rest", "../shared/corpus/models/ball_drop.xml", 2000),
@@ -109,16 +108,23 @@ WAY_SCENES = [
 ]
 
 
+def short_ways():
+    """The names that `--without` takes: those of the program's own table."""
+    text = subprocess.run([OURS, "bench", "-h"], capture_output=True, text=True, check=True).stdout
+    return re.search(r"--without [^\[]*\[possible values: ([^\]]*)\]", " ".join(text.split())).group(1).split(", ")
+
+
 def ablation(folder):
     """What a step costs without each short way, in times of what it costs with all of them: instructions."""
-    lines = ["| scene | " + " | ".join(f"without {way}" for way in WAYS) + " | without any |",
-             "|---" + "|---:" * (len(WAYS) + 1) + "|"]
+    ways = short_ways()
+    lines = ["| scene | " + " | ".join(f"without {way}" for way in ways) + " | without any |",
+             "|---" + "|---:" * (len(ways) + 1) + "|"]
     for name, model, warm in WAY_SCENES:
         model = switched(model, "contact", folder) if "contacts off" in name else model
         cost = lambda without: collected(
             ours(model, warm, 200, False) + [x for way in without for x in ("--without", way)], ADVANCE) / 200
         best = cost([])
-        ratios = [cost([way]) / best for way in WAYS] + [cost(WAYS) / best]
+        ratios = [cost([way]) / best for way in ways] + [cost(ways) / best]
         lines.append("| " + " | ".join([name] + ["" if r < 1.005 else f"{r:.2f}" for r in ratios]) + " |")
         print(lines[-1], flush=True)
     return "\n".join(lines)
@@ -222,8 +228,8 @@ What makes the difference:
 
 * Forces and inertias of four bodies are computed in the lanes of a vector (`math/lanes.rs`), frames as columns of vectors.
 * M and its factorization are left to steps in which constraints act, where nothing else looks at them.
-* Trees of at most six slides and hinges have their equations of motion in closed form (`dynamics/chain/`), without spatial bodies.
-* Larger trees are factorized as articulated bodies (`dynamics/articulated.rs`): in a time that grows with the number of bodies, not
+* Trees of at most six slides and hinges have their equations of motion in closed form (`dynamics/ways/chain/`), without spatial bodies.
+* Larger trees are factorized as articulated bodies (`dynamics/ways/articulated.rs`): in a time that grows with the number of bodies, not
   with the square of the depth, and the implicit damping of Euler's method costs one more pass instead of one more
   factorization of M.
 * Rows of M and of its factorization are products along the path to the root, eight columns at a time (`dynamics/path.rs`).
@@ -235,7 +241,7 @@ What makes the difference:
 ## Ways of computing trees
 
 What a planned step costs without a short way, in times of what it costs with all of them (instructions; nothing stands where
-the scene does not take the way). `dynamics/ways.rs` says what each is; `labspec bench --without WAY` measures a scene, and
+the scene does not take the way). `dynamics/ways/` says what each is; `labspec bench --without WAY` measures a scene, and
 `tests/ways.rs` holds each against the general way.
 
 {ways}

@@ -7,12 +7,11 @@ use super::data::{Data, Scope};
 use super::error::Error;
 use super::model::{KeyId, Model};
 use super::planning::Plan;
-use crate::dynamics::simple;
-use crate::dynamics::{jacobian, mass, object, subtree};
+use crate::dynamics::{jacobian, mass, object, subtree, ways};
 use crate::forces::{actuation, energy};
 use crate::geometry::Distance;
-use crate::geometry::pair::{CONVEX, is_searched};
 use crate::math::{Spatial, Vec3};
+use crate::model::plan::Fact;
 use crate::model::reflect::{self, FieldId, Object, View, ViewMut};
 use crate::model::{Contact, Obj};
 use crate::query::{self, RayFilter, RayHit};
@@ -145,7 +144,9 @@ pub fn set_const<S: Scope>(m: &mut Model, d: &mut Data<S>) -> Result<(), Error> 
     setconst::set_const(m.engine(), &mut d.inner);
     m.touch_constants();
     d.in_step_with(m);
-    if simple::lacks_inertia(m.engine()) {
+    // A plan that was made while M was constant does not look at it again.
+    let plan = &d.inner.plan;
+    if !plan.has(Fact::General) && !ways::are_constant(m.engine(), plan.ways) {
         d.plan_again(m);
     }
     Ok(())
@@ -383,10 +384,8 @@ pub fn geom_distance<S: Scope>(
     d.has(&["geom_xpos", "geom_xmat"])?;
     exists("geom", geom1, m.ngeom)?;
     exists("geom", geom2, m.ngeom)?;
-    if !CONVEX && is_searched(m.geom_type[geom1], m.geom_type[geom2], true) {
-        return Err(Error::NoConvex { geom1, geom2 });
-    }
-    Ok(functions::geom_distance(m, d.engine(m)?, geom1, geom2, most))
+    let found = functions::geom_distance(m, d.engine(m)?, geom1, geom2, most);
+    found.ok_or(Error::NoConvex { geom1, geom2 })
 }
 
 /// Whether a point (world, m) is inside the volume of a site (`mj_insideSite`).

@@ -16,37 +16,21 @@ impl Problem<'_> {
         if from.minimum {
             return;
         }
-        let tol = self.m.opt.tolerance;
-        let Reached { mut cost, mut gradient, scale, .. } = from;
         let [rows, _] = self.prices();
         let price = 6 * rows + 4 * self.m.nC as u64 / self.d.nisland.max(1) as u64;
+        self.descend(from, price, Self::conjugate_direction);
+    }
+
+    /// search ← β search - M⁻¹ g, and what the next β compares with.
+    fn conjugate_direction(&mut self, before: Option<f64>) -> bool {
         self.decrement_by_mass();
-        for k in self.dofs().flatten() {
-            self.s.search[k] = -self.s.step[k];
+        let beta = before.map(|gradient| self.beta(gradient));
+        let (dofs, s) = (self.dofs(), &mut *self.s);
+        for k in dofs.flatten() {
+            s.search[k] = beta.map_or(-s.step[k], |beta| beta * s.search[k] - s.step[k]);
+            (s.grad_old[k], s.step_old[k]) = (s.grad[k], s.step[k]);
         }
-        for _ in 0..self.m.opt.iterations.max(0) {
-            let alpha = self.line_search(scale);
-            self.d.meter.add(price);
-            if alpha == 0.0 || self.d.meter.over() {
-                break;
-            }
-            self.advance(alpha);
-            self.d.solver_niter += 1;
-            for k in self.dofs().flatten() {
-                (self.s.grad_old[k], self.s.step_old[k]) = (self.s.grad[k], self.s.step[k]);
-            }
-            let before = (cost, gradient);
-            (cost, gradient) = self.update();
-            self.decrement_by_mass();
-            let improvement = scale * (before.0 - cost);
-            if (improvement > 0.0 && improvement < tol) || scale * gradient < tol {
-                break;
-            }
-            let beta = self.beta(before.1);
-            for k in self.dofs().flatten() {
-                self.s.search[k] = beta * self.s.search[k] - self.s.step[k];
-            }
-        }
+        true
     }
 
     /// How much of the last direction d stays: (y·Mg - 2 (y·My) (d·g) / (d·y)) / (d·y), where y is the change of the

@@ -20,8 +20,6 @@ impl Problem<'_> {
         if from.minimum {
             return;
         }
-        let tol = self.m.opt.tolerance;
-        let Reached { mut cost, mut gradient, scale, .. } = from;
         let six = self.islands.one_run(self.island).filter(|dofs| dofs.len() == FREE_DOFS);
         if six.is_none() && !self.lay_out() {
             return self.conjugate_gradient(from);
@@ -29,29 +27,15 @@ impl Problem<'_> {
         let [rows, products] = self.prices();
         let price = 4 * rows + products + if six.is_some() { 200 } else { self.s.hessian.work };
         self.d.meter.add(price);
-        self.newton_direction(&six);
-        if scale * gradient < tol && scale * self.decrement() < tol {
-            return;
-        }
-        for _ in 0..self.m.opt.iterations.max(0) {
-            let alpha = self.line_search(scale);
-            self.d.meter.add(price);
-            if alpha == 0.0 || self.d.meter.over() {
-                break;
-            }
-            self.advance(alpha);
-            self.d.solver_niter += 1;
-            let before = cost;
-            (cost, gradient) = self.update();
-            let improvement = scale * (before - cost);
-            if (improvement > 0.0 && improvement < tol) || scale * gradient < tol {
-                break;
-            }
-            self.newton_direction(&six);
-            if scale * self.decrement() < tol {
-                break;
-            }
-        }
+        let tol = self.m.opt.tolerance;
+        let Reached { gradient, scale, .. } = from;
+        self.descend(from, price, |p, before| {
+            p.newton_direction(&six);
+            // The first direction is gone while the gradient is large.
+            let small = before.is_some() || scale * gradient < tol;
+            let done = small && scale * p.decrement() < tol;
+            !done
+        });
     }
 
     /// Whether the Hessian of the island is worth its room.

@@ -1,5 +1,5 @@
 //! The primal problem of one island, and what all methods share that solve it: cost, forces and gradient at the current
-//! acceleration, and the exact search along a direction.
+//! acceleration, the exact search along a direction, and the loop over directions.
 
 use super::cost::{Cost, Shape, push_along, pushed};
 use super::island::Islands;
@@ -33,6 +33,40 @@ impl<'a> Problem<'a> {
         let mut decrement = || if diagonal { self.decrement_by_diagonal() } else { self.decrement_by_mass() };
         let minimum = small && scale * decrement() < tol;
         Reached { cost, gradient, scale, minimum }
+    }
+
+    /// Goes down the cost, along one direction after the other. `direct` puts the next one into `search` and says whether it is
+    /// worth going; it is given the norm of the gradient where the last one began, none for the first. A step costs `price`.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    pub(super) fn descend(
+        &mut self,
+        from: Reached,
+        price: u64,
+        mut direct: impl FnMut(&mut Self, Option<f64>) -> bool,
+    ) {
+        let tol = self.m.opt.tolerance;
+        let Reached { mut cost, mut gradient, scale, .. } = from;
+        if !direct(self, None) {
+            return;
+        }
+        for _ in 0..self.m.opt.iterations.max(0) {
+            let alpha = self.line_search(scale);
+            self.d.meter.add(price);
+            if alpha == 0.0 || self.d.meter.over() {
+                break;
+            }
+            self.advance(alpha);
+            self.d.solver_niter += 1;
+            let before = (cost, gradient);
+            (cost, gradient) = self.update();
+            let improvement = scale * (before.0 - cost);
+            if (improvement > 0.0 && improvement < tol) || scale * gradient < tol {
+                break;
+            }
+            if !direct(self, Some(before.1)) {
+                break;
+            }
+        }
     }
 
     /// What going once through the rows and degrees of freedom of the island costs, and products of columns.

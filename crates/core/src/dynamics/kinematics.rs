@@ -2,11 +2,9 @@
 //!
 //! Each body's pose follows from its parent's, joint by joint (Featherstone 2008, section 4.4).
 
-use crate::dynamics::Scratch;
 use crate::kinds::joint;
 use crate::math::lanes::{Axes, Lane3, along, axes, lane3, matrix, product, turned, vec3};
 use crate::math::*;
-use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
@@ -135,21 +133,10 @@ impl Frames {
     }
 }
 
-/// Poses of bodies, joints, geoms and sites, as `mj_kinematics` computes them.
-pub(crate) fn kinematics(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    bodies(m, d, w);
-    orientations(d, w);
-    geoms(m, d);
-    sites(m, d);
-}
-
 /// Poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
 #[inline(never)]
-pub(crate) fn bodies(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    if d.plan.has(Fact::FramesChange) {
-        w.frames.load(m);
-    }
-    let Frames { bodies, joints, poses } = &mut w.frames;
+pub(crate) fn bodies(d: &mut Fields, frames: &mut Frames) {
+    let Frames { bodies, joints, poses } = frames;
     let (xpos, xmat) = (rows_mut::<3>(&mut d.xpos), rows_mut::<9>(&mut d.xmat));
     let (xipos, ximat) = (rows_mut::<3>(&mut d.xipos), rows_mut::<9>(&mut d.ximat));
     let (xanchor, xaxis) = (rows_mut::<3>(&mut d.xanchor), rows_mut::<3>(&mut d.xaxis));
@@ -223,8 +210,8 @@ fn quaternion(q: &[f64]) -> Quat {
 
 /// Orientations of bodies as quaternions, `xquat`, after [`bodies`].
 #[inline(never)]
-pub(crate) fn orientations(d: &mut Fields, w: &mut Scratch) {
-    let Frames { bodies, joints, .. } = &w.frames;
+pub(crate) fn orientations(d: &mut Fields, frames: &Frames) {
+    let Frames { bodies, joints, .. } = frames;
     let xquat = rows_mut::<4>(&mut d.xquat);
     let (mocap_quat, qpos) = (rows::<4>(&d.mocap_quat), &d.qpos);
     for (i, f) in bodies.iter().enumerate().skip(1) {

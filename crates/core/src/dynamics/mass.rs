@@ -3,16 +3,17 @@
 //! M is stored as the rows of its lower triangle over the chain of ancestors of each degree of freedom,
 //! ancestors ascending and the diagonal last. The composite rigid body algorithm and the factorization
 //! M = Lᵀ D L, which creates no fill-in on this pattern, are in Featherstone 2008, chapter 6. Trees of many degrees of
-//! freedom are factorized by `articulated`.
+//! freedom are factorized by another way (`ways`).
 
+use super::path::Path;
 use super::reflected::{self, On};
-use super::{Scratch, serial};
+use super::triangle;
 use crate::math::*;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
-/// `crb` and `M`. The diagonal of simple bodies is constant: with `constant` it is taken from `dof_M0`.
-pub(crate) fn composite_inertia(m: &Model, d: &mut Fields, w: &mut Scratch, constant: bool) {
+/// `crb` of all bodies, and the rows of `M` of some degrees of freedom (ascending, whole trees).
+pub(crate) fn composite_inertia(m: &Model, d: &mut Fields, path: &mut Path, of: &[Range<usize>]) {
     d.crb.copy_from_slice(&d.cinert);
     let crb = rows_mut::<10>(&mut d.crb);
     for i in (1..m.nbody).rev() {
@@ -22,18 +23,23 @@ pub(crate) fn composite_inertia(m: &Model, d: &mut Fields, w: &mut Scratch, cons
         }
     }
     let cdof = rows::<6>(&d.cdof);
-    for i in 0..m.nv {
+    for i in of.iter().cloned().flatten() {
         let row = &mut d.M[row(m, i)];
         let depth = row.len() - 1;
-        if constant && m.dof_simplenum[i] > 0 {
-            row[depth] = m.dof_M0[i];
-            continue;
-        }
         // Momentum of the subtree for a unit velocity of this degree of freedom.
         let momentum = inertia_mul(&crb[m.dof_bodyid[i] as usize], &cdof[i]);
-        w.path.extend(depth, &cdof[i]);
-        w.path.product(&momentum, row);
+        path.extend(depth, &cdof[i]);
+        path.product(&momentum, row);
         row[depth] += armature(m, i);
+    }
+}
+
+/// The diagonal of M as the model knows it, for a scene whose M is diagonal and constant, and its factorization.
+pub(crate) fn constant(m: &Model, d: &mut Fields) {
+    d.M.copy_from_slice(&m.dof_M0);
+    d.qLD.copy_from_slice(&m.dof_M0);
+    for i in 0..m.nv {
+        d.qLDiagInv[i] = 1.0 / m.dof_M0[i];
     }
 }
 
@@ -79,15 +85,15 @@ pub(crate) fn armature(m: &Model, i: usize) -> f64 {
 #[inline(never)]
 pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Range<usize>) -> Option<usize> {
     if let Some(n) = whole_chain(m) {
-        return serial::factor_rows(n, ld, diag_inv);
+        return triangle::factor_rows(n, ld, diag_inv);
     }
     let mut bad = None;
     let mut end = dofs.end;
     while end > dofs.start {
-        if let Some(n) = serial::size_before(m, end) {
+        if let Some(n) = triangle::size_before(m, end) {
             let first = end - n;
             let at = m.M_rowadr[first] as usize;
-            let failed = serial::factor_rows(n, &mut ld[at..], &mut diag_inv[first..]);
+            let failed = triangle::factor_rows(n, &mut ld[at..], &mut diag_inv[first..]);
             bad = failed.map(|k| first + k).or(bad);
             end = first;
             continue;
@@ -141,10 +147,41 @@ pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Rang
     bad
 }
 
+/// The same with the rows of another matrix, which stays.
+pub(crate) fn factor_copy(
+    m: &Model,
+    mass: &[f64],
+    ld: &mut [f64],
+    diag_inv: &mut [f64],
+    dofs: Range<usize>,
+) -> Option<usize> {
+    let entries = rows_of(m, dofs.clone());
+    ld[entries.clone()].copy_from_slice(&mass[entries]);
+    factor(m, ld, diag_inv, dofs)
+}
+
+/// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), with scratch for a factorization.
+pub(crate) fn solve_with(
+    m: &Model,
+    mass: &[f64],
+    b: &[f64],
+    [ld, diag_inv]: [&mut Vec<f64>; 2],
+    dofs: Range<usize>,
+    x: &mut [f64],
+) {
+    let entries = rows_of(m, dofs.clone());
+    ld[entries.clone()].copy_from_slice(&mass[entries]);
+    for k in dofs.clone() {
+        ld[diagonal(m, k)] += b[k];
+    }
+    factor(m, ld, diag_inv, dofs.clone());
+    solve(m, ld, diag_inv, x, dofs);
+}
+
 /// Size of the small serial tree that is all the model has.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn whole_chain(m: &Model) -> Option<usize> {
-    if m.nv > 3 || m.nv == 0 { None } else { serial::size_before(m, m.nv).filter(|&n| n == m.nv) }
+    if m.nv > 3 || m.nv == 0 { None } else { triangle::size_before(m, m.nv).filter(|&n| n == m.nv) }
 }
 
 /// Eliminates row `k` from those of its ancestors; whether its D is not positive.
@@ -221,7 +258,7 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
     // The part of a row below the diagonal, and where its columns begin: those of a serial chain are
     // consecutive.
     if let Some(n) = whole_chain(m) {
-        serial::solve_rows(n, ld, diag_inv, x);
+        triangle::solve_rows(n, ld, diag_inv, x);
         return;
     }
     let row = |i: usize| {
@@ -230,9 +267,9 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
     };
     let mut end = dofs.end;
     while end > dofs.start {
-        if let Some(n) = serial::size_before(m, end) {
+        if let Some(n) = triangle::size_before(m, end) {
             end -= n;
-            serial::solve_rows(n, &ld[m.M_rowadr[end] as usize..], &diag_inv[end..], &mut x[end..]);
+            triangle::solve_rows(n, &ld[m.M_rowadr[end] as usize..], &diag_inv[end..], &mut x[end..]);
             continue;
         }
         end -= 1;
@@ -247,7 +284,7 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
         }
     }
     for i in dofs {
-        if serial::size_before(m, i + 1).is_some() {
+        if triangle::size_before(m, i + 1).is_some() {
             continue; // done above
         }
         let (values, columns, serial) = row(i);

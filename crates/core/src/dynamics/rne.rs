@@ -1,29 +1,9 @@
 //! `qfrc_bias`: gravity, Coriolis and centrifugal force.
 
-use crate::dynamics::{Scratch, chain, simple};
+use crate::dynamics::Scratch;
 use crate::kinds::disable;
 use crate::math::{lanes, *};
-use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
-
-/// `qfrc_bias`. Trees take recursive Newton–Euler, short chains a projection; a simple body, alone in its tree
-/// with its inertia along its own axes, takes the closed form.
-#[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
-    if d.plan.has(Fact::Recursion) {
-        newton_euler(m, d, w, gravity);
-    }
-    if !w.chains.is_empty() {
-        chain::bias(d, w, gravity);
-    }
-    if !d.plan.has(Fact::SimpleBodies) {
-        return;
-    }
-    for joint in &w.simple {
-        simple::bias(m, d, joint, gravity);
-    }
-}
 
 /// `qfrc_bias` of all bodies.
 #[inline(never)]

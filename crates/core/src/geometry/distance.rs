@@ -14,33 +14,33 @@ pub struct Distance {
     pub fromto: [Vec3; 2],
 }
 
-/// The distance of two shapes up to `most`.
+/// The distance of two shapes up to `most`; `None` where it is searched for by the general algorithm and this build has none.
 pub(crate) fn shape_distance(
     a: &Shape,
     b: &Shape,
     most: f64,
     settings: &Settings,
     work: &mut Narrow,
-) -> Distance {
+) -> Option<Distance> {
     let mut best = Distance { dist: most, fromto: [[0.0; 3]; 2] };
     let flip = a.kind > b.kind;
     let (first, second) = if flip { (b, a) } else { (a, b) };
-    let Some(method) = pair::method(first.kind, second.kind) else { return best };
+    let Some(method) = pair::method(first.kind, second.kind) else { return Some(best) };
     let searched = pair::is_searched(first.kind, second.kind, true);
     if searched && !CONVEX {
-        return best;
+        return None;
     }
     if CONVEX && matches!(method, Method::Field) {
         let found = pair::field_distance(first, second, most, settings, &mut work.room);
-        return found.map_or(best, |n| {
+        return Some(found.map_or(best, |n| {
             let [p, q] = n.witness;
             Distance { dist: n.dist, fromto: if flip { [q, p] } else { [p, q] } }
-        });
+        }));
     }
     if CONVEX && searched {
         let (mut u, mut v) = (Convex::new(a), Convex::new(b));
         let found = nearest(&mut u, &mut v, most, settings.effort, &mut work.room);
-        return found.map_or(best, |n| Distance { dist: n.dist, fromto: n.witness });
+        return Some(found.map_or(best, |n| Distance { dist: n.dist, fromto: n.witness }));
     }
     work.touches.clear();
     pair::contacts(method, first, second, most, settings, &mut work.room, &mut work.touches);
@@ -54,7 +54,7 @@ pub(crate) fn shape_distance(
             };
         }
     }
-    best
+    Some(best)
 }
 
 /// Room for the contacts of one pair, kept so that steps do not allocate.

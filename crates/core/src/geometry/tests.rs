@@ -260,7 +260,7 @@ fn distances_are_those_of_mujoco() {
         if matches!(method, Some(Method::Field)) || searched && concentric(&a, &b) {
             continue;
         }
-        let found = super::distance::shape_distance(&a, &b, most, &patient(), &mut work);
+        let found = super::distance::shape_distance(&a, &b, most, &patient(), &mut work).unwrap();
         let [p, q] = found.fromto;
         let got = [found.dist, p[0], p[1], p[2], q[0], q[1], q[2]];
         let want = floats(want);
@@ -409,7 +409,7 @@ fn hostile_numbers_are_harmless() {
             for k in 0..60 {
                 let (first, second) = (shape(a, k), shape(b, k / 7 + 3 * k));
                 let margin = odd[(k + 3) % odd.len()];
-                super::distance::shape_distance(&first, &second, margin, &settings(), &mut work);
+                super::distance::shape_distance(&first, &second, margin, &settings(), &mut work).unwrap();
                 ray_shape(&first, second.pos, second.size);
                 super::inside_shape(&first, second.pos);
                 if let Some(method) = pair::method(first.kind, second.kind) {

@@ -17,20 +17,14 @@ pub struct Decision {
 /// What is known of a scene once and for all, where stages would otherwise look again at every step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fact {
-    /// Some tree is more than one simple body; otherwise the mass matrix is diagonal and constant.
+    /// M of some tree depends on the configuration; otherwise it is diagonal and constant.
     General,
-    /// Composite inertias are computed: some tree is more than a short chain, or they are read.
+    /// Composite inertias are computed: some tree takes the general way, or they are read.
     Composite,
-    /// Forces of bodies are computed by recursion: some tree is more than a short chain.
+    /// Forces of bodies are computed by recursion: some tree takes the general way.
     Recursion,
     /// M and the rows of its factorization are computed only in steps in which constraints act: nothing else looks at them.
     MassForRows,
-    /// Some body is a simple one.
-    SimpleBodies,
-    /// The parameters of short chains may change.
-    ChainsChange,
-    /// The frames of bodies and joints may change.
-    FramesChange,
     /// There can be equality constraints.
     Equalities,
     /// There can be dry friction.
@@ -80,6 +74,8 @@ pub(crate) struct Plan {
     facts: u32,
     /// How trees may be computed.
     pub(crate) ways: Ways,
+    /// Those of which parameters may change that they keep copies of.
+    pub(crate) changing: Ways,
     /// What a forward pass runs of each of its parts; then the same without what sensors show.
     pub(crate) passes: [[u32; 3]; 2],
 }
@@ -87,8 +83,14 @@ pub(crate) struct Plan {
 impl Default for Plan {
     /// No stage, and nothing is known.
     fn default() -> Plan {
-        let mut plan =
-            Plan { decisions: Vec::new(), kept: 0, facts: u32::MAX, ways: Ways::ALL, passes: [[0; 3]; 2] };
+        let mut plan = Plan {
+            decisions: Vec::new(),
+            kept: 0,
+            facts: u32::MAX,
+            ways: Ways::ALL,
+            changing: Ways::ALL,
+            passes: [[0; 3]; 2],
+        };
         for known in [Fact::MassForRows, Fact::DampersStay, Fact::Motors, Fact::Unforced, Fact::Ballistic] {
             plan.state(known, false);
         }

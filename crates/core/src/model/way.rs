@@ -1,22 +1,8 @@
 //! Which short ways of computing trees are allowed: all, but where one is measured or held against the general way.
 
-/// A way of computing a tree that is shorter than the general one. `dynamics/ways` says what each is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
-    /// A single body with its inertia along its own axes.
-    Simple,
-    /// A few slides and hinges, one after the other.
-    Chain,
-    /// At most three degrees of freedom, one after the other: the factorization alone.
-    Serial,
-    /// Many degrees of freedom: the factorization alone.
-    Articulated,
-}
-
-impl Way {
-    /// All of them.
-    pub const ALL: [Way; 4] = [Way::Simple, Way::Chain, Way::Serial, Way::Articulated];
-}
+/// A way of computing a tree: a row of the table in `dynamics/ways`, which says what each is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Way(pub(crate) u8);
 
 /// The ways that are allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,17 +16,23 @@ impl Default for Ways {
 
 impl Ways {
     /// Each tree by the shortest.
-    pub const ALL: Ways = Ways(0b1111);
+    pub const ALL: Ways = Ways(u8::MAX);
     /// Every tree by the general one.
     pub const GENERAL: Ways = Ways(0);
 
     /// Whether a way is allowed.
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub fn has(self, way: Way) -> bool {
-        self.0 & (1 << way as u8) != 0
+        self.0 & (1 << way.0) != 0
+    }
+
+    /// The same and one more.
+    pub(crate) fn with(self, way: Way) -> Ways {
+        Ways(self.0 | 1 << way.0)
     }
 
     /// The same but for one.
     pub fn without(self, way: Way) -> Ways {
-        Ways(self.0 & !(1 << way as u8))
+        Ways(self.0 & !(1 << way.0))
     }
 }

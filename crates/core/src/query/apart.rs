@@ -6,14 +6,15 @@ use crate::geometry::{Distance, Narrow, Shape, shape_distance};
 use crate::kinds::disable;
 use crate::model::{Fields, Model};
 
-/// The distance of two geoms up to `most`, with the segment from the first to the second.
+/// The distance of two geoms up to `most`, with the segment from the first to the second; `None` where this build cannot
+/// find it.
 pub(crate) fn geom_distance(
     m: &Model,
     d: &mut Fields,
     work: &mut Narrow,
     [geom1, geom2]: [usize; 2],
     most: f64,
-) -> Distance {
+) -> Option<Distance> {
     work.room.cost = 0;
     let (a, b) = (Shape::geom(m, d, geom1), Shape::geom(m, d, geom2));
     let distance = shape_distance(&a, &b, most, &Settings::of(m), work);

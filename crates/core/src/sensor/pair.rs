@@ -27,7 +27,10 @@ fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3;
             if d.meter.over() {
                 return best;
             }
-            let found = geom_distance(m, d, &mut w.narrow, [g1, g2], cutoff);
+            // A model that needs what this build has not is refused when it is read: see `needs_search`.
+            let Some(found) = geom_distance(m, d, &mut w.narrow, [g1, g2], cutoff) else {
+                return (f64::NAN, [[f64::NAN; 3]; 2]);
+            };
             if found.dist < best.0 {
                 best = (found.dist, found.fromto);
             }

@@ -1,8 +1,8 @@
 //! `mj_setConst`: constants of the model that follow from others, at the default configuration.
 
 use crate::constraint::ends;
-use crate::dynamics::kinematics::{self, sameframe};
-use crate::dynamics::{com, mass, walk};
+use crate::dynamics::kinematics::sameframe;
+use crate::dynamics::{self, camera, com, mass, walk};
 use crate::forces::{tendon, transmission};
 use crate::kinds::{geom, joint};
 use crate::math::*;
@@ -29,7 +29,8 @@ pub(crate) fn set_const(m: &mut Model, d: &mut Data) {
 
     d.qpos.copy_from_slice(&m.qpos0);
     positions(m, d);
-    mass::composite_inertia(m, &mut d.fields, &mut d.work.dynamics, false);
+    let all = 0..m.nv;
+    mass::composite_inertia(m, &mut d.fields, &mut d.work.dynamics.path, std::slice::from_ref(&all));
     for i in 0..m.nv {
         m.dof_M0[i] = d.M[(m.M_rowadr[i] + m.M_rownnz[i] - 1) as usize];
     }
@@ -43,7 +44,7 @@ pub(crate) fn set_const(m: &mut Model, d: &mut Data) {
     transmission::at_default(m, d);
     transmission::critical_damping(m, d);
     ends::set_const(m, d);
-    crate::dynamics::camera::set_const(m, d);
+    camera::set_const(m, d);
     statistics(m, d);
 
     d.qpos.copy_from_slice(&m.qpos_spring);
@@ -59,7 +60,7 @@ pub(crate) fn set_const0(m: &mut Model) {
 }
 
 fn positions(m: &Model, d: &mut Data) {
-    kinematics::kinematics(m, &mut d.fields, &mut d.work.dynamics);
+    dynamics::kinematics(m, &mut d.fields, &mut d.work.dynamics);
     com::com_pos(m, d);
     tendon::tendons(m, d);
 }

@@ -1,6 +1,6 @@
 //! Euler's method with implicit damping: (M + h B) a' = M a, where B is the derivative of the damping force.
 
-use crate::dynamics::{self, articulated};
+use crate::dynamics::{self, ways};
 use crate::forces::passive::spring;
 use crate::kinds::disable;
 use crate::math::combine;
@@ -30,7 +30,7 @@ pub(super) fn damp(m: &Model, d: &Fields, w: &mut dynamics::Scratch, s: &mut Scr
     let Scratch { qacc: a, b, .. } = s;
     combine(a, [&*d.qfrc_smooth, &*d.qfrc_constraint], |_, [smooth, constraint]| smooth + constraint);
     damping(m, d, b);
-    articulated::solve_with(m, d, w, b, a);
+    ways::solve_with(m, d, w, b, a);
 }
 
 /// Both accelerations from `qfrc_smooth`, where no constraint acts: a, and a' in the scratch. Returns the first degree of
@@ -47,7 +47,7 @@ pub(super) fn accelerate(
     combine(a, [&*acceleration], |_, [force]| force + 0.0);
     damping(m, d, b);
     *done = true;
-    articulated::prepare_both(m, d, w, b, acceleration, a)
+    ways::solve_both(m, d, w, b, acceleration, a)
 }
 
 /// h B.

@@ -2,13 +2,12 @@
 
 use super::pipeline::{INPUTS, POSITIONS, VELOCITIES};
 use super::{damping, discrete, sleep};
-use crate::dynamics::{articulated, camera, chain, com, jacobian, kinematics, mass, rne, simple, subtree};
+use crate::dynamics::{camera, com, jacobian, kinematics, subtree, ways};
 use crate::forces::{actuation, energy, passive, tendon, transmission};
 use crate::kinds::{disable, enable, integrator};
 use crate::math::{combine, copy, rows};
 use crate::model::plan::Fact;
 use crate::model::stage::Stage;
-use crate::model::way::Way;
 use crate::model::{Fields, Model, Warning};
 use crate::sensor::{When, body_force};
 use crate::step::workspace::Data;
@@ -81,8 +80,8 @@ macro_rules! calls {
 calls! {
     wake(m, d) { sleep::wake(m, &mut d.fields, &mut d.work.sleep) }
     keep_sleeping(m, d) { sleep::keep(m, &d.fields, &mut d.work.sleep) }
-    bodies(m, d) { kinematics::bodies(m, &mut d.fields, &mut d.work.dynamics) }
-    orientations(_m, d) { kinematics::orientations(&mut d.fields, &mut d.work.dynamics) }
+    bodies(m, d) { ways::place(m, &mut d.fields, &mut d.work.dynamics) }
+    orientations(_m, d) { ways::orient(&mut d.fields, &mut d.work.dynamics) }
     geoms(m, d) { kinematics::geoms(m, d) }
     sites(m, d) { kinematics::sites(m, d) }
     com_pos(m, d) { com::com_pos(m, d) }
@@ -115,18 +114,10 @@ pub(super) fn mass_matrix(m: &Model, d: &mut Data) {
     fill_mass_matrix(m, d, d.plan.has(Fact::Composite) && !d.plan.has(Fact::MassForRows));
 }
 
-/// `M`, with or without what follows from composite inertias.
+/// `M`, with or without the rows of the general way.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn fill_mass_matrix(m: &Model, d: &mut Data, composite: bool) {
-    if composite {
-        let constant = d.plan.ways.has(Way::Simple);
-        mass::composite_inertia(m, &mut d.fields, &mut d.work.dynamics, constant);
-    } else if d.plan.has(Fact::SimpleBodies) {
-        simple::mass_matrix(m, d);
-    }
-    if !d.work.dynamics.chains.is_empty() {
-        chain::mass_matrix(m, &mut d.fields, &mut d.work.dynamics);
-    }
+fn fill_mass_matrix(m: &Model, d: &mut Data, general: bool) {
+    ways::mass(m, &mut d.fields, &mut d.work.dynamics, general);
     if m.ntendon > 0 {
         tendon::armature(m, d);
     }
@@ -139,7 +130,7 @@ pub(super) fn factor(m: &Model, d: &mut Data) {
 }
 
 fn factor_now(m: &Model, d: &mut Data) {
-    let bad = articulated::factor(m, &mut d.fields, &mut d.work.dynamics);
+    let bad = ways::factor(m, &mut d.fields, &mut d.work.dynamics);
     check_inertia(d, bad);
 }
 
@@ -174,7 +165,7 @@ pub(super) fn make_constraints(m: &Model, d: &mut Data) {
 }
 
 pub(super) fn bias(m: &Model, d: &mut Data) {
-    rne::bias(m, &mut d.fields, &mut d.work.dynamics);
+    ways::bias(m, &mut d.fields, &mut d.work.dynamics);
     if m.ntendon > 0 {
         tendon::bias(m, d);
     }
@@ -207,11 +198,11 @@ pub(super) fn acceleration(m: &Model, data: &mut Data) {
             let euler = m.opt.integrator == integrator::EULER && damping::damps(m, d);
             let bad = match euler {
                 true => damping::accelerate(m, d, &mut work.dynamics, &mut work.damping, &mut out),
-                false => articulated::prepare(m, d, &mut work.dynamics, Some(&mut out)),
+                false => ways::solve_now(m, d, &mut work.dynamics, &mut out),
             };
             check_inertia(d, bad);
         } else {
-            articulated::solve(m, d, &mut work.dynamics, &mut out);
+            ways::solve(m, d, &mut work.dynamics, &mut out);
         }
         d.qacc_smooth = out;
     } else {

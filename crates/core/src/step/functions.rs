@@ -1,6 +1,6 @@
 //! Stages that may be called by themselves, where they need scratch.
 
-use crate::dynamics::{kinematics as poses, rne as newton_euler};
+use crate::dynamics::{self, rne as newton_euler};
 use crate::geometry::Distance;
 use crate::model::Model;
 use crate::step::workspace::Data;
@@ -8,7 +8,7 @@ use crate::{constraint, query};
 
 /// Poses of bodies, joints, geoms and sites (`mj_kinematics`).
 pub(crate) fn kinematics(m: &Model, d: &mut Data) {
-    poses::kinematics(m, &mut d.fields, &mut d.work.dynamics);
+    dynamics::kinematics(m, &mut d.fields, &mut d.work.dynamics);
 }
 
 /// The generalized force (nv) that causes the acceleration `qacc` (nv), or none when it is not given: gravity, Coriolis and
@@ -27,7 +27,14 @@ pub(crate) fn full_j(m: &Model, d: &Data) -> Vec<f64> {
 /// The distance of two geoms up to `most`, m, with the segment from the first to the second (`mj_geomDistance`).
 ///
 /// Shapes with closed forms use those, at their deepest contact; two planes or height fields have no distance.
-pub(crate) fn geom_distance(m: &Model, d: &mut Data, geom1: usize, geom2: usize, most: f64) -> Distance {
+/// `None` where this build cannot find it.
+pub(crate) fn geom_distance(
+    m: &Model,
+    d: &mut Data,
+    geom1: usize,
+    geom2: usize,
+    most: f64,
+) -> Option<Distance> {
     query::geom_distance(m, &mut d.fields, &mut d.work.sensor.narrow, [geom1, geom2], most)
 }
 

@@ -6,7 +6,8 @@
 
 use super::forward as run;
 use super::scene::Scene;
-use crate::kinds::{disable, integrator, joint, trntype, wraptype};
+use crate::dynamics::ways;
+use crate::kinds::{disable, integrator, trntype, wraptype};
 use crate::model::stage::Stage;
 use crate::model::{Model, Obj};
 use crate::step::workspace::Data;
@@ -258,12 +259,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[
             (&[Stage::Tendon], |s, _| s.tendon_armature),
             (&[Stage::ComVel], |s, _| s.tendon_armature || s.large),
-            // A simple body's weight acts along its slides.
-            (&[Stage::Kinematics], |s, _| {
-                let m = s.m;
-                let simple = |j: usize| m.body_simple[m.jnt_bodyid[j] as usize] > 0;
-                s.large || (0..m.njnt).any(|j| m.jnt_type[j] == joint::SLIDE && simple(j))
-            }),
+            (&[Stage::Kinematics], |s, _| ways::look_at_places(s.m, s.ways)),
         ],
         wanted: |s| because(s.m.nv > 0, "gravity and the motion of bodies make forces"),
         left_out: |_| "nothing moves",

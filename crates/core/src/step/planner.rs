@@ -6,8 +6,10 @@
 
 use super::pipeline::{STAGES, passes};
 use super::scene::{Demand, FACTS, Scene};
+use crate::dynamics::ways;
 use crate::model::Model;
 use crate::model::plan::{Decision, Fact, Plan};
+use crate::model::reflect::Object;
 use crate::model::stage::Stage;
 use crate::model::way::Ways;
 
@@ -39,6 +41,7 @@ impl Plan {
         let scene = Scene::new(m, demand, ways);
         let mut plan = Plan::default();
         plan.ways = ways;
+        plan.changing = ways::changing(|fields| scene.writes(Object::Model, fields));
         for (fact, holds) in FACTS {
             plan.state(fact, holds(&scene));
         }

@@ -1,7 +1,7 @@
 //! Data at the start: made, reset, and given a plan.
 
 use super::{forward, sleep};
-use crate::dynamics::{self, kinematics, simple};
+use crate::dynamics::{self, kinematics, mass, ways};
 use crate::forces::{actuation, transmission};
 use crate::math::*;
 use crate::model::meter::Meter;
@@ -55,8 +55,7 @@ pub(crate) fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
         d.work.dynamics = dynamics::Scratch::new(m, plan.ways);
     }
     d.plan = plan;
-    d.work.dynamics.chains.load(m);
-    d.work.dynamics.frames.load(m);
+    ways::load(m, &mut d.work.dynamics);
     if sleep::is_fresh(&d.work.sleep) {
         lay_down(m, d);
     }
@@ -130,7 +129,7 @@ pub(crate) fn set_keyframe(m: &mut Model, d: &Data, key: usize) -> bool {
 /// Gives the fields of stages that the plan leaves out the values that those stages would find.
 pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
     if !d.plan.has(Fact::General) {
-        simple::constant(m, d);
+        mass::constant(m, d);
     }
     if d.plan.keeps(Stage::Actuation) && !d.plan.keeps(Stage::Transmission) {
         transmission::transmissions(m, &mut d.fields, &mut d.work.forces);

@@ -1,6 +1,6 @@
 //! What is known of a scene before it runs, from the model and from what programs read and write.
 
-use crate::dynamics::{chain, kinematics, ways};
+use crate::dynamics::ways;
 use crate::forces::{actuation, derivative};
 use crate::kinds::{biastype, disable, dyntype, enable, eqtype, gaintype, integrator, joint, trntype};
 use crate::model::plan::Fact;
@@ -85,13 +85,10 @@ type Test = fn(&Scene) -> bool;
 
 /// Each fact, and when it holds. That of M being computed for constraints alone follows from the plan: see
 /// [`Scene::mass_for_rows`].
-pub(super) const FACTS: [(Fact, Test); 23] = [
+pub(super) const FACTS: [(Fact, Test); 20] = [
     (Fact::General, |s| s.general),
     (Fact::Composite, |s| s.large || s.reads_field("crb")),
     (Fact::Recursion, |s| s.large),
-    (Fact::SimpleBodies, |s| (0..s.m.nv).any(|i| ways::is_simple(s.m, s.ways, i))),
-    (Fact::ChainsChange, |s| s.writes(Object::Model, &chain::FIELDS)),
-    (Fact::FramesChange, |s| s.writes(Object::Model, &kinematics::FIELDS)),
     (Fact::Equalities, |s| s.equalities > 0),
     (Fact::FrictionLoss, |s| s.friction > 0),
     (Fact::Limits, |s| s.limited > 0 || s.limited_tendons > 0),
@@ -123,9 +120,9 @@ pub(super) struct Scene<'a> {
     pub(super) demand: &'a Demand,
     /// How trees may be computed.
     pub(super) ways: Ways,
-    /// Some tree is more than one simple body.
+    /// M of some tree depends on the configuration.
     pub(super) general: bool,
-    /// Some tree is more than a simple body or a short chain.
+    /// M and the bias force of some tree take the general way.
     pub(super) large: bool,
     /// Which pairs of geoms may touch can change while it runs.
     pub(super) pairs_change: bool,
@@ -160,8 +157,8 @@ impl<'a> Scene<'a> {
             m,
             demand,
             ways,
-            general: (0..m.nv).any(|i| !ways::is_simple(m, ways, i)),
-            large: (0..m.nv).any(|i| ways::needs_bodies(m, ways, i)),
+            general: !ways::are_constant(m, ways),
+            large: ways::need_bodies(m, ways),
             pairs_change: false,
             pairs: 0,
             limited: m.jnt_limited.iter().filter(|&&l| l).count(),
@@ -256,8 +253,8 @@ impl<'a> Scene<'a> {
         (!changes).then(|| damping::has_dampers(self.m))
     }
 
-    /// Whether only constraints look at M: all trees are single bodies, short chains, or factorized as articulated
-    /// bodies, and the integrator does without.
+    /// Whether only constraints look at M: trees take ways that do without its general
+    /// rows, and so does the integrator.
     pub(super) fn mass_for_rows(&self, plan: &Plan) -> bool {
         let m = self.m;
         let fields = ["M", "qLD", "qLDiagInv", "crb"];
@@ -272,7 +269,7 @@ impl<'a> Scene<'a> {
             && !plan.keeps(Stage::Energy)
             && !sensor::needs(m, Stage::MassMatrix)
             && !fields.into_iter().any(|f| self.reads_field(f))
-            && (0..m.nv).all(|k| ways::solves_alone(m, self.ways, k))
+            && ways::solve_alone(m, self.ways)
     }
 
     /// Whether forces of actuators depend on their lengths or velocities, or their moments on the configuration.

@@ -4,6 +4,7 @@ use super::stdio::print_json;
 use super::{Failure, ModelOptions, Outcome, interrupted, target};
 use crate::report::{report, set_number};
 use crate::run::Session;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use labspec_core::reflect::FieldSet;
 use labspec_core::{Data, Demand, Plan, Way, Ways};
 use serde_json::json;
@@ -29,32 +30,18 @@ pub(super) struct Arguments {
     /// a lab for what it reads
     #[arg(long)]
     full: bool,
-    /// Compute trees without a short way: simple, chain, serial or articulated; may be given several times
-    #[arg(long, value_name = "WAY", value_enum)]
-    without: Vec<Short>,
+    /// Compute trees without a short way; may be given several times
+    #[arg(long, value_name = "WAY", value_parser = short_way())]
+    without: Vec<Way>,
     /// Start every repetition again from the reset state, so that it is the same flight or fall
     #[arg(long)]
     reset: bool,
 }
 
-/// Short ways of computing trees.
-#[derive(clap::ValueEnum, Clone, Copy, Debug)]
-enum Short {
-    Simple,
-    Chain,
-    Serial,
-    Articulated,
-}
-
-impl From<Short> for Way {
-    fn from(short: Short) -> Way {
-        match short {
-            Short::Simple => Way::Simple,
-            Short::Chain => Way::Chain,
-            Short::Serial => Way::Serial,
-            Short::Articulated => Way::Articulated,
-        }
-    }
+/// A short way of computing trees, by its name.
+fn short_way() -> impl TypedValueParser<Value = Way> {
+    PossibleValuesParser::new(Way::short().map(Way::name))
+        .try_map(|name| Way::short().find(|way| way.name() == name).ok_or("no such way"))
 }
 
 pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
@@ -64,7 +51,7 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     } else {
         target.programs.demand
     };
-    let ways = a.without.iter().fold(Ways::ALL, |ways, &short| ways.without(short.into()));
+    let ways = a.without.iter().fold(Ways::ALL, |ways, &short| ways.without(short));
     let plan = Plan::by_ways(&target.model, &demand, ways);
     let data = Data::planned(&target.model, plan);
     let key = target.lab.keyframe();

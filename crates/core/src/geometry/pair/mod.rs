@@ -12,6 +12,8 @@ mod round;
 mod searched;
 
 pub(crate) use field::field_distance;
+pub(crate) use plane::ball_on_plane;
+pub(crate) use round::two_balls;
 
 use super::Shape;
 use super::convex::{Effort, Nearest, Room};
@@ -62,7 +64,7 @@ pub(crate) enum Method {
 }
 
 /// Whether this build has the general algorithm. Without it a model that needs it is refused when it is loaded
-/// ([`crate::setup::search`]).
+/// (`setup/needs`).
 pub(crate) const CONVEX: bool = cfg!(feature = "convex");
 
 /// The method of two types, the smaller first; `None` when such geoms pass through each other.

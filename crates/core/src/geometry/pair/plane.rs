@@ -12,16 +12,21 @@ fn touch(normal: Vec3, dist: f64, point: Vec3) -> Touch {
     Touch { dist, pos: add_scaled(point, normal, -0.5 * dist), normal, tangent: [0.0; 3] }
 }
 
-/// The lowest point of a ball.
-#[inline]
-fn ball(plane: &Shape, centre: Vec3, radius: f64, margin: f64) -> Option<Touch> {
-    let normal = plane.axis(2);
-    let height = dot(sub(centre, plane.pos), normal);
-    if height > margin + radius {
+/// A ball on a plane, which is given by a point and its normal: the height of the centre minus the radius, half way below the
+/// lowest point.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn ball_on_plane(at: Vec3, normal: Vec3, centre: Vec3, radius: f64, margin: f64) -> Option<Touch> {
+    let dist = dot(sub(centre, at), normal) - radius;
+    if dist > margin {
         return None;
     }
-    let dist = height - radius;
-    Some(Touch { dist, pos: add_scaled(centre, normal, -0.5 * dist - radius), normal, tangent: [0.0; 3] })
+    Some(Touch { dist, pos: add_scaled(centre, normal, -(radius + 0.5 * dist)), normal, tangent: [0.0; 3] })
+}
+
+/// A ball of another shape.
+#[inline]
+fn ball(plane: &Shape, centre: Vec3, radius: f64, margin: f64) -> Option<Touch> {
+    ball_on_plane(plane.pos, plane.axis(2), centre, radius, margin)
 }
 
 pub(super) fn sphere(plane: &Shape, sphere: &Shape, margin: f64, out: &mut Vec<Touch>) {

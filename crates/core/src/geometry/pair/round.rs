@@ -4,22 +4,33 @@ use super::Touch;
 use crate::geometry::Shape;
 use crate::math::*;
 
-/// Two balls. Coincident centres have no direction: the normal is taken across the z axes of the shapes, or along x
-/// when these are parallel.
-#[inline]
-fn balls(a: &Shape, at_a: Vec3, ra: f64, b: &Shape, at_b: Vec3, rb: f64, margin: f64) -> Option<Touch> {
-    let between = sub(at_b, at_a);
-    let apart2 = dot(between, between);
+/// Two balls: the distance of their centres minus both radii. Coincident centres have no direction: the normal is taken across
+/// two axes, or along x when these are parallel.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn two_balls(
+    [a, b]: [Vec3; 2],
+    [ra, rb]: [f64; 2],
+    margin: f64,
+    axes: impl FnOnce() -> [Vec3; 2],
+) -> Option<Touch> {
+    let between = sub(b, a);
     let reach = margin + ra + rb;
-    if apart2 > reach * reach {
+    if dot(between, between) > reach * reach {
         return None;
     }
     let (mut normal, length) = normalize(between);
     if length < MINVAL {
-        normal = normalize(cross(a.axis(2), b.axis(2))).0;
+        let [x, y] = axes();
+        normal = normalize(cross(x, y)).0;
     }
-    let dist = apart2.sqrt() - ra - rb;
-    Some(Touch { dist, pos: add(scale(normal, ra + 0.5 * dist), at_a), normal, tangent: [0.0; 3] })
+    let dist = length - ra - rb;
+    Some(Touch { dist, pos: add_scaled(a, normal, ra + 0.5 * dist), normal, tangent: [0.0; 3] })
+}
+
+/// Balls of two shapes, which have the direction of their z axes.
+#[inline]
+fn balls(a: &Shape, at_a: Vec3, ra: f64, b: &Shape, at_b: Vec3, rb: f64, margin: f64) -> Option<Touch> {
+    two_balls([at_a, at_b], [ra, rb], margin, || [a.axis(2), b.axis(2)])
 }
 
 pub(super) fn sphere_sphere(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<Touch>) {

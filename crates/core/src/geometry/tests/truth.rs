@@ -443,7 +443,7 @@ fn distances_of_height_fields_are_those_of_their_prisms() {
         let mut b = shape(kind, &mut r, &solids);
         b.pos = r.vector(-2.5, 2.5);
         let most = [0.0, 0.3, 1e3][r.below(3)];
-        let found = crate::geometry::shape_distance(&ground, &b, most, &settings, &mut work);
+        let found = crate::geometry::shape_distance(&ground, &b, most, &settings, &mut work).unwrap();
         let mut least = f64::INFINITY;
         for row in 0..4 {
             for col in 0..6 {

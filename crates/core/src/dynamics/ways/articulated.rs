@@ -12,12 +12,18 @@
 //! Everything is expressed about the centre of mass of the tree, as `cdof` and `cinert` are: nothing is transformed
 //! from body to body.
 
-use crate::dynamics::{Scratch, mass, reflected, serial};
+use super::{Damped, Factors, NOTHING, Own, Row};
+use crate::dynamics::{Scratch, mass, reflected};
 use crate::math::*;
-use crate::model::way::Way;
-use crate::model::way::Ways;
 use crate::model::{Fields, Model};
 use std::ops::Range;
+
+pub(super) const ROW: Row = Row {
+    name: "articulated",
+    covers,
+    factors: Some(Factors { without_mass: true, factor, solve, solve_with, solve_now, solve_both }),
+    ..NOTHING
+};
 
 /// Degrees of freedom of a tree up to which its rows of M are short enough to be eliminated one from the other.
 const FEW: usize = 6;
@@ -25,13 +31,11 @@ const FEW: usize = 6;
 /// Six numbers and two zeros: two vectors of a processor.
 type Wide = [f64; 8];
 
-/// The trees of a model by how they are solved, and scratch.
+/// The trees, and scratch.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Articulated {
-    /// Small ones; all others are in `spans`.
-    serial: Vec<serial::Tree>,
+pub(super) struct Trees {
     spans: Vec<Span>,
-    /// Whether no tendon's inertia ties bodies of a tree together.
+    /// Whether no tendon's inertia ties bodies of a tree together: such trees are solved by their rows of M.
     untied: bool,
     links: Vec<Link>,
     /// One for each body, and one for each degree of freedom: first of M, then of M with something added to its
@@ -40,22 +44,13 @@ pub(crate) struct Articulated {
     joints: Vec<[Joint; 2]>,
 }
 
-/// A tree, or any number of trees that are solved by their rows of M.
+/// A tree.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Span {
     dofs: Range<usize>,
-    /// The bodies of a tree of many degrees of freedom, none otherwise.
     bodies: Range<usize>,
     /// Those that cannot move on the body that carries them, the last first: body and carrier.
     fixed: Vec<(usize, usize)>,
-}
-
-impl Span {
-    /// Whether it is solved by its bodies. Those that a tendon's inertia ties together are solved by their rows.
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    fn by_bodies(&self, untied: bool) -> bool {
-        untied && !self.bodies.is_empty()
-    }
 }
 
 /// Where a degree of freedom is in its tree.
@@ -85,62 +80,39 @@ struct Joint {
     x: f64,
 }
 
-/// What the passes over a tree read.
-struct Tree<'a> {
+/// What passes over a tree read.
+struct Passes<'a> {
     span: &'a Span,
     links: &'a [Link],
     cdof: &'a [Spatial],
 }
 
-/// Whether a degree of freedom belongs to a tree of many, which is factorized as articulated bodies.
-pub(crate) fn covers(m: &Model, dof: usize) -> bool {
-    let tree = m.dof_treeid[dof] as usize;
-    let first = m.tree_dofadr[tree] as usize;
-    is_large(m, first..first + m.tree_dofnum[tree] as usize)
-}
-
-fn is_large(m: &Model, mut dofs: Range<usize>) -> bool {
+/// Whether a tree has many degrees of freedom.
+fn covers(m: &Model, tree: usize) -> bool {
+    let mut dofs = m.tree_dofs(tree);
     dofs.len() > FEW && dofs.any(|k| m.dof_simplenum[k] == 0)
 }
 
-impl Articulated {
-    /// The trees of a model.
-    pub(crate) fn new(m: &Model, ways: Ways) -> Articulated {
-        let (mut serial, mut spans) = (Vec::new(), Vec::<Span>::new());
-        for t in 0..m.ntree {
-            let first = m.tree_dofadr[t] as usize;
-            let dofs = first..first + m.tree_dofnum[t] as usize;
-            if ways.has(Way::Articulated) && is_large(m, dofs.clone()) {
-                // Bodies are numbered depth first: those of a tree follow each other.
-                let root = m.dof_bodyid[first] as usize;
-                let end = (root..m.nbody).find(|&b| m.body_treeid[b] != t as i32).unwrap_or(m.nbody);
-                let still = |&b: &usize| m.body_dofnum[b] == 0;
-                let fixed = (root..end).rev().filter(still).map(|b| (b, m.body_parentid[b] as usize));
-                spans.push(Span { dofs, bodies: root..end, fixed: fixed.collect() });
-                continue;
-            }
-            if let Some(tree) = serial::Tree::new(m, dofs.clone()).filter(|_| ways.has(Way::Serial)) {
-                serial.push(tree);
-                continue;
-            }
-            match spans.last_mut() {
-                Some(last) if last.bodies.is_empty() && last.dofs.end == dofs.start => {
-                    last.dofs.end = dofs.end
-                }
-                _ => spans.push(Span { dofs, ..Span::default() }),
-            }
-        }
-        let any = spans.iter().any(|s| !s.bodies.is_empty());
-        let (bodies, joints) = if any { (m.nbody, m.nv) } else { (0, 0) };
+impl Trees {
+    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+        let span = |&tree: &usize| {
+            let dofs = m.tree_dofs(tree);
+            // Bodies are numbered depth first: those of a tree follow each other.
+            let root = m.dof_bodyid[dofs.start] as usize;
+            let end = (root..m.nbody).find(|&b| m.body_treeid[b] != tree as i32).unwrap_or(m.nbody);
+            let still = |&b: &usize| m.body_dofnum[b] == 0;
+            let fixed = (root..end).rev().filter(still).map(|b| (b, m.body_parentid[b] as usize));
+            Span { dofs, bodies: root..end, fixed: fixed.collect() }
+        };
+        let (bodies, joints) = if own.factors.is_empty() { (0, 0) } else { (m.nbody, m.nv) };
         let link = |k: usize| {
             let body = m.dof_bodyid[k] as usize;
             let first = m.body_dofadr[body] == k as i32;
             let carrier = usize::try_from(m.dof_parentid[k]).ok().map(|up| m.dof_bodyid[up] as usize);
             Link { body, carrier: carrier.filter(|_| first), first }
         };
-        Articulated {
-            serial,
-            spans,
+        Trees {
+            spans: own.factors.iter().map(span).collect(),
             untied: true,
             links: (0..joints).map(link).collect(),
             bodies: vec![[Body::default(); 2]; bodies],
@@ -150,9 +122,9 @@ impl Articulated {
 }
 
 /// The passes go over matrices `A..B` at the same time: the sums of each do not wait for those of the other.
-impl Tree<'_> {
+impl Passes<'_> {
     /// U and D of every degree of freedom. Returns the first one whose D is not positive. With `X`, the way up the tree of
-    /// [`Tree::solve`] is gone as well.
+    /// [`Passes::solve`] is gone as well.
     #[inline(never)]
     fn factor<const A: usize, const B: usize, const X: bool>(
         &self,
@@ -266,41 +238,33 @@ fn with_carrier(
     Some((rest.first()?, above.get_mut(carrier)?))
 }
 
-/// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive.
-pub(crate) fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+#[inline(never)] // scenes of small trees do not carry the set-up of the others: so below
+fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let bad = prepare(m, d, w, None);
     rows_of_factor(m, d, w);
     bad
 }
 
-/// What solves with M, of large trees without `qLD`; and with `x`, x ← M⁻¹ x.
-pub(crate) fn prepare(
-    m: &Model,
-    d: &mut Fields,
-    w: &mut Scratch,
-    mut x: Option<&mut [f64]>,
-) -> Option<usize> {
-    let mut bad = None;
-    for tree in &w.articulated.serial {
-        bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, x.as_deref_mut()));
-    }
-    if w.articulated.spans.is_empty() { bad } else { bad.or(prepare_spans(m, d, w, x)) }
+#[inline(never)]
+fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+    prepare(m, d, w, Some(x))
 }
 
-#[inline(never)] // scenes of small trees do not carry the set-up of the others: so below
-fn prepare_spans(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>) -> Option<usize> {
-    let articulated = &mut w.articulated;
+/// U and 1/D, which solve with M; and with `x`, x ← M⁻¹ x.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>) -> Option<usize> {
+    let articulated = &mut w.ways.articulated;
     articulated.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
-    let Articulated { spans, untied, links, bodies, joints, .. } = articulated;
+    let Trees { spans, untied, links, bodies, joints } = articulated;
     let mut bad = None;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
         let x = x.as_deref_mut();
-        let found = if span.by_bodies(*untied) {
+        let found = if *untied {
             for k in dofs.clone() {
                 joints[k][0].diagonal = mass::armature(m, k);
             }
-            let tree = Tree { span, links, cdof: rows(&d.cdof) };
+            let tree = Passes { span, links, cdof: rows(&d.cdof) };
             match x {
                 Some(x) => {
                     put::<0>(joints, dofs.clone(), x);
@@ -312,47 +276,26 @@ fn prepare_spans(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut 
                 None => tree.factor::<0, 1, false>(rows(&d.cinert), bodies, joints),
             }
         } else {
-            factor_rows(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs, x)
+            let bad = mass::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
+            if let Some(x) = x {
+                mass::solve(m, &d.qLD, &d.qLDiagInv, x, dofs);
+            }
+            bad
         };
         bad = bad.or(found);
     }
     bad
 }
 
-/// x ← M⁻¹ x and y ← (M + B)⁻¹ y for a diagonal matrix B (nv), and what solves with M: [`prepare`] and [`solve_with`] in
-/// less time than one after the other.
-pub(crate) fn prepare_both(
-    m: &Model,
-    d: &mut Fields,
-    w: &mut Scratch,
-    b: &[f64],
-    x: &mut [f64],
-    y: &mut [f64],
-) -> Option<usize> {
-    let mut bad = None;
-    for tree in &w.articulated.serial {
-        bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, Some(&mut *x)));
-        tree.solve_with(&d.M, b, y);
-    }
-    if w.articulated.spans.is_empty() { bad } else { bad.or(prepare_both_spans(m, d, w, b, x, y)) }
-}
-
 #[inline(never)]
-fn prepare_both_spans(
-    m: &Model,
-    d: &mut Fields,
-    w: &mut Scratch,
-    b: &[f64],
-    x: &mut [f64],
-    y: &mut [f64],
-) -> Option<usize> {
-    let articulated = &mut w.articulated;
+fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
+    let articulated = &mut w.ways.articulated;
     articulated.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
-    let Articulated { spans, untied, links, bodies, joints, .. } = articulated;
+    let Trees { spans, untied, links, bodies, joints } = articulated;
     let mut bad = None;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
-        let found = if span.by_bodies(*untied) {
+        let found = if *untied {
             let numbers = joints[dofs.clone()].iter_mut().zip(&b[dofs.clone()]);
             for ((k, (joint, b)), (x, y)) in
                 dofs.clone().zip(numbers).zip(x[dofs.clone()].iter().zip(&y[dofs.clone()]))
@@ -361,15 +304,17 @@ fn prepare_both_spans(
                 (joint[0].diagonal, joint[0].x) = (own, *x);
                 (joint[1].diagonal, joint[1].x) = (own + b, *y);
             }
-            let tree = Tree { span, links, cdof: rows(&d.cdof) };
+            let tree = Passes { span, links, cdof: rows(&d.cdof) };
             let bad = tree.factor::<0, 2, true>(rows(&d.cinert), bodies, joints);
             tree.fall::<0, 2>(bodies, joints);
             get::<0>(joints, dofs.clone(), x);
             get::<1>(joints, dofs, y);
             bad
         } else {
-            solve_rows_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs.clone(), y);
-            factor_rows(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs, Some(&mut *x))
+            mass::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs.clone(), y);
+            let bad = mass::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
+            mass::solve(m, &d.qLD, &d.qLDiagInv, x, dofs);
+            bad
         };
         bad = bad.or(found);
     }
@@ -392,76 +337,31 @@ fn get<const I: usize>(joints: &[[Joint; 2]], dofs: Range<usize>, x: &mut [f64])
     }
 }
 
-/// `qLD` and `qLDiagInv` by rows of M; and with `x`, x ← M⁻¹ x.
-fn factor_rows(
-    m: &Model,
-    mass: &[f64],
-    ld: &mut [f64],
-    diag_inv: &mut [f64],
-    dofs: Range<usize>,
-    x: Option<&mut [f64]>,
-) -> Option<usize> {
-    let entries = mass::rows_of(m, dofs.clone());
-    ld[entries.clone()].copy_from_slice(&mass[entries]);
-    let bad = mass::factor(m, ld, diag_inv, dofs.clone());
-    if let Some(x) = x {
-        mass::solve(m, ld, diag_inv, x, dofs);
+/// The rows of `qLD`, and `qLDiagInv`.
+fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    let Trees { spans, untied, joints, .. } = &w.ways.articulated;
+    if !*untied {
+        return;
     }
-    bad
-}
-
-/// x ← (M + B)⁻¹ x by rows of M, with scratch for a factorization.
-fn solve_rows_with(
-    m: &Model,
-    mass: &[f64],
-    b: &[f64],
-    [ld, diag_inv]: [&mut Vec<f64>; 2],
-    dofs: Range<usize>,
-    x: &mut [f64],
-) {
-    let entries = mass::rows_of(m, dofs.clone());
-    ld[entries.clone()].copy_from_slice(&mass[entries]);
-    for k in dofs.clone() {
-        ld[mass::diagonal(m, k)] += b[k];
-    }
-    mass::factor(m, ld, diag_inv, dofs.clone());
-    mass::solve(m, ld, diag_inv, x, dofs);
-}
-
-/// The rows of `qLD` that belong to articulated trees, and their `qLDiagInv`.
-pub(crate) fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let Articulated { spans, untied, joints, .. } = &w.articulated;
     let cdof = rows::<6>(&d.cdof);
-    for span in spans.iter().filter(|span| span.by_bodies(*untied)) {
-        for k in span.dofs.clone() {
-            let Joint { u, inv, .. } = &joints[k][0];
-            d.qLDiagInv[k] = *inv;
-            let row = &mut d.qLD[mass::row(m, k)];
-            let depth = row.len() - 1;
-            w.path.extend(depth, &cdof[k]);
-            w.path.product(&narrow(&scale(*u, *inv)), row);
-            row[depth] = 1.0 / inv;
-        }
-    }
-}
-
-/// x ← M⁻¹ x by what [`factor`] has left.
-pub(crate) fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
-    for tree in &w.articulated.serial {
-        tree.solve(d, x);
-    }
-    if !w.articulated.spans.is_empty() {
-        solve_spans(m, d, w, x);
+    for k in spans.iter().flat_map(|span| span.dofs.clone()) {
+        let Joint { u, inv, .. } = &joints[k][0];
+        d.qLDiagInv[k] = *inv;
+        let row = &mut d.qLD[mass::row(m, k)];
+        let depth = row.len() - 1;
+        w.path.extend(depth, &cdof[k]);
+        w.path.product(&narrow(&scale(*u, *inv)), row);
+        row[depth] = 1.0 / inv;
     }
 }
 
 #[inline(never)]
-fn solve_spans(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
-    let Articulated { spans, untied, links, bodies, joints, .. } = &mut w.articulated;
+fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+    let Trees { spans, untied, links, bodies, joints } = &mut w.ways.articulated;
     for span in spans.iter() {
-        if span.by_bodies(*untied) {
+        if *untied {
             put::<0>(joints, span.dofs.clone(), x);
-            Tree { span, links, cdof: rows(&d.cdof) }.solve::<0, 1>(bodies, joints);
+            Passes { span, links, cdof: rows(&d.cdof) }.solve::<0, 1>(bodies, joints);
             get::<0>(joints, span.dofs.clone(), x);
         } else {
             mass::solve(m, &d.qLD, &d.qLDiagInv, x, span.dofs.clone());
@@ -469,33 +369,23 @@ fn solve_spans(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
     }
 }
 
-/// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after [`factor`].
-pub(crate) fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
-    for tree in &w.articulated.serial {
-        tree.solve_with(&d.M, b, x);
-    }
-    if !w.articulated.spans.is_empty() {
-        solve_spans_with(m, d, w, b, x);
-    }
-}
-
 #[inline(never)]
-fn solve_spans_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
-    let Articulated { spans, untied, links, bodies, joints, .. } = &mut w.articulated;
+fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+    let Trees { spans, untied, links, bodies, joints } = &mut w.ways.articulated;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
-        if span.by_bodies(*untied) {
+        if *untied {
             for (joint, (b, x)) in
                 joints[dofs.clone()].iter_mut().zip(b[dofs.clone()].iter().zip(&x[dofs.clone()]))
             {
                 (joint[1].diagonal, joint[1].x) = (joint[0].diagonal + b, *x);
             }
-            let tree = Tree { span, links, cdof: rows(&d.cdof) };
+            let tree = Passes { span, links, cdof: rows(&d.cdof) };
             tree.factor::<1, 2, true>(rows(&d.cinert), bodies, joints);
             tree.fall::<1, 2>(bodies, joints);
             get::<1>(joints, dofs, x);
         } else {
-            solve_rows_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs, x);
+            mass::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs, x);
         }
     }
 }
@@ -566,6 +456,7 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::panic)]
 
     use super::*;
+    use crate::dynamics::ways::{solve, solve_with};
     use crate::kinds::joint;
     use crate::mjcf::compile;
     use crate::step::forward::forward;

@@ -17,17 +17,26 @@ mod spatial;
 #[cfg(test)]
 mod tests;
 
+use super::{Forces, NOTHING, Own, Row};
 use crate::dynamics::{Scratch, mass, walk};
 use crate::kinds::joint;
 use crate::math::*;
-use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// A tree with more degrees of freedom is cheaper by composite bodies and recursion.
 const MAX_DOFS: usize = 6;
 
-/// What is written to the model and changes a link.
-pub(crate) const FIELDS: [&str; 12] = [
+pub(super) const ROW: Row = Row {
+    name: "chain",
+    covers,
+    copies: &COPIES,
+    load: |m, w| w.ways.chain.load(m),
+    forces: Some(Forces { mass, bias, looks_at_places: |_, _| false, constant: |_, _| false }),
+    ..NOTHING
+};
+
+/// What the model says about a link.
+const COPIES: [&str; 12] = [
     "body_pos",
     "body_quat",
     "body_ipos",
@@ -44,7 +53,7 @@ pub(crate) const FIELDS: [&str; 12] = [
 
 /// The links of all short chains, chain by chain, each from its root on.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Chains {
+pub(super) struct Trees {
     links: Vec<Link>,
     /// Number of links of each chain.
     lengths: Vec<usize>,
@@ -119,37 +128,33 @@ struct Part {
     turn: Mat3,
 }
 
-/// Whether a degree of freedom belongs to a short chain: a tree of at most [`MAX_DOFS`] slides and hinges,
-/// one after the other from the world on, that is more than one simple body.
-pub(crate) fn covers(m: &Model, dof: usize) -> bool {
-    let tree = m.dof_treeid[dof];
-    let of_tree = |k: &usize| m.dof_treeid[*k] == tree;
-    // The degrees of freedom of a tree are consecutive.
-    let first = (0..dof).rev().take_while(of_tree).take(MAX_DOFS).last().unwrap_or(dof);
-    let base = m.body_parentid[m.dof_bodyid[first] as usize] as usize;
-    let links = |k: usize| {
+/// Whether a tree is a short chain: at most [`MAX_DOFS`] slides and hinges, one after the other from the world on, that are
+/// more than one simple body.
+fn covers(m: &Model, tree: usize) -> bool {
+    let dofs = m.tree_dofs(tree);
+    let first = dofs.start;
+    let link = |k: usize| {
         let serial = k == first || m.dof_parentid[k] == k as i32 - 1;
         let kind = m.jnt_type[m.dof_jntid[k] as usize];
-        serial
-            && k < first + MAX_DOFS
-            && m.dof_simplenum[k] == 0
-            && matches!(kind, joint::SLIDE | joint::HINGE)
+        serial && m.dof_simplenum[k] == 0 && matches!(kind, joint::SLIDE | joint::HINGE)
     };
-    m.body_weldid[base] == 0 && (first..m.nv).take_while(of_tree).take(MAX_DOFS + 1).all(links)
+    let on_the_world = |k: usize| m.body_weldid[m.body_parentid[m.dof_bodyid[k] as usize] as usize] == 0;
+    dofs.len() <= MAX_DOFS && dofs.clone().all(link) && on_the_world(first)
 }
 
-impl Chains {
-    /// Finds the short chains of a model.
-    pub(crate) fn new(m: &Model) -> Chains {
-        let mut chains = Chains::default();
+impl Trees {
+    /// The links of the short chains of a model.
+    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+        let mut chains = Trees::default();
         let mut part_of: Vec<Option<usize>> = vec![None; m.nbody];
-        if !(0..m.nv).any(|k| covers(m, k)) {
+        if own.forces.is_empty() {
             return chains;
         }
+        let is_own = |dof: usize| own.forces.contains(&(m.dof_treeid[dof] as usize));
         for b in 1..m.nbody {
             let last = walk::last_dof(m, b);
             let moves = last >= 0;
-            if (moves && !covers(m, last as usize)) || (!moves && m.body_weldid[b] != 0) {
+            if (moves && !is_own(last as usize)) || (!moves && m.body_weldid[b] != 0) {
                 continue;
             }
             let parent = part_of[m.body_parentid[b] as usize];
@@ -178,14 +183,8 @@ impl Chains {
         chains
     }
 
-    /// Whether there is none.
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(crate) fn is_empty(&self) -> bool {
-        self.lengths.is_empty()
-    }
-
     /// Takes the parameters of the links from the model.
-    pub(crate) fn load(&mut self, m: &Model) {
+    fn load(&mut self, m: &Model) {
         let (pos, quat) = (rows::<3>(&m.body_pos), rows::<4>(&m.body_quat));
         let (anchor, axis) = (rows::<3>(&m.jnt_pos), rows::<3>(&m.jnt_axis));
         let mut next = 0;
@@ -275,16 +274,12 @@ macro_rules! by_length {
 }
 
 /// The rows of M that belong to short chains.
-pub(crate) fn mass_matrix(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let chains = &mut w.chains;
-    if d.plan.has(Fact::ChainsChange) {
-        chains.load(m);
-    }
-    by_length!(chains, mass_matrix(&d.qpos, &mut d.M));
+fn mass(_: &Model, d: &mut Fields, w: &mut Scratch) {
+    by_length!(w.ways.chain, mass_matrix(&d.qpos, &mut d.M));
 }
 
 /// The bias force of short chains.
 #[inline(never)] // scenes without any do not carry its set-up
-pub(crate) fn bias(d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
-    by_length!(w.chains, bias(&d.qvel, &mut d.qfrc_bias, gravity));
+fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+    by_length!(w.ways.chain, bias(&d.qvel, &mut d.qfrc_bias, gravity));
 }

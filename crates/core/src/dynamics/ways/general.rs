@@ -1,0 +1,106 @@
+//! The general way, which computes everything of any tree.
+//!
+//! Bodies are placed one after the other (`kinematics`); M comes from composite bodies, a row for each degree of freedom, and is
+//! factorized by elimination (`mass`); the bias force is found by recursion (`rne`).
+
+use super::{Damped, Factors, Forces, Own, Places, Row};
+use crate::dynamics::kinematics::{self, Frames};
+use crate::dynamics::{Scratch, mass as rows, rne};
+use crate::math::Vec3;
+use crate::model::plan::Fact;
+use crate::model::{Fields, Model};
+use std::ops::Range;
+
+pub(super) const ROW: Row = Row {
+    name: "general",
+    covers: |_, _| true,
+    copies: &kinematics::FIELDS,
+    load: |m, w| w.ways.general.frames.load(m),
+    places: Some(Places { place, orient }),
+    forces: Some(Forces { mass, bias, looks_at_places: |_, _| true, constant: |_, _| false }),
+    factors: Some(Factors { without_mass: false, factor, solve, solve_with, solve_now, solve_both }),
+};
+
+/// The frames of all bodies, and degrees of freedom that follow each other: those whose M it computes, and those that it
+/// factorizes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Trees {
+    frames: Frames,
+    forces: Vec<Range<usize>>,
+    factors: Vec<Range<usize>>,
+}
+
+impl Trees {
+    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+        Trees { frames: Frames::new(m), forces: spans(m, &own.forces), factors: spans(m, &own.factors) }
+    }
+}
+
+/// The degrees of freedom of some trees, as few ranges.
+fn spans(m: &Model, trees: &[usize]) -> Vec<Range<usize>> {
+    let mut spans: Vec<Range<usize>> = Vec::new();
+    for dofs in trees.iter().map(|&tree| m.tree_dofs(tree)) {
+        match spans.last_mut() {
+            Some(last) if last.end == dofs.start => last.end = dofs.end,
+            _ => spans.push(dofs),
+        }
+    }
+    spans
+}
+
+fn place(_: &Model, d: &mut Fields, w: &mut Scratch) {
+    kinematics::bodies(d, &mut w.ways.general.frames);
+}
+
+fn orient(d: &mut Fields, w: &mut Scratch) {
+    kinematics::orientations(d, &w.ways.general.frames);
+}
+
+fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    rows::composite_inertia(m, d, &mut w.path, &w.ways.general.forces);
+}
+
+fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+    if d.plan.has(Fact::Recursion) {
+        rne::newton_euler(m, d, w, gravity);
+    }
+}
+
+#[inline(never)] // scenes of small trees do not carry the set-up of the others: so below
+fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+    let mut bad = None;
+    for dofs in w.ways.general.factors.iter().cloned() {
+        bad = bad.or(rows::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs));
+    }
+    bad
+}
+
+#[inline(never)]
+fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+    for dofs in w.ways.general.factors.iter().cloned() {
+        rows::solve(m, &d.qLD, &d.qLDiagInv, x, dofs);
+    }
+}
+
+#[inline(never)]
+fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+    for dofs in w.ways.general.factors.iter().cloned() {
+        rows::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs, x);
+    }
+}
+
+#[inline(never)]
+fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+    let mut bad = None;
+    for dofs in w.ways.general.factors.iter().cloned() {
+        bad = bad.or(rows::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone()));
+        rows::solve(m, &d.qLD, &d.qLDiagInv, x, dofs);
+    }
+    bad
+}
+
+#[inline(never)]
+fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
+    solve_with(m, d, w, b, y);
+    solve_now(m, d, w, x)
+}

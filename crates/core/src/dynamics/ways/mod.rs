@@ -1,0 +1,347 @@
+//! How trees are computed: the table of ways.
+//!
+//! Three things are computed of a tree: where its bodies are ([`Places`]), M with the bias force ([`Forces`]), and accelerations
+//! from forces, by a factorization of M ([`Factors`]). The general way, which is the last row, computes all three of any tree. A
+//! short way computes some of them, of trees of its kind, in less time. Each tree takes, for each of the three, the first row
+//! of the table that covers it; this follows from the structure of the model when data are made for it, never from a plan.
+//!
+//! # To add a way
+//!
+//! One file in this folder and one row of the table:
+//!
+//! * the file has `covers` (which trees are of its kind), `Trees` with `Trees::new` (what it knows of its trees from one step to the
+//!   next), its functions, and the row, `ROW`, which names the way and its functions;
+//! * its `mod` and its name in the table stand below, before those that are longer.
+//!
+//! Nothing else knows the names of ways: plans, steps and `labspec bench --without WAY` ask the table. Any short way can be
+//! forbidden ([`Ways`]): `tests/ways.rs` does so with each row and holds it against the general one, and
+//! `docs/measured/speed.md` says what each is worth.
+
+use super::Scratch;
+use crate::kinds::disable;
+use crate::math::Vec3;
+use crate::model::way::{Way, Ways};
+use crate::model::{Fields, Model};
+
+/// The table, from its rows: a module each, with `ROW` and `Trees`.
+macro_rules! table {
+    ($($way:ident)*) => {
+        static TABLE: [Row; [$(stringify!($way)),*].len()] = [$($way::ROW),*];
+
+        /// What each way knows of its trees, and which ways have some.
+        #[derive(Clone, Debug, Default, PartialEq)]
+        pub(crate) struct Kept {
+            taken: Taken,
+            $($way: $way::Trees,)*
+        }
+
+        impl Kept {
+            /// The trees of a model by the ways that they take.
+            pub(crate) fn new(m: &Model, ways: Ways) -> Kept {
+                let (taken, own) = sort(m, ways);
+                let mut own = own.iter();
+                Kept { taken, $($way: own.next().map_or_else($way::Trees::default, |own| $way::Trees::new(m, own)),)* }
+            }
+        }
+    };
+}
+
+mod articulated;
+mod chain;
+mod general;
+mod serial;
+mod simple;
+
+table! {
+    simple
+    chain
+    serial
+    articulated
+    general
+}
+
+/// A way.
+struct Row {
+    /// As it is called in `labspec bench`.
+    name: &'static str,
+    /// Whether a tree is of its kind.
+    covers: fn(&Model, usize) -> bool,
+    /// Fields of the model of which its trees keep copies, and what takes them again.
+    copies: &'static [&'static str],
+    load: fn(&Model, &mut Scratch),
+    /// What it computes.
+    places: Option<Places>,
+    forces: Option<Forces>,
+    factors: Option<Factors>,
+}
+
+/// A way that computes nothing, of which rows say what they do.
+const NOTHING: Row = Row {
+    name: "",
+    covers: |_, _| false,
+    copies: &[],
+    load: |_, _| {},
+    places: None,
+    forces: None,
+    factors: None,
+};
+
+/// Where bodies are.
+struct Places {
+    /// `xpos xmat xipos ximat xanchor xaxis`.
+    place: fn(&Model, &mut Fields, &mut Scratch),
+    /// `xquat`, after `place`.
+    orient: fn(&mut Fields, &mut Scratch),
+}
+
+/// M and the bias force.
+struct Forces {
+    /// The rows of M.
+    mass: fn(&Model, &mut Fields, &mut Scratch),
+    /// `qfrc_bias`, for an acceleration of gravity.
+    bias: fn(&Model, &mut Fields, &mut Scratch, Vec3),
+    /// Whether the bias force of a tree follows from where its bodies are.
+    looks_at_places: fn(&Model, usize) -> bool,
+    /// Whether M of a tree is diagonal and constant.
+    constant: fn(&Model, usize) -> bool,
+}
+
+/// Accelerations from forces. Functions that factorize return the first degree of freedom whose D is not positive.
+struct Factors {
+    /// Whether M is not looked at.
+    without_mass: bool,
+    /// `qLD` and `qLDiagInv`.
+    factor: fn(&Model, &mut Fields, &mut Scratch) -> Option<usize>,
+    /// x ← M⁻¹ x, by what `factor` has left.
+    solve: fn(&Model, &Fields, &mut Scratch, &mut [f64]),
+    /// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after `factor`.
+    solve_with: fn(&Model, &Fields, &mut Scratch, &[f64], &mut [f64]),
+    /// x ← M⁻¹ x at once: nobody looks at `qLD`.
+    solve_now: fn(&Model, &mut Fields, &mut Scratch, &mut [f64]) -> Option<usize>,
+    /// x ← M⁻¹ x and y ← (M + B)⁻¹ y at once, likewise.
+    solve_both: fn(&Model, &mut Fields, &mut Scratch, Damped<'_>) -> Option<usize>,
+}
+
+/// B, x and y.
+type Damped<'a> = (&'a [f64], &'a mut [f64], &'a mut [f64]);
+
+/// The ways that have trees, for each of the three.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Taken {
+    places: Ways,
+    forces: Ways,
+    factors: Ways,
+}
+
+/// The trees of one way, for each of the three, in order.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Own {
+    places: Vec<usize>,
+    forces: Vec<usize>,
+    factors: Vec<usize>,
+}
+
+impl Way {
+    /// The short ways, in the order of the table.
+    pub fn short() -> impl Iterator<Item = Way> {
+        (0..GENERAL as u8).map(Way)
+    }
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        TABLE.get(usize::from(self.0)).map_or("", |row| row.name)
+    }
+}
+
+impl std::fmt::Debug for Way {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The last row.
+const GENERAL: usize = TABLE.len() - 1;
+
+// `Ways` has a bit for each row.
+const _: () = assert!(TABLE.len() <= u8::BITS as usize);
+
+/// The row that a tree takes for one of the three.
+fn row_of(m: &Model, ways: Ways, tree: usize, computes: impl Fn(&Row) -> bool) -> usize {
+    let takes = |i: &usize| {
+        ways.has(Way(*i as u8))
+            && !m.tree_dofs(tree).is_empty()
+            && computes(&TABLE[*i])
+            && (TABLE[*i].covers)(m, tree)
+    };
+    (0..GENERAL).find(takes).unwrap_or(GENERAL)
+}
+
+/// Which ways the trees of a model take.
+fn sort(m: &Model, ways: Ways) -> (Taken, [Own; TABLE.len()]) {
+    // The general way is always asked: bodies may be in no tree, and what it computes of bodies may be read.
+    let always = Ways::GENERAL.with(Way(GENERAL as u8));
+    let mut taken = Taken { places: always, forces: always, factors: Ways::GENERAL };
+    let mut own = [(); TABLE.len()].map(|()| Own::default());
+    for tree in (0..m.ntree).filter(|&t| !m.tree_dofs(t).is_empty()) {
+        let [places, forces, factors] = [
+            row_of(m, ways, tree, |row| row.places.is_some()),
+            row_of(m, ways, tree, |row| row.forces.is_some()),
+            row_of(m, ways, tree, |row| row.factors.is_some()),
+        ];
+        own[places].places.push(tree);
+        own[forces].forces.push(tree);
+        own[factors].factors.push(tree);
+        taken.places = taken.places.with(Way(places as u8));
+        taken.forces = taken.forces.with(Way(forces as u8));
+        taken.factors = taken.factors.with(Way(factors as u8));
+    }
+    (taken, own)
+}
+
+// What plans ask.
+
+/// What computes M and the bias force of a tree. A row without them is never chosen.
+fn forces(m: &Model, ways: Ways, tree: usize) -> (usize, Option<&'static Forces>) {
+    let row = row_of(m, ways, tree, |row| row.forces.is_some());
+    (row, TABLE[row].forces.as_ref())
+}
+
+/// Whether M and the bias force of some tree need composite bodies and recursion.
+pub(crate) fn need_bodies(m: &Model, ways: Ways) -> bool {
+    (0..m.ntree).any(|tree| forces(m, ways, tree).0 == GENERAL)
+}
+
+/// Whether the bias force of some tree needs to know where its bodies are.
+pub(crate) fn look_at_places(m: &Model, ways: Ways) -> bool {
+    (0..m.ntree).any(|tree| forces(m, ways, tree).1.is_some_and(|f| (f.looks_at_places)(m, tree)))
+}
+
+/// Whether M of the whole model is diagonal and constant.
+pub(crate) fn are_constant(m: &Model, ways: Ways) -> bool {
+    (0..m.ntree).all(|tree| forces(m, ways, tree).1.is_some_and(|f| (f.constant)(m, tree)))
+}
+
+/// Whether all accelerations are found without the general rows of M.
+pub(crate) fn solve_alone(m: &Model, ways: Ways) -> bool {
+    (0..m.ntree).all(|tree| {
+        let factors = row_of(m, ways, tree, |row| row.factors.is_some());
+        forces(m, ways, tree).0 != GENERAL || TABLE[factors].factors.as_ref().is_some_and(|f| f.without_mass)
+    })
+}
+
+/// The ways that keep copies of something that changes.
+pub(crate) fn changing(changes: impl Fn(&[&str]) -> bool) -> Ways {
+    let keeps = |i: &usize| changes(TABLE[*i].copies);
+    (0..TABLE.len()).filter(keeps).fold(Ways::GENERAL, |ways, i| ways.with(Way(i as u8)))
+}
+
+/// Takes what the ways keep from the model again.
+pub(crate) fn load(m: &Model, w: &mut Scratch) {
+    TABLE.iter().for_each(|row| (row.load)(m, w));
+}
+
+// What steps ask: each calls the functions of all ways that have trees.
+
+/// Calls a function of every way that has trees for one of the three, from the general one to the shortest: what that one
+/// computes of all bodies, the short ones write over.
+macro_rules! each {
+    ($w:ident, $of:ident, |$way:ident, $row:ident, $functions:ident| $call:expr) => {
+        for i in (0..TABLE.len()).rev() {
+            let ($way, $row) = (Way(i as u8), &TABLE[i]);
+            if let Some($functions) = &$row.$of
+                && $w.ways.taken.$of.has($way)
+            {
+                $call
+            }
+        }
+    };
+}
+
+/// Poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn place(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    each!(w, places, |way, row, of| {
+        if d.plan.changing.has(way) {
+            (row.load)(m, w);
+        }
+        (of.place)(m, d, w);
+    });
+}
+
+/// Orientations of bodies as quaternions, `xquat`, after [`place`].
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn orient(d: &mut Fields, w: &mut Scratch) {
+    each!(w, places, |_way, row, of| (of.orient)(d, w));
+}
+
+/// `M`, with or without the rows of the general way.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut Scratch, general: bool) {
+    each!(w, forces, |way, row, of| {
+        if way.0 != GENERAL as u8 || general {
+            if row.places.is_none() && d.plan.changing.has(way) {
+                (row.load)(m, w);
+            }
+            (of.mass)(m, d, w);
+        }
+    });
+}
+
+/// `qfrc_bias`: gravity, Coriolis and centrifugal force.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
+    each!(w, forces, |_way, row, of| (of.bias)(m, d, w, gravity));
+}
+
+/// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive: so below.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+    let mut bad = None;
+    each!(w, factors, |_way, row, of| bad = first(bad, (of.factor)(m, d, w)));
+    bad
+}
+
+/// x ← M⁻¹ x by what [`factor`] has left.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+    each!(w, factors, |_way, row, of| (of.solve)(m, d, w, x));
+}
+
+/// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after [`factor`].
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+    each!(w, factors, |_way, row, of| (of.solve_with)(m, d, w, b, x));
+}
+
+/// x ← M⁻¹ x without what [`factor`] would leave.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+    let mut bad = None;
+    each!(w, factors, |_way, row, of| bad = first(bad, (of.solve_now)(m, d, w, x)));
+    bad
+}
+
+/// x ← M⁻¹ x and y ← (M + B)⁻¹ y for a diagonal matrix B (nv), likewise: in less time than one after the other.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn solve_both(
+    m: &Model,
+    d: &mut Fields,
+    w: &mut Scratch,
+    b: &[f64],
+    x: &mut [f64],
+    y: &mut [f64],
+) -> Option<usize> {
+    let mut bad = None;
+    each!(w, factors, |_way, row, of| bad = first(bad, (of.solve_both)(m, d, w, (b, &mut *x, &mut *y))));
+    bad
+}
+
+/// The first of two degrees of freedom that there may be.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn first(a: Option<usize>, b: Option<usize>) -> Option<usize> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (a, b) => a.or(b),
+    }
+}

@@ -1,0 +1,101 @@
+//! Simple bodies: alone in their tree, with their inertia along their own axes.
+//!
+//! M is diagonal and constant, the bias force has a closed form: weight along translations, ω × I ω for rotations.
+
+use super::{Forces, NOTHING, Own, Row};
+use crate::dynamics::Scratch;
+use crate::kinds::joint;
+use crate::math::*;
+use crate::model::{Fields, Model};
+use std::ops::Range;
+
+pub(super) const ROW: Row = Row {
+    name: "simple",
+    covers,
+    forces: Some(Forces { mass, bias, looks_at_places: slides, constant: has_inertia }),
+    ..NOTHING
+};
+
+/// Whether a tree is one of them.
+fn covers(m: &Model, tree: usize) -> bool {
+    m.tree_dofs(tree).all(|dof| m.dof_simplenum[dof] > 0)
+}
+
+/// M is constant. One without inertia is factorized nevertheless, which warns of it.
+fn has_inertia(m: &Model, tree: usize) -> bool {
+    m.tree_dofs(tree).all(|dof| m.dof_M0[dof] >= MINVAL)
+}
+
+/// Its weight acts along its slides.
+fn slides(m: &Model, tree: usize) -> bool {
+    m.tree_dofs(tree).any(|dof| m.jnt_type[m.dof_jntid[dof] as usize] == joint::SLIDE)
+}
+
+/// What the bodies have.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Trees {
+    joints: Vec<Joint>,
+    dofs: Vec<Range<usize>>,
+}
+
+impl Trees {
+    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+        let dofs: Vec<_> = own.forces.iter().map(|&tree| m.tree_dofs(tree)).collect();
+        let mut joints: Vec<usize> =
+            dofs.iter().cloned().flatten().map(|dof| m.dof_jntid[dof] as usize).collect();
+        joints.dedup();
+        Trees { joints: joints.into_iter().map(|joint| Joint::new(m, joint)).collect(), dofs }
+    }
+}
+
+/// The constant diagonal.
+fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    for i in w.ways.simple.dofs.iter().cloned().flatten() {
+        d.M[m.M_rowadr[i] as usize] = m.dof_M0[i];
+    }
+}
+
+/// A joint of a simple body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Joint {
+    joint: usize,
+    kind: i32,
+    body: usize,
+    dof: usize,
+}
+
+impl Joint {
+    fn new(m: &Model, joint: usize) -> Joint {
+        let body = m.jnt_bodyid[joint] as usize;
+        Joint { joint, kind: m.jnt_type[joint], body, dof: m.jnt_dofadr[joint] as usize }
+    }
+}
+
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+    for joint in &w.ways.simple.joints {
+        bias_of(m, d, joint, gravity);
+    }
+}
+
+/// One joint of a simple body: weight along translations, ω × I ω for rotations in the body's frame. A
+/// hinge turns about a principal axis and feels nothing.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn bias_of(m: &Model, d: &mut Fields, s: &Joint, gravity: Vec3) {
+    let (Some(mass), Some(&[a, b, c])) = (m.body_mass.get(s.body), rows::<3>(&m.body_inertia).get(s.body))
+    else {
+        return;
+    };
+    let turning = |w: Vec3| cross(w, [a * w[0], b * w[1], c * w[2]]);
+    let (Some(v), Some(out)) = (d.qvel.get(s.dof..), d.qfrc_bias.get_mut(s.dof..)) else { return };
+    match (s.kind, v, out) {
+        (joint::FREE, &[_, _, _, x, y, z, ..], [fx, fy, fz, tx, ty, tz, ..]) => {
+            [*fx, *fy, *fz] = scale(gravity, -mass);
+            [*tx, *ty, *tz] = turning([x, y, z]);
+        }
+        (joint::SLIDE, _, [out, ..]) => *out = -mass * dot(gravity, rows::<3>(&d.xaxis)[s.joint]),
+        (joint::HINGE, _, [out, ..]) => *out = 0.0,
+        (joint::BALL, &[x, y, z, ..], [tx, ty, tz, ..]) => [*tx, *ty, *tz] = turning([x, y, z]),
+        _ => {}
+    }
+}
