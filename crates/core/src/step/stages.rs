@@ -37,6 +37,8 @@ pub(crate) struct Flow {
     /// The configuration and the time that the coordinates start from.
     pub(super) qpos: Vec<f64>,
     pub(super) time: f64,
+    /// `energy` at the start of the step: stages have others, which nobody asks for.
+    pub(super) energy: [f64; 2],
     /// Where the step, or the part of it at hand, starts and ends: coordinates, velocities, activations.
     pub(super) start: Vec<f64>,
     pub(super) end: Vec<f64>,

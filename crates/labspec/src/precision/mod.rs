@@ -193,7 +193,7 @@ pub fn compare(
     }
     run::presses_within(programs, &case.presses, count, coarse)?;
 
-    let reference = reference::reference(&case, own, finest)?;
+    let reference = reference::reference(&case, own, [finest, coarse])?;
     let settings = settings(options, own_integrator, own, &ladder);
     let Some(truth) = reference else { return without_reference(case, &settings, own, own_integrator) };
     // What a student sees decides how large a plot is.

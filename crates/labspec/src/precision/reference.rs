@@ -31,12 +31,16 @@ fn method(id: i32) -> Integrator {
     INTEGRATORS.into_iter().find(|i| i.id == id).unwrap_or(INTEGRATORS[0])
 }
 
-/// The reference, for runs whose timesteps are not below `finest`; `None` when no method comes through the lab.
+/// The reference, for runs with timesteps from `finest` to `longest`; `None` when no method comes through the lab.
 ///
 /// # Errors
 /// A control that cannot be set so.
-pub(super) fn reference(case: &Case<'_>, own: f64, finest: f64) -> Result<Option<Reference>, RunError> {
-    if case.controlled() { extrapolated(case, finest) } else { direct(case, own, finest) }
+pub(super) fn reference(
+    case: &Case<'_>,
+    own: f64,
+    [finest, longest]: [f64; 2],
+) -> Result<Option<Reference>, RunError> {
+    if case.controlled() { extrapolated(case, finest) } else { direct(case, own, longest) }
 }
 
 fn run(case: &Case<'_>, id: i32, timestep: f64) -> Result<Option<Run>, RunError> {
@@ -48,34 +52,47 @@ fn too_long(case: &Case<'_>, timestep: f64) -> bool {
     case.count as f64 * (case.interval / timestep) > MOST_STEPS as f64
 }
 
-fn direct(case: &Case<'_>, own: f64, finest: f64) -> Result<Option<Reference>, RunError> {
+/// Steps of the second family that are tried, each a quarter of the one before.
+const TRIES: usize = 6;
+
+fn direct(case: &Case<'_>, own: f64, longest: f64) -> Result<Option<Reference>, RunError> {
     let mut first = None;
-    for (id, timestep) in [(integrator::ADAPTIVE, own), (integrator::GAUSS, finest / 2.0)] {
+    for (id, timestep) in [(integrator::ADAPTIVE, longest), (integrator::GAUSS, own / 16.0)] {
         if first.is_none() && !too_long(case, timestep) {
             first = run(case, id, timestep)?.map(|run| (id, timestep, run));
         }
     }
     let mut best: Option<Reference> = None;
-    let mut step = finest;
-    for _ in 0..3 {
+    let mut step = own;
+    for _ in 0..TRIES {
         if too_long(case, step) {
             break;
         }
-        let Some(second) = run(case, integrator::RKMK8, step)? else { break };
-        let Some((id, timestep, seen)) = &first else {
-            // One family alone: a run of half the step judges it.
-            let Some(finer) = run(case, integrator::RKMK8, step / 2.0)? else { break };
-            let how = format!("rkmk8 at {} ms, and at twice that", super::milliseconds(step / 2.0));
-            best = Some(compare(finer, &second, step, how));
-            break;
+        let Some(second) = run(case, integrator::RKMK8, step)? else {
+            // A step that is too long for it may only be too long.
+            if best.is_some() {
+                break;
+            }
+            step /= 4.0;
+            continue;
         };
-        let how = format!(
-            "{} at {} ms and rkmk8 at {} ms",
-            method(*id).name,
-            super::milliseconds(*timestep),
-            super::milliseconds(step)
-        );
-        let now = compare(seen.clone(), &second, step, how);
+        let now = match &first {
+            Some((id, timestep, seen)) => {
+                let how = format!(
+                    "{} at {} ms and rkmk8 at {} ms",
+                    method(*id).name,
+                    super::milliseconds(*timestep),
+                    super::milliseconds(step)
+                );
+                compare(seen.clone(), &second, step, how)
+            }
+            // One family alone: a run of half the step judges it.
+            None => {
+                let Some(finer) = run(case, integrator::RKMK8, step / 2.0)? else { break };
+                let how = format!("rkmk8 at {} ms, and at twice that", super::milliseconds(step / 2.0));
+                compare(finer, &second, step, how)
+            }
+        };
         let agreed = agrees(&now);
         if best.as_ref().is_none_or(|b| worst(&now) < worst(b)) {
             best = Some(now);
@@ -148,6 +165,7 @@ fn compare(mut first: Run, second: &Run, step: f64, how: String) -> Reference {
     let unsure = |(a, b): (&f64, &f64)| (a - b).abs().min(step);
     let unsure_of_events = first.events.iter().zip(&second.events).map(unsure).collect();
     first.events.clone_from(&second.events);
+    first.penetration = second.penetration;
     Reference { values: first.values.clone(), uncertain, run: first, unsure_of_events, how }
 }
 

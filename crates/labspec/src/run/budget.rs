@@ -16,7 +16,7 @@ impl Budget {
     /// For all such runs of a file.
     pub const FILE: Budget = Budget { left: 3_000_000_000 };
     /// For one of the many runs of a comparison.
-    pub const COMPARED: Budget = Budget { left: 5_000_000_000 };
+    pub const COMPARED: Budget = Budget { left: 2_000_000_000 };
     /// What a trace, a readout or a measure may do at a sample: a page computes it for every frame.
     pub(super) const SAMPLE: Budget = Budget { left: 20_000_000 };
 }

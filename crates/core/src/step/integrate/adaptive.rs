@@ -27,6 +27,7 @@ pub(super) fn adaptive(m: &Model, d: &mut Data) {
     // The table, the slope at the start, and three states of the midpoint rule.
     w.make_room(m, LINES + 4);
     flow::begin(m, d, &mut w);
+    w.energy = d.energy;
     keep_slope(m, d, &mut w);
     // Times are counted in units of the smallest part: no rounding.
     let whole = 1u32 << HALVINGS;

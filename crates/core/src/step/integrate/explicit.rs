@@ -82,6 +82,7 @@ pub(super) fn explicit(m: &Model, d: &mut Data, method: &Method) {
     let mut w = std::mem::take(&mut d.work.flow);
     w.make_room(m, method.weights.len());
     flow::begin(m, d, &mut w);
+    w.energy = d.energy;
     let n = w.start.len();
     let (mut rows, mut end) = (std::mem::take(&mut w.rows), std::mem::take(&mut w.end));
     if n > 0 {

@@ -101,6 +101,7 @@ pub(super) fn finish(m: &Model, d: &mut Data, w: &mut Flow, began: f64) {
     d.qvel.copy_from_slice(&w.start[m.nv..2 * m.nv]);
     d.act.copy_from_slice(&w.start[2 * m.nv..]);
     d.time = began;
+    d.energy = w.energy;
     for (v, start) in v.iter_mut().zip(&d.qvel) {
         *v = (*v - start) / h;
     }

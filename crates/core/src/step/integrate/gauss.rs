@@ -31,6 +31,7 @@ pub(super) fn gauss(m: &Model, d: &mut Data) {
     let mut w = std::mem::take(&mut d.work.flow);
     w.make_room(m, 6);
     flow::begin(m, d, &mut w);
+    w.energy = d.energy;
     let n = w.start.len();
     // The slope at the start is known; it stays in the last row.
     let mut rows = std::mem::take(&mut w.rows);
@@ -76,7 +77,8 @@ fn settles(m: &Model, d: &mut Data, w: &mut Flow, h: f64) -> bool {
         }
         // Rounding is reached where it does not come closer any more.
         settled = change < 4.0 * f64::EPSILON || (change < 1e-12 && change >= last);
-        if settled || !change.is_finite() || d.meter.over() || (round > 4 && change > 1e3 * last) {
+        // Where it does not come closer it never will.
+        if settled || !change.is_finite() || d.meter.over() || (round > 2 && change >= last) {
             break;
         }
         last = change;
