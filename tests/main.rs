@@ -25,6 +25,7 @@ mod numbers;
 mod parity;
 mod plan;
 mod player;
+mod precision;
 mod program;
 mod readme;
 mod recorded;

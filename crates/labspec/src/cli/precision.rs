@@ -5,8 +5,8 @@ use super::output::{Wanted, look_ahead, write_with};
 use super::stdio::{print_json, stream};
 use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
 use crate::precision::{
-    Axis, Beside, BesideRow, Compared, Fate, INTEGRATORS, Integrator, Options, Recording, Report, Row,
-    compare, milliseconds,
+    Axis, Beside, BesideRow, Compared, Errors, Fate, INTEGRATORS, Integrator, Options, Recording, Report,
+    Row, compare, milliseconds,
 };
 use crate::report::{key, printable, printable_path, set_number, set_numbers};
 use crate::verify::significant;
@@ -147,9 +147,14 @@ fn integrators(names: &[String]) -> Result<Vec<Integrator>, Failure> {
 
 /// Log-log chart of the first trace: error across, cost upwards, one curve per integrator.
 fn chart(report: &Report, title: &str) -> String {
+    // What is as exact as the reference stands where that is off.
+    let doubt = report.targets.first().map_or(0.0, |t| t.uncertain);
+    let error = |errors: &[Errors]| {
+        errors.first().map_or(f64::NAN, |e| if e.below { e.largest.max(doubt) } else { e.largest })
+    };
     let point = |row: &Row| MethodPoint {
         cost: row.cost.median,
-        error: row.errors.first().map_or(f64::NAN, |e| e.largest),
+        error: error(&row.errors),
         note: format!("{} ms", milliseconds(row.setting.timestep)),
         failed: row.fate != Fate::Good,
     };
@@ -172,7 +177,7 @@ fn chart(report: &Report, title: &str) -> String {
             let points: Vec<MethodPoint> = rows
                 .map(|row| MethodPoint {
                     cost: row.cost,
-                    error: row.errors.first().map_or(f64::NAN, |e| e.largest),
+                    error: error(&row.errors),
                     note: String::new(),
                     failed: false,
                 })
@@ -200,7 +205,11 @@ fn human(report: &Report) -> String {
     let mut text = String::new();
     match &report.reference {
         None => {
-            let _ = writeln!(text, "Nothing can be compared: no method comes through this lab.");
+            let why = match report.rows.iter().any(|r| r.fate == Fate::Good) {
+                true => "the methods of high order take more work than a run may do; shorten it with --until",
+                false => "no method comes through this lab",
+            };
+            let _ = writeln!(text, "Nothing can be compared: {why}.");
             fates(report, &mut text);
         }
         Some(how) => {
@@ -464,7 +473,7 @@ fn row_value(row: &Row) -> Value {
         "told": row.told,
         "below": row.errors.iter().map(|e| e.below).collect::<Vec<_>>(),
     });
-    let of = |f: fn(&crate::precision::Errors) -> Option<f64>| row.errors.iter().map(f).collect::<Vec<_>>();
+    let of = |f: fn(&Errors) -> Option<f64>| row.errors.iter().map(f).collect::<Vec<_>>();
     set_numbers(&mut value, "errors", &of(|e| Some(e.largest)));
     set_numbers(&mut value, "at", &of(|e| Some(e.at)));
     set_numbers(&mut value, "rms", &of(|e| Some(e.rms)));

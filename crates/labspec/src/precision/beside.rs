@@ -110,7 +110,7 @@ impl Recording {
             BesideRow {
                 integrator: run.integrator.clone(),
                 timestep: run.timestep,
-                errors: judge::errors(case, truth, targets, &seen),
+                errors: judge::errors(case, truth, targets, &seen, run.timestep),
                 cost: run.cost,
             }
         });

@@ -43,6 +43,8 @@ pub struct Compared {
     pub readout: bool,
     /// Until when the two families of the reference agree to a hundredth of the range, s, where that is not the end.
     pub until: Option<f64>,
+    /// The largest value.
+    pub(super) size: f64,
     /// It is no number at the start, nor anywhere: nothing is compared.
     pub blank: bool,
     /// The samples that are compared.
@@ -86,6 +88,7 @@ pub(super) fn compared(case: &Case<'_>, reference: &Reference, own: &Run) -> Vec
         Compared {
             label: target.label.clone(),
             closed,
+            size,
             uncertain: doubt.max(ROUNDING * size),
             range,
             unseen,
@@ -98,8 +101,16 @@ pub(super) fn compared(case: &Case<'_>, reference: &Reference, own: &Run) -> Vec
     case.targets.iter().enumerate().map(one).collect()
 }
 
-/// The errors of a run, target by target.
-pub(super) fn errors(case: &Case<'_>, reference: &Reference, targets: &[Compared], run: &Run) -> Vec<Errors> {
+/// The errors of a run with some timestep, target by target.
+pub(super) fn errors(
+    case: &Case<'_>,
+    reference: &Reference,
+    targets: &[Compared],
+    run: &Run,
+    timestep: f64,
+) -> Vec<Errors> {
+    // Time itself is a sum of so many steps, each rounded.
+    let rounding = f64::EPSILON * case.count as f64 * case.interval / timestep;
     let one = |(i, target): (usize, &Compared)| {
         let truth = if target.closed { &run.exact[i] } else { &reference.values[i] };
         let differences = run.values[i].iter().zip(truth).map(|(a, b)| (a - b).abs()).take(target.samples);
@@ -115,14 +126,15 @@ pub(super) fn errors(case: &Case<'_>, reference: &Reference, targets: &[Compared
             e.end = d;
         }
         e.rms = (e.rms / target.samples.max(1) as f64).sqrt();
-        e.below = e.largest <= 2.0 * target.uncertain;
+        e.below = e.largest <= (2.0 * target.uncertain).max(rounding * target.size);
         if target.samples < 2 { Errors::NONE } else { e }
     };
     targets.iter().enumerate().map(one).collect()
 }
 
-/// The observed order of a run that has half the timestep, or a quarter, of another.
-pub(super) fn order(coarse: &Errors, fine: &Errors, ratio: f64) -> Option<f64> {
+/// The observed order of a run with a shorter timestep than another: there is none where the doubt of the reference is a part of
+/// the error.
+pub(super) fn order(coarse: &Errors, fine: &Errors, ratio: f64, doubt: f64) -> Option<f64> {
     let order = (coarse.largest / fine.largest).log2() / ratio.log2();
-    (!coarse.below && !fine.below && order.is_finite()).then_some(order)
+    (!coarse.below && !fine.below && fine.largest > 10.0 * doubt && order.is_finite()).then_some(order)
 }

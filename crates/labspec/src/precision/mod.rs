@@ -193,7 +193,7 @@ pub fn compare(
     }
     run::presses_within(programs, &case.presses, count, coarse)?;
 
-    let reference = reference::reference(&case, own, [finest, coarse])?;
+    let reference = reference::reference(&case, own, coarse)?;
     let settings = settings(options, own_integrator, own, &ladder);
     let Some(truth) = reference else { return without_reference(case, &settings, own, own_integrator) };
     // What a student sees decides how large a plot is.
@@ -209,7 +209,7 @@ pub fn compare(
             break;
         }
         let run = case.run(setting, 0.0, false)?;
-        let errors = judge::errors(&case, &truth, &targets, &run);
+        let errors = judge::errors(&case, &truth, &targets, &run, setting.timestep);
         let score = match run.fate {
             Fate::Good | Fate::Warned => score(&targets, &errors),
             _ => f64::NAN,
@@ -229,7 +229,7 @@ pub fn compare(
             score,
         });
     }
-    observe_orders(&mut rows);
+    observe_orders(&mut rows, &targets);
     let timed: Vec<Option<Setting>> =
         rows.iter().map(|r| (r.fate != Fate::Stopped).then_some(r.setting)).collect();
     for (row, [median, low, high]) in rows.iter_mut().zip(cost::measure(&case, &timed)) {
@@ -380,15 +380,15 @@ fn score(targets: &[Compared], errors: &[Errors]) -> f64 {
 }
 
 /// Orders from a run to the one with the next shorter timestep.
-fn observe_orders(rows: &mut [Row]) {
+fn observe_orders(rows: &mut [Row], targets: &[Compared]) {
     for i in 1..rows.len() {
         let (before, rest) = rows.split_at_mut(i);
         let (Some(coarse), Some(fine)) = (before.last(), rest.first_mut()) else { continue };
         let (a, b) = (coarse.setting, fine.setting);
         let same = a.integrator == b.integrator && a.solver.is_none() && b.solver.is_none();
         if same && a.timestep > b.timestep && [coarse.fate, fine.fate] == [Fate::Good; 2] {
-            for (c, f) in coarse.errors.iter().zip(&mut fine.errors) {
-                f.order = judge::order(c, f, a.timestep / b.timestep);
+            for ((c, f), target) in coarse.errors.iter().zip(&mut fine.errors).zip(targets) {
+                f.order = judge::order(c, f, a.timestep / b.timestep, target.uncertain);
             }
         }
     }

@@ -31,16 +31,13 @@ fn method(id: i32) -> Integrator {
     INTEGRATORS.into_iter().find(|i| i.id == id).unwrap_or(INTEGRATORS[0])
 }
 
-/// The reference, for runs with timesteps from `finest` to `longest`; `None` when no method comes through the lab.
+/// The reference, for runs with timesteps up to `longest`; `None` when no method comes through the lab, or none within the work
+/// that a run may do.
 ///
 /// # Errors
 /// A control that cannot be set so.
-pub(super) fn reference(
-    case: &Case<'_>,
-    own: f64,
-    [finest, longest]: [f64; 2],
-) -> Result<Option<Reference>, RunError> {
-    if case.controlled() { extrapolated(case, finest) } else { direct(case, own, longest) }
+pub(super) fn reference(case: &Case<'_>, own: f64, longest: f64) -> Result<Option<Reference>, RunError> {
+    if case.controlled() { extrapolated(case, own) } else { direct(case, own, longest) }
 }
 
 fn run(case: &Case<'_>, id: i32, timestep: f64) -> Result<Option<Run>, RunError> {
@@ -106,10 +103,10 @@ fn direct(case: &Case<'_>, own: f64, longest: f64) -> Result<Option<Reference>, 
 }
 
 /// With a controller: two steps of each family, extrapolated.
-fn extrapolated(case: &Case<'_>, finest: f64) -> Result<Option<Reference>, RunError> {
+fn extrapolated(case: &Case<'_>, own: f64) -> Result<Option<Reference>, RunError> {
     let mut best: Option<Reference> = None;
-    let mut step = finest;
-    for _ in 0..2 {
+    let mut step = own / 2.0;
+    for _ in 0..4 {
         if too_long(case, step / 4.0) {
             break;
         }

@@ -1,0 +1,155 @@
+//! Error against run time: the standard set shows the orders of theory, and what `precision` advises holds in a run that owes
+//! nothing to it.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::needs::needs;
+use crate::support::workspace;
+use labspec::bind::Programs;
+use labspec::bind::scene::Models;
+use labspec::lint::{ModelFolder, load_lesson};
+use labspec::precision::{Fate, INTEGRATORS, Options, Report, Setting, compare};
+use labspec::run::{self, Cell, RunOptions, Table};
+use labspec::source::SourceFile;
+use labspec::spec::Lab;
+use labspec_core::{Model, integrator};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A lab with its model.
+struct Opened {
+    lab: Lab,
+    model: Arc<Model>,
+}
+
+fn open(path: &Path, models: ModelFolder) -> Opened {
+    let lesson = load_lesson(SourceFile::read(path).unwrap(), &models);
+    let lab = lesson.addressed()[0].1.clone();
+    let model = Models::new(models).of(&lab, &mut Vec::new()).unwrap();
+    Opened { lab, model }
+}
+
+impl Opened {
+    fn compare(&self, options: &Options) -> Report {
+        let mut findings = Vec::new();
+        let programs = Programs::compile(&self.lab, &self.model, &mut findings);
+        compare(&self.lab, &self.model, &programs, options, &mut findings).unwrap()
+    }
+
+    /// The lab as `run` plays it, with other numerics, sampled after every so many steps.
+    fn run(&self, integrator: i32, timestep: f64, length: f64, every: usize) -> Table {
+        let mut model = Model::clone(&self.model);
+        (*model.edit().opt.timestep, *model.edit().opt.integrator) = (timestep, integrator);
+        let programs = Programs::compile(&self.lab, &model, &mut Vec::new());
+        let options = RunOptions { until: Some(length), every, ..RunOptions::default() };
+        run::run(&self.lab, &model, &programs, &options).unwrap()
+    }
+}
+
+fn standard() -> Vec<PathBuf> {
+    let folder = std::fs::read_dir(workspace().join("tests/precision")).unwrap();
+    let mut labs: Vec<PathBuf> = folder.map(|e| e.unwrap().path()).collect();
+    labs.retain(|p| p.extension().is_some_and(|e| e == "json"));
+    labs.sort();
+    labs
+}
+
+/// The order that a method shows at the shortest timesteps that are above rounding.
+fn order(report: &Report, id: i32) -> f64 {
+    let rows = report.rows.iter().filter(|r| r.setting.integrator.id == id && r.fate == Fate::Good);
+    rows.filter_map(|r| r.errors[0].order).next_back().unwrap()
+}
+
+#[test]
+fn orders_are_those_of_theory() {
+    use integrator::{DISCRETE, EULER, GAUSS, IMPLICIT, RK4, RKMK4, RKMK8};
+    // Runge and Kutta's method is of second order where bodies turn in space.
+    let expected: [(&str, &[(i32, f64)]); 5] = [
+        ("01", &[(EULER, 1.0), (IMPLICIT, 1.0), (DISCRETE, 1.0)]),
+        ("02", &[(EULER, 1.0), (IMPLICIT, 1.0), (RK4, 4.0), (RKMK4, 4.0)]),
+        ("04", &[(RK4, 2.0), (RKMK4, 4.0), (GAUSS, 6.0)]),
+        ("05", &[(EULER, 1.0), (RK4, 2.0), (RKMK4, 4.0)]),
+        ("09", &[(RK4, 4.0), (RKMK8, 8.1), (GAUSS, 6.0)]),
+    ];
+    let labs = standard();
+    for (name, orders) in expected {
+        let path = labs.iter().find(|p| p.file_name().unwrap().to_str().unwrap().starts_with(name)).unwrap();
+        let ids = |i: &labspec::precision::Integrator| orders.iter().any(|(id, _)| *id == i.id);
+        let integrators = INTEGRATORS.into_iter().filter(ids).collect();
+        let report =
+            open(path, ModelFolder::unknown()).compare(&Options { integrators, ..Options::default() });
+        for (id, theory) in orders {
+            let seen = order(&report, *id);
+            assert!((seen - theory).abs() < 0.1, "{name}: integrator {id} shows {seen}, not {theory}");
+        }
+    }
+}
+
+#[test]
+fn what_a_teacher_cares_about_is_ten_times_closer() {
+    let labs = standard();
+    let all = Options { integrators: INTEGRATORS.to_vec(), ..Options::default() };
+    for name in ["03_double_pendulum", "05_tumbling_box"] {
+        let path = labs.iter().find(|p| p.file_stem().is_some_and(|s| s == name)).unwrap();
+        let report = open(path, ModelFolder::unknown()).compare(&all);
+        // In the engine's own count of work, which is the same on every machine.
+        let good = |shared: bool| {
+            report.rows.iter().filter(move |r| r.setting.integrator.shared == shared && r.fate == Fate::Good)
+        };
+        let mut compared = 0;
+        for theirs in good(true).filter(|r| r.setting.integrator.id == integrator::RK4) {
+            let ours = good(false).filter(|r| r.cost.work <= 1.1 * theirs.cost.work);
+            let best = ours.map(|r| r.errors[0].largest).fold(f64::INFINITY, f64::min);
+            if best.is_finite() && theirs.setting.timestep <= 2e-3 {
+                let error = theirs.errors[0].largest;
+                assert!(10.0 * best <= error, "{name}: {:?}: {best} for {error}", theirs.setting);
+                compared += 1;
+            }
+        }
+        assert!(compared >= 4, "{name}: {compared}");
+    }
+}
+
+/// The advised setting against steps of Runge and Kutta's method that are far shorter, both as the page would run them.
+fn advice_holds(name: &str, lab: &Opened, report: &Report, setting: &Setting) {
+    let own = lab.model.opt.timestep;
+    let fine = own.min(setting.timestep) / 8.0;
+    let every = (setting.timestep / fine).round() as usize;
+    let coarse = lab.run(setting.integrator.id, setting.timestep, report.length, 1);
+    let truth = lab.run(integrator::RK4, fine, report.length, every);
+    for target in report.targets.iter().filter(|t| !t.blank) {
+        let start = if target.readout { "readout/" } else { "plot/" };
+        let is = |c: &String| c.starts_with(start) && c.ends_with(&format!("/{}", target.label));
+        let column = coarse.columns.iter().position(is).unwrap();
+        let number = |row: &Vec<Cell>| if let Cell::Number(x) = row[column] { x } else { f64::NAN };
+        let pairs = coarse.rows.iter().zip(&truth.rows).map(|(a, b)| (number(a) - number(b)).abs());
+        let last = pairs.clone().last().unwrap();
+        let error = if target.readout { last } else { pairs.fold(0.0, f64::max) };
+        assert!(error <= 1.5 * target.unseen, "{name}: {}: {error} for {}", target.label, target.unseen);
+    }
+}
+
+#[test]
+fn advice_holds_in_an_independent_run() {
+    if !needs("../shared/corpus") {
+        return;
+    }
+    let corpus = workspace().join("../shared/corpus");
+    let models = || ModelFolder::open(&corpus.join("models")).unwrap();
+    let mut labs: Vec<PathBuf> =
+        std::fs::read_dir(corpus.join("labs")).unwrap().map(|e| e.unwrap().path()).collect();
+    labs.retain(|p| p.extension().is_some_and(|e| e == "json"));
+    labs.sort();
+    let mut held = 0;
+    // The chain and the stack take long, and are no labs.
+    for path in labs.into_iter().chain(standard().into_iter().take(9)) {
+        let name = path.file_stem().unwrap().to_str().unwrap().to_string();
+        let lab = open(&path, models());
+        let report = lab.compare(&Options { until: Some(1.0), ..Options::default() });
+        let advice = report.advice.iter().find(|a| a.text.contains("shows every number rightly"));
+        let Some(advice) = advice.filter(|a| !a.text.starts_with("No setting")) else { continue };
+        advice_holds(&name, &lab, &report, &report.rows[advice.row].setting);
+        held += 1;
+    }
+    assert!(held >= 20, "{held}");
+}
