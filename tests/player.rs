@@ -94,6 +94,21 @@ fn a_recording_takes_no_samples_of_another_model() {
     assert_eq!(samples.rows().len(), 1);
 }
 
+/// Nor is a single expression of another model evaluated: it fails, and is no number.
+#[test]
+fn a_session_evaluates_nothing_of_another_model() {
+    let lesson = load_lesson(labspec::source::SourceFile::new("lab.json", LAB), &models().into());
+    let lab = lesson.all_labs()[0];
+    let [own, twin] = [(); 2].map(|()| crate::support::model("ball_drop"));
+    let [of_own, of_twin] = [&own, &twin].map(|m| labspec::bind::Programs::compile(lab, m, &mut Vec::new()));
+    let mut session = run::Session::start(&of_own, &own, None, &of_own.demand);
+    for (programs, good) in [(&of_own, true), (&of_twin, false)] {
+        let bound = programs.probes[0].bound.as_ref().unwrap();
+        assert_eq!(session.evaluate(&bound.program, &bound.text).is_some(), good);
+    }
+    assert!(session.troubles[0].message.contains("compiled for something else"), "{:?}", session.troubles);
+}
+
 /// A player that is stepped shows what `run` writes, bit for bit, whatever a frontend asks for in between.
 #[test]
 fn a_player_goes_the_way_of_a_run() {

@@ -359,14 +359,18 @@ impl Program {
     /// Runs it once. `value` is what the control gives, if any. Statements give `undefined`.
     ///
     /// # Errors
-    /// A function of the host fails, the host refuses to store a value, or a string grows beyond its limit.
-    /// What was stored before stays stored, as in JavaScript.
+    /// The host is of something else than what the program was compiled for, as another model: nothing is run. A function of the
+    /// host fails, the host refuses to store a value, or a string grows beyond its limit. What was stored before stays stored,
+    /// as in JavaScript.
     pub fn run(
         &self,
         host: &mut dyn Host,
         context: &mut Context,
         value: Option<&Value>,
     ) -> Result<Value, RuntimeError> {
+        if host.identity() != self.identity {
+            return Err(foreign());
+        }
         if let Some(row) = &self.row
             && let Some(value) = row.value(host, &mut context.numbers)
         {
@@ -376,4 +380,11 @@ impl Program {
         context.learn(&self.known);
         vm::run(&self.code, host, context, value)
     }
+}
+
+#[cold]
+fn foreign() -> RuntimeError {
+    let message =
+        "this was compiled for something else than what it is run on: compile it for that".to_string();
+    RuntimeError { rule: rules::HOST_CALL, span: Span::default(), message }
 }
