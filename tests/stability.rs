@@ -7,7 +7,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::support::{compile, read_json, workspace};
-use labspec::advice::growth;
+use labspec::advice::watch::{self, Noticed};
 use labspec_core::{self as core, Data, Model, Warning, enable};
 use serde_json::{Value as Json, json};
 use std::fmt::Write;
@@ -21,7 +21,7 @@ const SHORTENED: u64 = 2_000;
 const LOOKS: u64 = 24;
 
 /// What a run came to, in the words of the recording.
-fn run(xml: &str, steps: u64, long: u64) -> Json {
+fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
     let mut m = compile(xml);
     let mut d = Data::new(&m);
     if let Some(key) = m.keys().next() {
@@ -31,29 +31,36 @@ fn run(xml: &str, steps: u64, long: u64) -> Json {
     let mut reach = largest(&d.qpos);
     let (total, each) = if long > 0 { (long, (long / 1000).max(1)) } else { (steps, 1) };
     let mut done = 0;
-    let (mut watch, mut grown) = (growth::watch(&m, &d, (total / LOOKS) as usize), None);
+    let mut out = out_of(&d, keep, "way");
+    let mut watch = watch::watch(&m, &d, (total / LOOKS) as usize, false);
+    let mut told = Json::Null;
     while done < total {
         let before = d.time;
         for _ in 0..each {
             core::step(&m, &mut d).unwrap();
-            grown = growth::look(&mut watch, &m, &d).map(|g| g.time);
+            let noticed = watch::look(&mut watch, &m, &d);
+            if told.is_null() && noticed.time().is_finite() {
+                told = said(&noticed);
+            }
         }
         done += each;
         for which in [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc] {
             let stat = d.warning[which as usize];
             if stat.number > 0 {
-                return json!({"warning": which.name().trim_start_matches("bad"), "time": before, "dof": stat.lastinfo, "grown": grown});
+                return json!({"warning": which.name().trim_start_matches("bad"), "time": before, "dof": stat.lastinfo, "told": told});
             }
         }
         // Never a silent NaN: a step that left one would be told by the next.
         reach = reach.max(largest(&d.qpos));
+        out = out.max(out_of(&d, keep, "way"));
     }
     assert!(
         d.qpos.iter().chain(&d.qvel).all(|x| x.is_finite()),
         "a number that is none, and no warning:\n{xml}"
     );
-    let mut out = json!({"reach": reach, "speed": largest(&d.qvel), "qpos": d.qpos.iter().take(KEPT).collect::<Vec<_>>()});
-    out["grown"] = json!(grown);
+    let out = out.max(out_of(&d, keep, "end"));
+    let mut out = json!({"reach": reach, "out": out, "speed": largest(&d.qvel), "qpos": d.qpos.iter().take(KEPT).collect::<Vec<_>>()});
+    out["told"] = told;
     if long > 0 {
         let end = energy(&mut m, &d);
         out["energy"] = json!(if start == 0.0 { end } else { (end - start) / start.abs().max(1e-12) });
@@ -62,6 +69,30 @@ fn run(xml: &str, steps: u64, long: u64) -> Json {
         }
     }
     out
+}
+
+/// What was noticed first, and when.
+fn said(noticed: &Noticed) -> Json {
+    let list = [
+        ("energy grows", noticed.growth.map(|x| x.time)),
+        ("past a limit", noticed.past.map(|x| x.time)),
+        ("went through", noticed.through.map(|x| x.time)),
+        ("sunk in", noticed.sunk.map(|x| x.time)),
+        ("solver stopped", noticed.unsolved.map(|x| x.time)),
+    ];
+    let told = list.into_iter().find_map(|(what, time)| Some((what, time?)));
+    told.map_or(Json::Null, |(what, time)| json!({"what": what, "time": time}))
+}
+
+/// How far a run is out of what its case keeps.
+fn out_of(d: &Data, keep: &Json, when: &str) -> f64 {
+    let list = keep.as_array().into_iter().flatten().filter(|k| k["when"] == when);
+    let far = list.map(|k| {
+        let of = if k["of"] == "qpos" { &d.qpos } else { &d.qvel };
+        let x = of[k["i"].as_u64().unwrap() as usize];
+        (k["low"].as_f64().unwrap() - x).max(x - k["high"].as_f64().unwrap())
+    });
+    far.fold(0.0, f64::max)
 }
 
 /// Potential and kinetic energy of a state, J.
@@ -85,10 +116,12 @@ fn words(outcome: &Json, bound: f64) -> String {
     let (Some(reach), Some(speed)) = (outcome["reach"].as_f64(), outcome["speed"].as_f64()) else {
         return "not run".into();
     };
-    if reach > bound {
-        let said =
-            outcome["grown"].as_f64().map_or(String::new(), |t| format!("; energy grows by {} s", short(t)));
-        return format!("**{} off, silently**{said}", short(reach));
+    let out = outcome["out"].as_f64().unwrap_or(0.0);
+    if reach > bound || out > 0.0 {
+        let said = outcome["told"]["what"].as_str().map_or(String::new(), |what| {
+            format!("; {what}, {} s", short(outcome["told"]["time"].as_f64().unwrap()))
+        });
+        return format!("**{} off, silently**{said}", short(if reach > bound { reach } else { out }));
     }
     if speed < 1e-3 { "at rest".into() } else { format!("moves at {}", short(speed)) }
 }
@@ -118,6 +151,7 @@ fn apart(a: &Json, b: &Json) -> String {
 /// Whether a run went well.
 fn fine(outcome: &Json, bound: f64) -> bool {
     outcome["reach"].as_f64().is_some_and(|reach| reach <= bound)
+        && outcome["out"].as_f64().is_none_or(|out| out == 0.0)
 }
 
 /// Runs that go wrong here without a word, and those of them in which growth is found; runs that go well, and those with
@@ -132,7 +166,7 @@ struct Watched {
 
 impl Watched {
     fn count(&mut self, name: impl Fn() -> String, outcome: &Json, bound: f64) {
-        let grown = outcome["grown"].is_number();
+        let grown = outcome["told"].is_object();
         if fine(outcome, bound) {
             self.well[0] += 1;
             self.well[1] += usize::from(grown);
@@ -187,7 +221,7 @@ fn table(
 fn longest(search: &Json, timesteps: &[f64], watched: &mut Watched) -> Option<f64> {
     let xml = search["xml"].as_str().unwrap();
     let mut stays = |h: &f64| {
-        let outcome = run(&xml.replace("TIMESTEP", &h.to_string()), search["steps"].as_u64().unwrap(), 0);
+        let outcome = run(&xml.replace("TIMESTEP", &h.to_string()), search["steps"].as_u64().unwrap(), 0, &Json::Null);
         let bound = search["bound"].as_f64().unwrap();
         let name = || format!("{}, {}, {}, {h} s", search["section"], search["row"], search["column"]);
         watched.count(name, &outcome, bound);
@@ -245,7 +279,7 @@ fn stiff_and_extreme_scenes() {
             .map(|c| {
                 (
                     c["case"].as_str().unwrap().into(),
-                    run(c["xml"].as_str().unwrap(), 0, c["long"].as_u64().unwrap()),
+                    run(c["xml"].as_str().unwrap(), 0, c["long"].as_u64().unwrap(), &Json::Null),
                 )
             })
             .collect();
@@ -253,13 +287,13 @@ fn stiff_and_extreme_scenes() {
     }
     for case in &long {
         // The beginning of a long run is a test that nothing breaks soon.
-        run(case["xml"].as_str().unwrap(), 0, SHORTENED);
+        run(case["xml"].as_str().unwrap(), 0, SHORTENED, &Json::Null);
     }
     let mut wrong = Vec::new();
     let mut watched = Watched::default();
     let (sections, [all, theirs, ours]) = table(
         &cases,
-        |c| run(c["xml"].as_str().unwrap(), c["steps"].as_u64().unwrap(), 0),
+        |c| run(c["xml"].as_str().unwrap(), c["steps"].as_u64().unwrap(), 0, &c["keep"]),
         &mut wrong,
         &mut watched,
     );

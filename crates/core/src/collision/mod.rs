@@ -6,7 +6,7 @@ mod primitive;
 mod sweep;
 
 use filter::Pair;
-pub(crate) use filter::can_collide;
+pub(crate) use filter::{can_collide, may_touch};
 pub(crate) use filter::{MOST_LISTED, candidate_pairs, searched_pair};
 use params::Params;
 use sweep::Sweep;
