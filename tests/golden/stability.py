@@ -70,8 +70,8 @@ def keep(of, i, low, high, when="way"):
 
 
 def stands(n, side=0.1):
-    """Boxes of a stack that have not sunk by three tenths of their height in the end."""
-    return [keep("qpos", 7 * i + 2, side * (2 * i + 1 - .6), 1e9, "end") for i in range(n)]
+    """Boxes of a stack each of which has sunk by less than three tenths of its height in the end."""
+    return [keep("qpos", 7 * i + 2, side * (2 * i + 1 - .6 * (i + 1)), 1e9, "end") for i in range(n)]
 
 
 # A ball of radius 0.1 m that is never wholly in the floor, and in the end not by three tenths of its height.

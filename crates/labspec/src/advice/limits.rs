@@ -67,11 +67,8 @@ pub fn watch(m: &Model) -> Watch {
             _ => return None,
         };
         let [low, high] = *rows::<2>(&m.jnt_range).get(j)?;
-        let (most, least) = if turns {
-            (2.0 * std::f64::consts::PI, ANGLE)
-        } else {
-            (m.stat.extent, LENGTH * m.stat.extent)
-        };
+        let (most, least) =
+            if turns { (2.0 * std::f64::consts::PI, ANGLE) } else { (m.stat.extent, LENGTH * m.stat.extent) };
         let size = (high - low).min(most).max(least / STAYED);
         let slack = STAYED * size;
         let range = [low, high];
@@ -163,8 +160,10 @@ mod tests {
     #[test]
     fn a_motor_that_holds_a_joint_beyond_its_limit_is_told() {
         let motor = |force: f64| {
-            let rest =
-                format!("<actuator><position joint=\"j\" kp=\"{force}\" kv=\"{}\"/></actuator>", force / 50.0);
+            let rest = format!(
+                "<actuator><position joint=\"j\" kp=\"{force}\" kv=\"{}\"/></actuator>",
+                force / 50.0
+            );
             run("range=\"10 40\" ref=\"0\" damping=\"1\"", &rest, 0.0)
         };
         // It starts 10 degrees outside: a servo of 1e5 N m/rad keeps it there.
