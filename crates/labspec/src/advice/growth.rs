@@ -16,8 +16,8 @@
 //! * it lasts for 32 steps without falling back to half of what it was, or is a thousand times as large as that. Looks
 //!   are far apart until one sees a gain; from there on each step is looked at, as looks in step with a swing would see it last.
 //!
-//! A step in which something turns by more than half a turn does not follow that motion at all: there a gain that is seen a few
-//! times is growth, whether it lasts or not. A pendulum at a step of a second throws itself about like this.
+//! A step in which something turns by more than half a turn does not follow that motion at all: where nothing is elastic, a gain
+//! that is seen a few times there is growth, whether it lasts or not. A pendulum at a step of a second throws itself about like this.
 //!
 //! A joint whose damping is below zero is a motor without end: what it gives is a gain like any other, and is told by its name.
 //! (Where the damping becomes positive at larger speeds, as in an oscillator that keeps itself going, the end is there, and
@@ -164,7 +164,9 @@ pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) -> Option<Growth> {
     let least = factor * held + lifts * lift;
     // A gain that is no number is not above anything.
     let seen = gain > least && 2.0 * gain > now.kinetic + given.abs();
-    let turn = if seen { turn(m, d.fields()) } else { 0.0 };
+    // What is elastic swings widely just below its limit, and comes back.
+    let stiff = before.elastic != 0.0 || now.elastic != 0.0;
+    let turn = if seen && !stiff { turn(m, d.fields()) } else { 0.0 };
     if seen && (2.0 * gain > w.largest || turn > TURN) {
         if w.lasted == 0 && w.leaps == 0 {
             w.since = d.time();

@@ -196,7 +196,7 @@ mod tests {
             assert_eq!(found.is_some(), sinks, "{gravity} m/s^2: {found:?}");
             if let Some(found) = found {
                 let weight = found.force / gravity;
-                assert!(found.geoms == [0, 1] && weight > 0.5, "{found:?}");
+                assert!(found.geoms == [0, 1] && weight > 0.2, "{found:?}");
             }
         }
         // The rows of a pyramid with so much friction have nothing left along the normal.

@@ -128,7 +128,7 @@ fn walls(w: &Watch, m: &Model, f: &Fields) -> (bool, Option<Through>) {
                 continue;
             }
             near = true;
-            if let Some(moved) = passed(w, m, f, g, wall).filter(|&moved| moved > FAST * thickness) {
+            if let Some(moved) = passed(w, m, f, g, wall) {
                 return (true, Some(Through { time: f.time, geoms: [g, wall], moved, thickness }));
             }
         }
@@ -146,8 +146,9 @@ fn passed(w: &Watch, m: &Model, f: &Fields, g: usize, wall: usize) -> Option<f64
     let crossed = (0..3).any(|k| {
         let part = before[k] / (before[k] - after[k]);
         let at = |j: usize| before[j] + part * (after[j] - before[j]);
-        // Without a crossing this is no part of the way, or no number.
-        (0.0..=1.0).contains(&part) && (0..3).all(|j| j == k || at(j).abs() < half[j])
+        // Without a crossing this is no part of the way, or no number; what only trembles at the plane does not cross it.
+        let far = (before[k] - after[k]).abs() > 2.0 * FAST * half[k];
+        far && (0.0..=1.0).contains(&part) && (0..3).all(|j| j == k || at(j).abs() < half[j])
     });
     let way = [0, 1, 2].map(|k| after[k] - before[k]).map(|x| x * x).iter().sum::<f64>().sqrt();
     crossed.then_some(way)
