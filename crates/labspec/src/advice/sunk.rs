@@ -109,9 +109,7 @@ fn deepest(w: &mut Watch, m: &Model, f: &Fields) -> Option<Sunk> {
         let limit = (THICKNESS * a.thickness.min(b.thickness)).max(LENGTH * a.length.min(b.length));
         if c.exclude == 0 { -c.dist / limit } else { 0.0 }
     };
-    let Some(c) = f.contact.iter().take(f.ncon).max_by(|a, b| part(a).total_cmp(&part(b))) else {
-        return None;
-    };
+    let c = f.contact.iter().take(f.ncon).max_by(|a, b| part(a).total_cmp(&part(b)))?;
     let pair = [c.geom1, c.geom2];
     if part(c) <= 1.0 {
         (w.lasted, w.below) = (0, f64::INFINITY);
