@@ -46,9 +46,11 @@ fn found(folder: &Path, arguments: &[&str]) -> Vec<(String, String)> {
 }
 
 #[test]
-fn no_lab_that_is_well_is_said_to_gain_energy() {
+fn no_lab_that_is_well_is_said_to_go_wrong() {
+    const SILENT: [&str; 6] =
+        ["energy-grows", "damper-pushes", "past-limit", "passes-through", "sinks-in", "solver-stops-early"];
     let grows = |list: Vec<(String, String)>| {
-        list.into_iter().filter(|(code, _)| code == "energy-grows").collect::<Vec<_>>()
+        list.into_iter().filter(|(code, _)| SILENT.contains(&code.as_str())).collect::<Vec<_>>()
     };
     assert_eq!(grows(found(&lessons(), &["grows.md"])).len(), 3);
     assert_eq!(grows(found(&workspace(), &["specs/lessons", "--models", "specs/models"])), []);

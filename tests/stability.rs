@@ -7,7 +7,8 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::support::{compile, read_json, workspace};
-use labspec::advice::growth;
+use labspec::advice::growth::Source;
+use labspec::advice::watch::{self, Noticed};
 use labspec_core::{self as core, Data, Model, Warning, enable};
 use serde_json::{Value as Json, json};
 use std::fmt::Write;
@@ -21,7 +22,7 @@ const SHORTENED: u64 = 2_000;
 const LOOKS: u64 = 24;
 
 /// What a run came to, in the words of the recording.
-fn run(xml: &str, steps: u64, long: u64) -> Json {
+fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
     let mut m = compile(xml);
     let mut d = Data::new(&m);
     if let Some(key) = m.keys().next() {
@@ -31,29 +32,36 @@ fn run(xml: &str, steps: u64, long: u64) -> Json {
     let mut reach = largest(&d.qpos);
     let (total, each) = if long > 0 { (long, (long / 1000).max(1)) } else { (steps, 1) };
     let mut done = 0;
-    let (mut watch, mut grown) = (growth::watch(&m, &d, (total / LOOKS) as usize), None);
+    let mut out = out_of(&d, keep, "way");
+    let mut watch = watch::watch(&m, &d, (total / LOOKS) as usize, false);
+    let mut told = Json::Null;
     while done < total {
         let before = d.time;
         for _ in 0..each {
             core::step(&m, &mut d).unwrap();
-            grown = growth::look(&mut watch, &m, &d).map(|g| g.time);
+            let noticed = watch::look(&mut watch, &m, &d);
+            if told.is_null() && noticed.time().is_finite() {
+                told = said(&noticed);
+            }
         }
         done += each;
         for which in [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc] {
             let stat = d.warning[which as usize];
             if stat.number > 0 {
-                return json!({"warning": which.name().trim_start_matches("bad"), "time": before, "dof": stat.lastinfo, "grown": grown});
+                return json!({"warning": which.name().trim_start_matches("bad"), "time": before, "dof": stat.lastinfo, "told": told});
             }
         }
         // Never a silent NaN: a step that left one would be told by the next.
         reach = reach.max(largest(&d.qpos));
+        out = out.max(out_of(&d, keep, "way"));
     }
     assert!(
         d.qpos.iter().chain(&d.qvel).all(|x| x.is_finite()),
         "a number that is none, and no warning:\n{xml}"
     );
-    let mut out = json!({"reach": reach, "speed": largest(&d.qvel), "qpos": d.qpos.iter().take(KEPT).collect::<Vec<_>>()});
-    out["grown"] = json!(grown);
+    let out = out.max(out_of(&d, keep, "end"));
+    let mut out = json!({"reach": reach, "out": out, "speed": largest(&d.qvel), "qpos": d.qpos.iter().take(KEPT).collect::<Vec<_>>()});
+    out["told"] = told;
     if long > 0 {
         let end = energy(&mut m, &d);
         out["energy"] = json!(if start == 0.0 { end } else { (end - start) / start.abs().max(1e-12) });
@@ -62,6 +70,32 @@ fn run(xml: &str, steps: u64, long: u64) -> Json {
         }
     }
     out
+}
+
+/// What was noticed first, and when.
+fn said(noticed: &Noticed) -> Json {
+    let pushed = noticed.growth.is_some_and(|g| matches!(g.source, Source::Damper(_)));
+    let grows = if pushed { "a damper pushes" } else { "energy grows" };
+    let list = [
+        (grows, noticed.growth.map(|x| x.time)),
+        ("past a limit", noticed.past.map(|x| x.time)),
+        ("went through", noticed.through.map(|x| x.time)),
+        ("sunk in", noticed.sunk.map(|x| x.time)),
+        ("solver stopped", noticed.unsolved.map(|x| x.time)),
+    ];
+    let told = list.into_iter().find_map(|(what, time)| Some((what, time?)));
+    told.map_or(Json::Null, |(what, time)| json!({"what": what, "time": time}))
+}
+
+/// How far a run is out of what its case keeps.
+fn out_of(d: &Data, keep: &Json, when: &str) -> f64 {
+    let list = keep.as_array().into_iter().flatten().filter(|k| k["when"] == when);
+    let far = list.map(|k| {
+        let of = if k["of"] == "qpos" { &d.qpos } else { &d.qvel };
+        let x = of[k["i"].as_u64().unwrap() as usize];
+        (k["low"].as_f64().unwrap() - x).max(x - k["high"].as_f64().unwrap())
+    });
+    far.fold(0.0, f64::max)
 }
 
 /// Potential and kinetic energy of a state, J.
@@ -85,10 +119,9 @@ fn words(outcome: &Json, bound: f64) -> String {
     let (Some(reach), Some(speed)) = (outcome["reach"].as_f64(), outcome["speed"].as_f64()) else {
         return "not run".into();
     };
-    if reach > bound {
-        let said =
-            outcome["grown"].as_f64().map_or(String::new(), |t| format!("; energy grows by {} s", short(t)));
-        return format!("**{} off, silently**{said}", short(reach));
+    let out = outcome["out"].as_f64().unwrap_or(0.0);
+    if reach > bound || out > 0.0 {
+        return format!("**{} off, silently**", short(if reach > bound { reach } else { out }));
     }
     if speed < 1e-3 { "at rest".into() } else { format!("moves at {}", short(speed)) }
 }
@@ -118,86 +151,167 @@ fn apart(a: &Json, b: &Json) -> String {
 /// Whether a run went well.
 fn fine(outcome: &Json, bound: f64) -> bool {
     outcome["reach"].as_f64().is_some_and(|reach| reach <= bound)
+        && outcome["out"].as_f64().is_none_or(|out| out == 0.0)
 }
 
-/// Runs that go wrong here without a word, and those of them in which growth is found; runs that go well, and those with
-/// an alarm.
+/// What the runs of a class come to.
 #[derive(Default)]
-struct Watched {
-    silent: [usize; 2],
+struct Class {
+    name: String,
+    runs: usize,
+    /// Runs there and here that go well, that go wrong with a warning, and without one.
     well: [usize; 2],
+    loud: [usize; 2],
+    silent: [usize; 2],
+    /// Silent runs here that are told, and runs that go well and are called wrong.
+    told: usize,
+    called: usize,
+}
+
+/// All classes, with the runs that are called wrong or missed.
+#[derive(Default)]
+struct Classes {
+    list: Vec<Class>,
     alarms: Vec<String>,
     missed: Vec<String>,
 }
 
-impl Watched {
-    fn count(&mut self, name: impl Fn() -> String, outcome: &Json, bound: f64) {
-        let grown = outcome["grown"].is_number();
-        if fine(outcome, bound) {
-            self.well[0] += 1;
-            self.well[1] += usize::from(grown);
-            self.alarms.extend(grown.then(|| format!("{}: {outcome}", name())));
-        } else if !outcome["warning"].is_string() {
-            self.silent[0] += 1;
-            self.silent[1] += usize::from(grown);
-            self.missed.extend((!grown).then(|| format!("{}: {outcome}", name())));
+impl Classes {
+    /// Counts a run; theirs is not known of every one.
+    fn count(&mut self, class: &str, name: &str, outcomes: [Option<&Json>; 2], bound: f64) {
+        if self.list.iter().all(|c| c.name != class) {
+            self.list.push(Class { name: class.into(), ..Class::default() });
         }
+        let Some(c) = self.list.iter_mut().find(|c| c.name == class) else { return };
+        c.runs += 1;
+        for (side, outcome) in outcomes.into_iter().enumerate() {
+            let Some(outcome) = outcome else { continue };
+            let of = if fine(outcome, bound) {
+                &mut c.well
+            } else if outcome["warning"].is_string() {
+                &mut c.loud
+            } else {
+                &mut c.silent
+            };
+            of[side] += 1;
+        }
+        let Some(ours) = outcomes[1] else { return };
+        let told = ours["told"].is_object();
+        if fine(ours, bound) {
+            c.called += usize::from(told);
+            self.alarms.extend(told.then(|| format!("{class}, {name}: {ours}")));
+        } else if !ours["warning"].is_string() {
+            c.told += usize::from(told);
+            self.missed.extend((!told).then(|| format!("{class}, {name}: {ours}")));
+        }
+    }
+
+    /// The sum of all classes.
+    fn sum(&self) -> Class {
+        let mut sum = Class { name: "**all**".into(), ..Class::default() };
+        for c in &self.list {
+            (sum.runs, sum.told, sum.called) = (sum.runs + c.runs, sum.told + c.told, sum.called + c.called);
+            for side in 0..2 {
+                sum.well[side] += c.well[side];
+                sum.loud[side] += c.loud[side];
+                sum.silent[side] += c.silent[side];
+            }
+        }
+        sum
+    }
+
+    /// The table of classes.
+    fn table(&self) -> String {
+        let mut text = String::from(
+            "| class | runs | well: MuJoCo | here | wrong, with a warning: MuJoCo | here | wrong, silently: MuJoCo | here | told by us | called without cause |\n\
+             |---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
+        );
+        for c in self.list.iter().chain([&self.sum()]) {
+            let searched = c.name.starts_with("Longest");
+            let of = |pair: [usize; 2]| {
+                let theirs = if searched { "–".into() } else { pair[0].to_string() };
+                format!("{theirs} | {}", pair[1])
+            };
+            let told =
+                if c.silent[1] == 0 { String::new() } else { format!("{} of {}", c.told, c.silent[1]) };
+            let _ = writeln!(
+                text,
+                "| {} | {} | {} | {} | {} | {told} | {} |",
+                c.name,
+                c.runs,
+                of(c.well),
+                of(c.loud),
+                of(c.silent),
+                c.called
+            );
+        }
+        text
     }
 }
 
-/// Cases side by side; the number of those that end well here and there.
+/// What was told of a run: what was noticed and when, or that nobody did.
+fn told(outcome: &Json, bound: f64) -> String {
+    match (outcome["told"]["what"].as_str(), outcome["told"]["time"].as_f64()) {
+        (Some(what), Some(time)) => format!("{what}, {} s", short(time)),
+        _ if fine(outcome, bound) || outcome["warning"].is_string() => String::new(),
+        _ => "**nobody**".into(),
+    }
+}
+
+/// Cases side by side; adds those that end well there and not here to `wrong`.
 fn table(
     cases: &[Json],
     ours: impl Fn(&Json) -> Json,
     wrong: &mut Vec<String>,
-    watched: &mut Watched,
-) -> (String, [usize; 3]) {
-    let mut text = String::new();
-    let mut section = "";
-    let mut counts = [0; 3];
+    classes: &mut Classes,
+) -> String {
+    let (mut text, mut section) = (String::new(), "");
     for case in cases {
         let name = case["section"].as_str().unwrap();
         if name != section {
             section = name;
-            let _ = writeln!(text, "\n## {section}\n\n| case | MuJoCo | here | apart |\n|---|---|---|---:|");
+            let _ = writeln!(
+                text,
+                "\n### {section}\n\n| case | MuJoCo | here | apart | told by us |\n|---|---|---|---:|---|"
+            );
         }
         let (bound, theirs, ours) = (case["bound"].as_f64().unwrap(), &case["theirs"], ours(case));
-        let well = [fine(theirs, bound), fine(&ours, bound)];
-        watched.count(|| format!("{section}, {}", case["case"]), &ours, bound);
-        counts[0] += 1;
-        counts[1] += usize::from(well[0]);
-        counts[2] += usize::from(well[1]);
-        if well[0] && !well[1] {
-            wrong.push(format!("{section}, {}: {ours}, theirs {theirs}", case["case"]));
+        let title = case["case"].as_str().unwrap();
+        classes.count(section, title, [Some(theirs), Some(&ours)], bound);
+        if fine(theirs, bound) && !fine(&ours, bound) {
+            wrong.push(format!("{section}, {title}: {ours}, theirs {theirs}"));
         }
         let words = |o: &Json| words(o, bound);
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {} |",
-            case["case"].as_str().unwrap(),
+            "| {title} | {} | {} | {} | {} |",
             words(theirs),
             words(&ours),
-            apart(theirs, &ours)
+            apart(theirs, &ours),
+            told(&ours, bound)
         );
     }
-    (text, counts)
+    text
 }
 
 /// The longest timestep at which a family of models stays within its bound, all shorter ones included.
-fn longest(search: &Json, timesteps: &[f64], watched: &mut Watched) -> Option<f64> {
+fn longest(search: &Json, timesteps: &[f64], classes: &mut Classes) -> Option<f64> {
     let xml = search["xml"].as_str().unwrap();
     let mut stays = |h: &f64| {
-        let outcome = run(&xml.replace("TIMESTEP", &h.to_string()), search["steps"].as_u64().unwrap(), 0);
+        let outcome =
+            run(&xml.replace("TIMESTEP", &h.to_string()), search["steps"].as_u64().unwrap(), 0, &Json::Null);
         let bound = search["bound"].as_f64().unwrap();
-        let name = || format!("{}, {}, {}, {h} s", search["section"], search["row"], search["column"]);
-        watched.count(name, &outcome, bound);
+        let of = |key: &str| search[key].as_str().unwrap_or_default();
+        let name = format!("{}, {}, {h} s", of("row"), of("column"));
+        let class = format!("Longest stable timestep: {}", of("section").to_lowercase());
+        classes.count(&class, &name, [None, Some(&outcome)], bound);
         fine(&outcome, bound)
     };
     timesteps.iter().copied().take_while(|h| stays(h)).last()
 }
 
 /// Searches side by side: a row a stiffness, a column an integrator, "theirs / ours" where these differ.
-fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>, watched: &mut Watched) -> String {
+fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>, classes: &mut Classes) -> String {
     const COLUMNS: [&str; 5] = ["Euler", "RK4", "implicit", "implicitfast", "discrete"];
     let mut rows: Vec<&[Json]> = searches.chunks(COLUMNS.len()).collect();
     rows.sort_by_key(|row| row[0]["section"].as_str());
@@ -210,7 +324,7 @@ fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>, watc
             let _ = writeln!(text, "\n### {section}\n\n| | {} |\n|---|{lines}", COLUMNS.join(" | "));
         }
         let cells = row.iter().map(|search| {
-            let (theirs, ours) = (search["theirs"].as_f64(), longest(search, timesteps, watched));
+            let (theirs, ours) = (search["theirs"].as_f64(), longest(search, timesteps, classes));
             let word = |h: Option<f64>| h.map_or("none".into(), |h| format!("{} ms", short(1e3 * h)));
             if theirs == ours {
                 return word(ours);
@@ -227,7 +341,7 @@ fn searched(searches: &[Json], timesteps: &[f64], differ: &mut Vec<String>, watc
 fn subjects(page: &str) -> Vec<&str> {
     page.lines()
         .map(|line| line.split('|').nth(1).unwrap_or(line))
-        .filter(|s| !s.contains("end well") && !s.starts_with("**Growth**"))
+        .filter(|s| !s.contains("silently, and"))
         .collect()
 }
 
@@ -245,7 +359,7 @@ fn stiff_and_extreme_scenes() {
             .map(|c| {
                 (
                     c["case"].as_str().unwrap().into(),
-                    run(c["xml"].as_str().unwrap(), 0, c["long"].as_u64().unwrap()),
+                    run(c["xml"].as_str().unwrap(), 0, c["long"].as_u64().unwrap(), &Json::Null),
                 )
             })
             .collect();
@@ -253,34 +367,50 @@ fn stiff_and_extreme_scenes() {
     }
     for case in &long {
         // The beginning of a long run is a test that nothing breaks soon.
-        run(case["xml"].as_str().unwrap(), 0, SHORTENED);
+        run(case["xml"].as_str().unwrap(), 0, SHORTENED, &Json::Null);
     }
     let mut wrong = Vec::new();
-    let mut watched = Watched::default();
-    let (sections, [all, theirs, ours]) = table(
+    let mut classes = Classes::default();
+    let sections = table(
         &cases,
-        |c| run(c["xml"].as_str().unwrap(), c["steps"].as_u64().unwrap(), 0),
+        |c| run(c["xml"].as_str().unwrap(), c["steps"].as_u64().unwrap(), 0, &c["keep"]),
         &mut wrong,
-        &mut watched,
+        &mut classes,
     );
     let timesteps: Vec<f64> =
         recording["timesteps"].as_array().unwrap().iter().map(|h| h.as_f64().unwrap()).collect();
     let mut differ = Vec::new();
     let searches = recording["searches"].as_array().unwrap();
-    let largest = searched(searches, &timesteps, &mut differ, &mut watched);
-    let ([silent, grown], [well, alarms]) = (watched.silent, watched.well);
+    let largest = searched(searches, &timesteps, &mut differ, &mut classes);
+    let sum = classes.sum();
     let runs = read_json(&kept);
     let mut text = format!(
         "# Stiff and extreme scenes\n\nWritten by `tests/stability.rs` from the cases of `tests/golden/stability.py`: \
-         our engine beside MuJoCo 3.14.0.\n\n{all} scenes: {theirs} end well there, {ours} here. *Apart* is the largest difference of the \
-         first coordinates at the end (m, rad). **Silently** is a run that left every sensible bound without a warning: what a lesson \
-         has to be told by its own bounds. Stacks of very unequal boxes jitter by what the solver leaves at its tolerance, \
-         on both sides, not in the same steps.\n\n**Growth** (`labspec::advice::growth`) looks at a run at least {LOOKS} times for energy that nothing gave it. \
-         Of {silent} runs here that go wrong silently, in this page's tables and in its searches for the longest timestep, it finds {grown}; of {well} that go well \
-         it calls {alarms}. The others jump through a joint's limit within one step and gain nothing.\n{sections}\n\
+         our engine beside MuJoCo 3.14.0.\n\nOf {} runs here {} go well and {} end with a warning. {} go wrong silently, and {} of these are told by us, with {} \
+         alarms among those that go well. The numbers are the library's numbers: ours go wrong where its do. What differs is that \
+         somebody says so.\n\n## By class\n\n*Well* is a run that stays where its case says that it has to: within bounds, on the floor, before the \
+         wall, as fast as its energy allows. *Silently* is one that does not, without a warning of the engine. Of the searches for the \
+         longest timestep only ours are run step by step.\n\n{}\n## What is told\n\n\
+         | words | what it is | where |\n|---|---|---|\n\
+         | energy grows | ten times what the start held, that nothing gave; where a step makes half a turn, seen a few times | `advice/growth` |\n\
+         | a damper pushes | the same, given by a damping below zero | `advice/growth` |\n\
+         | past a limit | half the joint's range beyond its limit in one step, or a quarter of it for good | `advice/limits` |\n\
+         | went through | the middle of a body through a middle plane of another one | `advice/through` |\n\
+         | sunk in | three tenths of the thickness deep for good, or wholly below a plane | `advice/sunk` |\n\
+         | solver stopped | a quarter of what the constraints have to do is missing, again and again | `advice/unsolved` |\n\n\
+         ## The log\n\n*Apart* is the largest difference of the first coordinates at the end (m, rad). Stacks of very unequal \
+         boxes jitter by what the solver leaves at its tolerance, on both sides, not in the same steps. \
+         A run is looked at for energy at least {LOOKS} times, for all else at every step.\n{sections}\n\
          ## Longest stable timestep\n\nOf {}: the longest at which 2,000 steps stay within bounds, all shorter ones \
          included; **MuJoCo's / ours** where they differ ({} of {}).\n{largest}\n## Long runs\n\nTen million steps. Energy: change relative to the start.\n\n\
          | case | MuJoCo | here | energy | here | norm of the quaternion less 1 | here |\n|---|---|---|---:|---:|---:|---:|\n",
+        sum.runs,
+        sum.well[1],
+        sum.loud[1],
+        sum.silent[1],
+        sum.told,
+        sum.called,
+        classes.table(),
         timesteps.iter().map(|h| format!("{} ms", short(1e3 * h))).collect::<Vec<_>>().join(", "),
         differ.len(),
         searches.len()
@@ -304,12 +434,12 @@ fn stiff_and_extreme_scenes() {
     if bless {
         std::fs::write(&path, &text).unwrap();
     }
-    for line in wrong.iter().chain(&differ).chain(&watched.alarms).chain(&watched.missed) {
+    for line in wrong.iter().chain(&differ).chain(&classes.alarms).chain(&classes.missed) {
         println!("{line}");
     }
-    assert!(alarms == 0, "runs that go well, said to grow:\n{}", watched.alarms.join("\n"));
-    let slams = watched.missed.iter().filter(|name| name.starts_with("Slam into a limit")).count();
-    assert!(slams == watched.missed.len(), "growth that is not found:\n{}", watched.missed.join("\n"));
+    assert!(sum.well[1] > 1000 && sum.silent[1] > 60, "{} and {} runs", sum.well[1], sum.silent[1]);
+    assert!(sum.called == 0, "runs that go well, said to go wrong:\n{}", classes.alarms.join("\n"));
+    assert!(classes.missed.is_empty(), "what goes wrong and nobody tells:\n{}", classes.missed.join("\n"));
     assert!(wrong.is_empty(), "scenes that end well with MuJoCo and not here:\n{}", wrong.join("\n"));
     let kept = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(

@@ -403,6 +403,13 @@ pub fn can_collide(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error>
     Ok(crate::collision::can_collide(m, geom1, geom2))
 }
 
+/// Whether two geoms can make contacts: their bits, their bodies and the pairs and exclusions of the model admit it.
+pub fn may_touch(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error> {
+    exists("geom", geom1, m.ngeom)?;
+    exists("geom", geom2, m.ngeom)?;
+    Ok(crate::collision::may_touch(m, geom1, geom2))
+}
+
 /// `kp` and `kv` of an actuator, along its own length; `None` when these do not follow from its parameters alone, or when
 /// there is no such actuator.
 pub fn servo_gains(m: &Model, actuator: usize) -> Option<[f64; 2]> {

@@ -93,6 +93,13 @@ pub(super) fn dynamic_pair(m: &Model, a: usize, b: usize, may_change: bool) -> O
     (!(0..m.npair).any(named)).then_some(pair)
 }
 
+/// Whether two geoms can make contacts, by an explicit pair or by their bits and bodies.
+pub(crate) fn may_touch(m: &Model, a: usize, b: usize) -> bool {
+    let both = [a.min(b) as u32, a.max(b) as u32];
+    let named = |p: Pair| [p.geom1.min(p.geom2), p.geom1.max(p.geom2)] == both;
+    dynamic_pair(m, a, b, false).is_some() || explicit_pairs(m).any(named)
+}
+
 /// Two geoms whose contacts the general algorithm would have to find, whatever their contact bits, which may change.
 pub(crate) fn searched_pair(m: &Model) -> Option<[usize; 2]> {
     let searched = |a: usize, b: usize| pair::is_searched(m.geom_type[a], m.geom_type[b], false);

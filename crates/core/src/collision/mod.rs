@@ -6,8 +6,8 @@ mod primitive;
 mod sweep;
 
 use filter::Pair;
-pub(crate) use filter::can_collide;
 pub(crate) use filter::{MOST_LISTED, candidate_pairs, searched_pair};
+pub(crate) use filter::{can_collide, may_touch};
 use params::Params;
 use sweep::Sweep;
 

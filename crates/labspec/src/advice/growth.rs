@@ -16,12 +16,19 @@
 //! * it lasts for 32 steps without falling back to half of what it was, or is a thousand times as large as that. Looks
 //!   are far apart until one sees a gain; from there on each step is looked at, as looks in step with a swing would see it last.
 //!
+//! A step in which something turns by more than half a turn does not follow that motion at all: where nothing is elastic, a gain
+//! that is seen a few times there is growth, whether it lasts or not. A pendulum at a step of a second throws itself about like this.
+//!
+//! A joint whose damping is below zero is a motor without end: what it gives is a gain like any other, and is told by its name.
+//! (Where the damping becomes positive at larger speeds, as in an oscillator that keeps itself going, the end is there, and
+//! the watch is over.)
+//!
 //! A servo or motor without states pulls along its length x with the force clip(a - k x), whose potential is closed. Whatever
-//! else may feed a scene (other actuators, applied forces, wind, moving surfaces, dampers that push) ends the watch: a false
-//! alarm is worse than none.
+//! else may feed a scene (other actuators, applied forces, wind, moving surfaces, other dampers that push) ends the watch: a
+//! false alarm is worse than none.
 
 use labspec_core::math::{MINVAL, norm, rows};
-use labspec_core::{Data, Energy, Fields, Model, Plan, Planned, Scope, disable};
+use labspec_core::{Data, Energy, Fields, Model, Plan, Planned, Scope, disable, joint};
 use labspec_core::{exhausted, forward, limit, mechanical_energy, mul_m, work_left};
 
 /// How many times what the start held a gain has to be, and how many times the size of the scene it lifts everything.
@@ -31,6 +38,11 @@ const LIFTS: f64 = 2.0;
 /// symplectic step swings energy by (1 + s)/(1 - s) and back in π/(2 arccos s) steps: in 32 at s = 0.9988.
 const LASTS: u32 = 32;
 const SURE: f64 = 1e3;
+/// The same where a damper is known to push.
+const PUSHED: [f64; 2] = [1.0, 0.25];
+/// An angle that no step follows, rad, and how often a gain has to be seen then.
+const TURN: f64 = std::f64::consts::PI;
+const LEAPS: u32 = 4;
 /// A scene at rest may drift by this part of its size in a second.
 const DRIFT: f64 = 0.01;
 
@@ -45,6 +57,19 @@ pub struct Growth {
     pub held: f64,
     /// The degree of freedom that moves with the largest part of it.
     pub dof: usize,
+    /// Where it comes from.
+    pub source: Source,
+}
+
+/// Where energy comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// The steps push farther than they miss.
+    Steps,
+    /// The steps are so long that something turns by this angle in one, rad.
+    LongSteps(f64),
+    /// A damper below zero, of this degree of freedom: it pushes.
+    Damper(usize),
 }
 
 /// What a run is held against: its start, and data of its own so that looking leaves the run alone.
@@ -59,6 +84,8 @@ pub struct Watch {
     lasted: u32,
     since: f64,
     largest: f64,
+    /// How often a gain was seen in a step that nothing follows.
+    leaps: u32,
     found: Option<Growth>,
 }
 
@@ -73,15 +100,24 @@ struct Start {
 /// A watch over a run that is now at `d`, with a look after each `every` steps. The only call that allocates.
 pub fn watch<S: Scope>(m: &Model, d: &Data<S>, every: usize) -> Watch {
     let own = Data::planned(m, Plan::awake());
-    let mut w =
-        Watch { own, start: None, every, left: every, lasted: 0, since: 0.0, largest: 0.0, found: None };
+    let mut w = Watch {
+        own,
+        start: None,
+        every,
+        left: every,
+        lasted: 0,
+        since: 0.0,
+        largest: 0.0,
+        leaps: 0,
+        found: None,
+    };
     restart(&mut w, m, d);
     w
 }
 
 /// From here on what was is forgotten but for what was found: something from outside has changed the state or the model.
 pub fn restart<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
-    (w.start, w.lasted, w.largest) = (None, 0, 0.0);
+    (w.start, w.lasted, w.largest, w.leaps) = (None, 0, 0.0, 0);
     if m.nv == 0 || fed(m, d) {
         return;
     }
@@ -123,21 +159,56 @@ pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) -> Option<Growth> {
     let now = mechanical_energy(m, &mut w.own).ok().flatten()?;
     let given = before.potential() - now.potential();
     let gain = now.kinetic - before.kinetic - given;
-    let least = FACTOR * held + LIFTS * lift;
+    let pusher = pusher(m, d.fields());
+    let [factor, lifts] = if pusher.is_some() { PUSHED } else { [FACTOR, LIFTS] };
+    let least = factor * held + lifts * lift;
     // A gain that is no number is not above anything.
-    if gain > least && 2.0 * gain > w.largest && 2.0 * gain > now.kinetic + given.abs() {
-        if w.lasted == 0 {
+    let seen = gain > least && 2.0 * gain > now.kinetic + given.abs();
+    // What is elastic swings widely just below its limit, and comes back.
+    let stiff = before.elastic != 0.0 || now.elastic != 0.0;
+    let turn = if seen && !stiff { turn(m, d.fields()) } else { 0.0 };
+    if seen && (2.0 * gain > w.largest || turn > TURN) {
+        if w.lasted == 0 && w.leaps == 0 {
             w.since = d.time();
         }
         w.lasted += 1;
+        w.leaps += u32::from(turn > TURN);
         w.largest = w.largest.max(gain);
-        if w.lasted >= LASTS || gain > SURE * least {
-            w.found = Some(Growth { time: w.since, gain, held: held + lift, dof: liveliest(m, &w.own) });
+        if w.lasted >= LASTS || gain > SURE * least || w.leaps >= LEAPS {
+            let source = match pusher {
+                Some(dof) => Source::Damper(dof),
+                None if turn > TURN => Source::LongSteps(turn),
+                None => Source::Steps,
+            };
+            let dof = liveliest(m, &w.own);
+            w.found = Some(Growth { time: w.since, gain, held: held + lift, dof, source });
         }
     } else {
         w.lasted = 0;
     }
     w.found
+}
+
+/// The largest angle by which something turns in a step, rad.
+fn turn(m: &Model, d: &Fields) -> f64 {
+    let of = |j: usize| {
+        let first = m.jnt_dofadr[j] as usize;
+        let dofs = match m.jnt_type[j] {
+            joint::HINGE => first..first + 1,
+            joint::BALL => first..first + 3,
+            joint::FREE => first + 3..first + 6,
+            _ => first..first,
+        };
+        dofs.filter_map(|k| d.qvel.get(k)).map(|v| v * v).sum::<f64>().sqrt()
+    };
+    m.opt.timestep * (0..m.njnt).map(of).fold(0.0, f64::max)
+}
+
+/// The degree of freedom whose damper pushes hardest.
+fn pusher(m: &Model, d: &Fields) -> Option<usize> {
+    let power = |k: &usize| -m.dof_damping[*k] * d.qvel[*k] * d.qvel[*k];
+    let pushing = (0..m.nv).filter(|&k| m.dof_damping[k] < 0.0 && !m.opt.disabled(disable::DAMPER));
+    pushing.max_by(|a, b| power(a).total_cmp(&power(b)))
 }
 
 /// The state of a run.
@@ -193,8 +264,10 @@ fn fed<S: Scope>(m: &Model, d: &Data<S>) -> bool {
     let some = |list: &[f64]| list.iter().any(|&x| x != 0.0);
     let pushes = |list: &[f64]| list.iter().any(|&x| x < 0.0);
     let wind = some(&m.opt.wind) && (m.opt.density != 0.0 || m.opt.viscosity != 0.0);
+    // A joint's own damper is known when it pushes, unless it pulls at other speeds.
+    let turns =
+        m.dof_damping.iter().zip(rows::<2>(&m.dof_dampingpoly)).any(|(&b, poly)| b < 0.0 && some(poly));
     let dampers = [
-        &m.dof_damping,
         &m.dof_dampingpoly,
         &m.tendon_damping,
         &m.tendon_dampingpoly,
@@ -205,6 +278,7 @@ fn fed<S: Scope>(m: &Model, d: &Data<S>) -> bool {
         m.nactuator > 0 && (m.jnt_actfrclimited.contains(&true) || m.tendon_actfrclimited.contains(&true));
     applied(d)
         || wind
+        || turns
         || cut
         || some(&m.geom_surfacevel)
         || some(&m.geom_adhesion)
@@ -298,12 +372,45 @@ mod tests {
 
     #[test]
     fn what_may_be_fed_is_not_watched() {
-        let still = |_: &mut Data| ();
-        // A damper that pushes, a force from outside, a servo that looks back in time.
-        assert_eq!(run(&pendulum("", "").replace("axis", "damping=\"-.5\" axis"), 2400, still), None);
+        // A damper that pushes slow things and brakes fast ones, a force from outside, a servo that looks back in time.
+        let keeps = cart("", "damping=\"-2 0 1\" stiffness=\"10\"", "");
+        assert_eq!(run(&keeps, 2400, |d| d.edit().qpos[0] = 1e-3), None);
         assert_eq!(run(&cart("", "", ""), 2400, |d| d.edit().qfrc_applied[0] = 50.0), None);
         let late = "<position joint=\"j\" kp=\"100\" delay=\".1\" nsample=\"60\"/>";
         assert_eq!(run(&cart("", "", late), 2400, |d| d.edit().qpos[0] = 0.1), None);
+    }
+
+    #[test]
+    fn a_damper_below_zero_is_an_input_without_end() {
+        for integrator in ["Euler", "implicitfast"] {
+            let with = |damping: f64| {
+                let text =
+                    pendulum(&format!("integrator=\"{integrator}\""), "").replacen("axis", "DAMPED axis", 1);
+                run(&text.replace("DAMPED", &format!("damping=\"{damping}\"")), 1500, |_| ())
+            };
+            let found = with(-0.2).unwrap();
+            assert_eq!(found.source, Source::Damper(0), "{integrator}: {found:?}");
+            assert!(found.gain > 1.0 && found.time > 0.1, "{integrator}: {found:?}");
+            assert_eq!(with(0.0).or(with(0.2)), None, "{integrator}");
+        }
+    }
+
+    #[test]
+    fn a_step_that_is_too_long_for_a_swing_is_told() {
+        let one = |h: f64, integrator: &str| {
+            let text = format!(
+                "<mujoco><option timestep=\"{h}\" integrator=\"{integrator}\"/><worldbody><body><joint axis=\"0 1 0\"/>\
+                 <geom type=\"capsule\" fromto=\"0 0 0 .4 0 0\" size=\".03\" mass=\".5\"/></body></worldbody></mujoco>"
+            );
+            run(&text, (60.0 / h) as usize, |_| ())
+        };
+        for integrator in ["Euler", "RK4", "implicit", "implicitfast", "discrete"] {
+            let found = one(1.0, integrator).unwrap();
+            assert!(matches!(found.source, Source::LongSteps(turn) if turn > 3.1), "{integrator}: {found:?}");
+            for h in [0.01, 0.1, 0.2] {
+                assert_eq!(one(h, integrator), None, "{integrator} {h} s");
+            }
+        }
     }
 
     #[test]

@@ -5,7 +5,15 @@ use crate::rules;
 use crate::spec::{Expect, Lab};
 
 /// What a run that breaks is reported as.
-const BROKE: [&str; 2] = [rules::SIMULATION_DIVERGES.code, rules::ENERGY_GROWS.code];
+const BROKE: [&str; 7] = [
+    rules::SIMULATION_DIVERGES.code,
+    rules::ENERGY_GROWS.code,
+    rules::DAMPER_PUSHES.code,
+    rules::PAST_LIMIT.code,
+    rules::PASSES_THROUGH.code,
+    rules::SINKS_IN.code,
+    rules::SOLVER_STOPS_EARLY.code,
+];
 /// What is only said of a scene, without a run that shows it.
 const LIKELY: &str = rules::STIFF_FOR_TIMESTEP.code;
 

@@ -15,7 +15,7 @@ pub const CONTROL_WITHOUT_EFFECT: &Rule = &Rule {
         r#"{"model": "ball", "controls": [{"label": "⟦mass⟧", "min": 1, "max": 5, "value": 1}]}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": 1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 2, "value": 1}]}"#,
     ),
 };
 

@@ -11,10 +11,10 @@ pub const SLIDER_STEP: &Rule = &Rule {
     summary: "the step of a slider is not positive, or larger than its range",
     why: "the slider cannot be moved",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "step": ⟦10⟧, "value": 1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 2, "step": ⟦10⟧, "value": 1}]}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "step": 0.1, "value": 1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 2, "step": 0.1, "value": 1}]}"#,
     ),
 };
 

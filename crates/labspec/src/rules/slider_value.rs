@@ -11,10 +11,10 @@ pub const SLIDER_VALUE: &Rule = &Rule {
     summary: "the start value of a slider lies outside of its range",
     why: "the page moves the slider to the nearest end, but the lab starts with the value that is written here",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": ⟦0.1⟧}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 2, "value": ⟦0.1⟧}]}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 0.1, "max": 5, "value": 0.1}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 0.1, "max": 2, "value": 0.1}]}"#,
     ),
 };
 

@@ -14,10 +14,10 @@ pub const UNKNOWN_CONTROL: &Rule = &Rule {
     summary: "a run sets or presses a control that the lab does not have",
     why: "the run would not be the one that the text talks about",
     bad: Example::Lab(
-        r#"{"model": "ball", "note": "It rests at 0.10 m.", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": 1}], "verify": {"runs": {"heavy": {"set": {"⟦fricton⟧": 2}}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 2, "value": 1}], "verify": {"runs": {"heavy": {"set": {"⟦fricton⟧": 2}}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "note": "It rests at 0.10 m.", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 5, "value": 1}], "verify": {"runs": {"heavy": {"set": {"friction": 2}, "until": 2}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
+        r#"{"model": "ball", "note": "It rests at 0.10 m.", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 2, "value": 1}], "verify": {"runs": {"heavy": {"set": {"friction": 2}, "until": 2}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),
 };
 

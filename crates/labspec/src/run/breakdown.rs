@@ -1,18 +1,17 @@
-//! What the engine's warnings, and energy that grows without one, mean for a lesson: what broke, when, the likely cause,
+//! What the engine's warnings, and what goes wrong without one, mean for a lesson: what broke, when, the likely cause,
 //! and what to write instead.
 
-use super::Session;
-use crate::advice::growth::Growth;
+use super::{Session, silent};
 use crate::advice::stability::{self, Part, Suspect};
 use crate::rules::{self, Rule};
 use labspec_core::{Model, Obj, Warning, WarningStat, joint};
 
-/// A run that met a bad number or gained energy from nothing, in a teacher's words.
+/// What went wrong in a run, loudly or silently, in a teacher's words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Breakdown {
     /// The code of the finding.
     pub rule: &'static Rule,
-    /// What is no number, or what grows, and when.
+    /// What is no number, what grows, passes or sinks, and when.
     pub what: String,
     /// What the page shows.
     pub why: &'static str,
@@ -22,7 +21,6 @@ pub struct Breakdown {
 
 const RESET: &str =
     "MuJoCo then resets the data and goes on from time 0: a student sees the scene jump back without a word";
-const GROWS: &str = "the steps make it, not physics: a student sees things leap or swing ever wider, without a word from MuJoCo";
 
 /// Warnings that may follow from each other, the cause first: only the first of them is told.
 const STATE: [Warning; 4] = [Warning::Inertia, Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
@@ -41,18 +39,22 @@ impl Breakdown {
             let stat = session.warnings.get(*w as usize).filter(|stat| stat.number > 0)?;
             Some(Breakdown::by_warning(&session.world.model, *w, stat))
         };
+        let first = |w: &Warning| session.warnings.get(*w as usize).filter(|stat| stat.number > 0);
+        let mut since = STATE.iter().find_map(first).map_or(f64::INFINITY, |stat| stat.first_time);
         let mut state = STATE.iter().find_map(met);
         if let Some(growth) = session.growth() {
-            let first = |w: &Warning| session.warnings.get(*w as usize).filter(|stat| stat.number > 0);
-            let warned = STATE.iter().find_map(first).map_or(f64::INFINITY, |stat| stat.first_time);
             // What has grown for a while becomes no number in the end.
-            if growth.time < warned {
-                let grows = Breakdown::by_growth(&session.world.model, growth);
+            if growth.time < since {
+                since = growth.time;
+                let grows = silent::growth(&session.world.model, growth);
                 let then = state.map_or(String::new(), |s| format!("; in the end {}", s.what));
                 state = Some(Breakdown { what: grows.what + &then, ..grows });
             }
         }
-        state.into_iter().chain(OTHERS.iter().filter_map(met)).collect()
+        // Where energy grows, or numbers are none, anything may follow from it; not what was before.
+        let noticed = silent::first(&session.world.model, &session.noticed());
+        let before = noticed.filter(|(time, _)| *time < since).map(|(_, b)| b);
+        before.into_iter().chain(state).chain(OTHERS.iter().filter_map(met)).collect()
     }
 
     /// A warning of the engine.
@@ -106,18 +108,6 @@ impl Breakdown {
         };
         Breakdown { rule, what, why, help }
     }
-
-    /// Energy that nothing gave.
-    fn by_growth(model: &Model, g: Growth) -> Breakdown {
-        let what = format!(
-            "energy grows from t = {} s on: {} J that nothing put in, while the start held {} J; most of it moves {}",
-            time(g.time),
-            two_digits(g.gain),
-            two_digits(g.held),
-            joint_of(model, g.dof, &model.jnt_dofadr, joint::nv)
-        );
-        Breakdown { rule: rules::ENERGY_GROWS, what, why: GROWS, help: cause(model) }
-    }
 }
 
 /// A time to a tenth of a millisecond.
@@ -140,7 +130,7 @@ fn without_zeros(text: String) -> String {
 }
 
 /// The likely cause of a run that breaks, and what to write instead.
-fn cause(model: &Model) -> String {
+pub(super) fn cause(model: &Model) -> String {
     match stability::suspects(model).first() {
         Some(worst) => format!(
             "the likely cause: {} is {} for a step of {} s; {}",
@@ -196,7 +186,7 @@ pub fn remedy(model: &Model, s: &Suspect) -> String {
     format!("write a timestep of {shorter} s, or softer {attribute}, or `integrator=\"discrete\"`")
 }
 
-fn joint_of(model: &Model, index: usize, adr: &[i32], width: fn(i32) -> usize) -> String {
+pub(super) fn joint_of(model: &Model, index: usize, adr: &[i32], width: fn(i32) -> usize) -> String {
     let found = (0..model.njnt).find(|&j| {
         let first = adr.get(j).map_or(0, |&a| a as usize);
         (first..first + width(model.jnt_type.get(j).copied().unwrap_or(3))).contains(&index)

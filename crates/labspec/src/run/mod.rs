@@ -7,6 +7,7 @@ mod play;
 mod samples;
 mod session;
 pub mod settings;
+mod silent;
 mod table;
 mod told;
 

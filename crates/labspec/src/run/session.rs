@@ -3,13 +3,14 @@
 use super::budget::{Budget, End};
 use super::held::Held;
 use super::table::Cell;
-use crate::advice::growth::{self, Growth, Watch};
+use crate::advice::growth::Growth;
+use crate::advice::watch::{self, Noticed, Watch};
 use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
 use crate::interrupt;
 use crate::source::Text;
 use labspec_core::{self as core, Data, Demand, Model, Plan, Planned, Warning, WarningStat};
 use labspec_expr::rules::{self, Rule};
-use labspec_expr::{Context, Program, RuntimeError, Value};
+use labspec_expr::{Context, FieldKey, Program, RuntimeError, Value};
 
 /// Something that went wrong in a program while the lab ran; JavaScript would have thrown, or said nothing.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,11 +74,24 @@ const SAMPLE: u64 = 100;
 const LOOKS: usize = 24;
 const BETWEEN: usize = 50;
 
-/// A run that is watched for growth.
+/// What a program may write in every step that moves nothing by itself.
+const PUSHES: [&str; 3] = ["ctrl", "qfrc_applied", "xfrc_applied"];
+
+/// Whether a program may move things by itself, or change the model.
+fn moves(bound: &Bound) -> bool {
+    let effects = bound.program.effects();
+    let pushes = |field: FieldKey| {
+        let of = |name: &&str| core::reflect::field(core::reflect::Object::Data, name);
+        PUSHES.iter().filter_map(of).any(|f| FieldKey(f.index() as u32) == field)
+    };
+    effects.writes_everything || effects.calls_values || !effects.writes.iter().all(|a| pushes(a.field))
+}
+
+/// A run that is watched for what goes wrong without a word.
 #[derive(Clone, Debug)]
 struct Watched {
     watch: Watch,
-    found: Option<Growth>,
+    found: Noticed,
     /// Something from outside changed the state or the model since the last step.
     disturbed: bool,
 }
@@ -264,7 +278,7 @@ impl<'p> Session<'p> {
         let World { model, data, .. } = &mut self.world;
         if let Some(w) = self.watched.as_mut().filter(|w| w.disturbed) {
             w.disturbed = false;
-            growth::restart(&mut w.watch, model, data);
+            watch::restart(&mut w.watch, model, data);
         }
         let stepped = core::step(model, data);
         self.refused(stepped);
@@ -277,7 +291,7 @@ impl<'p> Session<'p> {
         }
         let World { model, data, .. } = &self.world;
         if let Some(w) = &mut self.watched {
-            w.found = growth::look(&mut w.watch, model, data);
+            w.found = watch::look(&mut w.watch, model, data);
         }
         self.note_warnings();
     }
@@ -292,27 +306,32 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// Watches the run of so many steps that begins here for energy that nothing gave it. Programs that write in
-    /// every step may give any: such a run is not watched.
+    /// Watches the run of so many steps that begins here for what goes wrong without a word. Programs that push in every step
+    /// may give any energy, and one that moves things by itself may put them anywhere: such a run is watched for the rest,
+    /// or not at all.
     pub fn watch(&mut self, steps: usize) {
         if self.end.is_some() {
             return;
         }
         let probes = self.programs.probes.iter().filter_map(|p| p.bound.as_ref());
-        let writes = |bound: &Bound| {
-            let effects = bound.program.effects();
-            !effects.writes.is_empty() || effects.writes_everything || effects.calls_values
-        };
-        if probes.chain(&self.programs.controller).any(writes) {
+        let programs: Vec<&Bound> = probes.chain(&self.programs.controller).collect();
+        if programs.iter().any(|bound| moves(bound)) {
             return;
         }
-        let watch = growth::watch(&self.world.model, &self.world.data, (steps / LOOKS).min(BETWEEN));
-        self.watched = Some(Watched { watch, found: None, disturbed: false });
+        let pushed = programs.iter().any(|bound| !bound.program.effects().writes.is_empty());
+        let every = (steps / LOOKS).min(BETWEEN);
+        let watch = watch::watch(&self.world.model, &self.world.data, every, pushed);
+        self.watched = Some(Watched { watch, found: Noticed::default(), disturbed: false });
     }
 
     /// Energy that nothing gave, when the run was watched and has gained any.
     pub fn growth(&self) -> Option<Growth> {
-        self.watched.as_ref()?.found
+        self.noticed().growth
+    }
+
+    /// Everything that went wrong without a word, as far as the run was watched.
+    pub fn noticed(&self) -> Noticed {
+        self.watched.as_ref().map(|w| w.found).unwrap_or_default()
     }
 
     /// Time and every probe. What throws is nothing, as on the page.

@@ -15,12 +15,13 @@ pub fn threw(t: &Trouble, done: &str) -> Finding {
     .help("correct the statement, or guard it with a condition")
 }
 
-/// What broke, at `place`: what the engine warned of, or energy from nothing, with time, joint and likely cause.
+/// What broke, at `place`: what the engine warned of, or what went wrong without a word, with time, joint or geoms and likely cause.
 pub fn broken(session: &Session<'_>, done: &str, place: Range<usize>) -> Vec<Finding> {
     let told = |b: Breakdown| {
         let what = match b.rule.code {
             "engine-warning" => format!("the engine warns {done}: {}", b.what),
-            _ => format!("the simulation breaks {done}: {}", b.what),
+            "simulation-diverges" | "energy-grows" => format!("the simulation breaks {done}: {}", b.what),
+            _ => format!("the simulation goes wrong {done}: {}", b.what),
         };
         Finding::warning(b.rule, place.clone(), what).why(b.why).help(b.help)
     };

@@ -1,0 +1,187 @@
+//! Limits: whether a joint is where its range does not let it be.
+//!
+//! A limit pushes back like a spring with a time constant T, so a joint that arrives with the speed v goes beyond it by about
+//! v T / e, and one that a load presses on stays a little beyond it: both are softness, and pass for it. Two things do not:
+//!
+//! * a step h that takes the joint past its limit by a large part of its range before anything could push back: h v is
+//!   longer than what the limit guards;
+//! * a joint that stays beyond its limit by a large part of its range: what presses is stronger than the limit.
+
+use labspec_core::math::rows;
+use labspec_core::{Data, Model, Scope, disable, joint};
+
+/// A joint past its limit by this part of its range within a step is not held by it.
+const JUMPED: f64 = 0.5;
+/// Beyond its limit by this part for so long, and so many steps, neither.
+const STAYED: f64 = 0.25;
+const LASTS: f64 = 0.25;
+const STEPS: u32 = 32;
+/// What is less is nobody's concern: an angle, rad, and a length in parts of the scene.
+const ANGLE: f64 = 0.1;
+const LENGTH: f64 = 0.02;
+
+/// A joint past its limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Past {
+    /// Since when, s.
+    pub time: f64,
+    /// The joint.
+    pub joint: usize,
+    /// How far beyond its limit, m or rad.
+    pub beyond: f64,
+    /// How much it may move, m or rad.
+    pub range: f64,
+    /// How far one step moved it, when that took it past; `None` when something presses it there.
+    pub step: Option<f64>,
+}
+
+/// A joint with limits.
+#[derive(Clone, Copy, Debug)]
+struct Limited {
+    joint: usize,
+    qpos: usize,
+    dof: usize,
+    /// Its range, and what is not worth a second look.
+    range: [f64; 2],
+    pass: [f64; 2],
+    /// What its size is judged by, m or rad.
+    size: f64,
+    /// Steps for which it has been beyond, and the time of the first.
+    lasted: u32,
+    since: f64,
+}
+
+/// The joints that are watched.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    joints: Vec<Limited>,
+}
+
+/// The limits of a model.
+pub fn watch(m: &Model) -> Watch {
+    let on = !m.opt.disabled(disable::LIMIT) && !m.opt.disabled(disable::CONSTRAINT);
+    let limited = |j: usize| {
+        let turns = match m.jnt_type[j] {
+            joint::HINGE => true,
+            joint::SLIDE => false,
+            _ => return None,
+        };
+        let [low, high] = *rows::<2>(&m.jnt_range).get(j)?;
+        let (most, least) =
+            if turns { (2.0 * std::f64::consts::PI, ANGLE) } else { (m.stat.extent, LENGTH * m.stat.extent) };
+        let size = (high - low).min(most).max(least / STAYED);
+        let slack = STAYED * size;
+        let range = [low, high];
+        let (qpos, dof) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
+        let pass = [low - slack, high + slack];
+        (on && m.jnt_limited[j]).then_some(Limited {
+            joint: j,
+            qpos,
+            dof,
+            range,
+            pass,
+            size,
+            lasted: 0,
+            since: 0.0,
+        })
+    };
+    Watch { joints: (0..m.njnt).filter_map(limited).collect() }
+}
+
+/// Forgets what was seen: something from outside has changed the state.
+pub fn restart(w: &mut Watch) {
+    w.joints.iter_mut().for_each(|j| j.lasted = 0);
+}
+
+/// To be called after each step.
+#[inline]
+pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) -> Option<Past> {
+    let qpos = &d.fields().qpos;
+    w.joints.iter_mut().find_map(|j| {
+        let q = qpos.get(j.qpos)?;
+        if *q >= j.pass[0] && *q <= j.pass[1] {
+            j.lasted = 0;
+            return None;
+        }
+        far(j, m, d, *q)
+    })
+}
+
+/// What is to be said of a joint that is far beyond its limit.
+#[cold]
+fn far<S: Scope>(j: &mut Limited, m: &Model, d: &Data<S>, q: f64) -> Option<Past> {
+    let step = m.opt.timestep * d.fields().qvel.get(j.dof)?;
+    let beyond = |q: f64| (j.range[0] - q).max(q - j.range[1]);
+    if j.lasted == 0 {
+        j.since = d.time();
+    }
+    j.lasted += 1;
+    // Where it was: a step ends with the speed that it moved with.
+    let jumped = beyond(q) > JUMPED * j.size && beyond(q - step) < STAYED * j.size && step.is_finite();
+    let stays = j.lasted >= STEPS && d.time() - j.since >= LASTS;
+    let step = jumped.then_some(step.abs());
+    let range = j.range[1] - j.range[0];
+    (jumped || stays).then(|| Past { time: j.since, joint: j.joint, beyond: beyond(q), range, step })
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use labspec_core::{step, xml};
+
+    fn run(joint: &str, rest: &str, speed: f64) -> Option<Past> {
+        let text = format!(
+            "<mujoco><option gravity=\"0 0 0\"/><worldbody><body><joint name=\"j\" axis=\"0 1 0\" {joint}/>\
+             <geom size=\".1\" pos=\".5 0 0\" mass=\"1\"/></body></worldbody>{rest}</mujoco>"
+        );
+        let m = xml::compile(&text).unwrap();
+        let mut d = Data::new(&m);
+        d.edit().qvel[0] = speed;
+        let mut w = watch(&m);
+        (0..500).find_map(|_| {
+            step(&m, &mut d).unwrap();
+            look(&mut w, &m, &d)
+        })
+    }
+
+    #[test]
+    fn a_step_past_a_limit_is_told_and_a_soft_limit_is_not() {
+        let found = run("range=\"-45 45\"", "", 1000.0).unwrap();
+        assert!(found.joint == 0 && found.time < 0.003 && found.step.unwrap() > 1.9, "{found:?}");
+        assert!(found.beyond > 1.1 && (found.range - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{found:?}");
+        for speed in [0.0, 10.0, 50.0, 100.0] {
+            assert_eq!(run("range=\"-45 45\"", "", speed), None, "{speed} rad/s");
+        }
+        // Nothing is said where nothing limits.
+        assert_eq!(run("", "", 1000.0), None);
+    }
+
+    #[test]
+    fn a_motor_that_holds_a_joint_beyond_its_limit_is_told() {
+        let motor = |force: f64| {
+            let rest = format!(
+                "<actuator><position joint=\"j\" kp=\"{force}\" kv=\"{}\"/></actuator>",
+                force / 50.0
+            );
+            run("range=\"10 40\" ref=\"0\" damping=\"1\"", &rest, 0.0)
+        };
+        // It starts 10 degrees outside: a servo of 1e5 N m/rad keeps it there.
+        assert_eq!(motor(1.0), None);
+        let found = motor(1e5).unwrap();
+        assert!(found.step.is_none() && found.beyond > 0.13, "{found:?}");
+    }
+
+    #[test]
+    fn what_starts_outside_and_comes_back_is_not_told() {
+        let text = "<mujoco><worldbody><body><joint type=\"slide\" range=\"0 .1\"/><geom size=\".1\" mass=\"1\"/></body></worldbody></mujoco>";
+        let m = xml::compile(text).unwrap();
+        let mut d = Data::new(&m);
+        d.edit().qpos[0] = 0.3;
+        let mut w = watch(&m);
+        for _ in 0..500 {
+            step(&m, &mut d).unwrap();
+            assert_eq!(look(&mut w, &m, &d), None);
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! The watch over a run: every way in which it may go wrong without a word.
+
+use super::growth::{self, Growth};
+use super::limits::{self, Past};
+use super::sunk::{self, Sunk};
+use super::through::{self, Through};
+use super::unsolved::{self, Unsolved};
+use labspec_core::{Data, Model, Scope};
+
+/// What was noticed, the first of each kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Noticed {
+    /// Energy that nothing gave, or that dampers below zero give without end.
+    pub growth: Option<Growth>,
+    /// A joint past its limit.
+    pub past: Option<Past>,
+    /// A body that went through another one.
+    pub through: Option<Through>,
+    /// A body that stays in another one.
+    pub sunk: Option<Sunk>,
+    /// Forces that the solver did not find.
+    pub unsolved: Option<Unsolved>,
+}
+
+impl Noticed {
+    /// When the first of it was, s; infinite when there is nothing.
+    pub fn time(&self) -> f64 {
+        let times = [
+            self.growth.map(|x| x.time),
+            self.past.map(|x| x.time),
+            self.through.map(|x| x.time),
+            self.sunk.map(|x| x.time),
+            self.unsolved.map(|x| x.time),
+        ];
+        times.into_iter().flatten().fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// A run that is watched.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    /// `None` where programs may give any energy.
+    growth: Option<growth::Watch>,
+    limits: limits::Watch,
+    through: through::Watch,
+    sunk: sunk::Watch,
+    unsolved: unsolved::Watch,
+    noticed: Noticed,
+}
+
+/// A watch over a run that is now at `d`: for energy with a look after each `every` steps, unless programs push in
+/// every step; for all else in every step, where looking costs next to nothing until something is out of the ordinary.
+pub fn watch<S: Scope>(m: &Model, d: &Data<S>, every: usize, pushed: bool) -> Watch {
+    Watch {
+        growth: (!pushed).then(|| growth::watch(m, d, every)),
+        limits: limits::watch(m),
+        through: through::watch(m, d),
+        sunk: sunk::watch(m),
+        unsolved: unsolved::Watch::default(),
+        noticed: Noticed::default(),
+    }
+}
+
+/// From here on what was is forgotten but for what was noticed: something from outside has changed the state or the model.
+pub fn restart<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
+    if let Some(growth) = &mut w.growth {
+        growth::restart(growth, m, d);
+    }
+    w.limits = limits::watch(m);
+    w.sunk = sunk::watch(m);
+    through::restart(&mut w.through);
+    unsolved::restart(&mut w.unsolved);
+}
+
+/// To be called after each step; nothing of the run is touched.
+#[inline]
+pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) -> Noticed {
+    let found = &mut w.noticed;
+    if let Some(growth) = &mut w.growth {
+        found.growth = growth::look(growth, m, d);
+    }
+    if found.past.is_none() {
+        found.past = limits::look(&mut w.limits, m, d);
+    }
+    if found.through.is_none() {
+        found.through = through::look(&mut w.through, m, d);
+    }
+    if found.sunk.is_none() {
+        found.sunk = sunk::look(&mut w.sunk, m, d);
+    }
+    if found.unsolved.is_none() {
+        found.unsolved = unsolved::look(&mut w.unsolved, m, d);
+    }
+    *found
+}

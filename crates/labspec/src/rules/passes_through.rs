@@ -1,0 +1,16 @@
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A body passes through another one within a step.
+pub const PASSES_THROUGH: &Rule = &Rule {
+    code: "passes-through",
+    severity: Severity::Error,
+    layer: Layer::Run,
+    summary: "a body passes through another one",
+    why: "It moves by more than the other one's thickness in a step, and is behind it before a contact is found: a student sees walls that hold nothing",
+    bad: Example::Lab(
+        r#"{"xml": "⟦<mujoco><worldbody><geom name='plate' type='box' size='1 1 .0005'/><body name='ball' pos='0 0 .3'><freejoint/><geom name='ball' size='.01' mass='.1'/></body></worldbody></mujoco>⟧", "setup": "data.qvel[2] = -3", "stopAt": 0.5, "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"xml": "<mujoco><worldbody><geom name='plate' type='box' size='1 1 .05'/><body name='ball' pos='0 0 .3'><freejoint/><geom name='ball' size='.01' mass='.1'/></body></worldbody></mujoco>", "setup": "data.qvel[2] = -1", "stopAt": 0.5, "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
+    ),
+};

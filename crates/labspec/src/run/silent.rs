@@ -1,0 +1,177 @@
+//! What goes wrong without a word, in a teacher's words: what happens, why it matters, and what to write instead.
+
+use super::breakdown::{Breakdown, cause, joint_of, time, two_digits};
+use crate::advice::growth::{Growth, Source};
+use crate::advice::limits::Past;
+use crate::advice::sunk::Sunk;
+use crate::advice::through::Through;
+use crate::advice::unsolved::Unsolved;
+use crate::advice::watch::Noticed;
+use crate::rules::{self, Rule};
+use labspec_core::{Model, joint, solver};
+
+const GROWS: &str = "the steps make it, not physics: a student sees things leap or swing ever wider, without a word from MuJoCo";
+
+/// Friction beyond which the edges of a pyramid have next to nothing left along the normal.
+const SLIPPERY: f64 = 3.0;
+
+/// The first thing that was noticed besides growing energy, with its time; the others may follow from it.
+pub(super) fn first(model: &Model, noticed: &Noticed) -> Option<(f64, Breakdown)> {
+    let list = [
+        noticed.past.map(|x| (x.time, past(model, x))),
+        noticed.through.map(|x| (x.time, through(model, x))),
+        noticed.unsolved.map(|x| (x.time, unsolved(model, x))),
+        noticed.sunk.map(|x| (x.time, sunk(model, x))),
+    ];
+    list.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// Energy that nothing gave, or that a damper gives.
+pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
+    let numbers = format!(
+        "energy grows from t = {} s on: {} J that nothing put in, while the start held {} J; most of it moves {}",
+        time(g.time),
+        two_digits(g.gain),
+        two_digits(g.held),
+        joint_of(model, g.dof, &model.jnt_dofadr, joint::nv)
+    );
+    match g.source {
+        Source::Steps => told(rules::ENERGY_GROWS, numbers, GROWS, cause(model)),
+        Source::LongSteps(turn) => {
+            let what = format!("{numbers}, which turns by {} rad in a step", two_digits(turn));
+            let shorter = two_digits(0.05 * model.opt.timestep / turn.max(1.0));
+            let help = format!(
+                "write a timestep of {shorter} s: a step follows a turn when that is a small part of a radian, and here it is {} s long",
+                model.opt.timestep
+            );
+            told(rules::ENERGY_GROWS, what, GROWS, help)
+        }
+        Source::Damper(dof) => {
+            let of = joint_of(model, dof, &model.jnt_dofadr, joint::nv);
+            let damping = model.dof_damping.get(dof).copied().unwrap_or(0.0);
+            let what = format!(
+                "the damping of {of} is {}, which is an input without end: it has put in {} J by t = {} s, while the start held {} J",
+                two_digits(damping),
+                two_digits(g.gain),
+                time(g.time),
+                two_digits(g.held)
+            );
+            let why = "a damper below zero pushes what moves, the harder the faster: a student sees a swing that grows for ever, and no motor";
+            told(
+                rules::DAMPER_PUSHES,
+                what,
+                why,
+                "write a `damping` of 0 or more; to drive the joint, write an actuator".into(),
+            )
+        }
+    }
+}
+
+fn told(rule: &'static Rule, what: String, why: &'static str, help: String) -> Breakdown {
+    Breakdown { rule, what, why, help }
+}
+
+fn past(model: &Model, p: Past) -> Breakdown {
+    let of = name(model.names.joint.get(p.joint), "joint", p.joint);
+    let unit = if model.jnt_type.get(p.joint) == Some(&joint::SLIDE) { "m" } else { "rad" };
+    let [beyond, range] = [p.beyond, p.range].map(two_digits);
+    let (what, help) = match p.step {
+        Some(step) => (
+            format!(
+                "{of} is {beyond} {unit} beyond its limit at t = {} s: one step moves it by {} {unit}, and its range is {range} {unit}",
+                time(p.time),
+                two_digits(step)
+            ),
+            format!(
+                "write a timestep of {} s, or let the joint arrive more slowly: a limit pushes only once a step ends beyond it",
+                two_digits(0.1 * model.opt.timestep * p.range / step)
+            ),
+        ),
+        None => (
+            format!(
+                "{of} stays {beyond} {unit} beyond its limit from t = {} s on, where its range is {range} {unit}",
+                time(p.time)
+            ),
+            "write a stiffer limit (a smaller first number of `solreflimit`), a weaker motor or load, or a range that the joint can keep".into(),
+        ),
+    };
+    let why =
+        "a limit does not hold it: a student sees a joint where it cannot be, without a word from MuJoCo";
+    told(rules::PAST_LIMIT, what, why, help)
+}
+
+fn through(model: &Model, t: Through) -> Breakdown {
+    let [mover, wall] = t.geoms.map(|g| geom(model, g));
+    let what = format!(
+        "{mover} passes through {wall} at t = {} s: a step moves it by {} m, and what it passes is {} m thick",
+        time(t.time),
+        two_digits(t.moved),
+        two_digits(t.thickness)
+    );
+    let help = format!(
+        "write a timestep of {} s, or something thicker, or a lower speed: contacts are found only where bodies overlap at a step",
+        two_digits((0.2 * model.opt.timestep * t.thickness / t.moved).min(0.5 * model.opt.timestep))
+    );
+    let why = "no step meets the two in contact from the right side: a student sees a wall that holds nothing, without a word from MuJoCo";
+    told(rules::PASSES_THROUGH, what, why, help)
+}
+
+fn sunk(model: &Model, s: Sunk) -> Breakdown {
+    let [a, b] = s.geoms.map(|g| geom(model, g));
+    let what = format!(
+        "{a} and {b} are {} m deep in each other from t = {} s on, where the thinner one is {} m thick; the contact pushes with {} N",
+        two_digits(s.depth),
+        time(s.time),
+        two_digits(s.thickness),
+        two_digits(s.force)
+    );
+    let friction = |g: usize| model.geom_friction.get(3 * g).copied().unwrap_or(0.0);
+    let most = s.geoms.map(friction).into_iter().fold(0.0, f64::max);
+    let help = if model.opt.cone == 0 && most > SLIPPERY {
+        format!(
+            "write `cone=\"elliptic\"`, or a friction of 1 instead of {}: with so much of it the edges of a pyramidal cone do not push along the normal",
+            two_digits(most)
+        )
+    } else {
+        "write a stiffer contact (a smaller first number of `solref`, with a shorter timestep), a heavier body below or a lighter one above, or a weaker pull".into()
+    };
+    let why = "the contact is softer than the load needs: a student sees things sunk in each other that should rest on each other";
+    told(rules::SINKS_IN, what, why, help)
+}
+
+fn unsolved(model: &Model, u: Unsolved) -> Breakdown {
+    let iterations =
+        if u.iterations == 1 { "1 iteration".into() } else { format!("{} iterations", u.iterations) };
+    let what = format!(
+        "the solver stops after {iterations}: from t = {} s on {} % of what contacts, limits and ties have to do is missing, most of it at {}",
+        time(u.time),
+        two_digits(100.0 * u.part),
+        joint_of(model, u.dof, &model.jnt_dofadr, joint::nv)
+    );
+    let help = if model.opt.solver == solver::NEWTON {
+        "write `iterations=\"100\"`, as it is without a word in `option`, or milder ratios of masses".into()
+    } else {
+        "write `solver=\"Newton\"` and `iterations=\"100\"`, as they are without a word in `option`".into()
+    };
+    let why = "forces that should hold things are missing, step after step: a student sees stacks collapse, without a word from MuJoCo";
+    told(rules::SOLVER_STOPS_EARLY, what, why, help)
+}
+
+/// A geom by its name, or by its body's.
+fn geom(model: &Model, g: usize) -> String {
+    if let Some(own) = model.names.geom.get(g).filter(|n| !n.is_empty()) {
+        return format!("geom \"{own}\"");
+    }
+    let body = model.geom_bodyid.get(g).map_or(0, |&b| b as usize);
+    match model.names.body.get(body).filter(|n| body > 0 && !n.is_empty()) {
+        Some(of) => format!("geom {g} of body \"{of}\""),
+        None => format!("geom {g}"),
+    }
+}
+
+fn name(list: Option<&String>, what: &str, id: usize) -> String {
+    match list.filter(|n| !n.is_empty()) {
+        Some(own) => format!("{what} \"{own}\""),
+        None => format!("{what} {id}"),
+    }
+}
