@@ -38,6 +38,7 @@ mod sleep;
 mod stability;
 mod standing;
 mod structure;
+mod students;
 mod support;
 mod terminal;
 mod trust;
