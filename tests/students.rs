@@ -182,6 +182,145 @@ fn what_grows_exponentially_in_silence_is_found() {
     assert_eq!(kinds(&report(&lab(r#"gravity="0 0 0""#, cart, driven), &[]).1), []);
 }
 
+/// The largest value of a margin, and the bound beside it.
+fn margin(report: &Value, knob: &str, who: &str) -> (f64, Option<f64>) {
+    let all = report["margins"].as_array().unwrap();
+    let found = all.iter().find(|m| m["knob"] == knob && m["who"].as_str().unwrap().contains(who));
+    let found = found.unwrap_or_else(|| panic!("{all:#?}"));
+    (found["largest"].as_f64().unwrap(), found["bound"].as_f64())
+}
+
+fn near(a: f64, b: f64, part: f64) {
+    assert!((a - b).abs() <= part * b.abs(), "{a} is not {b}");
+}
+
+#[test]
+fn margins_meet_the_bounds_of_one_degree_of_freedom() {
+    let mut still = servo(8e5);
+    still["xml"] = json!(
+        still["xml"]
+            .as_str()
+            .unwrap()
+            .replace(" kv=\"1\"", "")
+            .replace("slide\"", "slide\" stiffness=\"50\"")
+    );
+    let (code, report) = report(&still, &["--margins"]);
+    assert_eq!(code, 0);
+    // 1 kg on 150 N/m: 2/ω. Then at 2 ms: 4/h² for all springs together.
+    for (knob, who, bound) in [
+        ("timestep", "lab", 2.0 / 150f64.sqrt()),
+        ("gain", "servo", 1e6 - 50.0),
+        ("stiffness", "rail", 1e6 - 100.0),
+    ] {
+        let (largest, theory) = margin(&report, knob, who);
+        near(largest, bound, 0.02);
+        if let Some(theory) = theory {
+            near(theory, bound, 0.02);
+        }
+    }
+    assert!(margin(&report, "timestep", "lab").1.is_some());
+}
+
+#[test]
+fn a_heavy_block_on_a_light_one_has_a_largest_ratio() {
+    let block = |name: &str, z: f64| {
+        format!(
+            r#"<body name="{name}" pos="0 0 {z}"><joint type="slide" axis="0 0 1"/><geom type="box" size=".1 .1 .1" mass="1"/></body>"#
+        )
+    };
+    let world = format!(r#"<geom type="plane" size="1 1 1"/>{}{}"#, block("low", 0.1), block("high", 0.3));
+    let (_, report) = report(&lab("", &world, json!({})), &["--margins"]);
+    let (heavy_above, _) = margin(&report, "massRatio", "\"high\" to \"low\"");
+    let (heavy_below, _) = margin(&report, "massRatio", "\"low\" to \"high\"");
+    assert!(heavy_above > 10.0 && heavy_above < 1e4, "{heavy_above}");
+    assert!(heavy_below > 10.0 * heavy_above, "{heavy_below}");
+}
+
+#[test]
+fn what_is_said_to_help_does() {
+    let (_, broken) = report(&servo(3e6), &[]);
+    let helps: Vec<&str> = broken["findings"][0]["remedies"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|r| r["change"].as_str().unwrap())
+        .collect();
+    // 2/ω at 3e6 N/m is 1.15 ms. `implicitfast` is its own integrator, and a contact there is none.
+    assert!(
+        helps.contains(&"a timestep of 0.001 s") && helps.contains(&"`integrator=\"discrete\"`"),
+        "{helps:?}"
+    );
+    let slider = helps.iter().find_map(|h| h.strip_prefix("\"kp\" that goes no farther than ")).unwrap();
+    let last: f64 = slider.parse().unwrap();
+    assert!(last < 1e6 && last > 9.5e5, "{last}");
+    let mended = |from: &str, to: &str| {
+        let mut lab = servo(3e6);
+        lab["xml"] = json!(lab["xml"].as_str().unwrap().replace(from, to));
+        report(&lab, &[]).0
+    };
+    assert_eq!(mended("integrator=\"implicitfast\"", "integrator=\"implicitfast\" timestep=\"0.001\""), 0);
+    assert_eq!(mended("implicitfast", "discrete"), 0);
+    assert_eq!(mended("implicitfast", "implicit"), 1);
+    assert_eq!(report(&servo(last), &[]).0, 0);
+}
+
+/// A cart of 1 kg that a program pushes with a force.
+fn pushed(force: &str) -> Value {
+    let cart = r#"<body name="cart"><joint name="rail" type="slide"/><geom size=".1" mass="1"/></body>"#;
+    let more = json!({
+        "actuators": r#"<motor joint="rail"/>"#, "stopAt": 10, "controller": format!("data.ctrl[0] = {force}"),
+        "readouts": [{"label": "x", "expr": "data.qpos[0]", "digits": 3}, {"label": "coarse", "expr": "data.qpos[0]", "digits": 0}],
+    });
+    lab(r#"gravity="0 0 0""#, cart, more)
+}
+
+#[test]
+fn the_exponent_and_the_horizon_are_those_of_a_linear_equation() {
+    // x¨ = 4 x has the solutions exp(± 2 t).
+    let (_, report) = report(&pushed("4 * data.qpos[0]"), &["--until", "10"]);
+    let exponent = &report["sensitivity"]["exponent"];
+    for key in ["mean", "low", "high"] {
+        near(exponent[key].as_f64().unwrap(), 2.0, 0.1);
+    }
+    // A start that is 1e-9 off is off by half of that times exp(2 t): half a unit of the third digit.
+    let horizons = &report["sensitivity"]["horizons"];
+    near(horizons[0]["until"].as_f64().unwrap(), 1e6f64.ln() / 2.0, 0.01);
+    assert_eq!(horizons[1], json!({"label": "coarse", "until": null}));
+    // x¨ = -0.75 x - 2 x˙: exp(-t / 2) lasts the longest.
+    let (_, damped) = self::report(&pushed("-0.75 * data.qpos[0] - 2 * data.qvel[0]"), &["--until", "10"]);
+    near(damped["sensitivity"]["exponent"]["mean"].as_f64().unwrap(), -0.5, 0.1);
+    assert_eq!(damped["sensitivity"]["horizons"][0]["until"], Value::Null);
+}
+
+#[test]
+fn a_map_shows_where_a_lab_is_stable() {
+    let mut both = servo(2e6);
+    let step = json!({"label": "h, in s", "set": "model.opt.timestep", "min": 0.001, "max": 0.003, "step": 0.0005, "value": 0.002});
+    both["controls"].as_array_mut().unwrap().push(step);
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("lab.json"), both.to_string()).unwrap();
+    let arguments = ["stability", "lab.json", "--map", "kp,h, in s", "--svg", "map.svg", "--format", "json"];
+    let done = run_in(folder.path(), &arguments);
+    let report: Value = serde_json::from_str(&done.stdout).unwrap_or_else(|_| panic!("{}", done.stderr));
+    let map = &report["map"];
+    let (across, up) = (map["values"][0].as_array().unwrap(), map["values"][1].as_array().unwrap());
+    assert_eq!((across.len(), up.len()), (21, 5));
+    for (row, h) in map["cells"].as_array().unwrap().iter().zip(up) {
+        for (cell, kp) in row.as_array().unwrap().iter().zip(across) {
+            let [h, kp] = [h, kp].map(|x| x.as_f64().unwrap());
+            let stable = h * kp.sqrt() / 2.0;
+            if (stable - 1.0).abs() > 0.02 {
+                assert_eq!(*cell == "fine", stable < 1.0, "{h} {kp} {cell}");
+            }
+        }
+    }
+    assert!(std::fs::read_to_string(folder.path().join("map.svg")).unwrap().starts_with("<svg"));
+    for (wrong, says) in [("kp,q", "there is no control"), ("kp", "write CONTROL1,CONTROL2")] {
+        let done = run_in(folder.path(), &["stability", "lab.json", "--map", wrong]);
+        assert!(done.code == 2 && done.stderr.contains(says), "{}", done.stderr);
+    }
+}
+
 #[test]
 fn what_cannot_be_tried_is_counted() {
     let many: Vec<Value> = (0..70)
@@ -211,4 +350,6 @@ fn findings_for_people() {
         format!("exit {}\n{}{}", done.code, done.stdout, done.stderr)
     };
     snapshot("stability", ["servo.json", "thrown.json"].map(told).join("\n"));
+    let done = run_in(folder.path(), &["stability", "servo.json", "--margins", "--map", "kp,target"]);
+    snapshot("stability-margins", done.stdout);
 }

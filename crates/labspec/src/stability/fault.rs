@@ -1,6 +1,7 @@
 //! What goes wrong in a run, with the numbers that show it.
 
 use super::handling::Handling;
+use super::remedy::Remedy;
 
 /// What goes wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -83,15 +84,22 @@ pub struct Found {
     pub worst: Option<(Handling, Fault)>,
     /// The lab says itself that it breaks.
     pub expected: bool,
+    /// What was tried and helps in the simplest setting.
+    pub remedies: Vec<Remedy>,
 }
 
 /// Adds what a run showed to what is known: one entry for each kind and each object.
 pub(super) fn add(list: &mut Vec<Found>, fault: Fault, handling: &Handling) {
     let same = |f: &&mut Found| f.fault.kind == fault.kind && f.fault.who == fault.who;
     match list.iter_mut().find(same) {
-        None => {
-            list.push(Found { fault, handling: handling.clone(), settings: 1, worst: None, expected: false })
-        }
+        None => list.push(Found {
+            fault,
+            handling: handling.clone(),
+            settings: 1,
+            worst: None,
+            expected: false,
+            remedies: Vec::new(),
+        }),
         Some(known) => {
             known.settings += 1;
             let size = known.worst.as_ref().map_or(known.fault.size, |(_, f)| f.size);

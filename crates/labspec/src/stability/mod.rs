@@ -6,12 +6,21 @@ mod case;
 mod covering;
 mod fault;
 mod handling;
+mod map;
+mod margins;
+mod remedy;
 mod rest;
+mod search;
+mod sensitivity;
 mod watch;
 mod wild;
 
 pub use fault::{Evidence, Fault, FaultKind, Found};
 pub use handling::{Action, Handling, Kind};
+pub use map::{Cell, Map};
+pub use margins::{Knob, Margin};
+pub use remedy::Remedy;
+pub use sensitivity::{Exponent, Horizon, Sensitivity};
 
 use crate::bind::Programs;
 use crate::interrupt;
@@ -20,17 +29,25 @@ use crate::spec::format::RUN_LENGTH;
 use crate::spec::{Expect, Lab};
 use case::Case;
 use labspec_core::Model;
+use remedy::Tries;
 
 /// How many times longer than anybody looks a run is.
 const LONGER: f64 = 10.0;
 /// Work for all runs of a lab, in units of about a nanosecond.
 const WORK: u64 = 30_000_000_000;
+/// Work for remedies, and how many findings they are tried for.
+const WORK_OF_REMEDIES: u64 = 10_000_000_000;
+const MOST_REMEDIED: usize = 6;
 
 /// What is tried.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Length of each run in s; ten times as long as a student looks, without it.
     pub until: Option<f64>,
+    /// Also how far everything may be raised before the lab breaks.
+    pub margins: bool,
+    /// Also the stable region over two controls, by label.
+    pub map: Option<[String; 2]>,
 }
 
 /// How many runs of a kind there are.
@@ -61,6 +78,12 @@ pub struct Report {
     pub left_out: Vec<String>,
     /// What goes wrong, the simplest setting first.
     pub found: Vec<Found>,
+    /// How far everything may be raised, where that was asked for.
+    pub margins: Vec<Margin>,
+    /// How much the lab depends on its start.
+    pub sensitivity: Sensitivity,
+    /// The stable region over two controls, where that was asked for.
+    pub map: Option<Map>,
     /// Work that all of it took.
     pub work: u64,
 }
@@ -96,6 +119,9 @@ pub fn probe(
         pairs_left_out,
         left_out: Vec::new(),
         found: Vec::new(),
+        margins: Vec::new(),
+        sensitivity: Sensitivity { length: window, apart: 0.0, exponent: None, horizons: Vec::new() },
+        map: None,
         work: 0,
     };
     if !case.jumps && bodies::pairs(model, watch::MOST_PAIRS).1 {
@@ -105,6 +131,7 @@ pub fn probe(
         ));
     }
     let mut left = WORK;
+    let mut own = f64::INFINITY;
     for (i, handling) in all.iter().enumerate() {
         tell(&format!("run {} of {}: {}", i + 1, all.len(), handling.kind.words()));
         let share = left / (all.len() - i) as u64;
@@ -117,6 +144,9 @@ pub fn probe(
         let outcome = case.run(handling, None, length, share);
         left = left.saturating_sub(outcome.spent);
         report.work += outcome.spent;
+        if handling.kind == Kind::AsItStands {
+            own = outcome.spent as f64 / outcome.covered.max(model.opt.timestep);
+        }
         if outcome.cut {
             tried.cut += 1;
             report.shortest = Some(report.shortest.unwrap_or(f64::INFINITY).min(outcome.covered));
@@ -140,7 +170,40 @@ pub fn probe(
         let breaks = |kind| matches!(kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
         report.found.iter_mut().for_each(|f| f.expected = breaks(f.fault.kind));
     }
+    remedies(&case, &mut report, own, tell);
+    let short = window.min(length);
+    if options.margins {
+        let (margins, more) = margins::margins(&case, short, tell, &mut report.work);
+        report.margins = margins;
+        report.left_out.extend(more);
+    }
+    tell("sensitivity");
+    report.sensitivity = sensitivity::sensitivity(&case, short, &mut report.work);
+    if let Some(labels) = &options.map {
+        report.map = Some(map::map(&case, labels, short, tell, &mut report.work)?);
+    }
     Ok(report)
+}
+
+/// Tries what may help against the findings, the simplest first.
+fn remedies(case: &Case<'_>, report: &mut Report, own: f64, tell: &mut dyn FnMut(&str)) {
+    let mut tries = Tries { case, length: report.length, own, left: WORK_OF_REMEDIES, work: 0 };
+    let many = report.found.len();
+    let mut untried = 0;
+    for (i, found) in report.found.iter_mut().enumerate() {
+        if matches!(found.fault.kind, FaultKind::Throws | FaultKind::Warns) {
+            continue;
+        }
+        tell(&format!("remedies for finding {} of {many}", i + 1));
+        match if i < MOST_REMEDIED { tries.remedies(found) } else { None } {
+            Some(list) => found.remedies = list,
+            None => untried += 1,
+        }
+    }
+    report.work += tries.work;
+    if untried > 0 {
+        report.left_out.push(format!("remedies for {untried} of the findings"));
+    }
 }
 
 /// Friction a hundred times as hard.
