@@ -39,6 +39,7 @@ mod sleep;
 mod stability;
 mod standing;
 mod structure;
+mod students;
 mod support;
 mod terminal;
 mod trust;

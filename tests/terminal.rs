@@ -71,6 +71,8 @@ fn nothing_of_a_lesson_reaches_the_terminal_raw() {
         &["plan", "lab.json"],
         &["plan", "lab.json", "--format", "json"],
         &["precision", "lab.json", "--until", "0.01"],
+        &["stability", "lab.json", "--until", "0.01"],
+        &["stability", "lab.json", "--until", "0.01", "--format", "json"],
         &["precision", "lab.json", "--until", "0.01", "--format", "json"],
         &["run", name],
         &["run", &second],

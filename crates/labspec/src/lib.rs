@@ -39,6 +39,7 @@ pub mod rules;
 pub mod run;
 pub mod source;
 pub mod spec;
+pub mod stability;
 pub mod verify;
 
 pub use checker::{Checker, Report};

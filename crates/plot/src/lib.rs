@@ -1,4 +1,4 @@
-//! Plots as SVG: lines over time, and cost against error.
+//! Plots as SVG: lines over time, cost against error, and maps of cells.
 //!
 //! Plain data in, one self-contained picture out. The pictures need no style sheet, font or script, hold no ids
 //! (several can stand in one page), and are the same bytes on every platform: numbers are rounded here, and no
@@ -6,12 +6,14 @@
 //!
 //! * [`line_chart`]: traces of a lab over time
 //! * [`work_precision`]: what accuracy costs, for several methods, both axes logarithmic
+//! * [`cells`]: what becomes of something over two settings
 //!
 //! Inside: `number` and `text` turn values into characters, `canvas` writes elements, `axis` chooses ranges and
 //! ticks, `curve` turns samples into few points, `frame`, `legend` and `labels` draw what is common.
 
 mod axis;
 mod canvas;
+mod cells;
 mod curve;
 mod frame;
 mod labels;
@@ -24,5 +26,6 @@ mod style;
 mod tests;
 mod text;
 
+pub use cells::{Cells, cells};
 pub use lines::{Chart, Series, line_chart};
 pub use precision::{Method, MethodPoint, WorkPrecision, work_precision};

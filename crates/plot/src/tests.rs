@@ -153,11 +153,33 @@ fn gallery() -> Vec<(&'static str, String)> {
         ("empty", line_chart(&Chart { width: 640.0, height: 180.0, ..Chart::default() })),
         ("precision", work_precision(&precision())),
         ("strips", work_precision(&strips())),
+        ("cells", cells(&region())),
         (
             "no_methods",
             work_precision(&WorkPrecision { width: 400.0, height: 200.0, ..WorkPrecision::default() }),
         ),
     ]
+}
+
+/// A triangle that is stable, what is beyond it, and a corner that was not run.
+fn region() -> Cells {
+    let kind = |i: usize, j: usize| match i + j {
+        0..=9 => Some(0),
+        10..=12 => Some(1),
+        13..=17 => Some(2),
+        _ => None,
+    };
+    Cells {
+        title: "Where the arm holds".into(),
+        xlabel: "kp".into(),
+        ylabel: "timestep h".into(),
+        columns: (0..11).map(|i| format!("{}", 100 * i)).collect(),
+        rows: (0..9).map(|j| format!("0.00{j}")).collect(),
+        kinds: ["fine", "energy grows", "diverges"].map(String::from).to_vec(),
+        cells: (0..9).map(|j| (0..11).map(|i| kind(i, j)).collect()).collect(),
+        width: 560.0,
+        height: 320.0,
+    }
 }
 
 #[test]
@@ -274,6 +296,21 @@ proptest! {
         let (width, height) = size;
         let picture =
             line_chart(&Chart { title, xlabel, ylabel, width, height, ymin, ymax, xmin, xmax, ref_lines, series });
+        prop_assert_eq!(check(&picture), Ok(()));
+    }
+
+    #[test]
+    fn any_map_is_a_sound_picture(
+        words in (any::<String>(), any::<String>(), any::<String>()),
+        size in (number(), number()),
+        columns in prop::collection::vec(any::<String>(), 0..30),
+        rows in prop::collection::vec(any::<String>(), 0..30),
+        kinds in prop::collection::vec(any::<String>(), 0..12),
+        grid in prop::collection::vec(prop::collection::vec(prop::option::of(0..14usize), 0..30), 0..30),
+    ) {
+        let (title, xlabel, ylabel) = words;
+        let (width, height) = size;
+        let picture = cells(&Cells { title, xlabel, ylabel, columns, rows, kinds, cells: grid, width, height });
         prop_assert_eq!(check(&picture), Ok(()));
     }
 

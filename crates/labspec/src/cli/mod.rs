@@ -15,6 +15,7 @@ mod precision;
 mod record;
 mod run;
 mod schema;
+mod stability;
 mod stdio;
 mod target;
 mod watch;
@@ -49,6 +50,8 @@ enum Command {
     Run(run::Arguments),
     /// Error against run time of integrators and timesteps, for one lab
     Precision(precision::Arguments),
+    /// What breaks when a student does whatever can be done to one lab
+    Stability(stability::Arguments),
     /// Which stages of the engine a lab or model needs, and why
     Plan(plan::Arguments),
     /// What a finding's code means, with an example; without a code, the list of all
@@ -128,6 +131,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Fmt(a) => fmt::fmt(a),
         Command::Run(a) => run::run(a),
         Command::Precision(a) => precision::precision(a),
+        Command::Stability(a) => stability::stability(a),
         Command::Plan(a) => plan::plan(a),
         Command::Explain(a) => explain::explain(a),
         Command::Schema(a) => schema::schema(a),
@@ -150,8 +154,11 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 impl Command {
     /// Whether Ctrl-C is asked for between pieces of work. All other commands it ends at once.
     fn prints_what_is_finished(&self) -> bool {
-        use Command::{Bench, Check, Fmt, Precision, Record, Run, Verify};
-        matches!(self, Check(_) | Verify(_) | Fmt(_) | Run(_) | Precision(_) | Record(_) | Bench(_))
+        use Command::{Bench, Check, Fmt, Precision, Record, Run, Stability, Verify};
+        matches!(
+            self,
+            Check(_) | Verify(_) | Fmt(_) | Run(_) | Precision(_) | Stability(_) | Record(_) | Bench(_)
+        )
     }
 }
 

@@ -1,0 +1,413 @@
+//! `labspec stability`.
+
+use super::output::{Wanted, look_ahead};
+use super::stdio::print_json;
+use super::{Failure, ModelOptions, Outcome, complain, interrupted, print, target, write_file};
+use crate::bind::Programs;
+use crate::report::{key, printable, set_number};
+use crate::run::two_digits;
+use crate::spec::Lab;
+use crate::stability::{
+    Cell, Evidence, Fault, FaultKind, Found, Handling, Map, Margin, Options, Report, Sensitivity, probe,
+};
+use clap::ValueEnum;
+use labspec_plot::{Cells, cells};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::io::IsTerminal;
+use std::path::PathBuf;
+
+/// Arguments of `stability`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    /// LAB.json, LESSON.md#2, LESSON.md#quiz-id.1, or MODEL.xml
+    lab: String,
+    #[command(flatten)]
+    models: ModelOptions,
+    /// Length of each run in seconds [default: ten times the lab's stopAt or the window of its plots]
+    #[arg(long, value_name = "S")]
+    until: Option<f64>,
+    /// Find the largest timestep, gains, stiffnesses and mass ratios that the lab stands
+    #[arg(long)]
+    margins: bool,
+    /// Run the lab over a grid of two controls
+    #[arg(long, value_name = "CONTROL1,CONTROL2")]
+    map: Option<String>,
+    /// Draw the map
+    #[arg(long, value_name = "FILE", requires = "map")]
+    svg: Option<PathBuf>,
+    /// How to print
+    #[arg(long, value_enum, default_value = "human")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Human,
+    Json,
+}
+
+pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
+    let target = target::open(&a.lab, &a.models)?;
+    let files: Vec<Wanted> = a.svg.iter().map(|p| Wanted { option: "--svg", path: p.clone() }).collect();
+    look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &files)?;
+    let map = a.map.as_ref().map(|text| two_labels(&target.lab, text)).transpose()?;
+    let options = Options { until: a.until, margins: a.margins, map };
+    let progress = a.format == Format::Human && std::io::stderr().is_terminal();
+    let mut tell = |text: &str| {
+        if progress {
+            complain(&format!("\r\x1b[K{text}"));
+        }
+    };
+    let report = probe(&target.lab, &target.model, &target.programs, &options, &mut tell).map_err(|e| e.0);
+    if progress {
+        complain("\r\x1b[K");
+    }
+    let report = report?;
+    if let (Some(file), Some(map)) = (&a.svg, &report.map) {
+        write_file(file, &chart(map, target.lab.title()))?;
+    }
+    match a.format {
+        Format::Human => print(&human(&report, &target.programs))?,
+        Format::Json => print_json(&value(&report, &target.programs), true)?,
+    }
+    Ok(if report.fine() { Outcome::Clean } else { Outcome::Findings })
+}
+
+/// `CONTROL1,CONTROL2`. Both labels may hold commas: it is split where the label of a control ends, else at the last one.
+fn two_labels(lab: &Lab, text: &str) -> Result<[String; 2], Failure> {
+    let splits = || text.match_indices(',').map(|(i, _)| [text[..i].trim(), text[i + 1..].trim()]);
+    let known = splits().find(|two| two.iter().all(|label| lab.control(label).is_some()));
+    let two = known.or_else(|| splits().next_back());
+    two.map(|two| two.map(String::from)).ok_or_else(|| format!("--map {text}: write CONTROL1,CONTROL2"))
+}
+
+fn human(report: &Report, programs: &Programs) -> String {
+    let mut text = String::new();
+    let runs: usize = report.tried.iter().map(|t| t.made + t.cut).sum();
+    let kinds: Vec<String> =
+        report.tried.iter().map(|t| format!("{} {}", t.made + t.cut, t.kind.words())).collect();
+    let _ = writeln!(
+        text,
+        "{runs} run{} of {} s: {}.",
+        if runs == 1 { "" } else { "s" },
+        crate::verify::significant(report.length),
+        kinds.join(", ")
+    );
+    for found in &report.found {
+        finding(found, programs, &mut text);
+    }
+    for line in left_out(report) {
+        let _ = writeln!(text, "Not tried: {line}.");
+    }
+    if report.found.is_empty() {
+        text.push_str("Nothing went wrong.\n");
+    }
+    margins(&report.margins, &mut text);
+    sensitivity(&report.sensitivity, &mut text);
+    if let Some(map) = &report.map {
+        letters(map, &mut text);
+    }
+    if interrupted() {
+        text.push_str("stopped by Ctrl-C: what stands above are the runs that were finished\n");
+    }
+    text
+}
+
+fn finding(found: &Found, programs: &Programs, text: &mut String) {
+    let Found { fault, handling, settings, worst, expected, remedies } = found;
+    let expected = if *expected { " (as the lab says it does)" } else { "" };
+    let _ = writeln!(
+        text,
+        "\n{}{expected}: {}, at t = {} s, {}",
+        fault.kind.words(),
+        printable(&fault.who),
+        crate::run::time(fault.time),
+        printable(&handling.words(programs))
+    );
+    let _ = writeln!(text, "  {}", measured(fault));
+    let _ = writeln!(text, "  cause: {}", printable(&fault.cause));
+    if *settings > 1 {
+        let _ = write!(text, "  also in {} other settings", settings - 1);
+        let _ = match worst {
+            Some((handling, fault)) => {
+                writeln!(text, "; worst {}: {}", printable(&handling.words(programs)), measured(fault))
+            }
+            None => writeln!(text),
+        };
+    }
+    for remedy in remedies {
+        let cost = match remedy.work {
+            x if (0.95..=1.05).contains(&x) => "the same work".to_string(),
+            x => format!("{} times the work", two_digits(x)),
+        };
+        let _ = writeln!(text, "  helps: {} ({cost})", printable(&remedy.change));
+    }
+}
+
+/// How far everything may be raised.
+fn margins(list: &[Margin], text: &mut String) {
+    if list.is_empty() {
+        return;
+    }
+    let rows: Vec<[String; 6]> =
+        std::iter::once(["", "now", "largest", "times", "theory", "beyond"].map(String::from))
+            .chain(list.iter().map(margin))
+            .collect();
+    let widths: Vec<usize> =
+        (0..6).map(|k| rows.iter().map(|r| r[k].chars().count()).max().unwrap_or(0)).collect();
+    text.push_str("\nHow far the lab is from breaking, as it stands:\n");
+    for row in &rows {
+        let cells = row.iter().zip(&widths).enumerate().map(|(k, (cell, w))| match k {
+            0 => format!("{cell:<w$}"),
+            5 => cell.clone(),
+            _ => format!("{cell:>w$}"),
+        });
+        let _ = writeln!(text, "  {}", cells.collect::<Vec<_>>().join("  ").trim_end());
+    }
+}
+
+fn margin(m: &Margin) -> [String; 6] {
+    let unit = if m.unit.is_empty() { String::new() } else { format!(" {}", m.unit) };
+    let value = |x: f64| format!("{}{unit}", crate::run::shown(x, 3));
+    let largest = match (m.largest, m.breaks) {
+        (Some(x), Some(_)) => value(x),
+        (Some(x), None) => format!("> {}", value(x)),
+        (None, _) => "none".into(),
+    };
+    let who = if m.knob.words() == "timestep" { String::new() } else { format!(" of {}", printable(&m.who)) };
+    let how =
+        m.how.as_ref().map_or(String::new(), |(kind, who)| format!("{}: {}", kind.words(), printable(who)));
+    [
+        format!("{}{who}", m.knob.words()),
+        value(m.now),
+        largest,
+        m.largest.map_or(String::new(), |x| two_digits(x / m.now)),
+        m.bound.map_or("–".into(), value),
+        how,
+    ]
+}
+
+/// How much the lab depends on its start.
+fn sensitivity(s: &Sensitivity, text: &mut String) {
+    if let Some(e) = &s.exponent {
+        let _ = writeln!(
+            text,
+            "\nLargest Lyapunov exponent over {} s: {} /s ({} to {}); a small difference at the start becomes {} times as large.",
+            crate::verify::significant(s.length),
+            two_digits(e.mean),
+            two_digits(e.low),
+            two_digits(e.high),
+            two_digits((e.mean * s.length).exp())
+        );
+    }
+    for h in &s.horizons {
+        if let Some(t) = h.until {
+            let _ = writeln!(
+                text,
+                "For a start that is {:e} off, \"{}\" shows other digits from {} s on.",
+                s.apart,
+                printable(&h.label),
+                crate::run::time(t)
+            );
+        }
+    }
+}
+
+/// The map in letters: a row for each value of the second control, the largest first.
+fn letters(map: &Map, text: &mut String) {
+    let [x, y] = map.labels.each_ref().map(|l| printable(l).into_owned());
+    let _ = writeln!(text, "\n\"{y}\" upwards, \"{x}\" to the right:");
+    let width = map.values[1].iter().map(|v| v.to_string().chars().count()).max().unwrap_or(0);
+    let kinds = kinds(map);
+    for (row, value) in map.cells.iter().zip(&map.values[1]).rev() {
+        let letter = |cell: &Cell| match index(&kinds, *cell) {
+            Some(0) => ".".into(),
+            Some(k) => k.to_string(),
+            None => "?".into(),
+        };
+        let cells: String = row.iter().map(letter).collect();
+        let _ = writeln!(text, "  {:>width$}  {cells}", printable(&value.to_string()));
+    }
+    if let (Some(first), Some(last)) = (map.values[0].first(), map.values[0].last()) {
+        let _ = writeln!(
+            text,
+            "  {:>width$}  {} … {}",
+            "",
+            printable(&first.to_string()),
+            printable(&last.to_string())
+        );
+    }
+    let legend = kinds.iter().enumerate().map(|(k, kind)| format!("{} {}", k + 1, kind.words()));
+    let legend: Vec<String> = std::iter::once(". fine".into()).chain(legend).collect();
+    let _ = writeln!(text, "  {}", legend.join(", "));
+}
+
+/// What goes wrong anywhere in a map, the worst first.
+fn kinds(map: &Map) -> Vec<FaultKind> {
+    let broken = |c: &Cell| match c {
+        Cell::Broken(kind) => Some(*kind),
+        _ => None,
+    };
+    let mut list: Vec<FaultKind> = map.cells.iter().flatten().filter_map(broken).collect();
+    list.sort_unstable();
+    list.dedup();
+    list
+}
+
+/// The place of a cell's kind behind what is fine.
+fn index(kinds: &[FaultKind], cell: Cell) -> Option<usize> {
+    match cell {
+        Cell::Fine => Some(0),
+        Cell::Broken(kind) => kinds.iter().position(|k| *k == kind).map(|k| k + 1),
+        Cell::Unknown => None,
+    }
+}
+
+fn chart(map: &Map, title: &str) -> String {
+    let kinds = kinds(map);
+    let names = std::iter::once("fine").chain(kinds.iter().map(|k| k.words()));
+    let values = |k: usize| map.values[k].iter().map(ToString::to_string).collect();
+    cells(&Cells {
+        title: title.to_string(),
+        xlabel: map.labels[0].clone(),
+        ylabel: map.labels[1].clone(),
+        columns: values(0),
+        rows: values(1),
+        kinds: names.map(String::from).collect(),
+        cells: map.cells.iter().map(|row| row.iter().map(|c| index(&kinds, *c)).collect()).collect(),
+        width: 640.0,
+        height: 420.0,
+    })
+}
+
+/// The evidence in a line.
+fn measured(fault: &Fault) -> String {
+    let one = |e: &Evidence| {
+        let unit = if e.unit.is_empty() { String::new() } else { format!(" {}", e.unit) };
+        format!("{} {}{unit}", e.name, two_digits(e.value))
+    };
+    fault.evidence.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// Everything that was not tried, or not to its end.
+fn left_out(report: &Report) -> Vec<String> {
+    let mut list = Vec::new();
+    for t in &report.tried {
+        if t.left_out > 0 {
+            list.push(format!("{} of {}", t.left_out, t.kind.words()));
+        }
+    }
+    let cut: usize = report.tried.iter().map(|t| t.cut).sum();
+    if let Some(shortest) = report.shortest {
+        list.push(format!(
+            "the end of {cut} run{}, which took more work than they may; the shortest covers {} s",
+            if cut == 1 { "" } else { "s" },
+            two_digits(shortest)
+        ));
+    }
+    if report.pairs_left_out > 0 {
+        list.push(format!("{} pairs of settings, as there are too many", report.pairs_left_out));
+    }
+    list.extend(report.left_out.iter().cloned());
+    list
+}
+
+fn value(report: &Report, programs: &Programs) -> Value {
+    let tried = |t: &crate::stability::Tried| json!({"kind": key(t.kind.words()), "made": t.made, "cut": t.cut, "leftOut": t.left_out});
+    let found: Vec<Value> = report.found.iter().map(|f| found_value(f, programs)).collect();
+    crate::report::report(
+        "stability",
+        json!({
+            "length": report.length,
+            "tried": report.tried.iter().map(tried).collect::<Vec<_>>(),
+            "shortest": report.shortest,
+            "pairsLeftOut": report.pairs_left_out,
+            "leftOut": left_out(report),
+            "findings": found,
+            "margins": report.margins.iter().map(margin_value).collect::<Vec<_>>(),
+            "sensitivity": sensitivity_value(&report.sensitivity),
+            "map": report.map.as_ref().map(map_value),
+            "work": report.work,
+            "fine": report.fine(),
+        }),
+    )
+}
+
+fn found_value(found: &Found, programs: &Programs) -> Value {
+    let mut value = fault_value(&found.fault);
+    value["setting"] = handling_value(&found.handling, programs);
+    value["settings"] = json!(found.settings);
+    value["expected"] = json!(found.expected);
+    let remedy = |r: &crate::stability::Remedy| {
+        let mut value = json!({"change": r.change});
+        set_number(&mut value, "work", r.work);
+        value
+    };
+    value["remedies"] = found.remedies.iter().map(remedy).collect();
+    value["worst"] = found.worst.as_ref().map_or(Value::Null, |(handling, fault)| {
+        let mut value = fault_value(fault);
+        value["setting"] = handling_value(handling, programs);
+        value
+    });
+    value
+}
+
+fn margin_value(m: &Margin) -> Value {
+    json!({
+        "knob": key(m.knob.words()), "who": m.who, "unit": m.unit, "now": m.now, "largest": m.largest,
+        "breaks": m.breaks, "how": m.how.as_ref().map(|(kind, who)| json!({"kind": key(kind.words()), "who": who})),
+        "bound": m.bound, "runs": m.runs,
+    })
+}
+
+fn sensitivity_value(s: &Sensitivity) -> Value {
+    let exponent = s.exponent.map(|e| json!({"mean": e.mean, "low": e.low, "high": e.high}));
+    let horizons: Vec<Value> =
+        s.horizons.iter().map(|h| json!({"label": h.label, "until": h.until})).collect();
+    json!({"length": s.length, "apart": s.apart, "exponent": exponent, "horizons": horizons})
+}
+
+fn map_value(map: &Map) -> Value {
+    let cell = |c: &Cell| match c {
+        Cell::Fine => "fine".to_string(),
+        Cell::Broken(kind) => key(kind.words()),
+        Cell::Unknown => "unknown".to_string(),
+    };
+    let rows: Vec<Vec<String>> = map.cells.iter().map(|row| row.iter().map(cell).collect()).collect();
+    let values: Vec<Vec<Value>> =
+        map.values.iter().map(|list| list.iter().map(control_value).collect()).collect();
+    json!({"controls": map.labels, "values": values, "cells": rows})
+}
+
+/// The value of a control.
+fn control_value(value: &labspec_expr::Value) -> Value {
+    match value {
+        labspec_expr::Value::Number(x) => json!(x),
+        labspec_expr::Value::Boolean(b) => json!(b),
+        other => json!(other.to_string()),
+    }
+}
+
+fn fault_value(fault: &Fault) -> Value {
+    let evidence = |e: &Evidence| {
+        let mut value = json!({"name": e.name});
+        set_number(&mut value, "value", e.value);
+        value["unit"] = json!(e.unit);
+        value
+    };
+    json!({
+        "kind": key(fault.kind.words()), "time": fault.time, "who": fault.who, "cause": fault.cause,
+        "evidence": fault.evidence.iter().map(evidence).collect::<Vec<_>>(),
+    })
+}
+
+/// What a student does: a list of changes, each with its time.
+fn handling_value(handling: &Handling, programs: &Programs) -> Value {
+    let label = |i: usize| programs.controls.get(i).map_or("", |(label, _)| label.as_str());
+    let one = |a: &crate::stability::Action| {
+        let value = a.value.as_ref().map_or(Value::Null, control_value);
+        json!({"control": label(a.control), "time": a.time, "value": value})
+    };
+    handling.actions.iter().map(one).collect()
+}

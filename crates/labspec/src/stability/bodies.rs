@@ -1,0 +1,120 @@
+//! What of a scene can meet: which geoms, how thick they are, and what they are called.
+
+use labspec_core::math::{Vec3, mat_t_mul_vec, quat_to_mat, rows, sub};
+use labspec_core::{Model, can_collide, geom};
+
+/// The thinnest extent of a geom, m; without end for planes and height fields.
+pub(super) fn thickness(m: &Model, g: usize) -> f64 {
+    match m.geom_type.get(g) {
+        Some(&(geom::PLANE | geom::HFIELD)) | None => f64::INFINITY,
+        _ => 2.0 * halves(m, g).into_iter().fold(f64::INFINITY, f64::min),
+    }
+}
+
+/// Half the extents of a geom along its own axes, m.
+pub(super) fn halves(m: &Model, g: usize) -> Vec3 {
+    let size = rows::<3>(&m.geom_size).get(g).copied().unwrap_or_default();
+    match m.geom_type.get(g) {
+        // Sliders write sizes, which the box around a geom may not follow.
+        Some(&geom::SPHERE) => [size[0]; 3],
+        Some(&geom::CAPSULE) => [size[0], size[0], size[0] + size[1]],
+        Some(&geom::CYLINDER) => [size[0], size[0], size[1]],
+        Some(&(geom::ELLIPSOID | geom::BOX)) => size,
+        _ => rows::<6>(&m.geom_aabb).get(g).map_or([0.0; 3], |b| [b[3], b[4], b[5]]),
+    }
+}
+
+/// The thinnest extent of a body, m: of a box along its axes around all its geoms that touch others. Without end where one is.
+pub(super) fn body_thickness(m: &Model, body: usize) -> f64 {
+    let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
+    let bits = |list: &[i32], g: usize| list.get(g).copied().unwrap_or(0);
+    for g in (0..m.ngeom).filter(|&g| body_of(m, g) == body) {
+        let paired = m.pair_geom1.iter().chain(&m.pair_geom2).any(|&x| x == g as i32);
+        if bits(&m.geom_contype, g) == 0 && bits(&m.geom_conaffinity, g) == 0 && !paired {
+            continue;
+        }
+        if thickness(m, g).is_infinite() {
+            return f64::INFINITY;
+        }
+        let axes = quat_to_mat(rows::<4>(&m.geom_quat).get(g).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]));
+        let centre = rows::<3>(&m.geom_pos).get(g).copied().unwrap_or_default();
+        let half = halves(m, g);
+        for k in 0..3 {
+            // A ball is as wide along any axis.
+            let reach = match m.geom_type.get(g) {
+                Some(&geom::SPHERE) => half[0],
+                _ => (0..3).map(|i| axes[3 * k + i].abs() * half[i]).sum(),
+            };
+            ends[k] = [ends[k][0].min(centre[k] - reach), ends[k][1].max(centre[k] + reach)];
+        }
+    }
+    ends.iter().map(|[low, high]| high - low).filter(|x| *x >= 0.0).fold(f64::INFINITY, f64::min)
+}
+
+/// The name of a body; its number where it has none.
+pub(super) fn body_name(m: &Model, body: usize) -> String {
+    match m.names.body.get(body) {
+        _ if body == 0 => "the world".into(),
+        Some(name) if !name.is_empty() => format!("\"{name}\""),
+        _ => format!("body {body}"),
+    }
+}
+
+/// The name of a geom, else of its body.
+pub(super) fn geom_name(m: &Model, g: usize) -> String {
+    match m.names.geom.get(g) {
+        Some(name) if !name.is_empty() => format!("\"{name}\""),
+        _ => body_name(m, body_of(m, g)),
+    }
+}
+
+/// The body of a geom.
+pub(super) fn body_of(m: &Model, g: usize) -> usize {
+    m.geom_bodyid.get(g).map_or(0, |&b| b as usize)
+}
+
+/// Pairs of geoms of which the first may be stopped by the second, which has an end on every side; at most `most`, and whether there
+/// are more.
+pub(super) fn pairs(m: &Model, most: usize) -> (Vec<[usize; 2]>, bool) {
+    let mut list = Vec::new();
+    let moves = |g: &usize| m.body_treeid.get(body_of(m, *g)).is_some_and(|&t| t >= 0);
+    let (first, last): (Vec<usize>, Vec<usize>) = (0..m.ngeom).partition(moves);
+    for g in first.into_iter().chain(last) {
+        for p in 0..m.ngeom {
+            if g != p && thickness(m, p).is_finite() && thickness(m, g).is_finite() && may_meet(m, g, p) {
+                if list.len() == most {
+                    return (list, true);
+                }
+                list.push([g, p]);
+            }
+        }
+    }
+    (list, false)
+}
+
+/// Whether the engine ever looks for contacts of two geoms: their bodies move against each other, are not parent and child, and
+/// neither their bits nor an exclusion keep them apart.
+fn may_meet(m: &Model, g: usize, p: usize) -> bool {
+    let weld = |g: usize| m.body_weldid.get(body_of(m, g)).map_or(0, |&w| w as usize);
+    let above = |w: usize| {
+        let parent = m.body_parentid.get(w).map_or(0, |&b| b as usize);
+        m.body_weldid.get(parent).map_or(0, |&w| w as usize)
+    };
+    let [a, b] = [weld(g), weld(p)];
+    let moves = |w: usize| {
+        m.body_treeid.get(w).is_some_and(|&t| t >= 0) || m.body_mocapid.get(w).is_some_and(|&i| i >= 0)
+    };
+    let bodies = [body_of(m, g), body_of(m, p)].map(|b| b as i32);
+    let excluded = m.exclude_bodies.iter().any(|two| *two == bodies || [two[1], two[0]] == bodies);
+    let kin = a != 0 && b != 0 && (above(a) == b || above(b) == a);
+    let both = [g as i32, p as i32];
+    let paired = m.pair_geom1.iter().zip(&m.pair_geom2).any(|(&x, &y)| [x, y] == both || [y, x] == both);
+    a != b && (moves(a) || moves(b)) && (paired || !excluded && !kin && can_collide(m, g, p).unwrap_or(false))
+}
+
+/// The centre of a geom in the axes of another, from its centre, m.
+pub(super) fn seen_from(xpos: &[f64], xmat: &[f64], g: usize, p: usize) -> Option<Vec3> {
+    let at = |g: usize| rows::<3>(xpos).get(g).copied();
+    let axes = rows::<9>(xmat).get(p)?;
+    Some(mat_t_mul_vec(axes, sub(at(g)?, at(p)?)))
+}

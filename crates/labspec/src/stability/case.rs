@@ -1,0 +1,275 @@
+//! One run of a lab under the hands of a student, and what goes wrong in it.
+
+use super::fault::{Evidence, Fault, FaultKind};
+use super::handling::Handling;
+use super::watch::Watch;
+use crate::advice::stability;
+use crate::bind::{Bound, Programs};
+use crate::run::{self, Budget, End, Play, Session};
+use crate::spec::Lab;
+use labspec_core::reflect::{FieldId, Object, field};
+use labspec_core::{Demand, Model, Warning, WarningStat, joint};
+use std::ops::ControlFlow;
+
+/// What all runs share.
+pub(super) struct Case<'a> {
+    pub(super) lab: &'a Lab,
+    pub(super) model: &'a Model,
+    pub(super) programs: &'a Programs,
+    pub(super) demand: Demand,
+    /// A program runs before every step: it may push whatever it likes.
+    pub(super) controlled: bool,
+    /// It may also write where bodies are.
+    pub(super) jumps: bool,
+    /// What is shown stores something when it is computed, so that it belongs to the run.
+    shows: bool,
+}
+
+/// What a run came to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Outcome {
+    pub(super) faults: Vec<Fault>,
+    /// How much of the run was made, s.
+    pub(super) covered: f64,
+    /// Work.
+    pub(super) spent: u64,
+    /// How fast each body moved on at the end, by name, m/s.
+    pub(super) speeds: Vec<(String, f64)>,
+    /// Geoms that touched.
+    pub(super) touching: Vec<[usize; 2]>,
+    /// It ended before its time as the work was more than it may do.
+    pub(super) cut: bool,
+}
+
+/// A change of the model that a run is made with, after everything that is done at its start.
+pub(super) type Change<'c> = &'c dyn Fn(&mut Session<'_>);
+
+impl<'a> Case<'a> {
+    pub(super) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> Case<'a> {
+        let mut demand = programs.demand;
+        for name in ["geom_xpos", "geom_xmat", "xpos"] {
+            field(Object::Data, name).into_iter().for_each(|f| demand.reads.insert(f));
+        }
+        let probes = || programs.probes.iter().filter_map(|p| p.bound.as_ref());
+        let stores = |b: &Bound| {
+            let e = b.program.effects();
+            !e.ctx_writes.is_empty()
+                || !e.writes.is_empty()
+                || e.writes_everything
+                || e.any_ctx
+                || e.calls_values
+        };
+        let places = field(Object::Data, "qpos");
+        let jumps = |b: &Bound| {
+            let e = b.program.effects();
+            e.writes_everything
+                || e.calls_values
+                || e.writes.iter().any(|w| FieldId::new(w.field.0 as usize) == places)
+        };
+        Case {
+            lab,
+            model,
+            programs,
+            demand,
+            controlled: programs.controller.is_some(),
+            jumps: probes().chain(&programs.controller).any(jumps),
+            shows: probes().any(stores),
+        }
+    }
+
+    /// The lab with everything done that comes before the first step.
+    pub(super) fn start(&self, handling: &Handling, budget: u64) -> Session<'a> {
+        let key = self.lab.keyframe();
+        let budget = Budget { left: budget };
+        let mut session = Session::start_within(self.programs, self.model, key, &self.demand, budget);
+        for action in handling.actions.iter().filter(|a| a.time <= 0.0) {
+            match &action.value {
+                Some(value) => session.set_control(action.control, value.clone()),
+                None => session.press(action.control),
+            }
+        }
+        session
+    }
+
+    /// Number of steps of a run that lasts so long.
+    pub(super) fn steps(&self, timestep: f64, length: f64) -> usize {
+        let most = (run::MAX_STEPS - 1) as f64;
+        let count = (length / timestep).round();
+        if count.is_finite() && timestep > 0.0 { count.clamp(0.0, most) as usize } else { 0 }
+    }
+
+    /// Makes a run of so many seconds.
+    pub(super) fn run(
+        &self,
+        handling: &Handling,
+        change: Option<Change<'_>>,
+        length: f64,
+        budget: u64,
+    ) -> Outcome {
+        let mut session = self.start(handling, budget);
+        if let Some(change) = change {
+            change(&mut session);
+            session.refresh();
+        }
+        let timestep = session.world.model.opt.timestep;
+        let steps = self.steps(timestep, length);
+        let mut pending = handling.actions.iter().filter(|a| a.time > 0.0).peekable();
+        let mut watch = Watch::new(&session.world.model, self.jumps);
+        let played = Play { steps, every: 1, presses: &[], watched: true };
+        let made = run::play(&mut session, &played, |session, made| {
+            let now = session.world.data.time();
+            let mut disturbed = made == 0;
+            while let Some(action) = pending.next_if(|a| now >= a.time - 1e-12) {
+                match &action.value {
+                    Some(value) => session.set_control(action.control, value.clone()),
+                    None => session.press(action.control),
+                }
+                disturbed = true;
+            }
+            if self.shows {
+                session.sample();
+            }
+            if disturbed {
+                watch.disturb(session.world.data.fields());
+            } else {
+                watch.look(&session.world.model, session.world.data.fields());
+            }
+            let over = DIVERGED.iter().any(|&w| warned(session, w).is_some());
+            if over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let mut faults = told(&session);
+        // What blew up is told; all else that was seen follows from it.
+        let broke = |f: &Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows);
+        let when = faults.iter().filter(|f| broke(f)).map(|f| f.time).fold(f64::INFINITY, f64::min);
+        let speeds = watch.rest.speeds(&session.world.model);
+        let touching = watch.touching();
+        let seen = watch.faults(&session.world.model);
+        let own =
+            seen.into_iter().filter(|f| f.time < when && !(f.kind == FaultKind::Silent && when.is_finite()));
+        faults.extend(own.filter(|f| f.kind != FaultKind::Drifts || !self.controlled));
+        Outcome {
+            faults,
+            covered: if made == steps { length } else { made as f64 * timestep },
+            spent: session.spent(),
+            speeds,
+            touching,
+            cut: matches!(session.ended(), Some(End::Budget { .. } | End::Interrupted)),
+        }
+    }
+}
+
+/// Numbers that are none.
+const DIVERGED: [Warning; 3] = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
+
+fn warned(session: &Session<'_>, warning: Warning) -> Option<WarningStat> {
+    session.warnings.get(warning as usize).copied().filter(|stat| stat.number > 0)
+}
+
+/// What the engine warned of, energy from nothing, and programs that threw.
+fn told(session: &Session<'_>) -> Vec<Fault> {
+    let m = &session.world.model;
+    let mut list = Vec::new();
+    let growth = session.growth();
+    let first = DIVERGED.into_iter().filter_map(|w| Some((w, warned(session, w)?)));
+    let first = first.min_by(|a, b| a.1.first_time.total_cmp(&b.1.first_time));
+    let step = Evidence { name: "timestep", value: m.opt.timestep, unit: "s" };
+    if let Some(g) = growth.filter(|g| first.is_none_or(|(_, stat)| g.time < stat.first_time)) {
+        let broke =
+            first.map(|(_, stat)| Evidence { name: "no number at", value: stat.first_time, unit: "s" });
+        let mut evidence = vec![
+            Evidence { name: "energy gained", value: g.gain, unit: "J" },
+            Evidence { name: "energy at the start", value: g.held, unit: "J" },
+        ];
+        evidence.extend([step.clone()].into_iter().chain(broke));
+        list.push(Fault {
+            kind: FaultKind::Grows,
+            time: g.time,
+            who: joint_of_dof(m, g.dof),
+            cause: likely(m).unwrap_or_else(|| unknown(m)),
+            evidence,
+            size: g.gain,
+        });
+    } else if let Some((warning, stat)) = first {
+        let who = match warning {
+            Warning::BadQpos => joint_of_place(m, stat.lastinfo),
+            _ => joint_of_dof(m, stat.lastinfo),
+        };
+        let evidence = vec![step, Evidence { name: "larger than", value: 1e10, unit: "" }];
+        let cause = likely(m).unwrap_or_else(|| unknown(m));
+        list.push(Fault {
+            kind: FaultKind::Diverges,
+            time: stat.first_time,
+            who,
+            cause,
+            evidence,
+            size: 1.0,
+        });
+    }
+    for warning in [Warning::Inertia, Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull] {
+        let Some(stat) = warned(session, warning) else { continue };
+        let (who, cause) = match warning {
+            Warning::Inertia => (joint_of_dof(m, stat.lastinfo), "what it moves has no inertia above zero"),
+            Warning::BadCtrl => (format!("control {}", stat.lastinfo), "a program writes what is no number"),
+            _ => ("the whole scene".into(), "more bodies touch than contacts are kept"),
+        };
+        list.push(Fault {
+            kind: FaultKind::Warns,
+            time: stat.first_time,
+            who,
+            cause: cause.into(),
+            evidence: vec![Evidence { name: "warnings", value: stat.number as f64, unit: "" }],
+            size: 1.0,
+        });
+    }
+    list.extend(session.troubles.iter().map(|t| Fault {
+        kind: FaultKind::Throws,
+        time: t.time,
+        who: "a program of the lab".into(),
+        cause: t.message.clone(),
+        evidence: Vec::new(),
+        size: 1.0,
+    }));
+    list
+}
+
+/// What of the model is too stiff for its timestep, in words.
+pub(super) fn likely(m: &Model) -> Option<String> {
+    let worst = stability::suspects(m).into_iter().next()?;
+    Some(format!(
+        "{} is {} for a step of {} s: the largest that can follow it is {} s",
+        run::owner(m, &worst),
+        run::how_stiff(&worst),
+        m.opt.timestep,
+        run::two_digits(worst.timestep)
+    ))
+}
+
+fn unknown(m: &Model) -> String {
+    format!(
+        "no single spring, servo or contact is too stiff for a step of {} s; several together may be",
+        m.opt.timestep
+    )
+}
+
+/// The joint of a degree of freedom, in words.
+pub(super) fn joint_of_dof(m: &Model, dof: usize) -> String {
+    named(m, &m.jnt_dofadr, joint::nv, dof)
+}
+
+/// The joint of a coordinate.
+fn joint_of_place(m: &Model, i: usize) -> String {
+    named(m, &m.jnt_qposadr, joint::nq, i)
+}
+
+fn named(m: &Model, start: &[i32], width: fn(i32) -> usize, i: usize) -> String {
+    let holds = |j: &usize| {
+        let first = start.get(*j).map_or(0, |&a| a as usize);
+        (first..first + width(m.jnt_type.get(*j).copied().unwrap_or(joint::HINGE))).contains(&i)
+    };
+    let Some(j) = (0..m.njnt).find(holds) else { return format!("degree of freedom {i}") };
+    let body = || super::bodies::body_name(m, m.jnt_bodyid.get(j).map_or(0, |&b| b as usize));
+    match m.names.joint.get(j) {
+        Some(name) if !name.is_empty() => format!("joint \"{name}\""),
+        _ => format!("the joint of {}", body()),
+    }
+}

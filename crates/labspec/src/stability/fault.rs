@@ -1,0 +1,112 @@
+//! What goes wrong in a run, with the numbers that show it.
+
+use super::handling::Handling;
+use super::remedy::Remedy;
+
+/// What goes wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FaultKind {
+    /// A number was not one, or too large, and the engine reset the scene.
+    Diverges,
+    /// The engine warned of something else.
+    Warns,
+    /// Energy that nothing gave.
+    Grows,
+    /// Everything leaves every sensible bound, and nobody warned.
+    Silent,
+    /// A body passed through another one.
+    Tunnels,
+    /// Bodies are deep in each other.
+    Penetrates,
+    /// A contact switches on and off while nothing moves.
+    Chatters,
+    /// What rests creeps.
+    Drifts,
+    /// A program of the lab threw.
+    Throws,
+}
+
+impl FaultKind {
+    /// In words, as a heading.
+    pub fn words(self) -> &'static str {
+        match self {
+            FaultKind::Diverges => "diverges",
+            FaultKind::Warns => "engine warns",
+            FaultKind::Grows => "energy grows",
+            FaultKind::Silent => "silent divergence",
+            FaultKind::Tunnels => "tunnelling",
+            FaultKind::Penetrates => "penetration",
+            FaultKind::Chatters => "chatter",
+            FaultKind::Drifts => "drift",
+            FaultKind::Throws => "throws",
+        }
+    }
+}
+
+/// A value that was measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Evidence {
+    /// What it is.
+    pub name: &'static str,
+    /// The value.
+    pub value: f64,
+    /// Its unit; empty for a share or a count.
+    pub unit: &'static str,
+}
+
+/// Something that went wrong in a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// What.
+    pub kind: FaultKind,
+    /// When, s of the lab's clock.
+    pub time: f64,
+    /// The joint, the body, or the two bodies that touch.
+    pub who: String,
+    /// Why, as far as that is known.
+    pub cause: String,
+    /// The numbers that show it.
+    pub evidence: Vec<Evidence>,
+    /// How bad it is, to compare it with others of its kind.
+    pub(super) size: f64,
+}
+
+/// The same fault in one or several settings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// As it was in the simplest setting.
+    pub fault: Fault,
+    /// That setting.
+    pub handling: Handling,
+    /// How many settings show it.
+    pub settings: usize,
+    /// The setting in which it is the worst, and how it is there, where that is another one.
+    pub worst: Option<(Handling, Fault)>,
+    /// The lab says itself that it breaks.
+    pub expected: bool,
+    /// What was tried and helps in the simplest setting.
+    pub remedies: Vec<Remedy>,
+}
+
+/// Adds what a run showed to what is known: one entry for each kind and each object.
+pub(super) fn add(list: &mut Vec<Found>, fault: Fault, handling: &Handling) {
+    let same = |f: &&mut Found| f.fault.kind == fault.kind && f.fault.who == fault.who;
+    match list.iter_mut().find(same) {
+        None => list.push(Found {
+            fault,
+            handling: handling.clone(),
+            settings: 1,
+            worst: None,
+            expected: false,
+            remedies: Vec::new(),
+        }),
+        Some(known) => {
+            known.settings += 1;
+            let size = known.worst.as_ref().map_or(known.fault.size, |(_, f)| f.size);
+            // A little worse is the same.
+            if fault.size > 1.05 * size {
+                known.worst = Some((handling.clone(), fault));
+            }
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! Whether a lab stays sound whatever a student does to it: runs with every control at its ends, in corners and in turn, for much
+//! longer than anybody looks, and everything that goes wrong in them.
+
+mod bodies;
+mod case;
+mod covering;
+mod fault;
+mod handling;
+mod map;
+mod margins;
+mod remedy;
+mod rest;
+mod search;
+mod sensitivity;
+mod watch;
+mod wild;
+
+pub use fault::{Evidence, Fault, FaultKind, Found};
+pub use handling::{Action, Handling, Kind};
+pub use map::{Cell, Map};
+pub use margins::{Knob, Margin};
+pub use remedy::Remedy;
+pub use sensitivity::{Exponent, Horizon, Sensitivity};
+
+use crate::bind::Programs;
+use crate::interrupt;
+use crate::run::{self, RunError, Session};
+use crate::spec::format::RUN_LENGTH;
+use crate::spec::{Expect, Lab};
+use case::Case;
+use labspec_core::Model;
+use remedy::Tries;
+
+/// How many times longer than anybody looks a run is.
+const LONGER: f64 = 10.0;
+/// Work for all runs of a lab, in units of about a nanosecond.
+const WORK: u64 = 30_000_000_000;
+/// Work for remedies, and how many findings they are tried for.
+const WORK_OF_REMEDIES: u64 = 10_000_000_000;
+const MOST_REMEDIED: usize = 6;
+
+/// What is tried.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Length of each run in s; ten times as long as a student looks, without it.
+    pub until: Option<f64>,
+    /// Also how far everything may be raised before the lab breaks.
+    pub margins: bool,
+    /// Also the stable region over two controls, by label.
+    pub map: Option<[String; 2]>,
+}
+
+/// How many runs of a kind there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tried {
+    /// The kind.
+    pub kind: Kind,
+    /// Runs that were made to their end, or until they broke.
+    pub made: usize,
+    /// Runs that were begun and took more work than they may.
+    pub cut: usize,
+    /// Runs that were not begun.
+    pub left_out: usize,
+}
+
+/// All runs of a lab.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// How long a run is, s.
+    pub length: f64,
+    /// What was tried, kind by kind.
+    pub tried: Vec<Tried>,
+    /// How long the shortest of those runs was that were cut, s.
+    pub shortest: Option<f64>,
+    /// Pairs of settings that meet in no run, as there are too many.
+    pub pairs_left_out: usize,
+    /// What was not looked at, and why.
+    pub left_out: Vec<String>,
+    /// What goes wrong, the simplest setting first.
+    pub found: Vec<Found>,
+    /// How far everything may be raised, where that was asked for.
+    pub margins: Vec<Margin>,
+    /// How much the lab depends on its start.
+    pub sensitivity: Sensitivity,
+    /// The stable region over two controls, where that was asked for.
+    pub map: Option<Map>,
+    /// Work that all of it took.
+    pub work: u64,
+}
+
+impl Report {
+    /// Whether everything that was to be tried was tried and is fine.
+    pub fn fine(&self) -> bool {
+        let whole = self.tried.iter().all(|t| t.cut == 0 && t.left_out == 0);
+        whole && self.pairs_left_out == 0 && self.left_out.is_empty() && self.found.iter().all(|f| f.expected)
+    }
+}
+
+/// Runs the lab in every way that is tried. `tell` hears what is being done.
+///
+/// # Errors
+/// The length is none that a run can have.
+pub fn probe(
+    lab: &Lab,
+    model: &Model,
+    programs: &Programs,
+    options: &Options,
+    tell: &mut dyn FnMut(&str),
+) -> Result<Report, RunError> {
+    let window = window(lab);
+    let length = options.until.unwrap_or(LONGER * window);
+    run::count_steps(lab, Some(length), None, model.opt.timestep)?;
+    let case = Case::new(lab, model, programs);
+    let (all, pairs_left_out) = handling::list(lab, window.min(length));
+    let mut report = Report {
+        length,
+        tried: Kind::ALL.map(|kind| Tried { kind, made: 0, cut: 0, left_out: 0 }).to_vec(),
+        shortest: None,
+        pairs_left_out,
+        left_out: Vec::new(),
+        found: Vec::new(),
+        margins: Vec::new(),
+        sensitivity: Sensitivity { length: window, apart: 0.0, exponent: None, horizons: Vec::new() },
+        map: None,
+        work: 0,
+    };
+    if !case.jumps && bodies::pairs(model, watch::MOST_PAIRS).1 {
+        report.left_out.push(format!(
+            "tunnelling is watched between the first {} pairs of geoms only",
+            watch::MOST_PAIRS
+        ));
+    }
+    let mut left = WORK;
+    let mut own = f64::INFINITY;
+    for (i, handling) in all.iter().enumerate() {
+        tell(&format!("run {} of {}: {}", i + 1, all.len(), handling.kind.words()));
+        let share = left / (all.len() - i) as u64;
+        let Some(tried) = report.tried.iter_mut().find(|t| t.kind == handling.kind) else { continue };
+        if interrupt::requested() {
+            tried.left_out += 1;
+            continue;
+        }
+        // What others did not use is there for later ones.
+        let outcome = case.run(handling, None, length, share);
+        left = left.saturating_sub(outcome.spent);
+        report.work += outcome.spent;
+        if handling.kind == Kind::AsItStands {
+            own = outcome.spent as f64 / outcome.covered.max(model.opt.timestep);
+        }
+        if outcome.cut {
+            tried.cut += 1;
+            report.shortest = Some(report.shortest.unwrap_or(f64::INFINITY).min(outcome.covered));
+        } else {
+            tried.made += 1;
+        }
+        let drifts = outcome.faults.iter().any(|f| f.kind == FaultKind::Drifts);
+        let firm = drifts.then(|| case.run(handling, Some(&firmer), length, left)).unwrap_or_default();
+        left = left.saturating_sub(firm.spent);
+        report.work += firm.spent;
+        for fault in outcome.faults {
+            // What creeps as fast where friction is hard is pushed along, and no fault of the contact.
+            let moves = |(who, speed): &(String, f64)| *who == fault.who && 2.0 * speed > fault.size;
+            if fault.kind != FaultKind::Drifts || !firm.speeds.iter().any(moves) {
+                fault::add(&mut report.found, fault, handling);
+            }
+        }
+    }
+    report.tried.retain(|t| t.made + t.cut + t.left_out > 0);
+    if matches!(lab.expect, Some(Expect::Breaks(_))) {
+        let breaks = |kind| matches!(kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
+        report.found.iter_mut().for_each(|f| f.expected = breaks(f.fault.kind));
+    }
+    remedies(&case, &mut report, own, tell);
+    let short = window.min(length);
+    if options.margins {
+        let (margins, more) = margins::margins(&case, short, tell, &mut report.work);
+        report.margins = margins;
+        report.left_out.extend(more);
+    }
+    tell("sensitivity");
+    report.sensitivity = sensitivity::sensitivity(&case, short, &mut report.work);
+    if let Some(labels) = &options.map {
+        report.map = Some(map::map(&case, labels, short, tell, &mut report.work)?);
+    }
+    Ok(report)
+}
+
+/// Tries what may help against the findings, the simplest first.
+fn remedies(case: &Case<'_>, report: &mut Report, own: f64, tell: &mut dyn FnMut(&str)) {
+    let mut tries = Tries { case, length: report.length, own, left: WORK_OF_REMEDIES, work: 0 };
+    let many = report.found.len();
+    let mut untried = 0;
+    for (i, found) in report.found.iter_mut().enumerate() {
+        if matches!(found.fault.kind, FaultKind::Throws | FaultKind::Warns) {
+            continue;
+        }
+        tell(&format!("remedies for finding {} of {many}", i + 1));
+        match if i < MOST_REMEDIED { tries.remedies(found) } else { None } {
+            Some(list) => found.remedies = list,
+            None => untried += 1,
+        }
+    }
+    report.work += tries.work;
+    if untried > 0 {
+        report.left_out.push(format!("remedies for {untried} of the findings"));
+    }
+}
+
+/// Friction a hundred times as hard.
+fn firmer(session: &mut Session<'_>) {
+    let opt = session.world.model.edit().opt;
+    *opt.impratio *= 100.0;
+    *opt.cone = 1;
+}
+
+/// How long a student looks at a lab: until it stops, or as far as its plots show, s.
+fn window(lab: &Lab) -> f64 {
+    let longest = lab.plots.iter().map(|p| p.window()).filter(|w| w.is_finite()).fold(0.0, f64::max);
+    match &lab.stop_at {
+        Some(stop) if stop.value > 0.0 => stop.value,
+        _ if longest > 0.0 => longest,
+        _ => RUN_LENGTH,
+    }
+}

@@ -1,0 +1,355 @@
+//! `labspec stability`: what a student can do to a lab, and what it comes to. Small labs that break in one way each, and labs that
+//! do not break.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::program::{run_in, snapshot};
+use serde_json::{Value, json};
+
+/// A lab of a second around a model.
+pub(crate) fn lab(option: &str, world: &str, more: Value) -> Value {
+    let xml = format!("<mujoco><option {option}/><worldbody>{world}</worldbody>ACTUATORS</mujoco>");
+    let mut lab = json!({"xml": xml, "stopAt": 1});
+    let actuators = more["actuators"].as_str().unwrap_or_default();
+    lab["xml"] = json!(xml.replace("ACTUATORS", &format!("<actuator>{actuators}</actuator>")));
+    for (key, value) in more.as_object().unwrap().iter().filter(|(key, _)| *key != "actuators") {
+        lab[key] = value.clone();
+    }
+    lab
+}
+
+/// The report of a lab, with its exit code.
+pub(crate) fn report(lab: &Value, more: &[&str]) -> (i32, Value) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("lab.json"), lab.to_string()).unwrap();
+    let done = run_in(folder.path(), &[&["stability", "lab.json", "--format", "json"], more].concat());
+    let report = serde_json::from_str(&done.stdout).unwrap_or_else(|_| panic!("{}", done.stderr));
+    (done.code, report)
+}
+
+/// Kinds of the findings, with who it is.
+fn kinds(report: &Value) -> Vec<(String, String)> {
+    let text = |f: &Value, key: &str| f[key].as_str().unwrap().to_string();
+    report["findings"].as_array().unwrap().iter().map(|f| (text(f, "kind"), text(f, "who"))).collect()
+}
+
+fn evidence(finding: &Value, name: &str) -> f64 {
+    let list = finding["evidence"].as_array().unwrap();
+    list.iter().find(|e| e["name"] == name).unwrap()["value"].as_f64().unwrap()
+}
+
+/// A cart of 1 kg on a rail with a servo, whose gain a slider sets.
+fn servo(most: f64) -> Value {
+    let cart = r#"<body name="cart"><joint name="rail" type="slide"/><geom size=".1" mass="1"/></body>"#;
+    let gain = "model.actuator_gainprm[0] = value; model.actuator_biasprm[1] = -value";
+    let more = json!({
+        "actuators": r#"<position name="servo" joint="rail" kp="100" kv="1"/>"#,
+        "controls": [
+            {"label": "kp", "apply": gain, "min": 100, "max": most, "value": 100},
+            {"label": "target", "set": "data.ctrl[0]", "init": true, "min": 0, "max": 1, "value": 0.1},
+        ],
+    });
+    lab(r#"integrator="implicitfast" gravity="0 0 0""#, cart, more)
+}
+
+#[test]
+fn a_gain_that_is_too_high_is_found_at_the_end_of_its_slider() {
+    // 2/ω is 0.002 s at kp = 1e6 N/m.
+    let (code, report) = report(&servo(3e6), &[]);
+    assert_eq!((code, &report["fine"]), (1, &json!(false)));
+    let first = &report["findings"][0];
+    assert_eq!(first["setting"], json!([{"control": "kp", "time": 0.0, "value": 3e6}]));
+    assert_eq!(first["who"], "joint \"rail\"");
+    assert!(matches!(first["kind"].as_str().unwrap(), "diverges" | "energyGrows"), "{first}");
+    let cause = first["cause"].as_str().unwrap();
+    assert!(cause.contains("servo \"servo\"") && cause.contains("0.0012 s"), "{cause}");
+    assert!(first["time"].as_f64().unwrap() < 0.1);
+
+    let (code, report) = self::report(&servo(8e5), &[]);
+    assert_eq!((code, kinds(&report)), (0, Vec::new()));
+    // 1 as it stands, 3 other ends, 4 corners, all in turn; each ten times as long as the lab.
+    let made: Vec<&Value> = report["tried"].as_array().unwrap().iter().map(|t| &t["made"]).collect();
+    assert_eq!((made, &report["length"]), (vec![&json!(1), &json!(3), &json!(4), &json!(1)], &json!(10.0)));
+}
+
+/// A plate of 1 cm, and a ball of 2 cm that buttons throw at it.
+fn thrown(fast: f64, step: f64) -> Value {
+    let world = r#"<geom name="plate" type="box" size=".005 1 1" pos="1 0 0"/>
+        <body name="ball"><freejoint/><geom name="ball" size=".01"/></body>"#;
+    let button = |label: &str, speed: f64| json!({"type": "button", "label": label, "run": format!("data.qvel[0] = {speed}")});
+    lab(
+        &format!(r#"gravity="0 0 0" timestep="{step}""#),
+        world,
+        json!({"controls": [button("Roll", 0.5), button("Fire", fast)]}),
+    )
+}
+
+#[test]
+fn a_ball_that_no_step_sees_touch_a_plate_is_found_behind_it() {
+    let (code, report) = report(&thrown(300.0, 0.002), &[]);
+    assert_eq!((code, kinds(&report)), (1, vec![("tunnelling".into(), "\"ball\" through \"plate\"".into())]));
+    let first = &report["findings"][0];
+    assert_eq!(first["setting"], json!([{"control": "Fire", "time": 0.1, "value": null}]));
+    assert!((evidence(first, "way in one step") - 0.6).abs() < 1e-9);
+    // In the middle of its second step it is at 0.9 m, at its end at 1.5 m.
+    assert!((first["time"].as_f64().unwrap() - 0.102).abs() < 0.0021, "{}", first["time"]);
+    // A slow one comes back.
+    assert_eq!(kinds(&self::report(&thrown(0.8, 0.002), &[]).1), []);
+}
+
+#[test]
+fn a_ball_that_is_pressed_through_a_soft_plate_is_found_below_it() {
+    let soft = |time: f64| {
+        let world = format!(
+            r#"<geom name="plate" type="box" size="1 1 .01" pos="0 0 .5" solref="{time} 1"/>
+            <body name="ball" pos="0 0 .6"><freejoint/><geom name="ball" size=".05" solref="{time} 1"/></body>"#
+        );
+        kinds(&report(&lab("", &world, json!({})), &[]).1)
+    };
+    assert_eq!(soft(0.2), [("tunnelling".into(), "\"ball\" through \"plate\"".into())]);
+    assert_eq!(soft(0.02), []);
+}
+
+/// A ball on a floor.
+fn ball(solref: &str, controls: Value) -> Value {
+    let world = format!(
+        r#"<geom name="floor" type="plane" size="1 1 1" solref="{solref}"/><body name="ball" pos="0 0 .1"><freejoint/>
+        <geom name="ball" size=".1" solref="{solref}"/></body>"#
+    );
+    lab("", &world, json!({"controls": controls}))
+}
+
+#[test]
+fn a_ball_that_sinks_into_a_soft_floor_is_found() {
+    let set = "for (let g = 0; g < model.ngeom; g++) model.geom_solref[2 * g] = value";
+    let slider =
+        json!([{"label": "softness", "apply": set, "min": 0.02, "max": 0.5, "value": 0.02, "reset": true}]);
+    let (_, report) = report(&ball("0.02 1", slider), &[]);
+    assert_eq!(kinds(&report), [("penetration".into(), "\"floor\" and \"ball\"".into())]);
+    let first = &report["findings"][0];
+    assert_eq!(first["setting"], json!([{"control": "softness", "time": 0.0, "value": 0.5}]));
+    assert!(evidence(first, "share") > 0.5 && evidence(first, "lasts") > 5.0, "{first}");
+    assert_eq!(evidence(first, "size of the smaller one"), 0.2);
+}
+
+#[test]
+fn a_contact_that_switches_while_nothing_moves_is_found() {
+    let (_, hard) = report(&ball("-4e5 -100", json!([])), &[]);
+    assert_eq!(kinds(&hard), [("chatter".into(), "\"floor\" on \"ball\"".into())]);
+    assert!(evidence(&hard["findings"][0], "switches in 100 steps") >= 45.0);
+    assert_eq!(kinds(&report(&ball("-1e5 -100", json!([])), &[]).1), []);
+}
+
+/// A block on a slope of 15°, or a ball that a heavy damper lowers slowly onto nothing.
+#[test]
+fn a_block_that_friction_holds_and_that_creeps_is_found() {
+    let block = |option: &str| {
+        let world = r#"<body name="ramp" euler="0 15 0"><geom type="box" size="2 1 .1"/></body>
+            <body name="block" pos=".0362 0 .135" euler="0 15 0"><freejoint/><geom type="box" size=".05 .05 .04" mass="1"/></body>"#;
+        report(&lab(option, world, json!({})), &[]).1
+    };
+    let creeps = block("");
+    assert_eq!(kinds(&creeps), [("drift".into(), "\"block\"".into())]);
+    assert!(evidence(&creeps["findings"][0], "speed") > 1e-4);
+    // Friction that is hard, and a slope on which it slides.
+    assert_eq!(kinds(&block(r#"cone="elliptic" impratio="1000""#)), []);
+    // What a servo pushes along does not creep.
+    let pushed = r#"<geom type="plane" size="5 5 1"/><body name="sledge" pos="0 0 .099"><joint type="slide" damping="200"/><joint type="slide" axis="0 0 1"/>
+        <geom type="box" size=".1 .1 .1" mass="1"/></body>"#;
+    let motor = json!({"actuators": r#"<motor joint="x"/>"#, "setup": "data.ctrl[0] = 11"});
+    let pushed = pushed.replacen("<joint type", "<joint name=\"x\" axis=\"1 0 0\" type", 1);
+    assert_eq!(kinds(&report(&lab("", &pushed, motor), &[]).1), []);
+}
+
+#[test]
+fn what_grows_exponentially_in_silence_is_found() {
+    let cart = r#"<body name="cart"><joint name="rail" type="slide"/><geom size=".1" mass="1"/></body>"#;
+    let more = |most: f64| {
+        json!({
+            "actuators": r#"<motor joint="rail"/>"#,
+            "setup": "data.qvel[0] = 0.1",
+            "controller": "data.ctrl[0] = ctx.gain * Math.max(-1e4, Math.min(1e4, data.qvel[0]))",
+            "controls": [{"label": "gain", "param": "gain", "min": -5, "max": most, "value": 0}],
+        })
+    };
+    let run = |most: f64| kinds(&report(&lab(r#"gravity="0 0 0""#, cart, more(most)), &[]).1);
+    assert_eq!(run(60.0), [("silentDivergence".into(), "joint \"rail\"".into())]);
+    assert_eq!(run(0.3), []);
+    // What falls for long, or is driven by a constant force, is fast and not wild.
+    let falls = r#"<body name="stone"><freejoint/><geom size=".01"/></body>"#;
+    assert_eq!(kinds(&report(&lab("", falls, json!({"stopAt": 30})), &[]).1), []);
+    let driven = json!({"actuators": r#"<motor joint="rail"/>"#, "setup": "data.ctrl[0] = 1000"});
+    assert_eq!(kinds(&report(&lab(r#"gravity="0 0 0""#, cart, driven), &[]).1), []);
+}
+
+/// The largest value of a margin, and the bound beside it.
+fn margin(report: &Value, knob: &str, who: &str) -> (f64, Option<f64>) {
+    let all = report["margins"].as_array().unwrap();
+    let found = all.iter().find(|m| m["knob"] == knob && m["who"].as_str().unwrap().contains(who));
+    let found = found.unwrap_or_else(|| panic!("{all:#?}"));
+    (found["largest"].as_f64().unwrap(), found["bound"].as_f64())
+}
+
+fn near(a: f64, b: f64, part: f64) {
+    assert!((a - b).abs() <= part * b.abs(), "{a} is not {b}");
+}
+
+#[test]
+fn margins_meet_the_bounds_of_one_degree_of_freedom() {
+    let mut still = servo(8e5);
+    still["xml"] = json!(
+        still["xml"]
+            .as_str()
+            .unwrap()
+            .replace(" kv=\"1\"", "")
+            .replace("slide\"", "slide\" stiffness=\"50\"")
+    );
+    let (code, report) = report(&still, &["--margins"]);
+    assert_eq!(code, 0);
+    // 1 kg on 150 N/m: 2/ω. Then at 2 ms: 4/h² for all springs together.
+    for (knob, who, bound) in [
+        ("timestep", "lab", 2.0 / 150f64.sqrt()),
+        ("gain", "servo", 1e6 - 50.0),
+        ("stiffness", "rail", 1e6 - 100.0),
+    ] {
+        let (largest, theory) = margin(&report, knob, who);
+        near(largest, bound, 0.02);
+        if let Some(theory) = theory {
+            near(theory, bound, 0.02);
+        }
+    }
+    assert!(margin(&report, "timestep", "lab").1.is_some());
+}
+
+#[test]
+fn a_heavy_block_on_a_light_one_has_a_largest_ratio() {
+    let block = |name: &str, z: f64| {
+        format!(
+            r#"<body name="{name}" pos="0 0 {z}"><joint type="slide" axis="0 0 1"/><geom type="box" size=".1 .1 .1" mass="1"/></body>"#
+        )
+    };
+    let world = format!(r#"<geom type="plane" size="1 1 1"/>{}{}"#, block("low", 0.1), block("high", 0.3));
+    let (_, report) = report(&lab("", &world, json!({})), &["--margins"]);
+    let (heavy_above, _) = margin(&report, "massRatio", "\"high\" to \"low\"");
+    let (heavy_below, _) = margin(&report, "massRatio", "\"low\" to \"high\"");
+    assert!(heavy_above > 10.0 && heavy_above < 1e4, "{heavy_above}");
+    assert!(heavy_below > 10.0 * heavy_above, "{heavy_below}");
+}
+
+#[test]
+fn what_is_said_to_help_does() {
+    let (_, broken) = report(&servo(3e6), &[]);
+    let helps: Vec<&str> = broken["findings"][0]["remedies"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|r| r["change"].as_str().unwrap())
+        .collect();
+    // 2/ω at 3e6 N/m is 1.15 ms. `implicitfast` is its own integrator, and a contact there is none.
+    assert!(
+        helps.contains(&"a timestep of 0.001 s") && helps.contains(&"`integrator=\"discrete\"`"),
+        "{helps:?}"
+    );
+    let slider = helps.iter().find_map(|h| h.strip_prefix("\"kp\" that goes no farther than ")).unwrap();
+    let last: f64 = slider.parse().unwrap();
+    assert!(last < 1e6 && last > 9.5e5, "{last}");
+    let mended = |from: &str, to: &str| {
+        let mut lab = servo(3e6);
+        lab["xml"] = json!(lab["xml"].as_str().unwrap().replace(from, to));
+        report(&lab, &[]).0
+    };
+    assert_eq!(mended("integrator=\"implicitfast\"", "integrator=\"implicitfast\" timestep=\"0.001\""), 0);
+    assert_eq!(mended("implicitfast", "discrete"), 0);
+    assert_eq!(mended("implicitfast", "implicit"), 1);
+    assert_eq!(report(&servo(last), &[]).0, 0);
+}
+
+/// A cart of 1 kg that a program pushes with a force.
+fn pushed(force: &str) -> Value {
+    let cart = r#"<body name="cart"><joint name="rail" type="slide"/><geom size=".1" mass="1"/></body>"#;
+    let more = json!({
+        "actuators": r#"<motor joint="rail"/>"#, "stopAt": 10, "controller": format!("data.ctrl[0] = {force}"),
+        "readouts": [{"label": "x", "expr": "data.qpos[0]", "digits": 3}, {"label": "coarse", "expr": "data.qpos[0]", "digits": 0}],
+    });
+    lab(r#"gravity="0 0 0""#, cart, more)
+}
+
+#[test]
+fn the_exponent_and_the_horizon_are_those_of_a_linear_equation() {
+    // x¨ = 4 x has the solutions exp(± 2 t).
+    let (_, report) = report(&pushed("4 * data.qpos[0]"), &["--until", "10"]);
+    let exponent = &report["sensitivity"]["exponent"];
+    for key in ["mean", "low", "high"] {
+        near(exponent[key].as_f64().unwrap(), 2.0, 0.1);
+    }
+    // A start that is 1e-9 off is off by half of that times exp(2 t): half a unit of the third digit.
+    let horizons = &report["sensitivity"]["horizons"];
+    near(horizons[0]["until"].as_f64().unwrap(), 1e6f64.ln() / 2.0, 0.01);
+    assert_eq!(horizons[1], json!({"label": "coarse", "until": null}));
+    // x¨ = -0.75 x - 2 x˙: exp(-t / 2) lasts the longest.
+    let (_, damped) = self::report(&pushed("-0.75 * data.qpos[0] - 2 * data.qvel[0]"), &["--until", "10"]);
+    near(damped["sensitivity"]["exponent"]["mean"].as_f64().unwrap(), -0.5, 0.1);
+    assert_eq!(damped["sensitivity"]["horizons"][0]["until"], Value::Null);
+}
+
+#[test]
+fn a_map_shows_where_a_lab_is_stable() {
+    let mut both = servo(2e6);
+    let step = json!({"label": "h, in s", "set": "model.opt.timestep", "min": 0.001, "max": 0.003, "step": 0.0005, "value": 0.002});
+    both["controls"].as_array_mut().unwrap().push(step);
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("lab.json"), both.to_string()).unwrap();
+    let arguments = ["stability", "lab.json", "--map", "kp,h, in s", "--svg", "map.svg", "--format", "json"];
+    let done = run_in(folder.path(), &arguments);
+    let report: Value = serde_json::from_str(&done.stdout).unwrap_or_else(|_| panic!("{}", done.stderr));
+    let map = &report["map"];
+    let (across, up) = (map["values"][0].as_array().unwrap(), map["values"][1].as_array().unwrap());
+    assert_eq!((across.len(), up.len()), (21, 5));
+    for (row, h) in map["cells"].as_array().unwrap().iter().zip(up) {
+        for (cell, kp) in row.as_array().unwrap().iter().zip(across) {
+            let [h, kp] = [h, kp].map(|x| x.as_f64().unwrap());
+            let stable = h * kp.sqrt() / 2.0;
+            if (stable - 1.0).abs() > 0.02 {
+                assert_eq!(*cell == "fine", stable < 1.0, "{h} {kp} {cell}");
+            }
+        }
+    }
+    assert!(std::fs::read_to_string(folder.path().join("map.svg")).unwrap().starts_with("<svg"));
+    for (wrong, says) in [("kp,q", "there is no control"), ("kp", "write CONTROL1,CONTROL2")] {
+        let done = run_in(folder.path(), &["stability", "lab.json", "--map", wrong]);
+        assert!(done.code == 2 && done.stderr.contains(says), "{}", done.stderr);
+    }
+}
+
+#[test]
+fn what_cannot_be_tried_is_counted() {
+    let many: Vec<Value> = (0..70)
+        .map(|k| json!({"label": format!("s{k}"), "param": format!("s{k}"), "min": 0, "max": 1, "value": 0}))
+        .collect();
+    let (code, report) = report(&ball("0.02 1", json!(many)), &["--until", "0.01"]);
+    assert_eq!((code, kinds(&report), &report["fine"]), (1, Vec::new(), &json!(false)));
+    // 60 of 70 sliders are combined: 70 · 69 / 2 pairs of sliders less 60 · 59 / 2, with four settings each.
+    assert_eq!(report["pairsLeftOut"], json!(4 * (70 * 69 - 60 * 59) / 2));
+}
+
+#[test]
+fn a_lab_that_says_that_it_breaks_may() {
+    let mut breaks = servo(3e6);
+    breaks["expect"] = json!("breaks");
+    let (code, report) = report(&breaks, &[]);
+    assert_eq!((code, &report["findings"][0]["expected"]), (0, &json!(true)));
+}
+
+#[test]
+fn findings_for_people() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("servo.json"), servo(3e6).to_string()).unwrap();
+    std::fs::write(folder.path().join("thrown.json"), thrown(300.0, 0.002).to_string()).unwrap();
+    let told = |name: &str| {
+        let done = run_in(folder.path(), &["stability", name]);
+        format!("exit {}\n{}{}", done.code, done.stdout, done.stderr)
+    };
+    snapshot("stability", ["servo.json", "thrown.json"].map(told).join("\n"));
+    let done = run_in(folder.path(), &["stability", "servo.json", "--margins", "--map", "kp,target"]);
+    snapshot("stability-margins", done.stdout);
+}
