@@ -49,7 +49,7 @@ enum Command {
     Run(run::Arguments),
     /// Error against run time of integrators and timesteps, for one lab
     Precision(precision::Arguments),
-    /// Which stages of the engine a lab or model needs, and why
+    /// Which stages of the engine a lab or model needs, why, and what each costs
     Plan(plan::Arguments),
     /// What a finding's code means, with an example; without a code, the list of all
     Explain(explain::Arguments),
@@ -150,8 +150,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 impl Command {
     /// Whether Ctrl-C is asked for between pieces of work. All other commands it ends at once.
     fn prints_what_is_finished(&self) -> bool {
-        use Command::{Bench, Check, Fmt, Precision, Record, Run, Verify};
-        matches!(self, Check(_) | Verify(_) | Fmt(_) | Run(_) | Precision(_) | Record(_) | Bench(_))
+        use Command::{Bench, Check, Fmt, Plan, Precision, Record, Run, Verify};
+        matches!(self, Check(_) | Verify(_) | Fmt(_) | Run(_) | Precision(_) | Plan(_) | Record(_) | Bench(_))
     }
 }
 
