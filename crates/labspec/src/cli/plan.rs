@@ -148,18 +148,37 @@ fn parts(report: &Report, text: &mut String) {
         }
     }
     list("integrator", &report.integrators, text);
-    let _ = writeln!(text, "\nways of trees   places  forces  accelerations");
-    for way in &report.ways {
+    ways(report, text);
+}
+
+/// Which ways trees take.
+fn ways(report: &Report, text: &mut String) {
+    let _ = writeln!(text, "\nways of computing trees");
+    for way in report.ways.iter().filter(|w| w.trees != [0; 3]) {
         let [places, forces, factors] = way.trees;
-        let _ = writeln!(text, "  {:<12} {places:>7} {forces:>7} {factors:>7}", way.name);
+        let of = [(places, "places"), (forces, "forces"), (factors, "accelerations")];
+        let of: Vec<String> =
+            of.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{what} of {n}")).collect();
+        let _ = writeln!(text, "  keep   {}: {}", way.name, of.join(", "));
+    }
+    let idle = report.ways.iter().filter(|w| w.trees == [0; 3]).map(|w| w.name);
+    let idle = idle.collect::<Vec<_>>().join(", ");
+    if !idle.is_empty() {
+        let _ = writeln!(text, "  leave  {idle}: no tree takes them");
     }
 }
 
+/// Those that are used, then the others by reason.
 fn list(what: &str, codes: &[Code], text: &mut String) {
     let _ = writeln!(text, "\n{what}");
-    for code in codes {
-        let verb = if code.keep { "keep" } else { "leave" };
-        let _ = writeln!(text, "  {verb:<5}  {:<12} {}", code.name, code.reason);
+    for verb in ["keep ", "leave"] {
+        let mut codes: Vec<&Code> = codes.iter().filter(|c| c.keep == (verb == "keep ")).collect();
+        while let Some(first) = codes.first().copied() {
+            let alike = codes.iter().filter(|c| c.reason == first.reason).map(|c| c.name);
+            let alike = alike.collect::<Vec<_>>().join(", ");
+            let _ = writeln!(text, "  {verb}  {alike}: {}", first.reason);
+            codes.retain(|c| c.reason != first.reason);
+        }
     }
 }
 
