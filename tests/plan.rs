@@ -241,9 +241,9 @@ fn a_clock_sees_what_the_plan_keeps() {
         for _ in 0..10 {
             core::step(&m, &mut d).unwrap();
         }
-        let mut work = 0;
+        let (mut work, laps) = (0, core::laps(&mut d));
         for decision in d.plan().decisions() {
-            let lap = core::lap(&d, Some(decision.stage));
+            let lap = laps.of(decision.stage);
             work += lap.work;
             // What sensors show is left out of the passes within a step.
             let shown = matches!(decision.stage, Stage::Sensors | Stage::SubtreeVel | Stage::RnePost);
@@ -257,7 +257,8 @@ fn a_clock_sees_what_the_plan_keeps() {
             );
             assert!(lap.time >= lap.runs && (decision.keep || lap.runs == 0), "{name}: {:?}", decision.stage);
         }
-        assert!(core::lap(&d, None).runs >= 20 * passes);
+        assert!(laps.nothing.runs >= 20 * passes && laps.between.runs + 1 == laps.nothing.runs, "{laps:?}");
+        assert_eq!(core::laps(&mut d), core::Laps::default());
         assert_eq!(core::cost(&d) - before, work + 10 * passes * core::cost_of_pass(&d), "{name}");
     }
 }

@@ -6,7 +6,7 @@
 PYTHON has the package `mujoco` 3.14.0. Ours is `labspec plan`: the lab's own run with its setup and controller, stepped without a page;
 the controller's time counts. MuJoCo steps the same model through the same run: every hundred steps it gets the state, controls and
 written parameters of ours (`labspec run`), and `mj_step` is timed for the hundred steps, without any program of the lab. The two
-take turns; ratios are medians over the rounds.
+take turns. The run is cut into chunks of steps, and the median time of each chunk counts.
 """
 import argparse
 import json
@@ -48,6 +48,7 @@ class Run:
     def __init__(self, lab, plan, folder):
         self.model = model_of(lab)
         self.data = mujoco.MjData(self.model)
+        self.chunks = {}
         self.steps = plan["step"]["steps"]
         # What is copied: the state, the controls, and the parameters that the lab's programs may write.
         places = [(self.data, "data", name) for name in ("qpos", "qvel", "act", "ctrl", "qfrc_applied", "xfrc_applied")]
@@ -82,22 +83,20 @@ class Run:
             else:
                 setattr(owner, name, type(now)(values[0]))
 
-    def step_ns(self, least=0.05):
-        """A step of mj_step over the whole run, again until it took so many seconds."""
-        total = steps = 0
-        while total < 1e9 * least:
-            left = self.steps
-            for row in self.rows:
-                n = min(CHUNK, left)
-                if n <= 0:
-                    break
-                self.put(row)
-                start = time.perf_counter_ns()
-                mujoco.mj_step(self.model, self.data, nstep=n)
-                total += time.perf_counter_ns() - start
-                steps += n
-                left -= n
-        return total / steps
+    def times(self, passes=3):
+        """What the chunks of the run take, each as often as it was made."""
+        chunks = [(row, min(CHUNK, self.steps - CHUNK * i)) for i, row in enumerate(self.rows)]
+        for i, (row, n) in enumerate(chunks * passes):
+            if n <= 0:
+                continue
+            self.put(row)
+            start = time.perf_counter_ns()
+            mujoco.mj_step(self.model, self.data, nstep=n)
+            self.chunks.setdefault(i % len(chunks), []).append(time.perf_counter_ns() - start)
+
+    def step_ns(self):
+        """A step: the sum of the medians of the chunks, as ours is, so that what interrupts some of them does not count."""
+        return sum(statistics.median(times) for times in self.chunks.values()) / self.steps
 
 
 def measure(lab, rounds):
@@ -107,12 +106,16 @@ def measure(lab, rounds):
         if first["step"] is None:
             return None
         run = Run(lab, first, folder)
-        seen = []
+        run.times(1)
+        run.chunks.clear()
+        planned, full = [], []
         for _ in range(rounds):
             step = ours("plan", lab, "--format", "json")["step"]
-            library = run.step_ns()
-            seen.append((step["ns"], step["fullNs"], library, library / step["ns"], library / step["fullNs"]))
-    planned, full, library, ratio, full_ratio = (statistics.median(column) for column in zip(*seen))
+            planned.append(step["ns"])
+            full.append(step["fullNs"])
+            run.times()
+    planned, full, library = statistics.median(planned), statistics.median(full), run.step_ns()
+    ratio, full_ratio = library / planned, library / full
     rows, touch = first["solver"]["rows"], first["pairs"]["canTouch"] > 0
     aim = 3 if touch or rows["most"] else 6
     kept = sum(stage["keep"] for stage in first["stages"])

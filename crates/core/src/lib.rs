@@ -60,7 +60,7 @@ pub use kinds::{
 #[doc(hidden)]
 pub use model::Fields;
 pub use model::reflect;
-pub use model::stopwatch::Lap;
+pub use model::stopwatch::{Lap, Laps};
 pub use model::way::{Way, Ways};
 pub use model::{Contact, Decision, Names, Obj, Options, Statistic, Warning, WarningStat};
 pub use query::{RayFilter, RayHit};

@@ -13,8 +13,7 @@ use crate::geometry::Distance;
 use crate::math::{Spatial, Vec3};
 use crate::model::plan::Fact;
 use crate::model::reflect::{self, FieldId, Object, View, ViewMut};
-use crate::model::stage::Stage;
-use crate::model::stopwatch::Lap;
+use crate::model::stopwatch::Laps;
 use crate::model::{Contact, Obj};
 use crate::query::{self, RayFilter, RayHit};
 use crate::sensor::body_force;
@@ -469,10 +468,9 @@ pub fn clock<S: Scope>(d: &mut Data<S>, clock: fn() -> u64) {
     reset::clock(&mut d.inner, clock);
 }
 
-/// What a stage took since [`clock`]. Of no stage: what the clock shows where nothing was done, once for each part of a pass; that much
-/// of every run is the looking.
-pub fn lap<S: Scope>(d: &Data<S>, stage: Option<Stage>) -> Lap {
-    functions::lap(&d.inner, stage)
+/// What the stages took since [`clock`], or since this was asked last; nothing without a clock.
+pub fn laps<S: Scope>(d: &mut Data<S>) -> Laps {
+    functions::laps(&mut d.inner)
 }
 
 /// How many of the pairs of geoms that can touch have bounds within reach of each other where the geoms are now: the others cost

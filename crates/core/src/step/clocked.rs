@@ -11,9 +11,15 @@ pub(super) const CLOCKED: u32 = 1 << 31;
 #[cold]
 #[inline(never)]
 pub(super) fn walk(rows: &[fn(&Model, &mut Data)], stages: &[Stage], m: &Model, d: &mut Data, bits: u32) {
+    if let Some(watch) = &mut d.work.watch {
+        watch.begin();
+    }
     lap(nothing, None, m, d);
     let kept = rows.iter().zip(stages).enumerate().filter(|(i, _)| bits & (1 << i) != 0);
     kept.for_each(|(_, (run, stage))| lap(*run, Some(*stage), m, d));
+    if let Some(watch) = &mut d.work.watch {
+        watch.end();
+    }
 }
 
 /// Runs one of them, or nothing, between two looks at the clock.
@@ -24,7 +30,7 @@ fn lap(run: fn(&Model, &mut Data), stage: Option<Stage>, m: &Model, d: &mut Data
     run(m, d);
     let now = clock.map(|clock| clock());
     if let (Some(watch), Some((work, time)), Some(now)) = (&mut d.work.watch, before, now) {
-        watch.add(stage, now.saturating_sub(time), d.fields.meter.cost.saturating_sub(work));
+        watch.laps.add(stage, now.saturating_sub(time), d.fields.meter.cost.saturating_sub(work));
     }
 }
 

@@ -3,8 +3,7 @@
 use crate::dynamics::{self, rne as newton_euler};
 use crate::geometry::Distance;
 use crate::model::Model;
-use crate::model::stage::Stage;
-use crate::model::stopwatch::Lap;
+use crate::model::stopwatch::Laps;
 use crate::step::workspace::Data;
 use crate::{collision, constraint, query};
 
@@ -45,9 +44,11 @@ pub(crate) fn cost(d: &Data) -> u64 {
     d.meter.cost
 }
 
-/// What a stage took since the stopwatch was started, or nothing.
-pub(crate) fn lap(d: &Data, stage: Option<Stage>) -> Lap {
-    d.work.watch.as_ref().map_or(Lap::default(), |watch| watch.lap(stage))
+/// What the stages took since the stopwatch was started, or was asked last.
+pub(crate) fn laps(d: &mut Data) -> Laps {
+    let Some(watch) = &mut d.work.watch else { return Laps::default() };
+    watch.ended = None;
+    std::mem::take(&mut watch.laps)
 }
 
 /// How many pairs of geoms have bounds within reach of each other, where the geoms are now.

@@ -85,7 +85,13 @@ fn human(report: &Report) -> String {
     }
     if let Some(step) = &report.step {
         let (share, time) = costs(Some(step.integrator));
-        row("", "integrator", share, time, "it makes the next state, and looks for numbers that are none");
+        row(
+            "",
+            "integrator",
+            share,
+            time,
+            "the next state, a look for numbers that are none, and what a run looks after",
+        );
         if step.controller.is_some() {
             let (share, time) = costs(step.controller);
             row("", "controller", share, time, "the lab's own program runs before every step");

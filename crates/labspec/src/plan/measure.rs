@@ -1,8 +1,10 @@
 //! What a step of a lab costs, stage by stage, and what one with more stages would: the lab's own run, again and again, all
 //! variants in turn, so that what else the machine does meets them all.
 //!
-//! Stages are measured by a clock between them. What looking at the clock takes is measured as well, and taken off; a stage of
-//! a few nanoseconds is known to a few nanoseconds. What a stage would cost that does not run is the difference of two runs.
+//! The run is cut into chunks of steps, the same in every run, and of each chunk the middle of its times counts: what interrupts the
+//! program now and then meets a chunk now and then. Stages are measured by a clock between them; what looking at it takes is
+//! measured as well, and taken off. A stage of a few nanoseconds is known to a few nanoseconds. What a stage would cost that does
+//! not run is the difference of two runs.
 
 use super::parts::Seen;
 use super::reader::Reader;
@@ -20,6 +22,8 @@ pub const REPEATS: usize = 7;
 /// A run is cut off after so much work, which is about nanoseconds, and repeated until it took so many nanoseconds.
 const MOST_WORK: u64 = 10_000_000;
 const LONG_ENOUGH: f64 = 1e6;
+/// Nanoseconds between two looks at the clock: what interrupts a run spoils that much of it, and the same steps were measured before.
+const LOOK_EVERY: f64 = 5e4;
 
 /// What a stage costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -80,15 +84,34 @@ fn look() -> f64 {
     quarters(&mut times)[1]
 }
 
-/// A quarter of the way, the middle, and three quarters; NaN of nothing.
+/// A quarter of the way, the middle, and three quarters.
 fn quarters(times: &mut [f64]) -> [f64; 3] {
     times.sort_by(f64::total_cmp);
     let n = times.len();
-    [n / 4, n / 2, (3 * n) / 4].map(|i| times.get(i).copied().unwrap_or(f64::NAN))
+    [n / 4, n / 2, (3 * n) / 4].map(|i| times.get(i).copied().unwrap_or(0.0))
 }
 
-fn middle(times: impl Iterator<Item = f64>) -> f64 {
-    quarters(&mut times.collect::<Vec<f64>>())[1]
+/// What the chunks of a run took, each as often as it was measured: `chunks[i]` are the times of the same steps.
+#[derive(Clone, Debug, Default)]
+struct Times {
+    chunks: Vec<Vec<f64>>,
+}
+
+impl Times {
+    fn add(&mut self, chunk: usize, time: f64) {
+        if self.chunks.len() <= chunk {
+            self.chunks.resize(chunk + 1, Vec::new());
+        }
+        if let Some(times) = self.chunks.get_mut(chunk) {
+            times.push(time);
+        }
+    }
+
+    /// The sums of the quarters and of the middle of each chunk: what interrupts some of its runs is not in them.
+    fn sums(&self) -> [f64; 3] {
+        let all = self.chunks.iter().map(|times| quarters(&mut times.clone()));
+        all.fold([0.0; 3], |sum, now| [sum[0] + now[0], sum[1] + now[1], sum[2] + now[2]])
+    }
 }
 
 /// A lab, and the run of it that is measured.
@@ -97,60 +120,66 @@ struct Case<'a> {
     model: &'a Model,
     programs: &'a Programs,
     steps: usize,
-    /// How often the run is made in a repeat.
+    /// How often the run is made in a repeat, and steps between two looks at the clock.
     runs: usize,
+    chunk: usize,
 }
 
 impl<'a> Case<'a> {
-    fn start(&self, plan: Plan) -> Session<'a> {
-        let data = Data::planned(self.model, plan);
+    fn start(&self, plan: &Plan) -> Session<'a> {
+        let data = Data::planned(self.model, plan.clone());
         Session::start_with(self.programs, self.model, self.lab.keyframe(), data)
     }
 
-    /// A step, ns.
-    fn time(&self, plan: &Plan) -> f64 {
-        let mut time = 0;
-        for _ in 0..self.runs {
-            let mut session = self.start(plan.clone());
-            let start = nanoseconds();
-            (0..self.steps).for_each(|_| session.step());
-            time += nanoseconds() - start;
-        }
-        time as f64 / (self.runs * self.steps).max(1) as f64
+    /// Steps of the run, chunk by chunk.
+    fn chunks(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let (steps, chunk) = (self.steps, self.chunk);
+        (0..steps).step_by(chunk).map(move |first| chunk.min(steps - first)).enumerate()
     }
 
-    /// Each stage of a step, ns, and the controller.
-    fn laps(&self, plan: &Plan) -> (Vec<f64>, f64) {
-        let look = look();
-        let mut stages = vec![0.0; plan.decisions().len()];
-        let (mut programs, mut clocked) = (0.0, 0.0);
+    fn time(&self, plan: &Plan, times: &mut Times) {
         for _ in 0..self.runs {
-            let mut session = self.start(plan.clone());
-            let mut engine = 0;
-            let start = nanoseconds();
-            for _ in 0..self.steps {
-                session.step_by(|m, d| {
-                    let start = nanoseconds();
-                    let done = core::step(m, d);
-                    engine += nanoseconds() - start;
-                    done
-                });
-            }
-            programs += (nanoseconds() - start - engine) as f64 - self.steps as f64 * look;
-            clocked += 1.0;
-            let mut session = self.start(plan.clone());
-            core::clock(&mut session.world.data, nanoseconds);
-            (0..self.steps).for_each(|_| session.step());
-            let nothing = core::lap(&session.world.data, None);
-            let looking = nothing.time as f64 / nothing.runs.max(1) as f64;
-            for (sum, decision) in stages.iter_mut().zip(plan.decisions()) {
-                let lap = core::lap(&session.world.data, Some(decision.stage));
-                *sum += (lap.time as f64 - lap.runs as f64 * looking).max(0.0);
+            let mut session = self.start(plan);
+            for (i, steps) in self.chunks() {
+                let start = nanoseconds();
+                (0..steps).for_each(|_| session.step());
+                times.add(i, (nanoseconds() - start) as f64);
             }
         }
-        let per_step = (clocked * self.steps as f64).max(1.0);
-        stages.iter_mut().for_each(|sum| *sum /= per_step);
-        (stages, (programs / per_step).max(0.0))
+    }
+
+    /// Each stage; then what is between them, without the controller; then the controller.
+    fn laps(&self, plan: &Plan, times: &mut [Times]) {
+        let (look, controlled) = (look(), self.programs.controller.is_some());
+        for _ in 0..self.runs {
+            let mut session = self.start(plan);
+            core::clock(&mut session.world.data, nanoseconds);
+            for (i, steps) in self.chunks() {
+                let mut programs = 0.0;
+                for _ in 0..steps {
+                    if !controlled {
+                        session.step();
+                        continue;
+                    }
+                    let (before, mut begun) = (nanoseconds(), 0);
+                    session.step_by(|m, d| {
+                        begun = nanoseconds();
+                        core::step(m, d)
+                    });
+                    programs += (begun.saturating_sub(before) as f64 - look).max(0.0);
+                }
+                let laps = core::laps(&mut session.world.data);
+                let looking = laps.nothing.time as f64 / laps.nothing.runs.max(1) as f64;
+                let net = |lap: core::Lap| (lap.time as f64 - lap.runs as f64 * looking).max(0.0);
+                let stages = plan.decisions().iter().map(|d| net(laps.of(d.stage)));
+                // The clock was looked at for the controller, too.
+                let own = if controlled { programs + 2.0 * look * steps as f64 } else { 0.0 };
+                let between = (net(laps.between) - own).max(0.0);
+                for (times, time) in times.iter_mut().zip(stages.chain([between, programs])) {
+                    times.add(i, time);
+                }
+            }
+        }
     }
 }
 
@@ -165,10 +194,16 @@ pub(super) fn measure(
     readers: &[Reader],
 ) -> Result<Option<Measured>, RunError> {
     let plan = Plan::new(model, &programs.demand);
-    let mut case = Case { lab, model, programs, steps: 0, runs: 1 };
+    let mut case = Case { lab, model, programs, steps: 0, runs: 1, chunk: 16 };
     let (mut step, works) = look_at(&mut case, &plan)?;
-    let first = case.time(&plan);
-    case.runs = (LONG_ENOUGH / (first * case.steps.max(1) as f64)).ceil().clamp(1.0, 100.0) as usize;
+    if case.steps == 0 {
+        return Ok(None);
+    }
+    let mut first = Times::default();
+    case.time(&plan, &mut first);
+    let [_, whole, _] = first.sums();
+    case.runs = (LONG_ENOUGH / whole.max(1.0)).ceil().clamp(1.0, 100.0) as usize;
+    case.chunk = (LOOK_EVERY * case.steps as f64 / whole.max(1.0)).clamp(1.0, 1000.0) as usize;
 
     let full = Plan::new(model, &Demand { reads: FieldSet::ALL, ..programs.demand });
     let stages: Vec<_> = plan.decisions().iter().map(|d| d.stage).collect();
@@ -176,41 +211,35 @@ pub(super) fn measure(
     let mut variants = vec![plan.clone(), full];
     variants.extend(left_out.map(|s| Plan::with(model, &programs.demand, *s)));
     variants.extend(readers.iter().map(|r| Plan::new(model, &r.demand)));
-    let mut times: Vec<Vec<f64>> = vec![Vec::new(); variants.len()];
-    let mut laps: Vec<(Vec<f64>, f64)> = Vec::new();
+    let mut times = vec![Times::default(); variants.len()];
+    let mut laps = vec![Times::default(); stages.len() + 2];
     for _ in 0..REPEATS {
-        if interrupt::requested() || case.steps == 0 {
+        for (variant, times) in variants.iter().zip(&mut times) {
+            case.time(variant, times);
+        }
+        case.laps(&plan, &mut laps);
+        if interrupt::requested() {
             break;
         }
-        for (variant, times) in variants.iter().zip(&mut times) {
-            times.push(case.time(variant));
-        }
-        laps.push(case.laps(&plan));
     }
 
-    if laps.is_empty() {
-        return Ok(None);
-    }
-    let planned = times.first().cloned().unwrap_or_default();
-    let more = |i: usize| {
-        let of = times.get(i).map_or(&[][..], Vec::as_slice);
-        middle(of.iter().zip(&planned).map(|(a, b)| a - b))
+    let per_step = |sum: f64| sum / case.steps as f64;
+    let sums: Vec<[f64; 3]> = times.iter().map(|t| t.sums().map(per_step)).collect();
+    let of = |i: usize| sums.get(i).copied().unwrap_or_default();
+    let [low, ns, high] = of(0);
+    let more = |i: usize| of(i)[1] - ns;
+    // What is measured one by one is a little slower than in a row: its parts of the whole are what is told.
+    let laps: Vec<f64> = laps.iter().map(|t| per_step(t.sums()[1])).collect();
+    let all: f64 = laps.iter().sum();
+    let cost = |i: usize, work: f64| {
+        let share = laps.get(i).copied().unwrap_or(0.0) / all.max(f64::MIN_POSITIVE);
+        Cost { ns: share * ns, share, work }
     };
-    let [low, ns, high] = quarters(&mut planned.clone());
-    let of_stage = |i: usize| middle(laps.iter().filter_map(|(stages, _)| stages.get(i).copied()));
-    let nanoseconds: Vec<f64> = (0..stages.len()).map(of_stage).collect();
-    let controller = programs.controller.as_ref().map(|_| middle(laps.iter().map(|(_, c)| *c)));
-    let known: f64 = nanoseconds.iter().sum::<f64>() + controller.unwrap_or(0.0);
-    // Stages that are measured one by one may be slower than in a row.
-    let whole = ns.max(known);
-    let cost = |ns: f64, work: f64| Cost { ns, share: ns / whole, work };
-    step.ns = ns;
-    step.quarters = [low, high];
-    step.full = middle(times.get(1).into_iter().flatten().copied());
-    step.integrator = cost(whole - known, 0.0);
-    step.controller = controller.map(|ns| cost(ns, 0.0));
-    let costs = stages.iter().zip(&nanoseconds).zip(&works);
-    let costs = costs.map(|((stage, ns), work)| plan.keeps(*stage).then(|| cost(*ns, *work))).collect();
+    (step.ns, step.quarters, step.full) = (ns, [low, high], of(1)[1]);
+    step.integrator = cost(stages.len(), 0.0);
+    step.controller = programs.controller.as_ref().map(|_| cost(stages.len() + 1, 0.0));
+    let costs = stages.iter().zip(&works).enumerate();
+    let costs = costs.map(|(i, (stage, work))| plan.keeps(*stage).then(|| cost(i, *work))).collect();
     let mut next = 1;
     let mut forced = Vec::new();
     for stage in &stages {
@@ -225,7 +254,7 @@ pub(super) fn measure(
 
 /// Runs the lab once, to see how many steps are measured and what happens in them. The work of each stage comes with it.
 fn look_at(case: &mut Case<'_>, plan: &Plan) -> Result<(Step, Vec<f64>), RunError> {
-    let mut session = case.start(plan.clone());
+    let mut session = case.start(plan);
     let most = count_steps(case.lab, None, None, session.world.model.opt.timestep)?;
     core::clock(&mut session.world.data, || 0);
     let before = core::cost(&session.world.data);
@@ -247,8 +276,8 @@ fn look_at(case: &mut Case<'_>, plan: &Plan) -> Result<(Step, Vec<f64>), RunErro
     }
     let steps = case.steps.max(1) as f64;
     let [in_reach, contacts, rows, iterations] = seen.map(|[sum, most]| [sum / steps, most]);
-    let works =
-        plan.decisions().iter().map(|d| core::lap(&session.world.data, Some(d.stage)).work as f64 / steps);
+    let laps = core::laps(&mut session.world.data);
+    let works = plan.decisions().iter().map(|d| laps.of(d.stage).work as f64 / steps);
     let step = Step {
         steps: case.steps,
         work: (core::cost(&session.world.data) - before) as f64 / steps,
