@@ -94,11 +94,85 @@ fn a_run_that_breaks_is_a_finding() {
 
 #[test]
 fn plan_gives_reasons() {
-    snapshot("plan", shown(&["plan", "fall.json"]));
+    snapshot("plan", shown(&["plan", "fall.json", "--no-run"]));
     let plan = json_of(&["plan", "clean.md#1", "--format", "json"]);
-    assert_eq!(keys(&plan), ["schemaVersion", "report", "reads", "writes", "stages"]);
+    assert_eq!(keys(&plan)[..5], ["schemaVersion", "report", "reads", "writes", "stages"]);
     assert_eq!(plan["reads"], json!(["time", "qpos", "ncon"]));
-    assert_eq!(keys(&plan["stages"][0]), ["stage", "keep", "reason"]);
+    assert_eq!(keys(&plan["stages"][0])[..3], ["stage", "keep", "reason"]);
+}
+
+/// What each stage costs, and what those would that do not run. Times are this machine's; what they add up to is not, nor what
+/// happens in the steps.
+#[test]
+fn plan_measures() {
+    let arguments =
+        ["plan", "clean.md#1", "--read", "data.energy", "--read", "data.qacc", "--format", "json"];
+    let [plan, again] = [json_of(&arguments), json_of(&arguments)];
+    let number = |value: &Value| value.as_f64().unwrap();
+    let (mut shares, mut work) = (number(&plan["step"]["integrator"]["share"]), 0.0);
+    assert_eq!(plan["step"]["controller"], Value::Null);
+    for (stage, other) in plan["stages"].as_array().unwrap().iter().zip(again["stages"].as_array().unwrap()) {
+        assert_eq!((&stage["work"], &stage["reason"]), (&other["work"], &other["reason"]));
+        let [share, ns, counted, forced] = ["share", "ns", "work", "forcedNs"].map(|key| stage[key].as_f64());
+        if stage["keep"] == true {
+            shares += share.unwrap();
+            work += counted.unwrap();
+            assert!(ns.unwrap() >= 0.0 && forced.is_none(), "{stage}");
+        } else {
+            assert!(share.is_none() && ns.is_none() && counted.is_none() && forced.is_some(), "{stage}");
+        }
+    }
+    assert!((shares - 1.0).abs() < 1e-9, "{shares}");
+    // Solving is work that is counted, and not all of it.
+    assert!(work > 0.0 && work < number(&plan["step"]["work"]), "{work} of {}", plan["step"]["work"]);
+    // Two balls and a floor: 1000 steps, in which the balls fall, touch and come to rest.
+    assert_eq!(plan["step"]["steps"], 1000);
+    assert_eq!((&plan["pairs"]["all"], &plan["pairs"]["canTouch"]), (&json!(3), &json!(3)));
+    for key in ["inReach", "contacts"] {
+        assert_eq!(plan["pairs"][key], again["pairs"][key]);
+        assert_eq!(plan["pairs"][key]["most"], 2.0);
+    }
+    assert!(
+        number(&plan["pairs"]["contacts"]["mean"]) > 1.0 && number(&plan["solver"]["rows"]["most"]) == 8.0
+    );
+    let readers = plan["readers"].as_array().unwrap();
+    assert_eq!(
+        readers.iter().map(|r| r["read"].clone()).collect::<Vec<_>>(),
+        ["data.energy", "data.qacc", "all of these"]
+    );
+    let done = run(&["plan", "fall.json", "--read", "data.nothing", "--no-run"]);
+    assert_eq!(done.code, 2);
+    assert!(done.stderr.contains("`data.nothing` names no field"), "{}", done.stderr);
+}
+
+/// One more reader makes stages join: the same that the plan of a lab with that reader keeps.
+#[test]
+fn plan_tells_what_a_reader_brings() {
+    let folder = folder();
+    let plan = |arguments: &[&str]| -> Value {
+        let all = [&["plan", "fall.json", "--no-run", "--format", "json"], arguments].concat();
+        serde_json::from_str(&run_in(folder.path(), &all).stdout).unwrap()
+    };
+    let joins = |name: &str| plan(&["--read", name])["readers"][0]["joins"].clone();
+    assert_eq!(joins("xquat"), json!(["kinematics", "orientations"]));
+    assert_eq!(joins("data.xpos"), json!(["kinematics"]));
+    assert_eq!(joins("data.xpos[5] * 2"), json!(["kinematics"]));
+    assert_eq!(joins("qvel"), json!([]));
+}
+
+/// A run without a plan shows the same to the last byte.
+#[test]
+fn a_full_run_is_the_same_run() {
+    let folder = folder();
+    for lab in ["clean.md#1", "clean.md#drop.1", "fall.json"] {
+        for format in ["human", "json", "csv"] {
+            let run = |more: &[&str]| {
+                let all = [&["run", lab, "--until", "0.8", "--format", format], more].concat();
+                run_in(folder.path(), &all).stdout
+            };
+            assert_eq!(run(&["--full"]), run(&[]), "{lab}");
+        }
+    }
 }
 
 #[test]

@@ -105,6 +105,7 @@ fn ours(shared: &Path, recording: &Json, how: How) -> Json {
             .map(|p| (p[0].as_str().unwrap().into(), Value::Number(p[1].as_f64().unwrap())))
             .collect(),
         press: pairs("press").iter().map(|p| (p.as_str().unwrap().into(), 0.0)).collect(),
+        full: false,
     };
     let table = run::run(lab, &model, &programs, &options).unwrap_or_else(|e| panic!("{name}: {e}"));
     let mut text = Vec::new();

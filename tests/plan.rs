@@ -10,6 +10,7 @@ use labspec_core::{self as core, Data, Demand, Model, Plan, Planned, Scope, enab
 use proptest::collection::vec;
 use proptest::prelude::*;
 use std::fmt::Write;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The fields that programs may write in these tests, each with a value that does something.
 const WRITES: &[(Object, &str, f64)] = &[
@@ -121,8 +122,12 @@ fn bits<S: Scope>(m: &Model, d: &Data<S>, f: FieldId) -> Vec<u64> {
 
 /// Runs a scene with a plan and with the full pipeline; the first field that differs, with its step.
 fn difference(m: &Model, demand: &Demand, events: &[Event]) -> Option<String> {
+    difference_of(m, Data::planned(m, Plan::new(m, demand)), demand, events)
+}
+
+/// The same of data whose plan is already decided.
+fn difference_of(m: &Model, mut planned: Data<Planned>, demand: &Demand, events: &[Event]) -> Option<String> {
     let (mut m1, mut m2) = (m.clone(), m.clone());
-    let mut planned = Data::planned(m, Plan::new(m, demand));
     let mut full = Data::unplanned(m);
     for step in 0..STEPS {
         for event in events {
@@ -184,6 +189,29 @@ proptest! {
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
     }
 
+    /// What `labspec plan` runs to measure: a stage more than the plan keeps, and a clock between the stages.
+    #[test]
+    fn a_stage_more_and_a_clock_change_nothing(
+        scene in scene(),
+        reads in vec(any::<prop::sample::Index>(), 0..4),
+        more in any::<prop::sample::Index>(),
+        events in vec(event(), 0..4),
+    ) {
+        let m = compile(&scene.xml());
+        let mut demand = Demand { reads: FieldSet::EMPTY, writes: writes(&events) };
+        reads.iter().for_each(|i| demand.reads.insert(*i.get(&data_fields())));
+        for name in ["time", "qpos", "qvel"] {
+            demand.reads.insert(field(Object::Data, name));
+        }
+        let stages: Vec<Stage> = Plan::full().decisions().iter().map(|d| d.stage).collect();
+        let plan = Plan::with(&m, &demand, *more.get(&stages));
+        prop_assert!(plan.keeps(*more.get(&stages)));
+        let mut data = Data::planned(&m, plan);
+        core::clock(&mut data, || 0);
+        let difference = difference_of(&m, data, &demand, &events);
+        prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
+    }
+
     #[test]
     fn a_plan_that_may_be_asked_anything_is_the_full_run(scene in scene(), events in vec(event(), 0..4)) {
         let m = compile(&scene.xml());
@@ -191,6 +219,47 @@ proptest! {
         data_fields().into_iter().for_each(|f| demand.reads.insert(f));
         let difference = difference(&m, &demand, &events);
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
+    }
+}
+
+/// A clock between the stages sees each that the plan keeps in every pass, also in those within a step of Runge and Kutta, and no
+/// other; the work that it finds is that of the engine but for a number for each pass.
+#[test]
+fn a_clock_sees_what_the_plan_keeps() {
+    fn tick() -> u64 {
+        static NOW: AtomicU64 = AtomicU64::new(0);
+        NOW.fetch_add(1, Ordering::Relaxed)
+    }
+    for (name, passes) in [("ball_drop", 1), ("pendulum", 1), ("everything", 1), ("double_pendulum", 4)] {
+        let mut m = model(name);
+        if passes == 4 {
+            *m.edit().opt.integrator = core::integrator::RK4;
+        }
+        let mut d = Data::planned(&m, Plan::new(&m, &reading(&["qpos", "sensordata"])));
+        core::clock(&mut d, tick);
+        let before = core::cost(&d);
+        for _ in 0..10 {
+            core::step(&m, &mut d).unwrap();
+        }
+        let (mut work, laps) = (0, core::laps(&mut d));
+        for decision in d.plan().decisions() {
+            let lap = laps.of(decision.stage);
+            work += lap.work;
+            // What sensors show is left out of the passes within a step.
+            let shown = matches!(decision.stage, Stage::Sensors | Stage::SubtreeVel | Stage::RnePost);
+            let least = if shown { 10 } else { 10 * passes };
+            assert_eq!(
+                decision.keep,
+                lap.runs >= least,
+                "{name}: {:?} ran {} times",
+                decision.stage,
+                lap.runs
+            );
+            assert!(lap.time >= lap.runs && (decision.keep || lap.runs == 0), "{name}: {:?}", decision.stage);
+        }
+        assert!(laps.nothing.runs >= 20 * passes && laps.between.runs + 1 == laps.nothing.runs, "{laps:?}");
+        assert_eq!(core::laps(&mut d), core::Laps::default());
+        assert_eq!(core::cost(&d) - before, work + 10 * passes * core::cost_of_pass(&d), "{name}");
     }
 }
 

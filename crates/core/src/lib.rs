@@ -52,6 +52,7 @@ pub use api::planning::Plan;
 #[cfg(feature = "mjcf")]
 pub use api::reading as xml;
 pub use api::view::{Actuator, Body, Geom, Joint, Rows3, Sensor, Site, Tendon, Which};
+pub use collision::PairFate;
 pub use geometry::Distance;
 pub use kinds::{
     biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, solver, trntype, wraptype,
@@ -59,6 +60,7 @@ pub use kinds::{
 #[doc(hidden)]
 pub use model::Fields;
 pub use model::reflect;
+pub use model::stopwatch::{Lap, Laps};
 pub use model::way::{Way, Ways};
 pub use model::{Contact, Decision, Names, Obj, Options, Statistic, Warning, WarningStat};
 pub use query::{RayFilter, RayHit};

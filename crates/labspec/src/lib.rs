@@ -30,6 +30,7 @@ pub mod ledger;
 pub mod lint;
 pub mod markdown;
 pub mod models;
+pub mod plan;
 pub mod player;
 pub mod precision;
 mod printable;

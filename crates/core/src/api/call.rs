@@ -13,6 +13,7 @@ use crate::geometry::Distance;
 use crate::math::{Spatial, Vec3};
 use crate::model::plan::Fact;
 use crate::model::reflect::{self, FieldId, Object, View, ViewMut};
+use crate::model::stopwatch::Laps;
 use crate::model::{Contact, Obj};
 use crate::query::{self, RayFilter, RayHit};
 use crate::sensor::body_force;
@@ -466,6 +467,24 @@ pub fn cost<S: Scope>(d: &Data<S>) -> u64 {
 /// What a forward pass costs without pairs and constraints, in the same unit.
 pub fn cost_of_pass<S: Scope>(d: &Data<S>) -> u64 {
     functions::cost_of_pass(&d.inner)
+}
+
+/// Measures the stages from here on, from nothing, by a clock that the caller brings: it counts up in any unit. Each run of a
+/// stage then costs two looks at the clock more; numbers stay the same.
+pub fn clock<S: Scope>(d: &mut Data<S>, clock: fn() -> u64) {
+    reset::clock(&mut d.inner, clock);
+}
+
+/// What the stages took since [`clock`], or since this was asked last; nothing without a clock.
+pub fn laps<S: Scope>(d: &mut Data<S>) -> Laps {
+    functions::laps(&mut d.inner)
+}
+
+/// How many of the pairs of geoms that can touch have bounds within reach of each other where the geoms are now: the others cost
+/// one comparison each.
+pub fn pairs_in_reach<S: Scope>(m: &Model, d: &Data<S>) -> Result<usize, Error> {
+    d.belongs_to(m)?;
+    Ok(functions::pairs_in_reach(m, &d.inner))
 }
 
 /// Lets the engine do so much more work and no more. Beyond that its results are of no use: see [`exhausted`].

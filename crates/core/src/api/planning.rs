@@ -1,9 +1,11 @@
 //! Plans as everybody but the engine sees them: what a demand leads to.
 
 use super::model::Model;
-use crate::model::plan::{Decision, Plan as Inner};
+use crate::collision::{self, PairFate};
+use crate::dynamics::ways;
+use crate::model::plan::{Decision, Fact, Plan as Inner};
 use crate::model::stage::Stage;
-use crate::model::way::Ways;
+use crate::model::way::{Way, Ways};
 use crate::step::scene::Demand;
 
 /// Which stages run, and why.
@@ -43,6 +45,11 @@ impl Plan {
         Plan { inner: Inner::new(m, demand, ways), demand: *demand }
     }
 
+    /// The same with a stage more, and what it uses, wanted or not: to measure what it would cost. No number changes.
+    pub fn with(m: &Model, demand: &Demand, more: Stage) -> Plan {
+        Plan { inner: Inner::with(m, demand, Ways::ALL, Some(more)), demand: *demand }
+    }
+
     /// Every stage, needed or not: the reference that plans are held against.
     pub fn full() -> Plan {
         Plan { inner: Inner::full(), demand: Demand::ANY }
@@ -53,9 +60,31 @@ impl Plan {
         Plan { inner: Inner::awake(), demand: Demand::ANY }
     }
 
+    /// What it was made for.
+    pub fn demand(&self) -> &Demand {
+        &self.demand
+    }
+
     /// Whether a stage runs.
     pub fn keeps(&self, stage: Stage) -> bool {
         self.inner.keeps(stage)
+    }
+
+    /// How many pairs of geoms of the model can ever touch, and how many cannot for which reason. Pairs of which programs may
+    /// write what keeps them apart can touch.
+    pub fn pairs(&self, m: &Model) -> Vec<(PairFate, usize)> {
+        collision::census(m, self.inner.has(Fact::PairsChange))
+    }
+
+    /// How the pairs that can touch are tested: two types of geoms, how many such pairs there are, and whether their contacts
+    /// are searched for by the general algorithm of convex shapes. Of more than 4096 pairs, those at the start.
+    pub fn tests(&self, m: &Model) -> Vec<([i32; 2], usize, bool)> {
+        collision::methods(m, self.inner.has(Fact::PairsChange))
+    }
+
+    /// The ways that each tree of the model takes: for where its bodies are, for its inertia and forces, for its accelerations.
+    pub fn ways(&self, m: &Model) -> Vec<[Way; 3]> {
+        (0..m.ntree).map(|tree| ways::taken_by(m, self.inner.ways, tree)).collect()
     }
 
     /// Every stage with the reason to keep it or leave it out, in the order of the pipeline.

@@ -55,7 +55,7 @@ fn bodies_may_touch(m: &Model, b1: usize, b2: usize) -> bool {
 }
 
 /// Whether the model keeps two bodies apart.
-fn excluded(m: &Model, b1: usize, b2: usize) -> bool {
+pub(super) fn excluded(m: &Model, b1: usize, b2: usize) -> bool {
     m.exclude_bodies.binary_search(&[b1.min(b2) as i32, b1.max(b2) as i32]).is_ok()
 }
 

@@ -1,10 +1,13 @@
 //! Collision detection: which geoms touch, where, and with which contact parameters.
 
+mod census;
 mod filter;
 mod params;
 mod primitive;
 mod sweep;
 
+pub use census::PairFate;
+pub(crate) use census::{census, in_reach, methods};
 use filter::Pair;
 pub(crate) use filter::{MOST_LISTED, candidate_pairs, searched_pair};
 pub(crate) use filter::{can_collide, may_touch};

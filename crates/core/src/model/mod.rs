@@ -9,6 +9,7 @@ pub(crate) mod plan;
 pub mod reflect;
 pub(crate) mod stage;
 pub(crate) mod state;
+pub(crate) mod stopwatch;
 pub(crate) mod way;
 
 pub use data_fields::Fields;

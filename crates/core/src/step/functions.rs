@@ -3,8 +3,9 @@
 use crate::dynamics::{self, rne as newton_euler};
 use crate::geometry::Distance;
 use crate::model::Model;
+use crate::model::stopwatch::Laps;
 use crate::step::workspace::Data;
-use crate::{constraint, query};
+use crate::{collision, constraint, query};
 
 /// Poses of bodies, joints, geoms and sites (`mj_kinematics`).
 pub(crate) fn kinematics(m: &Model, d: &mut Data) {
@@ -41,6 +42,18 @@ pub(crate) fn geom_distance(
 /// The work that was done with these data since they were made: about nanoseconds of a fast machine.
 pub(crate) fn cost(d: &Data) -> u64 {
     d.meter.cost
+}
+
+/// What the stages took since the stopwatch was started, or was asked last.
+pub(crate) fn laps(d: &mut Data) -> Laps {
+    let Some(watch) = &mut d.work.watch else { return Laps::default() };
+    watch.ended = None;
+    std::mem::take(&mut watch.laps)
+}
+
+/// How many pairs of geoms have bounds within reach of each other, where the geoms are now.
+pub(crate) fn pairs_in_reach(m: &Model, d: &Data) -> usize {
+    collision::in_reach(m, &d.fields, &d.work.collision)
 }
 
 /// What a forward pass costs without pairs and constraints, in the same unit.

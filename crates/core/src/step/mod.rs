@@ -4,6 +4,7 @@
 //! before and between.
 
 pub(crate) mod balance;
+mod clocked;
 pub(crate) mod damping;
 pub(crate) mod discrete;
 pub(crate) mod forward;

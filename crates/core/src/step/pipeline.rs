@@ -4,6 +4,7 @@
 //! (from the last to the first, as a stage runs for what a later one needs), and `labspec plan` prints them. What a stage
 //! computes stands in the field table, row by row under its [`Stage`].
 
+use super::clocked::{self, CLOCKED};
 use super::forward as run;
 use super::scene::Scene;
 use crate::dynamics::ways;
@@ -456,6 +457,9 @@ impl<const N: usize> Sequence<N> {
     /// Runs what the bits say.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn run(&self, m: &Model, d: &mut Data, mut bits: u32) {
+        if bits & CLOCKED != 0 {
+            return clocked::walk(&self.run, &self.stage, m, d, bits);
+        }
         while let Some(run) = self.run.get(bits.trailing_zeros() as usize) {
             bits &= bits - 1;
             run(m, d);
@@ -468,6 +472,11 @@ fn nothing(_: &Model, _: &mut Data) {}
 pub(crate) static POSITIONS: Sequence<{ count_of(Part::Positions) }> = Sequence::new(Part::Positions);
 pub(crate) static VELOCITIES: Sequence<{ count_of(Part::Velocities) }> = Sequence::new(Part::Velocities);
 pub(crate) static INPUTS: Sequence<{ count_of(Part::Inputs) }> = Sequence::new(Part::Inputs);
+
+/// The same passes by the clock.
+pub(crate) fn by_the_clock(passes: [[u32; 3]; 2]) -> [[u32; 3]; 2] {
+    passes.map(|pass| pass.map(|bits| bits | CLOCKED))
+}
 
 /// What a forward pass runs of each part, for the stages that are kept.
 pub(crate) fn passes(keeps: impl Fn(Stage) -> bool) -> [u32; 3] {

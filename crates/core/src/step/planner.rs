@@ -38,6 +38,11 @@ impl Plan {
     /// From the last stage to the first: a stage runs when it is wanted for its own sake, or when a later
     /// stage that runs uses its results.
     pub(crate) fn new(m: &Model, demand: &Demand, ways: Ways) -> Plan {
+        Plan::with(m, demand, ways, None)
+    }
+
+    /// The same with a stage more, and what it uses, wanted or not: to see what it would cost.
+    pub(crate) fn with(m: &Model, demand: &Demand, ways: Ways, more: Option<Stage>) -> Plan {
         let scene = Scene::new(m, demand, ways);
         let mut plan = Plan::default();
         plan.ways = ways;
@@ -48,6 +53,7 @@ impl Plan {
         for row in STAGES.iter().rev() {
             let user = STAGES.iter().find(|later| plan.keeps(later.stage) && later.uses(&scene, row.stage));
             let why = (row.wanted)(&scene).or_else(|| user.map(|u| format!("the {} stage uses it", u.name)));
+            let why = why.or_else(|| (more == Some(row.stage)).then(|| "it was asked for".into()));
             match why {
                 Some(reason) => plan.decide(row.stage, true, reason),
                 None => plan.decide(row.stage, false, (row.left_out)(&scene).into()),

@@ -1,5 +1,6 @@
 //! Data at the start: made, reset, and given a plan.
 
+use super::pipeline::by_the_clock;
 use super::{forward, sleep};
 use crate::dynamics::{self, kinematics, mass, ways};
 use crate::forces::{actuation, transmission};
@@ -8,6 +9,7 @@ use crate::model::meter::Meter;
 use crate::model::plan::Fact;
 use crate::model::plan::Plan;
 use crate::model::stage::Stage;
+use crate::model::stopwatch::Stopwatch;
 use crate::model::way::Ways;
 use crate::model::{Fields, Model, Warning, WarningStat, reflect};
 use crate::step::scene::Demand;
@@ -55,11 +57,20 @@ pub(crate) fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
         d.work.dynamics = dynamics::Scratch::new(m, plan.ways);
     }
     d.plan = plan;
+    if d.work.watch.is_some() {
+        d.plan.passes = by_the_clock(d.plan.passes);
+    }
     ways::load(m, &mut d.work.dynamics);
     if sleep::is_fresh(&d.work.sleep) {
         lay_down(m, d);
     }
     clear_left_out(m, d);
+}
+
+/// Measures the stages from here on by a clock, from nothing.
+pub(crate) fn clock(d: &mut Data, clock: fn() -> u64) {
+    d.work.watch = Some(Box::new(Stopwatch::new(clock)));
+    d.plan.passes = by_the_clock(d.plan.passes);
 }
 
 /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps

@@ -5,6 +5,7 @@ use super::stages::{Flow, RungeKutta};
 use super::{damping, sleep};
 use crate::forces::{self, derivative};
 use crate::model::plan::Plan;
+use crate::model::stopwatch::Stopwatch;
 use crate::model::way::Ways;
 use crate::model::{Fields, Model};
 use crate::{collision, constraint, dynamics, sensor};
@@ -37,6 +38,8 @@ pub(crate) struct Work {
     pub(crate) flow: Flow,
     /// Whether the state at hand is one that nobody sees, between two steps.
     pub(crate) unseen: bool,
+    /// What measures the stages, where somebody asked for it.
+    pub(crate) watch: Option<Box<Stopwatch>>,
 }
 
 impl Work {

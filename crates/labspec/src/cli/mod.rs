@@ -52,7 +52,7 @@ enum Command {
     Precision(precision::Arguments),
     /// What breaks when a student does whatever can be done to one lab
     Stability(stability::Arguments),
-    /// Which stages of the engine a lab or model needs, and why
+    /// Which stages of the engine a lab or model needs, why, and what each costs
     Plan(plan::Arguments),
     /// What a finding's code means, with an example; without a code, the list of all
     Explain(explain::Arguments),
@@ -154,10 +154,18 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 impl Command {
     /// Whether Ctrl-C is asked for between pieces of work. All other commands it ends at once.
     fn prints_what_is_finished(&self) -> bool {
-        use Command::{Bench, Check, Fmt, Precision, Record, Run, Stability, Verify};
+        use Command::{Bench, Check, Fmt, Plan, Precision, Record, Run, Stability, Verify};
         matches!(
             self,
-            Check(_) | Verify(_) | Fmt(_) | Run(_) | Precision(_) | Stability(_) | Record(_) | Bench(_)
+            Check(_)
+                | Verify(_)
+                | Fmt(_)
+                | Run(_)
+                | Precision(_)
+                | Plan(_)
+                | Stability(_)
+                | Record(_)
+                | Bench(_)
         )
     }
 }

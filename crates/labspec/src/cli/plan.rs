@@ -1,10 +1,12 @@
 //! `labspec plan`.
 
 use super::stdio::print_json;
-use super::{Failure, ModelOptions, Outcome, print, target};
+use super::{Failure, ModelOptions, Outcome, interrupted, print, target};
+use crate::plan::{Code, Cost, Options, REPEATS, Report, name};
 use crate::report::{printable, report};
+use crate::verify::significant;
 use clap::ValueEnum;
-use labspec_core::Plan;
+use labspec_core::reflect::FieldSet;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -15,6 +17,12 @@ pub(super) struct Arguments {
     lab: String,
     #[command(flatten)]
     models: ModelOptions,
+    /// What one more reader would cost: a field (data.sensordata), a sensor, or an expression
+    #[arg(long, value_name = "NAME")]
+    read: Vec<String>,
+    /// Decide only; run and measure nothing
+    #[arg(long)]
+    no_run: bool,
     /// How to print
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
@@ -28,53 +36,247 @@ enum Format {
 
 pub(super) fn plan(a: &Arguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
-    let demand = &target.programs.demand;
-    let plan = Plan::new(&target.model, demand);
-    let list = |set: &labspec_core::reflect::FieldSet| -> Vec<&'static str> {
-        set.iter().map(|f| f.info().name).collect()
-    };
+    let options = Options { read: a.read.clone(), run: !a.no_run };
+    let report =
+        crate::plan::plan(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
     match a.format {
-        Format::Human => {
-            let mut text = String::new();
-            let names =
-                |names: Vec<&str>| if names.is_empty() { "nothing".to_string() } else { names.join(", ") };
-            let _ = writeln!(text, "reads   {}", names(list(&demand.reads)));
-            let _ = writeln!(text, "writes  {}\n", names(list(&demand.writes)));
-            for d in plan.decisions() {
-                let _ = writeln!(
-                    text,
-                    "{}  {:<14} {}",
-                    if d.keep { "keep " } else { "leave" },
-                    stage(d.stage),
-                    printable(&d.reason)
-                );
-            }
-            let kept = plan.decisions().iter().filter(|d| d.keep).count();
-            let _ = writeln!(text, "\n{kept} of {} stages run in every step", plan.decisions().len());
-            print(&text)?;
-        }
-        Format::Json => {
-            let stages: Vec<Value> = plan
-                .decisions()
-                .iter()
-                .map(|d| json!({"stage": stage(d.stage), "keep": d.keep, "reason": d.reason}))
-                .collect();
-            let value =
-                json!({"reads": list(&demand.reads), "writes": list(&demand.writes), "stages": stages});
-            print_json(&report("plan", value), true)?;
-        }
+        Format::Human => print(&human(&report))?,
+        Format::Json => print_json(&value(&report), true)?,
     }
     Ok(Outcome::Clean)
 }
 
-/// A stage's name in lower case with hyphens.
-fn stage(stage: labspec_core::reflect::Stage) -> String {
-    let mut name = String::new();
-    for c in format!("{stage:?}").chars() {
-        if c.is_uppercase() && !name.is_empty() {
-            name.push('-');
-        }
-        name.extend(c.to_lowercase());
+fn names(set: &FieldSet) -> Vec<&'static str> {
+    set.iter().map(|f| f.info().name).collect()
+}
+
+/// Nanoseconds, to what can be known of them.
+fn ns(x: f64) -> String {
+    if x.abs() < 10.0 { format!("{x:.1}") } else { format!("{x:.0}") }
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
+}
+
+fn human(report: &Report) -> String {
+    let mut text = String::new();
+    let list = |names: Vec<&str>| if names.is_empty() { "nothing".to_string() } else { names.join(", ") };
+    let _ = writeln!(text, "reads   {}", list(names(&report.demand.reads)));
+    let _ = writeln!(text, "writes  {}\n", list(names(&report.demand.writes)));
+    let measured = report.step.is_some();
+    if measured {
+        let _ = writeln!(text, "{:20} {:>6} {:>8}", "", "share", "ns");
     }
-    name
+    let mut row = |verb: &str, name: &str, share: String, ns: String, reason: &str| {
+        let _ = match measured {
+            true => writeln!(text, "{verb:<5}  {name:<14} {share:>5} {ns:>8}  {}", printable(reason)),
+            false => writeln!(text, "{verb:<5}  {name:<14} {}", printable(reason)),
+        };
+    };
+    let costs =
+        |cost: Option<Cost>| cost.map_or((String::new(), String::new()), |c| (percent(c.share), ns(c.ns)));
+    for r in &report.rows {
+        let (share, time) = match r.forced {
+            Some(more) => (String::new(), format!("({}{})", if more < 0.0 { "" } else { "+" }, ns(more))),
+            None => costs(r.cost),
+        };
+        row(if r.keep { "keep" } else { "leave" }, &name(r.stage), share, time, &r.reason);
+    }
+    if let Some(step) = &report.step {
+        let (share, time) = costs(Some(step.integrator));
+        row(
+            "",
+            "integrator",
+            share,
+            time,
+            "the next state, a look for numbers that are none, and what a run looks after",
+        );
+        if step.controller.is_some() {
+            let (share, time) = costs(step.controller);
+            row("", "controller", share, time, "the lab's own program runs before every step");
+        }
+    }
+    let kept = report.rows.iter().filter(|r| r.keep).count();
+    let _ = writeln!(text, "\n{kept} of {} stages run in every step", report.rows.len());
+    if let Some(step) = &report.step {
+        let [low, high] = step.quarters;
+        let _ = writeln!(
+            text,
+            "a step takes {} ns ({} to {}); if everything were read, {} ns",
+            ns(step.ns),
+            ns(low),
+            ns(high),
+            ns(step.full)
+        );
+        let _ = writeln!(
+            text,
+            "measured over {} steps of this lab's own run, {REPEATS} times in turn; in brackets: what a stage would cost that does not run",
+            step.steps
+        );
+    }
+    parts(report, &mut text);
+    readers(report, &mut text);
+    if interrupted() {
+        text.push_str("stopped by Ctrl-C: times are of what was finished\n");
+    }
+    text
+}
+
+/// Pairs of geoms, the solver, the integrator, and ways of computing trees.
+fn parts(report: &Report, text: &mut String) {
+    let pairs = &report.pairs;
+    let _ = writeln!(text, "\npairs of geoms  {} of {} can touch", pairs.can_touch, pairs.all);
+    for (shapes, n, searched) in &pairs.tests {
+        let how = if *searched { "searched for by the general algorithm" } else { "in closed form" };
+        let _ = writeln!(text, "  keep   {n:>5}  {} and {}, {how}", shapes[0], shapes[1]);
+    }
+    for (reason, n) in &pairs.left_out {
+        let _ = writeln!(text, "  leave  {n:>5}  {reason}");
+    }
+    if let Some(seen) = pairs.seen.filter(|_| pairs.can_touch > 0) {
+        let both = |[mean, most]: [f64; 2]| format!("{} in the mean, {most} at most", significant(mean));
+        let _ = writeln!(text, "  bounds within reach  {}", both(seen.in_reach));
+        let _ = writeln!(text, "  contacts             {}", both(seen.contacts));
+    }
+    list("solver", &report.solvers, text);
+    if report.solvers.iter().any(|s| s.keep) {
+        let _ = writeln!(text, "  cone {}", report.cone);
+        if let Some(seen) = pairs.seen {
+            let [rows, most] = seen.rows;
+            let [iterations, hardest] = seen.iterations;
+            let _ = writeln!(
+                text,
+                "  rows {} in the mean, {most} at most; iterations {}, {hardest}",
+                significant(rows),
+                significant(iterations)
+            );
+        }
+    }
+    list("integrator", &report.integrators, text);
+    ways(report, text);
+}
+
+/// Which ways trees take.
+fn ways(report: &Report, text: &mut String) {
+    let _ = writeln!(text, "\nways of computing trees");
+    for way in report.ways.iter().filter(|w| w.trees != [0; 3]) {
+        let [places, forces, factors] = way.trees;
+        let of = [(places, "places"), (forces, "forces"), (factors, "accelerations")];
+        let of: Vec<String> =
+            of.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{what} of {n}")).collect();
+        let _ = writeln!(text, "  keep   {}: {}", way.name, of.join(", "));
+    }
+    let idle = report.ways.iter().filter(|w| w.trees == [0; 3]).map(|w| w.name);
+    let idle = idle.collect::<Vec<_>>().join(", ");
+    if !idle.is_empty() {
+        let _ = writeln!(text, "  leave  {idle}: no tree takes them");
+    }
+}
+
+/// Those that are used, then the others by reason.
+fn list(what: &str, codes: &[Code], text: &mut String) {
+    let _ = writeln!(text, "\n{what}");
+    for verb in ["keep ", "leave"] {
+        let mut codes: Vec<&Code> = codes.iter().filter(|c| c.keep == (verb == "keep ")).collect();
+        while let Some(first) = codes.first().copied() {
+            let alike = codes.iter().filter(|c| c.reason == first.reason).map(|c| c.name);
+            let alike = alike.collect::<Vec<_>>().join(", ");
+            let _ = writeln!(text, "  {verb}  {alike}: {}", first.reason);
+            codes.retain(|c| c.reason != first.reason);
+        }
+    }
+}
+
+/// What one more reader would cost.
+fn readers(report: &Report, text: &mut String) {
+    if report.readers.is_empty() {
+        return;
+    }
+    let _ = writeln!(text, "\none more reader");
+    for reader in &report.readers {
+        let cost = match (reader.cost, &report.step) {
+            (Some(more), Some(step)) => format!("{:+.0} ns, {:+.0} %", more, 100.0 * more / step.ns),
+            _ => String::new(),
+        };
+        let joins: Vec<String> = reader.joins.iter().map(|s| name(*s)).collect();
+        let joins =
+            if joins.is_empty() { "no stage joins".into() } else { format!("joins {}", joins.join(", ")) };
+        let _ = writeln!(
+            text,
+            "  {}  {cost}{}{joins}",
+            printable(&reader.text),
+            if cost.is_empty() { "" } else { "  " }
+        );
+    }
+}
+
+fn cost(cost: Option<Cost>) -> [Value; 3] {
+    match cost {
+        Some(c) => [json!(c.share), json!(c.ns), json!(c.work)],
+        None => [Value::Null, Value::Null, Value::Null],
+    }
+}
+
+fn value(of: &Report) -> Value {
+    let stages: Vec<Value> = of
+        .rows
+        .iter()
+        .map(|r| {
+            let [share, ns, work] = cost(r.cost);
+            json!({"stage": name(r.stage), "keep": r.keep, "reason": r.reason, "share": share, "ns": ns,
+                "work": work, "forcedNs": r.forced})
+        })
+        .collect();
+    let step = of.step.as_ref().map(|s| {
+        let [integrator_share, integrator_ns, _] = cost(Some(s.integrator));
+        let [controller_share, controller_ns, _] = cost(s.controller);
+        json!({
+            "steps": s.steps, "ns": s.ns, "lowNs": s.quarters[0], "highNs": s.quarters[1], "fullNs": s.full,
+            "work": s.work,
+            "integrator": {"share": integrator_share, "ns": integrator_ns},
+            "controller": s.controller.map(|_| json!({"share": controller_share, "ns": controller_ns})),
+        })
+    });
+    let p = &of.pairs;
+    let both = |[mean, most]: [f64; 2]| json!({"mean": mean, "most": most});
+    let pairs = json!({
+        "all": p.all,
+        "canTouch": p.can_touch,
+        "tests": p.tests.iter().map(|(shapes, n, searched)| json!({"shapes": shapes, "pairs": n, "searched": searched})).collect::<Vec<_>>(),
+        "leftOut": p.left_out.iter().map(|(reason, n)| json!({"reason": reason, "pairs": n})).collect::<Vec<_>>(),
+        "inReach": p.seen.map(|s| both(s.in_reach)),
+        "contacts": p.seen.map(|s| both(s.contacts)),
+    });
+    let codes = |codes: &[Code]| {
+        let one = |c: &Code| json!({"name": c.name, "keep": c.keep, "reason": c.reason});
+        codes.iter().map(one).collect::<Vec<_>>()
+    };
+    let solver = json!({
+        "cone": of.cone,
+        "methods": codes(&of.solvers),
+        "rows": p.seen.map(|s| both(s.rows)),
+        "iterations": p.seen.map(|s| both(s.iterations)),
+    });
+    let ways = of.ways.iter().map(|w| {
+        let [places, forces, accelerations] = w.trees;
+        json!({"name": w.name, "places": places, "forces": forces, "accelerations": accelerations})
+    });
+    let readers = of.readers.iter().map(|r| {
+        let joins: Vec<String> = r.joins.iter().map(|s| name(*s)).collect();
+        let share = r.cost.zip(of.step.as_ref()).map(|(more, step)| more / step.ns);
+        json!({"read": r.text, "joins": joins, "ns": r.cost, "share": share})
+    });
+    let value = json!({
+        "reads": names(&of.demand.reads),
+        "writes": names(&of.demand.writes),
+        "stages": stages,
+        "step": step,
+        "pairs": pairs,
+        "solver": solver,
+        "integrators": codes(&of.integrators),
+        "ways": ways.collect::<Vec<_>>(),
+        "readers": readers.collect::<Vec<_>>(),
+    });
+    report("plan", value)
 }

@@ -34,6 +34,9 @@ pub(super) struct Arguments {
     /// Press a button at a time in seconds
     #[arg(long, value_name = "LABEL@TIME")]
     press: Vec<String>,
+    /// Run without a plan: every stage in every step, read or not. The same comes out, later
+    #[arg(long)]
+    full: bool,
     /// What to print
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
@@ -66,6 +69,7 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
         every: a.every,
         set: a.set.iter().map(|s| assignment(&target.lab, s)).collect::<Result<_, _>>()?,
         press: a.press.iter().map(|s| press(&target.lab, s)).collect::<Result<_, _>>()?,
+        full: a.full,
     };
     let plots = a.svg.as_ref().map(|file| plot_files(&target.lab, file)).transpose()?.unwrap_or_default();
     let wanted = |option: &'static str, path: &PathBuf| Wanted { option, path: path.clone() };

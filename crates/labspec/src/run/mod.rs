@@ -24,7 +24,7 @@ pub use told::{broken, threw};
 use crate::bind::Programs;
 use crate::spec::Lab;
 use crate::spec::format::RUN_LENGTH;
-use labspec_core::Model;
+use labspec_core::{Data, Model, Plan};
 use labspec_expr::Value;
 use std::ops::ControlFlow;
 
@@ -41,6 +41,8 @@ pub struct RunOptions {
     pub set: Vec<(String, Value)>,
     /// Buttons by label, and the times in s of their presses.
     pub press: Vec<(String, f64)>,
+    /// Runs without a plan: every stage in every step, read or not.
+    pub full: bool,
 }
 
 /// Most steps of one run: a lesson is minutes long at most, a mistyped length is for ever.
@@ -109,7 +111,8 @@ pub fn count_steps(
 /// A control that does not exist, a setting that no student can make, or a run that is too long.
 pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
     let key = lab.keyframe();
-    let mut session = Session::start(programs, model, key, &programs.demand);
+    let plan = if options.full { Plan::full() } else { Plan::new(model, &programs.demand) };
+    let mut session = Session::start_with(programs, model, key, Data::planned(model, plan));
     set_controls(&mut session, lab, programs, &options.set)?;
     let presses = presses(programs, &options.press)?;
     let timestep = session.world.model.opt.timestep;

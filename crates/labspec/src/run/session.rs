@@ -264,7 +264,14 @@ impl<'p> Session<'p> {
     }
 
     /// The controller, then one step of the engine. Nothing when the run has ended.
+    #[inline]
     pub fn step(&mut self) {
+        self.step_by(core::step);
+    }
+
+    /// The same with a step that the caller takes, who looks at the clock before and after it.
+    #[inline]
+    pub fn step_by(&mut self, engine: impl FnOnce(&Model, &mut Data<Planned>) -> Result<(), core::Error>) {
         if self.end.is_some() {
             return;
         }
@@ -280,7 +287,7 @@ impl<'p> Session<'p> {
             w.disturbed = false;
             watch::restart(&mut w.watch, model, data);
         }
-        let stepped = core::step(model, data);
+        let stepped = engine(model, data);
         self.refused(stepped);
         if !self.settle(time) {
             return;

@@ -147,6 +147,11 @@ impl Way {
         (0..GENERAL as u8).map(Way)
     }
 
+    /// All of them, the general one last.
+    pub fn all() -> impl Iterator<Item = Way> {
+        (0..TABLE.len() as u8).map(Way)
+    }
+
     /// What it is called.
     pub fn name(self) -> &'static str {
         TABLE.get(usize::from(self.0)).map_or("", |row| row.name)
@@ -183,11 +188,7 @@ fn sort(m: &Model, ways: Ways) -> (Taken, [Own; TABLE.len()]) {
     let mut taken = Taken { places: always, forces: always, factors: Ways::GENERAL };
     let mut own = [(); TABLE.len()].map(|()| Own::default());
     for tree in (0..m.ntree).filter(|&t| !m.tree_dofs(t).is_empty()) {
-        let [places, forces, factors] = [
-            row_of(m, ways, tree, |row| row.places.is_some()),
-            row_of(m, ways, tree, |row| row.forces.is_some()),
-            row_of(m, ways, tree, |row| row.factors.is_some()),
-        ];
+        let [places, forces, factors] = taken_by(m, ways, tree).map(|way| usize::from(way.0));
         own[places].places.push(tree);
         own[forces].forces.push(tree);
         own[factors].factors.push(tree);
@@ -204,6 +205,16 @@ fn sort(m: &Model, ways: Ways) -> (Taken, [Own; TABLE.len()]) {
 fn forces(m: &Model, ways: Ways, tree: usize) -> (usize, Option<&'static Forces>) {
     let row = row_of(m, ways, tree, |row| row.forces.is_some());
     (row, TABLE[row].forces.as_ref())
+}
+
+/// The ways that a tree takes for its places, its forces and its factors.
+pub(crate) fn taken_by(m: &Model, ways: Ways, tree: usize) -> [Way; 3] {
+    [
+        row_of(m, ways, tree, |row| row.places.is_some()),
+        row_of(m, ways, tree, |row| row.forces.is_some()),
+        row_of(m, ways, tree, |row| row.factors.is_some()),
+    ]
+    .map(|row| Way(row as u8))
 }
 
 /// Whether M and the bias force of some tree need composite bodies and recursion.

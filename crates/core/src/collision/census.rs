@@ -1,0 +1,113 @@
+//! A census of the pairs of geoms: how many can ever touch, and why the others cannot.
+
+use super::filter::{Pair, can_collide, candidate_pairs, excluded, parent_and_child};
+use super::{Scratch, params, sweep};
+use crate::geometry::pair;
+use crate::model::{Fields, Model};
+use std::collections::BTreeSet;
+
+/// What becomes of a pair of geoms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PairFate {
+    /// They can touch: they are looked at in every step.
+    CanTouch,
+    /// They belong to one body.
+    SameBody,
+    /// Their bodies are welded together.
+    Welded,
+    /// Neither of their bodies can move.
+    Static,
+    /// The model excludes contacts of their bodies.
+    Excluded,
+    /// Their bodies are parent and child.
+    ParentAndChild,
+    /// Their contact bits admit no contact.
+    Masks,
+    /// Such shapes pass through each other.
+    Shapes,
+}
+
+impl PairFate {
+    /// Why such a pair never touches, in words; of one that can, that it can.
+    pub fn reason(self) -> &'static str {
+        match self {
+            PairFate::CanTouch => "they can touch",
+            PairFate::SameBody => "both belong to one body",
+            PairFate::Welded => "their bodies are welded together",
+            PairFate::Static => "neither of them can move",
+            PairFate::Excluded => "the model excludes them",
+            PairFate::ParentAndChild => "their bodies are parent and child",
+            PairFate::Masks => "their contact bits admit no contact",
+            PairFate::Shapes => "such shapes pass through each other",
+        }
+    }
+}
+
+/// How many pairs of geoms meet each fate, each pair counted once; fates that none meets are not listed. `may_change`: what
+/// programs may write (contact bits, flags) keeps no pair apart.
+pub(crate) fn census(m: &Model, may_change: bool) -> Vec<(PairFate, usize)> {
+    let named: BTreeSet<[i32; 2]> = (0..m.npair).map(|p| ordered(m.pair_geom1[p], m.pair_geom2[p])).collect();
+    let mut counts: Vec<(PairFate, usize)> = Vec::new();
+    for a in 0..m.ngeom {
+        for b in a + 1..m.ngeom {
+            let fate = fate(m, a, b, may_change, named.contains(&[a as i32, b as i32]));
+            match counts.iter_mut().find(|(f, _)| *f == fate) {
+                Some((_, n)) => *n += 1,
+                None => counts.push((fate, 1)),
+            }
+        }
+    }
+    counts.sort_by_key(|(fate, _)| *fate);
+    counts
+}
+
+fn ordered(a: i32, b: i32) -> [i32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// What becomes of two geoms; a pair that the model names asks for neither bits nor parents.
+fn fate(m: &Model, a: usize, b: usize, may_change: bool, named: bool) -> PairFate {
+    let bodies @ [ba, bb] = [a, b].map(|g| m.geom_bodyid[g] as usize);
+    let welds @ [wa, wb] = bodies.map(|body| m.body_weldid[body] as usize);
+    let (small, large) = (m.geom_type[a].min(m.geom_type[b]), m.geom_type[a].max(m.geom_type[b]));
+    let still = welds.iter().all(|&w| m.body_dofnum[w] == 0 && m.body_treeid[w] < 0);
+    let rules = !named;
+    match () {
+        () if rules && ba == bb => PairFate::SameBody,
+        () if still => PairFate::Static,
+        () if rules && wa == wb => PairFate::Welded,
+        () if rules && excluded(m, ba, bb) => PairFate::Excluded,
+        () if rules && !may_change && parent_and_child(m, a, b) => PairFate::ParentAndChild,
+        () if rules && !may_change && !can_collide(m, a, b) => PairFate::Masks,
+        () if pair::method(small, large).is_none() => PairFate::Shapes,
+        () => PairFate::CanTouch,
+    }
+}
+
+/// How the pairs that can touch are tested, by the types of their geoms: how many there are, and whether their contacts are
+/// searched for by the general algorithm. Of a scene with too many pairs for a list, those at its start.
+pub(crate) fn methods(m: &Model, may_change: bool) -> Vec<([i32; 2], usize, bool)> {
+    let mut out: Vec<([i32; 2], usize, bool)> = Vec::new();
+    for Pair { geom1, geom2, .. } in candidate_pairs(m, may_change) {
+        let types = [geom1, geom2].map(|g| m.geom_type[g as usize]);
+        match out.iter_mut().find(|(t, ..)| *t == types) {
+            Some((_, n, _)) => *n += 1,
+            None => out.push((types, 1, pair::is_searched(types[0], types[1], false))),
+        }
+    }
+    out.sort_by_key(|(types, ..)| *types);
+    out
+}
+
+/// How many of the pairs of the plan have bounds within reach of each other where the geoms are now: the others cost one
+/// comparison each.
+pub(crate) fn in_reach(m: &Model, d: &Fields, w: &Scratch) -> usize {
+    if let Some(sweep) = &w.pairs.sweep {
+        return sweep.near.len();
+    }
+    let near = |pair: &&Pair| {
+        let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
+        !sweep::far_apart(m, d, g1, g2, params::params(m, pair).reach)
+    };
+    w.pairs.pairs.iter().filter(near).count()
+}

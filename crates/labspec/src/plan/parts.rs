@@ -1,0 +1,147 @@
+//! What of the engine a lab uses besides its stages: pairs of geoms, the solver, the integrator, ways of computing trees.
+
+use crate::precision::INTEGRATORS;
+use labspec_core::reflect::{Object, Stage, field};
+use labspec_core::{self as core, Demand, Model, PairFate, Plan, geom, solver};
+
+/// A piece of code of which a lab uses one or none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Code {
+    /// Its name.
+    pub name: &'static str,
+    /// Whether it is used.
+    pub keep: bool,
+    /// Why, or why not.
+    pub reason: String,
+}
+
+/// A way of computing trees, and how many take it: for where their bodies are, for their inertia and forces, and for their
+/// accelerations.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Way {
+    /// Its name.
+    pub name: &'static str,
+    /// Trees.
+    pub trees: [usize; 3],
+}
+
+/// What was seen in the steps that were run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seen {
+    /// Pairs within reach of each other, in the mean and at most.
+    pub in_reach: [f64; 2],
+    /// Contacts, likewise,
+    pub contacts: [f64; 2],
+    /// rows of constraints,
+    pub rows: [f64; 2],
+    /// iterations of the solver.
+    pub iterations: [f64; 2],
+}
+
+/// The pairs of geoms.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pairs {
+    /// All there are.
+    pub all: usize,
+    /// Those that can ever touch. With contacts switched off there are none.
+    pub can_touch: usize,
+    /// The others by reason.
+    pub left_out: Vec<(&'static str, usize)>,
+    /// How those that can touch are tested: the shapes, how many, and whether by the general search.
+    pub tests: Vec<([&'static str; 2], usize, bool)>,
+    /// What was seen of them.
+    pub seen: Option<Seen>,
+}
+
+pub(super) fn pairs(model: &Model, plan: &Plan, seen: Option<Seen>) -> Pairs {
+    let census = plan.pairs(model);
+    let all = census.iter().map(|(_, n)| n).sum();
+    if !plan.keeps(Stage::Collision) && census.iter().any(|(fate, _)| *fate == PairFate::CanTouch) {
+        let left_out = vec![("contacts are switched off", all)];
+        return Pairs { all, can_touch: 0, left_out, tests: Vec::new(), seen };
+    }
+    let can_touch = census.iter().find(|(fate, _)| *fate == PairFate::CanTouch).map_or(0, |(_, n)| *n);
+    let others = census.iter().filter(|(fate, _)| *fate != PairFate::CanTouch);
+    let tests = plan.tests(model).into_iter().map(|(types, n, searched)| (types.map(shape), n, searched));
+    Pairs {
+        all,
+        can_touch,
+        left_out: others.map(|(fate, n)| (fate.reason(), *n)).collect(),
+        tests: tests.collect(),
+        seen,
+    }
+}
+
+fn shape(kind: i32) -> &'static str {
+    match kind {
+        geom::PLANE => "plane",
+        geom::HFIELD => "height field",
+        geom::SPHERE => "sphere",
+        geom::CAPSULE => "capsule",
+        geom::ELLIPSOID => "ellipsoid",
+        geom::CYLINDER => "cylinder",
+        geom::BOX => "box",
+        _ => "mesh",
+    }
+}
+
+fn writes(demand: &Demand, option: &str) -> bool {
+    field(Object::Option, option).is_some_and(|f| demand.writes.contains(f))
+}
+
+/// The methods of the solver.
+pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<Code> {
+    const METHODS: [(&str, i32); 3] = [("newton", solver::NEWTON), ("cg", solver::CG), ("pgs", solver::PGS)];
+    let runs = plan.keeps(Stage::Solve);
+    let nothing = plan.decisions().iter().find(|d| d.stage == Stage::Solve).map_or("", |d| d.reason.as_str());
+    let named = METHODS.iter().find(|(_, id)| *id == model.opt.solver).map_or("newton", |(name, _)| name);
+    let written = writes(plan.demand(), "solver");
+    let methods = METHODS.iter().map(|&(name, _)| Code {
+        name,
+        keep: runs && (written || name == named),
+        reason: match () {
+            () if !runs => nothing.to_string(),
+            () if name == named => "the options name it".into(),
+            () if written => "programs may name it".into(),
+            () => format!("the options name {named}"),
+        },
+    });
+    let slips = writes(plan.demand(), "noslip_iterations");
+    let noslip = Code {
+        name: "noslip",
+        keep: runs && (slips || model.opt.noslip_iterations > 0),
+        reason: match () {
+            () if !runs => nothing.to_string(),
+            () if model.opt.noslip_iterations > 0 => "the options ask for it".into(),
+            () if slips => "programs may ask for it".into(),
+            () => "the options ask for no iterations of it".into(),
+        },
+    };
+    methods.chain([noslip]).collect()
+}
+
+/// The integrators.
+pub(super) fn integrators(model: &Model, demand: &Demand) -> Vec<Code> {
+    let own = crate::precision::Integrator::of(model);
+    let written = writes(demand, "integrator");
+    let code = |i: crate::precision::Integrator| Code {
+        name: i.name,
+        keep: written || i == own,
+        reason: match () {
+            () if i == own => "the options name it".into(),
+            () if written => "programs may name it".into(),
+            () => format!("the options name {}", own.name),
+        },
+    };
+    INTEGRATORS.into_iter().map(code).collect()
+}
+
+/// The ways, in their order.
+pub(super) fn ways(model: &Model, plan: &Plan) -> Vec<Way> {
+    let trees = plan.ways(model);
+    let count = |way: core::Way| {
+        let of = |i: usize| trees.iter().filter(|t| t.get(i) == Some(&way)).count();
+        Way { name: way.name(), trees: [of(0), of(1), of(2)] }
+    };
+    core::Way::all().map(count).collect()
+}
