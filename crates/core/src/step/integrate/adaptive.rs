@@ -99,7 +99,7 @@ fn extrapolate(m: &Model, d: &mut Data, w: &mut Flow, h: f64) -> bool {
         good = line > 0 && error <= TOLERANCE;
         // At rounding it comes no closer.
         let stuck = line > 2 && error >= before;
-        if good || stuck || !(error < f64::INFINITY) || d.meter.over() {
+        if good || stuck || error.is_nan() || error == f64::INFINITY || d.meter.over() {
             good |= stuck && error < 30.0 * TOLERANCE;
             break;
         }
