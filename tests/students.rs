@@ -67,9 +67,23 @@ fn a_gain_that_is_too_high_is_found_at_the_end_of_its_slider() {
 
     let (code, report) = self::report(&servo(8e5), &[]);
     assert_eq!((code, kinds(&report)), (0, Vec::new()));
-    // 1 as it stands, 3 other ends, 4 corners, all in turn; each ten times as long as the lab.
+    // 1 as it stands, 1 touched, 3 other ends, 4 corners, all in turn; each ten times as long as the lab.
     let made: Vec<&Value> = report["tried"].as_array().unwrap().iter().map(|t| &t["made"]).collect();
-    assert_eq!((made, &report["length"]), (vec![&json!(1), &json!(3), &json!(4), &json!(1)], &json!(10.0)));
+    assert_eq!(
+        (made, &report["length"]),
+        (vec![&json!(1), &json!(1), &json!(3), &json!(4), &json!(1)], &json!(10.0))
+    );
+}
+
+#[test]
+fn what_stands_exactly_in_its_balance_is_touched() {
+    let mut still = servo(8e5);
+    let xml = still["xml"].as_str().unwrap().replace("kp=\"100\"", "kp=\"3e6\"");
+    still = json!({"xml": xml, "stopAt": 1});
+    let (code, report) = report(&still, &[]);
+    let first = &report["findings"][0];
+    assert_eq!((code, &first["touched"], &first["setting"]), (1, &json!(true), &json!([])), "{first}");
+    assert_eq!(first["who"], "joint \"rail\"");
 }
 
 /// A plate of 1 cm, and a ball of 2 cm that buttons throw at it.

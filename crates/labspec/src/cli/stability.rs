@@ -8,7 +8,7 @@ use crate::report::{key, printable, set_number};
 use crate::run::two_digits;
 use crate::spec::Lab;
 use crate::stability::{
-    Cell, Evidence, Fault, FaultKind, Found, Handling, Map, Margin, Options, Report, Sensitivity, probe,
+    Cell, Evidence, Fault, FaultKind, Found, Handling, Kind, Map, Margin, Options, Report, Sensitivity, probe,
 };
 use clap::ValueEnum;
 use labspec_plot::{Cells, cells};
@@ -337,6 +337,7 @@ fn value(report: &Report, programs: &Programs) -> Value {
 fn found_value(found: &Found, programs: &Programs) -> Value {
     let mut value = fault_value(&found.fault);
     value["setting"] = handling_value(&found.handling, programs);
+    value["touched"] = json!(found.handling.kind == Kind::Touched);
     value["settings"] = json!(found.settings);
     value["expected"] = json!(found.expected);
     let remedy = |r: &crate::stability::Remedy| {

@@ -1,7 +1,7 @@
 //! One run of a lab under the hands of a student, and what goes wrong in it.
 
 use super::fault::{Evidence, Fault, FaultKind};
-use super::handling::Handling;
+use super::handling::{Handling, Kind, TOUCH};
 use super::watch::Watch;
 use crate::advice::stability;
 use crate::bind::{Bound, Programs};
@@ -87,6 +87,10 @@ impl<'a> Case<'a> {
                 Some(value) => session.set_control(action.control, value.clone()),
                 None => session.press(action.control),
             }
+        }
+        if handling.kind == Kind::Touched {
+            session.world.data.edit().qvel.iter_mut().for_each(|v| *v += TOUCH);
+            session.refresh();
         }
         session
     }

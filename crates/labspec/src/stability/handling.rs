@@ -21,6 +21,8 @@ pub struct Action {
 pub enum Kind {
     /// Nothing is done.
     AsItStands,
+    /// Nothing but a touch that nobody sees: what stands exactly in its balance shows nothing otherwise.
+    Touched,
     /// One slider at an end, or one option chosen.
     End,
     /// One button.
@@ -35,13 +37,21 @@ pub enum Kind {
 
 impl Kind {
     /// All of them, in the order in which they are tried.
-    pub const ALL: [Kind; 6] =
-        [Kind::AsItStands, Kind::End, Kind::Button, Kind::InOrder, Kind::Corner, Kind::Interleaved];
+    pub const ALL: [Kind; 7] = [
+        Kind::AsItStands,
+        Kind::Touched,
+        Kind::End,
+        Kind::Button,
+        Kind::InOrder,
+        Kind::Corner,
+        Kind::Interleaved,
+    ];
 
     /// In words.
     pub fn words(self) -> &'static str {
         match self {
             Kind::AsItStands => "as it stands",
+            Kind::Touched => "with a touch",
             Kind::End => "each control at its ends",
             Kind::Button => "each button",
             Kind::InOrder => "buttons in order",
@@ -75,12 +85,17 @@ impl Handling {
             None => format!("\"{}\" pressed at {} s", label(a.control), crate::run::time(a.time)),
         };
         match self.actions.as_slice() {
+            [] if self.kind == Kind::Touched => {
+                format!("as it stands, after a touch (every joint begins with a speed of {TOUCH:e})")
+            }
             [] => "as it stands".into(),
             list => format!("with {}", list.iter().map(one).collect::<Vec<_>>().join(", ")),
         }
     }
 }
 
+/// The speed of every joint after a touch, m/s or rad/s.
+pub(super) const TOUCH: f64 = 1e-6;
 /// When the first button is pressed, s.
 const PRESS: f64 = 0.1;
 /// All combinations are tried when there are no more than this.
@@ -122,7 +137,7 @@ pub(super) fn list(lab: &Lab, window: f64) -> (Vec<Handling>, usize) {
             ControlKind::Button { .. } => buttons.push(i),
         }
     }
-    let mut all = vec![Handling::NOTHING];
+    let mut all = vec![Handling::NOTHING, Handling { kind: Kind::Touched, ..Handling::NOTHING }];
     for (i, values, start) in &changes {
         let moved = values.iter().filter(|v| *v != start);
         all.extend(moved.map(|v| Handling { kind: Kind::End, actions: vec![set(*i, v)] }));
@@ -204,20 +219,20 @@ mod tests {
     const SELECT: &str = r#"{"type": "select", "label": "i", "param": "i", "options": [["a", 0], ["b", 1], ["c", 2]], "value": 1}"#;
     const BUTTON: &str = r#"{"type": "button", "label": "Go", "run": "ctx.go = 1"}"#;
 
-    fn counts(lab: &Lab) -> [usize; 6] {
+    fn counts(lab: &Lab) -> [usize; 7] {
         let (all, _) = list(lab, 2.0);
         Kind::ALL.map(|kind| all.iter().filter(|h| h.kind == kind).count())
     }
 
     #[test]
     fn ends_options_buttons_and_corners_are_tried() {
-        assert_eq!(counts(&lab("")), [1, 0, 0, 0, 0, 0]);
+        assert_eq!(counts(&lab("")), [1, 1, 0, 0, 0, 0, 0]);
         // One slider at its end already; both ends while it runs.
-        assert_eq!(counts(&lab(SLIDER)), [1, 1, 0, 0, 0, 1]);
+        assert_eq!(counts(&lab(SLIDER)), [1, 1, 1, 0, 0, 0, 1]);
         // 2 ends, 3 options, pressed or not.
-        assert_eq!(counts(&lab(&[SLIDER, SELECT, BUTTON].join(","))), [1, 3, 1, 0, 12, 1]);
+        assert_eq!(counts(&lab(&[SLIDER, SELECT, BUTTON].join(","))), [1, 1, 3, 1, 0, 12, 1]);
         let two = BUTTON.replace("Go", "Stop");
-        assert_eq!(counts(&lab(&[BUTTON, &two].join(","))), [1, 0, 2, 1, 0, 0]);
+        assert_eq!(counts(&lab(&[BUTTON, &two].join(","))), [1, 1, 0, 2, 1, 0, 0]);
     }
 
     #[test]
