@@ -278,7 +278,7 @@ impl<'a> Case<'a> {
                 seen.penetration = seen.penetration.max(deepest);
             }
             passing[0].touch(time - late, deepest);
-            if sampled && (made / per_sample) % every == 0 {
+            if sampled && (made / per_sample).is_multiple_of(every) {
                 look.take(session, &mut seen);
             }
             sampling += session.spent() - began;
