@@ -38,7 +38,7 @@ impl Rest {
     }
 
     pub(super) fn look(&mut self, m: &Model, d: &Fields) {
-        if self.looks % self.every == 0 {
+        if self.looks.is_multiple_of(self.every) {
             let mut rubs = vec![false; m.nbody];
             for c in d.contact.iter().filter(|c| c.efc_address.is_some() && c.dim >= 3) {
                 for g in [c.geom1, c.geom2] {

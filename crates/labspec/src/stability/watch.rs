@@ -142,7 +142,7 @@ impl Watch {
             }
         }
         self.steps += 1;
-        let ends = self.steps % BLOCK == 0;
+        let ends = self.steps.is_multiple_of(BLOCK);
         for touch in &mut self.touching {
             touch.switches += usize::from(touch.now != touch.on);
             (touch.on, touch.now) = (touch.now, false);
