@@ -1,7 +1,7 @@
 //! `labspec stability`: what a student can do to a lab, and what it comes to. Small labs that break in one way each, and labs that
 //! do not break.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::program::{run_in, snapshot};
 use serde_json::{Value, json};

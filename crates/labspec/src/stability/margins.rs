@@ -75,8 +75,8 @@ const LONGEST: f64 = 1.0;
 /// Servos, springs and pairs of bodies that are looked at, at most of each.
 const MOST: usize = 12;
 
-/// What a margin multiplies, as a change of a model by a factor.
-type Change = dyn Fn(&mut Model, f64);
+/// Multiplies something of a model.
+type Apply = dyn Fn(&mut Model, f64);
 
 /// Something that is multiplied.
 struct Raised {
@@ -87,7 +87,7 @@ struct Raised {
     most: f64,
     /// Whose bounds count; all for the timestep.
     object: Option<(Obj, Option<usize>)>,
-    apply: Box<Change>,
+    apply: Box<Apply>,
 }
 
 /// All margins of a lab as it stands, for runs of so many seconds; and what was left out. Work is added to `work`.
@@ -181,12 +181,7 @@ pub(super) fn worst<'f>(faults: &'f [Fault], known: &[(FaultKind, String)]) -> O
     faults.iter().filter(counts).min_by_key(|f| f.kind)
 }
 
-fn run(
-    case: &Case<'_>,
-    raised: Option<(&Change, f64)>,
-    length: f64,
-    work: &mut u64,
-) -> Outcome {
+fn run(case: &Case<'_>, raised: Option<(&Apply, f64)>, length: f64, work: &mut u64) -> Outcome {
     let change = |session: &mut Session<'_>| {
         if let Some((apply, x)) = raised {
             apply(&mut session.world.model, x);

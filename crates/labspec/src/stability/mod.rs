@@ -27,7 +27,7 @@ use crate::interrupt;
 use crate::run::{self, RunError, Session};
 use crate::spec::format::RUN_LENGTH;
 use crate::spec::{Expect, Lab};
-use case::Case;
+use case::{Case, Outcome};
 use labspec_core::Model;
 use remedy::Tries;
 
@@ -154,7 +154,7 @@ pub fn probe(
             tried.made += 1;
         }
         let drifts = outcome.faults.iter().any(|f| f.kind == FaultKind::Drifts);
-        let firm = drifts.then(|| case.run(handling, Some(&firmer), length, left)).unwrap_or_default();
+        let firm = if drifts { case.run(handling, Some(&firmer), length, left) } else { Outcome::default() };
         left = left.saturating_sub(firm.spent);
         report.work += firm.spent;
         for fault in outcome.faults {

@@ -60,7 +60,7 @@ impl Wild {
         for k in 0..2 {
             self.largest[k] = self.largest[k].max(now[k].0);
         }
-        if self.looks % self.every == 0 {
+        if self.looks.is_multiple_of(self.every) {
             self.past.push((d.time, self.largest));
             if self.past.len() >= MOST {
                 let mut odd = false;
