@@ -123,7 +123,7 @@ fn advice_holds(name: &str, lab: &Opened, report: &Report, setting: &Setting) {
         let column = coarse.columns.iter().position(is).unwrap();
         let number = |row: &Vec<Cell>| if let Cell::Number(x) = row[column] { x } else { f64::NAN };
         let pairs = coarse.rows.iter().zip(&truth.rows).map(|(a, b)| (number(a) - number(b)).abs());
-        let last = pairs.clone().last().unwrap();
+        let last = pairs.clone().next_back().unwrap();
         let error = if target.readout { last } else { pairs.fold(0.0, f64::max) };
         assert!(error <= 1.5 * target.unseen, "{name}: {}: {error} for {}", target.label, target.unseen);
     }
