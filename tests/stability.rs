@@ -39,9 +39,9 @@ fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
         let before = d.time;
         for _ in 0..each {
             core::step(&m, &mut d).unwrap();
-            let noticed = watch::look(&mut watch, &m, &d);
-            if told.is_null() && noticed.time().is_finite() {
-                told = said(&noticed);
+            watch::look(&mut watch, &m, &d);
+            if told.is_null() && watch::noticed(&watch).time().is_finite() {
+                told = said(watch::noticed(&watch));
             }
         }
         done += each;

@@ -134,6 +134,14 @@ pub fn restart<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     }
 }
 
+/// Whether the next call of [`look`] looks; when not, it counts as made.
+#[inline]
+pub fn due(w: &mut Watch) -> bool {
+    let due = w.left <= 1 || w.lasted > 0;
+    w.left -= usize::from(!due);
+    due
+}
+
 /// To be called after each step. Looks at the run when it is time: a fraction of the work of a step, and nothing of the run is
 /// touched.
 pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) -> Option<Growth> {

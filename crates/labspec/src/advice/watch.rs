@@ -74,9 +74,11 @@ pub fn restart<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
 
 /// To be called after each step; nothing of the run is touched.
 #[inline]
-pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) -> Noticed {
+pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     let found = &mut w.noticed;
-    if let Some(growth) = &mut w.growth {
+    if let Some(growth) = &mut w.growth
+        && growth::due(growth)
+    {
         found.growth = growth::look(growth, m, d);
     }
     if found.past.is_none() {
@@ -91,5 +93,9 @@ pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) -> Noticed {
     if found.unsolved.is_none() {
         found.unsolved = unsolved::look(&mut w.unsolved, m, d);
     }
-    *found
+}
+
+/// What was noticed so far.
+pub fn noticed(w: &Watch) -> &Noticed {
+    &w.noticed
 }

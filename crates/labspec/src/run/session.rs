@@ -91,7 +91,6 @@ fn moves(bound: &Bound) -> bool {
 #[derive(Clone, Debug)]
 struct Watched {
     watch: Watch,
-    found: Noticed,
     /// Something from outside changed the state or the model since the last step.
     disturbed: bool,
 }
@@ -298,7 +297,7 @@ impl<'p> Session<'p> {
         }
         let World { model, data, .. } = &self.world;
         if let Some(w) = &mut self.watched {
-            w.found = watch::look(&mut w.watch, model, data);
+            watch::look(&mut w.watch, model, data);
         }
         self.note_warnings();
     }
@@ -328,7 +327,7 @@ impl<'p> Session<'p> {
         let pushed = programs.iter().any(|bound| !bound.program.effects().writes.is_empty());
         let every = (steps / LOOKS).min(BETWEEN);
         let watch = watch::watch(&self.world.model, &self.world.data, every, pushed);
-        self.watched = Some(Watched { watch, found: Noticed::default(), disturbed: false });
+        self.watched = Some(Watched { watch, disturbed: false });
     }
 
     /// Energy that nothing gave, when the run was watched and has gained any.
@@ -338,7 +337,7 @@ impl<'p> Session<'p> {
 
     /// Everything that went wrong without a word, as far as the run was watched.
     pub fn noticed(&self) -> Noticed {
-        self.watched.as_ref().map(|w| w.found).unwrap_or_default()
+        self.watched.as_ref().map(|w| *watch::noticed(&w.watch)).unwrap_or_default()
     }
 
     /// Time and every probe. What throws is nothing, as on the page.
