@@ -132,6 +132,10 @@ const COMPUTED: [&str; 8] =
     ["lib.bodyPos", "lib.sitePos", "lib.bodyId", "lib.jointId", "lib.qpos", "lib.norm", "lib.deg", "lib.rad"];
 
 impl Host for Recorder<'_> {
+    fn identity(&self) -> u64 {
+        Host::identity(self.world)
+    }
+
     fn get(&self, field: FieldKey, index: usize) -> Option<f64> {
         self.world.get(field, index)
     }

@@ -39,9 +39,13 @@ struct Small {
     time: f64,
     qpos: [f64; 7],
     keys: [FieldKey; 2],
+    model: u64,
 }
 
 impl Host for Small {
+    fn identity(&self) -> u64 {
+        self.model
+    }
     fn get(&self, field: FieldKey, index: usize) -> Option<f64> {
         if field == self.keys[0] { Some(self.time) } else { self.qpos.get(index).copied() }
     }
@@ -102,7 +106,7 @@ fn error_expression() -> Vec<(&'static str, f64)> {
     });
     rows.push(("columnar, per sample", whole / SAMPLES as f64));
 
-    let mut small = Small { time: 0.0, qpos: [0.0; 7], keys };
+    let mut small = Small { time: 0.0, qpos: [0.0; 7], keys, model: model.identity() };
     let mut context = Context::new();
     rows.push((
         "by row, a host of two fields",
