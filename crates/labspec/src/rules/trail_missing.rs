@@ -44,9 +44,8 @@ fn check(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
     let more = if sites().count() > listed.len() { ", …" } else { "" };
     findings.push(match nearest(name, sites()) {
         Some(right) => found.help(format!("did you mean `{right}`?")).guess(trail.span(), encode(right)),
-        None if listed.is_empty() => {
-            found.help("the model has no site with a name: add <site name=\"…\"/> where the path is to be drawn")
-        }
+        None if listed.is_empty() => found
+            .help("the model has no site with a name: add <site name=\"…\"/> where the path is to be drawn"),
         None => found.help(format!("its sites are {}{more}", listed.join(", "))),
     });
 }
