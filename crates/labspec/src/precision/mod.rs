@@ -1,7 +1,7 @@
 //! Work and precision: how far each integrator and timestep is from the truth, and what it costs.
 //!
 //! The truth is the closed form that the author gives (`exact` in the lab's `verify`), otherwise what two families of methods
-//! agree on ([`reference`](self::reference)). Reporting error against cost, not against the step, is the method of Hairer, Nørsett
+//! agree on (`reference.rs`). Reporting error against cost, not against the step, is the method of Hairer, Nørsett
 //! and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.10.
 
 mod advice;
