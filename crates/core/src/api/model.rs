@@ -304,7 +304,7 @@ words! {
         Rkmk8 = 108,
         /// Collocation of sixth order, symmetric in time (not MuJoCo's).
         Gauss = 106,
-        /// As exact as rounding allows, whatever it costs (not MuJoCo's).
+        /// As exact as rounding allows where forces are smooth, in up to 4096 parts of a step (not MuJoCo's).
         Adaptive = 100,
     }
 }

@@ -34,13 +34,15 @@ impl RungeKutta {
 /// What the methods in coordinates around the start of a step keep: made by the first step that needs it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Flow {
-    /// The configuration and the time that the coordinates start from.
+    /// When the whole step began, and `energy` there: stages have others, which nobody asks for.
+    pub(super) began: f64,
+    pub(super) energy: [f64; 2],
+    /// The configuration and the time that the coordinates start from: of the step, or of the part of it at hand.
     pub(super) qpos: Vec<f64>,
     pub(super) time: f64,
-    /// `energy` at the start of the step: stages have others, which nobody asks for.
-    pub(super) energy: [f64; 2],
-    /// Where the step, or the part of it at hand, starts and ends: coordinates, velocities, activations.
+    /// Where that starts, with its slope, and where it ends: coordinates, velocities, activations.
     pub(super) start: Vec<f64>,
+    pub(super) first: Vec<f64>,
     pub(super) end: Vec<f64>,
     /// Slopes of the stages, or a table of extrapolation: lists like `start`, one after the other.
     pub(super) rows: Vec<f64>,
@@ -51,8 +53,9 @@ impl Flow {
     pub(super) fn make_room(&mut self, m: &Model, slopes: usize) {
         let n = 2 * m.nv + m.na;
         self.qpos.resize(m.nq, 0.0);
-        self.start.resize(n, 0.0);
-        self.end.resize(n, 0.0);
+        for list in [&mut self.start, &mut self.first, &mut self.end] {
+            list.resize(n, 0.0);
+        }
         if self.rows.len() < slopes * n {
             self.rows.resize(slopes * n, 0.0);
         }

@@ -2,13 +2,14 @@
 
 use super::handle::{assignment, press};
 use super::output::{Wanted, look_ahead, write_with};
-use super::stdio::{print_json, stream};
+use super::stdio::{Progress, print_json, stream};
 use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
 use crate::precision::{
     Axis, Beside, BesideRow, Compared, Errors, Fate, INTEGRATORS, Integrator, Options, Recording, Report,
     Row, compare, milliseconds,
 };
 use crate::report::{key, printable, printable_path, set_number, set_numbers};
+use crate::source::read_text;
 use crate::verify::significant;
 use clap::ValueEnum;
 use labspec_plot::{Method, MethodPoint, WorkPrecision, work_precision};
@@ -81,8 +82,11 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
         beside: a.beside.as_ref().map(|path| recording(path)).transpose()?,
     };
     let mut findings = Vec::new();
-    let report =
-        compare(&target.lab, &target.model, &target.programs, &options, &mut findings).map_err(|e| e.0)?;
+    let progress = Progress::new(matches!(a.format, Format::Human));
+    let mut tell = |text: &str| progress.tell(text);
+    let report = compare(&target.lab, &target.model, &target.programs, &options, &mut findings, &mut tell)
+        .map_err(|e| e.0)?;
+    drop(progress);
     if let Some(f) = findings.first() {
         return Err(format!(
             "a closed form has a mistake: {}; `labspec check` shows where",
@@ -124,11 +128,7 @@ const MOST: u64 = 256 << 20;
 
 fn recording(path: &Path) -> Result<Recording, Failure> {
     let named = |e: String| format!("cannot use {}: {e}", printable_path(path));
-    let size = std::fs::metadata(path).map_err(|e| named(e.to_string()))?.len();
-    if size > MOST {
-        return Err(named(format!("it has {size} bytes; the limit is {MOST}")));
-    }
-    let text = std::fs::read_to_string(path).map_err(|e| named(e.to_string()))?;
+    let text = read_text(path, MOST, "a recording")?;
     Recording::read(&text).map_err(named)
 }
 

@@ -1,8 +1,8 @@
 //! `labspec stability`.
 
 use super::output::{Wanted, look_ahead};
-use super::stdio::print_json;
-use super::{Failure, ModelOptions, Outcome, complain, interrupted, print, target, write_file};
+use super::stdio::{Progress, print_json};
+use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
 use crate::bind::Programs;
 use crate::report::{key, printable, set_number};
 use crate::run::two_digits;
@@ -14,7 +14,6 @@ use clap::ValueEnum;
 use labspec_plot::{Cells, cells};
 use serde_json::{Value, json};
 use std::fmt::Write;
-use std::io::IsTerminal;
 use std::path::PathBuf;
 
 /// Arguments of `stability`.
@@ -53,17 +52,10 @@ pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
     look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &files)?;
     let map = a.map.as_ref().map(|text| two_labels(&target.lab, text)).transpose()?;
     let options = Options { until: a.until, margins: a.margins, map };
-    let progress = a.format == Format::Human && std::io::stderr().is_terminal();
-    let mut tell = |text: &str| {
-        if progress {
-            complain(&format!("\r\x1b[K{text}"));
-        }
-    };
-    let report = probe(&target.lab, &target.model, &target.programs, &options, &mut tell).map_err(|e| e.0);
-    if progress {
-        complain("\r\x1b[K");
-    }
-    let report = report?;
+    let progress = Progress::new(a.format == Format::Human);
+    let mut tell = |text: &str| progress.tell(text);
+    let report = probe(&target.lab, &target.model, &target.programs, &options, &mut tell).map_err(|e| e.0)?;
+    drop(progress);
     if let (Some(file), Some(map)) = (&a.svg, &report.map) {
         write_file(file, &chart(map, target.lab.title()))?;
     }

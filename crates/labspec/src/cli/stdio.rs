@@ -2,7 +2,7 @@
 
 use super::Failure;
 use crate::report::printable_json;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, IsTerminal, Write};
 
 /// Prints to standard output. A reader that has gone away (`| head`) ends the program quietly.
 ///
@@ -42,4 +42,29 @@ pub(super) fn outcome(done: io::Result<()>) -> Result<(), Failure> {
 /// Prints to standard error. Where that fails there is nobody left to tell.
 pub(super) fn complain(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
+}
+
+/// One line on a terminal that says what long work is at, and is gone when it ends.
+pub(super) struct Progress {
+    shown: bool,
+}
+
+impl Progress {
+    /// Shown where a person looks at the terminal.
+    pub(super) fn new(for_people: bool) -> Progress {
+        Progress { shown: for_people && io::stderr().is_terminal() }
+    }
+
+    /// Says what is being done now.
+    pub(super) fn tell(&self, text: &str) {
+        if self.shown {
+            complain(&format!("\r\x1b[K{text}"));
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.tell("");
+    }
 }

@@ -41,10 +41,25 @@ pub(super) fn front(rows: &[Row]) -> Vec<usize> {
 /// A sentence about what to take, with the row that it is about.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Advice {
+    /// What it says.
+    pub kind: Kind,
     /// The row.
     pub row: usize,
     /// The sentence.
     pub text: String,
+}
+
+/// What an advice says of its row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// What the lab's own setting is off by.
+    Own,
+    /// It is closer than the lab's own for the same time.
+    Closer,
+    /// It is the cheapest that shows every number rightly.
+    Right,
+    /// It is the closest; none shows every number rightly, or nobody knows.
+    Closest,
 }
 
 /// As far as timings repeat: less is no difference.
@@ -58,7 +73,7 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
     let usable = |i: &usize| rows[*i].setting.integrator.shared && counts(&rows[*i]);
     let mine = rows.iter().position(|r| r.own);
     if let Some(own) = mine {
-        list.push(Advice { row: own, text: about_own(report, own) });
+        list.push(Advice { kind: Kind::Own, row: own, text: about_own(report, own) });
         let closest = (0..rows.len())
             .filter(usable)
             .filter(|&i| rows[i].cost.median <= NO_LONGER * rows[own].cost.median)
@@ -74,40 +89,62 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
                 format!("{} times closer", two_digits(times))
             };
             let text = format!("{} is {how} and takes {}.", name(&rows[i]), beside(&rows[i], &rows[own]));
-            list.push(Advice { row: i, text });
+            list.push(Advice { kind: Kind::Closer, row: i, text });
         }
     }
     let good = (0..rows.len()).filter(usable).filter(|&i| reliable(rows, i) <= 1.0);
     let cheapest = good.min_by(|&a, &b| rows[a].cost.median.total_cmp(&rows[b].cost.median));
-    let text = match (cheapest, mine) {
-        (Some(i), Some(own)) if i == own => {
-            Some((i, "It is also the cheapest setting tried that shows every number rightly.".to_string()))
-        }
-        (Some(i), own) => {
-            let time =
-                own.map_or(String::new(), |own| format!(" and takes {}", beside(&rows[i], &rows[own])));
-            Some((
-                i,
-                format!(
-                    "The cheapest setting tried that shows every number rightly is {}{time}.",
-                    name(&rows[i])
-                ),
-            ))
-        }
-        (None, _) => {
-            (0..rows.len()).filter(usable).min_by(|&a, &b| rows[a].score.total_cmp(&rows[b].score)).map(|i| {
-                (
-                    i,
-                    format!(
-                        "No setting tried shows every number rightly; the closest is {}.",
-                        name(&rows[i])
-                    ),
-                )
-            })
-        }
-    };
-    list.extend(text.map(|(row, text)| Advice { row, text }));
+    let every = every(report);
+    if let Some(i) = cheapest {
+        let text = match mine {
+            Some(own) if i == own => {
+                format!("It is also the cheapest setting tried that shows {every} rightly.")
+            }
+            own => {
+                let time =
+                    own.map_or(String::new(), |own| format!(" and takes {}", beside(&rows[i], &rows[own])));
+                format!("The cheapest setting tried that shows {every} rightly is {}{time}.", name(&rows[i]))
+            }
+        };
+        list.push(Advice { kind: Kind::Right, row: i, text });
+    } else if let Some(i) =
+        (0..rows.len()).filter(usable).min_by(|&a, &b| rows[a].score.total_cmp(&rows[b].score))
+    {
+        // What is wrong whatever the reference's own error.
+        let wrong = |row: &Row| {
+            report.targets.iter().zip(&row.errors).any(|(t, e)| t.is_compared() && t.in_sight(e)[1] > 1.0)
+        };
+        let doubtful = report.targets.iter().zip(&rows[i].errors).find(|(t, e)| {
+            let [most, least] = t.in_sight(e);
+            t.is_compared() && most > 1.0 && least <= 1.0
+        });
+        let text = match doubtful {
+            Some((target, _)) if !(0..rows.len()).filter(usable).all(|i| wrong(&rows[i])) => format!(
+                "Whether any setting tried shows {every} rightly is not known: of \"{}\" the reference itself may be off by {}, and \
+                 {} would be seen; the closest is {}.",
+                target.label,
+                two_digits(target.doubt),
+                two_digits(target.unseen),
+                name(&rows[i])
+            ),
+            _ => format!("No setting tried shows {every} rightly; the closest is {}.", name(&rows[i])),
+        };
+        list.push(Advice { kind: Kind::Closest, row: i, text });
+    }
     list
+}
+
+/// What "every number" means in this comparison.
+fn every(report: &Report) -> String {
+    let again = |o: &&super::LeftOut| o.reason != super::case::AGAIN;
+    let compared = report.targets.iter().filter(|t| t.is_compared());
+    let until = compared.filter_map(|t| t.until).reduce(f64::min);
+    let some = report.left_out.iter().any(|o| again(&o)) || report.targets.iter().any(|t| !t.is_compared());
+    match until {
+        Some(t) => format!("every number that is compared (until {} s)", crate::run::time(t)),
+        None if some => "every number that is compared".to_string(),
+        None => "every number".to_string(),
+    }
 }
 
 fn name(row: &Row) -> String {
@@ -133,16 +170,22 @@ fn about_own(report: &Report, own: usize) -> String {
         let why = row.told.first().map_or(String::new(), |t| format!(": {t}"));
         return format!("As the lab has it, {name}, the run is no good ({}{why}).", row.fate.word());
     }
-    let known = report.targets.iter().zip(&row.errors).filter(|(_, e)| e.largest.is_finite());
-    let worst = known.max_by(|(s, a), (t, b)| (s.counts(a) / s.unseen).total_cmp(&(t.counts(b) / t.unseen)));
-    let Some((target, e)) = worst else {
+    let known = report.targets.iter().zip(&row.errors).filter(|(t, _)| t.is_compared());
+    if known.clone().next().is_none() {
         return format!("As the lab has it, {name}: nothing could be compared.");
-    };
-    if e.below {
-        return format!("As the lab has it, {name}, every number is as exact as the reference.");
     }
-    let seen = match (target.counts(e) > target.unseen, target.readout) {
-        (false, _) => "which nobody sees".to_string(),
+    if let Some((target, _)) = known.clone().find(|(_, e)| e.largest.is_nan()) {
+        return format!("As the lab has it, {name}, \"{}\" is not a number everywhere.", target.label);
+    }
+    let above = known.filter(|(_, e)| !e.below);
+    let worst = above.max_by(|(s, a), (t, b)| (s.counts(a) / s.unseen).total_cmp(&(t.counts(b) / t.unseen)));
+    let Some((target, e)) = worst else {
+        return format!("As the lab has it, {name}, {} is as exact as the reference.", every(report));
+    };
+    let [most, least] = target.in_sight(e);
+    let seen = match (least > 1.0, target.readout) {
+        _ if most <= 1.0 => "which nobody sees".to_string(),
+        (false, _) => format!("give or take {}, the reference's own error", two_digits(target.doubt)),
         (true, true) => format!("which its digits show ({} would not)", two_digits(target.unseen)),
         (true, false) => format!("which its plot shows ({} would not)", two_digits(target.unseen)),
     };

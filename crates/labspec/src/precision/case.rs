@@ -53,6 +53,9 @@ pub struct LeftOut {
     pub reason: &'static str,
 }
 
+/// Left out, yet compared: under another label.
+pub(super) const AGAIN: &str = "it is another one again";
+
 /// What all runs of a comparison share.
 pub(super) struct Case<'a> {
     pub(super) lab: &'a Lab,
@@ -180,7 +183,7 @@ impl<'a> Case<'a> {
         } else if exact.is_none() && (reads("timestep") || reads("integrator")) {
             "it is a function of the timestep or the integrator, and has no closed form"
         } else if self.targets.iter().any(|t| t.bound.text.value == bound.text.value && t.shown == shown) {
-            "it is another one again"
+            AGAIN
         } else {
             if let Some(e) = &exact {
                 include(e.program.effects(), &mut self.demand);
@@ -234,7 +237,8 @@ impl<'a> Case<'a> {
     }
 
     /// A run under a setting; every coordinate of its start moved by `nudge`. What a page shows after a step is partly of the
-    /// state before it: forces, energies, contacts. In a `fresh` run all is of the state at hand, as in the truth.
+    /// state before it: forces, energies, contacts. In a `fresh` run all is of the state at hand, as in the truth;
+    /// it is not watched for growth of energy, as every look begins that watch anew.
     pub(super) fn run(&self, setting: &Setting, nudge: f64, fresh: bool) -> Result<Run, RunError> {
         let mut session = self.start(Some(setting))?;
         if nudge != 0.0 {
@@ -253,7 +257,7 @@ impl<'a> Case<'a> {
         let every = self.count.div_ceil(LOOKS).max(1);
         let before = session.spent();
         let mut sampling = 0;
-        let played = Play { steps, every: 1, presses: &self.presses, watched: true };
+        let played = Play { steps, every: 1, presses: &self.presses, watched: !fresh };
         let made = run::play(&mut session, &played, |session, made| {
             let began = session.spent();
             let sampled = made % per_sample == 0;

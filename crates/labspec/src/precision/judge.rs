@@ -35,6 +35,8 @@ pub struct Compared {
     pub closed: bool,
     /// How far the reference may be off, where it is used.
     pub uncertain: f64,
+    /// The same for the error that counts: of digits, at the end.
+    pub doubt: f64,
     /// Largest value less smallest, in the reference or as the lab has it, whichever is more.
     pub range: f64,
     /// The largest error that nobody sees: half a unit of the last digit, half a pixel of the plot.
@@ -56,11 +58,30 @@ impl Compared {
     pub fn counts(&self, errors: &Errors) -> f64 {
         if self.readout { errors.end } else { errors.largest }
     }
+
+    /// Whether anything is compared.
+    pub fn is_compared(&self) -> bool {
+        self.samples > 1
+    }
+
+    /// The largest and the smallest that the error may be, as the reference itself is in doubt; in times of what nobody sees. A
+    /// number that is not there where the reference has one is wrong beyond all bounds.
+    pub(super) fn in_sight(&self, errors: &Errors) -> [f64; 2] {
+        let error = self.counts(errors);
+        if error.is_nan() {
+            return [f64::INFINITY; 2];
+        }
+        // A number that does not change is shown rightly by all.
+        [error + self.doubt, error - self.doubt]
+            .map(|e| if e <= 0.0 { 0.0 } else { e / self.unseen.max(f64::MIN_POSITIVE) })
+    }
 }
 
 /// The two families of a reference have to agree to this part of the range, or of what nobody sees.
 const KNOWN: f64 = 0.01;
 const UNSEEN: f64 = 0.1;
+/// The last part of the samples: an nth.
+const LATE: usize = 10;
 /// What rounding leaves of a number in a run of many steps.
 const ROUNDING: f64 = 1e-13;
 
@@ -84,15 +105,26 @@ pub(super) fn compared(case: &Case<'_>, reference: &Reference, own: &Run) -> Vec
         };
         let cut = samples < values.len() && !blank;
         let size = values.iter().take(samples).fold(0.0f64, |a, x| a.max(x.abs()));
-        let doubt = if closed || samples == 0 { 0.0 } else { uncertain[samples - 1] };
+        let readout = matches!(target.shown, super::case::Shown::Decimals(_));
+        let most = if closed || samples == 0 { 0.0 } else { uncertain[samples - 1] };
+        // Families that meet at the last sample by chance do not meet for so long.
+        let late = samples - samples.div_ceil(LATE);
+        let at_end = reference.apart[i][late..samples].iter().fold(0.0, |a: f64, x| a.max(*x));
         Compared {
             label: target.label.clone(),
             closed,
             size,
-            uncertain: doubt.max(ROUNDING * size),
+            uncertain: most.max(ROUNDING * size),
+            doubt: if closed {
+                0.0
+            } else if readout {
+                at_end
+            } else {
+                most
+            },
             range,
             unseen,
-            readout: matches!(target.shown, super::case::Shown::Decimals(_)),
+            readout,
             blank,
             until: cut.then(|| samples.saturating_sub(1) as f64 * case.interval),
             samples,
@@ -127,7 +159,7 @@ pub(super) fn errors(
         }
         e.rms = (e.rms / target.samples.max(1) as f64).sqrt();
         e.below = e.largest <= (2.0 * target.uncertain).max(rounding * target.size);
-        if target.samples < 2 { Errors::NONE } else { e }
+        if target.is_compared() { e } else { Errors::NONE }
     };
     targets.iter().enumerate().map(one).collect()
 }

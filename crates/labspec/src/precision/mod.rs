@@ -12,7 +12,7 @@ mod judge;
 mod reference;
 mod setting;
 
-pub use advice::Advice;
+pub use advice::{Advice, Kind};
 pub use beside::{Beside, BesideRow, Recording};
 pub use case::{Fate, LeftOut};
 pub use cost::Cost;
@@ -79,7 +79,8 @@ pub struct Row {
     pub fate: Fate,
     /// What was told about it.
     pub told: Vec<String>,
-    /// The largest error, in times of what nobody sees; NaN where nothing is known.
+    /// The largest error that is possible, as the reference is in doubt, too; in times of what nobody sees. NaN where nothing is
+    /// known.
     pub score: f64,
 }
 
@@ -141,7 +142,7 @@ pub(crate) fn milliseconds(seconds: f64) -> String {
     crate::verify::significant(1e3 * seconds)
 }
 
-/// Runs the lab with every setting.
+/// Runs the lab with every setting. `tell` hears what is being done.
 ///
 /// # Errors
 /// The lab shows no numbers to compare, sets its timestep itself while it runs, cannot be handled as asked, or the runs would take
@@ -152,6 +153,7 @@ pub fn compare(
     programs: &Programs,
     options: &Options,
     findings: &mut Vec<Finding>,
+    tell: &mut dyn FnMut(&str),
 ) -> Result<Report, RunError> {
     let mut case = Case::new(lab, model, programs, &options.set, findings);
     if case.targets.is_empty() {
@@ -193,6 +195,7 @@ pub fn compare(
     }
     run::presses_within(programs, &case.presses, count, coarse)?;
 
+    tell("the reference");
     let reference = reference::reference(&case, own, coarse)?;
     let settings = settings(options, own_integrator, own, &ladder);
     let Some(truth) = reference else { return without_reference(case, &settings, own, own_integrator) };
@@ -204,10 +207,11 @@ pub fn compare(
         .extend(blank.map(|t| LeftOut { label: t.label.clone(), reason: "it is no number at the start" }));
     let kept = Kept::of(&truth.run);
     let mut rows = Vec::new();
-    for setting in &settings {
+    for (i, setting) in settings.iter().enumerate() {
         if interrupt::requested() {
             break;
         }
+        tell(&format!("setting {} of {}: {}", i + 1, settings.len(), setting.integrator.name));
         let run = case.run(setting, 0.0, false)?;
         let errors = judge::errors(&case, &truth, &targets, &run, setting.timestep);
         let score = match run.fate {
@@ -232,6 +236,7 @@ pub fn compare(
     observe_orders(&mut rows, &targets);
     let timed: Vec<Option<Setting>> =
         rows.iter().map(|r| (r.fate != Fate::Stopped).then_some(r.setting)).collect();
+    tell("run times");
     for (row, [median, low, high]) in rows.iter_mut().zip(cost::measure(&case, &timed)) {
         (row.cost.median, row.cost.low, row.cost.high) = (median, low, high);
     }
@@ -241,7 +246,7 @@ pub fn compare(
     };
     let beside = options.beside.as_ref().map(|r| r.judge(&case, &truth, &targets)).transpose()?;
     let mut report = Report {
-        events: events(&case, &truth),
+        events: events(&case, &truth, own),
         left_out: case.left_out,
         reference: Some(truth.how),
         length: case.count as f64 * case.interval,
@@ -256,6 +261,10 @@ pub fn compare(
         front: Vec::new(),
         advice: Vec::new(),
     };
+    // Of what has no moment nothing is off.
+    for (k, event) in report.events.iter().enumerate().filter(|(_, e)| e.time.is_nan()) {
+        report.rows.iter_mut().filter_map(|r| r.events.get_mut(k)).for_each(|off| *off = event.time);
+    }
     report.front = advice::front(&report.rows);
     report.advice = advice::advise(&report);
     Ok(report)
@@ -370,13 +379,8 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 fn score(targets: &[Compared], errors: &[Errors]) -> f64 {
-    let known = targets.iter().zip(errors).filter(|(_, e)| e.largest.is_finite());
-    // A number that does not change is shown rightly by all.
-    let one = |(t, e): (&Compared, &Errors)| match t.counts(e) {
-        0.0 => 0.0,
-        error => error / t.unseen.max(f64::MIN_POSITIVE),
-    };
-    if known.clone().count() == 0 { f64::NAN } else { known.map(one).fold(0.0, f64::max) }
+    let known = targets.iter().zip(errors).filter(|(t, _)| t.is_compared());
+    known.map(|(t, e)| t.in_sight(e)[0]).reduce(f64::max).unwrap_or(f64::NAN)
 }
 
 /// Orders from a run to the one with the next shorter timestep.
@@ -394,11 +398,22 @@ fn observe_orders(rows: &mut [Row], targets: &[Compared]) {
     }
 }
 
-fn events(case: &Case<'_>, truth: &reference::Reference) -> Vec<Event> {
-    let names = std::iter::once("first contact".to_string())
+fn events(case: &Case<'_>, truth: &reference::Reference, own: f64) -> Vec<Event> {
+    // What touches within the first step touched before it.
+    let from_start = truth.run.events.first().is_some_and(|t| *t <= own);
+    let contact = if from_start { "bodies touch from the start" } else { "first contact" };
+    let names = std::iter::once(contact.to_string())
         .chain(case.targets.iter().map(|t| format!("\"{}\" passes through zero", t.label)));
     let times = truth.run.events.iter().zip(&truth.unsure_of_events);
-    names.zip(times).map(|(name, (&time, &uncertain))| Event { name, time, uncertain }).collect()
+    let events = names.zip(times).enumerate();
+    let no_moment = |i: usize, x: f64| if i == 0 && from_start { f64::NAN } else { x };
+    events
+        .map(|(i, (name, (&time, &uncertain)))| Event {
+            name,
+            time: no_moment(i, time),
+            uncertain: no_moment(i, uncertain),
+        })
+        .collect()
 }
 
 /// How long two starts that nobody could tell apart show the same.

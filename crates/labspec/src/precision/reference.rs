@@ -15,6 +15,8 @@ pub(super) struct Reference {
     pub(super) values: Vec<Vec<f64>>,
     /// How far each may be off: what the two families have differed by at most so far.
     pub(super) uncertain: Vec<Vec<f64>>,
+    /// What they differ by at each sample.
+    pub(super) apart: Vec<Vec<f64>>,
     /// The run whose events, energy and depth are believed, and how far each event may be off.
     pub(super) run: Run,
     pub(super) unsure_of_events: Vec<f64>,
@@ -149,21 +151,19 @@ fn toward(fine: &Run, coarse: &Run) -> Run {
 /// The first as far as the second, with steps of some length, agrees. Events are those of the shorter steps: they are found
 /// between the steps, to a fraction of one.
 fn compare(mut first: Run, second: &Run, step: f64, how: String) -> Reference {
-    let running = |a: &Vec<f64>, b: &Vec<f64>| {
-        let mut worst = 0.0f64;
-        let differences = a.iter().zip(b).map(|(a, b)| {
-            let d = (a - b).abs();
-            worst = if d.is_nan() { f64::INFINITY } else { worst.max(d) };
-            worst
-        });
-        differences.collect::<Vec<f64>>()
+    let differ = |a: &f64, b: &f64| if (a - b).is_nan() { f64::INFINITY } else { (a - b).abs() };
+    let each = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| differ(a, b)).collect();
+    let apart: Vec<Vec<f64>> = first.values.iter().zip(&second.values).map(each).collect();
+    let so_far = |worst: &mut f64, d: &f64| {
+        *worst = worst.max(*d);
+        Some(*worst)
     };
-    let uncertain = first.values.iter().zip(&second.values).map(|(a, b)| running(a, b)).collect();
+    let uncertain = apart.iter().map(|list| list.iter().scan(0.0, so_far).collect()).collect();
     let unsure = |(a, b): (&f64, &f64)| (a - b).abs().min(step);
     let unsure_of_events = first.events.iter().zip(&second.events).map(unsure).collect();
     first.events.clone_from(&second.events);
     first.penetration = second.penetration;
-    Reference { values: first.values.clone(), uncertain, run: first, unsure_of_events, how }
+    Reference { values: first.values.clone(), uncertain, apart, run: first, unsure_of_events, how }
 }
 
 /// The largest difference of the two families, as a part of the range of what it is about.

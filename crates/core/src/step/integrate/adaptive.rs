@@ -1,4 +1,5 @@
-//! Steps within a step, as many and of as high an order as rounding asks for: slow, and right. For references.
+//! Steps within a step, as many and of as high an order as rounding asks for where forces are smooth: slow, and close. For
+//! references.
 //!
 //! The midpoint rule with 2, 4, 6, … steps over the same time has an error in even powers of their length, which the table of
 //! Aitken and Neville takes away one after the other; the last two entries say how far the result may be off (Bulirsch and Stoer
@@ -22,13 +23,9 @@ const PARTS: usize = 4096;
 
 /// A step.
 pub(super) fn adaptive(m: &Model, d: &mut Data) {
-    let (h, began) = (m.opt.timestep, d.time);
-    let mut w = std::mem::take(&mut d.work.flow);
-    // The table, the slope at the start, and three states of the midpoint rule.
-    w.make_room(m, LINES + 4);
-    flow::begin(m, d, &mut w);
-    w.energy = d.energy;
-    keep_slope(m, d, &mut w);
+    let h = m.opt.timestep;
+    // The table, and three states of the midpoint rule.
+    let mut w = flow::enter(m, d, LINES + 3);
     // Times are counted in units of the smallest part: no rounding.
     let whole = 1u32 << HALVINGS;
     let (mut done, mut part, mut parts) = (0, whole, 0);
@@ -46,7 +43,6 @@ pub(super) fn adaptive(m: &Model, d: &mut Data) {
             break;
         }
         flow::go_on(m, d, &mut w, length);
-        keep_slope(m, d, &mut w);
         // Twice as long, where that ends at a multiple of itself.
         if good && done % (2 * part) == 0 {
             part *= 2;
@@ -55,16 +51,7 @@ pub(super) fn adaptive(m: &Model, d: &mut Data) {
             part = whole - done;
         }
     }
-    flow::finish(m, d, &mut w, began);
-    d.work.flow = w;
-}
-
-/// Keeps the slope at the start of a part, behind the table.
-fn keep_slope(m: &Model, d: &Data, w: &mut Flow) {
-    let n = w.start.len();
-    let mut rows = std::mem::take(&mut w.rows);
-    flow::known_slope(m, d, &w.start, &mut rows[LINES * n..][..n]);
-    w.rows = rows;
+    flow::finish(m, d, w);
 }
 
 /// A part of the step, to `w.end`; whether it is as exact as asked.
@@ -74,11 +61,10 @@ fn extrapolate(m: &Model, d: &mut Data, w: &mut Flow, h: f64) -> bool {
         return true;
     }
     let (mut rows, mut end) = (std::mem::take(&mut w.rows), std::mem::take(&mut w.end));
-    let (table, rest) = rows.split_at_mut(LINES * n);
-    let (first, scratch) = rest.split_at_mut(n);
+    let (table, scratch) = rows.split_at_mut(LINES * n);
     let (mut good, mut before) = (false, f64::INFINITY);
     for line in 0..LINES {
-        midpoint(m, d, w, h, 2 * (line + 1), first, scratch, &mut end);
+        midpoint(m, d, w, h, 2 * (line + 1), scratch, &mut end);
         // The line of the table: entry k takes the place of entry k of the line above.
         let mut error = 0.0f64;
         for (i, new) in end.iter_mut().enumerate() {
@@ -115,25 +101,15 @@ fn larger(error: f64, x: f64) -> f64 {
 }
 
 /// Gragg's method: a step of Euler's, then steps of twice the length from the state before the last, smoothed at the end.
-#[allow(clippy::too_many_arguments)]
-fn midpoint(
-    m: &Model,
-    d: &mut Data,
-    w: &Flow,
-    h: f64,
-    steps: usize,
-    first: &[f64],
-    scratch: &mut [f64],
-    out: &mut [f64],
-) {
-    let n = first.len();
+fn midpoint(m: &Model, d: &mut Data, w: &Flow, h: f64, steps: usize, scratch: &mut [f64], out: &mut [f64]) {
+    let n = w.first.len();
     let (older, rest) = scratch.split_at_mut(n);
     let (old, rest) = rest.split_at_mut(n);
     let slope = &mut rest[..n];
     let length = h / steps as f64;
     older.copy_from_slice(&w.start);
     old.copy_from_slice(&w.start);
-    combine(old, [first], |y, [k]| y + length * k);
+    combine(old, [&*w.first], |y, [k]| y + length * k);
     for step in 1..steps {
         flow::slope(m, d, w, length * step as f64, old, slope);
         combine(older, [&*slope], |y, [k]| y + 2.0 * length * k);

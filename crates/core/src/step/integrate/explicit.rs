@@ -78,16 +78,11 @@ pub(super) const EIGHTH: Method = Method {
 
 /// A step.
 pub(super) fn explicit(m: &Model, d: &mut Data, method: &Method) {
-    let (h, began) = (m.opt.timestep, d.time);
-    let mut w = std::mem::take(&mut d.work.flow);
-    w.make_room(m, method.weights.len());
-    flow::begin(m, d, &mut w);
-    w.energy = d.energy;
+    let h = m.opt.timestep;
+    let mut w = flow::enter(m, d, method.weights.len());
     let n = w.start.len();
     let (mut rows, mut end) = (std::mem::take(&mut w.rows), std::mem::take(&mut w.end));
-    if n > 0 {
-        flow::known_slope(m, d, &w.start, &mut rows[..n]);
-    }
+    rows[..n].copy_from_slice(&w.first);
     for (stage, row) in method.rows.iter().enumerate() {
         let (known, next) = rows.split_at_mut((stage + 1) * n);
         along(&w.start, h, row, known, &mut end);
@@ -95,8 +90,7 @@ pub(super) fn explicit(m: &Model, d: &mut Data, method: &Method) {
     }
     along(&w.start, h, method.weights, &rows, &mut end);
     (w.rows, w.end) = (rows, end);
-    flow::finish(m, d, &mut w, began);
-    d.work.flow = w;
+    flow::finish(m, d, w);
 }
 
 /// out ← start + h Σ weight slope

@@ -17,8 +17,17 @@ use crate::step::forward;
 use crate::step::stages::Flow;
 use crate::step::workspace::Data;
 
-/// Starts coordinates at the state of the data.
-pub(super) fn begin(m: &Model, d: &Data, w: &mut Flow) {
+/// Enters a step with a method of so many stages; `finish` ends it. The forces at the start are known.
+pub(super) fn enter(m: &Model, d: &mut Data, stages: usize) -> Flow {
+    let mut w = std::mem::take(&mut d.work.flow);
+    w.make_room(m, stages);
+    (w.began, w.energy) = (d.time, d.energy);
+    begin(m, d, &mut w);
+    w
+}
+
+/// Starts coordinates at the state of the data, whose forces are known.
+fn begin(m: &Model, d: &Data, w: &mut Flow) {
     w.qpos.copy_from_slice(&d.qpos);
     w.time = d.time;
     let (u, rest) = w.start.split_at_mut(m.nv);
@@ -26,10 +35,11 @@ pub(super) fn begin(m: &Model, d: &Data, w: &mut Flow) {
     u.fill(0.0);
     v.copy_from_slice(&d.qvel);
     act.copy_from_slice(&d.act);
+    known_slope(m, d, &w.start, &mut w.first);
 }
 
 /// Puts the data into the state that the list says, at a time after the start.
-pub(super) fn place(m: &Model, d: &mut Data, w: &Flow, after: f64, state: &[f64]) {
+fn place(m: &Model, d: &mut Data, w: &Flow, after: f64, state: &[f64]) {
     let (u, rest) = state.split_at(m.nv);
     let (v, act) = rest.split_at(m.nv);
     d.qpos.copy_from_slice(&w.qpos);
@@ -40,7 +50,7 @@ pub(super) fn place(m: &Model, d: &mut Data, w: &Flow, after: f64, state: &[f64]
 }
 
 /// The slope of the state that the data hold, whose forces are known.
-pub(super) fn known_slope(m: &Model, d: &Data, state: &[f64], out: &mut [f64]) {
+fn known_slope(m: &Model, d: &Data, state: &[f64], out: &mut [f64]) {
     let (du, rest) = out.split_at_mut(m.nv);
     let (dv, da) = rest.split_at_mut(m.nv);
     du.copy_from_slice(&d.qvel);
@@ -92,15 +102,15 @@ pub(super) fn go_on(m: &Model, d: &mut Data, w: &mut Flow, part: f64) {
     begin(m, d, w);
 }
 
-/// Ends the step that began at a time: `w.end` is the state at its end.
-pub(super) fn finish(m: &Model, d: &mut Data, w: &mut Flow, began: f64) {
+/// Ends the step: `w.end` is the state at its end.
+pub(super) fn finish(m: &Model, d: &mut Data, mut w: Flow) {
     let h = m.opt.timestep;
     let (u, rest) = w.end.split_at_mut(m.nv);
     let (v, act) = rest.split_at_mut(m.nv);
     d.qpos.copy_from_slice(&w.qpos);
     d.qvel.copy_from_slice(&w.start[m.nv..2 * m.nv]);
     d.act.copy_from_slice(&w.start[2 * m.nv..]);
-    d.time = began;
+    d.time = w.began;
     d.energy = w.energy;
     for (v, start) in v.iter_mut().zip(&d.qvel) {
         *v = (*v - start) / h;
@@ -111,6 +121,7 @@ pub(super) fn finish(m: &Model, d: &mut Data, w: &mut Flow, began: f64) {
         d,
         Slopes { reached: Some(act), acceleration: Some(v), velocity: Some(u), ..Slopes::default() },
     );
+    d.work.flow = w;
 }
 
 #[cfg(test)]
