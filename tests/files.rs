@@ -151,6 +151,19 @@ fn many_plots_ask_for_a_folder() {
     assert!(read(folder.path(), "p-2.svg").starts_with("<svg"));
 }
 
+#[test]
+fn a_picture_in_pixels_replaces_its_own_and_no_other() {
+    let folder = folder();
+    let draw = || run_in(folder.path(), &["run", "clean.md#1", "--steps", "2", "--png", "p.png"]);
+    assert_eq!([draw().code, draw().code], [0, 0]);
+    assert!(std::fs::read(folder.path().join("p-2.png")).unwrap().starts_with(b"\x89PNG"));
+    // Pictures are height fields, too.
+    std::fs::write(folder.path().join("p.png"), b"\x89PNG of a mountain").unwrap();
+    let done = draw();
+    assert_eq!(done.code, 2, "{}", done.stdout);
+    assert!(done.stderr.contains("--png p.png would overwrite"), "{}", done.stderr);
+}
+
 #[cfg(unix)]
 #[test]
 fn pipes_and_devices_never_block() {

@@ -8,6 +8,8 @@
 //! * [`work_precision`]: what accuracy costs, for several methods, both axes logarithmic
 //! * [`cells`]: what becomes of something over two settings
 //!
+//! With the feature `png` a picture is drawn in pixels, too.
+//!
 //! Inside: `number` and `text` turn values into characters, `canvas` writes elements, `axis` chooses ranges and
 //! ticks, `curve` turns samples into few points, `frame`, `legend` and `labels` draw what is common.
 
@@ -21,6 +23,8 @@ mod legend;
 mod lines;
 mod number;
 mod precision;
+#[cfg(feature = "png")]
+mod raster;
 mod style;
 #[cfg(test)]
 mod tests;
@@ -29,3 +33,5 @@ mod text;
 pub use cells::{Cells, cells};
 pub use lines::{Chart, Series, line_chart};
 pub use precision::{Method, MethodPoint, WorkPrecision, work_precision};
+#[cfg(feature = "png")]
+pub use raster::{is_png_of_ours, png};

@@ -17,6 +17,36 @@ pub(super) fn write_file(path: &Path, text: &str) -> Result<(), Failure> {
     write_with(path, |out| out.write_all(text.as_bytes()))
 }
 
+/// A picture in pixels, twice as many across as its size says.
+pub(super) fn write_png(path: &Path, svg: &str) -> Result<(), Failure> {
+    let bytes = pixels(svg).map_err(|e| format!("cannot draw {}: {e}", printable_path(path)))?;
+    write_with(path, |out| out.write_all(&bytes))
+}
+
+#[cfg(feature = "png")]
+fn pixels(svg: &str) -> Result<Vec<u8>, String> {
+    labspec_plot::png(svg, 2.0)
+}
+
+#[cfg(not(feature = "png"))]
+fn pixels(_: &str) -> Result<Vec<u8>, String> {
+    Err("this program was built without the feature `png`; --svg draws the same picture".into())
+}
+
+/// Whether a file is a picture that this program drew. Other pictures may be height fields of a model.
+#[cfg(feature = "png")]
+fn drawn_here(place: &Path) -> bool {
+    use std::io::Read;
+    let mut start = Vec::new();
+    let read = File::open(place).and_then(|file| file.take(512).read_to_end(&mut start));
+    read.is_ok() && labspec_plot::is_png_of_ours(&start)
+}
+
+#[cfg(not(feature = "png"))]
+fn drawn_here(_: &Path) -> bool {
+    false
+}
+
 /// The same, piece by piece.
 pub(super) fn write_with(
     path: &Path,
@@ -187,7 +217,9 @@ pub(super) fn look_ahead(read: &[PathBuf], outputs: &[Wanted]) -> Result<(), Fai
         let identity = Identity::of(path).map_err(cannot)?;
         let old = writable(&identity.place).map_err(cannot)?;
         let ending = identity.place.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-        let is_read = old.is_some() && ending.is_some_and(|e| READ.contains(&e.as_str()));
+        let is_read = old.is_some()
+            && ending.is_some_and(|e| READ.contains(&e.as_str()))
+            && !drawn_here(&identity.place);
         if is_read || inputs.iter().any(|input| input.is(&identity)) {
             return Err(format!(
                 "{named} would overwrite a lesson or a model; name another file, nothing was written"

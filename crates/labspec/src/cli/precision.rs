@@ -1,7 +1,7 @@
 //! `labspec precision`.
 
 use super::handle::{assignment, press};
-use super::output::{Wanted, look_ahead, write_with};
+use super::output::{Wanted, look_ahead, write_png, write_with};
 use super::stdio::{Progress, print_json, stream};
 use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
 use crate::precision::{
@@ -52,6 +52,9 @@ pub(super) struct Arguments {
     /// Write the chart of the first trace
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// The same in pixels
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -72,6 +75,7 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
     let wanted = |option: &'static str, path: &PathBuf| Wanted { option, path: path.clone() };
     let files = a.csv.iter().map(|p| wanted("--csv", p)).chain(a.svg.iter().map(|p| wanted("--svg", p)));
+    let files = files.chain(a.png.iter().map(|p| wanted("--png", p)));
     look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &files.collect::<Vec<_>>())?;
     let options = Options {
         until: a.until,
@@ -95,6 +99,9 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     }
     if let Some(file) = &a.svg {
         write_file(file, &chart(&report, target.lab.title()))?;
+    }
+    if let Some(file) = &a.png {
+        write_png(file, &chart(&report, target.lab.title()))?;
     }
     if let Some(file) = &a.csv {
         write_with(file, |out| csv(&report, out))?;

@@ -1,7 +1,7 @@
 //! `labspec run`.
 
 use super::handle::{assignment, press};
-use super::output::{Wanted, look_ahead, write_with};
+use super::output::{Wanted, look_ahead, write_png, write_with};
 use super::stdio::stream;
 use super::{Failure, ModelOptions, Outcome, print, target, write_file};
 use crate::report::{printable, printable_path};
@@ -49,6 +49,9 @@ pub(super) struct Arguments {
     /// Write the plots; further plots go to FILE-2.svg, FILE-3.svg, …; into a folder as plot-1.svg, plot-2.svg, …
     #[arg(long, value_name = "FILE|DIR/")]
     svg: Option<PathBuf>,
+    /// The same in pixels
+    #[arg(long, value_name = "FILE|DIR/")]
+    png: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -71,10 +74,17 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
         press: a.press.iter().map(|s| press(&target.lab, s)).collect::<Result<_, _>>()?,
         full: a.full,
     };
-    let plots = a.svg.as_ref().map(|file| plot_files(&target.lab, file)).transpose()?.unwrap_or_default();
+    let plots = |file: &Option<PathBuf>, option| {
+        file.as_ref()
+            .map(|file| plot_files(&target.lab, file, option))
+            .transpose()
+            .map(Option::unwrap_or_default)
+    };
+    let (drawn, painted) = (plots(&a.svg, "svg")?, plots(&a.png, "png")?);
     let wanted = |option: &'static str, path: &PathBuf| Wanted { option, path: path.clone() };
     let files = a.csv.iter().map(|p| wanted("--csv", p)).chain(a.json.iter().map(|p| wanted("--json", p)));
-    let files: Vec<Wanted> = files.chain(plots.iter().map(|p| wanted("--svg", p))).collect();
+    let files = files.chain(drawn.iter().map(|p| wanted("--svg", p)));
+    let files: Vec<Wanted> = files.chain(painted.iter().map(|p| wanted("--png", p))).collect();
     look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &files)?;
     let table = run::run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
     if let Some(file) = &a.csv {
@@ -83,8 +93,13 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
     if let Some(file) = &a.json {
         write_with(file, |out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?;
     }
-    for (i, (plot, file)) in target.lab.plots.iter().zip(&plots).enumerate() {
-        write_file(file, &line_chart(&chart(&target.lab, plot, i, &table)))?;
+    let picture = |(i, plot)| line_chart(&chart(&target.lab, plot, i, &table));
+    let pictures = || target.lab.plots.iter().enumerate().map(picture);
+    for (svg, file) in pictures().zip(&drawn) {
+        write_file(file, &svg)?;
+    }
+    for (svg, file) in pictures().zip(&painted) {
+        write_png(file, &svg)?;
     }
     match a.format {
         Format::Human => print(&readouts(&target.lab, &table))?,
@@ -140,8 +155,8 @@ fn readouts(lab: &Lab, table: &Table) -> String {
 /// Most plots that go beside one another into a folder that holds other things.
 const MAX_LOOSE: usize = 50;
 
-/// The files of a lab's plots: FILE, FILE-2.svg, FILE-3.svg, …, or plot-1.svg, plot-2.svg, … in a folder.
-fn plot_files(lab: &Lab, file: &Path) -> Result<Vec<PathBuf>, Failure> {
+/// The files of a lab's plots: FILE, FILE-2.svg, FILE-3.svg, …, or plot-1.svg, plot-2.svg, … in a folder; or with another ending.
+fn plot_files(lab: &Lab, file: &Path, ending: &str) -> Result<Vec<PathBuf>, Failure> {
     let count = lab.plots.len();
     if count == 0 {
         return Err("this lab has no plots to write".into());
@@ -149,15 +164,15 @@ fn plot_files(lab: &Lab, file: &Path) -> Result<Vec<PathBuf>, Failure> {
     let shown = printable_path(file);
     if file.is_dir() || shown.ends_with(std::path::is_separator) {
         std::fs::create_dir_all(file).map_err(|e| format!("cannot make the folder {shown}: {e}"))?;
-        return Ok((1..=count).map(|i| file.join(format!("plot-{i}.svg"))).collect());
+        return Ok((1..=count).map(|i| file.join(format!("plot-{i}.{ending}"))).collect());
     }
     if count > MAX_LOOSE {
         let folder = printable_path(&file.with_extension(""));
-        return Err(format!("this lab has {count} plots; name a folder for them: --svg {folder}/"));
+        return Err(format!("this lab has {count} plots; name a folder for them: --{ending} {folder}/"));
     }
     let further = |i: usize| {
         let mut name = file.file_stem().unwrap_or("plot".as_ref()).to_os_string();
-        name.push(format!("-{i}.svg"));
+        name.push(format!("-{i}.{ending}"));
         file.with_file_name(name)
     };
     Ok((1..=count).map(|i| if i == 1 { file.to_path_buf() } else { further(i) }).collect())

@@ -1,6 +1,6 @@
 //! `labspec stability`.
 
-use super::output::{Wanted, look_ahead};
+use super::output::{Wanted, look_ahead, write_png};
 use super::stdio::{Progress, print_json};
 use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
 use crate::bind::Programs;
@@ -35,6 +35,9 @@ pub(super) struct Arguments {
     /// Draw the map
     #[arg(long, value_name = "FILE", requires = "map")]
     svg: Option<PathBuf>,
+    /// The same in pixels
+    #[arg(long, value_name = "FILE", requires = "map")]
+    png: Option<PathBuf>,
     /// How to print
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
@@ -48,14 +51,18 @@ enum Format {
 
 pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
-    let files: Vec<Wanted> = a.svg.iter().map(|p| Wanted { option: "--svg", path: p.clone() }).collect();
-    look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &files)?;
+    let wanted = |option: &'static str, path: &PathBuf| Wanted { option, path: path.clone() };
+    let files = a.svg.iter().map(|p| wanted("--svg", p)).chain(a.png.iter().map(|p| wanted("--png", p)));
+    look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &files.collect::<Vec<_>>())?;
     let map = a.map.as_ref().map(|text| two_labels(&target.lab, text)).transpose()?;
     let options = Options { until: a.until, margins: a.margins, map };
     let progress = Progress::new(a.format == Format::Human);
     let mut tell = |text: &str| progress.tell(text);
     let report = probe(&target.lab, &target.model, &target.programs, &options, &mut tell).map_err(|e| e.0)?;
     drop(progress);
+    if let (Some(file), Some(map)) = (&a.png, &report.map) {
+        write_png(file, &chart(map, target.lab.title()))?;
+    }
     if let (Some(file), Some(map)) = (&a.svg, &report.map) {
         write_file(file, &chart(map, target.lab.title()))?;
     }

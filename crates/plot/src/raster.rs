@@ -1,0 +1,87 @@
+//! Pictures of pixels, drawn by `resvg` from our own SVG, with a font of our own: the same pixels wherever it runs.
+
+use resvg::{tiny_skia, usvg};
+
+/// Letters of Latin, Greek and Cyrillic, arrows and signs of mathematics.
+const FONT: &[u8] = include_bytes!("../fonts/DejaVuSans.ttf");
+/// Pixels across and down, at most.
+const MOST: f32 = 8192.0;
+/// Who made a picture, as it says of itself.
+const MAKER: (&str, &str) = ("Software", "labspec");
+
+/// A picture as PNG, so many times as large as its own size says.
+///
+/// # Errors
+/// It is no picture, or too large.
+pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
+    let mut options = usvg::Options { font_family: "DejaVu Sans".into(), ..usvg::Options::default() };
+    options.fontdb_mut().load_font_data(FONT.to_vec());
+    let tree = usvg::Tree::from_str(svg, &options).map_err(|e| e.to_string())?;
+    let [wide, high] = [tree.size().width(), tree.size().height()].map(|x| (scale * x).ceil());
+    let fits = |x: f32| (1.0..=MOST).contains(&x);
+    let pixels =
+        (fits(wide) && fits(high)).then(|| tiny_skia::Pixmap::new(wide as u32, high as u32)).flatten();
+    let Some(mut pixels) = pixels else {
+        return Err(format!("{wide} by {high} pixels are too many or too few; the limit is {MOST} each"));
+    };
+    resvg::render(&tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    let written = encoder
+        .add_text_chunk(MAKER.0.into(), MAKER.1.into())
+        .and_then(|()| encoder.write_header())
+        .and_then(|mut out| out.write_image_data(&pixels.take_demultiplied()));
+    written.map(|()| bytes).map_err(|e| e.to_string())
+}
+
+/// Whether a file that starts so is one of these pictures.
+pub fn is_png_of_ours(start: &[u8]) -> bool {
+    let said = format!("{}\0{}", MAKER.0, MAKER.1);
+    start.starts_with(b"\x89PNG") && start.windows(said.len()).take(256).any(|w| w == said.as_bytes())
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::{Chart, Series, line_chart};
+
+    fn chart(title: &str) -> String {
+        let series = Series { label: "a".into(), ..Series::default() };
+        line_chart(&Chart {
+            title: title.into(),
+            series: vec![series],
+            width: 320.0,
+            height: 200.0,
+            ..Chart::default()
+        })
+    }
+
+    fn pixels(bytes: &[u8]) -> (u32, u32, Vec<u8>) {
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+        let mut out = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut out).unwrap();
+        (info.width, info.height, out)
+    }
+
+    #[test]
+    fn a_picture_is_drawn_with_its_words() {
+        let (one, two) = (png(&chart(""), 2.0).unwrap(), png(&chart("x² + μ"), 2.0).unwrap());
+        let ((wide, high, a), (_, _, b)) = (pixels(&one), pixels(&two));
+        assert_eq!((wide, high), (640, 400));
+        let dark = |p: &[u8]| p.chunks(4).filter(|c| c[0] < 100).count();
+        assert!(dark(&b) > dark(&a) + 50, "{} {}", dark(&a), dark(&b));
+        assert!(is_png_of_ours(&one));
+        assert_eq!(one, png(&chart(""), 2.0).unwrap());
+    }
+
+    #[test]
+    fn what_is_no_picture_or_too_large_is_an_error() {
+        assert!(png("<svg", 1.0).is_err());
+        assert!(png(&chart(""), 1e3).is_err());
+        assert!(png(&chart(""), f32::NAN).is_err());
+        assert!(!is_png_of_ours(b"\x89PNG by somebody else"));
+    }
+}
