@@ -17,6 +17,7 @@ mod javascript;
 mod labs;
 mod ledger;
 mod lessons;
+mod levels;
 mod links;
 mod loads;
 mod needs;

@@ -114,6 +114,20 @@ pub(crate) fn program(folder: &Path, arguments: &[&str]) -> Command {
 /// What a command prints for programs is held against its schema, in every test.
 pub(crate) fn run_in(folder: &Path, arguments: &[&str]) -> Done {
     let output = program(folder, arguments).output().unwrap();
+    finished(folder, arguments, output)
+}
+
+/// The same with something to read.
+pub(crate) fn run_with_input(folder: &Path, arguments: &[&str], input: &str) -> Done {
+    use std::io::Write;
+    let mut command = program(folder, arguments);
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    finished(folder, arguments, child.wait_with_output().unwrap())
+}
+
+fn finished(folder: &Path, arguments: &[&str], output: std::process::Output) -> Done {
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     let done = Done {
         code: output.status.code().unwrap(),

@@ -76,18 +76,21 @@ pub enum State {
     Unchecked,
     /// It could be checked, and whoever asked for the check left it out.
     LeftOut,
+    /// It is false or could not be checked, as the baseline says that it was.
+    Known,
     /// Nobody claims it, so nothing was checked.
     NotClaimed,
 }
 
 impl State {
-    /// In words, for programs: `true`, `false`, `unchecked`, `left out`, `not claimed`.
+    /// In words, for programs: `true`, `false`, `unchecked`, `left out`, `known`, `not claimed`.
     pub fn as_str(self) -> &'static str {
         match self {
             State::True(_) => "true",
             State::False => "false",
             State::Unchecked => "unchecked",
             State::LeftOut => "left out",
+            State::Known => "known",
             State::NotClaimed => "not claimed",
         }
     }
@@ -133,6 +136,8 @@ pub struct Count {
     pub unchecked: usize,
     /// Left out of this check.
     pub left_out: usize,
+    /// No better than the baseline says.
+    pub known: usize,
     /// Not claimed.
     pub not_claimed: usize,
 }
@@ -146,17 +151,20 @@ pub enum Outcome {
     Findings,
     /// What was checked is true, and some claims were left out.
     Partial,
+    /// What is false or could not be checked stands in the baseline; the rest is true.
+    Known,
     /// There was nothing to check.
     Nothing,
 }
 
 impl Outcome {
-    /// `clean`, `findings`, `partial` or `nothing`.
+    /// `clean`, `findings`, `partial`, `known` or `nothing`.
     pub fn as_str(self) -> &'static str {
         match self {
             Outcome::Clean => "clean",
             Outcome::Findings => "findings",
             Outcome::Partial => "partial",
+            Outcome::Known => "known",
             Outcome::Nothing => "nothing",
         }
     }
@@ -188,6 +196,7 @@ impl Ledger {
                 State::False => &mut count.wrong,
                 State::Unchecked => &mut count.unchecked,
                 State::LeftOut => &mut count.left_out,
+                State::Known => &mut count.known,
                 State::NotClaimed => &mut count.not_claimed,
             } += 1;
         }
@@ -202,6 +211,8 @@ impl Ledger {
             Outcome::Findings
         } else if self.entries.iter().any(|e| e.state == State::LeftOut) {
             Outcome::Partial
+        } else if self.entries.iter().any(|e| e.state == State::Known) {
+            Outcome::Known
         } else if self.entries.iter().any(good) {
             Outcome::Clean
         } else {
@@ -237,7 +248,22 @@ impl Ledger {
                 }
             }
         }
+        let known = self.entries.iter().filter(|e| e.state == State::Known).count();
+        if known > 0 {
+            parts.push(format!("{known} no better than the baseline"));
+        }
         parts.join(", ")
+    }
+
+    /// Marks what is false or could not be checked as known, where somebody says so; and files in which something known is wrong.
+    pub fn know(&mut self, known: impl Fn(&Entry) -> bool) {
+        for entry in &mut self.entries {
+            let bad = matches!(entry.state, State::False | State::Unchecked);
+            let file = entry.subject == Subject::File && matches!(entry.state, State::True(_));
+            if (bad || file) && known(entry) {
+                (entry.state, entry.word) = (State::Known, "known");
+            }
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The whole check of a lesson: structure, names, runs of every lab, verdicts of every question.
 
+mod allowed;
 mod claims;
 mod entries;
 mod expect;
@@ -8,6 +9,7 @@ mod refresh;
 pub mod stored;
 mod trial;
 
+pub use allowed::Allowed;
 pub use claims::Claim;
 pub use entries::{evidence, ledger};
 pub use trial::Tried;
@@ -50,6 +52,8 @@ pub struct Checked {
     pub labs: Vec<RanLab>,
     /// The questions and the labs with claims.
     pub claims: Vec<Claim>,
+    /// What would be found, and the author has put aside with a reason.
+    pub allowed: Vec<Allowed>,
     /// What was asked for.
     pub depth: Depth,
 }
@@ -117,9 +121,14 @@ pub fn join(lesson: Lesson, found: Found, depth: Depth) -> Checked {
     let Found { mut findings, labs, claims } = found;
     let mut all = lesson.findings.clone();
     crate::lint::withhold_fixes(&lesson, &mut findings);
-    all.extend(findings.into_iter().map(|f| f.at(&lesson.file)));
+    all.extend(findings);
+    let mut allowed = allowed::put_aside(&lesson, &mut all, depth);
+    let mut all: Vec<Finding> = all.into_iter().map(|f| f.at(&lesson.file)).collect();
+    for aside in &mut allowed {
+        aside.finding = aside.finding.clone().at(&lesson.file);
+    }
     finding::sort(&mut all);
-    Checked { lesson, findings: all, labs, claims, depth }
+    Checked { lesson, findings: all, labs, claims, allowed, depth }
 }
 
 /// Loads the model of a lab and binds its programs, and looks at what they do.

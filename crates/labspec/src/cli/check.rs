@@ -1,8 +1,11 @@
 //! `labspec check` and `labspec verify`.
 
+use super::baseline::Baseline;
 use super::cache::Cache;
-use super::course::{Course, Plan, look};
-use super::stdio::print_json;
+use super::course::{Course, Plan, STDIN, look};
+use super::fix::{Mode, fix};
+use super::policy::PolicyOptions;
+use super::stdio::{complain, print_json};
 use super::{Color, Failure, ModelOptions, Outcome, machine, print, watch};
 use crate::check::{self, Depth};
 use crate::ledger::{self, Entry, State, Subject};
@@ -11,7 +14,7 @@ use crate::source::SourceFile;
 use clap::ValueEnum;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Read};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -38,6 +41,23 @@ pub(super) struct Arguments {
     /// Check again whenever a file changes, until Ctrl-C
     #[arg(long)]
     watch: bool,
+    /// The name of the lesson that is read from standard input, where PATH is `-`
+    #[arg(long, value_name = "NAME", default_value = "stdin.md")]
+    stdin_name: PathBuf,
+    #[command(flatten)]
+    policy: PolicyOptions,
+    /// Tell only findings that are not in this file
+    #[arg(long, value_name = "FILE")]
+    baseline: Option<PathBuf>,
+    /// Write the baseline anew: whatever is found now is known from now on
+    #[arg(long, requires = "baseline")]
+    update_baseline: bool,
+    /// Count the findings of each rule, and show no more of them
+    #[arg(long)]
+    statistics: bool,
+    /// Show also what the lessons allow, with the reasons
+    #[arg(long)]
+    show_allowed: bool,
 }
 
 /// Arguments of `check`.
@@ -49,36 +69,84 @@ pub(super) struct CheckArguments {
     /// and the exit code is 3 where nothing is wrong
     #[arg(long)]
     no_run: bool,
+    /// Repair what can be repaired safely; every repair is checked before it is written
+    #[arg(long)]
+    fix: bool,
+    /// Repair also by guesses, as good as any
+    #[arg(long)]
+    unsafe_fixes: bool,
+    /// Show what --fix would change, and change nothing
+    #[arg(long)]
+    diff: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
     /// For people
     Human,
+    /// A line for each finding
+    Concise,
     /// For programs
     Json,
+    /// A JSON object in each line
+    Jsonl,
+    /// Commands of GitHub's workflows
+    Github,
+    /// GitLab's report of code quality
+    Gitlab,
+    /// SARIF 2.1.0, for code scanning
+    Sarif,
+    /// JUnit: a test case for each claim
+    Junit,
 }
 
 pub(super) fn check(a: &CheckArguments) -> Result<Outcome, Failure> {
-    work(&a.common, if a.no_run { Depth::STATIC } else { Depth::FULL }, false)
+    let depth = if a.no_run { Depth::STATIC } else { Depth::FULL };
+    let fix = (a.fix || a.diff || a.unsafe_fixes).then_some(Mode { guesses: a.unsafe_fixes, diff: a.diff });
+    work(&a.common, depth, false, fix)
 }
 
 pub(super) fn verify(a: &Arguments) -> Result<Outcome, Failure> {
-    work(a, Depth::CLAIMS, true)
+    work(a, Depth::CLAIMS, true, None)
 }
 
 /// Checks once, or again and again as files change.
-fn work(a: &Arguments, depth: Depth, evidence: bool) -> Result<Outcome, Failure> {
+fn work(a: &Arguments, depth: Depth, evidence: bool, mode: Option<Mode>) -> Result<Outcome, Failure> {
     let cache = Cache::open(a.no_cache, a.watch);
     let known = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let piped = a.paths.iter().any(|p| p.as_os_str() == STDIN);
+    let stdin = piped.then(|| read_stdin().map(|text| (a.stdin_name.clone(), text))).transpose()?;
+    if piped && (a.watch || mode.is_some()) {
+        return Err("standard input can be checked, and neither watched nor repaired; name a file".into());
+    }
+    let baseline = match &a.baseline {
+        Some(file) if !a.update_baseline => Some(Baseline::read(file)?),
+        _ => None,
+    };
     let plan = Plan {
         paths: &a.paths,
+        stdin: stdin.as_ref(),
+        policy: &a.policy,
+        baseline: baseline.as_ref(),
         models: &a.models,
         depth,
         jobs: a.jobs.map_or_else(known, NonZeroUsize::get),
         progress: a.format == Format::Human && std::io::stderr().is_terminal(),
-        told: (a.format == Format::Human).then(|| a.color.on()),
+        told: (a.format == Format::Human && !a.statistics).then(|| a.color.on()),
     };
+    if let Some(mode) = mode {
+        let repaired = fix(&plan, mode)?;
+        if mode.diff {
+            return Ok(if repaired.fixes > 0 { Outcome::Findings } else { Outcome::Clean });
+        }
+        if repaired.fixes > 0 {
+            complain(&format!(
+                "repaired {} in {}\n",
+                many(repaired.fixes, "finding"),
+                many(repaired.files, "file")
+            ));
+        }
+    }
     if !a.watch {
         return report(a, &look(&plan, &cache)?, evidence);
     }
@@ -104,9 +172,16 @@ fn report(a: &Arguments, course: &Course, evidence: bool) -> Result<Outcome, Fai
     };
     let mut sources: Vec<&SourceFile> = course.checked.iter().map(|c| &c.lesson.file).collect();
     sources.extend(&course.sources);
+    if let (Some(file), true) = (&a.baseline, a.update_baseline) {
+        Baseline::new(file).write(file, &course.findings, &sources)?;
+    }
     match a.format {
+        _ if a.statistics => print(&drawn::statistics(&course.findings))?,
         Format::Human => {
             let mut text = drawn::human(&course.last, &sources, a.color.on());
+            if a.show_allowed {
+                text.push_str(&allowed(course, &sources));
+            }
             text.push_str(&overview(course, evidence));
             if outcome == found {
                 let _ = writeln!(text, "{}", last_line(course));
@@ -115,10 +190,19 @@ fn report(a: &Arguments, course: &Course, evidence: bool) -> Result<Outcome, Fai
         }
         Format::Json => {
             let name = if evidence { "verify" } else { "check" };
-            let value =
-                machine::value(name, outcome, &course.checked, &course.findings, &course.ledger, &sources);
+            let value = machine::value(name, outcome, course, &sources);
             print_json(&value, true)?;
         }
+        Format::Concise => print(&drawn::concise(&course.findings, &sources))?,
+        Format::Jsonl => print(&drawn::jsonl(&course.findings, &sources))?,
+        Format::Github => print(&drawn::github(&course.findings, &sources))?,
+        Format::Gitlab => print_json(&drawn::gitlab(&course.findings, &sources), true)?,
+        Format::Sarif => print_json(&drawn::sarif(&course.findings, &sources), true)?,
+        Format::Junit => print(&drawn::junit(&course.ledger, &course.findings, &sources))?,
+    }
+    if a.update_baseline {
+        // What is known now is known: the next check tells what is new.
+        return Ok(Outcome::Clean);
     }
     match outcome {
         ledger::Outcome::Findings => Ok(Outcome::Findings),
@@ -130,7 +214,7 @@ fn report(a: &Arguments, course: &Course, evidence: bool) -> Result<Outcome, Fai
             Err(format!("there is nothing to check in {}: no lab, no question and no model", named()))
         }
         ledger::Outcome::Partial => Ok(Outcome::Partial),
-        ledger::Outcome::Clean => Ok(Outcome::Clean),
+        ledger::Outcome::Clean | ledger::Outcome::Known => Ok(Outcome::Clean),
     }
 }
 
@@ -177,12 +261,11 @@ fn line(entry: &Entry, n: usize) -> Option<String> {
     let left_out = entry.state == State::LeftOut;
     let titled = |what: &str| if what.is_empty() { String::new() } else { format!(" \"{what}\"") };
     let Entry { owner, what, word, .. } = entry;
-    let many = |one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
     Some(match entry.subject {
         Subject::File => return None,
         Subject::Run if good && *word == "made" => return None,
         Subject::Answer | Subject::Lab if left_out => format!("{word:<10} {owner}{}", titled(what)),
-        _ if left_out => format!("{word:<10} {owner}, {}", many(entry.subject.as_str())),
+        _ if left_out => format!("{word:<10} {owner}, {}", many(n, entry.subject.as_str())),
         Subject::Lab => {
             let title = titled(what);
             if good {
@@ -194,7 +277,7 @@ fn line(entry: &Entry, n: usize) -> Option<String> {
         Subject::Answer if good => format!("{word:<10} {owner}"),
         Subject::Answer => format!("{word:<10} {owner}{remark}"),
         Subject::Quote | Subject::ClosedForm if good => {
-            format!("{word:<10} {owner}, {}", many(entry.subject.as_str()))
+            format!("{word:<10} {owner}, {}", many(n, entry.subject.as_str()))
         }
         Subject::Quote | Subject::ClosedForm | Subject::Run => {
             format!("{word:<10} {owner}, {} \"{what}\"{remark}", entry.subject.as_str())
@@ -212,7 +295,49 @@ fn last_line(course: &Course) -> String {
         (0, ledger::Outcome::Nothing) => "nothing to check".into(),
         (0, ledger::Outcome::Partial) => "nothing wrong in what was checked, but nothing was run".into(),
         (0, ledger::Outcome::Findings) => "not everything could be checked".into(),
+        (0, ledger::Outcome::Known) => "nothing that is not in the baseline".into(),
         _ => found.to_string(),
     };
-    format!("{}: {judgement}", course.ledger.summary())
+    format!("{}: {judgement}{}", course.ledger.summary(), put_aside(course))
+}
+
+/// What was found and not told, in numbers.
+fn put_aside(course: &Course) -> String {
+    let aside = &course.aside;
+    let ignored = Summary::of(&aside.ignored);
+    let parts = [
+        (aside.ignored.len(), format!("{ignored} ignored")),
+        (aside.allowed.len(), format!("{} allowed by the lessons", many(aside.allowed.len(), "finding"))),
+        (aside.known.len(), format!("{} in the baseline", many(aside.known.len(), "finding"))),
+    ];
+    let parts: Vec<String> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(_, text)| text).collect();
+    if parts.is_empty() { String::new() } else { format!(" ({})", parts.join(", ")) }
+}
+
+/// What the lessons allow, a line for each finding, with the reason.
+fn allowed(course: &Course, sources: &[&SourceFile]) -> String {
+    let mut text = String::new();
+    for aside in &course.aside.allowed {
+        let line = drawn::concise(std::slice::from_ref(&aside.finding), sources);
+        let _ = writeln!(text, "{}\n  allowed: {}", line.trim_end(), printable(&aside.why));
+    }
+    if !text.is_empty() {
+        text.push('\n');
+    }
+    text
+}
+
+fn many(n: usize, one: &str) -> String {
+    if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") }
+}
+
+/// Most bytes of a lesson on standard input.
+const MOST: u64 = 64 << 20;
+
+fn read_stdin() -> Result<String, Failure> {
+    let mut text = String::new();
+    let read = std::io::stdin().lock().take(MOST + 1).read_to_string(&mut text);
+    let no = |why: String| format!("cannot read standard input: {why}");
+    read.map_err(|e| no(e.to_string()))?;
+    if text.len() as u64 > MOST { Err(no(format!("it has more than {MOST} bytes"))) } else { Ok(text) }
 }

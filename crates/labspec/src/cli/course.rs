@@ -2,18 +2,20 @@
 //!
 //! What came of a file does not depend on the thread that checked it, and is put together in the order of the files.
 
+use super::baseline::Baseline;
 use super::cache::Cache;
 use super::digest;
+use super::policy::{Policies, Policy, PolicyOptions};
 use super::stdio::{complain, print};
 use super::target::{model_folder_within, root};
 use super::{Failure, ModelOptions, interrupted};
 use crate::bind::scene::{Models, check_model_file};
-use crate::check::{self, Checked, Depth};
-use crate::finding::{self, Finding};
+use crate::check::{self, Allowed, Checked, Depth};
+use crate::finding::{self, Finding, Severity};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
 use crate::lint::load_lesson_file;
-use crate::lint::{self, ModelFolder};
-use crate::report::{human, printable_path};
+use crate::lint::{self, ModelFolder, load_lesson};
+use crate::report::{Summary, human, printable_path};
 use crate::rules;
 use crate::source::SourceFile;
 use crate::spec::{FileKind, Lesson, kind_of};
@@ -25,8 +27,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// What is checked, and how.
 pub(super) struct Plan<'a> {
     pub(super) paths: &'a [PathBuf],
+    /// A lesson from standard input: under which name, and its text.
+    pub(super) stdin: Option<&'a (PathBuf, String)>,
     pub(super) models: &'a ModelOptions,
     pub(super) depth: Depth,
+    /// What is told of what is found.
+    pub(super) policy: &'a PolicyOptions,
+    /// What is known and not told again.
+    pub(super) baseline: Option<&'a Baseline>,
     /// Most threads.
     pub(super) jobs: usize,
     /// Names of files are shown while they are checked.
@@ -43,10 +51,20 @@ pub(super) struct Course {
     /// Those of the findings that are known only when all lessons are checked: of models, and of lessons together.
     pub(super) last: Vec<Finding>,
     pub(super) ledger: Ledger,
+    /// What was found and is not told.
+    pub(super) aside: Aside,
     /// Files that are shown with findings, besides the lessons.
     pub(super) sources: Vec<SourceFile>,
     /// Every file that it depends on, and the folders of models.
     pub(super) read: BTreeSet<PathBuf>,
+}
+
+/// What was found and is not told: by the reader's wish, by the author's, or as it is in the baseline.
+#[derive(Default)]
+pub(super) struct Aside {
+    pub(super) ignored: Vec<Finding>,
+    pub(super) allowed: Vec<Allowed>,
+    pub(super) known: Vec<Finding>,
 }
 
 /// What is to be done with a file.
@@ -61,7 +79,7 @@ enum Task {
 
 /// What came of a file.
 enum Done {
-    Lesson(Box<Checked>),
+    Lesson(Box<Checked>, Aside),
     /// JSON that is not ours.
     Other,
     Model(bool, Vec<Finding>, Vec<SourceFile>),
@@ -76,11 +94,14 @@ const STACK: usize = 8 << 20;
 
 /// Reads and checks every file. One that cannot be read is a finding and hides nothing of the others.
 pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
-    let (files, problems) = collect(plan.paths);
+    let (mut files, problems) = collect(plan.paths);
+    files.extend(plan.stdin.map(|(name, _)| (name.clone(), true)));
     if files.is_empty() {
         return Err(nothing(plan.paths, &problems));
     }
     let (tasks, mut by_folder) = tasks(plan, &files)?;
+    let mut policies = Policies::new(plan.policy)?;
+    let of_files: Vec<Policy> = files.iter().map(|(path, _)| policies.of(path)).collect::<Result<_, _>>()?;
     let next = AtomicUsize::new(0);
     let told = Mutex::new(Told::default());
     let work = || {
@@ -88,10 +109,15 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         loop {
             let i = next.fetch_add(1, Ordering::Relaxed);
             let (Some(task), Some((path, named))) = (tasks.get(i), files.get(i)) else { return done };
-            let found = one(plan, cache, task, path, *named, &by_folder);
+            let mut found = one(plan, cache, task, path, *named, &by_folder);
+            if let (Done::Lesson(c, aside), Some(policy)) = (&mut found, of_files.get(i)) {
+                let c = &mut **c;
+                put_aside(plan, policy, &mut c.findings, &[&c.lesson.file], aside);
+                aside.allowed = std::mem::take(&mut c.allowed);
+            }
             if let Some(colour) = plan.told {
                 let text = match &found {
-                    Done::Lesson(c) => human(&c.findings, &[&c.lesson.file], colour),
+                    Done::Lesson(c, _) => human(&c.findings, &[&c.lesson.file], colour),
                     _ => String::new(),
                 };
                 tell(&told, i, text, plan.progress);
@@ -127,7 +153,12 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         course.read.insert(path.clone());
         read += usize::from(!matches!(done, Done::Refused(_)));
         match done {
-            Done::Lesson(checked) => course.checked.push(*checked),
+            Done::Lesson(checked, aside) => {
+                course.checked.push(*checked);
+                course.aside.ignored.extend(aside.ignored);
+                course.aside.allowed.extend(aside.allowed);
+                course.aside.known.extend(aside.known);
+            }
             Done::Other => {}
             Done::Model(loads, findings, files) => {
                 course.ledger.add(model_entry(path, loads));
@@ -156,6 +187,12 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         course.sources.extend(models.files().iter().cloned());
         course.read.extend(models.read());
     }
+    for (path, mut findings) in by_path(std::mem::take(&mut course.last)) {
+        let files: Vec<&SourceFile> = course.sources.iter().collect();
+        let policy = policies.of(Path::new(&*path))?;
+        put_aside(plan, &policy, &mut findings, &files, &mut course.aside);
+        course.last.extend(findings);
+    }
     finding::sort(&mut course.last);
     let own = course.checked.iter().flat_map(|c| &c.findings);
     course.findings = own.chain(&course.last).cloned().collect();
@@ -163,7 +200,57 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
     let models = std::mem::take(&mut course.ledger);
     course.ledger = check::ledger(&course.checked, &course.findings);
     course.ledger.append(models);
+    settle(&mut course);
     Ok(course)
+}
+
+/// Takes what is not to be told out of the findings of a file.
+fn put_aside(
+    plan: &Plan<'_>,
+    policy: &Policy,
+    findings: &mut Vec<Finding>,
+    files: &[&SourceFile],
+    aside: &mut Aside,
+) {
+    aside.ignored.extend(policy.apply(findings));
+    if let Some(baseline) = plan.baseline {
+        aside.known.extend(baseline.apply(findings, files));
+    }
+}
+
+fn by_path(findings: Vec<Finding>) -> BTreeMap<Arc<str>, Vec<Finding>> {
+    let mut by_path: BTreeMap<Arc<str>, Vec<Finding>> = BTreeMap::new();
+    for f in findings {
+        by_path.entry(f.path.clone()).or_default().push(f);
+    }
+    by_path
+}
+
+/// What is not told is no reason to say that all is well: an error that is ignored is left out of the check, and what the
+/// baseline knows is known.
+fn settle(course: &mut Course) {
+    let known =
+        by_path(course.aside.known.iter().filter(|f| f.severity != Severity::Note).cloned().collect());
+    let told = by_path(course.findings.iter().filter(|f| f.severity != Severity::Note).cloned().collect());
+    let meets = |e: &Entry, findings: Option<&Vec<Finding>>| {
+        let whole = e.span.is_empty();
+        let inside = |f: &Finding| f.span.start <= e.span.end && e.span.start <= f.span.end;
+        findings.is_some_and(|all| all.iter().any(|f| whole || inside(f)))
+    };
+    course.ledger.know(|e| meets(e, known.get(&e.path)) && !meets(e, told.get(&e.path)));
+    let ignored = course.aside.ignored.iter().filter(|f| f.is_error()).cloned().collect();
+    for (path, all) in by_path(ignored) {
+        course.ledger.add(Entry {
+            subject: Subject::File,
+            owner: path.to_string(),
+            path,
+            span: 0..0,
+            state: State::LeftOut,
+            word: "left out",
+            what: String::new(),
+            remark: format!("{} ignored", Summary::of(&all)),
+        });
+    }
 }
 
 /// What was printed of the lessons, in their order.
@@ -256,7 +343,14 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
         Task::Lesson(number) => by_folder.get(*number),
     };
     let Some(models) = models else { return Done::Other };
-    let lesson = match load_lesson_file(path, models.folder()) {
+    let piped = plan.stdin.filter(|(name, _)| name == path);
+    let loaded = match piped {
+        Some((name, text)) => {
+            Ok(load_lesson(SourceFile::new(name.display().to_string(), text.as_str()), models.folder()))
+        }
+        None => load_lesson_file(path, models.folder()),
+    };
+    let lesson = match loaded {
         Ok(lesson) => lesson,
         Err(why) => return Done::Refused(why),
     };
@@ -268,7 +362,7 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
     if interrupted() {
         Done::Interrupted
     } else {
-        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)))
+        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)), Aside::default())
     }
 }
 
@@ -308,13 +402,18 @@ type ToCheck = (PathBuf, bool);
 /// What could not be read, and why.
 type Unread = (PathBuf, String);
 
+/// What stands for standard input.
+pub(super) const STDIN: &str = "-";
+
 /// The files to check, in a fixed order; and what could not be read.
 pub(super) fn collect(paths: &[PathBuf]) -> (Vec<ToCheck>, Vec<Unread>) {
     let (mut files, mut problems) = (Vec::new(), Vec::new());
     for path in paths {
         match std::fs::metadata(path) {
+            // Standard input is read by whoever called.
+            _ if path.as_os_str() == STDIN => {}
             Err(e) => problems.push((path.clone(), format!("cannot read {}: {e}", printable_path(path)))),
-            Ok(meta) if meta.is_dir() => walk(path, &mut files, &mut problems, 0),
+            Ok(meta) if meta.is_dir() => walk(path, &mut files, &mut problems),
             Ok(_) => files.push((path.clone(), true)),
         }
     }
@@ -324,31 +423,32 @@ pub(super) fn collect(paths: &[PathBuf]) -> (Vec<ToCheck>, Vec<Unread>) {
 /// Deepest nesting of folders.
 const MAX_DEPTH: usize = 32;
 
-fn walk(folder: &Path, files: &mut Vec<ToCheck>, problems: &mut Vec<Unread>, depth: usize) {
-    let mut problem = |why: String| problems.push((folder.to_path_buf(), why));
-    if depth > MAX_DEPTH {
-        return problem(format!("{} is nested more than {MAX_DEPTH} folders deep", printable_path(folder)));
-    }
-    let list = std::fs::read_dir(folder).and_then(|all| all.map(|e| e.map(|e| e.path())).collect());
-    let mut entries: Vec<PathBuf> = match list {
-        Ok(entries) => entries,
-        Err(e) => return problem(format!("cannot read {}: {e}", printable_path(folder))),
-    };
-    entries.sort();
-    for path in entries {
-        let hidden = path
-            .file_name()
-            .and_then(|n| n.to_str())
-            .is_some_and(|n| n.starts_with('.') || n == "node_modules");
-        // Links are not followed: they may lead out of the folder, or round in a circle.
-        let Ok(meta) = std::fs::symlink_metadata(&path) else { continue };
-        if hidden || meta.is_symlink() {
-            continue;
-        }
-        if meta.is_dir() {
-            walk(&path, files, problems, depth + 1);
-        } else if matches!(kind_of(&path), FileKind::Lesson | FileKind::Json) {
-            files.push((path, false));
+/// The lessons of a folder, but for what is hidden, what `.gitignore` names, and the packages of node. Links are not followed:
+/// they may lead out of the folder, or round in a circle.
+fn walk(folder: &Path, files: &mut Vec<ToCheck>, problems: &mut Vec<Unread>) {
+    let all = ignore::WalkBuilder::new(folder)
+        .follow_links(false)
+        .require_git(false)
+        .git_global(false)
+        .max_depth(Some(MAX_DEPTH + 1))
+        .filter_entry(|e| e.file_name() != "node_modules")
+        .sort_by_file_path(Path::cmp)
+        .build();
+    for entry in all {
+        let entry = match entry {
+            Ok(entry) => entry,
+            Err(e) => {
+                problems.push((folder.to_path_buf(), format!("cannot read {e}")));
+                continue;
+            }
+        };
+        let path = entry.path();
+        let Some(kind) = entry.file_type() else { continue };
+        if kind.is_dir() && entry.depth() > MAX_DEPTH {
+            let why = format!("{} is nested more than {MAX_DEPTH} folders deep", printable_path(path));
+            problems.push((path.to_path_buf(), why));
+        } else if kind.is_file() && matches!(kind_of(path), FileKind::Lesson | FileKind::Json) {
+            files.push((path.to_path_buf(), false));
         }
     }
 }

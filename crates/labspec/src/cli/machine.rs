@@ -1,26 +1,28 @@
 //! What `check` and `verify` print for programs: findings, the summary, every lesson, and the ledger.
 
+use super::course::Course;
 use crate::check::{Checked, Claim, RanLab};
-use crate::finding::Finding;
-use crate::ledger::{Count, Entry, Evidence, Ledger, Outcome, State, Subject};
+use crate::ledger::{Count, Entry, Evidence, Outcome, State, Subject};
 use crate::report::{self, key, set_number, set_place};
 use crate::source::SourceFile;
 use crate::verify::{Answer, Measured, Quote};
 use serde_json::{Map, Value, json};
 
 /// The whole report, and what it comes to. `sources` are the files that places lie in.
-pub(super) fn value(
-    name: &str,
-    outcome: Outcome,
-    checked: &[Checked],
-    findings: &[Finding],
-    ledger: &Ledger,
-    sources: &[&SourceFile],
-) -> Value {
-    let mut value = report::json(findings, sources);
+pub(super) fn value(name: &str, outcome: Outcome, course: &Course, sources: &[&SourceFile]) -> Value {
+    let Course { checked, ledger, aside, .. } = course;
+    let mut value = report::json(&course.findings, sources);
     value["summary"]["outcome"] = json!(outcome.as_str());
     value["summary"]["claims"] =
         Subject::ALL.iter().map(|s| (key(s.as_str()), count(&ledger.count(*s)))).collect();
+    let allowed = aside.allowed.iter().map(|a| {
+        let mut value = json!({"code": a.finding.code, "why": a.why});
+        set_place(&mut value, sources, &a.finding.path, &a.finding.span);
+        value
+    });
+    value["aside"] = json!({
+        "ignored": aside.ignored.len(), "known": aside.known.len(), "allowed": allowed.collect::<Vec<_>>(),
+    });
     value["lessons"] = checked.iter().map(lesson).collect();
     value["ledger"] = ledger.entries().iter().map(|e| entry(e, sources)).collect();
     report::report(name, value)
@@ -29,7 +31,7 @@ pub(super) fn value(
 fn count(c: &Count) -> Value {
     json!({
         "simulated": c.simulated, "computed": c.computed, "false": c.wrong, "unchecked": c.unchecked,
-        "leftOut": c.left_out, "notClaimed": c.not_claimed,
+        "leftOut": c.left_out, "known": c.known, "notClaimed": c.not_claimed,
     })
 }
 

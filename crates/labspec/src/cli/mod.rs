@@ -1,16 +1,19 @@
 //! The command line: one file per command, each a thin layer over the library.
 
+mod baseline;
 mod bench;
 mod cache;
 mod check;
 mod course;
 mod digest;
 mod explain;
+mod fix;
 mod fmt;
 mod handle;
 mod machine;
 mod output;
 mod plan;
+mod policy;
 mod precision;
 mod record;
 mod run;

@@ -1,11 +1,15 @@
 //! Findings for people and for programs.
 
 #[cfg(feature = "cli")]
+mod formats;
+#[cfg(feature = "cli")]
 mod human;
 mod machine;
 mod table;
 
 pub use crate::printable::{printable, printable_json, printable_lines, printable_path};
+#[cfg(feature = "cli")]
+pub use formats::{concise, github, gitlab, jsonl, junit, page, sarif, statistics};
 #[cfg(feature = "cli")]
 pub use human::human;
 pub use machine::{SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers, set_place};

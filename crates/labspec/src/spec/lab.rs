@@ -4,7 +4,7 @@ use super::fields::Fields;
 use super::format::{CAMERA, LAB};
 use super::problem::{Mistake, Problem};
 use super::read;
-use super::{Control, Plot, Readout, Verify, control, plot, verify};
+use super::{Allowance, Control, Plot, Readout, Verify, allow, control, plot, verify};
 use crate::json::{Json, Node, Number};
 use crate::source::Text;
 use std::ops::Range;
@@ -60,6 +60,8 @@ pub struct Lab {
     pub readouts: Vec<Readout>,
     /// What the lesson claims about this lab.
     pub verify: Option<Verify>,
+    /// Findings that are not told of it.
+    pub lint: Option<Allowance>,
     /// What the author expects of its runs.
     pub expect: Option<Expect>,
 }
@@ -133,6 +135,7 @@ impl Lab {
             plots: Vec::new(),
             readouts: Vec::new(),
             verify: None,
+            lint: None,
             expect: None,
         }
     }
@@ -254,6 +257,7 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Lab> {
         plots: f.list("plots").iter().filter_map(|n| plot::read(n, f.problems)).collect(),
         readouts: f.list("readouts").iter().filter_map(|n| plot::readout(n, f.problems)).collect(),
         verify: f.node("verify").and_then(|n| verify::read(n, f.problems)),
+        lint: allow::read(f.node("lint"), f.span(), f.problems),
         expect: f.text("expect").and_then(|t| expected(&t, f.problems)),
     };
     let listed = f.list("controls").len();

@@ -4,6 +4,7 @@
 //! [`Text`](crate::source::Text), so that a place inside it is a place of the lesson. Reading never fails: what is wrong is
 //! a problem with its place, and what is right is still there for the checks.
 
+mod allow;
 mod control;
 mod fields;
 pub mod format;
@@ -16,6 +17,7 @@ mod quiz;
 mod read;
 mod verify;
 
+pub use allow::Allowance;
 pub use control::{Action, Choice, Control, ControlKind};
 pub use kind::{FileKind, kind_of};
 pub use lab::{Camera, Expect, Form, Lab, Scene};

@@ -4,7 +4,7 @@ use super::fields::Fields;
 use super::format::{CODE, DEBUG, MCQ, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TOLERANCE};
 use super::problem::{Mistake, Problem};
 use super::read;
-use super::{Lab, Verify, lab, verify};
+use super::{Allowance, Lab, Verify, allow, lab, verify};
 use crate::json::{Node, Number};
 use crate::source::Text;
 use std::ops::Range;
@@ -20,6 +20,8 @@ pub struct Quiz {
     pub title: Option<Text>,
     /// The questions. One that could not be understood is `None`, so that the numbers of the others stay.
     pub questions: Vec<Option<Question>>,
+    /// Findings that are not told of it.
+    pub lint: Option<Allowance>,
 }
 
 /// A question.
@@ -37,6 +39,8 @@ pub struct Question {
     pub kind: QuestionKind,
     /// What a machine can check about the answer.
     pub verify: Option<Verify>,
+    /// Findings that are not told of it.
+    pub lint: Option<Allowance>,
 }
 
 /// How a question is answered.
@@ -144,8 +148,9 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Quiz> {
     let questions = fields.items("questions");
     let questions = questions.unwrap_or_default().iter().map(|n| question(n, fields.problems)).collect();
     let span = fields.span();
+    let lint = allow::read(fields.node("lint"), span.clone(), fields.problems);
     fields.finish();
-    Some(Quiz { span, id, title, questions })
+    Some(Quiz { span, id, title, questions, lint })
 }
 
 fn question(node: &Node, problems: &mut Vec<Problem>) -> Option<Question> {
@@ -171,8 +176,9 @@ fn question(node: &Node, problems: &mut Vec<Problem>) -> Option<Question> {
     };
     let verify = fields.node("verify").and_then(|n| verify::read(n, fields.problems));
     let span = fields.span();
+    let lint = allow::read(fields.node("lint"), span.clone(), fields.problems);
     fields.finish();
-    Some(Question { span, q: q?, explain, label, kind: asked?, verify })
+    Some(Question { span, q: q?, explain, label, kind: asked?, verify, lint })
 }
 
 /// `None` when an option is broken, which is reported: without it, indexes mean nothing.

@@ -1,5 +1,6 @@
 //! The lab and its camera, and the order in which things happen.
 
+use super::lint::lint_key;
 use super::{Absent, CONTROL, Key, Named, Object, PLOT, READOUT, Together, Type, VERIFY, Word, key};
 use crate::spec::Form;
 
@@ -161,6 +162,7 @@ pub static LAB: Object = Object {
         )
         .or(Absent::Empty),
         verify_key(),
+        lint_key(),
         key(
             "expect",
             Type::Words(&EXPECTED),

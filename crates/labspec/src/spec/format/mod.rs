@@ -11,6 +11,7 @@ mod control;
 mod describe;
 mod in_lesson;
 mod lab;
+mod lint;
 mod page;
 mod plot;
 mod quiz;
@@ -24,6 +25,7 @@ pub use complete::{Asked, Completion, completions};
 pub use control::{BUTTON, CONTROL, SELECT, SLIDER};
 pub use in_lesson::completions_in;
 pub use lab::{CAMERA, EVENTS, LAB, OVERLAYS};
+pub use lint::LINT;
 pub use page::page;
 pub use plot::{MAX_DIGITS, PLOT, READOUT, REF_LINE, TRACE};
 pub use quiz::{CODE, DEBUG, MCQ, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TOLERANCE};
@@ -291,7 +293,7 @@ impl Key {
 }
 
 /// Every object, in the order of the reference page.
-pub static OBJECTS: [&Object; 19] = [
+pub static OBJECTS: [&Object; 20] = [
     &LAB,
     &CAMERA,
     &SLIDER,
@@ -308,6 +310,7 @@ pub static OBJECTS: [&Object; 19] = [
     &NUMERIC,
     &OPEN,
     &CODE,
+    &LINT,
     &VERIFY,
     &RUN,
     &CLOSED_FORM,

@@ -1,6 +1,7 @@
 //! The quiz and its kinds of questions.
 
 use super::lab::verify_key;
+use super::lint::lint_key;
 use super::{Absent, Family, Key, LAB, Object, Type, Word, key};
 
 static KINDS: [Word; 6] = [
@@ -45,6 +46,7 @@ pub static QUIZ: Object = Object {
         )
         .items(1)
         .must("a quiz is a list of questions"),
+        lint_key(),
     ],
     together: &[],
 };
@@ -79,7 +81,16 @@ pub static MCQ: Object = Object {
     doc: "The student chooses one of several options, and has one try.",
     tag: Some(("kind", "mcq")),
     minimal: r#"{"q": "How fast is the ball after 1 s?", "options": ["about 5 m/s", "about 10 m/s", "about 20 m/s"], "answer": 1}"#,
-    keys: &[Key { absent: Absent::Text("mcq"), ..KIND }, Q, EXPLAIN, NAME, OPTIONS, ANSWER, verify_key()],
+    keys: &[
+        Key { absent: Absent::Text("mcq"), ..KIND },
+        Q,
+        EXPLAIN,
+        NAME,
+        OPTIONS,
+        ANSWER,
+        verify_key(),
+        lint_key(),
+    ],
     together: &[],
 };
 
@@ -98,6 +109,7 @@ pub static DEBUG: Object = Object {
         Key { example: r#"["gravity is positive", "the mass is too large"]"#, ..OPTIONS },
         ANSWER,
         verify_key(),
+        lint_key(),
     ],
     together: &[],
 };
@@ -124,6 +136,7 @@ pub static PREDICT: Object = Object {
         )
         .advised("a prediction is followed by the simulation that settles it; without one, use kind mcq"),
         verify_key(),
+        lint_key(),
     ],
     together: &[],
 };
@@ -154,6 +167,7 @@ pub static NUMERIC: Object = Object {
         .or(Absent::Said("2 % of the answer; an answer of 0 needs one")),
         key("unit", Type::Text, "the unit, shown behind the box", r#""m/s""#),
         verify_key(),
+        lint_key(),
     ],
     together: &[],
 };
@@ -179,6 +193,7 @@ pub static OPEN: Object = Object {
         NAME,
         REFERENCE,
         verify_key(),
+        lint_key(),
     ],
     together: &[],
 };
@@ -197,6 +212,7 @@ pub static CODE: Object = Object {
         NAME,
         Key { example: r#""<pre>mujoco.mj_step(model, data)\nprint(data.qpos[2])</pre>""#, ..REFERENCE },
         verify_key(),
+        lint_key(),
     ],
     together: &[],
 };

@@ -1,0 +1,89 @@
+//! Findings that an author has looked at and keeps: they are put aside, counted, and shown on request.
+
+use super::Depth;
+use crate::finding::Finding;
+use crate::rules;
+use crate::spec::{Allowance, Lesson};
+use labspec_finding::{Layer, nearest};
+
+/// A finding that is not told, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Allowed {
+    /// What would be told.
+    pub finding: Finding,
+    /// The author's reason.
+    pub why: String,
+}
+
+/// Takes what is allowed out of the findings, and adds what is wrong with the allowances themselves.
+pub(super) fn put_aside(lesson: &Lesson, findings: &mut Vec<Finding>, depth: Depth) -> Vec<Allowed> {
+    let allowances = lesson.allowances();
+    if allowances.is_empty() {
+        return Vec::new();
+    }
+    let mut aside = Vec::new();
+    let mut used = Vec::new();
+    let mut errors = Vec::new();
+    let meant = |f: &Finding, allowance: &Allowance| {
+        let inside = allowance.over.start <= f.span.start && f.span.start <= allowance.over.end;
+        inside.then(|| allowance.codes.iter().find(|(code, _)| code == f.code)).flatten().cloned()
+    };
+    findings.retain(|f| {
+        let by = allowances.iter().filter(|a| !a.why.is_empty()).find_map(|a| Some((a, meant(f, a)?)));
+        let Some((allowance, code)) = by else { return true };
+        if f.is_error() {
+            errors.push(code.clone());
+        } else {
+            aside.push(Allowed { finding: f.clone(), why: allowance.why.clone() });
+        }
+        used.push(code);
+        f.is_error()
+    });
+    errors.dedup();
+    findings.extend(errors.into_iter().map(|(code, span)| {
+        Finding::new(
+            rules::ERROR_ALLOWED,
+            span,
+            format!("`{code}` is an error here: it is told all the same"),
+        )
+        .help("mend what it is about, then leave this out")
+    }));
+    for allowance in &allowances {
+        if allowance.why.is_empty() {
+            let message = "something is allowed without a reason";
+            findings.push(
+                Finding::new(rules::ALLOWANCE_WITHOUT_REASON, allowance.span.clone(), message)
+                    .help("write the reason behind the codes, as \"why\" or after a colon"),
+            );
+            continue;
+        }
+        findings.extend(allowance.codes.iter().filter(|code| !used.contains(code)).filter_map(
+            |(code, span)| {
+                let Some(rule) = rules::find(code) else {
+                    let message = format!("no rule is called `{code}`");
+                    let near = nearest(code, rules::all().map(|r| r.code));
+                    let found = Finding::new(rules::UNKNOWN_RULE, span.clone(), message);
+                    return Some(match near {
+                        Some(near) => found.help(format!("did you mean `{near}`?")),
+                        None => found.help("`labspec explain` lists all rules"),
+                    });
+                };
+                looked_at(rule.layer, depth).then(|| {
+                    Finding::new(rules::UNUSED_ALLOWANCE, span.clone(), format!("`{code}` is not found here"))
+                        .help("leave it out")
+                })
+            },
+        ));
+    }
+    aside
+}
+
+/// Whether a check to this depth can find what a rule of this layer says.
+fn looked_at(layer: Layer, depth: Depth) -> bool {
+    match layer {
+        Layer::Run => depth.labs,
+        Layer::Claim => depth.claims,
+        Layer::Program => depth.programs,
+        _ => true,
+    }
+}

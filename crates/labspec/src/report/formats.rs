@@ -1,0 +1,274 @@
+//! Findings in the forms that other programs take: compilers' lines, GitHub, GitLab, SARIF, JUnit.
+
+use super::{Summary, file_of, json as whole};
+use crate::finding::{Applicability, Finding, Severity};
+use crate::ledger::{Entry, Ledger, State};
+use crate::printable::{printable, printable_line};
+use crate::rules;
+use crate::source::SourceFile;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Where the pages of the rules are.
+const PAGES: &str = "https://github.com/labspec/labspec/blob/main/docs/reference/codes.md";
+
+/// The page of a rule.
+pub fn page(code: &str) -> String {
+    format!("{PAGES}#{code}")
+}
+
+/// Line and column where a finding begins and ends, from 1; 1, 1 where its file is not at hand.
+fn place(f: &Finding, files: &[&SourceFile]) -> [usize; 4] {
+    let Some(file) = file_of(files, &f.path) else { return [1; 4] };
+    let span = file.snap(&f.span);
+    let (from, to) = (file.position(span.start), file.position(span.end));
+    [from.line, from.column, to.line, to.column]
+}
+
+/// A line for each finding: `file:line:column: severity[code]: message`.
+pub fn concise(findings: &[Finding], files: &[&SourceFile]) -> String {
+    let mut text = String::new();
+    for f in findings {
+        let [line, column, ..] = place(f, files);
+        let _ = writeln!(
+            text,
+            "{}:{line}:{column}: {}[{}]: {}",
+            printable_line(&f.path),
+            f.severity,
+            f.code,
+            printable_line(&f.message)
+        );
+    }
+    text
+}
+
+/// A JSON object in a line for each finding, as in `json`, and a last one with the summary.
+pub fn jsonl(findings: &[Finding], files: &[&SourceFile]) -> String {
+    let mut text = String::new();
+    let value = whole(findings, files);
+    for f in value["findings"].as_array().into_iter().flatten() {
+        let _ = writeln!(text, "{f}");
+    }
+    let _ = writeln!(text, "{}", json!({"summary": value["summary"]}));
+    text
+}
+
+/// Commands of GitHub's workflows, which show each finding in its file.
+pub fn github(findings: &[Finding], files: &[&SourceFile]) -> String {
+    let mut text = String::new();
+    for f in findings {
+        let [line, column, last, end] = place(f, files);
+        let word = match f.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "notice",
+        };
+        let help = f.help.as_ref().map_or(String::new(), |help| format!("\n{help}"));
+        // A column of the end may stand only where the end is in the same line.
+        let columns = if last == line { format!(",col={column},endColumn={end}") } else { String::new() };
+        let _ = writeln!(
+            text,
+            "::{word} file={},line={line},endLine={last}{columns},title={}::{}",
+            property(&f.path),
+            property(&format!("labspec {}", f.code)),
+            data(&format!("{}{help}", f.message))
+        );
+    }
+    text
+}
+
+/// What ends a command of GitHub's, escaped.
+fn data(text: &str) -> String {
+    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+}
+
+fn property(text: &str) -> String {
+    data(text).replace(':', "%3A").replace(',', "%2C")
+}
+
+/// A report of GitLab's code quality.
+pub fn gitlab(findings: &[Finding], files: &[&SourceFile]) -> Value {
+    let mut seen: BTreeMap<String, usize> = BTreeMap::new();
+    let mut one = |f: &Finding| {
+        let [line, _, last, _] = place(f, files);
+        let severity = match f.severity {
+            Severity::Error => "major",
+            Severity::Warning => "minor",
+            Severity::Note => "info",
+        };
+        let mark = print(f, &mut seen);
+        json!({
+            "description": f.message, "check_name": f.code, "fingerprint": mark, "severity": severity,
+            "location": {"path": f.path.replace('\\', "/"), "lines": {"begin": line, "end": last}},
+        })
+    };
+    findings.iter().map(&mut one).collect()
+}
+
+/// By what a finding is known again when lines move: its file, code and words, and how many alike came before.
+fn print(f: &Finding, seen: &mut BTreeMap<String, usize>) -> String {
+    let what = format!("{}\n{}\n{}", f.path, f.code, f.message);
+    let before = seen.entry(what.clone()).or_default();
+    *before += 1;
+    fnv(&format!("{what}\n{before}"))
+}
+
+/// The hash of Fowler, Noll and Vo, twice 64 bits: a name, no secret.
+fn fnv(text: &str) -> String {
+    let hash =
+        |start: u64| text.bytes().fold(start, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01b3));
+    format!("{:016x}{:016x}", hash(0xcbf2_9ce4_8422_2325), hash(0x9e37_79b9_7f4a_7c15))
+}
+
+/// SARIF 2.1.0, as code scanners give it.
+pub fn sarif(findings: &[Finding], files: &[&SourceFile]) -> Value {
+    let mut codes: Vec<&str> = findings.iter().map(|f| f.code).collect();
+    codes.sort_unstable();
+    codes.dedup();
+    let level = |severity: Severity| severity.as_str();
+    let rule = |code: &&str| {
+        let mut rule = json!({"id": code, "helpUri": page(code)});
+        if let Some(known) = rules::find(code) {
+            rule["shortDescription"] = json!({"text": known.summary});
+            rule["defaultConfiguration"] = json!({"level": level(known.severity)});
+            if !known.why.is_empty() {
+                rule["fullDescription"] = json!({"text": known.why});
+            }
+        }
+        rule
+    };
+    let uri = |path: &str| path.replace('\\', "/").replace('%', "%25").replace(' ', "%20");
+    let region = |f: &Finding, span: &std::ops::Range<usize>| {
+        let [line, column, last, end] = place(&Finding { span: span.clone(), ..f.clone() }, files);
+        json!({"startLine": line, "startColumn": column, "endLine": last, "endColumn": end})
+    };
+    let mut seen = BTreeMap::new();
+    let mut result = |f: &Finding| {
+        let text = [Some(&f.message), f.why.as_ref(), f.help.as_ref()];
+        let text: Vec<&str> = text.into_iter().flatten().map(String::as_str).collect();
+        let file = json!({"uri": uri(&f.path)});
+        let mut value = json!({
+            "ruleId": f.code, "ruleIndex": codes.binary_search(&f.code).unwrap_or(0), "level": level(f.severity),
+            "message": {"text": text.join(". ")},
+            "locations": [{"physicalLocation": {"artifactLocation": file, "region": region(f, &f.span)}}],
+            "partialFingerprints": {"labspec/v1": print(f, &mut seen)},
+        });
+        if let Some(fix) = f.fix.as_ref().filter(|fix| fix.applicability != Applicability::Display) {
+            let change =
+                json!({"deletedRegion": region(f, &fix.span), "insertedContent": {"text": fix.text}});
+            let words = f.help.as_ref().unwrap_or(&f.message);
+            value["fixes"] = json!([{
+                "description": {"text": words},
+                "artifactChanges": [{"artifactLocation": file, "replacements": [change]}],
+            }]);
+        }
+        value
+    };
+    let results: Vec<Value> = findings.iter().map(&mut result).collect();
+    json!({
+        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [{
+            "tool": {"driver": {
+                "name": "labspec", "version": env!("CARGO_PKG_VERSION"), "informationUri": env!("CARGO_PKG_REPOSITORY"),
+                "rules": codes.iter().map(rule).collect::<Vec<_>>(),
+            }},
+            "columnKind": "unicodeCodePoints",
+            "results": results,
+        }],
+    })
+}
+
+/// JUnit: a suite for each file, a case for each claim of the ledger. What is wrong with the file itself fails its own case.
+pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> String {
+    let mut by_file: BTreeMap<&str, Vec<&Entry>> = BTreeMap::new();
+    for entry in ledger.entries() {
+        by_file.entry(&entry.path).or_default().push(entry);
+    }
+    let bad = |e: &&Entry| e.state == State::False;
+    let lost = |e: &&Entry| e.state == State::Unchecked;
+    let skipped = |e: &&Entry| matches!(e.state, State::LeftOut | State::NotClaimed | State::Known);
+    let counts = |all: &[&Entry]| {
+        let n = |test: &dyn Fn(&&Entry) -> bool| all.iter().filter(|e| test(e)).count();
+        let (failures, errors, skipped) = (n(&bad), n(&lost), n(&skipped));
+        format!("tests=\"{}\" failures=\"{failures}\" errors=\"{errors}\" skipped=\"{skipped}\"", all.len())
+    };
+    let all: Vec<&Entry> = ledger.entries().iter().collect();
+    let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    let _ = writeln!(text, "<testsuites name=\"labspec\" {}>", counts(&all));
+    for (path, entries) in by_file {
+        let _ = writeln!(text, "  <testsuite name=\"{}\" {}>", xml(path), counts(&entries));
+        for e in entries {
+            let what = if e.what.is_empty() { String::new() } else { format!(" \"{}\"", e.what) };
+            let name = format!("{}: {}{what}", e.subject.as_str(), e.owner);
+            let _ = write!(text, "    <testcase classname=\"{}\" name=\"{}\"", xml(path), xml(&name));
+            let words =
+                if e.remark.is_empty() { e.word.to_string() } else { format!("{}: {}", e.word, e.remark) };
+            // Findings in what it is about say more; those of the whole file all of it.
+            let inside = |f: &&Finding| {
+                *f.path == *path
+                    && (e.span.is_empty() || (e.span.start <= f.span.start && f.span.end <= e.span.end))
+            };
+            let about: Vec<Finding> = findings.iter().filter(inside).cloned().collect();
+            let more = xml(&concise(&about, files));
+            let _ = match e.state {
+                State::False => writeln!(
+                    text,
+                    ">\n      <failure message=\"{}\">{more}</failure>\n    </testcase>",
+                    xml(&words)
+                ),
+                State::Unchecked => writeln!(
+                    text,
+                    ">\n      <error message=\"{}\">{more}</error>\n    </testcase>",
+                    xml(&words)
+                ),
+                State::LeftOut | State::NotClaimed | State::Known => {
+                    writeln!(text, ">\n      <skipped message=\"{}\"/>\n    </testcase>", xml(&words))
+                }
+                State::True(_) => writeln!(text, "/>"),
+            };
+        }
+        text.push_str("  </testsuite>\n");
+    }
+    text.push_str("</testsuites>\n");
+    text
+}
+
+/// Text of XML, without what XML cannot hold.
+fn xml(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\n' | '\t' => out.push(c),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// How often each rule is broken, the most frequent first.
+pub fn statistics(findings: &[Finding]) -> String {
+    let mut counts: BTreeMap<(&str, Severity), [usize; 2]> = BTreeMap::new();
+    for f in findings {
+        let count = counts.entry((f.code, f.severity)).or_default();
+        count[0] += 1;
+        let fixable = f.fix.as_ref().is_some_and(|fix| fix.applicability != Applicability::Display);
+        count[1] += usize::from(fixable);
+    }
+    let mut rows: Vec<_> = counts.into_iter().collect();
+    rows.sort_by(|a, b| b.1[0].cmp(&a.1[0]).then(a.0.cmp(&b.0)));
+    let mut text = String::new();
+    for ((code, severity), [count, fixable]) in rows {
+        let fix = if fixable > 0 { format!(", {fixable} with a fix") } else { String::new() };
+        let summary = rules::find(code).map_or("", |rule| rule.summary);
+        let _ = writeln!(text, "{count:>6}  {severity:<8} {code}: {}{fix}", printable(summary));
+    }
+    let _ = writeln!(text, "{:>6}  {}", findings.len(), Summary::of(findings));
+    text
+}

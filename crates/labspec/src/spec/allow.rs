@@ -1,0 +1,115 @@
+//! Findings that an author has looked at and keeps: `"lint": {"allow": […], "why": "…"}` in a lab, a quiz or a question, and
+//! `<!-- labspec allow CODE, CODE: reason -->` before a block of prose.
+
+use super::fields::Fields;
+use super::format::LINT;
+use super::problem::Problem;
+use super::{Lesson, read as values};
+use crate::json::Node;
+use crate::source::Text;
+use std::ops::Range;
+
+/// Some codes, for a stretch of a lesson.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Allowance {
+    /// Bytes of the file: the object or the comment that says it.
+    pub span: Range<usize>,
+    /// The codes, and where they stand.
+    pub codes: Vec<(String, Range<usize>)>,
+    /// The reason; empty where there is none.
+    pub why: String,
+    /// Bytes of the file that it is about.
+    pub over: Range<usize>,
+}
+
+/// Reads `lint` of an object with these bytes.
+pub(super) fn read(
+    node: Option<&Node>,
+    over: Range<usize>,
+    problems: &mut Vec<Problem>,
+) -> Option<Allowance> {
+    let mut fields = Fields::open(node?, &LINT, problems)?;
+    let codes: Vec<Text> =
+        fields.list("allow").iter().filter_map(|n| values::text(n, "a code", fields.problems)).collect();
+    let why = fields.text("why").map_or(String::new(), |t| t.value.trim().to_string());
+    let span = fields.span();
+    fields.finish();
+    let codes = codes.into_iter().map(|t| (t.value.clone(), t.span())).collect();
+    Some(Allowance { span, codes, why, over })
+}
+
+/// How the comment begins.
+const OPENS: &str = "<!--";
+const WORDS: [&str; 2] = ["labspec", "allow"];
+
+impl Lesson {
+    /// Everything that is allowed in it, in the order of the text.
+    pub fn allowances(&self) -> Vec<Allowance> {
+        let mut all: Vec<Allowance> = self.all_labs().iter().filter_map(|lab| lab.lint.clone()).collect();
+        for quiz in &self.quizzes {
+            all.extend(quiz.lint.clone());
+            all.extend(quiz.numbered().filter_map(|(_, question)| question.lint.clone()));
+        }
+        all.extend(self.comments());
+        all.sort_by_key(|a| a.span.start);
+        all
+    }
+
+    /// Those in comments. Each is about the block that follows: a fence whole, or the text up to the next empty line.
+    fn comments(&self) -> Vec<Allowance> {
+        let text = self.file.text();
+        let mut all = Vec::new();
+        for html in &self.scan.html {
+            let mut from = html.start;
+            while let Some(start) = text.get(from..html.end).and_then(|t| t.find(OPENS)).map(|at| from + at) {
+                let Some(end) = text.get(start..html.end).and_then(|t| t.find("-->")).map(|at| start + at)
+                else {
+                    break;
+                };
+                from = end + 3;
+                all.extend(comment(text, start + OPENS.len()..end).map(|(codes, why)| Allowance {
+                    span: start..from,
+                    codes,
+                    why,
+                    over: self.following(from),
+                }));
+            }
+        }
+        all
+    }
+
+    /// The block that follows a place of the text.
+    fn following(&self, from: usize) -> Range<usize> {
+        let rest = self.file.text().get(from..).unwrap_or_default();
+        let start = from + rest.len() - rest.trim_start().len();
+        if let Some(block) = self.scan.blocks.iter().find(|b| b.span.contains(&start)) {
+            return start..block.span.end;
+        }
+        let text = rest.trim_start();
+        let empty = |line: &str| line.trim().is_empty();
+        let length = text.split_inclusive('\n').take_while(|line| !empty(line)).map(str::len).sum::<usize>();
+        start..start + length
+    }
+}
+
+/// Codes with their places, and the reason, of a comment that is ours.
+type Said = (Vec<(String, Range<usize>)>, String);
+
+fn comment(text: &str, inside: Range<usize>) -> Option<Said> {
+    let mut rest = text.get(inside.clone())?;
+    for word in WORDS {
+        rest = rest.trim_start().strip_prefix(word)?;
+    }
+    if !rest.starts_with(char::is_whitespace) {
+        return None;
+    }
+    let (codes, why) = rest.split_once(':').unwrap_or((rest, ""));
+    let mut at = inside.end - rest.len();
+    let mut found = Vec::new();
+    for part in codes.split(',') {
+        let start = at + part.len() - part.trim_start().len();
+        found.push((part.trim().to_string(), start..start + part.trim().len()));
+        at += part.len() + 1;
+    }
+    Some((found, why.trim().to_string()))
+}
