@@ -12,6 +12,7 @@ mod examples;
 mod files;
 mod fixes;
 mod format;
+mod fresh;
 mod fuzz;
 mod javascript;
 mod labs;
@@ -45,6 +46,7 @@ mod terminal;
 mod trust;
 #[cfg(unix)]
 mod tutorial;
+mod under_hands;
 mod verify;
 mod ways;
 mod zoo;

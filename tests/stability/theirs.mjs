@@ -1,9 +1,9 @@
 #!/usr/bin/env node
 // What the real library makes of the labs of ../shared in every run that `labspec stability --margins` makes of them: the reference of
-// tests/standing_labs.rs. JavaScript evaluates the labs, as in ../shared/oracle/lab_oracle.mjs, whose text is used for that.
+// tests/under_hands.rs. JavaScript evaluates the labs, as in ../shared/oracle/lab_oracle.mjs, whose text is used for that.
 //
 //   npm install @mujoco/mujoco@3.14.0
-//   node theirs.mjs LABSPEC --mujoco NODE_MODULES [--shared ../../../shared] [--only NAME] > ../golden/stability_labs.json
+//   node theirs.mjs LABSPEC --mujoco NODE_MODULES [--shared ../../../shared] [--only NAME,NAME] > ../golden/stability_labs.json
 //
 // For each lab: every run by its settings, with the warnings that the library raised and what goes wrong by our criteria (watch.mjs); and
 // for each margin the largest value that is fine, searched as ours is, with runs of the library.
@@ -114,12 +114,12 @@ function largest(most, fine) {
   return { good, bad };
 }
 
-function margin(lab, m, window) {
+function search(lab, m, window, touch) {
   const apply = raised(m);
   let how = null;
   const fine = (x) => {
     const change = (model, data) => apply(model, data, x);
-    const seen = run(lab, [], change, (h) => Math.max(window, m.knob === 'timestep' ? 300 * h : 0), 1e-3);
+    const seen = run(lab, [], change, (h) => Math.max(window, m.knob === 'timestep' ? 300 * h : 0), touch);
     const worst = seen.wrong.filter((f) => f.kind !== 'drift')[0];
     if (worst) how = worst.kind;
     return !worst;
@@ -128,17 +128,31 @@ function margin(lab, m, window) {
   return { knob: m.knob, who: m.who, now: m.now, largest: good && good * m.now, breaks: bad && bad * m.now, how: bad && how };
 }
 
-// The labs: files of the corpus, and blocks of the first lesson.
-const folder = path.join(opt.shared, 'corpus/labs');
-const labs = fs.readdirSync(folder).filter((f) => f.endsWith('.json')).sort().map((f) => ({ name: f.replace('.json', ''), target: `corpus/labs/${f}`, text: fs.readFileSync(path.join(folder, f), 'utf8') }));
-const lesson = fs.readFileSync(path.join(opt.shared, 'lesson-0.1/lesson-0.1.md'), 'utf8');
-[...lesson.matchAll(/```lab[^\n]*\n([\s\S]*?)```/g)].forEach((block, i) => labs.push({ name: `lesson-0.1#${i + 1}`, target: `lesson-0.1/lesson-0.1.md#${i + 1}`, text: block[1] }));
+// A margin; where a touch that differs by a billionth of a unit finds another one, the smallest and the largest that 25 touches find.
+function margin(lab, m, window) {
+  const found = search(lab, m, window, 1e-3), again = (k) => search(lab, m, window, 1e-3 + 1e-9 * k).largest;
+  const list = [found.largest, again(1)];
+  if (Math.abs(list[1] / list[0] - 1) > 0.03) {
+    for (let k = 2; k <= 24; k++) list.push(again(k));
+    found.spread = [Math.min(...list), Math.max(...list)];
+  }
+  return found;
+}
+
+// The labs: our own, files of the corpus, and blocks of the first lesson.
+const here = path.dirname(fileURLToPath(import.meta.url)), corpus = path.join(opt.shared, 'corpus/labs');
+const blocks = (file, name) => [...fs.readFileSync(file, 'utf8').matchAll(/```lab[^\n]*\n([\s\S]*?)```/g)].map((block, i) => ({ name: `${name}#${i + 1}`, target: `${file}#${i + 1}`, text: block[1] }));
+const labs = blocks(path.join(here, 'labs.md'), 'labs.md');
+for (const f of fs.readdirSync(corpus).filter((f) => f.endsWith('.json')).sort()) {
+  labs.push({ name: f.replace('.json', ''), target: path.join(corpus, f), text: fs.readFileSync(path.join(corpus, f), 'utf8') });
+}
+labs.push(...blocks(path.join(opt.shared, 'lesson-0.1/lesson-0.1.md'), 'lesson-0.1.md'));
 
 const out = { version: mj.mj_versionString(), labs: [] };
-for (const { name, target, text } of labs.filter((l) => l.name.includes(opt.only))) {
+for (const { name, target, text } of labs.filter((l) => !opt.only || opt.only.split(',').includes(l.name))) {
   const lab = JSON.parse(text), clock = Date.now();
   let ours;
-  try { ours = execFileSync(labspec, ['stability', target, '--models', 'corpus/models', '--margins', '--format', 'json'], { cwd: opt.shared, maxBuffer: 1 << 28 }); }
+  try { ours = execFileSync(labspec, ['stability', target, '--models', models, '--margins', '--format', 'json'], { maxBuffer: 1 << 28 }); }
   catch (e) { ours = e.stdout; }
   const report = JSON.parse(ours);
   const runs = report.runs.map((r) => {
@@ -147,9 +161,9 @@ for (const { name, target, text } of labs.filter((l) => l.name.includes(opt.only
     return { kind: r.kind, setting: r.setting, warnings: seen.warnings, wrong: [...new Set(wrong.map((f) => f.kind))].sort(), threw: seen.threw };
   });
   const margins = report.margins.map((m) => margin(lab, m, report.sensitivity.length));
-  out.labs.push({ lab: name, target, runs, margins });
+  out.labs.push({ lab: name, runs, margins });
   process.stderr.write(`${name}: ${runs.length} runs, ${margins.length} margins, ${((Date.now() - clock) / 1000).toFixed(0)} s\n`);
 }
 const line = (x) => JSON.stringify(x);
 const list = (all) => all.map((x) => `   ${line(x)}`).join(',\n');
-process.stdout.write(`{"version": ${line(out.version)}, "labs": [\n${out.labs.map((l) => ` {"lab": ${line(l.lab)}, "target": ${line(l.target)},\n  "runs": [\n${list(l.runs)}],\n  "margins": [\n${list(l.margins)}]}`).join(',\n')}\n]}\n`);
+process.stdout.write(`{"version": ${line(out.version)}, "labs": [\n${out.labs.map((l) => ` {"lab": ${line(l.lab)},\n  "runs": [\n${list(l.runs)}],\n  "margins": [\n${list(l.margins)}]}`).join(',\n')}\n]}\n`);

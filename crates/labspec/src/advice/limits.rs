@@ -46,6 +46,8 @@ struct Limited {
     pass: [f64; 2],
     /// What its size is judged by, m or rad.
     size: f64,
+    /// Where it was after the step before; no number at the start.
+    before: f64,
     /// Steps for which it has been beyond, and the time of the first.
     lasted: u32,
     since: f64,
@@ -81,6 +83,7 @@ pub fn watch(m: &Model) -> Watch {
             range,
             pass,
             size,
+            before: f64::NAN,
             lasted: 0,
             since: 0.0,
         })
@@ -90,7 +93,7 @@ pub fn watch(m: &Model) -> Watch {
 
 /// Forgets what was seen: something from outside has changed the state.
 pub fn restart(w: &mut Watch) {
-    w.joints.iter_mut().for_each(|j| j.lasted = 0);
+    w.joints.iter_mut().for_each(|j| (j.lasted, j.before) = (0, f64::NAN));
 }
 
 /// To be called after each step.
@@ -99,24 +102,26 @@ pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) -> Option<Past> {
     let qpos = &d.fields().qpos;
     w.joints.iter_mut().find_map(|j| {
         let q = qpos.get(j.qpos)?;
+        let before = std::mem::replace(&mut j.before, *q);
         if *q >= j.pass[0] && *q <= j.pass[1] {
             j.lasted = 0;
             return None;
         }
-        far(j, m, d, *q)
+        far(j, m, d, [before, *q])
     })
 }
 
 /// What is to be said of a joint that is far beyond its limit.
 #[cold]
-fn far<S: Scope>(j: &mut Limited, m: &Model, d: &Data<S>, q: f64) -> Option<Past> {
-    let step = m.opt.timestep * d.fields().qvel.get(j.dof)?;
+fn far<S: Scope>(j: &mut Limited, m: &Model, d: &Data<S>, [before, q]: [f64; 2]) -> Option<Past> {
+    // Of the first step only the speed at its end is known, which is that of the step for most methods.
+    let speed = m.opt.timestep * d.fields().qvel.get(j.dof)?;
+    let step = if before.is_finite() { q - before } else { speed };
     let beyond = |q: f64| (j.range[0] - q).max(q - j.range[1]);
     if j.lasted == 0 {
         j.since = d.time();
     }
     j.lasted += 1;
-    // Where it was: a step ends with the speed that it moved with.
     let jumped = beyond(q) > JUMPED * j.size && beyond(q - step) < STAYED * j.size && step.is_finite();
     let stays = j.lasted >= STEPS && d.time() - j.since >= LASTS;
     let step = jumped.then_some(step.abs());

@@ -77,7 +77,7 @@ pub fn restart<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     w.sunk = sunk::watch(m);
     through::restart(&mut w.through);
     unsolved::restart(&mut w.unsolved);
-    (w.rest, w.bare) = (0, bare(d));
+    w.bare = bare(d);
 }
 
 /// Whether a scene has no constraints, whatever happens.
@@ -99,6 +99,8 @@ pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     }
 }
 
+// Apart, so that what is asked in every step stays small.
+#[inline(never)]
 fn energy<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     w.rest = usize::MAX;
     if let Some(growth) = &mut w.growth {
@@ -107,6 +109,7 @@ fn energy<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     }
 }
 
+#[inline(never)]
 fn constraints<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     let found = &mut w.noticed;
     if found.past.is_none() {

@@ -105,6 +105,9 @@ mod tests {
         let at = |x: f64, y: f64| surface(&m, 0, [x, y, 9.0]);
         // Rows go up along y or down in the file; the ends along x are the same in both.
         assert_eq!((at(-2.0, 0.0), at(2.0, 0.3), at(1.0, 0.0)), (Some(0.0), Some(0.5), Some(0.3125)));
-        assert_eq!((at(0.0, 1.0).unwrap() + at(0.0, -1.0).unwrap(), at(2.1, 0.0), at(0.0, -1.1)), (0.25, None, None));
+        assert_eq!(
+            (at(0.0, 1.0).unwrap() + at(0.0, -1.0).unwrap(), at(2.1, 0.0), at(0.0, -1.1)),
+            (0.25, None, None)
+        );
     }
 }

@@ -301,7 +301,8 @@ mod tests {
     fn a_base_stands_before_everything_else() {
         let set = |control, x| Action { time: 0.0, control, value: Some(Value::Number(x)) };
         let press = |control, time| Action { time, control, value: None };
-        let base = Handling { kind: Kind::AsItStands, actions: vec![set(0, 2.0), press(2, 0.0), press(2, 0.5)] };
+        let base =
+            Handling { kind: Kind::AsItStands, actions: vec![set(0, 2.0), press(2, 0.0), press(2, 0.5)] };
         let (all, _) = list(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &base);
         assert_eq!((&all[0], all[1].kind, &all[1].actions), (&base, Kind::Touched, &base.actions));
         // Both ends of the slider differ from where the base has it.

@@ -156,7 +156,12 @@ impl Tries<'_, '_> {
         let last = on_grid(min, step, good);
         let moved = if up { last > value.value } else { last < value.value };
         let handling = with(found, action, last);
-        Some(moved.then(|| Helps { change: ends(control, last), work: 1.0, handling, apply: Box::new(|_| {}) }))
+        Some(moved.then(|| Helps {
+            change: ends(control, last),
+            work: 1.0,
+            handling,
+            apply: Box::new(|_| {}),
+        }))
     }
 }
 

@@ -109,8 +109,12 @@ fn rows(
     }
     let timestep = session.world.model.opt.timestep;
     let (steps, every) = (case.steps(timestep, length), (between / timestep).round().max(1.0) as usize);
-    let presses: Vec<(usize, f64)> =
-        handling.actions.iter().filter(|a| a.time > 0.0 && a.value.is_none()).map(|a| (a.control, a.time)).collect();
+    let presses: Vec<(usize, f64)> = handling
+        .actions
+        .iter()
+        .filter(|a| a.time > 0.0 && a.value.is_none())
+        .map(|a| (a.control, a.time))
+        .collect();
     let mut list: Rows = Vec::new();
     let played = Play { steps, every, presses: &presses, watched: false };
     run::play(&mut session, &played, |session, made| {

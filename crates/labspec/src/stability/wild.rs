@@ -30,13 +30,7 @@ pub(super) struct Wild {
 
 impl Default for Wild {
     fn default() -> Wild {
-        Wild {
-            start: 0.0,
-            memory: Memory::new(EVERY, MOST),
-            largest: [0.0; 2],
-            first: None,
-            found: None,
-        }
+        Wild { start: 0.0, memory: Memory::new(EVERY, MOST), largest: [0.0; 2], first: None, found: None }
     }
 }
 
