@@ -58,7 +58,7 @@ pub struct Watch {
 pub fn watch<S: Scope>(m: &Model, d: &Data<S>, every: usize, pushed: bool) -> Watch {
     Watch {
         growth: (!pushed).then(|| growth::watch(m, d, every)),
-        limits: limits::watch(m),
+        limits: limits::watch(m, d),
         through: through::watch(m, d),
         sunk: sunk::watch(m),
         unsolved: unsolved::Watch::default(),
@@ -73,7 +73,7 @@ pub fn restart<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     if let Some(growth) = &mut w.growth {
         growth::restart(growth, m, d);
     }
-    w.limits = limits::watch(m);
+    w.limits = limits::watch(m, d);
     w.sunk = sunk::watch(m);
     through::restart(&mut w.through);
     unsolved::restart(&mut w.unsolved);
@@ -113,7 +113,7 @@ fn energy<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
 fn constraints<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     let found = &mut w.noticed;
     if found.past.is_none() {
-        found.past = limits::look(&mut w.limits, m, d);
+        found.past = limits::look(&mut w.limits, d);
     }
     if found.through.is_none() {
         found.through = through::look(&mut w.through, m, d);

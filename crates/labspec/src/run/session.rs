@@ -86,8 +86,8 @@ fn pushes(field: FieldKey) -> bool {
 
 /// Whether a field follows from others, or says what of them is computed: writing it moves nothing.
 fn follows(field: FieldKey) -> bool {
-    let derived = |f: FieldId| f.info().object == Object::Data && f.info().kind == Kind::Derived;
-    FieldId::new(field.0 as usize).is_some_and(|f| derived(f) || f.info().name == "enableflags")
+    FieldId::new(field.0 as usize)
+        .is_some_and(|f| f.info().kind == Kind::Derived || f.info().name == "enableflags")
 }
 
 /// Whether a program may move things by itself, or change the model.
