@@ -62,3 +62,18 @@ fn no_lab_that_is_well_is_said_to_go_wrong() {
         assert_eq!(grows(found(&shared, &[folder, "--models", "corpus/models"])), [], "{folder}");
     }
 }
+
+#[test]
+fn a_lab_that_shows_its_energy_is_watched_as_well() {
+    let link =
+        "<body><joint axis='0 1 0'/><geom type='capsule' fromto='0 0 0 .4 0 0' size='.03' mass='.5'/></body>";
+    let folder = tempfile::tempdir().unwrap();
+    for (step, code) in [("1", 1), ("0.01", 0)] {
+        let xml = format!("<mujoco><option timestep='{step}'/><worldbody>{link}</worldbody></mujoco>");
+        let readouts = serde_json::json!([{"label": "energy (J)", "expr": "lib.energy().total"}]);
+        let lab = serde_json::json!({"xml": xml, "stopAt": 60, "readouts": readouts});
+        std::fs::write(folder.path().join("lab.json"), lab.to_string()).unwrap();
+        let done = run_in(folder.path(), &["run", "lab.json"]);
+        assert_eq!((done.code, done.stdout.contains("energy grows")), (code, code == 1), "{}", done.stdout);
+    }
+}

@@ -12,6 +12,7 @@ mod examples;
 mod files;
 mod fixes;
 mod format;
+mod fresh;
 mod fuzz;
 mod javascript;
 mod labs;
@@ -46,6 +47,7 @@ mod terminal;
 mod trust;
 #[cfg(unix)]
 mod tutorial;
+mod under_hands;
 mod verify;
 mod ways;
 mod zoo;

@@ -354,6 +354,14 @@ fn a_lab_that_says_that_it_breaks_may() {
     assert_eq!((code, &report["findings"][0]["expected"]), (0, &json!(true)));
 }
 
+/// A report without what a clock measured.
+fn untimed(text: &str) -> String {
+    let parts: Vec<&str> = text.split(" times the time").collect();
+    let (last, measured) = parts.split_last().unwrap();
+    let before = measured.iter().map(|p| format!("{}N times the time", p.trim_end_matches(|c| c != ' ')));
+    before.collect::<String>() + last
+}
+
 #[test]
 fn findings_for_people() {
     let folder = tempfile::tempdir().unwrap();
@@ -361,9 +369,75 @@ fn findings_for_people() {
     std::fs::write(folder.path().join("thrown.json"), thrown(300.0, 0.002).to_string()).unwrap();
     let told = |name: &str| {
         let done = run_in(folder.path(), &["stability", name]);
-        format!("exit {}\n{}{}", done.code, done.stdout, done.stderr)
+        format!("exit {}\n{}{}", done.code, untimed(&done.stdout), done.stderr)
     };
     snapshot("stability", ["servo.json", "thrown.json"].map(told).join("\n"));
     let done = run_in(folder.path(), &["stability", "servo.json", "--margins", "--map", "kp,target"]);
-    snapshot("stability-margins", done.stdout);
+    snapshot("stability-margins", untimed(&done.stdout));
+}
+
+#[test]
+fn a_base_is_where_everything_begins() {
+    // 2/ω is 0.002 s at kp = 1e6 N/m.
+    let (_, report) = report(&servo(2e6), &["--set", "kp=880056", "--margins"]);
+    assert_eq!(report["runs"][0]["setting"], json!([{"control": "kp", "time": 0.0, "value": 880056.0}]));
+    near(margin(&report, "timestep", "lab").0, 2.0 / 880056f64.sqrt(), 0.02);
+    assert_eq!(report["margins"][1]["now"], json!(880056.0));
+    let (code, broken) = self::report(&servo(3e6), &["--set", "kp=3000000"]);
+    let first = &broken["findings"][0];
+    assert_eq!((code, &first["setting"]), (1, &broken["runs"][0]["setting"]), "as it stands now");
+    // Every run has the press.
+    let (_, thrown) = self::report(&thrown(300.0, 0.002), &["--press", "Fire@0.2"]);
+    let presses = |run: &Value| {
+        run["setting"].as_array().unwrap().iter().any(|a| a["control"] == "Fire" && a["time"] == 0.2)
+    };
+    assert!(thrown["runs"].as_array().unwrap().iter().all(presses), "{}", thrown["runs"]);
+    for (more, says) in [
+        (["--set", "kp=9"], "cannot be chosen"),
+        (["--set", "Kp=100"], "there is no control"),
+        (["--press", "kp@0.1"], "is not a button"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("lab.json"), servo(2e6).to_string()).unwrap();
+        let done = run_in(folder.path(), &["stability", "lab.json", more[0], more[1]]);
+        assert!(done.code == 2 && done.stderr.contains(says), "{}", done.stderr);
+    }
+}
+
+#[test]
+fn a_remedy_says_what_it_costs() {
+    // A cart of 1 kg that a spring of 2e6 N/m swings, by Euler's method at 2 ms.
+    let cart = r#"<body name="cart"><joint name="rail" type="slide" stiffness="100" damping="1"/><geom size=".1" mass="1"/></body>"#;
+    let more = json!({
+        "setup": "data.qpos[0] = 0.1", "readouts": [{"label": "x (m)", "expr": "data.qpos[0]"}],
+        "controls": [{"label": "k", "set": "model.jnt_stiffness[0]", "min": 100, "max": 1.1e6, "value": 100}],
+    });
+    let (_, report) = report(&lab(r#"gravity="0 0 0""#, cart, more), &["--until", "2"]);
+    let list = report["findings"][0]["remedies"].as_array().unwrap();
+    let of = |words: &str| list.iter().find(|r| r["change"].as_str().unwrap().contains(words)).unwrap();
+    let (half, rk4) = (of("timestep of 0.001 s"), of("RK4"));
+    near(half["work"].as_f64().unwrap(), 2.0, 0.1);
+    near(rk4["work"].as_f64().unwrap(), 4.0, 0.2);
+    for remedy in list {
+        assert!(remedy["timeRatio"].as_f64().unwrap() > 0.1, "{remedy}");
+    }
+    // Two radians in a step of 1 ms: neither follows the phase, and both stay within the swing.
+    let error = |r: &Value| r["error"].as_f64().unwrap();
+    assert!(error(half) > 0.05 && error(half) < 2.0, "{half}");
+    assert!(error(rk4) > 0.05 && error(rk4) < 2.0, "{rk4}");
+}
+
+#[test]
+fn a_ball_that_falls_through_a_height_field_is_found_below_it() {
+    let falls = |height: f64, speed: f64| {
+        let world = format!(
+            r#"<geom name="hills" type="hfield" hfield="h"/><body name="ball" pos=".1 .1 {height}"><freejoint/><geom name="ball" size=".02"/></body>"#
+        );
+        let mut lab = lab("", &world, json!({"setup": format!("data.qvel[2] = -{speed}")}));
+        let field = r#"<asset><hfield name="h" nrow="3" ncol="3" size="1 1 .1 .01" elevation="1 1 1 1 1 1 1 1 1"/></asset><worldbody>"#;
+        lab["xml"] = json!(lab["xml"].as_str().unwrap().replace("<worldbody>", field));
+        kinds(&report(&lab, &["--until", "0.5"]).1)
+    };
+    assert_eq!(falls(0.5, 200.0), [("tunnelling".into(), "\"ball\" through \"hills\"".into())]);
+    assert_eq!(falls(0.121, 0.1), []);
 }

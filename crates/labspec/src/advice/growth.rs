@@ -16,6 +16,13 @@
 //! * it lasts for 32 steps without falling back to half of what it was, or is a thousand times as large as that. Looks
 //!   are far apart until one sees a gain; from there on each step is looked at, as looks in step with a swing would see it last.
 //!
+//! To know the energy takes a good part of a step. So a look first asks whether anything is fast enough: with m_k on the diagonal of M,
+//!
+//! > ½ vᵀ M v ≤ ½ (Σ √m_k |v_k|)²,
+//!
+//! as |M_jk| ≤ √(m_j m_k). What was made from nothing comes by as motion, once in each swing at least; while this bound is below half of
+//! the smallest gain that counts, nothing else is computed. (Half, because m_k are those of an earlier look.)
+//!
 //! A step in which something turns by more than half a turn does not follow that motion at all: where nothing is elastic, a gain
 //! that is seen a few times there is growth, whether it lasts or not. A pendulum at a step of a second throws itself about like this.
 //!
@@ -43,6 +50,9 @@ const PUSHED: [f64; 2] = [1.0, 0.25];
 /// An angle that no step follows, rad, and how often a gain has to be seen then.
 const TURN: f64 = std::f64::consts::PI;
 const LEAPS: u32 = 4;
+/// Motion that is less than this part of the smallest gain is not looked at, in scenes of so many degrees of freedom.
+const SLOW: f64 = 0.5;
+const FEW: usize = 12;
 /// A scene at rest may drift by this part of its size in a second.
 const DRIFT: f64 = 0.01;
 
@@ -77,6 +87,9 @@ pub enum Source {
 pub struct Watch {
     own: Data<Planned>,
     start: Option<Start>,
+    /// Roots of the diagonal of M, the largest that were seen; empty where these are too many.
+    roots: Vec<f64>,
+    unit: [Vec<f64>; 2],
     /// Steps from one look to the next, and until the next one.
     every: usize,
     left: usize,
@@ -100,9 +113,12 @@ struct Start {
 /// A watch over a run that is now at `d`, with a look after each `every` steps. The only call that allocates.
 pub fn watch<S: Scope>(m: &Model, d: &Data<S>, every: usize) -> Watch {
     let own = Data::planned(m, Plan::awake());
+    let few = if m.nv <= FEW { m.nv } else { 0 };
     let mut w = Watch {
         own,
         start: None,
+        roots: vec![0.0; few],
+        unit: [vec![0.0; few], vec![0.0; few]],
         every,
         left: every,
         lasted: 0,
@@ -131,15 +147,34 @@ pub fn restart<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     if forward(m, &mut w.own).is_ok() && !exhausted(&w.own) {
         let energy = mechanical_energy(m, &mut w.own).ok().flatten();
         w.start = energy.map(|energy| start(m, &w.own, energy));
+        w.roots.fill(0.0);
+        weigh(w, m);
     }
 }
 
-/// Whether the next call of [`look`] looks; when not, it counts as made.
-#[inline]
-pub fn due(w: &mut Watch) -> bool {
-    let due = w.left <= 1 || w.lasted > 0;
-    w.left -= usize::from(!due);
-    due
+/// For how many calls [`look`] would do nothing; they count as made.
+pub fn skip(w: &mut Watch) -> usize {
+    let idle = if w.lasted > 0 { 0 } else { w.left.saturating_sub(1) };
+    w.left -= idle;
+    idle
+}
+
+/// Keeps the roots of the diagonal of M where they are larger than before.
+fn weigh(w: &mut Watch, m: &Model) {
+    let [unit, column] = &mut w.unit;
+    for k in 0..w.roots.len() {
+        unit.fill(0.0);
+        unit[k] = 1.0;
+        if mul_m(m, &w.own, unit, column).is_ok() {
+            w.roots[k] = w.roots[k].max(column[k].max(0.0).sqrt());
+        }
+    }
+}
+
+/// Whether nothing moves fast enough for a gain of `least`.
+fn slow(w: &Watch, qvel: &[f64], least: f64) -> bool {
+    let sum: f64 = w.roots.iter().zip(qvel).map(|(root, v)| root * v.abs()).sum();
+    w.roots.len() == qvel.len() && 0.5 * sum * sum < SLOW * least
 }
 
 /// To be called after each step. Looks at the run when it is time: a fraction of the work of a step, and nothing of the run is
@@ -163,13 +198,17 @@ pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) -> Option<Growth> {
     let Some(Start { energy: before, held, lift }) = w.start.filter(|_| w.found.is_none()) else {
         return w.found;
     };
-    take(&mut w.own, d);
-    let now = mechanical_energy(m, &mut w.own).ok().flatten()?;
-    let given = before.potential() - now.potential();
-    let gain = now.kinetic - before.kinetic - given;
     let pusher = pusher(m, d.fields());
     let [factor, lifts] = if pusher.is_some() { PUSHED } else { [FACTOR, LIFTS] };
     let least = factor * held + lifts * lift;
+    if w.lasted == 0 && slow(w, &d.fields().qvel, least) {
+        return None;
+    }
+    take(&mut w.own, d);
+    let now = mechanical_energy(m, &mut w.own).ok().flatten()?;
+    weigh(w, m);
+    let given = before.potential() - now.potential();
+    let gain = now.kinetic - before.kinetic - given;
     // A gain that is no number is not above anything.
     let seen = gain > least && 2.0 * gain > now.kinetic + given.abs();
     // What is elastic swings widely just below its limit, and comes back.

@@ -5,6 +5,7 @@ use super::limits::{self, Past};
 use super::sunk::{self, Sunk};
 use super::through::{self, Through};
 use super::unsolved::{self, Unsolved};
+use labspec_core::reflect::Stage;
 use labspec_core::{Data, Model, Scope};
 
 /// What was noticed, the first of each kind.
@@ -45,6 +46,10 @@ pub struct Watch {
     through: through::Watch,
     sunk: sunk::Watch,
     unsolved: unsolved::Watch,
+    /// Steps until energy is looked at.
+    rest: usize,
+    /// Nothing touches, is limited or tied: only energy is to be looked at.
+    bare: bool,
     noticed: Noticed,
 }
 
@@ -53,10 +58,12 @@ pub struct Watch {
 pub fn watch<S: Scope>(m: &Model, d: &Data<S>, every: usize, pushed: bool) -> Watch {
     Watch {
         growth: (!pushed).then(|| growth::watch(m, d, every)),
-        limits: limits::watch(m),
+        limits: limits::watch(m, d),
         through: through::watch(m, d),
         sunk: sunk::watch(m),
         unsolved: unsolved::Watch::default(),
+        rest: 0,
+        bare: bare(d),
         noticed: Noticed::default(),
     }
 }
@@ -66,23 +73,47 @@ pub fn restart<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     if let Some(growth) = &mut w.growth {
         growth::restart(growth, m, d);
     }
-    w.limits = limits::watch(m);
+    w.limits = limits::watch(m, d);
     w.sunk = sunk::watch(m);
     through::restart(&mut w.through);
     unsolved::restart(&mut w.unsolved);
+    w.bare = bare(d);
+}
+
+/// Whether a scene has no constraints, whatever happens.
+fn bare<S: Scope>(d: &Data<S>) -> bool {
+    let plan = d.plan();
+    !plan.keeps(Stage::Collision) && !plan.keeps(Stage::Constraint)
 }
 
 /// To be called after each step; nothing of the run is touched.
 #[inline]
 pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
-    let found = &mut w.noticed;
-    if let Some(growth) = &mut w.growth
-        && growth::due(growth)
-    {
-        found.growth = growth::look(growth, m, d);
+    if w.rest > 0 {
+        w.rest -= 1;
+    } else {
+        energy(w, m, d);
     }
+    if !w.bare {
+        constraints(w, m, d);
+    }
+}
+
+// Apart, so that what is asked in every step stays small.
+#[inline(never)]
+fn energy<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
+    w.rest = usize::MAX;
+    if let Some(growth) = &mut w.growth {
+        w.noticed.growth = growth::look(growth, m, d);
+        w.rest = growth::skip(growth);
+    }
+}
+
+#[inline(never)]
+fn constraints<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
+    let found = &mut w.noticed;
     if found.past.is_none() {
-        found.past = limits::look(&mut w.limits, m, d);
+        found.past = limits::look(&mut w.limits, d);
     }
     if found.through.is_none() {
         found.through = through::look(&mut w.through, m, d);

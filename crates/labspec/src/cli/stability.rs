@@ -1,5 +1,6 @@
 //! `labspec stability`.
 
+use super::handle::{assignment, press};
 use super::output::{Wanted, look_ahead, write_png};
 use super::stdio::{Progress, print_json};
 use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
@@ -8,7 +9,8 @@ use crate::report::{key, printable, set_number};
 use crate::run::two_digits;
 use crate::spec::Lab;
 use crate::stability::{
-    Cell, Evidence, Fault, FaultKind, Found, Handling, Kind, Map, Margin, Options, Report, Sensitivity, probe,
+    Cell, Evidence, Fault, FaultKind, Found, Handling, Kind, Made, Map, Margin, Options, Report, Sensitivity,
+    probe,
 };
 use clap::ValueEnum;
 use labspec_plot::{Cells, cells};
@@ -26,6 +28,12 @@ pub(super) struct Arguments {
     /// Length of each run in seconds [default: ten times the lab's stopAt or the window of its plots]
     #[arg(long, value_name = "S")]
     until: Option<f64>,
+    /// Set a control before every run: everything is tried from there
+    #[arg(long, value_name = "LABEL=VALUE")]
+    set: Vec<String>,
+    /// Press a button in every run, at a time in seconds
+    #[arg(long, value_name = "LABEL@TIME")]
+    press: Vec<String>,
     /// Find the largest timestep, gains, stiffnesses and mass ratios that the lab stands
     #[arg(long)]
     margins: bool,
@@ -55,7 +63,9 @@ pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
     let files = a.svg.iter().map(|p| wanted("--svg", p)).chain(a.png.iter().map(|p| wanted("--png", p)));
     look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &files.collect::<Vec<_>>())?;
     let map = a.map.as_ref().map(|text| two_labels(&target.lab, text)).transpose()?;
-    let options = Options { until: a.until, margins: a.margins, map };
+    let set = a.set.iter().map(|s| assignment(&target.lab, s)).collect::<Result<_, _>>()?;
+    let press = a.press.iter().map(|s| press(&target.lab, s)).collect::<Result<_, _>>()?;
+    let options = Options { until: a.until, margins: a.margins, map, set, press };
     let progress = Progress::new(a.format == Format::Human);
     let mut tell = |text: &str| progress.tell(text);
     let report = probe(&target.lab, &target.model, &target.programs, &options, &mut tell).map_err(|e| e.0)?;
@@ -140,7 +150,14 @@ fn finding(found: &Found, programs: &Programs, text: &mut String) {
             x if (0.95..=1.05).contains(&x) => "the same work".to_string(),
             x => format!("{} times the work", two_digits(x)),
         };
-        let _ = writeln!(text, "  helps: {} ({cost})", printable(&remedy.change));
+        let error = match remedy.error {
+            Some(x) if x < 1e-4 => ", no error to be seen".to_string(),
+            Some(x) => format!(", off by {} % of a range at most", two_digits(100.0 * x)),
+            None => String::new(),
+        };
+        let time = two_digits(remedy.time);
+        let _ =
+            writeln!(text, "  helps: {} ({cost}, {time} times the time{error})", printable(&remedy.change));
     }
 }
 
@@ -320,6 +337,7 @@ fn value(report: &Report, programs: &Programs) -> Value {
         json!({
             "length": report.length,
             "tried": report.tried.iter().map(tried).collect::<Vec<_>>(),
+            "runs": report.runs.iter().map(|m| made_value(m, programs)).collect::<Vec<_>>(),
             "shortest": report.shortest,
             "pairsLeftOut": report.pairs_left_out,
             "leftOut": left_out(report),
@@ -333,6 +351,14 @@ fn value(report: &Report, programs: &Programs) -> Value {
     )
 }
 
+fn made_value(made: &Made, programs: &Programs) -> Value {
+    json!({
+        "kind": key(made.handling.kind.words()), "setting": handling_value(&made.handling, programs),
+        "covered": made.covered, "cut": made.cut,
+        "wrong": made.wrong.iter().map(|k| key(k.words())).collect::<Vec<_>>(),
+    })
+}
+
 fn found_value(found: &Found, programs: &Programs) -> Value {
     let mut value = fault_value(&found.fault);
     value["setting"] = handling_value(&found.handling, programs);
@@ -342,6 +368,8 @@ fn found_value(found: &Found, programs: &Programs) -> Value {
     let remedy = |r: &crate::stability::Remedy| {
         let mut value = json!({"change": r.change});
         set_number(&mut value, "work", r.work);
+        set_number(&mut value, "timeRatio", r.time);
+        value["error"] = json!(r.error);
         value
     };
     value["remedies"] = found.remedies.iter().map(remedy).collect();

@@ -8,6 +8,7 @@ use crate::advice::watch::{self, Noticed, Watch};
 use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
 use crate::interrupt;
 use crate::source::Text;
+use labspec_core::reflect::{FieldId, Kind, Object};
 use labspec_core::{self as core, Data, Demand, Model, Plan, Planned, Warning, WarningStat};
 use labspec_expr::rules::{self, Rule};
 use labspec_expr::{Context, FieldKey, Program, RuntimeError, Value};
@@ -77,14 +78,23 @@ const BETWEEN: usize = 50;
 /// What a program may write in every step that moves nothing by itself.
 const PUSHES: [&str; 3] = ["ctrl", "qfrc_applied", "xfrc_applied"];
 
+/// Whether a field is one that pushes.
+fn pushes(field: FieldKey) -> bool {
+    FieldId::new(field.0 as usize)
+        .is_some_and(|f| f.info().object == Object::Data && PUSHES.contains(&f.info().name))
+}
+
+/// Whether a field follows from others, or says what of them is computed: writing it moves nothing.
+fn follows(field: FieldKey) -> bool {
+    FieldId::new(field.0 as usize)
+        .is_some_and(|f| f.info().kind == Kind::Derived || f.info().name == "enableflags")
+}
+
 /// Whether a program may move things by itself, or change the model.
 fn moves(bound: &Bound) -> bool {
     let effects = bound.program.effects();
-    let pushes = |field: FieldKey| {
-        let of = |name: &&str| core::reflect::field(core::reflect::Object::Data, name);
-        PUSHES.iter().filter_map(of).any(|f| FieldKey(f.index() as u32) == field)
-    };
-    effects.writes_everything || effects.calls_values || !effects.writes.iter().all(|a| pushes(a.field))
+    let still = |field: FieldKey| pushes(field) || follows(field);
+    effects.writes_everything || effects.calls_values || !effects.writes.iter().all(|a| still(a.field))
 }
 
 /// A run that is watched for what goes wrong without a word.
@@ -324,7 +334,8 @@ impl<'p> Session<'p> {
         if programs.iter().any(|bound| moves(bound)) {
             return;
         }
-        let pushed = programs.iter().any(|bound| !bound.program.effects().writes.is_empty());
+        let pushed =
+            programs.iter().any(|bound| bound.program.effects().writes.iter().any(|a| pushes(a.field)));
         let every = (steps / LOOKS).min(BETWEEN);
         let watch = watch::watch(&self.world.model, &self.world.data, every, pushed);
         self.watched = Some(Watched { watch, disturbed: false });

@@ -23,17 +23,29 @@ pub fn set_controls(
     set: &[(String, Value)],
 ) -> Result<(), RunError> {
     for (label, given) in set {
-        match (programs.control(label), lab.control(label)) {
-            (Some((i, ControlProgram::Change(..))), Some(control)) => {
-                session.set_control(i, value(control, given)?);
-            }
-            (Some(_), Some(_)) => {
-                return Err(RunError(format!("\"{label}\" is a button: press it instead of setting it")));
-            }
-            _ => return Err(unknown(label, programs)),
-        }
+        let (i, value) = chosen(lab, programs, label, given)?;
+        session.set_control(i, value);
     }
     Ok(())
+}
+
+/// The control of a label, and the value that it takes when a run asks for `given`.
+///
+/// # Errors
+/// There is no such control, it is a button, or a student cannot choose this value.
+pub fn chosen(
+    lab: &Lab,
+    programs: &Programs,
+    label: &str,
+    given: &Value,
+) -> Result<(usize, Value), RunError> {
+    match (programs.control(label), lab.control(label)) {
+        (Some((i, ControlProgram::Change(..))), Some(control)) => Ok((i, value(control, given)?)),
+        (Some(_), Some(_)) => {
+            Err(RunError(format!("\"{label}\" is a button: press it instead of setting it")))
+        }
+        _ => Err(unknown(label, programs)),
+    }
 }
 
 /// The value that a control takes when a run asks for `given`: for a select, the text of an option means its value.

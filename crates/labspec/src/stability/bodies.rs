@@ -94,7 +94,7 @@ pub(super) fn pairs(m: &Model, most: usize) -> (Vec<[usize; 2]>, bool) {
 
 /// Whether the engine ever looks for contacts of two geoms: their bodies move against each other, are not parent and child, and
 /// neither their bits nor an exclusion keep them apart.
-fn may_meet(m: &Model, g: usize, p: usize) -> bool {
+pub(super) fn may_meet(m: &Model, g: usize, p: usize) -> bool {
     let weld = |g: usize| m.body_weldid.get(body_of(m, g)).map_or(0, |&w| w as usize);
     let above = |w: usize| {
         let parent = m.body_parentid.get(w).map_or(0, |&b| b as usize);

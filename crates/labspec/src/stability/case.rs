@@ -23,6 +23,8 @@ pub(super) struct Case<'a> {
     pub(super) jumps: bool,
     /// What is shown stores something when it is computed, so that it belongs to the run.
     shows: bool,
+    /// What stands before everything else that is done.
+    pub(super) base: Handling,
 }
 
 /// What a run came to.
@@ -45,7 +47,7 @@ pub(super) struct Outcome {
 pub(super) type Change<'c> = &'c dyn Fn(&mut Session<'_>);
 
 impl<'a> Case<'a> {
-    pub(super) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> Case<'a> {
+    pub(super) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs, base: Handling) -> Case<'a> {
         let mut demand = programs.demand;
         for name in ["geom_xpos", "geom_xmat", "xpos"] {
             field(Object::Data, name).into_iter().for_each(|f| demand.reads.insert(f));
@@ -74,6 +76,7 @@ impl<'a> Case<'a> {
             controlled: programs.controller.is_some(),
             jumps: probes().chain(&programs.controller).any(jumps),
             shows: probes().any(stores),
+            base,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::covering;
 use crate::bind::{Programs, scalar};
+use crate::run::{RunError, presses, settings};
 use crate::spec::{ControlKind, Lab};
 use labspec_expr::Value;
 
@@ -71,8 +72,37 @@ pub struct Handling {
 }
 
 impl Handling {
-    /// The lab as it stands.
-    pub(super) const NOTHING: Handling = Handling { kind: Kind::AsItStands, actions: Vec::new() };
+    /// What stands before everything else that is done: controls set before the first step, and buttons pressed at their times.
+    ///
+    /// # Errors
+    /// A student cannot do this.
+    pub(super) fn base(
+        lab: &Lab,
+        programs: &Programs,
+        set: &[(String, Value)],
+        press: &[(String, f64)],
+    ) -> Result<Handling, RunError> {
+        let mut actions = Vec::new();
+        for (label, given) in set {
+            let (control, value) = settings::chosen(lab, programs, label, given)?;
+            actions.retain(|a: &Action| a.control != control);
+            actions.push(Action { time: 0.0, control, value: Some(value) });
+        }
+        let pressed = presses(programs, press)?.into_iter();
+        actions.extend(pressed.map(|(control, time)| Action { time, control, value: None }));
+        Ok(Handling { kind: Kind::AsItStands, actions })
+    }
+
+    /// More that is done on this base. What it sets before the first step is set instead of what the base sets.
+    pub(super) fn and(&self, kind: Kind, more: Vec<Action>) -> Handling {
+        let sets = |a: &Action| a.time <= 0.0 && a.value.is_some();
+        let again = |a: &&Action| !(sets(a) && more.iter().any(|b| sets(b) && b.control == a.control));
+        let mut actions: Vec<Action> = self.actions.iter().filter(again).cloned().collect();
+        actions.extend(more);
+        // In order of time, of one time what is set before what is pressed; otherwise as they came.
+        actions.sort_by(|a, b| a.time.total_cmp(&b.time).then(sets(b).cmp(&sets(a))));
+        Handling { kind, actions }
+    }
 
     /// In words: `with "kp" at 5000, "Drop" pressed at 0.1 s`.
     pub fn words(&self, programs: &Programs) -> String {
@@ -84,12 +114,13 @@ impl Handling {
             Some(value) => format!("\"{}\" at {value}", label(a.control)),
             None => format!("\"{}\" pressed at {} s", label(a.control), crate::run::time(a.time)),
         };
-        match self.actions.as_slice() {
-            [] if self.kind == Kind::Touched => {
-                format!("as it stands, after a touch (every joint begins with a speed of {TOUCH:e})")
-            }
+        let done = match self.actions.as_slice() {
             [] => "as it stands".into(),
             list => format!("with {}", list.iter().map(one).collect::<Vec<_>>().join(", ")),
+        };
+        match self.kind {
+            Kind::Touched => format!("{done}, after a touch (every joint begins with a speed of {TOUCH:e})"),
+            _ => done,
         }
     }
 }
@@ -116,37 +147,42 @@ fn pairs(levels: &[usize]) -> usize {
     count
 }
 
-/// Everything that is tried, the simplest first, for a lab that a student looks at for `window` seconds; and how many pairs of
-/// settings meet in no run, because there are too many.
-pub(super) fn list(lab: &Lab, window: f64) -> (Vec<Handling>, usize) {
+/// Everything that is tried on a base, the simplest first, for a lab that a student looks at for `window` seconds; and how many
+/// pairs of settings meet in no run, because there are too many.
+pub(super) fn list(lab: &Lab, window: f64, base: &Handling) -> (Vec<Handling>, usize) {
     let press = PRESS.min(0.5 * window);
     let set = |control: usize, value: &Value| Action { time: 0.0, control, value: Some(value.clone()) };
     let pressed = |control: usize, time: f64| Action { time, control, value: None };
     let mut changes: Vec<(usize, Vec<Value>, Value)> = Vec::new();
     let mut buttons = Vec::new();
+    let given = |i: usize, own: Value| {
+        let set = base.actions.iter().find(|a| a.control == i);
+        set.and_then(|a| a.value.clone()).unwrap_or(own)
+    };
     for (i, control) in lab.controls.iter().enumerate() {
         match &control.kind {
             ControlKind::Slider { min, max, value, .. } => {
                 let mut ends = vec![Value::Number(min.value), Value::Number(max.value)];
                 ends.dedup();
-                changes.push((i, ends, Value::Number(value.value)));
+                changes.push((i, ends, given(i, Value::Number(value.value))));
             }
             ControlKind::Select { options, value, .. } => {
-                changes.push((i, options.iter().map(|o| scalar(&o.value)).collect(), scalar(value)));
+                let all = options.iter().map(|o| scalar(&o.value)).collect();
+                changes.push((i, all, given(i, scalar(value))));
             }
             ControlKind::Button { .. } => buttons.push(i),
         }
     }
-    let mut all = vec![Handling::NOTHING, Handling { kind: Kind::Touched, ..Handling::NOTHING }];
+    let mut all = vec![base.clone(), base.and(Kind::Touched, Vec::new())];
     for (i, values, start) in &changes {
         let moved = values.iter().filter(|v| *v != start);
-        all.extend(moved.map(|v| Handling { kind: Kind::End, actions: vec![set(*i, v)] }));
+        all.extend(moved.map(|v| base.and(Kind::End, vec![set(*i, v)])));
     }
-    all.extend(buttons.iter().map(|b| Handling { kind: Kind::Button, actions: vec![pressed(*b, press)] }));
+    all.extend(buttons.iter().map(|b| base.and(Kind::Button, vec![pressed(*b, press)])));
     let spread = |k: usize, of: usize| press + (window - press).max(0.0) * k as f64 / of.max(1) as f64;
     if buttons.len() > 1 {
         let actions = buttons.iter().enumerate().map(|(k, b)| pressed(*b, spread(k, buttons.len())));
-        all.push(Handling { kind: Kind::InOrder, actions: actions.collect() });
+        all.push(base.and(Kind::InOrder, actions.collect()));
     }
 
     // The last factor is which button is pressed, if any.
@@ -170,9 +206,9 @@ pub(super) fn list(lab: &Lab, window: f64) -> (Vec<Handling>, usize) {
         let mut actions: Vec<Action> = chosen.collect();
         let button = row.get(changes.len()).and_then(|k| buttons.get(k.checked_sub(1)?));
         actions.extend(button.map(|b| pressed(*b, press)));
-        all.push(Handling { kind: Kind::Corner, actions });
+        all.push(base.and(Kind::Corner, actions));
     }
-    all.extend(interleaved(&changes, &buttons, spread));
+    all.extend(interleaved(&changes, &buttons, spread).map(|more| base.and(Kind::Interleaved, more)));
     (all, missing)
 }
 
@@ -181,7 +217,7 @@ fn interleaved(
     changes: &[(usize, Vec<Value>, Value)],
     buttons: &[usize],
     spread: impl Fn(usize, usize) -> f64,
-) -> Option<Handling> {
+) -> Option<Vec<Action>> {
     if changes.is_empty() {
         return None;
     }
@@ -199,8 +235,7 @@ fn interleaved(
     list.retain(|(i, value)| is_button(i) || value.is_some());
     let of = list.len();
     let timed = list.into_iter().enumerate();
-    let actions = timed.map(|(k, (control, value))| Action { time: spread(k, of), control, value });
-    Some(Handling { kind: Kind::Interleaved, actions: actions.collect() })
+    Some(timed.map(|(k, (control, value))| Action { time: spread(k, of), control, value }).collect())
 }
 
 #[cfg(test)]
@@ -215,12 +250,16 @@ mod tests {
         load_lesson(SourceFile::new("lab.json", text), &ModelFolder::unknown()).all_labs()[0].clone()
     }
 
+    fn nothing() -> Handling {
+        Handling { kind: Kind::AsItStands, actions: Vec::new() }
+    }
+
     const SLIDER: &str = r#"{"label": "m", "param": "m", "min": 0, "max": 5, "value": 5}"#;
     const SELECT: &str = r#"{"type": "select", "label": "i", "param": "i", "options": [["a", 0], ["b", 1], ["c", 2]], "value": 1}"#;
     const BUTTON: &str = r#"{"type": "button", "label": "Go", "run": "ctx.go = 1"}"#;
 
     fn counts(lab: &Lab) -> [usize; 7] {
-        let (all, _) = list(lab, 2.0);
+        let (all, _) = list(lab, 2.0, &nothing());
         Kind::ALL.map(|kind| all.iter().filter(|h| h.kind == kind).count())
     }
 
@@ -238,7 +277,7 @@ mod tests {
     #[test]
     fn many_controls_meet_in_pairs() {
         let sliders: Vec<String> = (0..12).map(|k| SLIDER.replace("\"m\"", &format!("\"m{k}\""))).collect();
-        let (all, missing) = list(&lab(&sliders.join(",")), 2.0);
+        let (all, missing) = list(&lab(&sliders.join(",")), 2.0, &nothing());
         let corners: Vec<&Handling> = all.iter().filter(|h| h.kind == Kind::Corner).collect();
         assert!(missing == 0 && corners.len() < 20, "{}", corners.len());
         for i in 0..12 {
@@ -253,9 +292,25 @@ mod tests {
 
     #[test]
     fn everything_in_turn_lies_in_the_window_and_in_order() {
-        let (all, _) = list(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0);
+        let (all, _) = list(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &nothing());
         let last = all.last().unwrap();
         assert_eq!(last.actions.len(), 8);
         assert!(last.actions.windows(2).all(|two| two[0].time < two[1].time) && last.actions[7].time < 2.0);
+    }
+    #[test]
+    fn a_base_stands_before_everything_else() {
+        let set = |control, x| Action { time: 0.0, control, value: Some(Value::Number(x)) };
+        let press = |control, time| Action { time, control, value: None };
+        let base =
+            Handling { kind: Kind::AsItStands, actions: vec![set(0, 2.0), press(2, 0.0), press(2, 0.5)] };
+        let (all, _) = list(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &base);
+        assert_eq!((&all[0], all[1].kind, &all[1].actions), (&base, Kind::Touched, &base.actions));
+        // Both ends of the slider differ from where the base has it.
+        let ends: Vec<&Handling> = all.iter().filter(|h| h.kind == Kind::End).collect();
+        assert_eq!(ends.len(), 4);
+        assert_eq!(ends[0].actions, [set(0, 0.0), press(2, 0.0), press(2, 0.5)]);
+        assert_eq!(ends[2].actions, [set(0, 2.0), set(1, 0.0), press(2, 0.0), press(2, 0.5)]);
+        let button = all.iter().find(|h| h.kind == Kind::Button).unwrap();
+        assert_eq!(button.actions, [set(0, 2.0), press(2, 0.0), press(2, 0.1), press(2, 0.5)]);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::case::Case;
 use super::fault::FaultKind;
-use super::handling::{Action, Handling, Kind};
+use super::handling::{Action, Kind};
 use crate::bind::scalar;
 use crate::interrupt;
 use crate::run::{RunError, settings};
@@ -58,7 +58,7 @@ pub(super) fn map(
             tell(&format!("map: run {} of {many}", made + 1));
             let set =
                 |control: usize, value: &Value| Action { time: 0.0, control, value: Some(value.clone()) };
-            let handling = Handling { kind: Kind::Corner, actions: vec![set(x, a), set(y, b)] };
+            let handling = case.base.and(Kind::Corner, vec![set(x, a), set(y, b)]);
             if interrupt::requested() {
                 row.push(Cell::Unknown);
                 continue;

@@ -7,7 +7,6 @@
 use super::bodies::{body_name, body_of};
 use super::case::{Case, Outcome};
 use super::fault::{Fault, FaultKind};
-use super::handling::Handling;
 use super::search::{self, Limit};
 use crate::advice::stability;
 use crate::interrupt;
@@ -97,7 +96,7 @@ pub(super) fn margins(
     tell: &mut dyn FnMut(&str),
     work: &mut u64,
 ) -> (Vec<Margin>, Vec<String>) {
-    let model = case.start(&Handling::NOTHING, RUN).world.model;
+    let model = case.start(&case.base, RUN).world.model;
     let mut left_out = Vec::new();
     let mut list = vec![timestep(&model)];
     let mut some = |mut all: Vec<Raised>, what: &str| {
@@ -145,7 +144,7 @@ fn search(case: &Case<'_>, raised: &Raised, length: f64, work: &mut u64) -> Opti
         }
         Some(fault.is_none())
     })?;
-    let start = case.start(&Handling::NOTHING, RUN).world.model;
+    let start = case.start(&case.base, RUN).world.model;
     let bound = search::largest(raised.most, |x| {
         let mut model = start.clone();
         (raised.apply)(&mut model, x);
@@ -191,7 +190,7 @@ fn run(case: &Case<'_>, raised: Option<(&Apply, f64)>, length: f64, work: &mut u
         }
         session.world.data.edit().qvel.iter_mut().for_each(|v| *v += TOUCH);
     };
-    let outcome = case.run(&Handling::NOTHING, Some(&change), length, RUN);
+    let outcome = case.run(&case.base, Some(&change), length, RUN);
     *work += outcome.spent;
     outcome
 }
@@ -302,10 +301,14 @@ fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<Raised> {
     })
 }
 
-/// The ratio of masses of bodies that touch, with one of them heavier and lighter.
+/// The ratio of masses of bodies that touch, hang on each other or are tied together, with one of them heavier and lighter.
 fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<Raised> {
     let mut list: Vec<Raised> = Vec::new();
     let mut pairs: Vec<[usize; 2]> = touching.iter().map(|gs| gs.map(|g| body_of(m, g))).collect();
+    let joined = |b: &usize| m.body_jntnum.get(*b).is_some_and(|&n| n > 0);
+    let parent = |b: usize| m.body_parentid.get(b).map_or(0, |&p| p as usize);
+    pairs.extend((1..m.nbody).filter(joined).map(|b| [parent(b), b]));
+    pairs.extend(tied(m));
     pairs.iter_mut().for_each(|p| p.sort_unstable());
     pairs.sort_unstable();
     pairs.dedup();
@@ -325,6 +328,16 @@ fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<Raised> {
         }
     }
     list
+}
+
+/// Bodies that an equality ties together.
+fn tied(m: &Model) -> Vec<[usize; 2]> {
+    let bodies = |e: &usize| {
+        m.eq_objtype.get(*e) == Some(&(Obj::Body as i32)) && m.eq_active0.get(*e).copied().unwrap_or(false)
+    };
+    let end = |list: &[i32], e: usize| list.get(e).and_then(|&b| usize::try_from(b).ok());
+    let both = |e: usize| Some([end(&m.eq_obj1id, e)?, end(&m.eq_obj2id, e)?]);
+    (0..m.neq).filter(bodies).filter_map(both).collect()
 }
 
 fn heavier(m: &mut Model, body: usize, x: f64) {

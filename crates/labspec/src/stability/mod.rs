@@ -5,13 +5,16 @@ mod bodies;
 mod case;
 mod covering;
 mod fault;
+mod ground;
 mod handling;
 mod map;
 mod margins;
+mod memory;
 mod remedy;
 mod rest;
 mod search;
 mod sensitivity;
+mod truth;
 mod watch;
 mod wild;
 
@@ -29,6 +32,7 @@ use crate::spec::format::RUN_LENGTH;
 use crate::spec::{Expect, Lab};
 use case::{Case, Outcome};
 use labspec_core::Model;
+use labspec_expr::Value;
 use remedy::Tries;
 
 /// How many times longer than anybody looks a run is.
@@ -48,6 +52,23 @@ pub struct Options {
     pub margins: bool,
     /// Also the stable region over two controls, by label.
     pub map: Option<[String; 2]>,
+    /// Controls by label, and the values that they have before anything else is done.
+    pub set: Vec<(String, Value)>,
+    /// Buttons by label, and the times in s at which they are pressed in every run.
+    pub press: Vec<(String, f64)>,
+}
+
+/// A run that was made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Made {
+    /// What was done.
+    pub handling: Handling,
+    /// How much of it was made, s.
+    pub covered: f64,
+    /// It took more work than it may.
+    pub cut: bool,
+    /// What went wrong, each kind once.
+    pub wrong: Vec<FaultKind>,
 }
 
 /// How many runs of a kind there are.
@@ -70,6 +91,8 @@ pub struct Report {
     pub length: f64,
     /// What was tried, kind by kind.
     pub tried: Vec<Tried>,
+    /// The runs.
+    pub runs: Vec<Made>,
     /// How long the shortest of those runs was that were cut, s.
     pub shortest: Option<f64>,
     /// Pairs of settings that meet in no run, as there are too many.
@@ -99,7 +122,7 @@ impl Report {
 /// Runs the lab in every way that is tried. `tell` hears what is being done.
 ///
 /// # Errors
-/// The length is none that a run can have.
+/// The length is none that a run can have, or no student can set or press what the options say.
 pub fn probe(
     lab: &Lab,
     model: &Model,
@@ -109,12 +132,17 @@ pub fn probe(
 ) -> Result<Report, RunError> {
     let window = window(lab);
     let length = options.until.unwrap_or(LONGER * window);
-    run::count_steps(lab, Some(length), None, model.opt.timestep)?;
-    let case = Case::new(lab, model, programs);
-    let (all, pairs_left_out) = handling::list(lab, window.min(length));
+    let base = Handling::base(lab, programs, &options.set, &options.press)?;
+    let case = Case::new(lab, model, programs, base);
+    // A control may set the timestep.
+    let timestep = case.start(&case.base, WORK).world.model.opt.timestep;
+    let steps = run::count_steps(lab, Some(length), None, timestep)?;
+    run::presses_within(programs, &run::presses(programs, &options.press)?, steps, timestep)?;
+    let (all, pairs_left_out) = handling::list(lab, window.min(length), &case.base);
     let mut report = Report {
         length,
         tried: Kind::ALL.map(|kind| Tried { kind, made: 0, cut: 0, left_out: 0 }).to_vec(),
+        runs: Vec::new(),
         shortest: None,
         pairs_left_out,
         left_out: Vec::new(),
@@ -153,6 +181,12 @@ pub fn probe(
         } else {
             tried.made += 1;
         }
+        let mut made = Made {
+            handling: handling.clone(),
+            covered: outcome.covered,
+            cut: outcome.cut,
+            wrong: Vec::new(),
+        };
         let drifts = outcome.faults.iter().any(|f| f.kind == FaultKind::Drifts);
         let firm = if drifts { case.run(handling, Some(&firmer), length, left) } else { Outcome::default() };
         left = left.saturating_sub(firm.spent);
@@ -161,17 +195,21 @@ pub fn probe(
             // What creeps as fast where friction is hard is pushed along, and no fault of the contact.
             let moves = |(who, speed): &(String, f64)| *who == fault.who && 2.0 * speed > fault.size;
             if fault.kind != FaultKind::Drifts || !firm.speeds.iter().any(moves) {
+                made.wrong.push(fault.kind);
                 fault::add(&mut report.found, fault, handling);
             }
         }
+        made.wrong.sort_unstable();
+        made.wrong.dedup();
+        report.runs.push(made);
     }
     report.tried.retain(|t| t.made + t.cut + t.left_out > 0);
     if matches!(lab.expect, Some(Expect::Breaks(_))) {
         let breaks = |kind| matches!(kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
         report.found.iter_mut().for_each(|f| f.expected = breaks(f.fault.kind));
     }
-    remedies(&case, &mut report, own, tell);
     let short = window.min(length);
+    remedies(&case, &mut report, short, own, tell);
     if options.margins {
         let (margins, more) = margins::margins(&case, short, tell, &mut report.work);
         report.margins = margins;
@@ -186,8 +224,8 @@ pub fn probe(
 }
 
 /// Tries what may help against the findings, the simplest first.
-fn remedies(case: &Case<'_>, report: &mut Report, own: f64, tell: &mut dyn FnMut(&str)) {
-    let mut tries = Tries { case, length: report.length, own, left: WORK_OF_REMEDIES, work: 0 };
+fn remedies(case: &Case<'_>, report: &mut Report, window: f64, own: f64, tell: &mut dyn FnMut(&str)) {
+    let mut tries = Tries { case, length: report.length, window, own, left: WORK_OF_REMEDIES, work: 0 };
     let many = report.found.len();
     let mut untried = 0;
     for (i, found) in report.found.iter_mut().enumerate() {

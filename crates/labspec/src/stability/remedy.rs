@@ -1,8 +1,9 @@
 //! What helps: each candidate is tried by running, and only those are told with which the run comes to its end well.
 
-use super::case::{Case, Outcome};
+use super::case::{Case, Change, Outcome};
 use super::fault::{FaultKind, Found};
-use super::handling::Handling;
+use super::handling::{Action, Handling};
+use super::truth;
 use crate::interrupt;
 use crate::run::{Session, two_digits};
 use crate::spec::{Control, ControlKind};
@@ -17,6 +18,19 @@ pub struct Remedy {
     pub change: String,
     /// What a second of simulation costs with it, in times of what it costs in the lab as it stands.
     pub work: f64,
+    /// The same as measured by a clock.
+    pub time: f64,
+    /// The largest error of any number that the lab shows with it, as a part of that number's range: against the motion that the
+    /// model describes, found with much shorter steps. `None` where that is not known.
+    pub error: Option<f64>,
+}
+
+/// A change that helps, with its work, and how a run is made with it.
+struct Helps {
+    change: String,
+    work: f64,
+    handling: Handling,
+    apply: Box<dyn Fn(&mut Model)>,
 }
 
 /// Halvings of the timestep that are tried where it may be the cause, and the part of the work that one run may take.
@@ -32,6 +46,8 @@ type Candidate = (String, Box<dyn Fn(&mut Model)>);
 pub(super) struct Tries<'c, 'a> {
     pub(super) case: &'c Case<'a>,
     pub(super) length: f64,
+    /// How long a student looks, s: errors are those that are seen.
+    pub(super) window: f64,
     /// Work of a second of the lab as it stands.
     pub(super) own: f64,
     /// Work that may still be done.
@@ -50,20 +66,48 @@ impl Tries<'_, '_> {
             FaultKind::Drifts => 0,
             _ => HALVINGS,
         };
+        let handling = || found.handling.clone();
         for k in 1..=halvings {
             let h = model.opt.timestep * 0.5f64.powi(k);
-            if let Some(cost) = self.helps(found, &before, &move |m| *m.edit().opt.timestep = h)? {
-                list.push(Remedy { change: format!("a timestep of {} s", two_digits(h)), work: cost });
+            let apply = move |m: &mut Model| *m.edit().opt.timestep = h;
+            if let Some(work) = self.helps(found, &before, &apply)? {
+                let change = format!("a timestep of {} s", two_digits(h));
+                list.push(Helps { change, work, handling: handling(), apply: Box::new(apply) });
                 break;
             }
         }
         for (change, apply) in candidates(&model, found.fault.kind) {
             if let Some(work) = self.helps(found, &before, &apply)? {
-                list.push(Remedy { change, work });
+                list.push(Helps { change, work, handling: handling(), apply });
             }
         }
         list.extend(self.shorter_slider(found, &before)?);
-        Some(list)
+        Some(self.costs(found, list))
+    }
+
+    /// Each with its cost: in error against the truth of what the student does, and in time.
+    fn costs(&mut self, found: &Found, list: Vec<Helps>) -> Vec<Remedy> {
+        if list.is_empty() {
+            return Vec::new();
+        }
+        let mut work = 0;
+        let truth = truth::truth(self.case, &found.handling, self.window, &mut work);
+        let mut remedies = Vec::new();
+        for Helps { change, work: cost, handling, apply } in list {
+            let change_of = move |session: &mut Session<'_>| apply(&mut session.world.model);
+            let apply: Change<'_> = &change_of;
+            // Another setting of a slider is another motion: its own truth counts.
+            let error = if handling == found.handling {
+                truth.as_ref().and_then(|t| truth::error(self.case, t, apply, &mut work))
+            } else {
+                let own = truth::truth(self.case, &handling, self.window, &mut work);
+                own.and_then(|t| truth::error(self.case, &t, apply, &mut work))
+            };
+            let time = truth::time(self.case, &handling, apply, self.window);
+            remedies.push(Remedy { change, work: cost, time, error });
+        }
+        self.work += work;
+        remedies
     }
 
     fn run(&mut self, handling: &Handling, change: Option<&dyn Fn(&mut Session<'_>)>) -> Option<Outcome> {
@@ -85,8 +129,10 @@ impl Tries<'_, '_> {
     }
 
     /// A slider that goes less far, where it alone does the harm: the farthest value that does none, by bisection on its grid.
-    fn shorter_slider(&mut self, found: &Found, before: &Outcome) -> Option<Option<Remedy>> {
-        let [action] = found.handling.actions.as_slice() else { return Some(None) };
+    fn shorter_slider(&mut self, found: &Found, before: &Outcome) -> Option<Option<Helps>> {
+        let base = &self.case.base.actions;
+        let mut own = found.handling.actions.iter().filter(|a| !base.contains(a));
+        let (Some(action), None) = (own.next(), own.next()) else { return Some(None) };
         let Some(control) = self.case.lab.controls.get(action.control) else { return Some(None) };
         let (ControlKind::Slider { min, value, .. }, Some(Value::Number(end))) =
             (&control.kind, &action.value)
@@ -104,18 +150,27 @@ impl Tries<'_, '_> {
         };
         while (bad - good).abs() > 1.5 {
             let middle = (0.5 * (good + bad)).round();
-            let mut handling = found.handling.clone();
-            handling
-                .actions
-                .iter_mut()
-                .for_each(|a| a.value = Some(Value::Number(on_grid(min, step, middle))));
-            let outcome = self.run(&handling, None)?;
+            let outcome = self.run(&with(found, action, on_grid(min, step, middle)), None)?;
             if !outcome.cut && is_well(found, before, &outcome) { good = middle } else { bad = middle }
         }
         let last = on_grid(min, step, good);
         let moved = if up { last > value.value } else { last < value.value };
-        Some(moved.then(|| Remedy { change: ends(control, last), work: 1.0 }))
+        let handling = with(found, action, last);
+        Some(moved.then(|| Helps {
+            change: ends(control, last),
+            work: 1.0,
+            handling,
+            apply: Box::new(|_| {}),
+        }))
     }
+}
+
+/// The setting of a finding, one of its sliders at another value.
+fn with(found: &Found, action: &Action, value: f64) -> Handling {
+    let mut handling = found.handling.clone();
+    let same = handling.actions.iter_mut().filter(|a| *a == action);
+    same.for_each(|a| a.value = Some(Value::Number(value)));
+    handling
 }
 
 fn on_grid(min: f64, step: f64, k: f64) -> f64 {

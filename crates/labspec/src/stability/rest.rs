@@ -3,6 +3,7 @@
 
 use super::bodies::{body_name, body_of, halves};
 use super::fault::{Evidence, Fault, FaultKind};
+use super::memory::Memory;
 use labspec_core::math::{Vec3, norm, rows, sub};
 use labspec_core::{Fields, Model};
 
@@ -21,14 +22,12 @@ const LONG: f64 = 0.5;
 /// The memory of a run: times, places of bodies, and which of them touch others.
 #[derive(Debug)]
 pub(super) struct Rest {
-    looks: usize,
-    every: usize,
-    past: Vec<(f64, Vec<Vec3>, Vec<bool>)>,
+    memory: Memory<(f64, Vec<Vec3>, Vec<bool>)>,
 }
 
 impl Default for Rest {
     fn default() -> Rest {
-        Rest { looks: 0, every: EVERY, past: Vec::new() }
+        Rest { memory: Memory::new(EVERY, MOST) }
     }
 }
 
@@ -38,7 +37,7 @@ impl Rest {
     }
 
     pub(super) fn look(&mut self, m: &Model, d: &Fields) {
-        if self.looks.is_multiple_of(self.every) {
+        self.memory.look(|| {
             let mut rubs = vec![false; m.nbody];
             for c in d.contact.iter().filter(|c| c.efc_address.is_some() && c.dim >= 3) {
                 for g in [c.geom1, c.geom2] {
@@ -47,22 +46,19 @@ impl Rest {
                     }
                 }
             }
-            self.past.push((d.time, rows::<3>(&d.xpos).to_vec(), rubs));
-            if self.past.len() >= MOST {
-                let mut odd = false;
-                self.past.retain(|_| {
-                    odd = !odd;
-                    odd
-                });
-                self.every *= 2;
-            }
-        }
-        self.looks += 1;
+            (d.time, rows::<3>(&d.xpos).to_vec(), rubs)
+        });
+    }
+
+    /// The second half of what is remembered.
+    fn half(&self) -> &[(f64, Vec<Vec3>, Vec<bool>)] {
+        let past = self.memory.past();
+        past.get(past.len() / 2..).unwrap_or_default()
     }
 
     /// Bodies that creep in the second half of what is remembered.
     pub(super) fn faults(&self, m: &Model) -> Vec<Fault> {
-        let half = self.past.get(self.past.len() / 2..).unwrap_or_default();
+        let half = self.half();
         let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
         let time = last.0 - first.0;
         if half.len() < 9 || time < LONG {
@@ -107,7 +103,7 @@ impl Rest {
 
     /// How fast each body moved on in the second half of what is remembered, by name, m/s.
     pub(super) fn speeds(&self, m: &Model) -> Vec<(String, f64)> {
-        let half = self.past.get(self.past.len() / 2..).unwrap_or_default();
+        let half = self.half();
         let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
         let ways = last.1.iter().zip(&first.1).map(|(to, from)| norm(sub(*to, *from)) / (last.0 - first.0));
         ways.enumerate().map(|(b, speed)| (body_name(m, b), speed)).collect()

@@ -6,7 +6,6 @@
 //! its spread.
 
 use super::case::Case;
-use super::handling::Handling;
 use crate::run::{self, Numerics, Play, Session};
 use labspec_core::{differentiate_pos, integrate_pos};
 use std::ops::ControlFlow;
@@ -71,7 +70,7 @@ pub(super) fn sensitivity(case: &Case<'_>, length: f64, work: &mut u64) -> Sensi
 
 /// The exponent that one direction gives.
 fn exponent(case: &Case<'_>, length: f64, seed: u64, work: &mut u64) -> Option<f64> {
-    let mut first = case.start(&Handling::NOTHING, WORK / 8);
+    let mut first = case.start(&case.base, WORK / 8);
     let nv = first.world.model.nv;
     let h = first.world.model.opt.timestep;
     let steps = case.steps(h, length);
@@ -167,7 +166,7 @@ fn horizons(case: &Case<'_>, length: f64, work: &mut u64) -> Vec<Horizon> {
         return Vec::new();
     }
     let mut shown = |nudge: f64| {
-        let mut session = case.start(&Handling::NOTHING, WORK / 4);
+        let mut session = case.start(&case.base, WORK / 4);
         if nudge != 0.0 {
             session.perturb(Numerics { nudge, ..Numerics::NOMINAL }, true);
         }

@@ -3,6 +3,7 @@
 
 use super::bodies::{self, body_of, body_thickness, geom_name, halves, seen_from, thickness};
 use super::fault::{Evidence, Fault, FaultKind};
+use super::ground::{self, Over};
 use super::rest::Rest;
 use super::wild::Wild;
 use labspec_core::math::{Vec3, rows, sub};
@@ -27,6 +28,7 @@ const NEARLY: f64 = 0.02;
 /// What a run has shown so far.
 pub(super) struct Watch {
     pairs: Vec<Pair>,
+    grounds: Vec<Over>,
     touching: Vec<Touch>,
     pub(super) wild: Wild,
     pub(super) rest: Rest,
@@ -71,6 +73,7 @@ impl Watch {
         let pairs = if jumps { Vec::new() } else { bodies::pairs(m, MOST_PAIRS).0 };
         Watch {
             pairs: pairs.into_iter().map(|geoms| Pair { geoms, before: None, done: false }).collect(),
+            grounds: if jumps { Vec::new() } else { ground::over(m, MOST_PAIRS) },
             touching: Vec::new(),
             wild: Wild::default(),
             rest: Rest::default(),
@@ -84,6 +87,7 @@ impl Watch {
     /// Something from outside moved bodies: what was before says nothing of them.
     pub(super) fn disturb(&mut self, d: &Fields) {
         self.pairs.iter_mut().for_each(|p| p.before = None);
+        self.grounds.iter_mut().for_each(Over::disturb);
         for t in &mut self.touching {
             (t.switches, t.blocks, t.from, t.deep_since) = (0, 0, None, None);
         }
@@ -118,6 +122,7 @@ impl Watch {
                 passed.push([p, g]);
             }
         }
+        self.faults.extend(self.grounds.iter_mut().filter_map(|over| over.look(m, d)));
         // Which of the two passed the other is one question.
         for other in passed {
             self.pairs.iter_mut().filter(|p| p.geoms == other).for_each(|p| p.done = true);

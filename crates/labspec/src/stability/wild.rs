@@ -5,6 +5,7 @@
 //! when it became ten times larger in the second half of the time since the last change from outside.
 
 use super::fault::{Evidence, Fault, FaultKind};
+use super::memory::Memory;
 use labspec_core::math::norm;
 use labspec_core::{Fields, Model, joint};
 
@@ -19,10 +20,8 @@ const MOST: usize = 256;
 #[derive(Debug)]
 pub(super) struct Wild {
     start: f64,
-    looks: usize,
-    every: usize,
     /// Times, and the largest speeds up to then: of slides and of turns.
-    past: Vec<(f64, [f64; 2])>,
+    memory: Memory<(f64, [f64; 2])>,
     largest: [f64; 2],
     /// The largest speeds at the start.
     first: Option<[f64; 2]>,
@@ -31,15 +30,7 @@ pub(super) struct Wild {
 
 impl Default for Wild {
     fn default() -> Wild {
-        Wild {
-            start: 0.0,
-            looks: 0,
-            every: EVERY,
-            past: Vec::new(),
-            largest: [0.0; 2],
-            first: None,
-            found: None,
-        }
+        Wild { start: 0.0, memory: Memory::new(EVERY, MOST), largest: [0.0; 2], first: None, found: None }
     }
 }
 
@@ -60,18 +51,7 @@ impl Wild {
         for k in 0..2 {
             self.largest[k] = self.largest[k].max(now[k].0);
         }
-        if self.looks.is_multiple_of(self.every) {
-            self.past.push((d.time, self.largest));
-            if self.past.len() >= MOST {
-                let mut odd = false;
-                self.past.retain(|_| {
-                    odd = !odd;
-                    odd
-                });
-                self.every *= 2;
-            }
-        }
-        self.looks += 1;
+        self.memory.look(|| (d.time, self.largest));
         if self.found.is_some() {
             return;
         }
@@ -80,8 +60,9 @@ impl Wild {
             let bound = FAR * (first[k] + sensible(m)[k]);
             if speed > bound {
                 let half = self.start + 0.5 * (d.time - self.start);
-                let before = self.past.partition_point(|(t, _)| *t <= half);
-                let early = before.checked_sub(1).and_then(|i| self.past.get(i)).map_or(first, |(_, v)| *v);
+                let past = self.memory.past();
+                let before = past.partition_point(|(t, _)| *t <= half);
+                let early = before.checked_sub(1).and_then(|i| past.get(i)).map_or(first, |(_, v)| *v);
                 if speed > FASTER * early[k] {
                     self.found = Some((d.time, dof, speed, bound));
                     return;

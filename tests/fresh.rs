@@ -1,0 +1,305 @@
+//! A set of scenes that nobody chose: made from a seed, long after the criteria of `advice/` were written. What is true of a run comes
+//! from a second one with steps a hundred times shorter; `stability.rs` writes what comes of it into `docs/measured/stability.md`.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::support::compile;
+use labspec::advice::watch;
+use labspec_core::math::rows;
+use labspec_core::{self as core, Data, Model, Warning, geom, integrator, solver};
+use std::fmt::Write;
+
+/// The seed, scenes, steps of a run, and how many times shorter those are that tell the truth.
+const SEED: u64 = 20_261_123;
+const SCENES: usize = 240;
+const STEPS: usize = 300;
+const SHORTER: usize = 100;
+/// The thickest plate that is a wall, m; its middle is at 1 m.
+const WALL: f64 = 0.03;
+/// As in a run of a lab.
+const LOOKS: usize = 24;
+
+/// Random numbers, the same for the same seed.
+struct Dice(u64);
+
+impl Dice {
+    /// From 0 up to 1 (splitmix64).
+    fn part(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((x ^ (x >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn from(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.part()
+    }
+
+    /// Every power of ten as often as any other.
+    fn over(&mut self, low: f64, high: f64) -> f64 {
+        self.from(low.ln(), high.ln()).exp()
+    }
+
+    fn one<'t>(&mut self, list: &[&'t str]) -> &'t str {
+        list[(self.part() * list.len() as f64) as usize]
+    }
+}
+
+/// A scene: its kind, its model, and how long a step is, s.
+struct Scene {
+    kind: &'static str,
+    xml: String,
+    step: f64,
+}
+
+const FLOOR: &str = "<geom type='plane' size='50 50 1'/>";
+
+fn scene(
+    kind: &'static str,
+    r: &mut Dice,
+    steps: [f64; 2],
+    make: impl FnOnce(&mut Dice) -> [String; 4],
+) -> Scene {
+    let step = r.over(steps[0], steps[1]);
+    let method = r.one(&["Euler", "RK4", "implicit", "implicitfast", "discrete"]);
+    let [option, body, rest, key] = make(r);
+    let xml = format!(
+        "<mujoco><option timestep='{step:.3e}' integrator='{method}' {option}/><worldbody>{body}</worldbody>{rest}\
+         <keyframe><key {key}/></keyframe></mujoco>"
+    );
+    Scene { kind, xml, step }
+}
+
+/// Links on hinges.
+fn links(n: usize, length: f64, more: &str) -> String {
+    let link = |inner: String| {
+        format!(
+            "<body pos='{length} 0 0'><joint axis='0 1 0' {more}/><geom type='capsule' fromto='0 0 0 {length} 0 0' size='.02' mass='1' \
+             contype='0' conaffinity='0'/>{inner}</body>"
+        )
+    };
+    (0..n).fold(String::new(), |inner, _| link(inner))
+}
+
+fn box_at(z: f64, half: f64, mass: f64) -> String {
+    format!(
+        "<body pos='0 0 {z}'><freejoint/><geom type='box' size='{half} {half} {half}' mass='{mass:.3}'/></body>"
+    )
+}
+
+/// The scenes of a seed.
+fn scenes(seed: u64) -> Vec<Scene> {
+    let mut dice = Dice(seed);
+    let r = &mut dice;
+    let none = String::new;
+    let cart = |more: String| {
+        format!("<body><joint name='j' type='slide' {more}/><geom size='.1' mass='1'/></body>")
+    };
+    let make = |i: usize, r: &mut Dice| match i % 8 {
+        0 => scene("links that swing", r, [1e-3, 1.0], |r| {
+            let n = 1 + (3.0 * r.part()) as usize;
+            let body = links(n, r.over(0.1, 1.0), &format!("damping='{:.1e}'", r.over(1e-4, 1e-2)));
+            [none(), body, none(), none()]
+        }),
+        1 => scene("a servo", r, [1e-3, 3e-2], |r| {
+            let (kp, kv) = (r.over(10.0, 1e7), r.one(&["0", "1", "30"]));
+            let rest = format!("<actuator><position joint='j' kp='{kp:.2e}' kv='{kv}'/></actuator>");
+            ["gravity='0 0 0'".into(), cart(none()), rest, "ctrl='.1'".into()]
+        }),
+        2 => scene("a spring", r, [1e-3, 3e-2], |r| {
+            let more = format!("stiffness='{:.2e}' damping='{:.2e}'", r.over(1.0, 1e7), r.over(1e-3, 1e3));
+            ["gravity='0 0 0'".into(), cart(more), none(), "qpos='.05'".into()]
+        }),
+        3 => scene("a ball on a floor", r, [5e-4, 2e-2], |r| {
+            let k = r.over(1e3, 1e9);
+            let b = 2.0 * k.sqrt() * r.over(0.01, 2.0);
+            let contact = format!("solref='-{k:.2e} -{b:.2e}'");
+            let ball = format!(
+                "<body pos='0 0 {:.3}'><freejoint/><geom size='.1' mass='1' {contact}/></body>",
+                r.from(0.1, 0.6)
+            );
+            let floor = FLOOR.replace("/>", &format!(" {contact}/>"));
+            [none(), floor + &ball, none(), none()]
+        }),
+        4 => scene("a ball thrown at a plate", r, [5e-4, 1e-2], |r| {
+            let plate = format!("<geom type='box' pos='1 0 0' size='{:.4} 2 2'/>", r.over(5e-4, 3e-2));
+            let ball = format!("<body><freejoint/><geom size='{:.3}' mass='.1'/></body>", r.over(0.01, 0.1));
+            let key = format!("qvel='{:.3} 0 0 0 0 0'", r.over(3.0, 300.0));
+            ["gravity='0 0 0'".into(), plate + &ball, none(), key]
+        }),
+        5 => scene("a slam into a limit", r, [5e-4, 1e-2], |r| {
+            let arm = "<body><joint axis='0 1 0' range='-45 45'/><geom type='capsule' fromto='0 0 0 .4 0 0' size='.03' mass='.5'/></body>";
+            let key = format!("qvel='{:.3}'", r.over(1.0, 3e4));
+            ["gravity='0 0 0'".into(), arm.into(), none(), key]
+        }),
+        6 => scene("boxes on boxes", r, [1e-3, 0.1], |r| {
+            let n = 2 + (3.0 * r.part()) as usize;
+            let boxes: String = (0..n).map(|k| box_at(0.1 + 0.2 * k as f64, 0.1, 1.0)).collect();
+            [none(), FLOOR.to_string() + &boxes, none(), none()]
+        }),
+        _ => scene("a solver that may stop early", r, [1e-3, 4e-3], |r| {
+            let method = r.one(&["CG", "PGS", "Newton"]);
+            let boxes: String = (0..8).map(|k| box_at(0.1 + 0.2 * f64::from(k), 0.1, 1.0)).collect();
+            let option = format!("solver='{method}' iterations='{}'", r.over(1.0, 60.0) as usize);
+            [option, FLOOR.to_string() + &boxes, none(), none()]
+        }),
+    };
+    (0..SCENES).map(|i| make(i, r)).collect()
+}
+
+/// What a run shows.
+#[derive(Default)]
+struct Seen {
+    warned: bool,
+    told: bool,
+    /// The largest kinetic energy, J.
+    fastest: f64,
+    /// The ends of where middles of bodies were, m.
+    ends: Vec<[f64; 2]>,
+    /// How far a joint was beyond its limits, in parts of its range.
+    beyond: f64,
+    /// How deep bodies are in each other at the end, in parts of a side or a diameter of 0.2 m.
+    depth: f64,
+}
+
+/// Makes a run and looks at it `STEPS` times; a watched one as a run of a lab is.
+fn run(m: &Model, each: usize, watched: bool) -> Seen {
+    let mut d = Data::new(m);
+    core::reset_data_keyframe(m, &mut d, m.keys().next().unwrap()).unwrap();
+    core::forward(m, &mut d).unwrap();
+    let mut own = Data::new(m);
+    let mut watch = watched.then(|| watch::watch(m, &d, (STEPS / LOOKS).min(50), false));
+    let mut seen = Seen { ends: vec![[f64::INFINITY, f64::NEG_INFINITY]; 3 * m.nbody], ..Seen::default() };
+    for k in 0..=STEPS {
+        for _ in 0..if k == 0 { 0 } else { each } {
+            core::step(m, &mut d).unwrap();
+            if let Some(w) = &mut watch {
+                watch::look(w, m, &d);
+            }
+        }
+        seen.warned |= [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc]
+            .iter()
+            .any(|w| d.warning[*w as usize].number > 0);
+        if seen.warned {
+            break;
+        }
+        let edit = own.edit();
+        edit.qpos.copy_from_slice(&d.qpos);
+        edit.qvel.copy_from_slice(&d.qvel);
+        let energy = core::mechanical_energy(m, &mut own).unwrap();
+        seen.fastest = seen.fastest.max(energy.map_or(0.0, |e| e.kinetic));
+        for (ends, x) in seen.ends.iter_mut().zip(&own.xipos) {
+            *ends = [ends[0].min(*x), ends[1].max(*x)];
+        }
+        for j in (0..m.njnt).filter(|&j| m.jnt_limited[j]) {
+            let ([low, high], q) = (rows::<2>(&m.jnt_range)[j], d.qpos[m.jnt_qposadr[j] as usize]);
+            seen.beyond = seen.beyond.max((low - q).max(q - high) / (high - low));
+        }
+    }
+    seen.depth = d.contact.iter().map(|c| -c.dist / 0.2).fold(0.0, f64::max);
+    seen.told = watch.is_some_and(|w| watch::noticed(&w).time().is_finite());
+    seen
+}
+
+/// What is true of a run, seen beside the same with much shorter steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Truth {
+    Well,
+    Wrong,
+    /// It is off, but not by much: nobody has to say so, and nobody is wrong who does. Or the short steps fail, too.
+    Between,
+}
+
+fn truth(m: &Model, coarse: &Seen, fine: &Seen) -> Truth {
+    if fine.warned || !fine.fastest.is_finite() {
+        return Truth::Between;
+    }
+    let mass: f64 = m.body_mass.iter().sum();
+    let size = fine.ends.iter().map(|[a, b]| b - a).fold(0.1, f64::max);
+    // Motion that nobody minds: what a fall by a hundredth of the scene gives, and its speed without gravity in a second.
+    let weight = mass * labspec_core::math::norm(m.opt.gravity);
+    let least = 0.01 * weight * size + 0.5 * mass * (0.01 * size).powi(2);
+    let faster = (coarse.fastest + least) / (fine.fastest + least);
+    let out = coarse
+        .ends
+        .iter()
+        .zip(&fine.ends)
+        .map(|(c, f)| (f[0] - c[0]).max(c[1] - f[1]) / size)
+        .fold(0.0, f64::max);
+    // A limit, a wall and a floor have to hold, whatever the short steps do: they are soft there, too.
+    let [past, deep] = [coarse.beyond, coarse.depth.max(fine.depth)];
+    let passed = m.geom_type[0] == geom::BOX && coarse.ends.iter().any(|[_, high]| *high > 1.0 + WALL);
+    if faster > 10.0 || out > 1.0 || past > 0.5 || deep > 0.3 || passed {
+        Truth::Wrong
+    } else if faster < 3.0 && out < 0.3 && past < 0.25 && deep < 0.2 {
+        Truth::Well
+    } else {
+        Truth::Between
+    }
+}
+
+/// How many there are of each.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Rates {
+    pub(crate) scenes: usize,
+    pub(crate) warned: usize,
+    pub(crate) wrong: usize,
+    pub(crate) told: usize,
+    pub(crate) well: usize,
+    pub(crate) alarms: usize,
+    pub(crate) between: usize,
+}
+
+/// The section of the page, the rates, and what was missed or called wrong without cause.
+pub(crate) fn section() -> (String, Rates, Vec<String>) {
+    let mut kinds: Vec<(&str, Rates)> = Vec::new();
+    let mut list = Vec::new();
+    let mut all = Rates::default();
+    for scene in scenes(SEED) {
+        let mut m = compile(&scene.xml);
+        let coarse = run(&m, 1, true);
+        let opt = m.edit().opt;
+        (*opt.timestep, *opt.solver, *opt.iterations) = (scene.step / SHORTER as f64, solver::NEWTON, 100);
+        // The method of second order that has no fault of its own: `implicit` throws free chains by itself.
+        if *opt.integrator != integrator::RK4 {
+            *opt.integrator = integrator::EULER;
+        }
+        let fine = if coarse.warned { Seen::default() } else { run(&m, SHORTER, false) };
+        let truth = truth(&m, &coarse, &fine);
+        if kinds.iter().all(|(kind, _)| *kind != scene.kind) {
+            kinds.push((scene.kind, Rates::default()));
+        }
+        let of = &mut kinds.iter_mut().find(|(kind, _)| *kind == scene.kind).unwrap().1;
+        for r in [of, &mut all] {
+            r.scenes += 1;
+            match truth {
+                _ if coarse.warned => r.warned += 1,
+                Truth::Wrong => (r.wrong, r.told) = (r.wrong + 1, r.told + usize::from(coarse.told)),
+                Truth::Well => (r.well, r.alarms) = (r.well + 1, r.alarms + usize::from(coarse.told)),
+                Truth::Between => r.between += 1,
+            }
+        }
+        if !coarse.warned && coarse.told != (truth == Truth::Wrong) && truth != Truth::Between {
+            list.push(format!(
+                "{truth:?}, told: {}; energy {:.3e} beside {:.3e}, depth {:.2} beside {:.2}, beyond {:.2} beside {:.2}\n  {}",
+                coarse.told, coarse.fastest, fine.fastest, coarse.depth, fine.depth, coarse.beyond, fine.beyond, scene.xml
+            ));
+        }
+    }
+    let mut text = String::from(
+        "\n## A set that nobody chose\n\nThe scenes above are those that the criteria were chosen on. These are not: `tests/fresh.rs` makes them from a seed, \
+         with timesteps, gains, stiffnesses, speeds and methods at random. What is true of a run comes from the same with steps a hundred \
+         times shorter and a solver run to its end. *Wrong* is a run with ten times the kinetic energy, that leaves where the other one stays by the size of \
+         the scene, that is half a joint's range beyond its limit, behind the wall, or with bodies in each other by three tenths of a side; *well* is one that is \
+         near the other in all of that. What is between is counted, and neither.\n\n\
+         | kind | scenes | with a warning | wrong, silently | of these told | well | of these called wrong | between |\n|---|---:|---:|---:|---:|---:|---:|---:|\n",
+    );
+    for (kind, r) in kinds.iter().map(|(k, r)| (*k, *r)).chain([("**all**", all)]) {
+        let _ = writeln!(
+            text,
+            "| {kind} | {} | {} | {} | {} | {} | {} | {} |",
+            r.scenes, r.warned, r.wrong, r.told, r.well, r.alarms, r.between
+        );
+    }
+    (text, all, list)
+}
