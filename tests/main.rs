@@ -19,6 +19,7 @@ mod ledger;
 mod lessons;
 mod links;
 mod loads;
+mod mutants;
 mod needs;
 mod no_run;
 mod numbers;
