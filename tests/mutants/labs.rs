@@ -139,7 +139,7 @@ fn unset(l: &Value, key: &str) -> Vec<Value> {
 }
 
 /// What is wrong with controls.
-pub(super) const CONTROLS: [Kind; 25] = [
+pub(super) const CONTROLS: [Kind; 24] = [
     kind("off-grid", "a slider begins between two of its steps", |l| {
         slider(l, "value", |c| {
             let step = number(c, "step")?;
@@ -272,14 +272,6 @@ pub(super) const CONTROLS: [Kind; 25] = [
         controls(l, |c| {
             let first = c["options"].get(0)?[1].clone();
             c["options"][1][1] = first;
-            Some(())
-        })
-    }),
-    kind("option-is-text", "the options of a select are texts", |l| {
-        controls(l, |c| {
-            let list = c["options"].as_array_mut()?;
-            list.iter_mut().for_each(|o| o[1] = json!(o[1].to_string()));
-            c["value"] = json!(c["value"].to_string());
             Some(())
         })
     }),

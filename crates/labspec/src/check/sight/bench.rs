@@ -1,6 +1,8 @@
 //! Runs of a lab that are made to be sure: with several controls moved, or from another state.
 
 use super::record::{Mark, Record};
+use super::saturated::Beyond;
+use crate::bind::Programs;
 use crate::check::Ready;
 use crate::run::{self, Breakdown, Budget, Cell, Play, Session};
 use labspec_expr::Value;
@@ -18,6 +20,8 @@ pub(super) struct Move {
 /// A lab, and what may still be spent on it.
 pub(super) struct Bench<'a> {
     pub(super) ready: &'a Ready<'a>,
+    /// Its programs, or what is tried instead.
+    pub(super) programs: &'a Programs,
     pub(super) left: u64,
     /// Runs that were made.
     pub(super) runs: usize,
@@ -32,7 +36,7 @@ const STEPS: usize = 3;
 
 impl Bench<'_> {
     fn start(&self) -> Session<'_> {
-        let Ready { lab, model, programs, .. } = self.ready;
+        let (Ready { lab, model, .. }, programs) = (self.ready, self.programs);
         let budget = Budget { left: Budget::TRIAL.left.min(self.left) };
         Session::start_within(programs, model, lab.keyframe(), &programs.demand, budget)
     }
@@ -69,7 +73,7 @@ impl Bench<'_> {
         drop(session);
         self.left = self.left.saturating_sub(spent);
         self.runs += 1;
-        (sound && self.left > 0).then_some(Record { moved: None, rows, mark })
+        (sound && self.left > 0).then_some(Record { moved: None, rows, mark, beyond: Beyond::default() })
     }
 
     /// What is shown from other states than the lab's own.

@@ -7,8 +7,12 @@ mod early;
 mod idle;
 mod readouts;
 mod record;
+mod saturated;
+mod stale;
+mod start;
 
 pub(super) use record::{Mark, Record};
+pub(super) use saturated::Beyond;
 
 use super::Ready;
 use crate::finding::Finding;
@@ -46,8 +50,11 @@ impl Looked<'_> {
 
 /// Looks at a lab whose runs all came to their end.
 pub(super) fn check(ready: &Ready<'_>, records: &[Record], length: f64, findings: &mut Vec<Finding>) {
-    let bench = Bench { ready, left: WORK, runs: 0 };
+    let bench = Bench { ready, programs: &ready.programs, left: WORK, runs: 0 };
     let mut looked = Looked { records, bench, nudged: None, length };
+    start::check(&looked, findings);
+    saturated::check(&looked, findings);
+    stale::check(&mut looked, findings);
     early::check(&mut looked, findings);
     curves::check(&mut looked, findings);
     readouts::check(&looked, findings);

@@ -1,13 +1,16 @@
-//! Readouts that print one text while their value changes.
+//! Readouts that hardly change what they print while their value changes.
 
 use super::Looked;
 use crate::check::refresh::digits;
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::{self, Cell};
+use crate::run::Cell;
+use std::collections::BTreeSet;
 
 /// A value that changes by less than this share of itself hardly changes.
 const CHANGES: f64 = 0.5;
+/// So many different values are no count of something.
+const MANY: usize = 20;
 
 pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
     let lab = looked.bench.ready.lab;
@@ -20,22 +23,23 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
         }
         let (low, high) =
             numbers().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-        // A number that is nearly 0 is printed with an exponent, and flashes by.
-        let plain = || numbers().filter(|x| *x == 0.0 || x.abs() >= 1e-3);
-        if 4 * plain().count() < 3 * numbers().count() {
-            continue;
-        }
-        let mut printed = plain().map(|x| run::shown(x, readout.digits()));
-        let Some(text) = printed.next() else { continue };
-        if high - low <= CHANGES * low.abs().max(high.abs()) || !printed.all(|t| t == text) {
+        let unit = 10_f64.powi(-(readout.digits() as i32));
+        let values: BTreeSet<u64> = numbers().filter(|x| x.fract() != 0.0).map(f64::to_bits).collect();
+        // What is nearly 0 is printed with an exponent, and so not rounded.
+        let rounded = 4 * numbers().filter(|x| *x == 0.0 || x.abs() >= 1e-3).count() >= 3 * numbers().count();
+        let changes = high - low > CHANGES * low.abs().max(high.abs()) && values.len() >= MANY;
+        if !(changes && rounded && high - low < 2.0 * unit) {
             continue;
         }
         let [low, high] = [low, high].map(|x| digits(x, 3));
-        let message = format!("\"{}\" always prints {text}", readout.label.value);
+        let message = format!("\"{}\" is printed with too few decimals", readout.label.value);
         let place = readout.digits.as_ref().map_or(readout.expr.span(), |d| d.span.clone());
         findings.push(
             Finding::warning(rules::TOO_FEW_DIGITS, readout.expr.span(), message)
-                .why(format!("its value goes from {low} to {high} in {}", looked.runs()))
+                .why(format!(
+                    "its value goes from {low} to {high} in {}, which is less than two units of the last decimal that is printed",
+                    looked.runs()
+                ))
                 .related(place, "decimals")
                 .help("print more decimals: `digits`"),
         );

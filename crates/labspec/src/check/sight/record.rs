@@ -1,5 +1,6 @@
 //! What a student saw in a run: what was shown at every sample, and a number that stands for all of it and the picture.
 
+use super::saturated::Beyond;
 use crate::run::{Cell, Session};
 use labspec_core::Model;
 use labspec_expr::Value;
@@ -13,6 +14,8 @@ pub(in crate::check) struct Record {
     pub(in crate::check) rows: Vec<Vec<Cell>>,
     /// Two runs that look the same have the same.
     pub(in crate::check) mark: Mark,
+    /// Inputs beyond their range.
+    pub(in crate::check) beyond: Beyond,
 }
 
 /// A number that follows from others, bit by bit.

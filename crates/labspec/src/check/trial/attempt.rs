@@ -3,7 +3,7 @@
 use super::super::Ready;
 use super::Trial;
 use super::seen::Seen;
-use crate::check::sight::{Mark, Record};
+use crate::check::sight::{Beyond, Mark, Record};
 use crate::finding::Finding;
 use crate::run::{self, Budget, End, Play, Session};
 use labspec_core::Model;
@@ -58,10 +58,13 @@ pub(super) fn make(
     let steps = run::count_steps(lab, until, None, timestep)?;
 
     let played = Play { steps, every: (steps / SAMPLES).max(1), presses: &presses, watched: true };
-    let (mut rows, mut mark) = (Vec::new(), Mark::default());
-    let made = run::play(&mut session, &played, |session, _| {
+    let (mut rows, mut mark, mut beyond) = (Vec::new(), Mark::default(), Beyond::default());
+    let made = run::play(&mut session, &played, |session, step| {
         let row = seen.look(session, &trial.done);
         mark.look(&row, session);
+        if step > 0 {
+            beyond.look(session);
+        }
         rows.push(row);
         ControlFlow::Continue(())
     });
@@ -82,6 +85,6 @@ pub(super) fn make(
     findings.extend(seen.take());
     let spent = session.spent();
     mark.close(&session.world.model);
-    let record = Record { moved: trial.moved.clone(), rows, mark };
+    let record = Record { moved: trial.moved.clone(), rows, mark, beyond };
     Ok(Attempt { covered, spent, broke, ended, model: session.world.model, record })
 }
