@@ -10,6 +10,7 @@ mod eyes;
 mod labs;
 mod material;
 mod quizzes;
+mod reasons;
 
 use crate::needs::needs;
 use crate::support::workspace;
@@ -184,7 +185,8 @@ fn table(pieces: &[Piece], mutants: &[Mutant], fates: &[Fate]) -> String {
         if count > 0 {
             let named = names.iter().take(NAMED).map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
             let more = if names.len() > NAMED { ", …" } else { "" };
-            writeln!(page, "* **{}** ({count}): {named}{more}", kind.name).unwrap();
+            let why = reasons::reason(kind.name).unwrap_or_else(|| panic!("why is {} not found?", kind.name));
+            writeln!(page, "* **{}** ({count}): {why}. {named}{more}", kind.name).unwrap();
         }
     }
     page

@@ -22,7 +22,8 @@ pub(super) const CHECK: Check = Check::Control(check);
 
 fn check(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Slider { min, max, step: Some(step), digits: Some(digits), .. } = &control.kind else { return };
-    if !(step.value > 0.0 && step.value <= max.value - min.value) || !(0.0..=17.0).contains(&digits.value) {
+    let movable = step.value > 0.0 && step.value <= max.value - min.value;
+    if !movable || !(0.0..=17.0).contains(&digits.value) {
         return;
     }
     let decimals = digits.value as usize;

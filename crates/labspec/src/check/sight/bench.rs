@@ -17,6 +17,13 @@ pub(super) struct Move {
     pub(super) value: Option<Value>,
 }
 
+impl Move {
+    /// A press that does nothing: everything is computed anew, as after any press.
+    pub(super) fn nothing(step: usize) -> Move {
+        Move { step, control: usize::MAX, value: None }
+    }
+}
+
 /// A lab, and what may still be spent on it.
 pub(super) struct Bench<'a> {
     pub(super) ready: &'a Ready<'a>,
@@ -57,6 +64,7 @@ impl Bench<'_> {
             for m in moves.iter().filter(|m| m.step == step) {
                 match &m.value {
                     Some(value) => session.set_control(m.control, value.clone()),
+                    None if m.control == usize::MAX => session.refresh(),
                     None => session.press(m.control),
                 }
             }

@@ -43,10 +43,10 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
             .filter(|r| r.moved.as_ref().is_some_and(|m| m.0 == index))
             .map(|r| r.mark)
             .collect();
-        let Some(stands) = looked.records.first().map(|r| r.mark) else { return };
-        let all_same = !moved.is_empty() && moved.iter().all(|m| *m == stands);
+        // Each was set, and everything computed anew: what the run as it stands shows may differ by that alone.
+        let all_same = moved.windows(2).all(|pair| matches!(pair, [a, b] if a == b));
         let group = match &control.kind {
-            ControlKind::Button { .. } | ControlKind::Select { .. } if !all_same => continue,
+            ControlKind::Select { .. } if !all_same || values.len() < 2 => continue,
             ControlKind::Button { .. } | ControlKind::Select { .. } => 0..values.len(),
             ControlKind::Slider { .. } => {
                 match suspicious(&mut looked.bench, index, &values, steps.min(QUICK)) {
@@ -181,8 +181,10 @@ fn idle(bench: &mut Bench<'_>, index: usize, values: &[Option<Value>], steps: us
                 seen = Some(record.mark);
             }
             if picked.iter().any(Option::is_none) {
-                // A button: against the run in which it is not pressed.
-                let Some(record) = bench.run(&setting, steps) else { return false };
+                // A button: against the run in which everything is only computed anew.
+                let mut moves = setting.clone();
+                moves.push(Move::nothing(at.max(press + 1)));
+                let Some(record) = bench.run(&moves, steps) else { return false };
                 if seen != Some(record.mark) {
                     return false;
                 }
