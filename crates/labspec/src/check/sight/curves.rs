@@ -142,11 +142,11 @@ fn is_twin(looked: &mut Looked<'_>, a: usize, b: usize) -> bool {
 
 /// A curve that lies outside of its plot for most of the time, in every run.
 fn outside(looked: &Looked<'_>, plot: &Plot, c: usize) -> Option<Told> {
-    let (low, high) = (plot.ymin.as_ref().map(|n| n.value), plot.ymax.as_ref().map(|n| n.value));
-    if low.is_none() && high.is_none() || matches!((low, high), (Some(a), Some(b)) if a >= b) {
+    // One end alone may be there to cut off what is beyond it.
+    let (low, high) = (plot.ymin.as_ref()?.value, plot.ymax.as_ref()?.value);
+    if low >= high {
         return None;
     }
-    let (low, high) = (low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY));
     let share = |record: &Record| {
         let all: Vec<f64> =
             record.rows.iter().filter_map(|r| r.get(c)).map(Cell::number).filter(|x| x.is_finite()).collect();
@@ -162,11 +162,7 @@ fn outside(looked: &Looked<'_>, plot: &Plot, c: usize) -> Option<Told> {
     let cells = first.rows.iter().filter_map(|r| r.get(c)).map(Cell::number).filter(|x| x.is_finite());
     let (least, largest) = cells.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
     let [least, largest] = [least, largest].map(|x| digits(x, 4));
-    let ends = match (low.is_finite(), high.is_finite()) {
-        (true, true) => format!("from {low} to {high}"),
-        (true, false) => format!("from {low} on"),
-        _ => format!("up to {high}"),
-    };
+    let ends = format!("from {low} to {high}");
     Some(Told {
         message: format!("this curve lies outside of its plot, which goes {ends}"),
         why: format!(

@@ -26,6 +26,10 @@ const PRESS: f64 = 0.02;
 /// Fields of the model that are drawn and do nothing else; not all of them are compared.
 const LOOKS: [&str; 7] = ["light_", "mat_", "tex_", "cam_", "vis", "skin_", "geom_group"];
 
+/// Options that say how something is computed, and not what.
+const NUMERICS: [&str; 8] =
+    ["integrator", "cone", "jacobian", "solver", "iterations", "tolerance", "impratio", "flags"];
+
 /// Something that is done to the other controls.
 type Setting = Vec<Move>;
 
@@ -88,13 +92,19 @@ fn judged(looked: &Looked<'_>, index: usize) -> bool {
         f.info().object != Object::Data
             && (name.contains("rgba") || LOOKS.iter().any(|l| name.starts_with(l)))
     });
+    // That ways of computing agree is often the lesson.
+    let numerics = !effects.writes.is_empty()
+        && effects.writes.iter().all(|a| {
+            FieldId::new(a.field.0 as usize)
+                .is_some_and(|f| NUMERICS.iter().any(|n| f.info().name.ends_with(n)))
+        });
     let plays = effects
         .calls
         .iter()
         .filter_map(|f| crate::bind::functions::name(*f))
         .any(|n| matches!(n, "play" | "pause"));
     let used = effects.uses_value || matches!(program, ControlProgram::Press(_)) || param.is_some();
-    !drawn && !plays && used && !effects.calls_values
+    !drawn && !numerics && !plays && used && !effects.calls_values
 }
 
 /// The values that a control is tried at, in order; a button has none.
@@ -280,7 +290,7 @@ fn written(looked: &Looked<'_>, index: usize) -> Option<String> {
     let object = match info.object {
         Object::Data => "data.",
         Object::Model => "model.",
-        _ => "",
+        _ => "model.opt.",
     };
     let one = access.count == Some(1);
     Some(if one {
