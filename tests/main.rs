@@ -21,6 +21,7 @@ mod lessons;
 mod levels;
 mod links;
 mod loads;
+mod mutants;
 mod needs;
 mod no_run;
 mod numbers;

@@ -21,7 +21,7 @@ The ball is in the air for 0.440 s.
   "model": "ball_drop",
   "setup": "data.qpos[2] = 1",
   "controls": [
-    {"label": "gravity", "unit": "m/s^2", "set": "model.opt.gravity[2]", "min": -20, "max": -1, "step": 0.1, "value": -9.81, "reset": true},
+    {"label": "gravity", "unit": "m/s^2", "set": "model.opt.gravity[2]", "min": -20, "max": -1, "step": 0.01, "value": -9.81, "reset": true},
     {"type": "button", "label": "Kick", "run": "data.qvel[2] = 2"}
   ],
   "plots": [

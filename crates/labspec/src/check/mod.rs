@@ -4,8 +4,10 @@ mod allowed;
 mod claims;
 mod entries;
 mod expect;
+mod params;
 mod programs;
 mod refresh;
+mod sight;
 pub mod stored;
 mod trial;
 
@@ -106,6 +108,9 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
     let mut findings = Vec::new();
     let ready: Vec<Ready<'_>> =
         lesson.all_labs().into_iter().filter_map(|lab| prepare(lab, models, depth, &mut findings)).collect();
+    if depth.programs {
+        ready.iter().for_each(|r| params::check(lesson, r, &mut findings));
+    }
     let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     let claims = if depth.claims {
         claims::check(lesson, &ready, &mut findings)

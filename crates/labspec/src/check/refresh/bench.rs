@@ -38,7 +38,7 @@ pub(super) struct Trial {
 }
 
 /// What is run.
-pub(super) struct Bench<'a> {
+pub(in crate::check) struct Bench<'a> {
     lab: &'a Lab,
     model: &'a Model,
     programs: &'a Programs,
@@ -49,7 +49,7 @@ pub(super) struct Bench<'a> {
 pub(super) type Record = Result<Vec<Vec<Cell>>, String>;
 
 impl<'a> Bench<'a> {
-    pub(super) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> Bench<'a> {
+    pub(in crate::check) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> Bench<'a> {
         Bench { lab, model, programs, work_left: WORK }
     }
 
@@ -252,7 +252,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Statements of the lab, with the place of the text that they stand for.
-    pub(super) fn compile(&self, place: &Text, source: &str, given: Option<Type>) -> Option<Bound> {
+    pub(in crate::check) fn compile(&self, place: &Text, source: &str, given: Option<Type>) -> Option<Bound> {
         let names = ModelNames::new(self.model, Scope::Lab).with(&self.programs.functions);
         let mut globals = self.programs.globals.clone();
         let mut compiler = Compiler::new(&names, &mut globals).with_value(given);

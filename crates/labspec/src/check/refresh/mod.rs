@@ -7,13 +7,14 @@
 mod bench;
 mod difference;
 
+pub(super) use bench::Bench;
 pub(super) use difference::digits;
 
 use crate::bind::{Bound, ControlProgram, Programs, functions, writes_kind};
 use crate::finding::Finding;
 use crate::rules;
 use crate::spec::{Lab, Run, Verify};
-use bench::{Amended, Bench};
+use bench::Amended;
 use labspec_core::Model;
 use labspec_core::reflect::{FieldId, Kind, Object};
 use labspec_expr::{Type, Value};

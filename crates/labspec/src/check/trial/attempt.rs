@@ -3,6 +3,7 @@
 use super::super::Ready;
 use super::Trial;
 use super::seen::Seen;
+use crate::check::sight::{Beyond, Mark, Record};
 use crate::finding::Finding;
 use crate::run::{self, Budget, End, Play, Session};
 use labspec_core::Model;
@@ -30,6 +31,8 @@ pub(super) struct Attempt {
     pub(super) ended: Option<Ended>,
     /// The model as the lab left it.
     pub(super) model: Model,
+    /// What was seen.
+    pub(super) record: Record,
 }
 
 /// Makes one run and reports what broke.
@@ -55,8 +58,14 @@ pub(super) fn make(
     let steps = run::count_steps(lab, until, None, timestep)?;
 
     let played = Play { steps, every: (steps / SAMPLES).max(1), presses: &presses, watched: true };
-    let made = run::play(&mut session, &played, |session, _| {
-        seen.look(session, &trial.done);
+    let (mut rows, mut mark, mut beyond) = (Vec::new(), Mark::default(), Beyond::default());
+    let made = run::play(&mut session, &played, |session, step| {
+        let row = seen.look(session, &trial.done);
+        mark.look(&row, session);
+        if step > 0 {
+            beyond.look(session);
+        }
+        rows.push(row);
         ControlFlow::Continue(())
     });
     let ended = match session.ended() {
@@ -75,5 +84,7 @@ pub(super) fn make(
     let broke = findings.len() > before;
     findings.extend(seen.take());
     let spent = session.spent();
-    Ok(Attempt { covered, spent, broke, ended, model: session.world.model })
+    mark.close(&session.world.model);
+    let record = Record { moved: trial.moved.clone(), rows, mark, beyond };
+    Ok(Attempt { covered, spent, broke, ended, model: session.world.model, record })
 }

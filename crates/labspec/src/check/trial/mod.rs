@@ -4,6 +4,7 @@
 mod attempt;
 mod seen;
 
+use super::sight::{self, Record};
 use super::{RanLab, Ready};
 use crate::advice::stability;
 use crate::finding::Finding;
@@ -47,6 +48,8 @@ struct Trial<'a> {
     done: String,
     /// The control, unless it is the lab as it stands.
     control: Option<&'a Control>,
+    /// Its place in the list, and its value; a button has none.
+    moved: Option<(usize, Option<Value>)>,
 }
 
 impl Trial<'_> {
@@ -69,6 +72,8 @@ struct Tour<'a> {
     left: std::vec::IntoIter<Trial<'a>>,
     seen: Seen<'a>,
     tried: Option<Tried>,
+    /// What was seen in its runs.
+    records: Vec<Record>,
     /// It breaks as it stands, or never begins to run: it would with every control.
     hopeless: bool,
 }
@@ -96,9 +101,11 @@ pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<
         let before = share;
         go_on(tour, &mut share, found);
         left -= before - share;
-        found.extend(
-            tour.seen.never(tour.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none())),
-        );
+        let all = tour.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none());
+        found.extend(tour.seen.never(all));
+        if all && tour.ready.mistakes == 0 && tour.tried.as_ref().is_some_and(|t| !t.broke) {
+            sight::check(tour.ready, &tour.records, tour.wanted, found);
+        }
     }
     for ((_, lab, tour), mut found) in tours.iter().zip(found) {
         let runs = tour.as_ref().and_then(|t| t.tried.as_ref()).map_or(0, |t| t.runs);
@@ -142,6 +149,7 @@ fn begin<'a>(ready: &'a Ready<'a>, budget: Budget, left: &mut u64, findings: &mu
         left: trials.into_iter(),
         seen: Seen::new(ready),
         tried: None,
+        records: Vec::new(),
         hopeless: false,
     };
     let Some(first) = tour.left.next() else { return tour };
@@ -156,7 +164,7 @@ fn begin<'a>(ready: &'a Ready<'a>, budget: Budget, left: &mut u64, findings: &mu
             tour.hopeless = attempt.broke || attempt.covered == 0.0 && wanted > 0.0;
             tour.tried =
                 Some(Tried { runs: 0, wanted, covered: wanted, skipped: 0, broke: false, ended: None });
-            count(&mut tour, &attempt);
+            count(&mut tour, attempt);
         }
         Err(e) => {
             findings.push(impossible(first.place(ready.lab), e));
@@ -186,7 +194,7 @@ fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
         match attempt::make(tour.ready, &trial, tour.wanted, budget, &mut tour.seen, findings) {
             Ok(attempt) => {
                 *left = left.saturating_sub(attempt.spent);
-                count(tour, &attempt);
+                count(tour, attempt);
             }
             Err(e) => {
                 findings.push(impossible(trial.place(tour.ready.lab), e));
@@ -199,7 +207,8 @@ fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
 }
 
 /// Counts a run that was made.
-fn count(tour: &mut Tour<'_>, attempt: &Attempt) {
+fn count(tour: &mut Tour<'_>, attempt: Attempt) {
+    tour.records.push(attempt.record);
     let Some(tried) = &mut tour.tried else { return };
     tried.runs += 1;
     tried.broke |= attempt.broke;
@@ -221,15 +230,20 @@ fn seconds(t: f64) -> String {
 
 /// As it stands, then with each control at its ends.
 fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
-    let mut trials =
-        vec![Trial { options: RunOptions::default(), done: "as it stands".into(), control: None }];
-    for control in &lab.controls {
+    let mut trials = vec![Trial {
+        options: RunOptions::default(),
+        done: "as it stands".into(),
+        control: None,
+        moved: None,
+    }];
+    for (index, control) in lab.controls.iter().enumerate() {
         let label = &control.label.value;
         let mut set = |value: Value| {
             trials.push(Trial {
                 done: format!("with \"{label}\" at {value}"),
-                options: RunOptions { set: vec![(label.clone(), value)], ..RunOptions::default() },
+                options: RunOptions { set: vec![(label.clone(), value.clone())], ..RunOptions::default() },
                 control: Some(control),
+                moved: Some((index, Some(value))),
             });
         };
         match &control.kind {
@@ -247,6 +261,7 @@ fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
                     ..RunOptions::default()
                 },
                 control: Some(control),
+                moved: Some((index, None)),
             }),
         }
     }

@@ -7,7 +7,7 @@ use super::super::Ready;
 use crate::bind::Bound;
 use crate::finding::Finding;
 use crate::rules::{self, Rule};
-use crate::run::{Session, Trouble};
+use crate::run::{Cell, Session, Trouble};
 use crate::source::Text;
 use labspec_expr::Value;
 use std::collections::BTreeSet;
@@ -23,6 +23,8 @@ enum Kind {
 /// A trace or a readout through all runs.
 struct Shown<'a> {
     bound: &'a Bound,
+    /// Its place in a row of samples.
+    column: usize,
     name: String,
     trace: bool,
     /// The text itself says that there may be gaps.
@@ -38,6 +40,8 @@ struct Shown<'a> {
 /// All that a lab shows.
 pub(super) struct Seen<'a> {
     shown: Vec<Shown<'a>>,
+    /// Traces and readouts.
+    width: usize,
     /// Slots of `ctx` to which some text stores `NaN` on purpose.
     gaps: BTreeSet<u32>,
     found: Vec<Finding>,
@@ -63,7 +67,7 @@ impl<'a> Seen<'a> {
     /// Nothing was seen yet.
     pub(super) fn new(ready: &'a Ready<'a>) -> Seen<'a> {
         let programs = &ready.programs;
-        let shown = programs.probes.iter().filter_map(|p| {
+        let shown = programs.probes.iter().enumerate().filter_map(|(i, p)| {
             let bound = p.bound.as_ref()?;
             let (kind, label) = p.name.split_once('/').unwrap_or(("", &p.name));
             let trace = kind == "plot";
@@ -72,6 +76,7 @@ impl<'a> Seen<'a> {
             let text = &bound.text.value;
             Some(Shown {
                 bound,
+                column: i + 1,
                 name: format!("the {} \"{label}\"", if trace { "trace" } else { "readout" }),
                 trace,
                 says_gap: says_gap(text),
@@ -83,18 +88,30 @@ impl<'a> Seen<'a> {
         });
         let on_purpose = programs.bound().filter(|b| says_gap(&b.text.value));
         let gaps = on_purpose.flat_map(|b| b.program.effects().ctx_writes.iter().copied()).collect();
-        Seen { shown: shown.collect(), gaps, found: Vec::new(), troubles: Vec::new() }
+        Seen {
+            shown: shown.collect(),
+            width: programs.probes.len(),
+            gaps,
+            found: Vec::new(),
+            troubles: Vec::new(),
+        }
     }
 
-    /// Looks at everything that is shown now.
-    pub(super) fn look(&mut self, session: &mut Session<'_>, done: &str) {
+    /// Looks at everything that is shown now. Returns the time, and what is shown.
+    pub(super) fn look(&mut self, session: &mut Session<'_>, done: &str) -> Vec<Cell> {
+        let mut row = Vec::with_capacity(self.width + 1);
+        row.push(Cell::Number(session.world.data.time()));
+        row.resize(self.width + 1, Cell::Nothing);
         for shown in &mut self.shown {
             let value = session.evaluate(&shown.bound.program, &shown.bound.text);
             if session.ended().is_some_and(|e| matches!(e, crate::run::End::Budget { .. })) {
-                return;
+                return row;
             }
             // What threw is a finding of its own.
             let Some(value) = value else { continue };
+            if let Some(cell) = row.get_mut(shown.column) {
+                *cell = Cell::from(value.clone());
+            }
             let kind = match &value {
                 Value::Number(x) if x.is_nan() => Kind::Nan,
                 Value::Number(x) if x.is_infinite() && !shown.says_infinite => Kind::Infinite,
@@ -107,13 +124,15 @@ impl<'a> Seen<'a> {
             };
             let time = session.world.data.time();
             if kind == Kind::Nan && (shown.says_gap || unset(shown.bound, session, &self.gaps)) {
-                if !shown.says_gap {
+                // A gap that is said may be filled by what no run does, unless it is all that the text says.
+                if !shown.says_gap || shown.bound.program.effects().constant() {
                     shown.gap.get_or_insert_with(|| (time, done.to_owned()));
                 }
             } else if shown.reported.insert(kind) {
                 self.found.push(shown.finding(kind, &value, time, done));
             }
         }
+        row
     }
 
     /// The findings since the last time.
@@ -132,7 +151,10 @@ impl<'a> Seen<'a> {
                     format!("{} shows nan in every run", s.name),
                 )
                 .why("a student sees nan, or no curve at all, whatever they do")
-                .help("it reads a variable that is never stored: look at what is to store it")
+                .help(match s.says_gap {
+                    true => "this text is a gap and nothing else: write what is to be shown",
+                    false => "it reads a variable that is never stored: look at what is to store it",
+                })
             })
         };
         empty.filter_map(told).collect()

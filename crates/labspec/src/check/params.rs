@@ -1,0 +1,43 @@
+//! Values that a control stores under a name, and nothing reads.
+
+use super::Ready;
+use crate::bind::ControlProgram;
+use crate::finding::Finding;
+use crate::rules;
+use crate::spec::Lesson;
+use labspec_finding::nearest;
+
+pub(super) fn check(lesson: &Lesson, ready: &Ready<'_>, findings: &mut Vec<Finding>) {
+    let programs = &ready.programs;
+    // A text with mistakes may be what reads it.
+    let unknown = ready.mistakes > 0
+        || programs.bound().any(|b| b.program.effects().any_ctx || b.program.effects().calls_values);
+    if unknown {
+        return;
+    }
+    for (control, (_, program)) in ready.lab.controls.iter().zip(&programs.controls) {
+        let Some(action) = control.action() else { continue };
+        let (Some(name), ControlProgram::Change(_, bound)) = (&action.param, program) else { continue };
+        let reads = |slot: &u32| programs.bound().any(|b| b.program.effects().ctx_reads.contains(slot));
+        let does_more = action.set.is_some() || action.apply.is_some();
+        // A measure of the lesson may name it.
+        let named = lesson.file.text().contains(&format!("ctx.{}", name.value));
+        if does_more || named || bound.param.as_ref().is_none_or(reads) {
+            continue;
+        }
+        let others: Vec<&str> = programs
+            .bound()
+            .flat_map(|b| &b.program.effects().ctx_reads)
+            .map(|slot| programs.globals.name(*slot))
+            .collect();
+        let help = match nearest(&name.value, others) {
+            Some(near) => format!("the lab reads `ctx.{near}`: is that meant?"),
+            None => format!("read it as `ctx.{}` where it is to act, or leave the control out", name.value),
+        };
+        findings.push(
+            Finding::warning(rules::PARAM_UNREAD, name.span(), format!("nothing reads `ctx.{}`", name.value))
+                .why(format!("moving \"{}\" changes nothing", control.label.value))
+                .help(help),
+        );
+    }
+}

@@ -1,0 +1,62 @@
+//! What a student sees in the runs of a lab, and what only seems to show something: curves that cannot change, readouts that print
+//! one text, controls that do nothing. Each is told with the runs that show it; what is not certain is not told.
+
+mod bench;
+mod curves;
+mod early;
+mod idle;
+mod readouts;
+mod record;
+mod saturated;
+mod stale;
+mod start;
+
+pub(super) use record::{Mark, Record};
+pub(super) use saturated::Beyond;
+
+use super::Ready;
+use crate::finding::Finding;
+use crate::run::Cell;
+use bench::Bench;
+
+/// Work for the runs that make sure, for each lab.
+const WORK: u64 = 600_000_000;
+
+/// A lab that was looked at.
+struct Looked<'a> {
+    /// As it stands, then with each control at its ends.
+    records: &'a [Record],
+    bench: Bench<'a>,
+    /// What is shown from other states, once it was asked for.
+    nudged: Option<Vec<Vec<Cell>>>,
+    /// How long each run was, s.
+    length: f64,
+}
+
+impl Looked<'_> {
+    fn nudged(&mut self) -> &[Vec<Cell>] {
+        let bench = &mut self.bench;
+        self.nudged.get_or_insert_with(|| bench.nudged())
+    }
+
+    /// The runs in words.
+    fn runs(&self) -> String {
+        match self.records.len() {
+            1 => "the run".into(),
+            n => format!("{n} runs, with every control moved"),
+        }
+    }
+}
+
+/// Looks at a lab whose runs all came to their end.
+pub(super) fn check(ready: &Ready<'_>, records: &[Record], length: f64, findings: &mut Vec<Finding>) {
+    let bench = Bench { ready, programs: &ready.programs, left: WORK, runs: 0 };
+    let mut looked = Looked { records, bench, nudged: None, length };
+    start::check(&looked, findings);
+    saturated::check(&looked, findings);
+    stale::check(&mut looked, findings);
+    early::check(&mut looked, findings);
+    curves::check(&mut looked, findings);
+    readouts::check(&looked, findings);
+    idle::check(&mut looked, findings);
+}

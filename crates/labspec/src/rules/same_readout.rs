@@ -1,0 +1,36 @@
+use super::Check;
+use crate::finding::Finding;
+use crate::json::read::named;
+use crate::spec::{Lab, Readout};
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// Two readouts with one text.
+pub const SAME_READOUT: &Rule = &Rule {
+    code: "same-readout",
+    severity: Severity::Warning,
+    layer: Layer::Structure,
+    summary: "two readouts have the same text and print the same",
+    why: "one of them is a copy whose text was not changed",
+    bad: Example::Lab(
+        r#"{"model": "ball", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}, {"label": "angle (rad)", "expr": "⟦data.qpos[2]⟧"}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"model": "ball", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}, {"label": "angle (rad)", "expr": "data.qpos[7]"}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Lab(check);
+
+fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+    for (i, readout) in lab.readouts.iter().enumerate() {
+        let copy = |r: &&Readout| r.expr.value == readout.expr.value && r.digits() == readout.digits();
+        let Some(first) = lab.readouts.iter().take(i).find(copy) else { continue };
+        let [a, b] = [&first.label, &readout.label].map(|l| named(l.as_str()));
+        findings.push(
+            Finding::new(SAME_READOUT, readout.expr.span(), format!("{b} is the same number as {a}"))
+                .why("their texts are the same, so both print the same at any time")
+                .related(first.expr.span(), "the first one")
+                .help("let it show what its label says, or leave it out"),
+        );
+    }
+}

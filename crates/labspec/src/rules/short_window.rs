@@ -1,0 +1,41 @@
+use super::Check;
+use crate::finding::Finding;
+use crate::spec::Lab;
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A window shorter than a few pictures.
+pub const SHORT_WINDOW: &Rule = &Rule {
+    code: "short-window",
+    severity: Severity::Warning,
+    layer: Layer::Structure,
+    summary: "a plot shows so little time that its curve is a few points",
+    why: "a page samples once for every picture that it draws",
+    bad: Example::Lab(
+        r#"{"model": "ball", "plots": [{"window": ⟦0.005⟧, "traces": [{"label": "height", "expr": "data.qpos[2]"}]}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"model": "ball", "plots": [{"window": 0.5, "traces": [{"label": "height", "expr": "data.qpos[2]"}]}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Lab(check);
+
+/// Pictures that a page draws in a second, at most of them.
+const FRAMES: f64 = 60.0;
+/// A curve of fewer points is none.
+const POINTS: f64 = 10.0;
+
+fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+    let slowest = lab.speeds().into_iter().filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
+    for window in lab.plots.iter().filter_map(|p| p.window.as_ref()) {
+        let points = window.value * FRAMES / slowest;
+        if window.value > 0.0 && points < POINTS {
+            let message = format!("this plot shows {} s, of which a page draws {points:.0} points at most", window.value);
+            findings.push(
+                Finding::new(SHORT_WINDOW, window.span.clone(), message)
+                    .why(format!("a page samples once for every picture, {FRAMES} times in a second; at the slowest speed, {slowest}, that is once in {:.4} s", slowest / FRAMES))
+                    .help(format!("let it show more, or offer a slower speed: \"speeds\": [{}, 1]", window.value / 2.0)),
+            );
+        }
+    }
+}

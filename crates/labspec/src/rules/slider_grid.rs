@@ -1,0 +1,49 @@
+use super::Check;
+use crate::finding::Finding;
+use crate::spec::{Control, ControlKind};
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A start value between two steps.
+pub const SLIDER_GRID: &Rule = &Rule {
+    code: "slider-grid",
+    severity: Severity::Warning,
+    layer: Layer::Structure,
+    summary: "the start value of a slider lies between two of its steps",
+    why: "the slider stands beside the value that the lab starts with, and a student who moves it cannot come back",
+    bad: Example::Lab(
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 0.1, "max": 2, "step": 0.1, "value": ⟦0.75⟧}]}"#,
+    ),
+    good: Example::Lab(
+        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 0.1, "max": 2, "step": 0.05, "value": 0.75}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Control(check);
+
+/// How far from a step a value may be, in steps: what rounding makes.
+const ROUNDING: f64 = 1e-6;
+
+fn check(control: &Control, findings: &mut Vec<Finding>) {
+    let ControlKind::Slider { min, max, step: Some(step), value, .. } = &control.kind else { return };
+    let inside = (min.value..=max.value).contains(&value.value) && step.value > 0.0;
+    let steps = (value.value - min.value) / step.value;
+    // The end of a range may lie between two steps, and a step larger than the range is another rule's.
+    let ends = value.value == max.value || step.value > max.value - min.value;
+    if !inside || ends || (steps - steps.round()).abs() <= ROUNDING {
+        return;
+    }
+    let near = [steps.floor(), steps.ceil()].map(|n| tidy(min.value + n * step.value));
+    let [below, above] = near;
+    let message = format!("{} lies between two steps of the slider, {below} and {above}", value.value);
+    findings.push(
+        Finding::new(SLIDER_GRID, value.span.clone(), message)
+            .why("the page shows one of the two while the lab starts with this value, and nobody can come back to it")
+            .related(step.span.clone(), format!("steps count from {}", min.value))
+            .help(format!("write {below} or {above}, or a step that meets {}", value.value)),
+    );
+}
+
+/// A number without the last digits, which rounding made.
+fn tidy(x: f64) -> f64 {
+    format!("{x:.12e}").parse().unwrap_or(x)
+}

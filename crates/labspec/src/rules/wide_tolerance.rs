@@ -1,0 +1,34 @@
+use super::Check;
+use crate::finding::Finding;
+use crate::spec::{Question, QuestionKind};
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A tolerance as large as the answer.
+pub const WIDE_TOLERANCE: &Rule = &Rule {
+    code: "wide-tolerance",
+    severity: Severity::Warning,
+    layer: Layer::Structure,
+    summary: "the tolerance of a numeric question is as large as its answer",
+    why: "even 0 counts as right, so the question asks nothing",
+    bad: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": ⟦10⟧}]}"#,
+    ),
+    good: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": 0.1}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Question(check);
+
+fn check(question: &Question, findings: &mut Vec<Finding>) {
+    let QuestionKind::Numeric { answer: Some(answer), tol: Some(tol), .. } = &question.kind else { return };
+    if answer.value != 0.0 && tol.value >= answer.value.abs() {
+        let [low, high] = [answer.value - tol.value, answer.value + tol.value];
+        findings.push(
+            Finding::new(WIDE_TOLERANCE, tol.span.clone(), format!("every answer from {low} to {high} counts as right"))
+                .why("0 is among them: who types it without a thought has answered")
+                .related(answer.span.clone(), "the answer")
+                .help("`tol` is how far an answer may be off, in its unit; leave it out for 2 %"),
+        );
+    }
+}

@@ -1,0 +1,107 @@
+//! Changes to the JSON of a lab or a quiz, at every place where they are possible.
+
+use serde_json::Value;
+
+/// Copies of an object, each with one of the values at this path changed; `*` stands for every element of a list. What the
+/// change refuses (`None`) gives no copy.
+pub(super) fn each(json: &Value, path: &[&str], change: impl Fn(&Value) -> Option<Value>) -> Vec<Value> {
+    let mut places = vec![String::new()];
+    for part in path {
+        let mut longer = Vec::new();
+        for place in places {
+            let at = json.pointer(&place).unwrap_or(&Value::Null);
+            match *part {
+                "*" => {
+                    let count = at.as_array().map_or(0, Vec::len);
+                    longer.extend((0..count).map(|i| format!("{place}/{i}")));
+                }
+                key if at.get(key).is_some() => longer.push(format!("{place}/{key}")),
+                _ => {}
+            }
+        }
+        places = longer;
+    }
+    let made = |place: String| {
+        let new = change(json.pointer(&place)?)?;
+        let mut copy = json.clone();
+        *copy.pointer_mut(&place)? = new;
+        (copy != *json).then_some(copy)
+    };
+    places.into_iter().filter_map(made).collect()
+}
+
+/// The same for a text.
+pub(super) fn text(json: &Value, path: &[&str], change: impl Fn(&str) -> Option<String>) -> Vec<Value> {
+    each(json, path, |old| Some(Value::from(change(old.as_str()?)?)))
+}
+
+/// Every control, changed.
+pub(super) fn controls(json: &Value, change: impl Fn(&mut Value) -> Option<()>) -> Vec<Value> {
+    each(json, &["controls", "*"], |old| {
+        let mut new = old.clone();
+        change(&mut new)?;
+        Some(new)
+    })
+}
+
+/// The text of every trace and readout, changed.
+pub(super) fn shown(json: &Value, change: impl Fn(&str) -> Option<String>) -> Vec<Value> {
+    let mut all = text(json, &["plots", "*", "traces", "*", "expr"], &change);
+    all.extend(text(json, &["readouts", "*", "expr"], &change));
+    all
+}
+
+/// All statements and targets, changed.
+pub(super) fn statements(json: &Value, change: impl Fn(&str) -> Option<String>) -> Vec<Value> {
+    let mut all = text(json, &["setup"], &change);
+    all.extend(text(json, &["controller"], &change));
+    for key in ["set", "apply", "run"] {
+        all.extend(text(json, &["controls", "*", key], &change));
+    }
+    all
+}
+
+/// All code, changed.
+pub(super) fn code(json: &Value, change: impl Fn(&str) -> Option<String>) -> Vec<Value> {
+    let mut all = statements(json, &change);
+    all.extend(shown(json, &change));
+    all
+}
+
+/// The lab with a key of its own set.
+pub(super) fn with(json: &Value, key: &str, value: Value) -> Vec<Value> {
+    let mut copy = json.clone();
+    if let Some(object) = copy.as_object_mut() {
+        object.insert(key.into(), value);
+    }
+    vec![copy]
+}
+
+/// The lab without a key.
+pub(super) fn without(json: &Value, key: &str) -> Vec<Value> {
+    let mut copy = json.clone();
+    let had = copy.as_object_mut().and_then(|o| o.shift_remove(key));
+    had.map_or(Vec::new(), |_| vec![copy])
+}
+
+/// The lab with statements behind its setup.
+pub(super) fn setup(json: &Value, more: &str) -> Vec<Value> {
+    let old = json["setup"].as_str().unwrap_or("");
+    with(json, "setup", Value::from(if old.is_empty() { more.into() } else { format!("{old}; {more}") }))
+}
+
+/// A text with the first place of a word replaced; `None` where it does not stand.
+pub(super) fn swap(text: &str, word: &str, other: &str) -> Option<String> {
+    text.contains(word).then(|| text.replacen(word, other, 1))
+}
+
+/// The first index `[n]` of a text moved on by so many.
+pub(super) fn move_index(text: &str, by: usize) -> Option<String> {
+    let open = text.match_indices('[').map(|(i, _)| i).find(|&i| {
+        let rest = &text[i + 1..];
+        rest.starts_with(|c: char| c.is_ascii_digit()) && i > 0 && !text[..i].ends_with([' ', '('])
+    })?;
+    let close = open + text[open..].find(']')?;
+    let n: usize = text[open + 1..close].parse().ok()?;
+    Some(format!("{}{}{}", &text[..=open], n + by, &text[close..]))
+}

@@ -1,0 +1,116 @@
+//! What a student sees of a lab or a quiz: what is written on it, and what it shows while it runs, also after a control was moved
+//! and after a reset.
+
+use super::material::{Piece, What};
+use labspec::bind::Programs;
+use labspec::bind::scene::Models;
+use labspec::lint::load_lesson;
+use labspec::run::{self, Cell, Play, Session};
+use labspec::source::SourceFile;
+use labspec::spec::{ControlKind, Lab};
+use labspec_core::{Data, Plan};
+use labspec_expr::Value as Chosen;
+use serde_json::Value;
+use std::fmt::Write;
+use std::ops::ControlFlow;
+
+/// Steps of the lab as it stands; before a control is moved, after that, and after the reset.
+const STEPS: [usize; 4] = [260, 20, 80, 40];
+/// Samples are this many steps apart.
+const EVERY: usize = 20;
+
+/// What is code, and shown to nobody.
+const CODE: [&str; 13] = [
+    "model",
+    "xml",
+    "key",
+    "setup",
+    "controller",
+    "set",
+    "apply",
+    "param",
+    "run",
+    "expr",
+    "init",
+    "reset",
+    "verify",
+];
+
+/// All that can be seen, as a text.
+pub(crate) fn seen(piece: &Piece, json: &Value, models: &Models) -> String {
+    let mut shown = json.clone();
+    if piece.what == What::Quiz {
+        // The labs of its questions are pieces of their own.
+        return shown.to_string();
+    }
+    hide(&mut shown);
+    let mut text = shown.to_string();
+    let lesson = load_lesson(SourceFile::new("piece.json", json.to_string()), models.folder());
+    let Some(lab) = lesson.all_labs().into_iter().next() else { return text };
+    let Some(model) = models.of(lab, &mut Vec::new()) else { return text };
+    let programs = Programs::compile(lab, &model, &mut Vec::new());
+    // Every stage in every step: what nobody reads is drawn all the same.
+    let start =
+        || Session::start_with(&programs, &model, lab.keyframe(), Data::planned(&model, Plan::full()));
+    let [whole, before, after, again] = STEPS;
+    let mut session = start();
+    play(&mut session, lab, whole, &mut text);
+    for (i, control) in lab.controls.iter().enumerate() {
+        let mut session = start();
+        play(&mut session, lab, before, &mut text);
+        match &control.kind {
+            ControlKind::Slider { max, .. } => session.set_control(i, Chosen::Number(max.value)),
+            ControlKind::Select { options, .. } => {
+                let last = options.last().map(|o| match &o.value {
+                    labspec::json::Scalar::Number(n) => Chosen::Number(n.value),
+                    labspec::json::Scalar::Text(t) => Chosen::String(t.value.as_str().into()),
+                    labspec::json::Scalar::Bool(b, _) => Chosen::Boolean(*b),
+                });
+                session.set_control(i, last.unwrap_or(Chosen::Undefined));
+            }
+            ControlKind::Button { .. } => session.press(i),
+        }
+        play(&mut session, lab, after, &mut text);
+        session.reset();
+        play(&mut session, lab, again, &mut text);
+    }
+    text
+}
+
+/// Takes the code out of a lab.
+fn hide(json: &mut Value) {
+    match json {
+        Value::Object(map) => {
+            CODE.iter().for_each(|key| drop(map.shift_remove(*key)));
+            map.values_mut().for_each(hide);
+        }
+        Value::Array(list) => list.iter_mut().for_each(hide),
+        _ => {}
+    }
+}
+
+/// Writes down what is shown in so many steps: readouts as they are printed, traces and places beyond rounding.
+fn play(session: &mut Session<'_>, lab: &Lab, steps: usize, text: &mut String) {
+    let traces = lab.traces().count();
+    run::play(session, &Play { every: EVERY, ..Play::steps(steps) }, |session, _| {
+        for (i, cell) in session.sample().into_iter().enumerate() {
+            let readout = i.checked_sub(1 + traces).and_then(|i| lab.readouts.get(i));
+            match (readout, &cell) {
+                (Some(readout), cell) => write!(text, " {}", cell.shown(readout.digits())).unwrap(),
+                (None, Cell::Number(x)) => write!(text, " {}", rounded(*x)).unwrap(),
+                (None, cell) => write!(text, " {}", cell.shown(6)).unwrap(),
+            }
+        }
+        for x in &session.world.data.fields().geom_xpos {
+            write!(text, " {}", rounded(*x)).unwrap();
+        }
+        text.push('\n');
+        ControlFlow::Continue(())
+    });
+    writeln!(text, "{:?} {:?}", session.ended(), session.warnings.map(|w| w.number > 0)).unwrap();
+}
+
+/// Six significant digits, and nothing below 1e-9.
+fn rounded(x: f64) -> String {
+    if x.abs() < 1e-9 { "0".into() } else { format!("{x:.5e}") }
+}

@@ -1,0 +1,130 @@
+//! What mistakes are planted into: labs and quizzes that real people wrote, each as one object of JSON.
+
+use crate::support::workspace;
+use labspec::bind::scene::Models;
+use labspec::lint::ModelFolder;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// Longest time that a lab is run for, s: many mutants have to be run.
+const LONGEST: f64 = 1.0;
+
+/// What a piece is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum What {
+    Lab,
+    Quiz,
+}
+
+/// A lab or a quiz.
+pub(crate) struct Piece {
+    /// Where it is from.
+    pub(crate) name: String,
+    pub(crate) what: What,
+    pub(crate) json: Value,
+    /// Which of the folders of models it uses.
+    pub(crate) models: usize,
+    /// The lesson before and behind it, for a quiz whose answers are verified with the labs of its lesson.
+    pub(crate) around: Option<(String, String)>,
+}
+
+impl Piece {
+    /// The file that holds this piece, or what has become of it.
+    pub(crate) fn file(&self, json: &Value) -> (&'static str, String) {
+        let text = serde_json::to_string_pretty(json).unwrap();
+        match &self.around {
+            Some((before, behind)) => ("lesson.md", format!("{before}{text}\n{behind}")),
+            None => ("piece.json", text),
+        }
+    }
+}
+
+/// The folders of models, opened.
+pub(crate) fn models() -> Vec<Models> {
+    let open = |folder: PathBuf| Models::new(ModelFolder::open(&folder).unwrap());
+    vec![open(workspace().join("specs/models")), open(workspace().join("../shared/corpus/models"))]
+}
+
+/// All labs and quizzes, in an order that does not change. A damaged lesson is none.
+pub(crate) fn pieces() -> Vec<Piece> {
+    let shared = workspace().join("../shared");
+    let mut all = Vec::new();
+    for (folder, models) in [
+        (workspace().join("specs/lessons"), 0),
+        (shared.join("corpus/labs"), 1),
+        (shared.join("corpus/quizzes"), 1),
+        (shared.join("lesson-0.1"), 1),
+    ] {
+        for path in files(&folder) {
+            let name = path.file_stem().unwrap().to_str().unwrap().to_string();
+            let text = std::fs::read_to_string(&path).unwrap();
+            if path.extension().is_some_and(|e| e == "json") {
+                add(&mut all, &name, models, &text, None);
+            } else {
+                lesson(&mut all, &name, models, &text);
+            }
+        }
+    }
+    all
+}
+
+/// Lessons and objects of a folder by name.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
+    let is_one = |p: &PathBuf| {
+        let name = p.file_name().unwrap().to_str().unwrap();
+        name.ends_with(".json") || name.ends_with(".md") && !name.contains("damaged") && name != "NUMBERS.md"
+    };
+    let mut all: Vec<PathBuf> = entries.filter(is_one).collect();
+    all.sort();
+    all
+}
+
+/// The objects in the fences of a lesson.
+fn lesson(all: &mut Vec<Piece>, name: &str, models: usize, text: &str) {
+    let mut at = 0;
+    let mut number = 0;
+    while let Some(start) = ["```lab simlab\n", "```quiz\n"].iter().filter_map(|f| text[at..].find(f)).min() {
+        let begin = at + start + text[at + start..].find('\n').unwrap() + 1;
+        let end = begin + text[begin..].find("\n```").unwrap() + 1;
+        number += 1;
+        let around = (text[..begin].to_string(), text[end..].to_string());
+        add(all, &format!("{name}#{number}"), models, &text[begin..end], Some(around));
+        at = end + 3;
+    }
+}
+
+/// An object, and the labs of its questions.
+fn add(all: &mut Vec<Piece>, name: &str, models: usize, text: &str, around: Option<(String, String)>) {
+    let json: Value = serde_json::from_str(text).unwrap();
+    let name = name.to_string();
+    let Some(questions) = json["questions"].as_array() else {
+        all.push(Piece { name, what: What::Lab, json: alone(&json), models, around: None });
+        return;
+    };
+    for (i, question) in questions.iter().enumerate().filter(|(_, q)| q["sim"].is_object()) {
+        let name = format!("{name}?{}", i + 1);
+        all.push(Piece { name, what: What::Lab, json: alone(&question["sim"]), models, around: None });
+    }
+    let around = around.filter(|_| questions.iter().any(|q| q["verify"].is_object()));
+    all.push(Piece { name, what: What::Quiz, json, models, around });
+}
+
+/// A lab without its lesson: nothing is claimed of it, and it is run for a short time.
+fn alone(lab: &Value) -> Value {
+    let mut lab = lab.clone();
+    let object = lab.as_object_mut().unwrap();
+    object.shift_remove("verify");
+    let shorter = |value: &mut Value| *value = json!(value.as_f64().unwrap().min(LONGEST));
+    object.get_mut("stopAt").map(shorter);
+    let plots = object.get_mut("plots").and_then(Value::as_array_mut);
+    let any = plots.as_ref().is_some_and(|p| !p.is_empty());
+    for plot in plots.into_iter().flatten() {
+        let own = plot["window"].as_f64().unwrap_or(5.0);
+        plot["window"] = json!(own.min(LONGEST));
+    }
+    if !any && !object.contains_key("stopAt") {
+        object.insert("stopAt".into(), json!(LONGEST));
+    }
+    lab
+}

@@ -1,0 +1,100 @@
+//! Kinds of mistakes in quizzes.
+
+use super::Kind;
+use super::edit::{each, text};
+use serde_json::{Value, json};
+
+const fn kind(name: &'static str, words: &'static str, plant: fn(&Value) -> Vec<Value>) -> Kind {
+    Kind { name, words, plant }
+}
+
+/// Every question, changed.
+fn questions(quiz: &Value, change: fn(&mut Value) -> Option<()>) -> Vec<Value> {
+    each(quiz, &["questions", "*"], |old| {
+        let mut new = old.clone();
+        change(&mut new)?;
+        Some(new)
+    })
+}
+
+/// Every numeric question, with the value of a key that its answer gives.
+fn numeric(quiz: &Value, key: &'static str, value: impl Fn(f64) -> f64) -> Vec<Value> {
+    each(quiz, &["questions", "*"], |old| {
+        let mut new = old.clone();
+        let answer = (new["kind"] == "numeric").then(|| new["answer"].as_f64())??;
+        new[key] = json!(value(answer));
+        Some(new)
+    })
+}
+
+pub(super) const QUIZZES: [Kind; 20] = [
+    kind("key-shifted", "the key is the next option", |q| {
+        questions(q, |q| {
+            let count = q["options"].as_array()?.len() as u64;
+            q["answer"] = json!((q["answer"].as_u64()? + 1) % count);
+            Some(())
+        })
+    }),
+    kind("key-outside", "the key is no option", |q| {
+        questions(q, |q| {
+            q["answer"] = json!(q["options"].as_array()?.len());
+            Some(())
+        })
+    }),
+    kind("key-is-text", "the key is a text", |q| {
+        questions(q, |q| {
+            q["answer"] = json!(q["answer"].as_f64()?.to_string());
+            Some(())
+        })
+    }),
+    kind("no-answer", "the answer is missing", |q| {
+        questions(q, |q| q.as_object_mut()?.shift_remove("answer").map(drop))
+    }),
+    kind("same-options", "two options are one", |q| {
+        questions(q, |q| {
+            let first = q["options"].get(0)?.clone();
+            *q["options"].get_mut(1)? = first;
+            Some(())
+        })
+    }),
+    kind("one-option", "there is one option", |q| {
+        questions(q, |q| {
+            q["options"].as_array_mut()?.truncate(1);
+            q["answer"] = json!(0);
+            Some(())
+        })
+    }),
+    kind("takes-everything", "the tolerance takes every answer", |q| {
+        numeric(q, "tol", |a| 3.0 * a.abs() + 1.0)
+    }),
+    kind("takes-zero", "the tolerance takes 0 as well", |q| numeric(q, "tol", |a| 1.05 * a.abs())),
+    kind("no-tolerance", "the tolerance is 0", |q| numeric(q, "tol", |_| 0.0)),
+    kind("negative-tolerance", "the tolerance is negative", |q| numeric(q, "tol", |a| -0.1 * a.abs())),
+    kind("tiny-tolerance", "the tolerance is smaller than what can be typed", |q| {
+        numeric(q, "tol", |a| 1e-13 * a.abs())
+    }),
+    kind("ten-times", "the answer is ten times too large", |q| numeric(q, "answer", |a| 10.0 * a)),
+    kind("answer-sign", "the answer has the wrong sign", |q| numeric(q, "answer", |a| -a)),
+    kind("no-question", "a question has no text", |q| {
+        questions(q, |q| q.as_object_mut()?.shift_remove("q").map(drop))
+    }),
+    kind("unknown-kind", "the kind of a question is misspelt", |q| {
+        text(q, &["questions", "*", "kind"], |k| Some(format!("{k}s")))
+    }),
+    kind("no-id", "a quiz has no id", |q| super::edit::without(q, "id")),
+    kind("no-questions", "a quiz asks nothing", |q| super::edit::with(q, "questions", json!([]))),
+    kind("latex", "the backslash of a formula is no backslash of JSON", |q| {
+        text(q, &["questions", "*", "explain"], |t| t.contains("\\t").then(|| t.replacen("\\t", "\t", 1)))
+    }),
+    kind("unclosed-tag", "an element is not closed", |q| {
+        text(q, &["questions", "*", "explain"], |t| super::edit::swap(t, "</code>", ""))
+    }),
+    kind("misspelt-question-key", "a key is misspelt", |q| {
+        questions(q, |q| {
+            let object = q.as_object_mut()?;
+            let old = object.shift_remove("explain")?;
+            object.insert("explian".into(), old);
+            Some(())
+        })
+    }),
+];
