@@ -353,7 +353,9 @@ impl<'a> Scene<'a> {
 
     /// Whether an integrator asks how the bias force changes with velocities: that is found from composite bodies.
     pub(super) fn bias_slopes(&self) -> bool {
-        let free = || (0..self.m.ntree).any(|t| derivative::is_free_rigid(self.m, t));
+        let bodies =
+            |&t: &usize| derivative::is_free_rigid(self.m, t) && !ways::turns_alone(self.m, self.ways, t);
+        let free = || (0..self.m.ntree).any(|t| bodies(&t));
         self.may_integrate_by(integrator::IMPLICIT)
             || self.may_integrate_by(integrator::IMPLICITFAST) && free()
     }
