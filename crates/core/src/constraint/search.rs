@@ -101,7 +101,7 @@ mod tests {
     fn what_is_no_number_ends_the_search() {
         for (slope, curvature) in [(f64::NAN, 1.0), (-1.0, f64::NAN), (-1.0, 0.0), (f64::NEG_INFINITY, 1.0)] {
             let mut n = 0;
-            let eval = |alpha| {
+            let mut eval = |alpha| {
                 n += 1;
                 assert!(n < 100);
                 Point { alpha, cost: 0.0, slope, curvature }

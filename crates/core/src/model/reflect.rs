@@ -7,6 +7,7 @@ use crate::math::sort::sort_by;
 use crate::model::bytes::{Plain, fingerprint};
 use crate::model::fields::{data_fields, model_fields, option_fields, statistic_fields};
 use crate::model::{Fields, Model};
+use std::ops::Range;
 use std::sync::LazyLock;
 
 /// The struct that a field belongs to.
@@ -568,9 +569,45 @@ pub(crate) fn allocate_data(m: &Model, d: &mut Fields) {
     }
 }
 
-/// A set of fields.
+/// A set of fields. Of `sensordata` it holds which of its numbers are meant, as each comes from a sensor that costs something by
+/// itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FieldSet([u64; NFIELD.div_ceil(64)]);
+pub struct FieldSet([u64; NFIELD.div_ceil(64)], Values);
+
+/// Numbers of `sensordata`, by their places; the last bit stands for all that have no bit of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Values([u64; 4]);
+
+impl Values {
+    const NONE: Values = Values([0; 4]);
+    const ALL: Values = Values([u64::MAX; 4]);
+    const BITS: usize = 256;
+
+    fn bits(places: Range<usize>) -> Range<usize> {
+        let last = Values::BITS - 1;
+        match places.is_empty() {
+            true => 0..0,
+            false => places.start.min(last)..(places.end - 1).min(last) + 1,
+        }
+    }
+
+    fn insert(&mut self, places: Range<usize>) {
+        Values::bits(places).for_each(|i| self.0[i / 64] |= 1 << (i % 64));
+    }
+
+    /// Whether some of these places are among them; whether all are.
+    fn some(&self, places: Range<usize>) -> bool {
+        Values::bits(places).any(|i| self.has(i))
+    }
+
+    fn every(&self, places: Range<usize>) -> bool {
+        Values::bits(places).all(|i| self.has(i))
+    }
+
+    fn has(&self, i: usize) -> bool {
+        self.0[i / 64] & (1 << (i % 64)) != 0
+    }
+}
 
 impl Default for FieldSet {
     fn default() -> Self {
@@ -580,13 +617,37 @@ impl Default for FieldSet {
 
 impl FieldSet {
     /// No field.
-    pub const EMPTY: FieldSet = FieldSet([0; NFIELD.div_ceil(64)]);
+    pub const EMPTY: FieldSet = FieldSet([0; NFIELD.div_ceil(64)], Values::NONE);
     /// Every field.
-    pub const ALL: FieldSet = FieldSet([u64::MAX; NFIELD.div_ceil(64)]);
+    pub const ALL: FieldSet = FieldSet([u64::MAX; NFIELD.div_ceil(64)], Values::ALL);
 
     /// Adds a field.
     pub fn insert(&mut self, f: FieldId) {
+        self.insert_elements(f, 0, None);
+    }
+
+    /// Adds elements of a field: `count` from `first` on, or all that follow. Of `sensordata` these alone are meant then; any
+    /// other field is added as a whole.
+    pub fn insert_elements(&mut self, f: FieldId, first: usize, count: Option<usize>) {
         self.0[f.0 as usize / 64] |= 1 << (f.0 % 64);
+        if f.info().name == "sensordata" {
+            self.1.insert(first..count.map_or(usize::MAX, |n| first.saturating_add(n)));
+        }
+    }
+
+    /// Whether an element of a field is in the set.
+    pub fn contains_element(&self, f: FieldId, element: usize) -> bool {
+        self.contains(f) && (f.info().name != "sensordata" || self.1.some(element..element + 1))
+    }
+
+    /// Whether the set holds a number of `sensordata` of these places.
+    pub(crate) fn has_sensor(&self, places: Range<usize>) -> bool {
+        self.1.some(places)
+    }
+
+    /// Whether the set holds all numbers of a field that has so many.
+    pub(crate) fn contains_whole(&self, f: FieldId, numbers: usize) -> bool {
+        self.contains(f) && (f.info().name != "sensordata" || self.1.every(0..numbers))
     }
 
     /// Whether the field is in the set.
@@ -596,7 +657,7 @@ impl FieldSet {
 
     /// Adds all fields of another set.
     pub fn extend(&mut self, other: &FieldSet) {
-        for (a, b) in self.0.iter_mut().zip(other.0) {
+        for (a, b) in self.0.iter_mut().chain(&mut self.1.0).zip(other.0.iter().chain(&other.1.0)) {
             *a |= b;
         }
     }
@@ -608,7 +669,7 @@ impl FieldSet {
 
     /// Whether every field of this set is in another.
     pub fn is_part_of(&self, other: &FieldSet) -> bool {
-        self.0.iter().zip(other.0).all(|(a, b)| a & !b == 0)
+        self.0.iter().chain(&self.1.0).zip(other.0.iter().chain(&other.1.0)).all(|(a, b)| a & !b == 0)
     }
 
     /// Whether any field of the set satisfies `test`.

@@ -329,9 +329,9 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[
             (&[Stage::Orientations], |s, _| {
                 let poses = [Stage::Kinematics, Stage::GeomPoses, Stage::SitePoses, Stage::CameraPoses];
-                poses.into_iter().any(|stage| sensor::needs(s.m, stage))
+                poses.into_iter().any(|stage| s.sensed(stage))
             }),
-            (&[], |s, of| sensor::needs(s.m, of)),
+            (&[], |s, of| s.sensed(of)),
         ],
         wanted: |s| because(s.sensors, "sensor values are read"),
         left_out: |s| match s.m.nsensor {

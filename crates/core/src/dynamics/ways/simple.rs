@@ -80,11 +80,7 @@ fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
 
 /// How ω × I ω of a body with its inertia along its own axes changes with ω, row by row.
 pub(crate) fn turning_slope([a, b, c]: Vec3, [x, y, z]: Vec3) -> [Vec3; 3] {
-    [
-        [0.0, (c - b) * z, (c - b) * y],
-        [(a - c) * z, 0.0, (a - c) * x],
-        [(b - a) * y, (b - a) * x, 0.0],
-    ]
+    [[0.0, (c - b) * z, (c - b) * y], [(a - c) * z, 0.0, (a - c) * x], [(b - a) * y, (b - a) * x, 0.0]]
 }
 
 /// One joint of a simple body: weight along translations, ω × I ω for rotations in the body's frame. A

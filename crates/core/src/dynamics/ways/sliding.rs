@@ -128,8 +128,7 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
             d.qLDiagInv[dofs].copy_from_slice(&tree.diag_inv);
             continue;
         }
-        let failed =
-            rows_of_mass::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
+        let failed = rows_of_mass::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
         // One that warns is factorized again at the next step, and warns again.
         tree.of.clear();
         if failed.is_none() {
