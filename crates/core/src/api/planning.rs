@@ -90,7 +90,7 @@ impl Plan {
 
     /// Whether the values of a sensor are computed. A sensor that nobody reads is left out by itself.
     pub fn evaluates(&self, m: &Model, sensor: SensorId) -> bool {
-        let read = || sensor::is_read(m, sensor.index(), &self.inner.reads);
+        let read = || sensor::is_read(m, sensor.index(), self.inner.sensed);
         self.keeps(Stage::Sensors) && (self.inner.every_sensor || read())
     }
 

@@ -1,6 +1,6 @@
 //! Plans as data: which stages of a step run, and what of them. How one is made: `step/planner`.
 
-use super::reflect::FieldSet;
+use super::sensed::Values;
 use super::stage::Stage;
 use super::way::Ways;
 
@@ -77,8 +77,8 @@ pub(crate) struct Plan {
     pub(crate) ways: Ways,
     /// Those of which parameters may change that they keep copies of.
     pub(crate) changing: Ways,
-    /// What is read: of the sensors, those that show something of it are evaluated.
-    pub(crate) reads: FieldSet,
+    /// What is read of sensors.
+    pub(crate) sensed: Values,
     /// Every sensor is evaluated, read or not.
     pub(crate) every_sensor: bool,
     /// What a forward pass runs of each of its parts; then the same without what sensors show.
@@ -94,7 +94,7 @@ impl Default for Plan {
             facts: u32::MAX,
             ways: Ways::ALL,
             changing: Ways::ALL,
-            reads: FieldSet::ALL,
+            sensed: Values::ALL,
             every_sensor: true,
             passes: [[0; 3]; 2],
         };

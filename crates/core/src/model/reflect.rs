@@ -6,8 +6,8 @@ pub use super::stage::Stage;
 use crate::math::sort::sort_by;
 use crate::model::bytes::{Plain, fingerprint};
 use crate::model::fields::{data_fields, model_fields, option_fields, statistic_fields};
+use crate::model::sensed::Values;
 use crate::model::{Fields, Model};
-use std::ops::Range;
 use std::sync::LazyLock;
 
 /// The struct that a field belongs to.
@@ -574,41 +574,6 @@ pub(crate) fn allocate_data(m: &Model, d: &mut Fields) {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FieldSet([u64; NFIELD.div_ceil(64)], Values);
 
-/// Numbers of `sensordata`, by their places; the last bit stands for all that have no bit of their own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Values([u64; 4]);
-
-impl Values {
-    const NONE: Values = Values([0; 4]);
-    const ALL: Values = Values([u64::MAX; 4]);
-    const BITS: usize = 256;
-
-    fn bits(places: Range<usize>) -> Range<usize> {
-        let last = Values::BITS - 1;
-        match places.is_empty() {
-            true => 0..0,
-            false => places.start.min(last)..(places.end - 1).min(last) + 1,
-        }
-    }
-
-    fn insert(&mut self, places: Range<usize>) {
-        Values::bits(places).for_each(|i| self.0[i / 64] |= 1 << (i % 64));
-    }
-
-    /// Whether some of these places are among them; whether all are.
-    fn some(&self, places: Range<usize>) -> bool {
-        Values::bits(places).any(|i| self.has(i))
-    }
-
-    fn every(&self, places: Range<usize>) -> bool {
-        Values::bits(places).all(|i| self.has(i))
-    }
-
-    fn has(&self, i: usize) -> bool {
-        self.0[i / 64] & (1 << (i % 64)) != 0
-    }
-}
-
 impl Default for FieldSet {
     fn default() -> Self {
         FieldSet::EMPTY
@@ -640,9 +605,9 @@ impl FieldSet {
         self.contains(f) && (f.info().name != "sensordata" || self.1.some(element..element + 1))
     }
 
-    /// Whether the set holds a number of `sensordata` of these places.
-    pub(crate) fn has_sensor(&self, places: Range<usize>) -> bool {
-        self.1.some(places)
+    /// The numbers of `sensordata` in the set.
+    pub(crate) fn sensed(&self) -> Values {
+        self.1
     }
 
     /// Whether the set holds all numbers of a field that has so many.

@@ -27,7 +27,7 @@ pub(crate) use table::{Datatype, KINDS, Kind, Senses, When, kind};
 
 use crate::geometry::Narrow;
 use crate::kinds::{disable, joint};
-use crate::model::reflect::FieldSet;
+use crate::model::sensed::Values;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model, Obj, asleep};
 use std::ops::Range;
@@ -48,8 +48,8 @@ pub(crate) fn places(m: &Model, s: usize) -> Range<usize> {
 }
 
 /// Whether somebody reads a value of a sensor.
-pub(crate) fn is_read(m: &Model, s: usize, reads: &FieldSet) -> bool {
-    reads.has_sensor(places(m, s))
+pub(crate) fn is_read(m: &Model, s: usize, sensed: Values) -> bool {
+    sensed.some(places(m, s))
 }
 
 /// The sensors whose values are known at a stage, and are read. While sensors are switched off values stay as they are.
@@ -60,7 +60,7 @@ pub(crate) fn evaluate(m: &Model, d: &mut Fields, w: &mut Scratch, when: When) {
     // Taken out, because reading a sensor uses scratch of the data; nothing is allocated.
     let mut values = std::mem::take(&mut d.sensordata);
     for s in 0..m.nsensor {
-        let wanted = d.plan.every_sensor || is_read(m, s, &d.plan.reads);
+        let wanted = d.plan.every_sensor || is_read(m, s, d.plan.sensed);
         if m.sensor_needstage[s] == when as i32 && wanted && !sleeps(m, d, s) {
             let out = &mut values[places(m, s)];
             if !timing::past(m, d, s, out) {

@@ -47,7 +47,7 @@ impl Plan {
         scene.every_sensor |= more == Some(Stage::Sensors);
         let mut plan = Plan::default();
         plan.ways = ways;
-        (plan.reads, plan.every_sensor) = (demand.reads, scene.every_sensor);
+        (plan.sensed, plan.every_sensor) = (demand.reads.sensed(), scene.every_sensor);
         plan.changing = ways::changing(|fields| scene.writes(Object::Model, fields));
         for (fact, holds) in FACTS {
             plan.state(fact, holds(&scene));

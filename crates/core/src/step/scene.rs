@@ -314,7 +314,7 @@ impl<'a> Scene<'a> {
 
     /// Whether some sensor that is evaluated uses the results of a stage.
     pub(super) fn sensed(&self, stage: Stage) -> bool {
-        let read = |s: usize| self.every_sensor || sensor::is_read(self.m, s, &self.demand.reads);
+        let read = |s: usize| self.every_sensor || sensor::is_read(self.m, s, self.demand.reads.sensed());
         sensor::needs_of(self.m, stage, read)
     }
 
