@@ -56,8 +56,8 @@ mod sliding;
 table! {
     simple
     chain
-    sliding
     serial
+    sliding
     articulated
     general
 }
