@@ -300,8 +300,8 @@ fn a_clock_sees_what_the_plan_keeps() {
 #[test]
 fn sensors_that_nobody_reads_are_left_out() {
     let m = compile(
-        "<mujoco><worldbody><body name='ball'><freejoint/><geom size='.1'/><site name='s'/></body></worldbody>
-         <sensor><clock name='clock'/><framelinacc name='pulled' objtype='site' objname='s'/></sensor></mujoco>",
+        "<mujoco><worldbody><site name='s'/><body><freejoint/><geom size='.1'/></body></worldbody>
+         <sensor><clock name='clock'/><accelerometer name='pulled' site='s'/></sensor></mujoco>",
     );
     let (data, name) = (field(Object::Data, "sensordata"), |name: &str| m.sensor(name).unwrap());
     for (read, left, stage) in [("clock", "pulled", false), ("pulled", "clock", true)] {
