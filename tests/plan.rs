@@ -300,7 +300,7 @@ fn a_clock_sees_what_the_plan_keeps() {
 #[test]
 fn sensors_that_nobody_reads_are_left_out() {
     let m = compile(
-        "<mujoco><worldbody><site name='s'/><body><freejoint/><geom size='.1'/></body></worldbody>
+        "<mujoco><worldbody><body><joint axis='0 1 0'/><geom size='.1' pos='1 0 0'/><site name='s' pos='1 0 0'/></body></worldbody>
          <sensor><clock name='clock'/><accelerometer name='pulled' site='s'/></sensor></mujoco>",
     );
     let (data, name) = (field(Object::Data, "sensordata"), |name: &str| m.sensor(name).unwrap());
