@@ -41,6 +41,7 @@ mod settings;
 mod sleep;
 mod stability;
 mod standing;
+mod steady;
 mod structure;
 mod students;
 mod support;
