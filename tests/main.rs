@@ -14,6 +14,7 @@ mod fixes;
 mod format;
 mod fresh;
 mod fuzz;
+mod init;
 mod javascript;
 mod labs;
 mod ledger;

@@ -4,12 +4,14 @@ mod baseline;
 mod bench;
 mod cache;
 mod check;
+mod completions;
 mod course;
 mod digest;
 mod explain;
 mod fix;
 mod fmt;
 mod handle;
+mod init;
 mod machine;
 mod output;
 mod plan;
@@ -43,6 +45,8 @@ struct Cli {
 
 #[derive(Subcommand, Debug)]
 enum Command {
+    /// Make a folder for lessons: settings, a first lesson with its model, a workflow
+    Init(init::Arguments),
     /// Lint and run all labs and verify all quizzes of lessons, JSON files, or folders of them
     Check(check::CheckArguments),
     /// Verify the claims of quizzes and labs only, with every measure
@@ -65,6 +69,8 @@ enum Command {
     Record(record::Arguments),
     /// For engineers: time of a step
     Bench(bench::Arguments),
+    /// Print a script with which a shell completes commands and options
+    Completions(completions::Arguments),
     /// Write the reference pages, and the JSON Schemas into the folder `schema` beside them
     #[command(hide = true)]
     Reference {
@@ -129,6 +135,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         interrupt::listen();
     }
     let result = match &cli.command {
+        Command::Init(a) => init::init(a),
+        Command::Completions(a) => completions::completions(a),
         Command::Check(a) => check::check(a),
         Command::Verify(a) => check::verify(a),
         Command::Fmt(a) => fmt::fmt(a),
