@@ -112,6 +112,7 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
         ready.iter().for_each(|r| params::check(lesson, r, &mut findings));
     }
     let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
+    told_once(lesson, &mut findings);
     let claims = if depth.claims {
         claims::check(lesson, &ready, &mut findings)
     } else {
@@ -119,6 +120,21 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
         Vec::new()
     };
     Found { findings, labs, claims }
+}
+
+/// A control of which a reset takes everything away changes nothing, and the reset is what is told.
+fn told_once(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    let of = |code: &str, f: &Finding| f.code == code;
+    let lost = |span: &std::ops::Range<usize>, findings: &[Finding]| {
+        let inside = |f: &Finding| span.start <= f.span.start && f.span.end <= span.end;
+        findings.iter().any(|f| of(rules::LOST_AT_RESET.code, f) && inside(f))
+    };
+    let labs = lesson.all_labs();
+    let controls = labs.iter().flat_map(|lab| &lab.controls).map(|c| c.span.clone());
+    let spans: Vec<_> = controls.filter(|span| lost(span, findings)).collect();
+    findings.retain(|f| {
+        !of(rules::IDLE_CONTROL.code, f) || !spans.iter().any(|span| span.contains(&f.span.start))
+    });
 }
 
 /// A lesson together with what was found.
