@@ -30,7 +30,10 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
     for window in lab.plots.iter().filter_map(|p| p.window.as_ref()) {
         let points = window.value * FRAMES / slowest;
         if window.value > 0.0 && points < POINTS {
-            let message = format!("this plot shows {} s, of which a page draws {points:.0} points at most", window.value);
+            let message = format!(
+                "this plot shows {} s, of which a page draws {points:.0} points at most",
+                window.value
+            );
             findings.push(
                 Finding::new(SHORT_WINDOW, window.span.clone(), message)
                     .why(format!("a page samples once for every picture, {FRAMES} times in a second; at the slowest speed, {slowest}, that is once in {:.4} s", slowest / FRAMES))

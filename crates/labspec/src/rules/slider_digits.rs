@@ -21,7 +21,9 @@ pub const SLIDER_DIGITS: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Control(check);
 
 fn check(control: &Control, findings: &mut Vec<Finding>) {
-    let ControlKind::Slider { min, max, step: Some(step), digits: Some(digits), .. } = &control.kind else { return };
+    let ControlKind::Slider { min, max, step: Some(step), digits: Some(digits), .. } = &control.kind else {
+        return;
+    };
     let movable = step.value > 0.0 && step.value <= max.value - min.value;
     if !movable || !(0.0..=17.0).contains(&digits.value) {
         return;
@@ -33,7 +35,11 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     let plain = near.iter().all(|x| *x == 0.0 || (1e-3..1e5).contains(&x.abs()));
     let same = shown.windows(2).position(|pair| matches!(pair, [a, b] if a == b));
     let (Some(at), true) = (same, plain) else { return };
-    let [Some(a), Some(b), Some(text)] = [near.get(at).map(f64::to_string), near.get(at + 1).map(f64::to_string), shown.get(at).cloned()] else { return };
+    let [Some(a), Some(b), Some(text)] =
+        [near.get(at).map(f64::to_string), near.get(at + 1).map(f64::to_string), shown.get(at).cloned()]
+    else {
+        return;
+    };
     findings.push(
         Finding::new(SLIDER_DIGITS, digits.span.clone(), format!("{a} and {b} are both shown as {text}"))
             .why("a student moves the slider by a step, and the number beside it stays")

@@ -25,10 +25,14 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
     if answer.value != 0.0 && tol.value >= answer.value.abs() {
         let [low, high] = [answer.value - tol.value, answer.value + tol.value];
         findings.push(
-            Finding::new(WIDE_TOLERANCE, tol.span.clone(), format!("every answer from {low} to {high} counts as right"))
-                .why("0 is among them: who types it without a thought has answered")
-                .related(answer.span.clone(), "the answer")
-                .help("`tol` is how far an answer may be off, in its unit; leave it out for 2 %"),
+            Finding::new(
+                WIDE_TOLERANCE,
+                tol.span.clone(),
+                format!("every answer from {low} to {high} counts as right"),
+            )
+            .why("0 is among them: who types it without a thought has answered")
+            .related(answer.span.clone(), "the answer")
+            .help("`tol` is how far an answer may be off, in its unit; leave it out for 2 %"),
         );
     }
 }
