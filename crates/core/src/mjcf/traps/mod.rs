@@ -4,6 +4,7 @@
 //! These look at a model that is in order. Each says what follows, in numbers of this model.
 
 mod contradicted;
+mod overlapping;
 mod too_fast;
 mod unused_names;
 mod weights;
@@ -19,6 +20,7 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
     contradicted::tell(tree, m, report);
     too_fast::tell(tree, m, report);
     weights::tell(tree, m, report);
+    overlapping::tell(tree, m, report);
 }
 
 /// The element of this name among those that `kinds` names; of one without a name, the root.
