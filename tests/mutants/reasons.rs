@@ -1,7 +1,7 @@
 //! Why mistakes of a kind are not found.
 
 /// Kinds with survivors, and the reason.
-pub(super) const REASONS: [(&str, &str); 40] = [
+pub(super) const REASONS: [(&str, &str); 42] = [
     ("next-index", "the neighbour is a quantity of its own: only the label says which is meant"),
     ("written-index", "the neighbour acts, too: only the label says which is meant"),
     (

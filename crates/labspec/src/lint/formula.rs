@@ -7,6 +7,9 @@ use crate::source::Text;
 use crate::spec::Lesson;
 use std::ops::Range;
 
+/// Longest formula that is looked for, bytes.
+const LONGEST: usize = 4000;
+
 /// How formulas begin and end. A dollar counts only where a page takes it for one.
 const MARKS: [(&str, &str); 4] = [("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]")];
 
@@ -26,7 +29,7 @@ fn faults(text: &str, plain: bool) -> Vec<(Range<usize>, String)> {
         };
         let inside = rest.get(open.len()..).unwrap_or("");
         let Some(length) = closing(inside, close) else {
-            if is_formula(inside, open) {
+            if faults.len() < MAX_IN_TEXT && is_formula(inside, open) {
                 faults.push((at..at + open.len(), format!("nothing closes the formula that `{open}` opens")));
             }
             // What follows is read as text.
@@ -46,7 +49,7 @@ fn faults(text: &str, plain: bool) -> Vec<(Range<usize>, String)> {
 /// Where a formula ends: a dollar behind a backslash is none, and one before a digit begins a price.
 fn closing(inside: &str, close: &str) -> Option<usize> {
     let mut escaped = false;
-    for (i, c) in inside.char_indices() {
+    for (i, c) in inside.char_indices().take(LONGEST) {
         let rest = inside.get(i..)?;
         if !escaped && rest.starts_with(close) {
             let after = rest.get(close.len()..).unwrap_or("");
@@ -68,8 +71,8 @@ fn closing(inside: &str, close: &str) -> Option<usize> {
 
 /// Whether what follows an opening mark looks like a formula: a price does not.
 fn is_formula(inside: &str, open: &str) -> bool {
-    let end = inside.find("\n\n").unwrap_or(inside.len());
-    let inside = inside.get(..end).unwrap_or("");
+    let end = inside.char_indices().nth(LONGEST).map_or(inside.len(), |(at, _)| at);
+    let inside = inside.get(..end).unwrap_or("").split("\n\n").next().unwrap_or("");
     let tex = inside.contains(['\\', '^', '_', '{']);
     open != "$" || (tex && !inside.starts_with(|c: char| c.is_whitespace()))
 }

@@ -87,6 +87,9 @@ const KNOWN_TOO: [&str; 9] = ["table", "template", "textarea", "time", "tt", "u"
 /// Elements with elements of their own.
 const FOREIGN: [&str; 2] = ["svg", "math"];
 
+/// Most tags of a text that are looked at.
+const MOST: usize = 3000;
+
 /// What is wrong with a tag.
 #[derive(Debug, PartialEq)]
 enum Fault {
@@ -141,7 +144,9 @@ fn tags(html: &str) -> Vec<Tag> {
 fn faults(html: &str) -> Vec<(Range<usize>, String, Fault)> {
     let mut faults = Vec::new();
     let mut open: Vec<Tag> = Vec::new();
-    for tag in tags(html) {
+    let all = tags(html);
+    let cut = all.len() > MOST;
+    for tag in all.into_iter().take(MOST) {
         let foreign = open.iter().any(|t| FOREIGN.contains(&t.name.as_str()));
         let name = tag.name.as_str();
         let known = VOID.contains(&name)
@@ -171,6 +176,8 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, Fault)> {
             open.push(tag);
         }
     }
+    // Where not all was looked at, what is open may be closed yet.
+    open.retain(|_| !cut);
     let left = open.into_iter().filter(|t| !ENDS_ITSELF.contains(&t.name.as_str()));
     faults.extend(left.map(|t| (t.at, t.name, Fault::Unclosed)));
     faults

@@ -23,6 +23,8 @@ pub(super) const CHECK: Check = Check::Question(check);
 
 /// Numbers that are as near as this, of the answer, are meant to be it.
 const NEAR: f64 = 0.02;
+/// Characters before and behind a number that say what it is.
+const AROUND: usize = 60;
 /// How a slip changes a number.
 const SLIPS: [(f64, &str); 6] = [
     (-1.0, "the sign is another one"),
@@ -72,11 +74,14 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
 
 /// Whether a number is what a line of the explanation comes to: behind `=`, `≈`, `:` or `is`, in the unit of the answer.
 fn is_result(html: &str, n: &Number, unit: &str) -> bool {
-    let before = plain(html.get(..n.at.start).unwrap_or(""));
+    // What stands near it.
+    let back = html.get(..n.at.start).unwrap_or("").char_indices().rev().nth(AROUND).map_or(0, |(at, _)| at);
+    let before = plain(html.get(back..n.at.start).unwrap_or(""));
     let before = before.trim_end_matches(['$', ' ', '-', '−', '{', '~']).trim_end_matches("about");
     let before = before.trim_end();
     let behind = ["=", "≈", ":", " is", "\\approx"].iter().any(|mark| before.ends_with(mark));
-    let after = bare(&plain(html.get(n.at.end..).unwrap_or("")));
+    let after: String = html.get(n.at.end..).unwrap_or("").chars().take(AROUND).collect();
+    let after = bare(&plain(&after));
     // Another unit, another number.
     let ends = after.is_empty() || after.starts_with(['.', ',', ';', ')', ':']);
     let own = !unit.is_empty() && after.starts_with(unit);

@@ -1,5 +1,5 @@
 use super::Check;
-use super::wording::said;
+use super::wording::loose;
 use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
@@ -22,14 +22,16 @@ pub const EXPLAINS_ANOTHER_OPTION: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Question(check);
 
 const ORDINALS: [&str; 6] = ["first", "second", "third", "fourth", "fifth", "sixth"];
+/// Options that have a letter.
+const MOST: usize = 26;
 const THINGS: [&str; 3] = ["option", "answer", "choice"];
 const RIGHT: [&str; 2] = ["right", "correct"];
 
 fn check(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, answer: Some(answer), .. } = &question.kind else { return };
     let (Some(explain), Some(key)) = (&question.explain, question.right_option()) else { return };
-    let text = format!(" {} ", said(explain.as_str()));
-    let named = (0..options.len()).filter(|i| calls_right(&text, *i, options.get(*i).map_or("", |o| o.as_str())));
+    let text = format!(" {} ", loose(explain.as_str()));
+    let named = (0..options.len().min(MOST)).filter(|i| calls_right(&text, *i, options.get(*i).map_or("", |o| o.as_str())));
     let named: Vec<usize> = named.collect();
     if let [other] = named.as_slice()
         && *other != key
@@ -55,7 +57,7 @@ fn letter(i: usize) -> char {
 /// Whether a text says of this option, in so many words, that it is the right one.
 fn calls_right(text: &str, i: usize, option: &str) -> bool {
     let letter = letter(i).to_lowercase().to_string();
-    let words = said(option);
+    let words = loose(option);
     let long = words.chars().count() >= 3;
     RIGHT.iter().any(|right| {
         let named = THINGS.iter().any(|thing| {
@@ -77,7 +79,7 @@ mod tests {
 
     #[test]
     fn only_what_is_said_in_so_many_words_counts() {
-        let calls = |text: &str| (0..3).filter(|i| calls_right(&format!(" {} ", said(text)), *i, ["up", "it falls", "it stays"][*i])).collect::<Vec<_>>();
+        let calls = |text: &str| (0..3).filter(|i| calls_right(&format!(" {} ", loose(text)), *i, ["up", "it falls", "it stays"][*i])).collect::<Vec<_>>();
         assert_eq!(calls("Option B is right."), [1]);
         assert_eq!(calls("The correct answer is the third."), [2]);
         assert_eq!(calls("The right option is \"it falls\"."), [1]);

@@ -20,19 +20,28 @@ pub(super) fn plain(html: &str) -> String {
     out.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+/// Longest tag, bytes.
+const LONGEST: usize = 2000;
+
 /// The length of the tag that a text begins with.
 fn tag(text: &str) -> Option<usize> {
     let inside = text.strip_prefix('<')?;
     let name = inside.strip_prefix('/').unwrap_or(inside);
-    name.starts_with(|c: char| c.is_ascii_alphabetic()).then(|| text.find('>').map(|end| end + 1))?
+    let near = || text.bytes().take(LONGEST).position(|b| b == b'>').map(|end| end + 1);
+    name.starts_with(|c: char| c.is_ascii_alphabetic()).then(near)?
 }
 
 /// What a text says, whatever its capitals, marks and articles. Code and formulas are as they stand: there, every character counts.
 pub(super) fn said(html: &str) -> String {
-    let text = plain(html);
     if html.contains("<code") || html.contains('$') || html.contains('`') {
-        return text;
+        return plain(html);
     }
+    loose(html)
+}
+
+/// The words of a text, code and formulas too.
+pub(super) fn loose(html: &str) -> String {
+    let text = plain(html);
     let kept: String =
         text.to_lowercase().chars().map(|c| if ",;:!?'\"“”‘’()".contains(c) { ' ' } else { c }).collect();
     let words = kept.split_whitespace().map(|w| w.trim_end_matches('.'));

@@ -6,7 +6,7 @@ use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::Tree;
 use crate::model::{Model, Obj};
-use crate::step::forward::forward;
+use crate::step::forward::position;
 use crate::step::workspace::Data;
 
 /// A contact deeper than this part of the smaller geom's half thickness is no contact.
@@ -18,8 +18,9 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
     if m.ngeom > MOST || m.nv > MOST || m.nv == 0 {
         return;
     }
+    // Nothing is solved: where things are is enough.
     let mut d = Data::new(m);
-    forward(m, &mut d);
+    position(m, &mut d);
     let depth = |pair: [usize; 2], dist: f64| {
         let size = pair.iter().map(|g| half(m, *g)).fold(f64::INFINITY, f64::min);
         (-dist > DEEP * size).then_some(-dist)

@@ -4,7 +4,7 @@ use super::Looked;
 use crate::check::refresh::digits;
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::{self, Play, Session};
+use crate::run::{self, Play};
 use crate::source::Text;
 use std::ops::ControlFlow;
 
@@ -23,13 +23,16 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
     let (Some(text), Some(key)) = (texts.into_iter().flatten().find(said), ready.lab.keyframe()) else {
         return;
     };
-    let mut session = Session::start(&ready.programs, &ready.model, Some(key), &ready.programs.demand);
+    let mut session = looked.bench.start();
     let timestep = session.world.model.opt.timestep;
     let start = session.world.data.fields().qpos.clone();
     let steps = (LENGTH / timestep).clamp(1.0, 1000.0) as usize;
     run::play(&mut session, &Play::steps(steps), |_, _| ControlFlow::Continue(()));
     let moved =
         start.iter().zip(&session.world.data.fields().qpos).enumerate().map(|(i, (a, b))| (i, (b - a).abs()));
+    if session.ended().is_some() {
+        return;
+    }
     if let Some((i, far)) = moved.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, far)| *far > SETTLES) {
         let [far, time] = [far, session.world.data.time()].map(|x| digits(x, 3));
         findings.push(

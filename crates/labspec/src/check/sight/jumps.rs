@@ -6,7 +6,7 @@ use crate::check::programs::{choices, resets, sets};
 use crate::check::refresh::digits;
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::{self, Play, Session};
+use crate::run::{self, Play};
 use labspec_core::Obj;
 use std::ops::ControlFlow;
 
@@ -35,8 +35,7 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
         {
             continue;
         }
-        let mut session =
-            Session::start(&ready.programs, &ready.model, ready.lab.keyframe(), &ready.programs.demand);
+        let mut session = looked.bench.start();
         run::play(&mut session, &Play::steps(steps), |_, _| ControlFlow::Continue(()));
         let before = session.world.data.fields().qpos.clone();
         match value {

@@ -87,7 +87,8 @@ fn differs(
 ) -> Option<([usize; 2], f64, f64)> {
     let ready = looked.bench.ready;
     let data = Data::planned(&ready.model, Plan::full());
-    let mut session = Session::start_with(&ready.programs, &ready.model, ready.lab.keyframe(), data);
+    let (key, budget) = (ready.lab.keyframe(), looked.bench.budget());
+    let mut session = Session::start_with_within(&ready.programs, &ready.model, key, data, budget);
     let all = |session: &Session<'_>| -> Vec<Option<f64>> {
         (0..ready.model.ngeom).map(|g| (what.of)(&session.world.model, g)).collect()
     };
