@@ -109,14 +109,20 @@ fn an_author_allows_with_a_reason() {
     let with = |lint: &str| TWICE.replace("  \"title\"", &format!("  {lint},\n  \"title\""));
     let folder = folder(&[
         ("a.md", &with(r#""lint": {"allow": ["duplicate-readout"], "why": "both are read aloud"}"#)),
-        ("b.md", &TWICE.replace("```lab", "<!-- labspec allow duplicate-readout: both are read -->\n\n```lab")),
+        (
+            "b.md",
+            &TWICE.replace("```lab", "<!-- labspec allow duplicate-readout: both are read -->\n\n```lab"),
+        ),
         ("c.md", &with(r#""lint": {"allow": ["unknown-key", "nonsense"], "why": "because"}"#)),
         ("d.md", &TWICE.replace("```lab", "<!-- labspec allow duplicate-readout -->\n\n```lab")),
         ("e.md", &with(r#""lint": {"allow": ["duplicate-readout"]}"#)),
     ]);
     assert_eq!(told(&folder, &["a.md"]), (0, vec![]));
     assert_eq!(told(&folder, &["b.md"]), (0, vec![]));
-    assert_eq!(told(&folder, &["c.md"]), (1, codes(&["unused-allowance", "unknown-rule", "duplicate-readout"])));
+    assert_eq!(
+        told(&folder, &["c.md"]),
+        (1, codes(&["unused-allowance", "unknown-rule", "duplicate-readout"]))
+    );
     assert_eq!(told(&folder, &["d.md"]), (1, codes(&["allowance-without-reason", "duplicate-readout"])));
     assert!(told(&folder, &["e.md"]).1.contains(&"missing-key".to_string()));
     let done = check(&folder, &["a.md", "--show-allowed"]);
@@ -154,7 +160,10 @@ fn reports_have_the_forms_of_other_programs() {
     assert!(concise.starts_with("a.md:8:16: warning[duplicate-readout]: "), "{concise}");
     let lines = form("jsonl").stdout;
     let lines: Vec<Value> = lines.lines().map(|l| serde_json::from_str(l).unwrap()).collect();
-    assert_eq!((&lines[0]["code"], &lines[1]["summary"]["warnings"]), (&json!("duplicate-readout"), &json!(1)));
+    assert_eq!(
+        (&lines[0]["code"], &lines[1]["summary"]["warnings"]),
+        (&json!("duplicate-readout"), &json!(1))
+    );
     let github = form("github").stdout;
     let start = "::warning file=a.md,line=8,endLine=8,col=16,endColumn=17,title=labspec duplicate-readout::";
     assert!(github.starts_with(start), "{github}");
@@ -180,7 +189,10 @@ fn reports_have_the_forms_of_other_programs() {
 #[test]
 fn repairs_are_checked_before_they_are_written() {
     // A misspelt key, in a layout of the author's own.
-    let odd = TWICE.replacen("\"z\"", "\"v\"", 1).replace("\"title\"", "\"titel\"").replace("  \"read", " \t\"read");
+    let odd = TWICE
+        .replacen("\"z\"", "\"v\"", 1)
+        .replace("\"title\"", "\"titel\"")
+        .replace("  \"read", " \t\"read");
     let folder = folder(&[("a.md", &odd)]);
     let read = || std::fs::read_to_string(folder.path().join("a.md")).unwrap();
     let diff = check(&folder, &["a.md", "--diff"]);
@@ -197,7 +209,11 @@ fn repairs_are_checked_before_they_are_written() {
 #[test]
 fn standard_input_has_a_name() {
     let folder = folder(&[("lessons/x.md", "")]);
-    let done = crate::program::run_with_input(folder.path(), &["check", "-", "--stdin-name", "lessons/a.md", "--format", "concise"], TWICE);
+    let done = crate::program::run_with_input(
+        folder.path(),
+        &["check", "-", "--stdin-name", "lessons/a.md", "--format", "concise"],
+        TWICE,
+    );
     assert_eq!(done.code, 1, "{}", done.stderr);
     assert!(done.stdout.starts_with("lessons/a.md:8:16: warning"), "{}", done.stdout);
 }
