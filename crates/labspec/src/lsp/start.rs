@@ -47,16 +47,19 @@ pub(super) fn value(started: &Started, code: &str) -> Option<String> {
     if session.ended().is_some() {
         return None;
     }
-    let shown = evaluate(&mut session, &started.model, code)?;
-    Some(match shown {
-        (Type::View | Type::List, _) => {
-            let mut text = |code: String| evaluate(&mut session, &started.model, &code).map(|(_, text)| text);
-            let count: usize = text(format!("({code}).length"))?.parse().ok()?;
-            let first = text(format!("({code}).slice(0, {SHOWN}).join(', ')"))?;
-            if count > SHOWN { format!("[{first}, … {count} in all]") } else { format!("[{first}]") }
-        }
-        (_, text) => text,
-    })
+    match evaluate(&mut session, &started.model, code) {
+        Some((Type::View | Type::List, _)) | None => elements(&mut session, &started.model, code),
+        Some((Type::Record | Type::Function | Type::Undefined, _)) => None,
+        Some((_, text)) => Some(text),
+    }
+}
+
+/// The first elements of an array; an array alone is no value of an expression.
+fn elements(session: &mut Session<'static>, model: &Model, code: &str) -> Option<String> {
+    let mut text = |code: String| evaluate(session, model, &code).map(|(_, text)| text);
+    let count: usize = text(format!("({code}).length"))?.parse().ok()?;
+    let first = text(format!("({code}).slice(0, {SHOWN}).join(', ')"))?;
+    Some(if count > SHOWN { format!("[{first}, … {count} in all]") } else { format!("[{first}]") })
 }
 
 fn evaluate(session: &mut Session<'static>, model: &Model, code: &str) -> Option<(Type, String)> {
