@@ -22,6 +22,8 @@ mod lessons;
 mod levels;
 mod links;
 mod loads;
+#[cfg(feature = "lsp")]
+mod lsp;
 mod mutants;
 mod needs;
 mod no_run;

@@ -25,7 +25,9 @@ pub mod ast;
 pub mod rules;
 
 mod bind;
+mod chain;
 mod columnar;
+mod complete;
 mod effects;
 mod form;
 mod formula;
@@ -61,11 +63,13 @@ mod tests;
 mod zz;
 
 pub use bind::{Compiled, Compiler};
+pub use chain::{Mention, Named, chain_at, fields_in, names_in, texts_in, variables_of};
 pub use columnar::{Columnar, Foreign, Recording};
+pub use complete::{Suggested, Suggestion, complete};
 pub use effects::{Access, Effects};
 pub use globals::{Globals, ProgramId};
 pub use heap::{Full, Heap, Ref};
-pub use labspec_finding::{Finding, Fix, Severity, Span};
+pub use labspec_finding::{Finding, Fix, Severity, Span, floor};
 pub use math::hypot;
 pub use natives::to_fixed;
 pub use parse::Parsed;

@@ -164,6 +164,20 @@ pub struct FunctionInfo {
     pub doc: String,
 }
 
+/// How a function is called, in short: `mj.mj_forward(model, data)`.
+pub(crate) fn signature(schema: &dyn Schema, info: &FunctionInfo) -> String {
+    let params = info.params.iter().map(|param| match param {
+        Param::Number | Param::Angle | Param::Lazy => "x".to_owned(),
+        Param::Text => "\"text\"".to_owned(),
+        Param::Boolean => "true".to_owned(),
+        Param::Any => "value".to_owned(),
+        Param::Numbers => "list".to_owned(),
+        Param::Object(id) => schema.describe(*id),
+        Param::Name(id) => format!("\"name of a {}\"", schema.noun(*id)),
+    });
+    format!("{}({})", info.name, params.collect::<Vec<_>>().join(", "))
+}
+
 /// What a parameter takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Param {
