@@ -44,9 +44,11 @@ pub(super) const REASONS: [(&str, &str); 40] = [
     ("key-shifted", "a question without `verify` has nothing to be compared with"),
     ("no-tolerance", "an answer that is a whole number may be asked for exactly"),
     ("tiny-tolerance", "the answer itself can be typed"),
-    ("ten-times", "a question without `verify` has nothing to be compared with"),
-    ("answer-sign", "a question without `verify` has nothing to be compared with"),
-    ("unclosed-tag", "a browser closes it at the end of the paragraph"),
+    ("ten-times", "neither a `verify` nor the explanation says the number"),
+    ("answer-sign", "neither a `verify` nor the explanation says the number"),
+    ("answer-digit", "the explanation does not come to a number, or to one of fewer digits"),
+    ("open-formula", "without a command or an index, a dollar may be a price"),
+    ("reworded-option", "the option is code or a formula, in which every character counts"),
     ("into-the-floor", "the body is not pushed out in so few steps"),
 ];
 

@@ -4,6 +4,7 @@ mod allowed;
 mod claims;
 mod entries;
 mod expect;
+mod mass_alone;
 mod params;
 mod programs;
 mod refresh;
@@ -110,6 +111,7 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
         lesson.all_labs().into_iter().filter_map(|lab| prepare(lab, models, depth, &mut findings)).collect();
     if depth.programs {
         ready.iter().for_each(|r| params::check(lesson, r, &mut findings));
+        ready.iter().for_each(|r| mass_alone::check(r, &mut findings));
     }
     let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     told_once(lesson, &mut findings);
