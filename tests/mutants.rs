@@ -8,7 +8,7 @@
 mod edit;
 mod eyes;
 mod labs;
-mod material;
+pub(crate) mod material;
 mod quizzes;
 mod reasons;
 

@@ -56,7 +56,7 @@ pub(super) const TEXTS: [Kind; 18] = [
 ];
 
 /// What is wrong with plots and readouts, and how long is looked at them.
-pub(super) const VIEWS: [Kind; 13] = [
+pub(super) const VIEWS: [Kind; 16] = [
     kind("constant-trace", "a trace shows where its coordinate begins", |l| {
         text(l, &TRACE, |t| swap(t, "data.qpos", "model.qpos0"))
     }),
@@ -92,6 +92,15 @@ pub(super) const VIEWS: [Kind; 13] = [
             Some(list)
         })
     }),
+    kind("labels-exchanged", "two traces or readouts have each other's label", |l| {
+        let mut all = each(l, &["plots", "*", "traces"], exchanged);
+        all.extend(each(l, &["readouts"], exchanged));
+        all
+    }),
+    kind("label-in-degrees", "a label says degrees, and the number is in radians", |l| {
+        labels(l, |t| swap(t, "(rad", "(deg"))
+    }),
+    kind("label-of-speed", "a label says m/s, and the number is in m", |l| labels(l, |t| swap(t, "(m)", "(m/s)"))),
     kind("empty-plot", "a plot has no traces", |l| each(l, &["plots", "*", "traces"], |_| Some(json!([])))),
     kind("early-stop", "the lab stops before anything happens", |l| with(l, "stopAt", json!(0.001))),
     kind("no-run", "the lab stops at once", |l| with(l, "stopAt", json!(0))),
@@ -110,6 +119,22 @@ pub(super) const VIEWS: [Kind; 13] = [
         })
     }),
 ];
+
+/// The labels of readouts and plots, changed.
+fn labels(l: &Value, change: fn(&str) -> Option<String>) -> Vec<Value> {
+    let mut all = text(l, &["readouts", "*", "label"], change);
+    all.extend(text(l, &["plots", "*", "ylabel"], change));
+    all
+}
+
+/// A list whose first two have each other's label.
+fn exchanged(list: &Value) -> Option<Value> {
+    let mut list = list.clone();
+    let [first, second] = [0, 1].map(|i| list.get(i).map(|one| one["label"].clone()));
+    list[0]["label"] = second?;
+    list[1]["label"] = first?;
+    Some(list)
+}
 
 /// A plot with other ends.
 fn limits(plot: &Value, low: f64, high: f64) -> Option<Value> {

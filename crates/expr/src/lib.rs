@@ -22,6 +22,7 @@
 //! fail: they return what was understood and a list of [`Finding`]s.
 
 pub mod ast;
+pub mod dimension;
 pub mod rules;
 
 mod bind;
@@ -63,6 +64,7 @@ mod zz;
 pub use bind::{Compiled, Compiler};
 pub use columnar::{Columnar, Foreign, Recording};
 pub use effects::{Access, Effects};
+pub use form::measure::{Clash, Given, Measured, Stored};
 pub use globals::{Globals, ProgramId};
 pub use heap::{Full, Heap, Ref};
 pub use labspec_finding::{Finding, Fix, Severity, Span};
@@ -74,7 +76,7 @@ pub use print::{format_expression, format_statements, print, print_statements};
 pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
 pub use reference::language_page;
 pub use schema::{
-    Advice, CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Help, ObjectId,
+    Advice, CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, Help, ObjectId,
     Param, Role, Schema, Touch, Type,
 };
 pub use value::{Value, View};
