@@ -100,7 +100,9 @@ pub(super) const VIEWS: [Kind; 16] = [
     kind("label-in-degrees", "a label says degrees, and the number is in radians", |l| {
         labels(l, |t| swap(t, "(rad", "(deg"))
     }),
-    kind("label-of-speed", "a label says m/s, and the number is in m", |l| labels(l, |t| swap(t, "(m)", "(m/s)"))),
+    kind("label-of-speed", "a label says m/s, and the number is in m", |l| {
+        labels(l, |t| swap(t, "(m)", "(m/s)"))
+    }),
     kind("empty-plot", "a plot has no traces", |l| each(l, &["plots", "*", "traces"], |_| Some(json!([])))),
     kind("early-stop", "the lab stops before anything happens", |l| with(l, "stopAt", json!(0.001))),
     kind("no-run", "the lab stops at once", |l| with(l, "stopAt", json!(0))),

@@ -3,11 +3,12 @@
 
 use super::{elements, units};
 use labspec_core::reflect::{Elem, FieldId};
-use labspec_core::{self as core, Model, Obj, biastype, dyntype, gaintype, joint, reflect, trntype, wraptype};
+use labspec_core::{
+    self as core, Model, Obj, biastype, dyntype, gaintype, joint, reflect, trntype, wraptype,
+};
 use labspec_expr::dimension::{Dimension, Measure};
 
-/// Most elements that are asked one by one: of a larger part of a field the rest is taken to be like them when they are alike by
-/// their row.
+/// Most elements that are asked one by one: what a larger part of a field measures is not known.
 const MOST: usize = 4096;
 
 /// Whether something moves along a line or turns.
@@ -50,7 +51,8 @@ fn element(m: &Model, f: FieldId, shape: &[Option<usize>], at: usize) -> Measure
     let dim = info.shape.first().copied().unwrap_or("");
     match info.name {
         "sensordata" => return sensor(m, f, at),
-        "ctrl" | "key_ctrl" | "actuator_ctrlrange" => return control(m, f, at),
+        "ctrl" => return control(m, at),
+        "actuator_ctrlrange" => return control(m, at / 2),
         _ => {}
     }
     if info.unit.is_empty() {
@@ -157,12 +159,8 @@ fn tendon_motion(m: &Model, tendon: usize) -> Option<Motion> {
 }
 
 /// What a control means: the force of a motor, the place or the velocity that a servo is to reach.
-fn control(m: &Model, f: FieldId, at: usize) -> Measure {
-    let found = if f.info().name == "key_ctrl" { None } else { Some(at) };
-    let width = if f.info().name == "actuator_ctrlrange" { 2 } else { 1 };
-    let object = found.and_then(|at| {
-        (0..m.nactuator).find(|i| m.actuator_ctrladr.get(*i).is_some_and(|a| *a as usize == at / width))
-    });
+fn control(m: &Model, at: usize) -> Measure {
+    let object = (0..m.nactuator).find(|i| m.actuator_ctrladr.get(*i).is_some_and(|a| *a as usize == at));
     let Some(i) = object.filter(|i| m.actuator_ctrlnum.get(*i) == Some(&1)) else { return Measure::Unknown };
     let Some(motion) = actuator_motion(m, i) else { return Measure::Unknown };
     let prm = |list: &[f64], k: usize| list.get(10 * i + k).copied().unwrap_or(f64::NAN);

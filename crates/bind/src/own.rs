@@ -4,8 +4,8 @@ use crate::Error;
 use crate::functions;
 use crate::names::is_taken;
 use labspec_expr::{
-    CollectionId, Compiler, Entry, FunctionId, FunctionInfo, Gives, Globals, ObjectId, Param, Schema, Touch, Type,
-    Value,
+    CollectionId, Compiler, Entry, FunctionId, FunctionInfo, Gives, Globals, ObjectId, Param, Schema, Touch,
+    Type, Value,
 };
 use std::fmt;
 use std::sync::Arc;

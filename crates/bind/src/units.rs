@@ -154,9 +154,9 @@ const USUAL: [&str; 9] = ["N", "N m", "N/m", "N s/m", "W", "Pa", "N s", "1/s", "
 /// How a dimension is written: `mm/s`, `N m`, `deg`; a plain number is `1`. What a factor does that is no power of ten is said in
 /// words.
 pub fn written(dimension: &Dimension) -> String {
-    let usual = USUAL.iter().find(|u| {
-        parse(u).is_some_and(|d| d.agrees(dimension) && d.has_angle() == dimension.has_angle())
-    });
+    let usual = USUAL
+        .iter()
+        .find(|u| parse(u).is_some_and(|d| d.agrees(dimension) && d.has_angle() == dimension.has_angle()));
     let base = usual.map_or_else(|| from_bases(dimension), |u| u.to_string());
     let factor = dimension.factor.abs();
     let near = |x: f64| (factor / x - 1.0).abs() < 1e-3;
@@ -239,7 +239,19 @@ mod tests {
             let d = parse(text).unwrap_or_else(|| panic!("{text}"));
             assert_eq!(written(&d), shown, "{text}");
         }
-        for text in ["", "ramp and block", "qvel[3]", "N m/rad s", "m//s", "x", "m^", "m^x", "1/", "mmin", "degree or m"] {
+        for text in [
+            "",
+            "ramp and block",
+            "qvel[3]",
+            "N m/rad s",
+            "m//s",
+            "x",
+            "m^",
+            "m^x",
+            "1/",
+            "mmin",
+            "degree or m",
+        ] {
             assert_eq!(parse(text), None, "{text}");
         }
     }

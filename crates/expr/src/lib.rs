@@ -76,8 +76,8 @@ pub use print::{format_expression, format_statements, print, print_statements};
 pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
 pub use reference::language_page;
 pub use schema::{
-    Advice, CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, Help, ObjectId,
-    Param, Role, Schema, Touch, Type,
+    Advice, CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, Help,
+    ObjectId, Param, Role, Schema, Touch, Type,
 };
 pub use value::{Value, View};
 pub use words::Words;

@@ -1,11 +1,11 @@
 //! Which dimension every number of a text has, as far as it is certain, read off its form.
 //!
-//! Numbers of the text may stand for quantities of any dimension; what cannot be known is unknown. A loop is looked at until
-//! nothing changes, and what still does then is unknown, too.
+//! Numbers of the text may stand for quantities of any dimension; what cannot be known is unknown, and so is what a loop hands on
+//! from turn to turn.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Args, At, End, Form, Num, Op, Unit, Val};
+use super::{Args, At, Block, BlockId, End, Form, Num, Op, Unit, Val};
 use crate::Span;
 use crate::dimension::{Dimension, Measure};
 use crate::effects::Access;
@@ -60,19 +60,12 @@ pub struct Clash {
     pub right: Dimension,
 }
 
-/// Rounds over a text with loops, after which everything that a loop changes is unknown.
-const ROUNDS: usize = 4;
-
 /// The dimensions in a text.
 pub(crate) fn measured(form: &Form, schema: &dyn Schema, given: &Given) -> Measured {
     let mut all = Measured::default();
     for (id, unit) in form.units.iter().enumerate() {
         let mut work = Work { entry: id == 0, ..Work::new(form, unit, schema, given) };
-        let loops = unit.blocks.iter().any(|b| matches!(b.end, End::Again(_)));
-        for round in 0..if loops { ROUNDS } else { 1 } {
-            work.surely = !loops || round + 1 == ROUNDS;
-            work.round();
-        }
+        work.look();
         let found = work.found;
         if id == 0 {
             all.value = found.value;
@@ -95,8 +88,6 @@ struct Work<'f> {
     given: &'f Given,
     /// It is the text itself, and no function in it.
     entry: bool,
-    /// The last round: what follows from a loop is unknown.
-    surely: bool,
     numbers: BTreeMap<u32, Measure>,
     values: BTreeMap<u32, Measure>,
     found: Measured,
@@ -110,7 +101,6 @@ impl<'f> Work<'f> {
             schema,
             given,
             entry: true,
-            surely: true,
             numbers: BTreeMap::new(),
             values: BTreeMap::new(),
             found: Measured::default(),
@@ -118,11 +108,14 @@ impl<'f> Work<'f> {
     }
 
     /// One look at everything, in the order of the text.
-    fn round(&mut self) {
+    fn look(&mut self) {
         self.found = Measured { value: Measure::Anything, ..Measured::default() };
         let unit = self.unit;
+        // Where some way leads back to.
+        let back = |b: &Block| if let End::Again(edge) = &b.end { Some(edge.to) } else { None };
+        let loops: BTreeSet<BlockId> = unit.blocks.iter().filter_map(back).collect();
         for (at, block) in unit.blocks.iter().enumerate() {
-            if self.surely && self.begins_loop(at) {
+            if loops.contains(&(at as BlockId)) {
                 for param in &block.params {
                     self.set(*param, Measure::Unknown);
                 }
@@ -145,11 +138,6 @@ impl<'f> Work<'f> {
                 End::Return(None) => {}
             }
         }
-    }
-
-    /// Whether some way leads back to a block.
-    fn begins_loop(&self, at: usize) -> bool {
-        self.unit.blocks.iter().any(|b| matches!(&b.end, End::Again(edge) if edge.to as usize == at))
     }
 
     fn slot(&mut self, at: At) -> Option<&Measure> {
@@ -217,7 +205,6 @@ impl<'f> Work<'f> {
     fn clash(&mut self, span: &Span, a: Measure, b: Measure) {
         if let (Measure::Known(left), Measure::Known(right)) = (a, b)
             && a.clashes(b)
-            && self.surely
         {
             self.found.clashes.push(Clash { span: *span, left, right });
         }

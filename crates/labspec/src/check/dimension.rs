@@ -76,7 +76,8 @@ impl Work<'_> {
             Compiler::new(&self.names, &mut self.globals).measuring(&given).statements(&text.value).measured
         });
         let controls = lab.controls.iter().zip(&programs.controls);
-        let controls = controls.map(|(control, (_, program))| self.control(control, program, &given)).collect();
+        let controls =
+            controls.map(|(control, (_, program))| self.control(control, program, &given)).collect();
         Dimensions { probes, controls, others: others.into() }
     }
 

@@ -62,11 +62,16 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
         .collect();
     for one in &shown {
         let ([name], Some(&body)) = (one.names.as_slice(), one.bodies.first()) else { continue };
-        let Some(named) = all.get(*name).filter(|n| n.body != body && one.bodies.len() == 1) else { continue };
+        let Some(named) = all.get(*name).filter(|n| n.body != body && one.bodies.len() == 1) else {
+            continue;
+        };
         if !(alone(one, named) || beside(one, named, body, &shown, &all)) {
             continue;
         }
-        let reads = one.reads.iter().filter_map(|(kind, index)| all.iter().find(|n| n.kind == *kind && n.index == *index));
+        let reads = one
+            .reads
+            .iter()
+            .filter_map(|(kind, index)| all.iter().find(|n| n.kind == *kind && n.index == *index));
         let Some(other) = reads.into_iter().next() else { continue };
         findings.push(
             Finding::new(
@@ -157,7 +162,9 @@ fn words(text: &str) -> Vec<String> {
 fn elements(model: &Model) -> Vec<Named> {
     let mut all = Vec::new();
     for (kind, noun) in KINDS {
-        for (index, name) in model.names.of(kind).iter().enumerate().filter(|(_, n)| n.chars().count() > 1).take(MOST) {
+        for (index, name) in
+            model.names.of(kind).iter().enumerate().filter(|(_, n)| n.chars().count() > 1).take(MOST)
+        {
             let body = body_of(model, kind, index).filter(|b| *b != 0);
             // A space of names stands before a stroke.
             let own = name.rsplit('/').next().unwrap_or(name);

@@ -39,7 +39,9 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
 /// The labels of every trace, with that of its plot, then those of the readouts.
 fn labels(lab: &Lab) -> impl Iterator<Item = Vec<&Text>> {
     let traces = lab.plots.iter().flat_map(|plot| {
-        plot.traces.iter().map(|trace| [Some(&trace.label), plot.ylabel.as_ref()].into_iter().flatten().collect())
+        plot.traces
+            .iter()
+            .map(|trace| [Some(&trace.label), plot.ylabel.as_ref()].into_iter().flatten().collect())
     });
     traces.chain(lab.readouts.iter().map(|r| vec![&r.label]))
 }
@@ -82,8 +84,12 @@ fn why(found: &Dimension, wanted: &Dimension) -> String {
     let ratio = found.factor.abs() / wanted.factor.abs();
     let near = |x: f64| (x - x.round()).abs() < 1e-6 * x;
     match (ratio, 1.0 / ratio) {
-        (r, _) if r >= 1.0 && near(r) => format!("a student reads a number that is {} times too large", r.round()),
-        (_, r) if r >= 1.0 && near(r) => format!("a student reads a number that is {} times too small", r.round()),
+        (r, _) if r >= 1.0 && near(r) => {
+            format!("a student reads a number that is {} times too large", r.round())
+        }
+        (_, r) if r >= 1.0 && near(r) => {
+            format!("a student reads a number that is {} times too small", r.round())
+        }
         _ => "a student takes the number for another one".to_string(),
     }
 }
@@ -120,20 +126,20 @@ fn wrong_control(
         ControlKind::Slider { unit: Some(text), .. } if unit(text.as_str()).is_some() => text,
         _ => &control.label,
     };
-    let message = format!("by its unit the control stores {}, and {field} is in {}", written(&found), written(&wanted));
+    let message =
+        format!("by its unit the control stores {}, and {field} is in {}", written(&found), written(&wanted));
     let at = bound.text.span_of(stored.span.into());
     let told = Finding::new(rules::LABEL_UNIT, label.span(), message).related(at, "what it stores");
-    Some(told.why(why(&found, &wanted)).help("convert `value` where it is stored, or write the unit of the field"))
+    Some(
+        told.why(why(&found, &wanted))
+            .help("convert `value` where it is stored, or write the unit of the field"),
+    )
 }
 
 /// Sums and comparisons of what cannot be added or compared.
 fn clashes(bound: &Bound, measured: &Measured, severity: Severity) -> Vec<Finding> {
     let one = |clash: &labspec_expr::Clash| {
-        let message = format!(
-            "{} and {} are added or compared",
-            written(&clash.left),
-            written(&clash.right)
-        );
+        let message = format!("{} and {} are added or compared", written(&clash.left), written(&clash.right));
         let mut found = Finding::new(rules::MIXED_DIMENSIONS, bound.text.span_of(clash.span.into()), message)
             .help("look at the index and at the field: is one of the two another quantity than is meant?");
         found.severity = severity;
