@@ -184,10 +184,10 @@ fn variables_and_loops_keep_what_is_stored() {
         ("ctx.x = data.qpos[0]", "ctx.x", true),
         ("ctx.x = null", "ctx.x", false),
         ("const late = data.qpos[0]; ctx.x = late", "ctx.x", true),
-        ("for (let i = 0; i < 2; i++) ctx.x = data.qpos[i]", "ctx.x", true),
+        ("for (let i = 0; i < 2; i++) ctx.x = data.xpos[i]", "ctx.x", true),
         ("ctx.x = data.qpos[0]; ctx.y = ctx.x", "ctx.y", true),
         ("ctx.x = data.qpos[0]; ctx['x'] = data.time", "ctx.x", false),
-        ("ctx.x = 0; for (let i = 0; i < 3; i++) ctx.x += data.qpos[i % 2]", "ctx.x", true),
+        ("ctx.x = 0; for (let i = 0; i < 3; i++) ctx.x += data.xpos[i % 2]", "ctx.x", true),
         ("let x = 1; for (let i = 0; i < 3; i++) x *= data.qpos[0]; ctx.x = x", "ctx.x", false),
     ] {
         let readouts = serde_json::json!([{"label": "x (mm)", "expr": expr}]);

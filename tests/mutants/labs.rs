@@ -56,7 +56,7 @@ pub(super) const TEXTS: [Kind; 18] = [
 ];
 
 /// What is wrong with plots and readouts, and how long is looked at them.
-pub(super) const VIEWS: [Kind; 16] = [
+pub(super) const VIEWS: [Kind; 13] = [
     kind("constant-trace", "a trace shows where its coordinate begins", |l| {
         text(l, &TRACE, |t| swap(t, "data.qpos", "model.qpos0"))
     }),
@@ -92,17 +92,6 @@ pub(super) const VIEWS: [Kind; 16] = [
             Some(list)
         })
     }),
-    kind("labels-exchanged", "two traces or readouts have each other's label", |l| {
-        let mut all = each(l, &["plots", "*", "traces"], exchanged);
-        all.extend(each(l, &["readouts"], exchanged));
-        all
-    }),
-    kind("label-in-degrees", "a label says degrees, and the number is in radians", |l| {
-        labels(l, |t| swap(t, "(rad", "(deg"))
-    }),
-    kind("label-of-speed", "a label says m/s, and the number is in m", |l| {
-        labels(l, |t| swap(t, "(m)", "(m/s)"))
-    }),
     kind("empty-plot", "a plot has no traces", |l| each(l, &["plots", "*", "traces"], |_| Some(json!([])))),
     kind("early-stop", "the lab stops before anything happens", |l| with(l, "stopAt", json!(0.001))),
     kind("no-run", "the lab stops at once", |l| with(l, "stopAt", json!(0))),
@@ -119,6 +108,18 @@ pub(super) const VIEWS: [Kind; 16] = [
             (r["digits"].as_f64().unwrap_or(3.0) > 2.0).then(|| r["digits"] = json!(0))?;
             Some(r)
         })
+    }),
+];
+
+/// What is wrong with labels. They stand last, so that the places of the other kinds stay.
+pub(super) const LABELS: [Kind; 2] = [
+    kind("labels-exchanged", "two traces or readouts have each other's label", |l| {
+        let mut all = each(l, &["plots", "*", "traces"], exchanged);
+        all.extend(each(l, &["readouts"], exchanged));
+        all
+    }),
+    kind("label-in-degrees", "a label says degrees, and the number is in radians", |l| {
+        labels(l, |t| swap(t, "(rad", "(deg"))
     }),
 ];
 
