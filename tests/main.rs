@@ -8,6 +8,7 @@ mod cli_run;
 mod conformance;
 mod constrained;
 mod courses;
+mod dimensions;
 mod examples;
 mod files;
 mod fixes;

@@ -22,6 +22,7 @@
 //! fail: they return what was understood and a list of [`Finding`]s.
 
 pub mod ast;
+pub mod dimension;
 pub mod rules;
 
 mod bind;
@@ -67,6 +68,7 @@ pub use chain::{Mention, Named, chain_at, fields_in, names_in, texts_in, variabl
 pub use columnar::{Columnar, Foreign, Recording};
 pub use complete::{Suggested, Suggestion, complete};
 pub use effects::{Access, Effects};
+pub use form::measure::{Clash, Given, Measured, Stored};
 pub use globals::{Globals, ProgramId};
 pub use heap::{Full, Heap, Ref};
 pub use labspec_finding::{Finding, Fix, Severity, Span, floor};
@@ -78,8 +80,8 @@ pub use print::{format_expression, format_statements, print, print_statements};
 pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
 pub use reference::language_page;
 pub use schema::{
-    Advice, CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Help, ObjectId,
-    Param, Role, Schema, Touch, Type,
+    Advice, CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, Help,
+    ObjectId, Param, Role, Schema, Touch, Type,
 };
 pub use value::{Value, View};
 pub use words::Words;

@@ -2,18 +2,23 @@
 
 mod allowed;
 mod claims;
+mod dimension;
 mod entries;
 mod expect;
 mod mass_alone;
+mod labels;
+mod named;
 mod params;
 mod programs;
 mod refresh;
 mod sight;
 pub mod stored;
 mod trial;
+mod units;
 
 pub use allowed::Allowed;
 pub use claims::Claim;
+pub use dimension::{Dimensions, dimensions};
 pub use entries::{evidence, ledger};
 pub use trial::Tried;
 
@@ -164,6 +169,8 @@ fn prepare<'l>(
     let (model, programs, mistakes) = bind(lab, models, findings)?;
     if depth.programs {
         programs::check(lab, &model, &programs, findings);
+        units::check(lab, &model, &programs, findings);
+        named::check(lab, &model, &programs, findings);
     }
     Some(Ready { lab, model, programs, mistakes })
 }
