@@ -10,7 +10,10 @@ pub(super) const REASONS: [(&str, &str); 44] = [
     ),
     ("wrong-unit", "another number of the text is a factor, and may have a unit of its own"),
     ("labels-exchanged", "both measure the same, and neither label is a name of the model"),
-    ("label-in-degrees", "a slider's value, or a part of a quaternion, has no dimension that is certain"),
+    (
+        "label-in-degrees",
+        "it is the label of a plot, and the curves have units of their own, which are right",
+    ),
     ("degrees", "a large angle is an angle"),
     ("compared", "the comparison stands in an `if` or a `?:`, where it may be meant"),
     ("nan-at-start", "the text itself says that there may be a gap"),
