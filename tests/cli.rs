@@ -59,7 +59,10 @@ fn check_for_programs() {
     let report = run(&["check", "wrong.md", "--format", "json"]);
     assert_eq!(report.code, 1);
     let report: Value = serde_json::from_str(&report.stdout).unwrap();
-    assert_eq!(keys(&report), ["schemaVersion", "report", "findings", "summary", "lessons", "ledger"]);
+    assert_eq!(
+        keys(&report),
+        ["schemaVersion", "report", "findings", "summary", "aside", "lessons", "ledger"]
+    );
     let lesson = &report["lessons"][0];
     assert_eq!(keys(lesson), ["file", "labs", "claims"]);
     let lab = ["address", "title", "runs", "ran", "broke", "seconds", "covered", "skipped", "ended"];

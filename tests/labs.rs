@@ -40,6 +40,7 @@ const EXCUSED: &[(&str, &str, usize, &str)] = &[
     ),
     ("5.3_01_simlab", "readout/normal force, left pad (N)", 1, GRIP),
     ("5.3_01_simlab", "readout/friction capacity 2μN/g (kg)", 1, GRIP),
+    ("5.3_01_simlab", "readout/cube height (m)", 1, SLIP),
     (
         "physics-lab_04_simlab",
         "readout/total momentum (kg m/s)",
@@ -49,6 +50,7 @@ const EXCUSED: &[(&str, &str, usize, &str)] = &[
 ];
 
 /// Two pads that hold a body.
+const SLIP: &str = "moves by 0.17 of its range when the start moves by 1e-14";
 const GRIP: &str =
     "moves by 5e-4 of its range when the start moves by 1e-14, by 3e-4 when the solver runs to rounding";
 

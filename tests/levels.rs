@@ -188,21 +188,25 @@ fn reports_have_the_forms_of_other_programs() {
 
 #[test]
 fn repairs_are_checked_before_they_are_written() {
-    // A misspelt key, in a layout of the author's own.
-    let odd = TWICE
-        .replacen("\"z\"", "\"v\"", 1)
-        .replace("\"title\"", "\"titel\"")
-        .replace("  \"read", " \t\"read");
+    // A comma too many, and a misspelt key, in a layout of the author's own.
+    let odd =
+        TWICE.replacen("\"z\"", "\"v\"", 1).replace("2}]\n}", "2}],\n}").replace("  \"read", " \t\"read");
+    let odd = odd.replace("\"title\"", "\"titel\"");
     let folder = folder(&[("a.md", &odd)]);
     let read = || std::fs::read_to_string(folder.path().join("a.md")).unwrap();
     let diff = check(&folder, &["a.md", "--diff"]);
     assert_eq!(diff.code, 1, "{}{}", diff.stdout, diff.stderr);
-    assert!(diff.stdout.contains("-  \"titel\"") && diff.stdout.contains("+  \"title\""), "{}", diff.stdout);
+    assert!(diff.stdout.contains("2}],\n") && diff.stdout.contains("2}]\n"), "{}", diff.stdout);
     assert_eq!(read(), odd);
     let done = check(&folder, &["a.md", "--fix"]);
-    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    assert_eq!(done.code, 1, "{}{}", done.stdout, done.stderr);
     assert!(done.stderr.contains("repaired 1 finding in 1 file"), "{}", done.stderr);
-    assert_eq!(read(), odd.replace("titel", "title"));
+    let safe = odd.replace("2}],\n", "2}]\n");
+    assert_eq!(read(), safe);
+    // A guess is made where it is asked for.
+    let done = check(&folder, &["a.md", "--unsafe-fixes"]);
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    assert_eq!(read(), safe.replace("titel", "title"));
     assert_eq!(check(&folder, &["a.md", "--diff"]).code, 0);
 }
 

@@ -115,9 +115,8 @@ fn apply<S: Scope>(event: &Event, now: usize, m: &mut Model, d: &mut Data<S>) {
 
 /// The bits of a field. NaN is one value: which of its bits a processor keeps depends on the order of the operands.
 fn bits<S: Scope>(m: &Model, d: &Data<S>, f: FieldId) -> Vec<u64> {
-    let view = core::view(m, d, f).unwrap();
     let bits = |x: f64| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
-    (0..view.len()).map(|i| bits(view.get(i).unwrap())).collect()
+    (0..core::length(m, d, f)).map(|i| bits(core::element(m, d, f, i).unwrap())).collect()
 }
 
 /// Runs a scene with a plan and with the full pipeline; the first field that differs, with its step.
@@ -137,7 +136,13 @@ fn difference_of(m: &Model, mut planned: Data<Planned>, demand: &Demand, events:
         core::step(&m1, &mut planned).unwrap();
         core::step(&m2, &mut full).unwrap();
         for f in demand.reads.iter() {
-            let (a, b) = (bits(&m1, &planned, f), bits(&m2, &full, f));
+            let (mut a, mut b) = (bits(&m1, &planned, f), bits(&m2, &full, f));
+            // Of the sensors, those that are read.
+            for (i, (a, b)) in a.iter_mut().zip(&mut b).enumerate() {
+                if !demand.reads.contains_element(f, i) {
+                    (*a, *b) = (0, 0);
+                }
+            }
             if a != b {
                 let name = f.info().name;
                 let numbers = |v: &[u64]| v.iter().map(|&x| f64::from_bits(x)).collect::<Vec<_>>();
@@ -168,6 +173,14 @@ fn writes(events: &[Event]) -> FieldSet {
     set
 }
 
+/// Scenes with sensors.
+fn sensing() -> impl Strategy<Value = crate::scenes::Scene> {
+    (scene(), vec(0..crate::scenes::SENSORS.len(), 1..6)).prop_map(|(mut scene, sensors)| {
+        scene.sensors = sensors;
+        scene
+    })
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
 
@@ -184,6 +197,26 @@ proptest! {
         // The state is what every lab shows, whatever else it reads.
         for name in ["time", "qpos", "qvel"] {
             demand.reads.insert(field(Object::Data, name));
+        }
+        let difference = difference(&m, &demand, &events);
+        prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
+    }
+
+    /// Sensors are left out one by one.
+    #[test]
+    fn planned_and_full_runs_agree_on_the_sensors_that_are_read(
+        scene in sensing(),
+        reads in vec(any::<prop::sample::Index>(), 1..3),
+        others in vec(any::<prop::sample::Index>(), 0..2),
+        events in vec(event(), 0..4),
+    ) {
+        let m = compile(&scene.xml());
+        let mut demand = Demand { reads: FieldSet::EMPTY, writes: writes(&events) };
+        others.iter().for_each(|i| demand.reads.insert(*i.get(&data_fields())));
+        let sensors: Vec<core::SensorId> = m.sensors().collect();
+        for i in &reads {
+            let places = i.get(&sensors).values(&m);
+            demand.reads.insert_elements(field(Object::Data, "sensordata"), places.start, Some(places.len()));
         }
         let difference = difference(&m, &demand, &events);
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
@@ -261,6 +294,32 @@ fn a_clock_sees_what_the_plan_keeps() {
         assert_eq!(core::laps(&mut d), core::Laps::default());
         assert_eq!(core::cost(&d) - before, work + 10 * passes * core::cost_of_pass(&d), "{name}");
     }
+}
+
+/// A sensor that nobody reads is not evaluated, nor are the stages that it alone needs; and nobody can read it by mistake.
+#[test]
+fn sensors_that_nobody_reads_are_left_out() {
+    let m = compile(
+        "<mujoco><worldbody><body><joint axis='0 1 0'/><geom size='.1' pos='1 0 0'/><site name='s' pos='1 0 0'/></body></worldbody>
+         <sensor><clock name='clock'/><accelerometer name='pulled' site='s'/></sensor></mujoco>",
+    );
+    let (data, name) = (field(Object::Data, "sensordata"), |name: &str| m.sensor(name).unwrap());
+    for (read, left, stage) in [("clock", "pulled", false), ("pulled", "clock", true)] {
+        let mut demand = reading(&[]);
+        let places = name(read).values(&m);
+        demand.reads.insert_elements(data, places.start, Some(places.len()));
+        let plan = Plan::new(&m, &demand);
+        assert!(plan.evaluates(&m, name(read)) && !plan.evaluates(&m, name(left)));
+        assert_eq!(plan.keeps(Stage::RnePost), stage);
+        let mut d = Data::planned(&m, plan);
+        core::step(&m, &mut d).unwrap();
+        core::step(&m, &mut d).unwrap();
+        let value = |of: &str| name(of).values(&m).map(|i| core::element(&m, &d, data, i).unwrap().abs());
+        assert!(value(read).sum::<f64>() > 0.0 && value(left).sum::<f64>() == 0.0, "{read}");
+        assert!(d.get("sensordata").is_err());
+    }
+    let plan = Plan::new(&m, &reading(&["sensordata"]));
+    assert!(plan.evaluates(&m, name("clock")) && plan.evaluates(&m, name("pulled")));
 }
 
 /// A demand that reads these fields of the data and writes nothing.

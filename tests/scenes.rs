@@ -9,7 +9,7 @@ use std::fmt::Write;
 type Triple = (f64, f64, f64);
 
 /// Sensors that any scene may have: together they need the results of every stage.
-const SENSORS: [&str; 22] = [
+pub(crate) const SENSORS: [&str; 22] = [
     "<clock/>",
     "<framepos objtype='body' objname='b0'/>",
     "<framequat objtype='geom' objname='g0'/>",
@@ -89,7 +89,7 @@ pub(crate) struct Scene {
     floor: bool,
     mocap: bool,
     /// Places in `SENSORS`.
-    sensors: Vec<usize>,
+    pub(crate) sensors: Vec<usize>,
     energy: bool,
     rk4: bool,
 }

@@ -216,7 +216,7 @@ fn ctrl_c_prints_what_is_finished() {
     let folder = folder();
     // A step of this lab is slow, so that the run is still going on when the signal comes.
     let lab = r#"{"title": "Slow", "model": "free_fall", "stopAt": 2000,
-        "controller": "let s = 0; for (let i = 0; i < 2000; i++) { s = s + i }",
+        "controller": "let s = data.time; for (let i = 0; i < 2000; i++) { s = s + i }",
         "readouts": [{"label": "time", "expr": "data.time"}]}"#;
     std::fs::write(folder.path().join("slow.json"), lab).unwrap();
     let interrupt = |command: &str| {

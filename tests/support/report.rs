@@ -21,7 +21,10 @@ pub(crate) fn hold_command(folder: &Path, arguments: &[&str], code: i32, printed
     if (always || asked("--format", "json")) && matches!(code, 0 | 1 | 130) {
         assert!(printed.starts_with('{'), "{arguments:?} prints no report:\n{printed:.2000}");
     }
-    hold(printed);
+    // Forms of other programs have schemas of their own.
+    if !["jsonl", "sarif", "gitlab"].iter().any(|form| asked("--format", form)) {
+        hold(printed);
+    }
     // And what it wrote.
     let file = arguments.iter().position(|a| *a == "--json").and_then(|i| arguments.get(i + 1));
     if let Some(file) = file.filter(|_| code < 2) {

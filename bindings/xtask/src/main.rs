@@ -1,7 +1,14 @@
-//! Builds the package of `bindings/wasm`: the module, its JavaScript and its TypeScript types.
+//! Builds what is published.
 //!
-//! `cargo run --manifest-path bindings/xtask/Cargo.toml -- [FOLDER]` writes them into FOLDER (`bindings/wasm/pkg`), in `node/` and
-//! `web/`. The target is added where rustup is there and has it not.
+//! `cargo run --manifest-path bindings/xtask/Cargo.toml -- [FOLDER]` builds the package of `bindings/wasm`: the module, its
+//! JavaScript and its TypeScript types, into FOLDER (`bindings/wasm/pkg`), in `node/` and `web/`. The target is added where rustup
+//! is there and has it not.
+//!
+//! `… -- release [FOLDER]` builds the program for this machine and packs it with its licences into
+//! `labspec-VERSION-TARGET.tar.gz`, with its SHA-256 beside it, in FOLDER (`target/release-archives`). The same program gives the
+//! same bytes.
+
+mod archive;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -9,7 +16,13 @@ use std::process::{Command, ExitCode};
 const TARGET: &str = "wasm32-unknown-unknown";
 
 fn main() -> ExitCode {
-    match build() {
+    let mut arguments = std::env::args_os().skip(1);
+    let first = arguments.next();
+    let done = match first.as_deref().and_then(|a| a.to_str()) {
+        Some("release") => archive::release(arguments.next().map(PathBuf::from)),
+        _ => build(first.map(PathBuf::from)),
+    };
+    match done {
         Ok(folder) => {
             println!("{}", folder.display());
             ExitCode::SUCCESS
@@ -21,9 +34,9 @@ fn main() -> ExitCode {
     }
 }
 
-fn build() -> Result<PathBuf, String> {
+fn build(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("wasm");
-    let folder = std::env::args_os().nth(1).map_or_else(|| crates.join("pkg"), PathBuf::from);
+    let folder = folder.unwrap_or_else(|| crates.join("pkg"));
     // Where there is no rustup, the target may be there all the same: the build tells.
     let _ = Command::new("rustup").args(["target", "add", TARGET]).output();
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));

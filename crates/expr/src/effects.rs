@@ -62,6 +62,11 @@ impl Effects {
         self.writes.is_empty() && !ctx && !self.writes_everything && !self.stores_items && !self.calls_values
     }
 
+    /// Whether a run may store elements of lists and arrays that are known only while running.
+    pub fn stores_items(&self) -> bool {
+        self.stores_items
+    }
+
     pub(crate) fn read(&mut self, access: Access) {
         add(&mut self.reads, access);
     }

@@ -168,8 +168,9 @@ impl<S: Scope> Data<S> {
             return Err(Error::NoField(info.name.into()));
         }
         let written = matches!(info.kind, Kind::State | Kind::Input);
-        if S::FULL || written || self.demand.reads.contains(field) {
-            Ok(reflect::view_data(&self.inner.fields, field))
+        let view = reflect::view_data(&self.inner.fields, field);
+        if S::FULL || written || self.demand.reads.contains_whole(field, view.len()) {
+            Ok(view)
         } else {
             Err(Error::LeftOut { field, stage: info.stage })
         }

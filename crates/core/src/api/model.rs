@@ -7,9 +7,10 @@ use crate::kinds::{disable, enable};
 use crate::model::fields::{model_fields, option_fields, statistic_fields};
 use crate::model::reflect::{self, FieldId, FieldSet, Object};
 use crate::model::{self as inner, Names, Obj};
+use crate::sensor;
 use crate::setup;
 use labspec_finding::nearest;
-use std::ops::Deref;
+use std::ops::{Deref, Range};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -415,6 +416,13 @@ ids! {
     SensorId Sensor sensor sensors nsensor;
     /// A keyframe.
     KeyId Key key keys nkey;
+}
+
+impl SensorId {
+    /// The places of its values in `sensordata`.
+    pub fn values(self, m: &Model) -> Range<usize> {
+        sensor::places(m, self.0)
+    }
 }
 
 /// The id of a named object.

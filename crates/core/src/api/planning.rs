@@ -1,11 +1,12 @@
 //! Plans as everybody but the engine sees them: what a demand leads to.
 
-use super::model::Model;
+use super::model::{Model, SensorId};
 use crate::collision::{self, PairFate};
 use crate::dynamics::ways;
 use crate::model::plan::{Decision, Fact, Plan as Inner};
 use crate::model::stage::Stage;
 use crate::model::way::{Way, Ways};
+use crate::sensor;
 use crate::step::scene::Demand;
 
 /// Which stages run, and why.
@@ -85,6 +86,12 @@ impl Plan {
     /// The ways that each tree of the model takes: for where its bodies are, for its inertia and forces, for its accelerations.
     pub fn ways(&self, m: &Model) -> Vec<[Way; 3]> {
         (0..m.ntree).map(|tree| ways::taken_by(m, self.inner.ways, tree)).collect()
+    }
+
+    /// Whether the values of a sensor are computed. A sensor that nobody reads is left out by itself.
+    pub fn evaluates(&self, m: &Model, sensor: SensorId) -> bool {
+        let read = || sensor::is_read(m, sensor.index(), self.inner.sensed);
+        self.keeps(Stage::Sensors) && (self.inner.every_sensor || read())
     }
 
     /// Every stage with the reason to keep it or leave it out, in the order of the pipeline.

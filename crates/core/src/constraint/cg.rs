@@ -4,7 +4,7 @@
 //! line search*), with their truncation.
 
 use super::iterate::Reached;
-use super::primal::Problem;
+use super::primal::{Direction, Problem};
 use crate::math::MINVAL;
 
 /// Keeps the truncation finite where the gradient vanishes.
@@ -22,7 +22,7 @@ impl Problem<'_> {
     }
 
     /// search ← β search - M⁻¹ g, and what the next β compares with.
-    fn conjugate_direction(&mut self, before: Option<f64>) -> bool {
+    fn conjugate_direction(&mut self, before: Option<f64>) -> Option<Direction> {
         self.decrement_by_mass();
         let beta = before.map(|gradient| self.beta(gradient));
         let (dofs, s) = (self.dofs(), &mut *self.s);
@@ -30,7 +30,7 @@ impl Problem<'_> {
             s.search[k] = beta.map_or(-s.step[k], |beta| beta * s.search[k] - s.step[k]);
             (s.grad_old[k], s.step_old[k]) = (s.grad[k], s.step[k]);
         }
-        true
+        Some(Direction::Other)
     }
 
     /// How much of the last direction d stays: (y·Mg - 2 (y·My) (d·g) / (d·y)) / (d·y), where y is the change of the

@@ -6,7 +6,7 @@
 use super::cost::{Cost, Curvature, push_curvature};
 use super::iterate::Reached;
 use super::jacobian::{Block, Gram, Jacobian, by_rows};
-use super::primal::{Problem, shape};
+use super::primal::{Direction, Problem, shape};
 use super::six::Six;
 use crate::dynamics::mass;
 use crate::math::{FREE_DOFS, dot};
@@ -33,8 +33,9 @@ impl Problem<'_> {
             p.newton_direction(&six);
             // The first direction is gone while the gradient is large.
             let small = before.is_some() || scale * gradient < tol;
-            let done = small && scale * p.decrement() < tol;
-            !done
+            let decrement = p.decrement();
+            let done = small && scale * decrement < tol;
+            (!done).then_some(Direction::Newton(-2.0 * decrement))
         });
     }
 

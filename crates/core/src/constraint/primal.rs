@@ -12,6 +12,15 @@ use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
+/// What is known of the cost along a direction where it begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Direction {
+    /// Its slope; the direction is Newton's, so that the curvature is minus that.
+    Newton(f64),
+    /// Nothing.
+    Other,
+}
+
 /// One island: its trees and constraints.
 pub(super) struct Problem<'a> {
     pub(super) m: &'a Model,
@@ -36,21 +45,20 @@ impl<'a> Problem<'a> {
     }
 
     /// Goes down the cost, along one direction after the other. `direct` puts the next one into `search` and says whether it is
-    /// worth going; it is given the norm of the gradient where the last one began, none for the first. A step costs `price`.
+    /// worth going, and then what is known of it; it is given the norm of the gradient where the last one began, none for the
+    /// first. A step costs `price`.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn descend(
         &mut self,
         from: Reached,
         price: u64,
-        mut direct: impl FnMut(&mut Self, Option<f64>) -> bool,
+        mut direct: impl FnMut(&mut Self, Option<f64>) -> Option<Direction>,
     ) {
         let tol = self.m.opt.tolerance;
         let Reached { mut cost, mut gradient, scale, .. } = from;
-        if !direct(self, None) {
-            return;
-        }
+        let Some(mut direction) = direct(self, None) else { return };
         for _ in 0..self.m.opt.iterations.max(0) {
-            let alpha = self.line_search(scale);
+            let alpha = self.line_search(scale, direction);
             self.d.meter.add(price);
             if alpha == 0.0 || self.d.meter.over() {
                 break;
@@ -63,9 +71,8 @@ impl<'a> Problem<'a> {
             if (improvement > 0.0 && improvement < tol) || scale * gradient < tol {
                 break;
             }
-            if !direct(self, Some(before.1)) {
-                break;
-            }
+            let Some(next) = direct(self, Some(before.1)) else { break };
+            direction = next;
         }
     }
 
@@ -181,7 +188,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The best step along `search`.
-    pub(super) fn line_search(&mut self, scale: f64) -> f64 {
+    pub(super) fn line_search(&mut self, scale: f64, direction: Direction) -> f64 {
         let price = 20 + 12 * self.islands.blocks.len(self.island) as u64;
         let most = (self.d.meter.left() / price).max(16);
         let mut evaluations = 0;
@@ -205,7 +212,7 @@ impl<'a> Problem<'a> {
         }
         let gtol = m.opt.tolerance * m.opt.ls_tolerance * length / scale;
         let most = most.min(m.opt.ls_iterations.max(0) as u64) as usize;
-        let best = minimize(gtol, most, |alpha| {
+        let mut eval = |alpha| {
             evaluations += 1;
             let mut p = Point {
                 alpha,
@@ -222,7 +229,12 @@ impl<'a> Problem<'a> {
                 }
             }
             p
-        });
+        };
+        let start = match direction {
+            Direction::Newton(slope) => Point { alpha: 0.0, cost: 0.0, slope, curvature: -slope },
+            Direction::Other => eval(0.0),
+        };
+        let best = minimize(gtol, most, start, eval);
         self.d.meter.add(evaluations * price);
         best
     }

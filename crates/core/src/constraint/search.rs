@@ -64,10 +64,9 @@ impl Bracket {
     }
 }
 
-/// The step that minimizes `eval` to |slope| < `gtol`, in at most `budget` evaluations, two at
-/// least. 0 when no step lowers the cost.
-pub(super) fn minimize(gtol: f64, budget: usize, mut eval: impl FnMut(f64) -> Point) -> f64 {
-    let start = eval(0.0);
+/// The step that minimizes `eval` to |slope| < `gtol`, from a point that is known, in at most `budget` evaluations with that one,
+/// two at least. 0 when no step lowers the cost.
+pub(super) fn minimize(gtol: f64, budget: usize, start: Point, mut eval: impl FnMut(f64) -> Point) -> f64 {
     let mut bracket = Bracket::default();
     let (mut last, mut halve) = (start, false);
     for _ in 1..budget.max(2) {
@@ -102,12 +101,13 @@ mod tests {
     fn what_is_no_number_ends_the_search() {
         for (slope, curvature) in [(f64::NAN, 1.0), (-1.0, f64::NAN), (-1.0, 0.0), (f64::NEG_INFINITY, 1.0)] {
             let mut n = 0;
-            let eval = |alpha| {
+            let mut eval = |alpha| {
                 n += 1;
                 assert!(n < 100);
                 Point { alpha, cost: 0.0, slope, curvature }
             };
-            assert_eq!(minimize(1e-12, usize::MAX, eval), 0.0);
+            let start = eval(0.0);
+            assert_eq!(minimize(1e-12, usize::MAX, start, eval), 0.0);
         }
     }
 
@@ -128,7 +128,7 @@ mod tests {
                 }
                 p
             };
-            let alpha = minimize(1e-12, 100, eval);
+            let alpha = minimize(1e-12, 100, eval(0.0), eval);
             let p = eval(alpha);
             let scale: f64 = 1.0 + rows.iter().map(|r| r.0 * r.2 * r.2).sum::<f64>();
             prop_assert!(p.slope.abs() < 1e-9 * scale, "slope {} at {alpha}", p.slope);

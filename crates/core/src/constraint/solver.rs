@@ -139,11 +139,11 @@ fn warm_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac
     }
     let mut done = reached.iter().all(|r| r.minimum);
     if !done {
-        jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jv);
-        // The unconstrained acceleration has no Gauss cost; the last one has it everywhere.
+        // The unconstrained acceleration has no Gauss cost; the last one has it everywhere, in islands and out of them.
         let gauss = |k: usize| 0.5 * (s.ma[k] - d.qfrc_smooth[k]) * (d.qacc_warmstart[k] - d.qacc_smooth[k]);
-        let warm = total_cost(d, jac, &s.jar) + (0..m.nv).map(gauss).sum::<f64>();
-        if warm <= total_cost(d, jac, &s.jv) {
+        let apart = (0..m.ntree).filter(|&tree| !islands.has(tree)).flat_map(|tree| m.tree_dofs(tree));
+        let warm = reached.iter().map(|r| r.cost).sum::<f64>() + apart.map(gauss).sum::<f64>();
+        if !costs_less(d, jac, s, warm) {
             for (island, &from) in reached.iter().enumerate() {
                 Problem { m, d, s, islands, jac, island }.run(from);
             }
@@ -154,14 +154,26 @@ fn warm_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac
     done
 }
 
-/// Cost of all constraints at x = J a - aref.
-fn total_cost(d: &Fields, jac: &Jacobian, x: &[f64]) -> f64 {
+/// Whether the unconstrained acceleration costs less than `most`. No constraint costs less than nothing, so that the first ones
+/// may tell.
+fn costs_less(d: &Fields, jac: &Jacobian, s: &mut Iterate, most: f64) -> bool {
     let push = |x: f64, w: f64| 0.5 * w * pushed(x) * pushed(x);
-    let cost = |b: &Block| match b.cost {
-        Cost::Push => b.rows().map(|r| push(x[r], d.efc_D[r])).sum(),
-        _ => by_rows!(b.nrow, R => block_cost::<R>(d, b, x)),
-    };
-    jac.blocks.iter().map(cost).sum()
+    let mut cost = 0.0;
+    for b in &jac.blocks {
+        jac.mul_block(b, &d.qacc_smooth, &mut s.jv);
+        for r in b.rows() {
+            s.jv[r] -= d.efc_aref[r];
+        }
+        cost += match b.cost {
+            Cost::Push => b.rows().map(|r| push(s.jv[r], d.efc_D[r])).sum(),
+            _ => by_rows!(b.nrow, R => block_cost::<R>(d, b, &s.jv)),
+        };
+        if cost >= most {
+            return false;
+        }
+    }
+    // Where the last acceleration is no number, it is left.
+    cost < most || most.is_nan() || cost.is_nan()
 }
 
 fn block_cost<const R: usize>(d: &Fields, b: &Block, x: &[f64]) -> f64 {

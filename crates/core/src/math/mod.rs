@@ -481,11 +481,29 @@ pub(crate) fn spatial(w: Vec3, v: Vec3) -> Spatial {
     [w[0], w[1], w[2], v[0], v[1], v[2]]
 }
 
-/// x ← a⁻¹ x by Gauss' elimination with the largest pivots; `false` for a singular matrix.
+/// x ← a⁻¹ x by Gauss' elimination with the largest pivots; `false` for a singular matrix. Forces that do not turn and torques
+/// that do not push are found by themselves.
 pub(crate) fn solve_six(a: &mut [Spatial; 6], x: &mut Spatial) -> bool {
-    for k in 0..6 {
+    let [_, _, _, d, e, f] = &a;
+    let apart = a[..3].iter().all(|r| r[3..] == [0.0; 3]) && [d, e, f].iter().all(|r| r[..3] == [0.0; 3]);
+    if !apart {
+        return eliminate(a, x);
+    }
+    [0, 3].iter().all(|&first| {
+        let mut part: [Vec3; 3] = std::array::from_fn(|r| std::array::from_fn(|c| a[first + r][first + c]));
+        let mut y = [x[first], x[first + 1], x[first + 2]];
+        let solved = eliminate(&mut part, &mut y);
+        x[first..first + 3].copy_from_slice(&y);
+        solved
+    })
+}
+
+/// The same for any number of rows.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn eliminate<const N: usize>(a: &mut [[f64; N]; N], x: &mut [f64; N]) -> bool {
+    for k in 0..N {
         let mut best = k;
-        for r in k + 1..6 {
+        for r in k + 1..N {
             if a[r][k].abs() > a[best][k].abs() {
                 best = r;
             }
@@ -495,21 +513,27 @@ pub(crate) fn solve_six(a: &mut [Spatial; 6], x: &mut Spatial) -> bool {
         if a[k][k].abs() < MINVAL {
             return false;
         }
-        for r in k + 1..6 {
+        for r in k + 1..N {
             let factor = a[r][k] / a[k][k];
-            for c in k + 1..6 {
+            for c in k + 1..N {
                 a[r][c] -= factor * a[k][c];
             }
             x[r] -= factor * x[k];
         }
     }
-    for k in (0..6).rev() {
-        for c in k + 1..6 {
+    for k in (0..N).rev() {
+        for c in k + 1..N {
             x[k] -= a[k][c] * x[c];
         }
         x[k] /= a[k][k];
     }
     true
+}
+
+/// Whether two slices hold the same numbers, bit by bit.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn same_bits(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
 #[cfg(test)]

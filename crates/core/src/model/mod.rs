@@ -7,6 +7,7 @@ pub(crate) mod fields;
 pub(crate) mod meter;
 pub(crate) mod plan;
 pub mod reflect;
+pub(crate) mod sensed;
 pub(crate) mod stage;
 pub(crate) mod state;
 pub(crate) mod stopwatch;

@@ -1,5 +1,6 @@
 //! Plans as data: which stages of a step run, and what of them. How one is made: `step/planner`.
 
+use super::sensed::Values;
 use super::stage::Stage;
 use super::way::Ways;
 
@@ -76,6 +77,10 @@ pub(crate) struct Plan {
     pub(crate) ways: Ways,
     /// Those of which parameters may change that they keep copies of.
     pub(crate) changing: Ways,
+    /// What is read of sensors.
+    pub(crate) sensed: Values,
+    /// Every sensor is evaluated, read or not.
+    pub(crate) every_sensor: bool,
     /// What a forward pass runs of each of its parts; then the same without what sensors show.
     pub(crate) passes: [[u32; 3]; 2],
 }
@@ -89,6 +94,8 @@ impl Default for Plan {
             facts: u32::MAX,
             ways: Ways::ALL,
             changing: Ways::ALL,
+            sensed: Values::ALL,
+            every_sensor: true,
             passes: [[0; 3]; 2],
         };
         for known in [Fact::MassForRows, Fact::DampersStay, Fact::Motors, Fact::Unforced, Fact::Ballistic] {

@@ -6,6 +6,7 @@ pub use super::stage::Stage;
 use crate::math::sort::sort_by;
 use crate::model::bytes::{Plain, fingerprint};
 use crate::model::fields::{data_fields, model_fields, option_fields, statistic_fields};
+use crate::model::sensed::Values;
 use crate::model::{Fields, Model};
 use std::sync::LazyLock;
 
@@ -568,9 +569,10 @@ pub(crate) fn allocate_data(m: &Model, d: &mut Fields) {
     }
 }
 
-/// A set of fields.
+/// A set of fields. Of `sensordata` it holds which of its numbers are meant, as each comes from a sensor that costs something by
+/// itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FieldSet([u64; NFIELD.div_ceil(64)]);
+pub struct FieldSet([u64; NFIELD.div_ceil(64)], Values);
 
 impl Default for FieldSet {
     fn default() -> Self {
@@ -580,13 +582,37 @@ impl Default for FieldSet {
 
 impl FieldSet {
     /// No field.
-    pub const EMPTY: FieldSet = FieldSet([0; NFIELD.div_ceil(64)]);
+    pub const EMPTY: FieldSet = FieldSet([0; NFIELD.div_ceil(64)], Values::NONE);
     /// Every field.
-    pub const ALL: FieldSet = FieldSet([u64::MAX; NFIELD.div_ceil(64)]);
+    pub const ALL: FieldSet = FieldSet([u64::MAX; NFIELD.div_ceil(64)], Values::ALL);
 
     /// Adds a field.
     pub fn insert(&mut self, f: FieldId) {
+        self.insert_elements(f, 0, None);
+    }
+
+    /// Adds elements of a field: `count` from `first` on, or all that follow. Of `sensordata` these alone are meant then; any
+    /// other field is added as a whole.
+    pub fn insert_elements(&mut self, f: FieldId, first: usize, count: Option<usize>) {
         self.0[f.0 as usize / 64] |= 1 << (f.0 % 64);
+        if f.info().name == "sensordata" {
+            self.1.insert(first..count.map_or(usize::MAX, |n| first.saturating_add(n)));
+        }
+    }
+
+    /// Whether an element of a field is in the set.
+    pub fn contains_element(&self, f: FieldId, element: usize) -> bool {
+        self.contains(f) && (f.info().name != "sensordata" || self.1.some(element..element + 1))
+    }
+
+    /// The numbers of `sensordata` in the set.
+    pub(crate) fn sensed(&self) -> Values {
+        self.1
+    }
+
+    /// Whether the set holds all numbers of a field that has so many.
+    pub(crate) fn contains_whole(&self, f: FieldId, numbers: usize) -> bool {
+        self.contains(f) && (f.info().name != "sensordata" || self.1.every(0..numbers))
     }
 
     /// Whether the field is in the set.
@@ -596,7 +622,7 @@ impl FieldSet {
 
     /// Adds all fields of another set.
     pub fn extend(&mut self, other: &FieldSet) {
-        for (a, b) in self.0.iter_mut().zip(other.0) {
+        for (a, b) in self.0.iter_mut().chain(&mut self.1.0).zip(other.0.iter().chain(&other.1.0)) {
             *a |= b;
         }
     }
@@ -608,7 +634,7 @@ impl FieldSet {
 
     /// Whether every field of this set is in another.
     pub fn is_part_of(&self, other: &FieldSet) -> bool {
-        self.0.iter().zip(other.0).all(|(a, b)| a & !b == 0)
+        self.0.iter().chain(&self.1.0).zip(other.0.iter().chain(&other.1.0)).all(|(a, b)| a & !b == 0)
     }
 
     /// Whether any field of the set satisfies `test`.

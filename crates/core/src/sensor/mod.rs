@@ -27,8 +27,10 @@ pub(crate) use table::{Datatype, KINDS, Kind, Senses, When, kind};
 
 use crate::geometry::Narrow;
 use crate::kinds::{disable, joint};
+use crate::model::sensed::Values;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model, Obj, asleep};
+use std::ops::Range;
 
 /// What sensors use, kept so that they do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,7 +41,24 @@ pub(crate) struct Scratch {
     pub(crate) narrow: Narrow,
 }
 
-/// The sensors whose values are known at a stage. While sensors are switched off values stay as they are.
+/// The unit of a sensor's values, as its row has it: `m or rad` is that of a slide or of a hinge. Empty where it is none, or not known.
+pub fn unit(m: &Model, s: usize) -> &'static str {
+    let kind = m.sensor_type.get(s).and_then(|&t| KINDS.get(usize::try_from(t).ok()?));
+    kind.map_or("", |k| k.unit)
+}
+
+/// The places of a sensor's values in `sensordata`.
+pub(crate) fn places(m: &Model, s: usize) -> Range<usize> {
+    let first = m.sensor_adr[s] as usize;
+    first..first + m.sensor_dim[s] as usize
+}
+
+/// Whether somebody reads a value of a sensor.
+pub(crate) fn is_read(m: &Model, s: usize, sensed: Values) -> bool {
+    sensed.some(places(m, s))
+}
+
+/// The sensors whose values are known at a stage, and are read. While sensors are switched off values stay as they are.
 pub(crate) fn evaluate(m: &Model, d: &mut Fields, w: &mut Scratch, when: When) {
     if m.opt.disabled(disable::SENSOR) || d.meter.over() {
         return;
@@ -47,9 +66,9 @@ pub(crate) fn evaluate(m: &Model, d: &mut Fields, w: &mut Scratch, when: When) {
     // Taken out, because reading a sensor uses scratch of the data; nothing is allocated.
     let mut values = std::mem::take(&mut d.sensordata);
     for s in 0..m.nsensor {
-        if m.sensor_needstage[s] == when as i32 && !sleeps(m, d, s) {
-            let adr = m.sensor_adr[s] as usize;
-            let out = &mut values[adr..adr + m.sensor_dim[s] as usize];
+        let wanted = d.plan.every_sensor || is_read(m, s, d.plan.sensed);
+        if m.sensor_needstage[s] == when as i32 && wanted && !sleeps(m, d, s) {
+            let out = &mut values[places(m, s)];
             if !timing::past(m, d, s, out) {
                 read(m, d, w, s, out);
             }
@@ -127,7 +146,12 @@ pub(crate) fn fits(m: &Model, s: usize) -> bool {
 
 /// Whether some sensor of the model uses the results of a stage.
 pub(crate) fn needs(m: &Model, stage: Stage) -> bool {
-    (0..m.nsensor).any(|s| {
+    needs_of(m, stage, |_| true)
+}
+
+/// Whether one of some sensors does.
+pub(crate) fn needs_of(m: &Model, stage: Stage, among: impl Fn(usize) -> bool) -> bool {
+    (0..m.nsensor).filter(|&s| among(s)).any(|s| {
         table::of(m, s).needs.contains(&stage)
             || poses(stage, m.sensor_objtype[s])
             || poses(stage, m.sensor_reftype[s])

@@ -7,6 +7,7 @@ pub(crate) mod balance;
 mod clocked;
 pub(crate) mod damping;
 pub(crate) mod discrete;
+pub(crate) mod factored;
 pub(crate) mod forward;
 pub(crate) mod functions;
 pub(crate) mod integrate;

@@ -329,9 +329,9 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[
             (&[Stage::Orientations], |s, _| {
                 let poses = [Stage::Kinematics, Stage::GeomPoses, Stage::SitePoses, Stage::CameraPoses];
-                poses.into_iter().any(|stage| sensor::needs(s.m, stage))
+                poses.into_iter().any(|stage| s.sensed(stage))
             }),
-            (&[], |s, of| sensor::needs(s.m, of)),
+            (&[], |s, of| s.sensed(of)),
         ],
         wanted: |s| because(s.sensors, "sensor values are read"),
         left_out: |s| match s.m.nsensor {
@@ -362,7 +362,7 @@ const MOVING_MASS: &str = "the mass matrix depends on the configuration";
 const CONSTANT_MASS: &str =
     "every moving body is a single free or sliding one: its mass matrix is diagonal and constant";
 const NO_SPATIAL_BODIES: &str =
-    "every tree is one simple body or a short chain, whose equations need no composite bodies";
+    "every tree is one simple body, a short chain or slides alone, whose equations need no composite bodies";
 const NO_CONSTRAINTS: &str = "no contact and no limit is possible";
 /// Transmissions between sites.
 const AT_SITES: [i32; 3] = [trntype::SITE, trntype::SLIDERCRANK, trntype::SO3];

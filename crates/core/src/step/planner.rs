@@ -43,9 +43,11 @@ impl Plan {
 
     /// The same with a stage more, and what it uses, wanted or not: to see what it would cost.
     pub(crate) fn with(m: &Model, demand: &Demand, ways: Ways, more: Option<Stage>) -> Plan {
-        let scene = Scene::new(m, demand, ways);
+        let mut scene = Scene::new(m, demand, ways);
+        scene.every_sensor |= more == Some(Stage::Sensors);
         let mut plan = Plan::default();
         plan.ways = ways;
+        (plan.sensed, plan.every_sensor) = (demand.reads.sensed(), scene.every_sensor);
         plan.changing = ways::changing(|fields| scene.writes(Object::Model, fields));
         for (fact, holds) in FACTS {
             plan.state(fact, holds(&scene));

@@ -146,6 +146,9 @@ pub(super) struct Scene<'a> {
     pub(super) tendon_armature: bool,
     pub(super) actuated: bool,
     pub(super) sensors: bool,
+    /// Sensors are evaluated that nobody reads: those with buffers, which are part of the state, and those of energies, which show
+    /// in `energy`, too.
+    pub(super) every_sensor: bool,
     pub(super) energy: bool,
     /// Trees may sleep.
     pub(super) sleeps: bool,
@@ -174,6 +177,7 @@ impl<'a> Scene<'a> {
             tendon_armature: false,
             actuated: m.nactuator > 0 && !m.opt.disabled(disable::ACTUATION),
             sensors: false,
+            every_sensor: m.nhistory > 0 || sensor::measures_energy(m),
             energy: m.opt.enabled(enable::ENERGY),
             sleeps: false,
         };
@@ -267,7 +271,7 @@ impl<'a> Scene<'a> {
             && !self.tendon_armature
             && !self.sleeps
             && !plan.keeps(Stage::Energy)
-            && !sensor::needs(m, Stage::MassMatrix)
+            && !(plan.keeps(Stage::Sensors) && self.sensed(Stage::MassMatrix))
             && !fields.into_iter().any(|f| self.reads_field(f))
             && ways::solve_alone(m, self.ways)
     }
@@ -306,6 +310,12 @@ impl<'a> Scene<'a> {
         let switched = self.writes(Object::Option, &["disableactuator"])
             || self.writes(Object::Model, &["actuator_group", "actuator_gear"]);
         !self.sleeps && !switched && m.nhistory == 0 && m.nout == m.nactuator && (0..m.nactuator).all(plain)
+    }
+
+    /// Whether some sensor that is evaluated uses the results of a stage.
+    pub(super) fn sensed(&self, stage: Stage) -> bool {
+        let read = |s: usize| self.every_sensor || sensor::is_read(self.m, s, self.demand.reads.sensed());
+        sensor::needs_of(self.m, stage, read)
     }
 
     /// Whether the medium acts on some geoms one by one.
@@ -353,7 +363,9 @@ impl<'a> Scene<'a> {
 
     /// Whether an integrator asks how the bias force changes with velocities: that is found from composite bodies.
     pub(super) fn bias_slopes(&self) -> bool {
-        let free = || (0..self.m.ntree).any(|t| derivative::is_free_rigid(self.m, t));
+        let bodies =
+            |&t: &usize| derivative::is_free_rigid(self.m, t) && !ways::turns_alone(self.m, self.ways, t);
+        let free = || (0..self.m.ntree).any(|t| bodies(&t));
         self.may_integrate_by(integrator::IMPLICIT)
             || self.may_integrate_by(integrator::IMPLICITFAST) && free()
     }

@@ -1,6 +1,7 @@
 //! `Data`: the fields of a simulation, and the scratch of the stages.
 
 use super::discrete::Metric;
+use super::factored::Factored;
 use super::stages::{Flow, RungeKutta};
 use super::{damping, sleep};
 use crate::forces::{self, derivative};
@@ -32,6 +33,8 @@ pub(crate) struct Work {
     /// Derivatives of forces with respect to velocities.
     pub(crate) derivative: derivative::Work,
     pub(crate) damping: damping::Scratch,
+    /// The matrix of the fast implicit integrator.
+    pub(crate) factored: Factored,
     /// The metric of the discrete integrator.
     pub(crate) metric: Metric,
     pub(crate) rk: RungeKutta,

@@ -167,7 +167,7 @@ pub(crate) fn include(effects: &Effects, demand: &mut Demand) {
     }
     for access in &effects.reads {
         if let Some(field) = FieldId::new(access.field.0 as usize) {
-            demand.reads.insert(field);
+            demand.reads.insert_elements(field, access.first, access.count);
         }
     }
     for access in &effects.writes {

@@ -2,18 +2,23 @@
 
 mod allowed;
 mod claims;
+mod dimension;
 mod entries;
 mod expect;
+mod labels;
 mod mass_alone;
+mod named;
 mod params;
 mod programs;
 mod refresh;
 mod sight;
 pub mod stored;
 mod trial;
+mod units;
 
 pub use allowed::Allowed;
 pub use claims::Claim;
+pub use dimension::{Dimensions, dimensions};
 pub use entries::{evidence, ledger};
 pub use trial::Tried;
 
@@ -114,6 +119,7 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
         ready.iter().for_each(|r| mass_alone::check(r, &mut findings));
     }
     let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
+    told_once(lesson, &mut findings);
     let claims = if depth.claims {
         claims::check(lesson, &ready, &mut findings)
     } else {
@@ -121,6 +127,21 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
         Vec::new()
     };
     Found { findings, labs, claims }
+}
+
+/// A control of which a reset takes everything away changes nothing, and the reset is what is told.
+fn told_once(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    let of = |code: &str, f: &Finding| f.code == code;
+    let lost = |span: &std::ops::Range<usize>, findings: &[Finding]| {
+        let inside = |f: &Finding| span.start <= f.span.start && f.span.end <= span.end;
+        findings.iter().any(|f| of(rules::LOST_AT_RESET.code, f) && inside(f))
+    };
+    let labs = lesson.all_labs();
+    let controls = labs.iter().flat_map(|lab| &lab.controls).map(|c| c.span.clone());
+    let spans: Vec<_> = controls.filter(|span| lost(span, findings)).collect();
+    findings.retain(|f| {
+        !of(rules::IDLE_CONTROL.code, f) || !spans.iter().any(|span| span.contains(&f.span.start))
+    });
 }
 
 /// A lesson together with what was found.
@@ -148,6 +169,8 @@ fn prepare<'l>(
     let (model, programs, mistakes) = bind(lab, models, findings)?;
     if depth.programs {
         programs::check(lab, &model, &programs, findings);
+        units::check(lab, &model, &programs, findings);
+        named::check(lab, &model, &programs, findings);
     }
     Some(Ready { lab, model, programs, mistakes })
 }

@@ -4,12 +4,16 @@ mod baseline;
 mod bench;
 mod cache;
 mod check;
+mod completions;
 mod course;
 mod digest;
 mod explain;
 mod fix;
 mod fmt;
 mod handle;
+mod init;
+#[cfg(feature = "lsp")]
+mod lsp;
 mod machine;
 mod output;
 mod plan;
@@ -43,6 +47,8 @@ struct Cli {
 
 #[derive(Subcommand, Debug)]
 enum Command {
+    /// Make a folder for lessons: settings, a first lesson with its model, a workflow
+    Init(init::Arguments),
     /// Lint and run all labs and verify all quizzes of lessons, JSON files, or folders of them
     Check(check::CheckArguments),
     /// Verify the claims of quizzes and labs only, with every measure
@@ -61,10 +67,15 @@ enum Command {
     Explain(explain::Arguments),
     /// Print the JSON Schema of labs and quizzes, for editors: lab, quiz, or lesson for a JSON file of both
     Schema(schema::Arguments),
+    /// Serve an editor: findings, completion, values and names as one types (Language Server Protocol)
+    #[cfg(feature = "lsp")]
+    Lsp(lsp::Arguments),
     /// For engineers: our engine's numbers for the states of a recording of MuJoCo
     Record(record::Arguments),
     /// For engineers: time of a step
     Bench(bench::Arguments),
+    /// Print a script with which a shell completes commands and options
+    Completions(completions::Arguments),
     /// Write the reference pages, and the JSON Schemas into the folder `schema` beside them
     #[command(hide = true)]
     Reference {
@@ -129,6 +140,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         interrupt::listen();
     }
     let result = match &cli.command {
+        Command::Init(a) => init::init(a),
+        Command::Completions(a) => completions::completions(a),
         Command::Check(a) => check::check(a),
         Command::Verify(a) => check::verify(a),
         Command::Fmt(a) => fmt::fmt(a),
@@ -138,6 +151,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Plan(a) => plan::plan(a),
         Command::Explain(a) => explain::explain(a),
         Command::Schema(a) => schema::schema(a),
+        #[cfg(feature = "lsp")]
+        Command::Lsp(a) => lsp::lsp(a),
         Command::Record(a) => record::record(a),
         Command::Bench(a) => bench::bench(a),
         Command::Reference { folder } => reference(folder),

@@ -92,9 +92,9 @@ fn human(report: &Report) -> String {
             time,
             "the next state, a look for numbers that are none, and what a run looks after",
         );
-        if step.controller.is_some() {
+        if let Some(when) = report.controller {
             let (share, time) = costs(step.controller);
-            row("", "controller", share, time, "the lab's own program runs before every step");
+            row("", "controller", share, time, when);
         }
     }
     let kept = report.rows.iter().filter(|r| r.keep).count();
@@ -139,6 +139,7 @@ fn parts(report: &Report, text: &mut String) {
         let _ = writeln!(text, "  bounds within reach  {}", both(seen.in_reach));
         let _ = writeln!(text, "  contacts             {}", both(seen.contacts));
     }
+    sensors(report, text);
     list("solver", &report.solvers, text);
     if report.solvers.iter().any(|s| s.keep) {
         let _ = writeln!(text, "  cone {}", report.cone);
@@ -155,6 +156,23 @@ fn parts(report: &Report, text: &mut String) {
     }
     list("integrator", &report.integrators, text);
     ways(report, text);
+}
+
+/// The sensors, those alike in one line.
+fn sensors(report: &Report, text: &mut String) {
+    if report.sensors.is_empty() {
+        return;
+    }
+    let kept = report.sensors.iter().filter(|s| s.keep).count();
+    let _ = writeln!(text, "\nsensors  {kept} of {} are computed", report.sensors.len());
+    let mut left: Vec<_> = report.sensors.iter().collect();
+    while let Some(first) = left.first().copied() {
+        let (alike, others): (Vec<_>, Vec<_>) = left.into_iter().partition(|s| s.reason == first.reason);
+        let names: Vec<&str> = alike.iter().map(|s| s.name.as_str()).collect();
+        let verb = if first.keep { "keep " } else { "leave" };
+        let _ = writeln!(text, "  {verb}  {}: {}", printable(&names.join(", ")), first.reason);
+        left = others;
+    }
 }
 
 /// Which ways trees take.
@@ -235,7 +253,7 @@ fn value(of: &Report) -> Value {
             "steps": s.steps, "ns": s.ns, "lowNs": s.quarters[0], "highNs": s.quarters[1], "fullNs": s.full,
             "work": s.work,
             "integrator": {"share": integrator_share, "ns": integrator_ns},
-            "controller": s.controller.map(|_| json!({"share": controller_share, "ns": controller_ns})),
+            "controller": s.controller.map(|_| json!({"share": controller_share, "ns": controller_ns, "reason": of.controller})),
         })
     });
     let p = &of.pairs;
@@ -273,6 +291,7 @@ fn value(of: &Report) -> Value {
         "stages": stages,
         "step": step,
         "pairs": pairs,
+        "sensors": of.sensors.iter().map(|s| json!({"name": s.name, "keep": s.keep, "reason": s.reason})).collect::<Vec<_>>(),
         "solver": solver,
         "integrators": codes(&of.integrators),
         "ways": ways.collect::<Vec<_>>(),

@@ -305,6 +305,28 @@ mod tests {
     }
 
     #[test]
+    fn the_schema_knows_every_setting() {
+        let text = include_str!("../../../../docs/schema/labspec-toml.json");
+        let schema: serde_json::Value = serde_json::from_str(text).unwrap();
+        let keys = |value: &serde_json::Value| -> Vec<String> {
+            let mut keys: Vec<String> = value["properties"].as_object().unwrap().keys().cloned().collect();
+            keys.sort();
+            keys
+        };
+        let sorted = |keys: &[&str]| {
+            let mut keys: Vec<String> = keys.iter().map(|k| (*k).to_string()).collect();
+            keys.sort();
+            keys
+        };
+        assert_eq!(keys(&schema), sorted(&KEYS));
+        assert_eq!(keys(&schema["properties"]["paths"]["items"]), sorted(&OF_PATHS));
+        let words = schema["$defs"]["rules"]["description"].as_str().unwrap();
+        for word in Layer::ALL.map(Layer::as_str).iter().chain(SEVERITIES.map(|(word, _)| word).iter()) {
+            assert!(words.contains(word), "{word}");
+        }
+    }
+
+    #[test]
     fn mistakes_in_settings_are_told() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("labspec.toml");

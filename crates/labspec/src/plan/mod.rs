@@ -6,11 +6,11 @@ mod parts;
 mod reader;
 
 pub use measure::{Cost, REPEATS, Step};
-pub use parts::{Code, Pairs, Seen, Way};
+pub use parts::{Code, Pairs, Seen, Sensor, Way};
 pub use reader::Reader;
 
 use crate::bind::Programs;
-use crate::run::RunError;
+use crate::run::{RunError, is_steady};
 use crate::spec::Lab;
 use labspec_core::reflect::Stage;
 use labspec_core::{Demand, Model, Plan};
@@ -37,6 +37,8 @@ pub struct Report {
     pub demand: Demand,
     /// The stages, in the order of a step.
     pub rows: Vec<Row>,
+    /// When the lab's controller runs, where it has one.
+    pub controller: Option<&'static str>,
     /// What a step costs; `None` where nothing was run.
     pub step: Option<Step>,
     /// The pairs of geoms.
@@ -49,6 +51,8 @@ pub struct Report {
     pub integrators: Vec<Code>,
     /// Likewise.
     pub ways: Vec<Way>,
+    /// The sensors, one by one.
+    pub sensors: Vec<Sensor>,
     /// What more readers would cost.
     pub readers: Vec<Reader>,
 }
@@ -88,11 +92,16 @@ pub fn plan(lab: &Lab, model: &Model, programs: &Programs, options: &Options) ->
     Ok(Report {
         demand,
         rows,
+        controller: programs.controller.as_ref().map(|bound| match is_steady(&bound.program) {
+            true => "the lab's own program runs only when something changes that it reads or writes",
+            false => "the lab's own program runs before every step",
+        }),
         pairs: parts::pairs(model, &plan, measured.as_ref().map(|m| m.seen)),
         cone: if model.opt.cone == 0 { "pyramidal" } else { "elliptic" },
         solvers: parts::solvers(model, &plan),
         integrators: parts::integrators(model, &demand),
         ways: parts::ways(model, &plan),
+        sensors: parts::sensors(model, &plan),
         readers,
         step: measured.map(|m| m.step),
     })

@@ -25,6 +25,17 @@ pub struct Way {
     pub trees: [usize; 3],
 }
 
+/// A sensor.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sensor {
+    /// Its name; its number where it has none.
+    pub name: String,
+    /// Whether its values are computed.
+    pub keep: bool,
+    /// Why, or why not.
+    pub reason: &'static str,
+}
+
 /// What was seen in the steps that were run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seen {
@@ -87,6 +98,24 @@ fn shape(kind: i32) -> &'static str {
 
 fn writes(demand: &Demand, option: &str) -> bool {
     field(Object::Option, option).is_some_and(|f| demand.writes.contains(f))
+}
+
+/// The sensors in their order.
+pub(super) fn sensors(model: &Model, plan: &Plan) -> Vec<Sensor> {
+    let field = field(Object::Data, "sensordata");
+    let sensor = |sensor: core::SensorId| {
+        let read = |i| field.is_some_and(|f| plan.demand().reads.contains_element(f, i));
+        let keep = plan.evaluates(model, sensor);
+        let reason = match keep {
+            true if sensor.values(model).any(read) => "its values are read",
+            true => "the state or the energies keep what it measures",
+            false => "nothing reads it",
+        };
+        let name = model.name_of(core::Obj::Sensor, sensor.index());
+        let name = name.map_or_else(|| format!("sensor {}", sensor.index()), String::from);
+        Sensor { name, keep, reason }
+    };
+    model.sensors().map(sensor).collect()
 }
 
 /// The methods of the solver.

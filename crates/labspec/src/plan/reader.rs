@@ -50,8 +50,9 @@ fn read(model: &Model, programs: &Programs, text: &str, demand: &mut Demand) -> 
         demand.reads.insert(field);
         return Ok(());
     }
-    if let (true, Some(field)) = (model.sensor(text).is_ok(), field(Object::Data, "sensordata")) {
-        demand.reads.insert(field);
+    if let (Ok(sensor), Some(field)) = (model.sensor(text), field(Object::Data, "sensordata")) {
+        let places = sensor.values(model);
+        demand.reads.insert_elements(field, places.start, Some(places.len()));
         return Ok(());
     }
     let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);

@@ -267,7 +267,7 @@ pub fn statistics(findings: &[Finding]) -> String {
     for ((code, severity), [count, fixable]) in rows {
         let fix = if fixable > 0 { format!(", {fixable} with a fix") } else { String::new() };
         let summary = rules::find(code).map_or("", |rule| rule.summary);
-        let _ = writeln!(text, "{count:>6}  {severity:<8} {code}: {}{fix}", printable(summary));
+        let _ = writeln!(text, "{count:>6}  {:<8} {code}: {}{fix}", severity.as_str(), printable(summary));
     }
     let _ = writeln!(text, "{:>6}  {}", findings.len(), Summary::of(findings));
     text

@@ -8,6 +8,7 @@ mod samples;
 mod session;
 pub mod settings;
 mod silent;
+mod steady;
 mod table;
 mod told;
 
@@ -18,6 +19,7 @@ pub use play::{Play, play};
 pub use samples::Samples;
 pub use session::{Numerics, Session, Trouble};
 pub use settings::{presses, presses_within, set_controls};
+pub use steady::is_steady;
 pub use table::{Cell, Table, shown};
 pub use told::{broken, threw};
 

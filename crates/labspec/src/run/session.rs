@@ -2,6 +2,7 @@
 
 use super::budget::{Budget, End};
 use super::held::Held;
+use super::steady::Steady;
 use super::table::Cell;
 use crate::advice::growth::Growth;
 use crate::advice::watch::{self, Noticed, Watch};
@@ -60,6 +61,8 @@ pub struct Session<'p> {
     /// The current value of each control.
     values: Vec<Value>,
     watched: Option<Watched>,
+    /// How the controller ran last, where it need not run in every step.
+    steady: Option<Steady>,
     /// Work that may be done from the start on, that of the data before, and that of samples.
     budget: u64,
     before: u64,
@@ -168,6 +171,7 @@ impl<'p> Session<'p> {
             warnings: [WarningStat::default(); Warning::COUNT],
             values: values.collect(),
             watched: None,
+            steady: programs.controller.as_ref().and_then(|bound| Steady::of(&bound.program)),
             budget: budget.left,
             before,
             sampled: 0,
@@ -323,13 +327,24 @@ impl<'p> Session<'p> {
         self.note_warnings();
     }
 
-    /// The controller.
+    /// The controller. One that would change nothing is not run; its work counts, so that every run ends where it would.
     fn control(&mut self) {
+        let holds = self.steady.as_ref().and_then(|steady| steady.holds(&self.world, &self.context));
+        if let Some(work) = holds.filter(|work| *work < self.left()) {
+            self.sampled += work;
+            return;
+        }
         let programs = self.programs.clone();
+        let before = self.context.work();
         if let Some(bound) = &programs.controller
             && !self.execute(&bound.program, &bound.text, None)
         {
             self.end.get_or_insert(End::Threw);
+        }
+        if let Some(steady) = &mut self.steady {
+            let clean = self.end.is_none() && self.context.events().is_empty();
+            let work = clean.then(|| self.context.work() - before);
+            steady.keep(&self.world, &self.context, work);
         }
     }
 

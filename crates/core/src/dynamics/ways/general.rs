@@ -17,7 +17,13 @@ pub(super) const ROW: Row = Row {
     copies: &kinematics::FIELDS,
     load: |m, w| w.ways.general.frames.load(m),
     places: Some(Places { place, orient }),
-    forces: Some(Forces { mass, bias, looks_at_places: |_, _| true, constant: |_, _| false }),
+    forces: Some(Forces {
+        mass,
+        bias,
+        looks_at_places: |_, _| true,
+        constant: |_, _| false,
+        turns_alone: false,
+    }),
     factors: Some(Factors { without_mass: false, factor, solve, solve_with, solve_now, solve_both }),
 };
 

@@ -51,14 +51,18 @@ mod chain;
 mod general;
 mod serial;
 mod simple;
+mod sliding;
 
 table! {
     simple
     chain
     serial
+    sliding
     articulated
     general
 }
+
+pub(crate) use simple::turning_slope;
 
 /// A way.
 struct Row {
@@ -104,6 +108,8 @@ struct Forces {
     looks_at_places: fn(&Model, usize) -> bool,
     /// Whether M of a tree is diagonal and constant.
     constant: fn(&Model, usize) -> bool,
+    /// Whether the bias force of a free body is a torque that follows from its own turning alone (`turning_slope`).
+    turns_alone: bool,
 }
 
 /// Accelerations from forces. Functions that factorize return the first degree of freedom whose D is not positive.
@@ -230,6 +236,12 @@ pub(crate) fn look_at_places(m: &Model, ways: Ways) -> bool {
 /// Whether M of the whole model is diagonal and constant.
 pub(crate) fn are_constant(m: &Model, ways: Ways) -> bool {
     (0..m.ntree).all(|tree| forces(m, ways, tree).1.is_some_and(|f| (f.constant)(m, tree)))
+}
+
+/// Whether the bias force of a tree is a torque that follows from the turning of its one free body: then composite bodies are not
+/// needed to say how it changes with velocities.
+pub(crate) fn turns_alone(m: &Model, ways: Ways, tree: usize) -> bool {
+    forces(m, ways, tree).1.is_some_and(|f| f.turns_alone)
 }
 
 /// Whether all accelerations are found without the general rows of M.

@@ -12,7 +12,7 @@ use std::ops::Range;
 pub(super) const ROW: Row = Row {
     name: "simple",
     covers,
-    forces: Some(Forces { mass, bias, looks_at_places: slides, constant: has_inertia }),
+    forces: Some(Forces { mass, bias, looks_at_places: slides, constant: has_inertia, turns_alone: true }),
     ..NOTHING
 };
 
@@ -76,6 +76,11 @@ fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     for joint in &w.ways.simple.joints {
         bias_of(m, d, joint, gravity);
     }
+}
+
+/// How ω × I ω of a body with its inertia along its own axes changes with ω, row by row.
+pub(crate) fn turning_slope([a, b, c]: Vec3, [x, y, z]: Vec3) -> [Vec3; 3] {
+    [[0.0, (c - b) * z, (c - b) * y], [(a - c) * z, 0.0, (a - c) * x], [(b - a) * y, (b - a) * x, 0.0]]
 }
 
 /// One joint of a simple body: weight along translations, ω × I ω for rotations in the body's frame. A

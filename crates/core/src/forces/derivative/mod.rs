@@ -9,7 +9,7 @@ pub(crate) mod sparse;
 
 use std::ops::Range;
 
-use crate::dynamics::{jacobian, mass, walk};
+use crate::dynamics::{jacobian, mass, walk, ways};
 use crate::forces::passive::fluid::{self, Frame, Shape};
 use crate::forces::passive::spring;
 use crate::forces::tendon;
@@ -64,11 +64,27 @@ pub(crate) fn subtract_bias(m: &Model, d: &Fields, w: &mut Work) {
     bias::subtract(m, d, &mut w.bias, 1..m.nbody, 0..m.nv, &mut w.whole);
 }
 
-/// Subtracts the derivative of the bias force of one tree.
+/// Subtracts the derivative of the bias force of one tree that is a free body.
 pub(crate) fn subtract_tree_bias(m: &Model, d: &Fields, w: &mut Work, tree: usize) {
+    if ways::turns_alone(m, d.plan.ways, tree) {
+        return subtract_turning(m, d, &mut w.whole, tree);
+    }
     let first = m.tree_bodyadr[tree] as usize;
     let bodies = first..first + m.tree_bodynum[tree] as usize;
     bias::subtract(m, d, &mut w.bias, bodies, tree_dofs(m, tree), &mut w.whole);
+}
+
+/// The same for a body with its inertia along its own axes, which the formula of Euler says at once.
+fn subtract_turning(m: &Model, d: &Fields, whole: &mut [f64], tree: usize) {
+    let first = m.tree_dofs(tree).start + 3;
+    let body = m.dof_bodyid[first] as usize;
+    let turn = [d.qvel[first], d.qvel[first + 1], d.qvel[first + 2]];
+    for (r, slope) in ways::turning_slope(rows::<3>(&m.body_inertia)[body], turn).iter().enumerate() {
+        let row = m.D_rowadr[first + r] as usize + 3;
+        for (x, s) in whole[row..row + 3].iter_mut().zip(slope) {
+            *x -= s;
+        }
+    }
 }
 
 /// The rows of one tree in `w.whole` ← minus the derivative of its bias force.

@@ -27,32 +27,36 @@ pub(super) fn implicit(m: &Model, data: &mut Data) {
 /// solved with all of D, six by six.
 pub(super) fn implicitfast(m: &Model, data: &mut Data) {
     let Data { fields: d, work } = data;
-    let (w, ld, diag_inv) = (&mut work.derivative, &mut work.dynamics.ld, &mut work.dynamics.diag_inv);
+    let (w, matrix, factored) = (&mut work.derivative, &mut work.dynamics.ld, &mut work.factored);
     let h = m.opt.timestep;
     derivative::forces(m, d, w, Medium::Symmetric);
-    ld.copy_from_slice(&d.M);
-    sparse::subtract_lower(m, &w.whole, h, ld);
-    let free = || (0..m.ntree).filter(|&t| derivative::is_free_rigid(m, t));
-    for t in free() {
-        // What is solved by itself is not to spoil the rest.
-        let dofs = m.tree_dofs(t);
-        let rows = m.M_rowadr[dofs.start] as usize..mass::diagonal(m, dofs.end - 1) + 1;
-        ld[rows.clone()].copy_from_slice(&d.M[rows]);
-    }
-    if let Some(dof) = mass::factor(m, ld, diag_inv, 0..m.nv) {
+    matrix.copy_from_slice(&d.M);
+    sparse::subtract_lower(m, &w.whole, h, matrix);
+    if let Some(dof) = factored.make(m, matrix) {
         d.warn(Warning::Inertia, dof);
     }
     let acceleration = &mut work.damping.qacc;
     force(d, acceleration);
-    mass::solve(m, ld, diag_inv, acceleration, 0..m.nv);
-    for t in free() {
+    for t in 0..m.ntree {
+        let dofs = m.tree_dofs(t);
+        if !derivative::is_free_rigid(m, t) {
+            mass::solve(m, &factored.ld, &factored.diag_inv, acceleration, dofs);
+            continue;
+        }
         derivative::subtract_tree_bias(m, d, w, t);
-        let first = m.tree_dofadr[t] as usize;
-        let mut f: Spatial = std::array::from_fn(|r| d.qfrc_smooth[first + r] + d.qfrc_constraint[first + r]);
+        let first = dofs.start;
+        let mut f: Spatial = std::array::from_fn(|r| acceleration[first + r]);
         let mut a = derivative::free_block(m, &d.M, w, h, first);
         if solve_six(&mut a, &mut f) {
             acceleration[first..first + 6].copy_from_slice(&f);
+            continue;
         }
+        // Without D: what is solved by itself does not spoil the rest.
+        let (ld, diag_inv) = (&mut factored.ld, &mut factored.diag_inv);
+        if let Some(dof) = mass::factor_copy(m, &d.M, ld, diag_inv, dofs.clone()) {
+            d.warn(Warning::Inertia, dof);
+        }
+        mass::solve(m, ld, diag_inv, acceleration, dofs);
     }
     advance_along(m, data);
 }

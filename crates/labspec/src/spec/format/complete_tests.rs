@@ -46,8 +46,8 @@ fn behind_a_brace_or_a_comma_stand_the_keys_that_are_not_there_yet() {
     assert_eq!(at(r#"{"verify": {"runs": {"a": {"until": 1, ¦}}}}"#), names(&RUN, &["until", "steps"]));
     assert_eq!(at(r#"{"verify": {"exact": {"z": {¦}}}}"#), ["is", "tol"]);
     assert_eq!(at(r#"{"verify": {"lab": {¦}}}"#), names(&LAB, &[]));
-    assert_eq!(at(r#"{"id": "a", ¦}"#), ["title", "questions"]);
-    assert_eq!(at(r#"[{"model": "fall"}, {"id": "a", ¦"#), ["title", "questions"]);
+    assert_eq!(at(r#"{"id": "a", ¦}"#), ["title", "questions", "lint"]);
+    assert_eq!(at(r#"[{"model": "fall"}, {"id": "a", ¦"#), ["title", "questions", "lint"]);
     assert_eq!(
         at(r#"{"id": "a", "questions": [{"kind": "predict", "sim": {"xml": "", ¦"#),
         names(&LAB, &["model", "xml"])

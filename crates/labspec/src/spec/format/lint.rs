@@ -24,7 +24,6 @@ pub static LINT: Object = Object {
     minimal: r#"{"allow": ["duplicate-readout"], "why": "both are read in the text"}"#,
     keys: &[
         key("allow", Type::List(&CODE), "the codes of the findings", r#"["duplicate-readout"]"#)
-            .items(1)
             .must("it says which findings are meant"),
         key(
             "why",

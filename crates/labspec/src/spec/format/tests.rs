@@ -192,6 +192,12 @@ fn every_example_runs() {
             assert!(found.iter().all(told), "{found:#?}");
             continue;
         }
+        // Nothing is found that could be allowed.
+        let unused = |f: &Vec<Finding>| f.len() == 1 && f.iter().all(|f| f.code == "unused-allowance");
+        if object.name == "lint" || key.name == "lint" {
+            assert!(found.iter().any(unused), "{found:#?}");
+            continue;
+        }
         if !found.iter().any(Vec::is_empty) {
             wrong.push(format!("{}.{}: {:?}", object.name, key.name, found.first().and_then(|f| f.first())));
         }

@@ -31,7 +31,13 @@ pub(super) const ROW: Row = Row {
     covers,
     copies: &COPIES,
     load: |m, w| w.ways.chain.load(m),
-    forces: Some(Forces { mass, bias, looks_at_places: |_, _| false, constant: |_, _| false }),
+    forces: Some(Forces {
+        mass,
+        bias,
+        looks_at_places: |_, _| false,
+        constant: |_, _| false,
+        turns_alone: false,
+    }),
     ..NOTHING
 };
 

@@ -1,0 +1,20 @@
+//! `labspec completions`: what a shell needs to complete commands and options.
+
+use super::{Cli, Failure, Outcome, print};
+use clap::CommandFactory;
+use clap_complete::{Shell, generate};
+
+/// Arguments of `completions`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    /// The shell
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+pub(super) fn completions(a: &Arguments) -> Result<Outcome, Failure> {
+    let mut script = Vec::new();
+    generate(a.shell, &mut Cli::command(), "labspec", &mut script);
+    print(&String::from_utf8_lossy(&script))?;
+    Ok(Outcome::Clean)
+}

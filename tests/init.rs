@@ -1,0 +1,51 @@
+//! `labspec init`: what it writes is a course that is true; and `labspec completions`.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::program::{run, run_in};
+use crate::support::workspace;
+
+#[test]
+fn a_new_folder_holds_a_lesson_that_is_true() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = run_in(folder.path(), &["init", "course"]);
+    assert_eq!(made.code, 0, "{}", made.stderr);
+    assert!(made.stdout.contains("now run: labspec check course/lessons"), "{}", made.stdout);
+    let done = run_in(folder.path(), &["check", "course/lessons", "--deny", "warnings,notes"]);
+    assert_eq!(done.code, 0, "{}", done.stdout);
+    assert!(done.stdout.contains("1 answer verified, 1 quoted number verified"), "{}", done.stdout);
+    // What is there is not touched.
+    let lesson = folder.path().join("course/lessons/01-fall.md");
+    std::fs::write(&lesson, "mine").unwrap();
+    let again = run_in(folder.path(), &["init", "course"]);
+    assert_eq!(again.code, 2);
+    assert!(again.stderr.contains("Nothing was written"), "{}", again.stderr);
+    assert_eq!(std::fs::read_to_string(&lesson).unwrap(), "mine");
+}
+
+#[test]
+fn shells_complete_every_command() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let done = run(&["completions", shell]);
+        assert_eq!(done.code, 0, "{shell}");
+        for word in ["precision", "stability", "--update-baseline"] {
+            assert!(done.stdout.contains(word.trim_start_matches('-')), "{shell}: {word}");
+        }
+    }
+}
+
+/// The workflow, the action and the hook call the program as it is.
+#[test]
+fn what_calls_the_program_names_what_there_is() {
+    let read = |name: &str| std::fs::read_to_string(workspace().join(name)).unwrap();
+    let help = run(&["check", "--help"]).stdout;
+    for (file, words) in
+        [("action.yml", vec!["--format", "github"]), (".pre-commit-hooks.yaml", vec!["labspec check"])]
+    {
+        let text = read(file);
+        for word in words {
+            assert!(text.contains(word), "{file}: {word}");
+            assert!(help.contains(word), "{word}");
+        }
+    }
+}
