@@ -15,7 +15,7 @@ const MARKS: [(&str, &str); 4] = [("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\
 
 /// What is wrong, and where. `plain`: brackets behind a backslash are brackets, as in Markdown.
 fn faults(text: &str, plain: bool) -> Vec<(Range<usize>, String)> {
-    let mut faults = Vec::new();
+    let (mut faults, mut lost) = (Vec::new(), 0);
     let mut at = 0;
     while let Some(rest) = text.get(at..).filter(|r| !r.is_empty()) {
         let marks = MARKS.iter().filter(|(open, _)| !plain || open.starts_with('$'));
@@ -29,6 +29,11 @@ fn faults(text: &str, plain: bool) -> Vec<(Range<usize>, String)> {
         };
         let inside = rest.get(open.len()..).unwrap_or("");
         let Some(length) = closing(inside, close) else {
+            // Each of these is a walk through what follows.
+            lost += 1;
+            if lost > MAX_IN_TEXT {
+                break;
+            }
             if faults.len() < MAX_IN_TEXT && is_formula(inside, open) {
                 faults.push((at..at + open.len(), format!("nothing closes the formula that `{open}` opens")));
             }

@@ -62,7 +62,7 @@ fn calls_right(text: &str, i: usize, option: &str) -> bool {
     RIGHT.iter().any(|right| {
         let named = THINGS.iter().any(|thing| {
             let ordinal = ORDINALS.get(i).is_some_and(|o| {
-                text.contains(&format!(" {o} {thing} is {right} ")) || text.contains(&format!(" {right} {thing} is {o} "))
+                text.contains(&format!(" {o} {thing} is {right} ")) || text.contains(&format!(" {right} {thing} is the {o} "))
             });
             ordinal
                 || text.contains(&format!(" {thing} {letter} is {right} "))

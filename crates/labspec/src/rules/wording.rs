@@ -36,16 +36,16 @@ pub(super) fn said(html: &str) -> String {
     if html.contains("<code") || html.contains('$') || html.contains('`') {
         return plain(html);
     }
-    loose(html)
+    let text = loose(html);
+    text.split(' ').filter(|w| !["a", "an", "the"].contains(w)).collect::<Vec<_>>().join(" ")
 }
 
-/// The words of a text, code and formulas too.
+/// The words of a text without capitals and marks, code and formulas too.
 pub(super) fn loose(html: &str) -> String {
-    let text = plain(html);
-    let kept: String =
-        text.to_lowercase().chars().map(|c| if ",;:!?'\"“”‘’()".contains(c) { ' ' } else { c }).collect();
+    let lower = plain(html).to_lowercase();
+    let kept: String = lower.chars().map(|c| if ",;:!?'\"“”‘’()".contains(c) { ' ' } else { c }).collect();
     let words = kept.split_whitespace().map(|w| w.trim_end_matches('.'));
-    words.filter(|w| !["a", "an", "the", ""].contains(w)).collect::<Vec<_>>().join(" ")
+    words.filter(|w| !w.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
 /// A number in a text.
