@@ -8,6 +8,7 @@ mod cli_run;
 mod conformance;
 mod constrained;
 mod courses;
+mod dimensions;
 mod examples;
 mod files;
 mod fixes;
@@ -22,6 +23,8 @@ mod lessons;
 mod levels;
 mod links;
 mod loads;
+#[cfg(feature = "lsp")]
+mod lsp;
 mod mutants;
 mod needs;
 mod no_run;

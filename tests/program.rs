@@ -68,7 +68,7 @@ pub(crate) const FALL: &str = r#"{
   "model": "free_fall",
   "stopAt": 0.4,
   "controls": [{"label": "timestep", "set": "model.opt.timestep", "min": 0.001, "max": 0.01, "value": 0.002}],
-  "plots": [{"ylabel": "error (mm)", "traces": [{"label": "height", "expr": "data.qpos[2]"}]}],
+  "plots": [{"ylabel": "height (m)", "traces": [{"label": "height", "expr": "data.qpos[2]"}]}],
   "verify": {"exact": {"height": "1 - 0.5 * 9.81 * data.time * data.time"}}
 }"#;
 

@@ -111,6 +111,34 @@ pub(super) const VIEWS: [Kind; 13] = [
     }),
 ];
 
+/// What is wrong with labels. They stand last, so that the places of the other kinds stay.
+pub(super) const LABELS: [Kind; 2] = [
+    kind("labels-exchanged", "two traces or readouts have each other's label", |l| {
+        let mut all = each(l, &["plots", "*", "traces"], exchanged);
+        all.extend(each(l, &["readouts"], exchanged));
+        all
+    }),
+    kind("label-in-degrees", "a label says degrees, and the number is in radians", |l| {
+        labels(l, |t| swap(t, "(rad", "(deg"))
+    }),
+];
+
+/// The labels of readouts and plots, changed.
+fn labels(l: &Value, change: fn(&str) -> Option<String>) -> Vec<Value> {
+    let mut all = text(l, &["readouts", "*", "label"], change);
+    all.extend(text(l, &["plots", "*", "ylabel"], change));
+    all
+}
+
+/// A list whose first two have each other's label.
+fn exchanged(list: &Value) -> Option<Value> {
+    let mut list = list.clone();
+    let [first, second] = [0, 1].map(|i| list.get(i).map(|one| one["label"].clone()));
+    list[0]["label"] = second?;
+    list[1]["label"] = first?;
+    Some(list)
+}
+
 /// A plot with other ends.
 fn limits(plot: &Value, low: f64, high: f64) -> Option<Value> {
     let mut plot = plot.clone();

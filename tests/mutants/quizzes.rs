@@ -27,7 +27,7 @@ fn numeric(quiz: &Value, key: &'static str, value: impl Fn(f64) -> f64) -> Vec<V
     })
 }
 
-pub(super) const QUIZZES: [Kind; 20] = [
+pub(super) const QUIZZES: [Kind; 26] = [
     kind("key-shifted", "the key is the next option", |q| {
         questions(q, |q| {
             let count = q["options"].as_array()?.len() as u64;
@@ -94,6 +94,39 @@ pub(super) const QUIZZES: [Kind; 20] = [
             let object = q.as_object_mut()?;
             let old = object.shift_remove("explain")?;
             object.insert("explian".into(), old);
+            Some(())
+        })
+    }),
+    kind("answer-digit", "the last digit of the answer is another one", |q| {
+        numeric(q, "answer", |a| {
+            let text = a.to_string();
+            let decimals = text.split_once('.').map_or(0, |(_, d)| d.len());
+            format!("{:.decimals$}", a + 0.1_f64.powi(decimals as i32)).parse().unwrap()
+        })
+    }),
+    kind("takes-half", "the tolerance takes half of the answer", |q| numeric(q, "tol", |a| 0.6 * a.abs())),
+    kind("reworded-option", "an option is another one in other capitals", |q| {
+        questions(q, |q| {
+            let first = q["options"].get(0)?.as_str()?.to_string();
+            *q["options"].get_mut(1)? = json!(format!("The {first}."));
+            Some(())
+        })
+    }),
+    kind("open-formula", "a formula is not closed", |q| {
+        text(q, &["questions", "*", "explain"], |t| {
+            t.rfind('$').map(|at| format!("{}{}", &t[..at], &t[at + 1..])).filter(|_| t.contains("$"))
+        })
+    }),
+    kind("misspelt-tag", "the name of an element is misspelt", |q| {
+        text(q, &["questions", "*", "explain"], |t| super::edit::swap(t, "<code>", "<cdoe>"))
+    }),
+    kind("other-letter", "the explanation calls another option right", |q| {
+        questions(q, |q| {
+            let count = q["options"].as_array()?.len() as u64;
+            let other = (q["answer"].as_u64()? + 1) % count;
+            let letter = char::from(b'A' + other as u8);
+            q["explain"] =
+                json!(format!("Option {letter} is right. {}", q["explain"].as_str().unwrap_or("")));
             Some(())
         })
     }),

@@ -1,14 +1,19 @@
 //! Why mistakes of a kind are not found.
 
 /// Kinds with survivors, and the reason.
-pub(super) const REASONS: [(&str, &str); 40] = [
+pub(super) const REASONS: [(&str, &str); 44] = [
     ("next-index", "the neighbour is a quantity of its own: only the label says which is meant"),
     ("written-index", "the neighbour acts, too: only the label says which is meant"),
     (
         "wrong-sign",
         "what is shown is a possible number: only the label, or a `verify`, says which sign is meant",
     ),
-    ("wrong-unit", "what is shown is a possible number: only the unit in the label says that it is not"),
+    ("wrong-unit", "another number of the text is a factor, and may have a unit of its own"),
+    ("labels-exchanged", "both measure the same, and neither label is a name of the model"),
+    (
+        "label-in-degrees",
+        "it is the label of a plot, and the curves have units of their own, which are right",
+    ),
     ("degrees", "a large angle is an angle"),
     ("compared", "the comparison stands in an `if` or a `?:`, where it may be meant"),
     ("nan-at-start", "the text itself says that there may be a gap"),
@@ -44,9 +49,11 @@ pub(super) const REASONS: [(&str, &str); 40] = [
     ("key-shifted", "a question without `verify` has nothing to be compared with"),
     ("no-tolerance", "an answer that is a whole number may be asked for exactly"),
     ("tiny-tolerance", "the answer itself can be typed"),
-    ("ten-times", "a question without `verify` has nothing to be compared with"),
-    ("answer-sign", "a question without `verify` has nothing to be compared with"),
-    ("unclosed-tag", "a browser closes it at the end of the paragraph"),
+    ("ten-times", "neither a `verify` nor the explanation says the number"),
+    ("answer-sign", "neither a `verify` nor the explanation says the number"),
+    ("answer-digit", "the explanation does not come to a number, or to one of fewer digits"),
+    ("open-formula", "without a command or an index, a dollar may be a price"),
+    ("reworded-option", "the option is code or a formula, in which every character counts"),
     ("into-the-floor", "the body is not pushed out in so few steps"),
 ];
 

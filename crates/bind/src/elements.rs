@@ -4,7 +4,7 @@
 use crate::rules::QUATERNION_AS_ANGLE;
 use labspec_core::reflect::{self, FieldId, Object};
 use labspec_core::{Model, Obj, joint};
-use labspec_expr::{Advice, Role};
+use labspec_expr::{Advice, FieldKey, Role};
 
 /// First element and number of elements of a field that belong to one object; `None` when the field has no rows
 /// of this kind.
@@ -86,6 +86,14 @@ pub(super) fn owner(m: &Model, f: FieldId, index: usize) -> Option<(Obj, usize)>
         }
     }
     None
+}
+
+/// The object of the model that all of some elements of a field belong to; `None` when they belong to several, or to none.
+pub fn element_owner(m: &Model, FieldKey(f): FieldKey, first: usize, count: usize) -> Option<(Obj, usize)> {
+    let field = FieldId::new(f as usize)?;
+    let (kind, object) = owner(m, field, first)?;
+    let (start, length) = row(m, field, kind, object)?;
+    (first + count.max(1) <= start + length).then_some((kind, object))
 }
 
 /// What an element is: `joint "light_free" (free): z position, m`.

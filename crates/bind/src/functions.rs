@@ -9,9 +9,10 @@ use std::sync::LazyLock;
 
 use super::World;
 use super::handle::{self, Side};
+use super::units;
 use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
-use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Heap, Param, Touch, Type, Value};
+use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Gives, Heap, Param, Touch, Type, Value};
 
 /// The objects that hold functions.
 pub(super) const OBJECTS: [&str; 3] = ["mj", "sim", "lib"];
@@ -68,6 +69,17 @@ pub(super) enum Touches {
     Mass,
 }
 
+/// What the numbers of a result measure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Unit {
+    /// That depends.
+    Unknown,
+    /// This unit.
+    Of(&'static str),
+    /// What its argument measures, in numbers that are larger by this factor.
+    Argument(f64),
+}
+
 /// A row of the table.
 pub(super) struct Function {
     /// The object that holds it; empty for a function by its own name.
@@ -86,6 +98,8 @@ pub(super) struct Function {
     pub(super) writes: &'static [Touches],
     pub(super) place: Place,
     pub(super) aggregate: bool,
+    /// What the numbers that it gives measure.
+    pub(super) unit: Unit,
     pub(super) doc: &'static str,
     /// Statements and a last expression on `specs/models/pendulum.xml`, or a measure over 0.1 s of it, and its value.
     pub(super) example: (&'static str, &'static str),
@@ -106,6 +120,7 @@ pub(super) const ROW: Function = Function {
     writes: &[],
     place: Place::Everywhere,
     aggregate: false,
+    unit: Unit::Unknown,
     doc: "",
     example: ("", ""),
     run: |_, _, _| NOTHING,
@@ -179,6 +194,11 @@ fn info(f: &Function) -> FunctionInfo {
         aggregate: f.aggregate,
         reads: touch(&[f.reads]),
         writes: touch(f.writes),
+        gives: match f.unit {
+            Unit::Of(unit) => units::parse(unit).map_or(Gives::Unknown, Gives::This),
+            Unit::Argument(factor) => Gives::Argument(factor),
+            Unit::Unknown => Gives::Unknown,
+        },
         doc: f.doc.to_string(),
     }
 }

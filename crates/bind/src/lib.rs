@@ -11,12 +11,15 @@ mod enums;
 mod error;
 pub mod functions;
 mod handle;
+mod measures;
 mod names;
 mod own;
 pub mod rules;
+pub mod units;
 mod words;
 mod world;
 
+pub use elements::element_owner;
 pub use engine::{Engine, Expression, Statements};
 pub use error::Error;
 pub use labspec_expr::Value;

@@ -5,9 +5,11 @@ use super::elements;
 use super::enums::ENUMS;
 use super::functions::{self, OBJECTS, Place, TABLE};
 use super::handle::{self, KINDS, Side, Thing};
+use super::measures;
 use super::words::WORDS;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_core::{Model, Obj};
+use labspec_expr::dimension::Measure;
 use labspec_expr::{
     CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Role, Schema,
     Value, Words,
@@ -425,6 +427,11 @@ impl Schema for ModelNames<'_> {
 
     fn element_help(&self, FieldKey(f): FieldKey, index: usize) -> Option<String> {
         elements::help(self.model, FieldId::new(f as usize)?, index)
+    }
+
+    fn measure(&self, FieldKey(f): FieldKey, first: usize, count: Option<usize>) -> Measure {
+        FieldId::new(f as usize)
+            .map_or(Measure::Unknown, |field| measures::measure(self.model, field, first, count))
     }
 
     fn role(&self, FieldKey(f): FieldKey, index: usize) -> Role {

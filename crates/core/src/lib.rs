@@ -64,6 +64,7 @@ pub use model::stopwatch::{Lap, Laps};
 pub use model::way::{Way, Ways};
 pub use model::{Contact, Decision, Names, Obj, Options, Statistic, Warning, WarningStat};
 pub use query::{RayFilter, RayHit};
+pub use sensor::unit as sensor_unit;
 pub use step::balance::Energy;
 pub use step::inverse::InverseError;
 pub use step::scene::Demand;

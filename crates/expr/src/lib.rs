@@ -22,10 +22,13 @@
 //! fail: they return what was understood and a list of [`Finding`]s.
 
 pub mod ast;
+pub mod dimension;
 pub mod rules;
 
 mod bind;
+mod chain;
 mod columnar;
+mod complete;
 mod effects;
 mod form;
 mod formula;
@@ -61,11 +64,14 @@ mod tests;
 mod zz;
 
 pub use bind::{Compiled, Compiler};
+pub use chain::{Mention, Named, chain_at, fields_in, names_in, texts_in, variables_of};
 pub use columnar::{Columnar, Foreign, Recording};
+pub use complete::{Suggested, Suggestion, complete};
 pub use effects::{Access, Effects};
+pub use form::measure::{Clash, Given, Measured, Stored};
 pub use globals::{Globals, ProgramId};
 pub use heap::{Full, Heap, Ref};
-pub use labspec_finding::{Finding, Fix, Severity, Span};
+pub use labspec_finding::{Finding, Fix, Severity, Span, floor};
 pub use math::hypot;
 pub use natives::to_fixed;
 pub use parse::Parsed;
@@ -74,8 +80,8 @@ pub use print::{format_expression, format_statements, print, print_statements};
 pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
 pub use reference::language_page;
 pub use schema::{
-    Advice, CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Help, ObjectId,
-    Param, Role, Schema, Touch, Type,
+    Advice, CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, Help,
+    ObjectId, Param, Role, Schema, Touch, Type,
 };
 pub use value::{Value, View};
 pub use words::Words;

@@ -172,6 +172,11 @@ impl Function {
         if self.gives_boolean() { name.into() } else { format!("Math.{name}") }
     }
 
+    /// Its name, without `Math.`.
+    pub(crate) fn name(self) -> &'static str {
+        self.row().name
+    }
+
     /// What it gives.
     pub(crate) fn doc(self) -> &'static str {
         DOCS.iter().find(|(name, ..)| *name == self.row().name).map_or("", |(_, doc, _)| doc)

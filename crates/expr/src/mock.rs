@@ -241,6 +241,7 @@ impl Schema for Mock {
             aggregate: false,
             reads: Touch::Nothing,
             writes: Touch::Nothing,
+            gives: Gives::Unknown,
             doc: doc.into(),
         };
         let both = vec![Param::Object(MODEL), Param::Object(DATA)];

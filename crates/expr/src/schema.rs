@@ -2,6 +2,7 @@
 //! functions with signature and effects. The numbers in the ids are the host's own; this crate only hands
 //! them back.
 
+use crate::dimension::{Dimension, Measure};
 use crate::rules::Rule;
 use crate::value::Value;
 use crate::words::Words;
@@ -160,8 +161,36 @@ pub struct FunctionInfo {
     pub reads: Touch,
     /// What it writes.
     pub writes: Touch,
+    /// What the numbers that it gives measure.
+    pub gives: Gives,
     /// One line of documentation.
     pub doc: String,
+}
+
+/// How a function is called, in short: `mj.mj_forward(model, data)`.
+pub(crate) fn signature(schema: &dyn Schema, info: &FunctionInfo) -> String {
+    let params = info.params.iter().map(|param| match param {
+        Param::Number | Param::Angle | Param::Lazy => "x".to_owned(),
+        Param::Text => "\"text\"".to_owned(),
+        Param::Boolean => "true".to_owned(),
+        Param::Any => "value".to_owned(),
+        Param::Numbers => "list".to_owned(),
+        Param::Object(id) => schema.describe(*id),
+        Param::Name(id) => format!("\"name of a {}\"", schema.noun(*id)),
+    });
+    format!("{}({})", info.name, params.collect::<Vec<_>>().join(", "))
+}
+
+/// What the numbers of a result measure.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Gives {
+    /// That is not known.
+    #[default]
+    Unknown,
+    /// This.
+    This(Dimension),
+    /// What the first argument measures, in numbers that are larger by this factor.
+    Argument(f64),
 }
 
 /// What a parameter takes.
@@ -353,6 +382,12 @@ pub trait Schema {
     fn role(&self, field: FieldKey, index: usize) -> Role {
         let _ = (field, index);
         Role::Other
+    }
+
+    /// What the elements of a whole field from `first` on measure, where they all measure the same; without a count, all of them.
+    fn measure(&self, field: FieldKey, first: usize, count: Option<usize>) -> Measure {
+        let _ = (field, first, count);
+        Measure::Unknown
     }
 
     /// How an author writes element `index` of a whole field by the name of the object that it belongs to:

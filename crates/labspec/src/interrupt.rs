@@ -1,14 +1,40 @@
-//! Ctrl-C: a flag that long work looks at, so that what is finished can still be printed.
+//! Ctrl-C: a flag that long work looks at, so that what is finished can still be printed. And the same for one thread, whose work
+//! somebody no longer wants.
 
+use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 
 static REQUESTED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
-/// Whether the person at the terminal wants an end. Never true in a program that does not call [`listen`].
+/// Whether some thread has a flag of its own: as long as none has, nobody looks for one.
+static OWN: AtomicBool = AtomicBool::new(false);
+
+thread_local! {
+    static HERE: RefCell<Option<Arc<AtomicBool>>> = const { RefCell::new(None) };
+}
+
+/// Whether the person at the terminal wants an end, or somebody that of what this thread does. Never true in a program that calls
+/// neither [`listen`] nor [`until`].
 #[inline]
 pub(crate) fn requested() -> bool {
     REQUESTED.get().is_some_and(|flag| flag.load(Ordering::Relaxed))
+        || (OWN.load(Ordering::Relaxed) && here())
+}
+
+#[cold]
+fn here() -> bool {
+    HERE.with(|flag| flag.borrow().as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)))
+}
+
+/// Does something on this thread that ends early when the flag is set.
+#[cfg(feature = "lsp")]
+pub(crate) fn until<T>(flag: Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
+    OWN.store(true, Ordering::Relaxed);
+    let before = HERE.with(|here| here.replace(Some(flag)));
+    let done = work();
+    HERE.with(|here| here.replace(before));
+    done
 }
 
 /// From now on Ctrl-C sets the flag; a second one ends the program at once, with exit code 130.

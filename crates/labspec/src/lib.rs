@@ -28,6 +28,8 @@ mod interrupt;
 pub mod json;
 pub mod ledger;
 pub mod lint;
+#[cfg(feature = "lsp")]
+pub mod lsp;
 pub mod markdown;
 pub mod models;
 pub mod plan;

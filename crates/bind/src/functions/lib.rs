@@ -1,6 +1,6 @@
 //! The functions of `lib`: what lessons ask for most, in one word.
 
-use super::{Arg, Function, ROW, Touches, index, number};
+use super::{Arg, Function, ROW, Touches, Unit, index, number};
 use crate::World;
 use labspec_core::{self as core, Obj, enable};
 use labspec_expr::{Heap, Type, Value};
@@ -16,6 +16,7 @@ pub(super) const ROWS: &[Function] = &[
         object: "lib",
         name: "bodyId",
         args: &[Arg::Name(Obj::Body)],
+        unit: Unit::Of("1"),
         doc: "index of a body",
         example: ("lib.bodyId('bob')", "1"),
         run: |_, _, args| index(args).map(|i| Value::Number(i as f64)),
@@ -25,6 +26,7 @@ pub(super) const ROWS: &[Function] = &[
         object: "lib",
         name: "jointId",
         args: &[Arg::Name(Obj::Joint)],
+        unit: Unit::Of("1"),
         doc: "index of a joint",
         example: ("lib.jointId('swing')", "0"),
         run: |_, _, args| index(args).map(|i| Value::Number(i as f64)),
@@ -49,6 +51,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Name(Obj::Geom)],
         optional: 1,
         reads: Touches::Contacts,
+        unit: Unit::Of("N"),
         doc: "normal force in N, summed over all contacts, or over those of one geom",
         example: ("lib.normalForce()", "0"),
         run: |w, _, args| {
@@ -67,6 +70,7 @@ pub(super) const ROWS: &[Function] = &[
         object: "lib",
         name: "deg",
         args: &[Arg::Angle],
+        unit: Unit::Argument(180.0 / std::f64::consts::PI),
         doc: "radians to degrees",
         example: ("lib.deg(Math.PI)", "180"),
         run: |_, _, args| number(args).map(|x| Value::Number(x * 180.0 / std::f64::consts::PI)),
@@ -76,6 +80,7 @@ pub(super) const ROWS: &[Function] = &[
         object: "lib",
         name: "rad",
         args: &[Arg::Number],
+        unit: Unit::Argument(std::f64::consts::PI / 180.0),
         doc: "degrees to radians",
         example: ("lib.rad(180)", "3.141592653589793"),
         run: |_, _, args| number(args).map(|x| Value::Number(x * std::f64::consts::PI / 180.0)),
@@ -87,6 +92,7 @@ pub(super) const ROWS: &[Function] = &[
         length: Some(3),
         gives: Some(("site_xpos", Obj::Site)),
         reads: Touches::Places,
+        unit: Unit::Of("m"),
         doc: "place of a site in the world, m",
         example: ("lib.sitePos('tip')[2]", "0.5"),
         run: |w, heap, args| place(heap, &w.data.fields().site_xpos, index(args)?),
@@ -98,6 +104,7 @@ pub(super) const ROWS: &[Function] = &[
         length: Some(3),
         gives: Some(("xpos", Obj::Body)),
         reads: Touches::Places,
+        unit: Unit::Of("m"),
         doc: "place of a body in the world, m",
         example: ("lib.bodyPos('bob')[2]", "1"),
         run: |w, heap, args| place(heap, &w.data.fields().xpos, index(args)?),
@@ -110,6 +117,7 @@ pub(super) const ROWS: &[Function] = &[
         members: ENERGIES,
         reads: Touches::Energy,
         writes: &[Touches::Flags, Touches::Derived],
+        unit: Unit::Of("J"),
         doc: "potential, kinetic and total energy, J; switches the computation of energy on at its first use",
         example: ("lib.energy().total", "4.905"),
         run: |w, heap, _| energy(w, heap),
@@ -182,6 +190,7 @@ pub(super) const ROWS: &[Function] = &[
         object: "lib",
         name: "norm",
         args: &[Arg::Numbers],
+        unit: Unit::Argument(1.0),
         doc: "length of a vector: the root of the sum of its squares",
         example: ("lib.norm([3, 4])", "5"),
         run: |_, heap, args| {

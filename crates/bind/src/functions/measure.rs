@@ -1,6 +1,6 @@
 //! Functions of the measures of `verify`: over the samples of a run, and on the contacts of one sample.
 
-use super::{Arg, Function, Place, ROW, Touches, index, number};
+use super::{Arg, Function, Place, ROW, Touches, Unit, index, number};
 use crate::handle;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Type, Value};
@@ -32,6 +32,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "abs",
         args: &[Arg::Number],
         place: Place::Measures,
+        unit: Unit::Argument(1.0),
         doc: "magnitude",
         example: ("abs(-2)", "2"),
         run: |_, _, args| number(args).map(|x| Value::Number(x.abs())),
@@ -39,6 +40,7 @@ pub(super) const ROWS: &[Function] = &[
     },
     Function {
         name: "first",
+        unit: Unit::Of("s"),
         doc: "time in s of the first sample at which a condition holds; NaN if it never does",
         example: ("first(data.time > 0.049)", "0.05"),
         ..OVER_RUN
@@ -61,6 +63,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "crossing",
         args: &[Arg::Lazy, Arg::Lazy],
         optional: 1,
+        unit: Unit::Of("s"),
         doc: "crossing(x) or crossing(x, level): time in s at which x first passes through zero, or through a level, on a straight line between the two samples around it; a sample at the level counts; NaN if it never does",
         example: ("crossing(0.0495 - data.time)", "0.0495"),
         ..OVER_RUN
@@ -69,6 +72,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "period",
         args: &[Arg::Lazy, Arg::Lazy],
         optional: 1,
+        unit: Unit::Of("s"),
         doc: "period(x) or period(x, level): mean time in s from one upward passage of x through zero, or through a level, to the next, each on a straight line between two samples; NaN with fewer than two",
         example: ("period(Math.abs(data.time % 0.04 - 0.02), 0.01)", "0.04"),
         ..OVER_RUN

@@ -1,7 +1,7 @@
 //! The functions of `sim`: the simulation as the page sees it. Playing and pausing mean nothing without a page.
 
 use super::lib::{ENERGIES, energy};
-use super::{Function, NOTHING, ROW, Touches};
+use super::{Function, NOTHING, ROW, Touches, Unit};
 use labspec_core as core;
 use labspec_expr::{Type, Value};
 
@@ -45,6 +45,7 @@ pub(super) const ROWS: &[Function] = &[
         members: ENERGIES,
         reads: Touches::Energy,
         writes: &[Touches::Flags, Touches::Derived],
+        unit: Unit::Of("J"),
         doc: "potential, kinetic and total energy, J; switches the computation of energy on at its first use",
         example: ("sim.energy().potential", "4.905"),
         run: |w, heap, _| energy(w, heap),

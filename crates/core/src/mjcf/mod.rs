@@ -34,6 +34,7 @@ mod tendon;
 #[cfg(test)]
 mod tests;
 mod text;
+mod traps;
 mod unsimulated;
 
 use std::io::Read;
@@ -80,7 +81,9 @@ pub(crate) fn compile(xml: &str) -> Result<Model, Vec<Finding>> {
 ///
 /// All mistakes that were found, in the order of the texts. [`examine`] tells warnings, too.
 pub(crate) fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<Finding>> {
-    let Examined { model, mut findings } = examine(xml, files, path);
+    let mut report = Report::new();
+    let model = built(xml, files, path, &mut report).map(|(_, model)| model);
+    let mut findings = report.finish();
     findings.retain(|d| d.severity == Severity::Error);
     model.ok_or(findings)
 }
@@ -97,11 +100,23 @@ pub(crate) struct Examined {
 /// Compiles a model as [`compile_with`] does, and tells what it may not be meant to be, besides what is wrong.
 pub(crate) fn examine(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
     let mut report = Report::new();
-    let model = passes::build(xml, files, path, &mut report).and_then(|(tree, model)| {
-        unsimulated::check(&tree, &model, &mut report);
-        report.is_clean().then_some(model)
-    });
-    Examined { model, findings: report.finish() }
+    let built = built(xml, files, path, &mut report);
+    if let Some((tree, model)) = &built {
+        traps::tell(tree, model, &mut report);
+    }
+    Examined { model: built.map(|(_, model)| model), findings: report.finish() }
+}
+
+/// A model that can be simulated, and its tree.
+fn built(
+    xml: &str,
+    files: &dyn Files,
+    path: Option<&str>,
+    report: &mut Report,
+) -> Option<(text::tree::Tree, Model)> {
+    let (tree, model) = passes::build(xml, files, path, report)?;
+    unsimulated::check(&tree, &model, report);
+    report.is_clean().then_some((tree, model))
 }
 
 /// Compiles a model that may hold what is not simulated yet.

@@ -1,6 +1,7 @@
 //! Tests of the compiler as a whole.
 
 mod assets;
+mod doubtful;
 mod golden;
 mod hostile;
 mod measured;

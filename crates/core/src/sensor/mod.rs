@@ -41,6 +41,12 @@ pub(crate) struct Scratch {
     pub(crate) narrow: Narrow,
 }
 
+/// The unit of a sensor's values, as its row has it: `m or rad` is that of a slide or of a hinge. Empty where it is none, or not known.
+pub fn unit(m: &Model, s: usize) -> &'static str {
+    let kind = m.sensor_type.get(s).and_then(|&t| KINDS.get(usize::try_from(t).ok()?));
+    kind.map_or("", |k| k.unit)
+}
+
 /// The places of a sensor's values in `sensordata`.
 pub(crate) fn places(m: &Model, s: usize) -> Range<usize> {
     let first = m.sensor_adr[s] as usize;

@@ -98,13 +98,15 @@ pub(crate) struct Kind {
     pub datatype: Datatype,
     /// When they are known.
     pub when: When,
+    /// Their unit: of a joint or an actuator that of a slide, then that of a hinge; empty where it depends on more.
+    pub unit: &'static str,
     /// The results that they are computed from, besides the poses of the sensed objects.
     pub(super) needs: &'static [Stage],
     pub(super) read: Read,
 }
 
 macro_rules! kinds {
-    ($($id:ident $name:literal $senses:ident $dim:literal $datatype:ident $when:ident [$($needs:ident)*] $how:ident $read:expr;)*) => {
+    ($($id:ident $name:literal $senses:ident $dim:literal $datatype:ident $unit:literal $when:ident [$($needs:ident)*] $how:ident $read:expr;)*) => {
         #[allow(non_camel_case_types, clippy::upper_case_acronyms, dead_code)] // the names of the constants
         enum Number { $($id),* }
         /// Types of sensors, values of `sensor_type` (mjtSensor).
@@ -119,6 +121,7 @@ macro_rules! kinds {
             senses: Senses::$senses,
             dim: $dim,
             datatype: Datatype::$datatype,
+            unit: $unit,
             when: When::$when,
             needs: &[$(Stage::$needs),*],
             read: Read::$how($read),
@@ -126,55 +129,55 @@ macro_rules! kinds {
     };
 }
 kinds! {
-    TOUCH "touch" Site 1 Positive Acceleration [] Of contact_sensor::touch;
-    ACCELEROMETER "accelerometer" Site 3 Real Acceleration [RnePost] Of frame_sensor::accelerometer;
-    VELOCIMETER "velocimeter" Site 3 Real Velocity [ComVel] Of frame_sensor::velocimeter;
-    GYRO "gyro" Site 3 Real Velocity [ComVel] Of frame_sensor::gyro;
-    FORCE "force" Site 3 Real Acceleration [RnePost] Of frame_sensor::force;
-    TORQUE "torque" Site 3 Real Acceleration [RnePost] Of frame_sensor::torque;
-    MAGNETOMETER "magnetometer" Site 3 Real Position [] Of frame_sensor::magnetometer;
-    RANGEFINDER "rangefinder" Ray 0 Real Position [GeomPoses] Of rays::rangefinder;
-    CAMPROJECTION "camprojection" SiteInImage 2 Real Position [] Of rays::camera_projection;
-    JOINTPOS "jointpos" ScalarJoint 1 Real Position [] Of measure::joint_position;
-    JOINTVEL "jointvel" ScalarJoint 1 Real Velocity [] Of measure::joint_velocity;
-    TENDONPOS "tendonpos" Tendon 1 Real Position [Tendon] Of measure::tendon_length;
-    TENDONVEL "tendonvel" Tendon 1 Real Velocity [TendonVel] Of measure::tendon_velocity;
-    ACTUATORPOS "actuatorpos" Actuator 0 Real Position [Transmission] Of measure::actuator_length;
-    ACTUATORVEL "actuatorvel" Actuator 0 Real Velocity [ActuatorVel] Of measure::actuator_velocity;
-    ACTUATORFRC "actuatorfrc" Actuator 0 Real Acceleration [Actuation] Of measure::actuator_force;
-    JOINTACTFRC "jointactuatorfrc" ScalarJoint 1 Real Acceleration [Actuation] Of measure::joint_actuator_force;
-    TENDONACTFRC "tendonactuatorfrc" Tendon 1 Real Acceleration [Actuation] Of measure::tendon_actuator_force;
-    BALLQUAT "ballquat" BallJoint 4 Quaternion Position [] Of measure::ball_orientation;
-    BALLANGVEL "ballangvel" BallJoint 3 Real Velocity [] Of measure::ball_velocity;
-    JOINTLIMITPOS "jointlimitpos" LimitedJoint 1 Real Position [] Of measure::joint_limit_distance;
-    JOINTLIMITVEL "jointlimitvel" LimitedJoint 1 Real Velocity [] Of measure::joint_limit_velocity;
-    JOINTLIMITFRC "jointlimitfrc" LimitedJoint 1 Real Acceleration [] Of measure::joint_limit_force;
-    TENDONLIMITPOS "tendonlimitpos" LimitedTendon 1 Real Position [] Of measure::tendon_limit_distance;
-    TENDONLIMITVEL "tendonlimitvel" LimitedTendon 1 Real Velocity [] Of measure::tendon_limit_velocity;
-    TENDONLIMITFRC "tendonlimitfrc" LimitedTendon 1 Real Acceleration [] Of measure::tendon_limit_force;
-    FRAMEPOS "framepos" RelativeFrame 3 Real Position [] Of frame_sensor::position;
-    FRAMEQUAT "framequat" RelativeFrame 4 Quaternion Position [] Of frame_sensor::orientation;
-    FRAMEXAXIS "framexaxis" RelativeFrame 3 Axis Position [] Of frame_sensor::axis::<0>;
-    FRAMEYAXIS "frameyaxis" RelativeFrame 3 Axis Position [] Of frame_sensor::axis::<1>;
-    FRAMEZAXIS "framezaxis" RelativeFrame 3 Axis Position [] Of frame_sensor::axis::<2>;
-    FRAMELINVEL "framelinvel" RelativeFrame 3 Real Velocity [ComVel] Of frame_sensor::linear_velocity;
-    FRAMEANGVEL "frameangvel" RelativeFrame 3 Real Velocity [ComVel] Of frame_sensor::angular_velocity;
-    FRAMELINACC "framelinacc" Frame 3 Real Acceleration [RnePost] Of frame_sensor::linear_acceleration;
-    FRAMEANGACC "frameangacc" Frame 3 Real Acceleration [RnePost] Of frame_sensor::angular_acceleration;
-    SUBTREECOM "subtreecom" Subtree 3 Real Position [ComPos] Of measure::subtree_com;
-    SUBTREELINVEL "subtreelinvel" Subtree 3 Real Velocity [SubtreeVel] Of measure::subtree_velocity;
-    SUBTREEANGMOM "subtreeangmom" Subtree 3 Real Velocity [SubtreeVel] Of measure::subtree_angular_momentum;
-    INSIDESITE "insidesite" FrameInSite 1 Positive Position [] Of frame_sensor::inside_site;
-    GEOMDIST "distance" Pair 1 Real Position [GeomPoses] With pair::distance;
-    GEOMNORMAL "normal" Pair 3 Axis Position [GeomPoses] With pair::normal;
-    GEOMFROMTO "fromto" Pair 6 Real Position [GeomPoses] With pair::from_to;
-    CONTACT "contact" Contacts 0 Real Acceleration [] With contact_sensor::contacts;
-    E_POTENTIAL "e_potential" Nothing 1 Real Position [Kinematics Tendon] Of measure::potential_energy;
-    E_KINETIC "e_kinetic" Nothing 1 Real Position [MassMatrix] Of measure::kinetic_energy;
-    CLOCK "clock" Nothing 1 Real Position [] Of measure::clock;
-    TACTILE "tactile" Tactile 0 Real Acceleration [] Of measure::nothing;
-    PLUGIN "plugin" Plugin 0 Real Acceleration [] Of measure::nothing;
-    USER "user" User 0 Real Acceleration [] Of measure::nothing;
+    TOUCH "touch" Site 1 Positive "N" Acceleration [] Of contact_sensor::touch;
+    ACCELEROMETER "accelerometer" Site 3 Real "m/s^2" Acceleration [RnePost] Of frame_sensor::accelerometer;
+    VELOCIMETER "velocimeter" Site 3 Real "m/s" Velocity [ComVel] Of frame_sensor::velocimeter;
+    GYRO "gyro" Site 3 Real "rad/s" Velocity [ComVel] Of frame_sensor::gyro;
+    FORCE "force" Site 3 Real "N" Acceleration [RnePost] Of frame_sensor::force;
+    TORQUE "torque" Site 3 Real "N m" Acceleration [RnePost] Of frame_sensor::torque;
+    MAGNETOMETER "magnetometer" Site 3 Real "" Position [] Of frame_sensor::magnetometer;
+    RANGEFINDER "rangefinder" Ray 0 Real "" Position [GeomPoses] Of rays::rangefinder;
+    CAMPROJECTION "camprojection" SiteInImage 2 Real "" Position [] Of rays::camera_projection;
+    JOINTPOS "jointpos" ScalarJoint 1 Real "m or rad" Position [] Of measure::joint_position;
+    JOINTVEL "jointvel" ScalarJoint 1 Real "m/s or rad/s" Velocity [] Of measure::joint_velocity;
+    TENDONPOS "tendonpos" Tendon 1 Real "m" Position [Tendon] Of measure::tendon_length;
+    TENDONVEL "tendonvel" Tendon 1 Real "m/s" Velocity [TendonVel] Of measure::tendon_velocity;
+    ACTUATORPOS "actuatorpos" Actuator 0 Real "m or rad" Position [Transmission] Of measure::actuator_length;
+    ACTUATORVEL "actuatorvel" Actuator 0 Real "m/s or rad/s" Velocity [ActuatorVel] Of measure::actuator_velocity;
+    ACTUATORFRC "actuatorfrc" Actuator 0 Real "N or N m" Acceleration [Actuation] Of measure::actuator_force;
+    JOINTACTFRC "jointactuatorfrc" ScalarJoint 1 Real "N or N m" Acceleration [Actuation] Of measure::joint_actuator_force;
+    TENDONACTFRC "tendonactuatorfrc" Tendon 1 Real "N" Acceleration [Actuation] Of measure::tendon_actuator_force;
+    BALLQUAT "ballquat" BallJoint 4 Quaternion "1" Position [] Of measure::ball_orientation;
+    BALLANGVEL "ballangvel" BallJoint 3 Real "rad/s" Velocity [] Of measure::ball_velocity;
+    JOINTLIMITPOS "jointlimitpos" LimitedJoint 1 Real "m or rad" Position [] Of measure::joint_limit_distance;
+    JOINTLIMITVEL "jointlimitvel" LimitedJoint 1 Real "m/s or rad/s" Velocity [] Of measure::joint_limit_velocity;
+    JOINTLIMITFRC "jointlimitfrc" LimitedJoint 1 Real "N or N m" Acceleration [] Of measure::joint_limit_force;
+    TENDONLIMITPOS "tendonlimitpos" LimitedTendon 1 Real "m" Position [] Of measure::tendon_limit_distance;
+    TENDONLIMITVEL "tendonlimitvel" LimitedTendon 1 Real "m/s" Velocity [] Of measure::tendon_limit_velocity;
+    TENDONLIMITFRC "tendonlimitfrc" LimitedTendon 1 Real "N" Acceleration [] Of measure::tendon_limit_force;
+    FRAMEPOS "framepos" RelativeFrame 3 Real "m" Position [] Of frame_sensor::position;
+    FRAMEQUAT "framequat" RelativeFrame 4 Quaternion "1" Position [] Of frame_sensor::orientation;
+    FRAMEXAXIS "framexaxis" RelativeFrame 3 Axis "1" Position [] Of frame_sensor::axis::<0>;
+    FRAMEYAXIS "frameyaxis" RelativeFrame 3 Axis "1" Position [] Of frame_sensor::axis::<1>;
+    FRAMEZAXIS "framezaxis" RelativeFrame 3 Axis "1" Position [] Of frame_sensor::axis::<2>;
+    FRAMELINVEL "framelinvel" RelativeFrame 3 Real "m/s" Velocity [ComVel] Of frame_sensor::linear_velocity;
+    FRAMEANGVEL "frameangvel" RelativeFrame 3 Real "rad/s" Velocity [ComVel] Of frame_sensor::angular_velocity;
+    FRAMELINACC "framelinacc" Frame 3 Real "m/s^2" Acceleration [RnePost] Of frame_sensor::linear_acceleration;
+    FRAMEANGACC "frameangacc" Frame 3 Real "rad/s^2" Acceleration [RnePost] Of frame_sensor::angular_acceleration;
+    SUBTREECOM "subtreecom" Subtree 3 Real "m" Position [ComPos] Of measure::subtree_com;
+    SUBTREELINVEL "subtreelinvel" Subtree 3 Real "m/s" Velocity [SubtreeVel] Of measure::subtree_velocity;
+    SUBTREEANGMOM "subtreeangmom" Subtree 3 Real "kg m^2/s" Velocity [SubtreeVel] Of measure::subtree_angular_momentum;
+    INSIDESITE "insidesite" FrameInSite 1 Positive "1" Position [] Of frame_sensor::inside_site;
+    GEOMDIST "distance" Pair 1 Real "m" Position [GeomPoses] With pair::distance;
+    GEOMNORMAL "normal" Pair 3 Axis "1" Position [GeomPoses] With pair::normal;
+    GEOMFROMTO "fromto" Pair 6 Real "m" Position [GeomPoses] With pair::from_to;
+    CONTACT "contact" Contacts 0 Real "" Acceleration [] With contact_sensor::contacts;
+    E_POTENTIAL "e_potential" Nothing 1 Real "J" Position [Kinematics Tendon] Of measure::potential_energy;
+    E_KINETIC "e_kinetic" Nothing 1 Real "J" Position [MassMatrix] Of measure::kinetic_energy;
+    CLOCK "clock" Nothing 1 Real "s" Position [] Of measure::clock;
+    TACTILE "tactile" Tactile 0 Real "" Acceleration [] Of measure::nothing;
+    PLUGIN "plugin" Plugin 0 Real "" Acceleration [] Of measure::nothing;
+    USER "user" User 0 Real "" Acceleration [] Of measure::nothing;
 }
 
 /// The row of sensor `s`.

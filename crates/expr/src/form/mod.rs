@@ -10,6 +10,7 @@ mod call;
 mod effects;
 mod flow;
 mod fold;
+pub(crate) mod measure;
 pub(crate) mod op;
 pub(crate) mod order;
 mod place;

@@ -187,7 +187,7 @@ impl Name {
 
 impl Row {
     /// Whether a value of this type has it, as far as that is known.
-    fn is_of(&self, ty: Type) -> bool {
+    pub(crate) fn is_of(&self, ty: Type) -> bool {
         matches!(ty, Type::Any | Type::Never)
             || match self.on {
                 On::List => matches!(ty, Type::List | Type::View),

@@ -2,17 +2,23 @@
 
 mod allowed;
 mod claims;
+mod dimension;
 mod entries;
 mod expect;
+mod labels;
+mod mass_alone;
+mod named;
 mod params;
 mod programs;
 mod refresh;
 mod sight;
 pub mod stored;
 mod trial;
+mod units;
 
 pub use allowed::Allowed;
 pub use claims::Claim;
+pub use dimension::{Dimensions, dimensions};
 pub use entries::{evidence, ledger};
 pub use trial::Tried;
 
@@ -110,6 +116,7 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
         lesson.all_labs().into_iter().filter_map(|lab| prepare(lab, models, depth, &mut findings)).collect();
     if depth.programs {
         ready.iter().for_each(|r| params::check(lesson, r, &mut findings));
+        ready.iter().for_each(|r| mass_alone::check(r, &mut findings));
     }
     let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     told_once(lesson, &mut findings);
@@ -162,6 +169,8 @@ fn prepare<'l>(
     let (model, programs, mistakes) = bind(lab, models, findings)?;
     if depth.programs {
         programs::check(lab, &model, &programs, findings);
+        units::check(lab, &model, &programs, findings);
+        named::check(lab, &model, &programs, findings);
     }
     Some(Ready { lab, model, programs, mistakes })
 }

@@ -35,7 +35,7 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
 }
 
 /// The first field of the data that a program sets itself, of those that a reset puts back.
-fn sets(bound: &Bound, model: &Model) -> Option<FieldId> {
+pub(super) fn sets(bound: &Bound, model: &Model) -> Option<FieldId> {
     let set_const = bound.program.effects().calls.iter().any(|&f| functions::name(f) == Some("mj_setConst"));
     let writes = bound.program.own_writes();
     let mut set = writes.iter().filter(|w| {
@@ -49,7 +49,7 @@ fn sets(bound: &Bound, model: &Model) -> Option<FieldId> {
 }
 
 /// Whether a program starts the simulation anew itself, so that what it sets is the start that it wants.
-fn resets(bound: &Bound) -> bool {
+pub(super) fn resets(bound: &Bound) -> bool {
     let reset = |name| matches!(name, "mj_resetData" | "mj_resetDataKeyframe" | "reset");
     bound.program.effects().calls.iter().any(|&f| functions::name(f).is_some_and(reset))
 }

@@ -12,6 +12,8 @@ mod fix;
 mod fmt;
 mod handle;
 mod init;
+#[cfg(feature = "lsp")]
+mod lsp;
 mod machine;
 mod output;
 mod plan;
@@ -65,6 +67,9 @@ enum Command {
     Explain(explain::Arguments),
     /// Print the JSON Schema of labs and quizzes, for editors: lab, quiz, or lesson for a JSON file of both
     Schema(schema::Arguments),
+    /// Serve an editor: findings, completion, values and names as one types (Language Server Protocol)
+    #[cfg(feature = "lsp")]
+    Lsp(lsp::Arguments),
     /// For engineers: our engine's numbers for the states of a recording of MuJoCo
     Record(record::Arguments),
     /// For engineers: time of a step
@@ -146,6 +151,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Plan(a) => plan::plan(a),
         Command::Explain(a) => explain::explain(a),
         Command::Schema(a) => schema::schema(a),
+        #[cfg(feature = "lsp")]
+        Command::Lsp(a) => lsp::lsp(a),
         Command::Record(a) => record::record(a),
         Command::Bench(a) => bench::bench(a),
         Command::Reference { folder } => reference(folder),

@@ -3,7 +3,6 @@
 use crate::finding::Finding;
 use crate::rules;
 use crate::source::Text;
-use crate::spec::{Lab, Quiz};
 use std::ops::Range;
 
 /// Elements of MJCF that no lesson means as HTML (XML reference of MuJoCo 3). Elements that HTML or SVG
@@ -76,6 +75,11 @@ const ELEMENTS: [&str; 64] = [
 ];
 const WORLD: &str = "worldbody";
 
+/// Whether an element is one of models, which no lesson means as HTML.
+pub(super) fn is_of_models(name: &str) -> bool {
+    ELEMENTS.contains(&name) || name == WORLD
+}
+
 /// Tags of model elements in a piece of HTML: byte range and name.
 fn tags(html: &str) -> Vec<(Range<usize>, &str)> {
     let mut found = Vec::new();
@@ -85,7 +89,7 @@ fn tags(html: &str) -> Vec<(Range<usize>, &str)> {
         let length = inside.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(inside.len());
         let name = inside.get(..length).unwrap_or("");
         let after = inside.get(length..).unwrap_or("");
-        if !after.starts_with(['>', '/', ' ', '\n', '\t']) || !(ELEMENTS.contains(&name) || name == WORLD) {
+        if !after.starts_with(['>', '/', ' ', '\n', '\t']) || !is_of_models(name) {
             continue;
         }
         // Attributes end soon; a `<` before the `>` means that this tag has none.
@@ -110,7 +114,7 @@ fn finding(tag: &str, span: Range<usize>) -> Finding {
 }
 
 /// Most findings in one text of a lab or a quiz.
-const MAX_IN_TEXT: usize = 100;
+pub(super) const MAX_IN_TEXT: usize = 100;
 
 /// Looks into HTML that stands in the Markdown text, for so many findings at most.
 pub(crate) fn in_markdown(text: &str, range: Range<usize>, most: usize) -> Vec<Finding> {
@@ -129,7 +133,8 @@ pub(crate) fn in_markdown(text: &str, range: Range<usize>, most: usize) -> Vec<F
         .collect()
 }
 
-fn in_text(text: &Text, findings: &mut Vec<Finding>) {
+/// Looks into a text of a lab or a quiz.
+pub(super) fn check(text: &Text, findings: &mut Vec<Finding>) {
     for (tag, _) in tags(text.as_str()).into_iter().take(MAX_IN_TEXT) {
         let mut found = finding(text.value.get(tag.clone()).unwrap_or(""), text.span_of(tag));
         // Inside of JSON the quotes of attributes are escaped; the replacement must be so too.
@@ -137,16 +142,6 @@ fn in_text(text: &Text, findings: &mut Vec<Finding>) {
             fix.text = fix.text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
         }
         findings.push(found);
-    }
-}
-
-pub(super) fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
-    lab.note.iter().for_each(|note| in_text(note, findings));
-}
-
-pub(super) fn check_quiz(quiz: &Quiz, findings: &mut Vec<Finding>) {
-    for (_, question) in quiz.numbered() {
-        question.html().into_iter().for_each(|html| in_text(html, findings));
     }
 }
 

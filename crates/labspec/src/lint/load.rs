@@ -49,7 +49,12 @@ pub fn withhold_fixes(lesson: &Lesson, findings: &mut [Finding]) {
 /// A sentence for the author: the file cannot be read, is no file, or is too large.
 pub fn load_lesson_file(path: &Path, models: &ModelFolder) -> Result<Lesson, String> {
     let (file, bad) = SourceFile::read_lossy(path)?;
-    Ok(load_bytes(file, bad, models))
+    let mut lesson = load_bytes(file, bad, models);
+    let mut found = Vec::new();
+    super::links::check_files(&lesson, path, &mut found);
+    lesson.findings.extend(found.into_iter().map(|f| f.at(&lesson.file)));
+    finding::sort(&mut lesson.findings);
+    Ok(lesson)
 }
 
 fn load_bytes(file: SourceFile, bad: Option<BadText>, models: &ModelFolder) -> Lesson {

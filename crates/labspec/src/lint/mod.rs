@@ -5,10 +5,13 @@
 
 pub(crate) mod fence;
 mod format;
+mod formula;
 pub(crate) mod html;
 pub(crate) mod json;
+mod links;
 pub(crate) mod listing;
 mod load;
+mod markup;
 pub(crate) mod model;
 mod models;
 
@@ -53,6 +56,8 @@ fn check_text(lesson: &Lesson, findings: &mut Vec<Finding>) {
             break;
         }
     }
+    formula::check_prose(lesson, findings);
+    links::check_anchors(lesson, findings);
     for block in &lesson.scan.blocks {
         if let BlockKind::Code { language, .. } = &block.kind {
             listing::check(language, &block.body, block.whole, findings);
@@ -79,8 +84,13 @@ fn check_objects(lesson: &Lesson, findings: &mut Vec<Finding>) {
             Check::Model(_) => {}
         }
     }
-    labs.iter().for_each(|lab| html::check_lab(lab, findings));
-    lesson.quizzes.iter().for_each(|quiz| html::check_quiz(quiz, findings));
+    let notes = labs.iter().filter_map(|lab| lab.note.as_ref());
+    let questions = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered());
+    for text in notes.chain(questions.flat_map(|(_, question)| question.html())) {
+        html::check(text, findings);
+        markup::check(text, findings);
+        formula::check(text, findings);
+    }
 }
 
 /// The models that it names.

@@ -55,6 +55,17 @@ pub struct Block {
     pub whole: bool,
 }
 
+/// A link, or a picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Link {
+    /// Where it leads to, as it is written.
+    pub target: String,
+    /// Bytes of the file.
+    pub span: Range<usize>,
+    /// A picture.
+    pub image: bool,
+}
+
 /// What is wrong with the fences of a lesson. What is said about it, and how it is repaired, is the business of `lint`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Problem {
@@ -111,6 +122,14 @@ pub struct Scan {
     pub problems: Vec<Problem>,
     /// HTML in the prose.
     pub html: Vec<Range<usize>>,
+    /// Paragraphs: prose, with the markup that stands in it.
+    pub paragraphs: Vec<Range<usize>>,
+    /// Code that stands in prose.
+    pub inline_code: Vec<Range<usize>>,
+    /// Headings, with their marks.
+    pub headings: Vec<Range<usize>>,
+    /// Links and pictures, in order.
+    pub links: Vec<Link>,
     /// Every stretch that is code and therefore not prose.
     code: Vec<Range<usize>>,
 }
@@ -167,11 +186,22 @@ fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
                     }
                 }
             }
-            Event::Start(Tag::Paragraph | Tag::HtmlBlock) => {
-                if let Some(resume) = loose::unseen_fence(text, range, scan) {
+            Event::Start(tag @ (Tag::Paragraph | Tag::HtmlBlock)) => {
+                if let Some(resume) = loose::unseen_fence(text, range.clone(), scan) {
                     return Some(resume);
                 }
+                if tag == Tag::Paragraph {
+                    scan.paragraphs.push(range);
+                }
             }
+            Event::Start(Tag::Heading { .. }) => scan.headings.push(range),
+            Event::Start(Tag::Link { dest_url, .. }) => {
+                scan.links.push(Link { target: dest_url.to_string(), span: range, image: false });
+            }
+            Event::Start(Tag::Image { dest_url, .. }) => {
+                scan.links.push(Link { target: dest_url.to_string(), span: range, image: true });
+            }
+            Event::Code(_) => scan.inline_code.push(range),
             Event::Html(_) | Event::InlineHtml(_) => scan.html.push(range),
             _ => {}
         }

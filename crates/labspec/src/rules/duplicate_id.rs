@@ -37,7 +37,7 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     }
 }
 
-pub(crate) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
+pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
     let mut findings = Vec::new();
     let mut first: HashMap<&str, (&Lesson, &Text)> = HashMap::new();
     for lesson in lessons {
@@ -59,7 +59,6 @@ pub(crate) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
             }
         }
     }
-    crate::finding::sort(&mut findings);
     findings
 }
 

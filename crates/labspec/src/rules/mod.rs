@@ -5,9 +5,10 @@
 
 mod claims;
 pub mod example;
+mod positions;
 mod repeated;
+mod wording;
 
-pub(crate) use duplicate_id::across;
 pub use labspec_finding::{Example, Layer, Rule};
 
 use crate::finding::Finding;
@@ -48,6 +49,14 @@ pub fn all() -> impl Iterator<Item = &'static Rule> {
     let models = labspec_core::xml::rules::ALL.iter().copied();
     let both = labspec_bind::rules::ALL.iter().copied();
     LESSONS.iter().copied().chain(language).chain(both).chain(models)
+}
+
+/// What only several lessons together can get wrong.
+pub(crate) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
+    let mut findings = duplicate_id::across(lessons);
+    findings.extend(uneven_answers::across(lessons));
+    crate::finding::sort(&mut findings);
+    findings
 }
 
 /// The rule with this code.

@@ -141,6 +141,17 @@ impl<'p> Session<'p> {
         Session::load(programs.into(), model, key, data, Budget::ASKED)
     }
 
+    /// The same within a budget.
+    pub fn start_with_within(
+        programs: impl Into<Held<'p>>,
+        model: &Model,
+        key: Option<usize>,
+        data: Data<Planned>,
+        budget: Budget,
+    ) -> Session<'p> {
+        Session::load(programs.into(), model, key, data, budget)
+    }
+
     fn load(
         programs: Held<'p>,
         model: &Model,

@@ -5,6 +5,7 @@ use crate::run::Numerics;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
+use labspec_expr::dimension::Measure;
 use labspec_expr::{
     CollectionId, Entry, Field, FieldKey, FunctionId, FunctionInfo, ObjectId, Role, Schema, Value, Words,
 };
@@ -170,6 +171,10 @@ impl Schema for OutcomeNames<'_> {
 
     fn role(&self, field: FieldKey, index: usize) -> Role {
         self.model.role(field, index)
+    }
+
+    fn measure(&self, field: FieldKey, first: usize, count: Option<usize>) -> Measure {
+        self.model.measure(field, first, count)
     }
 
     fn element_help(&self, field: FieldKey, index: usize) -> Option<String> {

@@ -6,7 +6,7 @@
 
 use crate::math::sort::sort_by_key;
 use crate::mjcf::rules::{self, Rule};
-use labspec_finding::{Finding, Lines, Position, floor};
+use labspec_finding::{Finding, Lines, Position, Severity, floor};
 use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -169,6 +169,16 @@ impl Report {
         message: impl Into<String>,
     ) -> Said<'_> {
         add(&mut self.warnings, Finding::warning(rule, span, message))
+    }
+
+    /// Adds a note at a range of bytes: it is worth knowing.
+    pub(crate) fn note(
+        &mut self,
+        rule: &'static Rule,
+        span: Range<usize>,
+        message: impl Into<String>,
+    ) -> Said<'_> {
+        add(&mut self.warnings, Finding::plain(rule, span, message).severity(Severity::Note))
     }
 
     /// Counts numbers that the arrays of a model take, beyond those that stand in its text. `false` when all together are

@@ -9,7 +9,7 @@ use crate::math;
 use crate::natives;
 use crate::program::{Aggregate, Program};
 use crate::rules;
-use crate::schema::{FunctionId, FunctionInfo, Help, Param, Type};
+use crate::schema::{FunctionId, FunctionInfo, Help, Param, Type, signature};
 use crate::value::Value;
 use crate::{Finding, Span};
 
@@ -309,16 +309,7 @@ impl<'a> Binder<'a> {
 
     /// `mj.mj_setConst(model, data)`
     pub(super) fn signature(&self, info: &FunctionInfo) -> String {
-        let params = info.params.iter().map(|param| match param {
-            Param::Number | Param::Angle | Param::Lazy => "x".to_owned(),
-            Param::Text => "\"text\"".to_owned(),
-            Param::Boolean => "true".to_owned(),
-            Param::Any => "value".to_owned(),
-            Param::Numbers => "list".to_owned(),
-            Param::Object(id) => self.schema.describe(*id),
-            Param::Name(id) => format!("\"name of a {}\"", self.schema.noun(*id)),
-        });
-        format!("{}({})", info.name, params.collect::<Vec<_>>().join(", "))
+        signature(self.schema, info)
     }
 
     /// An argument, checked; nothing for an object, which is not passed.

@@ -42,9 +42,14 @@ const NUDGES: [f64; 4] = [0.01, 0.1, 0.4, 1.0];
 const STEPS: usize = 3;
 
 impl Bench<'_> {
-    fn start(&self) -> Session<'_> {
+    /// What one run may spend.
+    pub(super) fn budget(&self) -> Budget {
+        Budget { left: Budget::TRIAL.left.min(self.left) }
+    }
+
+    pub(super) fn start(&self) -> Session<'_> {
         let (Ready { lab, model, .. }, programs) = (self.ready, self.programs);
-        let budget = Budget { left: Budget::TRIAL.left.min(self.left) };
+        let budget = self.budget();
         Session::start_within(programs, model, lab.keyframe(), &programs.demand, budget)
     }
 

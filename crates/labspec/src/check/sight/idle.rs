@@ -263,6 +263,15 @@ fn finding(
         looked.bench.runs - before,
         crate::check::refresh::digits(looked.length, 3)
     );
+    if let Some(slot) = for_the_setup(looked, index).filter(|_| whole) {
+        return Finding::warning(
+            rules::NEEDS_RESET,
+            control.label.span(),
+            format!("\"{label}\" acts only after a reset"),
+        )
+        .why(format!("only the setup reads {slot}, and it is run at a reset. {why}"))
+        .help("add \"reset\": true");
+    }
     let help = match written(looked, index) {
         Some(what) => format!(
             "it sets {what}: look whether this is the right one, what uses it, and what sets it again"
@@ -298,4 +307,16 @@ fn written(looked: &Looked<'_>, index: usize) -> Option<String> {
     } else {
         format!("`{object}{}`", info.name)
     })
+}
+
+/// What a control stores, where the setup reads it and nothing else does, in words.
+fn for_the_setup(looked: &Looked<'_>, index: usize) -> Option<String> {
+    let programs = &looked.bench.ready.programs;
+    let (_, ControlProgram::Change(_, action)) = programs.controls.get(index)? else { return None };
+    let stored = action.run.as_ref().map(|b| b.program.effects().ctx_writes.clone()).unwrap_or_default();
+    let slots: Vec<u32> = stored.into_iter().chain(action.param).collect();
+    let reads = |effects: &labspec_expr::Effects| slots.iter().any(|s| effects.ctx_reads.contains(s));
+    let setup = programs.setup.as_ref().is_some_and(|b| reads(b.program.effects()));
+    let writes = action.run.as_ref().is_some_and(|b| !b.program.own_writes().is_empty());
+    (setup && !action.reset && !writes).then(|| "what it chooses".to_string())
 }

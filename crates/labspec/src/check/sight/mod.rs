@@ -1,10 +1,13 @@
 //! What a student sees in the runs of a lab, and what only seems to show something: curves that cannot change, readouts that print
 //! one text, controls that do nothing. Each is told with the runs that show it; what is not certain is not told.
 
+mod at_rest;
 mod bench;
 mod curves;
 mod early;
 mod idle;
+mod jumps;
+mod mixed;
 mod readouts;
 mod record;
 mod saturated;
@@ -53,7 +56,10 @@ pub(super) fn check(ready: &Ready<'_>, records: &[Record], length: f64, findings
     let bench = Bench { ready, programs: &ready.programs, left: WORK, runs: 0 };
     let mut looked = Looked { records, bench, nudged: None, length };
     start::check(&looked, findings);
+    at_rest::check(&looked, findings);
     saturated::check(&looked, findings);
+    jumps::check(&looked, findings);
+    mixed::check(&looked, findings);
     stale::check(&mut looked, findings);
     early::check(&mut looked, findings);
     curves::check(&mut looked, findings);

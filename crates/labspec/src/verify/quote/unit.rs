@@ -1,6 +1,7 @@
 //! Units that differ by a power of ten: the text says 0.83 mm, the expression gives 0.00083.
 
 use super::number::{Quoted, ten};
+use labspec_bind::units::PREFIXES;
 
 /// How the number of a text and that of an expression differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -10,23 +11,6 @@ pub(super) struct Shift {
     /// The unit of the text and the unit that the expression then has, when both are known.
     pub(super) units: Option<(String, String)>,
 }
-
-/// Prefixes of units, as powers of ten.
-const PREFIXES: [(&str, i32); 13] = [
-    ("", 0),
-    ("p", -12),
-    ("n", -9),
-    ("μ", -6),
-    ("u", -6),
-    ("m", -3),
-    ("c", -2),
-    ("d", -1),
-    ("h", 2),
-    ("k", 3),
-    ("M", 6),
-    ("G", 9),
-    ("T", 12),
-];
 
 /// Units that take prefixes.
 const BASES: [&str; 17] =

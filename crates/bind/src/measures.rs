@@ -1,0 +1,198 @@
+//! What every element of every field measures: the unit of its row in the table, and where that depends on the element, the type
+//! of the joint, actuator or sensor that it belongs to.
+
+use super::{elements, units};
+use labspec_core::reflect::{Elem, FieldId};
+use labspec_core::{
+    self as core, Model, Obj, biastype, dyntype, gaintype, joint, reflect, trntype, wraptype,
+};
+use labspec_expr::dimension::{Dimension, Measure};
+
+/// Most elements that are asked one by one: what a larger part of a field measures is not known.
+const MOST: usize = 4096;
+
+/// Whether something moves along a line or turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Motion {
+    Along,
+    Turning,
+    /// A part of a quaternion: no quantity of its own.
+    Number,
+}
+
+/// What elements of a field measure, where they all measure the same.
+pub(super) fn measure(m: &Model, f: FieldId, first: usize, count: Option<usize>) -> Measure {
+    let shape = reflect::shape(m, f);
+    let size = shape.iter().try_fold(1usize, |n, dim| n.checked_mul((*dim)?));
+    let last = match (count, size) {
+        (Some(count), _) => first.saturating_add(count),
+        (None, Some(size)) => size,
+        // How many there are changes, and their row says what each is.
+        (None, None) => first + 1,
+    };
+    if last.saturating_sub(first) > MOST {
+        return Measure::Unknown;
+    }
+    let mut all = (first..last).map(|at| element(m, f, &shape, at));
+    let start = all.next().unwrap_or_default();
+    all.fold(start, |known, next| if known == next { known } else { Measure::Unknown })
+}
+
+/// What one element measures.
+fn element(m: &Model, f: FieldId, shape: &[Option<usize>], at: usize) -> Measure {
+    let info = f.info();
+    if info.elem != Elem::F64 {
+        return Measure::Known(Dimension::NUMBER);
+    }
+    // These have another meaning where they are negative.
+    if info.name.contains("solref") {
+        return Measure::Unknown;
+    }
+    let dim = info.shape.first().copied().unwrap_or("");
+    match info.name {
+        "sensordata" => return sensor(m, f, at),
+        "ctrl" => return control(m, at),
+        "actuator_ctrlrange" => return control(m, at / 2),
+        _ => {}
+    }
+    if info.unit.is_empty() {
+        let turned = ["quat", "mat", "axis", "xdir"].iter().any(|part| info.name.contains(part));
+        return if turned { Measure::Known(Dimension::NUMBER) } else { Measure::Unknown };
+    }
+    let width: usize = shape.iter().skip(1).map(|d| d.unwrap_or(1)).product();
+    let Some(unit) = part(info.unit, at % width.max(1), width) else { return Measure::Unknown };
+    let Some((along, turning)) = unit.split_once(" or ") else { return read(unit) };
+    let motion = match dim {
+        "nq" | "nv" | "njnt" => joint_motion(m, f, dim, at),
+        // A row of coordinates for every keyframe.
+        "nkey" => row_motion(m, info.name, at % width.max(1)),
+        "nout" | "nactuator" => elements::owner(m, f, at).and_then(|(_, i)| actuator_motion(m, i)),
+        _ => None,
+    };
+    match motion {
+        Some(Motion::Along) => read(along),
+        Some(Motion::Turning) => read(turning),
+        Some(Motion::Number) => Measure::Known(Dimension::NUMBER),
+        None => Measure::Unknown,
+    }
+}
+
+fn read(unit: &str) -> Measure {
+    units::parse(unit).map_or(Measure::Unknown, Measure::Known)
+}
+
+/// The unit of one of the numbers of a row: `1, m, m` has three; `N, N m` of six numbers has two for three each.
+fn part(unit: &str, at: usize, width: usize) -> Option<&str> {
+    let parts: Vec<&str> = unit.split(", ").collect();
+    let which = match (parts.len(), width) {
+        (1, _) => 0,
+        (n, w) if n == w => at,
+        (2, 6) => at / 3,
+        // Of an inertia: six, three and one.
+        (3, 10) => [0, 0, 0, 0, 0, 0, 1, 1, 1, 2].get(at).copied()?,
+        _ => return None,
+    };
+    parts.get(which).copied()
+}
+
+/// How the joint moves that an element belongs to.
+fn joint_motion(m: &Model, f: FieldId, dim: &str, at: usize) -> Option<Motion> {
+    let (Obj::Joint, object) = elements::owner(m, f, at)? else { return None };
+    let (first, _) = elements::row(m, f, Obj::Joint, object)?;
+    motion(*m.jnt_type.get(object)?, at - first, dim)
+}
+
+/// How a coordinate of a joint moves.
+fn motion(ty: i32, at: usize, dim: &str) -> Option<Motion> {
+    Some(match (ty, dim) {
+        (joint::SLIDE, _) => Motion::Along,
+        (joint::HINGE, _) => Motion::Turning,
+        // Limits of a ball are those of its angle.
+        (joint::BALL, "njnt") => Motion::Turning,
+        (joint::FREE, "nq" | "nv") if at < 3 => Motion::Along,
+        (joint::FREE | joint::BALL, "nq") => Motion::Number,
+        (joint::FREE | joint::BALL, "nv") => Motion::Turning,
+        _ => return None,
+    })
+}
+
+/// How a coordinate of a keyframe moves.
+fn row_motion(m: &Model, name: &str, at: usize) -> Option<Motion> {
+    let (starts, dim) = match name {
+        "key_qpos" => (&m.jnt_qposadr, "nq"),
+        "key_qvel" => (&m.jnt_dofadr, "nv"),
+        _ => return None,
+    };
+    let (object, first) = starts.iter().enumerate().rev().find(|(_, first)| **first as usize <= at)?;
+    motion(*m.jnt_type.get(object)?, at - *first as usize, dim)
+}
+
+/// Whether an actuator pulls along a line or turns something, where its gear does not change units.
+fn actuator_motion(m: &Model, actuator: usize) -> Option<Motion> {
+    let out = usize::try_from(*m.actuator_outadr.get(actuator)?).ok()?;
+    let gear = m.actuator_gear.get(6 * out..6 * out + 6)?;
+    let of = usize::try_from(*m.actuator_trnid.get(2 * actuator)?).ok();
+    match *m.actuator_trntype.get(actuator)? {
+        trntype::JOINT | trntype::JOINTINPARENT if gear.first()?.abs() == 1.0 => {
+            match *m.jnt_type.get(of?)? {
+                joint::SLIDE => Some(Motion::Along),
+                joint::HINGE => Some(Motion::Turning),
+                _ => None,
+            }
+        }
+        trntype::TENDON if gear.first()?.abs() == 1.0 => tendon_motion(m, of?),
+        trntype::SLIDERCRANK => Some(Motion::Along),
+        _ => None,
+    }
+}
+
+/// A tendon through space has a length; one that adds up coordinates has one when all of these are lengths.
+fn tendon_motion(m: &Model, tendon: usize) -> Option<Motion> {
+    let first = usize::try_from(*m.tendon_adr.get(tendon)?).ok()?;
+    let count = usize::try_from(*m.tendon_num.get(tendon)?).ok()?;
+    let along = |at: usize| {
+        let kind = m.wrap_type.get(at).copied().unwrap_or(wraptype::PULLEY);
+        let of = m.wrap_objid.get(at).and_then(|j| usize::try_from(*j).ok());
+        kind != wraptype::JOINT || of.and_then(|j| m.jnt_type.get(j)) == Some(&joint::SLIDE)
+    };
+    (first..first + count).all(along).then_some(Motion::Along)
+}
+
+/// What a control means: the force of a motor, the place or the velocity that a servo is to reach.
+fn control(m: &Model, at: usize) -> Measure {
+    let object = (0..m.nactuator).find(|i| m.actuator_ctrladr.get(*i).is_some_and(|a| *a as usize == at));
+    let Some(i) = object.filter(|i| m.actuator_ctrlnum.get(*i) == Some(&1)) else { return Measure::Unknown };
+    let Some(motion) = actuator_motion(m, i) else { return Measure::Unknown };
+    let prm = |list: &[f64], k: usize| list.get(10 * i + k).copied().unwrap_or(f64::NAN);
+    let (gain, bias) = (prm(&m.actuator_gainprm, 0), [1, 2].map(|k| prm(&m.actuator_biasprm, k)));
+    let is = |list: &[i32], kind: i32| list.get(i) == Some(&kind);
+    let fixed = is(&m.actuator_gaintype, gaintype::FIXED) && is(&m.actuator_dyntype, dyntype::NONE);
+    let affine = is(&m.actuator_biastype, biastype::AFFINE);
+    let unit = match bias {
+        _ if !fixed => return Measure::Unknown,
+        _ if is(&m.actuator_biastype, biastype::NONE) && gain == 1.0 => ["N", "N m"],
+        [position, _] if affine && gain != 0.0 && position == -gain => ["m", "rad"],
+        [0.0, velocity] if affine && gain != 0.0 && velocity == -gain => ["m/s", "rad/s"],
+        _ => return Measure::Unknown,
+    };
+    read(if motion == Motion::Along { unit[0] } else { unit[1] })
+}
+
+/// What a value of a sensor measures.
+fn sensor(m: &Model, f: FieldId, at: usize) -> Measure {
+    let Some((Obj::Sensor, s)) = elements::owner(m, f, at) else { return Measure::Unknown };
+    let unit = core::sensor_unit(m, s);
+    let Some((along, turning)) = unit.split_once(" or ") else { return read(unit) };
+    let object = m.sensor_objid.get(s).and_then(|o| usize::try_from(*o).ok());
+    let kind = m.sensor_objtype.get(s).copied();
+    let motion = match object {
+        Some(o) if kind == Some(Obj::Joint as i32) => m.jnt_type.get(o).and_then(|ty| motion(*ty, 0, "njnt")),
+        Some(o) if kind == Some(Obj::Actuator as i32) => actuator_motion(m, o),
+        _ => None,
+    };
+    match motion {
+        Some(Motion::Along) => read(along),
+        Some(Motion::Turning) => read(turning),
+        _ => Measure::Unknown,
+    }
+}

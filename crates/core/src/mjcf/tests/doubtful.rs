@@ -1,0 +1,86 @@
+//! What is told of models that load: each against what the engine does.
+
+use crate::mjcf::{NoFiles, Severity, examine};
+use crate::step::workspace::Data;
+
+fn codes(xml: &str) -> Vec<(&'static str, Severity)> {
+    examine(xml, &NoFiles, None).findings.iter().map(|f| (f.code, f.severity)).collect()
+}
+
+/// Whether the motion of a joint has grown beyond what it began with, a thousand times.
+fn grows(xml: &str) -> bool {
+    let model = examine(xml, &NoFiles, None).model.unwrap();
+    let mut data = Data::new(&model);
+    data.qvel[0] = 1e-3;
+    for _ in 0..4000 {
+        crate::step::step(&model, &mut data);
+        if data.warning.iter().any(|w| w.number > 0) || data.qvel[0].abs() > 1.0 {
+            return true;
+        }
+    }
+    false
+}
+
+/// A spring, a damper or a servo is told exactly where the integrator makes it grow.
+#[test]
+fn what_is_too_fast_grows_and_the_rest_does_not() {
+    let h: f64 = 0.002;
+    let slide = |option: &str, joint: &str, actuator: &str| {
+        format!(
+            "<mujoco><option timestep='{h}' gravity='0 0 0' {option}/><worldbody><body><joint name='j' type='slide' {joint}/>\
+             <geom size='.1' mass='2'/></body></worldbody><actuator>{actuator}</actuator></mujoco>"
+        )
+    };
+    let mut seen = [0, 0];
+    for integrator in ["Euler", "RK4", "implicitfast", "implicit"] {
+        let option = format!("integrator='{integrator}'");
+        for share in [0.9, 0.98, 1.02, 1.1] {
+            let most = if integrator == "RK4" { 2.83_f64.powi(2) } else { 4.0 };
+            let k = share * most * 2.0 / (h * h);
+            let c = share * 2.0 / h * if integrator == "RK4" { 2.785 } else { 2.0 };
+            // With an implicit damper the spring may be harder.
+            let d = 300.0;
+            let damped = share * (4.0 * 2.0 + 2.0 * h * d) / (h * h);
+            let kp = |kp: f64, kv: f64| format!("<position joint='j' kp='{kp}' kv='{kv}' ctrlrange='-1 1'/>");
+            let mut all =
+                vec![slide(&option, &format!("stiffness='{k}'"), ""), slide(&option, "", &kp(k, 0.0))];
+            if integrator == "Euler" {
+                all.push(slide(&option, &format!("stiffness='{damped}' damping='{d}'"), ""));
+            }
+            if matches!(integrator, "Euler" | "RK4") {
+                all.push(slide(&option, "", &kp(1.0, c)));
+            }
+            for xml in all {
+                let told = codes(&xml).iter().any(|(code, _)| *code == "mjcf-too-fast");
+                let grows = grows(&xml);
+                seen[usize::from(told)] += 1;
+                // The bound of RK4 is a little below the true one.
+                assert!(
+                    told == grows || (integrator == "RK4" && told && share < 1.0),
+                    "{told} {grows} {share}: {xml}"
+                );
+            }
+        }
+    }
+    assert!(seen[0] > 10 && seen[1] > 10, "{seen:?}");
+}
+
+/// A `solref` that is too short gives the bits of the one that it is said to get.
+#[test]
+fn what_is_softened_is_what_it_is_said_to_get() {
+    let run = |solref: &str| {
+        let xml = format!(
+            "<mujoco><worldbody><geom type='plane' size='1 1 1'/><body pos='0 0 .1'><freejoint/><geom size='.1' solref='{solref} 1'/>\
+             </body></worldbody></mujoco>"
+        );
+        let told = codes(&xml).iter().any(|(code, _)| *code == "mjcf-softened");
+        let model = examine(&xml, &NoFiles, None).model.unwrap();
+        let mut data = Data::new(&model);
+        (0..200).for_each(|_| crate::step::step(&model, &mut data));
+        (told, data.qpos.clone())
+    };
+    // The floor has the default: the two are mixed half and half, so both ends count.
+    let (short, least, soft) = (run("0.001"), run("0.004"), run("0.008"));
+    assert!(short.0 && !least.0 && !soft.0);
+    assert!(least.1 != soft.1);
+}

@@ -1,0 +1,113 @@
+//! Ranges: switched off where they are written, left by a keyframe, or missing where a servo needs one.
+
+use super::{digits, own_name, place, shown};
+use crate::kinds::joint;
+use crate::mjcf::rules;
+use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::tree::{Attribute, Node, Tree};
+use crate::mjcf::text::values::Value;
+use crate::model::{Model, Obj};
+
+/// Ranges and the flags that switch them off.
+const PAIRS: [(&str, &str); 4] = [
+    ("range", "limited"),
+    ("ctrlrange", "ctrllimited"),
+    ("forcerange", "forcelimited"),
+    ("actrange", "actlimited"),
+];
+/// A keyframe may lie beyond a limit by this part of its range: limits are soft.
+const SOFT: f64 = 0.01;
+const SERVOS: [&str; 2] = ["position", "intvelocity"];
+
+pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
+    switched_off(tree, report);
+    keys(tree, m, report);
+    servos(tree, m, report);
+}
+
+fn attribute<'n>(node: &'n Node, name: &str) -> Option<&'n Attribute> {
+    node.attributes.iter().find(|a| a.attr.name == name)
+}
+
+/// A range beside a flag that says `false`.
+fn switched_off(tree: &Tree, report: &mut Report) {
+    for node in &tree.nodes {
+        for (range, flag) in PAIRS {
+            let (Some(range), Some(flag)) = (attribute(node, range), attribute(node, flag)) else { continue };
+            if matches!(flag.value, Value::Word(0))
+                && matches!(&range.value, Value::Reals(r) if r.iter().any(|x| *x != 0.0))
+            {
+                let message = format!(
+                    "`{}` is given, and `{}` beside it is false: it limits nothing",
+                    range.attr.name, flag.attr.name
+                );
+                report
+                    .note(rules::RANGE_OFF, range.span.clone(), message)
+                    .help("remove the one or the other");
+            }
+        }
+    }
+}
+
+/// Keyframes that begin beyond a limit.
+fn keys(tree: &Tree, m: &Model, report: &mut Report) {
+    let nodes: Vec<&Node> =
+        tree.sections("keyframe").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)).collect();
+    for (k, node) in nodes.iter().enumerate().take(m.nkey) {
+        // What is not written is the model's own start.
+        let Some(qpos) = attribute(node, "qpos") else { continue };
+        for j in 0..m.njnt {
+            let one = m.jnt_type.get(j).is_some_and(|t| matches!(*t, joint::HINGE | joint::SLIDE));
+            let limited = m.jnt_limited.get(j).copied().unwrap_or(false);
+            let Some(adr) = m.jnt_qposadr.get(j).filter(|_| one && limited) else { continue };
+            let (Some(x), Some([low, high])) =
+                (m.key_qpos.get(k * m.nq + *adr as usize), m.jnt_range.get(2 * j..2 * j + 2))
+            else {
+                continue;
+            };
+            let beyond = (low - x).max(x - high);
+            if beyond > SOFT * (high - low) {
+                let name = m.names.of(Obj::Joint).get(j).map_or("", String::as_str);
+                let key = shown("key", own_name(node).unwrap_or(""), k);
+                let message = format!(
+                    "{key} puts {} at {}, and its range is {} to {}",
+                    shown("joint", name, j),
+                    digits(*x),
+                    digits(*low),
+                    digits(*high)
+                );
+                report
+                    .warning(rules::KEY_BEYOND, qpos.span.clone(), message)
+                    .why("the limit pushes it back from the first step on: the scene does not begin at rest")
+                    .help("put it within the range, or widen the range");
+            }
+        }
+    }
+}
+
+/// Position servos that go wherever they are told, with any force.
+fn servos(tree: &Tree, m: &Model, report: &mut Report) {
+    let nodes: Vec<&Node> =
+        tree.sections("actuator").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)).collect();
+    if nodes.len() != m.nactuator || m.nu != m.nactuator {
+        return;
+    }
+    let free = |i: &usize| {
+        let limit = |list: &[bool]| list.get(*i).copied().unwrap_or(false);
+        !limit(&m.actuator_ctrllimited) && !limit(&m.actuator_forcelimited)
+    };
+    let servo = |i: &usize| nodes.get(*i).is_some_and(|n| SERVOS.contains(&n.element.name));
+    let all: Vec<usize> = (0..nodes.len()).filter(servo).collect();
+    let open: Vec<usize> = all.iter().copied().filter(free).collect();
+    let Some(first) = open.first() else { return };
+    let name = m.names.of(Obj::Actuator).get(*first).map_or("", String::as_str);
+    let span = nodes.get(*first).map_or_else(|| place(tree, &SERVOS, name), |n| n.span.clone());
+    let message = match open.len() {
+        1 => format!("{} has neither `ctrlrange` nor `forcerange`", shown("servo", name, *first)),
+        n => format!("{n} of {} servos have neither `ctrlrange` nor `forcerange`", all.len()),
+    };
+    report
+        .note(rules::FREE_SERVO, span, message)
+        .why("whatever a slider or a controller writes is followed, with as much force as it takes")
+        .help("give it the range of its joint");
+}

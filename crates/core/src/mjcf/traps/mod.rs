@@ -1,0 +1,63 @@
+//! What a model may say without an error, and does not mean: names that nothing uses, times that are too short for the timestep,
+//! ranges that are left at once. MuJoCo takes all of it in silence.
+//!
+//! These look at a model that is in order. Each says what follows, in numbers of this model.
+
+mod contradicted;
+mod overlapping;
+mod too_fast;
+mod unused_names;
+mod weights;
+
+use super::text::diagnostic::Report;
+use super::text::tree::{Node, Tree};
+use crate::model::Model;
+use std::ops::Range;
+
+/// Tells what is doubtful in a model.
+pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
+    unused_names::tell(tree, report);
+    contradicted::tell(tree, m, report);
+    too_fast::tell(tree, m, report);
+    weights::tell(tree, m, report);
+    overlapping::tell(tree, m, report);
+}
+
+/// The element of this name among those that `kinds` names; of one without a name, the root.
+fn place(tree: &Tree, kinds: &[&str], name: &str) -> Range<usize> {
+    let named = |n: &&Node| kinds.contains(&n.element.name) && own_name(n) == Some(name);
+    let found = tree.nodes.iter().find(named).filter(|_| !name.is_empty());
+    found.or(tree.nodes.first()).map_or(0..0, |n| n.span.clone())
+}
+
+/// The name that an element has.
+fn own_name(node: &Node) -> Option<&str> {
+    let given = node.attributes.iter().find(|a| a.attr.name == "name")?;
+    match &given.value {
+        super::text::values::Value::Text(name) => Some(name),
+        _ => None,
+    }
+}
+
+/// A thing in a message: its kind, and its name or number.
+fn shown(kind: &str, name: &str, number: usize) -> String {
+    match name {
+        "" => format!("{kind} {number}"),
+        name => format!("{kind} {}", super::text::diagnostic::shown(name)),
+    }
+}
+
+/// Three digits.
+fn digits(x: f64) -> String {
+    match x.abs() {
+        size if size != 0.0 && !(1e-3..1e5).contains(&size) => format!("{x:.2e}"),
+        size => {
+            let before = if size >= 1.0 { size.log10().floor() as usize + 1 } else { 1 };
+            let text = format!("{x:.*}", 4_usize.saturating_sub(before));
+            match text.contains('.') {
+                true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
+                false => text,
+            }
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Default classes and assets that nothing names.
+
+use crate::mjcf::rules;
+use crate::mjcf::schema::Kind;
+use crate::mjcf::text::diagnostic::{Report, shown};
+use crate::mjcf::text::tree::{Node, Tree};
+use crate::mjcf::text::values::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+const CLASS: &str = "default class";
+/// Assets that are there to be named.
+const ASSETS: [&str; 4] = ["mesh", "material", "texture", "hfield"];
+
+pub(super) fn tell(tree: &Tree, report: &mut Report) {
+    // A file of classes and assets alone is there for others to include.
+    if !tree.nodes.iter().any(|n| n.element.name == "geom" && n.parent.is_some_and(|p| holds_bodies(tree, p)))
+    {
+        return;
+    }
+    let mut used: BTreeSet<(&str, &str)> = BTreeSet::new();
+    for node in &tree.nodes {
+        for a in &node.attributes {
+            let Value::Text(name) = &a.value else { continue };
+            match a.attr.kind {
+                Kind::Ref(kind) => drop(used.insert((kind, name))),
+                Kind::Class if node.element.name != "default" => drop(used.insert((CLASS, name))),
+                _ => {}
+            }
+        }
+    }
+    let mut unused: BTreeMap<&str, Vec<(&str, Range<usize>)>> = BTreeMap::new();
+    // A class in another one is used through it.
+    for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
+        let nested = node.parent.and_then(|p| tree.nodes.get(p)).is_some_and(|p| p.element.name == "default");
+        let class = node.attributes.iter().find(|a| matches!(a.attr.kind, Kind::Class));
+        let (true, Some(class), true) = (nested, class, node.model == 0) else { continue };
+        let Value::Text(name) = &class.value else { continue };
+        let is_used = |name: &str| used.contains(&(CLASS, name));
+        if !is_used(name) && !below(tree, i).into_iter().any(is_used) {
+            unused.entry(CLASS).or_default().push((name, class.span.clone()));
+        }
+    }
+    for node in tree.nodes.iter().filter(|n| n.model == 0 && !is_sky(n)) {
+        for a in &node.attributes {
+            let (Kind::Name(kind), Value::Text(name)) = (a.attr.kind, &a.value) else { continue };
+            if ASSETS.contains(&kind) && !name.is_empty() && !used.contains(&(kind, name.as_str())) {
+                unused.entry(kind).or_default().push((name, a.span.clone()));
+            }
+        }
+    }
+    // One note of each kind, at the first.
+    for (kind, all) in unused {
+        let Some((first, span)) = all.first() else { continue };
+        let more = match all.len() {
+            1 => String::new(),
+            n => format!(", and {} more like it", n - 1),
+        };
+        report
+            .note(rules::UNUSED, span.clone(), format!("nothing uses the {kind} {}{more}", shown(first)))
+            .help("name it where it is meant to be, or remove it");
+    }
+}
+
+/// Names of the classes within a class.
+fn below(tree: &Tree, of: usize) -> Vec<&str> {
+    let (mut names, mut open) = (Vec::new(), vec![of]);
+    while let Some(at) = open.pop() {
+        for (i, node) in tree.children(at).filter(|(_, n)| n.element.name == "default") {
+            open.push(i);
+            names.extend(node.attributes.iter().filter_map(|a| match &a.value {
+                Value::Text(name) => Some(name.as_str()),
+                _ => None,
+            }));
+        }
+    }
+    names
+}
+
+fn holds_bodies(tree: &Tree, at: usize) -> bool {
+    tree.nodes.get(at).is_some_and(|n| n.element.name != "default")
+}
+
+/// A sky is seen without being named.
+fn is_sky(node: &Node) -> bool {
+    node.element.name == "texture"
+        && node.attributes.iter().any(|a| a.attr.name == "type" && matches!(&a.value, Value::Word(2)))
+}

@@ -1,0 +1,54 @@
+//! Masses and inertias that are far apart, or next to nothing.
+
+use super::{digits, place, shown};
+use crate::kinds::joint;
+use crate::mjcf::rules;
+use crate::mjcf::text::diagnostic::Report;
+use crate::mjcf::text::tree::Tree;
+use crate::model::{Model, Obj};
+
+/// Neighbours whose masses differ by more are told.
+const APART: f64 = 1e4;
+/// What turns with less than this is told, kg m².
+const TINY: f64 = 1e-9;
+
+pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
+    let body = |b: usize| m.names.of(Obj::Body).get(b).map_or("", String::as_str);
+    for b in 1..m.nbody {
+        let parent = m.body_parentid.get(b).and_then(|p| usize::try_from(*p).ok()).unwrap_or(0);
+        let moves = |b: usize| m.body_weldid.get(b).is_some_and(|w| *w != 0);
+        let apart_from = |b: usize| m.body_dofnum.get(b).is_some_and(|n| *n > 0);
+        let mass = |b: usize| m.body_mass.get(b).copied().unwrap_or(0.0);
+        let [own, below] = [mass(b), mass(parent)];
+        let ratio = own.max(below) / own.min(below);
+        if parent > 0 && moves(parent) && apart_from(b) && own > 0.0 && below > 0.0 && ratio > APART {
+            let message = format!(
+                "{} has {} kg, and {} beside it {} kg",
+                shown("body", body(b), b),
+                digits(own),
+                shown("body", body(parent), parent),
+                digits(below)
+            );
+            report
+                .note(rules::MASSES_APART, place(tree, &["body"], body(b)), message)
+                .why(format!(
+                    "a ratio of {}: the solver needs many more steps, and joints between the two give way",
+                    digits(ratio)
+                ))
+                .help("look at the units: grams for kilograms, millimetres for metres");
+        }
+    }
+    for j in 0..m.njnt {
+        let turns = m.jnt_type.get(j) == Some(&joint::HINGE);
+        let inverse = m.jnt_dofadr.get(j).and_then(|d| m.dof_invweight0.get(usize::try_from(*d).ok()?));
+        if let Some(inverse) = inverse.filter(|w| turns && **w > 1.0 / TINY) {
+            let name = m.names.of(Obj::Joint).get(j).map_or("", String::as_str);
+            let message =
+                format!("{} turns an inertia of {} kg m²", shown("joint", name, j), digits(1.0 / inverse));
+            report
+                .note(rules::TINY_INERTIA, place(tree, &["joint"], name), message)
+                .why("the smallest torque makes it faster than any timestep follows")
+                .help("look at the units of its sizes, or give it `armature`");
+        }
+    }
+}

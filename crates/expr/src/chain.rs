@@ -1,0 +1,391 @@
+//! What stands before a place of a text, as far as its tokens tell: `data.joint("hinge").qpos[0]` is a name, a member, a call, a
+//! member and an index. The text around it may be incomplete, which is what it is while somebody writes.
+
+use crate::Span;
+use crate::globals::Globals;
+use crate::lex::{Tok, Token, tokens};
+use crate::schema::{CollectionId, Entry, Field, FunctionId, ObjectId, Param, Schema, Type};
+
+/// How often a variable may stand for another one.
+const MAX_ALIASES: usize = 8;
+/// The longest chain that is looked at.
+const MAX_LINKS: usize = 32;
+
+/// What a chain means.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Meaning {
+    Object(ObjectId),
+    Field(Field),
+    /// One element of a field: the field, and its index where it is a number of the text.
+    Element(Field, Option<usize>),
+    Collection(CollectionId),
+    Function(FunctionId),
+    /// What a function gives.
+    Result(FunctionId),
+    /// `Math`
+    Math,
+    /// `ctx`
+    Globals,
+    /// A value of which only the type is known.
+    Value(Type),
+}
+
+/// A text by its tokens.
+pub(crate) struct Tokens<'s> {
+    list: Vec<Token<'s>>,
+    /// `None` where only its form is of interest.
+    schema: Option<&'s dyn Schema>,
+}
+
+/// A name between quotes that a call takes for the name of an object.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Named {
+    /// The objects among which it is looked up.
+    pub collection: CollectionId,
+    /// The name.
+    pub name: String,
+    /// Its bytes in the text, without quotes.
+    pub span: Span,
+}
+
+/// A field that a text names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mention {
+    /// The field, or the part of it that one object has.
+    pub field: Field,
+    /// The element, counted from the start of that part, where a number of the text tells it.
+    pub element: Option<usize>,
+    /// Bytes of the text, an index included.
+    pub span: Span,
+}
+
+/// All names of objects in a text, in order. Where it is broken, those that can be told.
+pub fn names_in(schema: &dyn Schema, source: &str) -> Vec<Named> {
+    let all = Tokens::of(schema, source);
+    let named = (0..all.list.len()).filter_map(|i| all.named(i));
+    named.collect()
+}
+
+/// All texts between quotes in a text, with their bytes (without quotes).
+pub fn texts_in(source: &str) -> Vec<(String, Span)> {
+    let found = tokens(source, &mut Vec::new());
+    let text = |t: Token<'_>| match t.kind {
+        Tok::Text(text) => Some((text, inner(t.span))),
+        _ => None,
+    };
+    found.into_iter().filter_map(text).collect()
+}
+
+/// The longest chain of names, members, indexes and calls that ends with the link at a byte of a text: in `data.qpos[0]` that is
+/// `data` at its first letter, `data.qpos` behind the point, and all of it at the index.
+pub fn chain_at(source: &str, offset: usize) -> Option<Span> {
+    let all = Tokens { list: listed(source), schema: None };
+    let holds = |t: &Token<'_>| t.span.start <= offset && offset <= t.span.end;
+    // Between two tokens, the one that begins there is meant, if it is a name.
+    let near: Vec<usize> = (0..all.len()).filter(|&i| all.list.get(i).is_some_and(holds)).collect();
+    let is_word = |i: &&usize| matches!(all.kind(**i), Some(Tok::Word(_)));
+    let mut last = *near.iter().find(is_word).or(near.first())?;
+    // In the brackets of an index or a call, all of it is meant.
+    if !matches!(all.kind(last), Some(Tok::Word(_))) {
+        let mut depth = 0usize;
+        last = (last..all.len()).find(|&i| match all.kind(i) {
+            Some(Tok::Symbol("(" | "[")) => {
+                depth += usize::from(i != last);
+                false
+            }
+            Some(Tok::Symbol(")" | "]")) if depth == 0 => true,
+            Some(Tok::Symbol(")" | "]")) => {
+                depth -= 1;
+                false
+            }
+            _ => false,
+        })?;
+    }
+    // A name that is called means what the call gives.
+    if matches!(all.kind(last + 1), Some(Tok::Symbol("("))) {
+        let close = (last + 1..all.len()).find(|&i| all.opening(i) == Some(last + 1) && i > last + 1)?;
+        last = close;
+    }
+    let first = all.begin(last + 1)?;
+    let (first, last) = (all.list.get(first)?, all.list.get(last)?);
+    Some(first.span.to(last.span))
+}
+
+/// All fields that a text names, in order.
+pub fn fields_in(schema: &dyn Schema, source: &str) -> Vec<Mention> {
+    let all = Tokens::of(schema, source);
+    let mut found = Vec::new();
+    for i in 0..all.list.len() {
+        // The last link of a chain: nothing goes on behind it.
+        let ends = matches!(all.kind(i), Some(Tok::Word(_) | Tok::Symbol("]")));
+        if !ends || matches!(all.kind(i + 1), Some(Tok::Symbol("." | "?." | "(" | "["))) {
+            continue;
+        }
+        let Some((meaning, from)) = all.meaning(i + 1) else { continue };
+        let span = |from: usize| match (all.list.get(from), all.list.get(i)) {
+            (Some(first), Some(last)) => first.span.to(last.span),
+            _ => Span::default(),
+        };
+        match meaning {
+            Meaning::Field(field) if from < i => {
+                found.push(Mention { field, element: None, span: span(from) });
+            }
+            Meaning::Element(field, element) => found.push(Mention { field, element, span: span(from) }),
+            _ => {}
+        }
+    }
+    found
+}
+
+/// The bytes of a text between quotes, without the quotes.
+fn inner(span: Span) -> Span {
+    Span::new(span.start + 1, span.end.saturating_sub(1).max(span.start + 1))
+}
+
+/// The tokens of a text, without its end.
+fn listed(source: &str) -> Vec<Token<'_>> {
+    let mut list = tokens(source, &mut Vec::new());
+    list.pop();
+    list
+}
+
+impl<'s> Tokens<'s> {
+    pub(crate) fn of(schema: &'s dyn Schema, source: &'s str) -> Tokens<'s> {
+        Tokens { list: listed(source), schema: Some(schema) }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    pub(crate) fn kind(&self, i: usize) -> Option<&Tok<'s>> {
+        self.list.get(i).map(|t| &t.kind)
+    }
+
+    /// The name of an object that stands at a token.
+    fn named(&self, i: usize) -> Option<Named> {
+        let Some(Tok::Text(name)) = self.kind(i) else { return None };
+        let collection = self.collection_at(i)?;
+        Some(Named { collection, name: name.clone(), span: inner(self.list.get(i)?.span) })
+    }
+
+    /// The objects whose names the argument takes that stands at, or would stand at, a token.
+    pub(crate) fn collection_at(&self, i: usize) -> Option<CollectionId> {
+        let (mut depth, mut argument, mut at) = (0usize, 0usize, i);
+        let open = loop {
+            at = at.checked_sub(1)?;
+            match self.kind(at)? {
+                Tok::Symbol(")" | "]" | "}") => depth += 1,
+                Tok::Symbol("(") if depth == 0 => break at,
+                Tok::Symbol("(" | "[" | "{") => depth = depth.checked_sub(1)?,
+                Tok::Symbol(",") if depth == 0 => argument += 1,
+                _ => {}
+            }
+        };
+        match self.meaning(open)?.0 {
+            Meaning::Collection(id) if argument == 0 => Some(id),
+            Meaning::Function(id) => match self.schema?.function(id).params.get(argument) {
+                Some(Param::Name(id)) => Some(*id),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// What the chain means that ends before a token, and the token at which it begins.
+    pub(crate) fn meaning(&self, end: usize) -> Option<(Meaning, usize)> {
+        self.meaning_within(end, MAX_ALIASES)
+    }
+
+    fn meaning_within(&self, end: usize, aliases: usize) -> Option<(Meaning, usize)> {
+        let mut links = Vec::new();
+        let mut at = end;
+        loop {
+            at = at.checked_sub(1)?;
+            if links.len() > MAX_LINKS {
+                return None;
+            }
+            match self.kind(at)? {
+                Tok::Symbol(close @ (")" | "]")) => {
+                    let open = self.opening(at)?;
+                    links.push(if *close == ")" { Link::Call(open, at) } else { Link::Index(open, at) });
+                    at = open;
+                }
+                Tok::Word(name) => match at.checked_sub(1).and_then(|before| self.kind(before)) {
+                    Some(Tok::Symbol("." | "?.")) => {
+                        links.push(Link::Member(name));
+                        at -= 1;
+                    }
+                    _ => {
+                        let mut meaning = self.root(name, at, aliases)?;
+                        for link in links.iter().rev() {
+                            meaning = self.follow(&meaning, link)?;
+                        }
+                        return Some((meaning, at));
+                    }
+                },
+                _ => return None,
+            }
+        }
+    }
+
+    /// The bracket that a bracket closes.
+    fn opening(&self, close: usize) -> Option<usize> {
+        let mut depth = 0usize;
+        for at in (0..=close).rev() {
+            match self.kind(at)? {
+                Tok::Symbol(")" | "]" | "}") => depth += 1,
+                Tok::Symbol("(" | "[" | "{") => depth = depth.checked_sub(1)?,
+                _ => {}
+            }
+            if depth == 0 {
+                return Some(at);
+            }
+        }
+        None
+    }
+
+    fn root(&self, name: &str, at: usize, aliases: usize) -> Option<Meaning> {
+        if let Some(end) = self.declared(name, at) {
+            return self.meaning_within(end, aliases.checked_sub(1)?).map(|(meaning, _)| meaning);
+        }
+        match name {
+            "Math" => Some(Meaning::Math),
+            "ctx" => Some(Meaning::Globals),
+            _ => self.schema?.root(name).map(of_entry),
+        }
+    }
+
+    /// The end of what a variable is declared as, before a token: `const v = CHAIN`.
+    fn declared(&self, name: &str, before: usize) -> Option<usize> {
+        let is =
+            |i: usize, text: &str| matches!(self.kind(i), Some(Tok::Word(w) | Tok::Symbol(w)) if *w == text);
+        let declares = |i: &usize| {
+            ["const", "let", "var"].iter().any(|w| is(*i, w)) && is(i + 1, name) && is(i + 2, "=")
+        };
+        let start = (0..before).rev().find(declares)? + 3;
+        let ends = |i: &usize| match self.list.get(*i) {
+            Some(t) => {
+                matches!(t.kind, Tok::Symbol(";" | ",")) && self.is_level(start, *i)
+                    || (t.newline && *i > start)
+            }
+            None => true,
+        };
+        let end = (start..=self.list.len()).find(ends)?;
+        // Nothing but one chain.
+        (end <= before && self.begin(end)? == start).then_some(end)
+    }
+
+    /// Whether as many brackets are closed as are opened between two tokens.
+    fn is_level(&self, from: usize, to: usize) -> bool {
+        let count = |marks: [&str; 3]| {
+            let within =
+                (from..to).filter(|&i| matches!(self.kind(i), Some(Tok::Symbol(s)) if marks.contains(s)));
+            within.count()
+        };
+        count(["(", "[", "{"]) == count([")", "]", "}"])
+    }
+
+    /// Where the chain begins that ends before a token.
+    fn begin(&self, end: usize) -> Option<usize> {
+        let mut at = end;
+        loop {
+            at = at.checked_sub(1)?;
+            match self.kind(at)? {
+                Tok::Symbol(")" | "]") => at = self.opening(at)?,
+                Tok::Word(_) => match at.checked_sub(1).and_then(|before| self.kind(before)) {
+                    Some(Tok::Symbol("." | "?.")) => at -= 1,
+                    _ => return Some(at),
+                },
+                _ => return None,
+            }
+        }
+    }
+
+    fn follow(&self, meaning: &Meaning, link: &Link<'_>) -> Option<Meaning> {
+        match (meaning, link) {
+            (Meaning::Object(id), Link::Member(name)) => self.schema?.member(*id, name).map(of_entry),
+            (Meaning::Collection(id), Link::Call(open, close)) => {
+                let Some(Tok::Text(name)) = self.kind(open + 1).filter(|_| open + 2 == *close) else {
+                    return None;
+                };
+                self.schema?.lookup(*id, name).map(Meaning::Object)
+            }
+            (Meaning::Function(id), Link::Call(..)) => Some(Meaning::Result(*id)),
+            (Meaning::Result(id), Link::Member(name)) => {
+                let members = self.schema?.function(*id).members;
+                members.into_iter().find(|(member, _)| member == name).map(|(_, ty)| Meaning::Value(ty))
+            }
+            (Meaning::Field(field), Link::Index(open, close)) => {
+                let index = match self.kind(open + 1) {
+                    Some(Tok::Number(x)) if open + 2 == *close && *x >= 0.0 && x.fract() == 0.0 => {
+                        Some(*x as usize)
+                    }
+                    _ => None,
+                };
+                Some(Meaning::Element(field.clone(), index))
+            }
+            _ => None,
+        }
+    }
+
+    /// Every name that the text declares: variables, functions and their parameters.
+    pub(crate) fn variables(&self) -> Vec<&'s str> {
+        let mut names: Vec<&'s str> = Vec::new();
+        let word = |i: usize| match self.kind(i) {
+            Some(Tok::Word(word)) => Some(*word),
+            _ => None,
+        };
+        for i in 0..self.list.len() {
+            match self.kind(i) {
+                Some(Tok::Word("const" | "let" | "var" | "function")) => names.extend(word(i + 1)),
+                Some(Tok::Symbol("=>")) => {
+                    let last = i.saturating_sub(1);
+                    match self.kind(last) {
+                        Some(Tok::Symbol(")")) => {
+                            let first = self.opening(last).unwrap_or(last);
+                            names.extend((first..last).filter_map(word));
+                        }
+                        _ => names.extend(word(last)),
+                    }
+                }
+                _ => {}
+            }
+        }
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+}
+
+/// A link of a chain, with the tokens of its brackets.
+enum Link<'s> {
+    Member(&'s str),
+    Call(usize, usize),
+    Index(usize, usize),
+}
+
+pub(crate) fn of_entry(entry: Entry) -> Meaning {
+    match entry {
+        Entry::Object(id) => Meaning::Object(id),
+        Entry::Field(field) => Meaning::Field(field),
+        Entry::Collection(id) => Meaning::Collection(id),
+        Entry::Function(id) => Meaning::Function(id),
+        Entry::Constant(value) => Meaning::Value(value.type_of()),
+    }
+}
+
+/// The variables of `ctx` that any of these texts names.
+pub fn variables_of<'t>(schema: &dyn Schema, texts: impl IntoIterator<Item = &'t str>) -> Globals {
+    let mut globals = Globals::new();
+    for text in texts {
+        let all = Tokens::of(schema, text);
+        for i in 0..all.len() {
+            let names = (all.kind(i), all.kind(i + 1), all.kind(i + 2));
+            if let (Some(Tok::Word("ctx")), Some(Tok::Symbol("." | "?.")), Some(Tok::Word(name))) = names {
+                globals.define(name);
+            }
+        }
+    }
+    globals
+}

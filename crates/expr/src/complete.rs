@@ -1,0 +1,263 @@
+//! What can be written at a place of a text that may be incomplete: names, members, methods, and the names of objects between
+//! quotes.
+
+use crate::Span;
+use crate::chain::{Meaning, Tokens, of_entry};
+use crate::globals::Globals;
+use crate::lex::Tok;
+use crate::math;
+use crate::natives;
+use crate::schema::{Field, Schema, Type, signature};
+
+/// What a suggestion is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Suggested {
+    /// Something with members, or what gives one.
+    Object,
+    /// Numbers of the host.
+    Field,
+    /// A function or a method.
+    Function,
+    /// The name of an object, between quotes.
+    Name,
+    /// A variable of the text, or of `ctx`.
+    Variable,
+    /// A fixed value.
+    Constant,
+}
+
+/// Something that can be written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Suggestion {
+    /// What to write.
+    pub text: String,
+    /// What it is.
+    pub kind: Suggested,
+    /// In full: `data.qpos`, or a signature.
+    pub title: String,
+    /// What it means.
+    pub doc: String,
+    /// The bytes that it replaces: what is written there already.
+    pub replace: Span,
+}
+
+/// What can be written at a byte of a text, in the order of the host. `globals` are the variables of all texts together.
+/// Inside of numbers, comments and free texts there is nothing.
+pub fn complete(
+    schema: &dyn Schema,
+    globals: &Globals,
+    has_value: bool,
+    source: &str,
+    offset: usize,
+) -> Vec<Suggestion> {
+    let offset = labspec_finding::floor(source, offset);
+    let Some(before) = source.get(..offset) else { return Vec::new() };
+    match unclosed(before) {
+        Open::Comment => Vec::new(),
+        Open::Text(start) => names(schema, source, start, offset),
+        Open::Nothing => {
+            let part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '$');
+            let start = before.len()
+                - before.chars().rev().take_while(|c| part(*c)).map(char::len_utf8).sum::<usize>();
+            let behind = source.get(offset..).unwrap_or("").chars().take_while(|c| part(*c));
+            let replace = Span::new(start, offset + behind.map(char::len_utf8).sum::<usize>());
+            if before.get(start..).is_some_and(|word| word.starts_with(|c: char| c.is_ascii_digit())) {
+                return Vec::new();
+            }
+            let all = Tokens::of(schema, source.get(..start).unwrap_or(""));
+            let last = all.len().checked_sub(1);
+            let mut list = List { schema, replace, all: Vec::new() };
+            match last.and_then(|last| all.kind(last)) {
+                Some(Tok::Symbol("." | "?.")) => {
+                    let meaning = last.and_then(|last| all.meaning(last));
+                    list.members(meaning.map(|(meaning, _)| meaning), globals);
+                }
+                _ => {
+                    list.roots(has_value);
+                    let whole = Tokens::of(schema, source);
+                    for name in whole.variables() {
+                        list.add(name, Suggested::Variable, name, "a variable of this text");
+                    }
+                }
+            }
+            list.all
+        }
+    }
+}
+
+/// What is open at the end of a text.
+enum Open {
+    Nothing,
+    Comment,
+    /// A text between quotes, and where it begins.
+    Text(usize),
+}
+
+fn unclosed(text: &str) -> Open {
+    let (mut open, mut chars) = (Open::Nothing, text.char_indices().peekable());
+    while let Some((at, c)) = chars.next() {
+        let next = chars.peek().map(|(_, c)| *c);
+        open = match (open, c) {
+            (Open::Nothing, '\'' | '"' | '`') => Open::Text(at),
+            (Open::Nothing, '/') if next == Some('/') => {
+                // To the end of the line.
+                match chars.by_ref().find(|(_, c)| *c == '\n') {
+                    Some(_) => Open::Nothing,
+                    None => return Open::Comment,
+                }
+            }
+            (Open::Nothing, '/') if next == Some('*') => {
+                match text.get(at + 2..).and_then(|rest| rest.find("*/")) {
+                    Some(length) => {
+                        while chars.next_if(|(i, _)| *i < at + 2 + length + 2).is_some() {}
+                        Open::Nothing
+                    }
+                    None => return Open::Comment,
+                }
+            }
+            (Open::Text(start), '\\') => {
+                chars.next();
+                Open::Text(start)
+            }
+            (Open::Text(start), c) if text.get(start..).is_some_and(|t| t.starts_with(c)) => Open::Nothing,
+            (Open::Text(_), '\n') => Open::Nothing,
+            (open, _) => open,
+        };
+    }
+    open
+}
+
+/// The names of objects that a call takes, between quotes.
+fn names(schema: &dyn Schema, source: &str, start: usize, offset: usize) -> Vec<Suggestion> {
+    let all = Tokens::of(schema, source.get(..start).unwrap_or(""));
+    let Some(collection) = all.collection_at(all.len()) else { return Vec::new() };
+    let quote = source.get(start..).and_then(|t| t.chars().next()).unwrap_or('"');
+    let rest = source.get(offset..).unwrap_or("");
+    let end = offset + rest.find([quote, ')', ',', '\n']).unwrap_or(0);
+    let noun = schema.noun(collection);
+    let one = |name: String| Suggestion {
+        kind: Suggested::Name,
+        title: format!("{noun} {name}"),
+        doc: String::new(),
+        replace: Span::new(start + 1, end.max(start + 1)),
+        text: name,
+    };
+    schema.names(collection).into_iter().map(one).collect()
+}
+
+/// Suggestions for one place.
+struct List<'s> {
+    schema: &'s dyn Schema,
+    replace: Span,
+    all: Vec<Suggestion>,
+}
+
+impl List<'_> {
+    fn add(&mut self, text: &str, kind: Suggested, title: impl Into<String>, doc: impl Into<String>) {
+        if !self.all.iter().any(|s| s.text == text) {
+            let (title, doc) = (title.into(), doc.into());
+            self.all.push(Suggestion { text: text.to_string(), kind, title, doc, replace: self.replace });
+        }
+    }
+
+    fn entry(&mut self, text: &str, meaning: Meaning) {
+        match meaning {
+            Meaning::Object(id) => self.add(text, Suggested::Object, self.schema.describe(id), ""),
+            Meaning::Field(field) => self.add(text, Suggested::Field, field.path.clone(), about(&field)),
+            Meaning::Collection(id) => {
+                let noun = self.schema.noun(id).to_string();
+                self.add(
+                    text,
+                    Suggested::Object,
+                    format!("{text}(\"name of a {noun}\")"),
+                    format!("the {noun} of this name"),
+                );
+            }
+            Meaning::Function(id) => {
+                let info = self.schema.function(id);
+                self.add(text, Suggested::Function, signature(self.schema, &info), info.doc);
+            }
+            _ => self.add(text, Suggested::Constant, text, ""),
+        }
+    }
+
+    fn roots(&mut self, has_value: bool) {
+        if has_value {
+            self.add("value", Suggested::Variable, "value", "what was chosen");
+        }
+        for name in self.schema.root_names() {
+            if let Some(entry) = self.schema.root(&name) {
+                self.entry(&name, of_entry(entry));
+            }
+        }
+        self.add("ctx", Suggested::Object, "ctx", "variables that all texts share");
+        self.add("Math", Suggested::Object, "Math", "functions and constants of mathematics");
+        for name in ["Infinity", "NaN", "undefined", "null", "true", "false"] {
+            self.add(name, Suggested::Constant, name, "");
+        }
+        for name in ["isFinite", "isNaN"] {
+            self.add(name, Suggested::Function, name, math::global(name).map_or("", math::Function::doc));
+        }
+    }
+
+    /// What stands behind a point.
+    fn members(&mut self, of: Option<Meaning>, globals: &Globals) {
+        match of {
+            Some(Meaning::Object(id)) => {
+                for name in self.schema.member_names(id) {
+                    if let Some(entry) = self.schema.member(id, &name) {
+                        self.entry(&name, of_entry(entry));
+                    }
+                }
+            }
+            Some(Meaning::Math) => {
+                for name in math::names() {
+                    match math::function(name) {
+                        Some(function) => {
+                            self.add(name, Suggested::Function, function.path(), function.doc())
+                        }
+                        None => self.add(name, Suggested::Constant, format!("Math.{name}"), ""),
+                    }
+                }
+            }
+            Some(Meaning::Globals) => {
+                for slot in 0..globals.len() {
+                    let name = globals.name(slot as u32).to_string();
+                    self.add(
+                        &name,
+                        Suggested::Variable,
+                        format!("ctx.{name}"),
+                        "a variable that all texts share",
+                    );
+                }
+            }
+            Some(Meaning::Field(field)) if !field.is_scalar() => self.methods(Type::View),
+            Some(Meaning::Result(id)) => {
+                let info = self.schema.function(id);
+                for (name, ty) in info.members {
+                    self.add(&name, Suggested::Field, format!("{}().{name}", info.name), ty.describe());
+                }
+                self.methods(info.returns);
+            }
+            Some(Meaning::Value(ty)) => self.methods(ty),
+            _ => {}
+        }
+    }
+
+    fn methods(&mut self, of: Type) {
+        if matches!(of, Type::View | Type::List | Type::String) {
+            self.add("length", Suggested::Field, ".length", "how many there are");
+        }
+        for row in natives::rows().filter(|row| of != Type::Any && row.is_of(of)) {
+            self.add(row.name, Suggested::Function, row.title(), row.doc);
+        }
+    }
+}
+
+/// What a field is, in a sentence.
+fn about(field: &Field) -> String {
+    let unit = if field.unit.is_empty() { String::new() } else { format!(", {}", field.unit) };
+    let shape: Vec<String> = field.shape.iter().map(|n| n.map_or("?".into(), |n| n.to_string())).collect();
+    let shape = if shape.is_empty() { String::new() } else { format!(" ({} numbers)", shape.join(" × ")) };
+    format!("{}{unit}{shape}", field.doc)
+}

@@ -1,0 +1,218 @@
+//! What a number measures: a product of powers of base units, and by how much the number is larger than in these units.
+//!
+//! Which base units there are is the host's to say. The language knows one of them, the angle, because functions of `Math`
+//! take and give angles.
+
+/// How many base units there may be.
+pub const BASES: usize = 6;
+
+/// The place of the angle among the base units.
+pub const ANGLE: usize = 0;
+
+/// Powers are counted in sixths, so that square and cube roots have one.
+const SIXTHS: i16 = 6;
+
+/// Powers beyond this are those of no quantity.
+const MOST: i16 = 24 * SIXTHS;
+
+/// A product of powers of base units. A number of millimetres is one of metres with the factor 1000.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dimension {
+    /// The power of each base unit, in sixths.
+    powers: [i16; BASES],
+    /// What the number is multiplied with; NaN when that is not known, or may have a unit of its own.
+    pub factor: f64,
+}
+
+/// What is known of the dimension of a value.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Measure {
+    /// A number of the text, which may stand for a quantity of any dimension.
+    Anything,
+    /// This.
+    Known(Dimension),
+    /// Nothing.
+    #[default]
+    Unknown,
+}
+
+impl Dimension {
+    /// A plain number.
+    pub const NUMBER: Dimension = Dimension { powers: [0; BASES], factor: 1.0 };
+
+    /// An angle in radians.
+    pub const RADIAN: Dimension = Dimension::base(ANGLE);
+
+    /// A base unit.
+    pub const fn base(at: usize) -> Dimension {
+        let mut powers = [0; BASES];
+        powers[at] = SIXTHS;
+        Dimension { powers, factor: 1.0 }
+    }
+
+    /// The same, in numbers that are so much larger.
+    pub fn times(self, factor: f64) -> Dimension {
+        Dimension { factor: self.factor * factor, ..self }
+    }
+
+    /// The dimension of a product.
+    pub fn product(self, other: Dimension) -> Option<Dimension> {
+        let mut powers = self.powers;
+        for (p, q) in powers.iter_mut().zip(other.powers) {
+            *p += q;
+        }
+        let small = powers.iter().all(|p| p.abs() <= MOST);
+        small.then_some(Dimension { powers, factor: self.factor * other.factor })
+    }
+
+    /// The dimension of a power; `None` for powers that no root of a product has.
+    pub fn power(self, exponent: f64) -> Option<Dimension> {
+        let mut powers = self.powers;
+        for p in &mut powers {
+            let power = f64::from(*p) * exponent;
+            if power.fract() != 0.0 || power.abs() > f64::from(MOST) {
+                return None;
+            }
+            *p = power as i16;
+        }
+        Some(Dimension { powers, factor: self.factor.powf(exponent) })
+    }
+
+    /// The power of a base unit, when it is a whole number.
+    pub fn whole_power(&self, base: usize) -> Option<i16> {
+        self.powers.get(base).filter(|p| *p % SIXTHS == 0).map(|p| p / SIXTHS)
+    }
+
+    /// Whether both are powers of the same units, angles left aside: an arc is a radius times an angle.
+    pub fn agrees(&self, other: &Dimension) -> bool {
+        let rest = |d: &Dimension| {
+            let mut powers = d.powers;
+            powers[ANGLE] = 0;
+            powers
+        };
+        rest(self) == rest(other)
+    }
+
+    /// Whether the number is that of its base units.
+    pub fn is_exact(&self) -> bool {
+        (self.factor.abs() - 1.0).abs() < 1e-9
+    }
+
+    /// Whether angles have a part in it.
+    pub fn has_angle(&self) -> bool {
+        self.powers[ANGLE] != 0
+    }
+
+    /// Whether it is a number without any unit.
+    pub fn is_number(&self) -> bool {
+        self.powers.iter().all(|p| *p == 0)
+    }
+}
+
+impl Measure {
+    /// A plain number of which nothing follows: a sine may stand for a length of one metre times itself.
+    pub(crate) const LOOSE: Measure = Measure::Known(Dimension { powers: [0; BASES], factor: f64::NAN });
+
+    /// A plain number.
+    pub(crate) const NUMBER: Measure = Measure::Known(Dimension::NUMBER);
+
+    /// What is the one or the other.
+    pub fn or(self, other: Measure) -> Measure {
+        match (self, other) {
+            (Measure::Anything, one) | (one, Measure::Anything) => one,
+            (Measure::Known(a), Measure::Known(b)) if a.agrees(&b) => Measure::Known(joined(a, b)),
+            _ => Measure::Unknown,
+        }
+    }
+
+    /// A sum, a difference or a remainder. A number of the text that is a factor may have a unit, so what it is a factor of
+    /// proves nothing.
+    pub(crate) fn sum(self, other: Measure) -> Measure {
+        match (self, other) {
+            (Measure::Known(a), Measure::Known(b)) if !a.agrees(&b) => match (a.is_exact(), b.is_exact()) {
+                (true, false) => self,
+                (false, true) => other,
+                _ => Measure::Unknown,
+            },
+            _ => self.or(other),
+        }
+    }
+
+    /// Whether a sum of both means nothing for sure.
+    pub(crate) fn clashes(self, other: Measure) -> bool {
+        match (self, other) {
+            (Measure::Known(a), Measure::Known(b)) => a.is_exact() && b.is_exact() && !a.agrees(&b),
+            _ => false,
+        }
+    }
+
+    /// A product; `number` is what stands for itself, if one of the two is a number of the text.
+    pub(crate) fn product(self, other: Measure, number: Option<f64>) -> Measure {
+        match (self, other) {
+            (Measure::Anything, Measure::Anything) => Measure::Anything,
+            (Measure::Anything, Measure::Known(d)) | (Measure::Known(d), Measure::Anything) => {
+                let factor = number.filter(|x| *x != 0.0 && x.is_finite()).unwrap_or(f64::NAN);
+                Measure::Known(d.times(factor))
+            }
+            (Measure::Known(a), Measure::Known(b)) => a.product(b).map_or(Measure::Unknown, Measure::Known),
+            _ => Measure::Unknown,
+        }
+    }
+
+    /// A power with a known exponent.
+    pub(crate) fn power(self, exponent: f64) -> Measure {
+        match self {
+            Measure::Known(d) => d.power(exponent).map_or(Measure::Unknown, Measure::Known),
+            other => other,
+        }
+    }
+}
+
+/// Two that agree: the factor stays where it is the same, and the angle where one has it.
+fn joined(a: Dimension, b: Dimension) -> Dimension {
+    let of = if a.powers[ANGLE].abs() >= b.powers[ANGLE].abs() { a } else { b };
+    let same = (a.factor - b.factor).abs() <= 1e-9 * a.factor.abs();
+    Dimension { factor: if same { a.factor } else { f64::NAN }, ..of }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const M: Dimension = Dimension::base(1);
+    const S: Dimension = Dimension::base(2);
+
+    fn known(d: Dimension) -> Measure {
+        Measure::Known(d)
+    }
+
+    #[test]
+    fn powers_have_roots() {
+        let area = M.product(M).unwrap();
+        assert_eq!(area.power(0.5), Some(M));
+        assert_eq!(M.power(0.5).unwrap().power(2.0), Some(M));
+        assert_eq!(M.power(1.0 / 3.0).unwrap().whole_power(1), None);
+        assert_eq!(M.power(0.3), None);
+        assert_eq!(M.power(1e6), None);
+    }
+
+    #[test]
+    fn a_number_of_the_text_may_have_a_unit() {
+        let speed = known(M.product(S.power(-1.0).unwrap()).unwrap());
+        let fallen = known(S).product(Measure::Anything, Some(9.81));
+        assert!(!speed.clashes(fallen) && speed.clashes(known(S)) && !speed.clashes(Measure::Anything));
+        assert_eq!(speed.sum(fallen), speed);
+        assert_eq!(speed.sum(known(S)), Measure::Unknown);
+        assert_eq!(known(M).product(Measure::Anything, Some(1000.0)), known(M.times(1000.0)));
+        // A mean of metres and millimetres is in neither.
+        let Measure::Known(mixed) = known(M).or(known(M.times(1000.0))) else { panic!() };
+        assert!(mixed.factor.is_nan());
+    }
+
+    #[test]
+    fn angles_may_vanish() {
+        let arc = M.product(Dimension::RADIAN).unwrap();
+        assert!(arc.agrees(&M) && !arc.agrees(&Dimension::RADIAN));
+        assert_eq!(known(M).or(known(arc)), known(arc));
+    }
+}

@@ -1,0 +1,119 @@
+//! Units in the labels of a lab, and when one contradicts what an expression gives.
+
+use labspec_bind::units::parse;
+use labspec_expr::dimension::Dimension;
+
+/// Letters that mean more than a unit when they stand alone: an area, a mass, a temperature, a length.
+const DOUBTFUL: [&str; 9] = ["A", "C", "K", "L", "V", "T", "g", "h", "1"];
+
+/// What the unit of a control means.
+pub(crate) fn unit(text: &str) -> Option<Dimension> {
+    let text = text.trim();
+    if DOUBTFUL.contains(&text) { None } else { parse(text) }
+}
+
+/// The unit at the end of a label, in brackets: of `speed (mm/s)` and `E [J]`, with what it means. In `ball(s)` there is none.
+pub(crate) fn of_label(label: &str) -> Option<(&str, Dimension)> {
+    let label = label.trim_end();
+    let (open, close) = if label.ends_with(']') { ('[', ']') } else { ('(', ')') };
+    let inner = label.strip_suffix(close)?;
+    // Brackets within it belong to it: `(J/(kg K))`.
+    let mut depth = 1;
+    let start = inner.char_indices().rev().find(|(_, c)| {
+        depth += i32::from(*c == close) - i32::from(*c == open);
+        depth == 0
+    });
+    let (before, text) = inner.split_at_checked(start?.0)?;
+    let text = text.strip_prefix(open)?;
+    if !(before.is_empty() || before.ends_with(char::is_whitespace)) {
+        return None;
+    }
+    Some((text, unit(text)?))
+}
+
+/// Whether numbers of a dimension are for sure not those of a unit. A number of the text that is a factor may have a unit of its own,
+/// so it excuses a different dimension; beside the same dimension it is a number, and a power of ten too many.
+pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
+    let factor = found.factor.abs();
+    if !factor.is_finite() || factor == 0.0 {
+        return false;
+    }
+    if !found.agrees(unit) {
+        return found.is_exact();
+    }
+    let ratio = factor / unit.factor.abs();
+    if (ratio - 1.0).abs() < 1e-3 {
+        return false;
+    }
+    // Degrees are of angles: a number without a unit may be something else.
+    if found.is_exact() {
+        return found.has_angle() || is_power_of_ten(unit.factor);
+    }
+    let converted = is_power_of_ten(factor) || found.has_angle() && is_degrees(factor);
+    let wanted = is_power_of_ten(unit.factor) || is_degrees(unit.factor.abs());
+    let pure = (0.1..=10.0).contains(&factor) && !(0.01..=100.0).contains(&ratio);
+    converted && wanted || pure
+}
+
+/// 0.001, 100, 1000, and 1.
+fn is_power_of_ten(x: f64) -> bool {
+    let power = x.abs().log10();
+    (power - power.round()).abs() < 1e-9 && power.round().abs() != 1.0
+}
+
+/// The factor from radians to degrees, or back.
+fn is_degrees(factor: f64) -> bool {
+    let degrees = 1f64.to_degrees();
+    (factor / degrees - 1.0).abs() < 1e-3 || (factor * degrees - 1.0).abs() < 1e-3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_stand_in_brackets_at_the_end() {
+        for (label, unit) in [
+            ("height (m)", Some("m")),
+            ("E [J]", Some("J")),
+            ("c (J/(kg K))", Some("J/(kg K)")),
+            ("friction capacity 2μN/g (kg)", Some("kg")),
+            ("ball(s)", None),
+            ("friction coefficient (ramp and block)", None),
+            ("car (A)", None),
+            ("free quat w", None),
+            ("(m)", Some("m")),
+            (")", None),
+            ("", None),
+        ] {
+            assert_eq!(of_label(label).map(|(text, _)| text), unit, "{label}");
+        }
+    }
+
+    #[test]
+    fn only_what_is_certain_contradicts() {
+        let d = |text: &str, factor: f64| parse(text).unwrap().times(factor);
+        for (found, unit, certain) in [
+            (d("m", 1.0), "mm", true),
+            (d("m", 1000.0), "mm", false),
+            (d("m", 1000.0), "m", true),
+            (d("m", 2.0), "m", false),
+            (d("m", 2.0), "mm", true),
+            (d("m", 1.0), "m/s", true),
+            // 1000 N/m may be the stiffness of a spring, 9.81 an acceleration.
+            (d("m", 1000.0), "N", false),
+            (d("s", 9.81), "m/s", false),
+            (d("rad", 1.0), "deg", true),
+            (d("deg", 1.0), "deg", false),
+            (d("deg", 1.0), "rad", true),
+            (d("rad", 1.0), "m", true),
+            (d("rad m", 1.0), "m", false),
+            (d("N m", 1.0), "J", false),
+            (d("N m", f64::NAN), "s", false),
+            (d("1", 1.0), "deg", false),
+        ] {
+            let unit = parse(unit).unwrap();
+            assert_eq!(contradicts(&found, &unit), certain, "{found:?} {unit:?}");
+        }
+    }
+}

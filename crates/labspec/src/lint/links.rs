@@ -1,0 +1,150 @@
+//! Links of a lesson that lead to nothing: files of the course that are not there, headings that no lesson has.
+
+use super::models::{lesson_folder, root_of};
+use crate::finding::Finding;
+use crate::markdown::{self, Link, Scan};
+use crate::rules;
+use crate::source::SourceFile;
+use crate::spec::Lesson;
+use std::path::{Path, PathBuf};
+
+/// Most links that are followed.
+const MOST: usize = 1000;
+/// What a site makes of a lesson, and no file of the course has.
+const PAGES: [&str; 2] = ["html", "htm"];
+
+/// Letters and digits of a heading or an anchor: sites write the rest in their own ways.
+fn letters(text: &str) -> String {
+    text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+/// Whether a text has this anchor: a heading, or an element with this id.
+fn has_anchor(text: &str, scan: &Scan, anchor: &str) -> bool {
+    let meant = letters(anchor);
+    // `fall-1` is the second heading "Fall".
+    let plain = meant.trim_end_matches(|c: char| c.is_ascii_digit());
+    let heading = scan.headings.iter().filter_map(|h| text.get(h.clone())).any(|heading| {
+        let own = letters(heading);
+        own == meant
+            || own == plain
+            || own.trim_start_matches(|c: char| c.is_ascii_digit()) == meant
+            || heading.contains(&format!("{{#{anchor}}}"))
+    });
+    let id = |html: &str| {
+        ["id", "name"]
+            .iter()
+            .any(|key| ['"', '\''].iter().any(|q| html.contains(&format!("{key}={q}{anchor}{q}"))))
+    };
+    heading || scan.html.iter().filter_map(|h| text.get(h.clone())).any(id)
+}
+
+/// What a site numbers itself, or names after an id.
+fn is_of_the_site(lesson: &Lesson, anchor: &str) -> bool {
+    let meant = letters(anchor);
+    let numbered = ["lab", "quiz", "fig", "figure", "eq", "equation", "tab", "table", "top", "ref", "fn"];
+    let stem = meant.trim_end_matches(|c: char| c.is_ascii_digit());
+    let ids = lesson.quizzes.iter().filter_map(|q| q.id.as_ref()).map(|id| letters(id.as_str()));
+    numbered.contains(&stem) || ids.into_iter().any(|id| !id.is_empty() && meant.contains(&id))
+}
+
+/// Anchors of the lesson itself.
+pub(super) fn check_anchors(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    let text = lesson.file.text();
+    for link in lesson.scan.links.iter().take(MOST) {
+        let Some(anchor) = link.target.strip_prefix('#').filter(|a| !a.is_empty()) else { continue };
+        if !has_anchor(text, &lesson.scan, &decoded(anchor)) && !is_of_the_site(lesson, anchor) {
+            findings.push(finding(link, "this lesson has no such heading"));
+        }
+    }
+}
+
+/// Files that links of a lesson name, and headings of those that are lessons. Nothing outside of the root is looked at.
+pub(super) fn check_files(lesson: &Lesson, path: &Path, findings: &mut Vec<Finding>) {
+    let folder = lesson_folder(path);
+    let mut root = None;
+    for link in lesson.scan.links.iter().take(MOST) {
+        let Some((file, anchor)) = inside(&link.target) else { continue };
+        let (Some(target), false) = (joined(&folder, &file), file.ends_with('/')) else { continue };
+        let extension = target.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+        if extension.is_empty() || PAGES.contains(&extension.as_str()) {
+            continue;
+        }
+        let root = root.get_or_insert_with(|| root_of(&folder, &[]));
+        if !target.starts_with(&*root) {
+            continue;
+        }
+        match (target.canonicalize(), anchor) {
+            (Err(_), _) => findings.push(finding(
+                link,
+                if link.image { "there is no such picture" } else { "there is no such file" },
+            )),
+            (Ok(real), Some(anchor)) if extension == "md" && real.starts_with(&*root) => {
+                let Ok(other) = SourceFile::read(&real) else { continue };
+                if !has_anchor(other.text(), &markdown::scan(&other), &decoded(&anchor))
+                    && !is_of_the_site(lesson, &anchor)
+                {
+                    findings.push(finding(link, "that lesson has no such heading"));
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The file of the course that a link names, and the anchor there; `None` for the web, for a path of the site, and for nothing.
+fn inside(target: &str) -> Option<(String, Option<String>)> {
+    let scheme = target.split(['/', '?', '#']).next().is_some_and(|head| head.contains(':'));
+    if scheme || target.starts_with(['/', '#', '\\', '?', '{', '<']) || target.contains("{{") {
+        return None;
+    }
+    let (file, anchor) = match target.split_once('#') {
+        Some((file, anchor)) => (file, Some(anchor.to_string()).filter(|a| !a.is_empty())),
+        None => (target, None),
+    };
+    let file = decoded(file.split('?').next().unwrap_or(file));
+    (!file.is_empty()).then_some((file, anchor))
+}
+
+/// A path from a folder, without steps that lead back; `None` where it leads above everything.
+fn joined(folder: &Path, file: &str) -> Option<PathBuf> {
+    let mut path = folder.canonicalize().ok()?;
+    for part in file.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => {
+                path.pop().then_some(())?;
+            }
+            part => path.push(part),
+        }
+    }
+    Some(path)
+}
+
+/// `%20` is a space.
+fn decoded(text: &str) -> String {
+    let mut bytes = Vec::new();
+    let mut rest = text.as_bytes();
+    while let Some((first, after)) = rest.split_first() {
+        let code = after
+            .get(..2)
+            .and_then(|h| std::str::from_utf8(h).ok())
+            .and_then(|h| u8::from_str_radix(h, 16).ok());
+        match (first, code) {
+            (b'%', Some(byte)) => {
+                bytes.push(byte);
+                rest = after.get(2..).unwrap_or(&[]);
+            }
+            _ => {
+                bytes.push(*first);
+                rest = after;
+            }
+        }
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+fn finding(link: &Link, said: &str) -> Finding {
+    let shown = crate::json::read::shorten(&link.target);
+    Finding::new(rules::DEAD_LINK, link.span.clone(), format!("`{shown}`: {said}"))
+        .help("correct where it leads to, or add what is missing")
+}

@@ -1,0 +1,235 @@
+//! The HTML of labs and quizzes: elements that there are, opened and closed in order. A browser mends what is wrong, each in its way.
+
+use super::html::{MAX_IN_TEXT, is_of_models};
+use crate::finding::Finding;
+use crate::rules;
+use crate::source::Text;
+use std::ops::Range;
+
+/// Elements that hold nothing and are not closed.
+const VOID: [&str; 13] =
+    ["area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr"];
+/// Elements that end by themselves where the next one begins, or where what holds them ends.
+const ENDS_ITSELF: [&str; 13] =
+    ["p", "li", "dt", "dd", "tr", "td", "th", "thead", "tbody", "tfoot", "colgroup", "option", "optgroup"];
+/// All others of HTML that a lesson may want.
+const KNOWN: [&str; 68] = [
+    "a",
+    "abbr",
+    "address",
+    "article",
+    "aside",
+    "audio",
+    "b",
+    "bdi",
+    "bdo",
+    "big",
+    "blockquote",
+    "button",
+    "canvas",
+    "caption",
+    "center",
+    "cite",
+    "code",
+    "data",
+    "datalist",
+    "del",
+    "details",
+    "dfn",
+    "dialog",
+    "div",
+    "dl",
+    "em",
+    "fieldset",
+    "figcaption",
+    "figure",
+    "font",
+    "footer",
+    "form",
+    "h1",
+    "h2",
+    "h3",
+    "h4",
+    "h5",
+    "h6",
+    "header",
+    "i",
+    "iframe",
+    "ins",
+    "kbd",
+    "label",
+    "legend",
+    "main",
+    "map",
+    "mark",
+    "math",
+    "meter",
+    "nav",
+    "ol",
+    "output",
+    "picture",
+    "pre",
+    "progress",
+    "q",
+    "s",
+    "samp",
+    "section",
+    "select",
+    "small",
+    "span",
+    "strong",
+    "sub",
+    "summary",
+    "sup",
+    "svg",
+];
+const KNOWN_TOO: [&str; 9] = ["table", "template", "textarea", "time", "tt", "u", "ul", "var", "video"];
+/// Elements with elements of their own.
+const FOREIGN: [&str; 2] = ["svg", "math"];
+
+/// Most tags of a text that are looked at.
+const MOST: usize = 3000;
+
+/// What is wrong with a tag.
+#[derive(Debug, PartialEq)]
+enum Fault {
+    /// HTML has no such element.
+    Unknown,
+    /// Nothing closes it.
+    Unclosed,
+    /// Nothing is open that it would close.
+    Unopened,
+    /// It closes an element while this one, within it, is open.
+    Crossed(String),
+}
+
+/// A tag: its bytes, its name, whether it closes, whether it closes itself.
+struct Tag {
+    at: Range<usize>,
+    name: String,
+    closing: bool,
+    alone: bool,
+}
+
+/// The tags of a text, comments left out.
+fn tags(html: &str) -> Vec<Tag> {
+    let mut all = Vec::new();
+    let mut at = 0;
+    while let Some(found) = html.get(at..).and_then(|rest| rest.find('<')) {
+        let start = at + found;
+        let rest = html.get(start..).unwrap_or("");
+        if rest.starts_with("<!--") {
+            at = start + rest.find("-->").map_or(rest.len(), |end| end + 3);
+            continue;
+        }
+        let inside = rest.get(1..).unwrap_or("");
+        let closing = inside.starts_with('/');
+        let inside = inside.strip_prefix('/').unwrap_or(inside);
+        let length =
+            inside.find(|c: char| c.is_whitespace() || matches!(c, '/' | '>' | '<')).unwrap_or(inside.len());
+        at = start + 1;
+        let name = inside.get(..length).unwrap_or("");
+        if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            continue;
+        }
+        // A tag ends at its `>`, or the text does.
+        let end = rest.find('>').map_or(rest.len(), |end| end + 1);
+        at = start + end;
+        let alone = rest.get(..end).unwrap_or("").ends_with("/>");
+        all.push(Tag { at: start..at, name: name.to_ascii_lowercase(), closing, alone });
+    }
+    all
+}
+
+fn faults(html: &str) -> Vec<(Range<usize>, String, Fault)> {
+    let mut faults = Vec::new();
+    let mut open: Vec<Tag> = Vec::new();
+    let all = tags(html);
+    let cut = all.len() > MOST;
+    for tag in all.into_iter().take(MOST) {
+        let foreign = open.iter().any(|t| FOREIGN.contains(&t.name.as_str()));
+        let name = tag.name.as_str();
+        let known = VOID.contains(&name)
+            || ENDS_ITSELF.contains(&name)
+            || KNOWN.contains(&name)
+            || KNOWN_TOO.contains(&name);
+        let own = open.iter().rposition(|t| t.name == tag.name);
+        if tag.closing {
+            match own {
+                // `</p>` alone makes an empty paragraph, `</br>` a break: nobody sees a difference.
+                None if is_of_models(name) || VOID.contains(&name) => {}
+                None if !known && !foreign => faults.push((tag.at, tag.name, Fault::Unknown)),
+                None => faults.push((tag.at, tag.name, Fault::Unopened)),
+                Some(i) => {
+                    let inner = open.split_off(i);
+                    let crossed = inner.iter().skip(1).find(|t| !ENDS_ITSELF.contains(&t.name.as_str()));
+                    if let Some(other) = crossed {
+                        faults.push((other.at.clone(), other.name.clone(), Fault::Crossed(tag.name)));
+                    }
+                }
+            }
+        } else if is_of_models(name) && !foreign {
+            // Told as what it is: an element of models.
+        } else if !known && !foreign && !name.contains('-') {
+            faults.push((tag.at, tag.name, Fault::Unknown));
+        } else if !VOID.contains(&name) && !(tag.alone && foreign) {
+            open.push(tag);
+        }
+    }
+    // Where not all was looked at, what is open may be closed yet.
+    open.retain(|_| !cut);
+    let left = open.into_iter().filter(|t| !ENDS_ITSELF.contains(&t.name.as_str()));
+    faults.extend(left.map(|t| (t.at, t.name, Fault::Unclosed)));
+    faults
+}
+
+/// Looks into a text of a lab or a quiz.
+pub(super) fn check(text: &Text, findings: &mut Vec<Finding>) {
+    for (at, name, fault) in faults(text.as_str()).into_iter().take(MAX_IN_TEXT) {
+        let shown = crate::json::read::shorten(text.value.get(at.clone()).unwrap_or(""));
+        let (rule, message, help) = match fault {
+            Fault::Unknown => (
+                rules::HTML_ELEMENT,
+                format!("HTML has no element `{}`", crate::json::read::shorten(&name)),
+                "write `&lt;` for `<` where no element is meant".to_string(),
+            ),
+            Fault::Unclosed => (
+                rules::HTML_NESTING,
+                format!("`{shown}` is not closed"),
+                format!("write </{name}> where it ends"),
+            ),
+            Fault::Unopened => (
+                rules::HTML_NESTING,
+                format!("`{shown}` closes nothing"),
+                format!("remove it, or write <{name}> where it begins"),
+            ),
+            Fault::Crossed(outer) => (
+                rules::HTML_NESTING,
+                format!("`{shown}` is still open where `</{outer}>` closes what holds it"),
+                format!("write </{name}> before </{outer}>"),
+            ),
+        };
+        findings.push(Finding::new(rule, text.span_of(at), message).help(help));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_browsers_mend_is_found() {
+        let of =
+            |html: &str| faults(html).into_iter().map(|(_, name, fault)| (name, fault)).collect::<Vec<_>>();
+        let named = |name: &str, fault| vec![(name.to_string(), fault)];
+        assert_eq!(of("<p>one <b>two</b><p>three <br> <img src='a'> 1 < 2 <code>x</code>"), []);
+        assert_eq!(of("<ul><li>a<li>b</ul> <!-- <b> --> <svg><path d=''/><g></g></svg>"), []);
+        assert_eq!(of("<p>a <code>x</p>"), named("code", Fault::Crossed("p".into())));
+        assert_eq!(of("a <code>x"), named("code", Fault::Unclosed));
+        assert_eq!(of("a</b>"), named("b", Fault::Unopened));
+        assert_eq!(of("<strnog>a</strnog>").len(), 2);
+        assert_eq!(of("if a<bc and d>e"), named("bc", Fault::Unknown));
+        // What another rule tells.
+        assert_eq!(of("set in <option>, <geom size='1'/>"), []);
+    }
+}

@@ -1,0 +1,159 @@
+//! What an editor offers where something is found: its repair, all safe repairs, or to keep it with a reason.
+
+use super::documents::Document;
+use super::places;
+use crate::finding::{Applicability, Finding, Fix};
+use crate::lint::{ModelFolder, load_lesson};
+use crate::source::SourceFile;
+use crate::spec::{FileKind, Lesson};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// What is offered for a range of a document. `only` are the kinds that are asked for, all of them when it is empty.
+pub(super) fn actions(
+    document: &Document,
+    lesson: Option<&Lesson>,
+    span: &Range<usize>,
+    only: &[String],
+    folder: &ModelFolder,
+) -> Value {
+    let wanted =
+        |kind: &str| only.is_empty() || only.iter().any(|o| kind == o || kind.starts_with(&format!("{o}.")));
+    let touches = |f: &&Finding| f.span.start <= span.end && span.start <= f.span.end;
+    let mut all = Vec::new();
+    let here = || document.findings.iter().filter(touches);
+    if wanted("quickfix") {
+        for f in here() {
+            all.extend(f.fix.as_ref().and_then(|fix| repair(document, f, fix)));
+        }
+        for f in here().filter(|f| !f.is_error()) {
+            all.extend(lesson.and_then(|lesson| allow(document, lesson, f)));
+        }
+    }
+    if wanted("source.fixAll") {
+        all.extend(lesson.and_then(|lesson| everything(document, lesson, folder)));
+    }
+    all.into()
+}
+
+/// The repair of a finding.
+fn repair(document: &Document, f: &Finding, fix: &Fix) -> Option<Value> {
+    let file = &document.file;
+    let (old, new) = (short(file.slice(fix.span.clone())), short(&fix.text));
+    let what = match (old.is_empty(), new.is_empty()) {
+        (true, _) => format!("write `{new}`"),
+        (_, true) => format!("leave out `{old}`"),
+        _ => format!("write `{new}` instead of `{old}`"),
+    };
+    let (title, preferred) = match fix.applicability {
+        Applicability::Safe => (what, true),
+        Applicability::Unsafe => (format!("{what} (a guess)"), false),
+        Applicability::Display => return None,
+    };
+    Some(json!({
+        "title": title,
+        "kind": "quickfix",
+        "diagnostics": [super::diagnostic::diagnostic(f, file)],
+        "isPreferred": preferred,
+        "edit": edit(document, &[(fix.span.clone(), fix.text.clone())]),
+    }))
+}
+
+/// A text that fits into a menu.
+fn short(text: &str) -> String {
+    let line = text.lines().next().unwrap_or("");
+    let cut: String = line.chars().take(40).collect();
+    if cut.len() < text.len() { format!("{cut}…") } else { cut }
+}
+
+/// A change of the document, from its last place to its first.
+fn edit(document: &Document, changes: &[(Range<usize>, String)]) -> Value {
+    let file = &document.file;
+    let edits: Vec<Value> = changes
+        .iter()
+        .map(|(span, text)| json!({"range": places::range(file, span), "newText": text}))
+        .collect();
+    let document = json!({"uri": document.uri, "version": document.version});
+    json!({"documentChanges": [{"textDocument": document, "edits": edits}]})
+}
+
+/// All safe repairs at once, if the lesson is better for it.
+fn everything(document: &Document, lesson: &Lesson, folder: &ModelFolder) -> Option<Value> {
+    let mut changes: BTreeMap<usize, (Range<usize>, String)> = BTreeMap::new();
+    let mut end = 0;
+    let mut fixes: Vec<&Fix> = document.findings.iter().filter_map(|f| f.fix.as_ref()).collect();
+    fixes.sort_by_key(|fix| (fix.span.start, fix.span.end));
+    for fix in fixes.into_iter().filter(|fix| fix.applicability == Applicability::Safe) {
+        // Of two that touch each other, the first one.
+        if fix.span.start >= end && !changes.contains_key(&fix.span.start) {
+            end = fix.span.end.max(end);
+            changes.insert(fix.span.start, (fix.span.clone(), fix.text.clone()));
+        }
+    }
+    if changes.is_empty() {
+        return None;
+    }
+    let mut text = document.file.text().to_string();
+    for (span, new) in changes.values().rev() {
+        text.get(span.clone())?;
+        text.replace_range(span.clone(), new);
+    }
+    let after = load_lesson(SourceFile::new(document.file.path().clone(), text), folder);
+    let errors = |lesson: &Lesson| lesson.findings.iter().filter(|f| f.is_error()).count();
+    if after.broken.len() > lesson.broken.len() || errors(&after) > errors(lesson) {
+        return None;
+    }
+    let changes: Vec<(Range<usize>, String)> = changes.into_values().collect();
+    Some(
+        json!({"title": "labspec: make all safe repairs", "kind": "source.fixAll.labspec", "edit": edit(document, &changes)}),
+    )
+}
+
+/// To keep what is found: its code in the `lint` of the lab, the question or the quiz, where the author writes the reason; for prose,
+/// in a comment before it.
+fn allow(document: &Document, lesson: &Lesson, f: &Finding) -> Option<Value> {
+    let file = &document.file;
+    if lesson.is_broken(&f.span) {
+        return None;
+    }
+    let holds = |span: &Range<usize>| span.start <= f.span.start && f.span.start < span.end;
+    let labs = lesson.all_labs().into_iter().map(|lab| (lab.span.clone(), lab.lint.clone()));
+    let questions = lesson.quizzes.iter().flat_map(|quiz| {
+        let own = std::iter::once((quiz.span.clone(), quiz.lint.clone()));
+        own.chain(quiz.numbered().map(|(_, q)| (q.span.clone(), q.lint.clone())))
+    });
+    let object =
+        labs.chain(questions).filter(|(span, _)| holds(span)).min_by_key(|(span, _)| span.end - span.start);
+    let (at, text) = match object {
+        Some((_, Some(lint))) => {
+            // One code more in a list that there is.
+            let (_, last) = lint.codes.last()?;
+            (last.end + 1, format!(", \"{}\"", f.code))
+        }
+        Some((span, None)) => {
+            let inside = file.slice(span.start + 1..span.end);
+            let gap = inside.get(..inside.find(['"', '}'])?)?;
+            let comma = if inside.trim_start().starts_with('}') { "" } else { "," };
+            (span.start + 1, format!("{gap}\"lint\": {{\"allow\": [\"{}\"], \"why\": \"\"}}{comma}", f.code))
+        }
+        None if document.kind == FileKind::Lesson => {
+            let line = file.position(f.span.start).line;
+            // Before the paragraph or the block, where a comment is one.
+            let empty =
+                |line: usize| file.line_span(line).is_none_or(|span| file.slice(span).trim().is_empty());
+            let block =
+                lesson.scan.blocks.iter().find(|b| holds(&b.span)).map(|b| file.position(b.span.start).line);
+            let first =
+                block.unwrap_or_else(|| (1..=line).rev().find(|l| *l == 1 || empty(l - 1)).unwrap_or(line));
+            (file.line_span(first)?.start, format!("<!-- labspec allow {}:  -->\n", f.code))
+        }
+        None => return None,
+    };
+    Some(json!({
+        "title": format!("allow `{}` here, with a reason", f.code),
+        "kind": "quickfix",
+        "diagnostics": [super::diagnostic::diagnostic(f, file)],
+        "edit": edit(document, &[(at..at, text)]),
+    }))
+}

@@ -1,0 +1,86 @@
+//! The texts of a lesson that are code, each with the lab that it is about.
+
+use crate::bind::{ModelNames, Scope};
+use crate::source::Text;
+use crate::spec::{Form, Lab, Lesson, Verify, VerifyLab};
+use labspec_core::Model;
+use labspec_expr::{Compiled, Compiler, Globals, Type};
+
+/// A text of code.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece<'l> {
+    pub(super) form: Form,
+    /// Which functions there are.
+    pub(super) scope: Scope,
+    pub(super) text: &'l Text,
+    /// The lab whose model it names.
+    pub(super) lab: &'l Lab,
+    /// The claim that it stands in.
+    pub(super) verify: Option<&'l Verify>,
+}
+
+/// Every text of code, in the order in which the lesson is read.
+pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece<'_>> {
+    let mut all = Vec::new();
+    for lab in lesson.all_labs() {
+        let own = lab.code().into_iter();
+        all.extend(own.map(|(form, text)| Piece { form, scope: Scope::Lab, text, lab, verify: None }));
+        if let Some(verify) = &lab.verify {
+            claim(lesson, verify, Some(lab), &mut all);
+        }
+    }
+    for (_, question) in lesson.quizzes.iter().flat_map(|quiz| quiz.numbered()) {
+        if let Some(verify) = &question.verify {
+            claim(lesson, verify, question.sim(), &mut all);
+        }
+    }
+    all
+}
+
+fn claim<'l>(lesson: &'l Lesson, verify: &'l Verify, own: Option<&'l Lab>, all: &mut Vec<Piece<'l>>) {
+    let lab = match &verify.lab {
+        None => own,
+        Some(VerifyLab::Inline(lab)) => Some(&**lab),
+        Some(VerifyLab::Reference(_, address)) => lesson.lab(address),
+        Some(VerifyLab::Broken) => None,
+    };
+    let Some(lab) = lab else { return };
+    let scope = |form| if form == Form::Statements { Scope::Lab } else { Scope::Measure };
+    let texts = verify.code().into_iter();
+    all.extend(texts.map(|(form, text)| Piece { form, scope: scope(form), text, lab, verify: Some(verify) }));
+}
+
+/// The text of code at a byte of the lesson, and the byte of the text.
+pub(super) fn at(lesson: &Lesson, byte: usize) -> Option<(Piece<'_>, usize)> {
+    let all = pieces(lesson);
+    let piece = all.into_iter().find(|p| {
+        let span = p.text.span();
+        span.start <= byte && byte <= span.end
+    })?;
+    Some((piece, inside(piece.text, byte)))
+}
+
+/// The byte of a text that stands at a byte of the file. The bytes of both keep their order.
+fn inside(text: &Text, byte: usize) -> usize {
+    let (mut low, mut high) = (0, text.value.len());
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if text.map.span(middle..middle).start < byte {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    labspec_expr::floor(&text.value, low)
+}
+
+/// Compiles a text with what each part of it means.
+pub(super) fn explained(piece: &Piece<'_>, model: &Model, globals: &mut Globals) -> Compiled {
+    let names = ModelNames::new(model, piece.scope);
+    let mut compiler = Compiler::new(&names, globals).with_value(Some(Type::Any)).explaining();
+    match piece.form {
+        Form::Expression => compiler.expression(&piece.text.value),
+        Form::Statements => compiler.statements(&piece.text.value),
+        Form::Target => compiler.assignment(&piece.text.value),
+    }
+}

@@ -1,0 +1,77 @@
+//! What lies around a document: the models that its labs name, compiled once, and the other lessons of the folder.
+
+use super::documents::Document;
+use super::start::Started;
+use crate::bind::scene::Models;
+use crate::lint::ModelFolder;
+use crate::source::{MAX_FILE, SourceFile};
+use crate::spec::{FileKind, kind_of};
+use ignore::WalkBuilder;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Most lessons of a folder that are looked at.
+const MOST: usize = 2_000;
+/// Most entries that are walked over to find them.
+const MOST_ENTRIES: usize = 100_000;
+
+/// The models of one folder, and the labs that were started with them.
+#[derive(Debug)]
+pub(super) struct Around {
+    /// The models; threads that run labs share them.
+    pub(super) models: Arc<Models>,
+    /// The labs that somebody pointed into last.
+    pub(super) started: Vec<Started>,
+}
+
+/// Everything around the open documents, by the folder of models.
+#[derive(Debug, Default)]
+pub(super) struct Arounds(BTreeMap<Option<PathBuf>, Around>);
+
+impl Arounds {
+    /// What lies around a document.
+    pub(super) fn of(&mut self, folder: ModelFolder) -> &mut Around {
+        let key = folder.path_of_folder().map(Path::to_path_buf);
+        let around = self
+            .0
+            .entry(key)
+            .or_insert_with(|| Around { models: Arc::new(Models::new(folder.clone())), started: Vec::new() });
+        // A model that was added or taken away.
+        if around.models.folder().names() != folder.names() {
+            *around = Around { models: Arc::new(Models::new(folder)), started: Vec::new() };
+        }
+        around
+    }
+
+    /// Files of models changed: all are compiled anew.
+    pub(super) fn forget(&mut self) {
+        self.0.clear();
+    }
+}
+
+/// The lessons below a folder, as the editor holds them or else as they are saved. Files that `.gitignore` names are left out.
+pub(super) fn lessons_below(folder: &Path, open: &BTreeMap<String, Document>) -> Vec<SourceFile> {
+    let mut paths: Vec<PathBuf> = WalkBuilder::new(folder)
+        .build()
+        .take(MOST_ENTRIES)
+        .flatten()
+        .map(ignore::DirEntry::into_path)
+        .filter(|path| matches!(kind_of(path), FileKind::Lesson | FileKind::Json) && path.is_file())
+        .collect();
+    paths.extend(open.values().filter(|d| d.path.starts_with(folder)).map(|d| d.path.clone()));
+    paths.retain(|path| matches!(kind_of(path), FileKind::Lesson | FileKind::Json));
+    paths.sort();
+    paths.dedup();
+    paths.truncate(MOST);
+    paths.iter().filter_map(|path| text_of(path, open)).collect()
+}
+
+/// A file as the editor holds it, or else as it is saved.
+pub(super) fn text_of(path: &Path, open: &BTreeMap<String, Document>) -> Option<SourceFile> {
+    if let Some(document) = open.values().find(|d| d.path == path) {
+        return Some(document.file.clone());
+    }
+    let small = std::fs::metadata(path).is_ok_and(|m| m.is_file() && m.len() <= MAX_FILE);
+    if small { SourceFile::read(path).ok() } else { None }
+}

@@ -1,0 +1,237 @@
+//! The names in a model's file: which elements have one, and which attributes name them. The text may be broken, which it is while
+//! somebody writes; which attribute holds a name is what the schema of MJCF says.
+
+use labspec_core::xml::{Kind, schema_rows};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::LazyLock;
+
+/// A name in a model's file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Mention {
+    /// What is called so: `body`, `joint`.
+    pub(super) noun: &'static str,
+    pub(super) name: String,
+    /// Bytes of the name, without quotes.
+    pub(super) span: Range<usize>,
+    /// Here it gets its name.
+    pub(super) defines: bool,
+}
+
+/// What the names of a model's file are.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Mentions {
+    pub(super) all: Vec<Mention>,
+    /// An element that makes names out of others, or takes them from other files: then a name may mean more than this file shows.
+    pub(super) composed: Option<String>,
+    /// Texts in attributes of which nobody knows what they name.
+    pub(super) texts: Vec<(String, Range<usize>)>,
+}
+
+/// Elements that make names.
+const COMPOSING: [&str; 5] = ["include", "attach", "replicate", "composite", "flexcomp"];
+
+/// What attributes hold, by the section, the element and the attribute.
+static SCHEMA: LazyLock<BTreeMap<String, Kind>> = LazyLock::new(|| {
+    let mut all = BTreeMap::new();
+    for row in schema_rows() {
+        let (Some(attribute), mut parts) = (row.attribute, row.path.split('/').skip(1)) else { continue };
+        let section = parts.next().unwrap_or("").to_string();
+        let element = row.path.rsplit('/').next().unwrap_or("").to_string();
+        if matches!(attribute.kind, Kind::Name(_) | Kind::Ref(_) | Kind::Text) {
+            all.insert(format!("{section}/{element}/{}", attribute.name), attribute.kind);
+        }
+    }
+    all
+});
+
+/// What `objtype` and its like say.
+fn noun_of(word: &str) -> Option<&'static str> {
+    let word = if word == "xbody" { "body" } else { word };
+    SCHEMA.values().find_map(|kind| match kind {
+        Kind::Name(noun) if *noun == word => Some(*noun),
+        _ => None,
+    })
+}
+
+/// All names of a model's text.
+pub(super) fn mentions(xml: &str) -> Mentions {
+    let mut found = Mentions::default();
+    // Below the root, the first element that is open is the section.
+    let mut open: Vec<&str> = Vec::new();
+    let mut at = 0;
+    while let Some(start) = xml.get(at..).and_then(|rest| rest.find('<')).map(|i| at + i) {
+        let rest = xml.get(start..).unwrap_or("");
+        let behind = |end: &str| rest.find(end).map_or(xml.len(), |i| start + i + end.len());
+        if rest.starts_with("<!--") {
+            at = behind("-->");
+        } else if rest.starts_with("<![CDATA[") {
+            at = behind("]]>");
+        } else if rest.starts_with("<?") || rest.starts_with("<!") {
+            at = behind(">");
+        } else if let Some(name) = rest.strip_prefix("</") {
+            let name = word(name);
+            // An element that was never closed ends with the one around it.
+            if let Some(depth) = open.iter().rposition(|o| *o == name) {
+                open.truncate(depth);
+            }
+            at = start + 2 + name.len();
+        } else {
+            let name = word(rest.get(1..).unwrap_or(""));
+            let (attributes, end, closed) = attributes(xml, start + 1 + name.len());
+            let section = open.get(1).copied().unwrap_or(name);
+            element(xml, section, name, &attributes, &mut found);
+            if !closed && !name.is_empty() && open.len() < 1000 {
+                open.push(name);
+            }
+            at = end.max(start + 1);
+        }
+    }
+    found
+}
+
+/// The name that a text begins with.
+fn word(text: &str) -> &str {
+    let end = text
+        .find(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '-' | ':' | '.')))
+        .unwrap_or(text.len());
+    text.get(..end).unwrap_or("")
+}
+
+/// The name of an attribute, and the bytes of its value.
+type Attribute<'x> = (&'x str, Range<usize>);
+
+/// The attributes of a tag from a byte on, where the tag ends, and whether the element does, too.
+fn attributes(xml: &str, from: usize) -> (Vec<Attribute<'_>>, usize, bool) {
+    let (mut all, mut at) = (Vec::new(), from);
+    let rest = |at: usize| xml.get(at..).unwrap_or("");
+    let blank = |at: usize| at + rest(at).len() - rest(at).trim_start().len();
+    loop {
+        at = blank(at);
+        let name = word(rest(at));
+        let Some(first) = rest(at).chars().next() else { return (all, at, false) };
+        match first {
+            '>' => return (all, at + 1, false),
+            '/' if rest(at).starts_with("/>") => return (all, at + 2, true),
+            // The next tag begins: this one was not finished.
+            '<' => return (all, at, false),
+            _ if name.is_empty() => at += first.len_utf8(),
+            _ => {
+                let equals = blank(at + name.len());
+                at += name.len();
+                if !rest(equals).starts_with('=') {
+                    continue;
+                }
+                let start = blank(equals + 1);
+                let Some(quote) = rest(start).chars().next().filter(|c| matches!(c, '"' | '\'')) else {
+                    at = start;
+                    continue;
+                };
+                let Some(length) = rest(start + 1).find(quote) else { return (all, xml.len(), false) };
+                all.push((name, start + 1..start + 1 + length));
+                at = start + 1 + length + 1;
+            }
+        }
+    }
+}
+
+/// Notes the names that an element has and names.
+fn element(xml: &str, section: &str, name: &str, attributes: &[Attribute<'_>], found: &mut Mentions) {
+    if COMPOSING.contains(&name) {
+        found.composed.get_or_insert_with(|| name.to_string());
+    }
+    let value = |span: &Range<usize>| xml.get(span.clone()).unwrap_or("");
+    for (attribute, span) in attributes {
+        let (noun, defines) = match SCHEMA.get(&format!("{section}/{name}/{attribute}")) {
+            Some(Kind::Name(noun)) => (*noun, true),
+            Some(Kind::Ref(noun)) => (*noun, false),
+            Some(Kind::Text) => {
+                // What `objname` and `refname` name is told by the attribute beside them.
+                let teller = attribute.strip_suffix("name").map(|beginning| format!("{beginning}type"));
+                let told = attributes.iter().find(|(a, _)| Some(*a) == teller.as_deref());
+                match told.and_then(|(_, span)| noun_of(value(span))) {
+                    Some(noun) => (noun, false),
+                    None => {
+                        found.texts.push((value(span).to_string(), span.clone()));
+                        continue;
+                    }
+                }
+            }
+            _ => continue,
+        };
+        let name = value(span).to_string();
+        if !name.is_empty() && !name.contains('&') {
+            found.all.push(Mention { noun, name, span: span.clone(), defines });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn shown(xml: &str) -> Vec<String> {
+        let found = mentions(xml).all.into_iter();
+        found
+            .map(|m| {
+                assert_eq!(&xml[m.span.clone()], m.name);
+                format!("{}{} {}", if m.defines { "+" } else { "" }, m.noun, m.name)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn names_and_what_names_them() {
+        let xml = r#"<?xml version="1.0"?><mujoco model="m"><!-- <body name="no"/> -->
+            <worldbody><body name="arm"><joint name = 'hinge' type="hinge"/><geom class="x" material="red"/>
+            <body name="hand"><site name="tip"/></body></body><frame><geom name="g"/></frame></worldbody>
+            <contact><exclude body1="arm" body2="hand"/></contact>
+            <actuator><motor name="pull" joint="hinge"/></actuator>
+            <sensor><framepos objtype="site" objname="tip"/><jointpos joint="hinge"/></sensor></mujoco>"#;
+        assert_eq!(
+            shown(xml),
+            [
+                "+body arm",
+                "+joint hinge",
+                "material red",
+                "+body hand",
+                "+site tip",
+                "+geom g",
+                "body arm",
+                "body hand",
+                "+actuator pull",
+                "joint hinge",
+                "site tip",
+                "joint hinge",
+            ]
+        );
+        assert_eq!(mentions(xml).composed, None);
+        assert_eq!(
+            mentions("<mujoco><worldbody><replicate count='3'>").composed.as_deref(),
+            Some("replicate")
+        );
+    }
+
+    #[test]
+    fn broken_models_keep_their_names() {
+        assert_eq!(
+            shown("<mujoco><worldbody><body name='a' <joint name='j'/><geom name='g"),
+            ["+body a", "+joint j"]
+        );
+        assert_eq!(
+            shown("<mujoco><worldbody><body name='a'></wrong><geom name=\"g\"/>"),
+            ["+body a", "+geom g"]
+        );
+    }
+
+    proptest! {
+        /// No text is a panic, and every place is one.
+        #[test]
+        fn any_text_is_read(text in "[<>/='\"a! \\-é]{0,40}|(<mujoco>|<worldbody>|<body |name=|'a'|/>|<!--|\\]\\]>|</body>|é){0,12}") {
+            for m in mentions(&text).all {
+                prop_assert_eq!(&text[m.span], m.name);
+            }
+        }
+    }
+}

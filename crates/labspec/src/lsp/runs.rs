@@ -1,0 +1,59 @@
+//! What only runs find, on a thread of its own: started when a lesson is saved, stopped when newer text comes.
+
+use crate::bind::scene::Models;
+use crate::check::{self, Depth};
+use crate::finding::Finding;
+use crate::interrupt;
+use crate::lint::load_lesson;
+use crate::source::SourceFile;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The stack of the thread: that of a main thread.
+const STACK: usize = 8 << 20;
+
+/// What was found of a version of a document.
+#[derive(Debug)]
+pub(super) struct Ran {
+    pub(super) uri: String,
+    pub(super) version: i64,
+    pub(super) findings: Vec<Finding>,
+}
+
+/// A check that goes on.
+#[derive(Debug)]
+pub(super) struct Job {
+    pub(super) uri: String,
+    stop: Arc<AtomicBool>,
+}
+
+impl Job {
+    /// Checks a text with all its runs. `done` is called at the end, unless it was stopped.
+    pub(super) fn start(
+        uri: &str,
+        version: i64,
+        file: SourceFile,
+        models: Arc<Models>,
+        done: impl FnOnce(Ran) + Send + 'static,
+    ) -> Option<Job> {
+        let (stop, uri) = (Arc::new(AtomicBool::new(false)), uri.to_string());
+        let (asked, of) = (stop.clone(), uri.clone());
+        let work = move || {
+            let findings = interrupt::until(asked.clone(), || {
+                let lesson = load_lesson(file, models.folder());
+                check::check(lesson, &models, Depth::FULL).findings
+            });
+            // What a run that was stopped says is not used.
+            if !asked.load(Ordering::Relaxed) {
+                done(Ran { uri: of, version, findings });
+            }
+        };
+        std::thread::Builder::new().stack_size(STACK).spawn(work).ok()?;
+        Some(Job { uri, stop })
+    }
+
+    /// Its outcome is no longer wanted.
+    pub(super) fn stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+}

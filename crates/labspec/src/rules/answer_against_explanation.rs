@@ -1,0 +1,94 @@
+use super::Check;
+use super::wording::{Number, numbers, plain};
+use crate::finding::Finding;
+use crate::spec::{Question, QuestionKind};
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// The explanation of a numeric question ends with another number than the key.
+pub const ANSWER_AGAINST_EXPLANATION: &Rule = &Rule {
+    code: "answer-against-explanation",
+    severity: Severity::Warning,
+    layer: Layer::Structure,
+    summary: "the explanation of a numeric question gives another number than its answer",
+    why: "who has understood the explanation, and computes again, does not come to the number that counts as right",
+    bad: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast, in m/s?", "answer": ⟦12.65⟧, "tol": 0.05, "unit": "m/s", "explain": "$v = \\sqrt{2 g h}$ = 12.64 m/s."}]}"#,
+    ),
+    good: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast, in m/s?", "answer": 12.64, "tol": 0.05, "unit": "m/s", "explain": "$v = \\sqrt{2 g h}$ = 12.64 m/s."}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Question(check);
+
+/// Numbers that are as near as this, of the answer, are meant to be it.
+const NEAR: f64 = 0.02;
+/// Characters before and behind a number that say what it is.
+const AROUND: usize = 60;
+/// How a slip changes a number.
+const SLIPS: [(f64, &str); 6] = [
+    (-1.0, "the sign is another one"),
+    (10.0, "that is a tenth of it"),
+    (100.0, "that is a hundredth of it"),
+    (0.1, "that is ten times as much"),
+    (0.01, "that is a hundred times as much"),
+    (2.0, "that is half of it"),
+];
+
+fn check(question: &Question, findings: &mut Vec<Finding>) {
+    let QuestionKind::Numeric { answer: Some(answer), unit, .. } = &question.kind else { return };
+    let Some(explain) = &question.explain else { return };
+    let key = answer.value;
+    let decimals = format!("{key}").split_once('.').map_or(0, |(_, d)| d.len());
+    let is = |n: &Number, value: f64, decimals: usize| {
+        (n.value - value).abs() <= 0.5000001 * 0.1_f64.powi(n.decimals.min(decimals) as i32)
+    };
+    let html = explain.as_str();
+    let all = numbers(html);
+    if key == 0.0 || all.iter().any(|n| is(n, key, decimals)) {
+        return;
+    }
+    let unit = unit.as_ref().map_or(String::new(), |u| bare(u.as_str()));
+    let result = |n: &&Number| n.significant >= 2 && is_result(html, n, &unit);
+    for n in all.iter().filter(result) {
+        let slip = SLIPS.iter().find(|(by, _)| is(n, key / by, decimals + 2) && n.value != 0.0);
+        let why = match slip {
+            _ if (n.value - key).abs() <= NEAR * key.abs() => "the two differ at the digits that are printed",
+            Some((_, words)) => words,
+            None => continue,
+        };
+        let shown = html.get(n.at.clone()).unwrap_or("");
+        let sign = if n.value < 0.0 { "-" } else { "" };
+        findings.push(
+            Finding::new(
+                ANSWER_AGAINST_EXPLANATION,
+                answer.span.clone(),
+                format!("the answer is {key}, and its explanation comes to {sign}{shown}: {why}"),
+            )
+            .related(explain.span_of(n.at.clone()), "the explanation")
+            .help("compute it again, and write one number in both places"),
+        );
+        return;
+    }
+}
+
+/// Whether a number is what a line of the explanation comes to: behind `=`, `≈`, `:` or `is`, in the unit of the answer.
+fn is_result(html: &str, n: &Number, unit: &str) -> bool {
+    // What stands near it.
+    let back = html.get(..n.at.start).unwrap_or("").char_indices().rev().nth(AROUND).map_or(0, |(at, _)| at);
+    let before = plain(html.get(back..n.at.start).unwrap_or(""));
+    let before = before.trim_end_matches(['$', ' ', '-', '−', '{', '~']).trim_end_matches("about");
+    let before = before.trim_end();
+    let behind = ["=", "≈", ":", " is", "\\approx"].iter().any(|mark| before.ends_with(mark));
+    let after: String = html.get(n.at.end..).unwrap_or("").chars().take(AROUND).collect();
+    let after = bare(&plain(&after));
+    // Another unit, another number.
+    let ends = after.is_empty() || after.starts_with(['.', ',', ';', ')', ':']);
+    let own = !unit.is_empty() && after.starts_with(unit);
+    behind && (ends || own)
+}
+
+/// A unit, or what stands behind a number, without spaces and marks of formulas.
+fn bare(text: &str) -> String {
+    text.chars().filter(|c| !c.is_whitespace() && !"$\\^{}°".contains(*c)).collect::<String>().replace('²', "2")
+}

@@ -1,0 +1,88 @@
+use super::Check;
+use super::wording::loose;
+use crate::finding::Finding;
+use crate::spec::{Question, QuestionKind};
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// The explanation says that another option is the right one.
+pub const EXPLAINS_ANOTHER_OPTION: &Rule = &Rule {
+    code: "explains-another-option",
+    severity: Severity::Warning,
+    layer: Layer::Structure,
+    summary: "the explanation calls another option right than the key",
+    why: "a student reads that the option is right for which no point was given",
+    bad: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": ⟦0⟧, "explain": "Option B is right: mass cancels."}]}"#,
+    ),
+    good: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1, "explain": "Option B is right: mass cancels."}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Question(check);
+
+const ORDINALS: [&str; 6] = ["first", "second", "third", "fourth", "fifth", "sixth"];
+/// Options that have a letter.
+const MOST: usize = 26;
+const THINGS: [&str; 3] = ["option", "answer", "choice"];
+const RIGHT: [&str; 2] = ["right", "correct"];
+
+fn check(question: &Question, findings: &mut Vec<Finding>) {
+    let QuestionKind::Choice { options, answer: Some(answer), .. } = &question.kind else { return };
+    let (Some(explain), Some(key)) = (&question.explain, question.right_option()) else { return };
+    let text = format!(" {} ", loose(explain.as_str()));
+    let named = (0..options.len().min(MOST)).filter(|i| calls_right(&text, *i, options.get(*i).map_or("", |o| o.as_str())));
+    let named: Vec<usize> = named.collect();
+    if let [other] = named.as_slice()
+        && *other != key
+        && let Some(option) = options.get(*other)
+    {
+        findings.push(
+            Finding::new(
+                EXPLAINS_ANOTHER_OPTION,
+                answer.span.clone(),
+                format!("the key is option {}, and the explanation calls option {} right", letter(key), letter(*other)),
+            )
+            .related(explain.span(), "the explanation")
+            .related(option.span(), "what it calls right")
+            .help("one of the two is wrong: the key, which counts from 0, or the explanation"),
+        );
+    }
+}
+
+fn letter(i: usize) -> char {
+    u8::try_from(i).ok().and_then(|i| b'A'.checked_add(i)).map_or('?', char::from)
+}
+
+/// Whether a text says of this option, in so many words, that it is the right one.
+fn calls_right(text: &str, i: usize, option: &str) -> bool {
+    let letter = letter(i).to_lowercase().to_string();
+    let words = loose(option);
+    let long = words.chars().count() >= 3;
+    RIGHT.iter().any(|right| {
+        let named = THINGS.iter().any(|thing| {
+            let ordinal = ORDINALS.get(i).is_some_and(|o| {
+                text.contains(&format!(" {o} {thing} is {right} ")) || text.contains(&format!(" {right} {thing} is the {o} "))
+            });
+            ordinal
+                || text.contains(&format!(" {thing} {letter} is {right} "))
+                || text.contains(&format!(" {right} {thing} is {letter} "))
+                || (long && text.contains(&format!(" {right} {thing} is {words} ")))
+        });
+        named || (long && text.contains(&format!(" {words} is {right} ")) && !text.contains(&format!(" not {words} is ")))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_said_in_so_many_words_counts() {
+        let calls = |text: &str| (0..3).filter(|i| calls_right(&format!(" {} ", loose(text)), *i, ["up", "it falls", "it stays"][*i])).collect::<Vec<_>>();
+        assert_eq!(calls("Option B is right."), [1]);
+        assert_eq!(calls("The correct answer is the third."), [2]);
+        assert_eq!(calls("The right option is \"it falls\"."), [1]);
+        assert_eq!(calls("Option B is wrong, it falls at first."), [] as [usize; 0]);
+    }
+}

@@ -1,0 +1,40 @@
+use super::Check;
+use super::wording::plain;
+use crate::finding::Finding;
+use crate::spec::{Question, QuestionKind};
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// The right option is by far the longest.
+pub const LONG_ANSWER: &Rule = &Rule {
+    code: "long-answer",
+    severity: Severity::Note,
+    layer: Layer::Structure,
+    summary: "the right option is by far the longest",
+    why: "who takes the longest option, and reads nothing, is right",
+    bad: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no", "⟦no: a heavy ball is pulled harder, and is harder to move, by the same factor⟧"], "answer": 2}]}"#,
+    ),
+    good: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes: a heavy ball is pulled harder", "no: it is also harder to move", "no: mass is no force"], "answer": 1}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Question(check);
+
+/// So many times as long as the next, and by so many characters.
+const TIMES: usize = 2;
+const MORE: usize = 30;
+
+fn check(question: &Question, findings: &mut Vec<Finding>) {
+    let QuestionKind::Choice { options, .. } = &question.kind else { return };
+    let Some(right) = question.right_option().and_then(|i| options.get(i)) else { return };
+    let length = |text: &str| plain(text).chars().count();
+    let own = length(right.as_str());
+    let others = options.iter().filter(|o| !std::ptr::eq(*o, right)).map(|o| length(o.as_str())).max();
+    if let Some(next) = others.filter(|n| own >= TIMES * n && own >= n + MORE) {
+        findings.push(
+            Finding::new(LONG_ANSWER, right.span(), format!("the right option has {own} characters, the longest of the others {next}"))
+                .help("move the reason into `explain`, or give the others theirs"),
+        );
+    }
+}

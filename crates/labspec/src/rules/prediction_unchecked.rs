@@ -1,0 +1,37 @@
+use super::Check;
+use crate::finding::Finding;
+use crate::spec::{ChoiceStyle, Lesson, Question, QuestionKind};
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// Predictions that nothing checks.
+pub const PREDICTION_UNCHECKED: &Rule = &Rule {
+    code: "prediction-unchecked",
+    severity: Severity::Note,
+    layer: Layer::Structure,
+    summary: "predictions have no `verify`, so nothing says whether their answers are true",
+    why: "the lab that decides them is at hand: a `verify` is run with every check, and tells when a change of the model makes an answer false",
+    bad: Example::Quiz(
+        r#"{"id": "fall", "questions": [⟦{"kind": "predict", "q": "Does mass matter?", "options": ["yes", "no"], "answer": 1, "sim": {"model": "ball", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}}⟧, {"kind": "predict", "q": "Does height matter?", "options": ["yes", "no"], "answer": 0, "sim": {"model": "ball", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}}]}"#,
+    ),
+    good: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "mcq", "q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Lesson(check);
+
+/// One note for a lesson, with the count, at the first of them.
+fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+    let all = lesson.quizzes.iter().flat_map(|q| q.numbered()).map(|(_, q)| q);
+    let predictions: Vec<&Question> = all
+        .filter(|q| matches!(&q.kind, QuestionKind::Choice { style: ChoiceStyle::Predict, sim: Some(_), .. }))
+        .collect();
+    let open: Vec<&&Question> = predictions.iter().filter(|q| q.verify.is_none()).collect();
+    // One alone is counted among the answers without a check, and not told.
+    let Some(first) = open.first().filter(|_| predictions.len() > 1) else { return };
+    let (count, of) = (open.len(), predictions.len());
+    let message = format!("{count} of {of} predictions have no `verify`, this one first");
+    findings.push(Finding::new(PREDICTION_UNCHECKED, first.span.clone(), message).help(
+        "say under `verify` what is measured in the lab of the question, and one condition for each option",
+    ));
+}

@@ -1,0 +1,52 @@
+use super::Check;
+use super::wording::plain;
+use crate::finding::Finding;
+use crate::spec::{Question, QuestionKind};
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// A tolerance that takes a common slip.
+pub const SLIP_ACCEPTED: &Rule = &Rule {
+    code: "slip-accepted",
+    severity: Severity::Warning,
+    layer: Layer::Structure,
+    summary: "the tolerance of a numeric question takes the commonest slip, a factor of 2",
+    why: "who forgets the one half of an energy, or takes a diameter for a radius, has answered right",
+    bad: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": ⟦2.5⟧}]}"#,
+    ),
+    good: Example::Quiz(
+        r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": 0.1}]}"#,
+    ),
+};
+
+pub(super) const CHECK: Check = Check::Question(check);
+
+/// What an answer becomes when 10 stands for 9.81.
+const ROUND: f64 = 10.0 / 9.81;
+
+fn check(question: &Question, findings: &mut Vec<Finding>) {
+    let Some((answer, tolerance)) = question.numeric() else { return };
+    let QuestionKind::Numeric { answer: Some(key), tol, .. } = &question.kind else { return };
+    let size = answer.abs();
+    // A tolerance as large as the answer is another rule's.
+    if size == 0.0 || tolerance >= size || tolerance < 0.0 {
+        return;
+    }
+    let span = tol.as_ref().map_or(&key.span, |t| &t.span).clone();
+    let half = answer / 2.0;
+    if tolerance >= size / 2.0 {
+        findings.push(
+            Finding::new(SLIP_ACCEPTED, span, format!("{half} counts as right, and the answer is {answer}"))
+                .related(key.span.clone(), "the answer")
+                .help("`tol` is how far an answer may be off, in its unit; leave it out for 2 %"),
+        );
+    } else if (ROUND - 1.0) * size <= tolerance && plain(question.q.as_str()).contains("9.81") {
+        let other = (answer * ROUND * 1e4).round() / 1e4;
+        findings.push(
+            Finding::new(SLIP_ACCEPTED, span, format!("the question says 9.81, and {other}, which 10 gives, counts as right"))
+                .severity(Severity::Note)
+                .why("an answer that goes with g may be off by 1.9 % when g is rounded")
+                .help("make `tol` smaller where that is not meant"),
+        );
+    }
+}

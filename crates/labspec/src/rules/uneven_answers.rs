@@ -1,0 +1,69 @@
+use super::positions::at_least;
+use crate::finding::{Finding, InFile};
+use crate::spec::{Lesson, QuestionKind};
+use labspec_finding::{Example, Layer, Rule, Severity};
+
+/// Right answers stand at one place too often to be chance.
+pub const UNEVEN_ANSWERS: &Rule = &Rule {
+    code: "uneven-answers",
+    severity: Severity::Warning,
+    layer: Layer::Structure,
+    summary: "the right options of a course stand at one place so often that guessing pays",
+    why: "who always takes that place gets the points of a student who has understood half of it",
+    bad: Example::Json(
+        r#"{"id": "fall", "questions": [{"q": "1?", "options": ["a", "b", "c", "d"], "answer": ⟦1⟧}, {"q": "2?", "options": ["a", "b", "c", "d"], "answer": 1}, {"q": "3?", "options": ["a", "b", "c", "d"], "answer": 1}, {"q": "4?", "options": ["a", "b", "c", "d"], "answer": 1}, {"q": "5?", "options": ["a", "b", "c", "d"], "answer": 1}, {"q": "6?", "options": ["a", "b", "c", "d"], "answer": 1}, {"q": "7?", "options": ["a", "b", "c", "d"], "answer": 1}]}"#,
+    ),
+    good: Example::Json(
+        r#"{"id": "fall", "questions": [{"q": "1?", "options": ["a", "b", "c", "d"], "answer": 1}, {"q": "2?", "options": ["a", "b", "c", "d"], "answer": 0}, {"q": "3?", "options": ["a", "b", "c", "d"], "answer": 3}, {"q": "4?", "options": ["a", "b", "c", "d"], "answer": 2}, {"q": "5?", "options": ["a", "b", "c", "d"], "answer": 1}, {"q": "6?", "options": ["a", "b", "c", "d"], "answer": 0}, {"q": "7?", "options": ["a", "b", "c", "d"], "answer": 3}]}"#,
+    ),
+};
+
+/// Chance may do it once in a thousand courses.
+const RARE: f64 = 1e-3;
+/// So many questions say enough.
+const ENOUGH: usize = 3000;
+/// Places that are looked at.
+const MOST: usize = 26;
+
+/// Looks at the whole course: said once, at the first question whose answer stands there.
+pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
+    let mut keys = Vec::new();
+    for lesson in lessons {
+        for (_, question) in lesson.quizzes.iter().flat_map(|q| q.numbered()) {
+            if let QuestionKind::Choice { options, answer: Some(answer), .. } = &question.kind
+                && let Some(right) = question.right_option()
+                && options.len() >= 2
+            {
+                keys.push((right, options.len(), &lesson.file, answer.span.clone()));
+            }
+        }
+    }
+    keys.truncate(ENOUGH);
+    let places = keys.iter().map(|(_, n, ..)| *n).max().unwrap_or(0).min(MOST);
+    let stands = |place: usize| keys.iter().filter(|k| k.0 == place).count();
+    let Some(place) = (0..places).max_by_key(|p| (stands(*p), places - p)) else { return Vec::new() };
+    let chances: Vec<f64> =
+        keys.iter().map(|(_, n, ..)| if place < *n { 1.0 / *n as f64 } else { 0.0 }).collect();
+    // Any of the places could have been the one.
+    let chance = places as f64 * at_least(&chances, stands(place));
+    let Some((.., file, span)) = keys.iter().find(|k| k.0 == place) else { return Vec::new() };
+    if chance >= RARE {
+        return Vec::new();
+    }
+    let counts: Vec<String> = (0..places).map(|p| format!("{} at {p}", stands(p))).collect();
+    let expected: f64 = chances.iter().sum();
+    vec![
+        Finding::plain(
+            UNEVEN_ANSWERS,
+            span.clone(),
+            format!("of {} right options of the course, {} stand at index {place}", keys.len(), stands(place)),
+        )
+        .why(format!(
+            "by lot it would be {expected:.1}, and so many come once in {:.0} courses; all: {}",
+            1.0 / chance,
+            counts.join(", ")
+        ))
+        .help("put the right options of some questions elsewhere")
+        .at(file),
+    ]
+}

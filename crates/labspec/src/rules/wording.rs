@@ -1,0 +1,129 @@
+//! The words and the numbers of a shown text: what two texts have in common, and which number a sentence ends with.
+
+use std::ops::Range;
+
+/// A text of HTML without its tags, entities and runs of spaces.
+pub(super) fn plain(html: &str) -> String {
+    let mut out = String::new();
+    let mut rest = html;
+    while let Some(c) = rest.chars().next() {
+        if let Some(length) = tag(rest) {
+            out.push(' ');
+            rest = rest.get(length..).unwrap_or("");
+            continue;
+        }
+        let known = [("&lt;", '<'), ("&gt;", '>'), ("&amp;", '&'), ("&nbsp;", ' '), ("&quot;", '"')];
+        let entity = known.iter().find(|(name, _)| rest.starts_with(name));
+        out.push(entity.map_or(c, |(_, c)| *c));
+        rest = rest.get(entity.map_or(c.len_utf8(), |(name, _)| name.len())..).unwrap_or("");
+    }
+    out.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Longest tag, bytes.
+const LONGEST: usize = 2000;
+
+/// The length of the tag that a text begins with.
+fn tag(text: &str) -> Option<usize> {
+    let inside = text.strip_prefix('<')?;
+    let name = inside.strip_prefix('/').unwrap_or(inside);
+    let near = || text.bytes().take(LONGEST).position(|b| b == b'>').map(|end| end + 1);
+    name.starts_with(|c: char| c.is_ascii_alphabetic()).then(near)?
+}
+
+/// What a text says, whatever its capitals, marks and articles. Code and formulas are as they stand: there, every character counts.
+pub(super) fn said(html: &str) -> String {
+    if html.contains("<code") || html.contains('$') || html.contains('`') {
+        return plain(html);
+    }
+    let text = loose(html);
+    text.split(' ').filter(|w| !["a", "an", "the"].contains(w)).collect::<Vec<_>>().join(" ")
+}
+
+/// The words of a text without capitals and marks, code and formulas too.
+pub(super) fn loose(html: &str) -> String {
+    let lower = plain(html).to_lowercase();
+    let kept: String = lower.chars().map(|c| if ",;:!?'\"“”‘’()".contains(c) { ' ' } else { c }).collect();
+    let words = kept.split_whitespace().map(|w| w.trim_end_matches('.'));
+    words.filter(|w| !w.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+/// A number in a text.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Number {
+    /// Bytes of the text.
+    pub(super) at: Range<usize>,
+    pub(super) value: f64,
+    /// Digits behind the point.
+    pub(super) decimals: usize,
+    /// Digits from the first that is not 0.
+    pub(super) significant: usize,
+}
+
+/// The numbers of a text of HTML; powers of ten, indices and exponents are none.
+pub(super) fn numbers(html: &str) -> Vec<Number> {
+    let mut all = Vec::new();
+    let mut at = 0;
+    while let Some(rest) = html.get(at..).filter(|r| !r.is_empty()) {
+        if let Some(length) = tag(rest) {
+            at += length;
+            continue;
+        }
+        let Some(c) = rest.chars().next() else { break };
+        if !c.is_ascii_digit() {
+            at += c.len_utf8();
+            continue;
+        }
+        let whole = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+        let tail = rest.get(whole..).unwrap_or("");
+        let part =
+            tail.strip_prefix('.').map_or(0, |t| t.find(|c: char| !c.is_ascii_digit()).unwrap_or(t.len()));
+        let length = whole + if part > 0 { part + 1 } else { 0 };
+        all.extend(number(html, at..at + length, part));
+        at += length;
+    }
+    all
+}
+
+fn number(html: &str, at: Range<usize>, decimals: usize) -> Option<Number> {
+    let (before, after) = (html.get(..at.start)?, html.get(at.end..)?);
+    let digits = html.get(at.clone())?;
+    let negative = before.ends_with(['-', '−']);
+    let outer = before.trim_end_matches(['-', '−']);
+    // An exponent, an index, a part of a name.
+    let part = outer.ends_with(['^', '_', '.', '\\']) || outer.ends_with(|c: char| c.is_alphabetic());
+    let inner = outer.ends_with("^{") || outer.ends_with("_{") || outer.ends_with("{,}");
+    let joined = after.starts_with(['^', '_', '/', '×', '*', 'e', 'E', ',']) && !after.starts_with(", ");
+    let power = [" ×", "×", "\\times", " \\times", "\\cdot", " \\cdot", " *", " /", " x 1"]
+        .iter()
+        .any(|p| after.starts_with(p));
+    if part || inner || joined || power || after.starts_with("{,}") {
+        return None;
+    }
+    // `a - b` is a difference, `a = -b` a negative number.
+    let sign = negative && !outer.trim_end().ends_with(|c: char| c.is_alphanumeric() || ")}".contains(c));
+    let value: f64 = digits.parse().ok()?;
+    let significant = digits.bytes().filter(u8::is_ascii_digit).skip_while(|b| *b == b'0').count();
+    Some(Number { at, value: if sign { -value } else { value }, decimals, significant })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_told_from_indices_and_powers() {
+        let of = |text: &str| numbers(text).into_iter().map(|n| n.value).collect::<Vec<_>>();
+        assert_eq!(of("<p>7 + 2 = 9, plus 21: 30. And x_1 = -4.50 m</p>"), [7.0, 2.0, 9.0, 21.0, 30.0, -4.5]);
+        assert_eq!(of("$10^{-11}$ and $2 \\times 9.81 \\times 0.3$ = 5.886 N m"), [0.3, 5.886]);
+        assert_eq!(of("5 − 0.367 = 4.633"), [5.0, 0.367, 4.633]);
+    }
+
+    #[test]
+    fn texts_say_the_same_whatever_their_marks() {
+        assert_eq!(said("The <b>ball</b>, falls."), said("ball falls"));
+        assert_ne!(said("it rises"), said("it does not rise"));
+        assert_ne!(said("-1"), said("1"));
+        assert_ne!(said("<code>Data</code>"), said("<code>data</code>"));
+    }
+}

@@ -1,0 +1,278 @@
+//! The dimension of every expression of the labs that people wrote, or an honest `unknown`; and that no label of theirs is told to be
+//! wrong that is not.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::mutants::material::{self, What};
+use crate::needs::needs;
+use labspec::bind::scene::Models;
+use labspec::bind::{ModelNames, Programs, Scope};
+use labspec::check::{self, Depth};
+use labspec::lint::{ModelFolder, load_lesson};
+use labspec::source::SourceFile;
+use labspec_bind::units::written;
+use labspec_expr::Schema;
+use labspec_expr::dimension::Measure;
+use std::fmt::Write;
+
+const CODES: [&str; 3] = ["label-unit", "mixed-dimensions", "label-names-another"];
+
+fn word(measure: &Measure) -> String {
+    match measure {
+        Measure::Anything => "a number of the text".into(),
+        Measure::Known(d) => written(d),
+        Measure::Unknown => "unknown".into(),
+    }
+}
+
+#[test]
+fn every_expression_has_a_dimension_or_none_that_is_known() {
+    if !needs("../shared/corpus") {
+        return;
+    }
+    let models = material::models();
+    let (mut page, mut known, mut loose, mut literal, mut unknown) = (String::new(), 0, 0, 0, 0);
+    for piece in material::pieces().iter().filter(|p| p.what == What::Lab) {
+        let models = &models[piece.models];
+        let (name, text) = piece.file(&piece.json);
+        let lesson = load_lesson(SourceFile::new(name, text), models.folder());
+        let lab = lesson.all_labs()[0].clone();
+        let mut findings = Vec::new();
+        let Some(model) = models.of(&lab, &mut findings) else { panic!("{}", piece.name) };
+        let programs = Programs::compile(&lab, &model, &mut findings);
+        let names = ModelNames::new(&model, Scope::Lab);
+        let found = check::dimensions(&lab, &model, &programs);
+        writeln!(page, "{}", piece.name).unwrap();
+        for (probe, measured) in programs.probes.iter().zip(&found.probes) {
+            let measure = measured.as_ref().unwrap().value;
+            match measure {
+                Measure::Known(d) if d.factor.is_nan() => loose += 1,
+                Measure::Known(_) => known += 1,
+                Measure::Anything => literal += 1,
+                Measure::Unknown => unknown += 1,
+            }
+            let text = &probe.bound.as_ref().unwrap().text.value;
+            writeln!(page, "  {}: {}  <- {text}", probe.name, word(&measure)).unwrap();
+        }
+        let labels = programs.controls.iter().map(|(label, _)| label.as_str()).chain(["setup", "controller"]);
+        for (label, measured) in labels.zip(found.controls.iter().chain(&found.others)) {
+            let Some(measured) = measured else { continue };
+            for stored in &measured.stores {
+                let a = stored.access;
+                let field = labspec_core::reflect::FieldId::new(a.field.0 as usize).unwrap().info().name;
+                let wanted = word(&names.measure(a.field, a.first, a.count));
+                let what = word(&stored.measure);
+                writeln!(page, "  {label}: {field}[{}], {wanted}, is set to {what}", a.first).unwrap();
+            }
+            for (slot, measure) in &measured.variables {
+                let name = programs.globals.name(*slot);
+                writeln!(page, "  {label}: ctx.{name} is set to {}", word(measure)).unwrap();
+            }
+        }
+        let depth = Depth { programs: true, labs: false, claims: false };
+        for f in check::check(lesson, models, depth).findings {
+            if CODES.contains(&f.code) {
+                writeln!(page, "  told: {} {}", f.code, f.message).unwrap();
+            }
+        }
+    }
+    writeln!(
+        page,
+        "\n{known} known, {loose} known but for a factor, {literal} numbers of the text, {unknown} unknown"
+    )
+    .unwrap();
+    insta::assert_snapshot!(page);
+}
+
+/// What is told of one lab: its model has two slides, `left` and `right`, a hinge `door` and a ball `ball`.
+fn told(keys: &str) -> Vec<String> {
+    let body = |name: &str, joint: &str| {
+        format!(
+            "<body name='{name}'><joint name='{name}' type='{joint}' axis='0 1 0'/><geom size='.1'/></body>"
+        )
+    };
+    let model = format!(
+        "<mujoco><worldbody>{}{}{}<body name='ball' pos='0 0 1'><freejoint/><geom size='.1'/></body></worldbody>\
+         <actuator><motor name='push' joint='left'/><position name='servo' joint='door' kp='7'/></actuator>\
+         <sensor><jointvel joint='door'/><accelerometer site='tip'/></sensor></mujoco>",
+        body("left", "slide"),
+        body("right", "slide"),
+        body("door", "hinge"),
+    )
+    .replacen("<geom size='.1'/>", "<geom size='.1'/><site name='tip'/>", 1);
+    let text = format!("```lab simlab\n{{\"xml\": {}, {keys}}}\n```\n", serde_json::json!(model));
+    let folder = ModelFolder::unknown();
+    let lesson = load_lesson(SourceFile::new("t.md", text), &folder);
+    let depth = Depth { programs: true, labs: false, claims: false };
+    let checked = check::check(lesson, &Models::new(folder), depth);
+    let errors: Vec<_> = checked.findings.iter().filter(|f| f.is_error()).collect();
+    assert!(errors.is_empty(), "{keys}: {errors:#?}");
+    checked.findings.into_iter().filter(|f| CODES.contains(&f.code)).map(|f| f.message).collect()
+}
+
+fn readout(label: &str, expr: &str) -> Vec<String> {
+    told(&format!("\"readouts\": [{}]", serde_json::json!({"label": label, "expr": expr})))
+}
+
+#[test]
+fn units_that_contradict_are_told() {
+    for (label, expr, unit) in [
+        ("x (mm)", "data.qpos[0]", "m"),
+        ("x (m)", "1000 * data.qpos[0]", "mm"),
+        ("x (m/s)", "data.qpos[0]", "m"),
+        ("v (mm/s)", "Math.hypot(data.qvel[0], data.qvel[1])", "m/s"),
+        ("angle (deg)", "data.qpos[2]", "rad"),
+        ("angle (rad)", "data.qpos[2] * 180 / Math.PI", "deg"),
+        ("angle (rad)", "lib.deg(data.joint('door').qpos[0])", "deg"),
+        ("angle [°]", "Math.atan2(data.qpos[0], data.qpos[1])", "rad"),
+        ("turns (Hz)", "data.qvel[2]", "rad/s"),
+        ("height (m)", "data.qpos[6]", "1"),
+        ("speed (m/s)", "data.qvel[2]", "rad/s"),
+        ("p (kg m/s)", "model.body_mass[1] * data.qpos[0]", "kg m"),
+        ("g (m/s^2)", "Math.sqrt(model.opt.gravity[2] * data.qpos[0])", "m/s"),
+        ("E (N)", "lib.energy().total", "N m"),
+        ("turning (rad)", "data.sensordata[0]", "rad/s"),
+        ("a (m/s)", "data.sensordata[1]", "m/s^2"),
+        ("F (N m)", "data.actuator_force[0]", "N"),
+        ("M (N)", "data.actuator_force[1]", "N m"),
+        ("t (ms)", "data.time > 1 ? data.time : 0", "s"),
+        ("x (mm)", "Math.max(0, 0.3 - data.qpos[0])", "m"),
+        ("height (mm)", "lib.bodyPos('ball')[2]", "m"),
+        ("x (mm)", "2 * data.qpos[0]", "m, times 2"),
+    ] {
+        let found = readout(label, expr);
+        let [message] = found.as_slice() else { panic!("{label}, {expr}: {found:?}") };
+        assert!(message.ends_with(&format!(", and the expression gives {unit}")), "{message}");
+    }
+}
+
+#[test]
+fn what_may_be_right_is_not_told() {
+    for (label, expr) in [
+        ("x (mm)", "1000 * data.qpos[0]"),
+        ("x (m)", "data.qpos[0] - 0.3"),
+        ("x (m)", "1 - Math.cos(data.qpos[2])"),
+        ("v (m/s)", "9.81 * data.time"),
+        ("F (N)", "1000 * data.qpos[0]"),
+        ("arc (m)", "data.qpos[2] * data.qpos[0]"),
+        ("angle (deg)", "180 / Math.PI * data.qpos[2]"),
+        ("angle (deg)", "lib.deg(data.qpos[2])"),
+        ("E (J)", "0.5 * model.body_mass[1] * data.qvel[0] ** 2"),
+        ("E (J)", "lib.energy().total"),
+        ("ball(s)", "data.qpos[0]"),
+        ("of the car (A)", "data.qpos[0]"),
+        ("slope (coarse)", "data.qpos[0]"),
+        ("torque (N m)", "data.actuator_force[1]"),
+        ("set point (rad)", "data.ctrl[1]"),
+        ("force (N)", "data.ctrl[0]"),
+        ("x (m)", "ctx.kept || 0"),
+        ("x, v", "data.qpos[0] + 0.1 * data.qvel[0]"),
+    ] {
+        let setup = "\"setup\": \"ctx.kept = data.qpos[0]; ctx.kept = data.time\"";
+        let readouts = serde_json::json!([{"label": label, "expr": expr}]);
+        assert_eq!(
+            told(&format!("{setup}, \"readouts\": {readouts}")),
+            Vec::<String>::new(),
+            "{label}, {expr}"
+        );
+    }
+}
+
+#[test]
+fn variables_and_loops_keep_what_is_stored() {
+    for (setup, expr, found) in [
+        ("ctx.x = data.qpos[0]", "ctx.x", true),
+        ("ctx.x = null", "ctx.x", false),
+        ("const late = data.qpos[0]; ctx.x = late", "ctx.x", true),
+        ("for (let i = 0; i < 2; i++) ctx.x = data.xpos[i]", "ctx.x", true),
+        ("ctx.x = data.qpos[0]; ctx.y = ctx.x", "ctx.y", true),
+        ("ctx.x = data.qpos[0]; ctx['x'] = data.time", "ctx.x", false),
+        ("ctx.x = 0; for (let i = 0; i < 3; i++) ctx.x += data.xpos[i % 2]", "ctx.x", true),
+        ("let x = 1; for (let i = 0; i < 3; i++) x *= data.qpos[0]; ctx.x = x", "ctx.x", false),
+    ] {
+        let readouts = serde_json::json!([{"label": "x (mm)", "expr": expr}]);
+        let setup = serde_json::json!(setup);
+        let all = told(&format!("\"setup\": {setup}, \"readouts\": {readouts}"));
+        assert_eq!(!all.is_empty(), found, "{setup}: {all:?}");
+    }
+}
+
+#[test]
+fn controls_are_held_against_what_they_set() {
+    let slider = |unit: &str, key: &str, text: &str| {
+        told(&format!(
+            "\"controls\": [{}]",
+            serde_json::json!({"label": "c", "unit": unit, key: text, "min": 0, "max": 1, "value": 0})
+        ))
+    };
+    for (unit, key, text) in [
+        ("mm", "set", "data.qpos[0]"),
+        ("deg", "set", "data.qpos[2]"),
+        ("deg", "apply", "const a = value; data.qpos[2] = a"),
+        ("g", "apply", "model.body_mass[1] = value; mj_setConst"),
+        ("kg", "set", "model.opt.gravity[2]"),
+        ("m/s", "set", "data.qpos[0]"),
+        ("N m", "set", "data.ctrl[0]"),
+    ] {
+        let found = slider(unit, key, text);
+        // A lone gram is doubtful: it is the gravity, too.
+        assert_eq!(found.len(), usize::from(unit != "g"), "{unit} {text}: {found:?}");
+    }
+    for (unit, key, text) in [
+        ("m", "set", "data.qpos[0]"),
+        ("mm", "apply", "data.qpos[0] = value / 1000"),
+        ("mm", "apply", "data.qpos[0] = 1e-3 * value"),
+        ("deg", "apply", "data.qpos[2] = value * Math.PI / 180"),
+        ("deg", "apply", "data.qpos[2] = lib.rad(value)"),
+        ("N", "set", "data.ctrl[0]"),
+        ("rad", "set", "data.ctrl[1]"),
+        ("s", "set", "model.geom_solref[0]"),
+        ("times", "set", "model.body_mass[1]"),
+    ] {
+        assert_eq!(slider(unit, key, text), Vec::<String>::new(), "{unit} {text}");
+    }
+}
+
+#[test]
+fn sums_of_what_cannot_be_added_are_told() {
+    for (expr, count) in [
+        ("data.qpos[0] + data.time", 1),
+        ("data.qpos[0] > data.qvel[0]", 1),
+        ("Math.min(data.qpos[0], data.time)", 1),
+        ("Math.hypot(data.qvel[0], data.qpos[1])", 1),
+        ("data.qpos[0] + data.qvel[0] * data.time", 0),
+        ("data.qpos[0] + 2 * data.time", 0),
+        ("data.qpos[0] + data.qpos[1]", 0),
+    ] {
+        let found = readout("sum", expr);
+        assert_eq!(found.len(), count, "{expr}: {found:?}");
+    }
+}
+
+#[test]
+fn labels_that_name_another_are_told() {
+    let both = |readouts: &[(&str, &str)]| {
+        let list: Vec<_> = readouts.iter().map(|(l, e)| serde_json::json!({"label": l, "expr": e})).collect();
+        told(&format!("\"readouts\": {}", serde_json::json!(list)))
+    };
+    let (l, r) = ("data.qpos[0]", "data.qpos[1]");
+    for (readouts, count) in [
+        (&[("left (m)", r)][..], 1),
+        (&[("left (m)", l), ("right (m)", r)], 0),
+        (&[("left (m)", r), ("right (m)", l)], 2),
+        (&[("place of left (m)", r), ("place of right (m)", l)], 2),
+        (&[("place of left (m)", r), ("place of right (m)", r)], 1),
+        // Nothing says that the name is not the place from which something is measured.
+        (&[("behind left (m)", r)], 0),
+        (&[("left against right (m)", r)], 0),
+        (&[("left (m)", "data.qpos[1] - data.qpos[0]")], 0),
+        (&[("left (m)", "ctx.x || data.qpos[1]")], 0),
+        (&[("left (s)", "data.time")], 0),
+        (&[("left (m)", "data.site('tip').xpos[0]")], 0),
+        // Each label names what lies before what it shows.
+        (&[("end of left", "data.xpos[6]"), ("end of right", "data.xpos[9]")], 0),
+    ] {
+        let found = both(readouts);
+        assert_eq!(found.len(), count, "{readouts:?}: {found:?}");
+    }
+}
