@@ -30,8 +30,9 @@ fn check(xml: &str, controls: Json, verify: Json, says: &[(&str, &str)]) -> Chec
 /// The same; everything must be right.
 fn verified(xml: &str, controls: Json, verify: Json, says: &[(&str, &str)]) {
     let checked = check(xml, controls, verify, says);
-    // Some of these numbers are those of a timestep, which is noted.
-    let wrong: Vec<_> = codes(&checked).into_iter().filter(|&c| c != "quote-of-timestep").collect();
+    // Some of these numbers are those of a timestep, which is noted; and one slider puts the balls back where they began.
+    let known = ["quote-of-timestep", "setconst-jumps"];
+    let wrong: Vec<_> = codes(&checked).into_iter().filter(|c| !known.contains(c)).collect();
     assert_eq!(wrong, [""; 0], "{:#?}", checked.findings);
     let claim = &checked.claims[0];
     let right = claim.judgement.quotes.iter().filter(|q| q.state == QuoteState::Right).count();

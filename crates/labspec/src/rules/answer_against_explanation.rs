@@ -90,5 +90,8 @@ fn is_result(html: &str, n: &Number, unit: &str) -> bool {
 
 /// A unit, or what stands behind a number, without spaces and marks of formulas.
 fn bare(text: &str) -> String {
-    text.chars().filter(|c| !c.is_whitespace() && !"$\\^{}°".contains(*c)).collect::<String>().replace('²', "2")
+    text.chars()
+        .filter(|c| !c.is_whitespace() && !"$\\^{}°".contains(*c))
+        .collect::<String>()
+        .replace('²', "2")
 }

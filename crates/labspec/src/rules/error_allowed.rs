@@ -11,6 +11,6 @@ pub const ERROR_ALLOWED: &Rule = &Rule {
         r#"{"model": "ball", "controls": [{"label": "mass", "min": 1, "max": 5, "value": 1}], "lint": {"allow": ["⟦control-without-effect⟧"], "why": "later"}}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "mass", "min": 1, "max": 5, "value": 1, "apply": "model.body_mass[1] = value; mj.mj_setConst(model, data)"}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "mass", "min": 1, "max": 5, "value": 1, "apply": "model.body_mass[1] = value; mj.mj_setConst(model, data)", "reset": true}]}"#,
     ),
 };

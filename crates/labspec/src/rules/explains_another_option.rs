@@ -31,7 +31,8 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, answer: Some(answer), .. } = &question.kind else { return };
     let (Some(explain), Some(key)) = (&question.explain, question.right_option()) else { return };
     let text = format!(" {} ", loose(explain.as_str()));
-    let named = (0..options.len().min(MOST)).filter(|i| calls_right(&text, *i, options.get(*i).map_or("", |o| o.as_str())));
+    let named = (0..options.len().min(MOST))
+        .filter(|i| calls_right(&text, *i, options.get(*i).map_or("", |o| o.as_str())));
     let named: Vec<usize> = named.collect();
     if let [other] = named.as_slice()
         && *other != key
@@ -41,7 +42,11 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
             Finding::new(
                 EXPLAINS_ANOTHER_OPTION,
                 answer.span.clone(),
-                format!("the key is option {}, and the explanation calls option {} right", letter(key), letter(*other)),
+                format!(
+                    "the key is option {}, and the explanation calls option {} right",
+                    letter(key),
+                    letter(*other)
+                ),
             )
             .related(explain.span(), "the explanation")
             .related(option.span(), "what it calls right")
@@ -62,14 +67,18 @@ fn calls_right(text: &str, i: usize, option: &str) -> bool {
     RIGHT.iter().any(|right| {
         let named = THINGS.iter().any(|thing| {
             let ordinal = ORDINALS.get(i).is_some_and(|o| {
-                text.contains(&format!(" {o} {thing} is {right} ")) || text.contains(&format!(" {right} {thing} is the {o} "))
+                text.contains(&format!(" {o} {thing} is {right} "))
+                    || text.contains(&format!(" {right} {thing} is the {o} "))
             });
             ordinal
                 || text.contains(&format!(" {thing} {letter} is {right} "))
                 || text.contains(&format!(" {right} {thing} is {letter} "))
                 || (long && text.contains(&format!(" {right} {thing} is {words} ")))
         });
-        named || (long && text.contains(&format!(" {words} is {right} ")) && !text.contains(&format!(" not {words} is ")))
+        named
+            || (long
+                && text.contains(&format!(" {words} is {right} "))
+                && !text.contains(&format!(" not {words} is ")))
     })
 }
 
@@ -79,7 +88,13 @@ mod tests {
 
     #[test]
     fn only_what_is_said_in_so_many_words_counts() {
-        let calls = |text: &str| (0..3).filter(|i| calls_right(&format!(" {} ", loose(text)), *i, ["up", "it falls", "it stays"][*i])).collect::<Vec<_>>();
+        let calls = |text: &str| {
+            (0..3)
+                .filter(|i| {
+                    calls_right(&format!(" {} ", loose(text)), *i, ["up", "it falls", "it stays"][*i])
+                })
+                .collect::<Vec<_>>()
+        };
         assert_eq!(calls("Option B is right."), [1]);
         assert_eq!(calls("The correct answer is the third."), [2]);
         assert_eq!(calls("The right option is \"it falls\"."), [1]);

@@ -33,8 +33,12 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
     let others = options.iter().filter(|o| !std::ptr::eq(*o, right)).map(|o| length(o.as_str())).max();
     if let Some(next) = others.filter(|n| own >= TIMES * n && own >= n + MORE) {
         findings.push(
-            Finding::new(LONG_ANSWER, right.span(), format!("the right option has {own} characters, the longest of the others {next}"))
-                .help("move the reason into `explain`, or give the others theirs"),
+            Finding::new(
+                LONG_ANSWER,
+                right.span(),
+                format!("the right option has {own} characters, the longest of the others {next}"),
+            )
+            .help("move the reason into `explain`, or give the others theirs"),
         );
     }
 }

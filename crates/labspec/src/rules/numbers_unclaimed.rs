@@ -24,8 +24,8 @@ pub(super) const CHECK: Check = Check::Lesson(check);
 
 /// Units, the longest first.
 const UNITS: [&str; 30] = [
-    "kg m²", "kg m^2", "m/s²", "m/s^2", "rad/s", "mm/s", "cm/s", "N m", "N/m", "m/s", "mrad", "rad", "deg", "kHz",
-    "Hz", "mm", "cm", "km", "µm", "ms", "µs", "kg", "mN", "kN", "mJ", "°", "%", "m", "s", "N",
+    "kg m²", "kg m^2", "m/s²", "m/s^2", "rad/s", "mm/s", "cm/s", "N m", "N/m", "m/s", "mrad", "rad", "deg",
+    "kHz", "Hz", "mm", "cm", "km", "µm", "ms", "µs", "kg", "mN", "kN", "mJ", "°", "%", "m", "s", "N",
 ];
 /// Fewer are not told.
 const FEWEST: usize = 3;
@@ -51,7 +51,9 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     }
     // One or two are what the text begins with.
     if let Some(span) = first.filter(|_| all >= claimed + FEWEST) {
-        let message = format!("{claimed} of {all} numbers with units in the text are claimed; this is the first that is not");
+        let message = format!(
+            "{claimed} of {all} numbers with units in the text are claimed; this is the first that is not"
+        );
         findings.push(
             Finding::new(NUMBERS_UNCLAIMED, span, message)
                 .help("quote those that come from a run under `says` of a `verify`"),
@@ -67,7 +69,10 @@ fn claims(lesson: &Lesson) -> impl Iterator<Item = &Verify> {
 
 /// Without spaces and the marks of formulas.
 fn folded(text: &str) -> String {
-    text.chars().filter(|c| !c.is_whitespace() && !"$\\{}*".contains(*c)).map(|c| if c == '−' { '-' } else { c }).collect()
+    text.chars()
+        .filter(|c| !c.is_whitespace() && !"$\\{}*".contains(*c))
+        .map(|c| if c == '−' { '-' } else { c })
+        .collect()
 }
 
 /// The numbers with units of the prose, in order, with their bytes.

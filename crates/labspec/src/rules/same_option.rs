@@ -32,9 +32,13 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
         match first.get(&words) {
             // What is the same to the letter is another rule's.
             Some(before) if before.as_str() != option.as_str() && !words.is_empty() => findings.push(
-                Finding::new(SAME_OPTION, option.span(), format!("another option says what {} says", named(option.as_str())))
-                    .related(before.span(), "the other one")
-                    .help("change or delete one of them"),
+                Finding::new(
+                    SAME_OPTION,
+                    option.span(),
+                    format!("another option says what {} says", named(option.as_str())),
+                )
+                .related(before.span(), "the other one")
+                .help("change or delete one of them"),
             ),
             Some(_) => {}
             None => {

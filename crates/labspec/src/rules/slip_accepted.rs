@@ -43,10 +43,14 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
     } else if (ROUND - 1.0) * size <= tolerance && plain(question.q.as_str()).contains("9.81") {
         let other = (answer * ROUND * 1e4).round() / 1e4;
         findings.push(
-            Finding::new(SLIP_ACCEPTED, span, format!("the question says 9.81, and {other}, which 10 gives, counts as right"))
-                .severity(Severity::Note)
-                .why("an answer that goes with g may be off by 1.9 % when g is rounded")
-                .help("make `tol` smaller where that is not meant"),
+            Finding::new(
+                SLIP_ACCEPTED,
+                span,
+                format!("the question says 9.81, and {other}, which 10 gives, counts as right"),
+            )
+            .severity(Severity::Note)
+            .why("an answer that goes with g may be off by 1.9 % when g is rounded")
+            .help("make `tol` smaller where that is not meant"),
         );
     }
 }

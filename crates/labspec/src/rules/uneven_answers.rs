@@ -56,7 +56,11 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
         Finding::plain(
             UNEVEN_ANSWERS,
             span.clone(),
-            format!("of {} right options of the course, {} stand at index {place}", keys.len(), stands(place)),
+            format!(
+                "of {} right options of the course, {} stand at index {place}",
+                keys.len(),
+                stands(place)
+            ),
         )
         .why(format!(
             "by lot it would be {expected:.1}, and so many come once in {:.0} courses; all: {}",

@@ -65,7 +65,7 @@ fn acting(m: &Model, j: usize) -> Option<Acting> {
 fn joints(tree: &Tree, m: &Model, report: &mut Report) {
     let h = m.opt.timestep;
     let known = [integrator::EULER, integrator::RK4, integrator::IMPLICIT, integrator::IMPLICITFAST];
-    if !known.contains(&m.opt.integrator) || !(h > 0.0) {
+    if !known.contains(&m.opt.integrator) || h.is_nan() || h <= 0.0 {
         return;
     }
     for j in 0..m.njnt {
@@ -92,7 +92,7 @@ fn joints(tree: &Tree, m: &Model, report: &mut Report) {
             true => ("a spring", (mass / a.spring).sqrt()),
             false => ("a damper", mass / a.explicit),
         };
-        let by = if a.servo { ", with its servo" } else { "" };
+        let by = if a.servo { ", with its servo," } else { "" };
         let message = format!(
             "{}{by} is {what} with a time constant of {} s, and the timestep is {} s",
             shown("joint", name, j),
@@ -100,7 +100,7 @@ fn joints(tree: &Tree, m: &Model, report: &mut Report) {
             digits(h)
         );
         report
-            .warning(rules::TOO_FAST, place(tree, &["joint"], name), message)
+            .note(rules::TOO_FAST, place(tree, &["joint"], name), message)
             .why(format!(
                 "on an inertia of {} the integrator makes it grow from step to step, where nothing else holds it",
                 digits(mass)

@@ -33,7 +33,7 @@ const APPLY: Key = key(
     "apply",
     Type::Code(Form::Statements),
     "statements that see the value as `value`",
-    r#""model.body_mass[1] = 1 + 0.05 * Math.abs(value); mj.mj_setConst(model, data)""#,
+    r#""model.body_mass[1] = 1 + 0.05 * Math.abs(value); const q = data.qpos.slice(); mj.mj_setConst(model, data); data.qpos.set(q)""#,
 );
 
 const PARAM: Key = key(
