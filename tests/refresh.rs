@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::support::{check_text, codes, compile, model_text, workspace};
+use crate::support::{check_text, compile, model_text, workspace};
 use labspec::bind::scene::Models;
 use labspec::check::{self, Depth};
 use labspec::finding::Finding;

@@ -11,10 +11,10 @@ pub const SLIDER_GRID: &Rule = &Rule {
     summary: "the start value of a slider lies between two of its steps",
     why: "the slider stands beside the value that the lab starts with, and a student who moves it cannot come back",
     bad: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 0.1, "max": 2, "step": 0.1, "value": ⟦0.75⟧}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "gravity", "set": "model.opt.gravity[2]", "min": -20, "max": -1, "step": 1, "value": ⟦-9.81⟧}]}"#,
     ),
     good: Example::Lab(
-        r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 0.1, "max": 2, "step": 0.05, "value": 0.75}]}"#,
+        r#"{"model": "ball", "controls": [{"label": "gravity", "set": "model.opt.gravity[2]", "min": -20, "max": -1, "step": 0.01, "value": -9.81}]}"#,
     ),
 };
 
