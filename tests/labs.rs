@@ -49,8 +49,9 @@ const EXCUSED: &[(&str, &str, usize, &str)] = &[
     ),
 ];
 
-/// Two pads that hold a body.
+/// A body that slips between two pads.
 const SLIP: &str = "moves by 0.17 of its range when the start moves by 1e-14";
+/// Two pads that hold a body.
 const GRIP: &str =
     "moves by 5e-4 of its range when the start moves by 1e-14, by 3e-4 when the solver runs to rounding";
 

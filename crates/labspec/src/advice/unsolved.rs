@@ -12,7 +12,9 @@
 //! large one again and again is a scene that nothing holds.
 
 use labspec_core::math::dot_slice;
-use labspec_core::{Data, Model, Plan, Planned, Scope, exhausted, forward, limit, mul_m, solver, work_left};
+use labspec_core::{
+    Data, Model, Plan, Planned, Scope, exhausted, forward, limit, mul_m, solver, state, work_left,
+};
 
 /// A miss of this part matters, when it is seen so many times.
 const PART: f64 = 0.25;
@@ -104,18 +106,7 @@ fn own(m: &Model) -> Own {
 /// The part that is missing, and where most of it is.
 fn missed<S: Scope>(own: &mut Own, m: &Model, d: &Data<S>) -> Option<(f64, usize)> {
     for data in [&mut own.exact, &mut own.data] {
-        let (to, from) = (data.edit(), d.fields());
-        to.qpos.copy_from_slice(&from.qpos);
-        to.qvel.copy_from_slice(&from.qvel);
-        to.act.copy_from_slice(&from.act);
-        to.ctrl.copy_from_slice(&from.ctrl);
-        to.qfrc_applied.copy_from_slice(&from.qfrc_applied);
-        to.xfrc_applied.copy_from_slice(&from.xfrc_applied);
-        to.mocap_pos.copy_from_slice(&from.mocap_pos);
-        to.mocap_quat.copy_from_slice(&from.mocap_quat);
-        to.eq_active.copy_from_slice(&from.eq_active);
-        to.qacc_warmstart.copy_from_slice(&from.qacc_warmstart);
-        *to.time = from.time;
+        state::copy(m, d, data, state::INTEGRATION).ok()?;
         limit(data, work_left(d));
     }
     forward(&own.model, &mut own.exact).ok()?;

@@ -1,18 +1,54 @@
-//! How a lab is handled on the command line: `--set LABEL=VALUE`, `--press LABEL@TIME`.
+//! Which lab a command runs, and how it is handled: `--set LABEL=VALUE`, `--press LABEL@TIME`.
 
-use super::Failure;
+use super::output::{Wanted, look_ahead};
+use super::target::{self, Target};
+use super::{Failure, ModelOptions};
 use crate::run::settings;
 use crate::spec::Lab;
 use labspec_expr::Value;
 
+/// The first arguments of every command that runs a lab.
+#[derive(clap::Args, Debug)]
+pub(super) struct Handled {
+    /// LAB.json, LESSON.md#2 (its second lab), LESSON.md#quiz-id.1 (a question's sim), or MODEL.xml
+    lab: String,
+    #[command(flatten)]
+    models: ModelOptions,
+    /// Set a control before every run
+    #[arg(long, value_name = "LABEL=VALUE")]
+    set: Vec<String>,
+    /// Press a button in every run, at a time in seconds
+    #[arg(long, value_name = "LABEL@TIME")]
+    press: Vec<String>,
+}
+
+impl Handled {
+    pub(super) fn open(&self) -> Result<Target, Failure> {
+        target::open(&self.lab, &self.models)
+    }
+
+    /// Looks whether these files can be written, and would not overwrite what was read.
+    pub(super) fn look_ahead(&self, target: &Target, outputs: &[Wanted]) -> Result<(), Failure> {
+        look_ahead(&target::read_for(&self.lab, &self.models, &target.lab), outputs)
+    }
+
+    pub(super) fn set(&self, lab: &Lab) -> Result<Vec<(String, Value)>, Failure> {
+        self.set.iter().map(|text| assignment(lab, text)).collect()
+    }
+
+    pub(super) fn press(&self, lab: &Lab) -> Result<Vec<(String, f64)>, Failure> {
+        self.press.iter().map(|text| press(lab, text)).collect()
+    }
+}
+
 /// `LABEL=VALUE`. Both may hold equals signs: it is split where the label of a control ends, else at the last sign.
-pub(super) fn assignment(lab: &Lab, text: &str) -> Result<(String, Value), Failure> {
+fn assignment(lab: &Lab, text: &str) -> Result<(String, Value), Failure> {
     let (label, value) = split(lab, text, '=').ok_or_else(|| format!("--set {text}: write LABEL=VALUE"))?;
     Ok((label.to_string(), settings::written(lab, label, value.trim())))
 }
 
 /// `LABEL@TIME`, or a label alone for the start.
-pub(super) fn press(lab: &Lab, text: &str) -> Result<(String, f64), Failure> {
+fn press(lab: &Lab, text: &str) -> Result<(String, f64), Failure> {
     match split(lab, text, '@').filter(|_| lab.control(text).is_none()) {
         None => Ok((text.to_string(), 0.0)),
         Some((label, time)) => match time.trim().parse::<f64>() {

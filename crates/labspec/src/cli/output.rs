@@ -199,6 +199,13 @@ pub(super) struct Wanted {
     pub(super) path: PathBuf,
 }
 
+/// Those of the outputs that were asked for.
+pub(super) fn wanted(outputs: &[(&'static str, &Option<PathBuf>)]) -> Vec<Wanted> {
+    let asked =
+        outputs.iter().filter_map(|(option, path)| Some(Wanted { option, path: path.as_ref()?.clone() }));
+    asked.collect()
+}
+
 /// Looks at all outputs of a command before it begins.
 ///
 /// # Errors

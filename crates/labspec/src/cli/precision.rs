@@ -1,9 +1,9 @@
 //! `labspec precision`.
 
-use super::handle::{assignment, press};
-use super::output::{Wanted, look_ahead, write_png, write_with};
+use super::handle::Handled;
+use super::output::{wanted, write_png, write_with};
 use super::stdio::{Progress, print_json, stream};
-use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
+use super::{Failure, Outcome, interrupted, print, write_file};
 use crate::precision::{
     Axis, Beside, BesideRow, Compared, Errors, Fate, INTEGRATORS, Integrator, Options, Recording, Report,
     Row, compare, milliseconds,
@@ -21,19 +21,11 @@ use std::path::{Path, PathBuf};
 /// Arguments of `precision`.
 #[derive(clap::Args, Debug)]
 pub(super) struct Arguments {
-    /// LAB.json, LESSON.md#2, or LESSON.md#quiz-id.1
-    lab: String,
     #[command(flatten)]
-    models: ModelOptions,
+    handled: Handled,
     /// Length in seconds [default: the lab's stopAt, or 2]
     #[arg(long, value_name = "S")]
     until: Option<f64>,
-    /// Set a control before every run
-    #[arg(long, value_name = "LABEL=VALUE")]
-    set: Vec<String>,
-    /// Press a button at a time in seconds
-    #[arg(long, value_name = "LABEL@TIME")]
-    press: Vec<String>,
     /// Only this integrator, or `all`, with those that MuJoCo does not have [default: MuJoCo's five]
     #[arg(long, value_name = "NAME")]
     integrator: Vec<String>,
@@ -72,15 +64,12 @@ enum Format {
 }
 
 pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
-    let target = target::open(&a.lab, &a.models)?;
-    let wanted = |option: &'static str, path: &PathBuf| Wanted { option, path: path.clone() };
-    let files = a.csv.iter().map(|p| wanted("--csv", p)).chain(a.svg.iter().map(|p| wanted("--svg", p)));
-    let files = files.chain(a.png.iter().map(|p| wanted("--png", p)));
-    look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &files.collect::<Vec<_>>())?;
+    let target = a.handled.open()?;
+    a.handled.look_ahead(&target, &wanted(&[("--csv", &a.csv), ("--svg", &a.svg), ("--png", &a.png)]))?;
     let options = Options {
         until: a.until,
-        set: a.set.iter().map(|s| assignment(&target.lab, s)).collect::<Result<_, _>>()?,
-        press: a.press.iter().map(|s| press(&target.lab, s)).collect::<Result<_, _>>()?,
+        set: a.handled.set(&target.lab)?,
+        press: a.handled.press(&target.lab)?,
         integrators: integrators(&a.integrator)?,
         axes: a.vary.iter().map(|v| v.axis()).collect(),
         beside: a.beside.as_ref().map(|path| recording(path)).transpose()?,

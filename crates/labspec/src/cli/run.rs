@@ -1,9 +1,9 @@
 //! `labspec run`.
 
-use super::handle::{assignment, press};
-use super::output::{Wanted, look_ahead, write_png, write_with};
+use super::handle::Handled;
+use super::output::{Wanted, wanted, write_png, write_with};
 use super::stdio::stream;
-use super::{Failure, ModelOptions, Outcome, print, target, write_file};
+use super::{Failure, Outcome, print, write_file};
 use crate::report::{printable, printable_path};
 use crate::run::{self, Cell, RunOptions, Table, shown};
 use crate::spec::{Lab, Plot};
@@ -15,10 +15,8 @@ use std::path::{Path, PathBuf};
 /// Arguments of `run`.
 #[derive(clap::Args, Debug)]
 pub(super) struct Arguments {
-    /// LAB.json, LESSON.md#2 (its second lab), LESSON.md#quiz-id.1 (a question's sim), or MODEL.xml
-    lab: String,
     #[command(flatten)]
-    models: ModelOptions,
+    handled: Handled,
     /// Length in seconds [default: the lab's stopAt, or 2]
     #[arg(long, value_name = "S")]
     until: Option<f64>,
@@ -28,12 +26,6 @@ pub(super) struct Arguments {
     /// Sample after every K steps
     #[arg(long, value_name = "K", default_value_t = 1)]
     every: usize,
-    /// Set a control before the run
-    #[arg(long, value_name = "LABEL=VALUE")]
-    set: Vec<String>,
-    /// Press a button at a time in seconds
-    #[arg(long, value_name = "LABEL@TIME")]
-    press: Vec<String>,
     /// Run without a plan: every stage in every step, read or not. The same comes out, later
     #[arg(long)]
     full: bool,
@@ -65,13 +57,13 @@ enum Format {
 }
 
 pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
-    let target = target::open(&a.lab, &a.models)?;
+    let target = a.handled.open()?;
     let options = RunOptions {
         until: a.until,
         steps: a.steps,
         every: a.every,
-        set: a.set.iter().map(|s| assignment(&target.lab, s)).collect::<Result<_, _>>()?,
-        press: a.press.iter().map(|s| press(&target.lab, s)).collect::<Result<_, _>>()?,
+        set: a.handled.set(&target.lab)?,
+        press: a.handled.press(&target.lab)?,
         full: a.full,
     };
     let plots = |file: &Option<PathBuf>, option| {
@@ -81,11 +73,10 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
             .map(Option::unwrap_or_default)
     };
     let (drawn, painted) = (plots(&a.svg, "svg")?, plots(&a.png, "png")?);
-    let wanted = |option: &'static str, path: &PathBuf| Wanted { option, path: path.clone() };
-    let files = a.csv.iter().map(|p| wanted("--csv", p)).chain(a.json.iter().map(|p| wanted("--json", p)));
-    let files = files.chain(drawn.iter().map(|p| wanted("--svg", p)));
-    let files: Vec<Wanted> = files.chain(painted.iter().map(|p| wanted("--png", p))).collect();
-    look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &files)?;
+    let mut files = wanted(&[("--csv", &a.csv), ("--json", &a.json)]);
+    files.extend(drawn.iter().map(|path| Wanted { option: "--svg", path: path.clone() }));
+    files.extend(painted.iter().map(|path| Wanted { option: "--png", path: path.clone() }));
+    a.handled.look_ahead(&target, &files)?;
     let table = run::run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
     if let Some(file) = &a.csv {
         write_with(file, |out| table.write_csv(out))?;

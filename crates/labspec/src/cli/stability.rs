@@ -1,9 +1,9 @@
 //! `labspec stability`.
 
-use super::handle::{assignment, press};
-use super::output::{Wanted, look_ahead, write_png};
+use super::handle::Handled;
+use super::output::{wanted, write_png};
 use super::stdio::{Progress, print_json};
-use super::{Failure, ModelOptions, Outcome, interrupted, print, target, write_file};
+use super::{Failure, Outcome, interrupted, print, write_file};
 use crate::bind::Programs;
 use crate::report::{key, printable, set_number};
 use crate::run::two_digits;
@@ -21,19 +21,11 @@ use std::path::PathBuf;
 /// Arguments of `stability`.
 #[derive(clap::Args, Debug)]
 pub(super) struct Arguments {
-    /// LAB.json, LESSON.md#2, LESSON.md#quiz-id.1, or MODEL.xml
-    lab: String,
     #[command(flatten)]
-    models: ModelOptions,
+    handled: Handled,
     /// Length of each run in seconds [default: ten times the lab's stopAt or the window of its plots]
     #[arg(long, value_name = "S")]
     until: Option<f64>,
-    /// Set a control before every run: everything is tried from there
-    #[arg(long, value_name = "LABEL=VALUE")]
-    set: Vec<String>,
-    /// Press a button in every run, at a time in seconds
-    #[arg(long, value_name = "LABEL@TIME")]
-    press: Vec<String>,
     /// Find the largest timestep, gains, stiffnesses and mass ratios that the lab stands
     #[arg(long)]
     margins: bool,
@@ -58,13 +50,10 @@ enum Format {
 }
 
 pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
-    let target = target::open(&a.lab, &a.models)?;
-    let wanted = |option: &'static str, path: &PathBuf| Wanted { option, path: path.clone() };
-    let files = a.svg.iter().map(|p| wanted("--svg", p)).chain(a.png.iter().map(|p| wanted("--png", p)));
-    look_ahead(&target::read_for(&a.lab, &a.models, &target.lab), &files.collect::<Vec<_>>())?;
+    let target = a.handled.open()?;
+    a.handled.look_ahead(&target, &wanted(&[("--svg", &a.svg), ("--png", &a.png)]))?;
     let map = a.map.as_ref().map(|text| two_labels(&target.lab, text)).transpose()?;
-    let set = a.set.iter().map(|s| assignment(&target.lab, s)).collect::<Result<_, _>>()?;
-    let press = a.press.iter().map(|s| press(&target.lab, s)).collect::<Result<_, _>>()?;
+    let (set, press) = (a.handled.set(&target.lab)?, a.handled.press(&target.lab)?);
     let options = Options { until: a.until, margins: a.margins, map, set, press };
     let progress = Progress::new(a.format == Format::Human);
     let mut tell = |text: &str| progress.tell(text);

@@ -6,7 +6,7 @@ use crate::finding::Finding;
 use crate::run::{self, Breakdown, Budget, End, Play, RunError, Session};
 use crate::spec::{Lab, Plot};
 use labspec_core::reflect::{FieldId, Object, field};
-use labspec_core::{self as core, Data, Demand, Full, Model, Warning};
+use labspec_core::{self as core, Data, Demand, Full, Model, Warning, state};
 use labspec_expr::{Compiler, Type, Value};
 use std::ops::ControlFlow;
 
@@ -401,14 +401,9 @@ impl Look {
     }
 
     fn take(&mut self, session: &Session<'_>, seen: &mut Run) {
-        let (m, from) = (&session.world.model, session.world.data.fields());
-        let to = self.own.edit();
-        to.qpos.copy_from_slice(&from.qpos);
-        to.qvel.copy_from_slice(&from.qvel);
-        to.act.copy_from_slice(&from.act);
-        to.ctrl.copy_from_slice(&from.ctrl);
-        to.mocap_pos.copy_from_slice(&from.mocap_pos);
-        to.mocap_quat.copy_from_slice(&from.mocap_quat);
+        let m = &session.world.model;
+        // Of one model: nothing can be refused.
+        let _ = state::copy(m, &session.world.data, &mut self.own, state::INTEGRATION);
         let energy = core::mechanical_energy(m, &mut self.own).ok().flatten();
         seen.energy.push(energy.map_or(f64::NAN, |e| e.kinetic + e.potential()));
         seen.kinetic = seen.kinetic.max(energy.map_or(0.0, |e| e.kinetic));
