@@ -43,6 +43,7 @@ pub mod run;
 pub mod source;
 pub mod spec;
 pub mod stability;
+pub mod trace;
 pub mod verify;
 
 pub use checker::{Checker, Report};

@@ -78,6 +78,69 @@ pub(super) const ROWS: &[Function] = &[
         ..OVER_RUN
     },
     Function {
+        name: "last",
+        unit: Unit::Of("s"),
+        doc: "time in s of the last sample at which a condition holds; NaN if it never does",
+        example: ("last(data.time < 0.051)", "0.05"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "count",
+        unit: Unit::Of("1"),
+        doc: "how often a condition begins to hold; one that holds at the start has begun",
+        example: ("count(data.time % 0.04 < 0.019)", "3"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "crossings",
+        args: &[Arg::Lazy, Arg::Lazy],
+        optional: 1,
+        unit: Unit::Of("1"),
+        doc: "crossings(x) or crossings(x, level): how often x passes through zero, or through a level, upwards or downwards; a touch is no passage",
+        example: ("crossings(data.time % 0.04 - 0.019)", "4"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "settles",
+        args: &[Arg::Lazy, Arg::Lazy, Arg::Lazy],
+        unit: Unit::Of("s"),
+        doc: "settles(x, target, band): time in s from which on x stays within a band around its target, to the end of the run; NaN if it does not",
+        example: ("settles(data.time, 0.1, 0.0201)", "0.08"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "peak",
+        unit: Unit::Of("s"),
+        doc: "time in s of the first sample at which x is largest; `peak(-x)` is when it is smallest",
+        example: ("peak(-(data.time - 0.05) ** 2)", "0.05"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "holds",
+        unit: Unit::Of("1"),
+        doc: "1 if a condition holds at every sample, else 0",
+        example: ("holds(data.time < 1)", "1"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "rate",
+        doc: "how fast x changes in a second, as the slope of the straight line through all samples that is nearest in the sense of least squares; NaN with one sample",
+        example: ("rate(3 * data.time)", "3"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "integral",
+        doc: "integral over time, by the trapezoid rule",
+        example: ("integral(2 * data.time)", "0.01"),
+        ..OVER_RUN
+    },
+    Function {
+        name: "rms",
+        doc: "root of the mean square over time, by the trapezoid rule",
+        example: ("rms(data.qpos[0] - 3)", "3"),
+        ..OVER_RUN
+    },
+    Function {
         name: "mean",
         doc: "mean over time, by the trapezoid rule",
         example: ("mean(data.time)", "0.05"),

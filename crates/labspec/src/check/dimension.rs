@@ -46,7 +46,7 @@ pub fn dimensions(lab: &Lab, model: &Model, programs: &Programs) -> Dimensions {
 }
 
 /// What a slider gives, by its unit.
-pub(super) fn given_by(control: &Control) -> Measure {
+pub(crate) fn given_by(control: &Control) -> Measure {
     let unit = match &control.kind {
         ControlKind::Slider { unit: Some(unit), .. } => labels::unit(unit.as_str()),
         _ => labels::of_label(control.label.as_str()).map(|(_, d)| d),

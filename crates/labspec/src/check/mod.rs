@@ -18,9 +18,12 @@ mod units;
 
 pub use allowed::Allowed;
 pub use claims::Claim;
+pub(crate) use dimension::given_by;
 pub use dimension::{Dimensions, dimensions};
 pub use entries::{evidence, ledger};
+pub(crate) use labels::of_label;
 pub use trial::Tried;
+pub(crate) use units::labels as labels_of;
 
 use crate::bind::Programs;
 use crate::bind::scene::Models;

@@ -25,6 +25,7 @@ mod schema;
 mod stability;
 mod stdio;
 mod target;
+mod trace;
 mod watch;
 
 use crate::interrupt;
@@ -63,6 +64,8 @@ enum Command {
     Stability(stability::Arguments),
     /// Which stages of the engine a lab or model needs, why, and what each costs
     Plan(plan::Arguments),
+    /// Where the numbers of a lesson come from: runs and measures that have their digits
+    Trace(trace::Arguments),
     /// What a finding's code means, with an example; without a code, the list of all
     Explain(explain::Arguments),
     /// Print the JSON Schema of labs and quizzes, for editors: lab, quiz, or lesson for a JSON file of both
@@ -149,6 +152,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Precision(a) => precision::precision(a),
         Command::Stability(a) => stability::stability(a),
         Command::Plan(a) => plan::plan(a),
+        Command::Trace(a) => trace::trace(a),
         Command::Explain(a) => explain::explain(a),
         Command::Schema(a) => schema::schema(a),
         #[cfg(feature = "lsp")]
@@ -172,7 +176,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 impl Command {
     /// Whether Ctrl-C is asked for between pieces of work. All other commands it ends at once.
     fn prints_what_is_finished(&self) -> bool {
-        use Command::{Bench, Check, Fmt, Plan, Precision, Record, Run, Stability, Verify};
+        use Command::{Bench, Check, Fmt, Plan, Precision, Record, Run, Stability, Trace, Verify};
         matches!(
             self,
             Check(_)
@@ -182,6 +186,7 @@ impl Command {
                 | Precision(_)
                 | Plan(_)
                 | Stability(_)
+                | Trace(_)
                 | Record(_)
                 | Bench(_)
         )

@@ -17,6 +17,15 @@ enum How {
     Mean,
     Crossing,
     Period,
+    Last,
+    Count,
+    Crossings,
+    Settles,
+    Peak,
+    Holds,
+    Rate,
+    Integral,
+    Rms,
 }
 
 impl How {
@@ -32,6 +41,15 @@ impl How {
             "mean" => How::Mean,
             "crossing" => How::Crossing,
             "period" => How::Period,
+            "last" => How::Last,
+            "count" => How::Count,
+            "crossings" => How::Crossings,
+            "settles" => How::Settles,
+            "peak" => How::Peak,
+            "holds" => How::Holds,
+            "rate" => How::Rate,
+            "integral" => How::Integral,
+            "rms" => How::Rms,
             _ => return None,
         })
     }
@@ -70,6 +88,34 @@ struct Trail {
     /// Area under the curve, and the time that it covers.
     area: f64,
     covered: f64,
+    /// The side of zero that it was last seen on; zero when it is not known.
+    side: f64,
+    line: Line,
+}
+
+/// The straight line through points that is nearest to them: its sums, about the means of the points so far (Welford 1962).
+#[derive(Clone, Copy, Debug, Default)]
+struct Line {
+    count: f64,
+    mean: [f64; 2],
+    /// Sums of (t - t̄)² and (t - t̄)(x - x̄).
+    squares: f64,
+    products: f64,
+}
+
+impl Line {
+    fn add(&mut self, t: f64, x: f64) {
+        self.count += 1.0;
+        let [dt, dx] = [t - self.mean[0], x - self.mean[1]];
+        self.mean[0] += dt / self.count;
+        self.mean[1] += dx / self.count;
+        self.squares += dt * (t - self.mean[0]);
+        self.products += dt * (x - self.mean[1]);
+    }
+
+    fn slope(&self) -> f64 {
+        if self.squares > 0.0 { self.products / self.squares } else { f64::NAN }
+    }
 }
 
 impl Trail {
@@ -83,6 +129,8 @@ impl Trail {
         count: 0,
         area: 0.0,
         covered: 0.0,
+        side: 0.0,
+        line: Line { count: 0.0, mean: [0.0; 2], squares: 0.0, products: 0.0 },
     };
 
     /// The time at which a straight line from the sample before to this one is zero. A sample that is zero is one at
@@ -114,6 +162,17 @@ impl Trail {
             (self.below, self.reached) = (false, None);
         } else if value < 0.0 {
             (self.below, self.reached) = (true, None);
+        }
+        self.remember(time, value);
+    }
+
+    /// Counts passages in either direction. What touches zero and goes back has not passed.
+    fn pass(&mut self, time: f64, value: f64) {
+        if value.is_nan() || self.time > time {
+            self.side = 0.0;
+        } else if value != 0.0 {
+            self.count += usize::from(self.side * value < 0.0);
+            self.side = value.signum();
         }
         self.remember(time, value);
     }
@@ -159,13 +218,22 @@ impl<'a> Measure<'a> {
                 how,
                 args: &a.args,
                 slot: a.slot,
-                result: f64::NAN,
+                result: Measure::before(how),
                 done: false,
                 previous: f64::NAN,
                 trail: Trail::START,
             })
         };
         Measure { program, text, running: program.aggregates().iter().filter_map(start).collect() }
+    }
+
+    /// The result before the first sample: nothing is there yet, nothing was counted, nothing has failed.
+    fn before(how: How) -> f64 {
+        match how {
+            How::Count | How::Crossings | How::Integral => 0.0,
+            How::Holds => 1.0,
+            _ => f64::NAN,
+        }
     }
 
     /// Looks at the current sample.
@@ -218,6 +286,56 @@ impl<'a> Measure<'a> {
                     let x = above(&mut value, r.args);
                     r.trail.oscillate(time, x);
                     r.result = r.trail.period();
+                }
+                How::Last => {
+                    if value(0).truthy() {
+                        r.result = time;
+                    }
+                }
+                How::Count => {
+                    let holds = value(0).truthy();
+                    r.result += f64::from(holds && !r.done);
+                    r.done = holds;
+                }
+                How::Crossings => {
+                    let x = above(&mut value, r.args);
+                    r.trail.pass(time, x);
+                    r.result = r.trail.count as f64;
+                }
+                How::Settles => {
+                    let [x, target, band] = [0, 1, 2].map(|i| value(i).to_number());
+                    let inside = (x - target).abs() <= band;
+                    r.result = if !inside {
+                        f64::NAN
+                    } else if r.result.is_nan() {
+                        time
+                    } else {
+                        r.result
+                    };
+                }
+                How::Peak => {
+                    let x = value(0).to_number();
+                    if x > r.previous || (r.previous.is_nan() && !x.is_nan()) {
+                        (r.result, r.previous) = (time, x);
+                    }
+                }
+                How::Holds => {
+                    if !value(0).truthy() {
+                        r.result = 0.0;
+                    }
+                }
+                How::Rate => {
+                    r.trail.line.add(time, value(0).to_number());
+                    r.result = r.trail.line.slope();
+                }
+                How::Integral => {
+                    r.trail.add_area(time, value(0).to_number());
+                    r.result = r.trail.area;
+                }
+                How::Rms => {
+                    let x = value(0).to_number();
+                    r.trail.add_area(time, x * x);
+                    r.result = r.trail.mean().sqrt();
                 }
             }
         }

@@ -20,7 +20,9 @@ mod quote;
 pub use answer::{Answer, Verdict, Weight};
 pub use bound::{Allowance, BoundVerify};
 pub use exact::ClosedForm;
-pub use quote::{Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Style, Unread, quoted};
+pub use quote::{
+    Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, quoted, stated,
+};
 
 use crate::finding::Finding;
 use crate::ledger::Evidence;
@@ -114,6 +116,13 @@ const PERTURBED: [(Numerics, &str); 3] = [
     (TIGHT, "with the solver run to convergence"),
     (NUDGED, "with a start moved by 1e-14"),
 ];
+
+/// Every measure of an object with one run; `None` where the run cannot be made, or breaks.
+pub(crate) fn measured(bound: &BoundVerify<'_>) -> Option<Vec<f64>> {
+    let outcome = bound.outcome(Numerics::NOMINAL, &mut Vec::new())?;
+    let run = outcome.runs.into_iter().next().filter(|run| run.broke.is_none())?;
+    Some(run.measures.into_iter().map(|(_, x)| x).collect())
+}
 
 /// The runs of a `verify` object under every numerics that its claims need.
 struct Outcomes {

@@ -9,12 +9,14 @@ mod places;
 mod prose;
 mod read;
 mod shown;
+mod stated;
 mod told;
 mod unit;
 
 pub use number::{Form, Quoted, Style};
 pub use read::{Unread, quoted};
 pub use shown::ShownText;
+pub use stated::{Stated, stated};
 
 use crate::finding::Finding;
 use crate::spec::{Question, Said};

@@ -98,7 +98,7 @@ pub(super) fn reading(text: &str) -> Result<Reading, Unread> {
 }
 
 /// All numbers of a text. Digits of words, indexes and exponents (`H2O`, `x_1`, `L^2`, `3D`, `2nd`) are none.
-fn numbers(chars: Chars<'_>) -> Vec<Numeral> {
+pub(super) fn numbers(chars: Chars<'_>) -> Vec<Numeral> {
     let mut all: Vec<Numeral> = Vec::new();
     let mut i = 0;
     while let Some(c) = chars.at(i) {
@@ -172,6 +172,16 @@ const BOUNDS: [&str; 19] = [
     "smaller than",
 ];
 
+/// Whether a number only bounds another one.
+pub(super) fn is_bound(chars: Chars<'_>, number: &Numeral) -> bool {
+    let from = number.start.saturating_sub(MAX_QUOTE);
+    let near = chars.0.get(from..).unwrap_or_default();
+    let number = Numeral { start: number.start - from, end: number.end - from, ..number.clone() };
+    unread_before(Chars(near), &number) == Some(BOUND)
+}
+
+const BOUND: &str = "a bound and not a number";
+
 /// What stands before a number and changes what it says.
 fn unread_before(chars: Chars<'_>, number: &Numeral) -> Option<&'static str> {
     let before: String =
@@ -183,7 +193,7 @@ fn unread_before(chars: Chars<'_>, number: &Numeral) -> Option<&'static str> {
         })
     };
     if BOUNDS.into_iter().any(has) {
-        return Some("a bound and not a number");
+        return Some(BOUND);
     }
     if before.ends_with(['√', '×', '·', '*', '/', '+']) && !before.ends_with("+/") && before.len() > 1 {
         return Some("a formula");

@@ -130,7 +130,7 @@ fn join(pieces: Vec<Piece>) -> (String, SourceMap) {
     (all, map)
 }
 
-fn pieces(lesson: &Lesson) -> Vec<Piece> {
+pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {
     let mut all = prose::pieces(lesson);
     for (_, lab) in lesson.addressed() {
         lab_texts(lab, &mut all);

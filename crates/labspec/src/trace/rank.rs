@@ -1,0 +1,283 @@
+//! Which of all that was measured a number is: the simplest that has its digits, if chance does not explain it.
+
+use super::formula::{self, Binding};
+use super::trials::{Trial, si};
+use super::{Tried, words};
+use crate::verify::Stated;
+use std::collections::BTreeSet;
+
+/// Where a number comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Origin {
+    /// This gives its digits.
+    From(Hit),
+    /// The text sets something to it: no run can say it.
+    Setting(String),
+    /// Something gives its digits, and so does chance.
+    Chance(Hit),
+    /// Nothing that was tried gives its digits.
+    Unknown,
+}
+
+/// Something that gives the digits of a number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hit {
+    /// The lab and the run, by their places; `None` for what is worked out.
+    pub place: Option<(usize, usize)>,
+    /// The measure, or the formula.
+    pub measure: String,
+    /// What makes its value the number of the text: `1000 * `, `-`, or nothing.
+    pub factor: String,
+    /// The value, in the unit of the text.
+    pub value: f64,
+    /// How likely it is that something as simple as this has these digits by chance.
+    pub chance: f64,
+}
+
+/// What is less likely than this is no chance.
+const CHANCE: f64 = 0.05;
+/// Numbers of one kind lie anywhere in three decades.
+const DECADES: f64 = 3.0;
+/// What a number costs that stands on the wrong side of zero.
+const OTHER_SIDE: f64 = 0.3;
+/// What a run costs whose setting the text does not name beside the number, and what one that it names does.
+const FAR: f64 = 1.5;
+const IN_PARAGRAPH: f64 = 0.7;
+/// A time that is named within so many bytes.
+const NEAR: usize = 2500;
+const NEARBY: f64 = 0.4;
+/// A word that the sentence has, too, and so many at most.
+const WORD: f64 = 0.4;
+const MOST_WORDS: usize = 3;
+/// A word that only the paragraph has.
+const WIDE: f64 = 0.25;
+/// Labs of other models between a number and the lab, and a lab of another question.
+const LAB: f64 = 0.3;
+const OTHER_QUESTION: f64 = 0.8;
+/// A constant that neither the sentence nor the paragraph speaks of, and one that the paragraph speaks of.
+const UNNAMED: f64 = 1.5;
+const NAMED_NEAR: f64 = 0.4;
+/// What is exactly the number that is printed.
+const EXACT: f64 = 0.5;
+/// Two constants of different kinds that are so close are two readings.
+const APART: f64 = 1.2;
+
+/// Where a number comes from.
+pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[Tried<'_>], bindings: &[Binding]) -> Origin {
+    let around = Around::of(s, numbers);
+    if let Some(hit) = worked(s, bindings) {
+        return Origin::From(hit);
+    }
+    let truth = si(s);
+    if truth == 0.0 || s.bound {
+        return Origin::Unknown;
+    }
+    let window = 2.0 * s.read.half_unit / s.read.value.abs() / (DECADES * std::f64::consts::LN_10);
+    let mut tried: Vec<(f64, f64)> = Vec::new();
+    let mut hits: Vec<(f64, bool, Hit)> = Vec::new();
+    let nearest = distances(s, labs);
+    for (l, tried_lab) in labs.iter().enumerate() {
+        let far = nearest.get(l).copied().unwrap_or(0.0);
+        for (t, (trial, values)) in tried_lab.trials.iter().zip(&tried_lab.values).enumerate() {
+            let run = around.cost(trial);
+            let own = trial.named.is_some_and(|(x, _)| close(x, truth));
+            for (c, &value) in tried_lab.candidates.iter().zip(values) {
+                if !c.dimension.agrees(&s.dimension) || !value.is_finite() || value == 0.0 {
+                    continue;
+                }
+                // What the text itself has set says nothing of it.
+                if (own || t > 0) && c.constant || c.time.is_some_and(|x| close(x, truth)) && own {
+                    continue;
+                }
+                let alike = c.words.intersection(&around.words).count().min(MOST_WORDS);
+                let named = c.time.map_or(0.0, |x| around.time(x));
+                let known = match c.constant && alike == 0 {
+                    true if c.words.is_disjoint(&around.wide) => UNNAMED,
+                    true => NAMED_NEAR,
+                    false => 0.0,
+                };
+                let wide = c.words.intersection(&around.wide).count().saturating_sub(alike).min(MOST_WORDS);
+                let cost = c.cost + run + far + named + known - WORD * alike as f64 - WIDE * wide as f64;
+                let ratio = s.dimension.factor / c.dimension.factor;
+                let shown = value * ratio;
+                tried.push((cost, shown.abs()));
+                for (sign, more) in [("", 0.0), ("-", OTHER_SIDE)] {
+                    let shown = if sign.is_empty() { shown } else { -shown };
+                    if s.read.is(shown) {
+                        let factor = factor(sign, ratio);
+                        let hit = Hit {
+                            place: Some((l, t)),
+                            measure: c.text.clone(),
+                            factor,
+                            value: shown,
+                            chance: 1.0,
+                        };
+                        let exact = if close(shown, s.read.value) { EXACT } else { 0.0 };
+                        hits.push((cost + more - exact, c.constant, hit));
+                    }
+                }
+            }
+        }
+    }
+    hits.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let two = match hits.as_slice() {
+        [(cost, true, hit), others @ ..] => {
+            let kind = |hit: &Hit| hit.measure.rsplit('.').next().unwrap_or("").to_string();
+            others.iter().any(|(c, constant, h)| *constant && c - cost < APART && kind(h) != kind(hit))
+        }
+        _ => false,
+    };
+    if let Some((cost, _, mut hit)) = hits.into_iter().next() {
+        // A constant is a round number, and so is what a text rounds to: that they are equal says more.
+        let exact = close(hit.value, s.read.value);
+        let cost = if exact { cost + EXACT } else { cost };
+        let mut before: Vec<f64> = tried.iter().filter(|(c, _)| *c <= cost).map(|(_, x)| *x).collect();
+        before.sort_by(f64::total_cmp);
+        before.dedup_by(|a, b| close(*a, *b));
+        let window = if exact { window / 2.0 } else { window };
+        hit.chance = 1.0 - (1.0 - window.min(1.0)).powf(before.len() as f64);
+        if hit.chance < CHANCE && !two {
+            return Origin::From(hit);
+        }
+        return around.setting(s, labs).map_or(Origin::Chance(hit), Origin::Setting);
+    }
+    around.setting(s, labs).map_or(Origin::Unknown, Origin::Setting)
+}
+
+/// Digits of a number that is known again.
+const KNOWN: f64 = 3.0;
+
+/// A number that stands again is what it was, and a time at which something was measured is set.
+pub(super) fn share(numbers: &[Stated], origins: &mut [Origin]) {
+    let open = |o: &Origin| matches!(o, Origin::Unknown | Origin::Chance(_));
+    let known: Vec<(usize, Origin)> = origins.iter().cloned().enumerate().filter(|(_, o)| !open(o)).collect();
+    for (s, origin) in numbers.iter().zip(origins.iter_mut()).filter(|(s, o)| open(o) && !s.bound) {
+        let digits = (s.read.value / (2.0 * s.read.half_unit)).abs().log10();
+        let again = known.iter().find(|(i, o)| {
+            matches!(o, Origin::From(_)) && numbers.get(*i).is_some_and(|n| n.quote == s.quote)
+        });
+        let marked = format!("at(data.time >= {} - ", si(s));
+        let read_then = |o: &Origin| matches!(o, Origin::From(hit) if hit.measure.contains(&marked));
+        if let Some((_, from)) = again.filter(|_| digits >= KNOWN) {
+            *origin = from.clone();
+        } else if s.unit.ends_with('s') && known.iter().any(|(_, o)| read_then(o)) {
+            *origin = Origin::Setting("the time at which other numbers are read".into());
+        }
+    }
+}
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * b.abs()
+}
+
+/// The formula that stands before a number, if it has its digits.
+fn worked(s: &Stated, bindings: &[Binding]) -> Option<Hit> {
+    let found = formula::before(s, bindings)?;
+    let hit = |factor: String, value: f64| Hit {
+        place: None,
+        measure: found.code.clone(),
+        factor,
+        value,
+        chance: 0.0,
+    };
+    let ratio = s.dimension.factor;
+    // Its numbers are in SI units, or all in the unit of the result.
+    let all = [hit(factor("", ratio), found.value * ratio), hit(String::new(), found.value)];
+    all.into_iter().find(|hit| s.read.is(hit.value))
+}
+
+/// What makes a value of one unit that of another.
+fn factor(sign: &str, ratio: f64) -> String {
+    if close(ratio, 1.0) {
+        return sign.to_string();
+    }
+    let near = |x: f64| close(x, x.round()) && x.round() != 0.0;
+    match ratio {
+        r if near(r) => format!("{sign}{} * ", r.round()),
+        r if near(1.0 / r) => format!("{sign}1 / {} * ", (1.0 / r).round()),
+        r => format!("{sign}{r} * "),
+    }
+}
+
+/// How far away each lab is: by the labs of other models between, and whether it belongs to another question.
+fn distances(s: &Stated, labs: &[Tried<'_>]) -> Vec<f64> {
+    let away = |tried: &Tried<'_>| {
+        let span = &tried.lab.span;
+        span.start.saturating_sub(s.span.start).max(s.span.start.saturating_sub(span.end))
+    };
+    let mut order: Vec<usize> = (0..labs.len()).collect();
+    order.sort_by_key(|i| labs.get(*i).map(away));
+    let mut all = vec![0.0; labs.len()];
+    let mut models: Vec<Option<&str>> = Vec::new();
+    for i in order {
+        let (Some(tried), Some(place)) = (labs.get(i), all.get_mut(i)) else { continue };
+        let name = tried.lab.model.as_ref().map(|m| m.as_str());
+        let rank = match models.iter().position(|known| name.is_some() && *known == name) {
+            Some(rank) => rank,
+            None => {
+                models.push(name);
+                models.len() - 1
+            }
+        };
+        let inside = tried.owner.as_ref().is_none_or(|owner| owner.contains(&s.span.start));
+        *place = LAB * rank as f64 + if inside { 0.0 } else { OTHER_QUESTION };
+    }
+    all
+}
+
+/// What stands around a number.
+struct Around<'n> {
+    words: BTreeSet<String>,
+    /// Those of the whole paragraph.
+    wide: BTreeSet<String>,
+    text: String,
+    beside: Vec<&'n Stated>,
+    paragraph: Vec<&'n Stated>,
+    near: Vec<&'n Stated>,
+}
+
+impl<'n> Around<'n> {
+    fn of(s: &Stated, numbers: &'n [Stated]) -> Around<'n> {
+        let other = |n: &&Stated| n.span != s.span;
+        let beside = numbers.iter().filter(other).filter(|n| n.context == s.context).collect();
+        let paragraph = numbers.iter().filter(other).filter(|n| n.paragraph == s.paragraph).collect();
+        let text = format!("{} {}", s.context, s.column).to_lowercase();
+        let wide = words(&s.paragraph).collect();
+        let near = numbers.iter().filter(|n| n.span.start.abs_diff(s.span.start) < NEAR).collect();
+        Around { words: words(&text).collect(), wide, text, beside, paragraph, near }
+    }
+
+    /// How far-fetched a time is here.
+    fn time(&self, t: f64) -> f64 {
+        let among = |list: &[&Stated]| list.iter().any(|n| close(si(n), t));
+        match () {
+            () if among(&self.beside) || among(&self.paragraph) => 0.0,
+            () if among(&self.near) => NEARBY,
+            () => FAR,
+        }
+    }
+
+    /// How far-fetched a run is here.
+    fn cost(&self, trial: &Trial) -> f64 {
+        if let Some((x, unit)) = trial.named {
+            let is = |n: &&&Stated| n.dimension.agrees(&unit) && close(si(n), x);
+            return match () {
+                () if self.beside.iter().any(|n| is(&n)) => 0.0,
+                () if self.paragraph.iter().any(|n| is(&n)) => IN_PARAGRAPH,
+                () if self.near.iter().any(|n| is(&n)) => FAR,
+                () => 2.0 * FAR,
+            };
+        }
+        if trial.label.is_empty() {
+            return 0.0;
+        }
+        if self.text.contains(&trial.label.to_lowercase()) { 0.0 } else { FAR }
+    }
+
+    /// What the number is a setting of.
+    fn setting(&self, s: &Stated, labs: &[Tried<'_>]) -> Option<String> {
+        let of =
+            |trial: &Trial| trial.named.is_some_and(|(x, unit)| unit.agrees(&s.dimension) && close(x, si(s)));
+        labs.iter().flat_map(|l| &l.trials).find(|t| of(t)).map(|t| t.words.clone())
+    }
+}

@@ -1,0 +1,176 @@
+//! The runs that a text speaks of: the lab as it stands, a control at a value that is named, a button, a timestep.
+
+use super::candidates::Candidate;
+use super::text;
+use crate::bind::Programs;
+use crate::check;
+use crate::json::{Number, Scalar};
+use crate::run::settings;
+use crate::spec::format::RUN_LENGTH;
+use crate::spec::{Control, ControlKind, Lab, Run, Verify};
+use crate::verify::{self, Allowance, BoundVerify, Stated};
+use labspec_core::Model;
+use labspec_expr::Value;
+use labspec_expr::dimension::{Dimension, Measure};
+
+/// A run.
+#[derive(Clone, Debug)]
+pub(crate) struct Trial {
+    /// What is done: "as it stands", "\"mass\" at 5".
+    pub(crate) words: String,
+    /// Labels of controls and their values.
+    pub(crate) set: Vec<(String, Scalar)>,
+    /// Buttons that are pressed at the start.
+    pub(crate) press: Vec<String>,
+    /// The timestep, where no control sets it, s.
+    pub(crate) timestep: Option<f64>,
+    /// Its length, s, where it is not the lab's own.
+    pub(crate) until: Option<f64>,
+    /// What is set, in SI units, to be found in the text.
+    pub(crate) named: Option<(f64, Dimension)>,
+    /// The words of an option or a button, to be found in the text.
+    pub(crate) label: String,
+}
+
+/// Most values of one control, and most runs of one lab.
+const VALUES: usize = 8;
+const MOST: usize = 40;
+/// The longest timestep that anybody means, s.
+pub(super) const LONGEST: f64 = 0.05;
+/// The length of a run is that of the longest plot, up to this, s.
+const LENGTH: f64 = 10.0;
+
+/// The runs of a lab.
+pub(super) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<Trial> {
+    let windows = lab.plots.iter().filter_map(|plot| plot.window.as_ref()).map(|w| w.value);
+    let length = windows.fold(RUN_LENGTH, f64::max).min(LENGTH);
+    let base = Trial {
+        words: "as it stands".into(),
+        set: Vec::new(),
+        press: Vec::new(),
+        timestep: None,
+        until: (lab.stop_at.is_none() && length > RUN_LENGTH).then_some(length),
+        named: None,
+        label: String::new(),
+    };
+    let mut all = vec![base.clone()];
+    for control in &lab.controls {
+        of_control(control, numbers, &base, &mut all);
+    }
+    let sets_timestep =
+        lab.controls.iter().filter_map(Control::action).any(|a| {
+            [&a.set, &a.apply].into_iter().flatten().any(|text| text.value.contains("opt.timestep"))
+        });
+    if !sets_timestep {
+        let mut known = Vec::new();
+        for s in numbers.iter().filter(|s| s.context.contains("step") || s.context.contains("$h$")) {
+            let value = si(s);
+            let is_time = s.dimension == second().times(s.dimension.factor);
+            if is_time && value > 0.0 && value <= LONGEST && !known.contains(&value) && known.len() < VALUES {
+                known.push(value);
+                let words = format!("with a timestep of {value} s");
+                let named = Some((value, second()));
+                all.push(Trial { words, timestep: Some(value), named, ..base.clone() });
+            }
+        }
+    }
+    all.truncate(MOST);
+    all
+}
+
+fn of_control(control: &Control, numbers: &[Stated], base: &Trial, all: &mut Vec<Trial>) {
+    let label = control.label.as_str();
+    match &control.kind {
+        ControlKind::Slider { value: start, .. } => {
+            let Measure::Known(unit) = check::given_by(control) else { return };
+            let mut values: Vec<f64> = Vec::new();
+            for s in numbers.iter().filter(|s| s.dimension.agrees(&unit)) {
+                let x = round(si(s) * unit.factor);
+                let reached = settings::value(control, &Value::Number(x)).is_ok();
+                if reached && x != start.value && !values.contains(&x) && values.len() < VALUES {
+                    values.push(x);
+                    let scalar = Scalar::Number(Number { value: x, span: 0..0 });
+                    all.push(Trial {
+                        words: format!("with \"{label}\" at {x}"),
+                        set: vec![(label.to_string(), scalar)],
+                        named: Some((x / unit.factor, unit.times(1.0 / unit.factor))),
+                        ..base.clone()
+                    });
+                }
+            }
+        }
+        ControlKind::Select { options, value, .. } => {
+            for choice in options.iter().filter(|c| c.value != *value).take(VALUES) {
+                all.push(Trial {
+                    words: format!("with \"{label}\" at \"{}\"", choice.text.as_str()),
+                    set: vec![(label.to_string(), choice.value.clone())],
+                    label: choice.text.value.clone(),
+                    ..base.clone()
+                });
+            }
+        }
+        ControlKind::Button { .. } => all.push(Trial {
+            words: format!("after \"{label}\" is pressed"),
+            press: vec![label.to_string()],
+            label: label.to_string(),
+            ..base.clone()
+        }),
+    }
+}
+
+/// A number in SI units.
+pub(super) fn si(s: &Stated) -> f64 {
+    round(s.read.value / s.dimension.factor)
+}
+
+/// A second.
+pub(super) fn second() -> Dimension {
+    labspec_bind::units::parse("s").unwrap_or(Dimension::NUMBER)
+}
+
+/// Without what the last bits of a conversion are.
+fn round(x: f64) -> f64 {
+    format!("{x:.12e}").parse().unwrap_or(x)
+}
+
+impl Trial {
+    /// The run as a `verify` object has it.
+    pub(super) fn run(&self, name: &str) -> Run {
+        let number = |value: f64| Number { value, span: 0..0 };
+        Run {
+            name: text(name),
+            set: self.set.iter().map(|(label, value)| (text(label), value.clone())).collect(),
+            press: self.press.iter().map(|label| (text(label), number(0.0))).collect(),
+            setup: self.timestep.map(|h| text(&format!("model.opt.timestep = {h}"))),
+            until: self.until.map(number),
+            steps: None,
+            breaks: false,
+        }
+    }
+}
+
+/// Makes a run, and measures. What breaks has no values.
+pub(super) fn values(
+    trial: &Trial,
+    lab: &Lab,
+    model: &Model,
+    programs: &Programs,
+    candidates: &[Candidate],
+    allowance: &Allowance,
+) -> Vec<f64> {
+    let none = || vec![f64::NAN; candidates.len()];
+    let name = |i: usize| text(&format!("m{i}"));
+    let verify = Verify {
+        span: 0..0,
+        lab: None,
+        runs: vec![trial.run("run")],
+        measure: candidates.iter().enumerate().map(|(i, c)| (name(i), text(&c.text))).collect(),
+        options: Vec::new(),
+        value: None,
+        says: Vec::new(),
+        exact: Vec::new(),
+    };
+    let bound = BoundVerify::new(&verify, lab, model, programs, allowance, &mut Vec::new());
+    let found = bound.and_then(|bound| verify::measured(&bound));
+    found.filter(|values| values.len() == candidates.len()).unwrap_or_else(none)
+}

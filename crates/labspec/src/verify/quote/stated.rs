@@ -1,0 +1,231 @@
+//! The numbers that a lesson states: every one that a reader sees, with its unit and the words around it.
+
+use super::numeral::Chars;
+use super::{Quoted, fold, html, read};
+use crate::source::Text;
+use crate::spec::{Lesson, QuestionKind, Quiz};
+use labspec_bind::units::parse;
+use labspec_expr::dimension::Dimension;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A number of the text.
+#[derive(Clone, Debug)]
+pub struct Stated {
+    /// Number and unit as a quote has them: `0.442 s`.
+    pub quote: String,
+    /// Its place in the file.
+    pub span: Range<usize>,
+    /// The number.
+    pub read: Quoted,
+    /// Its unit as it is written, possibly in the head of its column.
+    pub unit: String,
+    /// What that means.
+    pub dimension: Dimension,
+    /// The sentence, or the row of a table, that it stands in.
+    pub context: String,
+    /// The head of its column; empty outside of tables.
+    pub column: String,
+    /// The paragraph as it is written, tags taken out.
+    pub paragraph: Arc<str>,
+    /// Where the number begins in the paragraph.
+    pub at: usize,
+    /// It bounds something: "above 5 mm".
+    pub bound: bool,
+    /// It is the answer of a numeric question, and no reader sees it.
+    pub answer: bool,
+}
+
+/// Most numbers of one lesson.
+const MOST: usize = 5000;
+/// Most words of a unit: `N m s/rad`.
+const WORDS: usize = 3;
+
+/// Every number with a unit that a reader of the lesson sees, and the answers of its numeric questions.
+pub fn stated(lesson: &Lesson) -> Vec<Stated> {
+    let mut all = Vec::new();
+    for piece in super::shown::pieces(lesson) {
+        let mut text = piece.text;
+        if piece.html {
+            let (shown, inner) = html::strip(&text.value);
+            text = Text { value: shown, map: inner.then(&text.map) };
+        }
+        if text.value.contains(|c: char| c.is_ascii_digit()) {
+            of_piece(lesson, &text, &mut all);
+        }
+        if all.len() > MOST {
+            break;
+        }
+    }
+    all.extend(lesson.quizzes.iter().flat_map(Quiz::numbered).filter_map(|(_, question)| {
+        let QuestionKind::Numeric { answer: Some(answer), unit, .. } = &question.kind else { return None };
+        let unit = unit.as_ref().map_or("", |u| u.as_str());
+        let dimension = if unit.is_empty() { Dimension::NUMBER } else { parse(unit)? };
+        let text = lesson.file.text().get(answer.span.clone())?;
+        let (asked, _) = html::strip(&question.q.value);
+        Some(Stated {
+            quote: text.to_string(),
+            span: answer.span.clone(),
+            read: super::quoted(text).ok()?,
+            unit: unit.to_string(),
+            dimension,
+            context: asked.clone(),
+            column: String::new(),
+            paragraph: Arc::from(asked),
+            at: 0,
+            bound: false,
+            answer: true,
+        })
+    }));
+    all.truncate(MOST);
+    all.sort_by_key(|s| (s.span.start, s.span.end));
+    all
+}
+
+fn of_piece(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
+    let paragraph: Arc<str> = Arc::from(text.value.as_str());
+    let (folded, map) = fold::fold(&text.value, false);
+    let chars: Vec<char> = folded.chars().collect();
+    let bytes: Vec<usize> = folded.char_indices().map(|(at, _)| at).chain([folded.len()]).collect();
+    // Of `2.31 to 3.73 N m` the first number has the unit of the second.
+    let mut next: Option<(usize, String, Dimension)> = None;
+    for number in read::numbers(Chars(&chars)).into_iter().rev() {
+        let (Some(&start), Some(&end)) = (bytes.get(number.start), bytes.get(number.end)) else { continue };
+        if number.refused.is_some() || !number.quoted.value.is_finite() {
+            next = None;
+            continue;
+        }
+        let origin = map.span(start..end);
+        let at = text.map.span(origin.clone());
+        let cell = Cell::of(lesson.file.text(), at.start);
+        let rest = folded.get(end..).unwrap_or("");
+        let shared = next.take().filter(|(to, ..)| {
+            let gap = folded.get(end..*to).unwrap_or("").trim();
+            ["to", "and", "or", ",", "–", "-"].contains(&gap)
+        });
+        let (unit, dimension, length) = match (own_unit(rest), shared) {
+            (Some(found), _) => found,
+            (None, Some((_, unit, dimension))) => (unit, dimension, 0),
+            (None, None) => match cell.as_ref().and_then(|cell| unit_of_head(&cell.head)) {
+                Some((unit, dimension)) => (unit, dimension, 0),
+                None => continue,
+            },
+        };
+        next = Some((start, unit.clone(), dimension));
+        all.push(Stated {
+            quote: folded.get(start..end + length).unwrap_or("").to_string(),
+            span: at.start..text.map.span(map.span(start..end + length)).end,
+            read: number.quoted,
+            unit,
+            dimension,
+            context: cell.as_ref().map_or_else(|| sentence(&folded, start).to_string(), |c| c.row.clone()),
+            column: cell.map_or(String::new(), |c| c.head),
+            paragraph: paragraph.clone(),
+            at: origin.start,
+            bound: read::is_bound(Chars(&chars), &number),
+            answer: false,
+        });
+    }
+}
+
+/// The unit behind a number: what it is, what it means, and its bytes with the space before it.
+fn own_unit(rest: &str) -> Option<(String, Dimension, usize)> {
+    let trimmed = rest.trim_start_matches(' ');
+    let space = rest.len() - trimmed.len();
+    let mut ends = vec![];
+    for (at, c) in trimmed.char_indices().chain([(trimmed.len(), ' ')]) {
+        let part = c.is_alphanumeric() || matches!(c, '%' | '°' | '/' | '·' | '^' | '-' | 'µ' | 'μ');
+        if !part {
+            ends.push(at);
+            if c != ' ' || ends.len() >= WORDS {
+                break;
+            }
+        }
+    }
+    ends.into_iter().rev().find_map(|end| {
+        let unit = trimmed
+            .get(..end)
+            .filter(|unit| !unit.is_empty() && !unit.starts_with(['-', '1']) && !unit.ends_with(' '))?;
+        let known = unit.replace('µ', "μ");
+        Some((unit.to_string(), parse(&known)?, space + end))
+    })
+}
+
+/// The unit in the brackets of a head: `error (mm)`.
+fn unit_of_head(head: &str) -> Option<(String, Dimension)> {
+    let inner = head.trim().strip_suffix(')')?;
+    let (_, unit) = inner.rsplit_once('(')?;
+    Some((unit.to_string(), parse(unit)?))
+}
+
+/// The sentence around a place: from the last full stop to the next one.
+fn sentence(text: &str, at: usize) -> &str {
+    let ends = |tail: &str| tail.starts_with(". ") || tail.starts_with("; ") || tail.starts_with(".\n");
+    let before = text.get(..at).unwrap_or("");
+    let start = before.char_indices().rev().find(|(i, _)| ends(before.get(*i..).unwrap_or("")));
+    let start = start.map_or(0, |(i, _)| i + 2);
+    let after = text.get(at..).unwrap_or("");
+    let end = after.char_indices().find(|(i, _)| ends(after.get(*i..).unwrap_or("")));
+    text.get(start..end.map_or(text.len(), |(i, _)| at + i)).unwrap_or("")
+}
+
+/// A cell of a table of Markdown.
+struct Cell {
+    row: String,
+    head: String,
+}
+
+/// Most bytes of a row, and lines of a table.
+const LONG: usize = 2000;
+const ROWS: usize = 200;
+
+impl Cell {
+    fn of(file: &str, at: usize) -> Option<Cell> {
+        let before = file.get(..at)?;
+        let start = before.rfind('\n').map_or(0, |i| i + 1);
+        let end = file.get(at..)?.find('\n').map_or(file.len(), |i| at + i);
+        let row = file.get(start..end).filter(|row| row.trim_start().starts_with('|') && row.len() < LONG)?;
+        let column = file.get(start..at)?.matches('|').count();
+        let mut above = file.get(..start)?.lines().rev().take(ROWS);
+        let rule = |line: &str| line.trim_start().starts_with('|') && line.contains("---");
+        above.by_ref().take_while(|line| line.trim_start().starts_with('|')).find(|line| rule(line))?;
+        let head = above.next()?.split('|').nth(column)?.trim().to_string();
+        Some(Cell { row: row.to_string(), head })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_as_long_as_they_can_be() {
+        let unit = |rest: &str| own_unit(rest).map(|(unit, _, length)| (unit, length));
+        assert_eq!(unit(" s, and"), Some(("s".into(), 2)));
+        assert_eq!(unit(" N m at"), Some(("N m".into(), 4)));
+        assert_eq!(unit(" m/s^2 down"), Some(("m/s^2".into(), 6)));
+        assert_eq!(unit(" mm at 2 ms"), Some(("mm".into(), 3)));
+        assert_eq!(unit(" balls"), None);
+        assert_eq!(unit(""), None);
+        assert_eq!(unit_of_head("error (mm)").map(|(unit, _)| unit), Some("mm".into()));
+    }
+
+    #[test]
+    fn a_unit_is_shared() {
+        let lesson = crate::spec::read_lesson(crate::source::SourceFile::new(
+            "a.md",
+            "It rises from 2.31 to 3.73 N m, in 3 steps.\n",
+        ));
+        let found: Vec<(String, String)> = stated(&lesson).into_iter().map(|s| (s.quote, s.unit)).collect();
+        let pair = |a: &str, b: &str| (a.to_string(), b.to_string());
+        assert_eq!(found, [pair("2.31", "N m"), pair("3.73 N m", "N m")]);
+    }
+
+    #[test]
+    fn a_cell_knows_its_head() {
+        let text = "x\n\n| h (s) | error (mm) |\n|---:|---:|\n| 0.1 | -0.7 |\n| 0.2 | -1.4 |\n";
+        let at = text.find("1.4").unwrap_or(0);
+        assert_eq!(Cell::of(text, at).map(|c| c.head), Some("error (mm)".into()));
+        assert!(Cell::of("no 1 table", 3).is_none());
+    }
+}
