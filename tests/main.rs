@@ -50,8 +50,9 @@ mod structure;
 mod students;
 mod support;
 mod terminal;
-mod trust;
 #[cfg(unix)]
+mod trace;
+mod trust;
 mod tutorial;
 mod under_hands;
 mod verify;

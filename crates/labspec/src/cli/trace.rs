@@ -5,9 +5,9 @@ use super::target::model_folder;
 use super::{Failure, ModelOptions, Outcome, interrupted, print};
 use crate::bind::scene::Models;
 use crate::lint::load_lesson_file;
-use crate::report::{printable, printable_path, report};
+use crate::report::{printable, printable_lines, printable_path, report};
 use crate::spec::Lesson;
-use crate::trace::{Hit, Origin, Traced, Traces, blocks, trace as look};
+use crate::trace::{Hit, Origin, Traced, Traces, blocks, laid_out, trace as look};
 use crate::verify::significant;
 use clap::ValueEnum;
 use serde_json::{Value, json};
@@ -60,7 +60,7 @@ fn place(found: &Traces<'_>, hit: &Hit) -> String {
 
 fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
     let mut text = String::new();
-    let mut counts = [0usize; 4];
+    let mut counts = [0usize; 5];
     for n in &found.numbers {
         let at = lesson.file.position(n.stated.span.start);
         let quote = printable(&n.stated.quote);
@@ -78,6 +78,17 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
                     printable(&place(found, hit))
                 );
                 0
+            }
+            Origin::Unsteady(hit) => {
+                let measure = printable(&hit.measure).into_owned();
+                let _ = writeln!(
+                    text,
+                    " is not reproducible: {}{measure} = {}  ({}), and other digits where the start is moved by 1e-14",
+                    hit.factor,
+                    significant(hit.value),
+                    printable(&place(found, hit))
+                );
+                4
             }
             Origin::Setting(words) => {
                 let _ = writeln!(text, " is set: {}", printable(words));
@@ -101,13 +112,17 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
         counts[kind] += 1;
     }
     for (address, block) in blocks(found) {
-        let block = serde_json::to_string_pretty(&block).unwrap_or_default();
-        let _ = write!(text, "\nfor lab {address}, to accept:\n\n\"verify\": {block}\n");
+        let _ = write!(
+            text,
+            "\nfor lab {address}, to accept:\n\n\"verify\": {}\n",
+            printable_lines(&laid_out(&block))
+        );
     }
-    let [from, set, chance, none] = counts;
+    let [from, set, chance, none, unsteady] = counts;
+    let unsteady = if unsteady > 0 { format!("{unsteady} not reproducible, ") } else { String::new() };
     let _ = writeln!(
         text,
-        "\n{}: {} numbers with units; {from} traced, {set} set by the text, {chance} perhaps by chance, {none} not traced",
+        "\n{}: {} numbers with units; {from} traced, {set} set by the text, {chance} perhaps by chance, {unsteady}{none} not traced",
         printable_path(&a.lesson),
         found.numbers.len()
     );
@@ -121,24 +136,20 @@ fn share(x: f64) -> String {
 fn value(lesson: &Lesson, found: &Traces<'_>) -> Value {
     let one = |n: &Traced| {
         let at = lesson.file.position(n.stated.span.start);
-        let mut v = json!({
+        let (word, hit, by) = match &n.origin {
+            Origin::From(hit) => ("traced", Some(hit), None),
+            Origin::Chance(hit) => ("chance", Some(hit), None),
+            Origin::Unsteady(hit) => ("unsteady", Some(hit), None),
+            Origin::Setting(words) => ("set", None, Some(words)),
+            Origin::Unknown => ("unknown", None, None),
+        };
+        json!({
             "text": n.stated.quote, "start": n.stated.span.start, "end": n.stated.span.end,
-            "line": at.line, "column": at.column, "unit": n.stated.unit,
-        });
-        let of = |hit: &Hit| {
-            json!({
-                "from": place(found, hit), "measure": hit.measure, "factor": hit.factor, "value": hit.value, "chance": hit.chance,
-            })
-        };
-        let (word, more) = match &n.origin {
-            Origin::From(hit) => ("traced", of(hit)),
-            Origin::Setting(words) => ("set", json!({"by": words})),
-            Origin::Chance(hit) => ("chance", of(hit)),
-            Origin::Unknown => ("unknown", Value::Null),
-        };
-        v["origin"] = json!(word);
-        v["found"] = more;
-        v
+            "line": at.line, "column": at.column, "unit": n.stated.unit, "origin": word,
+            "from": hit.map(|hit| place(found, hit)), "measure": hit.map(|hit| &hit.measure),
+            "factor": hit.map(|hit| &hit.factor), "value": hit.map(|hit| hit.value), "chance": hit.map(|hit| hit.chance),
+            "by": by,
+        })
     };
     let numbers: Vec<Value> = found.numbers.iter().map(one).collect();
     let blocks: Vec<Value> = blocks(found)

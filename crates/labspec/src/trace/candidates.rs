@@ -134,7 +134,7 @@ fn shown(lab: &Lab, model: &Model, programs: &Programs) -> Vec<Shown> {
         let Some(dimension) = label.map(|(_, d)| d).or(known) else { continue };
         let text = bound.text.value.trim().to_string();
         let reads = bound.program.effects().reads.iter();
-        let owners = reads.filter_map(|r| element_owner(model, r.field, r.first as usize, r.count? as usize));
+        let owners = reads.filter_map(|r| element_owner(model, r.field, r.first, r.count?));
         let names = owners.filter_map(|(kind, i)| model.names.of(kind).get(i).map(String::as_str));
         let words: Vec<&str> = labels.iter().map(|l| l.as_str()).chain(names).collect();
         match all.iter_mut().find(|s| s.text == text) {
@@ -302,9 +302,8 @@ fn touching(lab: &Lab, model: &Model, programs: &Programs) -> Vec<(String, Strin
     let mut pairs: Vec<(String, String)> = Vec::new();
     run::play(&mut session, &Play::steps(steps.min(STEPS)), |session, _| {
         for c in &session.world.data.fields().contact {
-            let name =
-                |g: Option<usize>| g.and_then(|g| model.names.geom.get(g)).filter(|n| simple(n)).cloned();
-            if let (Some(a), Some(b)) = (name(Some(c.geom1 as usize)), name(Some(c.geom2 as usize)))
+            let name = |g: usize| model.names.geom.get(g).filter(|n| simple(n)).cloned();
+            if let (Some(a), Some(b)) = (name(c.geom1), name(c.geom2))
                 && !pairs.contains(&(a.clone(), b.clone()))
                 && pairs.len() < PAIRS
             {

@@ -353,6 +353,7 @@ mod tests {
             column: String::new(),
             paragraph: Arc::from(text),
             at: text.rfind(number)?,
+            bound: false,
             answer: false,
         })
     }
@@ -374,7 +375,7 @@ mod tests {
             ("at speed \\sqrt{2gd} = 4.317", "4.317", (2.0 * 9.81 * 0.95f64).sqrt()),
             ("it falls d = z_0 - r = 0.95", "0.95", 0.95),
             ("is \\tfrac12 g h t = 0.01226 m = 12.26", "12.26", 0.5 * 9.81 * 0.005 * 0.5),
-            ("about $v_0 / (\\omega e) = 4.3 / (50 \\times 2.718)$ = 32", "32", 4.3 / (50.0 * 2.718)),
+            ("about $v_0 / (\\omega e) = 4.3 / (50 \\times 2.72)$ = 32", "32", 4.3 / (50.0 * 2.72)),
             ("\\frac{1}{2} g t^2 = 1.2", "1.2", 0.5 * 9.81 * 0.25),
         ] {
             let found = value(text, number).unwrap_or(f64::NAN);

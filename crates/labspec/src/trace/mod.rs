@@ -18,16 +18,22 @@ mod propose;
 mod rank;
 mod trials;
 
-pub use propose::blocks;
+pub use propose::{blocks, laid_out};
 pub use rank::{Hit, Origin};
 
+use crate::bind::Programs;
 use crate::bind::scene::Models;
 use crate::check;
+use crate::interrupt;
+use crate::run::Numerics;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson};
-use crate::verify::{Allowance, Stated, stated};
+use crate::verify::{Allowance, NUDGED, NUDGED_BACK, Stated, stated};
 use candidates::Candidate;
+use labspec_core::Model;
+use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 use trials::Trial;
 
 /// A number, and where it comes from.
@@ -45,6 +51,8 @@ pub(crate) struct Tried<'l> {
     pub(crate) lab: &'l Lab,
     /// The question that it belongs to.
     pub(crate) owner: Option<Range<usize>>,
+    model: Arc<Model>,
+    programs: Programs,
     pub(crate) trials: Vec<Trial>,
     pub(crate) candidates: Vec<Candidate>,
     /// Value of every candidate in every trial; NaN where there is none.
@@ -70,18 +78,48 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
         let owner = questions.map(|(_, q)| q.span.clone()).find(|span| span.contains(&lab.span.start));
         let trials = trials::trials(lab, &numbers);
         let candidates = candidates::candidates(lab, &model, &programs, &numbers);
-        let values =
-            trials.iter().map(|t| trials::values(t, lab, &model, &programs, &candidates, &allowance));
-        let values = values.collect();
-        labs.push(Tried { address, lab, owner, trials, candidates, values });
+        let made = |t: &Trial, numerics| {
+            trials::values(t, lab, &model, &programs, &candidates, &allowance, numerics)
+        };
+        let values = trials.iter().map(|t| made(t, Numerics::NOMINAL)).collect();
+        labs.push(Tried { address, lab, owner, model, programs, trials, candidates, values });
     }
     let bindings = formula::bindings(&numbers);
-    let found = |s: &Stated| rank::origin(s, &numbers, &labs, &bindings);
+    let found = |s: &Stated| match interrupt::requested() {
+        true => Origin::Unknown,
+        false => rank::origin(s, &numbers, &labs, &bindings),
+    };
     let mut origins: Vec<Origin> = numbers.iter().map(found).collect();
+    steady(&numbers, &mut origins, &labs, &allowance);
     rank::share(&numbers, &mut origins);
     let numbers =
         numbers.into_iter().zip(origins).map(|(stated, origin)| Traced { stated, origin }).collect();
     Traces { numbers, labs }
+}
+
+/// Tries what was found again, from starts that nobody could tell from the lab's own: digits that then change are told apart.
+fn steady(numbers: &[Stated], origins: &mut [Origin], labs: &[Tried<'_>], allowance: &Allowance) {
+    let mut again: BTreeMap<(usize, usize), [Vec<f64>; 2]> = BTreeMap::new();
+    for (s, origin) in numbers.iter().zip(origins) {
+        let Origin::From(hit) = origin else { continue };
+        let Some((l, t)) = hit.place else { continue };
+        let Some((tried, trial)) = labs.get(l).and_then(|tried| Some((tried, tried.trials.get(t)?))) else {
+            continue;
+        };
+        let moved = again.entry((l, t)).or_insert_with(|| {
+            [NUDGED, NUDGED_BACK].map(|numerics| {
+                let Tried { lab, model, programs, candidates, .. } = tried;
+                trials::values(trial, lab, model, programs, candidates, allowance, numerics)
+            })
+        });
+        let Some(at) = tried.candidates.iter().position(|c| c.text == hit.measure) else { continue };
+        let Some(own) = tried.values.get(t).and_then(|v| v.get(at)) else { continue };
+        let differs =
+            |other: &Vec<f64>| other.get(at).is_some_and(|x| s.read.differ(hit.value, hit.value * x / own));
+        if moved.iter().any(differs) {
+            *origin = Origin::Unsteady(hit.clone());
+        }
+    }
 }
 
 impl Traces<'_> {

@@ -64,6 +64,39 @@ pub fn blocks(found: &Traces<'_>) -> Vec<(LabAddress, Value)> {
     all
 }
 
+/// A `verify` object as an author would write it: a line for every run, measure and quote.
+pub fn laid_out(verify: &Value) -> String {
+    let line = |value: &Value| {
+        let text = value.to_string();
+        // JSON without the spaces that a reader wants: outside of texts.
+        let (mut out, mut inside, mut escaped) = (String::new(), false, false);
+        for c in text.chars() {
+            inside ^= c == '"' && !escaped;
+            escaped = inside && c == '\\' && !escaped;
+            out.push(c);
+            if !inside && matches!(c, ':' | ',') {
+                out.push(' ');
+            }
+        }
+        out
+    };
+    let block = |open: char, close: char, lines: Vec<String>| {
+        format!("{open}\n    {}\n  {close}", lines.join(",\n    "))
+    };
+    let parts = verify.as_object().into_iter().flatten().map(|(key, part)| {
+        let part = match part {
+            Value::Object(map) => {
+                let lines = map.iter().map(|(name, value)| format!("{}: {}", json!(name), line(value)));
+                block('{', '}', lines.collect())
+            }
+            Value::Array(list) => block('[', ']', list.iter().map(line).collect()),
+            other => line(other),
+        };
+        format!("  {}: {part}", json!(key))
+    });
+    format!("{{\n{}\n}}", parts.collect::<Vec<_>>().join(",\n"))
+}
+
 /// A `verify` object that grows.
 #[derive(Default)]
 struct Block {

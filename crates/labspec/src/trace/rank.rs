@@ -11,6 +11,8 @@ use std::collections::BTreeSet;
 pub enum Origin {
     /// This gives its digits.
     From(Hit),
+    /// This gives its digits, and others where the start is moved by a hair: no reader can reproduce them.
+    Unsteady(Hit),
     /// The text sets something to it: no run can say it.
     Setting(String),
     /// Something gives its digits, and so does chance.

@@ -5,7 +5,7 @@ use super::text;
 use crate::bind::Programs;
 use crate::check;
 use crate::json::{Number, Scalar};
-use crate::run::settings;
+use crate::run::{Numerics, settings};
 use crate::spec::format::RUN_LENGTH;
 use crate::spec::{Control, ControlKind, Lab, Run, Verify};
 use crate::verify::{self, Allowance, BoundVerify, Stated};
@@ -157,6 +157,7 @@ pub(super) fn values(
     programs: &Programs,
     candidates: &[Candidate],
     allowance: &Allowance,
+    numerics: Numerics,
 ) -> Vec<f64> {
     let none = || vec![f64::NAN; candidates.len()];
     let name = |i: usize| text(&format!("m{i}"));
@@ -171,6 +172,6 @@ pub(super) fn values(
         exact: Vec::new(),
     };
     let bound = BoundVerify::new(&verify, lab, model, programs, allowance, &mut Vec::new());
-    let found = bound.and_then(|bound| verify::measured(&bound));
+    let found = bound.and_then(|bound| verify::measured(&bound, numerics));
     found.filter(|values| values.len() == candidates.len()).unwrap_or_else(none)
 }

@@ -107,8 +107,8 @@ const HALVED: Numerics = Numerics { timestep: 0.5, ..Numerics::NOMINAL };
 const TIGHT: Numerics = Numerics { tight: true, ..Numerics::NOMINAL };
 /// Far below what anybody could set or measure; a system that shows it after seconds is chaotic.
 const NUDGE: f64 = 1e-14;
-const NUDGED: Numerics = Numerics { nudge: NUDGE, ..Numerics::NOMINAL };
-const NUDGED_BACK: Numerics = Numerics { nudge: -NUDGE, ..Numerics::NOMINAL };
+pub(crate) const NUDGED: Numerics = Numerics { nudge: NUDGE, ..Numerics::NOMINAL };
+pub(crate) const NUDGED_BACK: Numerics = Numerics { nudge: -NUDGE, ..Numerics::NOMINAL };
 
 /// The changes of the numerics that an answer must survive, and how to call them.
 const PERTURBED: [(Numerics, &str); 3] = [
@@ -118,8 +118,8 @@ const PERTURBED: [(Numerics, &str); 3] = [
 ];
 
 /// Every measure of an object with one run; `None` where the run cannot be made, or breaks.
-pub(crate) fn measured(bound: &BoundVerify<'_>) -> Option<Vec<f64>> {
-    let outcome = bound.outcome(Numerics::NOMINAL, &mut Vec::new())?;
+pub(crate) fn measured(bound: &BoundVerify<'_>, numerics: Numerics) -> Option<Vec<f64>> {
+    let outcome = bound.outcome(numerics, &mut Vec::new())?;
     let run = outcome.runs.into_iter().next().filter(|run| run.broke.is_none())?;
     Some(run.measures.into_iter().map(|(_, x)| x).collect())
 }

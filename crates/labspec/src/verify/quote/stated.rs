@@ -37,7 +37,7 @@ pub struct Stated {
 }
 
 /// Most numbers of one lesson.
-const MOST: usize = 5000;
+const MOST: usize = 1000;
 /// Most words of a unit: `N m s/rad`.
 const WORDS: usize = 3;
 
@@ -91,6 +91,9 @@ fn of_piece(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
     let mut next: Option<(usize, String, Dimension)> = None;
     for number in read::numbers(Chars(&chars)).into_iter().rev() {
         let (Some(&start), Some(&end)) = (bytes.get(number.start), bytes.get(number.end)) else { continue };
+        if all.len() > MOST {
+            return;
+        }
         if number.refused.is_some() || !number.quoted.value.is_finite() {
             next = None;
             continue;
@@ -159,14 +162,28 @@ fn unit_of_head(head: &str) -> Option<(String, Dimension)> {
 }
 
 /// The sentence around a place: from the last full stop to the next one.
-fn sentence(text: &str, at: usize) -> &str {
+fn sentence(text: &str, mut at: usize) -> &str {
     let ends = |tail: &str| tail.starts_with(". ") || tail.starts_with("; ") || tail.starts_with(".\n");
+    let text = around(text, &mut at);
     let before = text.get(..at).unwrap_or("");
     let start = before.char_indices().rev().find(|(i, _)| ends(before.get(*i..).unwrap_or("")));
     let start = start.map_or(0, |(i, _)| i + 2);
     let after = text.get(at..).unwrap_or("");
     let end = after.char_indices().find(|(i, _)| ends(after.get(*i..).unwrap_or("")));
     text.get(start..end.map_or(text.len(), |(i, _)| at + i)).unwrap_or("")
+}
+
+/// What stands near a place, which then is its place in that.
+fn around<'t>(text: &'t str, at: &mut usize) -> &'t str {
+    let edge = |mut i: usize| {
+        while !text.is_char_boundary(i) {
+            i -= 1;
+        }
+        i
+    };
+    let (from, to) = (edge(at.saturating_sub(LONG)), edge((*at + LONG).min(text.len())));
+    *at -= from;
+    text.get(from..to).unwrap_or("")
 }
 
 /// A cell of a table of Markdown.
