@@ -6,6 +6,7 @@ use crate::support::check_text;
 use labspec::check::Checked;
 use labspec::report;
 use labspec::verify::{QuoteState, Verdict};
+use serde_json::json;
 use std::fmt::Write;
 
 /// A ball above a floor, and a question about it.
@@ -404,4 +405,51 @@ fn digits_of_a_chaotic_motion_are_never_recommended() {
     let short = computed(&check("-77.25", 1));
     let checked = check(&format!("{short:.2}"), 1);
     assert_eq!(checked.claims[0].judgement.quotes[0].state, QuoteState::Right, "{:?}", checked.findings);
+}
+
+/// An option that the runs say nothing about is counted, and neither refuted nor held.
+#[test]
+fn what_is_not_decided_is_no_distractor_that_is_refuted() {
+    let lesson = |options: [&str; 3]| {
+        let question = json!({"id": "q", "title": "t", "questions": [{
+            "kind": "predict", "q": "Where is it after a second?", "options": ["lower", "higher", "because of the moon"], "answer": 0,
+            "sim": {"xml": "<mujoco><worldbody><body pos='0 0 9'><freejoint/><geom size='.1'/></body></worldbody></mujoco>",
+                "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]},
+            "verify": {"runs": {"r": {"until": 1}}, "measure": {"z": "final(data.qpos[2])"}, "options": options}}]});
+        let checked = check_text("quiz.json", &question.to_string());
+        let answer = checked.claims[0].judgement.answer.clone().unwrap();
+        (answer.verdict, answer.reason, answer.weights.iter().map(|w| w.holds).collect::<Vec<_>>())
+    };
+    let (verdict, reason, holds) = lesson(["z < 9", "z > 9", "undecided"]);
+    assert_eq!((verdict, holds), (Verdict::Verified, vec![Some(true), Some(false), None]));
+    assert!(reason.contains("option 2") && reason.contains("is not decided"), "{reason}");
+    assert_eq!(lesson(["z > 9", "z < 9", "undecided"]).0, Verdict::Refuted);
+    // An answer of which nothing is known, or beside which nothing is, is not verified.
+    assert_eq!(lesson(["undecided", "z > 9", "z > 10"]).0, Verdict::Failed);
+    assert_eq!(lesson(["z < 9", "undecided", "undecided"]).0, Verdict::Failed);
+}
+
+/// Measures over a run, against what a fall is: z = 9 - ½ g t (t + h).
+#[test]
+fn measures_over_a_fall_are_those_of_a_fall() {
+    let lab = |measure: &str, quote: &str| {
+        let lab = json!({"xml": "<mujoco><worldbody><body pos='0 0 9'><freejoint/><geom size='.1'/></body></worldbody></mujoco>",
+            "note": quote, "verify": {"runs": {"r": {"until": 1}}, "measure": {"m": measure}, "says": [[quote, "m"]]}});
+        let checked = check_text("lab.json", &lab.to_string());
+        checked.claims[0].judgement.quotes[0].state
+    };
+    for (measure, quote) in [
+        ("last(data.qpos[2] > 8)", "0.450 s"),
+        ("count(data.qpos[2] < 8)", "1 time"),
+        ("crossings(data.qpos[2], 8)", "1 time"),
+        ("settles(data.qvel[2], -9.81, 1)", "0.900 s"),
+        ("peak(data.qpos[2])", "0.000 s"),
+        ("holds(data.qpos[2] < 9.001)", "1 time"),
+        ("rate(data.qvel[2])", "-9.810 m/s"),
+        ("integral(data.qvel[2])", "-4.905 m"),
+        ("rms(data.qvel[2])", "5.66 m/s"),
+    ] {
+        assert_eq!(lab(measure, quote), QuoteState::Right, "{measure}");
+        assert_ne!(lab(measure, "7.77 m"), QuoteState::Right, "{measure}");
+    }
 }

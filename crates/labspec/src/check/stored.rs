@@ -203,7 +203,7 @@ fn read_answer(value: &Value) -> Option<Answer> {
     let weight = |value: &Value| {
         let [option, holds, margin] = parts(value)?;
         let (option, margin) = (maybe(option, count)?, maybe(margin, number_of)?);
-        Some(Weight { option, holds: holds.as_bool()?, margin })
+        Some(Weight { option, holds: maybe(holds, Value::as_bool)?, margin })
     };
     Some(Answer {
         verdict: one_of(&VERDICTS, verdict)?,

@@ -62,7 +62,7 @@ impl Verdict {
 pub struct Answer {
     /// What became of it.
     pub verdict: Verdict,
-    /// Why, unless it is verified.
+    /// Why, unless it is verified; or what the evidence does not decide.
     pub reason: String,
     /// Every option with its condition, or the value of a number.
     pub weights: Vec<Weight>,
@@ -73,8 +73,8 @@ pub struct Answer {
 pub struct Weight {
     /// Its index, from 0; `None` for the value of a number.
     pub option: Option<usize>,
-    /// The condition holds.
-    pub holds: bool,
+    /// The condition holds; `None` where the author says that this evidence does not decide the option.
+    pub holds: Option<bool>,
     /// How far the comparison that decides is from turning over; negative where the condition does not hold.
     pub margin: Option<f64>,
 }
@@ -82,7 +82,8 @@ pub struct Weight {
 impl Weight {
     /// `holds, by 0.02`; `does not hold, by 0.6`.
     pub fn words(&self) -> String {
-        match (self.holds, self.margin) {
+        let Some(holds) = self.holds else { return "is not decided by this evidence".to_string() };
+        match (holds, self.margin) {
             (true, Some(0.0)) => "holds exactly".to_string(),
             (false, Some(0.0)) => "does not hold: both sides are equal".to_string(),
             (true, Some(margin)) => format!("holds, by {}", significant(margin.abs())),
@@ -120,16 +121,23 @@ pub(super) fn check(
     by_options.into_iter().chain(by_value).max_by_key(|a| a.verdict)
 }
 
-/// The conditions of all options, each with what it rests on.
+/// What stands for a condition where the evidence does not decide the option.
+pub const UNDECIDED: &str = "undecided";
+
+/// The conditions of all options, each with what it rests on; `None` for one that is not decided.
 fn conditions(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
     verify: &Verify,
     findings: &mut Vec<Finding>,
-) -> Result<Vec<(Found, Weighed)>, String> {
+) -> Result<Vec<Option<(Found, Weighed)>>, String> {
     let mut all = Vec::new();
     let mut reason = None;
     for text in &verify.options {
+        if is_undecided(text) {
+            all.push(None);
+            continue;
+        }
         match grounded(bound, outcome, text, findings) {
             Err(why) => reason = reason.or(Some(why)),
             Ok(found) => {
@@ -138,11 +146,16 @@ fn conditions(
                     findings.push(no_number(text, part));
                     reason = reason.or_else(|| Some(format!("`{part}` compares with what is no number")));
                 }
-                all.push((found, weighed));
+                all.push(Some((found, weighed)));
             }
         }
     }
     reason.map_or(Ok(all), Err)
+}
+
+/// Whether a text says that the evidence does not decide an option.
+pub(super) fn is_undecided(text: &Text) -> bool {
+    text.value.trim() == UNDECIDED
 }
 
 /// A comparison that was decided by NaN.
@@ -172,19 +185,21 @@ fn options(
         Ok(found) => found,
         Err(reason) => return Answer::failed(reason),
     };
-    let weights: Vec<Weight> = found
-        .iter()
-        .enumerate()
-        .map(|(i, (_, w))| Weight { option: Some(i), holds: w.holds, margin: w.margin })
-        .collect();
+    let weights: Vec<Weight> = found.iter().enumerate().map(|(i, found)| weight(i, found.as_ref())).collect();
     let name =
         |i: usize| format!("{} (\"{}\")", i, options.get(i).map_or(String::new(), |o| shorten(&o.value)));
     let names = |list: &[usize]| list.iter().map(|&i| name(i)).collect::<Vec<_>>().join(", ");
-    let held: Vec<usize> = (0..weights.len()).filter(|&i| weights[i].holds).collect();
+    let with = |state: Option<bool>| -> Vec<usize> {
+        weights.iter().filter(|w| w.holds == state).filter_map(|w| w.option).collect()
+    };
+    let (held, open) = (with(Some(true)), with(None));
     let condition = |i: usize| verify.options.get(i).map_or(verify.span.clone(), |c| c.span());
     let words = |i: usize| weights.get(i).map_or(String::new(), Weight::words);
     let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
 
+    if open.contains(&answer) {
+        return done(Verdict::Failed, format!("answer {} is the one that is not decided", name(answer)));
+    }
     if !held.contains(&answer) {
         let message = format!("the simulation refutes answer {}", name(answer));
         let mut f = Finding::error(rules::ANSWER_REFUTED, keyed.span.clone(), message.clone())
@@ -213,17 +228,21 @@ fn options(
         findings.push(f);
         return done(Verdict::Ambiguous, message);
     }
-    let holds: Vec<bool> = weights.iter().map(|w| w.holds).collect();
+    if open.len() + 1 == weights.len() {
+        return done(Verdict::Failed, "none of the other options is decided".to_string());
+    }
     for (outcome, how) in perturbed(outcomes) {
         let again = conditions(bound, outcome, verify, &mut Vec::new());
         let turned = match &again {
             Err(reason) => Some((answer, reason.clone())),
-            Ok(now) => now.iter().enumerate().find(|(i, (_, w))| holds.get(*i) != Some(&w.holds)).map(
-                |(i, (_, w))| {
-                    let weight = Weight { option: Some(i), holds: w.holds, margin: w.margin };
-                    (i, format!("then the condition of {} {}", name(i), weight.words()))
-                },
-            ),
+            Ok(now) => {
+                let now = now.iter().enumerate().map(|(i, found)| weight(i, found.as_ref()));
+                let other = now.zip(&weights).find(|(now, then)| now.holds != then.holds);
+                other.map(|(now, _)| {
+                    let i = now.option.unwrap_or(answer);
+                    (i, format!("then the condition of {} {}", name(i), now.words()))
+                })
+            }
         };
         if let Some((i, what)) = turned {
             let now = format!("with the lesson's own numerics this {}", words(i));
@@ -231,8 +250,18 @@ fn options(
             return done(Verdict::Fragile, format!("it does not hold {how}"));
         }
     }
-    let evidence = found.iter().map(|(f, _)| f.evidence).min();
-    done(held_by(evidence), String::new())
+    let evidence = found.iter().flatten().map(|(f, _)| f.evidence).min();
+    let reason = match open.as_slice() {
+        [] => String::new(),
+        [one] => format!("option {} is not decided", name(*one)),
+        all => format!("options {} are not decided", names(all)),
+    };
+    done(held_by(evidence), reason)
+}
+
+fn weight(i: usize, found: Option<&(Found, Weighed)>) -> Weight {
+    let weighed = found.map(|(_, w)| w);
+    Weight { option: Some(i), holds: weighed.map(|w| w.holds), margin: weighed.and_then(|w| w.margin) }
 }
 
 /// The outcomes under other numerics, with their names.
@@ -268,7 +297,7 @@ fn value(
     }
     let margin = |x: f64| tol - (x - answer).abs();
     let right = |x: f64| margin(x) >= 0.0;
-    let weights = vec![Weight { option: None, holds: right(computed), margin: Some(margin(computed)) }];
+    let weights = vec![Weight { option: None, holds: Some(right(computed)), margin: Some(margin(computed)) }];
     let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
     if !right(computed) {
         let message = format!("the answer is {answer}, the simulation gives {}", significant(computed));

@@ -17,7 +17,7 @@ mod measure;
 mod outcome;
 mod quote;
 
-pub use answer::{Answer, Verdict, Weight};
+pub use answer::{Answer, UNDECIDED, Verdict, Weight};
 pub use bound::{Allowance, BoundVerify};
 pub use exact::ClosedForm;
 pub use quote::{
@@ -185,7 +185,8 @@ pub fn check(
 /// Looks at every text of a `verify` object, and runs nothing.
 pub(crate) fn look(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) {
     let quoted = verify.says.iter().map(|said| &said.expr);
-    bound.look(verify.options.iter().chain(&verify.value).chain(quoted), findings);
+    let options = verify.options.iter().filter(|text| !answer::is_undecided(text));
+    bound.look(options.chain(&verify.value).chain(quoted), findings);
     for claim in &verify.exact {
         let _ = exact::bind(bound, claim, findings);
     }

@@ -60,7 +60,7 @@ pub static VERIFY: Object = Object {
         key(
             "options",
             Type::List(&EXPRESSION),
-            "on a question with options: one condition for each, in their order; that of the right option alone must hold",
+            "on a question with options: one condition for each, in their order; that of the right option alone must hold; `undecided` for an option that this evidence says nothing about",
             r#"["speed < 7", "speed > 7 && speed < 15", "speed > 15"]"#,
         )
         .or(Absent::Empty),
