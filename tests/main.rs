@@ -13,6 +13,7 @@ mod examples;
 mod files;
 mod fixes;
 mod format;
+mod forms;
 mod fresh;
 mod fuzz;
 mod init;
