@@ -34,7 +34,7 @@ fn shells_complete_every_command() {
     assert!(options.len() > 15 && options.contains("--update-baseline"), "{options:?}");
     for (shell, command, option) in [
         ("bash", "cmd=\"labspec__subcmd__NAME\"", " --NAME "),
-        ("zsh", "'NAME:", "'--NAME"),
+        ("zsh", "'NAME:", "--NAME["),
         ("fish", "-a \"NAME\"", "-l NAME "),
         (
             "powershell",
@@ -49,7 +49,10 @@ fn shells_complete_every_command() {
             assert!(done.stdout.contains(&command.replace("NAME", name)), "{shell}: {name}");
         }
         for name in options.iter().map(|o| o.trim_start_matches('-')) {
-            assert!(done.stdout.contains(&option.replace("NAME", name)), "{shell}: {name}");
+            // Of zsh, options that take a value have a sign between.
+            let [plain, taking] =
+                [option.to_string(), option.replace('[', "=[")].map(|o| o.replace("NAME", name));
+            assert!(done.stdout.contains(&plain) || done.stdout.contains(&taking), "{shell}: {name}");
         }
     }
 }

@@ -18,7 +18,7 @@ mod units;
 
 pub use allowed::Allowed;
 pub use claims::Claim;
-pub use dimension::{Dimensions, dimensions};
+pub use dimension::{Dimensions, dimension_of, dimensions};
 pub use entries::{evidence, ledger};
 pub use trial::Tried;
 

@@ -22,15 +22,15 @@ pub fn page(code: &str) -> String {
 
 /// Line and column where a finding begins and ends, from 1; 1, 1 where its file is not at hand.
 fn place(f: &Finding, files: &[&SourceFile]) -> [usize; 4] {
-    place_of(&f.path, &f.span, files)
+    place_of(&f.path, &f.span, files).unwrap_or([1; 4])
 }
 
-/// The same of some bytes of a file.
-fn place_of(path: &str, span: &Range<usize>, files: &[&SourceFile]) -> [usize; 4] {
-    let Some(file) = file_of(files, path) else { return [1; 4] };
+/// The same of some bytes of a file, where it is at hand.
+fn place_of(path: &str, span: &Range<usize>, files: &[&SourceFile]) -> Option<[usize; 4]> {
+    let file = file_of(files, path)?;
     let span = file.snap(span);
     let (from, to) = (file.position(span.start), file.position(span.end));
-    [from.line, from.column, to.line, to.column]
+    Some([from.line, from.column, to.line, to.column])
 }
 
 /// A line for each finding: `file:line:column: severity[code]: message`.
@@ -146,8 +146,8 @@ pub fn sarif(findings: &[Finding], files: &[&SourceFile]) -> Value {
         rule
     };
     let region = |f: &Finding, span: &Range<usize>| {
-        let [line, column, last, end] = place_of(&f.path, span, files);
-        json!({"startLine": line, "startColumn": column, "endLine": last, "endColumn": end})
+        let [line, column, last, end] = place_of(&f.path, span, files)?;
+        Some(json!({"startLine": line, "startColumn": column, "endLine": last, "endColumn": end}))
     };
     let mut seen = BTreeMap::new();
     let mut result = |f: &Finding| {
@@ -157,12 +157,16 @@ pub fn sarif(findings: &[Finding], files: &[&SourceFile]) -> Value {
         let mut value = json!({
             "ruleId": f.code, "ruleIndex": codes.binary_search(&f.code).unwrap_or(0), "level": level(f.severity),
             "message": {"text": text.join(". ")},
-            "locations": [{"physicalLocation": {"artifactLocation": file, "region": region(f, &f.span)}}],
+            "locations": [{"physicalLocation": {"artifactLocation": file}}],
             "partialFingerprints": {"labspec/v1": print(f, &mut seen)},
         });
-        if let Some(fix) = f.fix.as_ref().filter(|fix| fix.applicability != Applicability::Display) {
-            let change =
-                json!({"deletedRegion": region(f, &fix.span), "insertedContent": {"text": fix.text}});
+        // A file that could not be read has no places.
+        if let Some(region) = region(f, &f.span) {
+            value["locations"][0]["physicalLocation"]["region"] = region;
+        }
+        let fix = f.fix.as_ref().filter(|fix| fix.applicability != Applicability::Display);
+        if let Some((fix, region)) = fix.and_then(|fix| Some((fix, region(f, &fix.span)?))) {
+            let change = json!({"deletedRegion": region, "insertedContent": {"text": fix.text}});
             let words = f.help.as_ref().unwrap_or(&f.message);
             value["fixes"] = json!([{
                 "description": {"text": words},
