@@ -641,7 +641,9 @@ fn unsaved_texts_and_linked_folders_are_what_the_editor_sees() {
     let at = model.find("\"heavy\"").unwrap() + 1;
     assert_eq!(there[0]["range"]["start"], place(&model, at));
     let back = editor.at("definition", "models/ball_drop.xml", &model, at);
-    assert_eq!(back[0]["uri"], editor.uri("clean.md").as_str(), "{back}");
+    let uses: Vec<&Value> = back.as_array().unwrap().iter().map(|l| &l["uri"]).collect();
+    assert!(uses.contains(&&json!(editor.uri("clean.md"))), "{back}");
+    assert!(uses.iter().all(|uri| uri.as_str().unwrap().starts_with(&editor.root)), "{back}");
     let renamed =
         editor.try_at("rename", "models/ball_drop.xml", &model, at, json!({"newName": "iron"})).unwrap();
     let changes = renamed["changes"].as_object().unwrap();
@@ -773,7 +775,7 @@ fn a_hover_tells_the_dimension() {
             "\"controller\": \"ctx.v = 1000 * data.qvel[0]\", \"setup\": \"ctx.w = ctx.|v\"",
             Some("is in mm/s"),
         ),
-        ("\"readouts\": [{\"label\": \"a\", \"expr\": \"model.body_ma|ss[1]\"}]", Some("is in kg")),
+        ("\"readouts\": [{\"label\": \"a\", \"expr\": \"model.body_mass[|1]\"}]", Some("is in kg")),
         ("\"readouts\": [{\"label\": \"a\", \"expr\": \"data.ti|me\"}]", Some("is in s")),
         // What is not certain, or a plain number, is not told.
         ("\"controller\": \"ctx.v = data.time > 1 ? data.qvel[0] : data.qpos[0]; ctx.w = ctx.|v\"", None),

@@ -3,6 +3,7 @@
 mod allocation;
 mod breaking;
 mod budget;
+mod clauses;
 mod cli;
 mod cli_run;
 mod conformance;
