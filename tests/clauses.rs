@@ -162,10 +162,10 @@ const CLAUSES: &[Clause] = &[
         says: "a numeric answer that its own explanation contradicts",
         code: "answer-against-explanation",
         wrong: &[
-            r#"{"id": "q", "questions": [{"kind": "numeric", "q": "How fast, in m/s?", "answer": 12.65, "tol": 0.05, "unit": "m/s", "explain": "$v = \\\\sqrt{2 g h}$ = 12.64 m/s."}]}"#,
+            r#"{"id": "q", "questions": [{"kind": "numeric", "q": "How fast, in m/s?", "answer": 12.65, "tol": 0.05, "unit": "m/s", "explain": "$v = \\sqrt{2 g h}$ = 12.64 m/s."}]}"#,
         ],
         right: &[
-            r#"{"id": "q", "questions": [{"kind": "numeric", "q": "How fast, in m/s?", "answer": 12.65, "tol": 0.05, "unit": "m/s", "explain": "$v = \\\\sqrt{2 g h}$ = 12.65 m/s, and 12.64 m/s with g = 9.8 m/s²."}]}"#,
+            r#"{"id": "q", "questions": [{"kind": "numeric", "q": "How fast, in m/s?", "answer": 12.65, "tol": 0.05, "unit": "m/s", "explain": "$v = \\sqrt{2 g h}$ = 12.65 m/s, and 12.64 m/s with g = 9.8 m/s²."}]}"#,
         ],
     },
     Clause {

@@ -30,7 +30,7 @@ fn shells_complete_every_command() {
     let help = run(&["check", "--help"]).stdout;
     let is_long = |word: &&str| word.starts_with("--") && word.len() > 2;
     let options: BTreeSet<&str> =
-        help.lines().filter_map(|line| line.split([' ', '=']).filter(is_long).next()).collect();
+        help.lines().filter_map(|line| line.split([' ', '=']).find(is_long)).collect();
     assert!(options.len() > 15 && options.contains("--update-baseline"), "{options:?}");
     for (shell, command, option) in [
         ("bash", "cmd=\"labspec__subcmd__NAME\"", " --NAME "),

@@ -677,7 +677,7 @@ fn files_may_go_away() {
     // The folder that holds it all.
     std::fs::remove_dir_all(folder.path()).unwrap();
     let mut text = CLEAN.to_string();
-    text.insert_str(0, "x");
+    text.insert(0, 'x');
     editor.change("clean.md", 2, CLEAN, 0..0, "x");
     editor.found("clean.md", 2);
     assert!(editor.try_at("hover", "clean.md", &text, byte, json!({})).is_ok());
@@ -793,8 +793,8 @@ fn a_hover_tells_the_dimension() {
     assert_eq!(editor.end(), 0);
 }
 
-/// A lesson of a hundred labs answers a keystroke in less than 50 ms, in a build for use. Tests are built and run with more patience:
-/// other tests run beside them, unoptimized.
+/// A lesson of a hundred labs answers a keystroke in less than 50 ms, at the median even in a build for tests and with other tests
+/// beside it; no single answer may take much longer.
 #[test]
 fn a_hundred_labs_answer_at_once() {
     let folder = folder();
@@ -808,24 +808,28 @@ fn a_hundred_labs_answer_at_once() {
         ));
     }
     editor.did_open("100.md", &text);
-    let mut slowest = [Duration::ZERO; 3];
+    let mut taken: [Vec<Duration>; 3] = Default::default();
     for (round, (at, _)) in text.clone().match_indices("data.ncon").step_by(9).enumerate() {
         let version = round as u64 + 2;
         let start = Instant::now();
         editor.change("100.md", version, &text, at + 5..at + 9, if round % 2 == 0 { "ncno" } else { "qqqq" });
         text.replace_range(at + 5..at + 9, if round % 2 == 0 { "ncno" } else { "qqqq" });
         let found = editor.found("100.md", version);
-        slowest[0] = slowest[0].max(start.elapsed());
+        taken[0].push(start.elapsed());
         assert_eq!(found.as_array().unwrap().len(), round + 1, "{found}");
         let start = Instant::now();
         assert!(editor.at("completion", "100.md", &text, at + 5).as_array().unwrap().len() > 50);
-        slowest[1] = slowest[1].max(start.elapsed());
+        taken[1].push(start.elapsed());
         let start = Instant::now();
         assert!(editor.at("hover", "100.md", &text, at + 2).is_object());
-        slowest[2] = slowest[2].max(start.elapsed());
+        taken[2].push(start.elapsed());
     }
-    println!("findings {:?}, completion {:?}, hover {:?}", slowest[0], slowest[1], slowest[2]);
-    let most = Duration::from_millis(50) * 20;
-    assert!(slowest.iter().all(|t| *t < most), "{slowest:?}");
+    for (what, times) in ["findings", "completion", "hover"].into_iter().zip(&mut taken) {
+        times.sort();
+        let (median, slowest) = (times[times.len() / 2], times[times.len() - 1]);
+        println!("{what}: {median:?}, at most {slowest:?}");
+        assert!(times.len() > 5 && median < Duration::from_millis(50), "{what}: {median:?}");
+        assert!(slowest < Duration::from_secs(1), "{what}: {slowest:?}");
+    }
     assert_eq!(editor.end(), 0);
 }

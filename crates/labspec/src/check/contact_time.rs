@@ -71,7 +71,7 @@ fn late(ready: &Ready<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
     let (mut known, mut changed, mut contacts) = (values(&mut session), vec![true; slots.len()], usize::MAX);
     for _ in 0..steps {
         let fields = session.world.data.fields();
-        let (now, time) = (fields.ncon as usize, session.world.data.time());
+        let (now, time) = (fields.ncon, session.world.data.time());
         session.step();
         if session.ended().is_some() {
             return None;
