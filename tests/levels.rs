@@ -263,3 +263,14 @@ fn a_widget_that_nobody_knows_is_named_as_not_checked() {
     std::fs::write(&settings, "widgets = [\"integrator\", \"playground\"]\n").unwrap();
     assert_eq!(check(&[]).code, 3);
 }
+
+/// However many allowances there are, so many of their mistakes are listed, and that there are more is said.
+#[test]
+fn mistakes_in_allowances_are_listed_up_to_a_limit() {
+    let text = "x <!-- labspec allow nonsense: why -->".repeat(100_000);
+    let checked = crate::support::check_text("a.md", &text);
+    let codes = crate::support::codes(&checked);
+    let count = |code: &str| codes.iter().filter(|c| **c == code).count();
+    assert_eq!((count("unknown-rule"), count("lesson-limit")), (labspec::lint::MAX_FINDINGS, 1));
+    assert_eq!(codes.len(), labspec::lint::MAX_FINDINGS + 1);
+}

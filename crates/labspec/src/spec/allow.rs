@@ -141,6 +141,20 @@ mod tests {
         assert_eq!(over[3], "");
     }
 
+    /// A reason may go on in the next line.
+    #[test]
+    fn a_comment_may_have_several_lines() {
+        let text = "# A\n\n<!-- labspec allow a,\nb: read\naloud -->\n\nthis\n\nnot <!-- labspec\nallow c: x --> that\n";
+        let lesson = read_lesson(SourceFile::new("a.md", text));
+        let all = lesson.allowances();
+        assert_eq!(all.len(), 2, "{all:#?}");
+        let codes =
+            |i: usize| all[i].codes.iter().map(|(code, at)| (code.as_str(), lesson.file.slice(at.clone())));
+        assert_eq!(codes(0).collect::<Vec<_>>(), [("a", "a"), ("b", "b")]);
+        assert_eq!((all[0].why.as_str(), lesson.file.slice(all[0].over.clone())), ("read\naloud", "this\n"));
+        assert_eq!(codes(1).collect::<Vec<_>>(), [("c", "c")]);
+    }
+
     /// A hundred thousand comments in one paragraph: each end is found once. Each anew would be 10^11 bytes, and no test that ends.
     #[test]
     fn many_comments_are_read_once() {
