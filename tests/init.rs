@@ -4,6 +4,7 @@
 
 use crate::program::{run, run_in};
 use crate::support::workspace;
+use std::collections::BTreeSet;
 
 #[test]
 fn a_new_folder_holds_a_lesson_that_is_true() {
@@ -23,13 +24,35 @@ fn a_new_folder_holds_a_lesson_that_is_true() {
     assert_eq!(std::fs::read_to_string(&lesson).unwrap(), "mine");
 }
 
+/// Every command, and every long option of `check`, in the form in which each shell's script writes them.
 #[test]
 fn shells_complete_every_command() {
-    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+    let help = run(&["check", "--help"]).stdout;
+    let is_long = |word: &&str| word.starts_with("--") && word.len() > 2;
+    let options: BTreeSet<&str> =
+        help.lines().filter_map(|line| line.split([' ', '=']).find(is_long)).collect();
+    assert!(options.len() > 15 && options.contains("--update-baseline"), "{options:?}");
+    for (shell, command, option) in [
+        ("bash", "cmd=\"labspec__subcmd__NAME\"", " --NAME "),
+        ("zsh", "'NAME:", "--NAME["),
+        ("fish", "-a \"NAME\"", "-l NAME "),
+        (
+            "powershell",
+            "::new('NAME', 'NAME', [CompletionResultType]::ParameterValue",
+            "::new('--NAME', '--NAME'",
+        ),
+        ("elvish", "cand NAME '", "cand --NAME '"),
+    ] {
         let done = run(&["completions", shell]);
         assert_eq!(done.code, 0, "{shell}");
-        for word in ["precision", "stability", "--update-baseline"] {
-            assert!(done.stdout.contains(word.trim_start_matches('-')), "{shell}: {word}");
+        for name in ["check", "precision", "stability", "lsp"] {
+            assert!(done.stdout.contains(&command.replace("NAME", name)), "{shell}: {name}");
+        }
+        for name in options.iter().map(|o| o.trim_start_matches('-')) {
+            // Of zsh, options that take a value have a sign between.
+            let [plain, taking] =
+                [option.to_string(), option.replace('[', "=[")].map(|o| o.replace("NAME", name));
+            assert!(done.stdout.contains(&plain) || done.stdout.contains(&taking), "{shell}: {name}");
         }
     }
 }

@@ -229,3 +229,48 @@ fn what_git_ignores_is_not_a_lesson() {
     // What is named is meant.
     assert_eq!(check(&folder, &["build/b.md"]).code, 1);
 }
+
+/// A widget of which nothing is known stands in the ledger as not checked, and is counted; where the page has it, that is said.
+#[test]
+fn a_widget_that_nobody_knows_is_named_as_not_checked() {
+    let folder = crate::program::folder();
+    let lesson = format!(
+        "{}\n```lab integrators\n{{\"model\": \"ball_drop\"}}\n```\n\n```lab playground\n{{}}\n```\n",
+        crate::program::CLEAN
+    );
+    std::fs::write(folder.path().join("clean.md"), lesson).unwrap();
+    let check = |arguments: &[&str]| check(&folder, &[&["clean.md"], arguments].concat());
+    let done = check(&[]);
+    assert_eq!(done.code, 3, "{}", done.stdout);
+    assert!(done.stdout.contains("unknown    widget integrators: not checked; "), "{}", done.stdout);
+    assert!(done.stdout.contains("2 other widgets not checked"), "{}", done.stdout);
+    let report: Value = parsed(&check(&["--format", "json"]));
+    let entries = report["ledger"].as_array().unwrap().iter();
+    let widgets: Vec<_> = entries.filter(|e| e["subject"] == "otherWidget").map(|e| &e["owner"]).collect();
+    assert_eq!(widgets, ["widget integrators", "widget playground"]);
+    assert_eq!(report["summary"]["claims"]["otherWidget"]["leftOut"], 2);
+    assert_eq!(report["summary"]["outcome"], "partial");
+    // Where the claims alone are verified, nothing is said of it.
+    assert_eq!(run_in(folder.path(), &["verify", "clean.md"]).code, 0);
+    let settings = folder.path().join("labspec.toml");
+    std::fs::write(&settings, "widgets = [\"integrators\"]\n").unwrap();
+    let done = check(&[]);
+    assert_eq!(done.code, 3);
+    assert!(done.stdout.contains("1 other widget not run, 1 other widget not checked"), "{}", done.stdout);
+    std::fs::write(&settings, "widgets = [\"integrators\", \"playground\"]\n").unwrap();
+    assert_eq!(check(&[]).code, 0);
+    // A misspelt one is another one.
+    std::fs::write(&settings, "widgets = [\"integrator\", \"playground\"]\n").unwrap();
+    assert_eq!(check(&[]).code, 3);
+}
+
+/// However many allowances there are, so many of their mistakes are listed, and that there are more is said.
+#[test]
+fn mistakes_in_allowances_are_listed_up_to_a_limit() {
+    let text = "x <!-- labspec allow nonsense: why -->".repeat(100_000);
+    let checked = crate::support::check_text("a.md", &text);
+    let codes = crate::support::codes(&checked);
+    let count = |code: &str| codes.iter().filter(|c| **c == code).count();
+    assert_eq!((count("unknown-rule"), count("lesson-limit")), (labspec::lint::MAX_FINDINGS, 1));
+    assert_eq!(codes.len(), labspec::lint::MAX_FINDINGS + 1);
+}

@@ -568,8 +568,233 @@ fn an_editor_that_vanishes_leaves_nothing_behind() {
     assert_eq!(child.wait().unwrap().code(), Some(1));
 }
 
-/// A lesson of a hundred labs answers a keystroke in less than 50 ms, in a build for use. Tests are built and run with more patience:
-/// other tests run beside them, unoptimized.
+/// Places are counted in units of UTF-16, on lines that hold more than ASCII, whatever ends them.
+#[test]
+fn places_are_those_of_editors() {
+    let folder = folder();
+    let mut editor = Editor::open(folder.path());
+    let lab = "\"title\": \"𝄞ä👩‍🔬 \u{fe0f}\", \"note\": \"\\u00e4 \\\"\", \"setup\": \"/* 𝄞 */ data.qpos[2] = 1; ctx.h = data.body('heavy').xpso[2]\"";
+    for end in ["\n", "\r\n"] {
+        for before in ["", "> ", "\u{feff}"] {
+            let quote = if before == "> " { before } else { "" };
+            let text = format!(
+                "{before}𝄞 Würfel\n\n{quote}```lab simlab\n{quote}{{\"model\": \"ball_drop\", {lab}}}\n{quote}```\n"
+            );
+            let text = text.replace('\n', end);
+            // An editor has the text without its mark.
+            let shown = text.trim_start_matches('\u{feff}');
+            let found = editor.did_open("u.md", &text);
+            let at = shown.find("xpso").unwrap();
+            let wrong = found.as_array().unwrap().iter().find(|d| d["code"] == "unknown-field").unwrap();
+            assert_eq!(
+                wrong["range"],
+                json!({"start": place(shown, at), "end": place(shown, at + 4)}),
+                "{found}"
+            );
+            let byte = shown.find("qpos[2]").unwrap();
+            let hover = editor.at("hover", "u.md", shown, byte + 1);
+            let whole = byte - "data.".len();
+            assert_eq!(hover["range"]["start"], place(shown, whole), "{hover}");
+            let all = editor.at("completion", "u.md", shown, byte + 2);
+            let item = all.as_array().unwrap().iter().find(|i| i["label"] == "qpos").unwrap();
+            let range = json!({"start": place(shown, byte), "end": place(shown, byte + 4)});
+            assert_eq!(item["textEdit"]["range"], range, "{item}");
+            let name = shown.find("heavy'").unwrap();
+            let renamed = editor.try_at("rename", "u.md", shown, name, json!({"newName": "Fe"})).unwrap();
+            let new = edited(shown, &renamed["changes"][editor.uri("u.md")]);
+            assert_eq!(new, shown.replace("heavy'", "Fe'"));
+            // An edit in the middle of the line, as the editor counts.
+            editor.change("u.md", 2, shown, at..at + 4, "xpos");
+            assert!(!codes(&editor.found("u.md", 2)).contains(&"unknown-field"));
+            // What is allowed stands on a line of its own, which ends like the others.
+            let about = json!({"textDocument": {"uri": editor.uri("u.md")}, "range": wrong["range"], "context": {"diagnostics": []}});
+            editor.ask("textDocument/codeAction", about).unwrap();
+        }
+    }
+    assert_eq!(editor.end(), 0);
+}
+
+/// What the editor holds counts, saved or not; and the names by which it knows its files are those that it is told, links or not.
+#[cfg(unix)]
+#[test]
+fn unsaved_texts_and_linked_folders_are_what_the_editor_sees() {
+    let folder = folder();
+    let link = tempfile::tempdir().unwrap();
+    let link = link.path().canonicalize().unwrap().join("linked");
+    std::os::unix::fs::symlink(folder.path().canonicalize().unwrap(), &link).unwrap();
+    let mut editor = Editor::silent(folder.path());
+    editor.root = format!("file://{}", link.display());
+    let root = editor.root.clone();
+    editor.ask("initialize", json!({"rootUri": root})).unwrap();
+    // Not as it is saved: words before it, and one more place that names the body.
+    let unsaved =
+        format!("Not saved.\n\n{}", CLEAN.replace("\"data.ncon\"", "\"data.body('heavy').xpos[2]\""));
+    editor.did_open("clean.md", &unsaved);
+    let model = std::fs::read_to_string(folder.path().join("models/ball_drop.xml")).unwrap();
+    let model = format!("<!-- not saved -->\n{model}");
+    let uri = editor.uri("models/ball_drop.xml");
+    let document = json!({"uri": uri, "languageId": "xml", "version": 1, "text": model});
+    editor.tell("textDocument/didOpen", json!({"textDocument": document}));
+    let byte = unsaved.find("'heavy')").unwrap() + 2;
+    let there = editor.at("definition", "clean.md", &unsaved, byte);
+    assert_eq!(there[0]["uri"], uri.as_str(), "{there}");
+    let at = model.find("\"heavy\"").unwrap() + 1;
+    assert_eq!(there[0]["range"]["start"], place(&model, at));
+    let back = editor.at("definition", "models/ball_drop.xml", &model, at);
+    let uses: Vec<&Value> = back.as_array().unwrap().iter().map(|l| &l["uri"]).collect();
+    assert!(uses.contains(&&json!(editor.uri("clean.md"))), "{back}");
+    assert!(uses.iter().all(|uri| uri.as_str().unwrap().starts_with(&editor.root)), "{back}");
+    let renamed =
+        editor.try_at("rename", "models/ball_drop.xml", &model, at, json!({"newName": "iron"})).unwrap();
+    let changes = renamed["changes"].as_object().unwrap();
+    assert!(changes.keys().all(|uri| uri.starts_with(&editor.root)), "{changes:?}");
+    let new = edited(&unsaved, &changes[&editor.uri("clean.md")]);
+    assert_eq!(new, unsaved.replace("'heavy')", "'iron')"));
+    assert!(edited(&model, &changes[&uri]).starts_with("<!-- not saved -->"));
+    let byte = unsaved.find("\"ball_drop\"").unwrap() + 2;
+    assert_eq!(editor.at("definition", "clean.md", &unsaved, byte)["uri"], uri.as_str());
+    assert_eq!(editor.end(), 0);
+}
+
+/// Files that go away, before and while they are asked about.
+#[test]
+fn files_may_go_away() {
+    let folder = folder();
+    let mut editor = Editor::open(folder.path());
+    editor.did_open("clean.md", CLEAN);
+    std::fs::remove_file(folder.path().join("clean.md")).unwrap();
+    let byte = CLEAN.find("'heavy_geom'").unwrap() + 3;
+    assert!(editor.at("definition", "clean.md", CLEAN, byte).is_array());
+    let model = editor.uri("models/ball_drop.xml");
+    std::fs::remove_dir_all(folder.path().join("models")).unwrap();
+    editor.tell("workspace/didChangeWatchedFiles", json!({"changes": [{"uri": model, "type": 3}]}));
+    let codes_now = |found: Value| codes(&found).iter().map(|c| c.to_string()).collect::<Vec<_>>();
+    assert!(codes_now(editor.found("clean.md", 1)).contains(&"no-model-folder".to_string()));
+    for what in ["definition", "hover", "completion", "references", "prepareRename"] {
+        assert!(editor.try_at(what, "clean.md", CLEAN, byte, json!({})).is_ok(), "{what}");
+    }
+    assert!(editor.try_at("rename", "clean.md", CLEAN, byte, json!({"newName": "x"})).is_err());
+    // The folder that holds it all.
+    std::fs::remove_dir_all(folder.path()).unwrap();
+    let mut text = CLEAN.to_string();
+    text.insert(0, 'x');
+    editor.change("clean.md", 2, CLEAN, 0..0, "x");
+    editor.found("clean.md", 2);
+    assert!(editor.try_at("hover", "clean.md", &text, byte, json!({})).is_ok());
+    assert_eq!(editor.end(), 0);
+}
+
+/// A document that is closed while its labs run is told of no more, also when it is opened again with the same version.
+#[test]
+fn a_closed_document_is_told_of_no_more() {
+    let folder = folder();
+    let mut editor = Editor::open(folder.path());
+    let text = crate::program::wrong();
+    let uri = editor.uri("wrong.md");
+    for _ in 0..5 {
+        editor.did_open("wrong.md", &text);
+        editor.tell("textDocument/didSave", json!({"textDocument": {"uri": uri}}));
+        editor.tell("textDocument/didClose", json!({"textDocument": {"uri": uri}}));
+        let found = editor.did_open("wrong.md", "# Only words\n");
+        assert_eq!(found, json!([]));
+        editor.tell("textDocument/didClose", json!({"textDocument": {"uri": uri}}));
+        // Whatever was under way comes to nothing: only what was opened and closed is told.
+        std::thread::sleep(Duration::from_millis(50));
+        let _ = editor.ask("textDocument/nothing", json!({}));
+        let told = std::mem::take(&mut editor.heard);
+        let told: Vec<_> = told.iter().filter(|m| m["params"]["uri"] == uri.as_str()).collect();
+        assert!(told.iter().all(|m| m["params"]["diagnostics"] == json!([])), "{told:?}");
+    }
+    assert_eq!(editor.end(), 0);
+}
+
+/// A request that is cancelled, before or after it is read, is answered once, and what follows is answered, too.
+#[test]
+fn a_cancelled_request_is_answered_once() {
+    let folder = folder();
+    let mut editor = Editor::open(folder.path());
+    editor.did_open("clean.md", CLEAN);
+    let about =
+        json!({"textDocument": {"uri": editor.uri("clean.md")}, "position": {"line": 9, "character": 20}});
+    let ask =
+        |id: Value| json!({"jsonrpc": "2.0", "id": id, "method": "textDocument/completion", "params": about});
+    let mut answered = Vec::new();
+    for i in 0..20 {
+        let id = if i % 2 == 0 { json!(1000 + i) } else { json!(format!("text {i}")) };
+        if i % 3 == 0 {
+            editor.tell("$/cancelRequest", json!({"id": id}));
+        }
+        editor.say(&ask(id.clone()));
+        editor.tell("$/cancelRequest", json!({"id": id}));
+        answered.push(id);
+    }
+    editor.tell("$/cancelRequest", json!({"id": "nobody"}));
+    for id in &answered {
+        let message = editor.hear().unwrap();
+        assert_eq!(message["id"], *id);
+        assert!(message.get("result").is_some() != message.get("error").is_some(), "{message}");
+    }
+    assert_eq!(editor.end(), 0);
+}
+
+/// Documents beyond all measure: they are told of, and the editor is answered.
+#[test]
+fn huge_documents_are_answered() {
+    let folder = folder();
+    let mut editor = Editor::open(folder.path());
+    for (text, byte) in [
+        (format!("{}\n", "word ".repeat(3_400_000)), 40),
+        ("$".repeat(1_000_000), 1000),
+        ("\\left( ".repeat(100_000), 1000),
+        ("```lab simlab\n{\"model\": \"ball_drop\"}\n```\n\n".repeat(5_000), 20),
+        (format!("```lab simlab\n{}\n```\n", "[".repeat(100_000)), 60),
+        (lab(&format!("\"setup\": \"{}\"", "ctx.a = data.qpos[2]; ".repeat(2_000))), 70),
+        ("<!-- labspec allow label-unit: x -->\n".repeat(20_000), 10),
+    ] {
+        editor.did_open("h.md", &text);
+        for what in ["completion", "hover", "definition"] {
+            assert!(editor.try_at(what, "h.md", &text, byte, json!({})).is_ok(), "{what}");
+        }
+        editor.change("h.md", 2, &text, 0..1, "#");
+        editor.found("h.md", 2);
+    }
+    assert_eq!(editor.end(), 0);
+}
+
+/// Where the dimension of what is pointed at is known, it is told: of variables and functions, too, which have no unit of their own.
+#[test]
+fn a_hover_tells_the_dimension() {
+    let folder = folder();
+    let mut editor = Editor::open(folder.path());
+    for (inside, told) in [
+        (
+            "\"controller\": \"ctx.v = Math.hypot(data.qvel[0], data.qvel[1]); ctx.w = ctx.|v\"",
+            Some("is in m/s"),
+        ),
+        (
+            "\"controller\": \"ctx.v = 1000 * data.qvel[0]\", \"setup\": \"ctx.w = ctx.|v\"",
+            Some("is in mm/s"),
+        ),
+        ("\"readouts\": [{\"label\": \"a\", \"expr\": \"model.body_mass[|1]\"}]", Some("is in kg")),
+        ("\"readouts\": [{\"label\": \"a\", \"expr\": \"data.ti|me\"}]", Some("is in s")),
+        // What is not certain, or a plain number, is not told.
+        ("\"controller\": \"ctx.v = data.time > 1 ? data.qvel[0] : data.qpos[0]; ctx.w = ctx.|v\"", None),
+        ("\"readouts\": [{\"label\": \"a\", \"expr\": \"data.nc|on\"}]", None),
+    ] {
+        let (text, byte) = marked(&lab(inside));
+        editor.did_open("d.md", &text);
+        let shown = editor.at("hover", "d.md", &text, byte);
+        let shown = shown["contents"]["value"].as_str().unwrap_or("").to_string();
+        match told {
+            Some(told) => assert!(shown.contains(told), "{inside}: {shown}"),
+            None => assert!(!shown.contains("dimension"), "{inside}: {shown}"),
+        }
+    }
+    assert_eq!(editor.end(), 0);
+}
+
+/// A lesson of a hundred labs answers a keystroke in less than 50 ms, at the median even in a build for tests and with other tests
+/// beside it; no single answer may take much longer.
 #[test]
 fn a_hundred_labs_answer_at_once() {
     let folder = folder();
@@ -583,24 +808,28 @@ fn a_hundred_labs_answer_at_once() {
         ));
     }
     editor.did_open("100.md", &text);
-    let mut slowest = [Duration::ZERO; 3];
+    let mut taken: [Vec<Duration>; 3] = Default::default();
     for (round, (at, _)) in text.clone().match_indices("data.ncon").step_by(9).enumerate() {
         let version = round as u64 + 2;
         let start = Instant::now();
         editor.change("100.md", version, &text, at + 5..at + 9, if round % 2 == 0 { "ncno" } else { "qqqq" });
         text.replace_range(at + 5..at + 9, if round % 2 == 0 { "ncno" } else { "qqqq" });
         let found = editor.found("100.md", version);
-        slowest[0] = slowest[0].max(start.elapsed());
+        taken[0].push(start.elapsed());
         assert_eq!(found.as_array().unwrap().len(), round + 1, "{found}");
         let start = Instant::now();
         assert!(editor.at("completion", "100.md", &text, at + 5).as_array().unwrap().len() > 50);
-        slowest[1] = slowest[1].max(start.elapsed());
+        taken[1].push(start.elapsed());
         let start = Instant::now();
         assert!(editor.at("hover", "100.md", &text, at + 2).is_object());
-        slowest[2] = slowest[2].max(start.elapsed());
+        taken[2].push(start.elapsed());
     }
-    println!("findings {:?}, completion {:?}, hover {:?}", slowest[0], slowest[1], slowest[2]);
-    let most = Duration::from_millis(50) * 20;
-    assert!(slowest.iter().all(|t| *t < most), "{slowest:?}");
+    for (what, times) in ["findings", "completion", "hover"].into_iter().zip(&mut taken) {
+        times.sort();
+        let (median, slowest) = (times[times.len() / 2], times[times.len() - 1]);
+        println!("{what}: {median:?}, at most {slowest:?}");
+        assert!(times.len() > 5 && median < Duration::from_millis(50), "{what}: {median:?}");
+        assert!(slowest < Duration::from_secs(1), "{what}: {slowest:?}");
+    }
     assert_eq!(editor.end(), 0);
 }

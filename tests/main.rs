@@ -3,6 +3,7 @@
 mod allocation;
 mod breaking;
 mod budget;
+mod clauses;
 mod cli;
 mod cli_run;
 mod conformance;
@@ -13,6 +14,7 @@ mod examples;
 mod files;
 mod fixes;
 mod format;
+mod forms;
 mod fresh;
 mod fuzz;
 mod init;

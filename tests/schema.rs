@@ -183,3 +183,95 @@ fn wrong_ones_fail_and_right_ones_do_not() {
         }
     }
 }
+
+/// Where something stands in JSON, and every such place.
+fn places(value: &Value, at: &str, all: &mut Vec<String>) {
+    all.push(at.to_string());
+    match value {
+        Value::Object(entries) => entries.iter().for_each(|(k, v)| places(v, &format!("{at}/{k}"), all)),
+        Value::Array(items) => {
+            items.iter().enumerate().for_each(|(i, v)| places(v, &format!("{at}/{i}"), all))
+        }
+        _ => {}
+    }
+}
+
+/// What goes wrong in the format when somebody types: a key misspelt, a key forgotten, a value of another type.
+fn damaged(value: &Value, at: &str) -> Vec<Value> {
+    let (parent, key) = at.rsplit_once('/').unwrap();
+    let with = |change: &dyn Fn(&mut serde_json::Map<String, Value>)| {
+        let mut new = value.clone();
+        let Some(Value::Object(entries)) = new.pointer_mut(parent) else { return None };
+        change(entries);
+        Some(new)
+    };
+    let mut all: Vec<Value> = Vec::new();
+    all.extend(with(&|o| {
+        let old = o.remove(key).unwrap();
+        o.insert(format!("{key}x"), old);
+    }));
+    all.extend(with(&|o| drop(o.remove(key))));
+    for other in [json!(null), json!({"x": 1}), json!([[]]), json!("?"), json!(-7.5), json!(true)] {
+        let mut new = value.clone();
+        *new.pointer_mut(at).unwrap() = other;
+        all.push(new);
+    }
+    all
+}
+
+/// Mistakes of the format, planted into real labs and quizzes: where the reader finds one, the schema refuses; where the reader finds
+/// nothing wrong, the schema takes it.
+#[test]
+fn mistakes_of_the_format_are_refused() {
+    const OF_FORMAT: [&str; 3] = ["unknown-key", "wrong-type", "missing-key"];
+    let here = workspace();
+    let mut folders = vec![here.join("specs/lessons"), here.join("tests/lessons")];
+    if needs("../shared/corpus") {
+        folders.extend(["labs", "quizzes"].map(|f| here.join("../shared/corpus").join(f)));
+    }
+    let schemas: BTreeMap<String, Value> =
+        [Root::Lab, Root::Quiz, Root::Lesson].map(|root| (format!("{root:?}"), schema(root))).into();
+    let (mut turn, mut refused, mut taken) = (0, 0, 0);
+    let mut wrong = Vec::new();
+    let sound = folders.iter().flat_map(|f| files(f)).flat_map(|path| objects(&path));
+    for (root, value, _) in sound.filter(|(.., errors)| !errors) {
+        let mut all = Vec::new();
+        places(&value, "", &mut all);
+        for at in all.iter().filter(|at| !at.is_empty()) {
+            // Every seventh, which is another kind at another place in turn.
+            for mutant in damaged(&value, at) {
+                turn += 1;
+                if turn % 7 != 0 || mutant == value {
+                    continue;
+                }
+                let read =
+                    load_lesson(SourceFile::new("a.json", mutant.to_string()), &ModelFolder::unknown());
+                let errors = || read.findings.iter().filter(|f| f.is_error());
+                let accepted = problems(&schemas, &format!("{root:?}"), &mutant).is_empty();
+                if errors().any(|f| OF_FORMAT.contains(&f.code)) {
+                    refused += 1;
+                    if accepted {
+                        wrong.push(format!(
+                            "taken at {at}: {:?}: {mutant:.300}",
+                            errors().map(|f| &f.message).collect::<Vec<_>>()
+                        ));
+                    }
+                } else if errors().next().is_none() {
+                    taken += 1;
+                    if !accepted {
+                        wrong.push(format!("refused at {at}: {mutant:.300}"));
+                    }
+                }
+            }
+        }
+    }
+    println!("{refused} refused, {taken} taken");
+    assert!(
+        wrong.is_empty(),
+        "{} wrong of {}:\n{}",
+        wrong.len(),
+        refused + taken,
+        wrong[..wrong.len().min(12)].join("\n")
+    );
+    assert!(refused > 500 && taken > 50, "{refused} refused, {taken} taken");
+}

@@ -74,7 +74,7 @@ pub enum State {
     False,
     /// Could not be checked.
     Unchecked,
-    /// It could be checked, and whoever asked for the check left it out.
+    /// It was left out of this check: whoever asked for it wanted so, or it is a widget of which nothing is known.
     LeftOut,
     /// It is false or could not be checked, as the baseline says that it was.
     Known,
@@ -233,7 +233,9 @@ impl Ledger {
                     tell(&mut parts, subject, [(c.wrong, "broken"), (c.unchecked, "impossible")]);
                     tell(&mut parts, subject, [(c.left_out, "left out"), (0, "")]);
                 }
-                Subject::Widget => tell(&mut parts, subject, [(c.not_claimed, "not run"), (0, "")]),
+                Subject::Widget => {
+                    tell(&mut parts, subject, [(c.not_claimed, "not run"), (c.left_out, "not checked")]);
+                }
                 Subject::Model => {
                     tell(&mut parts, subject, [(c.computed, "loaded"), (c.wrong + c.unchecked, "refused")])
                 }
@@ -253,6 +255,17 @@ impl Ledger {
             parts.push(format!("{known} no better than the baseline"));
         }
         parts.join(", ")
+    }
+
+    /// Marks widgets as those of the page, where somebody says so: they are not ours to run, and nobody claims that they were.
+    pub fn accept_widgets(&mut self, accepted: impl Fn(&Arc<str>, &str) -> bool) {
+        for entry in self.entries.iter_mut().filter(|e| e.subject == Subject::Widget) {
+            let name = entry.owner.strip_prefix("widget ").unwrap_or_default();
+            if entry.state == State::LeftOut && accepted(&entry.path, name) {
+                (entry.state, entry.word) = (State::NotClaimed, "not run");
+                entry.remark.clear();
+            }
+        }
     }
 
     /// Marks what is false or could not be checked as known, where somebody says so; and files in which something known is wrong.
@@ -309,6 +322,7 @@ mod tests {
         assert_eq!(of(&[]), Outcome::Nothing);
         assert_eq!(of(&[file]), Outcome::Nothing);
         assert_eq!(of(&[file, (Subject::Widget, State::NotClaimed)]), Outcome::Nothing);
+        assert_eq!(of(&[file, (Subject::Widget, State::LeftOut)]), Outcome::Partial);
         assert_eq!(of(&[file, answer(State::NotClaimed)]), Outcome::Clean);
         assert_eq!(of(&[file, answer(State::True(Evidence::Simulated))]), Outcome::Clean);
         assert_eq!(of(&[file, answer(State::Unchecked)]), Outcome::Findings);

@@ -2,6 +2,7 @@
 
 use super::Depth;
 use crate::finding::Finding;
+use crate::lint::MAX_FINDINGS;
 use crate::rules;
 use crate::spec::{Allowance, Lesson};
 use labspec_finding::{Layer, nearest};
@@ -48,16 +49,20 @@ pub(super) fn put_aside(lesson: &Lesson, findings: &mut Vec<Finding>, depth: Dep
         )
         .help("mend what it is about, then leave this out")
     }));
+    let mut wrong = Vec::new();
     for allowance in &allowances {
+        if wrong.len() > MAX_FINDINGS {
+            break;
+        }
         if allowance.why.is_empty() {
             let message = "something is allowed without a reason";
-            findings.push(
+            wrong.push(
                 Finding::new(rules::ALLOWANCE_WITHOUT_REASON, allowance.span.clone(), message)
                     .help("write the reason behind the codes, as \"why\" or after a colon"),
             );
             continue;
         }
-        findings.extend(allowance.codes.iter().filter(|code| !used.contains(code)).filter_map(
+        wrong.extend(allowance.codes.iter().filter(|code| !used.contains(code)).filter_map(
             |(code, span)| {
                 let Some(rule) = rules::find(code) else {
                     let message = format!("no rule is called `{code}`");
@@ -75,6 +80,15 @@ pub(super) fn put_aside(lesson: &Lesson, findings: &mut Vec<Finding>, depth: Dep
             },
         ));
     }
+    if wrong.len() > MAX_FINDINGS {
+        wrong.truncate(MAX_FINDINGS);
+        let end = lesson.file.text().len();
+        let message = "more mistakes in what is allowed are not shown";
+        wrong.push(
+            Finding::new(rules::LESSON_LIMIT, end..end, message).help("fix the first ones, then check again"),
+        );
+    }
+    findings.extend(wrong);
     aside
 }
 

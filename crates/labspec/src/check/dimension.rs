@@ -4,7 +4,7 @@ use super::labels;
 use crate::bind::{ControlProgram, ModelNames, Programs, Scope};
 use crate::spec::{Control, ControlKind, Lab};
 use labspec_core::Model;
-use labspec_expr::dimension::Measure;
+use labspec_expr::dimension::{Dimension, Measure};
 use labspec_expr::{Compiler, Given, Globals, Measured, Type};
 use std::collections::BTreeMap;
 
@@ -24,6 +24,27 @@ const ROUNDS: usize = 6;
 
 /// What the texts of a lab measure.
 pub fn dimensions(lab: &Lab, model: &Model, programs: &Programs) -> Dimensions {
+    settle(lab, model, programs).2
+}
+
+/// The dimension of an expression that names what a lab's texts name; `None` where it is not certain.
+pub fn dimension_of(lab: &Lab, model: &Model, programs: &Programs, code: &str) -> Option<Dimension> {
+    let (mut work, variables, _) = settle(lab, model, programs);
+    let given = Given { variables, value: Measure::Unknown };
+    let measured =
+        Compiler::new(&work.names, &mut work.globals).measuring(&given).expression(code).measured?;
+    match measured.value {
+        Measure::Known(dimension) => Some(dimension),
+        _ => None,
+    }
+}
+
+/// Measures all texts until the variables that they store have settled.
+fn settle<'l>(
+    lab: &'l Lab,
+    model: &'l Model,
+    programs: &'l Programs,
+) -> (Work<'l>, BTreeMap<u32, Measure>, Dimensions) {
     let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
     let mut work = Work { names, globals: programs.globals.clone(), lab, programs };
     let mut variables = BTreeMap::new();
@@ -37,12 +58,13 @@ pub fn dimensions(lab: &Lab, model: &Model, programs: &Programs) -> Dimensions {
         let stored = work.stored(&found);
         let settled = stored.iter().all(|(slot, m)| variables.get(slot) == Some(m));
         if settled || computed {
-            return found;
+            return (work, variables, found);
         }
         variables = stored;
     }
     variables.values_mut().for_each(|m| *m = Measure::Unknown);
-    work.round(&variables)
+    let found = work.round(&variables);
+    (work, variables, found)
 }
 
 /// What a slider gives, by its unit.

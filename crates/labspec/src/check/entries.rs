@@ -103,7 +103,12 @@ fn claimed(c: &Checked, ledger: &mut Vec<Entry>) {
     }
     for widget in &c.lesson.widgets {
         let owner = format!("widget {}", widget.name);
-        ledger.push(entry(Subject::Widget, &owner, &widget.span, State::NotClaimed, "not run"));
+        // Where the claims alone are verified, nothing is said of what the page shows.
+        let (state, word, remark) = match c.depth.claims && !c.depth.labs {
+            true => (State::NotClaimed, "not run", String::new()),
+            false => (State::LeftOut, "unknown", unknown_widget(&widget.name)),
+        };
+        ledger.push(Entry { remark, ..entry(Subject::Widget, &owner, &widget.span, state, word) });
     }
     for claim in &c.claims {
         let judgement = &claim.judgement;
@@ -172,6 +177,10 @@ fn left_out(c: &Checked, ledger: &mut Vec<Entry>) {
         verify.exact.iter().for_each(|exact| add(Subject::ClosedForm, &exact.trace));
         verify.runs.iter().for_each(|run| add(Subject::Run, &run.name));
     }
+}
+
+fn unknown_widget(name: &str) -> String {
+    format!("not checked; if the page has it, labspec.toml says so: widgets = [\"{name}\"]")
 }
 
 fn lab(ran: &RanLab) -> (State, &'static str, String) {

@@ -2,6 +2,7 @@
 
 mod allowed;
 mod claims;
+mod contact_time;
 mod dimension;
 mod entries;
 mod expect;
@@ -19,7 +20,7 @@ mod units;
 pub use allowed::Allowed;
 pub use claims::Claim;
 pub(crate) use dimension::given_by;
-pub use dimension::{Dimensions, dimensions};
+pub use dimension::{Dimensions, dimension_of, dimensions};
 pub use entries::{evidence, ledger};
 pub(crate) use labels::of_label;
 pub use trial::Tried;
@@ -120,6 +121,7 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
     if depth.programs {
         ready.iter().for_each(|r| params::check(lesson, r, &mut findings));
         ready.iter().for_each(|r| mass_alone::check(r, &mut findings));
+        ready.iter().for_each(|r| contact_time::check(r, &mut findings));
     }
     let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     told_once(lesson, &mut findings);

@@ -237,7 +237,8 @@ fn overview(course: &Course, with_evidence: bool) -> String {
                 |e: &&&Entry| e.subject == entry.subject && e.owner == entry.owner && e.word == entry.word;
             let together = all.iter().skip(told).take_while(same).count().max(1);
             let plain = matches!(entry.state, State::True(_) | State::LeftOut);
-            let n = if plain && entry.subject != Subject::Lab { together } else { 1 };
+            let alone = matches!(entry.subject, Subject::Lab | Subject::Widget);
+            let n = if plain && !alone { together } else { 1 };
             told += n;
             if let Some(line) = line(entry, n) {
                 let _ = writeln!(text, "  {}", printable(&line));
@@ -265,6 +266,7 @@ fn line(entry: &Entry, n: usize) -> Option<String> {
         Subject::File => return None,
         Subject::Run if good && *word == "made" => return None,
         Subject::Answer | Subject::Lab if left_out => format!("{word:<10} {owner}{}", titled(what)),
+        Subject::Model | Subject::Widget => format!("{word:<10} {owner}{remark}"),
         _ if left_out => format!("{word:<10} {owner}, {}", many(n, entry.subject.as_str())),
         Subject::Lab => {
             let title = titled(what);
@@ -282,7 +284,6 @@ fn line(entry: &Entry, n: usize) -> Option<String> {
         Subject::Quote | Subject::ClosedForm | Subject::Run => {
             format!("{word:<10} {owner}, {} \"{what}\"{remark}", entry.subject.as_str())
         }
-        Subject::Model | Subject::Widget => format!("{word:<10} {owner}{remark}"),
     })
 }
 
@@ -293,7 +294,7 @@ fn last_line(course: &Course) -> String {
         (0, ledger::Outcome::Clean) if found.notes > 0 => format!("nothing to complain about, {found}"),
         (0, ledger::Outcome::Clean) => "nothing to complain about".into(),
         (0, ledger::Outcome::Nothing) => "nothing to check".into(),
-        (0, ledger::Outcome::Partial) => "nothing wrong in what was checked, but nothing was run".into(),
+        (0, ledger::Outcome::Partial) => "nothing wrong in what was checked, but not everything was".into(),
         (0, ledger::Outcome::Findings) => "not everything could be checked".into(),
         (0, ledger::Outcome::Known) => "nothing that is not in the baseline".into(),
         _ => found.to_string(),

@@ -200,6 +200,13 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
     let models = std::mem::take(&mut course.ledger);
     course.ledger = check::ledger(&course.checked, &course.findings);
     course.ledger.append(models);
+    let mut page: BTreeMap<Arc<str>, Vec<String>> = BTreeMap::new();
+    for c in course.checked.iter().filter(|c| !c.lesson.widgets.is_empty()) {
+        let path = c.lesson.file.path();
+        page.insert(path.clone(), policies.of(Path::new(&**path))?.widgets);
+    }
+    let known = |path: &Arc<str>, name: &str| page.get(path).is_some_and(|all| all.iter().any(|w| w == name));
+    course.ledger.accept_widgets(known);
     settle(&mut course);
     Ok(course)
 }

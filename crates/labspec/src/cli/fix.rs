@@ -1,8 +1,8 @@
 //! `labspec check --fix`: what has a safe repair is repaired, and every repair is checked before it is written.
 //!
 //! A repair is kept if the file has fewer findings of its rule afterwards, no more errors and no more broken blocks. All repairs of
-//! a file that do not touch each other are tried at once, then one by one if they do not go together; and again, until nothing
-//! changes. All other bytes of the file stay what they are.
+//! a file that do not touch each other are tried at once; if they do not go together, the first half and then the second, and so
+//! on down to single ones; and again, until nothing changes. All other bytes of the file stay what they are.
 
 use super::course::{Plan, collect, is_other_json};
 use super::policy::Policies;
@@ -16,7 +16,8 @@ use crate::report::{printable, printable_path};
 use crate::source::SourceFile;
 use crate::spec::{FileKind, Lesson, kind_of};
 use similar::TextDiff;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::path::Path;
 
 /// Rounds at most: a repair may make the next one visible.
@@ -110,26 +111,51 @@ fn repair(mut now: Looked, guesses: bool, look: &dyn Fn(&str) -> Looked) -> (Str
         if fixes.is_empty() || interrupted() {
             break;
         }
-        let all: Vec<usize> = (0..fixes.len()).collect();
-        let better = attempt(&now, &fixes, &all, look).map(|next| (next, fixes.len())).or_else(|| {
-            // They do not go together, or one of them is none: the first that is one.
-            all.iter().find_map(|&i| attempt(&now, &fixes, &[i], look).map(|next| (next, 1)))
-        });
-        let Some((next, count)) = better else { break };
-        now = next;
-        made += count;
+        let old = now.text.clone();
+        let mut kept = BTreeSet::new();
+        keep(&old, &fixes, 0..fixes.len(), &mut kept, &mut now, look);
+        if kept.is_empty() {
+            break;
+        }
+        made += kept.len();
     }
     (now.text, made)
 }
 
+/// A repair, and the code of its rule.
+type Repair = (&'static str, Fix);
+
+/// Keeps the repairs of a part of the list that repair: all of them if they go together, or else what can be kept of each half. Of
+/// n repairs with b bad ones that takes about b log n looks. `now` is the old text with those that are kept.
+fn keep(
+    old: &str,
+    fixes: &[Repair],
+    part: Range<usize>,
+    kept: &mut BTreeSet<usize>,
+    now: &mut Looked,
+    look: &dyn Fn(&str) -> Looked,
+) {
+    if part.is_empty() || interrupted() {
+        return;
+    }
+    if let Some(next) = attempt(old, fixes, part.clone(), kept, now, look) {
+        kept.extend(part);
+        *now = next;
+    } else if part.len() > 1 {
+        let middle = part.start + part.len() / 2;
+        keep(old, fixes, part.start..middle, kept, now, look);
+        keep(old, fixes, middle..part.end, kept, now, look);
+    }
+}
+
 /// Repairs that do not touch each other, in the order of the text, with the codes of their rules.
-fn apart(findings: &[Finding], guesses: bool) -> Vec<(&'static str, Fix)> {
+fn apart(findings: &[Finding], guesses: bool) -> Vec<Repair> {
     let may = |fix: &Fix| match fix.applicability {
         Applicability::Safe => true,
         Applicability::Unsafe => guesses,
         Applicability::Display => false,
     };
-    let mut all: Vec<(&'static str, Fix)> =
+    let mut all: Vec<Repair> =
         findings.iter().filter_map(|f| Some((f.code, f.fix.clone().filter(may)?))).collect();
     all.sort_by_key(|(_, fix)| (fix.span.start, fix.span.end));
     all.dedup_by(|a, b| a.1 == b.1);
@@ -144,21 +170,29 @@ fn apart(findings: &[Finding], guesses: bool) -> Vec<(&'static str, Fix)> {
     all
 }
 
-/// The text with some of the repairs, if they repair.
+/// The old text with what is kept and a part of the repairs, if these repair.
 fn attempt(
+    old: &str,
+    fixes: &[Repair],
+    part: Range<usize>,
+    kept: &BTreeSet<usize>,
     now: &Looked,
-    fixes: &[(&'static str, Fix)],
-    which: &[usize],
     look: &dyn Fn(&str) -> Looked,
 ) -> Option<Looked> {
-    let mut text = now.text.clone();
     let mut codes: BTreeMap<&str, usize> = BTreeMap::new();
-    for (code, fix) in which.iter().rev().filter_map(|&i| fixes.get(i)) {
+    let (mut text, mut at) = (String::with_capacity(old.len()), 0);
+    let made = fixes.iter().enumerate().filter(|(i, _)| part.contains(i) || kept.contains(i));
+    for (i, (code, fix)) in made {
         // A repair that does not fit the text is none.
-        text.get(fix.span.clone())?;
-        text.replace_range(fix.span.clone(), &fix.text);
-        *codes.entry(code).or_default() += 1;
+        old.get(fix.span.clone())?;
+        text.push_str(old.get(at..fix.span.start)?);
+        text.push_str(&fix.text);
+        at = fix.span.end;
+        if part.contains(&i) {
+            *codes.entry(code).or_default() += 1;
+        }
     }
+    text.push_str(old.get(at..)?);
     let next = look(&text);
     let gone = codes.iter().all(|(code, n)| next.of(code) + n <= now.of(code));
     (gone && next.errors() <= now.errors() && next.broken <= now.broken).then_some(next)
@@ -195,5 +229,29 @@ mod tests {
         assert_eq!(repair(look("a x b x"), false, &look), ("a o b o".to_string(), 2));
         assert_eq!(repair(look("x !x x"), false, &look), ("o !x o".to_string(), 2));
         assert_eq!(repair(look("!x"), false, &look), ("!x".to_string(), 0));
+    }
+
+    /// Of 256 repairs with three bad ones all others are made, in about as many looks as halving takes: one by one would be 256.
+    #[test]
+    fn bad_repairs_are_found_by_halves() {
+        let mut text = "x ".repeat(256);
+        for bad in [400, 222, 0] {
+            text.insert(bad, '!');
+        }
+        let looks = std::cell::Cell::new(0);
+        let counted = |text: &str| {
+            looks.set(looks.get() + 1);
+            look(text)
+        };
+        let (new, made) = repair(look(&text), false, &counted);
+        assert_eq!((new.matches('o').count(), new.matches("!x").count(), made), (253, 3, 253));
+        // Three ways of eight halvings, and once more to see that nothing is left.
+        assert!(looks.get() <= 2 * 3 * 8 + 1 + 2 * 3, "{}", looks.get());
+        // One that does not fit spoils none of the others.
+        let fixes = [("a", Fix::safe(0..1, "o")), ("a", Fix::safe(9..12, "o"))];
+        let mut now = look("x b");
+        let mut kept = BTreeSet::new();
+        keep("x b", &fixes.map(|(_, fix)| (UNKNOWN_KEY.code, fix)), 0..2, &mut kept, &mut now, &look);
+        assert_eq!((now.text.as_str(), kept.len()), ("o b", 1));
     }
 }

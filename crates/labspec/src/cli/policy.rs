@@ -95,6 +95,8 @@ pub(super) struct Policy {
     select: Set,
     ignore: Set,
     deny: Set,
+    /// Widgets that the page has, besides ours.
+    pub(super) widgets: Vec<String>,
 }
 
 impl Policy {
@@ -121,7 +123,8 @@ struct Settings {
     select: Vec<String>,
     ignore: Vec<String>,
     deny: Vec<String>,
-    /// The same for some paths.
+    widgets: Vec<String>,
+    /// More for some paths: what is left out there, and what is told as an error.
     paths: Vec<(Globs, Vec<String>, Vec<String>)>,
 }
 
@@ -167,7 +170,8 @@ impl Policies {
         let here = || near.paths.iter().filter(|(globs, ..)| globs.hold(&whole));
         let ignore = near.ignore.iter().chain(here().flat_map(|(_, ignore, _)| ignore)).chain(&own.ignore);
         let deny = near.deny.iter().chain(here().flat_map(|(.., deny)| deny)).chain(&own.deny);
-        Ok(Policy { select: Set::of(select)?, ignore: Set::of(ignore)?, deny: Set::of(deny)? })
+        let widgets = near.widgets.clone();
+        Ok(Policy { select: Set::of(select)?, ignore: Set::of(ignore)?, deny: Set::of(deny)?, widgets })
     }
 
     /// The settings of a folder: its own, else those of the nearest folder around it.
@@ -198,7 +202,7 @@ impl Globs {
 }
 
 /// Keys of settings, and of settings for some paths.
-const KEYS: [&str; 4] = ["select", "ignore", "deny", "paths"];
+const KEYS: [&str; 5] = ["select", "ignore", "deny", "widgets", "paths"];
 const OF_PATHS: [&str; 3] = ["match", "ignore", "deny"];
 
 fn read(path: &Path) -> Result<Settings, Failure> {
@@ -215,18 +219,10 @@ fn read(path: &Path) -> Result<Settings, Failure> {
     known(&table, &KEYS).map_err(cannot)?;
     let list = |name: &str| words(&table, name, true).map_err(cannot);
     let (select, ignore, deny) = (list("select")?, list("ignore")?, list("deny")?);
+    let widgets = words(&table, "widgets", false).map_err(cannot)?;
     let folder = path.canonicalize().ok().and_then(|p| p.parent().map(Path::to_path_buf)).unwrap_or_default();
     let mut paths = Vec::new();
-    for entry in table
-        .get("paths")
-        .map(|v| v.as_array().ok_or("`paths` has to be a list of tables: [[paths]]"))
-        .transpose()
-        .map_err(|e| cannot(e.into()))?
-        .into_iter()
-        .flatten()
-    {
-        let entry =
-            entry.as_table().ok_or_else(|| cannot("`paths` has to be a list of tables: [[paths]]".into()))?;
+    for entry in of_paths(&table).map_err(cannot)? {
         known(entry, &OF_PATHS).map_err(cannot)?;
         let globs = words(entry, "match", false)
             .and_then(|patterns| match patterns.is_empty() {
@@ -237,7 +233,14 @@ fn read(path: &Path) -> Result<Settings, Failure> {
         let list = |name: &str| words(entry, name, true).map_err(cannot);
         paths.push((globs, list("ignore")?, list("deny")?));
     }
-    Ok(Settings { select, ignore, deny, paths })
+    Ok(Settings { select, ignore, deny, widgets, paths })
+}
+
+/// The tables of `[[paths]]`; none where nothing is said of paths.
+fn of_paths(table: &toml::Table) -> Result<Vec<&toml::Table>, String> {
+    let Some(value) = table.get("paths") else { return Ok(Vec::new()) };
+    let tables = value.as_array().and_then(|list| list.iter().map(toml::Value::as_table).collect());
+    tables.ok_or_else(|| "`paths` has to be a list of tables: [[paths]]".to_string())
 }
 
 /// Every key is one of these.
@@ -340,5 +343,7 @@ mod tests {
         assert!(told("\nignore = ").contains("line 2"));
         assert!(told("[[paths]]\nignore = []").contains("needs `match`"));
         assert!(told("paths = 1").contains("[[paths]]"));
+        assert!(told("paths = [1]").contains("[[paths]]"));
+        assert!(told("widgets = \"playground\"").contains("a list of texts"));
     }
 }

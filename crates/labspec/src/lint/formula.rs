@@ -7,17 +7,21 @@ use crate::source::Text;
 use crate::spec::Lesson;
 use std::ops::Range;
 
-/// Longest formula that is looked for, bytes.
+/// Longest formula that is looked for, characters.
 const LONGEST: usize = 4000;
+/// Longest name of an environment, bytes.
+const LONGEST_NAME: usize = 40;
 
 /// How formulas begin and end. A dollar counts only where a page takes it for one.
 const MARKS: [(&str, &str); 4] = [("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]")];
 
-/// What is wrong, and where. `plain`: brackets behind a backslash are brackets, as in Markdown.
-fn faults(text: &str, plain: bool) -> Vec<(Range<usize>, String)> {
+/// What is wrong, and where. `plain`: brackets behind a backslash are brackets, as in Markdown. `work` grows by the characters that
+/// are looked at: at most [`MOST_LOOKS`] for each of the text.
+fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, String)> {
     let (mut faults, mut lost) = (Vec::new(), 0);
     let mut at = 0;
     while let Some(rest) = text.get(at..).filter(|r| !r.is_empty()) {
+        *work += 1;
         let marks = MARKS.iter().filter(|(open, _)| !plain || open.starts_with('$'));
         let Some((open, close)) = marks.into_iter().find(|(open, _)| rest.starts_with(open)) else {
             let step = match rest.strip_prefix('\\').and_then(|r| r.chars().next()) {
@@ -28,13 +32,13 @@ fn faults(text: &str, plain: bool) -> Vec<(Range<usize>, String)> {
             continue;
         };
         let inside = rest.get(open.len()..).unwrap_or("");
-        let Some(length) = closing(inside, close) else {
+        let Some(length) = closing(inside, close, work) else {
             // Each of these is a walk through what follows.
             lost += 1;
             if lost > MAX_IN_TEXT {
                 break;
             }
-            if faults.len() < MAX_IN_TEXT && is_formula(inside, open) {
+            if faults.len() < MAX_IN_TEXT && is_formula(inside, open, work) {
                 faults.push((at..at + open.len(), format!("nothing closes the formula that `{open}` opens")));
             }
             // What follows is read as text.
@@ -43,7 +47,7 @@ fn faults(text: &str, plain: bool) -> Vec<(Range<usize>, String)> {
         };
         let body = inside.get(..length).unwrap_or("");
         let whole = at..at + open.len() + length + close.len();
-        if let Some(said) = unbalanced(body) {
+        if let Some(said) = unbalanced(body, work) {
             faults.push((whole.clone(), said));
         }
         at = whole.end;
@@ -52,9 +56,10 @@ fn faults(text: &str, plain: bool) -> Vec<(Range<usize>, String)> {
 }
 
 /// Where a formula ends: a dollar behind a backslash is none, and one before a digit begins a price.
-fn closing(inside: &str, close: &str) -> Option<usize> {
+fn closing(inside: &str, close: &str, work: &mut usize) -> Option<usize> {
     let mut escaped = false;
     for (i, c) in inside.char_indices().take(LONGEST) {
+        *work += 1;
         let rest = inside.get(i..)?;
         if !escaped && rest.starts_with(close) {
             let after = rest.get(close.len()..).unwrap_or("");
@@ -75,20 +80,27 @@ fn closing(inside: &str, close: &str) -> Option<usize> {
 }
 
 /// Whether what follows an opening mark looks like a formula: a price does not.
-fn is_formula(inside: &str, open: &str) -> bool {
+fn is_formula(inside: &str, open: &str, work: &mut usize) -> bool {
     let end = inside.char_indices().nth(LONGEST).map_or(inside.len(), |(at, _)| at);
     let inside = inside.get(..end).unwrap_or("").split("\n\n").next().unwrap_or("");
+    *work += end;
     let tex = inside.contains(['\\', '^', '_', '{']);
     open != "$" || (tex && !inside.starts_with(|c: char| c.is_whitespace()))
 }
 
+/// Most times that a character is looked at: each mark that nothing closes is a walk through what follows, and a second one to see
+/// whether that is a formula.
+#[cfg(test)]
+const MOST_LOOKS: usize = 2 * MAX_IN_TEXT + LONGEST_NAME + 3;
+
 /// What is opened in a formula and not closed, in words.
-fn unbalanced(body: &str) -> Option<String> {
+fn unbalanced(body: &str, work: &mut usize) -> Option<String> {
     let (mut depth, mut left) = (0_i64, 0_i64);
     let mut inner: Vec<&str> = Vec::new();
     let mut at = 0;
     while let Some(rest) = body.get(at..).filter(|r| !r.is_empty()) {
         let c = rest.chars().next()?;
+        *work += 1;
         if c != '\\' {
             depth += i64::from(c == '{') - i64::from(c == '}');
             if depth < 0 {
@@ -101,7 +113,11 @@ fn unbalanced(body: &str) -> Option<String> {
         let length =
             if letters > 0 { 1 + letters } else { 1 + rest.chars().nth(1).map_or(0, char::len_utf8) };
         let after = rest.get(length..).unwrap_or("");
-        let name = after.strip_prefix('{').and_then(|a| a.split_once('}')).map(|(name, _)| name);
+        let name = after.strip_prefix('{').and_then(|inside| {
+            *work += LONGEST_NAME.min(inside.len());
+            let end = inside.bytes().take(LONGEST_NAME).position(|b| b == b'}')?;
+            inside.get(..end)
+        });
         match (rest.get(1..length).unwrap_or(""), name) {
             ("left", _) => left += 1,
             ("right", _) => left -= 1,
@@ -161,7 +177,7 @@ fn finding(span: Range<usize>, said: String) -> Finding {
 /// Looks into a text of a lab or a quiz.
 pub(super) fn check(text: &Text, findings: &mut Vec<Finding>) {
     let html = without_code(text.as_str(), code(text.as_str()).into_iter());
-    let found = faults(&html, false).into_iter().take(MAX_IN_TEXT);
+    let found = faults(&html, false, &mut 0).into_iter().take(MAX_IN_TEXT);
     findings.extend(found.map(|(at, said)| finding(text.span_of(at), said)));
 }
 
@@ -169,15 +185,16 @@ pub(super) fn check(text: &Text, findings: &mut Vec<Finding>) {
 pub(super) fn check_prose(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let text = lesson.file.text();
     for range in lesson.scan.paragraphs.iter().take(10 * MAX_IN_TEXT) {
-        let in_block =
-            lesson.scan.blocks.iter().any(|b| b.span.start < range.end && range.start < b.span.end);
+        let blocks = &lesson.scan.blocks;
+        let next = blocks.get(blocks.partition_point(|b| b.span.end <= range.start));
+        let in_block = next.is_some_and(|b| b.span.start < range.end);
         let Some(paragraph) = text.get(range.clone()).filter(|p| p.contains('$') && !in_block) else {
             continue;
         };
         let from = lesson.scan.inline_code.partition_point(|c| c.start < range.start);
         let own = lesson.scan.inline_code.iter().skip(from).take_while(|c| c.end <= range.end);
         let own = own.map(|c| c.start - range.start..c.end - range.start);
-        let found = faults(&without_code(paragraph, own), true).into_iter().take(MAX_IN_TEXT);
+        let found = faults(&without_code(paragraph, own), true, &mut 0).into_iter().take(MAX_IN_TEXT);
         findings.extend(found.map(|(at, said)| finding(range.start + at.start..range.start + at.end, said)));
     }
 }
@@ -188,7 +205,8 @@ mod tests {
 
     #[test]
     fn what_is_opened_is_closed() {
-        let count = |text: &str| faults(text, false).len();
+        let faults = |text: &str| faults(text, false, &mut 0);
+        let count = |text: &str| faults(text).len();
         for right in [
             "$a_1$ and $$\\frac{1}{2}$$, \\(x\\)",
             "it costs $5, or $10",
@@ -197,7 +215,7 @@ mod tests {
             "$\\begin{matrix}1\\end{matrix}$",
             "5 $ left",
         ] {
-            assert_eq!(count(right), 0, "{right}: {:?}", faults(right, false));
+            assert_eq!(count(right), 0, "{right}: {:?}", faults(right));
         }
         for wrong in [
             "the time $\\sqrt{2h/g} is",
@@ -208,9 +226,56 @@ mod tests {
             "$\\begin{matrix}1$",
             "\\(x and y",
         ] {
-            assert_eq!(count(wrong), 1, "{wrong}: {:?}", faults(wrong, false));
+            assert_eq!(count(wrong), 1, "{wrong}: {:?}", faults(wrong));
         }
         let html = "in <code>$a_{</code> and $b$";
-        assert_eq!(faults(&without_code(html, code(html).into_iter()), false), []);
+        assert_eq!(faults(&without_code(html, code(html).into_iter())), []);
+    }
+
+    /// A megabyte of whatever opens something: no character is looked at more than a fixed number of times.
+    #[test]
+    fn hostile_texts_take_bounded_work() {
+        const MEGABYTE: usize = 1 << 20;
+        for piece in [
+            "$",
+            "$ ",
+            "$a",
+            "$1",
+            "\\left(",
+            "{",
+            "$\\left(",
+            "$\\left($ ",
+            "$\\begin{$ ",
+            "\\begin{",
+            "\\(",
+            "\\[ ",
+            "$$a",
+            "$$ $",
+            "${",
+            "$\n",
+            "$a\n\n",
+            "\\",
+            "\\$",
+            "ä$",
+            "$\\begin{a}",
+            "$\\end{a}$",
+        ] {
+            let text = piece.repeat(MEGABYTE / piece.len());
+            for plain in [false, true] {
+                let mut work = 0;
+                let found = faults(&text, plain, &mut work);
+                assert!(work <= MOST_LOOKS * text.len(), "{piece:?}: {work}");
+                assert!(found.len() <= text.len());
+                // What is opened once and never closed costs no more than a look at each, and so many walks of a formula's length.
+                if piece == "$a" || piece == "\\left(" || piece == "{" {
+                    assert!(work <= 3 * text.len() + 2 * MAX_IN_TEXT * LONGEST, "{piece:?}: {work}");
+                }
+            }
+        }
+        // Many short texts, as a quiz may have.
+        let text = "$a ".repeat(60);
+        let mut work = 0;
+        (0..1000).for_each(|_| drop(faults(&text, false, &mut work)));
+        assert!(work <= MOST_LOOKS * 1000 * text.len(), "{work}");
     }
 }

@@ -54,7 +54,7 @@ fn repair(document: &Document, f: &Finding, fix: &Fix) -> Option<Value> {
     Some(json!({
         "title": title,
         "kind": "quickfix",
-        "diagnostics": [super::diagnostic::diagnostic(f, file)],
+        "diagnostics": [super::diagnostic::diagnostic(f, file, &document.uri)],
         "isPreferred": preferred,
         "edit": edit(document, &[(fix.span.clone(), fix.text.clone())]),
     }))
@@ -146,14 +146,15 @@ fn allow(document: &Document, lesson: &Lesson, f: &Finding) -> Option<Value> {
                 lesson.scan.blocks.iter().find(|b| holds(&b.span)).map(|b| file.position(b.span.start).line);
             let first =
                 block.unwrap_or_else(|| (1..=line).rev().find(|l| *l == 1 || empty(l - 1)).unwrap_or(line));
-            (file.line_span(first)?.start, format!("<!-- labspec allow {}:  -->\n", f.code))
+            let end = if file.text().contains("\r\n") { "\r\n" } else { "\n" };
+            (file.line_span(first)?.start, format!("<!-- labspec allow {}:  -->{end}", f.code))
         }
         None => return None,
     };
     Some(json!({
         "title": format!("allow `{}` here, with a reason", f.code),
         "kind": "quickfix",
-        "diagnostics": [super::diagnostic::diagnostic(f, file)],
+        "diagnostics": [super::diagnostic::diagnostic(f, file, &document.uri)],
         "edit": edit(document, &[(at..at, text)]),
     }))
 }

@@ -1,6 +1,7 @@
 //! What lies around a document: the models that its labs name, compiled once, and the other lessons of the folder.
 
 use super::documents::Document;
+use super::places;
 use super::start::Started;
 use crate::bind::scene::Models;
 use crate::lint::ModelFolder;
@@ -48,6 +49,24 @@ impl Arounds {
     pub(super) fn forget(&mut self) {
         self.0.clear();
     }
+}
+
+/// A folder that the editor opened.
+#[derive(Debug)]
+pub(super) struct Opened {
+    /// As the editor names it.
+    pub(super) named: PathBuf,
+    /// Links resolved.
+    pub(super) real: PathBuf,
+}
+
+/// A file as the editor names it: by the document that it has open, or by the folder that it opened.
+pub(super) fn uri_of(path: &Path, open: &BTreeMap<String, Document>, folders: &[Opened]) -> String {
+    if let Some(document) = open.values().find(|d| d.path == path) {
+        return document.uri.clone();
+    }
+    let inside = folders.iter().find_map(|f| Some(f.named.join(path.strip_prefix(&f.real).ok()?)));
+    places::uri_of(inside.as_deref().unwrap_or(path))
 }
 
 /// The lessons below a folder, as the editor holds them or else as they are saved. Files that `.gitignore` names are left out.

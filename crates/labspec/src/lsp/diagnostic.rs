@@ -5,15 +5,14 @@ use crate::finding::{Finding, Severity};
 use crate::report::page;
 use crate::source::SourceFile;
 use serde_json::{Value, json};
-use std::path::Path;
 
 /// What the editor calls something that has no effect, so that it is drawn pale.
 const UNNECESSARY: u8 = 1;
 /// Rules about what could as well be left out.
 const PALE: [&str; 3] = ["unused-allowance", "value-unused", "apply-unused"];
 
-/// The finding, at its place in a file.
-pub(super) fn diagnostic(f: &Finding, file: &SourceFile) -> Value {
+/// The finding, at its place in a file that the editor knows by this URI.
+pub(super) fn diagnostic(f: &Finding, file: &SourceFile, uri: &str) -> Value {
     let severity = match f.severity {
         Severity::Error => 1,
         Severity::Warning => 2,
@@ -33,7 +32,6 @@ pub(super) fn diagnostic(f: &Finding, file: &SourceFile) -> Value {
     let here = f.related.iter().filter(|place| place.path == *file.path());
     let related: Vec<Value> = here
         .map(|place| {
-            let uri = places::uri_of(Path::new(&**file.path()));
             json!({"location": {"uri": uri, "range": places::range(file, &place.span)}, "message": place.label})
         })
         .collect();

@@ -15,7 +15,7 @@ use std::sync::Arc;
 pub(super) struct Document {
     /// Its name for the editor.
     pub(super) uri: String,
-    /// Its file, which may not exist yet.
+    /// Its file, links resolved, which may not exist yet.
     pub(super) path: PathBuf,
     /// What it is.
     pub(super) kind: FileKind,

@@ -6,7 +6,7 @@ use super::course::Around;
 use super::documents::Document;
 use super::look::lesson;
 use super::places;
-use super::start::{started, value};
+use super::start::{started, unit, value};
 use crate::bind::Scope;
 use crate::source::Text;
 use crate::spec::format::completions_in;
@@ -31,6 +31,10 @@ pub(super) fn hover(document: &mut Document, around: &mut Around, byte: usize) -
         let code = span.text(text);
         value(started, code).map(|worth| format!("At the start of the lab: `{code}` = **{worth}**"))
     });
+    let measures = chain.and_then(|span| {
+        let code = span.text(text);
+        unit(started, piece.lab, code).map(|unit| format!("By its dimension, `{code}` is in {unit}."))
+    });
     let first = known.first().map(|(_, help)| help);
     if first.is_none() && worth.is_none() {
         return None;
@@ -39,7 +43,7 @@ pub(super) fn hover(document: &mut Document, around: &mut Around, byte: usize) -
     let lines = first.map(|help| help.lines.join("\n\n")).filter(|lines| !lines.is_empty());
     let measured = (piece.scope == Scope::Measure && first.is_none())
         .then(|| "In a measure, over a whole run.".to_string());
-    let parts: Vec<String> = [title, lines, measured, worth].into_iter().flatten().collect();
+    let parts: Vec<String> = [title, lines, measures, measured, worth].into_iter().flatten().collect();
     let span = chain.or(known.first().map(|(span, _)| *span))?;
     Some(json!({
         "contents": {"kind": "markdown", "value": parts.join("\n\n")},

@@ -1,7 +1,7 @@
 //! Where a name of the model stands: in the model itself, and in the labs and claims of the lessons around it.
 
 use super::code;
-use super::course::{Arounds, lessons_below, text_of};
+use super::course::{Arounds, Opened, lessons_below, text_of, uri_of};
 use super::documents::Document;
 use super::elements::{Mention, mentions};
 use super::places;
@@ -65,8 +65,15 @@ pub(super) struct Places {
 /// What is needed to find names: what the editor holds, and where models and folders are.
 pub(super) struct Ground<'a> {
     pub(super) open: &'a BTreeMap<String, Document>,
-    pub(super) folders: &'a [PathBuf],
+    pub(super) folders: &'a [Opened],
     pub(super) models_of: &'a dyn Fn(&Path) -> ModelFolder,
+}
+
+impl Ground<'_> {
+    /// A file as the editor names it.
+    pub(super) fn uri(&self, path: &str) -> String {
+        uri_of(Path::new(path), self.open, self.folders)
+    }
 }
 
 /// The name at a byte of a lesson.
@@ -156,6 +163,7 @@ fn lessons_around(model: &Path, ground: &Ground<'_>) -> Vec<(PathBuf, SourceFile
     let opened = ground
         .folders
         .iter()
+        .map(|folder| &folder.real)
         .filter(|folder| model.starts_with(folder))
         .min_by_key(|f| f.components().count());
     let above = model.parent().and_then(Path::parent);
@@ -240,19 +248,15 @@ fn in_lesson(name: &Name, lesson: &Lesson, path: &Path, models: &Models, found: 
 }
 
 /// Places as the editor names them.
-pub(super) fn locations<'s>(spots: impl Iterator<Item = &'s Spot>) -> Value {
-    spots.map(|spot| location(&spot.file, &spot.span)).collect()
-}
-
-/// A place of a file.
-pub(super) fn location(file: &SourceFile, span: &Range<usize>) -> Value {
-    json!({"uri": places::uri_of(Path::new(&**file.path())), "range": places::range(file, span)})
+pub(super) fn locations<'s>(spots: impl Iterator<Item = &'s Spot>, ground: &Ground<'_>) -> Value {
+    let one = |spot: &Spot| json!({"uri": ground.uri(spot.file.path()), "range": places::range(&spot.file, &spot.span)});
+    spots.map(one).collect()
 }
 
 /// The start of a file.
-pub(super) fn beginning(path: &Path) -> Value {
+pub(super) fn beginning(uri: &str) -> Value {
     let zero = json!({"line": 0, "character": 0});
-    json!({"uri": places::uri_of(path), "range": {"start": zero, "end": zero}})
+    json!({"uri": uri, "range": {"start": zero, "end": zero}})
 }
 
 /// Whether a document is a model's.

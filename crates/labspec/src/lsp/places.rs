@@ -81,6 +81,12 @@ pub(super) fn path_of(uri: &str) -> Option<PathBuf> {
     Some(PathBuf::from(if drive { path.get(1..)?.to_string() } else { path }))
 }
 
+/// The file itself, whatever links lead to it; it may not be there yet.
+pub(super) fn real(path: &Path) -> PathBuf {
+    let beside = || Some(path.parent()?.canonicalize().ok()?.join(path.file_name()?));
+    path.canonicalize().ok().or_else(beside).unwrap_or_else(|| path.to_path_buf())
+}
+
 /// The URI of a file.
 pub(super) fn uri_of(path: &Path) -> String {
     let text = path.display().to_string().replace('\\', "/");

@@ -1,17 +1,16 @@
 //! A new name for an element of a model, in the model and in every lab and claim that names it. Where it is not certain what a text
 //! means, nothing is changed, and the answer says why.
 
-use super::names::{Name, Places};
+use super::names::{Ground, Name, Places};
 use super::places;
 use crate::source::SourceFile;
 use serde_json::{Map, Value, json};
-use std::path::Path;
 
 /// All changes that the new name asks for.
 ///
 /// # Errors
 /// A sentence for the author: the name cannot be one, is taken, or it is not certain what bears the old one.
-pub(super) fn rename(name: &Name, places: &Places, new: &str) -> Result<Value, String> {
+pub(super) fn rename(name: &Name, places: &Places, new: &str, ground: &Ground<'_>) -> Result<Value, String> {
     let Name { noun, name: old, .. } = name;
     good(new)?;
     if places.spots.iter().filter(|spot| spot.defines).count() != 1 {
@@ -31,7 +30,7 @@ pub(super) fn rename(name: &Name, places: &Places, new: &str) -> Result<Value, S
     spots.dedup_by(|a, b| (&a.0, a.1) == (&b.0, b.1));
     for (path, _, spot) in spots {
         let edit = json!({"range": places::range(&spot.file, &spot.span), "newText": new});
-        let edits = changes.entry(places::uri_of(Path::new(&*path))).or_insert_with(|| json!([]));
+        let edits = changes.entry(ground.uri(&path)).or_insert_with(|| json!([]));
         if let Value::Array(edits) = edits {
             edits.push(edit);
         }

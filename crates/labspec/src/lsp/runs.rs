@@ -15,6 +15,8 @@ const STACK: usize = 8 << 20;
 /// What was found of a version of a document.
 #[derive(Debug)]
 pub(super) struct Ran {
+    /// Of which check this is the outcome.
+    pub(super) job: u64,
     pub(super) uri: String,
     pub(super) version: i64,
     pub(super) findings: Vec<Finding>,
@@ -23,6 +25,8 @@ pub(super) struct Ran {
 /// A check that goes on.
 #[derive(Debug)]
 pub(super) struct Job {
+    /// Counted by whoever starts it.
+    pub(super) number: u64,
     pub(super) uri: String,
     stop: Arc<AtomicBool>,
 }
@@ -30,6 +34,7 @@ pub(super) struct Job {
 impl Job {
     /// Checks a text with all its runs. `done` is called at the end, unless it was stopped.
     pub(super) fn start(
+        number: u64,
         uri: &str,
         version: i64,
         file: SourceFile,
@@ -45,11 +50,11 @@ impl Job {
             });
             // What a run that was stopped says is not used.
             if !asked.load(Ordering::Relaxed) {
-                done(Ran { uri: of, version, findings });
+                done(Ran { job: number, uri: of, version, findings });
             }
         };
         std::thread::Builder::new().stack_size(STACK).spawn(work).ok()?;
-        Some(Job { uri, stop })
+        Some(Job { number, uri, stop })
     }
 
     /// Its outcome is no longer wanted.

@@ -2,7 +2,7 @@
 
 use super::actions::actions;
 use super::complete::completions;
-use super::course::Arounds;
+use super::course::{Arounds, Opened, uri_of};
 use super::diagnostic::diagnostic;
 use super::documents::Document;
 use super::hints::hints;
@@ -69,6 +69,7 @@ pub fn serve<'c>(
         folders: Vec::new(),
         settings: Settings::default(),
         job: None,
+        jobs: 0,
     }
     .run(&events)
 }
@@ -123,9 +124,11 @@ struct Server<'c> {
     documents: BTreeMap<String, Document>,
     arounds: Arounds,
     /// The folders that the editor opened.
-    folders: Vec<PathBuf>,
+    folders: Vec<Opened>,
     settings: Settings,
     job: Option<Job>,
+    /// How many checks were started.
+    jobs: u64,
 }
 
 impl Server<'_> {
@@ -230,10 +233,11 @@ impl Server<'_> {
         self.state = State::Open;
         let many = params.get("workspaceFolders").and_then(Value::as_array).into_iter().flatten();
         let uris = many.filter_map(|folder| folder.get("uri")?.as_str());
-        self.folders = uris.filter_map(places::path_of).collect();
+        let opened = |named: PathBuf| Opened { real: places::real(&named), named };
+        self.folders = uris.filter_map(places::path_of).map(opened).collect();
         if self.folders.is_empty() {
             let one = params.get("rootUri").and_then(Value::as_str).and_then(places::path_of);
-            self.folders.extend(one);
+            self.folders.extend(one.map(opened));
         }
         if let Some(said) = params.get("initializationOptions") {
             self.settings.take(said);
@@ -250,7 +254,8 @@ impl Server<'_> {
                     (places::path_of(uri), document.get("text").and_then(Value::as_str))
                 {
                     self.stop_for(uri);
-                    self.documents.insert(uri.to_string(), Document::new(uri, path, text, version));
+                    let document = Document::new(uri, places::real(&path), text, version);
+                    self.documents.insert(uri.to_string(), document);
                 }
             }
             "textDocument/didChange" => {
@@ -284,6 +289,7 @@ impl Server<'_> {
 
     /// Models are compiled anew, and everything is looked at again.
     fn forget(&mut self) {
+        self.stop();
         self.arounds.forget();
         for document in self.documents.values_mut() {
             document.blocks.clear();
@@ -303,7 +309,8 @@ impl Server<'_> {
                 let sender = self.sender.clone();
                 // Nobody listens any more when the server has ended.
                 let done = move |ran| drop(sender.send(Event::Ran(ran)));
-                self.job = Job::start(uri, document.version, document.file.clone(), models, done);
+                self.jobs += 1;
+                self.job = Job::start(self.jobs, uri, document.version, document.file.clone(), models, done);
             }
             _ => {}
         }
@@ -311,6 +318,11 @@ impl Server<'_> {
 
     /// What runs found, unless the text is another one by now.
     fn ran(&mut self, ran: Ran) -> io::Result<()> {
+        // One that was stopped may have ended just before.
+        if self.job.as_ref().is_none_or(|job| job.number != ran.job) {
+            return Ok(());
+        }
+        self.job = None;
         let Some(document) =
             self.documents.get_mut(&ran.uri).filter(|d| d.version == ran.version && !d.stale)
         else {
@@ -352,7 +364,7 @@ impl Server<'_> {
 
     fn publish(&mut self, uri: &str) -> io::Result<()> {
         let Some(document) = self.documents.get(uri) else { return Ok(()) };
-        let told: Vec<Value> = document.findings.iter().map(|f| diagnostic(f, &document.file)).collect();
+        let told: Vec<Value> = document.findings.iter().map(|f| diagnostic(f, &document.file, uri)).collect();
         let params = json!({"uri": uri, "version": document.version, "diagnostics": told});
         self.notify("textDocument/publishDiagnostics", &params)
     }
@@ -395,9 +407,12 @@ impl Server<'_> {
         names::name_in_lesson(&lesson, &document.path, &around.models, byte).map(|name| (name, false))
     }
 
+    fn ground(&self) -> Ground<'_> {
+        Ground { open: &self.documents, folders: &self.folders, models_of: self.course.models }
+    }
+
     fn places_of(&self, name: &Name) -> Places {
-        let ground = Ground { open: &self.documents, folders: &self.folders, models_of: self.course.models };
-        names::places_of(name, &ground)
+        names::places_of(name, &self.ground())
     }
 
     fn definition(&mut self, params: &Value) -> Answer {
@@ -405,13 +420,17 @@ impl Server<'_> {
         if let Some((name, defines)) = self.name(&uri, byte) {
             // From where the element gets its name, the way leads back to those who use it.
             let places = self.places_of(&name);
-            return Ok(names::locations(places.spots.iter().filter(|spot| spot.defines != defines)));
+            return Ok(names::locations(
+                places.spots.iter().filter(|spot| spot.defines != defines),
+                &self.ground(),
+            ));
         }
         let Some(document) = self.documents.get_mut(&uri) else { return Ok(Value::Null) };
         let around = self.arounds.of((self.course.models)(&document.path));
         let Some(lesson) = lesson(document, around) else { return Ok(Value::Null) };
         let named = names::model_named(&lesson, &around.models, byte);
-        Ok(named.map_or(Value::Null, |path| names::beginning(&path)))
+        let uri = |path: PathBuf| uri_of(&path, &self.documents, &self.folders);
+        Ok(named.map_or(Value::Null, |path| names::beginning(&uri(path))))
     }
 
     fn references(&mut self, params: &Value) -> Answer {
@@ -419,7 +438,7 @@ impl Server<'_> {
         let Some((name, _)) = self.name(&uri, byte) else { return Ok(Value::Null) };
         let also = params.pointer("/context/includeDeclaration").and_then(Value::as_bool).unwrap_or(true);
         let places = self.places_of(&name);
-        Ok(names::locations(places.spots.iter().filter(|spot| also || !spot.defines)))
+        Ok(names::locations(places.spots.iter().filter(|spot| also || !spot.defines), &self.ground()))
     }
 
     fn prepare_rename(&mut self, params: &Value) -> Answer {
@@ -441,7 +460,7 @@ impl Server<'_> {
         if new != name.name && self.places_of(&taken).spots.iter().any(|spot| spot.defines) {
             return Err(failed(format!("there is a {} `{new}` already", name.noun)));
         }
-        rename(&name, &self.places_of(&name), new).map_err(failed)
+        rename(&name, &self.places_of(&name), new, &self.ground()).map_err(failed)
     }
 
     fn code_action(&mut self, params: &Value) -> Answer {

@@ -2,10 +2,12 @@
 
 use super::course::Around;
 use crate::bind::{ModelNames, Programs, Scope};
+use crate::check::dimension_of;
 use crate::finding::Finding;
 use crate::run::{Budget, Session};
 use crate::source::{SourceMap, Text};
 use crate::spec::Lab;
+use labspec_bind::units::written;
 use labspec_core::{Demand, Model};
 use labspec_expr::{Compiler, Type};
 use std::sync::Arc;
@@ -52,6 +54,13 @@ pub(super) fn value(started: &Started, code: &str) -> Option<String> {
         Some((Type::Record | Type::Function | Type::Undefined, _)) => None,
         Some((_, text)) => Some(text),
     }
+}
+
+/// What an expression measures, as a unit; `None` where that is not certain, or it is a plain number.
+pub(super) fn unit(started: &Started, lab: &Lab, code: &str) -> Option<String> {
+    let dimension = dimension_of(lab, &started.model, started.session.programs(), code)?;
+    // A number of the text may stand for anything.
+    (!dimension.is_number() && !dimension.factor.is_nan()).then(|| written(&dimension))
 }
 
 /// The first elements of an array; an array alone is no value of an expression.

@@ -202,7 +202,11 @@ fn pass(text: &str, from: usize, scan: &mut Scan) -> Option<usize> {
                 scan.links.push(Link { target: dest_url.to_string(), span: range, image: true });
             }
             Event::Code(_) => scan.inline_code.push(range),
-            Event::Html(_) | Event::InlineHtml(_) => scan.html.push(range),
+            // A comment over several lines comes line by line.
+            Event::Html(_) | Event::InlineHtml(_) => match scan.html.last_mut() {
+                Some(last) if last.end == range.start => last.end = range.end,
+                _ => scan.html.push(range),
+            },
             _ => {}
         }
     }

@@ -1,5 +1,6 @@
 //! Findings in the forms that other programs take: compilers' lines, GitHub, GitLab, SARIF, JUnit.
 
+use super::uri::{slashed, uri};
 use super::{Summary, file_of, json as whole};
 use crate::finding::{Applicability, Finding, Severity};
 use crate::ledger::{Entry, Ledger, State};
@@ -9,6 +10,7 @@ use crate::source::SourceFile;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::ops::Range;
 
 /// Where the pages of the rules are.
 const PAGES: &str = "https://github.com/labspec/labspec/blob/main/docs/reference/codes.md";
@@ -20,14 +22,19 @@ pub fn page(code: &str) -> String {
 
 /// Line and column where a finding begins and ends, from 1; 1, 1 where its file is not at hand.
 fn place(f: &Finding, files: &[&SourceFile]) -> [usize; 4] {
-    let Some(file) = file_of(files, &f.path) else { return [1; 4] };
-    let span = file.snap(&f.span);
+    place_of(&f.path, &f.span, files).unwrap_or([1; 4])
+}
+
+/// The same of some bytes of a file, where it is at hand.
+fn place_of(path: &str, span: &Range<usize>, files: &[&SourceFile]) -> Option<[usize; 4]> {
+    let file = file_of(files, path)?;
+    let span = file.snap(span);
     let (from, to) = (file.position(span.start), file.position(span.end));
-    [from.line, from.column, to.line, to.column]
+    Some([from.line, from.column, to.line, to.column])
 }
 
 /// A line for each finding: `file:line:column: severity[code]: message`.
-pub fn concise(findings: &[Finding], files: &[&SourceFile]) -> String {
+pub fn concise<'f>(findings: impl IntoIterator<Item = &'f Finding>, files: &[&SourceFile]) -> String {
     let mut text = String::new();
     for f in findings {
         let [line, column, ..] = place(f, files);
@@ -70,7 +77,7 @@ pub fn github(findings: &[Finding], files: &[&SourceFile]) -> String {
         let _ = writeln!(
             text,
             "::{word} file={},line={line},endLine={last}{columns},title={}::{}",
-            property(&f.path),
+            property(&slashed(&f.path)),
             property(&format!("labspec {}", f.code)),
             data(&format!("{}{help}", f.message))
         );
@@ -100,7 +107,7 @@ pub fn gitlab(findings: &[Finding], files: &[&SourceFile]) -> Value {
         let mark = print(f, &mut seen);
         json!({
             "description": f.message, "check_name": f.code, "fingerprint": mark, "severity": severity,
-            "location": {"path": f.path.replace('\\', "/"), "lines": {"begin": line, "end": last}},
+            "location": {"path": slashed(&f.path), "lines": {"begin": line, "end": last}},
         })
     };
     findings.iter().map(&mut one).collect()
@@ -138,10 +145,9 @@ pub fn sarif(findings: &[Finding], files: &[&SourceFile]) -> Value {
         }
         rule
     };
-    let uri = |path: &str| path.replace('\\', "/").replace('%', "%25").replace(' ', "%20");
-    let region = |f: &Finding, span: &std::ops::Range<usize>| {
-        let [line, column, last, end] = place(&Finding { span: span.clone(), ..f.clone() }, files);
-        json!({"startLine": line, "startColumn": column, "endLine": last, "endColumn": end})
+    let region = |f: &Finding, span: &Range<usize>| {
+        let [line, column, last, end] = place_of(&f.path, span, files)?;
+        Some(json!({"startLine": line, "startColumn": column, "endLine": last, "endColumn": end}))
     };
     let mut seen = BTreeMap::new();
     let mut result = |f: &Finding| {
@@ -151,12 +157,16 @@ pub fn sarif(findings: &[Finding], files: &[&SourceFile]) -> Value {
         let mut value = json!({
             "ruleId": f.code, "ruleIndex": codes.binary_search(&f.code).unwrap_or(0), "level": level(f.severity),
             "message": {"text": text.join(". ")},
-            "locations": [{"physicalLocation": {"artifactLocation": file, "region": region(f, &f.span)}}],
+            "locations": [{"physicalLocation": {"artifactLocation": file}}],
             "partialFingerprints": {"labspec/v1": print(f, &mut seen)},
         });
-        if let Some(fix) = f.fix.as_ref().filter(|fix| fix.applicability != Applicability::Display) {
-            let change =
-                json!({"deletedRegion": region(f, &fix.span), "insertedContent": {"text": fix.text}});
+        // A file that could not be read has no places.
+        if let Some(region) = region(f, &f.span) {
+            value["locations"][0]["physicalLocation"]["region"] = region;
+        }
+        let fix = f.fix.as_ref().filter(|fix| fix.applicability != Applicability::Display);
+        if let Some((fix, region)) = fix.and_then(|fix| Some((fix, region(f, &fix.span)?))) {
+            let change = json!({"deletedRegion": region, "insertedContent": {"text": fix.text}});
             let words = f.help.as_ref().unwrap_or(&f.message);
             value["fixes"] = json!([{
                 "description": {"text": words},
@@ -186,19 +196,24 @@ pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> St
     for entry in ledger.entries() {
         by_file.entry(&entry.path).or_default().push(entry);
     }
+    let mut found: BTreeMap<&str, Vec<&Finding>> = BTreeMap::new();
+    for f in findings {
+        found.entry(&f.path).or_default().push(f);
+    }
     let bad = |e: &&Entry| e.state == State::False;
     let lost = |e: &&Entry| e.state == State::Unchecked;
     let skipped = |e: &&Entry| matches!(e.state, State::LeftOut | State::NotClaimed | State::Known);
     let counts = |all: &[&Entry]| {
         let n = |test: &dyn Fn(&&Entry) -> bool| all.iter().filter(|e| test(e)).count();
-        let (failures, errors, skipped) = (n(&bad), n(&lost), n(&skipped));
-        format!("tests=\"{}\" failures=\"{failures}\" errors=\"{errors}\" skipped=\"{skipped}\"", all.len())
+        (format!("tests=\"{}\" failures=\"{}\" errors=\"{}\"", all.len(), n(&bad), n(&lost)), n(&skipped))
     };
     let all: Vec<&Entry> = ledger.entries().iter().collect();
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    let _ = writeln!(text, "<testsuites name=\"labspec\" {}>", counts(&all));
+    // The schema of Jenkins has no `skipped` here.
+    let _ = writeln!(text, "<testsuites name=\"labspec\" {}>", counts(&all).0);
     for (path, entries) in by_file {
-        let _ = writeln!(text, "  <testsuite name=\"{}\" {}>", xml(path), counts(&entries));
+        let (numbers, skipped) = counts(&entries);
+        let _ = writeln!(text, "  <testsuite name=\"{}\" {numbers} skipped=\"{skipped}\">", xml(path));
         for e in entries {
             let what = if e.what.is_empty() { String::new() } else { format!(" \"{}\"", e.what) };
             let name = format!("{}: {}{what}", e.subject.as_str(), e.owner);
@@ -207,21 +222,21 @@ pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> St
                 if e.remark.is_empty() { e.word.to_string() } else { format!("{}: {}", e.word, e.remark) };
             // Findings in what it is about say more; those of the whole file all of it.
             let inside = |f: &&Finding| {
-                *f.path == *path
-                    && (e.span.is_empty() || (e.span.start <= f.span.start && f.span.end <= e.span.end))
+                e.span.is_empty() || (e.span.start <= f.span.start && f.span.end <= e.span.end)
             };
-            let about: Vec<Finding> = findings.iter().filter(inside).cloned().collect();
-            let more = xml(&concise(&about, files));
+            let more = || xml(&concise(found.get(path).into_iter().flatten().copied().filter(inside), files));
             let _ = match e.state {
                 State::False => writeln!(
                     text,
-                    ">\n      <failure message=\"{}\">{more}</failure>\n    </testcase>",
-                    xml(&words)
+                    ">\n      <failure message=\"{}\">{}</failure>\n    </testcase>",
+                    xml(&words),
+                    more()
                 ),
                 State::Unchecked => writeln!(
                     text,
-                    ">\n      <error message=\"{}\">{more}</error>\n    </testcase>",
-                    xml(&words)
+                    ">\n      <error message=\"{}\">{}</error>\n    </testcase>",
+                    xml(&words),
+                    more()
                 ),
                 State::LeftOut | State::NotClaimed | State::Known => {
                     writeln!(text, ">\n      <skipped message=\"{}\"/>\n    </testcase>", xml(&words))

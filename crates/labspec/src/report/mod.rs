@@ -6,6 +6,8 @@ mod formats;
 mod human;
 mod machine;
 mod table;
+#[cfg(feature = "cli")]
+mod uri;
 
 pub use crate::printable::{printable, printable_json, printable_lines, printable_path};
 #[cfg(feature = "cli")]

@@ -59,6 +59,7 @@ impl Lesson {
     fn comments(&self) -> Vec<Allowance> {
         let text = self.file.text();
         let mut all = Vec::new();
+        let mut paragraph = 0..0;
         for html in &self.scan.html {
             let mut from = html.start;
             while let Some(start) = text.get(from..html.end).and_then(|t| t.find(OPENS)).map(|at| from + at) {
@@ -71,24 +72,31 @@ impl Lesson {
                     span: start..from,
                     codes,
                     why,
-                    over: self.following(from),
+                    over: self.following(from, &mut paragraph),
                 }));
             }
         }
         all
     }
 
-    /// The block that follows a place of the text.
-    fn following(&self, from: usize) -> Range<usize> {
+    /// The block that follows a place of the text. `paragraph` is the last text that was read to its end: what begins in it ends
+    /// where it does, and is not read again.
+    fn following(&self, from: usize, paragraph: &mut Range<usize>) -> Range<usize> {
         let rest = self.file.text().get(from..).unwrap_or_default();
-        let start = from + rest.len() - rest.trim_start().len();
-        if let Some(block) = self.scan.blocks.iter().find(|b| b.span.contains(&start)) {
+        let text = rest.trim_start();
+        let start = from + rest.len() - text.len();
+        let blocks = &self.scan.blocks;
+        let last = blocks.partition_point(|b| b.span.start <= start).checked_sub(1);
+        if let Some(block) = last.and_then(|at| blocks.get(at)).filter(|b| b.span.contains(&start)) {
             return start..block.span.end;
         }
-        let text = rest.trim_start();
-        let empty = |line: &str| line.trim().is_empty();
-        let length = text.split_inclusive('\n').take_while(|line| !empty(line)).map(str::len).sum::<usize>();
-        start..start + length
+        if !paragraph.contains(&start) {
+            let empty = |line: &str| line.trim().is_empty();
+            let length =
+                text.split_inclusive('\n').take_while(|line| !empty(line)).map(str::len).sum::<usize>();
+            *paragraph = start..start + length;
+        }
+        start..paragraph.end
     }
 }
 
@@ -112,4 +120,48 @@ fn comment(text: &str, inside: Range<usize>) -> Option<Said> {
         at += part.len() + 1;
     }
     Some((found, why.trim().to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::read_lesson;
+    use crate::source::SourceFile;
+
+    /// What a comment is about: from what follows it to the end of the block or the paragraph.
+    #[test]
+    fn a_comment_is_about_what_follows() {
+        let text = "<!-- labspec allow a: x --> one <!-- labspec allow b: y --> two\nthree\n\nfour\n\n\
+                    <!-- labspec allow c: z -->\n\n```lab simlab\n{}\n\n\n```\n\nfive <!-- labspec allow d: w -->";
+        let lesson = read_lesson(SourceFile::new("a.md", text));
+        let over: Vec<&str> = lesson.allowances().iter().map(|a| lesson.file.slice(a.over.clone())).collect();
+        assert_eq!(over.len(), 4);
+        assert!(over[0].starts_with("one") && over[0].ends_with("three\n"), "{over:?}");
+        assert!(over[1].starts_with("two") && over[1].ends_with("three\n"), "{over:?}");
+        assert!(over[2].starts_with("```lab") && over[2].trim_end().ends_with("```"), "{over:?}");
+        assert_eq!(over[3], "");
+    }
+
+    /// A reason may go on in the next line.
+    #[test]
+    fn a_comment_may_have_several_lines() {
+        let text = "# A\n\n<!-- labspec allow a,\nb: read\naloud -->\n\nthis\n\nnot <!-- labspec\nallow c: x --> that\n";
+        let lesson = read_lesson(SourceFile::new("a.md", text));
+        let all = lesson.allowances();
+        assert_eq!(all.len(), 2, "{all:#?}");
+        let codes =
+            |i: usize| all[i].codes.iter().map(|(code, at)| (code.as_str(), lesson.file.slice(at.clone())));
+        assert_eq!(codes(0).collect::<Vec<_>>(), [("a", "a"), ("b", "b")]);
+        assert_eq!((all[0].why.as_str(), lesson.file.slice(all[0].over.clone())), ("read\naloud", "this\n"));
+        assert_eq!(codes(1).collect::<Vec<_>>(), [("c", "c")]);
+    }
+
+    /// A hundred thousand comments in one paragraph: each end is found once. Each anew would be 10^11 bytes, and no test that ends.
+    #[test]
+    fn many_comments_are_read_once() {
+        let text = "x <!-- labspec allow a: b -->".repeat(100_000);
+        let lesson = read_lesson(SourceFile::new("a.md", text.as_str()));
+        let all = lesson.allowances();
+        assert_eq!(all.len(), 100_000);
+        assert!(all.iter().all(|a| a.over.end == text.len()));
+    }
 }

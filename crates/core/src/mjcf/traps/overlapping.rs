@@ -13,14 +13,11 @@ use crate::step::workspace::Data;
 const DEEP: f64 = 0.3;
 /// Larger models are not looked at.
 const MOST: usize = 500;
+/// Nor is one looked at to the end that takes more work than this, in the units of the engine: about 50 ms.
+const WORK: u64 = 50_000_000;
 
 pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
-    if m.ngeom > MOST || m.nv > MOST || m.nv == 0 {
-        return;
-    }
-    // Nothing is solved: where things are is enough.
-    let mut d = Data::new(m);
-    position(m, &mut d);
+    let Some(d) = placed(m) else { return };
     let depth = |pair: [usize; 2], dist: f64| {
         let size = pair.iter().map(|g| half(m, *g)).fold(f64::INFINITY, f64::min);
         (-dist > DEEP * size).then_some(-dist)
@@ -41,6 +38,18 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
         .help("let them touch at most, or leave the pair out of contact");
 }
 
+/// Everything at its place; nothing where that is too much.
+fn placed(m: &Model) -> Option<Data> {
+    if m.ngeom > MOST || m.nv > MOST || m.nv == 0 {
+        return None;
+    }
+    // Nothing is solved: where things are is enough.
+    let mut d = Data::new(m);
+    d.meter.limit = WORK;
+    position(m, &mut d);
+    (!d.meter.over()).then_some(d)
+}
+
 /// Half of the smallest extent of a geom, m; infinite where it has none.
 fn half(m: &Model, g: usize) -> f64 {
     let size = |k: usize| m.geom_size.get(3 * g + k).copied().unwrap_or(0.0);
@@ -49,5 +58,47 @@ fn half(m: &Model, g: usize) -> f64 {
         Some(geom::CYLINDER) => size(0).min(size(1)),
         Some(geom::BOX | geom::ELLIPSOID) => size(0).min(size(1)).min(size(2)),
         _ => f64::INFINITY,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic)]
+mod tests {
+    use super::*;
+    use crate::mjcf::compile;
+
+    /// Geoms in one place, in so many bodies that turn about hinges beside each other.
+    fn heap(geoms: usize, bodies: usize, geom: &str) -> Model {
+        let inside = geom.repeat(geoms / bodies);
+        let body = format!("<body><joint/>{inside}</body>");
+        compile(&format!("<mujoco><worldbody>{}</worldbody></mujoco>", body.repeat(bodies))).unwrap()
+    }
+
+    /// However many there are in one place: what is looked at ends where it should, counted in the work of the engine.
+    #[test]
+    fn geoms_in_one_place_take_bounded_work() {
+        for geom in [
+            "<geom size='.1'/>",
+            "<geom type='box' size='.1 .1 .1'/>",
+            "<geom type='capsule' size='.1 .1'/>",
+            "<geom type='cylinder' size='.1 .1'/>",
+            "<geom type='ellipsoid' size='.1 .2 .3'/>",
+        ] {
+            for (geoms, bodies) in [(20, 10), (200, 100), (500, 250), (500, 500)] {
+                let m = heap(geoms, bodies, geom);
+                let mut d = Data::new(&m);
+                d.meter.limit = WORK;
+                position(&m, &mut d);
+                // One test of a pair more than the limit, and what follows from the contacts that were found by then.
+                assert!(d.meter.cost < 2 * WORK, "{geoms} of {geom} in {bodies}: {}", d.meter.cost);
+                assert_eq!(placed(&m).is_some(), !d.meter.over());
+            }
+            assert!(placed(&heap(20, 10, geom)).is_some(), "{geom}");
+            // The largest model that there is is not looked at; one with ten thousand geoms is none.
+            assert!(placed(&heap(5000, 10, geom)).is_none(), "{geom}");
+        }
+        let many = "<geom size='.1'/>".repeat(10_000);
+        let xml = format!("<mujoco><worldbody><body><joint/>{many}</body></worldbody></mujoco>");
+        assert!(compile(&xml).unwrap_err().iter().any(|f| f.code == "mjcf-limit"));
     }
 }

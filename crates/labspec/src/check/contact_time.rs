@@ -1,0 +1,94 @@
+//! Controllers that keep the time of a contact: whether what they keep is a step late, by a run.
+//!
+//! A step finds contacts from the positions at its start, at the time t, and ends at t + h. A controller that sees them before the
+//! next step, and keeps `data.time`, keeps t + h.
+
+use super::Ready;
+use super::refresh::digits;
+use crate::bind::{ModelNames, Scope};
+use crate::finding::Finding;
+use crate::rules;
+use crate::run::{Budget, Session, count_steps};
+use crate::source::{SourceMap, Text};
+use labspec_expr::{Compiler, Program, Value};
+
+/// Work for the run.
+const WORK: Budget = Budget { left: 50_000_000 };
+
+pub(super) fn check(ready: &Ready<'_>, findings: &mut Vec<Finding>) {
+    let Some(controller) = &ready.programs.controller else { return };
+    let text = &controller.text;
+    let names = |word: &str| text.value.contains(word);
+    let effects = controller.program.effects();
+    // One that computes contacts anew sees those of now.
+    let suspect = (names("ncon") || names("contact")) && names("time") && !effects.writes_everything;
+    if !suspect || effects.ctx_writes.is_empty() {
+        return;
+    }
+    let Some((slot, time, step)) = late(ready, &effects.ctx_writes) else { return };
+    let name = ready.programs.globals.name(slot);
+    let said = |x: f64| digits(x, 6);
+    findings.push(
+        Finding::new(
+            rules::CONTACT_TIME_LATE,
+            text.span(),
+            format!("`ctx.{name}` is the time of a contact, and one step late"),
+        )
+        .why(format!(
+            "in a run, a contact of the positions at {} s makes it {}: contacts are found at the start of a step, and `data.time` is that of its end",
+            said(time - step),
+            said(time)
+        ))
+        .help("keep `data.time - model.opt.timestep`"),
+    );
+}
+
+/// The variable that a new contact, and nothing else in the step before, sets to the time of the controller; that time; the timestep.
+fn late(ready: &Ready<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
+    let (lab, programs) = (ready.lab, &ready.programs);
+    let mut session = Session::start_within(programs, &ready.model, lab.keyframe(), &programs.demand, WORK);
+    let timestep = session.world.model.opt.timestep;
+    let steps = count_steps(lab, None, None, timestep).ok()?;
+    let names = ModelNames::new(&ready.model, Scope::Lab);
+    let mut globals = programs.globals.clone();
+    let texts: Vec<Text> = slots
+        .iter()
+        .map(|slot| Text { value: format!("ctx.{}", globals.name(*slot)), map: SourceMap::point(0) })
+        .collect();
+    let reads: Option<Vec<Program>> = texts
+        .iter()
+        .map(|text| Compiler::new(&names, &mut globals).expression(&text.value).program)
+        .collect();
+    let reads = reads?;
+    let values = |session: &mut Session<'_>| -> Vec<Option<f64>> {
+        let one = |(program, text)| match session.evaluate(program, text) {
+            Some(Value::Number(x)) => Some(x),
+            _ => None,
+        };
+        reads.iter().zip(&texts).map(one).collect()
+    };
+    // As they were after the step before, and whether that one changed them.
+    let (mut known, mut changed, mut contacts) = (values(&mut session), vec![true; slots.len()], usize::MAX);
+    for _ in 0..steps {
+        let fields = session.world.data.fields();
+        let (now, time) = (fields.ncon, session.world.data.time());
+        session.step();
+        if session.ended().is_some() {
+            return None;
+        }
+        let new = values(&mut session);
+        for (i, slot) in slots.iter().enumerate() {
+            let (before, after) = (known.get(i).copied().flatten(), new.get(i).copied().flatten());
+            let changes = before.map(f64::to_bits) != after.map(f64::to_bits);
+            let quiet = changed.get(i).is_some_and(|c| !c);
+            if changes && quiet && now > contacts && time > 0.0 && after == Some(time) {
+                return Some((*slot, time, session.world.model.opt.timestep));
+            }
+            if let Some(c) = changed.get_mut(i) {
+                *c = changes;
+            }
+        }
+        (known, contacts) = (new, now);
+    }
+    None
+}

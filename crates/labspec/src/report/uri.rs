@@ -1,0 +1,77 @@
+//! Paths as other programs write them: with `/` between folders, and as references of RFC 3986.
+
+use std::borrow::Cow;
+use std::fmt::Write;
+
+/// A path with `/` between its folders, and without a `./` that says nothing.
+pub(super) fn slashed(path: &str) -> Cow<'_, str> {
+    let path = if cfg!(windows) { Cow::Owned(path.replace('\\', "/")) } else { Cow::Borrowed(path) };
+    match path.strip_prefix("./").filter(|rest| !rest.is_empty() && !rest.starts_with('/')) {
+        Some(rest) => Cow::Owned(rest.to_string()),
+        None => path,
+    }
+}
+
+/// The reference of a path: relative as the path is, or a URI of a file. What RFC 3986 does not leave as it is, is written as the
+/// bytes of UTF-8 in hexadecimal: a colon, too, which would end a scheme.
+pub(super) fn uri(path: &str) -> String {
+    let path = slashed(path);
+    let drive = cfg!(windows) && path.get(1..2) == Some(":");
+    let mut uri = String::from(match (path.starts_with('/'), drive) {
+        (true, _) => "file://",
+        (_, true) => "file:///",
+        _ => "",
+    });
+    for b in path.bytes() {
+        // The characters that are not reserved, and those that may stand between slashes.
+        if b.is_ascii_alphanumeric() || b"/-._~!$&'()*+,;=@".contains(&b) {
+            uri.push(char::from(b));
+        } else {
+            let _ = write!(uri, "%{b:02X}");
+        }
+    }
+    uri
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn references_are_escaped() {
+        for (path, wanted) in [
+            ("lessons/a.md", "lessons/a.md"),
+            ("./a.md", "a.md"),
+            ("../a b.md", "../a%20b.md"),
+            ("100%/#1?.md", "100%25/%231%3F.md"),
+            ("a:b/[1]{2}|^`\"<>.md", "a%3Ab/%5B1%5D%7B2%7D%7C%5E%60%22%3C%3E.md"),
+            ("ä/𝄞.md", "%C3%A4/%F0%9D%84%9E.md"),
+            ("/tmp/a.md", "file:///tmp/a.md"),
+            ("it's (1)+@~.md", "it's%20(1)+@~.md"),
+        ] {
+            assert_eq!(uri(path), wanted);
+        }
+    }
+
+    proptest! {
+        /// Nothing but what RFC 3986 allows in a path, and the path comes back.
+        #[test]
+        fn every_path_comes_back(path in "[^./\\\\][^\\\\]{0,30}") {
+            let uri = uri(&path);
+            let mut bytes = Vec::new();
+            let mut left = uri.bytes();
+            while let Some(b) = left.next() {
+                let allowed = b.is_ascii_alphanumeric() || b"/-._~!$&'()*+,;=@%".contains(&b);
+                prop_assert!(allowed, "{uri}");
+                if b == b'%' {
+                    let digits = [left.next().unwrap(), left.next().unwrap()];
+                    bytes.push(u8::from_str_radix(std::str::from_utf8(&digits).unwrap(), 16).unwrap());
+                } else {
+                    bytes.push(b);
+                }
+            }
+            prop_assert_eq!(String::from_utf8(bytes).unwrap(), path);
+        }
+    }
+}
