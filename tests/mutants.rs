@@ -40,7 +40,7 @@ pub(crate) struct Kind {
 const PLACES: usize = 2;
 const SEED: u64 = 16;
 /// Survivors that are named in the table, of each kind.
-const NAMED: usize = 4;
+const NAMED: usize = 50;
 
 /// A mistake that was planted.
 struct Mutant {

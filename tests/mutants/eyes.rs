@@ -134,7 +134,11 @@ pub(super) fn prints(json: &Value, models: &Models, readout: usize) -> std::coll
         match moved.and_then(|i| Some((i, &lab.controls.get(i)?.kind))) {
             Some((i, ControlKind::Slider { max, .. })) => session.set_control(i, Chosen::Number(max.value)),
             Some((i, ControlKind::Button { .. })) => session.press(i),
-            _ => {}
+            Some((i, ControlKind::Select { options, .. })) => {
+                let last = options.last().and_then(|o| o.value.number());
+                session.set_control(i, last.map_or(Chosen::Undefined, Chosen::Number));
+            }
+            None => {}
         }
         run::play(&mut session, &Play { every: EVERY, ..Play::steps(STEPS[0]) }, |session, _| {
             let digits = lab.readouts.get(readout).map_or(3, |r| r.digits());

@@ -42,7 +42,7 @@ pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
         // The 1000 of millimetres is a conversion, and no quantity of its own.
         let converts = unit.factor != 1.0
             && is_power_of_ten(unit.factor)
-            && (factor * unit.factor.abs() - 1.0).abs() < 1e-9;
+            && (factor / unit.factor.abs() - 1.0).abs() < 1e-9;
         return found.is_exact() || converts;
     }
     let ratio = factor / unit.factor.abs();

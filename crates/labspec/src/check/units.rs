@@ -57,7 +57,7 @@ fn at_odds(plot: &Plot, model: &Model) -> Option<Finding> {
     plot.traces.iter().find_map(|trace| {
         let (own, of_trace) = of_label(trace.label.as_str())?;
         let ratio = of_trace.factor.abs() / of_axis.factor.abs();
-        let other = of_axis.is_exact() && of_trace.agrees(&of_axis) && (ratio - 1.0).abs() > 1e-3;
+        let other = of_trace.agrees(&of_axis) && (ratio - 1.0).abs() > 1e-3;
         other.then(|| {
             Finding::new(
                 rules::LABEL_UNIT,

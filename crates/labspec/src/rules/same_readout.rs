@@ -9,8 +9,8 @@ pub const SAME_READOUT: &Rule = &Rule {
     code: "same-readout",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "two readouts have the same text and print the same",
-    why: "one of them is a copy whose text was not changed",
+    summary: "two readouts have the same text",
+    why: "one of them is a copy whose text was not changed. More decimals under a label that has a word of the other are no copy",
     bad: Example::Lab(
         r#"{"model": "ball", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}, {"label": "angle (rad)", "expr": "⟦data.qpos[2]⟧"}]}"#,
     ),

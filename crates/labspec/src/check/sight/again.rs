@@ -28,12 +28,14 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
             && !s.contains("not")
     });
     let sentences: Vec<&str> = sentences.collect();
+    let sliders = ready.lab.controls.iter().filter(|c| matches!(c.kind, ControlKind::Slider { .. }));
+    let one = sliders.count() == 1;
     for (index, control) in ready.lab.controls.iter().enumerate() {
         let Some((_, ControlProgram::Change(_, action))) = ready.programs.controls.get(index) else {
             continue;
         };
         let resets = action.reset || action.run.as_ref().is_some_and(resets);
-        if resets || !sentences.iter().any(|s| speaks_of(s, control)) {
+        if resets || !sentences.iter().any(|s| speaks_of(s, control, one)) {
             continue;
         }
         let Some(value) = choices(control).into_iter().next() else { continue };
@@ -61,13 +63,12 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Whether a sentence is about a control: about any slider, or about this one by a word of its label.
-fn speaks_of(sentence: &str, control: &Control) -> bool {
+/// Whether a sentence is about a control: about any slider, about the one that there is, or about this one by a word of its label.
+fn speaks_of(sentence: &str, control: &Control, one: bool) -> bool {
     let slider = matches!(control.kind, ControlKind::Slider { .. });
-    let any = slider
-        && (sentence.contains("a slider")
-            || sentence.contains("each slider")
-            || sentence.contains("every slider"));
+    let words = ["a slider", "each slider", "every slider"];
+    let any =
+        slider && (words.iter().any(|w| sentence.contains(w)) || one && sentence.contains("the slider"));
     let label = control.label.as_str().to_lowercase();
     let mut words = label.split(|c: char| !c.is_alphanumeric()).filter(|w| w.chars().count() > 3);
     any || words.any(|w| sentence.split(|c: char| !c.is_alphanumeric()).any(|s| s == w))

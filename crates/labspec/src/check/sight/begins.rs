@@ -14,23 +14,9 @@ use std::ops::ControlFlow;
 
 /// What says where coordinates begin.
 const STARTS: [&str; 2] = ["qpos0", "key_qpos"];
-/// Words of a label that says so itself.
-const WORDS: [&str; 14] = [
-    "start",
-    "begin",
-    "initial",
-    "rest",
-    "zero",
-    "reference",
-    "home",
-    "nominal",
-    "neutral",
-    "first",
-    "origin",
-    "key",
-    "0",
-    "₀",
-];
+/// Beginnings of words in a label that says so itself, and whole words.
+const BEGIN: [&str; 6] = ["start", "begin", "initial", "referen", "nominal", "origin"];
+const WHOLE: [&str; 7] = ["rest", "zero", "home", "neutral", "first", "key", "0"];
 /// Steps of the runs that are looked at.
 const STEPS: usize = 500;
 /// A coordinate that has gone this far has moved, m or rad.
@@ -53,8 +39,7 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
             || effects.reads.iter().filter_map(|a| Some((FieldId::new(a.field.0 as usize)?.info(), a)));
         let live = fields().any(|(f, _)| f.object == Object::Data);
         let start = fields().find(|(f, a)| STARTS.contains(&f.name) && a.count == Some(1));
-        let (Some((field, access)), false) = (start, more || live || WORDS.iter().any(|w| label.contains(w)))
-        else {
+        let (Some((field, access)), false) = (start, more || live || says_so(&label)) else {
             continue;
         };
         let column = || looked.records.iter().flat_map(|r| &r.rows).filter_map(|row| row.get(1 + traces + i));
@@ -77,6 +62,12 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
             .help(format!("`model.{}` is where things begin; where they are is `data.qpos`", field.name)),
         );
     }
+}
+
+/// Whether a label says that it is about the start.
+fn says_so(label: &str) -> bool {
+    let mut words = label.split(|c: char| !c.is_alphanumeric());
+    words.any(|w| BEGIN.iter().any(|b| w.starts_with(b)) || WHOLE.contains(&w) || w.ends_with(['0', '₀']))
 }
 
 /// The first run in which a coordinate moves: from where, to where, and what was done.

@@ -7,7 +7,9 @@ use crate::rules;
 use crate::run::Cell;
 
 /// What is never negative: how labels call it, and what its expression has to hold, so that it is this and nothing else.
-const KINDS: [(&str, &str, &str); 7] = [
+const KINDS: [(&str, &str, &str); 9] = [
+    ("nq", "model.nq", "a number of coordinates"),
+    ("nv", "model.nv", "a number of degrees of freedom"),
     ("time", "data.time", "time that has passed"),
     ("contacts", "data.ncon", "a number of contacts"),
     ("rows", "data.nefc", "a number of rows"),

@@ -20,10 +20,7 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
     let ready = looked.bench.ready;
     let Some(stop) = &ready.lab.stop_at else { return };
     let Some((steps, timestep)) = looked.bench.steps(looked.length) else { return };
-    if steps >= FEW || steps == 0 {
-        return;
-    }
-    if stop.value < (1.0 - 1e-9) * timestep {
+    if stop.value > 0.0 && stop.value < (1.0 - 1e-9) * timestep {
         findings.push(
             Finding::warning(rules::STOPS_EARLY, stop.span.clone(), "the lab stops after its first step")
                 .why(format!(
@@ -33,6 +30,9 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
                 ))
                 .help("let it run longer; for one step that is meant, write the length of a step"),
         );
+        return;
+    }
+    if steps >= FEW || steps == 0 {
         return;
     }
     let Some(all) = looked.bench.steps(LONGER).and_then(|(n, _)| looked.bench.run(&[], n)) else { return };

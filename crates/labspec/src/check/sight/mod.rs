@@ -13,6 +13,7 @@ mod flat;
 mod idle;
 mod jumps;
 mod mixed;
+mod no_solver;
 mod overruled;
 mod readouts;
 mod record;
@@ -77,6 +78,7 @@ pub(super) fn check(ready: &Ready<'_>, records: &[Record], length: f64, findings
     again::check(&looked, findings);
     below_zero::check(&looked, findings);
     damping::check(&looked, findings);
+    no_solver::check(&looked, findings);
     undone::check(&mut looked, findings);
     overruled::check(&mut looked, findings);
     flat::check(&mut looked, findings);
