@@ -220,7 +220,7 @@ fn count(
 }
 
 fn share([_, seen, found]: [usize; 3]) -> String {
-    if seen == 0 { "–".into() } else { format!("{} %", (100 * found + seen / 2) / seen) }
+    (100 * found + seen / 2).checked_div(seen).map_or("–".into(), |percent| format!("{percent} %"))
 }
 
 /// The page.

@@ -12,22 +12,25 @@ use std::ops::ControlFlow;
 
 /// When the control is moved, steps.
 const STEPS: usize = 50;
-/// What a sentence says that means a new start, and what it may not say besides.
-const STARTS: [&str; 6] = ["again", "restarts", "starts over", "starts anew", "resets the", "resets it"];
-const CHANGES: [&str; 6] =
-    ["moving", "changing", "each slider", "every slider", "a slider change", "slider change"];
+/// What a sentence says that means a new start: one word, or one with another behind it.
+const STARTS: [&str; 3] = ["restarts", "resets the", "resets it"];
+const BEGINS: [&str; 4] = ["starts ", "begins ", "drops ", "lets "];
+const AGAIN: [&str; 3] = [" again", " anew", " over"];
+/// Who does it, and what it may not say besides.
+const CHANGES: [&str; 5] = ["moving", "changing", "each slider", "every slider", "slider change"];
+const ELSE: [&str; 6] = ["button", "not", "press", "click", "then", "after"];
+
+/// Whether a sentence says that a change starts the lab again.
+fn promises(sentence: &str) -> bool {
+    let says = |words: &[&str]| words.iter().any(|w| sentence.contains(w));
+    (says(&STARTS) || says(&BEGINS) && says(&AGAIN)) && says(&CHANGES) && !says(&ELSE)
+}
 
 pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
     let ready = looked.bench.ready;
     let Some(note) = ready.lab.note.as_ref() else { return };
     let lower = note.as_str().to_lowercase();
-    let sentences = lower.split(['.', ';', ':']).filter(|s| {
-        STARTS.iter().any(|w| s.contains(w))
-            && CHANGES.iter().any(|w| s.contains(w))
-            && !s.contains("button")
-            && !s.contains("not")
-    });
-    let sentences: Vec<&str> = sentences.collect();
+    let sentences: Vec<&str> = lower.split(['.', ';', ':']).filter(|s| promises(s)).collect();
     let sliders = ready.lab.controls.iter().filter(|c| matches!(c.kind, ControlKind::Slider { .. }));
     let one = sliders.count() == 1;
     for (index, control) in ready.lab.controls.iter().enumerate() {

@@ -38,9 +38,8 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
                 .iter()
                 .flat_map(|r| &r.rows)
                 .filter_map(|row| Some((row.first()?, row.get(1 + i)?)));
-            column.filter_map(|(t, c)| {
-                matches!(c, Cell::Number(x) if x.is_finite()).then(|| (t.number(), c.number()))
-            })
+            let numbers = column.filter(|(_, c)| matches!(c, Cell::Number(x) if x.is_finite()));
+            numbers.map(|(t, c)| (t.number(), c.number()))
         };
         // What is negative at times only may be a difference that is meant.
         let lowest = numbers().min_by(|a, b| a.1.total_cmp(&b.1));

@@ -43,7 +43,12 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
         let Some(flat) = longest(&sets) else { continue };
         let [Some(low), Some(high)] = [values.get(flat.start), values.get(flat.end - 1)] else { continue };
         let share = (high - low) / (max.value - min.value);
-        if share < SHARE || flat.len() == sets.len() || flat.len() < 2 {
+        // What goes up in stairs is flat everywhere, and meant so.
+        let stairs = sets
+            .windows(2)
+            .enumerate()
+            .any(|(i, w)| !(flat.start..flat.end - 1).contains(&i) && matches!(w, [a, b] if a == b));
+        if stairs || share < SHARE || flat.len() == sets.len() || flat.len() < 2 {
             continue;
         }
         let label = &control.label.value;

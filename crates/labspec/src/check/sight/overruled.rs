@@ -4,7 +4,7 @@
 
 use super::Looked;
 use super::bench::Move;
-use super::idle::{settings, values};
+use super::idle::{Setting, settings, values};
 use crate::bind::{Bound, ControlProgram};
 use crate::check::refresh::digits;
 use crate::finding::Finding;
@@ -16,6 +16,8 @@ use labspec_expr::{FieldKey, Host, Value};
 
 /// Steps after which a control is moved, besides the start.
 const LATE: usize = 40;
+/// The latest step at which it is moved.
+const MOST_STEPS: usize = 20_000;
 /// Most elements that are looked at.
 const MOST: usize = 64;
 
@@ -132,25 +134,31 @@ fn overwritten(
     ready.programs.controller.as_ref()?;
     let values = values(control);
     let (mut said, mut runs) = (None, 0);
-    for setting in settings(ready.lab, index, 1) {
-        for at in [2, LATE] {
-            let mut first: Option<Vec<f64>> = None;
-            for value in values.iter().flatten() {
-                let (set, then) = after(looked, &setting, at, index, value, elements)?;
-                runs += 1;
-                match &first {
-                    Some(other) if *other != then => return None,
-                    _ => {}
-                }
-                if let (Some(i), None) = (set.iter().zip(&then).position(|(a, b)| a != b), &said) {
-                    let [a, b] = [set.get(i)?, then.get(i)?].map(|x| digits(*x, 6));
-                    said = Some(format!(
-                        "with it at {value}, {} is {a}, and {b} after the next step",
-                        elements.get(i)?.name()
-                    ));
-                }
-                first = Some(then);
+    // A controller may leave it alone at the start, or later on.
+    let (steps, _) = looked.bench.steps(looked.length)?;
+    let late = [steps / 2, steps.saturating_sub(2)]
+        .into_iter()
+        .filter(|n| *n > LATE)
+        .map(|n| (Setting::new(), n.min(MOST_STEPS)));
+    let others = settings(ready.lab, index, 1).into_iter().flat_map(|s| [(s.clone(), 2), (s, LATE)]);
+    let all: Vec<(Setting, usize)> = late.chain(others).collect();
+    for (setting, at) in all {
+        let mut first: Option<Vec<f64>> = None;
+        for value in values.iter().flatten() {
+            let (set, then) = after(looked, &setting, at, index, value, elements)?;
+            runs += 1;
+            match &first {
+                Some(other) if *other != then => return None,
+                _ => {}
             }
+            if let (Some(i), None) = (set.iter().zip(&then).position(|(a, b)| a != b), &said) {
+                let [a, b] = [set.get(i)?, then.get(i)?].map(|x| digits(*x, 6));
+                said = Some(format!(
+                    "with it at {value}, {} is {a}, and {b} after the next step",
+                    elements.get(i)?.name()
+                ));
+            }
+            first = Some(then);
         }
     }
     Some(format!(

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 /// A value that changes by less than this share of itself hardly changes.
 const CHANGES: f64 = 0.5;
 /// The same where one text is printed whatever happens, and where two are, without decimals.
-const HARDLY: f64 = 0.01;
+const HARDLY: f64 = 0.05;
 const SOME: f64 = 0.1;
 /// So many different values are no count of something.
 const MANY: usize = 20;
@@ -61,7 +61,10 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
         // One text, or two next to each other, for all that it does.
         let few = readout.digits() == 0
             && (printed.len() == 1 && share > HARDLY || printed.len() == 2 && share > SOME);
-        if !(many && (share > CHANGES && high - low < 2.0 * unit || few)) {
+        // A number that is never 0, and is printed as 0.
+        let nothing = printed.iter().all(|t| t == "0") && (low >= 1e-3 || high <= -1e-3);
+        let few = few || nothing;
+        if !nothing && !(many && (share > CHANGES && high - low < 2.0 * unit || few)) {
             continue;
         }
         let texts = printed.iter().take(2).cloned().collect::<Vec<_>>().join(" and ");

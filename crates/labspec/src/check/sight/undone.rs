@@ -32,7 +32,9 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
         let bench = refresh::Bench::new(ready.lab, &ready.model, &ready.programs);
         let [first, then] = [before.as_str(), last.as_str()].map(|t| bench.compile(&bound.text, t, None));
         let (Some(first), Some(then)) = (first, then) else { continue };
-        let Some((name, set, left)) = lost(looked, &first, &then, before.split(';').any(is_reset)) else {
+        // To begin with a plain reset and then to take a keyframe loses nothing.
+        let resets = before.split(';').any(|p| is_reset(p) && p.contains("Keyframe"));
+        let Some((name, set, left)) = lost(looked, &first, &then, resets) else {
             continue;
         };
         findings.push(
