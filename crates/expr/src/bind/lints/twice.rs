@@ -17,9 +17,15 @@ fn stored(statement: &Stmt) -> Option<(&Expr, &Expr)> {
     matches!(target.kind, ExprKind::Index { .. }).then_some((target, value))
 }
 
+/// Most bytes of a text that is compared, and most arguments of a call: what is longer was not copied by hand.
+const LONG: usize = 400;
+const MANY: usize = 8;
+
 impl Look<'_> {
-    fn bare(&self, span: Span) -> String {
-        self.text(span).chars().filter(|c| !c.is_whitespace()).collect()
+    /// A text without its spaces; `None` where it is long.
+    fn bare(&self, span: Span) -> Option<String> {
+        let text = self.text(span);
+        (text.len() <= LONG).then(|| text.chars().filter(|c| !c.is_whitespace()).collect())
     }
 
     /// Two statements, one behind the other, that store the same element: the first is lost.
@@ -29,7 +35,8 @@ impl Look<'_> {
             else {
                 continue;
             };
-            let [one, two, used] = [first.span, second.span, value.span].map(|span| self.bare(span));
+            let texts = [first.span, second.span, value.span].map(|span| self.bare(span));
+            let [Some(one), Some(two), Some(used)] = texts else { continue };
             // What the second computes may use the first.
             if one == two && !used.contains(&one) && !used.contains("=>") && !one.contains("++") {
                 self.found.push(
@@ -41,19 +48,23 @@ impl Look<'_> {
                     .why("what the first statement stores is lost before anything reads it")
                     .help("look at the index: one of the two is meant for another element"),
                 );
+                // The first says it; the others may follow from it.
+                return;
             }
         }
     }
 
     /// One argument twice, where two are meant.
     pub(super) fn same_argument(&mut self, callee: &Expr, args: &[Expr]) {
-        if !FUNCTIONS.contains(&self.bare(callee.span).as_str()) {
+        if args.len() > MANY || !self.bare(callee.span).is_some_and(|name| FUNCTIONS.contains(&name.as_str()))
+        {
             return;
         }
-        for (i, arg) in args.iter().enumerate() {
-            let text = self.bare(arg.span);
+        let texts: Vec<Option<String>> = args.iter().map(|arg| self.bare(arg.span)).collect();
+        for (i, (arg, text)) in args.iter().zip(&texts).enumerate() {
+            let Some(text) = text else { continue };
             let number = matches!(arg.kind, ExprKind::Number(_));
-            if !number && args.iter().take(i).any(|other| self.bare(other.span) == text) {
+            if !number && texts.iter().take(i).flatten().any(|other| other == text) {
                 self.found.push(
                     Finding::warning(
                         rules::SAME_ARGUMENT,
