@@ -5,6 +5,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod claims;
 mod edit;
 mod eyes;
 mod labs;
@@ -14,6 +15,7 @@ mod reasons;
 
 use crate::needs::needs;
 use crate::support::workspace;
+use claims::{Case, Needs};
 use labspec::bind::scene::Models;
 use labspec::check::{self, Depth};
 use labspec::finding::Severity;
@@ -30,13 +32,15 @@ pub(crate) struct Kind {
     name: &'static str,
     words: &'static str,
     plant: fn(&Value) -> Vec<Value>,
+    /// What a mutant would be without its mistake, where that is not the original: what is shown is compared with it.
+    right: Option<fn(&Value) -> Value>,
 }
 
 /// Most mutants of one kind that a piece gives, chosen by the seed.
 const PLACES: usize = 2;
 const SEED: u64 = 16;
 /// Survivors that are named in the table, of each kind.
-const NAMED: usize = 4;
+const NAMED: usize = 50;
 
 /// A mistake that was planted.
 struct Mutant {
@@ -51,6 +55,17 @@ enum Fate {
     Unseen,
     Found,
     Survived,
+}
+
+/// What it takes to know a mistake.
+#[derive(Clone, Copy, PartialEq)]
+enum Ground {
+    /// The lab or the quiz alone.
+    Itself,
+    /// A claim, which the lesson has.
+    Claimed,
+    /// A claim, which it has not.
+    Unclaimed,
 }
 
 fn kinds() -> Vec<(What, &'static Kind)> {
@@ -88,9 +103,17 @@ fn planted(pieces: &[Piece]) -> Vec<Mutant> {
 /// How often each code is found in a piece, at the level of a warning and above.
 fn codes(piece: &Piece, json: &Value, models: &Models) -> BTreeMap<&'static str, usize> {
     let (name, text) = piece.file(json);
-    let lesson = load_lesson(SourceFile::new(name, text), models.folder());
     // A quiz has answers, a lab has runs.
-    let depth = if piece.what == What::Quiz { Depth::CLAIMS } else { Depth::FULL };
+    counted(name, text, models, if piece.what == What::Quiz { Depth::CLAIMS } else { Depth::FULL })
+}
+
+/// The same in the lesson of a lab of which something is claimed: what the claims say.
+fn claims_say(piece: &Piece, json: &Value, models: &Models) -> BTreeMap<&'static str, usize> {
+    piece.lesson(json).map_or(BTreeMap::new(), |text| counted("lesson.md", text, models, Depth::CLAIMS))
+}
+
+fn counted(name: &'static str, text: String, models: &Models, depth: Depth) -> BTreeMap<&'static str, usize> {
+    let lesson = load_lesson(SourceFile::new(name, text), models.folder());
     let mut count = BTreeMap::new();
     for f in check::check(lesson, models, depth).findings {
         if matches!(f.severity, Severity::Error | Severity::Warning) {
@@ -125,42 +148,85 @@ fn planted_mistakes_are_found() {
     let originals = for_each(pieces.len(), |i| {
         let piece = &pieces[i];
         let models = &models[piece.models];
-        (eyes::seen(piece, &piece.json, models), codes(piece, &piece.json, models))
+        (
+            eyes::seen(piece, &piece.json, models),
+            codes(piece, &piece.json, models),
+            claims_say(piece, &piece.json, models),
+        )
     });
+    let kinds = kinds();
     let mutants = planted(&pieces);
     assert!(mutants.len() <= 2200, "{}", mutants.len());
     let fates = for_each(mutants.len(), |i| {
-        let Mutant { piece, json, .. } = &mutants[i];
-        let (seen, before) = &originals[*piece];
+        let Mutant { kind, piece, json } = &mutants[i];
+        let (seen, before, claimed) = &originals[*piece];
         let piece = &pieces[*piece];
         let models = &models[piece.models];
-        if eyes::seen(piece, json, models) == *seen {
-            return Fate::Unseen;
+        let kind = kinds[*kind].1;
+        let shown = eyes::seen(piece, json, models);
+        let right = kind.right.map(|right| eyes::seen(piece, &right(json), models));
+        let case = Case { piece, json, models };
+        let ground = match (claims::known(kind.name, &case), claims::claimed(&case)) {
+            (true, _) => Ground::Itself,
+            (false, true) => Ground::Claimed,
+            (false, false) => Ground::Unclaimed,
+        };
+        if shown == *seen || right.is_some_and(|right| right == shown) {
+            return (Fate::Unseen, ground);
         }
-        let now = codes(piece, json, models);
-        let new = now.iter().any(|(code, n)| before.get(code).is_none_or(|b| b < n));
-        if new { Fate::Found } else { Fate::Survived }
+        let more = |now: &BTreeMap<_, usize>, before: &BTreeMap<_, usize>| {
+            now.iter().any(|(code, n)| before.get(code).is_none_or(|b| b < n))
+        };
+        let new = more(&codes(piece, json, models), before)
+            || ground == Ground::Claimed && more(&claims_say(piece, json, models), claimed);
+        (if new { Fate::Found } else { Fate::Survived }, ground)
     });
+    drop(kinds);
+    if let Some(path) = std::env::var_os("LABSPEC_SURVIVORS") {
+        std::fs::write(path, survivors(&pieces, &mutants, &fates)).unwrap();
+    }
+    let [_, seen, found] = count(&mutants, &fates, |_, ground| ground == Ground::Itself);
+    assert!(100 * found >= 95 * seen, "without a claim: {found} of {seen}");
+    let [_, seen, found] = count(&mutants, &fates, |_, ground| ground == Ground::Claimed);
+    assert!(found == seen && seen > 0, "with a claim: {found} of {seen}");
     hold(&table(&pieces, &mutants, &fates));
 }
 
+/// Every mutant that is seen and not found: its kind, its piece, and what was changed.
+fn survivors(pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)]) -> String {
+    let (kinds, mut page) = (kinds(), String::new());
+    for (m, (_, ground)) in mutants.iter().zip(fates).filter(|(_, f)| f.0 == Fate::Survived) {
+        let piece = &pieces[m.piece];
+        let needs = match ground {
+            Ground::Itself => "known",
+            Ground::Claimed => "claimed",
+            Ground::Unclaimed => "unclaimed",
+        };
+        writeln!(page, "{needs} {} {}", kinds[m.kind].1.name, piece.name).unwrap();
+        edit::differences("", &piece.json, &m.json, &mut page);
+    }
+    page
+}
+
+/// How many were seen and found, of those that a rule picks.
+fn count(
+    mutants: &[Mutant],
+    fates: &[(Fate, Ground)],
+    which: impl Fn(&Mutant, Ground) -> bool,
+) -> [usize; 3] {
+    let own = || mutants.iter().zip(fates).filter(|(m, (_, ground))| which(m, *ground));
+    let seen = own().filter(|(_, f)| f.0 != Fate::Unseen).count();
+    [own().count(), seen, own().filter(|(_, f)| f.0 == Fate::Found).count()]
+}
+
+fn share([_, seen, found]: [usize; 3]) -> String {
+    (100 * found + seen / 2).checked_div(seen).map_or("–".into(), |percent| format!("{percent} %"))
+}
+
 /// The page.
-fn table(pieces: &[Piece], mutants: &[Mutant], fates: &[Fate]) -> String {
-    let of = |kind: Option<usize>, fate: &[Fate]| {
-        let all = mutants.iter().zip(fates);
-        all.filter(|(m, f)| kind.is_none_or(|k| m.kind == k) && (fate.is_empty() || fate.contains(f))).count()
-    };
-    let share = |found: usize, changed: usize| match changed {
-        0 => "–".to_string(),
-        n => format!("{} %", (100 * found + n / 2) / n),
-    };
+fn table(pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)]) -> String {
     let mut page = String::new();
     let labs = pieces.iter().filter(|p| p.what == What::Lab).count();
-    let row = |kind: Option<usize>| {
-        let [all, changed, found] =
-            [of(kind, &[]), of(kind, &[Fate::Found, Fate::Survived]), of(kind, &[Fate::Found])];
-        format!("{all} | {changed} | {found} | {}", share(found, changed))
-    };
     let kinds = kinds();
     write!(
         page,
@@ -169,28 +235,81 @@ fn table(pieces: &[Piece], mutants: &[Mutant], fates: &[Fate]) -> String {
          {PLACES} places at most. It counts when it changes what a student sees: what is written, or what the lab shows in short runs as it \
          stands, with every control moved and after a reset. It is found when `labspec check` gives a warning or an error that the \
          original does not have.\n\n\
-         | kind | what is wrong | planted | seen | found | share |\n|---|---|---:|---:|---:|---:|\n",
+         A mistake can be known of the lab or the quiz itself when nothing that an author could sensibly have meant is the lab as it is \
+         then. Others make a sound lab that somebody could have written on purpose (another sign, another start, no gravity): only a \
+         claim of the author tells. Which is which is written down for each kind, and where a kind has both, computed from the lesson, \
+         never from what was found (`tests/mutants/claims.rs`).\n\n\
+         | what it takes | planted | seen | found | share |\n|---|---:|---:|---:|---:|\n",
         pieces.len() - labs
     )
     .unwrap();
-    for (i, (_, kind)) in kinds.iter().enumerate() {
-        writeln!(page, "| {} | {} | {} |", kind.name, kind.words, row(Some(i))).unwrap();
+    for (words, ground) in [
+        ("known without a claim", Ground::Itself),
+        ("needs a claim, and the lesson has a `verify` on it", Ground::Claimed),
+        ("needs a claim, and the lesson has none", Ground::Unclaimed),
+    ] {
+        let [all, seen, found] = count(mutants, fates, |_, g| g == ground);
+        writeln!(page, "| {words} | {all} | {seen} | {found} | {} |", share([all, seen, found])).unwrap();
     }
-    writeln!(page, "| **all** | {} kinds | {} |", kinds.len(), row(None)).unwrap();
-    page.push_str("\n## What is not found\n\n");
+    let [all, seen, found] = count(mutants, fates, |_, _| true);
+    writeln!(
+        page,
+        "| **all** {} kinds | {all} | {seen} | {found} | {} |",
+        kinds.len(),
+        share([all, seen, found])
+    )
+    .unwrap();
+    page.push_str(
+        "\nIn the table, *itself* are those that can be known without a claim, *claimed* and *unclaimed* the others, as found / seen.\n\n\
+         | kind | what is wrong | planted | seen | found | share | itself | claimed | unclaimed |\n|---|---|---:|---:|---:|---:|---:|---:|---:|\n",
+    );
     for (i, (_, kind)) in kinds.iter().enumerate() {
-        let survived = mutants.iter().zip(fates).filter(|(m, f)| m.kind == i && **f == Fate::Survived);
+        let [all, seen, found] = count(mutants, fates, |m, _| m.kind == i);
+        let parts = [Ground::Itself, Ground::Claimed, Ground::Unclaimed].map(|ground| {
+            let [_, seen, found] = count(mutants, fates, |m, g| m.kind == i && g == ground);
+            if seen == 0 { "–".to_string() } else { format!("{found} / {seen}") }
+        });
+        let share = share([all, seen, found]);
+        let parts = parts.join(" | ");
+        writeln!(page, "| {} | {} | {all} | {seen} | {found} | {share} | {parts} |", kind.name, kind.words)
+            .unwrap();
+    }
+    page.push_str("\n## What needs a claim, and why\n\n");
+    for (_, kind) in &kinds {
+        if let Needs::Claim(why) | Needs::Some(_, why) = claims::needs(kind.name) {
+            let how = if matches!(claims::needs(kind.name), Needs::Claim(_)) { "all" } else { "some" };
+            writeln!(page, "* **{}** ({how}): {why}.", kind.name).unwrap();
+        }
+    }
+    page.push_str("\n## What is not found\n\nWhat could be known without a claim, and is not:\n\n");
+    missed(&mut page, pieces, mutants, fates, Ground::Itself);
+    page.push_str("\nWhat a claim could tell, where none is made:\n\n");
+    missed(&mut page, pieces, mutants, fates, Ground::Unclaimed);
+    page
+}
+
+/// The kinds of what is not found, with the first of the pieces.
+fn missed(page: &mut String, pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)], ground: Ground) {
+    for (i, (_, kind)) in kinds().iter().enumerate() {
+        let survived =
+            mutants.iter().zip(fates).filter(|(m, f)| m.kind == i && **f == (Fate::Survived, ground));
         let mut names: Vec<&str> = survived.map(|(m, _)| pieces[m.piece].name.as_str()).collect();
         let count = names.len();
         names.dedup();
         if count > 0 {
             let named = names.iter().take(NAMED).map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
             let more = if names.len() > NAMED { ", …" } else { "" };
-            let why = reasons::reason(kind.name).unwrap_or_else(|| panic!("why is {} not found?", kind.name));
-            writeln!(page, "* **{}** ({count}): {why}. {named}{more}", kind.name).unwrap();
+            let why = match ground {
+                Ground::Itself => {
+                    let why = reasons::reason(kind.name)
+                        .unwrap_or_else(|| panic!("why is {} not found?", kind.name));
+                    format!("{why}. ")
+                }
+                _ => String::new(),
+            };
+            writeln!(page, "* **{}** ({count}): {why}{named}{more}", kind.name).unwrap();
         }
     }
-    page
 }
 
 /// The page is the one that is kept, or becomes it.

@@ -453,3 +453,50 @@ fn measures_over_a_fall_are_those_of_a_fall() {
         assert_ne!(lab(measure, "7.77 m"), QuoteState::Right, "{measure}");
     }
 }
+
+/// A lab that claims something of what a student reads: its verdicts and findings.
+fn read_off(readout: &str, measure: &str) -> (Vec<QuoteState>, Vec<&'static str>) {
+    let text = r#"The ball has fallen 0.441 m after 0.3 s.
+
+```lab simlab
+{
+  "title": "A ball", "stopAt": 0.3,
+  "xml": "<mujoco><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom type='sphere' size='0.05' mass='1'/></body></worldbody></mujoco>",
+  "plots": [{"window": 0.3, "traces": [{"label": "fallen (m)", "expr": "1 - data.qpos[2]"}]}],
+  "readouts": [READOUT],
+  "verify": {"runs": {"fall": {"set": {}, "until": 0.3}}, "measure": {"fallen": "MEASURE"}, "says": [["0.441 m", "fall.fallen - 0.003"]]}
+}
+```
+"#;
+    let text = text.replace("READOUT", readout).replace("MEASURE", measure);
+    let checked = check_text("shown.md", &text);
+    let states = checked.claims.iter().flat_map(|c| &c.judgement.quotes).map(|q| q.state).collect();
+    (
+        states,
+        checked
+            .findings
+            .iter()
+            .filter(|f| f.severity == labspec::finding::Severity::Error)
+            .map(|f| f.code)
+            .collect(),
+    )
+}
+
+#[test]
+fn what_a_lab_shows_can_be_claimed() {
+    let right = r#"{"label": "way (m)", "expr": "1 - data.qpos[2]", "digits": 3}"#;
+    for measure in
+        ["final(shown('way (m)'))", "final(shown('fallen (m)'))", "final(shown('plot/0/fallen (m)'))"]
+    {
+        assert_eq!(read_off(right, measure), (vec![QuoteState::Right], vec![]), "{measure}");
+    }
+    for (readout, code) in [
+        (r#"{"label": "way (m)", "expr": "data.qpos[2] - 1", "digits": 3}"#, "quote-wrong"),
+        (r#"{"label": "way (m)", "expr": "data.qpos[1]", "digits": 3}"#, "quote-wrong"),
+        (r#"{"label": "way (m)", "expr": "1 - data.qpos[2]", "digits": 1}"#, "quote-wrong"),
+        (r#"{"label": "the way (m)", "expr": "1 - data.qpos[2]", "digits": 3}"#, "unknown-trace"),
+    ] {
+        let (_, codes) = read_off(readout, "final(shown('way (m)'))");
+        assert_eq!(codes, [code], "{readout}");
+    }
+}

@@ -1,6 +1,7 @@
 //! Changes to the JSON of a lab or a quiz, at every place where they are possible.
 
 use serde_json::Value;
+use std::fmt::Write;
 
 /// Copies of an object, each with one of the values at this path changed; `*` stands for every element of a list. What the
 /// change refuses (`None`) gives no copy.
@@ -104,4 +105,24 @@ pub(super) fn move_index(text: &str, by: usize) -> Option<String> {
     let close = open + text[open..].find(']')?;
     let n: usize = text[open + 1..close].parse().ok()?;
     Some(format!("{}{}{}", &text[..=open], n + by, &text[close..]))
+}
+
+/// Writes down where two objects differ.
+pub(super) fn differences(path: &str, a: &Value, b: &Value, page: &mut String) {
+    let keys = |v: &Value| -> Vec<String> {
+        match v {
+            Value::Object(map) => map.keys().cloned().collect(),
+            Value::Array(list) => (0..list.len()).map(|i| i.to_string()).collect(),
+            _ => Vec::new(),
+        }
+    };
+    let mut all = keys(a);
+    all.extend(keys(b).into_iter().filter(|k| !keys(a).contains(k)));
+    if a == b {
+    } else if all.is_empty() || a.is_object() != b.is_object() {
+        writeln!(page, "    {path}: {a}\n      -> {b}").unwrap();
+    } else {
+        let at = |v: &Value, key: &str| v.pointer(&format!("/{key}")).cloned().unwrap_or(Value::Null);
+        all.iter().for_each(|k| differences(&format!("{path}/{k}"), &at(a, k), &at(b, k), page));
+    }
 }

@@ -82,6 +82,11 @@ fn hide(json: &mut Value) {
     match json {
         Value::Object(map) => {
             CODE.iter().for_each(|key| drop(map.shift_remove(*key)));
+            // What a readout prints is looked at in the runs.
+            let readouts = map.get_mut("readouts").and_then(Value::as_array_mut);
+            for readout in readouts.into_iter().flatten().filter_map(Value::as_object_mut) {
+                readout.shift_remove("digits");
+            }
             map.values_mut().for_each(hide);
         }
         Value::Array(list) => list.iter_mut().for_each(hide),
@@ -113,4 +118,34 @@ fn play(session: &mut Session<'_>, lab: &Lab, steps: usize, text: &mut String) {
 /// Six significant digits, and nothing below 1e-9.
 fn rounded(x: f64) -> String {
     if x.abs() < 1e-9 { "0".into() } else { format!("{x:.5e}") }
+}
+
+/// The texts that a readout prints in short runs, as the lab stands and with every control moved.
+pub(super) fn prints(json: &Value, models: &Models, readout: usize) -> std::collections::BTreeSet<String> {
+    let mut all = std::collections::BTreeSet::new();
+    let lesson = load_lesson(SourceFile::new("piece.json", json.to_string()), models.folder());
+    let Some(lab) = lesson.all_labs().into_iter().next() else { return all };
+    let Some(model) = models.of(lab, &mut Vec::new()) else { return all };
+    let programs = Programs::compile(lab, &model, &mut Vec::new());
+    let column = 1 + lab.traces().count() + readout;
+    for moved in std::iter::once(None).chain((0..lab.controls.len()).map(Some)) {
+        let mut session =
+            Session::start_with(&programs, &model, lab.keyframe(), Data::planned(&model, Plan::full()));
+        match moved.and_then(|i| Some((i, &lab.controls.get(i)?.kind))) {
+            Some((i, ControlKind::Slider { max, .. })) => session.set_control(i, Chosen::Number(max.value)),
+            Some((i, ControlKind::Button { .. })) => session.press(i),
+            Some((i, ControlKind::Select { options, .. })) => {
+                let last = options.last().and_then(|o| o.value.number());
+                session.set_control(i, last.map_or(Chosen::Undefined, Chosen::Number));
+            }
+            None => {}
+        }
+        run::play(&mut session, &Play { every: EVERY, ..Play::steps(STEPS[0]) }, |session, _| {
+            let digits = lab.readouts.get(readout).map_or(3, |r| r.digits());
+            let cell = session.sample().into_iter().nth(column);
+            all.extend(cell.map(|c| c.shown(digits).trim_start_matches('-').to_string()));
+            ControlFlow::Continue(())
+        });
+    }
+    all
 }

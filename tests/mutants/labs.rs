@@ -10,7 +10,21 @@ const READOUT: [&str; 3] = ["readouts", "*", "expr"];
 
 /// A kind, in one line.
 const fn kind(name: &'static str, words: &'static str, plant: fn(&Value) -> Vec<Value>) -> Kind {
-    Kind { name, words, plant }
+    Kind { name, words, plant, right: None }
+}
+
+/// A kind that leaves out a call: what the lab is with it.
+const fn without_forward(name: &'static str, words: &'static str, plant: fn(&Value) -> Vec<Value>) -> Kind {
+    Kind { name, words, plant, right: Some(forwarded) }
+}
+
+/// The lab with `mj_forward` behind what its setup writes.
+fn forwarded(l: &Value) -> Value {
+    let mut l = l.clone();
+    let text = l["setup"].as_str().unwrap_or("");
+    let forward = "+= 0.3; mj.mj_forward(model, data);";
+    l["setup"] = json!(text.replace("+= 0.3;", forward));
+    l
 }
 
 /// What is wrong in a text.
@@ -354,18 +368,22 @@ pub(super) const SCENES: [Kind; 18] = [
             Vec::new()
         }
     }),
-    kind("stale-read", "statements read what follows from the state that they have just written", |l| {
-        let mut all = setup(l, "data.qpos[0] += 0.3; ctx.begins = data.xpos[3] + data.xpos[5]");
-        all.iter_mut().for_each(|l| {
-            let shown = json!({"label": "begins at", "expr": "ctx.begins", "digits": 4});
-            match l["readouts"].as_array_mut() {
-                Some(list) => list.push(shown),
-                None => l["readouts"] = json!([shown]),
-            }
-        });
-        all
-    }),
-    kind("stale-sensor", "statements read a sensor before it is computed", |l| {
+    without_forward(
+        "stale-read",
+        "statements read what follows from the state that they have just written",
+        |l| {
+            let mut all = setup(l, "data.qpos[0] += 0.3; ctx.begins = data.xpos[3] + data.xpos[5]");
+            all.iter_mut().for_each(|l| {
+                let shown = json!({"label": "begins at", "expr": "ctx.begins", "digits": 4});
+                match l["readouts"].as_array_mut() {
+                    Some(list) => list.push(shown),
+                    None => l["readouts"] = json!([shown]),
+                }
+            });
+            all
+        },
+    ),
+    without_forward("stale-sensor", "statements read a sensor before it is computed", |l| {
         let model = l["model"].as_str().unwrap_or("");
         if !["arm2", "ball_drop", "cube_table", "gantry_gripper"].contains(&model) {
             return Vec::new();

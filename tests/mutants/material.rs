@@ -26,6 +26,18 @@ pub(crate) struct Piece {
     pub(crate) models: usize,
     /// The lesson before and behind it, for a quiz whose answers are verified with the labs of its lesson.
     pub(crate) around: Option<(String, String)>,
+    /// Where claims are made of a lab.
+    pub(crate) home: Option<Home>,
+}
+
+/// The place of a lab in a lesson with claims about it.
+#[derive(Clone)]
+pub(crate) struct Home {
+    before: String,
+    behind: String,
+    /// The object of the fence, and where in it the lab is.
+    whole: Value,
+    at: String,
 }
 
 impl Piece {
@@ -36,6 +48,43 @@ impl Piece {
             Some((before, behind)) => ("lesson.md", format!("{before}{text}\n{behind}")),
             None => ("piece.json", text),
         }
+    }
+
+    /// The lesson of a lab of which something is claimed, with this in its place.
+    pub(crate) fn lesson(&self, json: &Value) -> Option<String> {
+        let Home { before, behind, whole, at } = self.home.as_ref()?;
+        let mut whole = whole.clone();
+        let own = whole.pointer_mut(at)?;
+        *own = carried(&self.json, json, own);
+        Some(format!("{before}{}\n{behind}", serde_json::to_string_pretty(&whole).unwrap()))
+    }
+}
+
+/// What was changed from one object to another, done to a third.
+fn carried(from: &Value, to: &Value, third: &Value) -> Value {
+    if from == to {
+        return third.clone();
+    }
+    match (from, to, third) {
+        (Value::Object(a), Value::Object(b), Value::Object(c)) => {
+            let mut all = c.clone();
+            for key in a.keys().filter(|k| !b.contains_key(*k)) {
+                all.shift_remove(key);
+            }
+            for (key, new) in b {
+                let made = match (a.get(key), c.get(key)) {
+                    (Some(old), Some(third)) => carried(old, new, third),
+                    (Some(old), None) if old == new => continue,
+                    _ => new.clone(),
+                };
+                all.insert(key.clone(), made);
+            }
+            Value::Object(all)
+        }
+        (Value::Array(a), Value::Array(b), Value::Array(c)) if a.len() == b.len() && b.len() == c.len() => {
+            a.iter().zip(b).zip(c).map(|((a, b), c)| carried(a, b, c)).collect()
+        }
+        _ => to.clone(),
     }
 }
 
@@ -98,16 +147,23 @@ fn lesson(all: &mut Vec<Piece>, name: &str, models: usize, text: &str) {
 fn add(all: &mut Vec<Piece>, name: &str, models: usize, text: &str, around: Option<(String, String)>) {
     let json: Value = serde_json::from_str(text).unwrap();
     let name = name.to_string();
+    let home = |at: String| {
+        let (before, behind) = around.clone()?;
+        Some(Home { before, behind, whole: json.clone(), at })
+    };
     let Some(questions) = json["questions"].as_array() else {
-        all.push(Piece { name, what: What::Lab, json: alone(&json), models, around: None });
+        let home = home(String::new()).filter(|_| json["verify"].is_object());
+        all.push(Piece { name, what: What::Lab, json: alone(&json), models, around: None, home });
         return;
     };
     for (i, question) in questions.iter().enumerate().filter(|(_, q)| q["sim"].is_object()) {
         let name = format!("{name}?{}", i + 1);
-        all.push(Piece { name, what: What::Lab, json: alone(&question["sim"]), models, around: None });
+        let own = question["verify"].is_object() && question["verify"]["lab"].is_null();
+        let home = home(format!("/questions/{i}/sim")).filter(|_| own);
+        all.push(Piece { name, what: What::Lab, json: alone(&question["sim"]), models, around: None, home });
     }
     let around = around.filter(|_| questions.iter().any(|q| q["verify"].is_object()));
-    all.push(Piece { name, what: What::Quiz, json, models, around });
+    all.push(Piece { name, what: What::Quiz, json, models, around, home: None });
 }
 
 /// A lab without its lesson: nothing is claimed of it, and it is run for a short time.

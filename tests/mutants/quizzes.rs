@@ -5,7 +5,7 @@ use super::edit::{each, text};
 use serde_json::{Value, json};
 
 const fn kind(name: &'static str, words: &'static str, plant: fn(&Value) -> Vec<Value>) -> Kind {
-    Kind { name, words, plant }
+    Kind { name, words, plant, right: None }
 }
 
 /// Every question, changed.

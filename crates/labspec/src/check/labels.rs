@@ -39,7 +39,11 @@ pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
         return false;
     }
     if !found.agrees(unit) {
-        return found.is_exact();
+        // The 1000 of millimetres is a conversion, and no quantity of its own.
+        let converts = unit.factor != 1.0
+            && is_power_of_ten(unit.factor)
+            && (factor / unit.factor.abs() - 1.0).abs() < 1e-9;
+        return found.is_exact() || converts;
     }
     let ratio = factor / unit.factor.abs();
     if (ratio - 1.0).abs() < 1e-3 {
@@ -97,6 +101,8 @@ mod tests {
             (d("m", 1.0), "mm", true),
             (d("m", 1000.0), "mm", false),
             (d("m", 1000.0), "m", true),
+            (d("1", 1000.0), "mm", true),
+            (d("s", 50.0), "mm", false),
             (d("m", 2.0), "m", false),
             (d("m", 2.0), "mm", true),
             (d("m", 1.0), "m/s", true),

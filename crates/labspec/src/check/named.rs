@@ -1,11 +1,12 @@
 //! Labels that name one thing of the model, while their expressions read another.
 
-use crate::bind::{Bound, Programs};
+use crate::bind::{Bound, ControlProgram, Programs};
 use crate::finding::Finding;
 use crate::rules;
 use crate::source::Text;
-use crate::spec::Lab;
+use crate::spec::{Lab, Trace};
 use labspec_bind::element_owner;
+use labspec_core::reflect::{self, Object};
 use labspec_core::{Model, Obj};
 use std::collections::BTreeSet;
 
@@ -60,12 +61,29 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
         .take(MOST)
         .filter_map(|(label, probe)| shown(label, probe.bound.as_ref()?, model, &all))
         .collect();
+    for trace in lab.plots.iter().flat_map(|p| &p.traces).zip(&programs.probes).take(MOST) {
+        findings.extend(a_number(trace.0, trace.1.bound.as_ref(), &all));
+    }
+    let readouts =
+        lab.readouts.iter().map(|r| &r.label).zip(programs.probes.iter().skip(lab.traces().count()));
+    findings
+        .extend(readouts.take(MOST).filter_map(|(label, probe)| another_size(label, probe.bound.as_ref()?)));
+    for (control, (_, program)) in lab.controls.iter().zip(&programs.controls).take(MOST) {
+        let bound = match program {
+            ControlProgram::Change(_, action) => action.run.as_ref(),
+            ControlProgram::Press(run) => run.as_ref(),
+        };
+        findings.extend(bound.and_then(|bound| quotes_another(&control.label, bound, model)));
+    }
     for one in &shown {
         let ([name], Some(&body)) = (one.names.as_slice(), one.bodies.first()) else { continue };
         let Some(named) = all.get(*name).filter(|n| n.body != body && one.bodies.len() == 1) else {
             continue;
         };
-        if !(alone(one, named) || beside(one, named, body, &shown, &all)) {
+        if !(alone(one, named)
+            || beside(one, named, body, &shown, &all)
+            || in_the_place_of_a_name(one, named))
+        {
             continue;
         }
         let reads = one
@@ -86,6 +104,79 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
             .related(one.bound.text.span(), format!("this belongs to \"{}\"", other.name)),
         );
     }
+}
+
+/// Whether a label is something and then, behind a comma, a joint, and the expression reads another joint: `force, shoulder (N)`.
+fn in_the_place_of_a_name(one: &Shown<'_>, named: &Named) -> bool {
+    let last = one.label.as_str().rsplit_once(", ").map(|(_, last)| words_of(last));
+    let joint = named.kind == Obj::Joint && one.reads.iter().all(|(kind, _)| *kind == Obj::Joint);
+    joint && last.is_some_and(|words| words == named.words)
+}
+
+/// Sizes of a model, as labels name them.
+const SIZES: [&str; 9] = ["nq", "nv", "nu", "na", "nbody", "njnt", "ngeom", "nsite", "nkey"];
+
+/// A label that is the name of a size, and an expression that is another one.
+fn another_size(label: &Text, bound: &Bound) -> Option<Finding> {
+    let named = label.as_str().trim();
+    let read = bound.text.value.trim().strip_prefix("model.")?;
+    let both = SIZES.contains(&named) && SIZES.contains(&read) && named != read;
+    both.then(|| {
+        let message = format!("the label names `{named}`, and the expression reads `{read}`");
+        Finding::new(rules::LABEL_NAMES_ANOTHER, label.span(), message)
+            .help("read what the label names; two labels may have been exchanged")
+            .related(bound.text.span(), format!("this is `{read}`"))
+    })
+}
+
+/// A label of a control that quotes an element, as `ctrl[0]`, where the statements write this field, and another element of it.
+fn quotes_another(label: &Text, bound: &Bound, model: &Model) -> Option<Finding> {
+    let text = label.as_str();
+    let open = text.find('[')?;
+    let name = text.get(..open)?.rsplit(|c: char| !(c.is_alphanumeric() || c == '_')).next()?;
+    let inside = text.get(open + 1..)?.split(']').next()?;
+    let (first, end): (usize, usize) = match inside.split_once(':') {
+        Some((a, b)) => (a.trim().parse().ok()?, b.trim().parse().ok()?),
+        None => inside.trim().parse().map(|n: usize| (n, n + 1)).ok()?,
+    };
+    let field = [Object::Data, Object::Model].into_iter().find_map(|o| reflect::field(o, name))?;
+    let effects = bound.program.effects();
+    if effects.writes_everything || effects.calls_values || model.nq == 0 {
+        return None;
+    }
+    let own: Vec<_> =
+        bound.program.own_writes().into_iter().filter(|w| w.field.0 as usize == field.index()).collect();
+    let outside = |i: usize| !(first..end).contains(&i);
+    // What is written one by one: every element that the label names, and none besides.
+    let all: Option<Vec<usize>> = own.iter().map(|w| (w.count == Some(1)).then_some(w.first)).collect();
+    let all = all.filter(|all| !all.is_empty())?;
+    let other = all.iter().find(|i| outside(**i)).filter(|_| all.iter().all(|i| outside(*i)))?;
+    let message = format!("the label names `{name}[{inside}]`, and `{name}[{other}]` is written");
+    Some(
+        Finding::new(rules::LABEL_NAMES_ANOTHER, label.span(), message)
+            .help("write what the label names, or name what is written")
+            .related(bound.text.span(), "what is written"),
+    )
+}
+
+/// A trace that is called by the name of something in the model, and is a number.
+fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[Named]) -> Option<Finding> {
+    let bound = bound.filter(|b| b.program.effects().constant())?;
+    let words = words_of(trace.label.as_str());
+    let named = all.iter().find(|n| n.words == words)?;
+    let message =
+        format!("the label names the {} \"{}\", and the expression reads nothing", named.noun, named.name);
+    Some(
+        Finding::new(rules::LABEL_NAMES_ANOTHER, trace.label.span(), message)
+            .help("read what the label names; for a line that is meant there is `refLines`")
+            .related(bound.text.span(), "this is one number"),
+    )
+}
+
+/// The words of a label without its unit.
+fn words_of(label: &str) -> Vec<String> {
+    let end = super::labels::of_label(label).and_then(|(unit, _)| label.rfind(unit));
+    words(end.and_then(|at| label.get(..at)).unwrap_or(label))
 }
 
 /// Whether the label is a name and nothing else, of something that has what the expression reads.
@@ -112,10 +203,7 @@ fn shown<'l>(label: &'l Text, bound: &'l Bound, model: &Model, all: &[Named]) ->
     if effects.reads_everything || effects.any_ctx || effects.calls_values || !effects.ctx_reads.is_empty() {
         return None;
     }
-    let words = words(match super::labels::of_label(label.as_str()) {
-        Some((unit, _)) => label.as_str().get(..label.as_str().rfind(unit)?)?,
-        None => label.as_str(),
-    });
+    let words = words_of(label.as_str());
     let mut reads = Vec::new();
     for access in &effects.reads {
         let owner = element_owner(model, access.field, access.first, access.count?);

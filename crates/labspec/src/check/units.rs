@@ -6,7 +6,7 @@ use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope};
 use crate::finding::{Finding, Severity};
 use crate::rules;
 use crate::source::Text;
-use crate::spec::{Control, ControlKind, Lab};
+use crate::spec::{Control, ControlKind, Lab, Plot};
 use labspec_bind::units::written;
 use labspec_core::Model;
 use labspec_core::reflect::FieldId;
@@ -22,6 +22,7 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
         let Measure::Known(dimension) = measured.value else { continue };
         findings.extend(wrong_label(&labels, model, bound, &dimension));
     }
+    findings.extend(lab.plots.iter().flat_map(|plot| at_odds(plot, model)));
     let names = ModelNames::new(model, Scope::Lab);
     let controls = lab.controls.iter().zip(&programs.controls).zip(&found.controls);
     for ((control, (_, program)), measured) in controls {
@@ -44,6 +45,30 @@ pub(crate) fn labels(lab: &Lab) -> impl Iterator<Item = Vec<&Text>> {
             .map(|trace| [Some(&trace.label), plot.ylabel.as_ref()].into_iter().flatten().collect())
     });
     traces.chain(lab.readouts.iter().map(|r| vec![&r.label]))
+}
+
+/// The label of a plot with a unit that is not the one of a trace, though both measure the same: degrees beside radians.
+fn at_odds(plot: &Plot, model: &Model) -> Option<Finding> {
+    let axis = plot.ylabel.as_ref()?;
+    let (text, of_axis) = of_label(axis.as_str())?;
+    if super::named::names(model).any(|name| name == text) {
+        return None;
+    }
+    plot.traces.iter().find_map(|trace| {
+        let (own, of_trace) = of_label(trace.label.as_str())?;
+        let ratio = of_trace.factor.abs() / of_axis.factor.abs();
+        let other = of_trace.agrees(&of_axis) && (ratio - 1.0).abs() > 1e-3;
+        other.then(|| {
+            Finding::new(
+                rules::LABEL_UNIT,
+                axis.span(),
+                format!("the plot is in {text}, and a trace of it in {own}"),
+            )
+            .why("a student reads the curve on an axis of another unit")
+            .related(trace.label.span(), "the trace")
+            .help("show both in one unit")
+        })
+    })
 }
 
 fn bound_of(program: &ControlProgram) -> Option<&Bound> {

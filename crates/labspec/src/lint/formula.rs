@@ -84,7 +84,9 @@ fn is_formula(inside: &str, open: &str, work: &mut usize) -> bool {
     let end = inside.char_indices().nth(LONGEST).map_or(inside.len(), |(at, _)| at);
     let inside = inside.get(..end).unwrap_or("").split("\n\n").next().unwrap_or("");
     *work += end;
-    let tex = inside.contains(['\\', '^', '_', '{']);
+    // A letter alone is the name of a quantity: `$g is`. A price begins with a digit, a name of a shell is longer.
+    let letters = inside.chars().take_while(|c| c.is_alphabetic()).count();
+    let tex = inside.contains(['\\', '^', '_', '{']) || letters == 1;
     open != "$" || (tex && !inside.starts_with(|c: char| c.is_whitespace()))
 }
 
@@ -214,6 +216,7 @@ mod tests {
             "$\\left\\{ x \\right.$",
             "$\\begin{matrix}1\\end{matrix}$",
             "5 $ left",
+            "the folder $HOME is mine",
         ] {
             assert_eq!(count(right), 0, "{right}: {:?}", faults(right));
         }
@@ -225,6 +228,7 @@ mod tests {
             "$x \\right)$",
             "$\\begin{matrix}1$",
             "\\(x and y",
+            "it accelerates with $g. There is no air",
         ] {
             assert_eq!(count(wrong), 1, "{wrong}: {:?}", faults(wrong));
         }

@@ -49,11 +49,14 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
         return;
     }
     let unit = unit.as_ref().map_or(String::new(), |u| bare(u.as_str()));
-    let result = |n: &&Number| n.significant >= 2 && is_result(html, n, &unit);
+    let result = |n: &&Number| (n.significant >= 2 || n.decimals >= 2) && is_result(html, n, &unit);
     for n in all.iter().filter(result) {
         let slip = SLIPS.iter().find(|(by, _)| is(n, key / by, decimals + 2) && n.value != 0.0);
         let why = match slip {
             _ if (n.value - key).abs() <= NEAR * key.abs() => "the two differ at the digits that are printed",
+            _ if ((n.value - key).abs() - 0.1_f64.powi(decimals as i32)).abs() < 1e-9 => {
+                "the two differ by one in the last digit"
+            }
             Some((_, words)) => words,
             None => continue,
         };

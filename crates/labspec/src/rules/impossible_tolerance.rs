@@ -8,7 +8,7 @@ pub const IMPOSSIBLE_TOLERANCE: &Rule = &Rule {
     code: "impossible-tolerance",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "the tolerance of a numeric question is negative, or 0 for an answer that is no whole number",
+    summary: "the tolerance of a numeric question is negative, too small for anybody to type, or 0 for an answer that is no whole number",
     why: "an answer is right when it is off by no more than `tol`; a count may be asked exactly, a measured number may not",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": ⟦0⟧}]}"#,
@@ -18,12 +18,23 @@ pub const IMPOSSIBLE_TOLERANCE: &Rule = &Rule {
     ),
 };
 
+/// The smallest part of an answer that somebody may know it to.
+const TYPED: f64 = 1e-9;
+
 pub(super) const CHECK: Check = Check::Question(check);
 
 fn check(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Numeric { answer: Some(answer), tol: Some(tol), .. } = &question.kind else { return };
     let whole = answer.value.fract() == 0.0;
-    if tol.value < 0.0 || (tol.value == 0.0 && !whole) {
+    let too_small = tol.value > 0.0 && tol.value < TYPED * answer.value.abs();
+    if too_small {
+        let message = format!("a tolerance of {} takes {} alone", tol.value, answer.value);
+        findings.push(
+            Finding::new(IMPOSSIBLE_TOLERANCE, tol.span.clone(), message)
+                .why("it is less than a billionth of the answer, and nobody types so many digits")
+                .help("write how far an answer may be off, in its unit; leave `tol` out for 2 %, or write 0 for a count"),
+        );
+    } else if tol.value < 0.0 || (tol.value == 0.0 && !whole) {
         let message = format!("no answer can be within {} of {}", tol.value, answer.value);
         findings.push(
             Finding::new(IMPOSSIBLE_TOLERANCE, tol.span.clone(), message)

@@ -9,8 +9,8 @@ pub const SAME_READOUT: &Rule = &Rule {
     code: "same-readout",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "two readouts have the same text and print the same",
-    why: "one of them is a copy whose text was not changed",
+    summary: "two readouts have the same text",
+    why: "one of them is a copy whose text was not changed. More decimals under a label that has a word of the other are no copy",
     bad: Example::Lab(
         r#"{"model": "ball", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}, {"label": "angle (rad)", "expr": "⟦data.qpos[2]⟧"}]}"#,
     ),
@@ -21,9 +21,22 @@ pub const SAME_READOUT: &Rule = &Rule {
 
 pub(super) const CHECK: Check = Check::Lab(check);
 
+/// Whether two labels have a word in common.
+fn share(a: &str, b: &str) -> bool {
+    let words = |text: &str| -> Vec<String> {
+        let parts = text.split(|c: char| !c.is_alphanumeric()).filter(|w| w.chars().count() > 1);
+        parts.map(str::to_lowercase).collect()
+    };
+    let known = words(b);
+    a.trim() == b.trim() || words(a).iter().any(|w| known.contains(w)) || known.is_empty()
+}
+
 fn check(lab: &Lab, findings: &mut Vec<Finding>) {
     for (i, readout) in lab.readouts.iter().enumerate() {
-        let copy = |r: &&Readout| r.expr.value == readout.expr.value && r.digits() == readout.digits();
+        // More decimals of the same number may be the lesson; another name for it is not.
+        let more =
+            |r: &Readout| r.digits() != readout.digits() && share(r.label.as_str(), readout.label.as_str());
+        let copy = |r: &&Readout| r.expr.value == readout.expr.value && !more(r);
         let Some(first) = lab.readouts.iter().take(i).find(copy) else { continue };
         let [a, b] = [&first.label, &readout.label].map(|l| named(l.as_str()));
         findings.push(

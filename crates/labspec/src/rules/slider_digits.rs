@@ -18,6 +18,14 @@ pub const SLIDER_DIGITS: &Rule = &Rule {
     ),
 };
 
+/// Steps of a slider that are looked at.
+const MOST: f64 = 100.0;
+
+/// A number without what rounding has left.
+fn tidy(x: f64) -> f64 {
+    format!("{x:.12e}").parse().unwrap_or(x)
+}
+
 pub(super) const CHECK: Check = Check::Control(check);
 
 fn check(control: &Control, findings: &mut Vec<Finding>) {
@@ -29,17 +37,16 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
         return;
     }
     let decimals = digits.value as usize;
-    let near = [min.value, min.value + step.value, min.value + 2.0 * step.value];
-    let shown = near.map(|x| format!("{x:.decimals$}"));
     // Small and large numbers are printed with an exponent, which has digits of its own.
-    let plain = near.iter().all(|x| *x == 0.0 || (1e-3..1e5).contains(&x.abs()));
-    let same = shown.windows(2).position(|pair| matches!(pair, [a, b] if a == b));
-    let (Some(at), true) = (same, plain) else { return };
-    let [Some(a), Some(b), Some(text)] =
-        [near.get(at).map(f64::to_string), near.get(at + 1).map(f64::to_string), shown.get(at).cloned()]
+    let plain = |x: f64| x == 0.0 || (1e-3..1e5).contains(&x.abs());
+    let shown = |x: f64| format!("{x:.decimals$}");
+    let steps = ((max.value - min.value) / step.value).min(MOST) as usize;
+    let pairs = (0..steps).map(|i| [i, i + 1].map(|i| tidy(min.value + i as f64 * step.value)));
+    let Some([a, b]) = pairs.into_iter().find(|[a, b]| plain(*a) && plain(*b) && shown(*a) == shown(*b))
     else {
         return;
     };
+    let text = shown(a);
     findings.push(
         Finding::new(SLIDER_DIGITS, digits.span.clone(), format!("{a} and {b} are both shown as {text}"))
             .why("a student moves the slider by a step, and the number beside it stays")

@@ -31,10 +31,16 @@ fn tag(text: &str) -> Option<usize> {
     name.starts_with(|c: char| c.is_ascii_alphabetic()).then(near)?
 }
 
-/// What a text says, whatever its capitals, marks and articles. Code and formulas are as they stand: there, every character counts.
+/// What a text says, whatever its capitals, marks and articles. Code and formulas are as they stand: there, every character counts
+/// but an article before them and a full stop behind.
 pub(super) fn said(html: &str) -> String {
     if html.contains("<code") || html.contains('$') || html.contains('`') {
-        return plain(html);
+        let text = plain(html);
+        let mut text = text.as_str();
+        while let Some(rest) = text.strip_prefix("The ").or_else(|| text.strip_prefix("the ")) {
+            text = rest;
+        }
+        return text.trim_end_matches('.').trim_end().to_string();
     }
     let text = loose(html);
     text.split(' ').filter(|w| !["a", "an", "the"].contains(w)).collect::<Vec<_>>().join(" ")
@@ -125,5 +131,6 @@ mod tests {
         assert_ne!(said("it rises"), said("it does not rise"));
         assert_ne!(said("-1"), said("1"));
         assert_ne!(said("<code>Data</code>"), said("<code>data</code>"));
+        assert_eq!(said("The <code>Data</code>."), said("<code>Data</code>"));
     }
 }

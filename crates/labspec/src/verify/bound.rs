@@ -3,6 +3,7 @@
 use super::condition::{self, Weighed};
 use super::measure::Measure;
 use super::outcome::{Outcome, OutcomeNames, RunOutcome};
+use super::reads::{self, Reading};
 use crate::bind::{ModelNames, Programs, Scope, functions, include, scalar, to_finding};
 use crate::finding::Finding;
 use crate::ledger::Evidence;
@@ -35,6 +36,8 @@ impl Default for Allowance {
 struct Named<'a> {
     text: &'a Text,
     program: Program,
+    /// It reads what the lab shows.
+    reads: bool,
 }
 
 /// A run with its own setup compiled.
@@ -54,6 +57,8 @@ pub struct BoundVerify<'a> {
     globals: Globals,
     runs: Vec<BoundRun<'a>>,
     measures: Vec<(&'a str, Named<'a>)>,
+    /// What measures read of what the lab shows.
+    readings: Vec<Reading>,
     place: std::ops::Range<usize>,
     allowance: &'a Allowance,
     /// A lab at its start, for expressions over measures: they read nothing of it.
@@ -84,10 +89,13 @@ impl<'a> BoundVerify<'a> {
     ) -> Option<BoundVerify<'a>> {
         let mut globals = programs.globals.clone();
         let mut good = true;
+        let replaced =
+            |(_, text): &(Text, Text)| reads::replaced(text, lab, programs, &mut globals, findings);
+        let replaced: Vec<Option<(String, Vec<Reading>)>> = verify.measure.iter().map(replaced).collect();
         let mut keep = |text: &'a Text, compiled: Compiled| {
             findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
             good &= compiled.program.is_some();
-            compiled.program.map(|program| Named { text, program })
+            compiled.program.map(|program| Named { text, program, reads: false })
         };
         let in_lab = ModelNames::new(model, Scope::Lab).with(&programs.functions);
         let mut runs: Vec<BoundRun<'a>> = Vec::new();
@@ -102,12 +110,19 @@ impl<'a> BoundVerify<'a> {
             runs.push(BoundRun { name: "run", spec: None, setup: None });
         }
         let in_measure = ModelNames::new(model, Scope::Measure).with(&programs.functions);
-        let mut measures = Vec::new();
-        for (name, text) in &verify.measure {
-            if let Some(m) = keep(text, Compiler::new(&in_measure, &mut globals).expression(&text.value)) {
-                measures.push((name.value.as_str(), m));
+        let (mut measures, mut readings) = (Vec::new(), Vec::new());
+        let mut known = true;
+        for ((name, text), replaced) in verify.measure.iter().zip(replaced) {
+            let Some((source, read)) = replaced else {
+                known = false;
+                continue;
+            };
+            if let Some(m) = keep(text, Compiler::new(&in_measure, &mut globals).expression(&source)) {
+                measures.push((name.value.as_str(), Named { reads: !read.is_empty(), ..m }));
+                readings.extend(read);
             }
         }
+        good &= known;
         good.then_some(BoundVerify {
             lab,
             model,
@@ -115,6 +130,7 @@ impl<'a> BoundVerify<'a> {
             globals,
             runs,
             measures,
+            readings,
             place: verify.span.clone(),
             allowance,
             idle: RefCell::default(),
@@ -175,9 +191,13 @@ impl<'a> BoundVerify<'a> {
                 .filter(|_| !excused)
                 .map(|how| format!("the run {} breaks: {how}", crate::json::read::named(&run.name)))
         });
-        let measured = |name: &String| self.measures.iter().find(|(n, _)| n == name).map(|(_, m)| &m.program);
+        let measured = |name: &String| self.measures.iter().find(|(n, _)| n == name).map(|(_, m)| m);
         let simulated = !used.warnings.is_empty()
-            || used.measures.iter().filter_map(|(_, name)| measured(name)).any(looks_at_data)
+            || used
+                .measures
+                .iter()
+                .filter_map(|(_, name)| measured(name))
+                .any(|m| m.reads || looks_at_data(&m.program))
             || looks_at_data(&program);
         let value = match self.runs.as_slice() {
             // Measured on the spot, as a lesson with one run may write it: the same run once more.
@@ -187,7 +207,7 @@ impl<'a> BoundVerify<'a> {
                 let (x, how) = match known {
                     Some(found) => found,
                     None => {
-                        let named = Named { text, program };
+                        let named = Named { text, program, reads: false };
                         let made = self.perform(run, outcome.numerics, &[&named], findings)?;
                         let found = (made.values.first().copied()?, made.broke);
                         self.spot.borrow_mut().insert(key, found.clone());
@@ -310,6 +330,7 @@ impl<'a> BoundVerify<'a> {
             measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
         let played = Play { steps: count, every: 1, presses: &press, watched: true };
         run::play(&mut session, &played, |session, _| {
+            reads::read(&self.readings, &self.globals, self.programs, session);
             running.iter_mut().for_each(|m| m.sample(session));
             ControlFlow::Continue(())
         });

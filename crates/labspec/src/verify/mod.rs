@@ -16,6 +16,7 @@ mod exact;
 mod measure;
 mod outcome;
 mod quote;
+mod reads;
 
 pub use answer::{Answer, UNDECIDED, Verdict, Weight};
 pub use bound::{Allowance, BoundVerify};

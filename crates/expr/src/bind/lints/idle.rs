@@ -18,6 +18,19 @@ impl Look<'_> {
                 self.unused(then);
                 return self.unused(otherwise);
             }
+            // What its parts do, they do; the number is nobody's.
+            ExprKind::Binary { .. } if !self.typed.is_idle(expr.span) => {
+                self.found.push(
+                    Finding::warning(
+                        rules::UNUSED_RESULT,
+                        expr.span,
+                        "the value of this statement is dropped",
+                    )
+                    .why("it is computed, and nothing takes it")
+                    .help("assign it; a comparison `==` before a `?` may be meant for `=`"),
+                );
+                return;
+            }
             _ if !self.typed.is_idle(expr.span) => return,
             _ => {}
         }

@@ -5,6 +5,7 @@ mod angles;
 mod compare;
 mod idle;
 mod numbers;
+mod twice;
 
 use super::Tree;
 use super::types::{Typed, Want};
@@ -73,6 +74,7 @@ impl Look<'_> {
             }
             ExprKind::Call { callee, args, .. } => {
                 all(args);
+                self.same_argument(callee, args);
                 self.expr(callee);
             }
             ExprKind::Unary { operand: inner, .. }
@@ -120,6 +122,7 @@ impl Look<'_> {
 
     fn block(&mut self, statements: &[Stmt]) {
         self.never_reached(statements);
+        self.stored_twice(statements);
         statements.iter().for_each(|statement| self.statement(statement));
     }
 

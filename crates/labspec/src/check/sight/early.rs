@@ -11,6 +11,8 @@ use labspec_core::reflect::FieldId;
 const FEW: usize = 50;
 /// How long it is run to see what would happen, s.
 const LONGER: f64 = 2.0;
+/// A run of this part of a plot's width is a dot.
+const DOT: f64 = 0.02;
 /// A curve has moved when it has come this share of its way.
 const MOVED: f64 = 0.02;
 
@@ -18,6 +20,18 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
     let ready = looked.bench.ready;
     let Some(stop) = &ready.lab.stop_at else { return };
     let Some((steps, timestep)) = looked.bench.steps(looked.length) else { return };
+    if stop.value > 0.0 && stop.value < (1.0 - 1e-9) * timestep {
+        findings.push(
+            Finding::warning(rules::STOPS_EARLY, stop.span.clone(), "the lab stops after its first step")
+                .why(format!(
+                    "`stopAt` is {} s, and a step is {} s long",
+                    digits(stop.value, 4),
+                    digits(timestep, 4)
+                ))
+                .help("let it run longer; for one step that is meant, write the length of a step"),
+        );
+        return;
+    }
     if steps >= FEW || steps == 0 {
         return;
     }
@@ -35,6 +49,18 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
             _ => false,
         })
     });
+    let windows = ready.lab.plots.iter().filter(|p| !p.traces.is_empty()).map(|p| p.window());
+    let shortest = windows.filter(|w| w.is_finite()).fold(f64::INFINITY, f64::min);
+    let run = steps as f64 * timestep;
+    if seen && shortest.is_finite() && run < DOT * shortest {
+        let [run, shortest] = [run, shortest].map(|x| digits(x, 3));
+        findings.push(
+            Finding::warning(rules::STOPS_EARLY, stop.span.clone(), "the lab stops when its curves have hardly begun")
+                .why(format!("it runs for {run} s, and its shortest plot is {shortest} s wide: a student sees a dot at its edge"))
+                .help("let it run longer, or narrow the `window` of the plot"),
+        );
+        return;
+    }
     if seen || time <= stop.value {
         return;
     }

@@ -31,14 +31,14 @@ const NUMERICS: [&str; 8] =
     ["integrator", "cone", "jacobian", "solver", "iterations", "tolerance", "impratio", "flags"];
 
 /// Something that is done to the other controls.
-type Setting = Vec<Move>;
+pub(super) type Setting = Vec<Move>;
 
 pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
     let ready = looked.bench.ready;
     let Some((steps, _)) = looked.bench.steps(looked.length).filter(|(n, _)| *n > 0) else { return };
     for (index, control) in ready.lab.controls.iter().enumerate() {
         let values = values(control);
-        if values.is_empty() || !judged(looked, index) {
+        if values.is_empty() || looked.told.contains(&index) || !judged(looked, index) {
             continue;
         }
         let moved: Vec<Mark> = looked
@@ -108,7 +108,7 @@ fn judged(looked: &Looked<'_>, index: usize) -> bool {
 }
 
 /// The values that a control is tried at, in order; a button has none.
-fn values(control: &Control) -> Vec<Option<Value>> {
+pub(super) fn values(control: &Control) -> Vec<Option<Value>> {
     match &control.kind {
         // What cannot be moved is another rule's.
         ControlKind::Slider { min, max, .. } if min.value >= max.value => Vec::new(),
@@ -205,7 +205,7 @@ fn idle(bench: &mut Bench<'_>, index: usize, values: &[Option<Value>], steps: us
 }
 
 /// What is done to the other controls: nothing, each button, all of them at their ends, both together, each alone.
-fn settings(lab: &Lab, own: usize, press: usize) -> Vec<Setting> {
+pub(super) fn settings(lab: &Lab, own: usize, press: usize) -> Vec<Setting> {
     let others = || lab.controls.iter().enumerate().filter(move |(i, _)| *i != own);
     let ends: Vec<(usize, Vec<Value>)> = others()
         .filter_map(|(i, c)| match &c.kind {

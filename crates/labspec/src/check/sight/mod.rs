@@ -1,18 +1,26 @@
 //! What a student sees in the runs of a lab, and what only seems to show something: curves that cannot change, readouts that print
 //! one text, controls that do nothing. Each is told with the runs that show it; what is not certain is not told.
 
+mod again;
 mod at_rest;
+mod begins;
+mod below_zero;
 mod bench;
 mod curves;
+mod damping;
 mod early;
+mod flat;
 mod idle;
 mod jumps;
 mod mixed;
+mod no_solver;
+mod overruled;
 mod readouts;
 mod record;
 mod saturated;
 mod stale;
 mod start;
+mod undone;
 
 pub(super) use record::{Mark, Record};
 pub(super) use saturated::Beyond;
@@ -34,6 +42,8 @@ struct Looked<'a> {
     nudged: Option<Vec<Vec<Cell>>>,
     /// How long each run was, s.
     length: f64,
+    /// Controls of which something was told that says it all.
+    told: Vec<usize>,
 }
 
 impl Looked<'_> {
@@ -54,7 +64,7 @@ impl Looked<'_> {
 /// Looks at a lab whose runs all came to their end.
 pub(super) fn check(ready: &Ready<'_>, records: &[Record], length: f64, findings: &mut Vec<Finding>) {
     let bench = Bench { ready, programs: &ready.programs, left: WORK, runs: 0 };
-    let mut looked = Looked { records, bench, nudged: None, length };
+    let mut looked = Looked { records, bench, nudged: None, length, told: Vec::new() };
     start::check(&looked, findings);
     at_rest::check(&looked, findings);
     saturated::check(&looked, findings);
@@ -64,5 +74,13 @@ pub(super) fn check(ready: &Ready<'_>, records: &[Record], length: f64, findings
     early::check(&mut looked, findings);
     curves::check(&mut looked, findings);
     readouts::check(&looked, findings);
+    begins::check(&looked, findings);
+    again::check(&looked, findings);
+    below_zero::check(&looked, findings);
+    damping::check(&looked, findings);
+    no_solver::check(&looked, findings);
+    undone::check(&mut looked, findings);
+    overruled::check(&mut looked, findings);
+    flat::check(&mut looked, findings);
     idle::check(&mut looked, findings);
 }

@@ -67,8 +67,8 @@ fn suspect(bound: &Bound) -> bool {
         && bound.program.own_writes().iter().any(|a| is(a, &[Kind::State, Kind::Input]))
 }
 
-/// The statements with `mj_forward` behind each that writes the state; `None` where that cannot be told from the text.
-fn with_forward(text: &str) -> Option<String> {
+/// The statements of a text that stand in no block; `None` where comments stand between.
+pub(super) fn parts(text: &str) -> Option<Vec<String>> {
     let mut depth = 0_i32;
     let mut quote = None;
     let mut parts = vec![String::new()];
@@ -86,6 +86,12 @@ fn with_forward(text: &str) -> Option<String> {
             last.push(c);
         }
     }
+    (!text.contains("//") && !text.contains("/*")).then_some(parts)
+}
+
+/// The statements with `mj_forward` behind each that writes the state; `None` where that cannot be told from the text.
+fn with_forward(text: &str) -> Option<String> {
+    let parts = parts(text)?;
     let writes = |part: &str| {
         let part = part.trim();
         let state = ["data.qpos", "data.qvel", "data.mocap_", "data.act[", "data.joint("];
@@ -93,7 +99,7 @@ fn with_forward(text: &str) -> Option<String> {
             && (part.contains('=') || part.contains(".set(") || part.contains(".fill("))
     };
     let last = parts.len() - 1;
-    if text.contains("//") || !parts.iter().take(last).any(|p| writes(p)) {
+    if !parts.iter().take(last).any(|p| writes(p)) {
         return None;
     }
     let all: Vec<String> =

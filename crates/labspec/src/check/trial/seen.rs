@@ -59,8 +59,15 @@ fn says(text: &str, word: &str) -> bool {
     })
 }
 
+/// Whether a text says itself that there may be a gap; to ask whether something is `null` says nothing of what is shown.
 fn says_gap(text: &str) -> bool {
-    ["NaN", "null", "undefined"].iter().any(|word| says(text, word))
+    let mut asked = text.to_string();
+    for how in ["=== ", "!== ", "== ", "!= ", "===", "!==", "==", "!="] {
+        for word in ["null", "undefined"] {
+            asked = asked.replace(&format!("{how}{word}"), "");
+        }
+    }
+    ["NaN", "null", "undefined"].iter().any(|word| says(&asked, word))
 }
 
 impl<'a> Seen<'a> {
