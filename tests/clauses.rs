@@ -39,6 +39,8 @@ const CLAUSES: &[Clause] = &[
         ],
         right: &[
             r#"DROP "stopAt": 0.4, "controls": [{"type": "button", "label": "kick", "run": "data.qvel[2] = 2"}], "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]"#,
+            // The second press is the one that acts.
+            r#"DROP "stopAt": 0.4, "setup": "ctx.n = 0", "controls": [{"type": "button", "label": "kick", "run": "ctx.n += 1; if (ctx.n % 2 === 0) { data.qvel[2] = 2 }"}], "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]"#,
         ],
     },
     Clause {

@@ -22,6 +22,8 @@ pub enum Subject {
     Run,
     /// The keyed answer of a question is right.
     Answer,
+    /// An option of a question that the evidence does not decide.
+    Option,
     /// A number quoted in the text is what the simulation gives.
     Quote,
     /// A trace follows its closed form.
@@ -30,13 +32,14 @@ pub enum Subject {
 
 impl Subject {
     /// Every subject, in the order of summaries.
-    pub const ALL: [Subject; 8] = [
+    pub const ALL: [Subject; 9] = [
         Subject::File,
         Subject::Model,
         Subject::Lab,
         Subject::Widget,
         Subject::Run,
         Subject::Answer,
+        Subject::Option,
         Subject::Quote,
         Subject::ClosedForm,
     ];
@@ -50,6 +53,7 @@ impl Subject {
             Subject::Widget => "other widget",
             Subject::Run => "run",
             Subject::Answer => "answer",
+            Subject::Option => "option",
             Subject::Quote => "quoted number",
             Subject::ClosedForm => "closed form",
         }
@@ -206,7 +210,7 @@ impl Ledger {
     /// What it all comes to. A file in which nothing stands that could be checked is no evidence of anything.
     pub fn outcome(&self) -> Outcome {
         let bad = |e: &Entry| matches!(e.state, State::False | State::Unchecked);
-        let good = |e: &Entry| e.subject != Subject::File && e.subject != Subject::Widget;
+        let good = |e: &Entry| !matches!(e.subject, Subject::File | Subject::Widget | Subject::Option);
         if self.entries.iter().any(bad) {
             Outcome::Findings
         } else if self.entries.iter().any(|e| e.state == State::LeftOut) {
@@ -243,6 +247,7 @@ impl Ledger {
                     tell(&mut parts, subject, [(c.simulated, "run"), (c.wrong, "broken")]);
                     tell(&mut parts, subject, [(c.unchecked, "not run in full"), (c.left_out, "left out")]);
                 }
+                Subject::Option => tell(&mut parts, subject, [(c.not_claimed, "not decided"), (0, "")]),
                 Subject::Answer | Subject::Quote | Subject::ClosedForm => {
                     tell(&mut parts, subject, [(c.simulated, "verified"), (c.computed, "computed")]);
                     tell(&mut parts, subject, [(c.wrong, "wrong"), (c.unchecked, "could not be checked")]);

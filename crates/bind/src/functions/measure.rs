@@ -97,7 +97,7 @@ pub(super) const ROWS: &[Function] = &[
         optional: 1,
         unit: Unit::Of("1"),
         doc: "crossings(x) or crossings(x, level): how often x passes through zero, or through a level, upwards or downwards; a touch is no passage",
-        example: ("crossings(data.time % 0.04 - 0.019)", "4"),
+        example: ("crossings(data.time % 0.04 - 0.019)", "5"),
         ..OVER_RUN
     },
     Function {
@@ -112,7 +112,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "peak",
         unit: Unit::Of("s"),
         doc: "time in s of the first sample at which x is largest; `peak(-x)` is when it is smallest",
-        example: ("peak(-(data.time - 0.05) ** 2)", "0.05"),
+        example: ("peak(data.time * (0.1 - data.time))", "0.05"),
         ..OVER_RUN
     },
     Function {

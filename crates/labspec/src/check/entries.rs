@@ -116,6 +116,11 @@ fn claimed(c: &Checked, ledger: &mut Vec<Entry>) {
             let (state, word) = (answer.verdict.state(), answer.verdict.as_str());
             let remark = answer.reason.clone();
             ledger.push(Entry { remark, ..entry(Subject::Answer, &claim.name, &claim.span, state, word) });
+            for open in answer.weights.iter().filter(|w| w.holds.is_none()) {
+                let what = open.option.map_or(String::new(), |i| i.to_string());
+                let about = entry(Subject::Option, &claim.name, &claim.span, State::NotClaimed, "undecided");
+                ledger.push(Entry { what, ..about });
+            }
         }
         for q in &judgement.quotes {
             let (state, word) = quote(q);

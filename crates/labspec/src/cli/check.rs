@@ -278,6 +278,7 @@ fn line(entry: &Entry, n: usize) -> Option<String> {
         }
         Subject::Answer if good => format!("{word:<10} {owner}"),
         Subject::Answer => format!("{word:<10} {owner}{remark}"),
+        Subject::Option => format!("{word:<10} {owner}, option {what}"),
         Subject::Quote | Subject::ClosedForm if good => {
             format!("{word:<10} {owner}, {}", many(n, entry.subject.as_str()))
         }

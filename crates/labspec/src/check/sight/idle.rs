@@ -26,6 +26,9 @@ const PRESS: f64 = 0.02;
 /// Fields of the model that are drawn and do nothing else; not all of them are compared.
 const LOOKS: [&str; 7] = ["light_", "mat_", "tex_", "cam_", "vis", "skin_", "geom_group"];
 
+/// Presses of one button in a run.
+const PRESSES: usize = 3;
+
 /// Options that say how something is computed, and not what.
 const NUMERICS: [&str; 8] =
     ["integrator", "cone", "jacobian", "solver", "iterations", "tolerance", "impratio", "flags"];
@@ -157,6 +160,17 @@ fn suspicious(
     (best.len() >= IN_A_ROW.min(values.len())).then_some(best)
 }
 
+/// A slider is moved once. A button is pressed several times, as it may be the second press that acts; an odd number of times, so
+/// that what it switches on is on.
+fn presses(own: &Move, steps: usize) -> Vec<Move> {
+    let times = if own.value.is_none() { PRESSES } else { 1 };
+    let apart = (steps.saturating_sub(own.step) / (2 * PRESSES)).max(1);
+    (0..times)
+        .map(|n| Move { step: own.step + n * apart, ..own.clone() })
+        .filter(|m| m.step <= steps)
+        .collect()
+}
+
 /// Whether it makes no difference which of these values a control has, whatever else is done.
 fn idle(bench: &mut Bench<'_>, index: usize, values: &[Option<Value>], steps: usize) -> bool {
     let pick = match values.len() {
@@ -182,7 +196,7 @@ fn idle(bench: &mut Bench<'_>, index: usize, values: &[Option<Value>], steps: us
                     moves.push(Move { step: 0, control: index, value: picked.first().cloned().flatten() });
                 }
                 moves.extend(setting.iter().filter(|m| m.step == 0).cloned());
-                moves.push(own);
+                moves.extend(presses(&own, steps));
                 moves.extend(setting.iter().filter(|m| m.step > 0).cloned());
                 let Some(record) = bench.run(&moves, steps) else { return false };
                 if seen.is_some_and(|mark| mark != record.mark) {
@@ -193,7 +207,7 @@ fn idle(bench: &mut Bench<'_>, index: usize, values: &[Option<Value>], steps: us
             if picked.iter().any(Option::is_none) {
                 // A button: against the run in which everything is only computed anew.
                 let mut moves = setting.clone();
-                moves.push(Move::nothing(at.max(press + 1)));
+                moves.extend(presses(&Move::nothing(at.max(press + 1)), steps));
                 let Some(record) = bench.run(&moves, steps) else { return false };
                 if seen != Some(record.mark) {
                     return false;
