@@ -205,8 +205,12 @@ def main():
     if a.out:
         where = processor_of if a.ways else processor()
         # What is written by hand at the end stays.
-        _, mark, rest = (a.out.read_text() if a.out.exists() else "").partition("\n## Checks\n")
-        page = PAGE.format(table="\n".join(lines), processor=where, ways=ways, profile=profile)
+        # What other programs measure stays: the labs before the ways, the checks at the end.
+        old = a.out.read_text() if a.out.exists() else ""
+        labs = re.search(r"\n## Labs\n.*?(?=\n## Ways)", old, re.S)
+        if labs:
+            page = page.replace("\n## Ways", labs.group(0) + "\n## Ways", 1)
+        _, mark, rest = old.partition("\n## Checks\n")
         a.out.write_text(page.rstrip("\n") + "\n" + mark + rest)
     return 0
 
