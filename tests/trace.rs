@@ -48,6 +48,7 @@ fn traced(case: &Case) -> Vec<(usize, String, String)> {
             }
         }
         Origin::Setting(words) => format!("set: {words}"),
+        Origin::Claimed => "claimed".into(),
         Origin::Chance(_) => "chance".into(),
         Origin::Unknown => "unknown".into(),
     };
@@ -200,5 +201,26 @@ fn what_is_proposed_verifies() {
         let Some(case) = Case::open(path) else { return };
         let (right, wrong) = accepted(&case);
         assert!(wrong.is_empty() && right >= least, "{path}: {right} are right; {wrong:#?}");
+    }
+}
+
+/// What a lesson quotes is claimed; and nothing that it quotes is proposed again.
+#[test]
+fn what_is_claimed_is_told_as_claimed() {
+    let folder = workspace().join("specs");
+    let name = "specs/lessons/02-bounce-and-swing.md";
+    let text = std::fs::read_to_string(workspace().join(name)).unwrap();
+    let models = ModelFolder::open(&folder.join("models")).unwrap();
+    let case = Case { name: name.to_string(), text, models };
+    let lesson = case.lesson(&case.text);
+    let quoted = |quote: &str| {
+        let verifies = lesson.all_labs().into_iter().filter_map(|lab| lab.verify.as_ref());
+        verifies.flat_map(|v| &v.says).any(|s| s.quote.as_str() == quote)
+    };
+    let all = traced(&case);
+    let claimed = all.iter().filter(|(.., from)| from == "claimed").count();
+    assert!(claimed > 5 && claimed < all.len(), "{claimed} of {}", all.len());
+    for (line, quote, from) in all.iter().filter(|(_, quote, _)| quoted(quote)) {
+        assert_eq!(from, "claimed", "line {line}: {quote}");
     }
 }

@@ -46,7 +46,7 @@ pub(super) fn trace(a: &Arguments) -> Result<Outcome, Failure> {
         Format::Human => print(&human(a, &lesson, &found))?,
         Format::Json => print_json(&value(&lesson, &found), true)?,
     }
-    let traced = |n: &Traced| matches!(n.origin, Origin::From(_) | Origin::Setting(_));
+    let traced = |n: &Traced| matches!(n.origin, Origin::Claimed | Origin::From(_) | Origin::Setting(_));
     Ok(if found.numbers.iter().all(traced) { Outcome::Clean } else { Outcome::Findings })
 }
 
@@ -60,7 +60,7 @@ fn place(found: &Traces<'_>, hit: &Hit) -> String {
 
 fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
     let mut text = String::new();
-    let mut counts = [0usize; 5];
+    let mut counts = [0usize; 6];
     for n in &found.numbers {
         let at = lesson.file.position(n.stated.span.start);
         let quote = printable(&n.stated.quote);
@@ -104,6 +104,10 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
                 );
                 2
             }
+            Origin::Claimed => {
+                text.push_str(" is claimed\n");
+                5
+            }
             Origin::Unknown => {
                 text.push_str(" not traced\n");
                 3
@@ -112,17 +116,19 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
         counts[kind] += 1;
     }
     for (address, block) in blocks(found) {
+        let has = lesson.lab(&address).is_some_and(|lab| lab.verify.is_some());
+        let accept = if has { "to add to what its `verify` has" } else { "to accept" };
         let _ = write!(
             text,
-            "\nfor lab {address}, to accept:\n\n\"verify\": {}\n",
+            "\nfor lab {address}, {accept}:\n\n\"verify\": {}\n",
             printable_lines(&laid_out(&block))
         );
     }
-    let [from, set, chance, none, unsteady] = counts;
+    let [from, set, chance, none, unsteady, claimed] = counts;
     let unsteady = if unsteady > 0 { format!("{unsteady} not reproducible, ") } else { String::new() };
     let _ = writeln!(
         text,
-        "\n{}: {} numbers with units; {from} traced, {set} set by the text, {chance} perhaps by chance, {unsteady}{none} not traced",
+        "\n{}: {} numbers with units; {claimed} claimed, {from} traced, {set} set by the text, {chance} perhaps by chance, {unsteady}{none} not traced",
         printable_path(&a.lesson),
         found.numbers.len()
     );
@@ -141,6 +147,7 @@ fn value(lesson: &Lesson, found: &Traces<'_>) -> Value {
             Origin::Chance(hit) => ("chance", Some(hit), None),
             Origin::Unsteady(hit) => ("unsteady", Some(hit), None),
             Origin::Setting(words) => ("set", None, Some(words)),
+            Origin::Claimed => ("claimed", None, None),
             Origin::Unknown => ("unknown", None, None),
         };
         json!({

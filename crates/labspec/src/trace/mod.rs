@@ -28,7 +28,7 @@ use crate::interrupt;
 use crate::run::Numerics;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson};
-use crate::verify::{Allowance, NUDGED, NUDGED_BACK, Stated, stated};
+use crate::verify::{Allowance, NUDGED, NUDGED_BACK, ShownText, Stated, stated};
 use candidates::Candidate;
 use labspec_core::Model;
 use std::collections::BTreeMap;
@@ -85,7 +85,9 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
         labs.push(Tried { address, lab, owner, model, programs, trials, candidates, values });
     }
     let bindings = formula::bindings(&numbers);
+    let claimed = claimed(lesson);
     let found = |s: &Stated| match interrupt::requested() {
+        _ if claimed.iter().any(|at| at.start < s.span.end && s.span.start < at.end) => Origin::Claimed,
         true => Origin::Unknown,
         false => rank::origin(s, &numbers, &labs, &bindings),
     };
@@ -95,6 +97,15 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
     let numbers =
         numbers.into_iter().zip(origins).map(|(stated, origin)| Traced { stated, origin }).collect();
     Traces { numbers, labs }
+}
+
+/// Where the text stands that the lesson quotes itself.
+fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
+    let shown = ShownText::of(lesson);
+    let labs = lesson.all_labs().into_iter().filter_map(|lab| lab.verify.as_ref());
+    let questions = lesson.quizzes.iter().flat_map(|q| q.numbered()).filter_map(|(_, q)| q.verify.as_ref());
+    let says = labs.chain(questions).flat_map(|verify| &verify.says);
+    says.flat_map(|said| shown.places(said.quote.as_str()).to_vec()).collect()
 }
 
 /// Tries what was found again, from starts that nobody could tell from the lab's own: digits that then change are told apart.

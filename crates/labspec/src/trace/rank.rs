@@ -9,6 +9,8 @@ use std::collections::BTreeSet;
 /// Where a number comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Origin {
+    /// The lesson claims it already: a check computes it.
+    Claimed,
     /// This gives its digits.
     From(Hit),
     /// This gives its digits, and others where the start is moved by a hair: no reader can reproduce them.
