@@ -429,6 +429,33 @@ fn what_is_not_decided_is_no_distractor_that_is_refuted() {
     assert_eq!(lesson(["z < 9", "undecided", "undecided"]).0, Verdict::Failed);
 }
 
+/// A formula needs no lab, and is computed, not verified: nothing was simulated for it.
+#[test]
+fn formulas_need_no_lab() {
+    let lesson = |verify: serde_json::Value| {
+        let question = json!({"id": "q", "title": "t", "questions": [{
+            "kind": "numeric", "q": "What torque holds 2 kg at 0.3 m?", "answer": 5.886, "tol": 0.01, "unit": "N m", "verify": verify}]});
+        let checked = check_text("quiz.json", &question.to_string());
+        let codes: Vec<&str> = checked.findings.iter().map(|f| f.code).collect();
+        (checked.claims[0].judgement.answer.clone().unwrap().verdict, codes)
+    };
+    assert_eq!(lesson(json!({"value": "2 * 9.81 * 0.3"})), (Verdict::Computed, vec![]));
+    assert_eq!(
+        lesson(json!({"measure": {"g": "9.81 * 1"}, "value": "2 * g * 0.3"})),
+        (Verdict::Computed, vec![])
+    );
+    assert_eq!(lesson(json!({"value": "2 * 9.81 * 0.4"})), (Verdict::Refuted, vec!["answer-refuted"]));
+    assert_eq!(lesson(json!({"value": "5.886"})), (Verdict::Failed, vec!["constant-claim"]));
+    // What reads a lab needs one.
+    for reads in [
+        json!({"value": "2 * -model.opt.gravity[2] * 0.3"}),
+        json!({"runs": {"r": {"until": 1}}, "value": "2 * 9.81 * 0.3"}),
+    ] {
+        let (verdict, codes) = lesson(reads);
+        assert_eq!((verdict, codes), (Verdict::Failed, vec!["verify-without-lab"]));
+    }
+}
+
 /// Measures over a run, against what a fall is: z = 9 - ½ g t (t + h).
 #[test]
 fn measures_over_a_fall_are_those_of_a_fall() {

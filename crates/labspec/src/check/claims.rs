@@ -94,6 +94,12 @@ pub(super) fn bind(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Find
     }
 }
 
+/// Whether somebody claims something by formulas alone.
+pub(super) fn have_formulas(lesson: &Lesson) -> bool {
+    let claims = owners(lesson).into_iter().filter_map(|(_, owner)| owner.claim());
+    claims.into_iter().any(|(verify, own, _)| verify.lab.is_none() && own.is_none() && verify.is_formulas())
+}
+
 /// The lab that a `verify` object is about, if it can run.
 fn target<'r, 'l>(
     lesson: &Lesson,
@@ -102,6 +108,8 @@ fn target<'r, 'l>(
     own: Option<&Lab>,
 ) -> Option<&'r Ready<'l>> {
     let lab = match &verify.lab {
+        // Formulas need no lab: they have one in which nothing is.
+        None if own.is_none() && verify.is_formulas() => return ready.iter().find(|r| r.lab.is_nothing()),
         None => own,
         Some(VerifyLab::Inline(lab)) => Some(&**lab),
         Some(VerifyLab::Reference(_, address)) => lesson.lab(address),

@@ -30,6 +30,7 @@ use crate::bind::Programs;
 use crate::bind::scene::Models;
 use crate::finding::{self, Finding, InFile, Severity};
 use crate::rules;
+use crate::source::{SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson, Scene};
 use labspec_core::Model;
 use std::sync::Arc;
@@ -116,8 +117,9 @@ pub fn check(lesson: Lesson, models: &Models, depth: Depth) -> Checked {
 /// Binds, runs and verifies.
 pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
     let mut findings = Vec::new();
-    let ready: Vec<Ready<'_>> =
-        lesson.all_labs().into_iter().filter_map(|lab| prepare(lab, models, depth, &mut findings)).collect();
+    let labs = lesson.all_labs();
+    let mut ready: Vec<Ready<'_>> =
+        labs.into_iter().filter_map(|lab| prepare(lab, models, depth, &mut findings)).collect();
     if depth.programs {
         ready.iter().for_each(|r| params::check(lesson, r, &mut findings));
         ready.iter().for_each(|r| mass_alone::check(r, &mut findings));
@@ -125,6 +127,10 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
     }
     let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     told_once(lesson, &mut findings);
+    let nothing = Lab::of_model(Text { value: String::new(), map: SourceMap::point(0) });
+    if claims::have_formulas(lesson) {
+        ready.extend(empty(&nothing));
+    }
     let claims = if depth.claims {
         claims::check(lesson, &ready, &mut findings)
     } else {
@@ -132,6 +138,13 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
         Vec::new()
     };
     Found { findings, labs, claims }
+}
+
+/// A lab in which nothing is, for claims that are formulas.
+fn empty(nothing: &Lab) -> Option<Ready<'_>> {
+    let model = Arc::new(Model::from_xml("<mujoco/>").ok()?);
+    let programs = Programs::compile(nothing, &model, &mut Vec::new());
+    Some(Ready { lab: nothing, model, programs, mistakes: 0 })
 }
 
 /// A control of which a reset takes everything away changes nothing, and the reset is what is told.

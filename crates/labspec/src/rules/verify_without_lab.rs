@@ -10,7 +10,7 @@ pub const VERIFY_WITHOUT_LAB: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "a `verify` object has no lab to run",
-    why: "the question has no `sim`, so `verify` must say which lab it is about",
+    why: "the question has no `sim`, so `verify` must say which lab it is about. Formulas alone need none",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": ⟦{⟧"runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"#,
     ),
@@ -22,11 +22,13 @@ pub const VERIFY_WITHOUT_LAB: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Lesson(check);
 
 fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
-    for claim in claims::all(lesson).filter(|c| c.verify.lab.is_none() && c.own.is_none()) {
+    let without =
+        |c: &claims::Claim<'_>| c.verify.lab.is_none() && c.own.is_none() && !c.verify.is_formulas();
+    for claim in claims::all(lesson).filter(without) {
         let start = claim.verify.span.start;
         findings.push(
             Finding::new(VERIFY_WITHOUT_LAB, start..start + 1, "there is no lab that could run")
-                .help("add \"lab\": \"#1\" for the first lab of the lesson, or a lab object"),
+                .help("add \"lab\": \"#1\" for the first lab of the lesson, or a lab object; formulas that read no `data` and no `model` need none"),
         );
     }
 }

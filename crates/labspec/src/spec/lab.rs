@@ -108,6 +108,11 @@ pub enum Scene<'a> {
 }
 
 impl Lab {
+    /// Whether it is the lab of no model, in which nothing is.
+    pub(crate) fn is_nothing(&self) -> bool {
+        self.span.is_empty() && self.xml.is_none() && self.model.as_ref().is_some_and(|m| m.value.is_empty())
+    }
+
     /// A lab that shows nothing of a model: what remains when only the model is of interest.
     pub fn of_model(name: Text) -> Lab {
         Lab {

@@ -33,6 +33,9 @@ pub struct Verify {
     pub exact: Vec<Exact>,
 }
 
+/// Words that speak of a lab.
+const OF_A_LAB: [&str; 8] = ["data", "model", "mj", "lib", "sim", "ctx", "contact", "shown"];
+
 /// The lab of a [`Verify`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum VerifyLab {
@@ -87,6 +90,13 @@ impl Verify {
     /// Whether it says how the answer of its question is checked.
     pub fn claims_answer(&self) -> bool {
         !self.options.is_empty() || self.value.is_some()
+    }
+
+    /// Whether it works out formulas alone, and reads nothing of a lab.
+    pub fn is_formulas(&self) -> bool {
+        let word = |c: char| c.is_alphanumeric() || c == '_';
+        let reads = |text: &Text| text.value.split(|c| !word(c)).any(|w| OF_A_LAB.contains(&w));
+        self.runs.is_empty() && self.exact.is_empty() && !self.code().iter().any(|(_, text)| reads(text))
     }
 
     /// Every text that is code, with what it is.
