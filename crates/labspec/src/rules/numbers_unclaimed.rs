@@ -1,7 +1,7 @@
 use super::Check;
 use super::wording::numbers;
 use crate::finding::Finding;
-use crate::spec::{Lesson, Verify};
+use crate::spec::Lesson;
 use labspec_finding::{Example, Layer, Rule, Severity};
 use std::ops::Range;
 
@@ -37,7 +37,8 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     if lesson.labs.is_empty() || lesson.scan.paragraphs.is_empty() {
         return;
     }
-    let said: Vec<String> = claims(lesson).flat_map(|v| &v.says).map(|s| folded(s.quote.as_str())).collect();
+    let said: Vec<String> =
+        lesson.verifies().flat_map(|v| &v.says).map(|s| folded(s.quote.as_str())).collect();
     let (mut all, mut first) = (0, None::<Range<usize>>);
     let mut claimed = 0;
     for (range, shown) in with_units(lesson) {
@@ -59,12 +60,6 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
                 .help("quote those that come from a run under `says` of a `verify`"),
         );
     }
-}
-
-fn claims(lesson: &Lesson) -> impl Iterator<Item = &Verify> {
-    let labs = lesson.all_labs().into_iter().filter_map(|lab| lab.verify.as_ref());
-    let questions = lesson.quizzes.iter().flat_map(|q| q.numbered()).filter_map(|(_, q)| q.verify.as_ref());
-    labs.chain(questions)
 }
 
 /// Without spaces and the marks of formulas.

@@ -2,7 +2,7 @@
 
 use super::kind::{FileKind, Nature, kind_of, nature};
 use super::problem::{Mistake, Problem};
-use super::{Lab, Quiz, VerifyLab, lab, quiz};
+use super::{Lab, Quiz, Verify, VerifyLab, lab, quiz};
 use crate::finding::{Finding, Severity};
 use crate::json::{self, Json, Node};
 use crate::markdown::{self, Block, BlockKind, Scan};
@@ -105,6 +105,13 @@ impl Lesson {
                 quiz.questions.get(question.checked_sub(1)?)?.as_ref()?.sim()
             }
         }
+    }
+
+    /// Every `verify` object: those of labs, then those of questions.
+    pub fn verifies(&self) -> impl Iterator<Item = &Verify> {
+        let labs = self.all_labs().into_iter().filter_map(|lab| lab.verify.as_ref());
+        let questions = self.quizzes.iter().flat_map(Quiz::numbered).filter_map(|(_, q)| q.verify.as_ref());
+        labs.chain(questions)
     }
 
     /// Every lab that has an address: labs in order, then the sims of the questions.

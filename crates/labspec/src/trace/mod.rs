@@ -102,9 +102,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
 /// Where the text stands that the lesson quotes itself.
 fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
     let shown = ShownText::of(lesson);
-    let labs = lesson.all_labs().into_iter().filter_map(|lab| lab.verify.as_ref());
-    let questions = lesson.quizzes.iter().flat_map(|q| q.numbered()).filter_map(|(_, q)| q.verify.as_ref());
-    let says = labs.chain(questions).flat_map(|verify| &verify.says);
+    let says = lesson.verifies().flat_map(|verify| &verify.says);
     says.flat_map(|said| shown.places(said.quote.as_str()).to_vec()).collect()
 }
 

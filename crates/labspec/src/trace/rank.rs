@@ -69,14 +69,15 @@ const APART: f64 = 1.2;
 /// Where a number comes from.
 pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[Tried<'_>], bindings: &[Binding]) -> Origin {
     let around = Around::of(s, numbers);
-    if let Some(hit) = worked(s, bindings) {
-        return Origin::From(hit);
-    }
     let truth = si(s);
     if truth == 0.0 || s.bound {
         return Origin::Unknown;
     }
     let window = 2.0 * s.read.half_unit / s.read.value.abs() / (DECADES * std::f64::consts::LN_10);
+    let window = window.min(1.0);
+    if let Some(hit) = worked(s, bindings, window).filter(|hit| hit.chance < CHANCE) {
+        return Origin::From(hit);
+    }
     let mut tried: Vec<(f64, f64)> = Vec::new();
     let mut hits: Vec<(f64, bool, Hit)> = Vec::new();
     let nearest = distances(s, labs);
@@ -139,7 +140,7 @@ pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[Tried<'_>], binding
         before.sort_by(f64::total_cmp);
         before.dedup_by(|a, b| close(*a, *b));
         let window = if exact { window / 2.0 } else { window };
-        hit.chance = 1.0 - (1.0 - window.min(1.0)).powf(before.len() as f64);
+        hit.chance = 1.0 - (1.0 - window).powf(before.len() as f64);
         if hit.chance < CHANCE && !two {
             return Origin::From(hit);
         }
@@ -174,15 +175,16 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * b.abs()
 }
 
-/// The formula that stands before a number, if it has its digits.
-fn worked(s: &Stated, bindings: &[Binding]) -> Option<Hit> {
+/// The formula that stands before a number, if it has its digits. `window` is the share of numbers that have them.
+fn worked(s: &Stated, bindings: &[Binding], window: f64) -> Option<Hit> {
     let found = formula::before(s, bindings)?;
     let hit = |factor: String, value: f64| Hit {
         place: None,
         measure: found.code.clone(),
         factor,
         value,
-        chance: 0.0,
+        // It may be read in two ways.
+        chance: 1.0 - (1.0 - window).powi(2),
     };
     let ratio = s.dimension.factor;
     // Its numbers are in SI units, or all in the unit of the result.

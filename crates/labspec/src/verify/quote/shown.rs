@@ -4,7 +4,7 @@
 use super::places::Search;
 use super::{fold, html, prose};
 use crate::source::{SourceMap, Text};
-use crate::spec::{Control, ControlKind, Lab, Lesson, Question, QuestionKind, Quiz, Verify};
+use crate::spec::{Control, ControlKind, Lab, Lesson, Question, QuestionKind};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -33,7 +33,7 @@ impl ShownText {
         let file = lesson.file.text();
         let mut search = Search::new();
         let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
-        for verify in verifies(lesson) {
+        for verify in lesson.verifies() {
             for said in &verify.says {
                 let quote = said.quote.as_str();
                 numbers.entry(quote).or_insert_with(|| search.add(quote));
@@ -74,19 +74,12 @@ impl ShownText {
     }
 }
 
-/// Every `verify` object of a lesson.
-fn verifies(lesson: &Lesson) -> Vec<&Verify> {
-    let labs = lesson.all_labs().into_iter().filter_map(|l| l.verify.as_ref());
-    let questions = lesson.quizzes.iter().flat_map(Quiz::numbered).filter_map(|(_, q)| q.verify.as_ref());
-    labs.chain(questions).collect()
-}
-
 /// Where a quote stands outside of `verify` objects. Only asked when no reader sees it.
 fn unseen(quote: &str, file: &str, lesson: &Lesson) -> Option<Range<usize>> {
     if quote.is_empty() {
         return None;
     }
-    let own: Vec<Range<usize>> = verifies(lesson).into_iter().map(|v| v.span.clone()).collect();
+    let own: Vec<Range<usize>> = lesson.verifies().map(|v| v.span.clone()).collect();
     let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit() || c == '.');
     let mut found = file.match_indices(quote).take(1000).map(|(i, _)| i..i + quote.len());
     found.find(|r| {
