@@ -90,7 +90,8 @@ fn steps_in_programs_cost_what_steps_cost() {
     assert_eq!(codes(&checked), ["too-many-steps"], "{:?}", shown(&checked));
     let checked = look(PENDULUM, json!({"controls": [{"type": "button", "label": "On", "run": steps}]}));
     assert_eq!(count(&checked, "too-many-steps"), 1, "{:?}", shown(&checked));
-    assert_eq!((tried(&checked).runs, tried(&checked).covered), (2, 10.0));
+    // As it stands, with the button, after a touch, and for long.
+    assert_eq!((tried(&checked).runs, tried(&checked).covered), (4, 10.0));
     let readout = format!("(() => {{ {steps}; return data.time }})()");
     let checked = look(PENDULUM, json!({"readouts": [{"label": "t", "expr": readout}]}));
     assert_eq!(count(&checked, "too-many-steps"), 1, "{:?}", shown(&checked));
@@ -198,7 +199,10 @@ fn a_lab_is_run_for_as_long_as_it_is_looked_at() {
         (json!({"stopAt": 1}), 1.1, false),
         (json!({"plots": [{"window": 30, "traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 29.0, true),
         (json!({"plots": [{"traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 4.9, true),
-        (json!({"plots": [{"traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 5.1, false),
+        (json!({"plots": [{"traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 5.1, true),
+        // A page that nothing stops runs on: ten times as long is tried.
+        (json!({"plots": [{"traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 49.9, true),
+        (json!({"plots": [{"traces": [{"label": "q", "expr": "data.qpos[0]"}]}]}), 50.1, false),
     ] {
         let mut lab = more.clone();
         lab["controller"] = late(t);
@@ -265,7 +269,8 @@ fn with_each_setting_of_a_control() {
     let checked = look(PENDULUM, lab);
     assert_eq!(codes(&checked), ["shows-infinite"]);
     assert!(checked.findings[0].message.contains("with \"k\" at 0"), "{:?}", shown(&checked));
-    assert_eq!((tried(&checked).runs, tried(&checked).skipped), (3, 0));
+    // As it stands and at both ends; after a touch, moved while it runs, and for long.
+    assert_eq!((tried(&checked).runs, tried(&checked).skipped), (6, 0));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::rules;
 use crate::spec::{Expect, Lab};
 
 /// What a run that breaks is reported as.
-const BROKE: [&str; 7] = [
+const BROKE: [&str; 8] = [
     rules::SIMULATION_DIVERGES.code,
     rules::ENERGY_GROWS.code,
     rules::DAMPER_PUSHES.code,
@@ -13,9 +13,16 @@ const BROKE: [&str; 7] = [
     rules::PASSES_THROUGH.code,
     rules::SINKS_IN.code,
     rules::SOLVER_STOPS_EARLY.code,
+    rules::RUNS_AWAY.code,
 ];
-/// What is only said of a scene, without a run that shows it.
-const LIKELY: &str = rules::STIFF_FOR_TIMESTEP.code;
+/// What is only said of a scene, or of settings that are not sound though nothing breaks: beside what breaks, it is no news.
+const LIKELY: [&str; 5] = [
+    rules::STIFF_FOR_TIMESTEP.code,
+    rules::NEAR_ITS_LIMIT.code,
+    rules::PRESSED_DEEP.code,
+    rules::CHATTERS.code,
+    rules::CREEPS.code,
+];
 
 /// Holds the findings of the runs of one lab, those from `first` on, against what its author expects. `runs` is how
 /// many were made.
@@ -24,7 +31,7 @@ pub(super) fn settle(lab: &Lab, runs: usize, findings: &mut Vec<Finding>, first:
     let own = findings.split_off(first.min(findings.len()));
     let broke = own.iter().any(|f| BROKE.contains(&f.code));
     let impossible = own.iter().any(|f| f.code == rules::RUN_IMPOSSIBLE.code);
-    findings.extend(own.into_iter().filter(|f| !BROKE.contains(&f.code) && f.code != LIKELY));
+    findings.extend(own.into_iter().filter(|f| !BROKE.contains(&f.code) && !LIKELY.contains(&f.code)));
     // What was not run shows nothing, and is said elsewhere.
     if broke || impossible || runs == 0 {
         return;

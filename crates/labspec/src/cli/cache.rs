@@ -280,7 +280,7 @@ mod tests {
         let lesson = lesson(&models, LESSON);
         let found = check::examine(&lesson, &models, DEEP);
         assert!(
-            !found.findings.is_empty() && found.labs[0].runs == 3 && found.claims.len() == 1,
+            !found.findings.is_empty() && found.labs[0].runs == 5 && found.claims.len() == 1,
             "{found:?}"
         );
         let text = entry("key", &lesson, &models, &found).unwrap();

@@ -123,13 +123,13 @@ fn finding(found: &Found, programs: &Programs, text: &mut String) {
         crate::run::time(fault.time),
         printable(&handling.words(programs))
     );
-    let _ = writeln!(text, "  {}", measured(fault));
+    let _ = writeln!(text, "  {}", fault.measured());
     let _ = writeln!(text, "  cause: {}", printable(&fault.cause));
     if *settings > 1 {
         let _ = write!(text, "  also in {} other settings", settings - 1);
         let _ = match worst {
             Some((handling, fault)) => {
-                writeln!(text, "; worst {}: {}", printable(&handling.words(programs)), measured(fault))
+                writeln!(text, "; worst {}: {}", printable(&handling.words(programs)), fault.measured())
             }
             None => writeln!(text),
         };
@@ -284,15 +284,6 @@ fn chart(map: &Map, title: &str) -> String {
         width: 640.0,
         height: 420.0,
     })
-}
-
-/// The evidence in a line.
-fn measured(fault: &Fault) -> String {
-    let one = |e: &Evidence| {
-        let unit = if e.unit.is_empty() { String::new() } else { format!(" {}", e.unit) };
-        format!("{} {}{unit}", e.name, two_digits(e.value))
-    };
-    fault.evidence.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
 /// Everything that was not tried, or not to its end.

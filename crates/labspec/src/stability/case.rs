@@ -1,7 +1,7 @@
 //! One run of a lab under the hands of a student, and what goes wrong in it.
 
 use super::fault::{Evidence, Fault, FaultKind};
-use super::handling::{Handling, Kind, TOUCH};
+use super::handling::{Action, Handling, Kind, TOUCH};
 use super::watch::Watch;
 use crate::advice::stability;
 use crate::bind::{Bound, Programs};
@@ -9,10 +9,11 @@ use crate::run::{self, Budget, End, Play, Session};
 use crate::spec::Lab;
 use labspec_core::reflect::{FieldId, Object, field};
 use labspec_core::{Demand, Model, Warning, WarningStat, joint};
+use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
 /// What all runs share.
-pub(super) struct Case<'a> {
+pub(crate) struct Case<'a> {
     pub(super) lab: &'a Lab,
     pub(super) model: &'a Model,
     pub(super) programs: &'a Programs,
@@ -29,25 +30,71 @@ pub(super) struct Case<'a> {
 
 /// What a run came to.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Outcome {
-    pub(super) faults: Vec<Fault>,
+pub(crate) struct Outcome {
+    pub(crate) faults: Vec<Fault>,
     /// How much of the run was made, s.
     pub(super) covered: f64,
     /// Work.
-    pub(super) spent: u64,
+    pub(crate) spent: u64,
     /// How fast each body moved on at the end, by name, m/s.
     pub(super) speeds: Vec<(String, f64)>,
     /// Geoms that touched.
     pub(super) touching: Vec<[usize; 2]>,
     /// It ended before its time as the work was more than it may do.
-    pub(super) cut: bool,
+    pub(crate) cut: bool,
+}
+
+/// A run under the hands of a student: what is still to be done to it, and everything that is looked at meanwhile.
+pub(crate) struct Eyes<'h> {
+    /// What is to be done, in order of time.
+    pending: VecDeque<&'h Action>,
+    watch: Watch,
+    shows: bool,
+    controlled: bool,
+}
+
+impl Eyes<'_> {
+    /// At the start, and after every step: what is due is done, and everything is looked at.
+    pub(crate) fn look(&mut self, session: &mut Session<'_>, made: usize) {
+        let now = session.world.data.time();
+        let mut disturbed = made == 0;
+        while let Some(action) = self.pending.front().filter(|a| now >= a.time - 1e-12).copied() {
+            match &action.value {
+                Some(value) => session.set_control(action.control, value.clone()),
+                None => session.press(action.control),
+            }
+            disturbed = true;
+            self.pending.pop_front();
+        }
+        if self.shows {
+            session.sample();
+        }
+        if disturbed {
+            self.watch.disturb(session.world.data.fields());
+        } else {
+            self.watch.look(&session.world.model, session.world.data.fields());
+        }
+    }
+
+    /// What went wrong, when the run is over.
+    pub(crate) fn faults(self, session: &Session<'_>) -> Vec<Fault> {
+        let mut faults = told(session);
+        // What blew up is told; all else that was seen follows from it.
+        let broke = |f: &Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows);
+        let when = faults.iter().filter(|f| broke(f)).map(|f| f.time).fold(f64::INFINITY, f64::min);
+        let seen = self.watch.faults(&session.world.model);
+        let own =
+            seen.into_iter().filter(|f| f.time < when && !(f.kind == FaultKind::Silent && when.is_finite()));
+        faults.extend(own.filter(|f| f.kind != FaultKind::Drifts || !self.controlled));
+        faults
+    }
 }
 
 /// A change of the model that a run is made with, after everything that is done at its start.
-pub(super) type Change<'c> = &'c dyn Fn(&mut Session<'_>);
+pub(crate) type Change<'c> = &'c dyn Fn(&mut Session<'_>);
 
 impl<'a> Case<'a> {
-    pub(super) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs, base: Handling) -> Case<'a> {
+    pub(crate) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs, base: Handling) -> Case<'a> {
         let mut demand = programs.demand;
         for name in ["geom_xpos", "geom_xmat", "xpos"] {
             field(Object::Data, name).into_iter().for_each(|f| demand.reads.insert(f));
@@ -81,7 +128,7 @@ impl<'a> Case<'a> {
     }
 
     /// The lab with everything done that comes before the first step.
-    pub(super) fn start(&self, handling: &Handling, budget: u64) -> Session<'a> {
+    pub(crate) fn start(&self, handling: &Handling, budget: u64) -> Session<'a> {
         let key = self.lab.keyframe();
         let budget = Budget { left: budget };
         let mut session = Session::start_within(self.programs, self.model, key, &self.demand, budget);
@@ -99,14 +146,24 @@ impl<'a> Case<'a> {
     }
 
     /// Number of steps of a run that lasts so long.
-    pub(super) fn steps(&self, timestep: f64, length: f64) -> usize {
+    pub(crate) fn steps(&self, timestep: f64, length: f64) -> usize {
         let most = (run::MAX_STEPS - 1) as f64;
         let count = (length / timestep).round();
         if count.is_finite() && timestep > 0.0 { count.clamp(0.0, most) as usize } else { 0 }
     }
 
+    /// The eyes on a run that has begun.
+    pub(crate) fn eyes<'h>(&self, handling: &'h Handling, session: &Session<'_>) -> Eyes<'h> {
+        Eyes {
+            pending: handling.actions.iter().filter(|a| a.time > 0.0).collect(),
+            watch: Watch::new(&session.world.model, self.jumps),
+            shows: self.shows,
+            controlled: self.controlled,
+        }
+    }
+
     /// Makes a run of so many seconds.
-    pub(super) fn run(
+    pub(crate) fn run(
         &self,
         handling: &Handling,
         change: Option<Change<'_>>,
@@ -120,40 +177,16 @@ impl<'a> Case<'a> {
         }
         let timestep = session.world.model.opt.timestep;
         let steps = self.steps(timestep, length);
-        let mut pending = handling.actions.iter().filter(|a| a.time > 0.0).peekable();
-        let mut watch = Watch::new(&session.world.model, self.jumps);
+        let mut eyes = self.eyes(handling, &session);
         let played = Play { steps, every: 1, presses: &[], watched: true };
         let made = run::play(&mut session, &played, |session, made| {
-            let now = session.world.data.time();
-            let mut disturbed = made == 0;
-            while let Some(action) = pending.next_if(|a| now >= a.time - 1e-12) {
-                match &action.value {
-                    Some(value) => session.set_control(action.control, value.clone()),
-                    None => session.press(action.control),
-                }
-                disturbed = true;
-            }
-            if self.shows {
-                session.sample();
-            }
-            if disturbed {
-                watch.disturb(session.world.data.fields());
-            } else {
-                watch.look(&session.world.model, session.world.data.fields());
-            }
+            eyes.look(session, made);
             let over = DIVERGED.iter().any(|&w| warned(session, w).is_some());
             if over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let mut faults = told(&session);
-        // What blew up is told; all else that was seen follows from it.
-        let broke = |f: &Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows);
-        let when = faults.iter().filter(|f| broke(f)).map(|f| f.time).fold(f64::INFINITY, f64::min);
-        let speeds = watch.rest.speeds(&session.world.model);
-        let touching = watch.touching();
-        let seen = watch.faults(&session.world.model);
-        let own =
-            seen.into_iter().filter(|f| f.time < when && !(f.kind == FaultKind::Silent && when.is_finite()));
-        faults.extend(own.filter(|f| f.kind != FaultKind::Drifts || !self.controlled));
+        let speeds = eyes.watch.rest.speeds(&session.world.model);
+        let touching = eyes.watch.touching();
+        let faults = eyes.faults(&session);
         Outcome {
             faults,
             covered: if made == steps { length } else { made as f64 * timestep },

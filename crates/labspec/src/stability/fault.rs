@@ -2,6 +2,7 @@
 
 use super::handling::Handling;
 use super::remedy::Remedy;
+use crate::run::two_digits;
 
 /// What goes wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -71,6 +72,22 @@ pub struct Fault {
     pub(super) size: f64,
 }
 
+impl Fault {
+    /// One of the numbers, by its name.
+    pub fn value(&self, name: &str) -> Option<f64> {
+        self.evidence.iter().find(|e| e.name == name).map(|e| e.value)
+    }
+
+    /// The numbers in a line: `depth 0.02 m, share 1.3`.
+    pub fn measured(&self) -> String {
+        let one = |e: &Evidence| {
+            let unit = if e.unit.is_empty() { String::new() } else { format!(" {}", e.unit) };
+            format!("{} {}{unit}", e.name, two_digits(e.value))
+        };
+        self.evidence.iter().map(one).collect::<Vec<_>>().join(", ")
+    }
+}
+
 /// The same fault in one or several settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
@@ -89,7 +106,7 @@ pub struct Found {
 }
 
 /// Adds what a run showed to what is known: one entry for each kind and each object.
-pub(super) fn add(list: &mut Vec<Found>, fault: Fault, handling: &Handling) {
+pub(crate) fn add(list: &mut Vec<Found>, fault: Fault, handling: &Handling) {
     let same = |f: &&mut Found| f.fault.kind == fault.kind && f.fault.who == fault.who;
     match list.iter_mut().find(same) {
         None => list.push(Found {

@@ -94,7 +94,7 @@ impl Handling {
     }
 
     /// More that is done on this base. What it sets before the first step is set instead of what the base sets.
-    pub(super) fn and(&self, kind: Kind, more: Vec<Action>) -> Handling {
+    pub(crate) fn and(&self, kind: Kind, more: Vec<Action>) -> Handling {
         let sets = |a: &Action| a.time <= 0.0 && a.value.is_some();
         let again = |a: &&Action| !(sets(a) && more.iter().any(|b| sets(b) && b.control == a.control));
         let mut actions: Vec<Action> = self.actions.iter().filter(again).cloned().collect();
@@ -149,7 +149,7 @@ fn pairs(levels: &[usize]) -> usize {
 
 /// Everything that is tried on a base, the simplest first, for a lab that a student looks at for `window` seconds; and how many
 /// pairs of settings meet in no run, because there are too many.
-pub(super) fn list(lab: &Lab, window: f64, base: &Handling) -> (Vec<Handling>, usize) {
+pub(crate) fn list(lab: &Lab, window: f64, base: &Handling) -> (Vec<Handling>, usize) {
     let press = PRESS.min(0.5 * window);
     let set = |control: usize, value: &Value| Action { time: 0.0, control, value: Some(value.clone()) };
     let pressed = |control: usize, time: f64| Action { time, control, value: None };

@@ -18,7 +18,10 @@ mod truth;
 mod watch;
 mod wild;
 
+pub(crate) use case::Case;
+pub(crate) use fault::add;
 pub use fault::{Evidence, Fault, FaultKind, Found};
+pub(crate) use handling::list;
 pub use handling::{Action, Handling, Kind};
 pub use map::{Cell, Map};
 pub use margins::{Knob, Margin};
@@ -30,7 +33,6 @@ use crate::interrupt;
 use crate::run::{self, RunError, Session};
 use crate::spec::format::RUN_LENGTH;
 use crate::spec::{Expect, Lab};
-use case::{Case, Outcome};
 use labspec_core::Model;
 use labspec_expr::Value;
 use remedy::Tries;
@@ -138,7 +140,7 @@ pub fn probe(
     let timestep = case.start(&case.base, WORK).world.model.opt.timestep;
     let steps = run::count_steps(lab, Some(length), None, timestep)?;
     run::presses_within(programs, &run::presses(programs, &options.press)?, steps, timestep)?;
-    let (all, pairs_left_out) = handling::list(lab, window.min(length), &case.base);
+    let (all, pairs_left_out) = list(lab, window.min(length), &case.base);
     let mut report = Report {
         length,
         tried: Kind::ALL.map(|kind| Tried { kind, made: 0, cut: 0, left_out: 0 }).to_vec(),
@@ -187,17 +189,12 @@ pub fn probe(
             cut: outcome.cut,
             wrong: Vec::new(),
         };
-        let drifts = outcome.faults.iter().any(|f| f.kind == FaultKind::Drifts);
-        let firm = if drifts { case.run(handling, Some(&firmer), length, left) } else { Outcome::default() };
-        left = left.saturating_sub(firm.spent);
-        report.work += firm.spent;
-        for fault in outcome.faults {
-            // What creeps as fast where friction is hard is pushed along, and no fault of the contact.
-            let moves = |(who, speed): &(String, f64)| *who == fault.who && 2.0 * speed > fault.size;
-            if fault.kind != FaultKind::Drifts || !firm.speeds.iter().any(moves) {
-                made.wrong.push(fault.kind);
-                fault::add(&mut report.found, fault, handling);
-            }
+        let (faults, spent) = genuine(&case, handling, outcome.faults, length, left);
+        left = left.saturating_sub(spent);
+        report.work += spent;
+        for fault in faults {
+            made.wrong.push(fault.kind);
+            add(&mut report.found, fault, handling);
         }
         made.wrong.sort_unstable();
         made.wrong.dedup();
@@ -244,6 +241,24 @@ fn remedies(case: &Case<'_>, report: &mut Report, window: f64, own: f64, tell: &
     }
 }
 
+/// The faults of a run without bodies that creep for another reason than a soft contact: what creeps as fast where friction is
+/// hard is pushed along. Also the work that it took to know.
+pub(crate) fn genuine(
+    case: &Case<'_>,
+    handling: &Handling,
+    mut faults: Vec<Fault>,
+    length: f64,
+    budget: u64,
+) -> (Vec<Fault>, u64) {
+    if !faults.iter().any(|f| f.kind == FaultKind::Drifts) {
+        return (faults, 0);
+    }
+    let firm = case.run(handling, Some(&firmer), length, budget);
+    let moves = |f: &Fault| firm.speeds.iter().any(|(who, speed)| *who == f.who && 2.0 * speed > f.size);
+    faults.retain(|f| f.kind != FaultKind::Drifts || !moves(f));
+    (faults, firm.spent)
+}
+
 /// Friction a hundred times as hard.
 fn firmer(session: &mut Session<'_>) {
     let opt = session.world.model.edit().opt;
@@ -252,7 +267,7 @@ fn firmer(session: &mut Session<'_>) {
 }
 
 /// How long a student looks at a lab: until it stops, or as far as its plots show, s.
-fn window(lab: &Lab) -> f64 {
+pub(crate) fn window(lab: &Lab) -> f64 {
     let longest = lab.plots.iter().map(|p| p.window()).filter(|w| w.is_finite()).fold(0.0, f64::max);
     match &lab.stop_at {
         Some(stop) if stop.value > 0.0 => stop.value,

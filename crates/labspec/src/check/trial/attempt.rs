@@ -5,7 +5,8 @@ use super::Trial;
 use super::seen::Seen;
 use crate::check::sight::{Beyond, Mark, Record};
 use crate::finding::Finding;
-use crate::run::{self, Budget, End, Play, Session};
+use crate::run::{self, Budget, End, Play, settings};
+use crate::stability::{Case, Fault};
 use labspec_core::Model;
 use std::ops::ControlFlow;
 
@@ -33,6 +34,8 @@ pub(super) struct Attempt {
     pub(super) model: Model,
     /// What was seen.
     pub(super) record: Record,
+    /// Everything that went wrong, loudly or not.
+    pub(super) faults: Vec<Fault>,
 }
 
 /// Makes one run and reports what broke.
@@ -41,31 +44,39 @@ pub(super) struct Attempt {
 /// The run cannot be made.
 pub(super) fn make(
     ready: &Ready<'_>,
+    case: &Case<'_>,
     trial: &Trial<'_>,
-    wanted: f64,
     budget: Budget,
     seen: &mut Seen<'_>,
     findings: &mut Vec<Finding>,
 ) -> Result<Attempt, run::RunError> {
-    let (lab, programs) = (ready.lab, &ready.programs);
-    let mut session = Session::start_within(programs, &ready.model, lab.keyframe(), &programs.demand, budget);
+    let (lab, wanted) = (ready.lab, trial.length);
     let place = trial.place(lab);
-    run::set_controls(&mut session, lab, programs, &trial.options.set)?;
-    let presses = run::presses(programs, &trial.options.press)?;
+    for action in &trial.handling.actions {
+        if let (Some(control), Some(value)) = (lab.controls.get(action.control), &action.value) {
+            settings::value(control, value)?;
+        }
+    }
+    let mut session = case.start(&trial.handling, budget.left);
     let timestep = session.world.model.opt.timestep;
     // As long as plots show costs what it costs; what an author asks for has a limit.
     let until = lab.stop_at.is_none().then(|| wanted.min(timestep * (run::MAX_STEPS - 1) as f64));
     let steps = run::count_steps(lab, until, None, timestep)?;
 
-    let played = Play { steps, every: (steps / SAMPLES).max(1), presses: &presses, watched: true };
+    let mut eyes = case.eyes(&trial.handling, &session);
+    let every = (steps / SAMPLES).max(1);
+    let played = Play { steps, every: 1, presses: &[], watched: true };
     let (mut rows, mut mark, mut beyond) = (Vec::new(), Mark::default(), Beyond::default());
     let made = run::play(&mut session, &played, |session, step| {
-        let row = seen.look(session, &trial.done);
-        mark.look(&row, session);
-        if step > 0 {
-            beyond.look(session);
+        if step % every == 0 || step == steps {
+            let row = seen.look(session, &trial.done);
+            mark.look(&row, session);
+            if step > 0 {
+                beyond.look(session);
+            }
+            rows.push(row);
         }
-        rows.push(row);
+        eyes.look(session, step);
         ControlFlow::Continue(())
     });
     let ended = match session.ended() {
@@ -83,8 +94,8 @@ pub(super) fn make(
     findings.extend(run::broken(&session, &trial.done, place));
     let broke = findings.len() > before;
     findings.extend(seen.take());
-    let spent = session.spent();
+    let (spent, faults) = (session.spent(), eyes.faults(&session));
     mark.close(&session.world.model);
     let record = Record { moved: trial.moved.clone(), rows, mark, beyond };
-    Ok(Attempt { covered, spent, broke, ended, model: session.world.model, record })
+    Ok(Attempt { covered, spent, broke, ended, model: session.world.model, record, faults })
 }

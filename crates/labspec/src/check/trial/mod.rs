@@ -1,16 +1,18 @@
-//! The runs that look for what breaks: every lab as it stands, and with each control at its ends, within a budget of work
-//! for the whole file.
+//! The runs that look for what breaks, within a budget of work for the whole file: every lab as it stands and with each control at
+//! its ends; then whatever else a student may do to it.
 
 mod attempt;
+mod hands;
 mod seen;
 
 use super::sight::{self, Record};
 use super::{RanLab, Ready};
-use crate::advice::stability;
+use crate::advice::stability as stiff;
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::{self, Budget, RunOptions};
+use crate::run::{self, Budget};
 use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson};
+use crate::stability::{self, Action, Case, Fault, Found, Handling, Kind};
 use attempt::{Attempt, Ended};
 use labspec_core::Model;
 use labspec_expr::Value;
@@ -41,9 +43,11 @@ pub struct Tried {
     pub ended: Option<String>,
 }
 
-/// One thing that a student may do before pressing play.
+/// One thing that a student may do to a lab.
 struct Trial<'a> {
-    options: RunOptions,
+    handling: Handling,
+    /// How long it is run, s.
+    length: f64,
     /// What was done, for the message.
     done: String,
     /// The control, unless it is the lab as it stands.
@@ -67,15 +71,35 @@ fn impossible(place: Range<usize>, e: run::RunError) -> Finding {
 /// A lab on its way through its runs.
 struct Tour<'a> {
     ready: &'a Ready<'a>,
+    case: Case<'a>,
     wanted: f64,
     /// Those with controls, in order.
     left: std::vec::IntoIter<Trial<'a>>,
+    /// What went wrong in its runs, each kind once.
+    faults: Vec<Found>,
     seen: Seen<'a>,
     tried: Option<Tried>,
     /// What was seen in its runs.
     records: Vec<Record>,
     /// It breaks as it stands, or never begins to run: it would with every control.
     hopeless: bool,
+}
+
+impl Tour<'_> {
+    /// Keeps what went wrong in a run that is not said to have broken.
+    fn note(&mut self, trial: &Trial<'_>, faults: Vec<Fault>, left: &mut u64) {
+        let Trial { handling, length, .. } = trial;
+        let (faults, spent) = stability::genuine(&self.case, handling, faults, *length, *left);
+        *left = left.saturating_sub(spent);
+        faults.into_iter().for_each(|f| stability::add(&mut self.faults, f, handling));
+    }
+
+    /// Counts runs that were not made.
+    fn skip(&mut self, runs: usize) {
+        if let Some(tried) = &mut self.tried {
+            tried.skipped += runs;
+        }
+    }
 }
 
 /// Runs every lab that has an address, as it stands and with each control at its ends.
@@ -106,6 +130,15 @@ pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<
         if all && tour.ready.mistakes == 0 && tour.tried.as_ref().is_some_and(|t| !t.broke) {
             sight::check(tour.ready, &tour.records, tour.wanted, found);
         }
+    }
+    // What is beyond that has a budget of its own.
+    let (mut left, mut others) = (Budget::FILE.left, tours.len() as u64);
+    for (tour, found) in tours.iter_mut().map(|(.., tour)| tour).zip(&mut found) {
+        let mut share = left / others.max(1);
+        others = others.saturating_sub(1);
+        let before = share;
+        tour.iter_mut().for_each(|tour| hands::go_on(tour, &mut share, found));
+        left -= before - share;
     }
     for ((_, lab, tour), mut found) in tours.iter().zip(found) {
         let runs = tour.as_ref().and_then(|t| t.tried.as_ref()).map_or(0, |t| t.runs);
@@ -145,7 +178,9 @@ fn begin<'a>(ready: &'a Ready<'a>, budget: Budget, left: &mut u64, findings: &mu
     let trials = trials(ready.lab, wanted);
     let mut tour = Tour {
         ready,
+        case: Case::new(ready.lab, &ready.model, &ready.programs, hands::nothing()),
         wanted,
+        faults: Vec::new(),
         left: trials.into_iter(),
         seen: Seen::new(ready),
         tried: None,
@@ -153,7 +188,7 @@ fn begin<'a>(ready: &'a Ready<'a>, budget: Budget, left: &mut u64, findings: &mu
         hopeless: false,
     };
     let Some(first) = tour.left.next() else { return tour };
-    match attempt::make(ready, &first, wanted, budget, &mut tour.seen, findings) {
+    match attempt::make(ready, &tour.case, &first, budget, &mut tour.seen, findings) {
         Ok(attempt) => {
             *left = left.saturating_sub(attempt.spent);
             if !attempt.broke
@@ -164,7 +199,7 @@ fn begin<'a>(ready: &'a Ready<'a>, budget: Budget, left: &mut u64, findings: &mu
             tour.hopeless = attempt.broke || attempt.covered == 0.0 && wanted > 0.0;
             tour.tried =
                 Some(Tried { runs: 0, wanted, covered: wanted, skipped: 0, broke: false, ended: None });
-            count(&mut tour, attempt);
+            count(&mut tour, &first, attempt, left);
         }
         Err(e) => {
             findings.push(impossible(first.place(ready.lab), e));
@@ -173,9 +208,7 @@ fn begin<'a>(ready: &'a Ready<'a>, budget: Budget, left: &mut u64, findings: &mu
     }
     if tour.hopeless {
         let skipped = tour.left.by_ref().count();
-        if let Some(tried) = &mut tour.tried {
-            tried.skipped = skipped;
-        }
+        tour.skip(skipped);
     }
     tour
 }
@@ -185,29 +218,27 @@ fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
     while let Some(trial) = tour.left.next() {
         if *left == 0 {
             let skipped = 1 + tour.left.by_ref().count();
-            if let Some(tried) = &mut tour.tried {
-                tried.skipped += skipped;
-            }
-            return;
+            return tour.skip(skipped);
         }
         let budget = Budget { left: Budget::TRIAL.left.min(*left) };
-        match attempt::make(tour.ready, &trial, tour.wanted, budget, &mut tour.seen, findings) {
+        match attempt::make(tour.ready, &tour.case, &trial, budget, &mut tour.seen, findings) {
             Ok(attempt) => {
                 *left = left.saturating_sub(attempt.spent);
-                count(tour, attempt);
+                count(tour, &trial, attempt, left);
             }
             Err(e) => {
                 findings.push(impossible(trial.place(tour.ready.lab), e));
-                if let Some(tried) = &mut tour.tried {
-                    tried.skipped += 1;
-                }
+                tour.skip(1);
             }
         }
     }
 }
 
 /// Counts a run that was made.
-fn count(tour: &mut Tour<'_>, attempt: Attempt) {
+fn count(tour: &mut Tour<'_>, trial: &Trial<'_>, attempt: Attempt, left: &mut u64) {
+    if !attempt.broke {
+        tour.note(trial, attempt.faults, left);
+    }
     tour.records.push(attempt.record);
     let Some(tried) = &mut tour.tried else { return };
     tried.runs += 1;
@@ -230,8 +261,10 @@ fn seconds(t: f64) -> String {
 
 /// As it stands, then with each control at its ends.
 fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
+    let alone = |action| Handling { kind: Kind::End, actions: vec![action] };
     let mut trials = vec![Trial {
-        options: RunOptions::default(),
+        handling: hands::nothing(),
+        length: wanted,
         done: "as it stands".into(),
         control: None,
         moved: None,
@@ -241,7 +274,8 @@ fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
         let mut set = |value: Value| {
             trials.push(Trial {
                 done: format!("with \"{label}\" at {value}"),
-                options: RunOptions { set: vec![(label.clone(), value.clone())], ..RunOptions::default() },
+                length: wanted,
+                handling: alone(Action { time: 0.0, control: index, value: Some(value.clone()) }),
                 control: Some(control),
                 moved: Some((index, Some(value))),
             });
@@ -256,10 +290,8 @@ fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
             }
             ControlKind::Button { .. } => trials.push(Trial {
                 done: format!("after \"{label}\" is pressed"),
-                options: RunOptions {
-                    press: vec![(label.clone(), PRESS.min(0.5 * wanted))],
-                    ..RunOptions::default()
-                },
+                length: wanted,
+                handling: alone(Action { time: PRESS.min(0.5 * wanted), control: index, value: None }),
                 control: Some(control),
                 moved: Some((index, None)),
             }),
@@ -270,7 +302,7 @@ fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
 
 /// What of a lab's scene no step of its length can follow, though its run did not show it.
 fn too_stiff(model: &Model, place: Range<usize>, covered: f64) -> Option<Finding> {
-    let worst = stability::suspects(model).into_iter().next()?;
+    let worst = stiff::suspects(model).into_iter().next()?;
     let [owner, how] = [run::owner(model, &worst), run::how_stiff(&worst)];
     Some(
         Finding::warning(rules::STIFF_FOR_TIMESTEP, place, format!("{owner} is {how} for its timestep"))

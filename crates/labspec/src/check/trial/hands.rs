@@ -1,0 +1,168 @@
+//! Whatever else a student may do to a lab that is sound as it stands and with each control at its ends: a touch, several controls
+//! at their ends, buttons in order, everything in turn while it runs, and ten times as long as anybody looks; then twice the
+//! timestep. What `labspec stability` does, as far as a check may work.
+
+use super::{Tour, Trial, attempt};
+use crate::finding::{Finding, Severity};
+use crate::rules::{self, Rule};
+use crate::run::{self, Budget, Session};
+use crate::spec::Lab;
+use crate::stability::{self, Fault, FaultKind, Found, Handling, Kind};
+use labspec_core::reflect::{Object, field};
+
+/// How many times longer than anybody looks the last run is.
+const LONGER: f64 = 10.0;
+/// How long bodies have to be deep in each other to be told of, s.
+const LASTS: f64 = 0.2;
+/// Work for a run at twice the timestep.
+const TWICE: Budget = Budget { left: 300_000_000 };
+
+/// Nothing is done.
+pub(super) fn nothing() -> Handling {
+    Handling { kind: Kind::AsItStands, actions: Vec::new() }
+}
+
+/// Makes these runs, while something is left.
+pub(super) fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
+    let sound = tour.tried.as_ref().is_some_and(|t| t.runs > 0 && t.ended.is_none());
+    if tour.hopeless || !sound {
+        return;
+    }
+    for (handling, length) in handlings(tour.ready.lab, tour.wanted) {
+        let done = match handling.kind {
+            Kind::AsItStands => "as it stands, in a long run".to_string(),
+            _ => handling.words(&tour.ready.programs),
+        };
+        let trial = Trial { handling, length, done, control: None, moved: None };
+        let budget = Budget { left: Budget::TRIAL.left.min(*left) };
+        let mut own = Vec::new();
+        let made = match budget.left {
+            0 => None,
+            _ => attempt::make(tour.ready, &tour.case, &trial, budget, &mut tour.seen, &mut own).ok(),
+        };
+        let Some(attempt) = made else {
+            tour.skip(1);
+            continue;
+        };
+        *left = left.saturating_sub(attempt.spent);
+        // What a simpler setting has shown already is not told again.
+        own.retain(|f| !findings.iter().any(|known| known.code == f.code && known.span == f.span));
+        findings.extend(own);
+        if attempt.ended.is_some() {
+            tour.skip(1);
+        } else if let Some(tried) = &mut tour.tried {
+            tried.runs += 1;
+            tried.broke |= attempt.broke;
+        }
+        if !attempt.broke {
+            tour.note(&trial, attempt.faults, left);
+        }
+    }
+    if tour.tried.as_ref().is_some_and(|t| t.broke) {
+        // A run shows it now.
+        findings.retain(|f| f.code != rules::STIFF_FOR_TIMESTEP.code);
+    } else if tour.tried.as_ref().is_some_and(|t| t.skipped == 0) {
+        findings.extend(near_its_limit(tour));
+    }
+    findings.extend(tour.faults.iter().filter_map(|found| told(found, tour)));
+}
+
+/// What is done, and for how long.
+fn handlings(lab: &Lab, wanted: f64) -> Vec<(Handling, f64)> {
+    let several =
+        |h: &Handling| matches!(h.kind, Kind::Touched | Kind::InOrder | Kind::Corner | Kind::Interleaved);
+    let all = stability::list(lab, wanted, &nothing()).0.into_iter().filter(several);
+    let mut all: Vec<(Handling, f64)> = all.map(|h| (h, wanted)).collect();
+    // What a lab stops before is seen by nobody.
+    if lab.stop_at.is_none() {
+        all.push((nothing(), LONGER * wanted));
+    }
+    all
+}
+
+/// A lab that breaks at twice its timestep.
+fn near_its_limit(tour: &Tour<'_>) -> Option<Finding> {
+    let timestep = field(Object::Option, "timestep")?;
+    let writes = |effects: &labspec_expr::Effects| {
+        effects.writes_everything || effects.writes.iter().any(|w| w.field.0 as usize == timestep.index())
+    };
+    // Where a control chooses it, its ends were run.
+    if tour.ready.programs.bound().any(|b| writes(b.program.effects())) {
+        return None;
+    }
+    let twice = |session: &mut Session<'_>| *session.world.model.edit().opt.timestep *= 2.0;
+    let outcome = tour.case.run(&nothing(), Some(&twice), tour.wanted, TWICE.left);
+    let breaks = |f: &&Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
+    let fault = outcome.faults.iter().find(breaks)?;
+    let h = tour.ready.model.opt.timestep;
+    let message = format!(
+        "at twice its timestep of {} s this lab breaks: {}, {}, at t = {} s",
+        run::two_digits(h),
+        fault.who,
+        fault.kind.words(),
+        run::time(fault.time)
+    );
+    Some(
+        Finding::plain(rules::NEAR_ITS_LIMIT, tour.ready.lab.place(), message)
+            .why(format!("as it stands its {} were sound, but a model a little stiffer, or a page that takes longer steps, breaks it", runs(tour)))
+            .help(format!("{}; `labspec stability --margins` finds how far everything may be raised", fault.cause)),
+    )
+}
+
+fn runs(tour: &Tour<'_>) -> String {
+    let n = tour.tried.as_ref().map_or(0, |t| t.runs);
+    format!("{n} run{}", if n == 1 { "" } else { "s" })
+}
+
+/// What was seen beside that of which runs speak themselves.
+fn told(found: &Found, tour: &Tour<'_>) -> Option<Finding> {
+    let (rule, what, why): (&'static Rule, &str, &str) = match found.fault.kind {
+        FaultKind::Silent => (
+            rules::RUNS_AWAY,
+            "runs away",
+            "no number is above what the engine takes, so nobody warns: a student sees something vanish from the picture",
+        ),
+        FaultKind::Tunnels => (
+            rules::PASSES_THROUGH,
+            "pass",
+            "no step sees them touch in time: a student sees one go through the other",
+        ),
+        // Contacts give way for a moment wherever things meet fast.
+        FaultKind::Penetrates if found.fault.value("lasts").is_none_or(|t| t < LASTS) => return None,
+        FaultKind::Penetrates => (
+            rules::PRESSED_DEEP,
+            "are pressed deep into each other",
+            "a student who finds this setting sees bodies inside each other; the text may speak of it, or it may be an accident",
+        ),
+        FaultKind::Chatters => (
+            rules::CHATTERS,
+            "touch and part again and again, while nothing moves",
+            "forces that jump from step to step are those of the timestep: a plot of them is noise",
+        ),
+        FaultKind::Drifts => (
+            rules::CREEPS,
+            "creeps, though it seems to rest",
+            "a student who waits sees it slide, where the text may say that friction holds it",
+        ),
+        FaultKind::Diverges | FaultKind::Warns | FaultKind::Grows | FaultKind::Throws => return None,
+    };
+    let Found { fault, handling, settings, .. } = found;
+    let others = match settings {
+        0 | 1 => String::new(),
+        2 => ", and in another setting".into(),
+        n => format!(", and in {} other settings", n - 1),
+    };
+    let message = format!(
+        "{} {what} at t = {} s, {} ({}){others}",
+        fault.who,
+        run::time(fault.time),
+        handling.words(&tour.ready.programs),
+        fault.measured()
+    );
+    let place = tour.ready.lab.place();
+    let severity = rule.severity.max(Severity::Warning);
+    Some(Finding::plain(rule, place, message).severity(severity).why(why).help(format!(
+        "the likely cause: {}; `labspec stability` makes these runs longer, and tries what helps",
+        fault.cause
+    )))
+}
