@@ -1,6 +1,7 @@
 //! Tests that cross crates.
 
 mod allocation;
+mod answers;
 mod breaking;
 mod budget;
 mod clauses;
@@ -41,6 +42,7 @@ mod recorded;
 mod refresh;
 mod reports;
 mod rules;
+mod scaffold;
 mod scenes;
 mod schema;
 mod settings;

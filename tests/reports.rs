@@ -26,7 +26,8 @@ fn schemas_describe_every_key() {
         schema.as_array().into_iter().flatten().for_each(|value| look(file, value, keys));
     }
     let all = schemas();
-    let names = ["bench", "check", "plan", "precision", "record", "run", "stability", "trace", "verify"];
+    let names =
+        ["bench", "check", "plan", "precision", "record", "run", "scaffold", "stability", "trace", "verify"];
     assert_eq!(all.keys().cloned().collect::<Vec<_>>(), names.map(|n| format!("report-{n}.json")));
     let mut keys = BTreeSet::new();
     all.iter().for_each(|(file, schema)| look(file, schema, &mut keys));
@@ -133,6 +134,7 @@ fn every_report_keeps_its_promise() {
         (&["stability", "clean.md#1", "--until", "2", "--format", "json"], 0),
         (&["stability", "odd.json", "--until", "0.1", "--format", "json"], 0),
         (&["stability", "breaks.json", "--format", "json"], 1),
+        (&["scaffold", "odd.json", "--format", "json"], 1),
         (&["trace", "clean.md", "--format", "json"], 0),
         (&["trace", "odd.json", "--format", "json"], 0),
         (&["trace", "breaks.json", "--format", "json"], 0),

@@ -40,6 +40,7 @@ pub mod reference;
 pub mod report;
 pub mod rules;
 pub mod run;
+pub mod scaffold;
 pub mod source;
 pub mod spec;
 pub mod stability;

@@ -247,13 +247,21 @@ fn matrix(heap: &mut Heap, rows: &[Vec<f64>]) -> Result<Value, String> {
 /// Roots of the eigenvalues of J Jᵀ, largest first, by cyclic rotations (Jacobi 1846; Golub and Van Loan, "Matrix
 /// Computations", section 8.5).
 fn singular_values(j: &[Vec<f64>]) -> Vec<f64> {
-    let n = j.len();
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y);
-    let mut a: Vec<Vec<f64>> = j.iter().map(|r| j.iter().map(|s| dot(r, s)).collect()).collect();
+    let a = j.iter().map(|r| j.iter().map(|s| dot(r, s)).collect()).collect();
+    let mut values: Vec<f64> = eigenvalues(a, 1e-30).into_iter().map(|x| x.max(0.0).sqrt()).collect();
+    values.sort_by(|x, y| y.total_cmp(x));
+    values
+}
+
+/// The eigenvalues of a symmetric matrix, in no order, by rotations (C. G. J. Jacobi 1846) until the squares beside the diagonal
+/// add up to less than `small`.
+pub(super) fn eigenvalues(mut a: Vec<Vec<f64>>, small: f64) -> Vec<f64> {
+    let n = a.len();
     for _sweep in 0..100 {
         let off: f64 =
             (0..n).flat_map(|p| (p + 1..n).map(move |q| (p, q))).map(|(p, q)| a[p][q] * a[p][q]).sum();
-        if off < 1e-30 {
+        if off < small {
             break;
         }
         for p in 0..n {
@@ -262,9 +270,7 @@ fn singular_values(j: &[Vec<f64>]) -> Vec<f64> {
             }
         }
     }
-    let mut values: Vec<f64> = (0..n).map(|i| a[i][i].max(0.0).sqrt()).collect();
-    values.sort_by(|x, y| y.total_cmp(x));
-    values
+    (0..n).map(|i| a[i][i]).collect()
 }
 
 /// Makes the element (p, q) of a symmetric matrix zero.

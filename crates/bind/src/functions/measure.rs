@@ -1,9 +1,80 @@
 //! Functions of the measures of `verify`: over the samples of a run, and on the contacts of one sample.
 
+use super::lib::eigenvalues;
 use super::{Arg, Function, Place, ROW, Touches, Unit, index, number};
+use crate::World;
 use crate::handle;
 use labspec_core::{self as core, Obj};
-use labspec_expr::{Type, Value};
+use labspec_expr::{Heap, Type, Value};
+
+/// What `mixed` gives.
+const CONTACT: &[(&str, Type)] = &[
+    ("dim", Type::Number),
+    ("friction", Type::List),
+    ("solref", Type::List),
+    ("solimp", Type::List),
+    ("margin", Type::Number),
+    ("dist", Type::Number),
+    ("pos", Type::List),
+    ("frame", Type::List),
+    ("active", Type::Number),
+    ("force", Type::List),
+];
+
+/// The deepest contact of two geoms.
+fn mixed(w: &mut World, heap: &mut Heap, args: &[Value]) -> Result<Value, String> {
+    let (a, b) = (index(args)?, args.get(1).map(|v| handle::index_of(v.to_number())));
+    let between =
+        |c: &&core::Contact| [(c.geom1, c.geom2), (c.geom2, c.geom1)].contains(&(a, b.unwrap_or(a)));
+    let contacts = w.data.fields().contact.iter().filter(between);
+    let deepest = contacts.min_by(|c, d| c.dist.total_cmp(&d.dist));
+    let force = match deepest {
+        Some(c) => core::contact_force(&w.model, &w.data, c)?,
+        None => [f64::NAN; 6],
+    };
+    let number = |get: fn(&core::Contact) -> f64| Value::Number(deepest.map_or(f64::NAN, get));
+    let mut list = |numbers: Option<&[f64]>, n: usize| {
+        let none = vec![f64::NAN; n];
+        heap.numbers(numbers.unwrap_or(&none))
+            .map_err(|_| "the lists of this lab take too much memory".to_owned())
+    };
+    let members = [
+        number(|c| c.dim as f64),
+        list(deepest.map(|c| c.friction.as_slice()), 5)?,
+        list(deepest.map(|c| c.solref.as_slice()), 2)?,
+        list(deepest.map(|c| c.solimp.as_slice()), 5)?,
+        number(|c| c.includemargin),
+        number(|c| c.dist),
+        list(deepest.map(|c| c.pos.as_slice()), 3)?,
+        list(deepest.map(|c| c.frame.as_slice()), 9)?,
+        number(|c| f64::from(c.efc_address.is_some())),
+        list(Some(force.as_slice()), 6)?,
+    ];
+    let names = CONTACT.iter().map(|(name, _)| (*name).into());
+    heap.record(names.zip(members).collect())
+        .map_err(|_| "the lists of this lab take too much memory".to_owned())
+}
+
+/// A symmetric matrix, from a list of its rows or of its numbers. `None` when it is none.
+fn symmetric(heap: &Heap, value: &Value) -> Option<Vec<Vec<f64>>> {
+    let n = heap.len(value)?;
+    let rows: Option<Vec<Vec<f64>>> = (0..n).map(|i| heap.to_numbers(&heap.item(value, i)?)).collect();
+    let rows = match rows {
+        Some(rows) => rows,
+        None => {
+            let numbers = heap.to_numbers(value)?;
+            let n = numbers.len().isqrt().max(1);
+            numbers.chunks(n).map(<[f64]>::to_vec).collect()
+        }
+    };
+    let n = rows.len();
+    let size = rows.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
+    let at = |i: usize, j: usize| rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(f64::NAN);
+    let same = |i: usize, j: usize| (at(i, j) - at(j, i)).abs() <= 1e-9 * size;
+    let good =
+        n > 0 && n <= 64 && rows.iter().all(|r| r.len() == n) && (0..n).all(|i| (0..=i).all(|j| same(i, j)));
+    good.then_some(rows)
+}
 
 /// A function over all samples of a run; what it makes of them is for whoever has the run.
 const OVER_RUN: Function = Function { args: &[Arg::Lazy], place: Place::Measures, aggregate: true, ..ROW };
@@ -25,6 +96,36 @@ pub(super) const ROWS: &[Function] = &[
                 pair.contains(&a) && b.is_none_or(|b| b != a && pair.contains(&b))
             };
             Ok(Value::Boolean(w.data.fields().contact.iter().any(touch)))
+        },
+        ..ROW
+    },
+    Function {
+        name: "mixed",
+        args: &[Arg::Name(Obj::Geom), Arg::Name(Obj::Geom)],
+        returns: Type::Record,
+        members: CONTACT,
+        reads: Touches::Contacts,
+        place: Place::Measures,
+        doc: "the deepest contact of two geoms as the engine mixed it from both: dim, friction (5 numbers), solref (2), solimp (5), margin (m), dist (m), pos (3, m), frame (9), active (1 where it pushes) and force (6, N and N m); NaN everywhere while they have none",
+        example: ("final(mixed('bob', 'bob').dim)", "NaN"),
+        run: mixed,
+        ..ROW
+    },
+    Function {
+        name: "eigenvalues",
+        args: &[Arg::Any],
+        returns: Type::List,
+        place: Place::Measures,
+        doc: "eigenvalues of a symmetric matrix, a list of its rows or of its numbers row by row: the smallest first",
+        example: ("final(eigenvalues([[2, 1], [1, 2]])[1])", "3"),
+        run: |_, heap, args| {
+            let matrix = args.first().and_then(|v| symmetric(heap, v)).ok_or(
+                "`eigenvalues` takes a symmetric matrix: a list of n rows with n numbers each, or of n × n numbers",
+            )?;
+            let size: f64 = matrix.iter().flatten().map(|x| x * x).sum();
+            let mut values = eigenvalues(matrix, 1e-30 * size);
+            values.sort_by(f64::total_cmp);
+            heap.numbers(&values).map_err(|_| "the lists of this lab take too much memory".to_owned())
         },
         ..ROW
     },

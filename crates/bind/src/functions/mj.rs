@@ -2,7 +2,7 @@
 
 use super::{Arg, Function, NOTHING, ROW, Touches, number};
 use labspec_core::{self as core, Obj};
-use labspec_expr::{Type, Value};
+use labspec_expr::{Heap, Type, Value};
 
 /// A function of `mj` that takes the model and the data.
 const ENGINE: Function =
@@ -89,6 +89,80 @@ pub(super) const ROWS: &[Function] = &[
             "1.50",
         ),
         run: |w, _, _| w.call_engine(core::kinematics),
+        ..ENGINE
+    },
+    Function {
+        name: "mj_fwdPosition",
+        writes: &[Touches::Derived],
+        doc: "computes everything that follows from positions: poses, the mass matrix, contacts",
+        example: (
+            "data.qpos[0] = Math.PI; mj.mj_fwdPosition(model, data); data.site_xpos[2].toFixed(2)",
+            "1.50",
+        ),
+        run: |w, _, _| w.call_engine(core::fwd_position),
+        ..ENGINE
+    },
+    Function {
+        name: "mj_fwdVelocity",
+        reads: Touches::Derived,
+        writes: &[Touches::Derived],
+        doc: "computes everything that follows from velocities, where positions have been looked at",
+        example: (
+            "data.qvel[0] = 2; mj.mj_fwdPosition(model, data); mj.mj_fwdVelocity(model, data); data.cvel[7]",
+            "2",
+        ),
+        run: |w, _, _| w.call_engine(core::fwd_velocity),
+        ..ENGINE
+    },
+    Function {
+        name: "mj_collision",
+        reads: Touches::Derived,
+        writes: &[Touches::Contacts],
+        doc: "finds the contacts of geoms where they are now",
+        example: ("mj.mj_kinematics(model, data); mj.mj_collision(model, data); data.ncon", "0"),
+        run: |w, _, _| w.call_engine(core::collision),
+        ..ENGINE
+    },
+    Function {
+        name: "mj_integratePos",
+        args: &[Arg::Model, Arg::Numbers, Arg::Numbers, Arg::Number],
+        doc: "moves coordinates (the list of the second argument is written) with a velocity for so many seconds",
+        example: ("const q = [0.5]; mj.mj_integratePos(model, q, [2], 0.1); q[0]", "0.7"),
+        run: |w, heap, args| {
+            let mut q = numbers(heap, args, 0)?;
+            core::integrate_pos(
+                &w.model,
+                &mut q,
+                &numbers(heap, args, 1)?,
+                args.get(2).map_or(f64::NAN, Value::to_number),
+            )?;
+            written(heap, args, &q, "the second argument takes the result: give it a list of `nq` numbers")
+        },
+        ..ENGINE
+    },
+    Function {
+        name: "mj_differentiatePos",
+        args: &[Arg::Model, Arg::Numbers, Arg::Number, Arg::Numbers, Arg::Numbers],
+        doc: "writes the velocity that leads from one list of coordinates to another in so many seconds into the list of the second argument",
+        example: (
+            "const v = [0]; mj.mj_differentiatePos(model, v, 0.1, [0.5], [0.7]); v[0].toFixed(6)",
+            "2.000000",
+        ),
+        run: |w, heap, args| {
+            let [from, to] = [numbers(heap, args, 2)?, numbers(heap, args, 3)?];
+            let v = core::differentiate_pos(
+                &w.model,
+                args.get(1).map_or(f64::NAN, Value::to_number),
+                &from,
+                &to,
+            )?;
+            written(
+                heap,
+                args,
+                &v,
+                "the second argument takes the result: write `const v = new Array(model.nv).fill(0)` before, and `v` here",
+            )
+        },
         ..ENGINE
     },
     Function {
@@ -194,6 +268,20 @@ pub(super) const ROWS: &[Function] = &[
         ..ENGINE
     },
 ];
+
+/// A list of numbers among the arguments.
+fn numbers(heap: &Heap, args: &[Value], i: usize) -> Result<Vec<f64>, String> {
+    args.get(i).and_then(|v| heap.to_numbers(v)).ok_or_else(|| "a list of numbers is missing".into())
+}
+
+/// Writes a result into the list of the first argument.
+fn written(heap: &mut Heap, args: &[Value], result: &[f64], otherwise: &str) -> Result<Value, String> {
+    if args.first().is_some_and(|list| heap.overwrite(list, result)) {
+        NOTHING
+    } else {
+        Err(otherwise.into())
+    }
+}
 
 /// The kind of object of a number of `mjtObj`.
 fn kind(number: f64) -> Option<Obj> {

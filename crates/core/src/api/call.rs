@@ -99,6 +99,12 @@ passes! {
     reset_data [] |m, d| reset::reset_data(m, d);
     /// Poses of bodies, joints, geoms and sites (`mj_kinematics`).
     kinematics [] |m, d| functions::kinematics(m, d);
+    /// Everything that follows from positions: poses, M, contacts, the sensors of the first stage (`mj_fwdPosition`).
+    fwd_position [] |m, d| step::forward::position(m, d);
+    /// Everything that follows from velocities, where positions have been looked at (`mj_fwdVelocity`).
+    fwd_velocity [] |m, d| step::forward::velocity(m, d);
+    /// The contacts of geoms where they are now (`mj_collision`).
+    collision [] |m, d| step::forward::contacts(m, d);
     /// `energy[0]`: gravity and springs, J (`mj_energyPos`). Zero where every centre of mass is at the origin.
     energy_pos ["xipos"] |m, d| energy::potential(m, d);
     /// `energy[1]` = ½ vᵀ M v, J (`mj_energyVel`).

@@ -41,6 +41,12 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
     POSITIONS.run(m, d, bits);
 }
 
+/// The contacts of geoms where they are.
+pub(crate) fn contacts(m: &Model, d: &mut Data) {
+    let [bits, ..] = d.plan.passes[0];
+    POSITIONS.run(m, d, bits & POSITIONS.of(Stage::Collision));
+}
+
 /// What depends on `qvel` as well.
 pub(crate) fn velocity(m: &Model, d: &mut Data) {
     let [_, bits, _] = d.plan.passes[usize::from(d.work.unseen)];

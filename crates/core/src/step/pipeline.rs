@@ -454,6 +454,11 @@ impl<const N: usize> Sequence<N> {
         (1 << n) - 1
     }
 
+    /// The bits of one stage.
+    pub(crate) fn of(&self, stage: Stage) -> u32 {
+        self.bits(|s| s == stage)
+    }
+
     /// Runs what the bits say.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn run(&self, m: &Model, d: &mut Data, mut bits: u32) {

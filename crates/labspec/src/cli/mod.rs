@@ -21,6 +21,7 @@ mod policy;
 mod precision;
 mod record;
 mod run;
+mod scaffold;
 mod schema;
 mod stability;
 mod stdio;
@@ -66,6 +67,8 @@ enum Command {
     Plan(plan::Arguments),
     /// Where the numbers of a lesson come from: runs and measures that have their digits
     Trace(trace::Arguments),
+    /// Propose a first `verify` object for every question and lab that has none, tried before it is shown
+    Scaffold(scaffold::Arguments),
     /// What a finding's code means, with an example; without a code, the list of all
     Explain(explain::Arguments),
     /// Print the JSON Schema of labs and quizzes, for editors: lab, quiz, or lesson for a JSON file of both
@@ -153,6 +156,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Stability(a) => stability::stability(a),
         Command::Plan(a) => plan::plan(a),
         Command::Trace(a) => trace::trace(a),
+        Command::Scaffold(a) => scaffold::scaffold(a),
         Command::Explain(a) => explain::explain(a),
         Command::Schema(a) => schema::schema(a),
         #[cfg(feature = "lsp")]
@@ -176,7 +180,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 impl Command {
     /// Whether Ctrl-C is asked for between pieces of work. All other commands it ends at once.
     fn prints_what_is_finished(&self) -> bool {
-        use Command::{Bench, Check, Fmt, Plan, Precision, Record, Run, Stability, Trace, Verify};
+        use Command::{Bench, Check, Fmt, Plan, Precision, Record, Run, Scaffold, Stability, Trace, Verify};
         matches!(
             self,
             Check(_)
@@ -187,6 +191,7 @@ impl Command {
                 | Plan(_)
                 | Stability(_)
                 | Trace(_)
+                | Scaffold(_)
                 | Record(_)
                 | Bench(_)
         )

@@ -18,8 +18,11 @@ mod propose;
 mod rank;
 mod trials;
 
+pub(crate) use candidates::Candidate;
+pub(crate) use propose::Block;
 pub use propose::{blocks, laid_out};
 pub use rank::{Hit, Origin};
+pub(crate) use trials::{Trial, si, trials};
 
 use crate::bind::Programs;
 use crate::bind::scene::Models;
@@ -29,12 +32,10 @@ use crate::run::Numerics;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson};
 use crate::verify::{Allowance, NUDGED, NUDGED_BACK, ShownText, Stated, stated};
-use candidates::Candidate;
 use labspec_core::Model;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
-use trials::Trial;
 
 /// A number, and where it comes from.
 #[derive(Clone, Debug)]
@@ -76,7 +77,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
         let Some((model, programs, _)) = check::bind(lab, models, &mut Vec::new()) else { continue };
         let questions = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered());
         let owner = questions.map(|(_, q)| q.span.clone()).find(|span| span.contains(&lab.span.start));
-        let trials = trials::trials(lab, &numbers);
+        let trials = trials(lab, &numbers);
         let candidates = candidates::candidates(lab, &model, &programs, &numbers);
         let made = |t: &Trial, numerics| {
             trials::values(t, lab, &model, &programs, &candidates, &allowance, numerics)
@@ -116,10 +117,7 @@ fn steady(numbers: &[Stated], origins: &mut [Origin], labs: &[Tried<'_>], allowa
             continue;
         };
         let moved = again.entry((l, t)).or_insert_with(|| {
-            [NUDGED, NUDGED_BACK].map(|numerics| {
-                let Tried { lab, model, programs, candidates, .. } = tried;
-                trials::values(trial, lab, model, programs, candidates, allowance, numerics)
-            })
+            [NUDGED, NUDGED_BACK].map(|numerics| tried.values_of(trial, allowance, numerics))
         });
         let Some(at) = tried.candidates.iter().position(|c| c.text == hit.measure) else { continue };
         let Some(own) = tried.values.get(t).and_then(|v| v.get(at)) else { continue };
@@ -128,6 +126,14 @@ fn steady(numbers: &[Stated], origins: &mut [Origin], labs: &[Tried<'_>], allowa
         if moved.iter().any(differs) {
             *origin = Origin::Unsteady(hit.clone());
         }
+    }
+}
+
+impl Tried<'_> {
+    /// Makes a run of the lab, and takes every measure. What breaks has no values.
+    pub(crate) fn values_of(&self, trial: &Trial, allowance: &Allowance, numerics: Numerics) -> Vec<f64> {
+        let Tried { lab, model, programs, candidates, .. } = self;
+        trials::values(trial, lab, model, programs, candidates, allowance, numerics)
     }
 }
 
@@ -145,7 +151,7 @@ fn text(value: &str) -> Text {
 }
 
 /// The words of a text, in small letters, that say something.
-fn words(text: &str) -> impl Iterator<Item = String> + '_ {
+pub(crate) fn words(text: &str) -> impl Iterator<Item = String> + '_ {
     let parts = text.split(|c: char| !c.is_alphanumeric()).filter(|w| w.chars().count() > 2);
     parts.map(str::to_lowercase)
 }

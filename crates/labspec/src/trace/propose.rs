@@ -36,14 +36,10 @@ pub fn blocks(found: &Traces<'_>) -> Vec<(LabAddress, Value)> {
         }
         let single = block.runs.len() == 1;
         let mut verify = Map::new();
-        let runs = block.runs.values().map(|(name, run)| (name.clone(), run.clone()));
         let plain = single && block.runs.values().all(|(_, run)| run.as_object().is_some_and(Map::is_empty));
-        if !plain && !block.runs.is_empty() {
-            verify.insert("runs".into(), Value::Object(runs.collect()));
-        }
-        if !block.measures.is_empty() {
-            let measures = block.measures.iter().map(|(name, text)| (name.clone(), json!(text)));
-            verify.insert("measure".into(), Value::Object(measures.collect()));
+        block.put(&mut verify);
+        if plain {
+            verify.remove("runs");
         }
         let line = |(quote, factor, value): (String, String, String)| {
             let value = if single {
@@ -99,7 +95,7 @@ pub fn laid_out(verify: &Value) -> String {
 
 /// A `verify` object that grows.
 #[derive(Default)]
-struct Block {
+pub(crate) struct Block {
     /// By the place of the trial: a name, and how it is run.
     runs: BTreeMap<usize, (String, Value)>,
     measures: Vec<(String, String)>,
@@ -107,7 +103,7 @@ struct Block {
 
 impl Block {
     /// The name of a measure in a run.
-    fn measured(&mut self, place: usize, trial: Option<&Trial>, text: &str) -> String {
+    pub(crate) fn measured(&mut self, place: usize, trial: Option<&Trial>, text: &str) -> String {
         let taken: Vec<&str> = self.runs.values().map(|(name, _)| name.as_str()).collect();
         let run = match (self.runs.get(&place), trial) {
             (Some((name, _)), _) => name.clone(),
@@ -127,6 +123,18 @@ impl Block {
             name
         });
         format!("{run}.{measure}")
+    }
+
+    /// Puts runs and measures into an object.
+    pub(crate) fn put(&self, verify: &mut Map<String, Value>) {
+        if !self.runs.is_empty() {
+            let runs = self.runs.values().map(|(name, run)| (name.clone(), run.clone()));
+            verify.insert("runs".into(), Value::Object(runs.collect()));
+        }
+        if !self.measures.is_empty() {
+            let measures = self.measures.iter().map(|(name, text)| (name.clone(), json!(text)));
+            verify.insert("measure".into(), Value::Object(measures.collect()));
+        }
     }
 
     fn is_run(&self, name: &str) -> bool {

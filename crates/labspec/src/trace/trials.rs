@@ -2,7 +2,7 @@
 
 use super::candidates::Candidate;
 use super::text;
-use crate::bind::Programs;
+use crate::bind::{Programs, scalar};
 use crate::check;
 use crate::json::{Number, Scalar};
 use crate::run::{Numerics, settings};
@@ -41,7 +41,7 @@ pub(super) const LONGEST: f64 = 0.05;
 const LENGTH: f64 = 10.0;
 
 /// The runs of a lab.
-pub(super) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<Trial> {
+pub(crate) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<Trial> {
     let windows = lab.plots.iter().filter_map(|plot| plot.window.as_ref()).map(|w| w.value);
     let length = windows.fold(RUN_LENGTH, f64::max).min(LENGTH);
     let base = Trial {
@@ -100,7 +100,8 @@ fn of_control(control: &Control, numbers: &[Stated], base: &Trial, all: &mut Vec
             }
         }
         ControlKind::Select { options, value, .. } => {
-            for choice in options.iter().filter(|c| c.value != *value).take(VALUES) {
+            let start = scalar(value);
+            for choice in options.iter().filter(|c| scalar(&c.value) != start).take(VALUES) {
                 all.push(Trial {
                     words: format!("with \"{label}\" at \"{}\"", choice.text.as_str()),
                     set: vec![(label.to_string(), choice.value.clone())],
@@ -119,7 +120,7 @@ fn of_control(control: &Control, numbers: &[Stated], base: &Trial, all: &mut Vec
 }
 
 /// A number in SI units.
-pub(super) fn si(s: &Stated) -> f64 {
+pub(crate) fn si(s: &Stated) -> f64 {
     round(s.read.value / s.dimension.factor)
 }
 

@@ -22,6 +22,11 @@ use crate::finding::Finding;
 use crate::spec::{Question, Said};
 use std::ops::Range;
 
+/// What a reader sees of a piece of HTML.
+pub fn plain(html: &str) -> String {
+    html::strip(html).0
+}
+
 /// The value of the same expression in another run: with half the timestep, or from a start that is a hair away.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Other {
