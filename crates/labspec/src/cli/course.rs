@@ -10,7 +10,7 @@ use super::stdio::{complain, print};
 use super::target::{model_folder_within, root};
 use super::{Failure, ModelOptions, interrupted};
 use crate::bind::scene::{Models, check_model_file};
-use crate::check::{self, Allowed, Checked, Depth};
+use crate::check::{self, Allowed, Basis, Checked, Depth};
 use crate::finding::{self, Finding, Severity};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
 use crate::lint::load_lesson_file;
@@ -35,6 +35,8 @@ pub(super) struct Plan<'a> {
     pub(super) policy: &'a PolicyOptions,
     /// What is known and not told again.
     pub(super) baseline: Option<&'a Baseline>,
+    /// What every verdict rests on is asked for.
+    pub(super) basis: bool,
     /// Most threads.
     pub(super) jobs: usize,
     /// Names of files are shown while they are checked.
@@ -47,6 +49,8 @@ pub(super) struct Plan<'a> {
 #[derive(Default)]
 pub(super) struct Course {
     pub(super) checked: Vec<Checked>,
+    /// What the check of each lesson rests on, where that is asked for.
+    pub(super) bases: Vec<Basis>,
     pub(super) findings: Vec<Finding>,
     /// Those of the findings that are known only when all lessons are checked: of models, and of lessons together.
     pub(super) last: Vec<Finding>,
@@ -79,7 +83,7 @@ enum Task {
 
 /// What came of a file.
 enum Done {
-    Lesson(Box<Checked>, Aside),
+    Lesson(Box<Checked>, Aside, Basis),
     /// JSON that is not ours.
     Other,
     Model(bool, Vec<Finding>, Vec<SourceFile>),
@@ -110,14 +114,14 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
             let i = next.fetch_add(1, Ordering::Relaxed);
             let (Some(task), Some((path, named))) = (tasks.get(i), files.get(i)) else { return done };
             let mut found = one(plan, cache, task, path, *named, &by_folder);
-            if let (Done::Lesson(c, aside), Some(policy)) = (&mut found, of_files.get(i)) {
+            if let (Done::Lesson(c, aside, _), Some(policy)) = (&mut found, of_files.get(i)) {
                 let c = &mut **c;
                 put_aside(plan, policy, &mut c.findings, &[&c.lesson.file], aside);
                 aside.allowed = std::mem::take(&mut c.allowed);
             }
             if let Some(colour) = plan.told {
                 let text = match &found {
-                    Done::Lesson(c, _) => human(&c.findings, &[&c.lesson.file], colour),
+                    Done::Lesson(c, ..) => human(&c.findings, &[&c.lesson.file], colour),
                     _ => String::new(),
                 };
                 tell(&told, i, text, plan.progress);
@@ -153,7 +157,8 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         course.read.insert(path.clone());
         read += usize::from(!matches!(done, Done::Refused(_)));
         match done {
-            Done::Lesson(checked, aside) => {
+            Done::Lesson(checked, aside, basis) => {
+                course.bases.push(basis);
                 course.checked.push(*checked);
                 course.aside.ignored.extend(aside.ignored);
                 course.aside.allowed.extend(aside.allowed);
@@ -180,6 +185,7 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         f.path = Arc::from(path.display().to_string());
         course.last.push(f);
     }
+    course.last.extend(files.iter().flat_map(|(path, _)| lost_beside(path, &mut course.read)));
     let lessons: Vec<_> = course.checked.iter().map(|c| &c.lesson).collect();
     course.last.extend(lint::check_course(&lessons));
     for models in &mut by_folder {
@@ -369,8 +375,50 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
     if interrupted() {
         Done::Interrupted
     } else {
-        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)), Aside::default())
+        let basis = if plan.basis { check::basis(&lesson, models, digest::hex_of) } else { Basis::default() };
+        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)), Aside::default(), basis)
     }
+}
+
+/// Snapshots beside a file that was checked whose lessons are gone, each folder looked at once. What is read is noted.
+fn lost_beside(path: &Path, read: &mut BTreeSet<PathBuf>) -> Vec<Finding> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    read.insert(lint::snapshot_path(path));
+    // What the folder holds is asked once: it stands in the list from then on.
+    if !read.insert(folder.join(lint::SNAPSHOT)) {
+        return Vec::new();
+    }
+    lost_snapshots(folder).iter().map(|path| lost(path)).collect()
+}
+
+/// The snapshots of a folder whose lessons are gone, in the order of their names.
+pub(super) fn lost_snapshots(folder: &Path) -> Vec<PathBuf> {
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let entries = std::fs::read_dir(here).into_iter().flatten().flatten();
+    let gone = |path: &PathBuf| {
+        let name = path.file_name().and_then(|name| name.to_str());
+        let lesson = name.and_then(|name| name.strip_suffix(lint::SNAPSHOT));
+        lesson.is_some_and(|lesson| {
+            let path = folder.join(lesson);
+            matches!(kind_of(&path), FileKind::Lesson | FileKind::Json) && !path.exists()
+        })
+    };
+    let mut all: Vec<PathBuf> = entries.map(|e| folder.join(e.file_name())).filter(gone).collect();
+    all.sort();
+    all
+}
+
+fn lost(path: &Path) -> Finding {
+    let shown = printable_path(path);
+    let lesson = shown.strip_suffix(lint::SNAPSHOT).unwrap_or(&shown);
+    let mut f = Finding::new(
+        rules::SNAPSHOT_WITHOUT_LESSON,
+        0..0,
+        format!("{lesson} is not there, of which this is the snapshot"),
+    )
+    .help("rename it as its lesson was, or remove it: labspec snapshot --accept, with the folder");
+    f.path = Arc::from(path.display().to_string());
+    f
 }
 
 /// The claim of a model that was named itself.
