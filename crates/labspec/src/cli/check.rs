@@ -2,8 +2,9 @@
 
 use super::baseline::Baseline;
 use super::cache::Cache;
-use super::course::{Course, Plan, STDIN, look};
+use super::course::{Course, Plan, STDIN, collect, look};
 use super::fix::{Mode, fix};
+use super::output::{Wanted, look_ahead};
 use super::policy::PolicyOptions;
 use super::stdio::{complain, print_json};
 use super::{Color, Failure, ModelOptions, Outcome, interrupted, machine, print, watch};
@@ -145,6 +146,10 @@ fn work(
         Some(file) if !a.update_baseline => Some(Baseline::read(file)?),
         _ => None,
     };
+    if let Some(file) = records.write {
+        let read: Vec<PathBuf> = collect(&a.paths).0.into_iter().map(|(path, _)| path).collect();
+        look_ahead(&read, &[Wanted { option: "--record", path: file.to_path_buf() }])?;
+    }
     // Read before anything is written: it may be the same file.
     let before = records.since.map(|file| Ok::<_, Failure>((file, reproduction::read(file)?))).transpose()?;
     let plan = Plan {
