@@ -20,10 +20,10 @@ fn lesson() -> String {
         "controls": [{"label": "timestep h", "set": "model.opt.timestep", "min": 0.001, "max": 0.02, "step": 0.001, "value": 0.002}],
         "plots": [{"traces": [{"label": "height", "expr": "data.qpos[2]"}]}]});
     let quiz = json!({"id": "fall", "questions": [{
-        "kind": "predict", "q": "Where is the ball after 0.3 s?", "options": ["above 0.5 m", "below 0.5 m"], "answer": 0,
+        "kind": "mcq", "q": "Where is the ball after 0.3 s?", "options": ["above 0.5 m", "below 0.5 m"], "answer": 0,
         "verify": {
             "lab": "#1",
-            "runs": {"coarse": {"set": {"timestep h": 0.02}, "until": 0.3}, "heavy": {"setup": "model.body_mass[1] = 9", "until": 0.3}},
+            "runs": {"coarse": {"set": {"timestep h": 0.02}, "until": 0.3}, "heavy": {"setup": "model.body_mass[1] = 9; mj.mj_setConst(model, data)", "until": 0.3}},
             "measure": {"height": "final(data.qpos[2])", "never": "first(data.qpos[2] > 9)"},
             "options": ["coarse.height > 0.5 && heavy.height > 0.5", "coarse.height < 0.5"],
             "says": [["0.56 m", "heavy.height"]],
@@ -91,7 +91,7 @@ fn a_record_says_what_every_verdict_rests_on() {
     assert_eq!(lesson["labs"][0]["model"], claim["model"]);
     assert_eq!(
         claim["measures"]["coarse.never"],
-        json!({"value": null, "halved": null, "nonfinite": {"value": "NaN"}})
+        json!({"value": null, "halved": null, "nonfinite": {"value": "NaN", "halved": "NaN"}})
     );
     let state = |subject: &str| {
         let mut all = lesson["verdicts"].as_array().unwrap().iter();

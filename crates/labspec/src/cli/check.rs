@@ -294,6 +294,7 @@ fn overview(course: &Course, with_evidence: bool) -> String {
                 let _ = writeln!(text, "  {:<10}   {}", "", printable(&shown));
             }
             let last = all.get(told).is_none_or(|next| next.owner != entry.owner);
+            let last = last && entry.subject != Subject::Snapshot;
             let claim = c.claims.iter().find(|claim| last && claim.name == entry.owner);
             let shown = claim.filter(|claim| with_evidence || claim.is_doubtful());
             for evidence in shown.into_iter().flat_map(check::evidence) {

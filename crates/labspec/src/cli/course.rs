@@ -185,7 +185,8 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         f.path = Arc::from(path.display().to_string());
         course.last.push(f);
     }
-    course.last.extend(files.iter().flat_map(|(path, _)| lost_beside(path, &mut course.read)));
+    course.read.extend(files.iter().map(|(path, _)| lint::snapshot_path(path)));
+    course.last.extend(lost_snapshots(plan.paths).iter().map(|path| lost(path)));
     let lessons: Vec<_> = course.checked.iter().map(|c| &c.lesson).collect();
     course.last.extend(lint::check_course(&lessons));
     for models in &mut by_folder {
@@ -380,32 +381,24 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
     }
 }
 
-/// Snapshots beside a file that was checked whose lessons are gone, each folder looked at once. What is read is noted.
-fn lost_beside(path: &Path, read: &mut BTreeSet<PathBuf>) -> Vec<Finding> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    read.insert(lint::snapshot_path(path));
-    // What the folder holds is asked once: it stands in the list from then on.
-    if !read.insert(folder.join(lint::SNAPSHOT)) {
-        return Vec::new();
-    }
-    lost_snapshots(folder).iter().map(|path| lost(path)).collect()
-}
-
-/// The snapshots of a folder whose lessons are gone, in the order of their names.
-pub(super) fn lost_snapshots(folder: &Path) -> Vec<PathBuf> {
-    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let entries = std::fs::read_dir(here).into_iter().flatten().flatten();
-    let gone = |path: &PathBuf| {
+/// The snapshots below these folders, or named themselves, whose lessons are gone, in a fixed order.
+pub(super) fn lost_snapshots(paths: &[PathBuf]) -> Vec<PathBuf> {
+    let is_lost = |path: &Path| {
         let name = path.file_name().and_then(|name| name.to_str());
-        let lesson = name.and_then(|name| name.strip_suffix(lint::SNAPSHOT));
-        lesson.is_some_and(|lesson| {
-            let path = folder.join(lesson);
-            matches!(kind_of(&path), FileKind::Lesson | FileKind::Json) && !path.exists()
-        })
+        let lesson =
+            name.and_then(|name| name.strip_suffix(lint::SNAPSHOT)).map(|name| path.with_file_name(name));
+        lesson
+            .is_some_and(|path| matches!(kind_of(&path), FileKind::Lesson | FileKind::Json) && !path.exists())
     };
-    let mut all: Vec<PathBuf> = entries.map(|e| folder.join(e.file_name())).filter(gone).collect();
-    all.sort();
-    all
+    let mut all = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            walk(path, &is_lost, &mut all, &mut Vec::new());
+        } else if path.exists() && is_lost(path) {
+            all.push((path.clone(), true));
+        }
+    }
+    all.into_iter().map(|(path, _)| path).collect()
 }
 
 fn lost(path: &Path) -> Finding {
@@ -463,12 +456,13 @@ pub(super) const STDIN: &str = "-";
 /// The files to check, in a fixed order; and what could not be read.
 pub(super) fn collect(paths: &[PathBuf]) -> (Vec<ToCheck>, Vec<Unread>) {
     let (mut files, mut problems) = (Vec::new(), Vec::new());
+    let is_lesson = |path: &Path| matches!(kind_of(path), FileKind::Lesson | FileKind::Json);
     for path in paths {
         match std::fs::metadata(path) {
             // Standard input is read by whoever called.
             _ if path.as_os_str() == STDIN => {}
             Err(e) => problems.push((path.clone(), format!("cannot read {}: {e}", printable_path(path)))),
-            Ok(meta) if meta.is_dir() => walk(path, &mut files, &mut problems),
+            Ok(meta) if meta.is_dir() => walk(path, &is_lesson, &mut files, &mut problems),
             Ok(_) => files.push((path.clone(), true)),
         }
     }
@@ -478,9 +472,9 @@ pub(super) fn collect(paths: &[PathBuf]) -> (Vec<ToCheck>, Vec<Unread>) {
 /// Deepest nesting of folders.
 const MAX_DEPTH: usize = 32;
 
-/// The lessons of a folder, but for what is hidden, what `.gitignore` names, and the packages of node. Links are not followed:
+/// The files of a folder that are wanted, but for what is hidden, what `.gitignore` names, and the packages of node. Links are not followed:
 /// they may lead out of the folder, or round in a circle.
-fn walk(folder: &Path, files: &mut Vec<ToCheck>, problems: &mut Vec<Unread>) {
+fn walk(folder: &Path, wanted: &dyn Fn(&Path) -> bool, files: &mut Vec<ToCheck>, problems: &mut Vec<Unread>) {
     let all = ignore::WalkBuilder::new(folder)
         .follow_links(false)
         .require_git(false)
@@ -502,7 +496,7 @@ fn walk(folder: &Path, files: &mut Vec<ToCheck>, problems: &mut Vec<Unread>) {
         if kind.is_dir() && entry.depth() > MAX_DEPTH {
             let why = format!("{} is nested more than {MAX_DEPTH} folders deep", printable_path(path));
             problems.push((path.to_path_buf(), why));
-        } else if kind.is_file() && matches!(kind_of(path), FileKind::Lesson | FileKind::Json) {
+        } else if kind.is_file() && wanted(path) {
             files.push((path.to_path_buf(), false));
         }
     }

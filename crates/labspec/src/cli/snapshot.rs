@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::io::{BufRead, IsTerminal};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Arguments of `snapshot`.
 #[derive(clap::Args, Debug)]
@@ -120,7 +120,7 @@ fn look(a: &Arguments) -> Result<Vec<Looked>, Failure> {
         return Err(why.clone());
     }
     let mut by_folder: BTreeMap<String, Models> = BTreeMap::new();
-    let (mut all, mut folders) = (Vec::new(), BTreeSet::new());
+    let mut all = Vec::new();
     for (path, named) in &files {
         if interrupted() {
             break;
@@ -134,7 +134,6 @@ fn look(a: &Arguments) -> Result<Vec<Looked>, Failure> {
         let folder: ModelFolder = model_folder_within(&a.models, path, &a.paths)?;
         let models = by_folder.entry(format!("{folder:?}")).or_insert_with(|| Models::new(folder));
         let lesson = load_lesson_file(path, models.folder())?;
-        folders.insert(path.parent().unwrap_or(Path::new("")).to_path_buf());
         if !named && is_other_json(&lesson) || lesson.addressed().is_empty() && lesson.snapshot.is_none() {
             continue;
         }
@@ -155,7 +154,7 @@ fn look(a: &Arguments) -> Result<Vec<Looked>, Failure> {
             written: false,
         });
     }
-    for file in folders.iter().flat_map(|folder| lost_snapshots(folder)) {
+    for file in lost_snapshots(&a.paths) {
         let (standing, accepted) = (Standing::Gone, BTreeSet::new());
         all.push(Looked { file, standing, renewal: None, accepted, written: false });
     }

@@ -34,8 +34,8 @@ const STORED: &[u8] = br##"labspec snapshot 1
 lab "#1" "A fall"
 run as it stands
   0.2 s, timestep 0.002 s, Euler, Newton, pyramidal
-  time                   0    0.1    0.2
-  "readout/height (m)"   1   0.95    0.8
+  time                   0  0.02  0.04  0.06  0.08   0.1  0.12  0.14  0.16  0.18   0.2
+  "readout/height (m)"   1     1     1  0.98  0.97  0.95  0.93   0.9   0.9   0.8   0.8
 
 end of 1 labs
 "##;

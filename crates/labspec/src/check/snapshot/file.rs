@@ -14,6 +14,8 @@ use std::fmt::Write;
 const HEAD: &str = "labspec snapshot 1";
 /// What stands below a run that shows what the first one shows.
 const SAME: &str = "the same as the first run";
+/// Letters of a column, at least: a digit more or less moves no other line.
+const WIDE: usize = 8;
 /// Longest text of a cell that is written out.
 const LONG: usize = 40;
 /// A number of which no digit can be told.
@@ -167,7 +169,7 @@ fn table(rows: &[(String, Vec<String>)], text: &mut String) {
     let names = rows.iter().map(|(name, _)| width(name)).max().unwrap_or(0);
     let columns = rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
     let widest = |k: usize| rows.iter().filter_map(|(_, cells)| cells.get(k)).map(|c| width(c)).max();
-    let widths: Vec<usize> = (0..columns).map(|k| widest(k).unwrap_or(0)).collect();
+    let widths: Vec<usize> = (0..columns).map(|k| widest(k).unwrap_or(0).max(WIDE)).collect();
     for (name, cells) in rows {
         let _ = write!(text, "  {name:names$}");
         for (cell, width) in cells.iter().zip(&widths) {
@@ -428,9 +430,9 @@ mod tests {
             ("labspec", "labsepc", 1, 1),
             ("\"#1\"", "\"#1", 7, 5),
             ("lab \"#1\"", "lba \"#1\"", 7, 1),
-            ("0.500", "0.5.0", 11, 29),
-            ("0.500", "0.500 7", 11, 44),
-            ("end of 1", "end of 2", 18, 8),
+            ("0.500", "0.5.0", 11, 35),
+            ("0.500", "0.500 7", 11, 52),
+            ("end of 1", "end of 2", 19, 8),
         ] {
             let fault = read(&SourceFile::new("a.snap", text.replacen(from, to, 1))).unwrap_err();
             assert_eq!((fault.line, fault.column), (line, column), "{to}: {fault:?}");
