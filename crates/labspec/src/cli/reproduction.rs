@@ -76,13 +76,11 @@ fn folder_of(file: &Path) -> PathBuf {
 fn name_of(folder: &Path, path: &str) -> String {
     let path = Path::new(path);
     let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    let mut up = 0;
-    for above in folder.ancestors() {
+    for (up, above) in folder.ancestors().enumerate() {
         if let Ok(rest) = whole.strip_prefix(above) {
             let parts = rest.components().map(|c| c.as_os_str().to_string_lossy().into_owned());
             return std::iter::repeat_n("..".to_string(), up).chain(parts).collect::<Vec<_>>().join("/");
         }
-        up += 1;
     }
     path.display().to_string()
 }

@@ -83,7 +83,8 @@ struct Looked {
 }
 
 pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
-    let asks = a.review && std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
+    let terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
+    let asks = a.review && a.format == Format::Human && terminal;
     let mut all = look(a)?;
     for one in &mut all {
         if interrupted() {
@@ -169,8 +170,9 @@ fn look(a: &Arguments) -> Result<Vec<Looked>, Failure> {
 fn left(one: &Looked) -> impl Iterator<Item = &RenewedLab> {
     let labs = one.renewal.iter().flat_map(|r| &r.labs);
     labs.filter(|lab| {
-        let runs = lab.new.is_some() || lab.kept.state == State::False;
-        !matches!(lab.kept.state, State::True(_)) && !(runs && one.accepted.contains(&lab.kept.lab))
+        let can = lab.new.is_some() || lab.kept.state == State::False;
+        let done = can && one.accepted.contains(&lab.kept.lab);
+        !done && !matches!(lab.kept.state, State::True(_))
     })
 }
 
@@ -255,7 +257,7 @@ fn told(all: &[Looked], asked: bool) -> String {
     for one in all {
         let file = printable_path(&one.file);
         let fault = one.renewal.as_ref().and_then(|r| r.fault.as_deref()).unwrap_or_default();
-        let labs = one.renewal.as_ref().map_or(0, |r| r.labs.iter().filter(|lab| lab.new.is_some()).count());
+        let labs = one.accepted.len();
         match (one.standing, one.written) {
             (Standing::Same, false) => same += 1,
             (Standing::Gone, true) => _ = writeln!(text, "removed    {file}: its lesson is gone"),

@@ -157,11 +157,11 @@ pub(super) fn check(
     };
     let taken = runs::take(lesson, ready);
     let mut list: Vec<Kept> = taken.iter().map(|lab| hold(lab, &labs, lesson, findings)).collect();
-    list.extend(gone(&labs, &taken).map(|kept| {
+    for kept in gone(&labs, &taken) {
         let message = format!("the lab {} is in the snapshot, and not in the lesson", printable(&kept.lab));
         findings.push(outdated(0..0, message, lesson));
-        kept
-    }));
+        list.push(kept);
+    }
     list
 }
 
