@@ -71,10 +71,10 @@ fn check_for_programs() {
     let report: Value = serde_json::from_str(&report.stdout).unwrap();
     assert_eq!(
         keys(&report),
-        ["schemaVersion", "report", "findings", "summary", "aside", "lessons", "ledger"]
+        ["schemaVersion", "report", "findings", "summary", "aside", "lessons", "ledger", "since"]
     );
     let lesson = &report["lessons"][0];
-    assert_eq!(keys(lesson), ["file", "labs", "claims"]);
+    assert_eq!(keys(lesson), ["file", "labs", "claims", "snapshots"]);
     let lab = ["address", "title", "runs", "ran", "broke", "seconds", "covered", "skipped", "ended"];
     assert_eq!(keys(&lesson["labs"][0]), lab);
     let claim = &lesson["claims"][0];

@@ -26,8 +26,19 @@ fn schemas_describe_every_key() {
         schema.as_array().into_iter().flatten().for_each(|value| look(file, value, keys));
     }
     let all = schemas();
-    let names =
-        ["bench", "check", "plan", "precision", "record", "run", "scaffold", "stability", "trace", "verify"];
+    let names = [
+        "bench",
+        "check",
+        "plan",
+        "precision",
+        "record",
+        "run",
+        "scaffold",
+        "snapshot",
+        "stability",
+        "trace",
+        "verify",
+    ];
     assert_eq!(all.keys().cloned().collect::<Vec<_>>(), names.map(|n| format!("report-{n}.json")));
     let mut keys = BTreeSet::new();
     all.iter().for_each(|(file, schema)| look(file, schema, &mut keys));
@@ -138,6 +149,9 @@ fn every_report_keeps_its_promise() {
         (&["trace", "clean.md", "--format", "json"], 0),
         (&["trace", "odd.json", "--format", "json"], 0),
         (&["trace", "breaks.json", "--format", "json"], 0),
+        (&["snapshot", "clean.md", "--review", "--format", "json"], 1),
+        (&["snapshot", "odd.json", "--review", "--format", "json"], 1),
+        (&["snapshot", "breaks.json", "--review", "--format", "json"], 1),
         (&[&["bench", "models/free_fall.xml"], &bench[..]].concat(), 0),
         (&[&["bench", "breaks.json"], &bench[..]].concat(), 0),
         (&["record", "models/free_fall.xml", "--states", "states.json", "--steps", "20"], 0),

@@ -28,11 +28,13 @@ pub enum Subject {
     Quote,
     /// A trace follows its closed form.
     ClosedForm,
+    /// The traces and readouts of a lab are as stored in the snapshot of its lesson.
+    Snapshot,
 }
 
 impl Subject {
     /// Every subject, in the order of summaries.
-    pub const ALL: [Subject; 9] = [
+    pub const ALL: [Subject; 10] = [
         Subject::File,
         Subject::Model,
         Subject::Lab,
@@ -42,6 +44,7 @@ impl Subject {
         Subject::Option,
         Subject::Quote,
         Subject::ClosedForm,
+        Subject::Snapshot,
     ];
 
     /// One of it, in words.
@@ -56,6 +59,7 @@ impl Subject {
             Subject::Option => "option",
             Subject::Quote => "quoted number",
             Subject::ClosedForm => "closed form",
+            Subject::Snapshot => "snapshot",
         }
     }
 }
@@ -248,6 +252,14 @@ impl Ledger {
                     tell(&mut parts, subject, [(c.unchecked, "not run in full"), (c.left_out, "left out")]);
                 }
                 Subject::Option => tell(&mut parts, subject, [(c.not_claimed, "not decided"), (0, "")]),
+                Subject::Snapshot => {
+                    tell(&mut parts, subject, [(c.simulated, "as stored"), (c.wrong, "not as stored")]);
+                    tell(
+                        &mut parts,
+                        subject,
+                        [(c.unchecked, "could not be checked"), (c.left_out, "left out")],
+                    );
+                }
                 Subject::Answer | Subject::Quote | Subject::ClosedForm => {
                     tell(&mut parts, subject, [(c.simulated, "verified"), (c.computed, "computed")]);
                     tell(&mut parts, subject, [(c.wrong, "wrong"), (c.unchecked, "could not be checked")]);

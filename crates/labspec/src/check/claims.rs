@@ -101,7 +101,7 @@ pub(super) fn have_formulas(lesson: &Lesson) -> bool {
 }
 
 /// The lab that a `verify` object is about, if it can run.
-fn target<'r, 'l>(
+pub(super) fn target<'r, 'l>(
     lesson: &Lesson,
     ready: &'r [Ready<'l>],
     verify: &Verify,

@@ -110,6 +110,11 @@ fn claimed(c: &Checked, ledger: &mut Vec<Entry>) {
         };
         ledger.push(Entry { remark, ..entry(Subject::Widget, &owner, &widget.span, state, word) });
     }
+    for kept in &c.snapshots {
+        let owner = format!("lab {}", kept.lab);
+        let about = entry(Subject::Snapshot, &owner, &kept.span, kept.state, kept.word());
+        ledger.push(Entry { remark: kept.remark(), ..about });
+    }
     for claim in &c.claims {
         let judgement = &claim.judgement;
         if let Some(answer) = &judgement.answer {

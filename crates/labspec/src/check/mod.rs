@@ -12,7 +12,9 @@ mod named;
 mod params;
 mod programs;
 mod refresh;
+mod reproduce;
 mod sight;
+mod snapshot;
 pub mod stored;
 mod trial;
 mod units;
@@ -23,6 +25,8 @@ pub(crate) use dimension::given_by;
 pub use dimension::{Dimensions, dimension_of, dimensions};
 pub use entries::{evidence, ledger};
 pub(crate) use labels::of_label;
+pub use reproduce::{Basis, ClaimBasis, LabBasis, Settings, basis};
+pub use snapshot::{Divergence, Kept, Renewal, RenewedLab, renew};
 pub use trial::Tried;
 pub(crate) use units::labels as labels_of;
 
@@ -65,6 +69,8 @@ pub struct Checked {
     pub labs: Vec<RanLab>,
     /// The questions and the labs with claims.
     pub claims: Vec<Claim>,
+    /// Of each lab, whether it shows what is stored; nothing where nothing is.
+    pub snapshots: Vec<Kept>,
     /// What would be found, and the author has put aside with a reason.
     pub allowed: Vec<Allowed>,
     /// What was asked for.
@@ -106,6 +112,7 @@ pub struct Found {
     pub(crate) findings: Vec<Finding>,
     pub(crate) labs: Vec<RanLab>,
     pub(crate) claims: Vec<Claim>,
+    pub(crate) snapshots: Vec<Kept>,
 }
 
 /// Checks a lesson that has been read. Findings of model files are left in `models`.
@@ -127,6 +134,7 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
     }
     let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     told_once(lesson, &mut findings);
+    let snapshots = snapshot::check(lesson, &ready, depth, &mut findings);
     let nothing = Lab::of_model(Text { value: String::new(), map: SourceMap::point(0) });
     if claims::have_formulas(lesson) {
         ready.extend(empty(&nothing));
@@ -137,7 +145,7 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
         claims::bind(lesson, &ready, &mut findings);
         Vec::new()
     };
-    Found { findings, labs, claims }
+    Found { findings, labs, claims, snapshots }
 }
 
 /// A lab in which nothing is, for claims that are formulas.
@@ -164,7 +172,7 @@ fn told_once(lesson: &Lesson, findings: &mut Vec<Finding>) {
 
 /// A lesson together with what was found.
 pub fn join(lesson: Lesson, found: Found, depth: Depth) -> Checked {
-    let Found { mut findings, labs, claims } = found;
+    let Found { mut findings, labs, claims, snapshots } = found;
     let mut all = lesson.findings.clone();
     crate::lint::withhold_fixes(&lesson, &mut findings);
     all.extend(findings);
@@ -174,7 +182,7 @@ pub fn join(lesson: Lesson, found: Found, depth: Depth) -> Checked {
         aside.finding = aside.finding.clone().at(&lesson.file);
     }
     finding::sort(&mut all);
-    Checked { lesson, findings: all, labs, claims, allowed, depth }
+    Checked { lesson, findings: all, labs, claims, snapshots, allowed, depth }
 }
 
 /// Loads the model of a lab and binds its programs, and looks at what they do.

@@ -2,7 +2,7 @@
 //!
 //! Reading takes nothing for granted: what is not exactly what was written gives `None`.
 
-use super::{Claim, Found, RanLab, Tried};
+use super::{Claim, Divergence, Found, Kept, RanLab, Tried};
 use crate::finding::{Applicability, Finding, Fix, Place, Severity};
 use crate::ledger::{Evidence, State};
 use crate::rules;
@@ -48,16 +48,18 @@ fn written(found: &Found) -> Value {
         found.findings.iter().map(finding).collect::<Vec<_>>(),
         found.labs.iter().map(lab).collect::<Vec<_>>(),
         found.claims.iter().map(claim).collect::<Vec<_>>(),
+        found.snapshots.iter().map(kept).collect::<Vec<_>>(),
     ])
 }
 
 /// What was written.
 pub fn read(value: &Value) -> Option<Found> {
-    let [findings, labs, claims] = parts(value)?;
+    let [findings, labs, claims, snapshots] = parts(value)?;
     Some(Found {
         findings: list(findings, read_finding)?,
         labs: list(labs, read_lab)?,
         claims: list(claims, read_claim)?,
+        snapshots: list(snapshots, read_kept)?,
     })
 }
 
@@ -145,6 +147,40 @@ fn read_lab(value: &Value) -> Option<RanLab> {
         tried: maybe(tried, read_tried)?,
         mistakes: count(mistakes)?,
         expected: expected.as_bool()?,
+    })
+}
+
+fn kept(k: &Kept) -> Value {
+    let divergence = |d: &Divergence| {
+        json!([d.run, d.trace, bits(d.time), d.stored, d.now, d.tolerance.map(bits), d.line, d.picture])
+    };
+    let state = place_in(&STATES, &k.state);
+    json!([k.lab, span(&k.span), state, k.changes, k.divergence.as_ref().map(divergence), k.rows, k.reason])
+}
+
+fn read_kept(value: &Value) -> Option<Kept> {
+    let [lab, at, state, changes, divergence, rows, reason] = parts(value)?;
+    let read_divergence = |value: &Value| {
+        let [run, trace, time, stored, now, tolerance, line, picture] = parts(value)?;
+        Some(Divergence {
+            run: text(run)?,
+            trace: text(trace)?,
+            time: number_of(time)?,
+            stored: text(stored)?,
+            now: text(now)?,
+            tolerance: maybe(tolerance, number_of)?,
+            line: count(line)?,
+            picture: list(picture, text)?,
+        })
+    };
+    Some(Kept {
+        lab: text(lab)?,
+        span: read_span(at)?,
+        state: one_of(&STATES, state)?,
+        changes: list(changes, text)?,
+        divergence: maybe(divergence, read_divergence)?,
+        rows: count(rows)?,
+        reason: text(reason)?,
     })
 }
 

@@ -75,7 +75,14 @@ impl Cache {
         let flags =
             [depth.programs, depth.labs, depth.claims, models.folder().names().is_some()].map(u8::from);
         let file = &lesson.file;
-        digest::hex_of(&[self.program.as_bytes(), &flags, file.path().as_bytes(), file.text().as_bytes()])
+        let (stored, snapshot) = match &lesson.snapshot {
+            None => (0, ""),
+            Some(Ok(snapshot)) => (1, snapshot.text()),
+            Some(Err(why)) => (2, why.as_str()),
+        };
+        let texts = [file.path().as_bytes(), file.text().as_bytes(), snapshot.as_bytes()];
+        let [path, text, snapshot] = texts;
+        digest::hex_of(&[self.program.as_bytes(), &flags, path, text, &[stored], snapshot])
     }
 
     fn load(&self, slot: &str) -> Option<String> {

@@ -2,21 +2,24 @@
 
 use super::baseline::Baseline;
 use super::cache::Cache;
-use super::course::{Course, Plan, STDIN, look};
+use super::course::{Course, Plan, STDIN, collect, look};
 use super::fix::{Mode, fix};
+use super::output::{Wanted, look_ahead};
 use super::policy::PolicyOptions;
 use super::stdio::{complain, print_json};
-use super::{Color, Failure, ModelOptions, Outcome, machine, print, watch};
+use super::{Color, Failure, ModelOptions, Outcome, interrupted, machine, print, watch};
+use super::{reproduction, since};
 use crate::check::{self, Depth};
 use crate::ledger::{self, Entry, State, Subject};
 use crate::report::{self as drawn, Summary, printable, printable_path};
 use crate::source::SourceFile;
 use clap::ValueEnum;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Read};
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Arguments of `check` and `verify`.
@@ -78,6 +81,19 @@ pub(super) struct CheckArguments {
     /// Show what --fix would change, and change nothing
     #[arg(long)]
     diff: bool,
+    /// Write every verdict with what it rests on: versions, settings of every run, digests of models and texts
+    #[arg(long, value_name = "FILE", conflicts_with = "no_run")]
+    record: Option<PathBuf>,
+    /// Tell what has changed since a check that was recorded: verdicts and values, with the settings and models that changed too
+    #[arg(long, value_name = "FILE", conflicts_with = "no_run")]
+    since: Option<PathBuf>,
+}
+
+/// Records of checks: one to write, one to compare with.
+#[derive(Clone, Copy, Default)]
+struct Records<'a> {
+    write: Option<&'a Path>,
+    since: Option<&'a Path>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -103,15 +119,22 @@ enum Format {
 pub(super) fn check(a: &CheckArguments) -> Result<Outcome, Failure> {
     let depth = if a.no_run { Depth::STATIC } else { Depth::FULL };
     let fix = (a.fix || a.diff || a.unsafe_fixes).then_some(Mode { guesses: a.unsafe_fixes, diff: a.diff });
-    work(&a.common, depth, false, fix)
+    let records = Records { write: a.record.as_deref(), since: a.since.as_deref() };
+    work(&a.common, depth, false, fix, records)
 }
 
 pub(super) fn verify(a: &Arguments) -> Result<Outcome, Failure> {
-    work(a, Depth::CLAIMS, true, None)
+    work(a, Depth::CLAIMS, true, None, Records::default())
 }
 
 /// Checks once, or again and again as files change.
-fn work(a: &Arguments, depth: Depth, evidence: bool, mode: Option<Mode>) -> Result<Outcome, Failure> {
+fn work(
+    a: &Arguments,
+    depth: Depth,
+    evidence: bool,
+    mode: Option<Mode>,
+    records: Records<'_>,
+) -> Result<Outcome, Failure> {
     let cache = Cache::open(a.no_cache, a.watch);
     let known = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let piped = a.paths.iter().any(|p| p.as_os_str() == STDIN);
@@ -123,8 +146,15 @@ fn work(a: &Arguments, depth: Depth, evidence: bool, mode: Option<Mode>) -> Resu
         Some(file) if !a.update_baseline => Some(Baseline::read(file)?),
         _ => None,
     };
+    if let Some(file) = records.write {
+        let read: Vec<PathBuf> = collect(&a.paths).0.into_iter().map(|(path, _)| path).collect();
+        look_ahead(&read, &[Wanted { option: "--record", path: file.to_path_buf() }])?;
+    }
+    // Read before anything is written: it may be the same file.
+    let before = records.since.map(|file| Ok::<_, Failure>((file, reproduction::read(file)?))).transpose()?;
     let plan = Plan {
         paths: &a.paths,
+        basis: records.write.is_some() || before.is_some(),
         stdin: stdin.as_ref(),
         policy: &a.policy,
         baseline: baseline.as_ref(),
@@ -148,16 +178,22 @@ fn work(a: &Arguments, depth: Depth, evidence: bool, mode: Option<Mode>) -> Resu
         }
     }
     if !a.watch {
-        return report(a, &look(&plan, &cache)?, evidence);
+        return report(a, &look(&plan, &cache)?, evidence, records, before.as_ref());
     }
     watch::watch(&a.paths, || {
         let course = look(&plan, &cache)?;
-        Ok((report(a, &course, evidence), course.read))
+        Ok((report(a, &course, evidence, records, before.as_ref()), course.read))
     })
 }
 
 /// Prints what a check came to.
-fn report(a: &Arguments, course: &Course, evidence: bool) -> Result<Outcome, Failure> {
+fn report(
+    a: &Arguments,
+    course: &Course,
+    evidence: bool,
+    records: Records<'_>,
+    before: Option<&(&Path, Value)>,
+) -> Result<Outcome, Failure> {
     let found = course.ledger.outcome();
     let named = || a.paths.iter().map(|p| printable_path(p)).collect::<Vec<_>>().join(", ");
     let claimed = |e: &Entry| {
@@ -175,6 +211,10 @@ fn report(a: &Arguments, course: &Course, evidence: bool) -> Result<Outcome, Fai
     if let (Some(file), true) = (&a.baseline, a.update_baseline) {
         Baseline::new(file).write(file, &course.findings, &sources)?;
     }
+    if let Some(file) = records.write.filter(|_| !interrupted()) {
+        reproduction::write(file, &reproduction::now(file, course))?;
+    }
+    let changes = before.map(|(file, old)| (file, since::changes(old, &reproduction::now(file, course))));
     match a.format {
         _ if a.statistics => print(&drawn::statistics(&course.findings))?,
         Format::Human => {
@@ -183,6 +223,9 @@ fn report(a: &Arguments, course: &Course, evidence: bool) -> Result<Outcome, Fai
                 text.push_str(&allowed(course, &sources));
             }
             text.push_str(&overview(course, evidence));
+            if let Some((file, changes)) = &changes {
+                text.push_str(&since::told(&file.display().to_string(), changes));
+            }
             if outcome == found {
                 let _ = writeln!(text, "{}", last_line(course));
             }
@@ -190,7 +233,8 @@ fn report(a: &Arguments, course: &Course, evidence: bool) -> Result<Outcome, Fai
         }
         Format::Json => {
             let name = if evidence { "verify" } else { "check" };
-            let value = machine::value(name, outcome, course, &sources);
+            let mut value = machine::value(name, outcome, course, &sources);
+            value["since"] = changes.as_ref().map_or(Value::Null, |(_, changes)| since::machine(changes));
             print_json(&value, true)?;
         }
         Format::Concise => print(&drawn::concise(&course.findings, &sources))?,
@@ -237,13 +281,20 @@ fn overview(course: &Course, with_evidence: bool) -> String {
                 |e: &&&Entry| e.subject == entry.subject && e.owner == entry.owner && e.word == entry.word;
             let together = all.iter().skip(told).take_while(same).count().max(1);
             let plain = matches!(entry.state, State::True(_) | State::LeftOut);
-            let alone = matches!(entry.subject, Subject::Lab | Subject::Widget);
+            let alone = matches!(entry.subject, Subject::Lab | Subject::Widget | Subject::Snapshot);
             let n = if plain && !alone { together } else { 1 };
             told += n;
             if let Some(line) = line(entry, n) {
                 let _ = writeln!(text, "  {}", printable(&line));
             }
+            let kept = c.snapshots.iter().find(|k| {
+                entry.subject == Subject::Snapshot && entry.owner.strip_prefix("lab ") == Some(&*k.lab)
+            });
+            for shown in kept.into_iter().flat_map(check::Kept::shown) {
+                let _ = writeln!(text, "  {:<10}   {}", "", printable(&shown));
+            }
             let last = all.get(told).is_none_or(|next| next.owner != entry.owner);
+            let last = last && entry.subject != Subject::Snapshot;
             let claim = c.claims.iter().find(|claim| last && claim.name == entry.owner);
             let shown = claim.filter(|claim| with_evidence || claim.is_doubtful());
             for evidence in shown.into_iter().flat_map(check::evidence) {
@@ -267,6 +318,7 @@ fn line(entry: &Entry, n: usize) -> Option<String> {
         Subject::Run if good && *word == "made" => return None,
         Subject::Answer | Subject::Lab if left_out => format!("{word:<10} {owner}{}", titled(what)),
         Subject::Model | Subject::Widget => format!("{word:<10} {owner}{remark}"),
+        Subject::Snapshot if left_out => format!("{word:<10} {owner}, its snapshot"),
         _ if left_out => format!("{word:<10} {owner}, {}", many(n, entry.subject.as_str())),
         Subject::Lab => {
             let title = titled(what);
@@ -276,6 +328,7 @@ fn line(entry: &Entry, n: usize) -> Option<String> {
                 format!("{word:<10} {owner}{title}{remark}")
             }
         }
+        Subject::Snapshot => format!("{word:<10} {owner}, its snapshot{remark}"),
         Subject::Answer if good => format!("{word:<10} {owner}"),
         Subject::Answer => format!("{word:<10} {owner}{remark}"),
         Subject::Option => format!("{word:<10} {owner}, option {what}"),

@@ -10,7 +10,7 @@ use super::stdio::{complain, print};
 use super::target::{model_folder_within, root};
 use super::{Failure, ModelOptions, interrupted};
 use crate::bind::scene::{Models, check_model_file};
-use crate::check::{self, Allowed, Checked, Depth};
+use crate::check::{self, Allowed, Basis, Checked, Depth};
 use crate::finding::{self, Finding, Severity};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
 use crate::lint::load_lesson_file;
@@ -35,6 +35,8 @@ pub(super) struct Plan<'a> {
     pub(super) policy: &'a PolicyOptions,
     /// What is known and not told again.
     pub(super) baseline: Option<&'a Baseline>,
+    /// What every verdict rests on is asked for.
+    pub(super) basis: bool,
     /// Most threads.
     pub(super) jobs: usize,
     /// Names of files are shown while they are checked.
@@ -47,6 +49,8 @@ pub(super) struct Plan<'a> {
 #[derive(Default)]
 pub(super) struct Course {
     pub(super) checked: Vec<Checked>,
+    /// What the check of each lesson rests on, where that is asked for.
+    pub(super) bases: Vec<Basis>,
     pub(super) findings: Vec<Finding>,
     /// Those of the findings that are known only when all lessons are checked: of models, and of lessons together.
     pub(super) last: Vec<Finding>,
@@ -79,7 +83,7 @@ enum Task {
 
 /// What came of a file.
 enum Done {
-    Lesson(Box<Checked>, Aside),
+    Lesson(Box<Checked>, Aside, Basis),
     /// JSON that is not ours.
     Other,
     Model(bool, Vec<Finding>, Vec<SourceFile>),
@@ -110,14 +114,14 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
             let i = next.fetch_add(1, Ordering::Relaxed);
             let (Some(task), Some((path, named))) = (tasks.get(i), files.get(i)) else { return done };
             let mut found = one(plan, cache, task, path, *named, &by_folder);
-            if let (Done::Lesson(c, aside), Some(policy)) = (&mut found, of_files.get(i)) {
+            if let (Done::Lesson(c, aside, _), Some(policy)) = (&mut found, of_files.get(i)) {
                 let c = &mut **c;
                 put_aside(plan, policy, &mut c.findings, &[&c.lesson.file], aside);
                 aside.allowed = std::mem::take(&mut c.allowed);
             }
             if let Some(colour) = plan.told {
                 let text = match &found {
-                    Done::Lesson(c, _) => human(&c.findings, &[&c.lesson.file], colour),
+                    Done::Lesson(c, ..) => human(&c.findings, &[&c.lesson.file], colour),
                     _ => String::new(),
                 };
                 tell(&told, i, text, plan.progress);
@@ -153,7 +157,8 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         course.read.insert(path.clone());
         read += usize::from(!matches!(done, Done::Refused(_)));
         match done {
-            Done::Lesson(checked, aside) => {
+            Done::Lesson(checked, aside, basis) => {
+                course.bases.push(basis);
                 course.checked.push(*checked);
                 course.aside.ignored.extend(aside.ignored);
                 course.aside.allowed.extend(aside.allowed);
@@ -180,6 +185,8 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         f.path = Arc::from(path.display().to_string());
         course.last.push(f);
     }
+    course.read.extend(files.iter().map(|(path, _)| lint::snapshot_path(path)));
+    course.last.extend(lost_snapshots(plan.paths).iter().map(|path| lost(path)));
     let lessons: Vec<_> = course.checked.iter().map(|c| &c.lesson).collect();
     course.last.extend(lint::check_course(&lessons));
     for models in &mut by_folder {
@@ -369,8 +376,42 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
     if interrupted() {
         Done::Interrupted
     } else {
-        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)), Aside::default())
+        let basis = if plan.basis { check::basis(&lesson, models, digest::hex_of) } else { Basis::default() };
+        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)), Aside::default(), basis)
     }
+}
+
+/// The snapshots below these folders, or named themselves, whose lessons are gone, in a fixed order.
+pub(super) fn lost_snapshots(paths: &[PathBuf]) -> Vec<PathBuf> {
+    let is_lost = |path: &Path| {
+        let name = path.file_name().and_then(|name| name.to_str());
+        let lesson =
+            name.and_then(|name| name.strip_suffix(lint::SNAPSHOT)).map(|name| path.with_file_name(name));
+        lesson
+            .is_some_and(|path| matches!(kind_of(&path), FileKind::Lesson | FileKind::Json) && !path.exists())
+    };
+    let mut all = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            walk(path, &is_lost, &mut all, &mut Vec::new());
+        } else if path.exists() && is_lost(path) {
+            all.push((path.clone(), true));
+        }
+    }
+    all.into_iter().map(|(path, _)| path).collect()
+}
+
+fn lost(path: &Path) -> Finding {
+    let shown = printable_path(path);
+    let lesson = shown.strip_suffix(lint::SNAPSHOT).unwrap_or(&shown);
+    let mut f = Finding::new(
+        rules::SNAPSHOT_WITHOUT_LESSON,
+        0..0,
+        format!("{lesson} is not there, of which this is the snapshot"),
+    )
+    .help("rename it as its lesson was, or remove it: labspec snapshot --accept, with the folder");
+    f.path = Arc::from(path.display().to_string());
+    f
 }
 
 /// The claim of a model that was named itself.
@@ -415,12 +456,13 @@ pub(super) const STDIN: &str = "-";
 /// The files to check, in a fixed order; and what could not be read.
 pub(super) fn collect(paths: &[PathBuf]) -> (Vec<ToCheck>, Vec<Unread>) {
     let (mut files, mut problems) = (Vec::new(), Vec::new());
+    let is_lesson = |path: &Path| matches!(kind_of(path), FileKind::Lesson | FileKind::Json);
     for path in paths {
         match std::fs::metadata(path) {
             // Standard input is read by whoever called.
             _ if path.as_os_str() == STDIN => {}
             Err(e) => problems.push((path.clone(), format!("cannot read {}: {e}", printable_path(path)))),
-            Ok(meta) if meta.is_dir() => walk(path, &mut files, &mut problems),
+            Ok(meta) if meta.is_dir() => walk(path, &is_lesson, &mut files, &mut problems),
             Ok(_) => files.push((path.clone(), true)),
         }
     }
@@ -430,9 +472,9 @@ pub(super) fn collect(paths: &[PathBuf]) -> (Vec<ToCheck>, Vec<Unread>) {
 /// Deepest nesting of folders.
 const MAX_DEPTH: usize = 32;
 
-/// The lessons of a folder, but for what is hidden, what `.gitignore` names, and the packages of node. Links are not followed:
+/// The files of a folder that are wanted, but for what is hidden, what `.gitignore` names, and the packages of node. Links are not followed:
 /// they may lead out of the folder, or round in a circle.
-fn walk(folder: &Path, files: &mut Vec<ToCheck>, problems: &mut Vec<Unread>) {
+fn walk(folder: &Path, wanted: &dyn Fn(&Path) -> bool, files: &mut Vec<ToCheck>, problems: &mut Vec<Unread>) {
     let all = ignore::WalkBuilder::new(folder)
         .follow_links(false)
         .require_git(false)
@@ -454,7 +496,7 @@ fn walk(folder: &Path, files: &mut Vec<ToCheck>, problems: &mut Vec<Unread>) {
         if kind.is_dir() && entry.depth() > MAX_DEPTH {
             let why = format!("{} is nested more than {MAX_DEPTH} folders deep", printable_path(path));
             problems.push((path.to_path_buf(), why));
-        } else if kind.is_file() && matches!(kind_of(path), FileKind::Lesson | FileKind::Json) {
+        } else if kind.is_file() && wanted(path) {
             files.push((path.to_path_buf(), false));
         }
     }

@@ -1,7 +1,7 @@
 //! What `check` and `verify` print for programs: findings, the summary, every lesson, and the ledger.
 
 use super::course::Course;
-use crate::check::{Checked, Claim, RanLab};
+use crate::check::{Checked, Claim, Divergence, Kept, RanLab};
 use crate::ledger::{Count, Entry, Evidence, Outcome, State, Subject};
 use crate::report::{self, key, set_number, set_place};
 use crate::source::SourceFile;
@@ -53,7 +53,25 @@ fn entry(e: &Entry, sources: &[&SourceFile]) -> Value {
 fn lesson(c: &Checked) -> Value {
     let labs: Vec<Value> = c.labs.iter().map(lab).collect();
     let claims: Vec<Value> = c.claims.iter().map(|of| claim(of, c)).collect();
-    json!({"file": &**c.lesson.file.path(), "labs": labs, "claims": claims})
+    let snapshots: Vec<Value> = c.snapshots.iter().map(kept).collect();
+    json!({"file": &**c.lesson.file.path(), "labs": labs, "claims": claims, "snapshots": snapshots})
+}
+
+/// What became of the snapshot of a lab.
+pub(super) fn kept(k: &Kept) -> Value {
+    let first = |d: &Divergence| {
+        let mut value = json!({"run": d.run, "trace": d.trace, "time": null});
+        set_number(&mut value, "time", d.time);
+        value["stored"] = json!(d.stored);
+        value["now"] = json!(d.now);
+        value["tolerance"] = json!(d.tolerance);
+        value["line"] = json!(d.line);
+        value
+    };
+    json!({
+        "lab": k.lab, "state": key(k.state.as_str()), "changes": k.changes, "rows": k.rows,
+        "divergence": k.divergence.as_ref().map(first), "reason": k.reason,
+    })
 }
 
 fn lab(l: &RanLab) -> Value {

@@ -20,9 +20,12 @@ mod plan;
 mod policy;
 mod precision;
 mod record;
+mod reproduction;
 mod run;
 mod scaffold;
 mod schema;
+mod since;
+mod snapshot;
 mod stability;
 mod stdio;
 mod target;
@@ -55,6 +58,8 @@ enum Command {
     Check(check::CheckArguments),
     /// Verify the claims of quizzes and labs only, with every measure
     Verify(check::Arguments),
+    /// Store what the labs of lessons show, beside them, for reviews; `check` holds them against it
+    Snapshot(snapshot::Arguments),
     /// Lay out the code in lessons; with --modernize, write bare indexes by name
     Fmt(fmt::Arguments),
     /// Run one lab without a page: LAB.json, LESSON.md#2, LESSON.md#quiz-id.1
@@ -150,6 +155,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Completions(a) => completions::completions(a),
         Command::Check(a) => check::check(a),
         Command::Verify(a) => check::verify(a),
+        Command::Snapshot(a) => snapshot::snapshot(a),
         Command::Fmt(a) => fmt::fmt(a),
         Command::Run(a) => run::run(a),
         Command::Precision(a) => precision::precision(a),
@@ -180,11 +186,14 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 impl Command {
     /// Whether Ctrl-C is asked for between pieces of work. All other commands it ends at once.
     fn prints_what_is_finished(&self) -> bool {
-        use Command::{Bench, Check, Fmt, Plan, Precision, Record, Run, Scaffold, Stability, Trace, Verify};
+        use Command::{
+            Bench, Check, Fmt, Plan, Precision, Record, Run, Scaffold, Snapshot, Stability, Trace, Verify,
+        };
         matches!(
             self,
             Check(_)
                 | Verify(_)
+                | Snapshot(_)
                 | Fmt(_)
                 | Run(_)
                 | Precision(_)

@@ -3,9 +3,9 @@
 use super::ModelFolder;
 use crate::finding::{self, Finding, InFile};
 use crate::rules;
-use crate::source::{BadText, SourceFile};
+use crate::source::{BadText, SourceFile, read_text};
 use crate::spec::{Lesson, read_lesson};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Most findings that are kept per file. Whoever has more fixes the first ones first.
 pub const MAX_FINDINGS: usize = 1000;
@@ -54,7 +54,28 @@ pub fn load_lesson_file(path: &Path, models: &ModelFolder) -> Result<Lesson, Str
     super::links::check_files(&lesson, path, &mut found);
     lesson.findings.extend(found.into_iter().map(|f| f.at(&lesson.file)));
     finding::sort(&mut lesson.findings);
+    lesson.snapshot = read_snapshot(path);
     Ok(lesson)
+}
+
+/// Where the snapshot of a lesson lies: beside it.
+pub fn snapshot_path(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_os_string();
+    name.push(SNAPSHOT);
+    PathBuf::from(name)
+}
+
+/// What the name of a snapshot has behind that of its lesson.
+pub const SNAPSHOT: &str = ".snap";
+/// Its bytes, at most.
+const MOST: u64 = 4 << 20;
+
+fn read_snapshot(path: &Path) -> Option<Result<SourceFile, String>> {
+    let path = snapshot_path(path);
+    // A link that leads nowhere is there, and cannot be read.
+    std::fs::symlink_metadata(&path).ok()?;
+    let text = read_text(&path, MOST, "a snapshot");
+    Some(text.map(|text| SourceFile::new(path.display().to_string(), text)))
 }
 
 fn load_bytes(file: SourceFile, bad: Option<BadText>, models: &ModelFolder) -> Lesson {

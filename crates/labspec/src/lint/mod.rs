@@ -15,7 +15,9 @@ mod markup;
 pub(crate) mod model;
 mod models;
 
-pub use load::{MAX_FINDINGS, load_lesson, load_lesson_file, not_utf8, withhold_fixes};
+pub use load::{
+    MAX_FINDINGS, SNAPSHOT, load_lesson, load_lesson_file, not_utf8, snapshot_path, withhold_fixes,
+};
 pub use models::ModelFolder;
 pub(crate) use models::{lesson_folder, root_of};
 

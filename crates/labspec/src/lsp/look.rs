@@ -122,6 +122,7 @@ fn examine(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding
         scan: Default::default(),
         problems: Vec::new(),
         findings: Vec::new(),
+        snapshot: None,
     };
     let found = check::examine(&part, models, Depth::STATIC).findings;
     let own = found.into_iter().filter(|f| (unit.start..=unit.end).contains(&f.span.start));

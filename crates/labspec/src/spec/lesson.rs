@@ -32,6 +32,8 @@ pub struct Lesson {
     pub problems: Vec<Problem>,
     /// What the rules of structure say of it, in order; nothing until [`lint`](crate::lint) has looked.
     pub findings: Vec<Finding>,
+    /// What is stored beside it of what its labs show, or why that cannot be read; `None` where nothing is.
+    pub snapshot: Option<Result<SourceFile, String>>,
 }
 
 /// A lab of a lesson.
@@ -173,6 +175,7 @@ pub fn read_lesson(file: SourceFile) -> Lesson {
         scan: Scan::default(),
         problems: Vec::new(),
         findings: Vec::new(),
+        snapshot: None,
     };
     if lesson.file.text().len() as u64 > MAX_FILE {
         lesson.problems.push(Mistake::TooLarge.at(0..0));

@@ -364,6 +364,23 @@ impl<'a> BoundVerify<'a> {
         Some(Made { values, warnings: session.warnings.iter().map(|w| w.number).sum(), broke })
     }
 
+    /// The model of every run as it begins: after the run's controls and its setup. `None` for a run that cannot be made.
+    pub(crate) fn begun(&self) -> Vec<(String, Option<Model>)> {
+        let begin = |run: &BoundRun<'_>| {
+            let (programs, key) = (self.programs, self.lab.keyframe());
+            let mut session =
+                Session::start_within(programs, self.model, key, &programs.demand, Budget::TRIAL);
+            let set = run.spec.iter().flat_map(|spec| &spec.set);
+            let set: Vec<_> = set.map(|(label, v)| (label.value.clone(), scalar(v))).collect();
+            run::set_controls(&mut session, self.lab, programs, &set).ok()?;
+            if let Some(setup) = &run.setup {
+                session.run_statements(&setup.program, setup.text);
+            }
+            Some(session.world.model)
+        };
+        self.runs.iter().map(|run| (run.name.to_string(), begin(run))).collect()
+    }
+
     /// Whether the lesson itself states the timestep of a run: in the run, or in the lab's setup.
     fn states_timestep(&self, run: &BoundRun<'_>) -> bool {
         let Some(timestep) = reflect::field(Object::Option, "timestep") else { return false };

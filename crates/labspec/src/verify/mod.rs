@@ -104,7 +104,7 @@ pub struct Measured {
     pub halved: Option<f64>,
 }
 
-const HALVED: Numerics = Numerics { timestep: 0.5, ..Numerics::NOMINAL };
+pub(crate) const HALVED: Numerics = Numerics { timestep: 0.5, ..Numerics::NOMINAL };
 const TIGHT: Numerics = Numerics { tight: true, ..Numerics::NOMINAL };
 /// Far below what anybody could set or measure; a system that shows it after seconds is chaotic.
 const NUDGE: f64 = 1e-14;

@@ -163,7 +163,7 @@ pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<
 }
 
 /// How long a student looks at a lab: until it stops, or as far as its plots show.
-fn length(lab: &Lab) -> f64 {
+pub(super) fn length(lab: &Lab) -> f64 {
     let longest = lab.plots.iter().map(|p| p.window()).filter(|w| w.is_finite()).fold(0.0, f64::max);
     match &lab.stop_at {
         Some(stop) => stop.value,

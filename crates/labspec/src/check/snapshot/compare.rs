@@ -1,0 +1,170 @@
+//! What is stored against what a lab shows now: the first value that differs, and what changed about the lab.
+
+use super::digits;
+use super::file::{OPEN, StoredLab, StoredRun, plain};
+use super::picture::picture;
+use super::runs::Taken;
+use crate::printable::printable;
+use crate::run::Cell;
+use crate::verify::significant;
+
+/// The first value that is not as stored.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Divergence {
+    /// The run, in words: `as it stands`.
+    pub run: String,
+    /// The trace or readout, as in a table of `labspec run`: `plot/0/height`.
+    pub trace: String,
+    /// Simulated time, s.
+    pub time: f64,
+    /// What is stored.
+    pub stored: String,
+    /// What is there now, with a digit more.
+    pub now: String,
+    /// How far a number may be off; `None` for what is none.
+    pub tolerance: Option<f64>,
+    /// The line of the file.
+    pub line: usize,
+    /// Both curves, drawn with letters.
+    pub picture: Vec<String>,
+}
+
+/// How a lab differs from what is stored of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Difference {
+    /// What changed about the lab, a clause each.
+    pub(super) changes: Vec<String>,
+    /// The first value that is not as stored, and the number of its trace or readout in the lab.
+    pub(super) first: Option<(Divergence, usize)>,
+    /// Rows in which something differs, all runs together.
+    pub(super) rows: usize,
+}
+
+pub(super) fn compare(stored: &StoredLab, now: &[&Taken]) -> Difference {
+    let mut all = Difference::default();
+    let called = |run: &Taken| printable(&run.name).into_owned();
+    for old in &stored.runs {
+        match now.iter().find(|run| called(run) == old.name) {
+            None => all.changes.push(format!("the run {} is no longer made", old.name)),
+            Some(run) => compare_run(old, run, &mut all),
+        }
+    }
+    let new =
+        now.iter().map(|run| called(run)).filter(|name| stored.runs.iter().all(|old| old.name != *name));
+    all.changes.extend(new.map(|name| format!("the run {name} is new")));
+    all.changes.dedup();
+    let mut told = Vec::new();
+    all.changes.retain(|change| {
+        let new = !told.contains(change);
+        told.push(change.clone());
+        new
+    });
+    all
+}
+
+fn compare_run(old: &StoredRun, run: &Taken, all: &mut Difference) {
+    if old.about.len() == run.about.len() {
+        let pairs = old.about.iter().zip(&run.about).filter(|(a, b)| a != b);
+        all.changes.extend(pairs.map(|(a, b)| format!("{a} is now {b}")));
+    } else {
+        all.changes.push(format!("{} is now {}", old.about.join(", "), run.about.join(", ")));
+    }
+    let far = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-4 * b.abs().max(1e-6);
+    let length = |all: &[String]| all.first().cloned();
+    let moved = old.times.len() != run.times.len() || old.times.iter().zip(&run.times).any(far);
+    if moved && length(&old.about) == length(&run.about) {
+        let list = |times: &[f64]| times.iter().map(|t| significant(*t)).collect::<Vec<_>>().join(" ");
+        all.changes.push(format!("the times {} are now {}", list(&old.times), list(&run.times)));
+    }
+    // Values of other times say nothing.
+    let names = pairs(old, run, moved, all);
+    let mut first: Option<(usize, usize, usize)> = None;
+    if !moved {
+        for &(i, j) in &names {
+            let (Some(row), Some((_, cells))) = (old.rows.get(i), run.rows.get(j)) else { continue };
+            let wrong = row.cells.iter().zip(cells).position(|(stored, cell)| !agrees(stored, cell));
+            let Some(k) = wrong else { continue };
+            all.rows += 1;
+            if first.is_none_or(|(_, _, before)| k < before) {
+                first = Some((i, j, k));
+            }
+        }
+    }
+    if let (None, Some((i, j, k))) = (&all.first, first) {
+        all.first = divergence(old, run, i, j, k).map(|found| (found, j));
+    }
+}
+
+/// Which stored row is which of the run: by name, of several of one name in order. What has no partner changed.
+fn pairs(old: &StoredRun, run: &Taken, moved: bool, all: &mut Difference) -> Vec<(usize, usize)> {
+    let mut free: Vec<usize> = (0..run.rows.len()).collect();
+    let (mut pairs, mut lost) = (Vec::new(), Vec::new());
+    for (i, row) in old.rows.iter().enumerate() {
+        let named = free.iter().position(|&j| run.rows.get(j).is_some_and(|(name, _)| *name == row.name));
+        match named {
+            Some(at) => pairs.push((i, free.remove(at))),
+            None => lost.push(i),
+        }
+    }
+    for i in lost {
+        let Some(row) = old.rows.get(i) else { continue };
+        let same = |j: &usize| {
+            let cells = run.rows.get(*j).map(|(_, cells)| cells);
+            cells.is_some_and(|cells| row.cells.iter().zip(cells).all(|(a, b)| agrees(a, b)))
+        };
+        let name = named(&row.name);
+        match free.iter().position(same).filter(|_| !moved) {
+            Some(at) => {
+                let new = run.rows.get(free.remove(at)).map_or("", |(name, _)| name);
+                all.changes.push(format!("{name} is now called {}", named(new)));
+            }
+            None => all.changes.push(format!("{name} is no longer shown")),
+        }
+    }
+    let new = free.iter().filter_map(|&j| run.rows.get(j)).map(|(name, _)| format!("{} is new", named(name)));
+    all.changes.extend(new);
+    pairs
+}
+
+fn named(name: &str) -> String {
+    format!("\"{}\"", printable(name))
+}
+
+/// Whether a value is as it is stored.
+fn agrees(stored: &str, now: &Cell) -> bool {
+    match (digits::read(stored), now) {
+        _ if stored == OPEN => true,
+        (Some((x, unit)), Cell::Number(y)) => (x - y).abs() <= digits::tolerance(unit),
+        (None, cell) => {
+            let plain = plain(cell);
+            // A file may have been written with other escapes.
+            let text = |t: &str| serde_json::from_str::<String>(t).ok();
+            !matches!(cell, Cell::Number(x) if x.is_finite())
+                && (stored == plain || text(stored).is_some_and(|t| text(&plain) == Some(t)))
+        }
+        _ => false,
+    }
+}
+
+fn divergence(old: &StoredRun, run: &Taken, i: usize, j: usize, k: usize) -> Option<Divergence> {
+    let (row, (name, cells)) = (old.rows.get(i)?, run.rows.get(j)?);
+    let (stored, cell) = (row.cells.get(k)?, cells.get(k)?);
+    let unit = digits::read(stored).map(|(_, unit)| unit);
+    let now = match (cell, unit) {
+        (Cell::Number(x), Some(unit)) if x.is_finite() => digits::written(*x, unit - 1),
+        (Cell::Number(x), None) if x.is_finite() => significant(*x),
+        _ => plain(cell),
+    };
+    let before: Vec<f64> = row.cells.iter().map(|c| digits::read(c).map_or(f64::NAN, |(x, _)| x)).collect();
+    let after: Vec<f64> = cells.iter().map(Cell::number).collect();
+    Some(Divergence {
+        run: old.name.clone(),
+        trace: name.clone(),
+        time: run.times.get(k).copied()?,
+        stored: stored.clone(),
+        now,
+        tolerance: unit.map(|unit| 0.5 * digits::ten(unit)),
+        line: row.line,
+        picture: picture(&run.times, &before, &after),
+    })
+}

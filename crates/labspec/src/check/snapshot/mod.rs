@@ -1,0 +1,294 @@
+//! Snapshots: what the labs of a lesson show, kept beside it in a text that people review, and held against what they show now.
+
+mod compare;
+mod digits;
+mod file;
+mod picture;
+mod runs;
+
+pub use compare::Divergence;
+
+use super::{Depth, Ready};
+use crate::bind::scene::Models;
+use crate::finding::Finding;
+use crate::ledger::{Evidence, State};
+use crate::printable::{printable, printable_path};
+use crate::rules;
+use crate::run::{Budget, Numerics};
+use crate::source::SourceFile;
+use crate::spec::{Lab, Lesson};
+use crate::verify::{HALVED, NUDGED, NUDGED_BACK, significant};
+use compare::Difference;
+use file::{Fault, StoredLab};
+use runs::{Taken, TakenLab};
+use std::ops::Range;
+use std::path::Path;
+
+/// What became of the snapshot of one lab.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kept {
+    /// Its address: `#1`.
+    pub lab: String,
+    /// Bytes of the lesson; empty for a lab that is gone.
+    pub span: Range<usize>,
+    /// As stored or not.
+    pub state: State,
+    /// What changed about the lab, a clause each: a control, a trace, a setting.
+    pub changes: Vec<String>,
+    /// The first value that is not as stored.
+    pub divergence: Option<Divergence>,
+    /// How many traces and readouts are not as stored, those of all runs together.
+    pub rows: usize,
+    /// Why it could not be checked; empty otherwise.
+    pub reason: String,
+}
+
+impl Kept {
+    /// In one or two words.
+    pub fn word(&self) -> &'static str {
+        match self.state {
+            State::True(_) => "as stored",
+            State::LeftOut => "left out",
+            State::False if self.divergence.is_some() => "differs",
+            State::False => "changed",
+            _ => "unchecked",
+        }
+    }
+
+    /// Why it is not as stored, in one line.
+    pub fn remark(&self) -> String {
+        let first = self.divergence.as_ref().map(|d| {
+            let more = match self.rows {
+                0 | 1 => String::new(),
+                2 => ", and 1 more row".into(),
+                n => format!(", and {} more rows", n - 1),
+            };
+            format!("\"{}\" {} from t = {} s on{more}", printable(&d.trace), d.run, significant(d.time))
+        });
+        let reason = Some(self.reason.clone()).filter(|r| !r.is_empty());
+        reason.into_iter().chain(first).chain(self.changes.iter().cloned()).collect::<Vec<_>>().join("; ")
+    }
+
+    /// What is shown below it: the first value that differs, and both curves.
+    pub fn shown(&self) -> Vec<String> {
+        let Some(d) = &self.divergence else { return Vec::new() };
+        let within = d.tolerance.map_or(String::new(), |t| format!(" (± {})", significant(t)));
+        let head = format!("stored {}{within} in line {}, now {}", d.stored, d.line, d.now);
+        std::iter::once(head).chain(d.picture.iter().cloned()).collect()
+    }
+}
+
+/// A lesson's snapshot as it would be written now, and what is there.
+#[derive(Clone, Debug)]
+pub struct Renewal {
+    /// What became of each lab; of one that is not stored, that it is not.
+    pub labs: Vec<RenewedLab>,
+    /// What is wrong with the stored file.
+    pub fault: Option<String>,
+    /// Whether a file is there.
+    pub stored: bool,
+    name: String,
+}
+
+/// A lab in a renewal.
+#[derive(Clone, Debug)]
+pub struct RenewedLab {
+    /// What became of it.
+    pub kept: Kept,
+    /// Its lines in the file, if it is there.
+    pub old: Option<String>,
+    /// Its lines as they would be written now; `None` for a lab that is gone, or cannot run.
+    pub new: Option<String>,
+}
+
+impl Renewal {
+    /// The text of a file in which each lab has its new lines where `accepted`, else its old ones; `None` when no lab has any.
+    pub fn text(&self, accepted: impl Fn(&RenewedLab) -> bool) -> Option<String> {
+        let lines = |lab: &'_ RenewedLab| match &lab.new {
+            Some(new) if accepted(lab) => Some(new.clone()),
+            // What is gone goes; what cannot run keeps what is stored of it.
+            None if accepted(lab) && lab.kept.state == State::False => None,
+            _ => lab.old.clone(),
+        };
+        let labs: Vec<String> = self.labs.iter().filter_map(lines).collect();
+        (!labs.is_empty()).then(|| file::whole(&self.name, labs.iter().map(String::as_str)))
+    }
+}
+
+/// The stored labs of a lesson, if it has any.
+fn stored(lesson: &Lesson) -> Option<Result<Vec<StoredLab>, String>> {
+    let file = match lesson.snapshot.as_ref()? {
+        Ok(file) => file,
+        Err(message) => return Some(Err(message.clone())),
+    };
+    let fault = |f: Fault| format!("{}:{}:{}: {}", name_of(file), f.line, f.column, f.message);
+    Some(file::read(file).map_err(fault))
+}
+
+/// A file without its folder.
+fn name_of(file: &SourceFile) -> String {
+    let path = Path::new(&**file.path());
+    path.file_name().map_or(String::new(), |name| printable_path(Path::new(name)))
+}
+
+/// Holds every lab of a lesson against its snapshot. Where none is stored, nothing is claimed.
+pub(super) fn check(
+    lesson: &Lesson,
+    ready: &[Ready<'_>],
+    depth: Depth,
+    findings: &mut Vec<Finding>,
+) -> Vec<Kept> {
+    let Some(stored) = stored(lesson) else { return Vec::new() };
+    let all = |state: State, reason: &str| {
+        let kept =
+            |(address, lab): (_, &Lab)| Kept { state, reason: reason.into(), ..unchecked(&address, lab) };
+        lesson.addressed().into_iter().map(kept).collect::<Vec<_>>()
+    };
+    if !depth.labs {
+        return if depth.claims { Vec::new() } else { all(State::LeftOut, "") };
+    }
+    let labs = match stored {
+        Ok(labs) => labs,
+        Err(message) => {
+            let help = "take back what was done to the file, or write it anew: labspec snapshot --accept";
+            findings.push(Finding::new(rules::SNAPSHOT_UNREADABLE, 0..0, message).help(help));
+            return all(State::Unchecked, "its snapshot cannot be read");
+        }
+    };
+    let taken = runs::take(lesson, ready);
+    let mut list: Vec<Kept> = taken.iter().map(|lab| hold(lab, &labs, lesson, findings)).collect();
+    for kept in gone(&labs, &taken) {
+        let message = format!("the lab {} is in the snapshot, and not in the lesson", printable(&kept.lab));
+        findings.push(outdated(0..0, message, lesson));
+        list.push(kept);
+    }
+    list
+}
+
+fn unchecked(address: &crate::spec::LabAddress, lab: &Lab) -> Kept {
+    Kept {
+        lab: address.to_string(),
+        span: lab.span.clone(),
+        state: State::Unchecked,
+        changes: Vec::new(),
+        divergence: None,
+        rows: 0,
+        reason: String::new(),
+    }
+}
+
+/// Labs that are stored and no longer there.
+fn gone<'a>(labs: &'a [StoredLab], taken: &'a [TakenLab<'_, '_>]) -> impl Iterator<Item = Kept> + 'a {
+    let known = |lab: &&StoredLab| taken.iter().all(|now| now.address.to_string() != lab.address);
+    labs.iter().filter(known).map(|lab| Kept {
+        lab: lab.address.clone(),
+        span: 0..0,
+        state: State::False,
+        changes: vec!["the lab is no longer in the lesson".into()],
+        divergence: None,
+        rows: 0,
+        reason: String::new(),
+    })
+}
+
+/// One lab against what is stored of it.
+fn hold(now: &TakenLab<'_, '_>, labs: &[StoredLab], lesson: &Lesson, findings: &mut Vec<Finding>) -> Kept {
+    let mut kept = unchecked(&now.address, now.lab);
+    if now.runs.is_empty() {
+        (kept.state, kept.reason) = (State::Unchecked, "it cannot run".into());
+        return kept;
+    }
+    let place = now.lab.place();
+    let Some(old) = labs.iter().find(|lab| lab.address == kept.lab) else {
+        (kept.state, kept.changes) = (State::False, vec!["the lab is not in the snapshot".into()]);
+        let message = format!("the lab {} is not in the snapshot", printable(&kept.lab));
+        findings.push(outdated(place, message, lesson));
+        return kept;
+    };
+    let runs: Vec<&Taken> = now.runs.iter().map(|(_, taken)| taken).collect();
+    let Difference { changes, first, rows } = compare::compare(old, &runs);
+    let file = lesson.snapshot.as_ref().and_then(|s| s.as_ref().ok()).map_or(String::new(), name_of);
+    if let Some((d, probe)) = &first {
+        let message = format!(
+            "\"{}\" is not as stored: {} it is {} at t = {} s, and {file} has {}",
+            printable(&d.trace),
+            d.run,
+            d.now,
+            significant(d.time),
+            printable(&d.stored)
+        );
+        let label =
+            now.lab.traces().map(|t| &t.label).chain(now.lab.readouts.iter().map(|r| &r.label)).nth(*probe);
+        let place = label.map_or(place.clone(), |label| label.span());
+        let mut finding = Finding::new(rules::SNAPSHOT_DIFFERS, place, message).help(review(lesson));
+        if !changes.is_empty() {
+            finding = finding.why(format!("what else changed: {}", changes.join("; ")));
+        }
+        findings.push(finding);
+    } else if !changes.is_empty() {
+        let message = format!("the lab is not as stored: {}", changes.join("; "));
+        findings.push(outdated(place, message, lesson));
+    }
+    let good = first.is_none() && changes.is_empty();
+    kept.state = if good { State::True(Evidence::Simulated) } else { State::False };
+    (kept.changes, kept.divergence, kept.rows) = (changes, first.map(|(d, _)| d), rows);
+    kept
+}
+
+fn outdated(place: Range<usize>, message: String, lesson: &Lesson) -> Finding {
+    Finding::new(rules::SNAPSHOT_OUTDATED, place, message).help(review(lesson))
+}
+
+fn review(lesson: &Lesson) -> String {
+    let path = printable(lesson.file.path());
+    format!("mend the lab; or, where it is meant, accept it: labspec snapshot --review {path}")
+}
+
+/// What would be stored of a lesson now, beside what is.
+pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
+    let mut ignored = Vec::new();
+    let ready: Vec<Ready<'_>> = lesson
+        .all_labs()
+        .into_iter()
+        .filter_map(|lab| super::prepare(lab, models, Depth::STATIC, &mut ignored))
+        .collect();
+    let (old, fault) = match stored(lesson) {
+        None => (Vec::new(), None),
+        Some(Ok(labs)) => (labs, None),
+        Some(Err(fault)) => (Vec::new(), Some(fault)),
+    };
+    let taken = runs::take(lesson, &ready);
+    let one = |now: &TakenLab<'_, '_>| {
+        let kept = hold(now, &old, lesson, &mut Vec::new());
+        let known = old.iter().find(|lab| lab.address == kept.lab).map(|lab| lab.text.clone());
+        RenewedLab { kept, old: known, new: fresh(now) }
+    };
+    let mut labs: Vec<RenewedLab> = taken.iter().map(one).collect();
+    let lost = gone(&old, &taken).map(|kept| {
+        let text = old.iter().find(|lab| lab.address == kept.lab).map(|lab| lab.text.clone());
+        RenewedLab { kept, old: text, new: None }
+    });
+    labs.extend(lost);
+    let name = Path::new(&**lesson.file.path())
+        .file_name()
+        .map_or(String::new(), |n| n.to_string_lossy().into_owned());
+    Renewal { labs, fault, stored: lesson.snapshot.is_some(), name }
+}
+
+/// The lines of a lab, with the digits that its numerics can tell.
+fn fresh(now: &TakenLab<'_, '_>) -> Option<String> {
+    let ready = now.ready.filter(|_| !now.runs.is_empty())?;
+    let under = |numerics: Numerics, handling| {
+        let budget = Budget { left: 3 * Budget::TRIAL.left };
+        runs::play(ready, handling, numerics, budget).ok().map(|(taken, _)| taken)
+    };
+    let runs: Vec<(Taken, Vec<Taken>)> = now
+        .runs
+        .iter()
+        .map(|(handling, taken)| {
+            let others = [HALVED, NUDGED, NUDGED_BACK].into_iter().filter_map(|n| under(n, handling));
+            (taken.clone(), others.collect())
+        })
+        .collect();
+    Some(file::lab(&now.address.to_string(), now.lab.title.as_ref().map_or("", |t| t.as_str()), &runs))
+}

@@ -1,0 +1,53 @@
+//! Two curves in letters: what is stored, and what is there now.
+
+use crate::verify::significant;
+
+/// Lines of the picture.
+const LINES: usize = 9;
+/// Letters for each time.
+const WIDE: usize = 5;
+
+/// `o` is stored, `x` is now, `*` is both. Nothing where there is no number, or only one.
+pub(super) fn picture(times: &[f64], stored: &[f64], now: &[f64]) -> Vec<String> {
+    let numbers = || stored.iter().chain(now).copied().filter(|x| x.is_finite());
+    let (low, high) = numbers().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+    let span = high - low;
+    if !(span > 0.0 && span.is_finite()) || times.len() < 2 {
+        return Vec::new();
+    }
+    let line_of = |x: f64| ((high - x) / span * (LINES - 1) as f64).round() as usize;
+    let mut grid = vec![vec![' '; (times.len() - 1) * WIDE + 1]; LINES];
+    for (curve, letter) in [(stored, 'o'), (now, 'x')] {
+        for (k, x) in curve.iter().enumerate().filter(|(_, x)| x.is_finite()) {
+            if let Some(place) = grid.get_mut(line_of(*x)).and_then(|line| line.get_mut(k * WIDE)) {
+                *place = if *place == ' ' { letter } else { '*' };
+            }
+        }
+    }
+    let labels = [(0, significant(high)), (LINES - 1, significant(low))];
+    let width = labels.iter().map(|(_, label)| label.len()).max().unwrap_or(0);
+    let mut picture = Vec::new();
+    for (i, line) in grid.iter().enumerate() {
+        let label = labels.iter().find(|(at, _)| *at == i).map_or("", |(_, label)| label);
+        let line: String = line.iter().collect();
+        picture.push(format!("{label:>width$} | {line}").trim_end().to_string());
+    }
+    let [first, last] = [times.first(), times.last()].map(|t| significant(t.copied().unwrap_or(0.0)));
+    let room = ((times.len() - 1) * WIDE + 1).saturating_sub(first.len());
+    picture.push(format!("{:width$}   {first}{last:>room$} s    o stored, x now, * both", ""));
+    picture
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_curves_stand_in_one_picture() {
+        let times = [0.0, 0.1, 0.2, 0.3, 0.4];
+        let drawn = picture(&times, &[1.0, 0.95, 0.8, 0.55, f64::NAN], &[1.0, 0.95, 0.75, 0.6, 0.2]);
+        insta::assert_snapshot!(drawn.join("\n"));
+        assert!(picture(&times, &[1.0; 5], &[1.0; 5]).is_empty());
+        assert!(picture(&times, &[f64::NAN; 5], &[f64::INFINITY; 5]).is_empty());
+    }
+}

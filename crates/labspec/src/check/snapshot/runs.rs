@@ -1,0 +1,160 @@
+//! The runs of a snapshot: the lab as it stands, each slider at its ends, each select at its other options, after each button.
+
+use super::super::{Ready, trial};
+use crate::precision::Integrator;
+use crate::run::{self, Budget, Cell, Numerics, Play, RunError, Session};
+use crate::spec::{ControlKind, Lab, LabAddress, Lesson};
+use crate::verify::significant;
+use labspec_core::reflect::{self, Object};
+use labspec_core::{Model, solver};
+use labspec_expr::{Effects, Value};
+use std::ops::ControlFlow;
+
+/// A run is looked at so often, besides its start.
+const LOOKS: usize = 10;
+/// When buttons are pressed, s.
+const PRESS: f64 = 0.1;
+
+/// What a student does before the run, and how the file calls it.
+pub(super) struct Handling {
+    pub(super) name: String,
+    set: Vec<(String, Value)>,
+    press: Vec<(String, f64)>,
+}
+
+/// What was seen in a run.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Taken {
+    pub(super) name: String,
+    /// Its length, its timestep and the like.
+    pub(super) about: Vec<String>,
+    pub(super) times: Vec<f64>,
+    /// The name of each trace and readout, and a value for each time.
+    pub(super) rows: Vec<(String, Vec<Cell>)>,
+}
+
+/// A lab with its runs.
+pub(super) struct TakenLab<'r, 'l> {
+    pub(super) address: LabAddress,
+    pub(super) lab: &'l Lab,
+    /// `None` where it cannot run.
+    pub(super) ready: Option<&'r Ready<'l>>,
+    pub(super) runs: Vec<(Handling, Taken)>,
+}
+
+/// The runs of all labs of a lesson, within the budget of a file: as it stands each is run in any case.
+pub(super) fn take<'r, 'l>(lesson: &'l Lesson, ready: &'r [Ready<'l>]) -> Vec<TakenLab<'r, 'l>> {
+    let addressed = lesson.addressed();
+    let (mut left, mut others) = (Budget::FILE.left, addressed.len() as u64);
+    let mut all = Vec::new();
+    for (address, lab) in addressed {
+        let mut share = left / others.max(1);
+        others = others.saturating_sub(1);
+        let one = ready.iter().find(|r| std::ptr::eq(r.lab, lab));
+        let mut runs = Vec::new();
+        for (i, handling) in handlings(lab).into_iter().enumerate() {
+            let Some(one) = one.filter(|_| i == 0 || share > 0) else { break };
+            let Ok((taken, spent)) = play(one, &handling, Numerics::NOMINAL, Budget::TRIAL) else { continue };
+            share = share.saturating_sub(spent);
+            left = left.saturating_sub(spent);
+            runs.push((handling, taken));
+        }
+        all.push(TakenLab { address, lab, ready: one, runs });
+    }
+    all
+}
+
+/// As it stands, then with each control moved.
+fn handlings(lab: &Lab) -> Vec<Handling> {
+    let mut all = vec![Handling { name: "as it stands".into(), set: Vec::new(), press: Vec::new() }];
+    for control in &lab.controls {
+        let label = &control.label.value;
+        let mut moved = |value: Value, start: &Value| {
+            if value != *start {
+                let name = format!("with \"{label}\" at {value}");
+                all.push(Handling { name, set: vec![(label.clone(), value)], press: Vec::new() });
+            }
+        };
+        match &control.kind {
+            ControlKind::Slider { min, max, value, .. } => {
+                let start = Value::Number(value.value);
+                moved(Value::Number(min.value), &start);
+                moved(Value::Number(max.value), &start);
+            }
+            ControlKind::Select { options, value, .. } => {
+                let start = crate::bind::scalar(value);
+                options.iter().for_each(|o| moved(crate::bind::scalar(&o.value), &start));
+            }
+            ControlKind::Button { .. } => {
+                let name = format!("after \"{label}\" is pressed");
+                let press = vec![(label.clone(), PRESS.min(0.5 * trial::length(lab)))];
+                all.push(Handling { name, set: Vec::new(), press });
+            }
+        }
+    }
+    all
+}
+
+/// Makes a run; with the work that it took.
+pub(super) fn play(
+    ready: &Ready<'_>,
+    handling: &Handling,
+    numerics: Numerics,
+    budget: Budget,
+) -> Result<(Taken, u64), RunError> {
+    let (lab, programs) = (ready.lab, &ready.programs);
+    let mut session = Session::start_within(programs, &ready.model, lab.keyframe(), &programs.demand, budget);
+    run::set_controls(&mut session, lab, programs, &handling.set)?;
+    let presses = run::presses(programs, &handling.press)?;
+    let about = about(lab, &session.world.model);
+    let timestep = session.world.model.opt.timestep;
+    let count = run::count_steps(lab, Some(trial::length(lab)), None, timestep)?;
+    let stated = states_timestep(ready, handling);
+    session.perturb(numerics, stated);
+    // As many steps as reach as far.
+    let finer = if stated { 1 } else { (1.0 / numerics.timestep).round() as usize };
+    let mut looks: Vec<usize> = (0..=LOOKS).map(|i| (count * i + LOOKS / 2) / LOOKS).collect();
+    looks.dedup();
+
+    let mut samples: Vec<Vec<Cell>> = Vec::new();
+    let played = Play { steps: count * finer, every: finer, presses: &presses, watched: false };
+    run::play(&mut session, &played, |session, step| {
+        if looks.binary_search(&(step / finer)).is_ok() {
+            samples.push(session.sample());
+        }
+        ControlFlow::Continue(())
+    });
+    let column = |i: usize| {
+        let at = |k: usize| samples.get(k).and_then(|row| row.get(i)).cloned().unwrap_or(Cell::Nothing);
+        (0..looks.len()).map(at).collect::<Vec<Cell>>()
+    };
+    let rows = programs.probes.iter().enumerate().map(|(i, p)| (p.name.clone(), column(i + 1))).collect();
+    let times = looks.iter().map(|&step| step as f64 * timestep).collect();
+    Ok((Taken { name: handling.name.clone(), about, times, rows }, session.spent()))
+}
+
+/// Its length and its numerics.
+fn about(lab: &Lab, model: &Model) -> Vec<String> {
+    let opt = &model.opt;
+    let solver = match opt.solver {
+        solver::PGS => "PGS",
+        solver::CG => "CG",
+        _ => "Newton",
+    };
+    let cone = if opt.cone == 0 { "pyramidal" } else { "elliptic" };
+    vec![
+        format!("{} s", significant(trial::length(lab))),
+        format!("timestep {} s", opt.timestep),
+        Integrator::of(model).name.into(),
+        solver.into(),
+        cone.into(),
+    ]
+}
+
+/// Whether the lesson itself states the timestep: then half of it says nothing of the digits.
+fn states_timestep(ready: &Ready<'_>, handling: &Handling) -> bool {
+    let Some(timestep) = reflect::field(Object::Option, "timestep") else { return false };
+    let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == timestep.index());
+    let set = handling.set.iter().filter_map(|(label, _)| ready.programs.effects_of(label));
+    set.chain(ready.programs.setup.iter().map(|b| b.program.effects())).any(writes)
+}
