@@ -97,6 +97,7 @@ fn random_world(model: &Model, seed: u64) -> World {
         model: model.clone(),
         key: None,
         own: labspec::Functions::new(),
+        shown: Vec::new(),
     };
     for f in reflect::fields() {
         let info = f.info();

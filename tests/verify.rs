@@ -521,9 +521,112 @@ fn what_a_lab_shows_can_be_claimed() {
         (r#"{"label": "way (m)", "expr": "data.qpos[2] - 1", "digits": 3}"#, "quote-wrong"),
         (r#"{"label": "way (m)", "expr": "data.qpos[1]", "digits": 3}"#, "quote-wrong"),
         (r#"{"label": "way (m)", "expr": "1 - data.qpos[2]", "digits": 1}"#, "quote-wrong"),
-        (r#"{"label": "the way (m)", "expr": "1 - data.qpos[2]", "digits": 3}"#, "unknown-trace"),
+        (r#"{"label": "the way (m)", "expr": "1 - data.qpos[2]", "digits": 3}"#, "unknown-object"),
     ] {
         let (_, codes) = read_off(readout, "final(shown('way (m)'))");
         assert_eq!(codes, [code], "{readout}");
     }
+}
+
+/// A lab whose `verify` says this of a ball that falls from 1 m onto a floor: verdicts of its quotes, and what was found.
+fn dropped(
+    says: &[[&str; 2]],
+    verify: serde_json::Value,
+) -> (Vec<&'static str>, Vec<labspec::finding::Finding>) {
+    let mut verify = verify;
+    verify["says"] = json!(says);
+    let said: Vec<&str> = says.iter().map(|s| s[0]).collect();
+    let lab = json!({
+        "xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/>\
+            <geom name='ball' type='sphere' size='0.05' mass='1'/></body></worldbody>\
+            <keyframe><key name='low' qpos='0 0 0.5 1 0 0 0'/></keyframe></mujoco>",
+        "note": said.join("; "), "controller": "data.qfrc_applied[2] = 9.81",
+        "controls": [{"label": "start (m)", "apply": "data.qpos[2] = value", "min": 0.1, "max": 2, "step": 0.05, "value": 1, "init": true},
+            {"label": "timestep h", "set": "model.opt.timestep", "min": 0.001, "max": 0.05, "step": 0.001, "value": 0.002, "reset": true}],
+        "readouts": [{"label": "height (m)", "expr": "data.qpos[2]", "digits": 2}],
+        "verify": verify});
+    let checked = check_text("lab.json", &lab.to_string());
+    let quotes = checked.claims.iter().flat_map(|c| &c.judgement.quotes);
+    (quotes.map(|q| q.verdict()).collect(), checked.findings.clone())
+}
+
+/// Whether something that was found says this.
+fn says(found: &[labspec::finding::Finding], words: &str) -> bool {
+    found.iter().any(|f| f.message.contains(words) || f.help.as_deref().is_some_and(|h| h.contains(words)))
+}
+
+/// The model of a run is changed before it is compiled, the controller and the keyframe are its own, and it ends when it says.
+#[test]
+fn a_run_changes_model_keyframe_and_controller() {
+    let verify = json!({
+        "measure": {"mass": "initial(model.body_mass[1])", "inertia": "1000 * initial(model.body_inertia[3])",
+            "z": "final(data.qpos[2])", "t": "final(data.time)", "up": "final(shown('height (m)'))"},
+        "runs": {
+            "held": {"until": 0.1},
+            "heavy": {"model": {"body ball mass": 5}, "until": 0.1},
+            "quick": {"model": {"option timestep": 0.0005, "option gravity": [0, 0, -20]}, "controller": "", "until": 0.1},
+            "low": {"key": "low", "set": {"start (m)": 0.5}, "controller": "", "until": 0.1},
+            "ends": {"controller": "", "until": 3, "stop": "contact('ball', 'floor')"}}});
+    let right = [
+        ["1.00 m", "held.z"],
+        ["5.00 kg", "heavy.mass"],
+        ["5.00 g m²", "heavy.inertia"],
+        ["0.951 m", "heavy.z + 0.9508 - 0.9604"],
+        ["0.8995 m", "quick.z"],
+        ["0.90 m", "quick.up"],
+        ["0.450 m", "low.z"],
+        ["0.44 s", "ends.t"],
+    ];
+    let (verdicts, found) = dropped(&right, verify.clone());
+    assert_eq!(verdicts, ["verified"; 8], "{found:#?}");
+    let wrong = [["1.00 kg", "heavy.mass"], ["0.95 m", "quick.z"], ["1.0 m", "low.z"], ["3.00 s", "ends.t"]];
+    assert_eq!(dropped(&wrong, verify).0, ["refuted"; 4]);
+}
+
+#[test]
+fn what_a_run_cannot_change_is_said_with_what_is_near() {
+    let run = |run: serde_json::Value| {
+        let verify = json!({"runs": {"r": run}, "measure": {"z": "final(data.qpos[2])"}});
+        let (verdicts, found) = dropped(&[["0.95 m", "z"]], verify);
+        assert_eq!(verdicts, ["failed"], "{run}");
+        found
+    };
+    for (keys, words) in [
+        (json!({"model": {"body bal mass": 5}}), "did you mean `ball`?"),
+        (json!({"model": {"geom ball fricton": 5}}), "did you mean `friction`?"),
+        (json!({"model": {"geom ball mass": -1}}), "cannot be made"),
+        (json!({"key": "lo"}), "did you mean `low`?"),
+        (json!({"key": 3}), "has no keyframe 3"),
+        (json!({"controller": "data.qfrc_aplied[2] = 1"}), "qfrc_applied"),
+        (json!({"stop": "first(contact('ball', 'floor'))"}), "looks at one sample"),
+    ] {
+        let found = run(keys.clone());
+        assert!(says(&found, words), "{keys}: {found:#?}");
+    }
+}
+
+/// One object reads several labs, by their places; a measure is taken where it has a meaning.
+#[test]
+fn runs_are_of_several_labs() {
+    let lab = |body: &str, z: f64| json!({"xml": format!("<mujoco><worldbody><body name='{body}' pos='0 0 {z}'><freejoint/><geom size='.1'/></body></worldbody></mujoco>")});
+    let lesson = |measure: &str, other: &str| {
+        let verify = json!({"lab": "#1", "runs": {"a": {"until": 0.2}, "b": {"lab": other, "until": 0.2}, "c": {"lab": lab("three", 30.0), "until": 0.2}},
+            "measure": {"z": "final(data.qpos[2])", "two": measure}, "options": ["b.z > a.z && c.z > b.z && b.two > 19", "b.z < a.z"]});
+        let quiz = json!({"id": "q", "questions": [{"q": "Which?", "options": ["later", "now"], "answer": 0, "verify": verify}]});
+        check_text("labs.json", &json!([lab("one", 10.0), lab("two", 20.0), quiz]).to_string())
+    };
+    let verdict = |checked: &Checked| checked.claims[0].judgement.answer.clone().unwrap().verdict;
+    let right = lesson("final(data.body('two').xpos[2])", "#2");
+    assert_eq!(verdict(&right), Verdict::Verified, "{:#?}", right.findings);
+    // Misspelt, it has a meaning nowhere; and a lab that is not there cannot run.
+    let wrong = lesson("final(data.body('too').xpos[2])", "#2");
+    assert_eq!(verdict(&wrong), Verdict::Failed);
+    assert!(says(&wrong.findings, "named \"too\""), "{:#?}", wrong.findings);
+    let none = lesson("1 * 1", "#7");
+    assert!(
+        says(&none.findings, "there is no lab `#7`") || says(&none.findings, "there is no lab"),
+        "{:#?}",
+        none.findings
+    );
+    assert_eq!(verdict(&none), Verdict::Failed);
 }

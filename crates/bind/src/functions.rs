@@ -9,6 +9,7 @@ use std::sync::LazyLock;
 
 use super::World;
 use super::handle::{self, Side};
+use super::shown::LABELS;
 use super::units;
 use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
@@ -41,6 +42,8 @@ pub(super) enum Arg {
     Any,
     /// The name of an object of this kind.
     Name(Obj),
+    /// A label under which something is shown.
+    Label,
     /// A sub-program of an aggregate.
     Lazy,
 }
@@ -67,6 +70,8 @@ pub(super) enum Touches {
     Motion,
     /// The mass matrix.
     Mass,
+    /// What is shown, which says itself what it reads.
+    Shown,
 }
 
 /// What the numbers of a result measure.
@@ -181,6 +186,7 @@ fn info(f: &Function) -> FunctionInfo {
         Arg::Numbers => Param::Numbers,
         Arg::Any => Param::Any,
         Arg::Name(kind) => Param::Name(handle::collection(Side::Data, *kind)),
+        Arg::Label => Param::Name(LABELS),
         Arg::Lazy => Param::Lazy,
     };
     FunctionInfo {
@@ -212,7 +218,7 @@ fn touch(touches: &[Touches]) -> Touch {
     let is = |f: &FieldId, t: &Touches| {
         let i = f.info();
         match t {
-            Touches::Nothing => false,
+            Touches::Nothing | Touches::Shown => false,
             Touches::Derived => i.kind == Kind::Derived,
             Touches::State => i.object == Object::Data && matches!(i.kind, Kind::State | Kind::Input),
             Touches::Coordinates => i.object == Object::Data && i.name == "qpos",
@@ -259,6 +265,7 @@ pub fn reference() -> Vec<FunctionDoc> {
         Arg::Numbers => "list",
         Arg::Any => "options",
         Arg::Name(_) => "name",
+        Arg::Label => "label",
         Arg::Lazy => "expression",
     };
     let one = |f: &Function| {

@@ -17,6 +17,8 @@ pub struct World {
     pub key: Option<usize>,
     /// Functions of the embedding program.
     pub own: Functions,
+    /// What is shown now, in the order of [`Shown`](super::Shown)'s labels, where somebody asks.
+    pub shown: Vec<Value>,
 }
 
 impl Host for World {

@@ -210,6 +210,7 @@ mod tests {
             data: everything(model),
             key: None,
             own: crate::bind::Functions::new(),
+            shown: Vec::new(),
         };
         core::forward(&world.model, &mut world.data).unwrap();
         let mut context = Context::of(&globals);
@@ -222,7 +223,7 @@ mod tests {
 
     /// The value of a measure over 0.1 s.
     fn measure(code: &str) -> String {
-        let lab = serde_json::json!({"xml": PENDULUM, "verify": {
+        let lab = serde_json::json!({"xml": PENDULUM, "readouts": [{"label": "time (s)", "expr": "data.time"}], "verify": {
             "runs": {"run": {"until": 0.1}}, "measure": {"m": code}, "says": [["0", "run.m"]], "options": ["true"],
         }});
         let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());

@@ -29,7 +29,8 @@ pub(super) fn completions(document: &mut Document, around: &Around, byte: usize)
     let file = &document.file;
     if let Some((piece, inside)) = code::at(&lesson, byte) {
         let Some(model) = around.models.of(piece.lab, &mut Vec::new()) else { return json!([]) };
-        let names = ModelNames::new(&model, piece.scope);
+        let shown = crate::verify::labels(piece.lab);
+        let names = ModelNames::new(&model, piece.scope).showing(&shown);
         let texts = piece.lab.code().into_iter().map(|(_, text)| text.value.as_str());
         let mut globals = variables_of(&names, texts);
         params(piece.lab, &mut globals);

@@ -52,6 +52,14 @@ pub enum VerifyLab {
 pub struct Run {
     /// Its name, which measures are read by: `name.measure`.
     pub name: Text,
+    /// The lab that it runs, where it is not that of the object.
+    pub lab: Option<VerifyLab>,
+    /// Changes of the model's text, before it is compiled.
+    pub model: Vec<Change>,
+    /// The keyframe to start from, instead of the lab's.
+    pub key: Option<Scalar>,
+    /// Statements before every step, instead of the lab's; empty for none.
+    pub controller: Option<Text>,
     /// Control labels and the values they are set to before the run.
     pub set: Vec<(Text, Scalar)>,
     /// Button labels and the times (s) of their presses.
@@ -62,8 +70,19 @@ pub struct Run {
     pub until: Option<Number>,
     /// Length in steps.
     pub steps: Option<Number>,
+    /// The run ends at the first sample at which this holds.
+    pub stop: Option<Text>,
     /// The lesson says that this run breaks, and then it must.
     pub breaks: bool,
+}
+
+/// A change of a model: an attribute of an element, and what stands in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// Kind, name and attribute: `geom ball friction`.
+    pub path: Text,
+    /// The attribute as a model's text has it.
+    pub value: String,
 }
 
 /// A closed form of a trace.
@@ -99,13 +118,34 @@ impl Verify {
         self.runs.is_empty() && self.exact.is_empty() && !self.code().iter().any(|(_, text)| reads(text))
     }
 
+    /// The labs that it names: its own, and those of its runs.
+    pub fn labs(&self) -> impl Iterator<Item = &VerifyLab> {
+        self.lab.iter().chain(self.runs.iter().filter_map(|run| run.lab.as_ref()))
+    }
+
+    /// Whether no lab is needed besides those of its runs.
+    pub fn every_run_names_its_lab(&self) -> bool {
+        !self.runs.is_empty() && self.exact.is_empty() && self.runs.iter().all(|run| run.lab.is_some())
+    }
+
     /// Every text that is code, with what it is.
     pub fn code(&self) -> Vec<(Form, &Text)> {
-        let setups = self.runs.iter().filter_map(|r| r.setup.as_ref());
+        self.runs.iter().flat_map(Run::code).chain(self.expressions()).collect()
+    }
+
+    /// The measures and what is claimed of them: every text that is code, but for that of the runs.
+    pub fn expressions(&self) -> impl Iterator<Item = (Form, &Text)> {
         let measures = self.measure.iter().map(|(_, expr)| expr).chain(self.exact.iter().map(|e| &e.form));
         let values = self.options.iter().chain(&self.value).chain(self.says.iter().map(|s| &s.expr));
-        let values = measures.chain(values).map(|t| (Form::Expression, t));
-        setups.map(|t| (Form::Statements, t)).chain(values).collect()
+        measures.chain(values).map(|t| (Form::Expression, t))
+    }
+}
+
+impl Run {
+    /// Every text that is code, with what it is.
+    pub fn code(&self) -> impl Iterator<Item = (Form, &Text)> {
+        let statements = self.setup.iter().chain(&self.controller).map(|t| (Form::Statements, t));
+        statements.chain(self.stop.iter().map(|t| (Form::Expression, t)))
     }
 }
 
@@ -160,6 +200,10 @@ fn run(member: &Member, problems: &mut Vec<Problem>) -> Option<Run> {
     let f = &mut fields;
     let run = Run {
         name: member.key.clone(),
+        lab: f.node("lab").map(|n| which(n, f.problems).unwrap_or(VerifyLab::Broken)),
+        model: f.map("model").iter().filter_map(|m| change(m, f.problems)).collect(),
+        key: f.node("key").and_then(|n| read::scalar(n, "key", f.problems)),
+        controller: f.text("controller"),
         set: f
             .map("set")
             .iter()
@@ -171,10 +215,28 @@ fn run(member: &Member, problems: &mut Vec<Problem>) -> Option<Run> {
         setup: f.text("setup"),
         until: f.number("until"),
         steps: f.whole("steps"),
+        stop: f.text("stop"),
         breaks: f.text("expect").is_some_and(|t| breaks(&t, f.problems)),
     };
     fields.finish();
     Some(run)
+}
+
+/// A change of a model. Several numbers are written as a list.
+fn change(member: &Member, problems: &mut Vec<Problem>) -> Option<Change> {
+    let what = "the value of an attribute";
+    let value = match &member.value.json {
+        Json::Array(items) => {
+            let numbers = items.iter().map(|n| read::number(n, what, problems).map(|n| n.value.to_string()));
+            numbers.collect::<Option<Vec<_>>>()?.join(" ")
+        }
+        _ => match read::scalar(&member.value, what, problems)? {
+            Scalar::Number(n) => n.value.to_string(),
+            Scalar::Text(t) => t.value,
+            Scalar::Bool(b, _) => b.to_string(),
+        },
+    };
+    Some(Change { path: member.key.clone(), value })
 }
 
 /// What a run is expected to do.

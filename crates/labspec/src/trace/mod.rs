@@ -28,7 +28,7 @@ use crate::interrupt;
 use crate::run::Numerics;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson};
-use crate::verify::{Allowance, NUDGED, NUDGED_BACK, ShownText, Stated, stated};
+use crate::verify::{NUDGED, NUDGED_BACK, ShownText, Stage, Stated, stated};
 use candidates::Candidate;
 use labspec_core::Model;
 use std::collections::BTreeMap;
@@ -69,7 +69,7 @@ pub struct Traces<'l> {
 /// Looks where every number of a lesson comes from. Labs that cannot run are left out. `tell` is told what is being done.
 pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)) -> Traces<'l> {
     let numbers = stated(lesson);
-    let allowance = Allowance::default();
+    let stage = Stage::new(models);
     let mut labs = Vec::new();
     for (address, lab) in lesson.addressed() {
         tell(&format!("trying lab {address}"));
@@ -78,9 +78,8 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
         let owner = questions.map(|(_, q)| q.span.clone()).find(|span| span.contains(&lab.span.start));
         let trials = trials::trials(lab, &numbers);
         let candidates = candidates::candidates(lab, &model, &programs, &numbers);
-        let made = |t: &Trial, numerics| {
-            trials::values(t, lab, &model, &programs, &candidates, &allowance, numerics)
-        };
+        let made =
+            |t: &Trial, numerics| trials::values(t, lab, &model, &programs, &candidates, &stage, numerics);
         let values = trials.iter().map(|t| made(t, Numerics::NOMINAL)).collect();
         labs.push(Tried { address, lab, owner, model, programs, trials, candidates, values });
     }
@@ -92,7 +91,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
         false => rank::origin(s, &numbers, &labs, &bindings),
     };
     let mut origins: Vec<Origin> = numbers.iter().map(found).collect();
-    steady(&numbers, &mut origins, &labs, &allowance);
+    steady(&numbers, &mut origins, &labs, &stage);
     rank::share(&numbers, &mut origins);
     let numbers =
         numbers.into_iter().zip(origins).map(|(stated, origin)| Traced { stated, origin }).collect();
@@ -107,7 +106,7 @@ fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
 }
 
 /// Tries what was found again, from starts that nobody could tell from the lab's own: digits that then change are told apart.
-fn steady(numbers: &[Stated], origins: &mut [Origin], labs: &[Tried<'_>], allowance: &Allowance) {
+fn steady(numbers: &[Stated], origins: &mut [Origin], labs: &[Tried<'_>], stage: &Stage<'_>) {
     let mut again: BTreeMap<(usize, usize), [Vec<f64>; 2]> = BTreeMap::new();
     for (s, origin) in numbers.iter().zip(origins) {
         let Origin::From(hit) = origin else { continue };
@@ -118,7 +117,7 @@ fn steady(numbers: &[Stated], origins: &mut [Origin], labs: &[Tried<'_>], allowa
         let moved = again.entry((l, t)).or_insert_with(|| {
             [NUDGED, NUDGED_BACK].map(|numerics| {
                 let Tried { lab, model, programs, candidates, .. } = tried;
-                trials::values(trial, lab, model, programs, candidates, allowance, numerics)
+                trials::values(trial, lab, model, programs, candidates, stage, numerics)
             })
         });
         let Some(at) = tried.candidates.iter().position(|c| c.text == hit.measure) else { continue };

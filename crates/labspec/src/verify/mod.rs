@@ -2,7 +2,9 @@
 //!
 //! | stage | module |
 //! |---|---|
-//! | runs and measures, bound to the lab | `bound`, `measure` |
+//! | the labs of the runs, as they stand or changed | `stage` |
+//! | runs and measures, bound to their labs | `bound` |
+//! | one run, with what is measured in it | `perform`, `measure`, `reads` |
 //! | what conditions read | `outcome` |
 //! | whether and how well a condition holds | `condition` |
 //! | the answer of a question | `answer` |
@@ -15,15 +17,19 @@ mod condition;
 mod exact;
 mod measure;
 mod outcome;
+mod perform;
 mod quote;
 mod reads;
+mod stage;
 
 pub use answer::{Answer, UNDECIDED, Verdict, Weight};
-pub use bound::{Allowance, BoundVerify};
+pub use bound::BoundVerify;
 pub use exact::ClosedForm;
 pub use quote::{
     Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, quoted, stated,
 };
+pub use reads::labels;
+pub use stage::{Scene, Stage};
 
 use crate::finding::Finding;
 use crate::ledger::Evidence;

@@ -14,6 +14,11 @@ static EXACT: Type = Type::Object(&CLOSED_FORM);
 static RUNS: Map = Map { names: "the name of a run", of: Type::Object(&RUN) };
 static MEASURES: Map = Map { names: "the name of a measure", of: Type::Code(Form::Expression) };
 static FORMS: Map = Map { names: "the label of a trace", of: Type::Either(&EXPRESSION, &EXACT) };
+static SCALAR: Type = Type::Scalar;
+static NUMBER: Type = Type::Number;
+static LIST: Type = Type::List(&NUMBER);
+static CHANGES: Map =
+    Map { names: "kind, name and attribute of an element of the model", of: Type::Either(&SCALAR, &LIST) };
 static SETTINGS: Map = Map { names: "the label of a slider or a select", of: Type::Scalar };
 
 static QUOTE: [Part; 2] = [
@@ -95,10 +100,33 @@ static EXPECTED: [Word; 1] =
 pub static RUN: Object = Object {
     name: "run",
     what: "a run",
-    doc: "One run of the lab, with what a student does in it.",
+    doc: "One run of the lab, with what a student does in it, or a reader is told to change.",
     tag: None,
     minimal: r#"{"until": 1}"#,
     keys: &[
+        key(
+            "lab",
+            Type::Either(&TEXT, &INLINE),
+            "the lab that this run is of, written as the `lab` of the object; a measure that has no meaning in it is not taken there",
+            r##""#2""##,
+        )
+        .or(Absent::Said("the lab of the object")),
+        key(
+            "model",
+            Type::Map(&CHANGES),
+            "attributes of the model that are changed before it is compiled: `geom ball friction`, or `option timestep` where an element has no name; the mass of a body with one geom is `body ball mass`",
+            r#"{"body ball mass": 5, "option timestep": 0.01}"#,
+        )
+        .or(Absent::Empty),
+        key("key", Type::Scalar, "the keyframe to start from, by its name or its index", r#""tilted""#)
+            .or(Absent::Said("the lab's own")),
+        key(
+            "controller",
+            Type::Code(Form::Statements),
+            "runs before every step instead of the lab's own `controller`; empty for none",
+            r#""data.qfrc_applied[0] = -data.qvel[0]""#,
+        )
+        .or(Absent::Said("the lab's own")),
         key(
             "set",
             Type::Map(&SETTINGS),
@@ -124,6 +152,13 @@ pub static RUN: Object = Object {
             .positive()
             .or(Absent::Said("`steps`, else the lab's `stopAt`, else 2 s")),
         key("steps", Type::Whole, "how long the run is, in steps", "500").positive(),
+        key(
+            "stop",
+            Type::Code(Form::Expression),
+            "the run ends at the first sample at which this holds; `until` or `steps` is its end at the latest",
+            r#""contact('ball', 'floor')""#,
+        )
+        .or(Absent::Said("the run goes on to its end")),
         key("expect", Type::Words(&EXPECTED), "what the run is meant to do", r#""breaks""#)
             .or(Absent::Said("the run goes well")),
     ],
