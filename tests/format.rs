@@ -98,6 +98,7 @@ fn random_world(model: &Model, seed: u64) -> World {
         key: None,
         own: labspec::Functions::new(),
         shown: Vec::new(),
+        numbers: Vec::new(),
     };
     for f in reflect::fields() {
         let info = f.info();

@@ -28,4 +28,4 @@ pub use names::{ModelNames, Scope, named_field};
 pub use own::Functions;
 pub use shown::Shown;
 pub use words::WORDS;
-pub use world::World;
+pub use world::{NUMBERS, World};

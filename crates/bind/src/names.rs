@@ -23,6 +23,8 @@ pub enum Scope {
     Lab,
     /// In a measure of `verify`: also aggregates over a run.
     Measure,
+    /// In what `verify` claims of several runs: what takes their numbers together, and nothing else.
+    Claim,
 }
 
 /// The names of a model, for the compiler of the language.
@@ -64,8 +66,12 @@ impl<'m> ModelNames<'m> {
 
 impl ModelNames<'_> {
     fn functions(&self) -> impl Iterator<Item = (usize, &'static functions::Function)> {
-        let measure = self.scope == Scope::Measure;
-        TABLE.iter().copied().enumerate().filter(move |(_, f)| measure || f.place == Place::Everywhere)
+        let scope = self.scope;
+        TABLE.iter().copied().enumerate().filter(move |(_, f)| match f.place {
+            Place::Everywhere => scope != Scope::Claim,
+            Place::Measures => scope == Scope::Measure || (scope == Scope::Claim && f.name == "abs"),
+            Place::Claims => scope == Scope::Claim,
+        })
     }
 
     /// A function by its holder and name.

@@ -104,7 +104,7 @@ pub(super) fn have_formulas(lesson: &Lesson) -> bool {
 /// The labs of a `verify` object: its own, and that of each of its runs.
 struct Cast<'r> {
     base: Option<Scene<'r>>,
-    runs: Vec<Scene<'r>>,
+    runs: Vec<Vec<Scene<'r>>>,
 }
 
 /// The labs that a `verify` object is about, if they can run. What a run cannot change in them goes to `findings`.
@@ -197,8 +197,10 @@ impl Court<'_> {
             let reason = if told { "a run cannot be made" } else { "its lab cannot run" };
             return verify::unmade(verify, question, reason);
         };
-        for (run, Scene { lab, model, programs, .. }) in verify.runs.iter().zip(&runs) {
-            refresh::check_run(verify, run, lab, model, programs, findings);
+        for (run, scenes) in verify.runs.iter().zip(&runs) {
+            if let Some(Scene { lab, model, programs, .. }) = scenes.first() {
+                refresh::check_run(verify, run, lab, model, programs, findings);
+            }
         }
         match BoundVerify::new(verify, base.as_ref(), &runs, &self.stage, findings) {
             Some(bound) => verify::check(&bound, verify, question, &self.shown, findings),

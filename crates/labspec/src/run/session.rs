@@ -171,6 +171,7 @@ impl<'p> Session<'p> {
                 key,
                 own: programs.functions.clone(),
                 shown: Vec::new(),
+                numbers: Vec::new(),
             },
             context: Context::of(&programs.globals),
             troubles: Vec::new(),

@@ -3,7 +3,7 @@
 //! Here it is only read; expressions stay texts with their places.
 
 use super::fields::Fields;
-use super::format::{CLOSED_FORM, RUN, VERIFY};
+use super::format::{CLOSED_FORM, FIND, RUN, SPAN, VERIFY};
 use super::problem::{Mistake, Problem};
 use super::read;
 use super::{Form, Lab, LabAddress, lab};
@@ -23,6 +23,8 @@ pub struct Verify {
     pub runs: Vec<Run>,
     /// Measures: name and expression, taken in every run.
     pub measure: Vec<(Text, Text)>,
+    /// Values that are searched for.
+    pub find: Vec<Find>,
     /// One condition per option of the question.
     pub options: Vec<Text>,
     /// The value of a numeric answer.
@@ -72,9 +74,42 @@ pub struct Run {
     pub steps: Option<Number>,
     /// The run ends at the first sample at which this holds.
     pub stop: Option<Text>,
+    /// What is tried with several values: a run for each.
+    pub sweep: Option<Sweep>,
     /// The lesson says that this run breaks, and then it must.
     pub breaks: bool,
 }
+
+/// What a run is made with several values of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// The label of a control, or an attribute of the model.
+    pub what: Text,
+    /// The values, in order.
+    pub values: Vec<f64>,
+}
+
+/// A value that is searched for: the largest or the smallest one with which a condition holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Find {
+    /// Its name, by which it is read like a measure.
+    pub name: Text,
+    /// The largest one is wanted.
+    pub largest: bool,
+    /// The label of a control, an attribute of the model, or `timestep`.
+    pub what: Text,
+    /// The smallest and the largest value that are tried.
+    pub range: [f64; 2],
+    /// The run; `None` for the only one.
+    pub run: Option<Text>,
+    /// The condition.
+    pub holds: Text,
+    /// How near the found value is to the true one.
+    pub tol: f64,
+}
+
+/// Most runs of a sweep.
+pub const MOST_SWEPT: usize = 50;
 
 /// A change of a model: an attribute of an element, and what stands in it.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,7 +150,10 @@ impl Verify {
     pub fn is_formulas(&self) -> bool {
         let word = |c: char| c.is_alphanumeric() || c == '_';
         let reads = |text: &Text| text.value.split(|c| !word(c)).any(|w| OF_A_LAB.contains(&w));
-        self.runs.is_empty() && self.exact.is_empty() && !self.code().iter().any(|(_, text)| reads(text))
+        self.runs.is_empty()
+            && self.find.is_empty()
+            && self.exact.is_empty()
+            && !self.code().iter().any(|(_, text)| reads(text))
     }
 
     /// The labs that it names: its own, and those of its runs.
@@ -136,6 +174,7 @@ impl Verify {
     /// The measures and what is claimed of them: every text that is code, but for that of the runs.
     pub fn expressions(&self) -> impl Iterator<Item = (Form, &Text)> {
         let measures = self.measure.iter().map(|(_, expr)| expr).chain(self.exact.iter().map(|e| &e.form));
+        let measures = measures.chain(self.find.iter().map(|f| &f.holds));
         let values = self.options.iter().chain(&self.value).chain(self.says.iter().map(|s| &s.expr));
         measures.chain(values).map(|t| (Form::Expression, t))
     }
@@ -163,6 +202,7 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Verify> {
         lab: f.node("lab").map(|n| which(n, f.problems).unwrap_or(VerifyLab::Broken)),
         runs: f.map("runs").iter().filter_map(|m| run(m, f.problems)).collect(),
         measure: expressions(f, "measure"),
+        find: f.map("find").iter().filter_map(|m| find(m, f.problems)).collect(),
         options: f.list("options").iter().filter_map(|n| read::text(n, "a condition", f.problems)).collect(),
         value: f.text("value"),
         says: f.list("says").iter().filter_map(|n| said(n, f.problems)).collect(),
@@ -216,6 +256,7 @@ fn run(member: &Member, problems: &mut Vec<Problem>) -> Option<Run> {
         until: f.number("until"),
         steps: f.whole("steps"),
         stop: f.text("stop"),
+        sweep: f.node("sweep").and_then(|n| sweep(n, f.problems)),
         breaks: f.text("expect").is_some_and(|t| breaks(&t, f.problems)),
     };
     fields.finish();
@@ -237,6 +278,66 @@ fn change(member: &Member, problems: &mut Vec<Problem>) -> Option<Change> {
         },
     };
     Some(Change { path: member.key.clone(), value })
+}
+
+/// What a sweep changes, and the values: written one by one, or so many from one end to the other.
+fn sweep(node: &Node, problems: &mut Vec<Problem>) -> Option<Sweep> {
+    let [member] = node.members() else {
+        if !node.is_broken() {
+            problems.push(Mistake::NoSweep.at(node.span.clone()));
+        }
+        return None;
+    };
+    let what = member.key.clone();
+    let values: Vec<f64> = match &member.value.json {
+        Json::Array(items) => {
+            let numbers =
+                items.iter().map(|n| read::number(n, "a value of a sweep", problems).map(|n| n.value));
+            numbers.collect::<Option<_>>()?
+        }
+        _ => {
+            let mut fields = Fields::open(&member.value, &SPAN, problems)?;
+            let [from, to, count] = [fields.number("from"), fields.number("to"), fields.whole("count")];
+            fields.finish();
+            let ([from, to], count) = ([from?.value, to?.value], count?.value.clamp(0.0, 1e6) as usize);
+            let part = |i: usize| i as f64 / count.saturating_sub(1).max(1) as f64;
+            (0..count.min(MOST_SWEPT + 1)).map(|i| from + (to - from) * part(i)).collect()
+        }
+    };
+    if !(2..=MOST_SWEPT).contains(&values.len()) {
+        problems.push(Mistake::SweptValues(values.len()).at(member.value.span.clone()));
+        return None;
+    }
+    Some(Sweep { what, values })
+}
+
+/// A value that is searched for.
+fn find(member: &Member, problems: &mut Vec<Problem>) -> Option<Find> {
+    let mut fields = Fields::open(&member.value, &FIND, problems)?;
+    let f = &mut fields;
+    let ends = [f.text("largest"), f.text("smallest")];
+    let [from, to, tol] = ["from", "to", "tol"].map(|key| f.number(key));
+    let (run, holds) = (f.text("run"), f.text("while"));
+    let largest = ends[0].is_some();
+    let what = match ends {
+        [Some(what), None] | [None, Some(what)] => Some(what),
+        _ => {
+            let mistake = Mistake::FindsNothing.at(f.span());
+            f.problems.push(mistake);
+            None
+        }
+    };
+    let range = from.zip(to).map(|(from, to)| [from.value, to.value]);
+    if let Some([from, to]) = range
+        && from >= to
+    {
+        let mistake = Mistake::FindsBackwards.at(f.span());
+        f.problems.push(mistake);
+        return None;
+    }
+    fields.finish();
+    let name = member.key.clone();
+    Some(Find { name, largest, what: what?, range: range?, run, holds: holds?, tol: tol?.value })
 }
 
 /// What a run is expected to do.

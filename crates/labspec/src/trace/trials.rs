@@ -150,6 +150,7 @@ impl Trial {
             until: self.until.map(number),
             steps: None,
             stop: None,
+            sweep: None,
             breaks: false,
         }
     }
@@ -172,13 +173,14 @@ pub(super) fn values(
         lab: None,
         runs: vec![trial.run("run")],
         measure: candidates.iter().enumerate().map(|(i, c)| (name(i), text(&c.text))).collect(),
+        find: Vec::new(),
         options: Vec::new(),
         value: None,
         says: Vec::new(),
         exact: Vec::new(),
     };
     let scene = Scene::of(lab, model, programs);
-    let bound = BoundVerify::new(&verify, None, &[scene], stage, &mut Vec::new());
+    let bound = BoundVerify::new(&verify, None, &[vec![scene]], stage, &mut Vec::new());
     let found = bound.and_then(|bound| verify::measured(&bound, numerics));
     found.filter(|values| values.len() == candidates.len()).unwrap_or_else(none)
 }

@@ -4,6 +4,7 @@ use super::condition::{self, Weighed};
 use super::outcome::{Outcome, OutcomeNames, RunOutcome};
 use super::perform::{self, Asked};
 use super::reads;
+use super::search::{self, Case};
 use super::stage::{Scene, Stage};
 use crate::bind::{ModelNames, Scope, Shown, functions, to_finding};
 use crate::finding::Finding;
@@ -11,7 +12,7 @@ use crate::ledger::Evidence;
 use crate::rules;
 use crate::run::{Numerics, Session};
 use crate::source::Text;
-use crate::spec::{Run, Verify};
+use crate::spec::{Find, Run, Sweep, Verify};
 use labspec_core::Demand;
 use labspec_core::reflect::{FieldId, Object};
 use labspec_expr::{Compiled, Compiler, Effects, Globals, Program, Value};
@@ -41,6 +42,11 @@ pub(super) struct BoundRun<'a> {
     pub(super) spec: Option<&'a Run>,
     pub(super) setup: Option<Named<'a>>,
     pub(super) stop: Option<Named<'a>>,
+    /// Its place in a sweep, and its value there; with the control that is set to it, where it is no attribute of the model.
+    pub(super) swept: Option<(usize, f64)>,
+    pub(super) control: Option<(&'a Text, f64)>,
+    /// No student need be able to choose this value.
+    pub(super) freely: bool,
     /// The place of its lab in the list.
     scene: usize,
 }
@@ -51,7 +57,7 @@ pub struct BoundVerify<'a> {
     /// The lab of the object, or else of its first run, comes first.
     scenes: Vec<BoundScene<'a>>,
     runs: Vec<BoundRun<'a>>,
-    place: std::ops::Range<usize>,
+    verify: &'a Verify,
     stage: &'a Stage<'a>,
     /// A lab at its start, for expressions over measures: they read nothing of it.
     idle: RefCell<Option<Session<'a>>>,
@@ -79,32 +85,49 @@ impl BoundScene<'_> {
 }
 
 impl<'a> BoundVerify<'a> {
-    /// Compiles what runs do and what is measured. `scenes` has the lab of every run, or the one lab of an object without runs; the
-    /// lab of the object itself, where there is one, is `base`. What is wrong goes to `findings`; `None` when it cannot run.
+    /// Compiles what runs do and what is measured. `scenes` has the lab of every run, one for each member of a sweep; the lab of
+    /// the object itself, where there is one, is `base`. What is wrong goes to `findings`; `None` when it cannot run.
     pub fn new(
         verify: &'a Verify,
         base: Option<&Scene<'a>>,
-        scenes: &[Scene<'a>],
+        scenes: &[Vec<Scene<'a>>],
         stage: &'a Stage<'a>,
         findings: &mut Vec<Finding>,
     ) -> Option<BoundVerify<'a>> {
-        let mut bound = BoundVerify {
-            scenes: Vec::new(),
-            runs: Vec::new(),
-            place: verify.span.clone(),
-            stage,
-            idle: RefCell::default(),
-        };
+        let mut bound =
+            BoundVerify { scenes: Vec::new(), runs: Vec::new(), verify, stage, idle: RefCell::default() };
         if verify.runs.is_empty() {
-            let scene = bound.add(base.or(scenes.first())?);
-            bound.runs.push(BoundRun { name: "run", spec: None, setup: None, stop: None, scene });
+            let scene = bound.add(base?);
+            bound.runs.push(BoundRun {
+                name: "run",
+                spec: None,
+                setup: None,
+                stop: None,
+                swept: None,
+                control: None,
+                freely: false,
+                scene,
+            });
         }
         let mut good = true;
-        for (run, scene) in verify.runs.iter().zip(scenes) {
-            let scene = bound.add(scene);
-            let bound_run = bound.run(run, scene, findings);
-            good &= bound_run.is_some();
-            bound.runs.extend(bound_run);
+        for (run, scenes) in verify.runs.iter().zip(scenes) {
+            for (i, scene) in scenes.iter().enumerate() {
+                let at = bound.add(scene);
+                let bound_run = bound.run(run, at, findings).map(|made| match &run.sweep {
+                    None => made,
+                    Some(Sweep { what, values }) => {
+                        let x = values.get(i).copied().unwrap_or(f64::NAN);
+                        let control = scene.lab.control(&what.value).map(|_| (what, x));
+                        BoundRun { swept: Some((i, x)), control, ..made }
+                    }
+                });
+                good &= bound_run.is_some();
+                let failed = bound_run.is_none();
+                bound.runs.extend(bound_run);
+                if failed {
+                    break;
+                }
+            }
         }
         // Closed forms are those of the object's own lab.
         if !verify.exact.is_empty() {
@@ -161,7 +184,17 @@ impl<'a> BoundVerify<'a> {
             );
             good = false;
         }
-        good.then_some(BoundRun { name: &run.name.value, spec: Some(run), setup, stop, scene })
+        let name = &run.name.value;
+        good.then_some(BoundRun {
+            name,
+            spec: Some(run),
+            setup,
+            stop,
+            swept: None,
+            control: None,
+            freely: false,
+            scene,
+        })
     }
 
     /// Compiles a measure for every lab. One that has no meaning in some of them is not taken there; one that has a meaning in none
@@ -203,12 +236,43 @@ impl<'a> BoundVerify<'a> {
             let measures = scene.measures.iter().map(|(name, _)| name.to_string()).zip(made.values).collect();
             runs.push(RunOutcome {
                 name: run.name.to_string(),
+                swept: run.swept,
                 measures,
                 warnings: made.warnings,
                 broke: made.broke,
             });
         }
-        Some(Outcome { runs, numerics })
+        let find = |f: &Find| Some((f.name.value.clone(), self.search(f, numerics, findings)?));
+        let found = self.verify.find.iter().map(find).collect::<Option<_>>()?;
+        Some(Outcome { runs, found, numerics })
+    }
+
+    /// Searches for a value; `None` when a run cannot be made, NaN when there is no such value, which is reported.
+    fn search(&self, find: &Find, numerics: Numerics, findings: &mut Vec<Finding>) -> Option<f64> {
+        let named = |run: &&BoundRun<'_>| find.run.as_ref().is_none_or(|name| name.value == run.name);
+        let mut runs = self.runs.iter().filter(named);
+        let (Some(run), None) = (runs.next(), runs.next()) else {
+            let place = find.run.as_ref().unwrap_or(&find.name).span();
+            findings.push(
+                Finding::error(
+                    rules::RUN_IMPOSSIBLE,
+                    place,
+                    "a search is made in one run, which is none of a sweep",
+                )
+                .help("name the run: \"run\": \"coarse\""),
+            );
+            return None;
+        };
+        let case =
+            Case { find, run: run.spec, measure: &self.verify.measure, scene: &self.scene_of(run)?.scene };
+        search::search(&case, self.stage, numerics, findings)
+    }
+
+    /// The only run, with a control set to a value that a student need not be able to choose.
+    pub(super) fn set_freely(&mut self, control: &'a Text, x: f64) {
+        for run in &mut self.runs {
+            (run.control, run.freely) = (Some((control, x)), true);
+        }
     }
 
     fn perform(
@@ -218,7 +282,7 @@ impl<'a> BoundVerify<'a> {
         measures: &[&Named<'_>],
         findings: &mut Vec<Finding>,
     ) -> Option<perform::Made> {
-        let place = run.spec.map_or(self.place.clone(), |r| r.name.span());
+        let place = run.spec.map_or(self.verify.span.clone(), |r| r.name.span());
         let asked = Asked { scene: self.scene_of(run)?, run, numerics, measures, place };
         perform::perform(&asked, self.stage, findings)
     }
@@ -226,7 +290,7 @@ impl<'a> BoundVerify<'a> {
     /// The place of a run in the lesson, and whether the lesson says that it breaks.
     pub(super) fn run_place(&self, index: usize) -> (std::ops::Range<usize>, bool) {
         let spec = self.runs.get(index).and_then(|r| r.spec);
-        (spec.map_or(self.place.clone(), |r| r.name.span()), spec.is_some_and(|r| r.breaks))
+        (spec.map_or(self.verify.span.clone(), |r| r.name.span()), spec.is_some_and(|r| r.breaks))
     }
 
     /// Whether every run states its own timestep, so that half of it says nothing new.
@@ -243,7 +307,7 @@ impl<'a> BoundVerify<'a> {
         let mut globals = base.globals.clone();
         let compiled = Compiler::new(&names, &mut globals).expression(&text.value);
         findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
-        let used = names.used();
+        let (used, numbers) = names.used();
         let program = compiled.program?;
         let mut broke = used.runs().iter().find_map(|&place| {
             let run = outcome.runs.get(place)?;
@@ -252,12 +316,13 @@ impl<'a> BoundVerify<'a> {
             run.broke
                 .as_ref()
                 .filter(|_| !excused)
-                .map(|how| format!("the run {} breaks: {how}", crate::json::read::named(&run.name)))
+                .map(|how| format!("the run {} breaks: {how}", crate::json::read::named(&run.title())))
         });
         let measured = |(place, name): &(usize, String)| {
             self.runs.get(*place).and_then(|run| self.scene_of(run)?.measured(name))
         };
-        let simulated = !used.warnings.is_empty()
+        let simulated = used.found
+            || !used.warnings.is_empty()
             || used.measures.iter().filter_map(measured).any(|m| looks_at_data(&m.program))
             || looks_at_data(&program);
         let value = match self.runs.as_slice() {
@@ -270,7 +335,7 @@ impl<'a> BoundVerify<'a> {
                 broke = broke.or(how.map(|how| format!("the run breaks: {how}")));
                 Value::Number(made.values.first().copied()?)
             }
-            _ => self.constant(&program, text, findings)?,
+            _ => self.constant(&program, text, numbers, findings)?,
         };
         let evidence = if simulated { Evidence::Simulated } else { Evidence::Computed };
         Some(Found { value, evidence, broke })
@@ -283,12 +348,15 @@ impl<'a> BoundVerify<'a> {
             let measures = self.scene_of(run).into_iter().flat_map(|s| &s.measures);
             RunOutcome {
                 name: run.name.to_string(),
+                swept: run.swept,
                 measures: measures.map(|(name, _)| (name.to_string(), 0.0)).collect(),
                 warnings: 0,
                 broke: None,
             }
         };
-        let outcome = Outcome { runs: self.runs.iter().map(run).collect(), numerics: Numerics::NOMINAL };
+        let found = self.verify.find.iter().map(|f| (f.name.value.clone(), 0.0)).collect();
+        let outcome =
+            Outcome { runs: self.runs.iter().map(run).collect(), found, numerics: Numerics::NOMINAL };
         let Some(base) = self.scenes.first() else { return };
         for text in texts {
             let names = OutcomeNames::new(&outcome, base.names(Scope::Measure));
@@ -308,12 +376,19 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// The value of a program over known measures. What it throws goes to `findings`.
-    fn constant(&self, program: &Program, text: &Text, findings: &mut Vec<Finding>) -> Option<Value> {
+    fn constant(
+        &self,
+        program: &Program,
+        text: &Text,
+        numbers: Vec<f64>,
+        findings: &mut Vec<Finding>,
+    ) -> Option<Value> {
         let scene = self.lab()?;
         let mut idle = self.idle.borrow_mut();
         let start = || Session::start(scene.programs.clone(), &scene.model, None, &Demand::ANY);
         let session = idle.get_or_insert_with(start);
         session.troubles.clear();
+        session.world.numbers = numbers;
         let value = session.evaluate(program, text);
         findings.extend(session.troubles.iter().map(|t| {
             Finding::error(t.rule, t.text.span_of(t.span.clone()), t.message.clone())

@@ -5,6 +5,7 @@
 //! | the labs of the runs, as they stand or changed | `stage` |
 //! | runs and measures, bound to their labs | `bound` |
 //! | one run, with what is measured in it | `perform`, `measure`, `reads` |
+//! | values that are searched for | `search` |
 //! | what conditions read | `outcome` |
 //! | whether and how well a condition holds | `condition` |
 //! | the answer of a question | `answer` |
@@ -20,6 +21,7 @@ mod outcome;
 mod perform;
 mod quote;
 mod reads;
+mod search;
 mod stage;
 
 pub use answer::{Answer, UNDECIDED, Verdict, Weight};
@@ -254,7 +256,8 @@ fn runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>)
     let mut all = Vec::new();
     for (i, run) in outcome.runs.iter().enumerate() {
         let (span, expected) = bound.run_place(i);
-        let [name, broke] = [run.name.as_str(), run.broke.as_deref().unwrap_or("")];
+        let title = run.title();
+        let [name, broke] = [title.as_str(), run.broke.as_deref().unwrap_or("")];
         if run.broke.is_some() && !expected {
             findings.push(
                 Finding::error(rules::RUN_BREAKS, span.clone(), format!("the run {} breaks: {broke}", crate::json::read::named(name)))

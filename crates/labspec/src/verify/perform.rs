@@ -10,7 +10,7 @@ use crate::json::read::named;
 use crate::rules;
 use crate::run::{self, Breakdown, Budget, End, Numerics, Play, RunError, Session};
 use labspec_core::reflect::{self, Object};
-use labspec_expr::{Effects, Program};
+use labspec_expr::{Effects, Program, Value};
 use std::ops::{ControlFlow, Range};
 
 /// Most steps of one run of a `verify` object.
@@ -56,8 +56,9 @@ fn key(asked: &Asked<'_, '_>) -> String {
         let set: Vec<_> = spec.set.iter().map(|(label, v)| (label.as_str(), scalar(v))).collect();
         let press: Vec<_> = spec.press.iter().map(|(label, t)| (label.as_str(), t.value)).collect();
         let length = [&spec.until, &spec.steps].map(|n| n.as_ref().map(|n| n.value));
+        let control = run.control.map(|(label, x)| (label.as_str(), x));
         let code = [&spec.setup, &spec.stop].map(|t| t.as_ref().map(|t| t.as_str()));
-        format!("{set:?} {press:?} {length:?} {code:?}")
+        format!("{set:?} {control:?} {press:?} {length:?} {code:?}")
     });
     let labs = format!("{:?} {} {:?} {:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller);
     format!("{labs} {own:?} {numerics:?} {texts:?}")
@@ -89,6 +90,16 @@ fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -
             let one = [(label.value.clone(), scalar(v))];
             let made = run::set_controls(&mut session, lab, programs, &one);
             made.map_err(|e| refuse_at(at, e)).ok()?;
+        }
+        if let Some((label, x)) = run.control {
+            match programs.control(&label.value).filter(|_| run.freely) {
+                Some((i, _)) => session.set_control(i, Value::Number(x)),
+                None => {
+                    let one = [(label.value.clone(), Value::Number(x))];
+                    let made = run::set_controls(&mut session, lab, programs, &one);
+                    made.map_err(|e| refuse_at(label.span(), e)).ok()?;
+                }
+            }
         }
         let list: Vec<_> = spec.press.iter().map(|(label, t)| (label.value.clone(), t.value)).collect();
         press = run::presses(programs, &list).map_err(|e| refuse_at(place.clone(), e)).ok()?;
@@ -166,14 +177,18 @@ pub(super) fn states_timestep(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> boo
     let Some(timestep) = reflect::field(Object::Option, "timestep") else { return false };
     let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == timestep.index());
     let programs = &scene.scene.programs;
-    let mut set = run.spec.iter().flat_map(|r| &r.set);
+    let set = run.spec.iter().flat_map(|r| &r.set).map(|(label, _)| label);
+    let mut set = set.chain(run.control.map(|(label, _)| label));
     let setups = run.setup.iter().map(|s| &s.program).chain(programs.setup.iter().map(|b| &b.program));
-    set.any(|(label, _)| programs.effects_of(&label.value).is_some_and(writes))
+    set.any(|label| programs.effects_of(&label.value).is_some_and(writes))
         || setups.map(Program::effects).any(writes)
-        || run.spec.is_some_and(|r| r.model.iter().any(|c| is_timestep(&c.path.value)))
+        || scene.scene.patches.iter().any(|(patch, _)| is_timestep(&patch.path))
 }
 
+/// The timestep among the attributes of a model.
+pub(super) const TIMESTEP: &str = "option timestep";
+
 /// Whether a path of the model is the timestep.
-pub(super) fn is_timestep(path: &str) -> bool {
-    path.split_whitespace().eq(["option", "timestep"])
+fn is_timestep(path: &str) -> bool {
+    path.split_whitespace().eq(TIMESTEP.split_whitespace())
 }

@@ -8,7 +8,7 @@ use crate::json::{Scalar, nearest, read::named};
 use crate::rules;
 use crate::run::Held;
 use crate::source::Text;
-use crate::spec::{Lab, Run};
+use crate::spec::{Lab, Run, Sweep};
 use labspec_core::xml::Patch;
 use labspec_core::{Model, Obj};
 use std::borrow::Cow;
@@ -28,6 +28,8 @@ pub struct Scene<'a> {
     pub programs: Held<'a>,
     /// Which model the lab of the lesson has.
     origin: u64,
+    /// The changes of its model, with their places.
+    pub(super) patches: Vec<(Patch, Range<usize>)>,
     /// What was changed in the lab of the lesson, told apart from every other change; empty for nothing.
     changes: String,
 }
@@ -40,6 +42,7 @@ impl<'a> Scene<'a> {
             model: model.clone(),
             programs: Held::Lent(programs),
             origin: model.identity(),
+            patches: Vec::new(),
             changes: String::new(),
         }
     }
@@ -88,8 +91,13 @@ impl<'a> Stage<'a> {
         self.left.set(self.left.get().saturating_sub(work));
     }
 
-    /// The lab of a run, changed as the run says. What cannot be changed goes to `findings`.
-    pub fn of_run<'s>(&self, base: &Scene<'s>, run: &Run, findings: &mut Vec<Finding>) -> Option<Scene<'s>> {
+    /// The lab of a run, changed as the run says; one for each member of a sweep. What cannot be changed goes to `findings`.
+    pub fn of_run<'s>(
+        &self,
+        base: &Scene<'s>,
+        run: &Run,
+        findings: &mut Vec<Finding>,
+    ) -> Option<Vec<Scene<'s>>> {
         let patches: Vec<(Patch, Range<usize>)> = run
             .model
             .iter()
@@ -99,7 +107,24 @@ impl<'a> Stage<'a> {
             Some(key) => Some(keyframe(&base.model, key, findings)?),
             None => None,
         };
-        self.changed(base, &patches, key, run.controller.as_ref(), findings)
+        let controller = run.controller.as_ref();
+        let Some(Sweep { what, values }) = &run.sweep else {
+            return Some(vec![self.changed(base, &patches, key, controller, findings)?]);
+        };
+        if base.lab.control(&what.value).is_some() {
+            let scene = self.changed(base, &patches, key, controller, findings)?;
+            return Some(vec![scene; values.len()]);
+        }
+        if let Some(unknown) = misspelt(&base.lab, what) {
+            findings.push(unknown);
+            return None;
+        }
+        let with = |x: &f64| {
+            let own = (Patch { path: what.value.clone(), value: x.to_string() }, what.span());
+            let patches: Vec<_> = patches.iter().cloned().chain([own]).collect();
+            self.changed(base, &patches, key, controller, findings)
+        };
+        values.iter().map(with).collect()
     }
 
     /// A lab with changes of its model, another keyframe, another controller.
@@ -114,10 +139,11 @@ impl<'a> Stage<'a> {
         if patches.is_empty() && key.is_none() && controller.is_none() {
             return Some(base.clone());
         }
+        let patches: Vec<_> = base.patches.iter().chain(patches).cloned().collect();
         let list: Vec<&Patch> = patches.iter().map(|(p, _)| p).collect();
         let text = controller.map(|c| &c.value);
         let changes = format!("{}{list:?} {key:?} {text:?}", base.changes);
-        let wanted = Scene { changes, ..base.clone() };
+        let wanted = Scene { changes, patches: patches.clone(), ..base.clone() };
         if let Some(known) = self.changed.borrow().iter().find(|made| made.is(&wanted)) {
             return Some(known.clone());
         }
@@ -131,7 +157,7 @@ impl<'a> Stage<'a> {
             ..base.lab.clone().into_owned()
         };
         let model =
-            if patches.is_empty() { base.model.clone() } else { self.model(&lab, patches, findings)? };
+            if patches.is_empty() { base.model.clone() } else { self.model(&lab, &patches, findings)? };
         let mut told = Vec::new();
         let programs = Programs::compile_with(&lab, &model, self.models.functions(), &mut told);
         // What is wrong with the rest of the lab has been told.
@@ -168,6 +194,13 @@ impl<'a> Stage<'a> {
             }
         }
     }
+}
+
+/// What is wrong with a name that is no attribute of a model and nearly that of a control.
+pub(super) fn misspelt(lab: &Lab, what: &Text) -> Option<Finding> {
+    let right = nearest(&what.value, lab.controls.iter().map(|c| c.label.as_str()))?;
+    let message = format!("the lab has no control {}", named(&what.value));
+    Some(cannot(what.span(), message).help(format!("did you mean `{right}`?")))
 }
 
 fn inside(span: &Range<usize>, of: &Range<usize>) -> bool {

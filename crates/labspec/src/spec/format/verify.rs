@@ -19,6 +19,12 @@ static NUMBER: Type = Type::Number;
 static LIST: Type = Type::List(&NUMBER);
 static CHANGES: Map =
     Map { names: "kind, name and attribute of an element of the model", of: Type::Either(&SCALAR, &LIST) };
+static RANGE: Type = Type::Object(&SPAN);
+static SWEPT: Map = Map {
+    names: "the label of a control, or an attribute of the model as in `model`",
+    of: Type::Either(&LIST, &RANGE),
+};
+static FOUND: Map = Map { names: "the name of a value", of: Type::Object(&FIND) };
 static SETTINGS: Map = Map { names: "the label of a slider or a select", of: Type::Scalar };
 
 static QUOTE: [Part; 2] = [
@@ -60,6 +66,13 @@ pub static VERIFY: Object = Object {
             Type::Map(&MEASURES),
             "expressions by name, taken in every run; see [measures](functions.md)",
             r#"{"speed": "final(-data.joint('ball').qvel[2])"}"#,
+        )
+        .or(Absent::Empty),
+        key(
+            "find",
+            Type::Map(&FOUND),
+            "values that are searched for by running: the largest or the smallest value of a control, or of an attribute of the model, with which a condition holds; each is read by its name, like a measure",
+            r#"{"limit": {"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2]) > 0.049", "tol": 1e-5}}"#,
         )
         .or(Absent::Empty),
         key(
@@ -159,10 +172,67 @@ pub static RUN: Object = Object {
             r#""contact('ball', 'floor')""#,
         )
         .or(Absent::Said("the run goes on to its end")),
+        key(
+            "sweep",
+            Type::Map(&SWEPT),
+            "makes a run for each of these values of one control, or of one attribute of the model; a measure of such a run is a list: `run.measure[0]`, `slope(run.measure)`, and `run.value` are the values",
+            r#"{"timestep h": [0.002, 0.005, 0.01]}"#,
+        ),
         key("expect", Type::Words(&EXPECTED), "what the run is meant to do", r#""breaks""#)
             .or(Absent::Said("the run goes well")),
     ],
     together: &[Together::AtMostOne(&["until", "steps"])],
+};
+
+/// A search.
+pub static FIND: Object = Object {
+    name: "find",
+    what: "a search",
+    doc: "The largest or the smallest value with which a condition holds, found by running and halving.",
+    tag: None,
+    minimal: r#"{"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2]) > 0.049", "tol": 1e-5}"#,
+    keys: &[
+        key(
+            "largest",
+            Type::Text,
+            "the largest value of this is wanted: the label of a control, an attribute of the model as in `model`, or `timestep`",
+            r#""timestep""#,
+        ),
+        key("smallest", Type::Text, "the smallest value of this is wanted", r#""geom ball mass""#),
+        key("from", Type::Number, "the smallest value that is tried", "0.001")
+            .must("without it nobody knows where to search"),
+        key("to", Type::Number, "the largest value that is tried", "0.05")
+            .must("without it nobody knows where to search"),
+        key("run", Type::Text, "the run in which it is tried", r#""coarse""#)
+            .or(Absent::Said("the only run")),
+        key(
+            "while",
+            Type::Code(Form::Expression),
+            "what holds up to the limit: a condition on measures of the run, by their own names, or written as a measure",
+            r#""final(data.qpos[2]) > 0.049""#,
+        )
+        .must("without it there is no limit"),
+        key("tol", Type::Number, "how near the limit is found", "1e-5")
+            .positive()
+            .must("without it nobody knows how near is near enough"),
+    ],
+    together: &[Together::ExactlyOne(&["largest", "smallest"])],
+};
+
+/// Values at equal distances.
+pub static SPAN: Object = Object {
+    name: "span",
+    what: "a span of values",
+    doc: "Values at equal distances, both ends included.",
+    tag: None,
+    minimal: r#"{"from": 0.2, "to": 2, "count": 5}"#,
+    keys: &[
+        key("from", Type::Number, "the first value", "0.2").must("without it there is no first value"),
+        key("to", Type::Number, "the last value", "2").must("without it there is no last value"),
+        key("count", Type::Whole, "how many values there are", "5")
+            .must("without it nobody knows how many runs are meant"),
+    ],
+    together: &[],
 };
 
 /// A closed form with a tolerance.
